@@ -1,0 +1,265 @@
+"""Read a table of numbers with a header, in any of the shapes in which laboratories write one."""
+
+import csv
+import math
+import re
+from collections.abc import Sequence
+from dataclasses import dataclass
+from difflib import get_close_matches
+from pathlib import Path
+
+import numpy as np
+import numpy.typing as npt
+
+from pyrofit.errors import DataError, suggest
+
+FloatArray = npt.NDArray[np.float64]
+
+_DELIMITERS = "\t;,"
+_BRACKETED = re.compile(r"\[(.*)\]|\((.*)\)")
+_NAME_AND_UNIT = re.compile(r"(.+?)\s*(?:\[(.*)\]|\((.*)\))")
+_LISTED_FILES = 12
+
+
+@dataclass(frozen=True, eq=False)
+class Table:
+    """Columns of finite numbers, in the file's own units.
+
+    Parameters
+    ----------
+    path : Path
+        The file that was read.
+    columns : dict of str to array, shape (n_rows,)
+        The numbers by column name, in the order of the file.
+    units : dict of str to str or None
+        The unit by column name as the file writes it, without brackets; None where there is none.
+    first_row : int
+        Line number, from 1, of the first row of numbers; row i stands on line `first_row + i`.
+    """
+
+    path: Path
+    columns: dict[str, FloatArray]
+    units: dict[str, str | None]
+    first_row: int
+
+
+@dataclass(frozen=True)
+class _Line:
+    number: int
+    cells: list[str]
+
+
+def read_table(path: Path) -> Table:
+    r"""Read a delimited text file: header, units row or units in the header, and numbers.
+
+    The delimiter is a comma, a semicolon or a tab, the decimal sign a point. Units stand in a row
+    below or above the names (`[s],[K]`), or in the names (`Time (s)`, `Mass [mg]`), or nowhere.
+
+    Parameters
+    ----------
+    path : Path
+        A UTF-8 text file, with or without a byte-order mark.
+
+    Returns
+    -------
+    Table
+        The columns, unconverted.
+
+    Raises
+    ------
+    DataError
+        The file cannot be read, has no header or no numbers, a row is longer or shorter than the
+        header, two columns share a name, or a cell is not a finite number.
+
+    Examples
+    --------
+    >>> from tempfile import TemporaryDirectory
+    >>> with TemporaryDirectory() as folder:
+    ...     path = Path(folder) / "tga.csv"
+    ...     _ = path.write_text("Time,Mass\n[s],[mg]\n0,5.0\n10,4.5\n")
+    ...     table = read_table(path)
+    >>> table.columns["Mass"].tolist(), table.units["Mass"], table.first_row
+    ([5.0, 4.5], 'mg', 3)
+    """
+    lines = _split(path, _read_text(path))
+    count = _count_text_lines(path, lines)
+    names, units = _name_columns(path, lines[:count])
+    rows = _trim_rows(path, lines[count:], len(names))
+    values = np.array([_parse_row(path, row, names) for row in rows], dtype=np.float64)
+    columns = {name: values[:, i].copy() for i, name in enumerate(names)}
+    return Table(path, columns, dict(zip(names, units, strict=True)), rows[0].number)
+
+
+def _read_text(path: Path) -> str:
+    try:
+        return path.read_bytes().decode("utf-8-sig")
+    except FileNotFoundError:
+        raise DataError(f"{path}: there is no such file. {_near_files(path)}") from None
+    except IsADirectoryError:
+        raise DataError(f"{path}: this is a folder; give a file in it.") from None
+    except UnicodeDecodeError as error:
+        raise DataError(
+            f"{path}: byte {error.start} is not UTF-8 text; save the file as CSV in UTF-8."
+        ) from None
+    except OSError as error:
+        raise DataError(
+            f"{path}: the file cannot be read ({error.strerror}); "
+            "check its permissions and its disk."
+        ) from None
+
+
+def _near_files(path: Path) -> str:
+    if not path.parent.is_dir():
+        return f"Its folder {path.parent} does not exist either; check the path."
+    names = sorted(entry.name for entry in path.parent.iterdir() if entry.is_file())
+    if not names:
+        return f"Its folder {path.parent} holds no files; check the path."
+    if len(names) > _LISTED_FILES:
+        names = get_close_matches(path.name, names, _LISTED_FILES, 0.0)
+    return suggest(path.name, names)
+
+
+def _split(path: Path, text: str) -> list[_Line]:
+    """Cut the text in lines and cells, without the blank lines around the header and at the end."""
+    raw = re.split(r"\r\n|\n|\r", text)
+    header = next((line for line in raw if line.strip(_DELIMITERS + " ")), None)
+    if header is None:
+        raise DataError(f"{path}: the file is empty; a header row and rows of numbers are needed.")
+    delimiter = max(_DELIMITERS, key=header.count)
+    try:
+        cells = [next(csv.reader([line], delimiter=delimiter), []) for line in raw]
+    except csv.Error as error:
+        raise DataError(f"{path}: this is not a delimited text file ({error}).") from None
+    lines = [_Line(i, [c.strip() for c in row]) for i, row in enumerate(cells, start=1)]
+    while not any(lines[-1].cells):
+        lines.pop()
+    first_number = next((i for i, line in enumerate(lines) if _has_number(line)), len(lines))
+    return [line for line in lines[:first_number] if any(line.cells)] + lines[first_number:]
+
+
+def _is_number(cell: str) -> bool:
+    try:
+        float(cell)
+    except ValueError:
+        return False
+    return "_" not in cell
+
+
+def _has_number(line: _Line) -> bool:
+    return any(_is_number(cell) for cell in line.cells)
+
+
+def _count_text_lines(path: Path, lines: Sequence[_Line]) -> int:
+    """Count the rows above the numbers: one of names and at most one of units."""
+    count = next((i for i, line in enumerate(lines) if _has_number(line)), len(lines))
+    if count == 0:
+        raise DataError(
+            f"{path}, line {lines[0].number}: the first row holds numbers; "
+            "a header row with the names of the columns must come first."
+        )
+    if count > 2:
+        raise DataError(
+            f"{path}, line {lines[2].number}: given text {lines[2].cells}; above the numbers only "
+            "a row of names and a row of units may stand. Delete the other rows."
+        )
+    if count == len(lines):
+        raise DataError(
+            f"{path}: the file holds a header and no numbers; rows of numbers must follow it."
+        )
+    return count
+
+
+def _name_columns(path: Path, heading: Sequence[_Line]) -> tuple[list[str], list[str | None]]:
+    """Tell names and units apart, whichever row comes first."""
+    rows = list(heading)
+    if len(rows) == 2 and _all_bracketed(rows[0]) and not _all_bracketed(rows[1]):
+        rows.reverse()
+    names = _trim(rows[0].cells)
+    units: list[str | None] = [None] * len(names)
+    if len(rows) == 2:
+        cells = _trim(rows[1].cells)
+        if len(cells) > len(names):
+            raise _ragged(path, rows[1].number, len(cells), len(names))
+        units[: len(cells)] = [_strip_brackets(cell) for cell in cells]
+    else:
+        names, units = _split_units(names)
+    _check_names(path, rows[0].number, names)
+    return names, units
+
+
+def _trim(cells: Sequence[str], width: int = 0) -> list[str]:
+    """Drop the empty cells that trailing delimiters leave, down to a width."""
+    end = len(cells)
+    while end > width and not cells[end - 1]:
+        end -= 1
+    return list(cells[:end])
+
+
+def _all_bracketed(line: _Line) -> bool:
+    return all(_BRACKETED.fullmatch(cell) for cell in line.cells if cell)
+
+
+def _strip_brackets(cell: str) -> str | None:
+    match = _BRACKETED.fullmatch(cell)
+    inner = (match[1] or match[2] or "") if match else cell
+    return inner.strip() or None
+
+
+def _split_units(headers: Sequence[str]) -> tuple[list[str], list[str | None]]:
+    names: list[str] = []
+    units: list[str | None] = []
+    for header in headers:
+        match = _NAME_AND_UNIT.fullmatch(header)
+        names.append(match[1] if match else header)
+        units.append((match[2] or match[3] or "").strip() or None if match else None)
+    return names, units
+
+
+def _check_names(path: Path, line: int, names: Sequence[str]) -> None:
+    for i, name in enumerate(names):
+        if not name:
+            raise DataError(
+                f"{path}, line {line}: column {i + 1} has no name; name it or delete it."
+            )
+        if name in names[:i]:
+            raise DataError(
+                f"{path}, line {line}: columns {names.index(name) + 1} and {i + 1} are both named "
+                f"'{name}'; each column needs its own name. Rename or delete one."
+            )
+
+
+def _trim_rows(path: Path, lines: Sequence[_Line], width: int) -> list[_Line]:
+    rows = [_Line(line.number, _trim(line.cells, width)) for line in lines]
+    for row in rows:
+        if not any(row.cells):
+            raise DataError(
+                f"{path}, line {row.number}: this row is blank but numbers follow; delete it."
+            )
+        if len(row.cells) != width:
+            raise _ragged(path, row.number, len(row.cells), width)
+    return rows
+
+
+def _ragged(path: Path, line: int, given: int, width: int) -> DataError:
+    return DataError(
+        f"{path}, line {line}: given {given} cells; the header names {width} columns, and each row "
+        "needs as many. Complete or delete the row (numbers take a decimal point, not a comma)."
+    )
+
+
+def _parse_row(path: Path, row: _Line, names: Sequence[str]) -> list[float]:
+    return [
+        _parse_cell(path, row.number, name, cell)
+        for name, cell in zip(names, row.cells, strict=True)
+    ]
+
+
+def _parse_cell(path: Path, line: int, name: str, cell: str) -> float:
+    if _is_number(cell) and math.isfinite(value := float(cell)):
+        return value
+    given = f"'{cell}'" if cell else "an empty cell"
+    raise DataError(
+        f"{path}, line {line}, column '{name}': given {given}; each cell must be a finite number "
+        "with a decimal point, and cells are set apart by comma, semicolon or tab. "
+        "Correct the cell or delete its row."
+    )

@@ -1,0 +1,270 @@
+"""Find or download the measured files of the MaCFP data base, by commit and SHA-256."""
+
+import errno
+import hashlib
+import os
+from importlib.resources import files
+from pathlib import Path
+from urllib.parse import quote
+
+from pyrofit.errors import DataError, suggest
+
+COMMIT = "14b73ea959d3e6a74966a044ba5965aef0a38952"
+"""The commit of the GitHub repository MaCFP/matl-db that the registry describes."""
+
+BASE_URL = f"https://raw.githubusercontent.com/MaCFP/matl-db/{COMMIT}/"
+"""Where the files of that commit lie."""
+
+FOLDER_VARIABLE = "PYROFIT_DATA_DIR"
+"""Environment variable: a folder that already holds the files, laid out as upstream."""
+
+_TIMEOUT_S = 30.0
+
+
+def registry() -> dict[str, str]:
+    """Give the SHA-256 of every needed file by its path in the data base.
+
+    Returns
+    -------
+    dict of str to str
+        Relative path to 64 hexadecimal digits.
+
+    Examples
+    --------
+    >>> registry()["LICENSE"][:8]
+    'fc5693f6'
+    """
+    text = files("pyrofit.data").joinpath("registry.txt").read_text(encoding="utf-8")
+    pairs = (line.rsplit(maxsplit=1) for line in text.splitlines() if line.strip())
+    return {name: digest.removeprefix("sha256:") for name, digest in pairs}
+
+
+def sha256(path: Path) -> str:
+    """Compute the SHA-256 of a file.
+
+    Parameters
+    ----------
+    path : Path
+        The file.
+
+    Returns
+    -------
+    str
+        64 hexadecimal digits.
+
+    Raises
+    ------
+    DataError
+        The file cannot be read.
+
+    Examples
+    --------
+    >>> from tempfile import TemporaryDirectory
+    >>> with TemporaryDirectory() as folder:
+    ...     path = Path(folder) / "abc.txt"
+    ...     _ = path.write_bytes(b"abc")
+    ...     sha256(path)[:8]
+    'ba7816bf'
+    """
+    try:
+        with path.open("rb") as stream:
+            return hashlib.file_digest(stream, "sha256").hexdigest()
+    except OSError as error:
+        raise DataError(
+            f"{path}: the file cannot be read ({error.strerror}); "
+            "check its permissions and its disk."
+        ) from None
+
+
+def store() -> Path:
+    """Name the folder of the measured files: PYROFIT_DATA_DIR, else the user's cache.
+
+    Returns
+    -------
+    Path
+        An existing folder if PYROFIT_DATA_DIR is set and not empty, else a folder in the cache
+        that may not exist yet.
+
+    Raises
+    ------
+    DataError
+        PYROFIT_DATA_DIR is not an existing folder.
+    """
+    if _has_mirror():
+        folder = Path(os.environ[FOLDER_VARIABLE])
+        if not folder.is_dir():
+            raise DataError(
+                f"{FOLDER_VARIABLE}={folder}: this must be an existing folder with the measured "
+                "files. Correct the path, or unset the variable and run `pyrofit data fetch`."
+            )
+        return folder
+    import pooch
+
+    return Path(pooch.os_cache("pyrofit")) / f"macfp-{COMMIT[:12]}"
+
+
+def missing(folder: Path) -> list[str]:
+    """List the needed files that a folder lacks; those present are not verified here.
+
+    Parameters
+    ----------
+    folder : Path
+        The folder, which need not exist.
+
+    Returns
+    -------
+    list of str
+        Relative paths, in the order of the registry.
+
+    Examples
+    --------
+    >>> missing(Path("/no/such/folder"))[0]
+    'LICENSE'
+    """
+    return [name for name in registry() if not (folder / name).is_file()]
+
+
+def available() -> bool:
+    """Tell whether every needed file lies in the store; `locate` verifies them one by one.
+
+    Returns
+    -------
+    bool
+        True if none is missing.
+
+    Raises
+    ------
+    DataError
+        PYROFIT_DATA_DIR is not an existing folder.
+    """
+    return not missing(store())
+
+
+def locate(relative: str) -> Path:
+    """Give the path of a measured file whose SHA-256 is the registered one.
+
+    Parameters
+    ----------
+    relative : str
+        Path in the data base, such as `PMMA/Calibration_Data/UMD/UMD_TGA_N2_10K.csv`.
+
+    Returns
+    -------
+    Path
+        The verified file.
+
+    Raises
+    ------
+    DataError
+        The name is not in the registry, the file is not in the store, or its checksum is wrong.
+    """
+    expected = registry()
+    if relative not in expected:
+        raise DataError(f"unknown measured file '{relative}'. {suggest(relative, expected)}")
+    path = store() / relative
+    if not path.is_file():
+        raise DataError(
+            f"{path}: the measured file is not there. Run `make data` (`pyrofit data fetch`) with "
+            f"{FOLDER_VARIABLE} unset, or set it to a folder that holds the files."
+        )
+    if (digest := sha256(path)) != expected[relative]:
+        raise DataError(
+            f"{path}: SHA-256 is {digest}, but {expected[relative]} is registered: the file was "
+            f"altered. Delete it and {_replacement(relative)}."
+        )
+    return path
+
+
+def fetch(progress: bool = True, base_url: str = BASE_URL) -> list[Path]:
+    """Download the measured files that are not in the store yet, and verify all of them.
+
+    A file appears under its name only after its SHA-256 was found right. If PYROFIT_DATA_DIR is
+    set, nothing is downloaded: its files are verified.
+
+    Parameters
+    ----------
+    progress : bool
+        Show a progress bar if the standard error is a terminal.
+    base_url : str
+        Where the files lie, ending in `/`.
+
+    Returns
+    -------
+    list of Path
+        All files of the registry.
+
+    Raises
+    ------
+    DataError
+        No network, a file is not on the server, a wrong checksum, a full disk, a folder that may
+        not be written; or, with PYROFIT_DATA_DIR, a missing or altered file.
+    """
+    from tqdm import tqdm
+
+    folder = store()
+    if _has_mirror():
+        return [locate(name) for name in registry()]
+    wanted = {
+        name: digest
+        for name, digest in registry().items()
+        if not (folder / name).is_file() or sha256(folder / name) != digest
+    }
+    # `None` leaves the bar out where the standard error is not a terminal.
+    hidden = None if progress else True
+    for name, digest in tqdm(wanted.items(), "measured files", unit="file", disable=hidden):
+        _download(base_url + quote(name), folder / name, digest)
+    return [folder / name for name in registry()]
+
+
+def _has_mirror() -> bool:
+    return bool(os.environ.get(FOLDER_VARIABLE))
+
+
+def _replacement(relative: str) -> str:
+    if _has_mirror():
+        return f"put {BASE_URL}{quote(relative)} in its place"
+    return "run `pyrofit data fetch`"
+
+
+def _download(url: str, target: Path, digest: str) -> None:
+    """Download beside the target, verify, then rename: the target is whole or absent."""
+    part = target.with_name(f".{target.name}.{os.getpid()}.part")
+    try:
+        target.parent.mkdir(parents=True, exist_ok=True)
+        try:
+            _transfer(url, part)
+            if (given := sha256(part)) != digest:
+                raise DataError(
+                    f"{url}: SHA-256 is {given}, but {digest} is registered; nothing was kept. "
+                    "A proxy or a broken transfer may have altered it: try again, or set "
+                    f"{FOLDER_VARIABLE} to a folder that holds the files."
+                )
+            part.replace(target)
+        finally:
+            part.unlink(missing_ok=True)
+    except OSError as error:
+        raise DataError(_explain(error, target)) from None
+
+
+def _transfer(url: str, part: Path) -> None:
+    import pooch
+    import requests
+
+    try:
+        pooch.HTTPDownloader(timeout=_TIMEOUT_S)(url, str(part), None)
+    except requests.RequestException as error:
+        status = error.response.status_code if error.response is not None else None
+        cause = type(error).__name__ if status is None else f"HTTP status {status}"
+        raise DataError(
+            f"{url}: the download failed ({cause}). Check network and proxy and run "
+            f"`pyrofit data fetch` again, or set {FOLDER_VARIABLE} to a folder with the files."
+        ) from None
+
+
+def _explain(error: OSError, target: Path) -> str:
+    elsewhere = f"set XDG_CACHE_HOME or {FOLDER_VARIABLE} to another folder"
+    if error.errno in (errno.ENOSPC, errno.EDQUOT):
+        return f"{target}: the disk is full. Free some space, or {elsewhere}."
+    if error.errno in (errno.EACCES, errno.EPERM, errno.EROFS):
+        return f"{target}: the folder may not be written. Change its permissions, or {elsewhere}."
+    return f"{target}: the file cannot be written ({error.strerror}). Repair that, or {elsewhere}."

@@ -1,0 +1,404 @@
+"""Turn a table of a laboratory into a checked measured series in SI units."""
+
+import math
+import re
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass, field
+from pathlib import Path
+
+import numpy as np
+import pandas as pd
+
+from pyrofit.data.csvfile import FloatArray, Table, read_table
+from pyrofit.data.fetch import sha256
+from pyrofit.errors import DataError, suggest
+
+VALUE_COLUMN = {
+    "mlr": "mlr_kg_m2_s",
+    "back_temperature": "back_temperature_K",
+    "mass_fraction": "mass_fraction",
+}
+"""Column of the measured value, with its unit, by quantity."""
+
+UNCERTAINTY_COLUMN = {
+    "mlr": "mlr_uncertainty_kg_m2_s",
+    "back_temperature": "back_temperature_uncertainty_K",
+    "mass_fraction": "mass_fraction_uncertainty",
+}
+"""Column of the uncertainty of the value, in the unit of the value, by quantity."""
+
+_SCALES = {
+    "time": {"s": 1.0, "min": 60.0, "h": 3600.0},
+    "temperature": {"K": 1.0, "degC": 1.0, "°C": 1.0, "C": 1.0},
+    "mass": {"kg": 1.0, "g": 1e-3, "mg": 1e-6},
+    "mass flux": {"kg/s/m2": 1.0, "g/s/m2": 1e-3, "mg/s/m2": 1e-6},
+    "mass rate": {"kg/s": 1.0, "g/s": 1e-3, "mg/s": 1e-6},
+    "fraction": {"1": 1.0, "-": 1.0, "g/g": 1.0, "kg/kg": 1.0, "mg/mg": 1.0, "%": 0.01},
+}
+_CELSIUS = {"degC", "°C", "C"}
+_ICE_POINT_K = 273.15
+
+_VALUE_KINDS = {
+    "mlr": ("mass flux", "mass rate"),
+    "back_temperature": ("temperature",),
+    "mass_fraction": ("fraction", "mass"),
+}
+
+# The usual header names by role; `_key` says which differences of spelling do not count.
+_HEADERS: dict[str, dict[str, tuple[str, ...]]] = {
+    "mlr": {
+        "time": ("Time",),
+        "value": ("MLR_mean", "MLR", "Mass loss rate", "Mass flux"),
+        "uncertainty": ("MLR_error", "MLR uncertainty", "Error", "Uncertainty"),
+    },
+    "back_temperature": {
+        "time": ("Time",),
+        "value": ("Temp_avg_all4", "Temperature", "Temp", "Back temperature"),
+        "uncertainty": ("Temperature_Error", "Temp error", "Error", "Uncertainty"),
+    },
+    "mass_fraction": {
+        "time": ("Time",),
+        "temperature": ("Temperature", "Temp"),
+        "value": ("Mass fraction", "Mass", "Normalized mass", "Normalised mass"),
+        "uncertainty": ("Mass fraction error", "Mass error", "Error", "Uncertainty"),
+    },
+}
+
+_FEWEST_POINTS = 3
+_SIGN_RATIO = 3.0
+# Values outside betray a wrong unit, not a strange sample. A temperature must lie between the two
+# at all times, the others at their largest: a sample ends without mass and without loss of mass.
+_LIMITS = {
+    "temperature_K": (200.0, 2500.0),
+    "back_temperature_K": (200.0, 2500.0),
+    "mlr_kg_m2_s": (0.0, 2.0),
+    "mass_fraction": (0.5, 1.5),
+}
+
+
+@dataclass(frozen=True)
+class SeriesSpec:
+    """Where a measured series lies and how to read it.
+
+    Parameters
+    ----------
+    quantity : str
+        `mlr`, `back_temperature` or `mass_fraction`.
+    path : Path
+        The file.
+    columns : mapping of str to str
+        Header name by role (`time`, `value`, `uncertainty`, `temperature`); the others are
+        recognised from well-known header names.
+    units : mapping of str to str
+        Unit by role, in place of the one in the file.
+    uncertainty : float, optional
+        One uncertainty for all points, in the SI unit of the quantity; replaces the file's.
+    uncertainty_meaning : str
+        What the uncertainty is, such as "two standard deviations of the mean".
+    sample_mass_kg : float, optional
+        Initial mass of the sample [kg]: divides a mass to give a mass fraction.
+    sample_area_m2 : float, optional
+        Exposed area of the sample [m2]: divides a mass rate to give a mass flux.
+
+    Raises
+    ------
+    DataError
+        Unknown quantity or role, or a number that is not above 0.
+    """
+
+    quantity: str
+    path: Path
+    columns: Mapping[str, str] = field(default_factory=dict)
+    units: Mapping[str, str] = field(default_factory=dict)
+    uncertainty: float | None = None
+    uncertainty_meaning: str = ""
+    sample_mass_kg: float | None = None
+    sample_area_m2: float | None = None
+
+    def __post_init__(self) -> None:
+        if self.quantity not in _HEADERS:
+            raise DataError(
+                f"{self.path}: unknown quantity '{self.quantity}'. "
+                f"{suggest(self.quantity, _HEADERS)}"
+            )
+        for key in ("columns", "units"):
+            for role in getattr(self, key):
+                if role not in (roles := _HEADERS[self.quantity]):
+                    raise DataError(
+                        f"{self.path}: `{key}` names an unknown role '{role}' for "
+                        f"{self.quantity}. {suggest(role, roles)}"
+                    )
+        for key in ("uncertainty", "sample_mass_kg", "sample_area_m2"):
+            number = getattr(self, key)
+            if number is not None and not (math.isfinite(number) and number > 0.0):
+                raise DataError(
+                    f"{self.path}: {key} = {number}; it must be a number above 0. "
+                    "Correct it or leave it out."
+                )
+        if self.uncertainty is not None and "uncertainty" in self.columns:
+            raise DataError(
+                f"{self.path}: both a number and a column are given for the uncertainty; "
+                "leave one of them out."
+            )
+
+
+@dataclass(frozen=True, eq=False)
+class Measurement:
+    """A measured series in SI units.
+
+    Parameters
+    ----------
+    quantity : str
+        `mlr`, `back_temperature` or `mass_fraction`.
+    frame : DataFrame
+        `time_s`, for a mass fraction `temperature_K`, the value (`VALUE_COLUMN`) and, if known,
+        its uncertainty (`UNCERTAINTY_COLUMN`).
+    source : Path
+        The file.
+    sha256 : str
+        Its SHA-256.
+    uncertainty_meaning : str
+        What the uncertainty is.
+    notes : tuple of str
+        What the reader left out, computed or noticed.
+    """
+
+    quantity: str
+    frame: pd.DataFrame
+    source: Path
+    sha256: str
+    uncertainty_meaning: str
+    notes: tuple[str, ...]
+
+
+def read_series(spec: SeriesSpec) -> Measurement:
+    """Read a measured series, convert it to SI units and check it.
+
+    A mass `m` becomes the mass fraction `m / m_0`, with `m_0` the given mass of the sample, else
+    the first value; a mass rate becomes the mass loss rate per area, `rate / area`. Columns that
+    are zero throughout are placeholders and are left out.
+
+    Parameters
+    ----------
+    spec : SeriesSpec
+        File, quantity, and what the file does not say itself.
+
+    Returns
+    -------
+    Measurement
+        The series, with notes on what was left out or computed.
+
+    Raises
+    ------
+    DataError
+        The file cannot be read as a table; a column is absent, ambiguous or all zero; a unit is
+        absent or unknown; there are fewer than 3 points; time does not increase; an uncertainty
+        is negative; or a value is so far off that its unit must be wrong.
+
+    Examples
+    --------
+    >>> from tempfile import TemporaryDirectory
+    >>> with TemporaryDirectory() as folder:
+    ...     path = Path(folder) / "tga.csv"
+    ...     text = "Time (min),Temperature (degC),Mass (mg)"
+    ...     _ = path.write_text(text + chr(10) + chr(10).join(["0,40,5", "1,50,5", "2,60,4"]))
+    ...     print(read_series(SeriesSpec("mass_fraction", path)).frame.to_string(index=False))
+     time_s  temperature_K  mass_fraction
+        0.0         313.15            1.0
+       60.0         323.15            1.0
+      120.0         333.15            0.8
+    """
+    table = read_table(spec.path)
+    rows = len(next(iter(table.columns.values())))
+    if rows < _FEWEST_POINTS:
+        raise DataError(
+            f"{spec.path}: given {rows} points; a series needs at least {_FEWEST_POINTS}. "
+            "Give a longer file."
+        )
+    dummies = [name for name, column in table.columns.items() if not column.any()]
+    headers = _assign_columns(spec, table, dummies)
+    frame, notes = _convert_columns(spec, table, headers)
+    _check_order(spec.quantity, table, headers, frame)
+    _check_limits(spec.quantity, table, headers, frame)
+    if dummies:
+        notes.append(f"left out, zero throughout: {', '.join(dummies)}")
+    if negative := int((frame[VALUE_COLUMN[spec.quantity]] < 0.0).sum()):
+        notes.append(f"{negative} of {rows} values are negative")
+    digest = sha256(spec.path)
+    return Measurement(
+        spec.quantity, frame, spec.path, digest, spec.uncertainty_meaning, tuple(notes)
+    )
+
+
+def _key(header: str) -> str:
+    """Reduce a header to what tells it from others: no case, blanks, dashes, points or unit."""
+    name = re.sub(r"\s*(\[.*\]|\(.*\))$", "", header)
+    return re.sub(r"[\s_.-]", "", name).casefold()
+
+
+def _assign_columns(spec: SeriesSpec, table: Table, dummies: Sequence[str]) -> dict[str, str]:
+    """Find the header of each role: asked for by name, or recognised."""
+    asked = {role: _find_asked(table, role, name) for role, name in spec.columns.items()}
+    free = [name for name in table.columns if name not in asked.values()]
+    headers: dict[str, str] = {}
+    for role, known in _HEADERS[spec.quantity].items():
+        usable = free if role == "time" else [name for name in free if name not in dummies]
+        keys = {_key(name) for name in known}
+        matches = [asked[role]] if role in asked else [n for n in usable if _key(n) in keys]
+        if role == "uncertainty" and (spec.uncertainty is not None or set(matches) <= {*dummies}):
+            continue
+        if len(matches) != 1:
+            problem = f"columns {matches} may all be" if matches else "no column is known to be"
+            raise DataError(
+                f"{table.path}: {problem} the {role} of {spec.quantity}; name the right one in "
+                f"the study: `columns: {{{role}: ...}}`. {suggest(known[0], table.columns)}"
+                + (f" Zero throughout: {', '.join(dummies)}." if dummies else "")
+            )
+        if matches[0] in dummies and role != "time":
+            raise DataError(
+                f"{table.path}, column '{matches[0]}': zero throughout, a placeholder; the {role} "
+                "must be measured. Give another column or another file."
+            )
+        if matches[0] in headers.values():
+            raise DataError(f"{table.path}: column '{matches[0]}' is given two roles; name two.")
+        headers[role] = matches[0]
+    return headers
+
+
+def _find_asked(table: Table, role: str, asked: str) -> str:
+    if asked in table.columns:
+        return asked
+    matches = [name for name in table.columns if _key(name) == _key(asked)]
+    if len(matches) != 1:
+        raise DataError(
+            f"{table.path}: there is no column '{asked}' for the {role}. "
+            f"{suggest(asked, table.columns)}"
+        )
+    return matches[0]
+
+
+def _convert_columns(
+    spec: SeriesSpec, table: Table, headers: Mapping[str, str]
+) -> tuple[pd.DataFrame, list[str]]:
+    for role in spec.units:
+        if role not in headers:
+            raise DataError(
+                f"{table.path}: a unit is given for the {role}, but no column is read for it; "
+                "leave the unit out or name the column."
+            )
+    data = {"time_s": _to_si(spec, table, headers, "time", ("time",))[0]}
+    if "temperature" in headers:
+        data["temperature_K"] = _to_si(spec, table, headers, "temperature", ("temperature",))[0]
+    kinds = _VALUE_KINDS[spec.quantity]
+    value, kind = _to_si(spec, table, headers, "value", kinds)
+    divisor, notes = _divisor(spec, kind, float(value[0]))
+    data[VALUE_COLUMN[spec.quantity]] = value / divisor
+    if spec.uncertainty is not None:
+        data[UNCERTAINTY_COLUMN[spec.quantity]] = np.full(len(value), spec.uncertainty)
+        notes.append("one uncertainty is given for all points")
+    elif "uncertainty" in headers:
+        spread, its = _to_si(spec, table, headers, "uncertainty", tuple({kinds[0], kind}))
+        data[UNCERTAINTY_COLUMN[spec.quantity]] = spread / divisor if its == kind else spread
+    else:
+        notes.append("no uncertainty is known")
+    return pd.DataFrame(data), notes
+
+
+def _to_si(
+    spec: SeriesSpec, table: Table, headers: Mapping[str, str], role: str, kinds: Sequence[str]
+) -> tuple[FloatArray, str]:
+    """Convert one column to SI units; give also which of the kinds of quantity its unit is."""
+    header = headers[role]
+    unit = spec.units.get(role, table.units[header])
+    scales = {_unit_key(word): (kind, word) for kind in kinds for word in _SCALES[kind]}
+    known = [word for _, word in scales.values()]
+    if not unit or (key := _unit_key(unit)) not in scales:
+        given = f"unknown unit '{unit}' of the {role}. " if unit else f"no unit of the {role}; "
+        raise DataError(
+            f"{table.path}, column '{header}': {given}{suggest(unit or '', known)} "
+            f"Give it in the study: `units: {{{role}: ...}}`."
+        )
+    kind, word = scales[key]
+    offset = _ICE_POINT_K if word in _CELSIUS and role != "uncertainty" else 0.0
+    return table.columns[header] * _SCALES[kind][word] + offset, kind
+
+
+def _unit_key(unit: str) -> str:
+    """Reduce a unit to one spelling: `kg m-2 s-1`, `kg/(m^2 s)` and `kg/m²/s` to `kg/s/m2`."""
+    key = re.sub(r"[\s^*·⋅()\[\]]", "", unit.casefold()).replace("²", "2").replace("−", "-")
+    key = key.replace("m-2", "/m2").replace("s-1", "/s")
+    return re.sub(r"/m2/?s$|/sm2$", "/s/m2", key)
+
+
+def _divisor(spec: SeriesSpec, kind: str, first: float) -> tuple[float, list[str]]:
+    """Give the mass or the area by which a mass or a mass rate is divided."""
+    if kind == "mass rate":
+        if spec.sample_area_m2 is None:
+            raise DataError(
+                f"{spec.path}: the unit is that of a mass rate; give `sample_area_m2`, or the "
+                "right unit of a mass flux, such as kg/s/m2."
+            )
+        return spec.sample_area_m2, [f"mass rate divided by {spec.sample_area_m2:g} m2"]
+    if kind != "mass":
+        return 1.0, []
+    mass = first if spec.sample_mass_kg is None else spec.sample_mass_kg
+    if mass <= 0.0:
+        raise DataError(
+            f"{spec.path}: the first mass is {mass:g} kg; it must be above 0 to divide the others. "
+            "Give `sample_mass_kg`."
+        )
+    which = "its first value" if spec.sample_mass_kg is None else "the mass of the sample"
+    return mass, [f"mass divided by {which}, {mass:g} kg"]
+
+
+def _check_order(
+    quantity: str, table: Table, headers: Mapping[str, str], frame: pd.DataFrame
+) -> None:
+    """Refuse times that do not increase, negative uncertainties and a loss of the wrong sign."""
+    time = frame["time_s"].to_numpy()
+    if time[0] < 0.0:
+        rule = "time starts at 0 or later. Delete the rows before 0."
+        raise _refusal(table, headers["time"], 0, rule)
+    if (stops := np.flatnonzero(np.diff(time) <= 0.0)).size:
+        rule = "time must exceed that of the row before. Sort the rows and delete doubled ones."
+        raise _refusal(table, headers["time"], int(stops[0]) + 1, rule)
+    if "uncertainty" in headers:
+        uncertainty = frame[UNCERTAINTY_COLUMN[quantity]].to_numpy()
+        if uncertainty.min() < 0.0:
+            rule = (
+                "an uncertainty is never negative. Correct it, or give `uncertainty` as a number."
+            )
+            raise _refusal(table, headers["uncertainty"], int(uncertainty.argmin()), rule)
+    value = frame[VALUE_COLUMN[quantity]].to_numpy()
+    if quantity == "mlr" and -value.min() > _SIGN_RATIO * value.max():
+        rule = "a mass loss rate is positive where mass is lost. Change the sign of the column."
+        raise _refusal(table, headers["value"], int(value.argmin()), rule)
+
+
+def _check_limits(
+    quantity: str, table: Table, headers: Mapping[str, str], frame: pd.DataFrame
+) -> None:
+    """Refuse temperatures, rates and mass fractions that only a wrong unit explains."""
+    for role, column in (("temperature", "temperature_K"), ("value", VALUE_COLUMN[quantity])):
+        if column not in frame:
+            continue
+        numbers = frame[column].to_numpy()
+        low, high = _LIMITS[column]
+        rows = (
+            (numbers.argmin(), numbers.argmax()) if column.endswith("_K") else (numbers.argmax(),)
+        )
+        for row in map(int, rows):
+            if not low <= numbers[row] <= high:
+                rule = (
+                    f"{column} is then {numbers[row]:g}, not between {low:g} and {high:g}. If the "
+                    f"unit is wrong, give the right one in the study: `units: {{{role}: ...}}` "
+                    "(degrees Celsius: degC), else check the mass and area of the sample."
+                )
+                raise _refusal(table, headers[role], row, rule)
+
+
+def _refusal(table: Table, header: str, row: int, rule: str) -> DataError:
+    return DataError(
+        f"{table.path}, line {table.first_row + row}, column '{header}': "
+        f"given {table.columns[header][row]:g}; {rule}"
+    )

@@ -1,0 +1,1 @@
+"""Solvers: plain arrays in, plain arrays and a status out."""

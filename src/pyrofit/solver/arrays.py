@@ -1,0 +1,143 @@
+"""The plain arrays that the kernels work on, and how a run can end.
+
+Symbols: i component, j reaction, n cell, T temperature node of the property tables.
+"""
+
+from enum import IntEnum
+from typing import NamedTuple
+
+import numpy as np
+from numpy.typing import NDArray
+
+FloatArray = NDArray[np.float64]
+IntArray = NDArray[np.int64]
+
+TABLE_START_K = 200.0
+TABLE_STEP_K = 5.0
+TABLE_SIZE = 281
+TABLE_TEMPERATURES_K: FloatArray = TABLE_START_K + TABLE_STEP_K * np.arange(TABLE_SIZE)
+"""Nodes [K] of every temperature-dependent property; outside them the end values hold."""
+
+
+class Status(IntEnum):
+    """How a run ended; the text of each member is its explanation."""
+
+    OK = 0
+    UNBURNT = 1
+    DIVERGED = 2
+    NON_FINITE = 3
+    TOO_MANY_STEPS = 4
+
+    @property
+    def finished(self) -> bool:
+        """Whether the curves of the run can be used."""
+        return self in (Status.OK, Status.UNBURNT)
+
+    @property
+    def explanation(self) -> str:
+        """What happened, in words."""
+        return _EXPLANATIONS[self]
+
+
+_EXPLANATIONS = {
+    Status.OK: "the run is complete and the sample has burnt out",
+    Status.UNBURNT: "the run is complete, reactant was left at its end",
+    Status.DIVERGED: "a temperature left the range 50 K to 5000 K",
+    Status.NON_FINITE: "a temperature or mass was not a number",
+    Status.TOO_MANY_STEPS: "the step control needed more steps than allowed",
+}
+
+
+class Material(NamedTuple):
+    """Properties of the components."""
+
+    specific_volume: FloatArray
+    """1 / rho_i [m3/kg], shape (components,)."""
+    conductivity: FloatArray
+    """k_i(T) [W/(m K)], shape (components, table nodes or 1)."""
+    specific_heat: FloatArray
+    """c_i(T) [J/(kg K)], shape (components, table nodes or 1)."""
+    emissivity: FloatArray
+    """eps_i [-], shape (components,)."""
+    absorption: FloatArray
+    """kappa_i [1/m], shape (components,); 0 = opaque."""
+
+
+class Network(NamedTuple):
+    """Reactions, sorted so that whatever a reaction forms reacts after it."""
+
+    reactant: IntArray
+    """Component consumed by reaction j."""
+    rate_factor: FloatArray
+    """A_j [1/s]."""
+    activation_temperature: FloatArray
+    """E_j / R [K]."""
+    order: FloatArray
+    """n_j [-]."""
+    heat: FloatArray
+    """dh_j [J per kg of reactant], positive = endothermic."""
+    yields: FloatArray
+    """Solid yields nu_ji [kg/kg], shape (reactions, components)."""
+    gas: FloatArray
+    """Gas yield 1 - sum_i nu_ji [kg/kg]."""
+    first_order: bool
+    """Whether every n_j is 1."""
+
+
+class Surface(NamedTuple):
+    """Heat exchange of one side, SI units."""
+
+    h: float
+    """Constant part of the heat transfer coefficient [W/(m2 K)]."""
+    h_cube_root: float
+    """C of the part C |T - T_gas|^(1/3) [W/(m2 K^(4/3))]."""
+    gas_temperature: float
+    """[K]."""
+    wall_temperature: float
+    """Temperature of the radiating surroundings [K]."""
+
+
+class Exposure(NamedTuple):
+    """What acts on the sample."""
+
+    front: Surface
+    back: Surface
+    flux_time: FloatArray
+    """Times of the flux table [s]; a step in time is given by two equal times."""
+    flux: FloatArray
+    """q_ext at those times [W/m2], linear between them."""
+    back_emissivity: float
+    foil_capacity: float
+    """Heat capacity per area of the foil on the back [J/(m2 K)]."""
+    foil_opaque: bool
+    """Whether the foil absorbs radiation transmitted through the sample."""
+    mixing_depth: float
+    """delta [m]: depth over which the surface emissivity is averaged by volume."""
+
+
+class Numerics(NamedTuple):
+    """How finely the equations are solved."""
+
+    tolerance: float
+    """Bound on the scaled predictor-corrector difference of a step."""
+    first_step: float
+    """[s]."""
+    longest_step: float
+    """[s]."""
+    most_steps: int
+
+
+class Trace(NamedTuple):
+    """What a slab run leaves at its time steps, each of shape (steps,)."""
+
+    time: FloatArray
+    released: FloatArray
+    """Gas released so far [kg/m2]."""
+    rate: FloatArray
+    """Mass loss rate [kg/(m2 s)]."""
+    front: FloatArray
+    """Front temperature [K]."""
+    back: FloatArray
+    """Back temperature [K]."""
+    thickness: FloatArray
+    """[m]."""

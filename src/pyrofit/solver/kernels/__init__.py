@@ -1,0 +1,1 @@
+"""Compiled kernels; nothing outside this folder imports numba."""
