@@ -98,8 +98,10 @@ def _read_text(path: Path) -> str:
     except IsADirectoryError:
         raise DataError(f"{path}: this is a folder; give a file in it.") from None
     except UnicodeDecodeError as error:
+        line = error.object[: error.start].count(b"\n") + 1
         raise DataError(
-            f"{path}: byte {error.start} is not UTF-8 text; save the file as CSV in UTF-8."
+            f"{path}, line {line}: byte 0x{error.object[error.start]:02x} is not UTF-8 text; "
+            "save the file as CSV in UTF-8."
         ) from None
     except OSError as error:
         raise DataError(

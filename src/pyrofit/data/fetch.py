@@ -210,7 +210,7 @@ def fetch(progress: bool = True, base_url: str = BASE_URL) -> list[Path]:
         if not (folder / name).is_file() or sha256(folder / name) != digest
     }
     # `None` leaves the bar out where the standard error is not a terminal.
-    hidden = None if progress else True
+    hidden = None if progress and wanted else True
     for name, digest in tqdm(wanted.items(), "measured files", unit="file", disable=hidden):
         _download(base_url + quote(name), folder / name, digest)
     return [folder / name for name in registry()]

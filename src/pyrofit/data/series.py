@@ -251,7 +251,7 @@ def _assign_columns(spec: SeriesSpec, table: Table, dummies: Sequence[str]) -> d
             problem = f"columns {matches} may all be" if matches else "no column is known to be"
             raise DataError(
                 f"{table.path}: {problem} the {role} of {spec.quantity}; name the right one in "
-                f"the study: `columns: {{{role}: ...}}`. {suggest(known[0], table.columns)}"
+                f"the study: `columns: {{{role}: ...}}`. {suggest(known[0], usable)}"
                 + (f" Zero throughout: {', '.join(dummies)}." if dummies else "")
             )
         if matches[0] in dummies and role != "time":
@@ -297,7 +297,7 @@ def _convert_columns(
         data[UNCERTAINTY_COLUMN[spec.quantity]] = np.full(len(value), spec.uncertainty)
         notes.append("one uncertainty is given for all points")
     elif "uncertainty" in headers:
-        spread, its = _to_si(spec, table, headers, "uncertainty", tuple({kinds[0], kind}))
+        spread, its = _to_si(spec, table, headers, "uncertainty", (kind, kinds[0]))
         data[UNCERTAINTY_COLUMN[spec.quantity]] = spread / divisor if its == kind else spread
     else:
         notes.append("no uncertainty is known")

@@ -82,6 +82,12 @@ class Network(NamedTuple):
     """Gas yield 1 - sum_i nu_ji [kg/kg]."""
     first_order: bool
     """Whether every n_j is 1."""
+    plain: bool
+    """Whether moreover every reaction has its own reactant and at most one, inert, product."""
+    residue: IntArray
+    """That product of reaction j."""
+    residue_yield: FloatArray
+    """Its yield nu_j [kg/kg], zero without a product."""
 
 
 class Surface(NamedTuple):

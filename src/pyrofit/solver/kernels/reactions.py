@@ -53,6 +53,15 @@ def react(m, formed, n, x, network, exact, m_new, used):
     reactions = x.size
     for i in range(components):
         m_new[n, i] = m[n, i]
+    if network.plain:
+        for j in range(reactions):
+            i = network.reactant[j]
+            e, _ = decay(x[j], exact)
+            part = m[n, i] * (1.0 - e)
+            m_new[n, i] -= part
+            m_new[n, network.residue[j]] += network.residue_yield[j] * part
+            used[n, j] = part
+        return
     j = 0
     while j < reactions:
         i = network.reactant[j]
@@ -77,5 +86,7 @@ def react(m, formed, n, x, network, exact, m_new, used):
                 part = consumed * x[a] / total if total > 0.0 else 0.0
             used[n, a] = part
             for b in range(components):
-                m_new[n, b] += network.yields[a, b] * part
+                nu = network.yields[a, b]
+                if nu != 0.0:
+                    m_new[n, b] += nu * part
         j = end
