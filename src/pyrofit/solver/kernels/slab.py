@@ -153,6 +153,15 @@ def cell_rates(n, inverse_T, half, network, k):
 
 
 @jit
+def mean_rate(a, b):
+    """Return the mean of a rate that grows exponentially from a to b over the step.
+
+    The logarithmic mean (b - a)/ln(b/a), to fourth order in ln(b/a): (2 sqrt(a b) + (a + b)/2)/3.
+    """
+    return (2.0 / 3.0) * math.sqrt(a * b) + (1.0 / 6.0) * (a + b)
+
+
+@jit
 def mass_rate(n, j, k, m, formed, network):
     """Return r_j of cell n [kg/(m2 s)]."""
     i = network.reactant[j]
@@ -269,7 +278,7 @@ def march(start, T_start, material, network, exposure, numerics, t_end, stop_whe
             inverse_T = 1.0 / Tn
             cell_rates(n, inverse_T, half_r[n], network, k_new)
             for j in range(reactions):
-                x[j] = 0.5 * dt * (k_old[n, j] + k_new[n, j])
+                x[j] = dt * mean_rate(k_old[n, j], k_new[n, j])
             react(m, formed, n, x, network, False, m_new, used)
             d[n], resistance, C[n] = layer(m_new, n, material, Tn)
             half_r[n] = 0.5 * resistance + LEAST_RESISTANCE
@@ -339,13 +348,13 @@ def march(start, T_start, material, network, exposure, numerics, t_end, stop_whe
             T_new[n] = below
             coldest = min(coldest, below)
             hottest = max(hottest, below)
-            stored_step += 0.5 * (C[n] + C_old[n]) * (below - T[n])
+            stored_step += mean_rate(C_old[n], C[n]) * (below - T[n])
             Tn = min(max(T_star[n], 200.0), 2000.0)
             change = min(max(below - T_star[n], -20.0), 20.0) / (Tn * Tn)
             for j in range(reactions):
                 y = network.activation_temperature[j] * change
                 k_new[n, j] *= 1.0 + y * (1.0 + 0.5 * y)
-                x[j] = 0.5 * dt * (k_old[n, j] + k_new[n, j])
+                x[j] = dt * mean_rate(k_old[n, j], k_new[n, j])
             react(m, formed, n, x, network, False, m_new, used)
             for j in range(reactions):
                 gas_step += network.gas[j] * used[n, j]
@@ -360,6 +369,7 @@ def march(start, T_start, material, network, exposure, numerics, t_end, stop_whe
 
         error = abs(corrected - predicted) / rate_scale
         error = max(error, abs(front_new - front_star) / TEMPERATURE_SCALE)
+        error = max(error, abs(foil_new - foil_star) / TEMPERATURE_SCALE)
         ratio = SAFETY * math.sqrt(numerics.tolerance / (error + 1e-30))
         if ratio < REJECT and dt > 1.001 * numerics.first_step:
             dt = max(dt * max(ratio, SHRINK), numerics.first_step)
