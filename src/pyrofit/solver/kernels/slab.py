@@ -162,6 +162,12 @@ def mean_rate(a, b):
 
 
 @jit
+def mean_rate_slope(a, b):
+    """Return the derivative of that mean with respect to b."""
+    return (1.0 / 3.0) * math.sqrt(a / b) + 1.0 / 6.0 if b > 0.0 else 0.5
+
+
+@jit
 def mass_rate(n, j, k, m, formed, network):
     """Return r_j of cell n [kg/(m2 s)]."""
     i = network.reactant[j]
@@ -197,7 +203,7 @@ def probe_temperature(position, T, first, front, back):
 
 
 @njit(cache=True, error_model="numpy", _nrt=False)
-def march(start, T_start, material, network, exposure, numerics, t_end, stop_when_burnt, probes, out, probe_out, m, m_new, formed, k_old, k_new, used, x, T, T_old, T_new, T_star, C, C_old, d, d0, half_r, source, up, right, skin):
+def march(start, T_start, material, network, exposure, numerics, t_end, stop_when_burnt, probes, out, probe_out, m, m_new, formed, k_old, k_new, used, x, T, T_old, T_new, T_star, C, C_old, d, d0, half_r, source, up, right, heat_old, skin):
     """March in time."""
     cells, components = start.shape
     reactions = network.reactant.size
@@ -282,13 +288,14 @@ def march(start, T_start, material, network, exposure, numerics, t_end, stop_whe
             react(m, formed, n, x, network, False, m_new, used)
             d[n], resistance, C[n] = layer(m_new, n, material, Tn)
             half_r[n] = 0.5 * resistance + LEAST_RESISTANCE
-            sink = 0.0
+            sink = -b3 * heat_old[n]
             slope = 0.0
             for j in range(reactions):
                 r_j = mass_rate(n, j, k_new, m_new, formed, network)
                 predicted += network.gas[j] * r_j
-                sink += network.heat[j] * r_j
-                slope += network.heat[j] * r_j * network.activation_temperature[j]
+                sink += b1 * network.heat[j] * used[n, j]
+                share = mean_rate_slope(k_old[n, j], k_new[n, j]) * dt * b1
+                slope += share * network.heat[j] * r_j * network.activation_temperature[j]
             slope *= inverse_T * inverse_T
             source[n] = slope * T_star[n] - sink
             up[n] = slope
@@ -390,6 +397,9 @@ def march(start, T_start, material, network, exposure, numerics, t_end, stop_whe
         q_net_old = q_net
         for n in range(first, cells):
             C_old[n] = C[n]
+            heat_old[n] = 0.0
+            for j in range(reactions):
+                heat_old[n] += network.heat[j] * used[n, j]
             if not network.first_order:
                 for j in range(reactions):
                     for i in range(components):
@@ -491,8 +501,9 @@ def slab(start, T_start, material, network, exposure, numerics, t_end, stop_when
     source = np.empty(cells)
     up = np.empty(cells)
     right = np.empty(cells)
+    heat_old = np.zeros(cells)
     skin = np.zeros((1, components))
-    end = march(start, T_start, material, network, exposure, numerics, t_end, stop_when_burnt, probes, out, probe_out, m, m_new, formed, k_old, k_new, used, x, T, T_old, T_new, T_star, C, C_old, d, d0, half_r, source, up, right, skin)
+    end = march(start, T_start, material, network, exposure, numerics, t_end, stop_when_burnt, probes, out, probe_out, m, m_new, formed, k_old, k_new, used, x, T, T_old, T_new, T_star, C, C_old, d, d0, half_r, source, up, right, heat_old, skin)
     status, steps, energy_error, mass_error = end
     return (
         status,

@@ -1,0 +1,21 @@
+"""How far a model is from its target: Eqs 1-5 and Tables 1-2 of Lauer et al.
+
+`target` holds the measured curve, `normalisation` Table 1, `distances` Table 2, `kinds` Eqs 1-4
+(one function per cost) with the registry `KINDS`, `weighted` Eq. 5.
+"""
+
+from pyrofit.cost.kinds import KINDS
+from pyrofit.cost.normalisation import NORMALISATIONS
+from pyrofit.cost.target import FloatArray, Target
+from pyrofit.cost.term import Term, make_term
+from pyrofit.cost.weighted import WeightedSum
+
+__all__ = [
+    "KINDS",
+    "NORMALISATIONS",
+    "FloatArray",
+    "Target",
+    "Term",
+    "WeightedSum",
+    "make_term",
+]
