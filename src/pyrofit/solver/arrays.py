@@ -15,7 +15,9 @@ IntArray = NDArray[np.int64]
 TABLE_START_K = 200.0
 TABLE_STEP_K = 5.0
 TABLE_SIZE = 281
-TABLE_TEMPERATURES_K: FloatArray = TABLE_START_K + TABLE_STEP_K * np.arange(TABLE_SIZE)
+TABLE_TEMPERATURES_K: FloatArray = np.linspace(
+    TABLE_START_K, TABLE_START_K + TABLE_STEP_K * (TABLE_SIZE - 1), TABLE_SIZE
+)
 """Nodes [K] of every temperature-dependent property; outside them the end values hold."""
 
 

@@ -203,7 +203,40 @@ def probe_temperature(position, T, first, front, back):
 
 
 @njit(cache=True, error_model="numpy", _nrt=False)
-def march(start, T_start, material, network, exposure, numerics, t_end, stop_when_burnt, probes, out, probe_out, m, m_new, formed, k_old, k_new, used, x, T, T_old, T_new, T_star, C, C_old, d, d0, half_r, source, up, right, heat_old, skin):
+def march(
+    start,
+    T_start,
+    material,
+    network,
+    exposure,
+    numerics,
+    t_end,
+    stop_when_burnt,
+    probes,
+    out,
+    probe_out,
+    m,
+    m_new,
+    formed,
+    k_old,
+    k_new,
+    used,
+    x,
+    T,
+    T_old,
+    T_new,
+    T_star,
+    C,
+    C_old,
+    d,
+    d0,
+    half_r,
+    source,
+    up,
+    right,
+    heat_old,
+    skin,
+):
     """March in time."""
     cells, components = start.shape
     reactions = network.reactant.size
@@ -503,7 +536,40 @@ def slab(start, T_start, material, network, exposure, numerics, t_end, stop_when
     right = np.empty(cells)
     heat_old = np.zeros(cells)
     skin = np.zeros((1, components))
-    end = march(start, T_start, material, network, exposure, numerics, t_end, stop_when_burnt, probes, out, probe_out, m, m_new, formed, k_old, k_new, used, x, T, T_old, T_new, T_star, C, C_old, d, d0, half_r, source, up, right, heat_old, skin)
+    end = march(
+        start,
+        T_start,
+        material,
+        network,
+        exposure,
+        numerics,
+        t_end,
+        stop_when_burnt,
+        probes,
+        out,
+        probe_out,
+        m,
+        m_new,
+        formed,
+        k_old,
+        k_new,
+        used,
+        x,
+        T,
+        T_old,
+        T_new,
+        T_star,
+        C,
+        C_old,
+        d,
+        d0,
+        half_r,
+        source,
+        up,
+        right,
+        heat_old,
+        skin,
+    )
     status, steps, energy_error, mass_error = end
     return (
         status,

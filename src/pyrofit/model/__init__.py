@@ -1,0 +1,1 @@
+"""The description of material, sample, exposure and experiments, in words and units."""

@@ -1,0 +1,161 @@
+"""Components, their properties, and the reactions between them."""
+
+from typing import Annotated, Literal, Self
+
+from pydantic import Field, model_validator
+
+from pyrofit.errors import suggest
+from pyrofit.model.base import Number, Part
+
+REST = "rest"
+"""Mass fraction of the one component that makes up the remainder."""
+
+Fraction = Number | Literal["rest"]
+
+
+class Linear(Part):
+    """p(T) = value (1 + slope (T - T_ref))."""
+
+    value: Number = Field(description="p at the reference temperature, unit of the property")
+    slope_1_K: Number = Field(description="relative slope [1/K]")
+    reference_temperature_K: Number = Field(300.0, description="T_ref [K]")
+
+
+class PowerLaw(Part):
+    """p(T) = value (T / T_ref)^exponent."""
+
+    value: Number = Field(description="p at the reference temperature, unit of the property")
+    exponent: Number = Field(description="exponent [-]")
+    reference_temperature_K: Number = Field(300.0, description="T_ref [K]")
+
+
+class Table(Part):
+    """p(T), linear between given points, constant outside them."""
+
+    temperature_K: tuple[float, ...] = Field(description="increasing temperatures [K]")
+    value: tuple[Number, ...] = Field(description="p at those temperatures")
+
+    @model_validator(mode="after")
+    def _check(self) -> Self:
+        if len(self.temperature_K) != len(self.value) or len(self.value) < 2:
+            raise ValueError("temperature_K and value need the same length, at least 2")
+        if any(b <= a for a, b in zip(self.temperature_K, self.temperature_K[1:], strict=False)):
+            raise ValueError("temperature_K must increase")
+        return self
+
+
+Property = Annotated[
+    Number | Linear | PowerLaw | Table,
+    Field(description="a number, a parameter, or {value, slope_1_K}, {value, exponent}, a table"),
+]
+
+
+class Component(Part):
+    """One solid component."""
+
+    density_kg_m3: Number = Field(description="density of the pure component [kg/m3]")
+    conductivity_W_mK: Property = Field(description="thermal conductivity [W/(m K)]")
+    specific_heat_J_kgK: Property = Field(description="specific heat capacity [J/(kg K)]")
+    emissivity: Number = Field(0.9, description="surface emissivity = absorptivity [-]")
+    absorption_1_m: Number | None = Field(
+        None, description="in-depth absorption coefficient [1/m]; none = opaque"
+    )
+
+
+class Reaction(Part):
+    """reactant -> products + gas, r = A exp(-E/(R T)) m0 (m/m0)^n."""
+
+    reactant: str = Field(description="component that is consumed")
+    products: dict[str, Number] = Field(
+        default_factory=dict, description="solid yields [kg per kg of reactant]; the rest is gas"
+    )
+    E_J_mol: Number = Field(description="activation energy E [J/mol]")
+    A_1_s: Number | None = Field(None, description="pre-exponential factor A [1/s]")
+    reference_temperature_K: Number | None = Field(
+        None, description="temperature at which k is the reference rate, instead of A [K]"
+    )
+    reference_rate_1_s: Number | None = Field(None, description="k at that temperature [1/s]")
+    order: Number = Field(1.0, description="reaction order n [-]")
+    heat_of_reaction_J_kg: Number = Field(
+        0.0, description="heat of reaction per kg of reactant [J/kg], positive = endothermic"
+    )
+
+    @model_validator(mode="after")
+    def _check(self) -> Self:
+        reference = (self.reference_temperature_K is None, self.reference_rate_1_s is None)
+        if self.A_1_s is None and any(reference):
+            raise ValueError("give A_1_s, or reference_temperature_K with reference_rate_1_s")
+        if self.A_1_s is not None and not all(reference):
+            raise ValueError("give either A_1_s or the reference pair, not both")
+        return self
+
+
+class Material(Part):
+    """Components, reactions and the composition of the virgin material."""
+
+    components: dict[str, Component] = Field(description="solid components by name")
+    reactions: dict[str, Reaction] = Field(default_factory=dict, description="reactions by name")
+    composition: dict[str, Fraction] = Field(
+        description="mass fractions of the virgin material; one may be 'rest'"
+    )
+
+    @model_validator(mode="after")
+    def _check(self) -> Self:
+        check_composition(self.composition, self.components)
+        for name, reaction in self.reactions.items():
+            for used in (reaction.reactant, *reaction.products):
+                if used not in self.components:
+                    raise ValueError(
+                        f"reaction '{name}' uses the unknown component '{used}'. "
+                        + suggest(used, self.components)
+                    )
+            if reaction.reactant in reaction.products:
+                raise ValueError(f"reaction '{name}' forms its own reactant '{reaction.reactant}'")
+        opaque = {c.absorption_1_m is None for c in self.components.values()}
+        if len(opaque) == 2:
+            raise ValueError("give absorption_1_m for every component or for none")
+        self.reaction_order()
+        return self
+
+    def reaction_order(self) -> tuple[str, ...]:
+        """Return the reactions sorted so that what one forms reacts after it.
+
+        Raises
+        ------
+        ValueError
+            If reactions form a cycle.
+        """
+        done: list[str] = []
+        waiting = list(dict.fromkeys(r.reactant for r in self.reactions.values()))
+        while waiting:
+            for reactant in waiting:
+                producers = {r.reactant for r in self.reactions.values() if reactant in r.products}
+                if not producers & set(waiting):
+                    break
+            else:
+                raise ValueError(f"the reactions of {', '.join(waiting)} form a cycle")
+            waiting.remove(reactant)
+            done += [n for n, r in self.reactions.items() if r.reactant == reactant]
+        return tuple(done)
+
+
+def check_composition(
+    composition: dict[str, float | str], components: dict[str, Component]
+) -> None:
+    """Refuse mass fractions that cannot add up to one."""
+    for name, fraction in composition.items():
+        if name not in components:
+            raise ValueError(f"unknown component '{name}'. " + suggest(name, components))
+        if isinstance(fraction, float) and not 0.0 <= fraction <= 1.0:
+            raise ValueError(f"the mass fraction of '{name}' is {fraction:g}, not within 0 and 1")
+    rests = sum(fraction == REST for fraction in composition.values())
+    if rests > 1:
+        raise ValueError("only one component may be 'rest'")
+    numbers = [f for f in composition.values() if isinstance(f, float)]
+    if rests == 0:
+        if len(numbers) < len(composition):
+            raise ValueError("where a fraction is a parameter, one component must be 'rest'")
+        if abs(sum(numbers) - 1.0) > 1e-9:
+            raise ValueError(f"the mass fractions add up to {sum(numbers):g}, not to 1")
+    elif sum(numbers) > 1.0:
+        raise ValueError(f"the mass fractions add up to {sum(numbers):g}, above 1")

@@ -1,0 +1,66 @@
+"""Parameters: names for numbers of the description that are estimated or shared."""
+
+from typing import Self
+
+from pydantic import Field, model_validator
+
+from pyrofit.model.base import Part
+
+UNITS: dict[str, float] = {
+    "-": 1.0,
+    "kg/m3": 1.0,
+    "W/(m K)": 1.0,
+    "J/(kg K)": 1.0,
+    "kJ/(kg K)": 1e3,
+    "J/kg": 1.0,
+    "kJ/kg": 1e3,
+    "J/mol": 1.0,
+    "kJ/mol": 1e3,
+    "kJ/kmol": 1.0,
+    "1/s": 1.0,
+    "K": 1.0,
+    "m": 1.0,
+    "mm": 1e-3,
+    "1/m": 1.0,
+    "W/m2": 1.0,
+    "kW/m2": 1e3,
+    "W/(m2 K)": 1.0,
+    "W/(m2 K^(4/3))": 1.0,
+    "s": 1.0,
+    "1/K": 1.0,
+}
+"""Factor that takes a value in each unit to SI."""
+
+
+class Parameter(Part):
+    """A named number; bounds and value are in ``unit``."""
+
+    unit: str = Field(description="unit of value, lower and upper")
+    value: float | None = Field(None, description="value where the parameter is not estimated")
+    lower: float | None = Field(None, description="lower sampling limit")
+    upper: float | None = Field(None, description="upper sampling limit")
+    label: str = Field("", description="what it is, in words")
+
+    @model_validator(mode="after")
+    def _check(self) -> Self:
+        if self.unit not in UNITS:
+            raise ValueError(f"unknown unit '{self.unit}'; known: {', '.join(UNITS)}")
+        if (self.lower is None) != (self.upper is None):
+            raise ValueError("give both limits, lower and upper, or none")
+        if self.lower is not None and self.upper is not None and self.lower >= self.upper:
+            raise ValueError(f"lower ({self.lower:g}) must be below upper ({self.upper:g})")
+        if self.value is None and self.lower is None:
+            raise ValueError("give a value, or limits to estimate it within, or both")
+        return self
+
+    @property
+    def factor(self) -> float:
+        """Factor from ``unit`` to SI."""
+        return UNITS[self.unit]
+
+    @property
+    def bounds_si(self) -> tuple[float, float]:
+        """Sampling limits in SI units."""
+        if self.lower is None or self.upper is None:
+            raise ValueError("the parameter has no limits")
+        return self.lower * self.factor, self.upper * self.factor

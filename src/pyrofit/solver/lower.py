@@ -1,0 +1,192 @@
+"""From the description in words to the arrays of the kernels."""
+
+import math
+from collections.abc import Mapping
+
+import numpy as np
+
+from pyrofit.constants import GAS_CONSTANT
+from pyrofit.model import material as words
+from pyrofit.model.base import value_of
+from pyrofit.model.experiment import EmissivityDepth, FluxTable, Gasification, Side
+from pyrofit.solver.arrays import (
+    TABLE_TEMPERATURES_K,
+    Exposure,
+    FloatArray,
+    Material,
+    Network,
+    Surface,
+)
+
+Values = Mapping[str, float]
+
+
+def fractions(
+    composition: Mapping[str, float | str], names: list[str], values: Values
+) -> FloatArray:
+    """Return the mass fractions of the named components, shape (components,)."""
+    out = np.zeros(len(names))
+    rest = None
+    for name, fraction in composition.items():
+        if fraction == words.REST:
+            rest = names.index(name)
+        else:
+            out[names.index(name)] = value_of(fraction, values)
+    if rest is not None:
+        out[rest] = 1.0 - out.sum()
+    return out
+
+
+def property_table(prop: object, values: Values) -> FloatArray:
+    """Return p at the nodes of `TABLE_TEMPERATURES_K`, or one value for a constant."""
+    if isinstance(prop, float | str):
+        return np.array([value_of(prop, values)])
+    if isinstance(prop, words.Table):
+        points = [value_of(v, values) for v in prop.value]
+        return np.interp(TABLE_TEMPERATURES_K, prop.temperature_K, points)
+    assert isinstance(prop, words.Linear | words.PowerLaw)
+    value = value_of(prop.value, values)
+    reference = value_of(prop.reference_temperature_K, values)
+    if isinstance(prop, words.Linear):
+        slope = value_of(prop.slope_1_K, values)
+        return value * (1.0 + slope * (TABLE_TEMPERATURES_K - reference))
+    return value * (TABLE_TEMPERATURES_K / reference) ** value_of(prop.exponent, values)
+
+
+def _stack(tables: list[FloatArray]) -> FloatArray:
+    size = max(t.size for t in tables)
+    return np.array([t if t.size == size else np.full(size, t[0]) for t in tables])
+
+
+def lower_material(material: words.Material, values: Values) -> Material:
+    """Return the component properties as arrays, in the order of ``material.components``."""
+    parts = list(material.components.values())
+    density = np.array([value_of(c.density_kg_m3, values) for c in parts])
+    return Material(
+        specific_volume=1.0 / density,
+        conductivity=_stack([property_table(c.conductivity_W_mK, values) for c in parts]),
+        specific_heat=_stack([property_table(c.specific_heat_J_kgK, values) for c in parts]),
+        emissivity=np.array([value_of(c.emissivity, values) for c in parts]),
+        absorption=np.array([value_of(c.absorption_1_m or 0.0, values) for c in parts]),
+    )
+
+
+def rate_factor(reaction: words.Reaction, values: Values) -> float:
+    """Return A [1/s]: given, or k_ref exp(E/(R T_ref))."""
+    if reaction.A_1_s is not None:
+        return value_of(reaction.A_1_s, values)
+    assert reaction.reference_rate_1_s is not None
+    assert reaction.reference_temperature_K is not None
+    rate = value_of(reaction.reference_rate_1_s, values)
+    temperature = value_of(reaction.reference_temperature_K, values)
+    return rate * math.exp(value_of(reaction.E_J_mol, values) / (GAS_CONSTANT * temperature))
+
+
+def lower_network(material: words.Material, values: Values) -> Network:
+    """Return the reactions as arrays, sorted so that products react after their formation."""
+    names = list(material.components)
+    order = [material.reactions[name] for name in material.reaction_order()]
+    yields = np.zeros((len(order), len(names)))
+    for j, reaction in enumerate(order):
+        for product, nu in reaction.products.items():
+            yields[j, names.index(product)] = value_of(nu, values)
+    reactant = [names.index(r.reactant) for r in order]
+    orders = np.array([value_of(r.order, values) for r in order])
+    first_order = bool(np.all(orders == 1.0))
+    single = all(len(r.products) <= 1 for r in order) and len(set(reactant)) == len(order)
+    inert = not any(yields[:, i].any() for i in reactant)
+    residue = [int(np.argmax(row)) for row in yields]
+    return Network(
+        reactant=np.array(reactant, dtype=np.int64),
+        rate_factor=np.array([rate_factor(r, values) for r in order]),
+        activation_temperature=np.array([value_of(r.E_J_mol, values) for r in order])
+        / GAS_CONSTANT,
+        order=orders,
+        heat=np.array([value_of(r.heat_of_reaction_J_kg, values) for r in order]),
+        yields=yields,
+        gas=1.0 - yields.sum(axis=1),
+        first_order=first_order,
+        plain=first_order and single and inert,
+        residue=np.array(residue, dtype=np.int64),
+        residue_yield=np.array([row[i] for row, i in zip(yields, residue, strict=True)]),
+    )
+
+
+def _surface(side: Side, values: Values) -> Surface:
+    return Surface(
+        h=value_of(side.h_W_m2K, values),
+        h_cube_root=value_of(side.h_cube_root_W_m2K43, values),
+        gas_temperature=value_of(side.gas_temperature_K, values),
+        wall_temperature=value_of(side.wall_temperature_K, values),
+    )
+
+
+def lower_exposure(experiment: Gasification, material: words.Material, values: Values) -> Exposure:
+    """Return what acts on the sample as arrays."""
+    flux = experiment.front.flux_W_m2
+    if isinstance(flux, FluxTable):
+        times = np.array(flux.time_s)
+        fluxes = np.array([value_of(q, values) for q in flux.flux_W_m2])
+    else:
+        times, fluxes = np.zeros(1), np.array([value_of(flux, values)])
+    foil = experiment.sample.foil
+    capacity = 0.0
+    if foil is not None:
+        capacity = math.prod(
+            value_of(n, values)
+            for n in (foil.thickness_m, foil.density_kg_m3, foil.specific_heat_J_kgK)
+        )
+    return Exposure(
+        front=_surface(experiment.front, values),
+        back=_surface(experiment.back, values),
+        flux_time=times,
+        flux=fluxes,
+        back_emissivity=value_of(experiment.back.emissivity, values),
+        foil_capacity=capacity,
+        foil_opaque=foil is not None,
+        mixing_depth=_mixing_depth(experiment, material, values),
+    )
+
+
+def _mixing_depth(experiment: Gasification, material: words.Material, values: Values) -> float:
+    depth = experiment.sample.emissivity_depth
+    if not isinstance(depth, EmissivityDepth):
+        return value_of(depth, values)
+    names = list(material.components)
+    composition = experiment.sample.layers[0].composition or material.composition
+    share = fractions(composition, names, values)
+    arrays = lower_material(material, values)
+    volume = share * arrays.specific_volume
+    k = float(volume @ _at(arrays.conductivity, experiment, values)) / volume.sum()
+    rho_c = float(share @ _at(arrays.specific_heat, experiment, values)) / volume.sum()
+    return value_of(depth.cell_size_factor, values) * math.sqrt(k / rho_c)
+
+
+def _at(table: FloatArray, experiment: Gasification, values: Values) -> FloatArray:
+    if table.shape[1] == 1:
+        return table[:, 0]
+    T = value_of(experiment.sample.initial_temperature_K, values)
+    return np.array([np.interp(T, TABLE_TEMPERATURES_K, row) for row in table])
+
+
+def lower_cells(
+    experiment: Gasification,
+    material: words.Material,
+    arrays: Material,
+    values: Values,
+    cells: int,
+) -> FloatArray:
+    """Return the initial masses [kg/m2], shape (cells, components), front first.
+
+    The cells are shared out by thickness, at least two to a layer, equally thick in a layer.
+    """
+    names = list(material.components)
+    layers = experiment.sample.layers
+    thickness = [value_of(layer.thickness_m, values) for layer in layers]
+    rows = []
+    for layer, size in zip(layers, thickness, strict=True):
+        count = cells if len(layers) == 1 else max(2, round(cells * size / sum(thickness)))
+        share = fractions(layer.composition or material.composition, names, values)
+        mass = size / float(share @ arrays.specific_volume)
+        rows += [share * mass / count] * count
+    return np.array(rows)
