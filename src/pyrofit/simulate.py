@@ -1,7 +1,7 @@
 """Curves of an experiment for given parameter values."""
 
 from collections.abc import Mapping
-from dataclasses import dataclass, field
+from dataclasses import dataclass
 
 import numpy as np
 from pydantic import Field
@@ -51,7 +51,6 @@ class Curves:
     steps: int = 0
     energy_error: float = 0.0
     mass_error: float = 0.0
-    extra: Mapping[str, FloatArray] = field(default_factory=dict)
 
 
 def simulate_tga(
@@ -157,13 +156,17 @@ def _sample(name: str, request: Request, trace: list[FloatArray], initial: float
     if name == "mlr":
         half = 0.5 * request.average_s
         if half == 0.0:
-            return held_rate(time, released, rate, at)
+            return _floats(held_rate(time, released, rate, at))
         start = np.maximum(at - half, 0.0)
         gained = held(time, released, rate, at + half) - held(time, released, rate, start)
-        return gained / (at + half - start)
+        return _floats(gained / (at + half - start))
     if name == "mass":
-        return initial - held(time, released, rate, at)
+        return _floats(initial - held(time, released, rate, at))
     lines = {"front_temperature": front, "back_temperature": back, "thickness": thickness}
     if name.startswith("probe_"):
         lines[name] = np.ascontiguousarray(probes[:, int(name[6:])])
-    return held(time, lines[name], slopes(time, lines[name]), at)
+    return _floats(held(time, lines[name], slopes(time, lines[name]), at))
+
+
+def _floats(values: object) -> FloatArray:
+    return np.asarray(values, dtype=np.float64)

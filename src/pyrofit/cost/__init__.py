@@ -1,7 +1,7 @@
 """How far a model is from its target: Eqs 1-5 and Tables 1-2 of Lauer et al.
 
-`target` holds the measured curve, `normalisation` Table 1, `distances` Table 2, `kinds` Eqs 1-4
-(one function per cost) with the registry `KINDS`, `weighted` Eq. 5.
+`target` holds the measured curve, `normalisation` Table 1, `distances` Table 2, `single_point`
+Eqs 1-3 and `whole_curve` Eq. 4 (one function per cost), `kinds` their registry, `weighted` Eq. 5.
 """
 
 from pyrofit.cost.kinds import KINDS

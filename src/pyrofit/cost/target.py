@@ -1,6 +1,7 @@
 """The measured curve a model is compared with."""
 
 import math
+from collections.abc import Callable
 from dataclasses import dataclass
 
 import numpy as np
@@ -9,6 +10,9 @@ from numpy.typing import NDArray
 from pyrofit.errors import CostError
 
 FloatArray = NDArray[np.float64]
+
+Residuals = Callable[[FloatArray], FloatArray]
+"""From the model at the target's times to residuals whose norm is the cost."""
 
 _FEWEST_POINTS = 2
 

@@ -6,8 +6,8 @@ from dataclasses import dataclass, field
 from inspect import Parameter, signature
 from typing import Any
 
-from pyrofit.cost.kinds import KINDS, Residuals
-from pyrofit.cost.target import FloatArray, Target
+from pyrofit.cost.kinds import KINDS
+from pyrofit.cost.target import FloatArray, Residuals, Target
 from pyrofit.errors import CostError, suggest
 
 
@@ -104,8 +104,8 @@ def make_term(kind: str, target: Target, **options: Any) -> Term:
     Examples
     --------
     >>> import numpy as np
-    >>> term = make_term("RMSE", Target([0, 1], [2, 2]), normalisation="mean")
-    >>> term(np.array([3.0, 1.0]))
+    >>> term = make_term("RMSE", Target([0, 1, 2, 3], [2, 2, 2, 2]), normalisation="mean")
+    >>> term(np.array([3.0, 1.0, 3.0, 1.0]))
     0.5
     """
     if kind not in KINDS:

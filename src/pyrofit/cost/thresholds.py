@@ -40,14 +40,15 @@ def first_passage(
         return np.array([math.inf])
     excess = sign * (model - level)
     met = excess > 0.0
-    begins = np.flatnonzero(met[1:] & ~met[:-1])
-    if begins.size:
-        offset = _crossings(time_s, excess, begins[:1])[0] - t0
+    begins = met[1:] > met[:-1]
+    first = int(begins.argmax())
+    if begins[first]:
+        offset = _crossing(time_s, excess, first) - t0
     elif met[0]:
         # PAPER: a condition met from the first point to its end was never passed; it holds since
         # t_min. A model that meets it at first and passes it later is judged by the passage, else
         # every mass loss rate, which starts at 0, would "fall below" at t_min.
-        offset = time_s[0] - t0
+        offset = float(time_s[0]) - t0
     else:
         offset = farthest(time_s, t0)
     return np.array([offset / t0])
@@ -67,14 +68,12 @@ def nearest_time(
     if not np.isfinite(model).all():
         return np.array([math.inf])
     excess = sign * (model - level)
-    met = excess > 0.0
     if np.interp(t0, time_s, excess) > 0.0:
         return np.array([0.0])
-    edges = _crossings(time_s, excess, np.flatnonzero(met[1:] != met[:-1]))
-    offsets = np.concatenate([time_s[met], edges]) - t0
-    if not offsets.size:
-        return np.array([farthest(time_s, t0) / t0])
-    return np.array([offsets[np.abs(offsets).argmin()] / t0])
+    met = excess > 0.0
+    changes = np.flatnonzero(met[1:] != met[:-1])  # t0 is outside, so the nearest is a change
+    offsets = [_crossing(time_s, excess, i) - t0 for i in changes.tolist()]
+    return np.array([min(offsets, key=abs, default=farthest(time_s, t0)) / t0])
 
 
 def farthest(time_s: FloatArray, t0: float) -> float:
@@ -87,8 +86,8 @@ def farthest(time_s: FloatArray, t0: float) -> float:
     return float(max(abs(time_s[0] - t0), abs(time_s[-1] - t0)))
 
 
-def _crossings(time_s: FloatArray, excess: FloatArray, at: np.ndarray) -> FloatArray:
-    """Interpolate the zeros of the excess between the points `at` and the next ones."""
-    before, after = excess[at], excess[at + 1]
-    crossings: FloatArray = time_s[at] + (time_s[at + 1] - time_s[at]) * before / (before - after)
-    return crossings
+def _crossing(time_s: FloatArray, excess: FloatArray, i: int) -> float:
+    """Interpolate the zero of the excess between points i and i + 1."""
+    start, end = float(time_s[i]), float(time_s[i + 1])
+    before, after = float(excess[i]), float(excess[i + 1])
+    return start + (end - start) * before / (before - after)

@@ -33,9 +33,9 @@ class WeightedSum:
     Examples
     --------
     >>> from pyrofit.cost import Target, make_term
-    >>> term = make_term("RMSE", Target([0, 1], [2, 2]))
+    >>> term = make_term("RMSE", Target([0, 1, 2, 3], [2, 2, 2, 2]))
     >>> both = WeightedSum([(1.0, term), (0.5, term)])
-    >>> models = np.array([3.0, 3.0]), np.array([2.0, 2.0])
+    >>> models = np.full(4, 3.0), np.full(4, 2.0)
     >>> both.value(models), both.value(models[::-1])
     (1.0, 0.5)
     """

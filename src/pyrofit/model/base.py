@@ -1,22 +1,59 @@
-"""What every part of a description shares."""
+"""What every part of a description shares: frozen, checked, numbers with rules."""
 
-from collections.abc import Iterator, Mapping
-from typing import Annotated
+import math
+from collections.abc import Callable, Iterator, Mapping
+from dataclasses import dataclass
+from typing import Annotated, Any
 
-from pydantic import BaseModel, ConfigDict, Field
+from pydantic import BaseModel, BeforeValidator, ConfigDict, model_validator
 
-Number = Annotated[
-    float | str,
-    Field(union_mode="left_to_right", description="a number, or the name of a parameter"),
-]
+from pyrofit.errors import suggest
 
 
 class Part(BaseModel):
-    """A frozen piece of a description; unknown keys are errors."""
+    """A frozen piece of a description; unknown keys are errors that name the nearest one."""
 
-    model_config = ConfigDict(
-        frozen=True, extra="forbid", allow_inf_nan=False, protected_namespaces=()
-    )
+    model_config = ConfigDict(frozen=True, extra="forbid", allow_inf_nan=False)
+
+    @model_validator(mode="before")
+    @classmethod
+    def _known_keys(cls, given: Any) -> Any:
+        if isinstance(given, dict):
+            for key in given:
+                if key not in cls.model_fields:
+                    raise ValueError(f"unknown key '{key}'. {suggest(str(key), cls.model_fields)}")
+        return given
+
+
+@dataclass(frozen=True)
+class Rule:
+    """A condition on a number, and on the value and limits of a parameter in its place."""
+
+    holds: Callable[[float], bool]
+    text: str
+
+
+POSITIVE = Rule(lambda x: x > 0.0, "must be above 0")
+NOT_NEGATIVE = Rule(lambda x: x >= 0.0, "must not be negative")
+FRACTION = Rule(lambda x: 0.0 <= x <= 1.0, "must lie within 0 and 1")
+ANY = Rule(math.isfinite, "must be finite")
+
+
+def _number(given: Any) -> Any:
+    if isinstance(given, bool) or not isinstance(given, int | float | str):
+        raise ValueError(f"{given!r} is neither a number nor the name of a parameter")
+    if isinstance(given, str):
+        if not given.isidentifier():
+            raise ValueError(f"'{given}' is neither a number nor the name of a parameter")
+        return given
+    return float(given)
+
+
+Number = Annotated[float | str, BeforeValidator(_number), ANY]
+"""A number, or the name of a parameter."""
+Positive = Annotated[Number, POSITIVE]
+NotNegative = Annotated[Number, NOT_NEGATIVE]
+Fraction = Annotated[Number, FRACTION]
 
 
 def value_of(number: float | str, values: Mapping[str, float]) -> float:
@@ -24,23 +61,29 @@ def value_of(number: float | str, values: Mapping[str, float]) -> float:
     return values[number] if isinstance(number, str) else number
 
 
-def names_in(part: object) -> Iterator[str]:
-    """Yield the names of the parameters that stand where a `Number` may stand."""
+def numbers(part: object, path: str = "") -> Iterator[tuple[str, float | str, tuple[Rule, ...]]]:
+    """Yield place, number or parameter name, and rules of every `Number` of a description."""
     if isinstance(part, Part):
         for name, field in type(part).model_fields.items():
+            place = f"{path}.{name}" if path else name
             value = getattr(part, name)
-            if isinstance(value, str):
-                if field.annotation is not str and _is_number(field.metadata, field.annotation):
-                    yield value
-            else:
-                yield from names_in(value)
-    elif isinstance(part, dict):
-        for value in part.values():
-            yield from names_in(value)
-    elif isinstance(part, list | tuple):
-        for value in part:
-            yield from names_in(value)
+            rules = tuple(m for m in field.metadata if isinstance(m, Rule))
+            for where, leaf in _leaves(value, place):
+                if isinstance(leaf, Part):
+                    yield from numbers(leaf, where)
+                elif rules and isinstance(leaf, float | str):
+                    yield where, leaf, rules
+    elif isinstance(part, Mapping):
+        for key, value in part.items():
+            yield from numbers(value, f"{path}.{key}" if path else str(key))
 
 
-def _is_number(metadata: list[object], annotation: object) -> bool:
-    return "float" in str(annotation)
+def _leaves(value: object, place: str) -> Iterator[tuple[str, object]]:
+    if isinstance(value, Mapping):
+        for key, item in value.items():
+            yield from _leaves(item, f"{place}.{key}")
+    elif isinstance(value, tuple):
+        for i, item in enumerate(value):
+            yield from _leaves(item, f"{place}.{i}")
+    else:
+        yield place, value

@@ -4,17 +4,26 @@ from typing import Annotated, Literal, Self
 
 from pydantic import Field, model_validator
 
-from pyrofit.model.base import Number, Part
-from pyrofit.model.material import Fraction
+from pyrofit.model.base import (
+    NOT_NEGATIVE,
+    POSITIVE,
+    Fraction,
+    NotNegative,
+    Number,
+    Part,
+    Positive,
+)
 
-Positive = Annotated[float, Field(gt=0.0)]
+AboveZero = Annotated[float, Field(gt=0.0)]
 
 
 class FluxTable(Part):
     """q_ext(t), linear between given points; two equal times are a step."""
 
     time_s: tuple[float, ...] = Field(description="times [s], not decreasing, from 0")
-    flux_W_m2: tuple[Number, ...] = Field(description="flux at those times [W/m2]")
+    flux_W_m2: Annotated[tuple[Number, ...], NOT_NEGATIVE] = Field(
+        description="flux at those times [W/m2]"
+    )
 
     @model_validator(mode="after")
     def _check(self) -> Self:
@@ -30,12 +39,12 @@ class FluxTable(Part):
 class Side(Part):
     """Heat exchange of one side with its surroundings."""
 
-    h_W_m2K: Number = Field(0.0, description="heat transfer coefficient [W/(m2 K)]")
-    h_cube_root_W_m2K43: Number = Field(
+    h_W_m2K: NotNegative = Field(0.0, description="heat transfer coefficient [W/(m2 K)]")
+    h_cube_root_W_m2K43: NotNegative = Field(
         0.0, description="C of an additional h = C |T - T_gas|^(1/3) [W/(m2 K^(4/3))]"
     )
-    gas_temperature_K: Number = Field(293.15, description="gas temperature for convection [K]")
-    wall_temperature_K: Number = Field(
+    gas_temperature_K: Positive = Field(293.15, description="gas temperature for convection [K]")
+    wall_temperature_K: Positive = Field(
         293.15, description="temperature of the radiating surroundings [K]"
     )
 
@@ -43,28 +52,30 @@ class Side(Part):
 class Front(Side):
     """The irradiated side."""
 
-    flux_W_m2: Number | FluxTable = Field(description="external radiant flux [W/m2]")
+    flux_W_m2: Annotated[Number | FluxTable, NOT_NEGATIVE] = Field(
+        description="external radiant flux [W/m2]"
+    )
 
 
 class Back(Side):
     """The other side."""
 
-    emissivity: Number = Field(0.0, description="emissivity of the back face or foil [-]")
+    emissivity: Fraction = Field(0.0, description="emissivity of the back face or foil [-]")
 
 
 class Foil(Part):
     """A thin, well conducting foil on the back: a lumped heat capacity."""
 
-    thickness_m: Number = Field(description="thickness [m]")
-    density_kg_m3: Number = Field(description="density [kg/m3]")
-    specific_heat_J_kgK: Number = Field(description="specific heat capacity [J/(kg K)]")
+    thickness_m: Positive = Field(description="thickness [m]")
+    density_kg_m3: Positive = Field(description="density [kg/m3]")
+    specific_heat_J_kgK: Positive = Field(description="specific heat capacity [J/(kg K)]")
 
 
 class Layer(Part):
     """A layer of the sample, front first."""
 
-    thickness_m: Number = Field(description="initial thickness [m]")
-    composition: dict[str, Fraction] | None = Field(
+    thickness_m: Positive = Field(description="initial thickness [m]")
+    composition: dict[str, float | str] | None = Field(
         None, description="mass fractions, where they differ from the material's"
     )
 
@@ -75,7 +86,7 @@ class EmissivityDepth(Part):
     As FDS's surface cell: delta = cell_size_factor sqrt(k/(rho c) 1 s).
     """
 
-    cell_size_factor: Number = Field(description="CELL_SIZE_FACTOR of the FDS run [-]")
+    cell_size_factor: Positive = Field(description="CELL_SIZE_FACTOR of the FDS run [-]")
 
 
 class Sample(Part):
@@ -83,10 +94,10 @@ class Sample(Part):
 
     layers: tuple[Layer, ...] = Field(min_length=1, description="layers, front first")
     foil: Foil | None = Field(None, description="foil on the back")
-    emissivity_depth: Number | EmissivityDepth = Field(
+    emissivity_depth: Annotated[Number | EmissivityDepth, POSITIVE] = Field(
         1e-5, description="depth [m] over which the surface emissivity is averaged by volume"
     )
-    initial_temperature_K: Number = Field(293.15, description="initial temperature [K]")
+    initial_temperature_K: Positive = Field(293.15, description="initial temperature [K]")
 
 
 class Signal(Part):
@@ -103,21 +114,25 @@ class Signal(Part):
     units: dict[str, str] = Field(
         default_factory=dict, description="units of these columns where the file has none"
     )
-    uncertainty: Positive | None = Field(
+    uncertainty: AboveZero | None = Field(
         None, description="constant uncertainty, SI unit of the quantity"
     )
     uncertainty_meaning: str = Field("", description="what the uncertainty is, in words")
     average_s: float = Field(
         0.0, ge=0.0, description="width of the bins the values are averages over [s]; 0 = points"
     )
-    sample_mass_kg: Positive | None = Field(None, description="initial sample mass [kg]")
-    sample_area_m2: Positive | None = Field(None, description="exposed area [m2]")
-    until_K: Positive | None = Field(None, description="TGA: use points below this temperature [K]")
-    until_s: Positive | None = Field(None, description="use points before this time [s]")
+    sample_mass_kg: AboveZero | None = Field(None, description="initial sample mass [kg]")
+    sample_area_m2: AboveZero | None = Field(None, description="exposed area [m2]")
+    until_K: AboveZero | None = Field(
+        None, description="TGA: use points below this temperature [K]"
+    )
+    until_s: AboveZero | None = Field(None, description="use points before this time [s]")
     noise: float = Field(
         0.0, ge=0.0, description="synthetic: standard deviation of the noise, SI unit"
     )
-    every: Positive = Field(1.0, description="synthetic: spacing of the points [s], or [K] for TGA")
+    every: AboveZero = Field(
+        1.0, description="synthetic: spacing of the points [s], or [K] for TGA"
+    )
 
 
 class Experiment(Part):
@@ -130,12 +145,12 @@ class Tga(Experiment):
     """Thermogravimetric analysis."""
 
     kind: Literal["tga"]
-    heating_rate_K_min: Positive = Field(description="nominal heating rate [K/min]")
+    heating_rate_K_min: AboveZero = Field(description="nominal heating rate [K/min]")
     program: Literal["nominal", "measured"] = Field(
         "measured", description="temperature over time: the measured one, or T0 + rate t"
     )
-    start_temperature_K: Positive = Field(300.0, description="synthetic: first temperature [K]")
-    end_temperature_K: Positive = Field(850.0, description="synthetic: last temperature [K]")
+    start_temperature_K: AboveZero = Field(300.0, description="synthetic: first temperature [K]")
+    end_temperature_K: AboveZero = Field(850.0, description="synthetic: last temperature [K]")
     signals: dict[Literal["mass_fraction"], Signal] = Field(description="measured quantities")
 
 
@@ -149,7 +164,7 @@ class Gasification(Experiment):
     signals: dict[Literal["mlr", "back_temperature"], Signal] = Field(
         description="measured quantities"
     )
-    duration_s: Positive = Field(1000.0, description="synthetic: length of the record [s]")
+    duration_s: AboveZero = Field(1000.0, description="synthetic: length of the record [s]")
 
 
 AnyExperiment = Annotated[Tga | Gasification, Field(discriminator="kind")]

@@ -1,39 +1,37 @@
 """Components, their properties, and the reactions between them."""
 
-from typing import Annotated, Literal, Self
+from typing import Annotated, Any, Self
 
-from pydantic import Field, model_validator
+from pydantic import Discriminator, Field, Tag, model_validator
 
 from pyrofit.errors import suggest
-from pyrofit.model.base import Number, Part
+from pyrofit.model.base import FRACTION, POSITIVE, Fraction, NotNegative, Number, Part, Positive
 
 REST = "rest"
 """Mass fraction of the one component that makes up the remainder."""
-
-Fraction = Number | Literal["rest"]
 
 
 class Linear(Part):
     """p(T) = value (1 + slope (T - T_ref))."""
 
-    value: Number = Field(description="p at the reference temperature, unit of the property")
+    value: Positive = Field(description="p at the reference temperature, unit of the property")
     slope_1_K: Number = Field(description="relative slope [1/K]")
-    reference_temperature_K: Number = Field(300.0, description="T_ref [K]")
+    reference_temperature_K: Positive = Field(300.0, description="T_ref [K]")
 
 
 class PowerLaw(Part):
     """p(T) = value (T / T_ref)^exponent."""
 
-    value: Number = Field(description="p at the reference temperature, unit of the property")
+    value: Positive = Field(description="p at the reference temperature, unit of the property")
     exponent: Number = Field(description="exponent [-]")
-    reference_temperature_K: Number = Field(300.0, description="T_ref [K]")
+    reference_temperature_K: Positive = Field(300.0, description="T_ref [K]")
 
 
 class Table(Part):
     """p(T), linear between given points, constant outside them."""
 
     temperature_K: tuple[float, ...] = Field(description="increasing temperatures [K]")
-    value: tuple[Number, ...] = Field(description="p at those temperatures")
+    value: Annotated[tuple[Number, ...], POSITIVE] = Field(description="p at those temperatures")
 
     @model_validator(mode="after")
     def _check(self) -> Self:
@@ -44,20 +42,34 @@ class Table(Part):
         return self
 
 
+def _form(given: Any) -> str:
+    keys = given if isinstance(given, dict) else getattr(type(given), "model_fields", None)
+    if keys is None:
+        return "number"
+    if "temperature_K" in keys:
+        return "table"
+    return "power law" if "exponent" in keys else "linear"
+
+
 Property = Annotated[
-    Number | Linear | PowerLaw | Table,
-    Field(description="a number, a parameter, or {value, slope_1_K}, {value, exponent}, a table"),
+    Annotated[Number, Tag("number")]
+    | Annotated[Linear, Tag("linear")]
+    | Annotated[PowerLaw, Tag("power law")]
+    | Annotated[Table, Tag("table")],
+    Discriminator(_form),
+    POSITIVE,
 ]
+"""A number or parameter; {value, slope_1_K}; {value, exponent}; {temperature_K, value}."""
 
 
 class Component(Part):
     """One solid component."""
 
-    density_kg_m3: Number = Field(description="density of the pure component [kg/m3]")
+    density_kg_m3: Positive = Field(description="density of the pure component [kg/m3]")
     conductivity_W_mK: Property = Field(description="thermal conductivity [W/(m K)]")
     specific_heat_J_kgK: Property = Field(description="specific heat capacity [J/(kg K)]")
-    emissivity: Number = Field(0.9, description="surface emissivity = absorptivity [-]")
-    absorption_1_m: Number | None = Field(
+    emissivity: Fraction = Field(0.9, description="surface emissivity = absorptivity [-]")
+    absorption_1_m: Annotated[Number | None, POSITIVE] = Field(
         None, description="in-depth absorption coefficient [1/m]; none = opaque"
     )
 
@@ -66,16 +78,20 @@ class Reaction(Part):
     """reactant -> products + gas, r = A exp(-E/(R T)) m0 (m/m0)^n."""
 
     reactant: str = Field(description="component that is consumed")
-    products: dict[str, Number] = Field(
+    products: Annotated[dict[str, Number], FRACTION] = Field(
         default_factory=dict, description="solid yields [kg per kg of reactant]; the rest is gas"
     )
-    E_J_mol: Number = Field(description="activation energy E [J/mol]")
-    A_1_s: Number | None = Field(None, description="pre-exponential factor A [1/s]")
-    reference_temperature_K: Number | None = Field(
+    E_J_mol: NotNegative = Field(description="activation energy E [J/mol]")
+    A_1_s: Annotated[Number | None, POSITIVE] = Field(
+        None, description="pre-exponential factor A [1/s]"
+    )
+    reference_temperature_K: Annotated[Number | None, POSITIVE] = Field(
         None, description="temperature at which k is the reference rate, instead of A [K]"
     )
-    reference_rate_1_s: Number | None = Field(None, description="k at that temperature [1/s]")
-    order: Number = Field(1.0, description="reaction order n [-]")
+    reference_rate_1_s: Annotated[Number | None, POSITIVE] = Field(
+        None, description="k at that temperature [1/s]"
+    )
+    order: NotNegative = Field(1.0, description="reaction order n [-]")
     heat_of_reaction_J_kg: Number = Field(
         0.0, description="heat of reaction per kg of reactant [J/kg], positive = endothermic"
     )
@@ -95,7 +111,7 @@ class Material(Part):
 
     components: dict[str, Component] = Field(description="solid components by name")
     reactions: dict[str, Reaction] = Field(default_factory=dict, description="reactions by name")
-    composition: dict[str, Fraction] = Field(
+    composition: dict[str, float | str] = Field(
         description="mass fractions of the virgin material; one may be 'rest'"
     )
 

@@ -1,0 +1,1 @@
+"""Estimation of parameters: the problem, and the optimisers that solve it."""

@@ -1,0 +1,70 @@
+"""Multistart bounded least squares on the same cost, to see where SCE-UA stops short."""
+
+from dataclasses import dataclass
+
+import numpy as np
+from scipy.optimize import least_squares
+
+from pyrofit.estimate.problem import Problem
+from pyrofit.solver.arrays import FloatArray
+
+STEP = 1e-3
+"""Step of the difference quotients, as a fraction of the limits' distance."""
+
+
+@dataclass(frozen=True)
+class Start:
+    """Where one start ended."""
+
+    cost: float
+    values: FloatArray
+    calls: int
+    at_bound: tuple[str, ...]
+
+
+def multistart(problem: Problem, starts: int, seed: int) -> list[Start]:
+    """Minimise the residuals of a cost from random starts; best first.
+
+    Trust-region reflective least squares (Branch, Coleman, Li 1999,
+    doi 10.1137/S1064827595289108) on parameters scaled to [0, 1] by their limits.
+
+    Parameters
+    ----------
+    problem
+        What to minimise.
+    starts
+        Number of starts, drawn uniformly within the limits.
+    seed
+        Seed of the draws.
+
+    Returns
+    -------
+    list of Start
+        Sorted by cost. The cost is the problem's; with several terms the minimised sum of squares
+        is not the same function.
+    """
+    rng = np.random.default_rng(seed)
+    draws = rng.uniform(0.05, 0.95, size=(starts, len(problem.names)))
+    return sorted((_descend(problem, u) for u in draws), key=lambda s: s.cost)
+
+
+def _descend(problem: Problem, u: FloatArray) -> Start:
+    span = problem.upper - problem.lower
+    calls = 0
+
+    def residuals(v: FloatArray) -> FloatArray:
+        nonlocal calls
+        calls += 1
+        return problem.residuals(problem.lower + v * span)
+
+    found = least_squares(
+        residuals, u, bounds=(0.0, 1.0), diff_step=STEP, xtol=1e-7, ftol=1e-7, max_nfev=200
+    )
+    values = problem.lower + np.clip(found.x, 0.0, 1.0) * span
+    near = (found.x < STEP) | (found.x > 1.0 - STEP)
+    return Start(
+        cost=problem.evaluate(values).cost,
+        values=values,
+        calls=calls + 1,
+        at_bound=tuple(n for n, b in zip(problem.names, near, strict=True) if b),
+    )

@@ -1,0 +1,202 @@
+"""The problem that every optimiser solves: parameter values in, cost out."""
+
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
+
+import numpy as np
+import pandas as pd
+
+from pyrofit.config import Study, TermSpec
+from pyrofit.cost import Target, WeightedSum, make_term
+from pyrofit.data.series import UNCERTAINTY_COLUMN, VALUE_COLUMN
+from pyrofit.model.experiment import Gasification, Tga
+from pyrofit.model.material import Material
+from pyrofit.simulate import (
+    Accuracy,
+    Curves,
+    Request,
+    simulate_gasification,
+    simulate_tga,
+)
+from pyrofit.solver.arrays import FloatArray, Status
+
+FAILED_COST = 1e12
+"""Cost of a run that did not finish: finite, and worse than any run that did."""
+
+Measurements = Mapping[tuple[str, str], pd.DataFrame]
+"""Measured series by (experiment, signal)."""
+
+
+@dataclass(frozen=True)
+class Evaluation:
+    """Cost of one parameter set, its terms, and how the simulation ended."""
+
+    cost: float
+    parts: tuple[float, ...]
+    status: Status
+
+
+@dataclass(frozen=True)
+class _Run:
+    """One simulation and the terms that look at it."""
+
+    experiment: Tga | Gasification
+    requests: dict[str, Request]
+
+
+@dataclass(frozen=True)
+class Problem:
+    """Estimation of ``names`` within ``lower`` and ``upper`` (SI units) by a cost, Eq. 5."""
+
+    names: tuple[str, ...]
+    lower: FloatArray
+    upper: FloatArray
+    material: Material
+    fixed: Mapping[str, float]
+    runs: Mapping[str, _Run]
+    picks: tuple[tuple[str, str, FloatArray], ...]
+    cost: WeightedSum
+    accuracy: Accuracy
+
+    def simulate(self, x: FloatArray) -> tuple[Status, list[FloatArray]]:
+        """Return the model at each term's target; shape of ``x``: (parameters,), SI units."""
+        values = {**self.fixed, **dict(zip(self.names, x.tolist(), strict=True))}
+        curves: dict[str, Curves] = {}
+        for name, run in self.runs.items():
+            curves[name] = _simulate(run, self.material, values, self.accuracy)
+            if not curves[name].status.finished:
+                return curves[name].status, []
+        models = [curves[name].signals[signal][index] for name, signal, index in self.picks]
+        return Status.OK, models
+
+    def evaluate(self, x: FloatArray) -> Evaluation:
+        """Return the cost of a parameter set; a failed run costs `FAILED_COST`."""
+        status, models = self.simulate(x)
+        if status.finished:
+            parts = self.cost.parts(models)
+            total = float(sum(parts))
+            if np.isfinite(total):
+                return Evaluation(total, tuple(parts), status)
+            status = Status.NON_FINITE
+        return Evaluation(FAILED_COST, (FAILED_COST,) * len(self.picks), status)
+
+    def residuals(self, x: FloatArray) -> FloatArray:
+        """Return the residuals of the same cost for a least-squares optimiser."""
+        status, models = self.simulate(x)
+        if status.finished:
+            residuals = self.cost.residuals(models)
+            if np.all(np.isfinite(residuals)):
+                return residuals
+        sizes = [term.target.value.size for weight, term in self.cost.terms if weight > 0.0]
+        return np.full(sum(sizes), 1e3)
+
+
+def _simulate(
+    run: _Run, material: Material, values: Mapping[str, float], accuracy: Accuracy
+) -> Curves:
+    if isinstance(run.experiment, Tga):
+        request = run.requests["mass_fraction"]
+        return simulate_tga(run.experiment, material, values, request, accuracy)
+    return simulate_gasification(run.experiment, material, values, run.requests, accuracy)
+
+
+def target_of(frame: pd.DataFrame, signal: str) -> Target:
+    """Return the measured series as the target of a cost."""
+    sigma = UNCERTAINTY_COLUMN[signal]
+    return Target(
+        frame["time_s"].to_numpy(float),
+        frame[VALUE_COLUMN[signal]].to_numpy(float),
+        frame[sigma].to_numpy(float) if sigma in frame else None,
+    )
+
+
+def request_for(
+    experiment: Tga | Gasification, signal: str, frame: pd.DataFrame, times: FloatArray
+) -> Request:
+    """Return what a simulation is asked for at the given times of a measured signal."""
+    if isinstance(experiment, Tga):
+        return Request(times, temperature_K=program(experiment, frame, times))
+    return Request(times, experiment.signals[signal].average_s)  # type: ignore[index]
+
+
+def program(experiment: Tga, frame: pd.DataFrame, times: FloatArray) -> FloatArray:
+    """Return T [K] at the given times: the measured one, or T0 + rate (t - t0)."""
+    measured = frame["time_s"].to_numpy(float)
+    temperature = frame["temperature_K"].to_numpy(float)
+    if experiment.program == "measured":
+        return np.interp(times, measured, temperature)
+    rise = experiment.heating_rate_K_min / 60.0 * (times - measured[0])
+    return np.asarray(temperature[0] + rise, dtype=np.float64)
+
+
+def make_problem(
+    study: Study,
+    estimate: Sequence[str],
+    specs: Sequence[TermSpec],
+    measurements: Measurements,
+    material: Material,
+    fixed: Mapping[str, float],
+) -> Problem:
+    """Prepare a problem: targets, requests, limits.
+
+    Parameters
+    ----------
+    study
+        The study.
+    estimate
+        Names of the parameters to estimate.
+    specs
+        Terms of the cost.
+    measurements
+        Measured series by (experiment, signal), SI units.
+    material
+        The material whose kinetics are used.
+    fixed
+        Values of all other parameters, SI units.
+
+    Raises
+    ------
+    CostError
+        A cost does not fit its target.
+    """
+    targets = []
+    for spec in specs:
+        target = target_of(measurements[spec.experiment, spec.signal], spec.signal)
+        if spec.window_s is not None:
+            target = target.window(*spec.window_s)
+        targets.append(target.resampled(spec.points) if spec.points else target)
+    times: dict[tuple[str, str], FloatArray] = {}
+    for spec, target in zip(specs, targets, strict=True):
+        key = spec.experiment, spec.signal
+        times[key] = np.union1d(times.get(key, np.empty(0)), target.time_s)
+    runs: dict[str, _Run] = {}
+    for (name, signal), at in times.items():
+        experiment = study.experiments[name]
+        run = runs.setdefault(name, _Run(experiment, {}))
+        run.requests[signal] = request_for(experiment, signal, measurements[name, signal], at)
+    picks = tuple(
+        (s.experiment, s.signal, np.searchsorted(times[s.experiment, s.signal], t.time_s))
+        for s, t in zip(specs, targets, strict=True)
+    )
+    terms = [
+        (s.weight, make_term(s.kind, t, **_options(s))) for s, t in zip(specs, targets, strict=True)
+    ]
+    bounds = np.array([study.parameters[name].bounds_si for name in estimate])
+    return Problem(
+        names=tuple(estimate),
+        lower=bounds[:, 0],
+        upper=bounds[:, 1],
+        material=material,
+        fixed={n: v for n, v in fixed.items() if n not in estimate},
+        runs=runs,
+        picks=picks,
+        cost=WeightedSum(terms),
+        accuracy=study.accuracy,
+    )
+
+
+def _options(spec: TermSpec) -> dict[str, object]:
+    options: dict[str, object] = dict(spec.options)
+    if spec.normalisation is not None:
+        options["normalisation"] = spec.normalisation
+    return options

@@ -1,0 +1,172 @@
+"""SCE-UA (Duan et al. 1993, doi 10.1007/BF00939380) as SPOTPY implements it."""
+
+import contextlib
+import hashlib
+import io
+from collections.abc import Callable
+from dataclasses import dataclass, field
+from typing import Any
+
+import numpy as np
+import pandas as pd
+import spotpy
+
+from pyrofit.estimate.problem import Problem
+from pyrofit.solver.arrays import FloatArray
+
+Progress = Callable[[int, int, float], None]
+"""Told at the start of each generation: generation, calls so far, best cost so far."""
+
+
+def seed_for(study_seed: int, *identity: object) -> int:
+    """Return the seed of one search, a function of the study's seed and its identity alone.
+
+    >>> seed_for(1, "RMSE", 3) == seed_for(1, "RMSE", 3) != seed_for(1, "RMSE", 4)
+    True
+    """
+    text = "/".join(str(part) for part in (study_seed, *identity))
+    return int.from_bytes(hashlib.sha256(text.encode()).digest()[:4], "little") % 2**30
+
+
+@dataclass
+class _Setup:
+    """What SPOTPY asks of a model; records every call."""
+
+    problem: Problem
+    calls: list[tuple[Any, ...]] = field(default_factory=list)
+    generation: int = 1
+    best: float = np.inf
+
+    def parameters(self) -> Any:
+        """Return one random parameter set with the limits, as SPOTPY wants it."""
+        return spotpy.parameter.generate(self._distributions)
+
+    def __post_init__(self) -> None:
+        # SPOTPY guesses limits from random draws unless minbound and maxbound are given.
+        self._distributions = [
+            spotpy.parameter.Uniform(name, low, high, minbound=low, maxbound=high, optguess=low)
+            for name, low, high in zip(
+                self.problem.names,
+                self.problem.lower.tolist(),
+                self.problem.upper.tolist(),
+                strict=True,
+            )
+        ]
+
+    def simulation(self, vector: Any) -> list[float]:
+        """Evaluate a parameter set; the "simulation" that SPOTPY keeps is its cost."""
+        x = np.array(list(vector), dtype=np.float64)
+        result = self.problem.evaluate(x)
+        self.best = min(self.best, result.cost)
+        self.calls.append(
+            (self.generation, result.cost, int(result.status), *result.parts, *x.tolist())
+        )
+        return [result.cost]
+
+    def evaluation(self) -> list[float]:
+        """Return nothing to compare with: the cost is complete."""
+        return [0.0]
+
+    def objectivefunction(
+        self, simulation: list[float], evaluation: Any, params: Any = None
+    ) -> float:
+        """Return the cost; SCE-UA minimises it."""
+        return simulation[0]
+
+
+class _Search(spotpy.algorithms.sceua):  # type: ignore[misc]
+    """SCE-UA that tells the setup which generation runs."""
+
+    def __init__(self, setup: _Setup, seed: int, progress: Progress | None) -> None:
+        super().__init__(setup, dbformat="ram", save_sim=False, random_state=seed)
+        self._progress = progress
+        self._evolved = 0
+
+    def simulate(self, id_params_tuple: Any) -> Any:
+        """Count generations: the burn-in is the first, each loop over the complexes one more."""
+        setup = self.setup
+        if self.repeat.phase:
+            generation = 2 + self._evolved // self.ngs
+            self._evolved += 1
+            if generation != setup.generation:
+                setup.generation = generation
+                self._tell(generation)
+        return super().simulate(id_params_tuple)
+
+    def _tell(self, generation: int) -> None:
+        if self._progress is not None:
+            self._progress(generation, len(self.setup.calls), self.setup.best)
+
+
+def search(
+    problem: Problem,
+    seed: int,
+    generations: int,
+    complexes: int | None = None,
+    progress: Progress | None = None,
+) -> pd.DataFrame:
+    """Minimise a cost with SCE-UA and return the history of every model call.
+
+    Parameters
+    ----------
+    problem
+        What to minimise, n parameters.
+    seed
+        Seed of the search; equal seeds give equal bits.
+    generations
+        Number of generations of (2 n + 1) complexes points each, the burn-in counted as the first.
+    complexes
+        Number of complexes; default n.
+    progress
+        Told about each generation.
+
+    Returns
+    -------
+    pandas.DataFrame
+        One row per call, in order: ``call``, ``generation``, ``cost``, ``status``,
+        ``cost_0`` ... for the weighted terms, and the parameters in SI units.
+    """
+    setup = _Setup(problem)
+    # SPOTPY draws from the global generators while it is built: seed before.
+    np.random.seed(seed)  # noqa: NPY002
+    algorithm = _Search(setup, seed, progress)
+    with contextlib.redirect_stdout(io.StringIO()):
+        algorithm.sample(
+            repetitions=10**9,
+            ngs=complexes or len(problem.names),
+            kstop=generations + 1,
+            pcento=1e-12,
+            peps=1e-12,
+            max_loop_inc=generations - 1,
+        )
+    return _frame(setup, problem)
+
+
+def _frame(setup: _Setup, problem: Problem) -> pd.DataFrame:
+    parts = [f"cost_{i}" for i in range(len(problem.picks))]
+    columns = ["generation", "cost", "status", *parts, *problem.names]
+    frame = pd.DataFrame(setup.calls, columns=columns)
+    frame.insert(0, "call", np.arange(1, len(frame) + 1))
+    return frame
+
+
+def best_of(history: pd.DataFrame, problem: Problem) -> tuple[float, FloatArray]:
+    """Return the lowest cost of a history and its parameter set (the first where they tie)."""
+    row = history.loc[history["cost"].idxmin()]
+    return float(row["cost"]), row[list(problem.names)].to_numpy(float)
+
+
+def convergence(history: pd.DataFrame) -> pd.DataFrame:
+    """Return the running minimum of the cost at the end of each generation.
+
+    Columns: ``generation``, ``calls`` (model calls so far), ``best_cost``.
+    """
+    ends = history.groupby("generation")["call"].max()
+    running = history["cost"].cummin().to_numpy()
+    return pd.DataFrame(
+        {
+            "generation": ends.index.to_numpy(),
+            "calls": ends.to_numpy(),
+            "best_cost": running[ends.to_numpy() - 1],
+        }
+    )
