@@ -83,7 +83,7 @@ def simulate_tga(
     accuracy = accuracy or Accuracy()
     if request.temperature_K is None:
         raise ValueError("a TGA request needs temperatures")
-    network = lower.lower_network(material, values)
+    network = lower.lower_network(material, values, heats=False)
     start = lower.fractions(material.composition, list(material.components), values)
     mass, rate = tga(request.time_s, request.temperature_K, start, network, accuracy.tga_step_K)
     ok = bool(np.isfinite(mass[-1]))

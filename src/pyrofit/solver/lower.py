@@ -82,8 +82,11 @@ def rate_factor(reaction: words.Reaction, values: Values) -> float:
     return rate * math.exp(value_of(reaction.E_J_mol, values) / (GAS_CONSTANT * temperature))
 
 
-def lower_network(material: words.Material, values: Values) -> Network:
-    """Return the reactions as arrays, sorted so that products react after their formation."""
+def lower_network(material: words.Material, values: Values, heats: bool = True) -> Network:
+    """Return the reactions as arrays, sorted so that products react after their formation.
+
+    Without ``heats`` the heats of reaction are left out (TGA prescribes the temperature).
+    """
     names = list(material.components)
     order = [material.reactions[name] for name in material.reaction_order()]
     yields = np.zeros((len(order), len(names)))
@@ -102,7 +105,7 @@ def lower_network(material: words.Material, values: Values) -> Network:
         activation_temperature=np.array([value_of(r.E_J_mol, values) for r in order])
         / GAS_CONSTANT,
         order=orders,
-        heat=np.array([value_of(r.heat_of_reaction_J_kg, values) for r in order]),
+        heat=np.array([value_of(r.heat_of_reaction_J_kg, values) if heats else 0.0 for r in order]),
         yields=yields,
         gas=1.0 - yields.sum(axis=1),
         first_order=first_order,

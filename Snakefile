@@ -1,0 +1,73 @@
+"""The whole study: data, kinetics, inverse modelling, validation, tables, figures, report."""
+
+import json
+from pathlib import Path
+
+from snakemake.utils import min_version
+
+from pyrofit.config import as_study, digest
+from pyrofit.errors import PyrofitError
+from pyrofit.files import Results, write_text
+from pyrofit.figures import FIGURES
+from pyrofit.provenance import source_fingerprint
+from pyrofit.stages import slices
+from pyrofit.tables import TABLES
+
+min_version("9.27")
+
+# A given --configfile replaces the default study; Snakemake alone would merge the two.
+DEFAULT_STUDY = "config/smoke.yaml"
+if not workflow.configfiles:
+
+    configfile: DEFAULT_STUDY
+
+
+SOURCE = str(workflow.configfiles[0])
+try:
+    study = as_study(config, SOURCE)
+except PyrofitError as error:
+    raise WorkflowError(str(error)) from None
+
+ROOT = Path("results") / study.name
+results = Results(ROOT)
+# The study as checked and completed, with what --config changed: every step reads this file, and
+# verifies by digest that its part of it is what the rule was planned with.
+STUDY = ROOT / "study.json"
+_text = json.dumps(study.model_dump(mode="json"), indent=1) + "\n"
+if not STUDY.exists() or STUDY.read_text() != _text:
+    write_text(STUDY, _text)
+
+COMPUTES = source_fingerprint()
+SHOWS = source_fingerprint(showing=True)
+COSTS = list(study.imp.costs)
+REPETITIONS = [f"{n:02d}" for n in range(study.imp.repetitions)]
+
+
+wildcard_constraints:
+    cost="|".join(COSTS),
+    repetition=r"\d{2}",
+
+
+def log_of(name):
+    return str(ROOT / "logs" / f"{name}.log")
+
+
+def benchmark_of(name):
+    return str(ROOT / "benchmarks" / f"{name}.tsv")
+
+
+localrules:
+    all,
+
+
+rule all:
+    default_target: True
+    input:
+        ROOT / "report.html",
+
+
+include: "workflow/rules/data.smk"
+include: "workflow/rules/kinetics.smk"
+include: "workflow/rules/imp.smk"
+include: "workflow/rules/validation.smk"
+include: "workflow/rules/report.smk"

@@ -1,0 +1,200 @@
+"""The command line: what the workflow's rules call, usable by hand."""
+
+import argparse
+import sys
+from collections.abc import Callable, Sequence
+from pathlib import Path
+from typing import IO, Any
+
+from pyrofit.errors import PyrofitError
+
+Step = Callable[[argparse.Namespace], None]
+
+
+class _Tee:
+    """Standard error that is written to a log file as well."""
+
+    def __init__(self, *streams: IO[str]) -> None:
+        self._streams = streams
+
+    def write(self, text: str) -> int:
+        for stream in self._streams:
+            stream.write(text)
+        return len(text)
+
+    def flush(self) -> None:
+        for stream in self._streams:
+            stream.flush()
+
+    def isatty(self) -> bool:
+        return False
+
+
+def main(arguments: Sequence[str] | None = None) -> int:
+    """Run a command; return 0, or 2 with a message where the user can repair something."""
+    given = _parser().parse_args(arguments)
+    if getattr(given, "log", None) is None:
+        return _run(given)
+    given.log.parent.mkdir(parents=True, exist_ok=True)
+    usual = sys.stderr
+    with given.log.open("w", encoding="utf-8") as log:
+        sys.stderr = _Tee(usual, log)  # type: ignore[assignment]
+        try:
+            return _run(given)
+        finally:
+            sys.stderr = usual
+
+
+def _run(given: argparse.Namespace) -> int:
+    try:
+        given.step(given)
+    except PyrofitError as error:
+        print(f"error: {error}", file=sys.stderr)
+        return 2
+    except KeyboardInterrupt:
+        print("interrupted; run again to go on, finished parts are kept", file=sys.stderr)
+        return 130
+    return 0
+
+
+def _parser() -> argparse.ArgumentParser:
+    parser = argparse.ArgumentParser(prog="pyrofit", description=__doc__)
+    commands = parser.add_subparsers(dest="command", required=True, metavar="COMMAND")
+
+    data = commands.add_parser("data", help="the measured files of the MaCFP data base")
+    actions = data.add_subparsers(dest="action", required=True, metavar="ACTION")
+    fetch = actions.add_parser("fetch", help="download them, by commit and SHA-256")
+    fetch.set_defaults(step=_fetch)
+    where = actions.add_parser("where", help="print their folder; exit 2 where files are missing")
+    where.set_defaults(step=_where)
+
+    check = commands.add_parser("check", help="check a study without running anything")
+    check.add_argument("study", type=Path, help="study file (YAML)")
+    check.set_defaults(step=_check)
+
+    _step(commands, "prepare", "read the measurements into tidy tables", _prepare)
+    _step(commands, "kinetics", "fit the kinetics to TGA", _kinetics)
+    imp = _step(commands, "imp", "run one repetition of the inverse modelling", _imp)
+    imp.add_argument("--cost", required=True, help="cost function of the study")
+    imp.add_argument("--repetition", type=int, required=True, help="number of the repetition")
+    squares = _step(commands, "least-squares", "run least squares on one cost", _least_squares)
+    squares.add_argument("--cost", required=True, help="cost function of the study")
+    _step(commands, "collect", "gather all repetitions", _collect)
+    _step(commands, "predict", "simulate the best sets at all predicted experiments", _predict)
+    table = _step(commands, "table", "write one table", _table)
+    table.add_argument("--name", required=True, help="name of the table")
+    figure = _step(commands, "figure", "draw one figure", _figure)
+    figure.add_argument("--name", required=True, help="name of the figure")
+    _step(commands, "report", "write report.html and provenance.json", _report)
+    return parser
+
+
+def _step(commands: Any, name: str, text: str, step: Step) -> argparse.ArgumentParser:
+    parser: argparse.ArgumentParser = commands.add_parser(name, help=text)
+    parser.add_argument("--study", type=Path, required=True, help="study file (YAML or JSON)")
+    parser.add_argument("--results", type=Path, help="results folder; default results/<name>")
+    parser.add_argument("--digest", help="expected digest of what the step depends on")
+    parser.add_argument("--log", type=Path, help="file that keeps what is printed")
+    parser.set_defaults(step=step)
+    return parser
+
+
+def _open(given: argparse.Namespace, slice_of: Callable[..., Any], *arguments: Any) -> Any:
+    """Return study and results; refuse a study that differs from what the caller described."""
+    from pyrofit.config import digest, read_study
+    from pyrofit.errors import StudyError
+    from pyrofit.files import Results
+
+    study = read_study(given.study)
+    if given.digest is not None and digest(slice_of(study, *arguments)) != given.digest:
+        raise StudyError(f"{given.study}: the study changed while the workflow ran; run it again")
+    return study, Results(given.results or Path("results") / study.name)
+
+
+def _fetch(given: argparse.Namespace) -> None:
+    from pyrofit.data.fetch import fetch, store
+
+    files = fetch()
+    print(f"{len(files)} measured files, checksums verified, in {store()}")
+
+
+def _where(given: argparse.Namespace) -> None:
+    from pyrofit.data.fetch import missing, store
+    from pyrofit.errors import DataError
+
+    folder = store()
+    absent = missing(folder)
+    if absent:
+        raise DataError(
+            f"{folder}: {len(absent)} measured files are missing, the first is {absent[0]}; "
+            "get them with `make data`, or set PYROFIT_DATA_DIR to a copy of the data base"
+        )
+    print(folder)
+
+
+def _check(given: argparse.Namespace) -> None:
+    from pyrofit.config import read_study
+
+    study = read_study(given.study)
+    runs = study.imp.repetitions * len(study.imp.costs)
+    print(f"{given.study}: study '{study.name}' is valid; {runs} repetitions in all")
+
+
+def _prepare(given: argparse.Namespace) -> None:
+    from pyrofit.stages import measurements, slices
+
+    for line in measurements.prepare(*_open(given, slices.data)):
+        print(f"mass closure: {line}", file=sys.stderr)
+
+
+def _kinetics(given: argparse.Namespace) -> None:
+    from pyrofit.stages import fit, slices
+
+    fit.fit_kinetics(*_open(given, slices.kinetics))
+
+
+def _imp(given: argparse.Namespace) -> None:
+    from pyrofit.stages import fit, slices
+
+    study, results = _open(given, slices.imp, given.cost, "sceua")
+    fit.repeat(study, results, given.cost, given.repetition)
+
+
+def _least_squares(given: argparse.Namespace) -> None:
+    from pyrofit.stages import fit, slices
+
+    study, results = _open(given, slices.imp, given.cost, "least_squares")
+    fit.least_squares(study, results, given.cost)
+
+
+def _collect(given: argparse.Namespace) -> None:
+    from pyrofit.stages import fit, slices
+
+    fit.collect(*_open(given, slices.collect))
+
+
+def _predict(given: argparse.Namespace) -> None:
+    from pyrofit.stages import predict, slices
+
+    predict.predict(*_open(given, slices.validation))
+
+
+def _table(given: argparse.Namespace) -> None:
+    from pyrofit.stages import slices
+    from pyrofit.tables import make_table
+
+    make_table(given.name, *_open(given, slices.presentation))
+
+
+def _figure(given: argparse.Namespace) -> None:
+    from pyrofit.figures import make_figure
+    from pyrofit.stages import slices
+
+    make_figure(given.name, *_open(given, slices.presentation))
+
+
+def _report(given: argparse.Namespace) -> None:
+    from pyrofit.report import write_report
+    from pyrofit.stages import slices
+
+    write_report(*_open(given, slices.presentation))

@@ -1,0 +1,37 @@
+"""What made a result: fingerprints of the source, versions, checksums."""
+
+import hashlib
+import importlib.metadata
+import platform
+from pathlib import Path
+from typing import Any
+
+PACKAGES = ("numpy", "scipy", "numba", "spotpy", "pandas", "pydantic", "matplotlib", "snakemake")
+SHOWING = ("figures", "tables", "report", "cli.py")
+"""Parts of the source that show results and do not change a number."""
+
+
+def source_fingerprint(showing: bool = False) -> str:
+    """Return a hash of the library's source; with ``showing`` that of figures and report as well.
+
+    Snakemake does not notice an edit to an imported package: rules carry this as a parameter.
+    """
+    root = Path(__file__).parent
+    total = hashlib.sha256()
+    for path in sorted(root.rglob("*.py")):
+        name = path.relative_to(root)
+        if showing or name.parts[0] not in SHOWING:
+            total.update(name.as_posix().encode())
+            total.update(path.read_bytes())
+    return total.hexdigest()[:16]
+
+
+def environment() -> dict[str, Any]:
+    """Return the versions that a result depends on."""
+    versions = {name: importlib.metadata.version(name) for name in ("pyrofit", *PACKAGES)}
+    return {
+        "python": platform.python_version(),
+        "machine": platform.machine(),
+        "packages": versions,
+        "source_fingerprint": source_fingerprint(showing=True),
+    }

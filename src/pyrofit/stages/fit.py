@@ -1,0 +1,241 @@
+"""Steps 2 and 3: the kinetics fit, and the repeated inverse modelling."""
+
+import sys
+from collections.abc import Callable, Mapping, Sequence
+from typing import Any
+
+import numpy as np
+import pandas as pd
+
+from pyrofit.config import Kinetics, Study
+from pyrofit.constants import GAS_CONSTANT
+from pyrofit.errors import StudyError
+from pyrofit.estimate.least_squares import Start, multistart
+from pyrofit.estimate.problem import Measurements, Problem, make_problem, program
+from pyrofit.estimate.sceua import Progress, best_of, convergence, search, seed_for
+from pyrofit.files import Results, read_csv, read_json, write_csv, write_json
+from pyrofit.model.experiment import Tga
+from pyrofit.model.material import Material
+from pyrofit.simulate import Request, simulate_tga
+from pyrofit.solver.arrays import FloatArray, Status
+from pyrofit.solver.lower import fractions, lower_network
+from pyrofit.stages.measurements import load
+
+Values = Mapping[str, float]
+
+
+def _tell(label: str, generations: int) -> Progress:
+    def tell(generation: int, calls: int, best: float) -> None:
+        print(
+            f"{label}: generation {generation}/{generations}, {calls} model calls, best {best:.6g}",
+            file=sys.stderr,
+            flush=True,
+        )
+
+    return tell
+
+
+def _named(problem: Problem, x: FloatArray) -> dict[str, float]:
+    return dict(zip(problem.names, x.tolist(), strict=True))
+
+
+def _start(problem: Problem, start: Start) -> dict[str, Any]:
+    return {
+        "cost": start.cost,
+        "calls": start.calls,
+        "at_bound": list(start.at_bound),
+        "parameters": _named(problem, start.values),
+    }
+
+
+def fit_kinetics(study: Study, results: Results) -> None:
+    """Fit the kinetics to TGA, and score the fit and the published sets on every TGA experiment.
+
+    SCE-UA searches and least squares starts beside it; the lower cost of the two is the fit.
+    """
+    stage = _kinetics_of(study)
+    measurements = load(study, results)
+    problem = make_problem(
+        study, stage.estimate, stage.cost, measurements, study.material, study.fixed_values()
+    )
+    seed = seed_for(study.seed, "kinetics")
+    generations = stage.sceua.generations
+    history = search(
+        problem, seed, generations, stage.sceua.complexes, _tell("kinetics", generations)
+    )
+    cost, x = best_of(history, problem)
+    starts = multistart(problem, stage.least_squares.starts, seed)
+    optimiser = "SCE-UA"
+    # The squares of several terms have another minimum than their sum: polish that one as well.
+    if starts[0].cost < cost:
+        optimiser, cost, x = "least squares", starts[0].cost, starts[0].values
+    fitted = _named(problem, x)
+    write_csv(results.kinetics("history.csv.gz"), history)
+    write_csv(results.kinetics("convergence.csv"), convergence(history))
+    write_json(
+        results.kinetics("fit.json"),
+        {
+            "cost": cost,
+            "parameters": fitted,
+            "optimiser": optimiser,
+            "seed": seed,
+            "sceua": {"cost": best_of(history, problem)[0], "calls": len(history)},
+            "least_squares": [_start(problem, s) for s in starts],
+            "sets": {
+                label: _reactions(study.material_with(name), {**study.fixed_values(), **fitted})
+                for label, name in [("fitted", "fitted"), *((n, n) for n in stage.sets)]
+            },
+        },
+    )
+    _compare(study, results, measurements, fitted)
+
+
+def _kinetics_of(study: Study) -> Kinetics:
+    if study.kinetics is None:
+        raise StudyError(f"study '{study.name}' has no kinetics stage; add `kinetics:` to it")
+    return study.kinetics
+
+
+def _reactions(material: Material, values: Values) -> dict[str, dict[str, float]]:
+    """Return A, E, n and the virgin mass fraction of the reactant, by reaction."""
+    names = list(material.components)
+    share = fractions(material.composition, names, values)
+    network = lower_network(material, values, heats=False)
+    return {
+        name: {
+            "A_1_s": float(network.rate_factor[j]),
+            "E_J_mol": float(network.activation_temperature[j] * GAS_CONSTANT),
+            "order": float(network.order[j]),
+            "mass_fraction": float(share[names.index(material.reactions[name].reactant)]),
+        }
+        for j, name in enumerate(material.reaction_order())
+    }
+
+
+def _compare(study: Study, results: Results, measurements: Measurements, fitted: Values) -> None:
+    """Write curves and scores of the fit and the published kinetics on every TGA experiment."""
+    stage = _kinetics_of(study)
+    used = {term.experiment for term in stage.cost}
+    curves = []
+    scores = []
+    for name, experiment in study.kinds(Tga).items():
+        frame = measurements[name, "mass_fraction"]
+        for chosen in ("fitted", *stage.sets):
+            values = {**study.fixed_values(), **fitted}
+            curve = _tga_curve(study, experiment, frame, study.material_with(chosen), values)
+            curves.append(curve.assign(experiment=name, set=chosen))
+            difference = curve["mass_fraction"] - frame["mass_fraction"].to_numpy()
+            scores.append(
+                {
+                    "experiment": name,
+                    "heating_rate_K_min": experiment.heating_rate_K_min,
+                    "used_in_fit": name in used,
+                    "set": chosen,
+                    "rmse_mass_fraction": float(np.sqrt(np.mean(difference**2))),
+                }
+            )
+    write_csv(results.kinetics("curves.csv"), pd.concat(curves, ignore_index=True))
+    write_csv(results.kinetics("scores.csv"), pd.DataFrame(scores))
+
+
+def _tga_curve(
+    study: Study, experiment: Tga, frame: pd.DataFrame, material: Material, values: Values
+) -> pd.DataFrame:
+    time = frame["time_s"].to_numpy(float)
+    temperature = program(experiment, frame, time)
+    request = Request(time, temperature_K=temperature)
+    signals = simulate_tga(experiment, material, values, request, study.accuracy).signals
+    return pd.DataFrame(
+        {
+            "time_s": time,
+            "temperature_K": temperature,
+            "mass_fraction": signals["mass_fraction"],
+            "mass_loss_rate_1_s": signals["mass_loss_rate"],
+        }
+    )
+
+
+def fixed_for_imp(study: Study, results: Results) -> dict[str, float]:
+    """Return the values of all parameters that the inverse modelling does not estimate."""
+    values = study.fixed_values()
+    if study.imp.kinetics == "fitted":
+        values |= read_json(results.kinetics("fit.json"))["parameters"]
+    return values
+
+
+def imp_problem(study: Study, results: Results, cost: str) -> Problem:
+    """Return the inverse-modelling problem of one cost function."""
+    if cost not in study.imp.costs:
+        known = ", ".join(study.imp.costs)
+        raise StudyError(f"study '{study.name}' has no cost '{cost}'; known: {known}")
+    return make_problem(
+        study,
+        study.imp.estimate,
+        study.imp.costs[cost],
+        load(study, results),
+        study.material_with(study.imp.kinetics),
+        fixed_for_imp(study, results),
+    )
+
+
+def repeat(study: Study, results: Results, cost: str, repetition: int) -> None:
+    """Run one repetition of the inverse modelling and write its history and result."""
+    problem = imp_problem(study, results, cost)
+    seed = seed_for(study.seed, cost, repetition)
+    budget = study.imp.sceua
+    label = f"{cost} {repetition:02d}"
+    tell = _tell(label, budget.generations)
+    history = search(problem, seed, budget.generations, budget.complexes, tell)
+    best, x = best_of(history, problem)
+    write_csv(results.repetition(cost, repetition, ".csv.gz"), history)
+    write_csv(results.repetition(cost, repetition, "_convergence.csv"), convergence(history))
+    write_json(
+        results.repetition(cost, repetition, ".json"),
+        {
+            "cost_function": cost,
+            "repetition": repetition,
+            "seed": seed,
+            "cost": best,
+            "parameters": _named(problem, x),
+            "calls": len(history),
+            "failed_calls": int((~history["status"].isin([Status.OK, Status.UNBURNT])).sum()),
+            "generations": int(history["generation"].max()),
+        },
+    )
+
+
+def least_squares(study: Study, results: Results, cost: str) -> None:
+    """Run multistart least squares on the same cost and write every start, best first."""
+    problem = imp_problem(study, results, cost)
+    seed = seed_for(study.seed, cost, "least_squares")
+    starts = multistart(problem, study.imp.least_squares.starts, seed)
+    write_json(
+        results.least_squares(cost),
+        {"cost_function": cost, "seed": seed, "starts": [_start(problem, s) for s in starts]},
+    )
+
+
+def collect(study: Study, results: Results) -> None:
+    """Gather all repetitions: ``imp/summary.csv`` and ``imp/convergence.csv``."""
+    rows = []
+    running = []
+    for cost in study.imp.costs:
+        for repetition in range(study.imp.repetitions):
+            found = read_json(results.repetition(cost, repetition, ".json"))
+            parameters = found.pop("parameters")
+            rows.append({**found, **parameters})
+            frame = read_csv(results.repetition(cost, repetition, "_convergence.csv"))
+            running.append(frame.assign(cost_function=cost, repetition=repetition))
+    write_csv(results.imp("summary.csv"), pd.DataFrame(rows))
+    write_csv(results.imp("convergence.csv"), pd.concat(running, ignore_index=True))
+
+
+def best_sets(study: Study, results: Results) -> dict[str, dict[str, float]]:
+    """Return the best parameter set of each cost function, SI units."""
+    summary = read_csv(results.imp("summary.csv"))
+    sets = {}
+    for cost in study.imp.costs:
+        group = summary[summary["cost_function"] == cost]
+        row = group.loc[group["cost"].idxmin()]
+        sets[cost] = {name: float(row[name]) for name in study.imp.estimate}
+    return sets

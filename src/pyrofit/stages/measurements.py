@@ -1,0 +1,213 @@
+"""Step 1: measured series, read or computed, tidy and checked."""
+
+import contextlib
+from collections.abc import Mapping
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+import pandas as pd
+
+from pyrofit.config import Study
+from pyrofit.data.closure import mass_closure
+from pyrofit.data.fetch import locate
+from pyrofit.data.series import (
+    UNCERTAINTY_COLUMN,
+    VALUE_COLUMN,
+    Measurement,
+    SeriesSpec,
+    read_series,
+)
+from pyrofit.errors import DataError
+from pyrofit.estimate.problem import Measurements
+from pyrofit.estimate.sceua import seed_for
+from pyrofit.files import Results, read_csv, write_csv, write_json
+from pyrofit.model.base import value_of
+from pyrofit.model.experiment import Gasification, Signal, Tga
+from pyrofit.simulate import Request, simulate_gasification, simulate_tga
+from pyrofit.solver.arrays import FloatArray
+from pyrofit.solver.lower import fractions
+
+SYNTHETIC = "synthetic"
+MACFP = "macfp:"
+
+
+def prepare(study: Study, results: Results) -> list[str]:
+    """Read or compute every measured series and write it; return the mass closures as text.
+
+    Raises
+    ------
+    DataError
+        A file is missing or breaks a rule, or a synthetic measurement cannot be simulated.
+    """
+    truth = computed(study) if study.is_synthetic else {}
+    summary: dict[str, Any] = {}
+    lines: list[str] = []
+    released: dict[str, float] = {}
+    for name, experiment in study.experiments.items():
+        summary[name] = {}
+        for quantity, signal in experiment.signals.items():
+            if signal.file == SYNTHETIC:
+                frame, about = truth[name, quantity], {"source": SYNTHETIC, "sha256": ""}
+            else:
+                frame, about = _read(quantity, signal)
+            write_csv(results.measurement(name, quantity), frame)
+            summary[name][quantity] = {**about, "points": len(frame)}
+            if quantity == "mlr" and isinstance(experiment, Gasification):
+                released[name], line = _closure(study, name, experiment, frame)
+                summary[name][quantity]["released_kg_m2"] = released[name]
+                lines.append(line)
+    lines += _spread(study, released)
+    write_json(results.measurements_summary, {"signals": summary, "mass_closure": lines})
+    return lines
+
+
+def load(study: Study, results: Results) -> Measurements:
+    """Return the series that `prepare` wrote, by (experiment, signal)."""
+    return {
+        (name, quantity): read_csv(results.measurement(name, quantity))
+        for name, experiment in study.experiments.items()
+        for quantity in experiment.signals
+    }
+
+
+def _read(quantity: str, signal: Signal) -> tuple[pd.DataFrame, dict[str, Any]]:
+    found: Measurement = read_series(
+        SeriesSpec(
+            quantity=quantity,
+            path=_locate(signal.file),
+            columns=signal.columns,
+            units=signal.units,
+            uncertainty=signal.uncertainty,
+            uncertainty_meaning=signal.uncertainty_meaning,
+            sample_mass_kg=signal.sample_mass_kg,
+            sample_area_m2=signal.sample_area_m2,
+        )
+    )
+    frame = found.frame
+    if signal.until_K is not None:
+        frame = frame[frame["temperature_K"] <= signal.until_K]
+    if signal.until_s is not None:
+        frame = frame[frame["time_s"] <= signal.until_s]
+    if len(frame) < 3:
+        raise DataError(f"{found.source}: until_K or until_s leaves {len(frame)} points; raise it")
+    about = {
+        "source": signal.file,
+        "sha256": found.sha256,
+        "uncertainty": found.uncertainty_meaning,
+        "notes": list(found.notes),
+    }
+    return frame, about
+
+
+def _locate(file: str) -> Path:
+    return locate(file.removeprefix(MACFP)) if file.startswith(MACFP) else Path(file)
+
+
+def _closure(
+    study: Study, name: str, experiment: Gasification, frame: pd.DataFrame
+) -> tuple[float, str]:
+    """Return the released mass [kg/m2], and how it compares with what is known of the sample."""
+    values = study.fixed_values()
+    signal = experiment.signals["mlr"]
+    released = mass_closure(frame, 1.0).released_kg_m2
+    try:
+        thickness = sum(value_of(layer.thickness_m, values) for layer in experiment.sample.layers)
+    except KeyError:
+        return released, f"{name}: released {released:.3f} kg/m2; thickness to be estimated"
+    initial = None
+    if signal.sample_mass_kg is not None and signal.sample_area_m2 is not None:
+        initial = signal.sample_mass_kg / signal.sample_area_m2
+    else:
+        with contextlib.suppress(KeyError):
+            initial = _described_mass(study, experiment, values)
+    if initial is not None:
+        return released, f"{name}: {mass_closure(frame, initial).describe()}"
+    return released, (
+        f"{name}: released {released:.3f} kg/m2, {released / thickness:.0f} kg/m3 over the "
+        f"{thickness * 1e3:g} mm of the sample; initial mass not given, density to be estimated"
+    )
+
+
+def _described_mass(study: Study, experiment: Gasification, values: Mapping[str, float]) -> float:
+    """Return the mass per area [kg/m2]; KeyError where a parameter has no value."""
+    components = study.material.components
+    volumes = np.array([1.0 / value_of(c.density_kg_m3, values) for c in components.values()])
+    total = 0.0
+    for layer in experiment.sample.layers:
+        composition = layer.composition or study.material.composition
+        share = fractions(composition, list(components), values)
+        total += value_of(layer.thickness_m, values) / float(share @ volumes)
+    return total
+
+
+def _spread(study: Study, released: Mapping[str, float]) -> list[str]:
+    """Say how far apart the released masses of equal samples are."""
+    lines = []
+    names = list(released)
+    for i, a in enumerate(names):
+        for b in names[i + 1 :]:
+            if study.experiments[a].sample.layers == study.experiments[b].sample.layers:  # type: ignore[union-attr]
+                apart = abs(released[a] - released[b]) / max(released[a], released[b])
+                lines.append(f"{a} and {b}: equal samples, released masses {apart:.1%} apart")
+    return lines
+
+
+def computed(study: Study) -> dict[tuple[str, str], pd.DataFrame]:
+    """Return synthetic measurements: the solver's curves on its finer grid, with noise.
+
+    Deterministic by the study's seed; noise is normal and independent between points, and its
+    standard deviation is given as the uncertainty.
+    """
+    assert study.synthetic is not None
+    truth = {n: v * study.parameters[n].factor for n, v in study.synthetic.truth.items()}
+    values = {**study.fixed_values(), **truth}
+    series = {}
+    for name, experiment in study.experiments.items():
+        wanted = {q: s for q, s in experiment.signals.items() if s.file == SYNTHETIC}
+        for quantity, frame in _compute(study, experiment, wanted, values).items():
+            signal = wanted[quantity]
+            rng = np.random.default_rng(seed_for(study.seed, SYNTHETIC, name, quantity))
+            column = VALUE_COLUMN[quantity]
+            frame[column] += signal.noise * rng.standard_normal(len(frame))
+            if signal.noise > 0.0:
+                frame[UNCERTAINTY_COLUMN[quantity]] = signal.noise
+            series[name, quantity] = frame
+    return series
+
+
+def _compute(
+    study: Study,
+    experiment: Tga | Gasification,
+    signals: dict[str, Signal],
+    values: dict[str, float],
+) -> dict[str, pd.DataFrame]:
+    assert study.synthetic is not None
+    accuracy = study.synthetic.accuracy
+    if not signals:
+        return {}
+    if isinstance(experiment, Tga):
+        first, last = experiment.start_temperature_K, experiment.end_temperature_K
+        temperature = np.arange(first, last, signals["mass_fraction"].every)
+        time = (temperature - first) / (experiment.heating_rate_K_min / 60.0)
+        request = Request(time, temperature_K=temperature)
+        curves = simulate_tga(experiment, study.material, values, request, accuracy)
+        mass = curves.signals["mass_fraction"]
+        columns = {"time_s": time, "temperature_K": temperature, "mass_fraction": mass}
+        return {"mass_fraction": pd.DataFrame(columns)}
+    requests = {
+        q: Request(_times(s, experiment.duration_s), s.average_s) for q, s in signals.items()
+    }
+    curves = simulate_gasification(experiment, study.material, values, requests, accuracy)
+    if not curves.status.finished:
+        raise DataError(
+            f"synthetic measurement failed: {curves.status.explanation}; change synthetic.truth"
+        )
+    return {
+        q: pd.DataFrame({"time_s": r.time_s, VALUE_COLUMN[q]: curves.signals[q]})
+        for q, r in requests.items()
+    }
+
+
+def _times(signal: Signal, duration: float) -> FloatArray:
+    return np.arange(0.5 * signal.every, duration, signal.every)

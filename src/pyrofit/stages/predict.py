@@ -1,0 +1,99 @@
+"""Step 4: curves of the best sets at every predicted experiment, scored."""
+
+import numpy as np
+import pandas as pd
+
+from pyrofit.config import Study
+from pyrofit.data.series import VALUE_COLUMN
+from pyrofit.errors import DataError
+from pyrofit.files import Results, read_json, write_csv
+from pyrofit.model.experiment import Gasification
+from pyrofit.simulate import Request, simulate_gasification
+from pyrofit.solver.arrays import FloatArray
+from pyrofit.stages.fit import best_sets, fixed_for_imp
+from pyrofit.stages.measurements import load
+
+LEAST_SQUARES = "least squares"
+"""Suffix of the sets that least squares found on a cost."""
+
+
+def sets_of(study: Study, results: Results) -> dict[str, dict[str, float]]:
+    """Return the sets to predict: the best of each cost, published ones, least squares' ones."""
+    sets = dict(best_sets(study, results))
+    for cost in study.imp.costs:
+        start = read_json(results.least_squares(cost))["starts"][0]
+        sets[f"{cost} {LEAST_SQUARES}"] = start["parameters"]
+    if study.published is not None:
+        for cost, table in study.published.costs.items():
+            if set(study.imp.estimate) <= set(table):
+                sets[f"{cost} published"] = {
+                    n: table[n][0] * study.parameters[n].factor for n in study.imp.estimate
+                }
+    return sets
+
+
+def predict(study: Study, results: Results) -> None:
+    """Simulate every set at every experiment to predict; write ``curves.csv``, ``scores.csv``.
+
+    Curves are given at the measured times, as averages over the bins of the measurement; the score
+    is the CV(RMSE) of mass loss rates, and the RMSE in K of temperatures.
+    """
+    fixed = fixed_for_imp(study, results)
+    material = study.material_with(study.imp.kinetics)
+    measurements = load(study, results)
+    curves = []
+    scores = []
+    for name in study.validation.experiments:
+        experiment = study.experiments[name]
+        if not isinstance(experiment, Gasification):
+            continue
+        requests = {
+            q: Request(measurements[name, q]["time_s"].to_numpy(float), s.average_s)
+            for q, s in experiment.signals.items()
+        }
+        for label, values in sets_of(study, results).items():
+            run = simulate_gasification(
+                experiment, material, {**fixed, **values}, dict(requests), study.accuracy
+            )
+            if not run.status.finished:
+                raise DataError(
+                    f"{name}: the best set of {label} cannot be predicted: "
+                    f"{run.status.explanation}; check the limits of the parameters"
+                )
+            for quantity, request in requests.items():
+                measured = measurements[name, quantity][VALUE_COLUMN[quantity]].to_numpy(float)
+                simulated = run.signals[quantity]
+                curves.append(_curve(name, quantity, label, request.time_s, simulated, measured))
+                scores.append(_score(name, quantity, label, simulated, measured))
+    write_csv(results.validation("curves.csv"), pd.concat(curves, ignore_index=True))
+    write_csv(results.validation("scores.csv"), pd.DataFrame(scores))
+
+
+def _curve(
+    name: str, quantity: str, label: str, time: FloatArray, value: FloatArray, measured: FloatArray
+) -> pd.DataFrame:
+    return pd.DataFrame(
+        {
+            "experiment": name,
+            "signal": quantity,
+            "set": label,
+            "time_s": time,
+            "simulated": value,
+            "measured": measured,
+        }
+    )
+
+
+def _score(
+    name: str, quantity: str, label: str, value: FloatArray, measured: FloatArray
+) -> dict[str, object]:
+    rmse = float(np.sqrt(np.mean((value - measured) ** 2)))
+    return {
+        "experiment": name,
+        "signal": quantity,
+        "set": label,
+        "points": measured.size,
+        "rmse_si": rmse,
+        "cv_rmse": rmse / abs(float(np.mean(measured))) if quantity == "mlr" else np.nan,
+        "largest_simulated_si": float(np.max(value)),
+    }

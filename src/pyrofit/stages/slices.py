@@ -1,0 +1,94 @@
+"""What each step of a study depends on: the workflow reruns a step when its slice changes."""
+
+from typing import Any
+
+from pyrofit.config import Study, TermSpec, parameters_in
+from pyrofit.model.experiment import Gasification, Tga
+
+
+def _parameters(study: Study, names: set[str]) -> dict[str, Any]:
+    return {n: study.parameters[n].model_dump(exclude={"label"}) for n in sorted(names)}
+
+
+def _experiment(study: Study, name: str) -> dict[str, Any]:
+    return study.experiments[name].model_dump(exclude={"title"})
+
+
+def _terms(study: Study, terms: tuple[TermSpec, ...]) -> dict[str, Any]:
+    used = sorted({t.experiment for t in terms})
+    return {
+        "terms": [t.model_dump() for t in terms],
+        "experiments": {n: _experiment(study, n) for n in used},
+    }
+
+
+def data(study: Study) -> dict[str, Any]:
+    """Signals; with synthetic ones, all that makes them."""
+    signals = {
+        n: {k: s.model_dump() for k, s in e.signals.items()} for n, e in study.experiments.items()
+    }
+    if not study.is_synthetic:
+        return {"signals": signals}
+    return {
+        "experiments": {n: _experiment(study, n) for n in study.experiments},
+        "material": study.material.model_dump(),
+        "parameters": _parameters(study, set(study.parameters)),
+        "synthetic": study.synthetic.model_dump() if study.synthetic else None,
+        "seed": study.seed,
+    }
+
+
+def kinetics(study: Study) -> dict[str, Any]:
+    """Everything of the TGA fit."""
+    stage = study.kinetics
+    assert stage is not None
+    names = parameters_in(study.material, *study.kinds(Tga).values())
+    return {
+        **_terms(study, stage.cost),
+        "material": study.material.model_dump(),
+        "parameters": _parameters(study, names & (set(stage.estimate) | set(study.fixed_values()))),
+        "stage": stage.model_dump(exclude={"cost"}),
+        "accuracy": study.accuracy.tga_step_K,
+        "seed": study.seed,
+    }
+
+
+def imp(study: Study, cost: str, optimiser: str) -> dict[str, Any]:
+    """Everything of one cost's searches; ``optimiser`` is 'sceua' or 'least_squares'."""
+    stage = study.imp
+    terms = stage.costs[cost]
+    experiments = [study.experiments[t.experiment] for t in terms]
+    names = parameters_in(study.material_with(stage.kinetics), *experiments)
+    return {
+        **_terms(study, terms),
+        "material": study.material_with(stage.kinetics).model_dump(),
+        "parameters": _parameters(study, names),
+        "estimate": stage.estimate,
+        "kinetics": stage.kinetics,
+        "budget": getattr(stage, optimiser).model_dump(),
+        "accuracy": study.accuracy.model_dump(),
+        "seed": study.seed,
+    }
+
+
+def validation(study: Study) -> dict[str, Any]:
+    """The predicted experiments, and the material they are predicted with."""
+    names = [n for n, e in study.experiments.items() if isinstance(e, Gasification)]
+    return {
+        "experiments": {n: _experiment(study, n) for n in names},
+        "material": study.material_with(study.imp.kinetics).model_dump(),
+        "estimate": study.imp.estimate,
+        "parameters": _parameters(study, set(study.parameters)),
+        "validation": study.validation.model_dump(),
+        "accuracy": study.accuracy.model_dump(),
+    }
+
+
+def presentation(study: Study) -> dict[str, Any]:
+    """Whatever tables, figures and the report show: the whole study."""
+    return study.model_dump()
+
+
+def collect(study: Study) -> dict[str, Any]:
+    """Which repetitions there are."""
+    return {"costs": list(study.imp.costs), "repetitions": study.imp.repetitions}

@@ -1,0 +1,21 @@
+MEASUREMENTS = [
+    results.measurement(name, signal)
+    for name, experiment in study.experiments.items()
+    for signal in experiment.signals
+]
+
+
+rule prepare:
+    message:
+        "Measured series into tidy tables, mass closure checked"
+    output:
+        series=MEASUREMENTS,
+        summary=results.measurements_summary,
+    log:
+        log_of("prepare"),
+    params:
+        digest=digest(slices.data(study)),
+        files=study.needs_macfp,
+        source=COMPUTES,
+    shell:
+        "pyrofit prepare --study {STUDY} --digest {params.digest} --log {log}"

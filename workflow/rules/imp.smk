@@ -1,0 +1,64 @@
+rule imp:
+    message:
+        "Inverse modelling, {wildcards.cost}, repetition {wildcards.repetition}"
+    input:
+        MEASUREMENTS,
+        KINETICS_FOR_IMP,
+    output:
+        history=ROOT / "imp/{cost}/{repetition}.csv.gz",
+        convergence=ROOT / "imp/{cost}/{repetition}_convergence.csv",
+        result=ROOT / "imp/{cost}/{repetition}.json",
+    log:
+        log_of("imp_{cost}_{repetition}"),
+    benchmark:
+        benchmark_of("imp_{cost}_{repetition}")
+    params:
+        digest=lambda wildcards: digest(slices.imp(study, wildcards.cost, "sceua")),
+        generations=study.imp.sceua.generations,
+        seed=study.seed,
+        source=COMPUTES,
+    shell:
+        "pyrofit imp --study {STUDY} --digest {params.digest} --log {log}"
+        " --cost {wildcards.cost} --repetition {wildcards.repetition}"
+
+
+rule least_squares:
+    message:
+        "Multistart least squares, {wildcards.cost}"
+    input:
+        MEASUREMENTS,
+        KINETICS_FOR_IMP,
+    output:
+        ROOT / "imp/{cost}/least_squares.json",
+    log:
+        log_of("least_squares_{cost}"),
+    benchmark:
+        benchmark_of("least_squares_{cost}")
+    params:
+        digest=lambda wildcards: digest(slices.imp(study, wildcards.cost, "least_squares")),
+        starts=study.imp.least_squares.starts,
+        seed=study.seed,
+        source=COMPUTES,
+    shell:
+        "pyrofit least-squares --study {STUDY} --digest {params.digest} --log {log}"
+        " --cost {wildcards.cost}"
+
+
+rule collect:
+    message:
+        "All repetitions gathered"
+    input:
+        expand(ROOT / "imp/{cost}/{repetition}.json", cost=COSTS, repetition=REPETITIONS),
+        expand(
+            ROOT / "imp/{cost}/{repetition}_convergence.csv", cost=COSTS, repetition=REPETITIONS
+        ),
+    output:
+        summary=results.imp("summary.csv"),
+        convergence=results.imp("convergence.csv"),
+    log:
+        log_of("collect"),
+    params:
+        digest=digest(slices.collect(study)),
+        source=COMPUTES,
+    shell:
+        "pyrofit collect --study {STUDY} --digest {params.digest} --log {log}"

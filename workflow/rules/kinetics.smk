@@ -1,0 +1,29 @@
+KINETICS = [] if study.kinetics is None else [results.kinetics("fit.json")]
+# The inverse modelling waits for the fit only where it uses it.
+KINETICS_FOR_IMP = KINETICS if study.imp.kinetics == "fitted" else []
+
+
+if study.kinetics is not None:
+
+    rule kinetics:
+        message:
+            "Kinetics fitted to TGA"
+        input:
+            MEASUREMENTS,
+        output:
+            fit=results.kinetics("fit.json"),
+            history=results.kinetics("history.csv.gz"),
+            convergence=results.kinetics("convergence.csv"),
+            curves=results.kinetics("curves.csv"),
+            scores=results.kinetics("scores.csv"),
+        log:
+            log_of("kinetics"),
+        benchmark:
+            benchmark_of("kinetics")
+        params:
+            digest=digest(slices.kinetics(study)),
+            generations=study.kinetics.sceua.generations,
+            seed=study.seed,
+            source=COMPUTES,
+        shell:
+            "pyrofit kinetics --study {STUDY} --digest {params.digest} --log {log}"

@@ -1,0 +1,67 @@
+CALCULATED = [
+    results.measurements_summary,
+    *KINETICS,
+    results.imp("summary.csv"),
+    results.imp("convergence.csv"),
+    expand(ROOT / "imp/{cost}/least_squares.json", cost=COSTS),
+    results.validation("curves.csv"),
+    results.validation("scores.csv"),
+]
+SHOWN_TABLES = [name for name, table in TABLES.items() if table.applies(study)]
+SHOWN_FIGURES = [name for name, figure in FIGURES.items() if figure.applies(study)]
+
+
+rule table:
+    message:
+        "Table {wildcards.name}"
+    input:
+        CALCULATED,
+    output:
+        csv=ROOT / "tables/{name}.csv",
+        markdown=ROOT / "tables/{name}.md",
+    log:
+        log_of("table_{name}"),
+    params:
+        digest=digest(slices.presentation(study)),
+        source=SHOWS,
+    shell:
+        "pyrofit table --study {STUDY} --digest {params.digest} --log {log}"
+        " --name {wildcards.name}"
+
+
+rule figure:
+    message:
+        "Figure {wildcards.name}"
+    input:
+        CALCULATED,
+        MEASUREMENTS,
+    output:
+        svg=ROOT / "figures/{name}.svg",
+        png=ROOT / "figures/{name}.png",
+    log:
+        log_of("figure_{name}"),
+    params:
+        digest=digest(slices.presentation(study)),
+        source=SHOWS,
+    shell:
+        "pyrofit figure --study {STUDY} --digest {params.digest} --log {log}"
+        " --name {wildcards.name}"
+
+
+rule report:
+    message:
+        "Report: {output.page}"
+    input:
+        CALCULATED,
+        expand(ROOT / "tables/{name}.md", name=SHOWN_TABLES),
+        expand(ROOT / "figures/{name}.svg", name=SHOWN_FIGURES),
+    output:
+        page=ROOT / "report.html",
+        provenance=ROOT / "provenance.json",
+    log:
+        log_of("report"),
+    params:
+        digest=digest(slices.presentation(study)),
+        source=SHOWS,
+    shell:
+        "pyrofit report --study {STUDY} --digest {params.digest} --log {log}"

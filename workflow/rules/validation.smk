@@ -1,0 +1,19 @@
+rule predict:
+    message:
+        "Best sets simulated at {params.experiments}"
+    input:
+        MEASUREMENTS,
+        KINETICS_FOR_IMP,
+        results.imp("summary.csv"),
+        expand(ROOT / "imp/{cost}/least_squares.json", cost=COSTS),
+    output:
+        curves=results.validation("curves.csv"),
+        scores=results.validation("scores.csv"),
+    log:
+        log_of("predict"),
+    params:
+        digest=digest(slices.validation(study)),
+        experiments=" ".join(study.validation.experiments),
+        source=COMPUTES,
+    shell:
+        "pyrofit predict --study {STUDY} --digest {params.digest} --log {log}"
