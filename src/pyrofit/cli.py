@@ -38,7 +38,7 @@ def main(arguments: Sequence[str] | None = None) -> int:
     given.log.parent.mkdir(parents=True, exist_ok=True)
     usual = sys.stderr
     with given.log.open("w", encoding="utf-8") as log:
-        sys.stderr = _Tee(usual, log)  # type: ignore[assignment]
+        sys.stderr = _Tee(usual, log)
         try:
             return _run(given)
         finally:

@@ -5,6 +5,7 @@ from dataclasses import dataclass
 
 import numpy as np
 import pandas as pd
+from numpy.typing import NDArray
 
 from pyrofit.config import Study, TermSpec
 from pyrofit.cost import Target, WeightedSum, make_term
@@ -54,7 +55,7 @@ class Problem:
     material: Material
     fixed: Mapping[str, float]
     runs: Mapping[str, _Run]
-    picks: tuple[tuple[str, str, FloatArray], ...]
+    picks: tuple[tuple[str, str, NDArray[np.int64]], ...]
     cost: WeightedSum
     accuracy: Accuracy
 
@@ -116,7 +117,7 @@ def request_for(
     """Return what a simulation is asked for at the given times of a measured signal."""
     if isinstance(experiment, Tga):
         return Request(times, temperature_K=program(experiment, frame, times))
-    return Request(times, experiment.signals[signal].average_s)  # type: ignore[index]
+    return Request(times, experiment.signals[signal].average_s)
 
 
 def program(experiment: Tga, frame: pd.DataFrame, times: FloatArray) -> FloatArray:
@@ -124,7 +125,7 @@ def program(experiment: Tga, frame: pd.DataFrame, times: FloatArray) -> FloatArr
     measured = frame["time_s"].to_numpy(float)
     temperature = frame["temperature_K"].to_numpy(float)
     if experiment.program == "measured":
-        return np.interp(times, measured, temperature)
+        return np.asarray(np.interp(times, measured, temperature), dtype=np.float64)
     rise = experiment.heating_rate_K_min / 60.0 * (times - measured[0])
     return np.asarray(temperature[0] + rise, dtype=np.float64)
 
@@ -175,7 +176,11 @@ def make_problem(
         run = runs.setdefault(name, _Run(experiment, {}))
         run.requests[signal] = request_for(experiment, signal, measurements[name, signal], at)
     picks = tuple(
-        (s.experiment, s.signal, np.searchsorted(times[s.experiment, s.signal], t.time_s))
+        (
+            s.experiment,
+            s.signal,
+            np.searchsorted(times[s.experiment, s.signal], t.time_s).astype(np.int64),
+        )
         for s, t in zip(specs, targets, strict=True)
     )
     terms = [

@@ -152,7 +152,7 @@ def _frame(setup: _Setup, problem: Problem) -> pd.DataFrame:
 
 def best_of(history: pd.DataFrame, problem: Problem) -> tuple[float, FloatArray]:
     """Return the lowest cost of a history and its parameter set (the first where they tie)."""
-    row = history.loc[history["cost"].idxmin()]
+    row = history.iloc[int(history["cost"].to_numpy().argmin())]
     return float(row["cost"]), row[list(problem.names)].to_numpy(float)
 
 

@@ -1,9 +1,10 @@
 """Samples, exposures and experiments."""
 
-from typing import Annotated, Literal, Self
+from typing import Annotated, ClassVar, Literal, Self
 
 from pydantic import Field, model_validator
 
+from pyrofit.errors import suggest
 from pyrofit.model.base import (
     NOT_NEGATIVE,
     POSITIVE,
@@ -138,12 +139,22 @@ class Signal(Part):
 class Experiment(Part):
     """What all experiments have."""
 
+    QUANTITIES: ClassVar[tuple[str, ...]] = ()
     title: str = Field("", description="name in figures")
+    signals: dict[str, Signal] = Field(description="measured quantities by name")
+
+    @model_validator(mode="after")
+    def _known_signals(self) -> Self:
+        for name in self.signals:
+            if name not in self.QUANTITIES:
+                raise ValueError(f"unknown signal '{name}'. {suggest(name, self.QUANTITIES)}")
+        return self
 
 
 class Tga(Experiment):
     """Thermogravimetric analysis."""
 
+    QUANTITIES: ClassVar[tuple[str, ...]] = ("mass_fraction",)
     kind: Literal["tga"]
     heating_rate_K_min: AboveZero = Field(description="nominal heating rate [K/min]")
     program: Literal["nominal", "measured"] = Field(
@@ -151,19 +162,16 @@ class Tga(Experiment):
     )
     start_temperature_K: AboveZero = Field(300.0, description="synthetic: first temperature [K]")
     end_temperature_K: AboveZero = Field(850.0, description="synthetic: last temperature [K]")
-    signals: dict[Literal["mass_fraction"], Signal] = Field(description="measured quantities")
 
 
 class Gasification(Experiment):
     """Mass loss of a slab under radiant heat in an inert atmosphere."""
 
+    QUANTITIES: ClassVar[tuple[str, ...]] = ("mlr", "back_temperature")
     kind: Literal["gasification"]
     sample: Sample = Field(description="the specimen")
     front: Front = Field(description="irradiated side")
     back: Back = Field(default_factory=Back, description="other side; default: insulated")
-    signals: dict[Literal["mlr", "back_temperature"], Signal] = Field(
-        description="measured quantities"
-    )
     duration_s: AboveZero = Field(1000.0, description="synthetic: length of the record [s]")
 
 

@@ -1,7 +1,7 @@
 """Steps 2 and 3: the kinetics fit, and the repeated inverse modelling."""
 
 import sys
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Mapping
 from typing import Any
 
 import numpy as np
@@ -236,6 +236,6 @@ def best_sets(study: Study, results: Results) -> dict[str, dict[str, float]]:
     sets = {}
     for cost in study.imp.costs:
         group = summary[summary["cost_function"] == cost]
-        row = group.loc[group["cost"].idxmin()]
+        row = group.iloc[int(group["cost"].to_numpy().argmin())]
         sets[cost] = {name: float(row[name]) for name in study.imp.estimate}
     return sets

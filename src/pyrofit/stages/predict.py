@@ -53,7 +53,7 @@ def predict(study: Study, results: Results) -> None:
         }
         for label, values in sets_of(study, results).items():
             run = simulate_gasification(
-                experiment, material, {**fixed, **values}, dict(requests), study.accuracy
+                experiment, material, {**fixed, **values}, requests, study.accuracy
             )
             if not run.status.finished:
                 raise DataError(

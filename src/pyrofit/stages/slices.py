@@ -72,7 +72,7 @@ def imp(study: Study, cost: str, optimiser: str) -> dict[str, Any]:
 
 
 def validation(study: Study) -> dict[str, Any]:
-    """The predicted experiments, and the material they are predicted with."""
+    """Predicted experiments, and the material they are predicted with."""
     names = [n for n, e in study.experiments.items() if isinstance(e, Gasification)]
     return {
         "experiments": {n: _experiment(study, n) for n in names},

@@ -1,0 +1,59 @@
+# make campaign   everything from nothing: environment, data, the whole study, report
+# make test       everything from nothing: environment, all tests
+# STUDY=my.yaml make campaign runs your own study; CORES=n sets the number of cores.
+
+PYTHON ?= python3
+CORES ?= 2
+VENV := .venv
+export PATH := $(CURDIR)/$(VENV)/bin:$(PATH)
+
+.PHONY: campaign test data lint bench format lock clean
+
+$(VENV)/installed: requirements.lock pyproject.toml
+	@echo "Setting up the environment in $(VENV) (about a minute)"
+	@$(PYTHON) -c 'import sys; sys.exit(sys.version_info < (3, 11))' \
+		|| { echo "Python 3.11 or newer is needed; set PYTHON=python3.xx"; exit 1; }
+	$(PYTHON) -m venv $(VENV)
+	$(VENV)/bin/python -m pip install --quiet --disable-pip-version-check --require-hashes -r requirements.lock
+	$(VENV)/bin/python -m pip install --quiet --disable-pip-version-check --no-deps --no-build-isolation --editable .
+	@touch $@
+
+campaign: $(VENV)/installed
+	@study="$(STUDY)"; \
+	if [ -z "$$study" ]; then \
+		if reason=$$(pyrofit data where 2>&1); then \
+			study=config/paper.yaml; echo "Study: paper, on the measured files in $$reason"; \
+		else \
+			study=config/smoke.yaml; echo "Study: smoke, on synthetic data, because the measured files are not here"; \
+			echo "($$reason)"; \
+		fi; \
+	fi; \
+	snakemake --cores $(CORES) --configfile "$$study"
+
+test: $(VENV)/installed
+	pytest
+
+data: $(VENV)/installed
+	pyrofit data fetch
+
+lint: $(VENV)/installed
+	ruff check .
+	ruff format --check .
+	mypy
+	snakefmt --check Snakefile workflow
+	! grep -n "://" requirements.lock
+
+bench: $(VENV)/installed
+	python benchmarks/speed.py
+
+format: $(VENV)/installed
+	ruff check --fix .
+	ruff format .
+	snakefmt Snakefile workflow
+
+lock:
+	uv pip compile pyproject.toml --extra dev --universal --python-version 3.11 --generate-hashes \
+		--no-emit-index-url --no-header --no-annotate --quiet -o requirements.lock
+
+clean:
+	rm -rf results .snakemake
