@@ -5,13 +5,8 @@ from typing import Any
 
 import pytest
 
-from pyrofit.data.series import (
-    UNCERTAINTY_COLUMN,
-    VALUE_COLUMN,
-    Measurement,
-    SeriesSpec,
-    read_series,
-)
+from pyrofit.data.quantities import UNCERTAINTY_COLUMN, VALUE_COLUMN
+from pyrofit.data.series import Measurement, SeriesSpec, read_series
 from pyrofit.errors import DataError
 
 MLR = """Time,MLR_mean,Temp_avg_all4,MLR_error,Temperature_Error

@@ -1,7 +1,6 @@
 """Turn a table of a laboratory into a checked measured series in SI units."""
 
 import math
-import re
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field
 from pathlib import Path
@@ -9,71 +8,23 @@ from pathlib import Path
 import numpy as np
 import pandas as pd
 
+from pyrofit.data.checks import check_limits, check_order
 from pyrofit.data.csvfile import FloatArray, Table, read_table
 from pyrofit.data.fetch import sha256
+from pyrofit.data.quantities import (
+    CELSIUS,
+    HEADERS,
+    ICE_POINT_K,
+    SCALES,
+    UNCERTAINTY_COLUMN,
+    VALUE_COLUMN,
+    VALUE_KINDS,
+    header_key,
+    unit_key,
+)
 from pyrofit.errors import DataError, suggest
 
-VALUE_COLUMN = {
-    "mlr": "mlr_kg_m2_s",
-    "back_temperature": "back_temperature_K",
-    "mass_fraction": "mass_fraction",
-}
-"""Column of the measured value, with its unit, by quantity."""
-
-UNCERTAINTY_COLUMN = {
-    "mlr": "mlr_uncertainty_kg_m2_s",
-    "back_temperature": "back_temperature_uncertainty_K",
-    "mass_fraction": "mass_fraction_uncertainty",
-}
-"""Column of the uncertainty of the value, in the unit of the value, by quantity."""
-
-_SCALES = {
-    "time": {"s": 1.0, "min": 60.0, "h": 3600.0},
-    "temperature": {"K": 1.0, "degC": 1.0, "°C": 1.0, "C": 1.0},
-    "mass": {"kg": 1.0, "g": 1e-3, "mg": 1e-6},
-    "mass flux": {"kg/s/m2": 1.0, "g/s/m2": 1e-3, "mg/s/m2": 1e-6},
-    "mass rate": {"kg/s": 1.0, "g/s": 1e-3, "mg/s": 1e-6},
-    "fraction": {"1": 1.0, "-": 1.0, "g/g": 1.0, "kg/kg": 1.0, "mg/mg": 1.0, "%": 0.01},
-}
-_CELSIUS = {"degC", "°C", "C"}
-_ICE_POINT_K = 273.15
-
-_VALUE_KINDS = {
-    "mlr": ("mass flux", "mass rate"),
-    "back_temperature": ("temperature",),
-    "mass_fraction": ("fraction", "mass"),
-}
-
-# The usual header names by role; `_key` says which differences of spelling do not count.
-_HEADERS: dict[str, dict[str, tuple[str, ...]]] = {
-    "mlr": {
-        "time": ("Time",),
-        "value": ("MLR_mean", "MLR", "Mass loss rate", "Mass flux"),
-        "uncertainty": ("MLR_error", "MLR uncertainty", "Error", "Uncertainty"),
-    },
-    "back_temperature": {
-        "time": ("Time",),
-        "value": ("Temp_avg_all4", "Temperature", "Temp", "Back temperature"),
-        "uncertainty": ("Temperature_Error", "Temp error", "Error", "Uncertainty"),
-    },
-    "mass_fraction": {
-        "time": ("Time",),
-        "temperature": ("Temperature", "Temp"),
-        "value": ("Mass fraction", "Mass", "Normalized mass", "Normalised mass"),
-        "uncertainty": ("Mass fraction error", "Mass error", "Error", "Uncertainty"),
-    },
-}
-
 _FEWEST_POINTS = 3
-_SIGN_RATIO = 3.0
-# Values outside betray a wrong unit, not a strange sample. A temperature must lie between the two
-# at all times, the others at their largest: a sample ends without mass and without loss of mass.
-_LIMITS = {
-    "temperature_K": (200.0, 2500.0),
-    "back_temperature_K": (200.0, 2500.0),
-    "mlr_kg_m2_s": (0.0, 2.0),
-    "mass_fraction": (0.5, 1.5),
-}
 
 
 @dataclass(frozen=True)
@@ -116,14 +67,14 @@ class SeriesSpec:
     sample_area_m2: float | None = None
 
     def __post_init__(self) -> None:
-        if self.quantity not in _HEADERS:
+        if self.quantity not in HEADERS:
             raise DataError(
                 f"{self.path}: unknown quantity '{self.quantity}'. "
-                f"{suggest(self.quantity, _HEADERS)}"
+                f"{suggest(self.quantity, HEADERS)}"
             )
         for key in ("columns", "units"):
             for role in getattr(self, key):
-                if role not in (roles := _HEADERS[self.quantity]):
+                if role not in (roles := HEADERS[self.quantity]):
                     raise DataError(
                         f"{self.path}: `{key}` names an unknown role '{role}' for "
                         f"{self.quantity}. {suggest(role, roles)}"
@@ -218,8 +169,8 @@ def read_series(spec: SeriesSpec) -> Measurement:
     dummies = [name for name, column in table.columns.items() if not column.any()]
     headers = _assign_columns(spec, table, dummies)
     frame, notes = _convert_columns(spec, table, headers)
-    _check_order(spec.quantity, table, headers, frame)
-    _check_limits(spec.quantity, table, headers, frame)
+    check_order(spec.quantity, table, headers, frame)
+    check_limits(spec.quantity, table, headers, frame)
     if dummies:
         notes.append(f"left out, zero throughout: {', '.join(dummies)}")
     if negative := int((frame[VALUE_COLUMN[spec.quantity]] < 0.0).sum()):
@@ -230,21 +181,15 @@ def read_series(spec: SeriesSpec) -> Measurement:
     )
 
 
-def _key(header: str) -> str:
-    """Reduce a header to what tells it from others: no case, blanks, dashes, points or unit."""
-    name = re.sub(r"\s*(\[.*\]|\(.*\))$", "", header)
-    return re.sub(r"[\s_.-]", "", name).casefold()
-
-
 def _assign_columns(spec: SeriesSpec, table: Table, dummies: Sequence[str]) -> dict[str, str]:
     """Find the header of each role: asked for by name, or recognised."""
     asked = {role: _find_asked(table, role, name) for role, name in spec.columns.items()}
     free = [name for name in table.columns if name not in asked.values()]
     headers: dict[str, str] = {}
-    for role, known in _HEADERS[spec.quantity].items():
+    for role, known in HEADERS[spec.quantity].items():
         usable = free if role == "time" else [name for name in free if name not in dummies]
-        keys = {_key(name) for name in known}
-        matches = [asked[role]] if role in asked else [n for n in usable if _key(n) in keys]
+        keys = {header_key(name) for name in known}
+        matches = [asked[role]] if role in asked else [n for n in usable if header_key(n) in keys]
         if role == "uncertainty" and (spec.uncertainty is not None or set(matches) <= {*dummies}):
             continue
         if len(matches) != 1:
@@ -268,7 +213,7 @@ def _assign_columns(spec: SeriesSpec, table: Table, dummies: Sequence[str]) -> d
 def _find_asked(table: Table, role: str, asked: str) -> str:
     if asked in table.columns:
         return asked
-    matches = [name for name in table.columns if _key(name) == _key(asked)]
+    matches = [name for name in table.columns if header_key(name) == header_key(asked)]
     if len(matches) != 1:
         raise DataError(
             f"{table.path}: there is no column '{asked}' for the {role}. "
@@ -289,7 +234,7 @@ def _convert_columns(
     data = {"time_s": _to_si(spec, table, headers, "time", ("time",))[0]}
     if "temperature" in headers:
         data["temperature_K"] = _to_si(spec, table, headers, "temperature", ("temperature",))[0]
-    kinds = _VALUE_KINDS[spec.quantity]
+    kinds = VALUE_KINDS[spec.quantity]
     value, kind = _to_si(spec, table, headers, "value", kinds)
     divisor, notes = _divisor(spec, kind, float(value[0]))
     data[VALUE_COLUMN[spec.quantity]] = value / divisor
@@ -310,24 +255,17 @@ def _to_si(
     """Convert one column to SI units; give also which of the kinds of quantity its unit is."""
     header = headers[role]
     unit = spec.units.get(role, table.units[header])
-    scales = {_unit_key(word): (kind, word) for kind in kinds for word in _SCALES[kind]}
+    scales = {unit_key(word): (kind, word) for kind in kinds for word in SCALES[kind]}
     known = [word for _, word in scales.values()]
-    if not unit or (key := _unit_key(unit)) not in scales:
+    if not unit or (key := unit_key(unit)) not in scales:
         given = f"unknown unit '{unit}' of the {role}. " if unit else f"no unit of the {role}; "
         raise DataError(
             f"{table.path}, column '{header}': {given}{suggest(unit or '', known)} "
             f"Give it in the study: `units: {{{role}: ...}}`."
         )
     kind, word = scales[key]
-    offset = _ICE_POINT_K if word in _CELSIUS and role != "uncertainty" else 0.0
-    return table.columns[header] * _SCALES[kind][word] + offset, kind
-
-
-def _unit_key(unit: str) -> str:
-    """Reduce a unit to one spelling: `kg m-2 s-1`, `kg/(m^2 s)` and `kg/m²/s` to `kg/s/m2`."""
-    key = re.sub(r"[\s^*·⋅()\[\]]", "", unit.casefold()).replace("²", "2").replace("−", "-")
-    key = key.replace("m-2", "/m2").replace("s-1", "/s")
-    return re.sub(r"/m2/?s$|/sm2$", "/s/m2", key)
+    offset = ICE_POINT_K if word in CELSIUS and role != "uncertainty" else 0.0
+    return table.columns[header] * SCALES[kind][word] + offset, kind
 
 
 def _divisor(spec: SeriesSpec, kind: str, first: float) -> tuple[float, list[str]]:
@@ -349,56 +287,3 @@ def _divisor(spec: SeriesSpec, kind: str, first: float) -> tuple[float, list[str
         )
     which = "its first value" if spec.sample_mass_kg is None else "the mass of the sample"
     return mass, [f"mass divided by {which}, {mass:g} kg"]
-
-
-def _check_order(
-    quantity: str, table: Table, headers: Mapping[str, str], frame: pd.DataFrame
-) -> None:
-    """Refuse times that do not increase, negative uncertainties and a loss of the wrong sign."""
-    time = frame["time_s"].to_numpy()
-    if time[0] < 0.0:
-        rule = "time starts at 0 or later. Delete the rows before 0."
-        raise _refusal(table, headers["time"], 0, rule)
-    if (stops := np.flatnonzero(np.diff(time) <= 0.0)).size:
-        rule = "time must exceed that of the row before. Sort the rows and delete doubled ones."
-        raise _refusal(table, headers["time"], int(stops[0]) + 1, rule)
-    if "uncertainty" in headers:
-        uncertainty = frame[UNCERTAINTY_COLUMN[quantity]].to_numpy()
-        if uncertainty.min() < 0.0:
-            rule = (
-                "an uncertainty is never negative. Correct it, or give `uncertainty` as a number."
-            )
-            raise _refusal(table, headers["uncertainty"], int(uncertainty.argmin()), rule)
-    value = frame[VALUE_COLUMN[quantity]].to_numpy()
-    if quantity == "mlr" and -value.min() > _SIGN_RATIO * value.max():
-        rule = "a mass loss rate is positive where mass is lost. Change the sign of the column."
-        raise _refusal(table, headers["value"], int(value.argmin()), rule)
-
-
-def _check_limits(
-    quantity: str, table: Table, headers: Mapping[str, str], frame: pd.DataFrame
-) -> None:
-    """Refuse temperatures, rates and mass fractions that only a wrong unit explains."""
-    for role, column in (("temperature", "temperature_K"), ("value", VALUE_COLUMN[quantity])):
-        if column not in frame:
-            continue
-        numbers = frame[column].to_numpy()
-        low, high = _LIMITS[column]
-        rows = (
-            (numbers.argmin(), numbers.argmax()) if column.endswith("_K") else (numbers.argmax(),)
-        )
-        for row in map(int, rows):
-            if not low <= numbers[row] <= high:
-                rule = (
-                    f"{column} is then {numbers[row]:g}, not between {low:g} and {high:g}. If the "
-                    f"unit is wrong, give the right one in the study: `units: {{{role}: ...}}` "
-                    "(degrees Celsius: degC), else check the mass and area of the sample."
-                )
-                raise _refusal(table, headers[role], row, rule)
-
-
-def _refusal(table: Table, header: str, row: int, rule: str) -> DataError:
-    return DataError(
-        f"{table.path}, line {table.first_row + row}, column '{header}': "
-        f"given {table.columns[header][row]:g}; {rule}"
-    )

@@ -9,7 +9,7 @@ from numpy.typing import NDArray
 
 from pyrofit.config import Study, TermSpec
 from pyrofit.cost import Target, WeightedSum, make_term
-from pyrofit.data.series import UNCERTAINTY_COLUMN, VALUE_COLUMN
+from pyrofit.data.quantities import UNCERTAINTY_COLUMN, VALUE_COLUMN
 from pyrofit.model.experiment import Gasification, Tga
 from pyrofit.model.material import Material
 from pyrofit.simulate import (

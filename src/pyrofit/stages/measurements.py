@@ -11,13 +11,8 @@ import pandas as pd
 from pyrofit.config import Study
 from pyrofit.data.closure import mass_closure
 from pyrofit.data.fetch import locate
-from pyrofit.data.series import (
-    UNCERTAINTY_COLUMN,
-    VALUE_COLUMN,
-    Measurement,
-    SeriesSpec,
-    read_series,
-)
+from pyrofit.data.quantities import UNCERTAINTY_COLUMN, VALUE_COLUMN
+from pyrofit.data.series import Measurement, SeriesSpec, read_series
 from pyrofit.errors import DataError
 from pyrofit.estimate.problem import Measurements
 from pyrofit.estimate.sceua import seed_for

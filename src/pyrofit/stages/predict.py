@@ -4,7 +4,7 @@ import numpy as np
 import pandas as pd
 
 from pyrofit.config import Study
-from pyrofit.data.series import VALUE_COLUMN
+from pyrofit.data.quantities import VALUE_COLUMN
 from pyrofit.errors import DataError
 from pyrofit.files import Results, read_json, write_csv
 from pyrofit.model.experiment import Gasification
