@@ -24,7 +24,7 @@ COMPONENT = {"density_kg_m3": 1e3, "conductivity_W_mK": 0.2, "specific_heat_J_kg
 def powder(names: str, composition: dict[str, Any], *reactions: dict[str, Any]) -> Material:
     return Material.model_validate(
         {
-            "components": {name: COMPONENT for name in names},
+            "components": dict.fromkeys(names, COMPONENT),
             "reactions": {str(j): reaction for j, reaction in enumerate(reactions)},
             "composition": composition,
         }
@@ -165,6 +165,14 @@ def test_competing_first_order_reactions_converge_with_second_order(beta: float)
     assert np.log2(found[1] / found[2]) >= 1.8
 
 
+def test_competing_reactions_of_other_orders_converge_with_second_order() -> None:
+    # Measured with orders 1.5 and 0.7: 4.1e-5 at 1 K, order 2.01.
+    orders = (1.5, 0.7)
+    found = errors(competing(orders), exact_competing(orders, 10.0), 10.0, (1.0, 0.5))
+    assert found[0] <= 1.5 * 4.1e-5
+    assert np.log2(found[0] / found[1]) >= 1.8
+
+
 def test_one_reaction_written_as_two_halves_is_the_same_reaction() -> None:
     half = {"A_1_s": 0.5 * SLOW["A_1_s"], "E_J_mol": SLOW["E_J_mol"]}
     pair = ({"reactant": "B", "products": {"C": 0.1}, **half},) * 2
@@ -174,7 +182,7 @@ def test_one_reaction_written_as_two_halves_is_the_same_reaction() -> None:
 
 
 def test_solid_products_alone_leave_the_mass_unchanged() -> None:
-    # Measured: 0 to 2e-16 while A becomes B becomes C and A becomes C directly.
+    # Measured: 7e-16, while A becomes B becomes C and A becomes C directly.
     material = powder(
         "ABC",
         {"A": 0.8, "B": 0.2},
@@ -192,9 +200,10 @@ def test_residue_of_a_burnt_sample_is_the_product_of_the_yields() -> None:
 
 @pytest.mark.parametrize("beta", RATES)
 def test_table_3_curves_of_fds_agree(beta: float) -> None:
-    # Measured max |dm| above 1 % mass, where FDS deletes the layer: 4.8e-4, 4.8e-4, 4.8e-4.
+    # Measured max |dm| at 1, 10, 50 K/min: 1.4e-5, 1.6e-5, 2.1e-5 (a shift of 0.001 K). Below about
+    # 1 % mass FDS deletes the layer.
     curve = reference("fds", f"tga_table3_{beta:.0f}K")
     curve = curve[curve["mass_fraction"] > 0.01]
     temperature = curve["T_C"].to_numpy() + 273.15
     ours = tga_fraction(table_3(), beta, temperature)
-    assert np.abs(ours - curve["mass_fraction"]).max() <= 6e-4
+    assert np.abs(ours - curve["mass_fraction"]).max() <= 3e-5

@@ -103,6 +103,9 @@ class Reaction(Part):
             raise ValueError("give A_1_s, or reference_temperature_K with reference_rate_1_s")
         if self.A_1_s is not None and not all(reference):
             raise ValueError("give either A_1_s or the reference pair, not both")
+        total = sum(nu for nu in self.products.values() if isinstance(nu, float))
+        if total > 1.0 + 1e-12:
+            raise ValueError(f"the solid yields add up to {total:g}, above 1")
         return self
 
 

@@ -1,0 +1,267 @@
+import math
+from typing import Any
+
+import numpy as np
+import pytest
+
+from pyrofit.model.experiment import Gasification
+from pyrofit.model.material import Linear, Material, PowerLaw, Reaction, Table
+from pyrofit.solver import lower
+from pyrofit.solver.arrays import TABLE_TEMPERATURES_K
+
+VIRGIN: dict[str, Any] = {
+    "density_kg_m3": 1000.0,
+    "conductivity_W_mK": 0.2,
+    "specific_heat_J_kgK": 2000.0,
+    "emissivity": 0.8,
+}
+CHAR: dict[str, Any] = {
+    "density_kg_m3": "rho_c",
+    "conductivity_W_mK": 0.4,
+    "specific_heat_J_kgK": 1000.0,
+    "emissivity": 0.95,
+}
+VALUES = {"rho_c": 500.0, "h": 12.0, "q": 3e4, "half": 0.5, "E": 1.5e5}
+
+
+def material(
+    reactions: dict[str, Any] | None = None,
+    composition: dict[str, Any] | None = None,
+    virgin: dict[str, Any] | None = None,
+) -> Material:
+    return Material.model_validate(
+        {
+            "components": {"A": VIRGIN | (virgin or {}), "B": VIRGIN, "char": CHAR},
+            "reactions": reactions or {},
+            "composition": composition or {"A": 1.0},
+        }
+    )
+
+
+def experiment(sample: dict[str, Any] | None = None, **changes: Any) -> Gasification:
+    return Gasification.model_validate(
+        {
+            "kind": "gasification",
+            "sample": {"layers": [{"thickness_m": 0.006}]} | (sample or {}),
+            "front": {"flux_W_m2": 25e3},
+            "signals": {"mlr": {"file": "synthetic"}},
+        }
+        | changes
+    )
+
+
+def reaction(reactant: str, **more: Any) -> dict[str, Any]:
+    return {"reactant": reactant, "A_1_s": 1e10, "E_J_mol": 1.5e5} | more
+
+
+def at(table: Any, temperature_K: float) -> float:
+    return float(np.interp(temperature_K, TABLE_TEMPERATURES_K, table))
+
+
+@pytest.mark.parametrize(
+    ("composition", "expected"),
+    [
+        ({"A": 0.25, "B": 0.75}, [0.25, 0.75, 0.0]),
+        ({"B": 0.25, "A": "rest"}, [0.75, 0.25, 0.0]),
+        ({"A": "rest", "B": "half", "char": 0.125}, [0.375, 0.5, 0.125]),
+        ({"char": 1.0}, [0.0, 0.0, 1.0]),
+    ],
+)
+def test_fractions_are_in_the_order_of_the_components(
+    composition: dict[str, Any], expected: list[float]
+) -> None:
+    assert lower.fractions(composition, ["A", "B", "char"], VALUES).tolist() == expected
+
+
+def test_constant_property_is_one_value() -> None:
+    assert lower.property_table(0.3, VALUES).tolist() == [0.3]
+    assert lower.property_table("rho_c", VALUES).tolist() == [500.0]
+
+
+def test_linear_property_by_hand() -> None:
+    table = lower.property_table(Linear(value=0.2, slope_1_K=1e-3), VALUES)
+    assert at(table, 300.0) == pytest.approx(0.2)
+    assert at(table, 552.5) == pytest.approx(0.2 * 1.2525)
+
+
+def test_power_law_by_hand() -> None:
+    law = PowerLaw(value=0.2, exponent=0.5, reference_temperature_K=400.0)
+    table = lower.property_table(law, VALUES)
+    assert at(table, 400.0) == pytest.approx(0.2)
+    assert at(table, 900.0) == pytest.approx(0.3)
+
+
+def test_table_is_linear_inside_and_constant_outside() -> None:
+    law = Table(temperature_K=(300.0, 400.0), value=(1000.0, "rho_c"))
+    table = lower.property_table(law, VALUES)
+    assert [at(table, T) for T in (250.0, 350.0, 375.0, 1200.0)] == [1000.0, 750.0, 625.0, 500.0]
+
+
+def test_constants_are_stretched_beside_tables_only() -> None:
+    plain = lower.lower_material(material(), VALUES)
+    assert plain.conductivity.tolist() == [[0.2], [0.2], [0.4]]
+    virgin = {"conductivity_W_mK": {"value": 0.2, "exponent": 0.7}}
+    mixed = lower.lower_material(material(virgin=virgin), VALUES)
+    assert mixed.conductivity.shape == (3, TABLE_TEMPERATURES_K.size)
+    assert (mixed.conductivity[2] == 0.4).all()
+    assert mixed.specific_heat.shape == (3, 1)
+
+
+def test_properties_are_in_the_order_of_the_components() -> None:
+    arrays = lower.lower_material(material(), VALUES)
+    assert arrays.specific_volume.tolist() == [1e-3, 1e-3, 2e-3]
+    assert arrays.emissivity.tolist() == [0.8, 0.8, 0.95]
+    assert arrays.absorption.tolist() == [0.0, 0.0, 0.0]
+
+
+def test_rate_given_at_a_temperature_is_that_rate_there() -> None:
+    given = Reaction(
+        reactant="A", E_J_mol="E", reference_temperature_K=600.0, reference_rate_1_s=2e-3
+    )
+    A = lower.rate_factor(given, VALUES)
+    assert pytest.approx(2e-3 * math.exp(1.5e5 / (8.314462618 * 600.0)), rel=1e-14) == A
+    assert pytest.approx(2.29e10, rel=2e-3) == A
+
+
+def test_rate_factor_given_outright_is_kept() -> None:
+    assert lower.rate_factor(Reaction(reactant="A", E_J_mol=1.0, A_1_s=7e9), VALUES) == 7e9
+
+
+def test_network_by_hand() -> None:
+    reactions = {
+        "second": reaction("B", products={"char": 0.25}, heat_of_reaction_J_kg=4e5),
+        "first": reaction("A", products={"B": 0.5, "char": 0.125}, E_J_mol=8314.462618, order=2.0),
+    }
+    network = lower.lower_network(material(reactions), VALUES)
+    assert network.reactant.tolist() == [0, 1]
+    assert network.yields.tolist() == [[0.0, 0.5, 0.125], [0.0, 0.0, 0.25]]
+    assert network.gas.tolist() == [0.375, 0.75]
+    assert network.heat.tolist() == [0.0, 4e5]
+    assert network.order.tolist() == [2.0, 1.0]
+    assert network.activation_temperature[0] == pytest.approx(1000.0)
+    assert not network.first_order
+    assert not network.plain
+
+
+@pytest.mark.parametrize(
+    ("reactions", "plain"),
+    [
+        ({"1": reaction("A", products={"char": 0.1}), "2": reaction("B")}, True),
+        ({"1": reaction("A", products={"B": 0.1}), "2": reaction("B")}, False),
+        ({"1": reaction("A"), "2": reaction("A")}, False),
+        ({"1": reaction("A", products={"B": 0.1, "char": 0.1})}, False),
+        ({"1": reaction("A", order=1.5)}, False),
+    ],
+)
+def test_short_cut_is_taken_for_parallel_first_order_reactions_only(
+    reactions: dict[str, Any], plain: bool
+) -> None:
+    assert lower.lower_network(material(reactions), VALUES).plain is plain
+
+
+def test_plain_network_knows_its_residue() -> None:
+    reactions = {"1": reaction("A", products={"char": 0.1}), "2": reaction("B")}
+    network = lower.lower_network(material(reactions), VALUES)
+    assert network.residue[0] == 2
+    assert network.residue_yield.tolist() == [0.1, 0.0]
+
+
+def test_material_without_reactions_has_an_empty_network() -> None:
+    network = lower.lower_network(material(), VALUES)
+    assert network.yields.shape == (0, 3)
+    assert network.reactant.size == network.rate_factor.size == 0
+
+
+def test_exposure_by_hand() -> None:
+    given = experiment(
+        sample={
+            "foil": {"thickness_m": 2e-4, "density_kg_m3": 8940.0, "specific_heat_J_kgK": 380.0},
+            "emissivity_depth": 3e-5,
+        },
+        front={"flux_W_m2": "q", "h_W_m2K": "h", "gas_temperature_K": 330.0},
+        back={"h_cube_root_W_m2K43": 1.31, "emissivity": 0.9, "wall_temperature_K": 280.0},
+    )
+    exposure = lower.lower_exposure(given, material(), VALUES)
+    assert exposure.front == (12.0, 0.0, 330.0, 293.15)
+    assert exposure.back == (0.0, 1.31, 293.15, 280.0)
+    assert (exposure.flux_time.tolist(), exposure.flux.tolist()) == ([0.0], [3e4])
+    assert exposure.back_emissivity == 0.9
+    assert exposure.foil_capacity == pytest.approx(679.44)
+    assert exposure.foil_opaque
+    assert exposure.mixing_depth == 3e-5
+
+
+def test_sample_without_foil_has_no_foil_capacity() -> None:
+    exposure = lower.lower_exposure(experiment(), material(), VALUES)
+    assert exposure.foil_capacity == 0.0
+    assert not exposure.foil_opaque
+
+
+def test_flux_table_keeps_its_points() -> None:
+    table = {"time_s": [0.0, 30.0, 30.0], "flux_W_m2": [0.0, 0.0, "q"]}
+    exposure = lower.lower_exposure(experiment(front={"flux_W_m2": table}), material(), VALUES)
+    assert exposure.flux_time.tolist() == [0.0, 30.0, 30.0]
+    assert exposure.flux.tolist() == [0.0, 0.0, 3e4]
+
+
+@pytest.mark.parametrize(
+    ("virgin", "expected"),
+    [
+        # sqrt(0.2/(1000 2000)) = 3.16e-4 m in 1 s
+        ({}, 0.05 * math.sqrt(1e-7)),
+        # at 293.15 K: k = 0.2 sqrt(293.15/300), from a table of 5 K to 9e-6
+        (
+            {"conductivity_W_mK": {"value": 0.2, "exponent": 0.5}},
+            0.05 * math.sqrt(1e-7 * math.sqrt(293.15 / 300.0)),
+        ),
+    ],
+)
+def test_mixing_depth_is_the_cell_of_fds(virgin: dict[str, Any], expected: float) -> None:
+    given = experiment(sample={"emissivity_depth": {"cell_size_factor": 0.05}})
+    exposure = lower.lower_exposure(given, material(virgin=virgin), VALUES)
+    assert exposure.mixing_depth == pytest.approx(expected, rel=1e-5)
+
+
+def test_mixing_depth_follows_the_front_layer() -> None:
+    # Half A, half char by mass: volumes 1 and 2 of 3, k = (0.2 + 2 0.4)/3, rho = 2000/3,
+    # c = 1500, so k/(rho c) = (1/3)/1e6.
+    layers = [
+        {"thickness_m": 1e-3, "composition": {"A": 0.5, "char": 0.5}},
+        {"thickness_m": 5e-3},
+    ]
+    given = experiment(sample={"layers": layers, "emissivity_depth": {"cell_size_factor": 1.0}})
+    exposure = lower.lower_exposure(given, material(), VALUES)
+    assert exposure.mixing_depth == pytest.approx(math.sqrt(1e-6 / 3.0), rel=1e-12)
+
+
+def cells(given: Gasification, matter: Material, count: int) -> Any:
+    arrays = lower.lower_material(matter, VALUES)
+    return lower.lower_cells(given, matter, arrays, VALUES, count)
+
+
+def test_cells_share_the_mass_of_the_sample() -> None:
+    # Density of half A, half char by mass: 1/(0.5/1000 + 0.5/500) = 2000/3 kg/m3.
+    matter = material(composition={"A": 0.5, "char": "rest"})
+    mass = cells(experiment(), matter, 8)
+    assert mass.shape == (8, 3)
+    assert mass[0].tolist() == pytest.approx([0.25, 0.0, 0.25])
+    assert (mass == mass[0]).all()
+    assert mass.sum() == pytest.approx(4.0)
+
+
+def test_layers_share_the_cells_by_thickness() -> None:
+    layers = [
+        {"thickness_m": 1e-3, "composition": {"char": 1.0}},
+        {"thickness_m": 3e-3},
+    ]
+    mass = cells(experiment(sample={"layers": layers}), material(), 20)
+    assert mass.shape == (20, 3)
+    assert mass[:5].tolist() == [[0.0, 0.0, pytest.approx(0.1)]] * 5
+    assert mass[5:].tolist() == [[pytest.approx(0.2), 0.0, 0.0]] * 15
+
+
+def test_thin_layer_keeps_two_cells() -> None:
+    layers = [{"thickness_m": 1e-6, "composition": {"char": 1.0}}, {"thickness_m": 6e-3}]
+    mass = cells(experiment(sample={"layers": layers}), material(), 10)
+    assert mass.shape == (12, 3)
+    assert mass[:2, 2].tolist() == pytest.approx([2.5e-4, 2.5e-4])
