@@ -6,7 +6,17 @@ import platform
 from pathlib import Path
 from typing import Any
 
-PACKAGES = ("numpy", "scipy", "numba", "spotpy", "pandas", "pydantic", "matplotlib", "snakemake")
+PACKAGES = (
+    "jinja2",
+    "matplotlib",
+    "numba",
+    "numpy",
+    "pandas",
+    "pydantic",
+    "scipy",
+    "snakemake",
+    "spotpy",
+)
 SHOWING = ("figures", "tables", "report", "cli.py")
 """Parts of the source that show results and do not change a number."""
 
@@ -18,7 +28,7 @@ def source_fingerprint(showing: bool = False) -> str:
     """
     root = Path(__file__).parent
     total = hashlib.sha256()
-    for path in sorted(root.rglob("*.py")):
+    for path in sorted((*root.rglob("*.py"), *root.rglob("*.j2"))):
         name = path.relative_to(root)
         if showing or name.parts[0] not in SHOWING:
             total.update(name.as_posix().encode())

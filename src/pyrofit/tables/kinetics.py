@@ -1,0 +1,59 @@
+"""Table 3: the kinetics, ours beside the published ones."""
+
+from typing import Any
+
+import pandas as pd
+
+from pyrofit.config import Study
+from pyrofit.files import Results, read_csv, read_json
+from pyrofit.tables.describe import all_rates, rates_in_fit
+
+_ROWS = (
+    ("A", "1/s", "A_1_s", 1.0),
+    ("E", "kJ/mol", "E_J_mol", 1e-3),
+    # PAPER: Table 3 prints E in kJ/kmol, which is the same number as J/mol.
+    ("E", "kJ/kmol", "E_J_mol", 1.0),
+    ("order n", "-", "order", 1.0),
+    ("mass fraction", "-", "mass_fraction", 1.0),
+)
+
+
+def table3(study: Study, results: Results) -> pd.DataFrame:
+    """Table 3: A, E, n and mass fraction of each reaction, cost of the fit, RMSE at every rate.
+
+    Returns
+    -------
+    pandas.DataFrame
+        One row per quantity; columns ``quantity``, ``of`` (reaction or experiment), ``unit``,
+        ``used_in_fit`` (for the heating rates), ``fitted`` and one per published set.
+    """
+    fit = read_json(results.kinetics("fit.json"))
+    sets: dict[str, Any] = fit["sets"]
+    rows: list[dict[str, Any]] = [
+        {
+            "quantity": quantity,
+            "of": f"reaction {reaction}",
+            "unit": unit,
+            **{label: chosen[reaction][key] * factor for label, chosen in sets.items()},
+        }
+        for reaction in sets["fitted"]
+        for quantity, unit, key, factor in _ROWS
+    ]
+    rows.append({"quantity": "cost", "of": "fit", "unit": "-", "fitted": fit["cost"]})
+    rows += _scores(study, results, list(sets))
+    return pd.DataFrame(rows, columns=["quantity", "of", "unit", "used_in_fit", *sets])
+
+
+def _scores(study: Study, results: Results, sets: list[str]) -> list[dict[str, Any]]:
+    scores = read_csv(results.kinetics("scores.csv")).set_index(["experiment", "set"])
+    used = set(rates_in_fit(study))
+    return [
+        {
+            "quantity": "RMSE of mass fraction",
+            "of": f"{study.experiments[name].heating_rate_K_min:g} K/min",  # type: ignore[union-attr]
+            "unit": "-",
+            "used_in_fit": "yes" if name in used else "no",
+            **{label: scores.loc[(name, label), "rmse_mass_fraction"] for label in sets},
+        }
+        for name in all_rates(study)
+    ]

@@ -1,0 +1,79 @@
+"""Tables as text: numbers to four digits, Markdown."""
+
+import math
+from collections.abc import Iterator, Mapping
+
+import pandas as pd
+
+
+def number(value: object) -> str:
+    """Write a number to four significant digits, one decimal at least; text stays as it is.
+
+    >>> [number(v) for v in (1199.7133, 0.0877472, 600.0, 2.0632e16, 7, float("nan"))]
+    ['1199.7', '0.08775', '600', '2.063e+16', '7', '']
+    """
+    if value is None or isinstance(value, str):
+        return value or ""
+    if not isinstance(value, (int, float)):
+        return str(value)
+    if isinstance(value, bool) or (isinstance(value, float) and math.isnan(value)):
+        return ("yes" if value else "no") if isinstance(value, bool) else ""
+    size = abs(value)
+    if size == 0.0 or (1e-4 <= size < 1e6 and float(f"{value:.4g}") == value):
+        return f"{value:g}" if isinstance(value, float) else str(value)
+    if isinstance(value, int):
+        return str(value)
+    if not 1e-4 <= size < 1e6:
+        return f"{value:.3e}"
+    return f"{value:.{max(1, 3 - math.floor(math.log10(size)))}f}"
+
+
+def plain_rows(frame: pd.DataFrame) -> list[list[object]]:
+    """Return the cells as Python's own types, missing ones as None."""
+    columns = [frame[name].astype(object).tolist() for name in frame.columns]
+    rows = [list(row) for row in zip(*columns, strict=True)]
+    return [[None if _missing(cell) else cell for cell in row] for row in rows]
+
+
+def _missing(cell: object) -> bool:
+    return isinstance(cell, float) and math.isnan(cell)
+
+
+def groups(frame: pd.DataFrame, by: str | None) -> Iterator[tuple[str, pd.DataFrame]]:
+    """Split a table by a column, in order of appearance; columns empty in a part are dropped."""
+    if by is None:
+        yield "", frame
+        return
+    for value in frame[by].unique():
+        part = frame[frame[by] == value].drop(columns=by)
+        yield str(value), part.dropna(axis="columns", how="all")
+
+
+def turned(frame: pd.DataFrame, by: str, headings: Mapping[str, str]) -> pd.DataFrame:
+    """Turn rows into columns: the values of ``by`` become the headings."""
+    turned = frame.astype(object).set_index(by).T
+    turned.insert(0, "quantity", [headings.get(str(name), str(name)) for name in turned.index])
+    turned.columns.name = None
+    return turned.reset_index(drop=True)
+
+
+def markdown(frame: pd.DataFrame) -> str:
+    """Return a table as Markdown.
+
+    >>> print(markdown(pd.DataFrame({"a": ["x"], "b [K]": [1.5]})), end="")
+    | a | b [K] |
+    |:--|--:|
+    | x | 1.5 |
+    """
+    lines = ["| " + " | ".join(frame.columns) + " |"]
+    lines.append("|" + "|".join("--:" if numeric(frame[c]) else ":--" for c in frame) + "|")
+    lines += [
+        "| " + " | ".join(number(cell).replace("|", "\\|") for cell in row) + " |"
+        for row in plain_rows(frame)
+    ]
+    return "\n".join(lines) + "\n"
+
+
+def numeric(column: pd.Series) -> bool:
+    """Tell whether a column holds numbers, which stand to the right."""
+    return bool(pd.api.types.is_numeric_dtype(column) and not pd.api.types.is_bool_dtype(column))

@@ -1,0 +1,43 @@
+"""Scores of all sets at all predicted experiments."""
+
+from typing import Any
+
+import numpy as np
+import pandas as pd
+
+from pyrofit.config import Study
+from pyrofit.files import Results, read_csv
+from pyrofit.tables.describe import predicted_sets, title_of, use_of
+
+
+def validation(study: Study, results: Results) -> pd.DataFrame:
+    """Gather the scores of every set: CV(RMSE) of mass loss rates, RMSE [K] of temperatures.
+
+    Returns
+    -------
+    pandas.DataFrame
+        One row per experiment, signal and set; ``data`` says whether the set's cost was fitted to
+        the signal or predicts it.
+    """
+    scores = read_csv(results.validation("scores.csv"))
+    sets = {chosen.label: chosen for chosen in predicted_sets(study)}
+    rows: list[dict[str, Any]] = []
+    for score in scores.to_dict("records"):
+        chosen = sets[score["set"]]
+        rate = score["signal"] == "mlr"
+        rows.append(
+            {
+                "experiment": title_of(study, score["experiment"]),
+                "signal": score["signal"].replace("_", " ").replace("mlr", "mass loss rate"),
+                "cost_function": chosen.cost,
+                "found_by": chosen.origin,
+                "data": use_of(study, chosen.cost, score["experiment"], score["signal"]),
+                "points": score["points"],
+                "cv_rmse": score["cv_rmse"] if rate else None,
+                "rmse_K": None if rate else score["rmse_si"],
+            }
+        )
+    frame = pd.DataFrame(rows)
+    order = [list(dict.fromkeys(frame[c])).index for c in ("experiment", "signal")]
+    key = frame["experiment"].map(order[0]), frame["signal"].map(order[1])
+    return frame.iloc[np.lexsort(key[::-1])].reset_index(drop=True)

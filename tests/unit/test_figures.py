@@ -1,0 +1,122 @@
+from pathlib import Path
+
+import matplotlib as mpl
+import numpy as np
+import pandas as pd
+import pytest
+from test_tables import described, fake, synthetic
+
+from pyrofit.config import as_study
+from pyrofit.errors import StudyError
+from pyrofit.figures import FIGURES, convergence, curves, kinetics, make_figure
+
+
+@pytest.mark.parametrize("name", FIGURES)
+def test_every_figure_is_written_twice_and_its_svg_alike_each_time(
+    name: str, tmp_path: Path
+) -> None:
+    study, results = fake(tmp_path)
+    make_figure(name, study, results)
+    folder = tmp_path / "figures"
+    first = (folder / f"{name}.svg").read_bytes()
+    assert (folder / f"{name}.png").stat().st_size > 5000
+    make_figure(name, study, results)
+    assert (folder / f"{name}.svg").read_bytes() == first
+    assert b"<dc:date>" not in first
+    assert b"synthetic" not in first
+
+
+@pytest.mark.parametrize("name", FIGURES)
+def test_synthetic_data_are_named_in_every_title(name: str, tmp_path: Path) -> None:
+    study, results = fake(tmp_path, synthetic())
+    if name == "back_temperature":
+        assert not FIGURES[name].applies(study)
+        return
+    make_figure(name, study, results)
+    # Text is drawn as paths; the SVG keeps it as comments.
+    assert "(synthetic data) -->" in (tmp_path / "figures" / f"{name}.svg").read_text()
+
+
+@pytest.mark.parametrize("number", [1, 6])
+def test_any_number_of_costs_and_experiments_is_drawn(number: int, tmp_path: Path) -> None:
+    given = described()
+    terms = given["imp"]["costs"]["RMSE"]
+    given["imp"]["costs"] = {f"cost_{i}": terms for i in range(number)}
+    slab = given["experiments"]["slab_60"]
+    extra = {f"slab_{i}": slab for i in range(min(number, 4) - 1)}
+    given["experiments"] |= extra
+    given["validation"] = {"experiments": ["slab_25", *extra]}
+    study, results = fake(tmp_path, given)
+    for name, figure in FIGURES.items():
+        if figure.applies(study):
+            make_figure(name, study, results)
+    drawn = {path.stem for path in (tmp_path / "figures").glob("*.svg")}
+    missing = {"fig4", "back_temperature"} if number == 1 else set()
+    assert drawn == set(FIGURES) - missing
+
+
+def test_figures_of_what_a_study_lacks_do_not_apply() -> None:
+    given = described(kinetics=None, validation={"experiments": ["slab_60"]})
+    given["imp"]["kinetics"] = "described"
+    given["parameters"]["T_p"]["value"] = 600
+    study = as_study(given, "fake.json")
+    assert {name for name, figure in FIGURES.items() if not figure.applies(study)} == {
+        "fig2",
+        "kinetics_all_rates",
+        "fig3",
+    }
+
+
+def test_drawing_leaves_matplotlibs_settings_alone(tmp_path: Path) -> None:
+    study, results = fake(tmp_path)
+    before = dict(mpl.rcParams)
+    make_figure("fig5", study, results)
+    assert dict(mpl.rcParams) == before
+
+
+def test_unknown_figure_names_the_nearest(tmp_path: Path) -> None:
+    study, results = fake(tmp_path)
+    with pytest.raises(StudyError, match="Did you mean 'residuals'"):
+        make_figure("residual", study, results)
+
+
+def test_slope_of_a_parabola_is_exact_on_uneven_temperatures_too() -> None:
+    temperature = np.linspace(300.0, 400.0, 201)
+    grid, rate = kinetics.slope(temperature, 1.0 - 1e-4 * (temperature - 300.0) ** 2)
+    assert np.allclose(rate, 2e-4 * (grid - 300.0), atol=1e-12)
+    uneven = np.sort(np.concatenate([temperature, temperature[::3] + 0.1]))
+    _, rate = kinetics.slope(uneven, 2.0 - 0.005 * uneven)
+    assert np.allclose(rate, 0.005, atol=1e-12)
+
+
+@pytest.mark.parametrize("points", [3, 4, 7])
+def test_slope_of_few_points_is_taken_over_all_of_them(points: int) -> None:
+    temperature = np.linspace(300.0, 400.0, points)
+    _, rate = kinetics.slope(temperature, 2.0 - 0.005 * temperature)
+    assert np.allclose(rate, 0.005)
+
+
+def test_running_minima_by_hand() -> None:
+    frame = pd.DataFrame(
+        {
+            "repetition": [0, 0, 1, 1, 1],
+            "generation": [1, 2, 1, 2, 3],
+            "calls": [10, 20, 12, 25, 30],
+            "best_cost": [5.0, 3.0, 4.0, 2.0, 1.0],
+        }
+    )
+    # From call 12, where both finished a generation; the first keeps 3 after it ended.
+    calls, found = convergence.running_minima(frame, "calls")
+    assert calls.tolist() == [12, 20, 25, 30]
+    assert found.tolist() == [[5, 3, 3, 3], [4, 4, 2, 1]]
+    generations, found = convergence.running_minima(frame, "generation")
+    assert generations.tolist() == [1, 2, 3]
+    assert found.tolist() == [[5, 3, 3], [4, 2, 1]]
+
+
+def test_running_mean_is_centred_and_leaves_short_records_alone() -> None:
+    series = pd.Series(np.arange(100.0) ** 2)
+    # 3 % of 100 points are 3: ((n - 1)^2 + n^2 + (n + 1)^2)/3 = n^2 + 2/3.
+    assert curves.running_mean(series)[50] == pytest.approx(2500.0 + 2.0 / 3.0)
+    short = pd.Series([1.0, 5.0, 2.0])
+    assert curves.running_mean(short).tolist() == [1.0, 5.0, 2.0]

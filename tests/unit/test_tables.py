@@ -1,0 +1,352 @@
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+import pandas as pd
+import pytest
+
+from pyrofit.config import Study, as_study
+from pyrofit.errors import StudyError
+from pyrofit.files import Results, read_csv, write_csv, write_json
+from pyrofit.stages import predict
+from pyrofit.tables import TABLES, describe, imp, make_table
+from pyrofit.tables.text import number
+
+TGA_K = np.linspace(500.0, 700.0, 41)
+
+
+def described(**changes: Any) -> dict[str, Any]:
+    """A study with two costs, three TGA runs, two slabs; the last measured its temperature."""
+    slab = {
+        "kind": "gasification",
+        "sample": {"layers": [{"thickness_m": 0.004}]},
+        "front": {"flux_W_m2": 25000},
+        "signals": {"mlr": {"file": "slab.csv"}},
+    }
+    warm = {"mlr": {"file": "slab.csv"}, "back_temperature": {"file": "slab.csv"}}
+    study: dict[str, Any] = {
+        "name": "fake",
+        "parameters": {
+            "T_p": {"unit": "K", "lower": 560, "upper": 660},
+            "k": {"unit": "W/(m K)", "lower": 0.1, "upper": 0.5},
+            "cp": {"unit": "kJ/(kg K)", "lower": 0.5, "upper": 3.5},
+        },
+        "material": {
+            "components": {
+                "polymer": {
+                    "density_kg_m3": 1000,
+                    "conductivity_W_mK": "k",
+                    "specific_heat_J_kgK": "cp",
+                    "emissivity": 0.9,
+                }
+            },
+            "reactions": {
+                "pyrolysis": {
+                    "reactant": "polymer",
+                    "reference_temperature_K": "T_p",
+                    "reference_rate_1_s": 0.001,
+                    "E_J_mol": 190000,
+                    "heat_of_reaction_J_kg": 800000,
+                }
+            },
+            "composition": {"polymer": 1.0},
+        },
+        "experiments": {
+            "fast": tga(20),
+            "slow": tga(5),
+            "unused": tga(50),
+            "slab_25": {**slab, "title": "Slab 25 kW/m²"},
+            "slab_60": {**slab, "signals": warm},
+        },
+        "kinetics": {
+            "estimate": ["T_p"],
+            "compare": ["fast"],
+            "cost": [{"experiment": "slow", "signal": "mass_fraction", "kind": "RMSE"}],
+            "sets": {
+                "book": {
+                    "reactions": {"pyrolysis": {"A_1_s": 1e10, "E_J_mol": 150000}},
+                    "composition": {"polymer": 1.0},
+                }
+            },
+        },
+        "imp": {
+            "estimate": ["k", "cp"],
+            "kinetics": "fitted",
+            "costs": {
+                "RMSE": [{"experiment": "slab_25", "signal": "mlr", "kind": "RMSE"}],
+                "BANDS": [{"experiment": "slab_25", "signal": "mlr", "kind": "BANDS"}],
+            },
+            "repetitions": 3,
+        },
+        "validation": {"experiments": ["slab_25", "slab_60"]},
+        "published": {
+            "source": "a book",
+            "costs": {"RMSE": {"fit": [0.1, 0.2, 0.3], "k": [0.2, 0.3, 0.1], "cp": [2, 2.5, 0.1]}},
+        },
+    }
+    return {**study, **changes}
+
+
+def tga(rate: float) -> dict[str, Any]:
+    signals = {"mass_fraction": {"file": "tga.csv"}}
+    return {"kind": "tga", "heating_rate_K_min": rate, "signals": signals}
+
+
+def synthetic(**changes: Any) -> dict[str, Any]:
+    """The same with computed measurements, nothing published, and one temperature less."""
+    study = described(**changes)
+    for experiment in study["experiments"].values():
+        experiment["signals"] = {
+            name: {"file": "synthetic"}
+            for name in experiment["signals"]
+            if name != "back_temperature"
+        }
+    study["kinetics"] = {**study["kinetics"], "sets": {}} if study.get("kinetics") else None
+    del study["published"]
+    return {**study, "synthetic": {"truth": {"T_p": 600, "k": 0.2, "cp": 1.5}}}
+
+
+def fake(root: Path, given: dict[str, Any] | None = None) -> tuple[Study, Results]:
+    """Write the results that the stages would leave behind, a few points each."""
+    study = as_study(given or described(), "fake.json")
+    results = Results(root)
+    _measurements(study, results)
+    if study.kinetics is not None:
+        _kinetics(study, results)
+    _imp(study, results)
+    _validation(study, results)
+    return study, results
+
+
+def _measurements(study: Study, results: Results) -> None:
+    time = np.arange(5.0, 105.0, 5.0)
+    signals: dict[str, Any] = {}
+    for name, experiment in study.experiments.items():
+        signals[name] = {}
+        for signal in experiment.signals:
+            if signal == "mass_fraction":
+                frame = _tga(0.0)
+            elif signal == "mlr":
+                columns = {"time_s": time, "mlr_kg_m2_s": 1e-4 * time}
+                frame = pd.DataFrame({**columns, "mlr_uncertainty_kg_m2_s": 2e-4})
+            else:
+                frame = pd.DataFrame({"time_s": time, "back_temperature_K": 300.0 + time})
+            write_csv(results.measurement(name, signal), frame)
+            source = experiment.signals[signal].file  # type: ignore[index]
+            signals[name][signal] = {"source": source, "sha256": "ab12", "points": len(frame)}
+    closure = ["slab_25: released 4.000 kg/m2; thickness to be estimated"]
+    write_json(results.measurements_summary, {"signals": signals, "mass_closure": closure})
+
+
+def _tga(shift: float) -> pd.DataFrame:
+    mass = 1.0 / (1.0 + np.exp((TGA_K - 600.0 - shift) / 10.0))
+    return pd.DataFrame({"time_s": TGA_K * 3.0, "temperature_K": TGA_K, "mass_fraction": mass})
+
+
+def _kinetics(study: Study, results: Results) -> None:
+    assert study.kinetics is not None
+    sets = ["fitted", *study.kinetics.sets]
+    pyrolysis = {"A_1_s": 2e13, "E_J_mol": 190000.0, "order": 1.0, "mass_fraction": 1.0}
+    write_json(
+        results.kinetics("fit.json"),
+        {"cost": 0.0125, "sets": {label: {"pyrolysis": pyrolysis} for label in sets}},
+    )
+    curves, scores = [], []
+    for i, name in enumerate(("fast", "slow")):
+        for k, label in enumerate(sets):
+            curves.append(_tga(5.0 * k + 1.0).assign(experiment=name, set=label))
+            score = {"experiment": name, "set": label, "rmse_mass_fraction": 0.01 * (i + 1) + k}
+            scores.append(score)
+    write_csv(results.kinetics("curves.csv"), pd.concat(curves))
+    write_csv(results.kinetics("scores.csv"), pd.DataFrame(scores))
+
+
+def _imp(study: Study, results: Results) -> None:
+    rows, running = [], []
+    for cost in study.imp.costs:
+        for n, (fit, k, cp) in enumerate(
+            [(0.10, 0.4985, 1000.0), (0.12, 0.4, 2000.0), (0.11, 0.45, 3000.0)]
+        ):
+            row = {"cost_function": cost, "repetition": n, "seed": n, "cost": fit, "calls": 100 + n}
+            rows.append({**row, "failed_calls": n, "generations": 5, "k": k, "cp": cp})
+            best = [fit * (x if cost == "BANDS" else 1) for x in (5, 4, 3, 2, 1)]
+            steps = {"generation": [1, 2, 3, 4, 5], "calls": [10 + n, 40, 60, 80, 100 + n]}
+            frame = pd.DataFrame({**steps, "best_cost": best})
+            running.append(frame.assign(cost_function=cost, repetition=n))
+        starts = [
+            {"cost": 0.08, "calls": 30, "at_bound": ["k"], "parameters": {"k": 0.5, "cp": 1500.0}},
+            {"cost": 0.09, "calls": 20, "at_bound": [], "parameters": {"k": 0.3, "cp": 1500.0}},
+        ]
+        write_json(results.least_squares(cost), {"cost_function": cost, "starts": starts})
+    write_csv(results.imp("summary.csv"), pd.DataFrame(rows))
+    write_csv(results.imp("convergence.csv"), pd.concat(running))
+
+
+def _validation(study: Study, results: Results) -> None:
+    curves, scores = [], []
+    for name in study.validation.experiments:
+        for i, chosen in enumerate(describe.predicted_sets(study)):
+            for signal in study.experiments[name].signals:
+                frame = read_csv(results.measurement(name, signal))
+                column = "mlr_kg_m2_s" if signal == "mlr" else "back_temperature_K"
+                here = {"experiment": name, "signal": signal, "set": chosen.label}
+                columns = {"time_s": frame["time_s"], "measured": frame[column]}
+                values = frame[column] * (1.0 + 0.02 * i)
+                curves.append(pd.DataFrame({**columns, "simulated": values}).assign(**here))
+                cv = 0.25 + i if signal == "mlr" else np.nan
+                scores.append({**here, "points": 20, "rmse_si": 7.0 + i, "cv_rmse": cv})
+    write_csv(results.validation("curves.csv"), pd.concat(curves))
+    write_csv(results.validation("scores.csv"), pd.DataFrame(scores))
+
+
+def made(name: str, study: Study, results: Results) -> pd.DataFrame:
+    make_table(name, study, results)
+    return read_csv(results.root / "tables" / f"{name}.csv")
+
+
+@pytest.mark.parametrize("name", TABLES)
+def test_every_table_is_written_twice_and_alike_each_time(name: str, tmp_path: Path) -> None:
+    study, results = fake(tmp_path)
+    make_table(name, study, results)
+    files = [tmp_path / "tables" / f"{name}.{kind}" for kind in ("csv", "md")]
+    first = [path.read_bytes() for path in files]
+    make_table(name, study, results)
+    assert [path.read_bytes() for path in files] == first
+    assert b"nan" not in first[1].lower()
+    assert b"None" not in first[1]
+
+
+def test_table3_gives_both_units_of_E_and_marks_the_fitted_rates(tmp_path: Path) -> None:
+    table = made("table3", *fake(tmp_path)).set_index(["quantity", "of", "unit"])
+    assert table.loc[("E", "reaction pyrolysis", "kJ/mol"), "fitted"] == 190.0
+    assert table.loc[("E", "reaction pyrolysis", "kJ/kmol"), "fitted"] == 190000.0
+    assert table.loc[("cost", "fit", "-"), "fitted"] == 0.0125
+    scores = table.loc["RMSE of mass fraction"]
+    # Slowest first; 'slow' alone was fitted; its scores are 0.02 and, for the book, 1 more;
+    # a run that is neither fitted nor compared has no score.
+    assert scores["used_in_fit"].tolist() == ["yes", "no"]
+    assert scores["fitted"].tolist() == [0.02, 0.01]
+    assert scores["book"].tolist() == [1.02, 1.01]
+
+
+def test_table4_by_hand(tmp_path: Path) -> None:
+    table = made("table4", *fake(tmp_path)).set_index(["cost_function", "quantity"])
+    fit = table.loc[("RMSE", "fit")]
+    assert fit["best"] == 0.10
+    assert fit["mean"] == pytest.approx(0.11, rel=1e-14)
+    # Deviations -0.01, 0.01, 0: sqrt(2e-4 / (3 - 1)).
+    assert fit["sigma"] == pytest.approx(0.01, rel=1e-12)
+    assert fit["published_sigma"] == 0.3
+    # J/(kg K) become kJ/(kg K); the best is that of the best cost, not the mean's neighbour.
+    cp = table.loc[("RMSE", "cp")]
+    assert [cp["best"], cp["mean"], cp["sigma"]] == pytest.approx([1.0, 2.0, 1.0], rel=1e-14)
+    assert cp["flags"] == "spread > 20 % of limits"
+    # 0.4985 is 0.0015 below 0.5, and 0.5 % of 0.4 is 0.002; sigma = sqrt(0.004852/2) < 0.08.
+    k = table.loc[("BANDS", "k")]
+    assert k["flags"] == "at bound (upper)"
+    assert np.isnan(k["published_best"])
+
+
+def test_flags_at_their_limits() -> None:
+    assert imp.flags(0.009, 0.0, 0.0, 2.0) == "at bound (lower)"
+    assert imp.flags(0.011, 0.0, 0.0, 2.0) == ""
+    assert imp.flags(1.0, 0.41, 0.0, 2.0) == "spread > 20 % of limits"
+    assert imp.flags(1.0, float("nan"), 0.0, 2.0) == ""
+
+
+def test_table4_of_synthetic_data_shows_the_truth_and_nothing_published(tmp_path: Path) -> None:
+    table = made("table4", *fake(tmp_path, synthetic())).set_index("quantity")
+    assert table.loc["cp", "truth"].tolist() == [1.5, 1.5]
+    assert not [column for column in table if column.startswith("published")]
+
+
+def test_one_repetition_has_no_sigma(tmp_path: Path) -> None:
+    study, results = fake(tmp_path)
+    summary = read_csv(results.imp("summary.csv"))
+    write_csv(results.imp("summary.csv"), summary[summary["repetition"] == 0])
+    table = made("table4", study, results)
+    assert table["sigma"].isna().all()
+
+
+def test_costs_by_hand(tmp_path: Path) -> None:
+    table = made("costs", *fake(tmp_path)).set_index("cost_function")
+    row = table.loc["RMSE"]
+    assert [row["sceua_best"], row["least_squares_best"]] == [0.10, 0.08]
+    assert row["ratio"] == pytest.approx(0.8, rel=1e-14)
+    assert [row["sceua_calls"], row["sceua_failed_calls"]] == [303, 3]
+    assert row["least_squares_calls"] == 50
+    assert row["least_squares_at_bound"] == "k"
+    # RMSE was at rest for three generations, BANDS was not.
+    assert table["remark"].tolist() == [imp.LOCAL_OPTIMUM, imp.SHORT_BUDGET]
+
+
+def test_optimisers_within_one_percent_agree() -> None:
+    assert imp.remark(1.0, 0.991, [1.0]) == imp.AGREE
+    assert imp.remark(1.0, 0.989, [1.0]) == imp.LOCAL_OPTIMUM
+    assert imp.remark(0.989, 1.0, [1.0]) == imp.LEAST_SQUARES_STUCK
+    assert imp.remark(0.0, 0.0, [0.0]) == imp.AGREE
+
+
+def test_validation_marks_fitted_and_held_out_data(tmp_path: Path) -> None:
+    table = made("validation", *fake(tmp_path))
+    assert set(table[table["experiment"] == "Slab 25 kW/m²"]["data"]) == {"fitted"}
+    assert set(table[table["experiment"] == "slab_60"]["data"]) == {"held out"}
+    temperature = table[table["signal"] == "back temperature"]
+    assert temperature["rmse_K"].tolist() == [7.0, 8.0, 9.0, 10.0, 11.0]
+    assert temperature["cv_rmse"].isna().all()
+    assert table["rmse_K"].notna().sum() == 5
+
+
+def test_other_signal_of_a_fitted_experiment_is_a_held_out_signal(tmp_path: Path) -> None:
+    study = as_study(described(), "fake.json")
+    assert describe.use_of(study, "RMSE", "slab_25", "back_temperature") == "held-out signal"
+    assert describe.use_of(study, "unknown", "slab_25", "mlr") == "not known"
+
+
+def test_labels_are_those_of_the_prediction() -> None:
+    assert describe.LEAST_SQUARES == predict.LEAST_SQUARES
+    labels = [
+        chosen.label for chosen in describe.predicted_sets(as_study(described(), "fake.json"))
+    ]
+    assert labels == [
+        "RMSE",
+        "BANDS",
+        "RMSE least squares",
+        "BANDS least squares",
+        "RMSE published",
+    ]
+
+
+def test_unknown_table_names_the_nearest(tmp_path: Path) -> None:
+    study, results = fake(tmp_path)
+    with pytest.raises(StudyError, match="Did you mean 'table4'"):
+        make_table("tabel4", study, results)
+
+
+def test_study_without_kinetics_has_no_table3(tmp_path: Path) -> None:
+    given = described(kinetics=None)
+    given["imp"]["kinetics"] = "described"
+    given["parameters"]["T_p"]["value"] = 600
+    study, results = fake(tmp_path, given)
+    assert not TABLES["table3"].applies(study)
+    with pytest.raises(StudyError, match="has no table3"):
+        make_table("table3", study, results)
+
+
+@pytest.mark.parametrize(
+    ("value", "text"),
+    [
+        (0.0, "0"),
+        (600.0, "600"),
+        (1201.3, "1201.3"),
+        (0.0892, "0.0892"),
+        (1 / 3, "0.3333"),
+        (-1 / 3, "-0.3333"),
+        (123456, "123456"),
+        (9.98e4, "99800"),
+        (2e16, "2.000e+16"),
+        (None, ""),
+    ],
+)
+def test_numbers_have_four_digits(value: float | None, text: str) -> None:
+    assert number(value) == text
