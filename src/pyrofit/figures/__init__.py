@@ -28,7 +28,7 @@ FIGURES: dict[str, Figure] = {
     "fig2": Figure(
         applies=lambda study: bool(rates_in_fit(study)),
         make=fig2,
-        title="Kinetics at the fitted heating rates",
+        title="Figure 2. Kinetics at the fitted heating rates",
         caption="Normalised mass (left) and mass loss rate (right) against temperature at the "
         "heating rates used in the fit, the slowest to the left: measured (wide, light), fitted "
         "(dashed), published (dotted). The rate is divided by the heating rate, so that "
@@ -46,7 +46,7 @@ FIGURES: dict[str, Figure] = {
     "fig3": Figure(
         applies=lambda study: bool(curves.fitted_rates(study)),
         make=curves.fig3,
-        title="Mass loss rate, fitted",
+        title="Figure 3. Mass loss rate, fitted",
         caption="Mass loss rate of the fitted experiment: measured with its uncertainty (grey "
         "area), and the best set that SCE-UA found for each cost function. Curves on top of each "
         "other mean that the choice of the cost function makes no difference here; long "
@@ -55,14 +55,14 @@ FIGURES: dict[str, Figure] = {
     "fig4": Figure(
         applies=lambda study: bool(curves.held_out_rates(study)),
         make=curves.fig4,
-        title="Mass loss rate, predicted",
+        title="Figure 4. Mass loss rate, predicted",
         caption="The same sets at an experiment that was not fitted. Agreement among the simulated "
         "curves is not agreement with the measurement: compare them with the grey area.",
     ),
     "fig5": Figure(
         applies=lambda study: True,
         make=fig5,
-        title="Convergence of SCE-UA",
+        title="Figure 5. Convergence of SCE-UA",
         caption="Lowest cost found so far, from the lowest to the highest of the repetitions "
         "(area) and their median (line), by generation and by model calls. The scale is "
         "logarithmic and each cost function has its own: heights of different cost functions are "

@@ -32,7 +32,7 @@ TABLES: dict[str, Table] = {
     "table3": Table(
         applies=lambda study: study.kinetics is not None,
         make=table3,
-        title="Kinetic parameters, and how well they reproduce the measured mass",
+        title="Table 3. Kinetic parameters, and how well they reproduce the measured mass",
         note="E in kJ/kmol is the same number as in J/mol. The cost is the fitness of our fit; it "
         "is not computed for published sets. The RMSE of the mass fraction is over all "
         "measured points of a heating rate; 'used in fit' is about our fit.",
@@ -41,7 +41,7 @@ TABLES: dict[str, Table] = {
     "table4": Table(
         applies=lambda study: True,
         make=table4,
-        title="Best set, mean and standard deviation over the repetitions",
+        title="Table 4. Best set, mean and standard deviation over the repetitions",
         note="sigma is the standard deviation over the n repetitions with n − 1 as divisor. "
         "'At bound': the best value lies within 0.5 % of the limits' distance from a limit. "
         "'Spread > 20 % of limits': sigma exceeds this share of it, the data do not determine the "
