@@ -1,6 +1,7 @@
 """The whole study: data, kinetics, inverse modelling, validation, tables, figures, report."""
 
 import json
+import os
 from pathlib import Path
 
 from snakemake.utils import min_version
@@ -22,21 +23,20 @@ if not workflow.configfiles:
     configfile: DEFAULT_STUDY
 
 
-SOURCE = str(workflow.configfiles[0])
+SOURCE = os.path.relpath(workflow.configfiles[0])
 try:
     study = as_study(config, SOURCE)
+    ROOT = Path("results") / study.name
+    # The study as checked and completed, with what --config changed: every step reads this file,
+    # and verifies by digest that its part of it is what the rule was planned with.
+    STUDY = ROOT / "study.json"
+    _text = json.dumps(study.model_dump(mode="json"), indent=1) + "\n"
+    if not STUDY.exists() or STUDY.read_text() != _text:
+        write_text(STUDY, _text)
 except PyrofitError as error:
     raise WorkflowError(str(error)) from None
 
-ROOT = Path("results") / study.name
 results = Results(ROOT)
-# The study as checked and completed, with what --config changed: every step reads this file, and
-# verifies by digest that its part of it is what the rule was planned with.
-STUDY = ROOT / "study.json"
-_text = json.dumps(study.model_dump(mode="json"), indent=1) + "\n"
-if not STUDY.exists() or STUDY.read_text() != _text:
-    write_text(STUDY, _text)
-
 COMPUTES = source_fingerprint()
 SHOWS = source_fingerprint(showing=True)
 COSTS = list(study.imp.costs)
@@ -45,7 +45,7 @@ REPETITIONS = [f"{n:02d}" for n in range(study.imp.repetitions)]
 
 wildcard_constraints:
     cost="|".join(COSTS),
-    repetition=r"\d{2}",
+    repetition=r"\d\d+",
 
 
 def log_of(name):

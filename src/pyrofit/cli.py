@@ -1,6 +1,7 @@
 """The command line: what the workflow's rules call, usable by hand."""
 
 import argparse
+import os
 import sys
 from collections.abc import Callable, Sequence
 from pathlib import Path
@@ -32,12 +33,19 @@ class _Tee:
 
 def main(arguments: Sequence[str] | None = None) -> int:
     """Run a command; return 0, or 2 with a message where the user can repair something."""
+    # The workflow runs one job per core; threads of linear algebra would only get in its way.
+    os.environ.setdefault("OPENBLAS_NUM_THREADS", "1")
     given = _parser().parse_args(arguments)
     if getattr(given, "log", None) is None:
         return _run(given)
-    given.log.parent.mkdir(parents=True, exist_ok=True)
+    try:
+        given.log.parent.mkdir(parents=True, exist_ok=True)
+        log = given.log.open("w", encoding="utf-8")
+    except OSError as error:
+        print(f"error: {given.log}: cannot be written ({error.strerror})", file=sys.stderr)
+        return 2
     usual = sys.stderr
-    with given.log.open("w", encoding="utf-8") as log:
+    with log:
         sys.stderr = _Tee(usual, log)
         try:
             return _run(given)

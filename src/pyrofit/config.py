@@ -2,6 +2,7 @@
 
 import hashlib
 import json
+import re
 from collections.abc import Iterable, Mapping
 from pathlib import Path
 from typing import Annotated, Any, Self
@@ -11,9 +12,9 @@ from pydantic import Field, ValidationError, model_validator
 
 from pyrofit.cost import KINDS, NORMALISATIONS
 from pyrofit.errors import StudyError, suggest
-from pyrofit.model.base import Part, numbers
+from pyrofit.model.base import FRACTION, Part, Rule, numbers
 from pyrofit.model.experiment import AnyExperiment, Gasification, Tga
-from pyrofit.model.material import Material, check_composition
+from pyrofit.model.material import REST, Material, check_composition
 from pyrofit.model.parameters import Parameter
 from pyrofit.simulate import Accuracy
 
@@ -112,7 +113,7 @@ class Imp(Part):
 class Validation(Part):
     """Stage 3: prediction of experiments that were not fitted."""
 
-    experiments: tuple[str, ...] = Field(description="held-out experiments")
+    experiments: tuple[str, ...] = Field(min_length=1, description="gasification experiments")
 
 
 class Synthetic(Part):
@@ -175,6 +176,12 @@ class Study(Part):
         files = [s.file for e in self.experiments.values() for s in e.signals.values()]
         return tuple(f.removeprefix("macfp:") for f in files if f.startswith("macfp:"))
 
+    @property
+    def own_files(self) -> tuple[str, ...]:
+        """Measured files of the user that the study reads."""
+        files = [s.file for e in self.experiments.values() for s in e.signals.values()]
+        return tuple(dict.fromkeys(f for f in files if _is_own(f)))
+
     def kinds(self, kind: type[Tga] | type[Gasification]) -> dict[str, Any]:
         """Return the experiments of one kind by name."""
         return {n: e for n, e in self.experiments.items() if isinstance(e, kind)}
@@ -221,8 +228,19 @@ def parameters_in(*parts: object) -> set[str]:
     return found
 
 
+def parameters_of_tga(material: Material) -> set[str]:
+    """Return the names of the parameters that the kinetics and the composition use."""
+    cold = {"heat_of_reaction_J_kg": 0.0}
+    kinetics = [reaction.model_copy(update=cold) for reaction in material.reactions.values()]
+    return parameters_in(*kinetics) | _names(material.composition)
+
+
 def _names(composition: Mapping[str, float | str]) -> set[str]:
-    return {f for f in composition.values() if isinstance(f, str) and f != "rest"}
+    return {f for f in composition.values() if isinstance(f, str) and f != REST}
+
+
+def _is_own(file: str) -> bool:
+    return file != "synthetic" and not file.startswith("macfp:")
 
 
 def _require(ok: bool, place: str, message: str) -> None:
@@ -240,41 +258,47 @@ def _check_numbers(study: Study) -> None:
             for rule in rules:
                 if isinstance(value, float):
                     _require(rule.holds(value), place, f"{value:g} {rule.text}")
-                    continue
-                _require(
-                    value in study.parameters,
-                    place,
-                    f"unknown parameter '{value}'. {suggest(value, study.parameters)}",
-                )
-                p = study.parameters[value]
-                for what in ("value", "lower", "upper"):
-                    given = getattr(p, what)
-                    _require(
-                        given is None or rule.holds(given * p.factor),
-                        f"parameters.{value}.{what}",
-                        f"{given} {rule.text} (it is used as {place})",
-                    )
+                else:
+                    _check_parameter(study, value, rule, place)
+
+
+def _check_parameter(study: Study, name: str, rule: Rule, place: str) -> None:
+    """Refuse an unknown parameter, or one whose value or limits break the rule of its place."""
+    _require(
+        name in study.parameters,
+        place,
+        f"unknown parameter '{name}'. {suggest(name, study.parameters)}",
+    )
+    p = study.parameters[name]
+    for what in ("value", "lower", "upper"):
+        given = getattr(p, what)
+        _require(
+            given is None or rule.holds(given * p.factor),
+            f"parameters.{name}.{what}",
+            f"{given} {rule.text} (it is used as {place})",
+        )
 
 
 def _check_compositions(study: Study) -> None:
-    for experiment in study.kinds(Gasification).values():
-        for layer in experiment.sample.layers:
+    compositions = {"material.composition": study.material.composition}
+    for name, experiment in study.kinds(Gasification).items():
+        for i, layer in enumerate(experiment.sample.layers):
             if layer.composition is not None:
-                check_composition(layer.composition, study.material.components)
-    for name in parameters_in(study.material, *study.experiments.values()):
-        _require(
-            name in study.parameters,
-            "composition",
-            f"unknown parameter '{name}'. {suggest(name, study.parameters)}",
-        )
-    if study.kinetics is None:
-        return
-    for label, chosen in study.kinetics.sets.items():
+                place = f"experiments.{name}.sample.layers.{i}.composition"
+                compositions[place] = layer.composition
+    for label, chosen in (study.kinetics.sets if study.kinetics else {}).items():
         place = f"kinetics.sets.{label}"
         _require(label not in ("described", "fitted"), place, f"'{label}' is a reserved name")
         missing = set(study.material.reactions) ^ set(chosen.reactions)
         _require(not missing, place, f"reactions differ from the material's: {sorted(missing)}")
-        check_composition(chosen.composition, study.material.components)
+        compositions[f"{place}.composition"] = chosen.composition
+    for place, composition in compositions.items():
+        try:
+            check_composition(composition, study.material.components)
+        except ValueError as error:
+            raise ValueError(f"{place}: {error}") from None
+        for name in sorted(_names(composition)):
+            _check_parameter(study, name, FRACTION, place)
 
 
 def _check_stages(study: Study) -> None:
@@ -283,7 +307,7 @@ def _check_stages(study: Study) -> None:
     }
     if study.kinetics is not None:
         stages["kinetics"] = (study.kinetics.estimate, study.kinetics.cost)
-        _known(study, study.kinetics.compare, "kinetics.compare")
+        _known(study, study.kinetics.compare, "kinetics.compare", Tga)
     for stage, (estimate, terms) in stages.items():
         _require(len(set(estimate)) == len(estimate), f"{stage}.estimate", "a name stands twice")
         for name in estimate:
@@ -297,8 +321,9 @@ def _check_stages(study: Study) -> None:
                 f"parameters.{name}",
                 f"{stage} estimates it: give lower and upper limits",
             )
+        wanted = Tga if stage == "kinetics" else Gasification
         for term in terms:
-            _known(study, (term.experiment,), f"{stage} cost")
+            _known(study, (term.experiment,), f"{stage} cost", wanted)
             signals = study.experiments[term.experiment].signals
             _require(
                 term.signal in signals,
@@ -306,15 +331,7 @@ def _check_stages(study: Study) -> None:
                 f"experiment '{term.experiment}' has no signal '{term.signal}'. "
                 + suggest(term.signal, signals),
             )
-        used = {term.experiment for term in terms}
-        wanted = Tga if stage == "kinetics" else Gasification
-        for name in used:
-            _require(
-                isinstance(study.experiments[name], wanted),
-                f"{stage} cost",
-                f"'{name}' is no {wanted.__name__.lower()} experiment",
-            )
-    _known(study, study.validation.experiments, "validation.experiments")
+    _known(study, study.validation.experiments, "validation.experiments", Gasification)
     choices = {"described", *(("fitted", *study.kinetics.sets) if study.kinetics else ())}
     _require(
         study.imp.kinetics in choices,
@@ -322,6 +339,13 @@ def _check_stages(study: Study) -> None:
         f"unknown kinetics '{study.imp.kinetics}'. {suggest(study.imp.kinetics, choices)}",
     )
     _check_values(study)
+    for cost, shown in (study.published.costs if study.published else {}).items():
+        for name in shown:
+            _require(
+                name == "fit" or name in study.parameters,
+                f"published.costs.{cost}",
+                f"unknown parameter '{name}'. {suggest(name, ('fit', *study.parameters))}",
+            )
 
 
 def _check_values(study: Study) -> None:
@@ -337,17 +361,31 @@ def _check_values(study: Study) -> None:
         )
     for name in sorted(set(study.imp.estimate) - used):
         raise ValueError(f"imp.estimate: '{name}' has no effect on any gasification experiment")
-    if study.kinetics is not None:
-        for name in sorted(set(study.kinetics.estimate) - parameters_in(study.material)):
-            raise ValueError(f"kinetics.estimate: '{name}' has no effect on TGA")
+    if study.kinetics is None:
+        return
+    given = set(study.fixed_values()) | set(study.kinetics.estimate)
+    for label in ("fitted", *study.kinetics.sets):
+        for name in sorted(parameters_of_tga(study.material_with(label)) - given):
+            raise ValueError(
+                f"parameters.{name}: TGA needs it; add it to kinetics.estimate or give a value"
+            )
+    for name in sorted(set(study.kinetics.estimate) - parameters_of_tga(study.material)):
+        raise ValueError(f"kinetics.estimate: '{name}' has no effect on TGA")
 
 
-def _known(study: Study, names: Iterable[str], place: str) -> None:
+def _known(
+    study: Study, names: Iterable[str], place: str, wanted: type[Tga] | type[Gasification]
+) -> None:
     for name in names:
         _require(
             name in study.experiments,
             place,
             f"unknown experiment '{name}'. {suggest(name, study.experiments)}",
+        )
+        _require(
+            isinstance(study.experiments[name], wanted),
+            place,
+            f"'{name}' is no {wanted.__name__.lower()} experiment",
         )
 
 
@@ -370,20 +408,128 @@ def _check_synthetic(study: Study) -> None:
 def as_study(given: Mapping[str, Any], source: str) -> Study:
     """Check a study description.
 
+    Files of the user are found relative to the folder of a YAML ``source``. JSON is what the
+    workflow wrote of a study once checked: there they are found already.
+
     Raises
     ------
     StudyError
         With source, key, rule and way out for everything that is wrong.
     """
     try:
-        return Study.model_validate(given)
+        meant = _as_meant(given)
+        study = Study.model_validate(meant)
     except ValidationError as error:
-        lines = [f"{source}: the study description breaks {error.error_count()} rule(s):"]
-        for problem in error.errors():
-            place = ".".join(str(p) for p in problem["loc"])
-            text = problem["msg"].removeprefix("Value error, ")
-            lines.append(f"  {place + ': ' if place else ''}{text}")
-        raise StudyError("\n".join(lines)) from None
+        lines = _in_plain_words(error, meant)
+    except ValueError as error:
+        lines = [str(error)]
+    else:
+        path = Path(source)
+        return study if path.suffix == ".json" else _located(study, path.parent)
+    rules = "a rule" if len(lines) == 1 else f"{len(lines)} rules"
+    text = "".join(f"\n  {line}" for line in lines)
+    raise StudyError(f"{source}: the study description breaks {rules}:{text}")
+
+
+def _as_meant(given: Any, place: str = "") -> Any:
+    """Undo what YAML 1.1 makes of words and numbers: 1e-3 is text to it, ``no`` is not."""
+    if isinstance(given, bool):
+        raise ValueError(
+            f"{place}: no key takes true or false (YAML reads yes, no, on, off as such); "
+            "give a number, or put text in quotes"
+        )
+    if isinstance(given, str) and EXPONENT.fullmatch(given):
+        return float(given)
+    if isinstance(given, Mapping):
+        return {k: _as_meant(v, f"{place}.{k}" if place else str(k)) for k, v in given.items()}
+    if isinstance(given, list):
+        return [_as_meant(v, f"{place}.{i}") for i, v in enumerate(given)]
+    return given
+
+
+def _in_plain_words(error: ValidationError, given: object) -> list[str]:
+    """Return one line for each place where something is wrong."""
+    found: dict[str, list[Any]] = {}
+    for problem in error.errors():
+        found.setdefault(_place(problem, given), []).append(problem)
+    lines = []
+    for place, problems in found.items():
+        # What a place takes may have several forms, and each complains; errors inside it, and
+        # the form with keys where keys were given, say more.
+        if any(other.startswith(f"{place}.") for other in found):
+            continue
+        said = problems[-1 if isinstance(problems[0]["input"], dict) else 0]
+        lines.append(f"{place}: {_rule(said)}".removeprefix(": "))
+    return lines
+
+
+def _place(problem: Any, given: Any) -> str:
+    """Return the dotted path of a problem, without the names of forms that pydantic adds."""
+    keys = []
+    for part in problem["loc"]:
+        inside = part in given if isinstance(given, dict) else isinstance(given, list)
+        if inside and not (isinstance(given, list) and not isinstance(part, int)):
+            keys.append(str(part))
+            given = given[part] if isinstance(given, dict) or part < len(given) else None
+    if problem["type"] == "missing" and keys[-1:] != [str(problem["loc"][-1])]:
+        keys.append(str(problem["loc"][-1]))
+    return ".".join(keys)
+
+
+def _rule(problem: Any) -> str:
+    """Return what is wrong as a rule."""
+    words = WORDS.get(problem["type"])
+    if words is None:
+        return str(problem["msg"]).removeprefix("Value error, ")
+    given = problem["input"]
+    shown = f"'{given}'" if isinstance(given, str) else f"{given}"
+    return words.format(given=shown, **problem.get("ctx", {}))
+
+
+EXPONENT = re.compile(r"[-+]?(\d+\.?\d*|\.\d+)[eE][-+]?\d+")
+WORDS = {
+    "missing": "this key is missing, and is required",
+    "extra_forbidden": "this key is unknown",
+    "float_type": "{given} is not a number",
+    "float_parsing": "{given} is not a number",
+    "finite_number": "{given} must be finite",
+    "int_type": "{given} is not a whole number",
+    "int_parsing": "{given} is not a whole number",
+    "int_from_float": "{given} is not a whole number",
+    "string_type": "{given} is not text; put text in quotes",
+    "string_pattern_mismatch": "{given} is no name; letters, digits and _ make one, a letter first",
+    "greater_than": "{given} must be above {gt:g}",
+    "greater_than_equal": "{given} must be at least {ge:g}",
+    "less_than_equal": "{given} must be at most {le:g}",
+    "model_type": "{given} is not a mapping of keys",
+    "model_attributes_type": "{given} is not a mapping of keys",
+    "dict_type": "{given} is not a mapping of keys",
+    "tuple_type": "{given} is not a list",
+    "too_short": "a list of {actual_length} is too short; give at least {min_length}",
+    "too_long": "a list of {actual_length} is too long; give at most {max_length}",
+    "literal_error": "{given} must be {expected}",
+    "union_tag_invalid": "unknown {discriminator} '{tag}'; known: {expected_tags}",
+    "union_tag_not_found": "{discriminator} is missing, and is required",
+}
+"""What pydantic finds, as rules."""
+
+
+def _located(study: Study, folder: Path) -> Study:
+    """Return the study with the paths of the user's files as seen from the working folder."""
+    experiments = {
+        name: experiment.model_copy(
+            update={
+                "signals": {
+                    quantity: signal.model_copy(update={"file": (folder / signal.file).as_posix()})
+                    if _is_own(signal.file)
+                    else signal
+                    for quantity, signal in experiment.signals.items()
+                }
+            }
+        )
+        for name, experiment in study.experiments.items()
+    }
+    return study.model_copy(update={"experiments": experiments})
 
 
 def read_study(path: Path) -> Study:
@@ -409,8 +555,14 @@ def read_study(path: Path) -> Study:
     except (yaml.YAMLError, json.JSONDecodeError) as error:
         raise StudyError(f"{path}: not valid {path.suffix[1:]}: {error}") from None
     if not isinstance(given, dict):
-        raise StudyError(f"{path}: a study is a mapping of keys, this is {type(given).__name__}")
+        what = (
+            "this file is empty" if given is None else f"this is {_KIND.get(type(given), 'text')}"
+        )
+        raise StudyError(f"{path}: a study is a mapping of keys; {what}")
     return as_study(given, str(path))
+
+
+_KIND = {list: "a list", int: "a number", float: "a number", bool: "true or false"}
 
 
 def digest(part: object) -> str:

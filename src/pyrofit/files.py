@@ -1,9 +1,11 @@
 """Where a study's results lie, and how they are written: whole or not at all."""
 
+import contextlib
 import gzip
 import io
 import json
 import os
+import zlib
 from collections.abc import Mapping
 from pathlib import Path
 from typing import Any
@@ -27,7 +29,8 @@ def write_bytes(path: Path, content: bytes) -> None:
         temporary.write_bytes(content)
         temporary.replace(path)
     except OSError as error:
-        temporary.unlink(missing_ok=True)
+        with contextlib.suppress(OSError):
+            temporary.unlink()
         raise DataError(
             f"{path}: cannot be written ({error.strerror}); make room or choose another folder. "
             "Everything finished before is kept."
@@ -56,9 +59,10 @@ def read_json(path: Path) -> dict[str, Any]:
         content = json.loads(path.read_text())
     except FileNotFoundError:
         raise DataError(f"{path}: this result is missing; run the workflow to make it") from None
-    except (OSError, json.JSONDecodeError) as error:
+    except (OSError, ValueError) as error:
         raise DataError(f"{path}: cannot be read ({error}); delete it and run again") from None
-    assert isinstance(content, dict)
+    if not isinstance(content, dict):
+        raise DataError(f"{path}: this is no result; delete it and run again")
     return content
 
 
@@ -81,10 +85,10 @@ def read_csv(path: Path) -> pd.DataFrame:
         The file is missing or broken.
     """
     try:
-        return pd.read_csv(path, float_precision="round_trip")
+        return pd.read_csv(path)
     except FileNotFoundError:
         raise DataError(f"{path}: this result is missing; run the workflow to make it") from None
-    except (OSError, ValueError) as error:
+    except (OSError, ValueError, EOFError, zlib.error) as error:
         raise DataError(f"{path}: cannot be read ({error}); delete it and run again") from None
 
 

@@ -6,8 +6,8 @@ MEASUREMENTS = [
 
 
 rule prepare:
-    message:
-        "Measured series into tidy tables, mass closure checked"
+    input:
+        study.own_files,
     output:
         series=MEASUREMENTS,
         summary=results.measurements_summary,
@@ -17,5 +17,7 @@ rule prepare:
         digest=digest(slices.data(study)),
         files=study.needs_macfp,
         source=COMPUTES,
+    message:
+        "Measured series into tidy tables, mass closure checked"
     shell:
         "pyrofit prepare --study {STUDY} --digest {params.digest} --log {log}"

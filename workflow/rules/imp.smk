@@ -1,6 +1,4 @@
 rule imp:
-    message:
-        "Inverse modelling, {wildcards.cost}, repetition {wildcards.repetition}"
     input:
         MEASUREMENTS,
         KINETICS_FOR_IMP,
@@ -17,14 +15,14 @@ rule imp:
         generations=study.imp.sceua.generations,
         seed=study.seed,
         source=COMPUTES,
+    message:
+        "Inverse modelling, {wildcards.cost}, repetition {wildcards.repetition}"
     shell:
         "pyrofit imp --study {STUDY} --digest {params.digest} --log {log}"
         " --cost {wildcards.cost} --repetition {wildcards.repetition}"
 
 
 rule least_squares:
-    message:
-        "Multistart least squares, {wildcards.cost}"
     input:
         MEASUREMENTS,
         KINETICS_FOR_IMP,
@@ -35,22 +33,28 @@ rule least_squares:
     benchmark:
         benchmark_of("least_squares_{cost}")
     params:
-        digest=lambda wildcards: digest(slices.imp(study, wildcards.cost, "least_squares")),
+        digest=lambda wildcards: digest(
+            slices.imp(study, wildcards.cost, "least_squares")
+        ),
         starts=study.imp.least_squares.starts,
         seed=study.seed,
         source=COMPUTES,
+    message:
+        "Multistart least squares, {wildcards.cost}"
     shell:
         "pyrofit least-squares --study {STUDY} --digest {params.digest} --log {log}"
         " --cost {wildcards.cost}"
 
 
 rule collect:
-    message:
-        "All repetitions gathered"
     input:
-        expand(ROOT / "imp/{cost}/{repetition}.json", cost=COSTS, repetition=REPETITIONS),
         expand(
-            ROOT / "imp/{cost}/{repetition}_convergence.csv", cost=COSTS, repetition=REPETITIONS
+            ROOT / "imp/{cost}/{repetition}.json", cost=COSTS, repetition=REPETITIONS
+        ),
+        expand(
+            ROOT / "imp/{cost}/{repetition}_convergence.csv",
+            cost=COSTS,
+            repetition=REPETITIONS,
         ),
     output:
         summary=results.imp("summary.csv"),
@@ -60,5 +64,7 @@ rule collect:
     params:
         digest=digest(slices.collect(study)),
         source=COMPUTES,
+    message:
+        "All repetitions gathered"
     shell:
         "pyrofit collect --study {STUDY} --digest {params.digest} --log {log}"

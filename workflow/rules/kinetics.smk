@@ -6,8 +6,6 @@ KINETICS_FOR_IMP = KINETICS if study.imp.kinetics == "fitted" else []
 if study.kinetics is not None:
 
     rule kinetics:
-        message:
-            "Kinetics fitted to TGA"
         input:
             MEASUREMENTS,
         output:
@@ -25,5 +23,7 @@ if study.kinetics is not None:
             generations=study.kinetics.sceua.generations,
             seed=study.seed,
             source=COMPUTES,
+        message:
+            "Kinetics fitted to TGA"
         shell:
             "pyrofit kinetics --study {STUDY} --digest {params.digest} --log {log}"

@@ -12,8 +12,6 @@ SHOWN_FIGURES = [name for name, figure in FIGURES.items() if figure.applies(stud
 
 
 rule table:
-    message:
-        "Table {wildcards.name}"
     input:
         CALCULATED,
     output:
@@ -24,14 +22,14 @@ rule table:
     params:
         digest=digest(slices.presentation(study)),
         source=SHOWS,
+    message:
+        "Table {wildcards.name}"
     shell:
         "pyrofit table --study {STUDY} --digest {params.digest} --log {log}"
         " --name {wildcards.name}"
 
 
 rule figure:
-    message:
-        "Figure {wildcards.name}"
     input:
         CALCULATED,
         MEASUREMENTS,
@@ -43,14 +41,14 @@ rule figure:
     params:
         digest=digest(slices.presentation(study)),
         source=SHOWS,
+    message:
+        "Figure {wildcards.name}"
     shell:
         "pyrofit figure --study {STUDY} --digest {params.digest} --log {log}"
         " --name {wildcards.name}"
 
 
 rule report:
-    message:
-        "Report: {output.page}"
     input:
         CALCULATED,
         expand(ROOT / "tables/{name}.md", name=SHOWN_TABLES),
@@ -63,5 +61,7 @@ rule report:
     params:
         digest=digest(slices.presentation(study)),
         source=SHOWS,
+    message:
+        "Report: {output.page}"
     shell:
         "pyrofit report --study {STUDY} --digest {params.digest} --log {log}"

@@ -1,6 +1,4 @@
 rule predict:
-    message:
-        "Best sets simulated at {params.experiments}"
     input:
         MEASUREMENTS,
         KINETICS_FOR_IMP,
@@ -15,5 +13,7 @@ rule predict:
         digest=digest(slices.validation(study)),
         experiments=" ".join(study.validation.experiments),
         source=COMPUTES,
+    message:
+        "Best sets simulated at {params.experiments}"
     shell:
         "pyrofit predict --study {STUDY} --digest {params.digest} --log {log}"

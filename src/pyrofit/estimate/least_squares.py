@@ -3,7 +3,6 @@
 from dataclasses import dataclass
 
 import numpy as np
-from scipy.optimize import least_squares
 
 from pyrofit.estimate.problem import Problem
 from pyrofit.solver.arrays import FloatArray
@@ -49,6 +48,8 @@ def multistart(problem: Problem, starts: int, seed: int) -> list[Start]:
 
 
 def _descend(problem: Problem, u: FloatArray) -> Start:
+    from scipy.optimize import least_squares  # half a second that the other steps do without
+
     span = problem.upper - problem.lower
     calls = 0
 

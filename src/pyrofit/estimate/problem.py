@@ -88,8 +88,8 @@ class Problem:
             residuals = self.cost.residuals(models)
             if np.all(np.isfinite(residuals)):
                 return residuals
-        sizes = [term.target.value.size for weight, term in self.cost.terms if weight > 0.0]
-        return np.full(sum(sizes), 1e3)
+        met = [term.target.value for _, term in self.cost.terms]
+        return np.full(self.cost.residuals(met).size, np.sqrt(FAILED_COST))
 
 
 def _simulate(

@@ -49,7 +49,7 @@ def _start(problem: Problem, start: Start) -> dict[str, Any]:
 
 
 def fit_kinetics(study: Study, results: Results) -> None:
-    """Fit the kinetics to TGA, and score the fit and the published sets on every TGA experiment.
+    """Fit the kinetics to TGA, and score the fit and the published sets.
 
     SCE-UA searches and least squares starts beside it; the lower cost of the two is the fit.
     """
@@ -113,12 +113,14 @@ def _reactions(material: Material, values: Values) -> dict[str, dict[str, float]
 
 
 def _compare(study: Study, results: Results, measurements: Measurements, fitted: Values) -> None:
-    """Write curves and scores of the fit and the published kinetics on every TGA experiment."""
+    """Write curves and scores of the fit and the published kinetics, used and compared TGA."""
     stage = _kinetics_of(study)
     used = {term.experiment for term in stage.cost}
     curves = []
     scores = []
     for name, experiment in study.kinds(Tga).items():
+        if name not in used and name not in stage.compare:
+            continue
         frame = measurements[name, "mass_fraction"]
         for chosen in ("fitted", *stage.sets):
             values = {**study.fixed_values(), **fitted}

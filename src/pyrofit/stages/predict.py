@@ -45,8 +45,7 @@ def predict(study: Study, results: Results) -> None:
     scores = []
     for name in study.validation.experiments:
         experiment = study.experiments[name]
-        if not isinstance(experiment, Gasification):
-            continue
+        assert isinstance(experiment, Gasification)
         requests = {
             q: Request(measurements[name, q]["time_s"].to_numpy(float), s.average_s)
             for q, s in experiment.signals.items()

@@ -2,7 +2,7 @@
 
 from typing import Any
 
-from pyrofit.config import Study, TermSpec, parameters_in
+from pyrofit.config import Study, parameters_in
 from pyrofit.model.experiment import Gasification, Tga
 
 
@@ -10,16 +10,12 @@ def _parameters(study: Study, names: set[str]) -> dict[str, Any]:
     return {n: study.parameters[n].model_dump(exclude={"label"}) for n in sorted(names)}
 
 
+def _values(study: Study) -> dict[str, Any]:
+    return {n: p.model_dump(include={"unit", "value"}) for n, p in study.parameters.items()}
+
+
 def _experiment(study: Study, name: str) -> dict[str, Any]:
     return study.experiments[name].model_dump(exclude={"title"})
-
-
-def _terms(study: Study, terms: tuple[TermSpec, ...]) -> dict[str, Any]:
-    used = sorted({t.experiment for t in terms})
-    return {
-        "terms": [t.model_dump() for t in terms],
-        "experiments": {n: _experiment(study, n) for n in used},
-    }
 
 
 def data(study: Study) -> dict[str, Any]:
@@ -32,7 +28,7 @@ def data(study: Study) -> dict[str, Any]:
     return {
         "experiments": {n: _experiment(study, n) for n in study.experiments},
         "material": study.material.model_dump(),
-        "parameters": _parameters(study, set(study.parameters)),
+        "parameters": _values(study),
         "synthetic": study.synthetic.model_dump() if study.synthetic else None,
         "seed": study.seed,
     }
@@ -43,8 +39,10 @@ def kinetics(study: Study) -> dict[str, Any]:
     stage = study.kinetics
     assert stage is not None
     names = parameters_in(study.material, *study.kinds(Tga).values())
+    used = {term.experiment for term in stage.cost} | set(stage.compare)
     return {
-        **_terms(study, stage.cost),
+        "terms": [t.model_dump() for t in stage.cost],
+        "experiments": {n: _experiment(study, n) for n in sorted(used)},
         "material": study.material.model_dump(),
         "parameters": _parameters(study, names & (set(stage.estimate) | set(study.fixed_values()))),
         "stage": stage.model_dump(exclude={"cost"}),
@@ -57,10 +55,12 @@ def imp(study: Study, cost: str, optimiser: str) -> dict[str, Any]:
     """Everything of one cost's searches; ``optimiser`` is 'sceua' or 'least_squares'."""
     stage = study.imp
     terms = stage.costs[cost]
-    experiments = [study.experiments[t.experiment] for t in terms]
+    used = sorted({t.experiment for t in terms})
+    experiments = [study.experiments[n] for n in used]
     names = parameters_in(study.material_with(stage.kinetics), *experiments)
     return {
-        **_terms(study, terms),
+        "terms": [t.model_dump() for t in terms],
+        "experiments": {n: _experiment(study, n) for n in used},
         "material": study.material_with(stage.kinetics).model_dump(),
         "parameters": _parameters(study, names),
         "estimate": stage.estimate,
@@ -78,8 +78,9 @@ def validation(study: Study) -> dict[str, Any]:
         "experiments": {n: _experiment(study, n) for n in names},
         "material": study.material_with(study.imp.kinetics).model_dump(),
         "estimate": study.imp.estimate,
-        "parameters": _parameters(study, set(study.parameters)),
+        "parameters": _values(study),
         "validation": study.validation.model_dump(),
+        "published": study.published.costs if study.published else {},
         "accuracy": study.accuracy.model_dump(),
     }
 

@@ -1,0 +1,146 @@
+"""What holds for the source as a whole."""
+
+import ast
+import re
+import subprocess
+from pathlib import Path
+
+import pytest
+
+ROOT = Path(__file__).parents[2]
+SOURCE = ROOT / "src" / "pyrofit"
+ORDER = [
+    {"errors", "constants", "provenance"},
+    {"data"},
+    {"model"},
+    {"solver"},
+    {"simulate"},
+    {"cost"},
+    {"config"},
+    {"estimate"},
+    {"files", "stages"},
+    {"tables", "figures"},
+    {"report"},
+    {"cli"},
+]
+RANK = {part: rank for rank, parts in enumerate(ORDER) for part in parts}
+NOT_FOR_COST = {"model", "solver", "simulate", "data"}
+
+
+def modules() -> list[Path]:
+    return sorted(p for p in SOURCE.rglob("*.py") if p != SOURCE / "__init__.py")
+
+
+def part_of(path: Path) -> str:
+    return path.relative_to(SOURCE).parts[0].removesuffix(".py")
+
+
+def imported(path: Path) -> set[str]:
+    """Return the full names of all modules that a file imports, anywhere in it."""
+    names = set()
+    for node in ast.walk(ast.parse(path.read_text(encoding="utf-8"))):
+        if isinstance(node, ast.Import):
+            names |= {alias.name for alias in node.names}
+        elif isinstance(node, ast.ImportFrom):
+            assert node.level == 0, f"{path}: imports relative to itself"
+            assert node.module is not None
+            names |= {f"{node.module}.{alias.name}" for alias in node.names}
+    return names
+
+
+def own(path: Path) -> set[str]:
+    """Return the parts of the package that a file imports."""
+    return {n.split(".")[1] for n in imported(path) if n.startswith("pyrofit.")}
+
+
+def outside(path: Path) -> set[str]:
+    return {name.split(".")[0] for name in imported(path)}
+
+
+def names_of(paths: list[Path]) -> list[str]:
+    return [p.relative_to(SOURCE).as_posix() for p in paths]
+
+
+def tracked() -> list[Path]:
+    """Return the files of the repository, those not yet committed included."""
+    listed = subprocess.run(
+        ["git", "ls-files", "--cached", "--others", "--exclude-standard"],
+        cwd=ROOT,
+        capture_output=True,
+        text=True,
+        check=False,
+    )
+    if listed.returncode:
+        pytest.skip("not a git repository")
+    return [p for name in listed.stdout.splitlines() if (p := ROOT / name).is_file()]
+
+
+@pytest.mark.parametrize("path", modules(), ids=names_of(modules()))
+def test_module_imports_only_from_its_left(path: Path) -> None:
+    part = part_of(path)
+    assert part in RANK, f"{part} has no place in the order of the package"
+    right = {other for other in own(path) - {part, "__version__"} if RANK[other] > RANK[part]}
+    assert not right
+
+
+def test_costs_know_nothing_of_models() -> None:
+    for path in (SOURCE / "cost").glob("*.py"):
+        assert not own(path) & NOT_FOR_COST, path.name
+
+
+def test_only_kernels_import_numba() -> None:
+    found = [p for p in modules() if "numba" in outside(p)]
+    assert found
+    assert all(name.startswith("solver/kernels/") for name in names_of(found))
+
+
+def test_kernels_import_nothing_but_arrays() -> None:
+    for path in (SOURCE / "solver" / "kernels").glob("*.py"):
+        assert own(path) <= {"solver", "constants"}, path.name
+        assert outside(path) <= {"pyrofit", "numpy", "numba", "math"}, path.name
+
+
+def test_only_config_reads_yaml() -> None:
+    assert names_of([p for p in modules() if "yaml" in outside(p)]) == ["config.py"]
+
+
+def test_only_the_sce_ua_module_imports_spotpy() -> None:
+    assert names_of([p for p in modules() if "spotpy" in outside(p)]) == ["estimate/sceua.py"]
+
+
+def test_library_never_prints_or_exits() -> None:
+    # Progress of the searches goes to standard error, where the command line keeps its log.
+    for path in modules():
+        if part_of(path) == "cli":
+            continue
+        for node in ast.walk(ast.parse(path.read_text(encoding="utf-8"))):
+            if isinstance(node, ast.Call) and isinstance(node.func, ast.Name):
+                assert node.func.id not in ("exit", "quit"), path
+                if node.func.id == "print":
+                    assert "file" in {k.arg for k in node.keywords}, path
+
+
+def test_lock_pins_every_requirement_by_hash_and_names_no_address() -> None:
+    text = (ROOT / "requirements.lock").read_text(encoding="utf-8")
+    assert "://" not in text
+    blocks = re.split(r"\n(?=\S)", text.strip())
+    requirements = [b for b in blocks if not b.startswith("#")]
+    assert len(requirements) > 30
+    for block in requirements:
+        assert re.match(r"[A-Za-z0-9._-]+==\S+", block), block[:60]
+        assert "--hash=sha256:" in block, block[:60]
+
+
+def test_lock_holds_every_requirement_of_the_package() -> None:
+    project = (ROOT / "pyproject.toml").read_text(encoding="utf-8")
+    lock = (ROOT / "requirements.lock").read_text(encoding="utf-8")
+    locked = {m.lower().replace("_", "-") for m in re.findall(r"^([\w.-]+)==", lock, re.M)}
+    wanted = re.findall(r'^ {4}"([A-Za-z0-9_.-]+)[><=]', project, re.M)
+    assert len(wanted) > 15
+    assert {w.lower().replace("_", "-") for w in wanted} <= locked
+
+
+def test_no_file_holds_the_path_of_a_home_or_work_folder() -> None:
+    folders = re.compile(rb"(?<![\w.$}/-])/(home|root|Users|work|tmp)/[\w.-]")
+    found = [p for p in tracked() if folders.search(p.read_bytes())]
+    assert [p.relative_to(ROOT).as_posix() for p in found] == []

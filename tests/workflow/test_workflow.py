@@ -1,0 +1,240 @@
+"""The workflow as users run it: what runs, what is kept, what runs again."""
+
+import contextlib
+import hashlib
+import json
+import time
+from pathlib import Path
+from typing import Any
+
+import psutil
+import pytest
+from tiny import COSTS, FIT, OWN_FILE, SCORES, TINY, Project, Run
+
+from pyrofit.config import as_study
+
+PREPARE = "Measured series into tidy tables, mass closure checked"
+KINETICS = "Kinetics fitted to TGA"
+COLLECT = "All repetitions gathered"
+PREDICT = "Best sets simulated at slab_60 slab_80"
+SQUARES = {f"Multistart least squares, {cost}" for cost in COSTS}
+SUMMARY = "results/tiny/imp/summary.csv"
+
+
+def sceua(*repetitions: int, costs: tuple[str, ...] = COSTS) -> set[str]:
+    return {f"Inverse modelling, {cost}, repetition {n:02d}" for cost in costs for n in repetitions}
+
+
+SEARCHES = sceua(0, 1)
+EVERYTHING = {PREPARE, KINETICS, COLLECT, PREDICT} | SEARCHES | SQUARES
+
+
+def computing(jobs: set[str]) -> set[str]:
+    return {job for job in jobs if not job.startswith(("Table ", "Figure ", "Report: "))}
+
+
+def showing(run: Run) -> set[str]:
+    return run.jobs - computing(run.jobs)
+
+
+# --- a run ----------------------------------------------------------------------------------
+
+
+def test_run_takes_every_step_once(finished: tuple[Project, Run]) -> None:
+    _, run = finished
+    assert computing(run.jobs) == EVERYTHING
+    assert "Report: results/tiny/report.html" in run.jobs
+    assert run.said.count("Finished jobid") == len(run.jobs) + 1  # and that of `all`
+
+
+def test_run_leaves_report_provenance_logs_and_nothing_unfinished(project: Project) -> None:
+    results = project.root / "results" / "tiny"
+    page = (results / "report.html").read_text(encoding="utf-8")
+    assert TINY["title"] in page
+    assert json.loads((results / "provenance.json").read_text())
+    assert {"prepare.log", "kinetics.log", "imp_RMSE_00.log"} <= {
+        p.name for p in (results / "logs").iterdir()
+    }
+    assert [p.name for p in results.rglob(".*")] == []
+
+
+def test_given_configfile_replaces_the_default_study(project: Project) -> None:
+    kept = json.loads((project.root / "results" / "tiny" / "study.json").read_text())
+    assert kept == as_study(TINY, "mine/tiny.yaml").model_dump(mode="json")
+    assert kept["published"] is None
+    assert [p.name for p in (project.root / "results").iterdir()] == ["tiny"]
+
+
+def test_second_run_does_nothing(project: Project) -> None:
+    run = project.snakemake("--cores", "2")
+    assert run.code == 0
+    assert "Nothing to be done" in run.said
+    assert run.jobs == set()
+
+
+# --- what a change runs again ---------------------------------------------------------------
+
+ALL_IMP = SEARCHES | SQUARES | {COLLECT, PREDICT}
+RANGE = {"experiment": "slab_60", "signal": "mlr", "kind": "RANGE", "options": {"r": 0.1}}
+CHANGES: dict[str, tuple[str, object, set[str]]] = {
+    "title": ("title", "Another title", set()),
+    "one more repetition": ("imp.repetitions", 3, sceua(2) | {COLLECT, PREDICT}),
+    "option of one cost": (
+        "imp.costs.RANGE",
+        [RANGE],
+        sceua(0, 1, costs=("RANGE",)) | {"Multistart least squares, RANGE", COLLECT, PREDICT},
+    ),
+    "seed": ("seed", 4, EVERYTHING),
+    "budget of the kinetics, used by all": (
+        "kinetics.sceua.generations",
+        4,
+        {KINETICS} | ALL_IMP,
+    ),
+    "experiments to predict": (
+        "validation.experiments",
+        ["slab_80", "slab_60"],
+        {"Best sets simulated at slab_80 slab_60"},
+    ),
+}
+
+
+@pytest.mark.parametrize(("place", "value", "jobs"), CHANGES.values(), ids=CHANGES)
+def test_change_runs_its_dependents_again_and_no_other(
+    place: str, value: object, jobs: set[str], project: Project, finished: tuple[Project, Run]
+) -> None:
+    project.change(place, value)
+    assert project.plan() == jobs | showing(finished[1])
+
+
+def test_change_on_the_command_line_counts_like_one_in_the_file(project: Project) -> None:
+    jobs = project.plan("--config", 'imp={"repetitions": 3}')
+    assert computing(jobs) == sceua(2) | {COLLECT, PREDICT}
+
+
+def test_changed_file_of_measurements_runs_its_readers_again(project: Project) -> None:
+    file = project.root / "mine" / "data" / "run.csv"
+    file.write_text(OWN_FILE.replace("5.0", "5.1"))
+    try:
+        assert computing(project.plan()) == EVERYTHING
+    finally:
+        file.write_text(OWN_FILE)
+
+
+def test_edited_source_runs_again_what_it_computes(project: Project) -> None:
+    source = project.root / "src" / "pyrofit" / "cost" / "kinds.py"
+    before = source.read_text()
+    source.write_text(before + "# edited\n")
+    try:
+        assert computing(project.plan()) == EVERYTHING
+    finally:
+        source.write_text(before)
+
+
+def test_edited_figure_computes_nothing_again(
+    project: Project, finished: tuple[Project, Run]
+) -> None:
+    source = project.root / "src" / "pyrofit" / "figures" / "__init__.py"
+    before = source.read_text()
+    source.write_text(before + "# edited\n")
+    try:
+        assert project.plan() == showing(finished[1])
+    finally:
+        source.write_text(before)
+
+
+@pytest.fixture(scope="module")
+def on_known_kinetics(
+    finished: tuple[Project, Run], tmp_path_factory: pytest.TempPathFactory
+) -> tuple[Project, dict[str, Any]]:
+    """Return a run whose inverse modelling takes published kinetics, not the fitted ones."""
+    project = Project.copy(finished[0].root, tmp_path_factory.mktemp("known") / "project")
+    study: dict[str, Any] = json.loads(json.dumps(TINY))
+    study["imp"] |= {"kinetics": "known", "repetitions": 1}
+    study["imp"]["costs"].pop("RANGE")
+    project.write(study)
+    run = project.snakemake("--cores", "2", SCORES, FIT)
+    assert run.code == 0, run.said
+    return project, study
+
+
+@pytest.mark.parametrize(
+    ("stage", "key", "value"),
+    [("kinetics", "sceua", {"complexes": 2, "generations": 4}), ("parameters", "T_p", None)],
+    ids=["budget of the kinetics", "limits of a TGA parameter"],
+)
+def test_change_of_the_tga_fit_alone_runs_nothing_else_again(
+    stage: str, key: str, value: object, on_known_kinetics: tuple[Project, dict[str, Any]]
+) -> None:
+    project, study = on_known_kinetics
+    changed = json.loads(json.dumps(study))
+    changed[stage][key] = value or {**study[stage][key], "upper": 650}
+    project.write(changed)
+    assert project.plan(SCORES, FIT) == {KINETICS}
+
+
+# --- interruption ---------------------------------------------------------------------------
+
+
+def kill(process: psutil.Process) -> None:
+    """Kill a process and all it started, as a power cut would."""
+    for one in [process, *process.children(recursive=True)]:
+        with contextlib.suppress(psutil.NoSuchProcess):
+            one.kill()
+
+
+def test_killed_run_goes_on_to_the_same_bits_on_another_number_of_cores(
+    finished: tuple[Project, Run], tmp_path: Path
+) -> None:
+    project = Project.copy(finished[0].root, tmp_path / "project")
+    with project.start("--cores", "2", SCORES) as process:
+        imp = project.root / "results" / "tiny" / "imp"
+        give_up = time.monotonic() + 60.0
+        while process.poll() is None and not list(imp.glob("*/*.json")):
+            assert time.monotonic() < give_up
+            time.sleep(0.02)
+        kill(psutil.Process(process.pid))
+        process.communicate()
+    assert process.returncode != 0
+    assert not (project.root / SUMMARY).exists()
+    resumed = project.snakemake("--cores", "1", SCORES)
+    assert resumed.code == 0, resumed.said
+    assert PREPARE not in resumed.jobs
+    assert COLLECT in resumed.jobs
+    for name in (FIT, SUMMARY, SCORES):
+        assert project.read(name) == finished[0].read(name), name
+
+
+# --- mistakes -------------------------------------------------------------------------------
+
+
+def fingerprints(folder: Path) -> dict[str, str]:
+    return {
+        p.relative_to(folder).as_posix(): hashlib.sha256(p.read_bytes()).hexdigest()
+        for p in folder.rglob("*")
+        if p.is_file()
+    }
+
+
+def test_broken_study_is_told_and_results_stay(project: Project) -> None:
+    results = project.root / "results" / "tiny"
+    before = fingerprints(results)
+    project.change("parameters.rho.lower", 1600)
+    run = project.snakemake("--cores", "2")
+    assert run.code != 0
+    assert "tiny.yaml: the study description breaks a rule:" in run.said
+    assert "parameters.rho: lower (1600) must be below upper (1500)" in run.said
+    assert "Traceback" not in run.said
+    assert fingerprints(results) == before
+
+
+def test_step_that_fails_shows_its_message_and_keeps_what_is_finished(
+    project: Project, finished: tuple[Project, Run]
+) -> None:
+    fit = project.read(FIT)
+    project.change("imp.costs.RANGE", [{**RANGE, "window_s": [5000, 6000]}])
+    run = project.snakemake("--cores", "2", "--keep-going", SUMMARY)
+    assert run.code != 0
+    assert "error: window 5000 to 6000 s: 0 points lie inside" in run.said
+    assert "Traceback" not in run.said
+    assert project.read(FIT) == fit
+    assert (project.root / "results/tiny/imp/RMSE/00.json").exists()
