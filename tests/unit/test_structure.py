@@ -101,7 +101,7 @@ def test_kernels_import_nothing_but_arrays() -> None:
 
 
 def test_only_config_reads_yaml() -> None:
-    assert names_of([p for p in modules() if "yaml" in outside(p)]) == ["config.py"]
+    assert names_of([p for p in modules() if "yaml" in outside(p)]) == ["config/read.py"]
 
 
 def test_only_the_sce_ua_module_imports_spotpy() -> None:

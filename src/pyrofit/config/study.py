@@ -1,0 +1,212 @@
+"""What a study is made of: every key with its description and unit."""
+
+from typing import Annotated, Any, Self
+
+from pydantic import Field, model_validator
+
+from pyrofit.config.checks import check_study
+from pyrofit.cost import KINDS, NORMALISATIONS
+from pyrofit.errors import suggest
+from pyrofit.model.base import Part
+from pyrofit.model.experiment import AnyExperiment, Gasification, Tga
+from pyrofit.model.material import Material
+from pyrofit.model.parameters import Parameter
+from pyrofit.simulate import Accuracy
+
+Name = Annotated[str, Field(pattern=r"^[A-Za-z][A-Za-z0-9_]*$")]
+
+
+class TermSpec(Part):
+    """One cost of one signal, a term of Eq. 5."""
+
+    experiment: str = Field(description="name of the experiment")
+    signal: str = Field(description="measured quantity: mlr, back_temperature or mass_fraction")
+    kind: str = Field(description="cost: " + ", ".join(KINDS))
+    weight: float = Field(1.0, ge=0.0, description="weight w of Eq. 5")
+    normalisation: str | None = Field(
+        None, description="y_N of Table 1: " + ", ".join(NORMALISATIONS) + "; default: the cost's"
+    )
+    points: int | None = Field(
+        None, ge=2, description="points the target is interpolated to; none = measured points"
+    )
+    window_s: tuple[float, float] | None = Field(None, description="compared time window [s]")
+    options: dict[str, float] = Field(default_factory=dict, description="options of the cost")
+
+    @model_validator(mode="after")
+    def _check(self) -> Self:
+        if self.kind not in KINDS:
+            raise ValueError(f"unknown cost '{self.kind}'. {suggest(self.kind, KINDS)}")
+        if self.normalisation is not None and self.normalisation not in NORMALISATIONS:
+            raise ValueError(
+                f"unknown normalisation '{self.normalisation}'. "
+                + suggest(self.normalisation, NORMALISATIONS)
+            )
+        if self.window_s is not None and self.window_s[0] >= self.window_s[1]:
+            raise ValueError("window_s must be [start, end] with start below end")
+        return self
+
+
+Terms = Annotated[tuple[TermSpec, ...], Field(min_length=1)]
+
+
+class Sceua(Part):
+    """Budget of SPOTPY's SCE-UA."""
+
+    complexes: int | None = Field(
+        None, ge=1, description="number of complexes; none = number of parameters, as PROPTI"
+    )
+    generations: int = Field(
+        20, ge=3, description="generations, the burn-in counted as the first, as PROPTI counts"
+    )
+
+
+class LeastSquares(Part):
+    """Multistart bounded least squares beside it."""
+
+    starts: int = Field(8, ge=1, description="random starts within the limits")
+
+
+class KineticValues(Part):
+    """Published kinetics of one reaction."""
+
+    A_1_s: float = Field(gt=0.0, description="pre-exponential factor A [1/s]")
+    E_J_mol: float = Field(ge=0.0, description="activation energy E [J/mol]")
+    order: float = Field(1.0, ge=0.0, description="reaction order n [-]")
+
+
+class KineticSet(Part):
+    """Kinetics to compare with, or to use instead of fitted ones."""
+
+    reactions: dict[str, KineticValues] = Field(description="by reaction of the material")
+    composition: dict[str, float | str] = Field(description="mass fractions of the virgin material")
+
+
+class Kinetics(Part):
+    """Stage 1: fit of the kinetics to TGA."""
+
+    estimate: tuple[str, ...] = Field(min_length=1, description="parameters to estimate")
+    cost: Terms = Field(description="terms of the fitness, Eq. 5")
+    sceua: Sceua = Field(default_factory=Sceua, description="budget of SCE-UA")
+    least_squares: LeastSquares = Field(default_factory=LeastSquares, description="beside it")
+    compare: tuple[str, ...] = Field((), description="further experiments to draw and score")
+    sets: dict[str, KineticSet] = Field(
+        default_factory=dict, description="published kinetics, drawn and scored beside the fit"
+    )
+
+
+class Imp(Part):
+    """Stage 2: inverse modelling, repeated for every cost."""
+
+    estimate: tuple[str, ...] = Field(min_length=1, description="parameters to estimate")
+    kinetics: str = Field("described", description="'described', 'fitted', or one of kinetics.sets")
+    costs: dict[Name, Terms] = Field(min_length=1, description="cost functions by name")
+    repetitions: int = Field(25, ge=1, description="repetitions per cost")
+    sceua: Sceua = Field(default_factory=Sceua, description="budget of SCE-UA")
+    least_squares: LeastSquares = Field(default_factory=LeastSquares, description="beside it")
+
+
+class Validation(Part):
+    """Stage 3: prediction of experiments that were not fitted."""
+
+    experiments: tuple[str, ...] = Field(min_length=1, description="gasification experiments")
+
+
+class Synthetic(Part):
+    """How synthetic measurements are made."""
+
+    truth: dict[str, float] = Field(description="parameter values, in the units of `parameters`")
+    accuracy: Accuracy = Field(
+        default_factory=lambda: Accuracy(cells=200, tolerance=1e-4, longest_step_s=2.0),
+        description="numerical settings, finer than those of the fit",
+    )
+
+
+class Published(Part):
+    """Published results shown beside ours."""
+
+    source: str = Field(description="reference")
+    costs: dict[str, dict[str, tuple[float, float, float]]] = Field(
+        default_factory=dict,
+        description="by cost: best, mean and sigma of 'fit' and of each parameter, in its unit",
+    )
+
+
+class Study(Part):
+    """Everything that defines a study."""
+
+    name: Name = Field(description="name of the results folder")
+    title: str = Field("", description="title of the report")
+    description: str = Field("", description="what the study is, in a sentence or two")
+    seed: int = Field(1, ge=0, description="seed of everything random")
+    parameters: dict[Name, Parameter] = Field(description="named numbers")
+    material: Material = Field(description="components, reactions, composition")
+    experiments: dict[Name, AnyExperiment] = Field(min_length=1, description="experiments by name")
+    accuracy: Accuracy = Field(default_factory=Accuracy, description="numerical settings")
+    synthetic: Synthetic | None = Field(None, description="for signals with file: synthetic")
+    kinetics: Kinetics | None = Field(None, description="stage 1, TGA")
+    imp: Imp = Field(description="stage 2, inverse modelling")
+    validation: Validation = Field(description="stage 3, prediction")
+    published: Published | None = Field(None, description="published results")
+
+    @model_validator(mode="after")
+    def _check(self) -> Self:
+        check_study(self)
+        return self
+
+    @property
+    def is_synthetic(self) -> bool:
+        """Whether any measurement is computed."""
+        return any(
+            signal.file == "synthetic"
+            for experiment in self.experiments.values()
+            for signal in experiment.signals.values()
+        )
+
+    @property
+    def needs_macfp(self) -> tuple[str, ...]:
+        """Files of the MaCFP data base that the study reads, relative to its root."""
+        files = [s.file for e in self.experiments.values() for s in e.signals.values()]
+        return tuple(f.removeprefix("macfp:") for f in files if f.startswith("macfp:"))
+
+    @property
+    def own_files(self) -> tuple[str, ...]:
+        """Measured files of the user that the study reads."""
+        files = [s.file for e in self.experiments.values() for s in e.signals.values()]
+        return tuple(dict.fromkeys(f for f in files if is_own(f)))
+
+    def kinds(self, kind: type[Tga] | type[Gasification]) -> dict[str, Any]:
+        """Return the experiments of one kind by name."""
+        return {n: e for n, e in self.experiments.items() if isinstance(e, kind)}
+
+    def fixed_values(self) -> dict[str, float]:
+        """Return the given parameter values in SI units."""
+        return {
+            name: p.value * p.factor for name, p in self.parameters.items() if p.value is not None
+        }
+
+    def material_with(self, kinetics: str) -> Material:
+        """Return the material with the kinetics 'described', 'fitted' or of a published set."""
+        if kinetics in ("described", "fitted"):
+            return self.material
+        assert self.kinetics is not None
+        chosen = self.kinetics.sets[kinetics]
+        reactions = {
+            name: reaction.model_copy(
+                update={
+                    "A_1_s": chosen.reactions[name].A_1_s,
+                    "E_J_mol": chosen.reactions[name].E_J_mol,
+                    "order": chosen.reactions[name].order,
+                    "reference_temperature_K": None,
+                    "reference_rate_1_s": None,
+                }
+            )
+            for name, reaction in self.material.reactions.items()
+        }
+        return self.material.model_copy(
+            update={"reactions": reactions, "composition": chosen.composition}
+        )
+
+
+def is_own(file: str) -> bool:
+    """Tell whether a signal's file is the user's own."""
+    return file != "synthetic" and not file.startswith("macfp:")
