@@ -134,7 +134,7 @@ def simulate_gasification(
         value_of(experiment.sample.initial_temperature_K, values),
         arrays,
         lower.lower_network(material, values),
-        lower.lower_exposure(experiment, material, values),
+        lower.lower_exposure(experiment, material, arrays, values),
         accuracy.numerics,
         t_end,
         set(requests) <= {"mlr", "mass"},

@@ -67,6 +67,11 @@ def at(table: Any, temperature_K: float) -> float:
         ({"char": 1.0}, [0.0, 0.0, 1.0]),
     ],
 )
+def exposed(experiment, material):
+    arrays = lower.lower_material(material, VALUES)
+    return lower.lower_exposure(experiment, material, arrays, VALUES)
+
+
 def test_fractions_are_in_the_order_of_the_components(
     composition: dict[str, Any], expected: list[float]
 ) -> None:
@@ -181,7 +186,7 @@ def test_exposure_by_hand() -> None:
         front={"flux_W_m2": "q", "h_W_m2K": "h", "gas_temperature_K": 330.0},
         back={"h_cube_root_W_m2K43": 1.31, "emissivity": 0.9, "wall_temperature_K": 280.0},
     )
-    exposure = lower.lower_exposure(given, material(), VALUES)
+    exposure = exposed(given, material())
     assert exposure.front == (12.0, 0.0, 330.0, 293.15)
     assert exposure.back == (0.0, 1.31, 293.15, 280.0)
     assert (exposure.flux_time.tolist(), exposure.flux.tolist()) == ([0.0], [3e4])
@@ -192,14 +197,14 @@ def test_exposure_by_hand() -> None:
 
 
 def test_sample_without_foil_has_no_foil_capacity() -> None:
-    exposure = lower.lower_exposure(experiment(), material(), VALUES)
+    exposure = exposed(experiment(), material())
     assert exposure.foil_capacity == 0.0
     assert not exposure.foil_opaque
 
 
 def test_flux_table_keeps_its_points() -> None:
     table = {"time_s": [0.0, 30.0, 30.0], "flux_W_m2": [0.0, 0.0, "q"]}
-    exposure = lower.lower_exposure(experiment(front={"flux_W_m2": table}), material(), VALUES)
+    exposure = exposed(experiment(front={"flux_W_m2": table}), material())
     assert exposure.flux_time.tolist() == [0.0, 30.0, 30.0]
     assert exposure.flux.tolist() == [0.0, 0.0, 3e4]
 
@@ -218,7 +223,7 @@ def test_flux_table_keeps_its_points() -> None:
 )
 def test_mixing_depth_is_the_cell_of_fds(virgin: dict[str, Any], expected: float) -> None:
     given = experiment(sample={"emissivity_depth": {"cell_size_factor": 0.05}})
-    exposure = lower.lower_exposure(given, material(virgin=virgin), VALUES)
+    exposure = exposed(given, material(virgin=virgin))
     assert exposure.mixing_depth == pytest.approx(expected, rel=1e-5)
 
 
@@ -230,7 +235,7 @@ def test_mixing_depth_follows_the_front_layer() -> None:
         {"thickness_m": 5e-3},
     ]
     given = experiment(sample={"layers": layers, "emissivity_depth": {"cell_size_factor": 1.0}})
-    exposure = lower.lower_exposure(given, material(), VALUES)
+    exposure = exposed(given, material())
     assert exposure.mixing_depth == pytest.approx(math.sqrt(1e-6 / 3.0), rel=1e-12)
 
 

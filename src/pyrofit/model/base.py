@@ -3,17 +3,33 @@
 import math
 from collections.abc import Callable, Iterator, Mapping
 from dataclasses import dataclass
-from typing import Annotated, Any
+from typing import Annotated, Any, Self, TypeVar, cast
 
-from pydantic import BaseModel, BeforeValidator, ConfigDict, model_validator
+from pydantic import BaseModel, BeforeValidator, ConfigDict, PrivateAttr, model_validator
 
 from pyrofit.errors import suggest
+
+
+Made = TypeVar("Made")
 
 
 class Part(BaseModel):
     """A frozen piece of a description; unknown keys are errors that name the nearest one."""
 
     model_config = ConfigDict(frozen=True, extra="forbid", allow_inf_nan=False)
+    _derived: dict[str, Any] = PrivateAttr(default_factory=dict)
+
+    def derived(self, name: str, make: Callable[[Self], Made]) -> Made:
+        """Return ``make(self)``, made once: a part never changes."""
+        if name not in self._derived:
+            self._derived[name] = make(self)
+        return cast(Made, self._derived[name])
+
+    def model_copy(self, *, update: Mapping[str, Any] | None = None, deep: bool = False) -> Self:
+        """Return a copy with some values changed; nothing derived is taken over."""
+        copy = super().model_copy(update=update, deep=deep)
+        copy._derived = {}
+        return copy
 
     @model_validator(mode="before")
     @classmethod

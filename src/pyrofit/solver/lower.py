@@ -2,6 +2,7 @@
 
 import math
 from collections.abc import Mapping
+from dataclasses import dataclass
 
 import numpy as np
 
@@ -13,6 +14,7 @@ from pyrofit.solver.arrays import (
     TABLE_TEMPERATURES_K,
     Exposure,
     FloatArray,
+    IntArray,
     Material,
     Network,
     Surface,
@@ -82,36 +84,66 @@ def rate_factor(reaction: words.Reaction, values: Values) -> float:
     return rate * math.exp(value_of(reaction.E_J_mol, values) / (GAS_CONSTANT * temperature))
 
 
+@dataclass(frozen=True)
+class _Plan:
+    """What of a network no parameter changes."""
+
+    reactions: tuple[str, ...]
+    reactant: IntArray
+    products: tuple[tuple[int, int, str], ...]
+    """Reaction, component and its name, of every product."""
+    residue: IntArray
+    plain: bool
+    """Whether every reaction has its own reactant and at most one, inert, product."""
+
+
+def _plan(material: words.Material) -> _Plan:
+    names = list(material.components)
+    order = material.reaction_order()
+    reactions = [material.reactions[name] for name in order]
+    reactant = [names.index(r.reactant) for r in reactions]
+    products = [
+        (j, names.index(product), product)
+        for j, reaction in enumerate(reactions)
+        for product in reaction.products
+    ]
+    formed = {j: i for j, i, _ in reversed(products)}
+    return _Plan(
+        reactions=order,
+        reactant=np.array(reactant, dtype=np.int64),
+        products=tuple(products),
+        residue=np.array([formed.get(j, 0) for j in range(len(order))], dtype=np.int64),
+        plain=len(set(reactant)) == len(order)
+        and len(formed) == len(products)
+        and not any(i in reactant for _, i, _ in products),
+    )
+
+
 def lower_network(material: words.Material, values: Values, heats: bool = True) -> Network:
     """Return the reactions as arrays, sorted so that products react after their formation.
 
     Without ``heats`` the heats of reaction are left out (TGA prescribes the temperature).
     """
-    names = list(material.components)
-    order = [material.reactions[name] for name in material.reaction_order()]
-    yields = np.zeros((len(order), len(names)))
-    for j, reaction in enumerate(order):
-        for product, nu in reaction.products.items():
-            yields[j, names.index(product)] = value_of(nu, values)
-    reactant = [names.index(r.reactant) for r in order]
-    orders = np.array([value_of(r.order, values) for r in order])
-    first_order = bool(np.all(orders == 1.0))
-    single = all(len(r.products) <= 1 for r in order) and len(set(reactant)) == len(order)
-    inert = not any(yields[:, i].any() for i in reactant)
-    residue = [int(np.argmax(row)) for row in yields]
+    plan = material.derived("network", _plan)
+    order = [material.reactions[name] for name in plan.reactions]
+    yields = np.zeros((len(order), len(material.components)))
+    for j, i, product in plan.products:
+        yields[j, i] = value_of(order[j].products[product], values)
+    orders = [value_of(r.order, values) for r in order]
+    first_order = all(n == 1.0 for n in orders)
+    energies = [value_of(r.E_J_mol, values) / GAS_CONSTANT for r in order]
     return Network(
-        reactant=np.array(reactant, dtype=np.int64),
+        reactant=plan.reactant,
         rate_factor=np.array([rate_factor(r, values) for r in order]),
-        activation_temperature=np.array([value_of(r.E_J_mol, values) for r in order])
-        / GAS_CONSTANT,
-        order=orders,
+        activation_temperature=np.array(energies),
+        order=np.array(orders),
         heat=np.array([value_of(r.heat_of_reaction_J_kg, values) if heats else 0.0 for r in order]),
         yields=yields,
         gas=1.0 - yields.sum(axis=1),
         first_order=first_order,
-        plain=first_order and single and inert,
-        residue=np.array(residue, dtype=np.int64),
-        residue_yield=np.array([row[i] for row, i in zip(yields, residue, strict=True)]),
+        plain=first_order and plan.plain,
+        residue=plan.residue,
+        residue_yield=yields[np.arange(len(order)), plan.residue],
     )
 
 
@@ -124,7 +156,9 @@ def _surface(side: Side, values: Values) -> Surface:
     )
 
 
-def lower_exposure(experiment: Gasification, material: words.Material, values: Values) -> Exposure:
+def lower_exposure(
+    experiment: Gasification, material: words.Material, arrays: Material, values: Values
+) -> Exposure:
     """Return what acts on the sample as arrays."""
     flux = experiment.front.flux_W_m2
     if isinstance(flux, FluxTable):
@@ -147,18 +181,19 @@ def lower_exposure(experiment: Gasification, material: words.Material, values: V
         back_emissivity=value_of(experiment.back.emissivity, values),
         foil_capacity=capacity,
         foil_opaque=foil is not None,
-        mixing_depth=_mixing_depth(experiment, material, values),
+        mixing_depth=_mixing_depth(experiment, material, arrays, values),
     )
 
 
-def _mixing_depth(experiment: Gasification, material: words.Material, values: Values) -> float:
+def _mixing_depth(
+    experiment: Gasification, material: words.Material, arrays: Material, values: Values
+) -> float:
     depth = experiment.sample.emissivity_depth
     if not isinstance(depth, EmissivityDepth):
         return value_of(depth, values)
     names = list(material.components)
     composition = experiment.sample.layers[0].composition or material.composition
     share = fractions(composition, names, values)
-    arrays = lower_material(material, values)
     volume = share * arrays.specific_volume
     k = float(volume @ _at(arrays.conductivity, experiment, values)) / volume.sum()
     rho_c = float(share @ _at(arrays.specific_heat, experiment, values)) / volume.sum()
@@ -186,10 +221,10 @@ def lower_cells(
     names = list(material.components)
     layers = experiment.sample.layers
     thickness = [value_of(layer.thickness_m, values) for layer in layers]
-    rows = []
+    parts = []
     for layer, size in zip(layers, thickness, strict=True):
         count = cells if len(layers) == 1 else max(2, round(cells * size / sum(thickness)))
         share = fractions(layer.composition or material.composition, names, values)
         mass = size / float(share @ arrays.specific_volume)
-        rows += [share * mass / count] * count
-    return np.array(rows)
+        parts.append(np.full((count, len(names)), share * mass / count))
+    return parts[0] if len(parts) == 1 else np.concatenate(parts)

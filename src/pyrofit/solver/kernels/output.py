@@ -1,12 +1,13 @@
 """Curves at requested times from what a run holds at its steps."""
 
 import numpy as np
-from numba import njit
+
+from pyrofit.solver.kernels.jit import entry
 
 
-@njit(cache=True, error_model="numpy")
+@entry
 def held(time, value, rate, at):
-    """Return ``value`` at ascending times by cubic Hermite interpolation; after the end it holds."""
+    """Return ``value`` at ascending times by cubic Hermite interpolation, held after the end."""
     out = np.empty(at.size)
     n = 0
     last = time.size - 1
@@ -26,7 +27,7 @@ def held(time, value, rate, at):
     return out
 
 
-@njit(cache=True, error_model="numpy")
+@entry
 def held_rate(time, value, rate, at):
     """Return the time derivative of that interpolation; after the end it is zero."""
     out = np.empty(at.size)
@@ -48,7 +49,7 @@ def held_rate(time, value, rate, at):
     return out
 
 
-@njit(cache=True, error_model="numpy")
+@entry
 def slopes(time, value):
     """Return dvalue/dt at the steps from the parabola through three neighbours."""
     size = time.size

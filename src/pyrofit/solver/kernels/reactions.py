@@ -2,10 +2,10 @@
 
 import math
 
-from numba import njit
+from pyrofit.solver.kernels.jit import inner, live
 
 
-@njit(cache=True, error_model="numpy", forceinline=True, _nrt=False)
+@inner
 def decay(x, exact):
     """Return E = exp(-x) and phi = (1 - E)/x, or their third-order Padé forms (L-stable, fast).
 
@@ -20,73 +20,103 @@ def decay(x, exact):
     return e, e * (1.0 + x * (0.5 + x * 0.16666666666666666))
 
 
-@njit(cache=True, error_model="numpy", _nrt=False)
-def order_factor(u, x, n, alone):
-    """Return the factor on x = k dt that turns first order into order n.
+MOST_DECAY = 700.0
+"""k dt beyond which nothing is left."""
 
-    With one reaction du/dt = -k u^n is solved exactly, u_new^(1-n) = u^(1-n) - (1-n) x; several
-    reactions of one component take u^(n-1) at the middle of the step.
+
+@inner
+def order_factor(u, x, n):
+    """Return the factor on x = k dt that turns first order into order n, for a single reaction.
+
+    du/dt = -k u^n is solved exactly: u_new^(1-n) = u^(1-n) - (1-n) x.
     """
-    if u <= 0.0:
-        return 1.0
-    if not alone:
-        middle = u * math.exp(-0.5 * x * u ** (n - 1.0))
-        return middle ** (n - 1.0)
     if x <= 0.0:
         return u ** (n - 1.0)
     base = u ** (1.0 - n) - (1.0 - n) * x
     if base <= 0.0:
-        return 700.0 / x
+        return MOST_DECAY / x
     return (math.log(u) - math.log(base) / (1.0 - n)) / x
 
 
-@njit(cache=True, error_model="numpy", forceinline=True, _nrt=False)
-def react(m, formed, n, x, network, exact, m_new, used):
-    """Advance the masses of cell n by dm_i/dt = sum_j (nu_ji - delta_i,i(j)) r_j over one step.
+@inner
+def apply_order(x, n, j, end, u, network):
+    """Bring x of the reactions j to end of one reactant to their orders; u is its m/m_formed.
 
-    ``m`` and ``m_new`` [kg/m2] have shape (cells, components); ``formed``, same shape, is the mass
-    ever present, the reference of reaction order; ``x[j]`` is the integral of k_j over the step;
-    ``used`` (cells, reactions) receives the mass consumed by each reaction. What earlier reactions
-    form during the step decays with phi.
+    Several reactions of one reactant take u^(order - 1) at the middle of the step.
     """
-    components = m.shape[1]
-    reactions = x.size
-    for i in range(components):
-        m_new[n, i] = m[n, i]
-    if network.plain:
-        for j in range(reactions):
-            i = network.reactant[j]
-            e, _ = decay(x[j], exact)
-            part = m[n, i] * (1.0 - e)
-            m_new[n, i] -= part
-            m_new[n, network.residue[j]] += network.residue_yield[j] * part
-            used[n, j] = part
+    if u <= 0.0:
         return
-    j = 0
-    while j < reactions:
-        i = network.reactant[j]
+    if end == j + 1:
+        if network.order[j] != 1.0:
+            x[j, n] *= order_factor(u, x[j, n], network.order[j])
+        return
+    fall = 0.0
+    for a in range(j, end):
+        fall += x[a, n] * u ** (network.order[a] - 1.0)
+    middle = u * math.exp(-0.5 * min(fall, 100.0))
+    for a in range(j, end):
+        x[a, n] *= middle ** (network.order[a] - 1.0)
+
+
+@inner
+def react(m, formed, first, x, network, exact, m_new, used):
+    """Advance the masses by dm_i/dt = sum_j (nu_ji - delta_i,i(j)) r_j over one step.
+
+    ``m`` and ``m_new`` [kg/m2] have shape (components, cells), cells before ``first`` stay;
+    ``formed``, same shape, is the mass ever present, the reference of reaction order; ``x[j, n]``
+    is the integral of k_j over the step; ``used`` (reactions, cells) receives the mass consumed by
+    each reaction. What earlier reactions form during the step decays with phi.
+    """
+    for i in range(m.shape[0]):
+        for n in live(m, first):
+            m_new[i, n] = m[i, n]
+    for j in range(x.shape[0]):
+        if j > 0 and network.reactant[j] == network.reactant[j - 1]:
+            continue
+        if network.plain:
+            consume_alone(m, first, j, x, network, exact, m_new, used)
+            continue
         end = j + 1
-        while end < reactions and network.reactant[end] == i:
+        while end < x.shape[0] and network.reactant[end] == network.reactant[j]:
             end += 1
-        gained = m_new[n, i] - m[n, i]
-        total = 0.0
-        for a in range(j, end):
-            if not network.first_order and network.order[a] != 1.0:
-                reference = formed[n, i] + gained
-                u = (m[n, i] + 0.5 * gained) / reference if reference > 0.0 else 0.0
-                x[a] *= order_factor(u, x[a], network.order[a], end == j + 1)
-            total += x[a]
-        e, phi = decay(total, exact)
-        left = m[n, i] * e + gained * phi
-        consumed = (m[n, i] - left) + gained
-        m_new[n, i] = left
-        for a in range(j, end):
-            part = consumed
-            if end > j + 1:
-                part = consumed * x[a] / total if total > 0.0 else 0.0
-            used[n, a] = part
-            for b in range(components):
-                nu = network.yields[a, b]
-                if nu != 0.0:
-                    m_new[n, b] += nu * part
-        j = end
+        for n in live(m, first):
+            consume(m, formed, n, j, end, x, network, exact, m_new, used)
+
+
+@inner
+def consume_alone(m, first, j, x, network, exact, m_new, used):
+    """Let reaction j consume its reactant, in a network in which nothing else touches that."""
+    i = network.reactant[j]
+    for n in live(m, first):
+        e, _ = decay(x[j, n], exact)
+        used[j, n] = m[i, n] * (1.0 - e)
+        m_new[i, n] = m[i, n] - used[j, n]
+    i = network.residue[j]
+    for n in live(m, first):
+        m_new[i, n] += network.residue_yield[j] * used[j, n]
+
+
+@inner
+def consume(m, formed, n, j, end, x, network, exact, m_new, used):
+    """Let reactions j to end, all of one reactant, consume it in cell n."""
+    i = network.reactant[j]
+    gained = m_new[i, n] - m[i, n]
+    if not network.first_order:
+        reference = formed[i, n] + 0.5 * gained
+        u = (m[i, n] + 0.5 * gained) / reference if reference > 0.0 else 0.0
+        apply_order(x, n, j, end, u, network)
+    total = 0.0
+    for a in range(j, end):
+        total += x[a, n]
+    e, phi = decay(total, exact)
+    left = m[i, n] * e + gained * phi
+    consumed = (m[i, n] - left) + gained
+    m_new[i, n] = left
+    for a in range(j, end):
+        part = consumed
+        if end > j + 1:
+            part = consumed * x[a, n] / total if total > 0.0 else 0.0
+        used[a, n] = part
+        for b in range(m.shape[0]):
+            if network.yields[a, b] != 0.0:
+                m_new[b, n] += network.yields[a, b] * part

@@ -3,12 +3,12 @@
 import math
 
 import numpy as np
-from numba import njit
 
+from pyrofit.solver.kernels.jit import entry
 from pyrofit.solver.kernels.reactions import react
 
 
-@njit(cache=True, error_model="numpy")
+@entry
 def tga(time, temperature, start, network, longest_rise):
     """Return the mass fraction and its rate of loss [1/s] at the given times.
 
@@ -20,11 +20,11 @@ def tga(time, temperature, start, network, longest_rise):
     reactions = network.reactant.size
     mass = np.empty(points)
     rate = np.empty(points)
-    m = start.copy().reshape(1, components)
-    m_new = np.empty((1, components))
+    m = start.copy().reshape(components, 1)
+    m_new = np.empty((components, 1))
     formed = m.copy()
-    x = np.empty(reactions)
-    used = np.empty((1, reactions))
+    x = np.empty((reactions, 1))
+    used = np.empty((reactions, 1))
     k_old = np.empty(reactions)
     k_new = np.empty(reactions)
     for j in range(reactions):
@@ -41,31 +41,31 @@ def tga(time, temperature, start, network, longest_rise):
             for j in range(reactions):
                 k_new[j] = _arrhenius(network, j, there)
                 middle = _arrhenius(network, j, 0.5 * (here + there))
-                x[j] = dt * (k_old[j] + 4.0 * middle + k_new[j]) / 6.0
+                x[j, 0] = dt * (k_old[j] + 4.0 * middle + k_new[j]) / 6.0
                 k_old[j] = k_new[j]
             react(m, formed, 0, x, network, True, m_new, used)
             for j in range(reactions):
                 for i in range(components):
-                    formed[0, i] += network.yields[j, i] * used[0, j]
+                    formed[i, 0] += network.yields[j, i] * used[j, 0]
             for i in range(components):
-                m[0, i] = m_new[0, i]
+                m[i, 0] = m_new[i, 0]
         mass[n] = m.sum()
         rate[n] = _loss(m, formed, k_old, network)
     return mass, rate
 
 
-@njit(cache=True, error_model="numpy")
+@entry
 def _arrhenius(network, j, temperature):
     return network.rate_factor[j] * math.exp(-network.activation_temperature[j] / temperature)
 
 
-@njit(cache=True, error_model="numpy")
+@entry
 def _loss(m, formed, k, network):
     loss = 0.0
     for j in range(k.size):
         i = network.reactant[j]
-        r = k[j] * m[0, i]
-        if network.order[j] != 1.0 and m[0, i] > 0.0:
-            r *= (m[0, i] / formed[0, i]) ** (network.order[j] - 1.0)
+        r = k[j] * m[i, 0]
+        if network.order[j] != 1.0 and m[i, 0] > 0.0:
+            r *= (m[i, 0] / formed[i, 0]) ** (network.order[j] - 1.0)
         loss += network.gas[j] * r
     return loss

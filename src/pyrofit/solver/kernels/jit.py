@@ -1,0 +1,31 @@
+"""How the kernels are compiled."""
+
+import numpy as np
+from numba import njit
+
+entry = njit(cache=True, error_model="numpy", no_cfunc_wrapper=True)
+"""For functions called from Python: they allocate, and are cached on disk."""
+
+inner = njit(
+    error_model="numpy",
+    forceinline=True,
+    _nrt=False,
+    no_cfunc_wrapper=True,
+)
+"""For what they call, compiled into the caller.
+
+Without the private `_nrt=False` numba counts references, atomically, at every access to an array
+held in a tuple: more than half of the time of a run. Such functions must not allocate.
+"""
+
+loop = njit(error_model="numpy", _nrt=False, no_cfunc_wrapper=True)
+"""The same for long functions, not compiled into every caller."""
+
+
+@inner
+def live(array, first):
+    """Return the columns of an array from the first on.
+
+    They are unsigned: a signed index could count from the end, and its loop is not vectorised.
+    """
+    return range(np.uint32(first), np.uint32(array.shape[1]))
