@@ -58,6 +58,11 @@ def at(table: Any, temperature_K: float) -> float:
     return float(np.interp(temperature_K, TABLE_TEMPERATURES_K, table))
 
 
+def exposed(experiment, material):
+    arrays = lower.lower_material(material, VALUES)
+    return lower.lower_exposure(experiment, material, arrays, VALUES)
+
+
 @pytest.mark.parametrize(
     ("composition", "expected"),
     [
@@ -67,11 +72,6 @@ def at(table: Any, temperature_K: float) -> float:
         ({"char": 1.0}, [0.0, 0.0, 1.0]),
     ],
 )
-def exposed(experiment, material):
-    arrays = lower.lower_material(material, VALUES)
-    return lower.lower_exposure(experiment, material, arrays, VALUES)
-
-
 def test_fractions_are_in_the_order_of_the_components(
     composition: dict[str, Any], expected: list[float]
 ) -> None:

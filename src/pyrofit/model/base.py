@@ -9,7 +9,6 @@ from pydantic import BaseModel, BeforeValidator, ConfigDict, PrivateAttr, model_
 
 from pyrofit.errors import suggest
 
-
 Made = TypeVar("Made")
 
 

@@ -3,6 +3,7 @@
 import math
 from collections.abc import Mapping
 from dataclasses import dataclass
+from typing import Any
 
 import numpy as np
 
@@ -11,6 +12,7 @@ from pyrofit.model import material as words
 from pyrofit.model.base import value_of
 from pyrofit.model.experiment import EmissivityDepth, FluxTable, Gasification, Side
 from pyrofit.solver.arrays import (
+    TABLE_SIZE,
     TABLE_TEMPERATURES_K,
     Exposure,
     FloatArray,
@@ -55,9 +57,12 @@ def property_table(prop: object, values: Values) -> FloatArray:
     return value * (TABLE_TEMPERATURES_K / reference) ** value_of(prop.exponent, values)
 
 
-def _stack(tables: list[FloatArray]) -> FloatArray:
-    size = max(t.size for t in tables)
-    return np.array([t if t.size == size else np.full(size, t[0]) for t in tables])
+def _stack(properties: list[Any], values: Values) -> FloatArray:
+    """Return one row per component, of one column where no property depends on temperature."""
+    if all(isinstance(p, float | str) for p in properties):
+        return np.array([[value_of(p, values)] for p in properties])
+    tables = [property_table(p, values) for p in properties]
+    return np.array([t if t.size > 1 else np.full(TABLE_SIZE, t[0]) for t in tables])
 
 
 def lower_material(material: words.Material, values: Values) -> Material:
@@ -66,8 +71,8 @@ def lower_material(material: words.Material, values: Values) -> Material:
     density = np.array([value_of(c.density_kg_m3, values) for c in parts])
     return Material(
         specific_volume=1.0 / density,
-        conductivity=_stack([property_table(c.conductivity_W_mK, values) for c in parts]),
-        specific_heat=_stack([property_table(c.specific_heat_J_kgK, values) for c in parts]),
+        conductivity=_stack([c.conductivity_W_mK for c in parts], values),
+        specific_heat=_stack([c.specific_heat_J_kgK for c in parts], values),
         emissivity=np.array([value_of(c.emissivity, values) for c in parts]),
         absorption=np.array([value_of(c.absorption_1_m or 0.0, values) for c in parts]),
     )
@@ -169,10 +174,8 @@ def lower_exposure(
     foil = experiment.sample.foil
     capacity = 0.0
     if foil is not None:
-        capacity = math.prod(
-            value_of(n, values)
-            for n in (foil.thickness_m, foil.density_kg_m3, foil.specific_heat_J_kgK)
-        )
+        mass = value_of(foil.thickness_m, values) * value_of(foil.density_kg_m3, values)
+        capacity = mass * value_of(foil.specific_heat_J_kgK, values)
     return Exposure(
         front=_surface(experiment.front, values),
         back=_surface(experiment.back, values),
