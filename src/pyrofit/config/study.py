@@ -5,8 +5,8 @@ from typing import Annotated, Any, Self
 from pydantic import Field, model_validator
 
 from pyrofit.config.checks import check_study
-from pyrofit.cost import KINDS, NORMALISATIONS
-from pyrofit.errors import suggest
+from pyrofit.cost import KINDS, NORMALISATIONS, check_options
+from pyrofit.errors import CostError, suggest
 from pyrofit.model.base import Part
 from pyrofit.model.experiment import AnyExperiment, Gasification, Tga
 from pyrofit.model.material import Material
@@ -34,8 +34,10 @@ class TermSpec(Part):
 
     @model_validator(mode="after")
     def _check(self) -> Self:
-        if self.kind not in KINDS:
-            raise ValueError(f"unknown cost '{self.kind}'. {suggest(self.kind, KINDS)}")
+        try:
+            check_options(self.kind, self.all_options())
+        except CostError as error:
+            raise ValueError(str(error)) from None
         if self.normalisation is not None and self.normalisation not in NORMALISATIONS:
             raise ValueError(
                 f"unknown normalisation '{self.normalisation}'. "
@@ -44,6 +46,13 @@ class TermSpec(Part):
         if self.window_s is not None and self.window_s[0] >= self.window_s[1]:
             raise ValueError("window_s must be [start, end] with start below end")
         return self
+
+    def all_options(self) -> dict[str, object]:
+        """Return the options of the cost, the normalisation among them where it is given."""
+        options: dict[str, object] = dict(self.options)
+        if self.normalisation is not None:
+            options["normalisation"] = self.normalisation
+        return options
 
 
 Terms = Annotated[tuple[TermSpec, ...], Field(min_length=1)]

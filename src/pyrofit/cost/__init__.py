@@ -7,7 +7,7 @@ Eqs 1-3 and `whole_curve` Eq. 4 (one function per cost), `kinds` their registry,
 from pyrofit.cost.kinds import KINDS
 from pyrofit.cost.normalisation import NORMALISATIONS
 from pyrofit.cost.target import FloatArray, Target
-from pyrofit.cost.term import Term, make_term
+from pyrofit.cost.term import Term, check_options, make_term
 from pyrofit.cost.weighted import WeightedSum
 
 __all__ = [
@@ -17,5 +17,6 @@ __all__ = [
     "Target",
     "Term",
     "WeightedSum",
+    "check_options",
     "make_term",
 ]

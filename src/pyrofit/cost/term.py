@@ -1,7 +1,7 @@
 """One cost of one target, checked and ready to be called many times."""
 
 import math
-from collections.abc import Callable, Mapping
+from collections.abc import Mapping
 from dataclasses import dataclass, field
 from inspect import Parameter, signature
 from typing import Any
@@ -108,16 +108,23 @@ def make_term(kind: str, target: Target, **options: Any) -> Term:
     >>> term(np.array([3.0, 1.0, 3.0, 1.0]))
     0.5
     """
-    if kind not in KINDS:
-        raise CostError(f"unknown cost '{kind}'. {suggest(str(kind), KINDS)}")
-    _check_names(kind, KINDS[kind], options)
+    check_options(kind, options)
     return Term(kind, target, dict(options), KINDS[kind](target, **options))
 
 
-def _check_names(kind: str, cost: Callable[..., Residuals], options: Mapping[str, Any]) -> None:
+def check_options(kind: str, options: Mapping[str, Any]) -> None:
+    """Check the names of a cost and its options, which needs no target.
+
+    Raises
+    ------
+    CostError
+        The cost or an option is unknown, or a needed option is absent.
+    """
+    if kind not in KINDS:
+        raise CostError(f"unknown cost '{kind}'. {suggest(str(kind), KINDS)}")
     known = {
         name: parameter
-        for name, parameter in signature(cost).parameters.items()
+        for name, parameter in signature(KINDS[kind]).parameters.items()
         if parameter.kind is Parameter.KEYWORD_ONLY
     }
     for name in options:

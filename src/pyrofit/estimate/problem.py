@@ -184,7 +184,8 @@ def make_problem(
         for s, t in zip(specs, targets, strict=True)
     )
     terms = [
-        (s.weight, make_term(s.kind, t, **_options(s))) for s, t in zip(specs, targets, strict=True)
+        (s.weight, make_term(s.kind, t, **s.all_options()))
+        for s, t in zip(specs, targets, strict=True)
     ]
     bounds = np.array([study.parameters[name].bounds_si for name in estimate])
     return Problem(
@@ -198,10 +199,3 @@ def make_problem(
         cost=WeightedSum(terms),
         accuracy=study.accuracy,
     )
-
-
-def _options(spec: TermSpec) -> dict[str, object]:
-    options: dict[str, object] = dict(spec.options)
-    if spec.normalisation is not None:
-        options["normalisation"] = spec.normalisation
-    return options
