@@ -23,6 +23,8 @@ campaign: $(VENV)/installed
 	if [ -z "$$study" ]; then \
 		if reason=$$(pyrofit data where 2>&1); then \
 			study=config/paper.yaml; echo "Study: paper, on the measured files in $$reason"; \
+		elif [ -n "$$PYROFIT_DATA_DIR" ]; then \
+			echo "$$reason"; echo "Correct PYROFIT_DATA_DIR, or unset it for synthetic data."; exit 2; \
 		else \
 			study=config/smoke.yaml; echo "Study: smoke, on synthetic data, because the measured files are not here"; \
 			echo "($$reason)"; \

@@ -31,7 +31,8 @@ try:
     # and verifies by digest that its part of it is what the rule was planned with.
     STUDY = ROOT / "study.json"
     _text = json.dumps(study.model_dump(mode="json"), indent=1) + "\n"
-    if not STUDY.exists() or STUDY.read_text() != _text:
+    _dry = {"-n", "--dry-run", "--dryrun"} & set(sys.argv)
+    if not _dry and (not STUDY.exists() or STUDY.read_text() != _text):
         write_text(STUDY, _text)
 except PyrofitError as error:
     raise WorkflowError(str(error)) from None
@@ -60,14 +61,25 @@ localrules:
     all,
 
 
-rule all:
-    default_target: True
-    input:
-        ROOT / "report.html",
-
-
 include: "workflow/rules/data.smk"
 include: "workflow/rules/kinetics.smk"
 include: "workflow/rules/imp.smk"
 include: "workflow/rules/validation.smk"
 include: "workflow/rules/report.smk"
+
+
+# Everything, not the report alone: what is deleted or was removed with a failed run is made again.
+rule all:
+    default_target: True
+    input:
+        ROOT / "report.html",
+        MEASUREMENTS,
+        CALCULATED,
+        expand(
+            ROOT / "imp/{cost}/{repetition}.{kind}",
+            cost=COSTS,
+            repetition=REPETITIONS,
+            kind=["json", "csv.gz"],
+        ),
+        expand(ROOT / "tables/{name}.csv", name=SHOWN_TABLES),
+        expand(ROOT / "figures/{name}.png", name=SHOWN_FIGURES),

@@ -7,7 +7,7 @@ from collections.abc import Callable, Sequence
 from pathlib import Path
 from typing import IO, Any
 
-from pyrofit.errors import PyrofitError
+from pyrofit.errors import PyrofitError, StudyError
 
 Step = Callable[[argparse.Namespace], None]
 
@@ -87,6 +87,8 @@ def _parser() -> argparse.ArgumentParser:
     imp.add_argument("--repetition", type=int, required=True, help="number of the repetition")
     squares = _step(commands, "least-squares", "run least squares on one cost", _least_squares)
     squares.add_argument("--cost", required=True, help="cost function of the study")
+    descent = _step(commands, "descent", "run least squares from SCE-UA's best set", _descent)
+    descent.add_argument("--cost", required=True, help="cost function of the study")
     _step(commands, "collect", "gather all repetitions", _collect)
     _step(commands, "predict", "simulate the best sets at all predicted experiments", _predict)
     table = _step(commands, "table", "write one table", _table)
@@ -110,7 +112,6 @@ def _step(commands: Any, name: str, text: str, step: Step) -> argparse.ArgumentP
 def _open(given: argparse.Namespace, slice_of: Callable[..., Any], *arguments: Any) -> Any:
     """Return study and results; refuse a study that differs from what the caller described."""
     from pyrofit.config import digest, read_study
-    from pyrofit.errors import StudyError
     from pyrofit.files import Results
 
     study = read_study(given.study)
@@ -165,6 +166,11 @@ def _imp(given: argparse.Namespace) -> None:
     from pyrofit.stages import fit, slices
 
     study, results = _open(given, slices.imp, given.cost, "sceua")
+    if not 0 <= given.repetition < study.imp.repetitions:
+        raise StudyError(
+            f"repetition {given.repetition}: study '{study.name}' has repetitions 0 to "
+            f"{study.imp.repetitions - 1}; raise imp.repetitions for more"
+        )
     fit.repeat(study, results, given.cost, given.repetition)
 
 
@@ -173,6 +179,13 @@ def _least_squares(given: argparse.Namespace) -> None:
 
     study, results = _open(given, slices.imp, given.cost, "least_squares")
     fit.least_squares(study, results, given.cost)
+
+
+def _descent(given: argparse.Namespace) -> None:
+    from pyrofit.stages import fit, slices
+
+    study, results = _open(given, slices.imp, given.cost, "least_squares")
+    fit.descent(study, results, given.cost)
 
 
 def _collect(given: argparse.Namespace) -> None:

@@ -119,6 +119,10 @@ class Results:
         """Multistart least squares on one cost."""
         return self.root / "imp" / cost / "least_squares.json"
 
+    def descent(self, cost: str) -> Path:
+        """Least squares from SCE-UA's best set on one cost."""
+        return self.root / "imp" / cost / "descent.json"
+
     def imp(self, name: str) -> Path:
         """Results over all repetitions."""
         return self.root / "imp" / name

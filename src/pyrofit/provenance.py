@@ -17,17 +17,22 @@ PACKAGES = (
     "snakemake",
     "spotpy",
 )
+NUMERIC = ("numba", "numpy", "pandas", "scipy", "spotpy")
+"""Packages whose version may change a number."""
 SHOWING = ("figures", "tables", "report", "cli.py")
 """Parts of the source that show results and do not change a number."""
 
 
 def source_fingerprint(showing: bool = False) -> str:
-    """Return a hash of the library's source; with ``showing`` that of figures and report as well.
+    """Return a hash of source, data registry and numeric packages.
 
+    With ``showing`` the source of figures and report counts as well.
     Snakemake does not notice an edit to an imported package: rules carry this as a parameter.
     """
     root = Path(__file__).parent
-    total = hashlib.sha256()
+    total = hashlib.sha256((root / "data" / "registry.txt").read_bytes())
+    for package in NUMERIC:
+        total.update(f"{package} {importlib.metadata.version(package)}".encode())
     for path in sorted((*root.rglob("*.py"), *root.rglob("*.j2"))):
         name = path.relative_to(root)
         if showing or name.parts[0] not in SHOWING:

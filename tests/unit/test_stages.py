@@ -49,7 +49,7 @@ def results(tmp_path_factory: pytest.TempPathFactory) -> Results:
     study = study_with()
     measurements.prepare(study, results)
     fit.fit_kinetics(study, results)
-    by_hand(results)
+    by_hand(study, results)
     fit.collect(study, results)
     predict.predict(study, results)
     return results
@@ -68,7 +68,7 @@ def parameters(cost: str, repetition: int) -> dict[str, float]:
     return {"rho": density, "k": 0.2, "cp": 2100.0, "eps": 0.9, "dh": 800e3}
 
 
-def by_hand(results: Results) -> None:
+def by_hand(study: Study, results: Results) -> None:
     for cost, found in SETS.items():
         for repetition, value in enumerate(found):
             write_json(
@@ -77,6 +77,7 @@ def by_hand(results: Results) -> None:
                     "cost_function": cost,
                     "repetition": repetition,
                     "seed": 1,
+                    "digest": digest(slices.imp(study, cost, "sceua")),
                     "cost": value,
                     "parameters": parameters(cost, repetition),
                     "calls": 22,
@@ -376,7 +377,7 @@ def test_convergence_of_all_repetitions_is_gathered(results: Results) -> None:
 
 def test_missing_repetition_is_told(tmp_path: Path) -> None:
     own = Results(tmp_path)
-    by_hand(own)
+    by_hand(study_with(), own)
     own.repetition("RANGE", 1, ".json").unlink()
     with pytest.raises(DataError, match=r"RANGE.01.json: this result is missing"):
         fit.collect(study_with(), own)

@@ -46,6 +46,27 @@ rule least_squares:
         " --cost {wildcards.cost}"
 
 
+rule descent:
+    input:
+        MEASUREMENTS,
+        KINETICS_FOR_IMP,
+        results.imp("summary.csv"),
+    output:
+        ROOT / "imp/{cost}/descent.json",
+    log:
+        log_of("descent_{cost}"),
+    params:
+        digest=lambda wildcards: digest(
+            slices.imp(study, wildcards.cost, "least_squares")
+        ),
+        source=COMPUTES,
+    message:
+        "Least squares from SCE-UA's best set, {wildcards.cost}"
+    shell:
+        "pyrofit descent --study {STUDY} --digest {params.digest} --log {log}"
+        " --cost {wildcards.cost}"
+
+
 rule collect:
     input:
         expand(

@@ -4,6 +4,7 @@ CALCULATED = [
     results.imp("summary.csv"),
     results.imp("convergence.csv"),
     expand(ROOT / "imp/{cost}/least_squares.json", cost=COSTS),
+    expand(ROOT / "imp/{cost}/descent.json", cost=COSTS),
     results.validation("curves.csv"),
     results.validation("scores.csv"),
 ]

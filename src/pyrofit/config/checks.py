@@ -2,14 +2,14 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable
+from collections.abc import Iterable, Mapping
 from typing import TYPE_CHECKING
 
 from pyrofit.config.uses import names_in, parameters_in, parameters_of_tga
 from pyrofit.errors import suggest
 from pyrofit.model.base import FRACTION, Rule, numbers
 from pyrofit.model.experiment import Gasification, Tga
-from pyrofit.model.material import check_composition
+from pyrofit.model.material import REST, check_composition
 
 if TYPE_CHECKING:
     from pyrofit.config.study import Study, TermSpec
@@ -34,6 +34,24 @@ def check_study(study: Study) -> None:
 def _require(ok: bool, place: str, message: str) -> None:
     if not ok:
         raise ValueError(f"{place}: {message}")
+
+
+def _largest(study: Study, number: float | str) -> float:
+    """Return a number, or the most that a parameter can be, in SI units."""
+    if not isinstance(number, str):
+        return number
+    p = study.parameters[number]
+    return max(x for x in (p.value, p.upper) if x is not None) * p.factor
+
+
+def _check_sum(study: Study, shares: Mapping[str, float | str], place: str) -> None:
+    """Refuse mass fractions or yields that may add up to more than one."""
+    total = sum(_largest(study, share) for share in shares.values() if share != REST)
+    _require(
+        total <= 1.0 + 1e-9,
+        place,
+        f"with the upper limits of parameters these add up to {total:g}, above 1; lower a limit",
+    )
 
 
 def _check_numbers(study: Study) -> None:
@@ -87,6 +105,9 @@ def _check_compositions(study: Study) -> None:
             raise ValueError(f"{place}: {error}") from None
         for name in sorted(names_in(composition)):
             _check_parameter(study, name, FRACTION, place)
+        _check_sum(study, composition, place)
+    for name, reaction in study.material.reactions.items():
+        _check_sum(study, reaction.products, f"material.reactions.{name}.products")
 
 
 def _check_stages(study: Study) -> None:

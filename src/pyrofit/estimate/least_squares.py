@@ -44,13 +44,20 @@ def multistart(problem: Problem, starts: int, seed: int) -> list[Start]:
     """
     rng = np.random.default_rng(seed)
     draws = rng.uniform(0.05, 0.95, size=(starts, len(problem.names)))
-    return sorted((_descend(problem, u) for u in draws), key=lambda s: s.cost)
+    span = problem.upper - problem.lower
+    ends = (descend(problem, problem.lower + u * span) for u in draws)
+    return sorted(ends, key=lambda s: s.cost)
 
 
-def _descend(problem: Problem, u: FloatArray) -> Start:
+def descend(problem: Problem, values: FloatArray) -> Start:
+    """Minimise the residuals of a cost from given values, shape (parameters,), SI units.
+
+    What cannot be lowered from there is a local minimum, as far as the difference quotients see.
+    """
     from scipy.optimize import least_squares  # half a second that the other steps do without
 
     span = problem.upper - problem.lower
+    u = np.clip((values - problem.lower) / span, 0.0, 1.0)
     calls = 0
 
     def residuals(v: FloatArray) -> FloatArray:
@@ -61,11 +68,11 @@ def _descend(problem: Problem, u: FloatArray) -> Start:
     found = least_squares(
         residuals, u, bounds=(0.0, 1.0), diff_step=STEP, xtol=1e-7, ftol=1e-7, max_nfev=200
     )
-    values = problem.lower + np.clip(found.x, 0.0, 1.0) * span
+    end = problem.lower + np.clip(found.x, 0.0, 1.0) * span
     near = (found.x < STEP) | (found.x > 1.0 - STEP)
     return Start(
-        cost=problem.evaluate(values).cost,
-        values=values,
+        cost=problem.evaluate(end).cost,
+        values=end,
         calls=calls + 1,
         at_bound=tuple(n for n, b in zip(problem.names, near, strict=True) if b),
     )

@@ -31,24 +31,25 @@ FIGURES: dict[str, Figure] = {
         title="Figure 2. Kinetics at the fitted heating rates",
         caption="Normalised mass (left) and mass loss rate (right) against temperature at the "
         "heating rates used in the fit, the slowest to the left: measured (wide, light), fitted "
-        "(dashed), published (dotted). The rate is divided by the heating rate, so that "
-        "all have the same height; it is the slope of a parabola fitted to each 10 K of the mass, "
-        "measured and simulated alike. Good kinetics shift with the heating rate as the "
-        "measurement does.",
+        "(dashed), sets of the literature, if any (dotted). The rate is divided by the heating "
+        "rate, so that all have the same height; it is the slope of a parabola fitted to each "
+        "10 K of the mass, measured and simulated alike. Good kinetics shift with the heating "
+        "rate as the measurement does.",
     ),
     "kinetics_all_rates": Figure(
         applies=lambda study: study.kinetics is not None,
         make=kinetics_all_rates,
         title="Kinetics at all heating rates",
-        caption="Mass against temperature at every measured heating rate. Panels without 'in fit' "
-        "are predictions: a set that only fits where it was fitted fails there.",
+        caption="Mass against temperature at the fitted and compared heating rates. Panels without "
+        "'in fit' are predictions: a set that only fits where it was fitted fails there.",
     ),
     "fig3": Figure(
         applies=lambda study: bool(curves.fitted_rates(study)),
         make=curves.fig3,
         title="Figure 3. Mass loss rate, fitted",
         caption="Mass loss rate of the fitted experiment: measured with its uncertainty (grey "
-        "area), and the best set that SCE-UA found for each cost function. Curves on top of each "
+        "area), and the best set that SCE-UA found for each cost function; thin grey "
+        "curves, if any, are our solver's for sets of the literature. Curves on top of each "
         "other mean that the choice of the cost function makes no difference here; long "
         "stretches outside the grey area are what no set explains.",
     ),

@@ -18,6 +18,9 @@ class Part(BaseModel):
     model_config = ConfigDict(frozen=True, extra="forbid", allow_inf_nan=False)
     _derived: dict[str, Any] = PrivateAttr(default_factory=dict)
 
+    def __eq__(self, other: object) -> bool:
+        return type(self) is type(other) and self.__dict__ == other.__dict__
+
     def derived(self, name: str, make: Callable[[Self], Made]) -> Made:
         """Return ``make(self)``, made once: a part never changes."""
         if name not in self._derived:

@@ -12,7 +12,7 @@ REST = "rest"
 
 
 class Linear(Part):
-    """p(T) = value (1 + slope (T - T_ref))."""
+    """p(T) = value (1 + slope (T - T_ref)), at least 1 % of value."""
 
     value: Positive = Field(description="p at the reference temperature, unit of the property")
     slope_1_K: Number = Field(description="relative slope [1/K]")

@@ -6,11 +6,13 @@ from typing import Any
 from jinja2 import Environment, PackageLoader, StrictUndefined, select_autoescape
 
 from pyrofit.config import Study, digest
+from pyrofit.data.fetch import COMMIT
 from pyrofit.files import Results, read_json, write_json, write_text
 from pyrofit.model.experiment import Signal
 from pyrofit.provenance import environment
 from pyrofit.report.content import sections, tables_of
 from pyrofit.report.summary import summary
+from pyrofit.stages.closure import closure_lines
 from pyrofit.tables.describe import title_of
 
 
@@ -37,7 +39,7 @@ def write_report(study: Study, results: Results) -> None:
         title=study.title or study.name,
         summary=summary(study, tables),
         series=_series(study, measured),
-        closure=[_titled(study, line) for line in measured["mass_closure"]],
+        closure=[_titled(study, line) for line in closure_lines(study, measured["signals"])],
         sources=sorted({row["source"] for row in _series(study, measured)}),
         sections=sections(study, results, tables),
         origin=origin,
@@ -54,6 +56,7 @@ def provenance(study: Study, measured: dict[str, Any]) -> dict[str, Any]:
         "config_digest": digest(study.model_dump(mode="json")),
         "seed": study.seed,
         "synthetic_data": study.is_synthetic,
+        "macfp_commit": COMMIT if study.needs_macfp else "",
         **environment(),
         "data": {
             f"{name}/{signal}": {"source": about["source"], "sha256": about["sha256"]}

@@ -16,7 +16,7 @@ from pyrofit.tables.describe import (
     rates_in_fit,
     title_of,
 )
-from pyrofit.tables.imp import LOCAL_OPTIMUM, SHORT_BUDGET
+from pyrofit.tables.imp import LOCAL_OPTIMUM, NOT_A_MINIMUM
 from pyrofit.tables.text import number
 
 Frames = dict[str, pd.DataFrame]
@@ -105,20 +105,21 @@ def _fit(study: Study, tables: Frames) -> str:
 def _optimisers(study: Study, tables: Frames) -> str:
     rows = tables["costs"].to_dict("records")
     stuck = [r for r in rows if r["remark"] == LOCAL_OPTIMUM]
-    short = [r for r in rows if r["remark"] == SHORT_BUDGET]
+    short = [r for r in rows if r["remark"] == NOT_A_MINIMUM]
     if not stuck and not short:
-        return "Least squares from random starts found no lower cost than SCE-UA."
+        return "Least squares from random starts found no cost lower by more than 1 %."
     parts = []
     for r in stuck + short:
         bound = (
             f" ({r['least_squares_at_bound']} at a limit)" if r["least_squares_at_bound"] else ""
         )
-        parts.append(f"{r['cost_function']} by {100 * (1 - r['ratio']):.0f} %{bound}")
+        agree = f"{r['starts_at_best']} of {r['starts']} starts agree"
+        parts.append(f"{r['cost_function']} by {100 * (1 - r['ratio']):.0f} %, {agree}{bound}")
     text = f"Least squares on the same costs goes lower: {listed(parts)}"
     if stuck:
         text += f"; SCE-UA stopped at a local optimum for {_costs(stuck)}"
     if short:
-        text += f"; SCE-UA was still improving when its budget ended for {_costs(short)}"
+        text += f"; SCE-UA had not converged for {_costs(short)}: least squares goes on from there"
     return text + "."
 
 
@@ -131,7 +132,8 @@ def _parameters(study: Study, tables: Frames) -> str:
     bound = _flagged(table, "at bound")
     wide = _flagged(table, "spread")
     if not bound and not wide:
-        return "No parameter lies at a limit, and none spreads over more than 20 % of its limits."
+        once = "" if table["sigma"].notna().any() else " (no spread from one repetition)"
+        return f"No parameter is flagged: at a limit, or spread over 20 % of its limits{once}."
     parts = [f"at a limit: {bound}"] if bound else []
     parts += [f"not determined (spread above 20 % of the limits): {wide}"] if wide else []
     return f"Parameters not to rely on: {'; '.join(parts)}."

@@ -133,19 +133,3 @@ class Numerics(NamedTuple):
     longest_step: float
     """[s]."""
     most_steps: int
-
-
-class Trace(NamedTuple):
-    """What a slab run leaves at its time steps, each of shape (steps,)."""
-
-    time: FloatArray
-    released: FloatArray
-    """Gas released so far [kg/m2]."""
-    rate: FloatArray
-    """Mass loss rate [kg/(m2 s)]."""
-    front: FloatArray
-    """Front temperature [K]."""
-    back: FloatArray
-    """Back temperature [K]."""
-    thickness: FloatArray
-    """[m]."""

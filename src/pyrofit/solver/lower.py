@@ -23,6 +23,8 @@ from pyrofit.solver.arrays import (
 )
 
 Values = Mapping[str, float]
+LEAST_SHARE = 0.01
+"""Least value of a linear property, relative to its reference value."""
 
 
 def fractions(
@@ -42,7 +44,10 @@ def fractions(
 
 
 def property_table(prop: object, values: Values) -> FloatArray:
-    """Return p at the nodes of `TABLE_TEMPERATURES_K`, or one value for a constant."""
+    """Return p at the nodes of `TABLE_TEMPERATURES_K`, or one value for a constant.
+
+    A linear property ends at 1 % of its reference value: it must not become negative.
+    """
     if isinstance(prop, float | str):
         return np.array([value_of(prop, values)])
     if isinstance(prop, words.Table):
@@ -53,7 +58,7 @@ def property_table(prop: object, values: Values) -> FloatArray:
     reference = value_of(prop.reference_temperature_K, values)
     if isinstance(prop, words.Linear):
         slope = value_of(prop.slope_1_K, values)
-        return value * (1.0 + slope * (TABLE_TEMPERATURES_K - reference))
+        return value * np.maximum(LEAST_SHARE, 1.0 + slope * (TABLE_TEMPERATURES_K - reference))
     return value * (TABLE_TEMPERATURES_K / reference) ** value_of(prop.exponent, values)
 
 

@@ -7,10 +7,10 @@ from typing import Any
 import numpy as np
 import pandas as pd
 
-from pyrofit.config import Kinetics, Study
+from pyrofit.config import Kinetics, Study, digest
 from pyrofit.constants import GAS_CONSTANT
 from pyrofit.errors import StudyError
-from pyrofit.estimate.least_squares import Start, multistart
+from pyrofit.estimate.least_squares import Start, descend, multistart
 from pyrofit.estimate.problem import Measurements, Problem, make_problem, program
 from pyrofit.estimate.sceua import Progress, best_of, convergence, search, seed_for
 from pyrofit.files import Results, read_csv, read_json, write_csv, write_json
@@ -19,6 +19,7 @@ from pyrofit.model.material import Material
 from pyrofit.simulate import Request, simulate_tga
 from pyrofit.solver.arrays import FloatArray, Status
 from pyrofit.solver.lower import fractions, lower_network
+from pyrofit.stages import slices
 from pyrofit.stages.measurements import load
 
 Values = Mapping[str, float]
@@ -197,6 +198,7 @@ def repeat(study: Study, results: Results, cost: str, repetition: int) -> None:
             "cost_function": cost,
             "repetition": repetition,
             "seed": seed,
+            "digest": digest(slices.imp(study, cost, "sceua")),
             "cost": best,
             "parameters": _named(problem, x),
             "calls": len(history),
@@ -217,6 +219,14 @@ def least_squares(study: Study, results: Results, cost: str) -> None:
     )
 
 
+def descent(study: Study, results: Results, cost: str) -> None:
+    """Run least squares from SCE-UA's best set, to see whether that is a local minimum."""
+    problem = imp_problem(study, results, cost)
+    best = best_sets(study, results)[cost]
+    end = descend(problem, np.array([best[name] for name in problem.names]))
+    write_json(results.descent(cost), {"cost_function": cost, "end": _start(problem, end)})
+
+
 def collect(study: Study, results: Results) -> None:
     """Gather all repetitions: ``imp/summary.csv`` and ``imp/convergence.csv``."""
     rows = []
@@ -224,6 +234,11 @@ def collect(study: Study, results: Results) -> None:
     for cost in study.imp.costs:
         for repetition in range(study.imp.repetitions):
             found = read_json(results.repetition(cost, repetition, ".json"))
+            if found.pop("digest") != digest(slices.imp(study, cost, "sceua")):
+                raise StudyError(
+                    f"{results.repetition(cost, repetition, '.json')}: this repetition belongs to "
+                    "another description of the study; two runs of it at once? Run it again."
+                )
             parameters = found.pop("parameters")
             rows.append({**found, **parameters})
             frame = read_csv(results.repetition(cost, repetition, "_convergence.csv"))

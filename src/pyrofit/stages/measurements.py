@@ -1,7 +1,5 @@
 """Step 1: measured series, read or computed, tidy and checked."""
 
-import contextlib
-from collections.abc import Mapping
 from pathlib import Path
 from typing import Any
 
@@ -17,11 +15,10 @@ from pyrofit.errors import DataError
 from pyrofit.estimate.problem import Measurements
 from pyrofit.estimate.sceua import seed_for
 from pyrofit.files import Results, read_csv, write_csv, write_json
-from pyrofit.model.base import value_of
 from pyrofit.model.experiment import Gasification, Signal, Tga
 from pyrofit.simulate import Request, simulate_gasification, simulate_tga
 from pyrofit.solver.arrays import FloatArray
-from pyrofit.solver.lower import fractions
+from pyrofit.stages.closure import closure_lines
 
 SYNTHETIC = "synthetic"
 MACFP = "macfp:"
@@ -37,8 +34,6 @@ def prepare(study: Study, results: Results) -> list[str]:
     """
     truth = computed(study) if study.is_synthetic else {}
     summary: dict[str, Any] = {}
-    lines: list[str] = []
-    released: dict[str, float] = {}
     for name, experiment in study.experiments.items():
         summary[name] = {}
         for quantity, signal in experiment.signals.items():
@@ -48,13 +43,11 @@ def prepare(study: Study, results: Results) -> list[str]:
                 frame, about = _read(quantity, signal)
             write_csv(results.measurement(name, quantity), frame)
             summary[name][quantity] = {**about, "points": len(frame)}
-            if quantity == "mlr" and isinstance(experiment, Gasification):
-                released[name], line = _closure(study, name, experiment, frame)
-                summary[name][quantity]["released_kg_m2"] = released[name]
-                lines.append(line)
-    lines += _spread(study, released)
-    write_json(results.measurements_summary, {"signals": summary, "mass_closure": lines})
-    return lines
+            if quantity == "mlr":
+                mass = mass_closure(frame, 1.0).released_kg_m2
+                summary[name][quantity]["released_kg_m2"] = mass
+    write_json(results.measurements_summary, {"signals": summary})
+    return closure_lines(study, summary)
 
 
 def load(study: Study, results: Results) -> Measurements:
@@ -97,55 +90,6 @@ def _read(quantity: str, signal: Signal) -> tuple[pd.DataFrame, dict[str, Any]]:
 
 def _locate(file: str) -> Path:
     return locate(file.removeprefix(MACFP)) if file.startswith(MACFP) else Path(file)
-
-
-def _closure(
-    study: Study, name: str, experiment: Gasification, frame: pd.DataFrame
-) -> tuple[float, str]:
-    """Return the released mass [kg/m2], and how it compares with what is known of the sample."""
-    values = study.fixed_values()
-    signal = experiment.signals["mlr"]
-    released = mass_closure(frame, 1.0).released_kg_m2
-    try:
-        thickness = sum(value_of(layer.thickness_m, values) for layer in experiment.sample.layers)
-    except KeyError:
-        return released, f"{name}: released {released:.3f} kg/m2; thickness to be estimated"
-    initial = None
-    if signal.sample_mass_kg is not None and signal.sample_area_m2 is not None:
-        initial = signal.sample_mass_kg / signal.sample_area_m2
-    else:
-        with contextlib.suppress(KeyError):
-            initial = _described_mass(study, experiment, values)
-    if initial is not None:
-        return released, f"{name}: {mass_closure(frame, initial).describe()}"
-    return released, (
-        f"{name}: released {released:.3f} kg/m2, {released / thickness:.0f} kg/m3 over the "
-        f"{thickness * 1e3:g} mm of the sample; initial mass not given, density to be estimated"
-    )
-
-
-def _described_mass(study: Study, experiment: Gasification, values: Mapping[str, float]) -> float:
-    """Return the mass per area [kg/m2]; KeyError where a parameter has no value."""
-    components = study.material.components
-    volumes = np.array([1.0 / value_of(c.density_kg_m3, values) for c in components.values()])
-    total = 0.0
-    for layer in experiment.sample.layers:
-        composition = layer.composition or study.material.composition
-        share = fractions(composition, list(components), values)
-        total += value_of(layer.thickness_m, values) / float(share @ volumes)
-    return total
-
-
-def _spread(study: Study, released: Mapping[str, float]) -> list[str]:
-    """Say how far apart the released masses of equal samples are."""
-    lines = []
-    names = list(released)
-    for i, a in enumerate(names):
-        for b in names[i + 1 :]:
-            if study.experiments[a].sample.layers == study.experiments[b].sample.layers:  # type: ignore[union-attr]
-                apart = abs(released[a] - released[b]) / max(released[a], released[b])
-                lines.append(f"{a} and {b}: equal samples, released masses {apart:.1%} apart")
-    return lines
 
 
 def computed(study: Study) -> dict[tuple[str, str], pd.DataFrame]:

@@ -3,6 +3,7 @@
 from typing import Any
 
 from pyrofit.config import Study, parameters_in
+from pyrofit.config.uses import names_in
 from pyrofit.model.experiment import Gasification, Tga
 
 
@@ -39,12 +40,15 @@ def kinetics(study: Study) -> dict[str, Any]:
     stage = study.kinetics
     assert stage is not None
     names = parameters_in(study.material, *study.kinds(Tga).values())
+    composed = {n for chosen in stage.sets.values() for n in names_in(chosen.composition)}
     used = {term.experiment for term in stage.cost} | set(stage.compare)
     return {
         "terms": [t.model_dump() for t in stage.cost],
         "experiments": {n: _experiment(study, n) for n in sorted(used)},
         "material": study.material.model_dump(),
-        "parameters": _parameters(study, names & (set(stage.estimate) | set(study.fixed_values()))),
+        "parameters": _parameters(
+            study, (names | composed) & (set(stage.estimate) | set(study.fixed_values()))
+        ),
         "stage": stage.model_dump(exclude={"cost"}),
         "accuracy": study.accuracy.tga_step_K,
         "seed": study.seed,
@@ -62,7 +66,7 @@ def imp(study: Study, cost: str, optimiser: str) -> dict[str, Any]:
         "terms": [t.model_dump() for t in terms],
         "experiments": {n: _experiment(study, n) for n in used},
         "material": study.material_with(stage.kinetics).model_dump(),
-        "parameters": _parameters(study, names),
+        "parameters": _parameters(study, names | set(stage.estimate)),
         "estimate": stage.estimate,
         "kinetics": stage.kinetics,
         "budget": getattr(stage, optimiser).model_dump(),

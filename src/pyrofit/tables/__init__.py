@@ -42,7 +42,8 @@ TABLES: dict[str, Table] = {
         applies=lambda study: True,
         make=table4,
         title="Table 4. Best set, mean and standard deviation over the repetitions",
-        note="sigma is the standard deviation over the n repetitions with n − 1 as divisor. "
+        note="sigma is the standard deviation over the n repetitions with n − 1 as divisor: the "
+        "scatter of the optimiser, not the uncertainty of the parameter. "
         "'At bound': the best value lies within 0.5 % of the limits' distance from a limit. "
         "'Spread > 20 % of limits': sigma exceeds this share of it, the data do not determine the "
         "parameter.",
@@ -60,13 +61,18 @@ TABLES: dict[str, Table] = {
         make=costs,
         title="Optimisers compared on the same costs",
         note="Model calls are those of all repetitions, and of all starts. The ratio is the best "
-        "of least squares over the best of SCE-UA.",
+        "of least squares over the best of SCE-UA. 'From SCE-UA's best': where least squares gets "
+        "from there; a set that it lowers is no minimum. 'At bound': within 0.1 % of the limits' "
+        "distance.",
         headings={
             "cost_function": "cost function",
             "sceua_best": "SCE-UA best",
             "sceua_mean": "SCE-UA mean",
             "sceua_calls": "SCE-UA model calls",
             "sceua_failed_calls": "failed calls",
+            "least_squares_from_sceua": "least squares from SCE-UA's best",
+            "starts": "random starts of least squares",
+            "starts_at_best": "of these within 1 % of the best",
             "least_squares_best": "least squares best",
             "least_squares_calls": "least squares model calls",
             "least_squares_at_bound": "least squares at bound",
