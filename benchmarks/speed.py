@@ -15,7 +15,7 @@ from pyrofit.simulate import Accuracy, Request, simulate_gasification
 ROOT = Path(__file__).parents[1]
 SETTINGS = {
     "default": Accuracy(),
-    "coarse": Accuracy(cells=24, tolerance=1e-2, longest_step_s=20.0),
+    "0.2 %": Accuracy(cells=30, tolerance=1e-2, longest_step_s=40.0, first_step_s=0.1),
 }
 REFERENCE = Accuracy(cells=800, tolerance=5e-5, longest_step_s=1.0, most_steps=200_000)
 DURATION_S = {"capa_25": 1690.0, "capa_60": 400.0}
