@@ -34,7 +34,7 @@ def measured():
 
 def own_set_cost(kind, target, earlier_s=0.0):
     own = kind.removesuffix("_PROPTI")
-    time, mlr = np.loadtxt(CURVES / f"capa25_{own}_S2.csv", delimiter=",", skiprows=2).T
+    time, mlr = np.loadtxt(CURVES / f"capa25_{own}_S2_whole_run.csv", delimiter=",", skiprows=2).T
     model = np.interp(target.time_s, time - earlier_s, mlr)
     return make_term(kind, target, normalisation="mean")(model)
 
@@ -77,7 +77,7 @@ def test_the_printed_range_is_not_that_of_table_4(measured):
 def test_unordered_limits_of_range_count_negative_targets_to_the_farther_edge(measured, n, cost):
     target = measured.resampled(n)
     lower, upper = 0.95 * target.value, 1.05 * target.value
-    time, mlr = np.loadtxt(CURVES / "capa25_RANGE_S2.csv", delimiter=",", skiprows=2).T
+    time, mlr = np.loadtxt(CURVES / "capa25_RANGE_S2_whole_run.csv", delimiter=",", skiprows=2).T
     model = np.interp(target.time_s, time, mlr)
     differences = np.where(model < lower, model - lower, np.where(model > upper, model - upper, 0))
     unordered = np.sqrt(np.mean(differences**2)) / target.value.mean()
