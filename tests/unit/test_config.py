@@ -71,7 +71,7 @@ def test_numbers_with_an_exponent_are_numbers_however_written() -> None:
     # YAML 1.1 reads 1e13 and 1.5e13 as text.
     for written in ("1e13", "1.0e13", "1.0e+13", "10000000000000", "+1E+13"):
         given = changed("experiments.slab_25.sample.layers.0.thickness_m", yaml.safe_load(written))
-        layer = as_study(given, "mine.yaml").experiments["slab_25"].sample.layers[0]  # type: ignore[union-attr]
+        layer = as_study(given, "mine.yaml").experiments["slab_25"].sample.layers[0]
         assert layer.thickness_m == 1e13
 
 

@@ -101,7 +101,7 @@ def test_each_generation_makes_at_least_2n_plus_1_calls_for_each_complex() -> No
 
 
 def test_number_of_complexes_is_the_number_of_parameters_by_default() -> None:
-    history = search(Valley(), 1, 3)  # type: ignore[arg-type]
+    history = search(Valley(), 1, 3)
     assert (history["generation"] == 1).sum() == (2 * 2 + 1) * 2
 
 
@@ -130,7 +130,7 @@ def test_search_does_not_stop_early_on_a_flat_cost() -> None:
 
 def test_best_is_the_first_of_equal_costs() -> None:
     history = pd.DataFrame({"cost": [3.0, 1.0, 1.0], "a": [0.1, 0.2, 0.3], "b": [1.0, 2.0, 3.0]})
-    cost, x = best_of(history, Valley())  # type: ignore[arg-type]
+    cost, x = best_of(history, Valley())
     assert cost == 1.0
     assert x.tolist() == [0.2, 2.0]
 
@@ -212,7 +212,7 @@ def test_seed_of_an_identity_stays_the_same_for_ever() -> None:
 
 
 def test_multistart_finds_the_optimum() -> None:
-    starts = multistart(Valley(), 3, 1)  # type: ignore[arg-type]
+    starts = multistart(Valley(), 3, 1)
     assert len(starts) == 3
     for start in starts:
         assert start.values == pytest.approx([0.3, -20.0], abs=1e-4)
@@ -221,10 +221,10 @@ def test_multistart_finds_the_optimum() -> None:
 
 
 def test_multistart_names_the_parameters_at_their_limits() -> None:
-    start = multistart(Valley(optimum=(2.0, -20.0)), 1, 1)[0]  # type: ignore[arg-type]
+    start = multistart(Valley(optimum=(2.0, -20.0)), 1, 1)[0]
     assert start.at_bound == ("a",)
     assert start.values == pytest.approx([1.0, -20.0], abs=1e-2)
-    start = multistart(Valley(optimum=(2.0, -60.0)), 1, 1)[0]  # type: ignore[arg-type]
+    start = multistart(Valley(optimum=(2.0, -60.0)), 1, 1)[0]
     assert start.at_bound == ("a", "b")
 
 
@@ -234,7 +234,7 @@ def test_multistart_is_sorted_by_cost_where_starts_end_apart() -> None:
             a = x[0] - 0.5
             return np.array([(a**2 - 0.09) * 10, 0.5 * (a - 0.3), (x[1] + 20.0) / 60.0])
 
-    costs = [s.cost for s in multistart(TwoHoles(), 8, 1)]  # type: ignore[arg-type]
+    costs = [s.cost for s in multistart(TwoHoles(), 8, 1)]
     assert costs == sorted(costs)
     assert costs[-1] > costs[0] + 0.1
     assert costs[0] == pytest.approx(0.0, abs=1e-5)
@@ -242,7 +242,7 @@ def test_multistart_is_sorted_by_cost_where_starts_end_apart() -> None:
 
 def test_multistart_draws_by_its_seed_alone() -> None:
     def ends(seed: int) -> list[list[float]]:
-        return [s.values.tolist() for s in multistart(Valley(), 2, seed)]  # type: ignore[arg-type]
+        return [s.values.tolist() for s in multistart(Valley(), 2, seed)]
 
     first = ends(1)
     np.random.seed(5)  # noqa: NPY002
@@ -259,7 +259,7 @@ def test_multistart_stays_inside_the_limits_and_counts_its_calls() -> None:
             return super().residuals(x)
 
     problem = Watched(optimum=(1.0, -50.0))
-    start = multistart(problem, 1, 1)[0]  # type: ignore[arg-type]
+    start = multistart(problem, 1, 1)[0]
     assert start.calls == len(asked)
     assert np.all(np.array(asked) >= problem.lower)
     assert np.all(np.array(asked) <= problem.upper)
@@ -292,7 +292,7 @@ def slab(study: Study) -> dict[tuple[str, str], pd.DataFrame]:
     time = np.arange(5.0, 300.0, 10.0)
     requests = {"mlr": Request(time, 5.0), "back_temperature": Request(time)}
     signals = simulate_gasification(
-        study.experiments["slab_60"],  # type: ignore[arg-type]
+        study.experiments["slab_60"],
         study.material,
         TRUTH,
         requests,
@@ -337,7 +337,7 @@ def test_cost_away_from_the_truth_is_the_rmse_worked_out_here(study: Study) -> N
     x = AT_TRUTH * [1.1, 1.0, 1.0, 1.0, 1.0]
     frame = slab(study)["slab_60", "mlr"]
     curves = simulate_gasification(
-        study.experiments["slab_60"],  # type: ignore[arg-type]
+        study.experiments["slab_60"],
         study.material,
         {**TRUTH, "rho": TRUTH["rho"] * 1.1},
         {"mlr": Request(frame["time_s"].to_numpy(), 5.0)},
@@ -415,7 +415,7 @@ def test_target_has_the_uncertainty_where_one_is_known() -> None:
     frame = pd.DataFrame({"time_s": [0.0, 1.0], "mlr_kg_m2_s": [1.0, 2.0]})
     assert target_of(frame, "mlr").uncertainty is None
     frame["mlr_uncertainty_kg_m2_s"] = [0.1, 0.2]
-    assert target_of(frame, "mlr").uncertainty.tolist() == [0.1, 0.2]  # type: ignore[union-attr]
+    assert target_of(frame, "mlr").uncertainty.tolist() == [0.1, 0.2]
 
 
 def tga(study: Study, how: str) -> Tga:
@@ -444,7 +444,7 @@ def test_request_for_tga_has_temperatures_and_for_a_slab_bins(study: Study) -> N
     asked = request_for(tga(study, "measured"), "mass_fraction", SLOW_START, times)
     assert asked.temperature_K is not None
     assert asked.temperature_K.tolist() == [400.0, 402.0]
-    asked = request_for(study.experiments["slab_60"], "mlr", SLOW_START, times)  # type: ignore[arg-type]
+    asked = request_for(study.experiments["slab_60"], "mlr", SLOW_START, times)
     assert (asked.average_s, asked.temperature_K) == (5.0, None)
 
 

@@ -302,8 +302,8 @@ def test_kinetics_are_scored_where_used_or_compared(tmp_path: Path) -> None:
         "composition": {"polymer": 1.0},
     }
     study = study_with(kinetics__sets={"Table 3": published})
-    terms = [t for t in study.kinetics.cost if t.experiment == "tga_5K"]  # type: ignore[union-attr]
-    alone = study.kinetics.model_copy(update={"cost": tuple(terms)})  # type: ignore[union-attr]
+    terms = [t for t in study.kinetics.cost if t.experiment == "tga_5K"]
+    alone = study.kinetics.model_copy(update={"cost": tuple(terms)})
     results = Results(tmp_path)
     measurements.prepare(study, results)
     for compare, names in ((), {"tga_5K"}), (("tga_20K",), {"tga_5K", "tga_20K"}):

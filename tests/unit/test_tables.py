@@ -132,7 +132,7 @@ def _measurements(study: Study, results: Results) -> None:
             else:
                 frame = pd.DataFrame({"time_s": time, "back_temperature_K": 300.0 + time})
             write_csv(results.measurement(name, signal), frame)
-            source = experiment.signals[signal].file  # type: ignore[index]
+            source = experiment.signals[signal].file
             signals[name][signal] = {"source": source, "sha256": "ab12", "points": len(frame)}
             if signal == "mlr":
                 signals[name][signal]["released_kg_m2"] = 4.0

@@ -202,7 +202,7 @@ def repeat(study: Study, results: Results, cost: str, repetition: int) -> None:
             "cost": best,
             "parameters": _named(problem, x),
             "calls": len(history),
-            "failed_calls": int((~history["status"].isin([Status.OK, Status.UNBURNT])).sum()),
+            "failed_calls": int((history["status"] != Status.OK).sum()),
             "generations": int(history["generation"].max()),
         },
     )
