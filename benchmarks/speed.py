@@ -10,7 +10,8 @@ import numpy as np
 
 from pyrofit.config import read_study
 from pyrofit.model.experiment import Gasification
-from pyrofit.simulate import Accuracy, Request, simulate_gasification
+from pyrofit.simulate import Accuracy, simulate_gasification
+from pyrofit.solver.curves import Request
 
 ROOT = Path(__file__).parents[1]
 SETTINGS = {

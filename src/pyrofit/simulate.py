@@ -1,7 +1,6 @@
 """Curves of an experiment for given parameter values."""
 
 from collections.abc import Mapping
-from dataclasses import dataclass
 
 import numpy as np
 from pydantic import Field
@@ -11,6 +10,7 @@ from pyrofit.model.experiment import Gasification, Tga
 from pyrofit.model.material import Material
 from pyrofit.solver import lower
 from pyrofit.solver.arrays import FloatArray, Numerics, Status
+from pyrofit.solver.curves import Curves, Request
 
 NO_PROBES = np.empty(0)
 
@@ -31,26 +31,6 @@ class Accuracy(Part):
     def numerics(self) -> Numerics:
         """The same for the kernel."""
         return Numerics(self.tolerance, self.first_step_s, self.longest_step_s, self.most_steps)
-
-
-@dataclass(frozen=True)
-class Request:
-    """What a signal asks of a run: its times [s], bin width [s], for TGA its temperatures [K]."""
-
-    time_s: FloatArray
-    average_s: float = 0.0
-    temperature_K: FloatArray | None = None
-
-
-@dataclass(frozen=True)
-class Curves:
-    """How a run ended, the signals asked for, and the balances of the run."""
-
-    status: Status
-    signals: Mapping[str, FloatArray]
-    steps: int = 0
-    energy_error: float = 0.0
-    mass_error: float = 0.0
 
 
 def simulate_tga(

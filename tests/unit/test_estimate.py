@@ -23,8 +23,9 @@ from pyrofit.estimate.problem import (
 )
 from pyrofit.estimate.sceua import best_of, convergence, search, seed_for
 from pyrofit.model.experiment import Tga
-from pyrofit.simulate import Request, simulate_gasification, simulate_tga
+from pyrofit.simulate import simulate_gasification, simulate_tga
 from pyrofit.solver.arrays import FloatArray, Status
+from pyrofit.solver.curves import Request
 
 CONFIG = Path(__file__).parents[2] / "config"
 GENERATIONS = 5

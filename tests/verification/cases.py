@@ -9,7 +9,8 @@ import pandas as pd
 
 from pyrofit.model.experiment import Gasification, Tga
 from pyrofit.model.material import Material
-from pyrofit.simulate import Accuracy, Curves, Request, simulate_gasification, simulate_tga
+from pyrofit.simulate import Accuracy, simulate_gasification, simulate_tga
+from pyrofit.solver.curves import Curves, Request
 
 DATA = Path(__file__).parents[1] / "data"
 

@@ -14,7 +14,8 @@ from cases import (
     slab_experiment,
 )
 
-from pyrofit.simulate import Accuracy, Request, simulate_gasification
+from pyrofit.simulate import Accuracy, simulate_gasification
+from pyrofit.solver.curves import Request
 
 DURATION = {10: 6000.0, 25: 1700.0, 40: 1500.0, 60: 420.0, 100: 300.0}
 CHAR = BEST | {"rho_r": 300.0, "k_r": 0.12, "cp_r": 1500.0, "eps_r": 0.85}

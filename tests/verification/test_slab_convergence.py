@@ -6,7 +6,8 @@ import numpy as np
 import pytest
 from cases import Curve, paper_experiment, paper_material, reference, rms_over_mean, run
 
-from pyrofit.simulate import Accuracy, Request
+from pyrofit.simulate import Accuracy
+from pyrofit.solver.curves import Request
 
 ON = {25: 1200.0, 60: 280.0}
 """Time [s] until which cells burn out one after another from the front, by flux [kW/m2]."""

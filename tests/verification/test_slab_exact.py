@@ -8,7 +8,8 @@ from cases import Curve, inert_material, run, slab_experiment
 from scipy.optimize import brentq, fsolve
 
 from pyrofit.constants import STEFAN_BOLTZMANN
-from pyrofit.simulate import Accuracy, Curves, Request
+from pyrofit.simulate import Accuracy
+from pyrofit.solver.curves import Curves, Request
 
 RHO, K, C, T0, DEPTH = 1200.0, 0.2, 1500.0, 293.15, 5.8e-3
 FAINT = 1e-6

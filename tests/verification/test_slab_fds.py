@@ -24,7 +24,8 @@ from cases import (
 
 from pyrofit.model.experiment import Gasification
 from pyrofit.model.material import Material
-from pyrofit.simulate import Accuracy, Request
+from pyrofit.simulate import Accuracy
+from pyrofit.solver.curves import Request
 
 
 class Pair(NamedTuple):

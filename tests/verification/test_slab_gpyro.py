@@ -12,7 +12,7 @@ from cases import KINETICS, Curve, reference, rms_over_mean, run, slab_experimen
 from pyrofit.constants import GAS_CONSTANT
 from pyrofit.model.experiment import Gasification
 from pyrofit.model.material import Material
-from pyrofit.simulate import Request
+from pyrofit.solver.curves import Request
 
 E_SCALE = GAS_CONSTANT / 8.314
 """Gpyro's R is rounded; E/R shall be the same."""

@@ -12,7 +12,8 @@ from cases import Curve, run, slab_experiment
 
 from pyrofit.constants import GAS_CONSTANT
 from pyrofit.model.material import Material
-from pyrofit.simulate import Accuracy, Request
+from pyrofit.simulate import Accuracy
+from pyrofit.solver.curves import Request
 
 T = 600.0
 E = 1.5e5

@@ -12,14 +12,9 @@ from pyrofit.cost import Target, WeightedSum, make_term
 from pyrofit.data.quantities import UNCERTAINTY_COLUMN, VALUE_COLUMN
 from pyrofit.model.experiment import Gasification, Tga
 from pyrofit.model.material import Material
-from pyrofit.simulate import (
-    Accuracy,
-    Curves,
-    Request,
-    simulate_gasification,
-    simulate_tga,
-)
+from pyrofit.simulate import Accuracy, simulate_gasification, simulate_tga
 from pyrofit.solver.arrays import FloatArray, Status
+from pyrofit.solver.curves import Curves, Request
 
 FAILED_COST = 1e12
 """Cost of a run that did not finish: finite, and worse than any run that did."""

@@ -16,8 +16,9 @@ from pyrofit.estimate.sceua import Progress, best_of, convergence, search, seed_
 from pyrofit.files import Results, read_csv, read_json, write_csv, write_json
 from pyrofit.model.experiment import Tga
 from pyrofit.model.material import Material
-from pyrofit.simulate import Request, simulate_tga
+from pyrofit.simulate import simulate_tga
 from pyrofit.solver.arrays import FloatArray, Status
+from pyrofit.solver.curves import Request
 from pyrofit.solver.lower import fractions, lower_network
 from pyrofit.stages import slices
 from pyrofit.stages.measurements import load

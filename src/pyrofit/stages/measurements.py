@@ -16,8 +16,9 @@ from pyrofit.estimate.problem import Measurements
 from pyrofit.estimate.sceua import seed_for
 from pyrofit.files import Results, read_csv, write_csv, write_json
 from pyrofit.model.experiment import Gasification, Signal, Tga
-from pyrofit.simulate import Request, simulate_gasification, simulate_tga
+from pyrofit.simulate import simulate_gasification, simulate_tga
 from pyrofit.solver.arrays import FloatArray
+from pyrofit.solver.curves import Request
 from pyrofit.stages.closure import closure_lines
 
 SYNTHETIC = "synthetic"

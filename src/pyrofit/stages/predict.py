@@ -8,8 +8,9 @@ from pyrofit.data.quantities import VALUE_COLUMN
 from pyrofit.errors import DataError
 from pyrofit.files import Results, read_json, write_csv
 from pyrofit.model.experiment import Gasification
-from pyrofit.simulate import Request, simulate_gasification
+from pyrofit.simulate import simulate_gasification
 from pyrofit.solver.arrays import FloatArray
+from pyrofit.solver.curves import Request
 from pyrofit.stages.fit import best_sets, fixed_for_imp
 from pyrofit.stages.measurements import load
 
