@@ -47,7 +47,7 @@ def main() -> None:
                     simulate_gasification(experiment, material, values, request, accuracy)
                 times.append((time.perf_counter() - start) / 20)
             print(
-                f"{name:10} {label:8} {accuracy.cells:5d} {100 * error:8.3f} "
+                f"{name:10} {label:8} {run.cells:5d} {100 * error:8.3f} "
                 f"{1 / np.median(times):7.0f} {run.steps:6d}"
             )
 

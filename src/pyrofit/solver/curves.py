@@ -21,6 +21,7 @@ class Curves:
 
     status: Status
     signals: Mapping[str, FloatArray]
+    cells: int = 0
     steps: int = 0
     energy_error: float = 0.0
     mass_error: float = 0.0

@@ -21,6 +21,7 @@ from pyrofit.solver.arrays import (
     Network,
     Surface,
 )
+from pyrofit.solver.grid import Virgin
 
 Values = Mapping[str, float]
 LEAST_SHARE = 0.01
@@ -213,6 +214,17 @@ def _at(table: FloatArray, experiment: Gasification, values: Values) -> FloatArr
         return table[:, 0]
     T = value_of(experiment.sample.initial_temperature_K, values)
     return np.array([np.interp(T, TABLE_TEMPERATURES_K, row) for row in table])
+
+
+def lower_virgin(experiment: Gasification, material: words.Material, values: Values) -> Virgin:
+    """Return what the sample is before it reacts."""
+    layers = experiment.sample.layers
+    composition = layers[0].composition or material.composition
+    return Virgin(
+        share=fractions(composition, list(material.components), values),
+        thickness=sum(value_of(layer.thickness_m, values) for layer in layers),
+        temperature=value_of(experiment.sample.initial_temperature_K, values),
+    )
 
 
 def lower_cells(

@@ -33,9 +33,13 @@ from pyrofit.solver.kernels.step import advance
 from pyrofit.solver.kernels.work import allocate
 
 GASIFICATION_SCALE = 2.0e6
-"""Heat of gasification [J/kg] that turns the flux into a scale of the mass loss rate."""
+"""Heat of gasification [J/kg] that turns the flux into the mass loss rate it could sustain."""
 LEAST_FLUX_SCALE = 5.0e3
-"""[W/m2]; keeps that scale above zero without external flux."""
+"""[W/m2]; keeps that rate above zero without external flux."""
+ONSET_SHARE = 0.01
+"""Share of that rate to which the error of a step is compared at least."""
+PEAK_MULTIPLE = 2.0
+"""The error is compared to this multiple of the largest rate so far."""
 DEAD_FRACTION = 1.0e-7
 """Reactant left, relative to the cell's initial mass, below which a cell may leave the grid."""
 THIN_FRACTION = 0.01
@@ -138,11 +142,11 @@ def thickness(work, material, T):
 
 @inner
 def scale_of_rate(exposure):
-    """Return the mass loss rate to which the error of a step is compared [kg/(m2 s)]."""
+    """Return the mass loss rate to which the error is compared at the onset [kg/(m2 s)]."""
     flux = LEAST_FLUX_SCALE
     for p in range(exposure.flux.size):
         flux = max(flux, exposure.flux[p])
-    return flux / GASIFICATION_SCALE
+    return ONSET_SHARE * flux / GASIFICATION_SCALE
 
 
 @inner
@@ -217,6 +221,7 @@ def march(
             clock = retry(clock, ratio, numerics.first_step)
             continue
         steps += 1
+        rate_scale = max(rate_scale, PEAK_MULTIPLE * step.rate)
         accept(work, first, network)
         front_old, front = front, step.front
         depth = thickness(work, material, T_start)
