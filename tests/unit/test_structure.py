@@ -103,6 +103,19 @@ def test_kernels_import_nothing_but_arrays() -> None:
         assert outside(path) <= allowed, path.name
 
 
+def test_reference_and_production_solver_do_not_know_each_other() -> None:
+    folder = SOURCE / "solver"
+    reference = set((folder / "reference").glob("*.py"))
+    assert reference
+    for path in {*folder.rglob("*.py"), SOURCE / "simulate.py"}:
+        inside = {n.split(".")[2] for n in imported(path) if n.startswith("pyrofit.solver.")}
+        if path in reference:
+            assert inside <= {"arrays", "curves", "reference"}, path.name
+            assert "simulate" not in own(path), path.name
+        else:
+            assert "reference" not in inside, path.name
+
+
 def test_only_config_reads_yaml() -> None:
     assert names_of([p for p in modules() if "yaml" in outside(p)]) == ["config/read.py"]
 

@@ -1,0 +1,12 @@
+"""A second, independent solver of the same equations, slow and plain.
+
+It verifies the kernels and makes synthetic measurements, and shares nothing with them but the
+description in words: other unknowns (temperatures at nodes, the extent of every reaction in the
+elements between them), other discretisation in space (finite elements) and time (LSODA).
+"""
+
+from pyrofit.solver.reference.gasification import reference_gasification
+from pyrofit.solver.reference.resolution import Resolution
+from pyrofit.solver.reference.tga import reference_tga
+
+__all__ = ["Resolution", "reference_gasification", "reference_tga"]

@@ -1,0 +1,276 @@
+"""Gasification of a slab by the reference solver."""
+
+import math
+import warnings
+from collections.abc import Iterator, Mapping
+from dataclasses import dataclass
+
+import numpy as np
+from scipy.integrate import LSODA
+
+from pyrofit.model.base import value_of
+from pyrofit.model.experiment import EmissivityDepth, FluxTable, Gasification
+from pyrofit.model.material import Material
+from pyrofit.solver.arrays import FloatArray, Status
+from pyrofit.solver.curves import Curves, Request
+from pyrofit.solver.reference.resolution import Resolution
+from pyrofit.solver.reference.slab import Slab, surface
+from pyrofit.solver.reference.substance import (
+    COLDEST_K,
+    HOTTEST_K,
+    Substance,
+    Values,
+    mass_fractions,
+    substance,
+)
+
+BURNT_FRACTION = 1e-5
+"""Reactant left in the sample, relative to its initial mass, at which it counts as burnt out."""
+
+
+def reference_gasification(
+    experiment: Gasification,
+    material: Material,
+    values: Mapping[str, float],
+    requests: Mapping[str, Request],
+    resolution: Resolution | None = None,
+    probes_m: tuple[float, ...] = (),
+) -> Curves:
+    """Simulate a gasification experiment, as `pyrofit.simulate.simulate_gasification` does.
+
+    Parameters
+    ----------
+    experiment, material
+        The description.
+    values
+        Parameter values in SI units by name.
+    requests
+        By signal: ``mlr`` [kg/(m2 s)], averaged over the bin width; ``mass`` [kg/m2],
+        ``back_temperature``, ``front_temperature`` [K], ``thickness`` [m], and
+        ``probe_0`` ... [K] for the probes.
+    resolution
+        Numerical settings.
+    probes_m
+        Depths of temperature probes in the virgin sample [m].
+
+    Returns
+    -------
+    Curves
+        The signals at their times, empty unless the run finished. MLR over a bin is the
+        difference of the mass, which closes to round-off because extents are the unknowns.
+    """
+    resolution = resolution or Resolution()
+    slab = make_slab(experiment, material, values, resolution.elements)
+    wanted = [edge for r in requests.values() for edge in _edges(r)]
+    time = np.unique(np.concatenate(wanted))
+    run = _Run(slab, resolution, time, may_stop=set(requests) <= {"mlr", "mass"})
+    run.go(list(pieces(experiment, values, float(time[-1]))))
+    if not run.status.finished:
+        return Curves(run.status, {}, resolution.elements, run.steps)
+    lines = _lines(slab, run.states, probes_m)
+    lines["mlr"][time > run.ended] = 0.0
+    signals = {name: _sample(name, r, time, lines) for name, r in requests.items()}
+    energy_error = abs(run.heat_missing) / max(run.heat_crossed, 1e-300)
+    return Curves(run.status, signals, resolution.elements, run.steps, energy_error)
+
+
+def _edges(request: Request) -> tuple[FloatArray, FloatArray]:
+    half = 0.5 * request.average_s
+    return np.maximum(request.time_s - half, 0.0), request.time_s + half
+
+
+def _sample(
+    name: str, request: Request, time: FloatArray, lines: Mapping[str, FloatArray]
+) -> FloatArray:
+    if name == "mlr" and request.average_s > 0.0:
+        start, end = _edges(request)
+        lost = lines["mass"][np.searchsorted(time, start)]
+        lost = lost - lines["mass"][np.searchsorted(time, end)]
+        return np.asarray(lost / (end - start))
+    return lines[name][np.searchsorted(time, request.time_s)]
+
+
+def _lines(slab: Slab, states: FloatArray, probes_m: tuple[float, ...]) -> dict[str, FloatArray]:
+    """Return all signals at the times of the states."""
+    T, extent = slab.split(states)
+    present = slab.masses(extent)
+    rate = slab.derivative(states, (0.0, np.zeros(T.shape[-1])))
+    lost = slab.split(rate)[1] @ slab.substance.reactions.gas
+    volume = present / slab.substance.density
+    virgin = slab.mass * (slab.virgin / slab.substance.density).sum(axis=-1)
+    depth = np.concatenate(([0.0], np.cumsum(virgin)))
+    probes = {
+        f"probe_{a}": np.array([np.interp(at, depth, row) for row in T])
+        for a, at in enumerate(probes_m)
+    }
+    return probes | {
+        "mlr": lost @ slab.mass,
+        "mass": present.sum(axis=(-2, -1)),
+        "thickness": volume.sum(axis=(-2, -1)),
+        "front_temperature": T[:, 0].copy(),
+        "back_temperature": T[:, -1].copy(),
+    }
+
+
+@dataclass(frozen=True)
+class Piece:
+    """A time in which the flux is linear: q_ext = flux + slope (t - start)."""
+
+    start: float
+    end: float
+    flux: float
+    slope: float
+
+    def at(self, t: float) -> float:
+        """Return q_ext(t) [W/m2], also beyond the end."""
+        return self.flux + self.slope * (t - self.start)
+
+
+def pieces(experiment: Gasification, values: Values, end: float) -> Iterator[Piece]:
+    """Yield the pieces of the external flux up to the end of the run."""
+    given = experiment.front.flux_W_m2
+    if not isinstance(given, FluxTable):
+        yield Piece(0.0, end, value_of(given, values), 0.0)
+        return
+    flux = [value_of(q, values) for q in given.flux_W_m2]
+    for n, start in enumerate(given.time_s):
+        last = n + 1 == len(flux)
+        until = math.inf if last else given.time_s[n + 1]
+        if start < min(until, end):
+            slope = 0.0 if last else (flux[n + 1] - flux[n]) / (until - start)
+            yield Piece(start, min(until, end), flux[n], slope)
+
+
+class _Run:
+    """One integration: it collects the states at the times asked for."""
+
+    def __init__(
+        self, slab: Slab, resolution: Resolution, time: FloatArray, may_stop: bool
+    ) -> None:
+        self.slab, self.resolution, self.time, self.may_stop = slab, resolution, time, may_stop
+        self.states = np.tile(slab.start, (time.size, 1))
+        self.filled = int(np.searchsorted(time, 0.0, side="right"))
+        self.status = Status.UNBURNT
+        self.steps = 0
+        self.ended = math.inf
+        self.heat_missing = self.heat_crossed = 0.0
+        self.reactants = np.unique(slab.substance.reactions.reactant)
+
+    def go(self, parts: list[Piece]) -> None:
+        """Integrate over the pieces, from new at each."""
+        y = self.slab.start
+        # LSODA warns where it gives up; here that is a status.
+        with warnings.catch_warnings(), np.errstate(all="ignore"):
+            warnings.simplefilter("ignore")
+            for part in parts:
+                y = self._integrate(part, y)
+                if not self.status.finished or self.ended < math.inf:
+                    break
+
+    def _integrate(self, part: Piece, y: FloatArray) -> FloatArray:
+        slab = self.slab
+        tolerance = np.full(y.size, self.resolution.tolerance)
+        tolerance[:: slab.stride] *= 100.0
+        heat = slab.heat_in(y, slab.outside(part.at(part.start), y))
+        solver = LSODA(
+            lambda t, y: slab.derivative(y, slab.outside(part.at(t), y)),
+            part.start,
+            y,
+            part.end,
+            rtol=self.resolution.tolerance,
+            atol=tolerance,
+            jac=lambda t, y: slab.jacobian(y, slab.outside(part.at(t), y)),
+            lband=slab.stride,
+            uband=slab.stride,
+        )
+        while solver.status == "running" and self.status.finished and self.ended == math.inf:
+            before = solver.t, solver.y
+            solver.step()
+            self._accept(solver)
+            heat = self._book(before, heat, solver, part)
+        return np.asarray(solver.y)
+
+    def _accept(self, solver: LSODA) -> None:
+        """Judge a step and keep the states at the times in it."""
+        self.steps += 1
+        self.status = self._judge(solver)
+        if not self.status.finished:
+            return
+        to = int(np.searchsorted(self.time, solver.t, side="right"))
+        if to > self.filled:
+            inside = solver.dense_output()(self.time[self.filled : to])
+            self.states[self.filled : to] = inside.T
+            self.filled = to
+        if self.status == Status.OK and self.may_stop:
+            self.states[self.filled :] = solver.y
+            self.ended = solver.t
+
+    def _book(
+        self, before: tuple[float, FloatArray], heat: float, solver: LSODA, part: Piece
+    ) -> float:
+        """Add a step to the heat balance, by the trapezoidal rule; return the heat flux after."""
+        t, y = before
+        after = self.slab.heat_in(solver.y, self.slab.outside(part.at(solver.t), solver.y))
+        half = 0.5 * (solver.t - t)
+        self.heat_crossed += half * abs(heat + after)
+        self.heat_missing += half * (heat + after) - self.slab.heat_taken(y, solver.y)
+        return after
+
+    def _judge(self, solver: LSODA) -> Status:
+        if not np.isfinite(solver.y).all():
+            return Status.NON_FINITE
+        T, extent = self.slab.split(solver.y)
+        if T.min() <= COLDEST_K or T.max() >= HOTTEST_K:
+            return Status.DIVERGED
+        if solver.status == "failed" or self.steps >= self.resolution.most_steps:
+            return Status.TOO_MANY_STEPS
+        left = self.slab.masses(extent)[:, self.reactants].sum()
+        burnt = left < BURNT_FRACTION * self.slab.mass.sum()
+        return Status.OK if burnt or self.status == Status.OK else Status.UNBURNT
+
+
+def make_slab(experiment: Gasification, material: Material, values: Values, elements: int) -> Slab:
+    """Return the slab of an experiment; a layer has elements of one thickness, at least two."""
+    solid = substance(material, values)
+    sample = experiment.sample
+    sizes = [value_of(layer.thickness_m, values) for layer in sample.layers]
+    virgin, mass = [], []
+    for layer, size in zip(sample.layers, sizes, strict=True):
+        count = max(2, round(elements * size / sum(sizes)))
+        share = mass_fractions(layer.composition or material.composition, solid.names, values)
+        virgin.append(np.tile(share, (count, 1)))
+        mass.append(np.full(count, size / count / (share / solid.density).sum()))
+    T_start = value_of(sample.initial_temperature_K, values)
+    foil = 0.0
+    if sample.foil is not None:
+        foil = value_of(sample.foil.thickness_m, values)
+        foil *= value_of(sample.foil.density_kg_m3, values)
+        foil *= value_of(sample.foil.specific_heat_J_kgK, values)
+    return Slab(
+        substance=solid,
+        virgin=np.concatenate(virgin),
+        mass=np.concatenate(mass),
+        T_start=T_start,
+        front=surface(experiment.front, values),
+        back=surface(experiment.back, values),
+        back_emissivity=value_of(experiment.back.emissivity, values),
+        foil_capacity=foil,
+        foil_opaque=sample.foil is not None,
+        mixing_depth=_mixing_depth(sample.emissivity_depth, solid, virgin[0][0], T_start, values),
+    )
+
+
+def _mixing_depth(
+    given: float | str | EmissivityDepth,
+    solid: Substance,
+    share: FloatArray,
+    T: float,
+    values: Values,
+) -> float:
+    """Return the depth of the surface emissivity [m], for FDS's of the first layer's material."""
+    if not isinstance(given, EmissivityDepth):
+        return value_of(given, values)
+    volume = share / solid.density
+    k = volume @ solid.conductivity.of(np.array(T)) / volume.sum()
+    rho_c = share @ solid.specific_heat.of(np.array(T)) / volume.sum()
+    return float(value_of(given.cell_size_factor, values) * np.sqrt(k / rho_c))

@@ -1,0 +1,166 @@
+"""The description of a material in words, evaluated for given parameter values.
+
+Symbols: i component, j reaction, xi_j extent: what reaction j has consumed, per kg of virgin
+sample.
+"""
+
+from collections.abc import Mapping
+from dataclasses import dataclass
+from typing import Any
+
+import numpy as np
+
+from pyrofit.constants import GAS_CONSTANT
+from pyrofit.model import material as words
+from pyrofit.model.base import value_of
+from pyrofit.solver.arrays import FloatArray, IntArray
+
+Values = Mapping[str, float]
+LEAST_SHARE = 0.01
+"""Least value of a linear property, relative to its reference value."""
+COLDEST_K, HOTTEST_K = 50.0, 5000.0
+"""Range of T in which properties and rates follow it."""
+LEAST_REMAINDER = 1e-6
+"""m/m_formed = u below which a reaction of an order below 1 goes on like one of first order.
+
+The slope of u^n is infinite at u = 0, where no implicit method finds its way.
+"""
+LEAST_FORMED = 1e-12
+"""Mass ever present, relative to the sample's, from which m/m_formed can be told."""
+
+
+@dataclass(frozen=True)
+class Property:
+    """A property p(T) of all components."""
+
+    given: tuple[Any, ...]
+    values: Values
+
+    def of(self, T: FloatArray) -> FloatArray:
+        """Return p_i(T), shape (..., components) for T [K] of shape (...,)."""
+        return np.stack([self._one(p, T) for p in self.given], axis=-1)
+
+    def _one(self, given: Any, T: FloatArray) -> FloatArray:
+        if isinstance(given, float | str):
+            return np.full(T.shape, value_of(given, self.values))
+        if isinstance(given, words.Table):
+            points = [value_of(v, self.values) for v in given.value]
+            return np.asarray(np.interp(T, given.temperature_K, points))
+        value = value_of(given.value, self.values)
+        reference = value_of(given.reference_temperature_K, self.values)
+        if isinstance(given, words.Linear):
+            rise = value_of(given.slope_1_K, self.values) * (T - reference)
+            return np.asarray(value * np.maximum(1.0 + rise, LEAST_SHARE))
+        return np.asarray(value * (T / reference) ** value_of(given.exponent, self.values))
+
+
+@dataclass(frozen=True)
+class Reactions:
+    """All reactions, in the order of the description."""
+
+    reactant: IntArray
+    A: FloatArray
+    """[1/s]."""
+    E_R: FloatArray
+    """E/R [K]."""
+    order: FloatArray
+    heat: FloatArray
+    """[J per kg of reactant], positive = endothermic."""
+    yields: FloatArray
+    """nu_ji [kg/kg], shape (reactions, components)."""
+    change: FloatArray
+    """What reaction j makes of component i per kg of reactant, same shape."""
+
+    @property
+    def gas(self) -> FloatArray:
+        """Gas formed per kg of reactant."""
+        return np.asarray(1.0 - self.yields.sum(axis=1))
+
+    def rate_constants(self, T: FloatArray | float) -> FloatArray:
+        """Return A_j exp(-E_j/(R T)) [1/s], shape (..., reactions)."""
+        return np.asarray(self.A * np.exp(-self.E_R / np.asarray(T)[..., None]))
+
+    def amounts(self, virgin: FloatArray, extent: FloatArray) -> FloatArray:
+        """Return what the rates are proportional to, m_formed (m/m_formed)^n, per kg of sample.
+
+        ``virgin``: mass fractions of the sample, shape (..., components); ``extent``: xi_j, shape
+        (..., reactions), like the result. m_formed is the mass ever present.
+        """
+        left = (virgin + extent @ self.change)[..., self.reactant]
+        if np.all(self.order == 1.0):
+            return left
+        formed = (virgin + np.maximum(extent, 0.0) @ self.yields)[..., self.reactant]
+        told = formed > LEAST_FORMED
+        u = np.where(told, left / np.where(told, formed, 1.0), 1.0)
+        least = np.where(self.order < 1.0, LEAST_REMAINDER, 0.0)
+        return np.asarray(left * np.clip(u, least, 1.0) ** (self.order - 1.0))
+
+
+@dataclass(frozen=True)
+class Substance:
+    """A material with numbers."""
+
+    names: list[str]
+    density: FloatArray
+    conductivity: Property
+    specific_heat: Property
+    emissivity: FloatArray
+    absorption: FloatArray
+    """kappa_i [1/m]; zero = opaque."""
+    reactions: Reactions
+
+
+def substance(material: words.Material, values: Values) -> Substance:
+    """Return the material with the numbers of the given parameter values."""
+    parts = list(material.components.values())
+    return Substance(
+        names=list(material.components),
+        density=np.array([value_of(c.density_kg_m3, values) for c in parts]),
+        conductivity=Property(tuple(c.conductivity_W_mK for c in parts), values),
+        specific_heat=Property(tuple(c.specific_heat_J_kgK for c in parts), values),
+        emissivity=np.array([value_of(c.emissivity, values) for c in parts]),
+        absorption=np.array([value_of(c.absorption_1_m or 0.0, values) for c in parts]),
+        reactions=_reactions(material, values),
+    )
+
+
+def mass_fractions(
+    composition: Mapping[str, float | str], names: list[str], values: Values
+) -> FloatArray:
+    """Return the mass fractions of the named components; 'rest' is what the others leave."""
+    given = {n: value_of(f, values) for n, f in composition.items() if f != words.REST}
+    rest = 1.0 - sum(given.values())
+    return np.array([given.get(n, rest if n in composition else 0.0) for n in names])
+
+
+def _reactions(material: words.Material, values: Values) -> Reactions:
+    names = list(material.components)
+    given = list(material.reactions.values())
+    shape = (len(given), len(names))
+    reactant = np.array([names.index(r.reactant) for r in given], dtype=np.int64)
+    yields = np.zeros(shape)
+    for j, reaction in enumerate(given):
+        for product, nu in reaction.products.items():
+            yields[j, names.index(product)] = value_of(nu, values)
+    consumed = np.zeros(shape)
+    consumed[np.arange(len(given)), reactant] = 1.0
+    return Reactions(
+        reactant=reactant,
+        A=np.array([_rate_factor(r, values) for r in given]),
+        E_R=np.array([value_of(r.E_J_mol, values) / GAS_CONSTANT for r in given]),
+        order=np.array([value_of(r.order, values) for r in given]),
+        heat=np.array([value_of(r.heat_of_reaction_J_kg, values) for r in given]),
+        yields=yields,
+        change=yields - consumed,
+    )
+
+
+def _rate_factor(reaction: words.Reaction, values: Values) -> float:
+    if reaction.A_1_s is not None:
+        return value_of(reaction.A_1_s, values)
+    assert reaction.reference_temperature_K is not None
+    assert reaction.reference_rate_1_s is not None
+    E_RT = value_of(reaction.E_J_mol, values) / (
+        GAS_CONSTANT * value_of(reaction.reference_temperature_K, values)
+    )
+    return float(value_of(reaction.reference_rate_1_s, values) * np.exp(E_RT))

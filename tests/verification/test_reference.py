@@ -1,0 +1,477 @@
+"""The reference solver against exact solutions, and the kernels against the reference solver."""
+
+from collections.abc import Mapping
+from dataclasses import dataclass
+from typing import Any
+
+import numpy as np
+import pytest
+from cases import (
+    BEST,
+    FAINT,
+    KINETICS,
+    Curve,
+    inert_material,
+    paper_experiment,
+    paper_material,
+    powder,
+    rms_over_mean,
+    run,
+    slab_experiment,
+    table_3,
+)
+from scipy.optimize import brentq
+from scipy.special import expn
+
+from pyrofit.constants import GAS_CONSTANT
+from pyrofit.model.experiment import Gasification, Tga
+from pyrofit.model.material import Material
+from pyrofit.simulate import Accuracy, simulate_tga
+from pyrofit.solver.arrays import Status
+from pyrofit.solver.curves import Curves, Request
+from pyrofit.solver.reference import Resolution, reference_gasification, reference_tga
+
+RHO, K, C, T0, DEPTH = 1200.0, 0.2, 1500.0, 293.15, 5.8e-3
+COMPONENT = {"density_kg_m3": RHO, "conductivity_W_mK": K, "specific_heat_J_kgK": C}
+FOIL = {"thickness_m": 2e-4, "density_kg_m3": 8940.0, "specific_heat_J_kgK": 380.0}
+FINE = Accuracy(cells=400, tolerance=1e-4, longest_step_s=1.0)
+
+
+def refer(
+    experiment: Gasification,
+    material: Material,
+    requests: Mapping[str, Request],
+    resolution: Resolution | None = None,
+    values: Mapping[str, float] = BEST,
+    probes_m: tuple[float, ...] = (),
+) -> Curves:
+    curves = reference_gasification(experiment, material, values, requests, resolution, probes_m)
+    assert curves.status.finished, curves.status.explanation
+    return curves
+
+
+def mixture(names: str, composition: dict[str, Any], *reactions: dict[str, Any]) -> Material:
+    return Material.model_validate(
+        {
+            "components": dict.fromkeys(names, COMPONENT),
+            "reactions": {str(j): reaction for j, reaction in enumerate(reactions)},
+            "composition": composition,
+        }
+    )
+
+
+# TGA: exact solutions of the reference, and the kernel
+
+TEMPERATURES = np.linspace(300.0, 850.0, 551)
+FAST = {"A_1_s": 1e8, "E_J_mol": 1.1e5}
+SLOW = {"A_1_s": 1e11, "E_J_mol": 1.6e5}
+TGA = Tga.model_validate(
+    {"kind": "tga", "heating_rate_K_min": 10.0, "signals": {"mass_fraction": {"file": "synthetic"}}}
+)
+NETWORK = powder(
+    "ABCD",
+    {"A": 0.9, "D": "rest"},
+    {"reactant": "A", "products": {"B": 0.7}, **FAST},
+    {"reactant": "B", "products": {"C": 0.2}, "order": 1.7, **SLOW},
+    {"reactant": "A", "products": {"C": 0.1}, "A_1_s": 1e13, "E_J_mol": 1.7e5},
+    {"reactant": "D", "order": 0.5, **SLOW},
+)
+"""Consecutive, competing and parallel reactions of several orders."""
+
+
+def conversion(kinetics: dict[str, float], beta: float, T: Curve) -> Curve:
+    """The integral of k dt from the first temperature, by T E2(E/(R T))."""
+    activation = kinetics["E_J_mol"] / GAS_CONSTANT
+    integral = T * expn(2, activation / T)
+    exact: Curve = kinetics["A_1_s"] * 60.0 / beta * (integral - integral[0])
+    return exact
+
+
+def heated_powder(material: Material, beta: float, T: Curve = TEMPERATURES) -> Mapping[str, Curve]:
+    request = Request((T - T[0]) * 60.0 / beta, temperature_K=T)
+    curves = reference_tga(TGA, material, {}, request)
+    assert curves.status is Status.OK
+    return curves.signals
+
+
+@pytest.mark.parametrize("beta", [1.0, 10.0, 50.0])
+def test_tga_of_first_order_follows_the_exponential_integral(beta: float) -> None:
+    # Measured: 2.6e-9, 2.0e-9, 0.6e-9 at 1, 10, 50 K/min.
+    found = heated_powder(table_3(), beta)
+    exact = 1e-3 + sum(
+        0.999 * share * np.exp(-conversion(KINETICS[name], beta, TEMPERATURES))
+        for name, share in (("A", 0.025), ("B", 0.975))
+    )
+    assert np.abs(found["mass_fraction"] - exact).max() <= 5e-9
+
+
+@pytest.mark.parametrize("order", [0.5, 1.5, 2.0])
+def test_tga_of_order_n_follows_the_closed_form(order: float) -> None:
+    # u^(1-n) = 1 - (1 - n) X and -du/dt = k u^n.
+    # Measured: 3.4e-9, of the rate 1e-11 1/s.
+    found = heated_powder(mixture("B", {"B": 1.0}, {"reactant": "B", "order": order, **SLOW}), 10.0)
+    base = np.maximum(1.0 - (1.0 - order) * conversion(SLOW, 10.0, TEMPERATURES), 0.0)
+    exact = base ** (1.0 / (1.0 - order))
+    assert np.abs(found["mass_fraction"] - exact).max() <= 5e-9
+    k = SLOW["A_1_s"] * np.exp(-SLOW["E_J_mol"] / (GAS_CONSTANT * TEMPERATURES))
+    assert np.abs(found["mass_loss_rate"] - k * exact**order).max() <= 5e-9
+
+
+@pytest.mark.parametrize("noise_K", [0.0, 0.1])
+def test_tga_kernel_agrees_along_straight_and_measured_programs(noise_K: float) -> None:
+    # Measured: mass 5e-9, with noise 3e-9; rate 7e-8 and 3e-8 1/s, where the reaction of order 0.5
+    # comes to its end, which the reference rounds off.
+    time = np.linspace(0.0, 3300.0, 300)
+    T = 300.0 + time / 6.0 + np.random.default_rng(1).normal(0.0, noise_K, time.size)
+    request = Request(time, temperature_K=T)
+    ours = reference_tga(TGA, NETWORK, {}, request)
+    kernel = simulate_tga(TGA, NETWORK, {}, request, Accuracy(tga_step_K=0.02))
+    assert ours.status is Status.OK
+    for name, limit in (("mass_fraction", 1e-8), ("mass_loss_rate", 1e-7)):
+        assert np.abs(ours.signals[name] - kernel.signals[name]).max() <= limit
+
+
+# Conduction: exact solutions of the reference
+
+
+def test_constant_flux_heats_a_deep_body_with_the_square_root_of_time() -> None:
+    # Measured: 5.6e-5.
+    time = np.array([2.0, 5.0, 10.0, 20.0, 30.0])
+    experiment = slab_experiment(DEPTH, {"flux_W_m2": 25e3 / FAINT})
+    found = refer(
+        experiment, inert_material(emissivity=FAINT), {"front_temperature": Request(time)}
+    )
+    exact = 2.0 * 25e3 * np.sqrt(time / (np.pi * K * RHO * C))
+    assert found.signals["front_temperature"] - T0 == pytest.approx(exact, rel=8e-5)
+
+
+def test_insulated_slab_keeps_the_heat_it_absorbs() -> None:
+    # Parabolic profile about the mean q t/(rho c L), Measured: 0.004 K of 575 K.
+    flux, time = 2e3, np.array([1000.0, 2000.0, 3000.0])
+    names = ("front_temperature", "back_temperature", "probe_0", "thickness")
+    curves = refer(
+        slab_experiment(DEPTH, {"flux_W_m2": flux / FAINT}),
+        inert_material(emissivity=FAINT),
+        {name: Request(time) for name in names},
+        probes_m=(0.5 * DEPTH,),
+    )
+    mean = T0 + flux * time / (RHO * C * DEPTH)
+    for name, share in zip(names, (1 / 3, -1 / 6, -1 / 24), strict=False):
+        exact = mean + share * flux * DEPTH / K
+        assert curves.signals[name] == pytest.approx(exact, abs=0.005)
+    assert curves.signals["thickness"] == pytest.approx([DEPTH] * 3, rel=1e-12)
+    assert curves.status is Status.OK
+
+
+def test_convective_heating_follows_heislers_series() -> None:
+    # 200 K step, Bi = 2.9. Measured: 0.0023 K.
+    h, gas, diffusivity = 100.0, 493.15, K / (RHO * C)
+    biot = h * DEPTH / K
+    z = np.array(
+        [
+            brentq(lambda x: x * np.sin(x) - biot * np.cos(x), n * np.pi, n * np.pi + 0.5 * np.pi)
+            for n in range(200)
+        ]
+    )
+    weight = 4.0 * np.sin(z) / (2.0 * z + np.sin(2.0 * z))
+    time = np.array([1.0, 2.0, 5.0, 10.0, 30.0, 60.0, 120.0, 200.0, 300.0, 500.0, 900.0])
+    fading = np.exp(-np.outer(time, z * z) * diffusivity / DEPTH**2)
+    requests = {f"{side}_temperature": Request(time) for side in ("front", "back")}
+    experiment = slab_experiment(DEPTH, {"h_W_m2K": h, "gas_temperature_K": gas})
+    curves = refer(experiment, inert_material(emissivity=0.0), requests)
+    for side, shape in (("front", np.cos(z)), ("back", np.ones(z.size))):
+        exact = gas - (gas - T0) * fading @ (weight * shape)
+        assert curves.signals[f"{side}_temperature"] == pytest.approx(exact, abs=0.003)
+
+
+def test_beer_lambert_heating_without_conduction_is_exact() -> None:
+    # rho c dT/dt = kappa q exp(-kappa x). Measured: 4.8e-3 at the surface, where the node has half
+    # an element and its mean, 2.7e-5 inside, 0.9e-5 for the foil behind.
+    kappa, flux, time = 1000.0, 25e3, np.array([0.5, 2.0])
+    at = (0.0, 1e-3, 3e-3)
+    curves = refer(
+        slab_experiment(DEPTH, {"flux_W_m2": flux / FAINT}, foil=FOIL),
+        inert_material(conductivity=1e-9, emissivity=FAINT, absorption=kappa),
+        {name: Request(time) for name in ("probe_0", "probe_1", "probe_2", "back_temperature")},
+        probes_m=at,
+    )
+    for n, (x, limit) in enumerate(zip(at, (6e-3, 4e-5, 4e-5), strict=True)):
+        exact = kappa * flux * np.exp(-kappa * x) * time / (RHO * C)
+        assert curves.signals[f"probe_{n}"] - T0 == pytest.approx(exact, rel=limit)
+    # Half an element moves with the foil, which alone has 679.44 J/(m2 K).
+    half = 0.5 * DEPTH / 400
+    heat = flux * np.exp(-kappa * (DEPTH - half)) * time
+    exact = heat / (679.44 + RHO * C * half)
+    assert curves.signals["back_temperature"] - T0 == pytest.approx(exact, rel=2e-5)
+
+
+# Reactions in a slab of one temperature
+
+HOT = 600.0
+TIME = np.linspace(0.0, 600.0, 121)
+
+
+def reaction(reactant: str, rate_1_s: float, **more: Any) -> dict[str, Any]:
+    """A reaction that has the given k at 600 K, without heat."""
+    reference = {"reference_temperature_K": HOT, "reference_rate_1_s": rate_1_s}
+    return {"reactant": reactant, "E_J_mol": 1.5e5} | reference | more
+
+
+def remaining(*reactions: dict[str, Any]) -> Curve:
+    """Mass over initial mass of a slab of A at 600 K among gas and walls of 600 K."""
+    around = {"h_W_m2K": 10.0, "gas_temperature_K": HOT, "wall_temperature_K": HOT}
+    experiment = slab_experiment(DEPTH, around, around, initial_temperature_K=HOT)
+    material = mixture("ABC", {"A": 1.0}, *reactions)
+    curves = refer(experiment, material, {"mass": Request(TIME)}, Resolution(elements=5))
+    share: Curve = curves.signals["mass"] / (DEPTH * RHO)
+    return share
+
+
+def test_consecutive_and_competing_reactions_follow_bateman() -> None:
+    # A -> 0.7 B with 0.015, A -> gas with 0.005, B -> 0.2 C with 0.01 1/s. Measured: 6.3e-7.
+    a = np.exp(-0.02 * TIME)
+    b = 0.7 * 0.015 * (a - np.exp(-0.01 * TIME)) / (0.01 - 0.02)
+    c = 0.2 * (0.7 * 0.75 * (1.0 - a) - b)
+    found = remaining(
+        reaction("A", 0.015, products={"B": 0.7}),
+        reaction("B", 0.01, products={"C": 0.2}),
+        reaction("A", 0.005),
+    )
+    assert np.abs(found - (a + b + c)).max() <= 1e-6
+
+
+@pytest.mark.parametrize("order", [0.0, 0.5, 1.5, 2.0])
+def test_slab_reaction_of_order_n_follows_the_closed_form(order: float) -> None:
+    # Measured: 7.2e-6 where the reaction of order 0 ends, 3.7e-6, 2.2e-6, 2.3e-6.
+    base = np.maximum(1.0 - (1.0 - order) * 0.01 * TIME, 0.0)
+    found = remaining(reaction("A", 0.01, order=order))
+    assert np.abs(found - base ** (1.0 / (1.0 - order))).max() <= 1e-5
+
+
+# Convergence and failures of the reference
+
+
+@pytest.mark.parametrize(("flux", "end"), [(25.0, 1600.0), (60.0, 320.0)])
+def test_reference_converges_with_the_square_of_the_element_size(flux: float, end: float) -> None:
+    # Order from 50, 100 and 200 elements. Measured: 2.01 (25), 2.00 (60).
+    bins = {"mlr": Request(np.arange(2.5, end, 5.0), 5.0)}
+    case = paper_experiment(flux), paper_material(), bins
+    coarse, middle, fine = (
+        refer(*case, Resolution(elements=n, tolerance=1e-7)).signals["mlr"] for n in (50, 100, 200)
+    )
+    order = np.log2(rms_over_mean(coarse, middle) / rms_over_mean(middle, fine))
+    assert order == pytest.approx(2.0, abs=0.2)
+
+
+@pytest.mark.parametrize(
+    ("flux_kW_m2", "settings", "status"),
+    [(1e6, {}, Status.DIVERGED), (40.0, {"most_steps": 100}, Status.TOO_MANY_STEPS)],
+)
+def test_failed_run_is_a_status_without_curves(
+    flux_kW_m2: float, settings: dict[str, int], status: Status
+) -> None:
+    requests = {"mlr": Request(np.array([100.0]))}
+    curves = reference_gasification(
+        specimen(flux_kW_m2), charring(), {}, requests, Resolution(elements=50, **settings)
+    )
+    assert curves.status is status
+    assert curves.signals == {}
+
+
+def test_rate_at_points_is_the_derivative_of_the_mass() -> None:
+    # Over a second. Measured: 4.1e-5.
+    time = np.array([100.0, 150.0, 200.0])
+    around = np.sort(np.concatenate((time - 0.5, time + 0.5)))
+    requests = {"mlr": Request(time), "mass": Request(around)}
+    signals = refer(specimen(), charring(), requests).signals
+    lost = -np.diff(signals["mass"])[::2]
+    assert signals["mlr"] == pytest.approx(lost, rel=6e-5)
+
+
+# The kernel against the reference
+
+VIRGIN = {"density_kg_m3": 1200.0, "specific_heat_J_kgK": 2000.0, "emissivity": 0.9}
+CHAR = {"density_kg_m3": 300.0, "specific_heat_J_kgK": 1500.0, "emissivity": 0.8}
+HEATED = {"heat_of_reaction_J_kg": 6e5}
+SIMPLE = {"reactant": "V", "products": {"C": 0.2}, **SLOW, **HEATED}
+
+
+def charring(
+    *reactions: dict[str, Any],
+    virgin: Mapping[str, Any] | None = None,
+    char: Mapping[str, Any] | None = None,
+    kappa: float | None = None,
+) -> Material:
+    """A virgin material V, an intermediate M and a char C; one reaction if none is given."""
+    clear = {} if kappa is None else {"absorption_1_m": kappa}
+    thick = {} if kappa is None else {"absorption_1_m": 3.0 * kappa}
+    return Material.model_validate(
+        {
+            "components": {
+                "V": {"conductivity_W_mK": 0.2, **VIRGIN, **clear, **(virgin or {})},
+                "M": {"conductivity_W_mK": 0.15, **CHAR, "density_kg_m3": 900.0, **thick},
+                "C": {"conductivity_W_mK": 0.1, **CHAR, **thick, **(char or {})},
+            },
+            "reactions": {str(j): r for j, r in enumerate(reactions or (SIMPLE,))},
+            "composition": {"V": 1.0},
+        }
+    )
+
+
+def specimen(
+    flux_kW_m2: float | dict[str, Any] = 40.0,
+    back: dict[str, Any] | None = None,
+    front: Mapping[str, Any] | None = None,
+    layers: tuple[dict[str, Any], ...] = ({"thickness_m": 5e-3},),
+    **sample: Any,
+) -> Gasification:
+    flux = flux_kW_m2 if isinstance(flux_kW_m2, dict) else 1e3 * flux_kW_m2
+    around = {"h_W_m2K": 8.0, "gas_temperature_K": 340.0, "wall_temperature_K": 290.0}
+    behind = {"h_W_m2K": 4.0, "emissivity": 0.95, "gas_temperature_K": 310.0}
+    return Gasification.model_validate(
+        {
+            "kind": "gasification",
+            "sample": {"layers": layers, "initial_temperature_K": 300.0, **sample},
+            "front": {"flux_W_m2": flux, **around, **(front or {})},
+            "back": behind if back is None else back,
+            "signals": {"mlr": {"file": "synthetic"}},
+        }
+    )
+
+
+@dataclass(frozen=True)
+class Case:
+    """What is compared, and the largest differences allowed; above each, the measured ones."""
+
+    material: Material
+    experiment: Gasification
+    mlr: float = 3e-5
+    """Rms over mean, 5-s bins; twice the largest difference of mass and thickness over initial."""
+    K: float = 0.02
+    """Largest difference of front, back and probe temperatures [K]."""
+    end: float = 600.0
+
+
+RAMP = {"time_s": [0.0, 60.0, 200.0, 200.0], "flux_W_m2": [1e4, 4e4, 4e4, 6e4]}
+CUBE = {"h_cube_root_W_m2K43": 1.31}
+CASES = {
+    # 1.8e-5, 0.32 K
+    "paper_25": Case(paper_material(), paper_experiment(25.0), 4e-5, 0.5, 1685.0),
+    # 2.1e-4, 0.98 K
+    "paper_60": Case(paper_material(), paper_experiment(60.0), 3e-4, 1.5, 337.0),
+    # 1.6e-5, 0.010 K
+    "flux_ramp_and_step": Case(charring(), specimen(RAMP, foil=FOIL)),
+    # 1.5e-5, 0.010 K
+    "char_at_a_mixing_depth": Case(charring(), specimen(emissivity_depth=5e-4)),
+    # 1.2e-5, 0.010 K
+    "mixing_depth_of_a_cell": Case(
+        charring(), specimen(emissivity_depth={"cell_size_factor": 0.5})
+    ),
+    # 4.6e-5, 0.009 K
+    "in_depth": Case(charring(kappa=1500.0), specimen(), 8e-5, 0.02),
+    # 3.0e-5, 0.009 K
+    "in_depth_before_a_foil": Case(charring(kappa=200.0), specimen(foil=FOIL), 5e-5, 0.02),
+    # 1.2e-5, 0.013 K
+    "linear_properties": Case(
+        charring(
+            virgin={
+                "conductivity_W_mK": {"value": 0.2, "slope_1_K": -8e-4},
+                "specific_heat_J_kgK": {"value": 1500.0, "slope_1_K": 2e-3},
+            },
+            char={"conductivity_W_mK": {"value": 0.2, "slope_1_K": -1.5e-3}},
+        ),
+        specimen(),
+    ),
+    # 0.8e-5, 0.014 K
+    "power_laws_and_tables": Case(
+        charring(
+            virgin={
+                "conductivity_W_mK": {"value": 0.2, "exponent": -0.7},
+                "specific_heat_J_kgK": {
+                    "temperature_K": [300.0, 400.0, 410.0, 700.0],
+                    "value": [1200.0, 1800.0, 2200.0, 2500.0],
+                },
+            },
+            char={"conductivity_W_mK": {"value": 0.05, "exponent": 2.0}},
+        ),
+        specimen(),
+    ),
+    # 0.9e-5, 0.010 K
+    "layers": Case(
+        charring(),
+        specimen(
+            layers=(
+                {"thickness_m": 1e-3, "composition": {"V": 0.5, "C": 0.5}},
+                {"thickness_m": 4e-3},
+            ),
+            foil=FOIL,
+        ),
+    ),
+    # 0.8e-5, 0.010 K
+    "consecutive": Case(
+        charring(
+            {"reactant": "V", "products": {"M": 0.7}, **FAST, "heat_of_reaction_J_kg": 4e5},
+            {"reactant": "M", "products": {"C": 0.3}, **SLOW, "heat_of_reaction_J_kg": -1e5},
+        ),
+        specimen(),
+    ),
+    # 1.5e-5, 0.010 K
+    "competing": Case(
+        charring(
+            {"reactant": "V", "products": {"C": 0.4}, **FAST, **HEATED},
+            {"reactant": "V", "products": {"C": 0.05}, **SLOW, **HEATED},
+        ),
+        specimen(),
+    ),
+    # 1.6e-5, 1.0e-5, 1.0e-5, 0.010 K
+    **{
+        f"order_{order}": Case(charring({**SIMPLE, "order": order}), specimen())
+        for order in (0.5, 1.5, 2.0)
+    },
+    # 0.7e-5, 0.010 K
+    "intermediate_of_order_2": Case(
+        charring(
+            {"reactant": "V", "products": {"M": 0.7}, **FAST, **HEATED},
+            {"reactant": "M", "products": {"C": 0.3}, **SLOW, "order": 2.0},
+        ),
+        specimen(),
+    ),
+    # 1.0e-5, 0.010 K
+    "cube_root_of_the_temperature": Case(
+        charring(), specimen(back={**CUBE, "emissivity": 0.5}, front=CUBE)
+    ),
+    # 0.9e-5, 0.010 K
+    "insulated": Case(charring(), specimen(back={})),
+    # 2.4e-5, 0.022 K
+    "no_residue": Case(charring({**SIMPLE, "products": {}}), specimen(back={}), 4e-5, 0.04, 500.0),
+}
+PROBES = (0.8e-3, 3e-3)
+
+
+def compare(case: Case, accuracy: Accuracy = FINE) -> tuple[float, float, float, float]:
+    """Differences of MLR (over mean), temperatures [K], thickness and mass (over initial)."""
+    bins = Request(np.arange(2.5, case.end, 5.0), 5.0)
+    points = Request(np.arange(5.0, case.end, 5.0))
+    names = ("front_temperature", "back_temperature", "thickness", "mass", "probe_0", "probe_1")
+    requests = {"mlr": bins} | dict.fromkeys(names, points)
+    ours = refer(case.experiment, case.material, requests, probes_m=PROBES)
+    kernel = run(case.experiment, case.material, requests, accuracy, probes_m=PROBES)
+    off = {name: np.abs(ours.signals[name] - kernel.signals[name]) for name in requests}
+    temperature = {n: off[n].max() for n in names if n not in ("thickness", "mass")}
+    assert ours.status is kernel.status
+    assert ours.energy_error <= 1e-4
+    return (
+        rms_over_mean(kernel.signals["mlr"], ours.signals["mlr"]),
+        max(temperature.values()),
+        off["thickness"].max() / ours.signals["thickness"][0],
+        off["mass"].max() / ours.signals["mass"][0],
+    )
+
+
+@pytest.mark.parametrize("name", CASES)
+def test_kernel_agrees_with_the_reference(name: str) -> None:
+    case = CASES[name]
+    mlr, temperature, thickness, mass = compare(case)
+    assert mlr <= case.mlr
+    assert temperature <= case.K
+    assert 2.0 * max(thickness, mass) <= case.mlr
