@@ -475,3 +475,13 @@ def test_kernel_agrees_with_the_reference(name: str) -> None:
     assert mlr <= case.mlr
     assert temperature <= case.K
     assert 2.0 * max(thickness, mass) <= case.mlr
+
+
+def test_probe_lies_at_its_depth_where_layers_have_cells_of_their_own() -> None:
+    # Two cells for 0.05 mm, 48 for the rest. Measured: 0.43 K; taken for equal cells 12 K.
+    layers = ({"thickness_m": 5e-5}, {"thickness_m": 4.95e-3})
+    request = {"probe_0": Request(np.array([60.0, 120.0, 180.0]))}
+    case = charring(), {}, request
+    exact = refer(specimen(), *case[::2], probes_m=(1e-3,)).signals["probe_0"]
+    found = simulate_gasification(specimen(layers=layers), *case, Accuracy(cells=50), (1e-3,))
+    assert found.signals["probe_0"] == pytest.approx(exact, abs=0.6)

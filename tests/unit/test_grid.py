@@ -1,0 +1,96 @@
+"""How many cells a slab is given."""
+
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+import pytest
+import yaml
+
+from pyrofit.config import Study, as_study
+from pyrofit.model.experiment import Gasification
+from pyrofit.simulate import Accuracy, simulate_gasification
+from pyrofit.solver import lower
+from pyrofit.solver.curves import Request
+from pyrofit.solver.grid import LEAST_CELLS, MOST_CELLS, cells_needed
+
+SMOKE = Path(__file__).parents[2] / "config" / "smoke.yaml"
+VALUES = {
+    "T_p": 605.0,
+    "E_p": 190e3,
+    "rho": 1190.0,
+    "k": 0.2,
+    "cp": 2100.0,
+    "eps": 0.9,
+    "dh": 8e5,
+}
+
+
+def study(**changes: Any) -> Study:
+    given = yaml.safe_load(SMOKE.read_text(encoding="utf-8"))
+    given["material"]["components"]["residue"].update(changes)
+    return as_study(given, "smoke.yaml")
+
+
+def cells(
+    thickness_m: float = 0.02, chosen: Study | None = None, nu: float = 0.01, **values: float
+) -> int:
+    """Return the cells of a thick slab under 60 kW/m2."""
+    chosen = chosen or study()
+    material = chosen.material
+    reaction = material.reactions["pyrolysis"].model_copy(update={"products": {"residue": nu}})
+    material = material.model_copy(update={"reactions": {"pyrolysis": reaction}})
+    experiment = chosen.experiments["slab_60"]
+    layer = experiment.sample.layers[0].model_copy(update={"thickness_m": thickness_m})
+    sample = experiment.sample.model_copy(update={"layers": (layer,)})
+    experiment = experiment.model_copy(update={"sample": sample})
+    assert isinstance(experiment, Gasification)
+    at = VALUES | values
+    arrays = lower.lower_material(material, at)
+    return cells_needed(
+        lower.lower_virgin(experiment, material, at),
+        arrays,
+        lower.lower_network(material, at),
+        lower.lower_exposure(experiment, material, arrays, at),
+    )
+
+
+def test_cells_grow_with_the_thickness() -> None:
+    assert cells(0.04) == pytest.approx(2 * cells(0.02), abs=1)
+
+
+def test_cells_are_inverse_to_the_conductivity() -> None:
+    # Not quite: the surface is hotter where less heat is led away, and radiates more.
+    assert 1.8 < cells(k=0.1) / cells(k=0.2) < 2.0
+
+
+def test_a_reaction_of_higher_activation_energy_needs_more_cells() -> None:
+    assert cells(E_p=250e3) > 1.2 * cells(E_p=190e3)
+
+
+def test_a_residue_that_absorbs_better_or_stays_needs_more_cells() -> None:
+    bare = cells(eps=0.5)
+    assert cells(chosen=study(emissivity=0.5), eps=0.5) < bare
+    assert cells(nu=0.5) > 1.5 * cells()
+
+
+def test_thin_and_thick_slabs_end_at_the_limits() -> None:
+    assert cells(1e-4) == LEAST_CELLS
+    assert cells(10.0) == MOST_CELLS
+
+
+def test_a_slab_that_does_not_react_gets_the_fewest_cells() -> None:
+    assert cells(nu=1.0) == LEAST_CELLS
+
+
+def test_given_cells_or_a_factor_override_the_choice() -> None:
+    chosen = study()
+    experiment = chosen.experiments["slab_25"]
+    assert isinstance(experiment, Gasification)
+    request = {"mlr": Request(np.array([100.0]))}
+    found = [
+        simulate_gasification(experiment, chosen.material, VALUES, request, accuracy).cells
+        for accuracy in (Accuracy(), Accuracy(cells=17), Accuracy(cells_factor=1.5))
+    ]
+    assert found == [50, 17, 75]
+    assert Accuracy(cells=17).refined().cells == 34

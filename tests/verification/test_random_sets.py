@@ -1,0 +1,71 @@
+"""Random sets of Table 6
+
+Sets drawn in Table 6's box widened by a fifth of its width on every side (as far as physics goes),
+through the entry point of the searches, at 25 and 60 kW/m²: does every run finish, with a finite
+cost? And sets in the box against the independent reference solver.
+"""
+
+import time
+from pathlib import Path
+
+import numpy as np
+import pandas as pd
+import pytest
+import yaml
+from cases import BEST, NAMES, Curve
+from evidence import Evidence
+from test_slab_balances import TABLE_6
+
+from pyrofit.config import Study, as_study
+from pyrofit.estimate.problem import FAILED_COST, Problem, make_problem
+from pyrofit.simulate import simulate_gasification
+from pyrofit.solver.arrays import Status
+from pyrofit.solver.curves import Request
+
+PAPER = Path(__file__).parents[2] / "config" / "paper.yaml"
+EXPERIMENTS = {25: ("capa_25", 1700.0), 60: ("capa_60", 420.0)}
+SETS = 5000
+"""At each flux."""
+
+
+def paper() -> Study:
+    return as_study(yaml.safe_load(PAPER.read_text(encoding="utf-8")), "paper.yaml")
+
+
+def problem(flux: int) -> Problem:
+    """The paper's inverse modelling with RMSE, on our curve of the published set."""
+    study = paper()
+    name, end = EXPERIMENTS[flux]
+    material = study.material_with(study.imp.kinetics)
+    at = np.arange(2.5, end, 5.0)
+    fixed = study.fixed_values() | BEST
+    request = {"mlr": Request(at, 5.0)}
+    curve = simulate_gasification(study.experiments[name], material, fixed, request)
+    measured = pd.DataFrame({"time_s": at, "mlr_kg_m2_s": curve.signals["mlr"]})
+    term = study.imp.costs["RMSE"][0].model_copy(update={"experiment": name})
+    return make_problem(study, NAMES, [term], {(name, "mlr"): measured}, material, fixed)
+
+
+def widened(seed: int, share: float) -> Curve:
+    """Draw sets from the box with ``share`` of its width added on every side; none is negative."""
+    low, high = TABLE_6.T
+    span = high - low
+    low, high = np.maximum(low - share * span, 0.3 * low), high + share * span
+    emissivities = [NAMES.index("eps_a"), NAMES.index("eps_r")]
+    low[emissivities], high[emissivities] = 0.0, 1.0
+    drawn: Curve = low + (high - low) * np.random.default_rng(seed).random((SETS, len(NAMES)))
+    return drawn
+
+
+@pytest.mark.parametrize("flux", [25, 60])
+def test_random_sets_end_with_a_finite_cost(evidence: Evidence, flux: int) -> None:
+    posed = problem(flux)
+    failed, longest = 0, 0.0
+    for values in widened(flux, 0.2):
+        start = time.perf_counter()
+        found = posed.evaluate(values)
+        longest = max(longest, time.perf_counter() - start)
+        failed += not (found.status is Status.OK and 0.0 <= found.cost < FAILED_COST)
+    title = f"{flux} kW/m²: of {SETS} sets in and around the box, not finished"
+    evidence.number(title, failed / SETS, 1e-3, "share", "-", "%")
+    assert longest < 5.0, "a run that hangs"
