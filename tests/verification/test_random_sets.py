@@ -13,7 +13,7 @@ import pandas as pd
 import pytest
 import yaml
 from cases import BEST, NAMES, Curve
-from evidence import Evidence
+from evidence import RMS_K, RMS_OVER_MEAN, Evidence
 from test_slab_balances import TABLE_6
 
 from pyrofit.config import Study, as_study
@@ -21,11 +21,16 @@ from pyrofit.estimate.problem import FAILED_COST, Problem, make_problem
 from pyrofit.simulate import simulate_gasification
 from pyrofit.solver.arrays import Status
 from pyrofit.solver.curves import Request
+from pyrofit.solver.reference import Resolution, reference_gasification
 
 PAPER = Path(__file__).parents[2] / "config" / "paper.yaml"
 EXPERIMENTS = {25: ("capa_25", 1700.0), 60: ("capa_60", 420.0)}
 SETS = 5000
 """At each flux."""
+SETTINGS = Resolution(elements=200, tolerance=1e-5)
+LEAST_RATE = 1e-5
+"""Mean rate [kg/(m2 s)] below which differences are related to this one."""
+REFERENCE = "independent solver: finite elements, LSODA; 200 elements"
 
 
 def paper() -> Study:
@@ -69,3 +74,30 @@ def test_random_sets_end_with_a_finite_cost(evidence: Evidence, flux: int) -> No
     title = f"{flux} kW/m²: of {SETS} sets in and around the box, not finished"
     evidence.number(title, failed / SETS, 1e-3, "share", "-", "%")
     assert longest < 5.0, "a run that hangs"
+
+
+def test_fifty_sets_agree_with_the_reference(evidence: Evidence) -> None:
+    study = paper()
+    material = study.material_with(study.imp.kinetics)
+    low, high = TABLE_6.T
+    drawn = low + (high - low) * np.random.default_rng(50).random((50, len(NAMES)))
+    rate, back = [], []
+    for n, row in enumerate(drawn):
+        name, end = EXPERIMENTS[60 if n % 2 else 25]
+        at = np.arange(2.5, end, 5.0)
+        requests = {"mlr": Request(at, 5.0), "back_temperature": Request(at)}
+        values = study.fixed_values() | dict(zip(NAMES, row.tolist(), strict=True))
+        case = study.experiments[name], material, values, requests
+        ours, reference = simulate_gasification(*case), reference_gasification(*case, SETTINGS)
+        assert ours.status is reference.status, values
+        off = {q: ours.signals[q] - reference.signals[q] for q in requests}
+        mean = max(float(reference.signals["mlr"].mean()), LEAST_RATE)
+        rate.append(float(np.sqrt(np.mean(off["mlr"] ** 2))) / mean)
+        back.append(float(np.sqrt(np.mean(off["back_temperature"] ** 2))))
+    title = "50 sets in the box, 25 and 60 kW/m²:"
+    for words, quantile, limit in (("half", 0.5, 6e-4), ("all", 1.0, 5e-3)):
+        worst = float(np.quantile(rate, quantile))
+        words = f"{title} mass loss rate, {words} within"
+        evidence.number(words, worst, limit, RMS_OVER_MEAN.name, REFERENCE, "%")
+    words = f"{title} back temperature, all within"
+    evidence.number(words, max(back), 0.5, RMS_K.name, REFERENCE, "K")

@@ -26,7 +26,7 @@ from scipy.special import expn
 from pyrofit.constants import GAS_CONSTANT
 from pyrofit.model.experiment import Gasification, Tga
 from pyrofit.model.material import Material
-from pyrofit.simulate import Accuracy, simulate_tga
+from pyrofit.simulate import Accuracy, simulate_gasification, simulate_tga
 from pyrofit.solver.arrays import Status
 from pyrofit.solver.curves import Curves, Request
 from pyrofit.solver.reference import Resolution, reference_gasification, reference_tga
