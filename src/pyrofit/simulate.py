@@ -15,6 +15,9 @@ from pyrofit.solver.arrays import FloatArray, Numerics, Status
 from pyrofit.solver.curves import Curves, Request
 from pyrofit.solver.grid import cells_needed
 
+COUPLED_STEP = 0.125
+"""Temperature step over that of separate reactions, where one feeds or starves another."""
+
 
 class Accuracy(Part):
     """How finely the slab and TGA equations are solved."""
@@ -85,7 +88,8 @@ def simulate_tga(
         raise ValueError("a TGA request needs temperatures")
     network = lower.lower_network(material, values, heats=False)
     start = lower.fractions(material.composition, list(material.components), values)
-    mass, rate = tga(request.time_s, request.temperature_K, start, network, accuracy.tga_step_K)
+    step = accuracy.tga_step_K * (1.0 if lower.is_separate(material) else COUPLED_STEP)
+    mass, rate = tga(request.time_s, request.temperature_K, start, network, step)
     ok = bool(np.isfinite(mass[-1]))
     status = Status.OK if ok else Status.NON_FINITE
     return Curves(status, {"mass_fraction": mass, "mass_loss_rate": rate})

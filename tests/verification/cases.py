@@ -7,6 +7,7 @@ from typing import Any
 import numpy as np
 import pandas as pd
 
+from pyrofit.constants import GAS_CONSTANT
 from pyrofit.model.experiment import Gasification, Tga
 from pyrofit.model.material import Material
 from pyrofit.simulate import Accuracy, simulate_gasification, simulate_tga
@@ -28,6 +29,12 @@ KINETICS = {
     "B": {"A_1_s": 1.0e11, "E_J_mol": 1.6e5},
 }
 """The paper's Table 3."""
+
+E_SCALE = GAS_CONSTANT / 8.314
+"""Gpyro's R is rounded; E/R shall be the same."""
+
+FAINT = 1e-6
+"""Emissivity so small that a slab absorbs q from a flux q/FAINT but emits next to nothing."""
 
 NO_SIGNAL: dict[str, Any] = {"mlr": {"file": "synthetic"}}
 
@@ -141,10 +148,29 @@ def run(
     values: Mapping[str, float] = BEST,
     probes_m: tuple[float, ...] = (),
 ) -> Curves:
-    """Simulate and demand a finished run."""
+    """Simulate and demand a finished run whose mass closes."""
     curves = simulate_gasification(experiment, material, values, requests, accuracy, probes_m)
     assert curves.status.finished, curves.status.explanation
+    assert curves.mass_error <= 1e-12
     return curves
+
+
+def powder(names: str, composition: dict[str, Any], *reactions: dict[str, Any]) -> Material:
+    """Components of which the reactions alone matter."""
+    component = {"density_kg_m3": 1e3, "conductivity_W_mK": 0.2, "specific_heat_J_kgK": 1e3}
+    return Material.model_validate(
+        {
+            "components": dict.fromkeys(names, component),
+            "reactions": {str(j): reaction for j, reaction in enumerate(reactions)},
+            "composition": composition,
+        }
+    )
+
+
+def table_3() -> Material:
+    """The paper's Table 3 with its residue of a thousandth."""
+    reactions = ({"reactant": name, "products": {"C": 1e-3}, **KINETICS[name]} for name in KINETICS)
+    return powder("ABC", {"A": 0.025, "B": "rest"}, *reactions)
 
 
 def tga_fraction(

@@ -1,4 +1,11 @@
-"""Mass and energy balance, and the whole box of Table 6."""
+"""Balances of mass and energy
+
+The paper's case (Table 4's RMSE set on 0.2 mm copper) at 10 to 100 kW/m², and variants of it:
+char, insulated back, no foil, properties of temperature, absorption in depth. Mass closes to
+round-off. The energy error is the imbalance of heat stored, used by reactions and exchanged,
+relative to the heat that crossed the surfaces; it is an error of the time steps and falls with
+the tolerance.
+"""
 
 from typing import Any, NamedTuple
 
@@ -13,11 +20,13 @@ from cases import (
     run,
     slab_experiment,
 )
+from evidence import Evidence
 
 from pyrofit.simulate import Accuracy, simulate_gasification
 from pyrofit.solver.curves import Request
 
 DURATION = {10: 6000.0, 25: 1700.0, 40: 1500.0, 60: 420.0, 100: 300.0}
+HEAT = "imbalance / heat exchanged"
 CHAR = BEST | {"rho_r": 300.0, "k_r": 0.12, "cp_r": 1500.0, "eps_r": 0.85}
 WARM_K = [293.15, 393.15, 673.15]
 TABLES: dict[str, Any] = {
@@ -35,27 +44,24 @@ class Case(NamedTuple):
     place: dict[str, Any]
     matter: dict[str, Any]
     values: dict[str, float]
-    limit: float
-    """Energy error at default settings."""
 
 
 CASES = {
-    # measured energy errors in the comments
-    "10": Case(10, {}, {}, BEST, 1.3e-4),  # 1.0e-4: above the design's 1e-4
-    "25": Case(25, {}, {}, BEST, 1e-4),  # 2.9e-6
-    "60": Case(60, {}, {}, BEST, 1e-4),  # 1.8e-5
-    "100": Case(100, {}, {}, BEST, 1e-4),  # 9.8e-6
-    "char": Case(40, {}, {"residue_yield": 0.2}, CHAR, 1e-4),  # 4.3e-5
-    "insulated 25": Case(25, {"insulated": True}, {}, BEST, 1e-4),  # 9.8e-5
-    "insulated 60": Case(60, {"insulated": True}, {}, BEST, 1e-4),  # 1.3e-5
-    "no foil 25": Case(25, {"foil_m": None}, {}, BEST, 1e-4),  # 1.7e-6
-    "no foil 60": Case(60, {"foil_m": None}, {}, BEST, 1e-4),  # 6.8e-5
-    "tables 25": Case(25, {}, TABLES, BEST, 2.5e-4),  # 1.9e-4: above the design's 1e-4
-    "tables 60": Case(60, {}, TABLES, BEST, 1e-4),  # 3.9e-5
-    "powers 25": Case(25, {}, POWERS, BEST, 2.5e-4),  # 1.7e-4: above the design's 1e-4
-    "powers 60": Case(60, {}, POWERS, BEST, 1e-4),  # 4.5e-5
-    "in depth 25": Case(25, {}, {"absorption_1_m": 1e3}, BEST, 1e-4),  # 1.7e-5
-    "in depth 60": Case(60, {}, {"absorption_1_m": 1e3}, BEST, 1e-4),  # 2.8e-5
+    "10": Case(10, {}, {}, BEST),
+    "25": Case(25, {}, {}, BEST),
+    "60": Case(60, {}, {}, BEST),
+    "100": Case(100, {}, {}, BEST),
+    "char, 40": Case(40, {}, {"residue_yield": 0.2}, CHAR),
+    "insulated, 25": Case(25, {"insulated": True}, {}, BEST),
+    "insulated, 60": Case(60, {"insulated": True}, {}, BEST),
+    "no foil, 25": Case(25, {"foil_m": None}, {}, BEST),
+    "no foil, 60": Case(60, {"foil_m": None}, {}, BEST),
+    "tables, 25": Case(25, {}, TABLES, BEST),
+    "tables, 60": Case(60, {}, TABLES, BEST),
+    "powers, 25": Case(25, {}, POWERS, BEST),
+    "powers, 60": Case(60, {}, POWERS, BEST),
+    "in depth, 25": Case(25, {}, {"absorption_1_m": 1e3}, BEST),
+    "in depth, 60": Case(60, {}, {"absorption_1_m": 1e3}, BEST),
 }
 
 TABLE_6 = np.array(
@@ -85,37 +91,40 @@ def errors(case: Case, accuracy: Accuracy | None = None) -> tuple[float, float]:
 
 
 @pytest.mark.parametrize("name", CASES)
-def test_mass_and_energy_balance(name: str) -> None:
-    # Measured mass errors: at most 3e-15.
+def test_mass_and_energy_balance(evidence: Evidence, name: str) -> None:
     mass, energy = errors(CASES[name])
-    assert mass <= 1e-12
-    assert energy <= CASES[name].limit
+    title = f"{name} kW/m²"
+    evidence.number(f"{title}: mass", mass, 1e-12, "imbalance / initial mass", "balance")
+    evidence.number(f"{title}: energy", energy, 1e-4, HEAT, "balance")
 
 
 @pytest.mark.parametrize("name", CASES)
-def test_a_tolerance_of_a_thousandth_closes_the_energy_balance(name: str) -> None:
-    # Measured: at most 8.0e-5 (tables 25), 7.6e-5 (10).
-    mass, energy = errors(CASES[name], Accuracy(tolerance=1e-3))
-    assert mass <= 1e-12
-    assert energy <= 1e-4
+def test_a_tolerance_of_a_thousandth_closes_the_energy_balance(
+    evidence: Evidence, name: str
+) -> None:
+    _, energy = errors(CASES[name], Accuracy(tolerance=1e-3))
+    title = f"{name} kW/m², tolerance 1e-3: energy"
+    evidence.number(title, energy, 1e-4, HEAT, "balance")
 
 
-def test_gas_in_the_bins_is_the_mass_that_is_lost() -> None:
-    # Measured: 3e-16 of the initial mass.
+def test_gas_in_the_bins_is_the_mass_that_is_lost(evidence: Evidence) -> None:
     bins = Request(np.arange(2.5, 1700.0, 5.0), 5.0)
     ends = Request(np.array([0.0, 1700.0]))
     curves = run(paper_experiment(25), paper_material(), {"mlr": bins, "mass": ends})
     first, last = curves.signals["mass"]
     assert first == pytest.approx(5.8e-3 * BEST["rho_a"], rel=1e-12)
-    assert 5.0 * curves.signals["mlr"].sum() == pytest.approx(first - last, rel=1e-12)
+    gap = abs(5.0 * curves.signals["mlr"].sum() - (first - last)) / first
+    title = "25 kW/m²: sum of the mass loss rate in bins of 5 s"
+    evidence.number(title, gap, 1e-12, "difference / initial mass", "mass lost")
 
 
-def test_burnt_sample_leaves_its_residue() -> None:
-    # The run ends when 1e-5 of the initial mass is left to react.
+def test_burnt_sample_leaves_its_residue(evidence: Evidence) -> None:
     ends = Request(np.array([420.0]))
     curves = run(paper_experiment(60), paper_material(), {"mass": ends})
-    start = 5.8e-3 * BEST["rho_a"]
-    assert curves.signals["mass"][0] == pytest.approx(1e-3 * start, abs=1e-5 * start)
+    gap = abs(curves.signals["mass"][0] / (5.8e-3 * BEST["rho_a"]) - 1e-3)
+    title = "60 kW/m²: residue of the burnt sample"
+    source = "exact: 0.001; the run ends when 1e-5 of the initial mass is left to react"
+    evidence.number(title, gap, 1e-5, "difference / initial mass", source)
 
 
 def test_inert_slab_loses_no_mass() -> None:
@@ -127,17 +136,20 @@ def test_inert_slab_loses_no_mass() -> None:
 
 
 @pytest.mark.parametrize("flux", [25, 60])
-def test_every_set_of_table_6_runs_and_balances(flux: int) -> None:
-    # Measured over 200 sets: mass 3e-15, energy 4.5e-4 (25) and 3.5e-4 (60, median 5e-5).
+def test_every_set_of_table_6_runs_and_balances(evidence: Evidence, flux: int) -> None:
     low, high = TABLE_6.T
     sets = low + (high - low) * np.random.default_rng(6).random((200, len(NAMES)))
     experiment, material = paper_experiment(flux), paper_material()
     time = np.arange(2.5, DURATION[flux], 5.0)
     requests = {"mlr": Request(time, 5.0), "back_temperature": Request(time)}
+    mass, energy = [], []
     for row in sets:
         values = dict(zip(NAMES, row.tolist(), strict=True))
         curves = simulate_gasification(experiment, material, values, requests)
         assert curves.status.finished, values
         assert all(np.isfinite(signal).all() for signal in curves.signals.values()), values
-        assert curves.mass_error <= 1e-12, values
-        assert curves.energy_error <= 1e-3, values
+        mass.append(curves.mass_error)
+        energy.append(curves.energy_error)
+    title = f"200 random sets within Table 6, {flux} kW/m²"
+    evidence.number(f"{title}: mass", max(mass), 1e-12, "largest imbalance", "balance")
+    evidence.number(f"{title}: energy", max(energy), 1e-3, "largest imbalance", "balance")

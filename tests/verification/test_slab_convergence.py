@@ -1,16 +1,44 @@
-"""The slab against its own fine solution: the paper's case (S2) at 25 and 60 kW/m2, 5 s bins."""
+"""Convergence and the default settings
+
+With cells of half the size, or steps of half the length, a second-order method has a quarter of
+the error. The order is observed without reactions (a slab on copper, temperature) and with them
+(the paper's case, Table 4's RMSE set, mass loss rate in bins of 5 s at 25 and 60 kW/m²). The
+default settings are compared with a solution on 1600 cells.
+"""
 
 import functools
 
 import numpy as np
 import pytest
-from cases import Curve, paper_experiment, paper_material, reference, rms_over_mean, run
+from cases import (
+    FAINT,
+    Curve,
+    inert_material,
+    paper_experiment,
+    paper_material,
+    reference,
+    rms_over_mean,
+    run,
+    slab_experiment,
+)
+from evidence import MLR, RMS_K, RMS_OVER_MEAN, TIME, Axis, Evidence, Line
+from exact import slab_with_foil
 
 from pyrofit.simulate import Accuracy
 from pyrofit.solver.curves import Request
 
 ON = {25: 1200.0, 60: 280.0}
 """Time [s] until which cells burn out one after another from the front, by flux [kW/m2]."""
+TIGHT = {"tolerance": 1e-5, "longest_step_s": 1.0}
+CELL = Axis("cell size", "mm", 1e3)
+STEP = Axis("time step", "s")
+TOLERANCE = Axis("tolerance", "-")
+KELVIN = Axis("error of the temperature", "K")
+SHARE = Axis("rms error / mean", "%", 100.0)
+THICKNESS = 5.8e-3
+LATE = np.arange(20.0, 401.0, 20.0)
+"""Times [s] at which temperatures without reactions are compared."""
+FOIL = {"thickness_m": 2e-4, "density_kg_m3": 8940.0, "specific_heat_J_kgK": 380.0}
 
 
 def fine(flux: int) -> tuple[Curve, Curve]:
@@ -20,9 +48,19 @@ def fine(flux: int) -> tuple[Curve, Curve]:
 
 @functools.cache
 def bins(flux: int, accuracy: Accuracy) -> Curve:
+    """Mass loss rate in the bins."""
     request = Request(fine(flux)[0], 5.0)
     curves = run(paper_experiment(flux), paper_material(), {"mlr": request}, accuracy)
     return curves.signals["mlr"]
+
+
+@functools.cache
+def front(flux: int, accuracy: Accuracy) -> Curve:
+    """Front temperature [K] from 20 s, when equal steps resolve it, until burn-out begins."""
+    time = fine(flux)[0]
+    request = Request(time[(time > 20.0) & (time < ON[flux])])
+    name = "front_temperature"
+    return run(paper_experiment(flux), paper_material(), {name: request}, accuracy).signals[name]
 
 
 def ripple(flux: int, accuracy: Accuracy) -> float:
@@ -34,47 +72,125 @@ def ripple(flux: int, accuracy: Accuracy) -> float:
     return float(np.sqrt(np.mean(rough[live] ** 2)))
 
 
-@pytest.mark.parametrize(("flux", "limit"), [(25, 1e-3), (60, 3e-3)])
-def test_default_settings_are_converged(flux: int, limit: float) -> None:
-    # Measured: 0.055 % and 0.15 %.
-    assert rms_over_mean(bins(flux, Accuracy()), fine(flux)[1]) <= limit
+def equal(step: float) -> dict[str, float]:
+    """Settings for steps of one length."""
+    return {"first_step_s": step, "longest_step_s": step, "tolerance": 0.1, "most_steps": 10**5}
+
+
+def inert(flux: float | dict[str, list[float]], accuracy: Accuracy) -> Curve:
+    """Front, then back temperature of a slab on copper that absorbs a millionth of the flux."""
+    requests = {f"{side}_temperature": Request(LATE) for side in ("front", "back")}
+    experiment = slab_experiment(THICKNESS, {"flux_W_m2": flux}, foil=FOIL)
+    curves = run(experiment, inert_material(emissivity=FAINT), requests, accuracy, {})
+    return np.concatenate([curves.signals[name] for name in requests])
+
+
+@pytest.mark.parametrize(("flux", "limit"), [(25, 1e-3), (60, 1e-3)])
+def test_default_settings_are_converged(evidence: Evidence, flux: int, limit: float) -> None:
+    time, mlr = fine(flux)
+    line = Line(time, bins(flux, Accuracy()), mlr)
+    title, source = f"{flux} kW/m², default settings", "pyrofit on 1600 cells, tolerance 1e-5"
+    evidence.curve(title, TIME, MLR, line, source, limit, RMS_OVER_MEAN)
 
 
 @pytest.mark.parametrize("flux", [25, 60])
-def test_400_cells_reproduce_the_stored_solution_of_1600(flux: int) -> None:
-    # Measured: 0.001 % and 0.002 %.
+def test_400_cells_reproduce_the_stored_solution_of_1600(evidence: Evidence, flux: int) -> None:
+    time, mlr = fine(flux)
     accuracy = Accuracy(cells=400, tolerance=1e-4, longest_step_s=1.0)
-    assert rms_over_mean(bins(flux, accuracy), fine(flux)[1]) <= 5e-4
+    line = Line(time, bins(flux, accuracy), mlr)
+    title, source = f"{flux} kW/m², 400 cells", "pyrofit on 1600 cells, tolerance 1e-5"
+    evidence.curve(title, TIME, MLR, line, source, 5e-5, RMS_OVER_MEAN)
 
 
-@pytest.mark.parametrize(("flux", "cells"), [(25, 50), (60, 50), (60, 100)])
-def test_error_falls_with_the_square_of_the_cell_size(flux: int, cells: int) -> None:
-    # Order from three grids n, 2n, 4n. Measured: 1.98 (25), 1.95 and 1.99 (60).
-    tight = {"tolerance": 1e-5, "longest_step_s": 1.0}
-    coarse, middle, fine_ = (bins(flux, Accuracy(cells=cells * n, **tight)) for n in (1, 2, 4))
-    order = np.log2(rms_over_mean(coarse, middle) / rms_over_mean(middle, fine_))
-    assert order == pytest.approx(2.0, abs=0.2)
+def test_mlr_error_falls_with_the_square_of_the_cell_size(evidence: Evidence) -> None:
+    cells = np.array([50, 100, 200, 400])
+
+    def errors(flux: int) -> tuple[Curve, Curve]:
+        right = bins(flux, Accuracy(cells=1600, **TIGHT))
+        found = [rms_over_mean(bins(flux, Accuracy(cells=n, **TIGHT)), right) for n in cells]
+        return THICKNESS / cells, np.array(found)
+
+    lines = {f"{flux} kW/m²": errors(flux) for flux in (25, 60)}
+    title = "mass loss rate, order in space"
+    evidence.order(title, CELL, SHARE, lines, "pyrofit on 1600 cells: same tolerance")
 
 
-@pytest.mark.parametrize("flux", [25, 60])
-def test_error_is_proportional_to_the_tolerance(flux: int) -> None:
-    # The step goes with the root of the tolerance, so this is second order in time.
-    # Measured from 3e-3 to 1e-4: exponents 0.94 and 1.0.
-    exact = bins(flux, Accuracy(cells=100, tolerance=1e-6, most_steps=50000))
-    loose, tight = (
-        rms_over_mean(bins(flux, Accuracy(cells=100, tolerance=tolerance)), exact)
-        for tolerance in (3e-3, 1e-4)
+def test_temperature_error_of_a_reacting_slab_is_of_second_order(evidence: Evidence) -> None:
+    cells, steps = np.array([50, 100, 200, 400]), np.array([2.0, 1.0, 0.5, 0.25])
+
+    def in_space(flux: int) -> tuple[Curve, Curve]:
+        right = front(flux, Accuracy(cells=1600, **TIGHT))
+        found = [RMS_K.of(front(flux, Accuracy(cells=n, **TIGHT)), right) for n in cells]
+        return THICKNESS / cells, np.array(found)
+
+    def in_time(flux: int) -> tuple[Curve, Curve]:
+        right = front(flux, Accuracy(cells=100, **equal(0.05)))
+        found = [RMS_K.of(front(flux, Accuracy(cells=100, **equal(h))), right) for h in steps]
+        return steps, np.array(found)
+
+    title = "front temperature of a reacting slab from 20 s on, order in"
+    lines = {f"{flux} kW/m²": in_space(flux) for flux in (25, 60)}
+    source = "pyrofit on 1600 cells: same tolerance"
+    evidence.order(f"{title} space", CELL, KELVIN, lines, source)
+    lines = {f"{flux} kW/m²": in_time(flux) for flux in (25, 60)}
+    source = "pyrofit with steps of 0.05 s: same cells"
+    evidence.order(f"{title} time", STEP, KELVIN, lines, source, 0.3)
+
+
+def test_temperature_error_falls_with_the_square_of_the_cell_size(evidence: Evidence) -> None:
+    cells = np.array([10, 20, 40, 80])
+    exact = 293.15 + np.concatenate(
+        [slab_with_foil(5e3, 0.2, 1.8e6, THICKNESS, 679.44, x, LATE) for x in (0.0, THICKNESS)]
     )
-    assert np.log(loose / tight) / np.log(30.0) >= 0.85
+    accuracies = [Accuracy(cells=n, tolerance=1e-7, most_steps=10**5) for n in cells]
+    errors = [np.abs(inert(5e3 / FAINT, accuracy) - exact).max() for accuracy in accuracies]
+    lines = {"front and back, from 20 s on": (THICKNESS / cells, np.array(errors))}
+    source = "exact: C&J ch. III, slab on copper under a constant flux"
+    evidence.order("temperature without reactions, order in space", CELL, KELVIN, lines, source)
+
+
+def test_temperature_error_falls_with_the_square_of_the_step(evidence: Evidence) -> None:
+    rising = {"time_s": [0.0, 400.0], "flux_W_m2": [0.0, 1e4 / FAINT]}
+    steps = np.array([4.0, 2.0, 1.0, 0.5])
+    right = inert(rising, Accuracy(cells=50, **equal(0.02)))
+    errors = [np.abs(inert(rising, Accuracy(cells=50, **equal(h))) - right).max() for h in steps]
+    lines = {"front and back, from 20 s on": (steps, np.array(errors))}
+    title, source = "temperature without reactions, order in time", "pyrofit with steps of 0.02 s"
+    evidence.order(title, STEP, KELVIN, lines, source, 0.1)
+
+
+def test_mlr_error_falls_with_the_square_of_the_step(evidence: Evidence) -> None:
+    steps = np.array([2.0, 1.0, 0.5, 0.25])
+
+    def errors(flux: int) -> tuple[Curve, Curve]:
+        right = bins(flux, Accuracy(cells=100, **equal(0.05)))
+        found = [rms_over_mean(bins(flux, Accuracy(cells=100, **equal(h))), right) for h in steps]
+        return steps, np.array(found)
+
+    lines = {f"{flux} kW/m²": errors(flux) for flux in (25, 60)}
+    title, source = "mass loss rate, order in time", "pyrofit with steps of 0.05 s: same cells"
+    evidence.order(title, STEP, SHARE, lines, source, 0.3)
+
+
+def test_mlr_error_is_proportional_to_the_tolerance(evidence: Evidence) -> None:
+    # The step goes with the root of the tolerance.
+    tolerances = np.array([3e-3, 1e-3, 3e-4, 1e-4])
+
+    def errors(flux: int) -> tuple[Curve, Curve]:
+        right = bins(flux, Accuracy(cells=100, tolerance=1e-6, most_steps=50000))
+        found = [bins(flux, Accuracy(cells=100, tolerance=t)) for t in tolerances.tolist()]
+        return tolerances, np.array([rms_over_mean(mlr, right) for mlr in found])
+
+    lines = {f"{flux} kW/m²": errors(flux) for flux in (25, 60)}
+    title, source = "mass loss rate, error by tolerance", "pyrofit with tolerance 1e-6: same cells"
+    evidence.order(title, TOLERANCE, SHARE, lines, source, 0.15, 1.0)
 
 
 @pytest.mark.parametrize(("flux", "limit"), [(25, 3e-5), (60, 1.5e-4)])
-def test_cells_burn_out_without_a_ripple(flux: int, limit: float) -> None:
-    # Measured: 0.002 % and 0.011 % of the mean rate.
-    assert ripple(flux, Accuracy(tolerance=1e-4)) <= limit
-
-
-@pytest.mark.parametrize("flux", [25, 60])
-def test_default_steps_add_no_ripple_that_matters(flux: int) -> None:
-    # Measured: 0.018 % (steps of 9 s sampled in bins of 5 s) and 0.011 % of the mean rate.
-    assert ripple(flux, Accuracy()) <= 3e-4
+def test_cells_burn_out_without_a_ripple(evidence: Evidence, flux: int, limit: float) -> None:
+    measure = "rms of the error's rough part / mean"
+    source = "pyrofit on 1600 cells"
+    title = f"{flux} kW/m², ripple of cells that burn out"
+    rough = ripple(flux, Accuracy(tolerance=1e-4))
+    evidence.number(f"{title}, tolerance 1e-4", rough, limit, measure, source, "%")
+    evidence.number(title, ripple(flux, Accuracy()), 3e-4, measure, source, "%")

@@ -130,6 +130,11 @@ def _plan(material: words.Material) -> _Plan:
     )
 
 
+def is_separate(material: words.Material) -> bool:
+    """Tell whether no reaction has to do with another one."""
+    return material.derived("network", _plan).plain
+
+
 def lower_network(material: words.Material, values: Values, heats: bool = True) -> Network:
     """Return the reactions as arrays, sorted so that products react after their formation.
 
