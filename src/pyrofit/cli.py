@@ -1,31 +1,39 @@
 """The command line: what the workflow's rules call, usable by hand."""
 
 import argparse
+import contextlib
 import os
 import sys
 from collections.abc import Callable, Sequence
 from pathlib import Path
 from typing import IO, Any
 
-from pyrofit.errors import PyrofitError, StudyError
+from pyrofit.errors import PyrofitError, StudyError, suggest
 
 Step = Callable[[argparse.Namespace], None]
 
 
 class _Tee:
-    """Standard error that is written to a log file as well."""
+    """Standard error that is written to a log file as well, as long as there is room for it."""
 
-    def __init__(self, *streams: IO[str]) -> None:
-        self._streams = streams
+    def __init__(self, usual: IO[str], log: IO[str]) -> None:
+        self._usual = usual
+        self._log: IO[str] | None = log
 
     def write(self, text: str) -> int:
-        for stream in self._streams:
-            stream.write(text)
+        self._usual.write(text)
+        if self._log is not None:
+            try:
+                self._log.write(text)
+                self._log.flush()
+            except OSError as error:
+                # What is computed is worth more than its log: go on.
+                self._usual.write(f"{self._log.name}: log cut off here ({error.strerror})\n")
+                self._log = None
         return len(text)
 
     def flush(self) -> None:
-        for stream in self._streams:
-            stream.flush()
+        self._usual.flush()
 
     def isatty(self) -> bool:
         return False
@@ -39,18 +47,30 @@ def main(arguments: Sequence[str] | None = None) -> int:
     if getattr(given, "log", None) is None:
         return _run(given)
     try:
-        given.log.parent.mkdir(parents=True, exist_ok=True)
-        log = given.log.open("w", encoding="utf-8")
+        log = _open_log(given.log)
     except OSError as error:
-        print(f"error: {given.log}: cannot be written ({error.strerror})", file=sys.stderr)
+        print(
+            f"error: {given.log}: cannot be written ({error.strerror}); make room or name "
+            "another file with --log. Everything finished before is kept.",
+            file=sys.stderr,
+        )
         return 2
     usual = sys.stderr
-    with log:
-        sys.stderr = _Tee(usual, log)
-        try:
-            return _run(given)
-        finally:
-            sys.stderr = usual
+    sys.stderr = _Tee(usual, log)
+    try:
+        return _run(given)
+    finally:
+        sys.stderr = usual
+        # Where the disk is full, closing fails once more.
+        with contextlib.suppress(OSError):
+            log.close()
+
+
+def _open_log(path: Path) -> IO[str]:
+    """Open a log; a disk that is full says so before anything is computed."""
+    path.parent.mkdir(parents=True, exist_ok=True)
+    path.write_bytes(b"\n")
+    return path.open("w", encoding="utf-8")
 
 
 def _run(given: argparse.Namespace) -> int:
@@ -76,7 +96,7 @@ def _parser() -> argparse.ArgumentParser:
     where = actions.add_parser("where", help="print their folder; exit 2 where files are missing")
     where.set_defaults(step=_where)
 
-    check = commands.add_parser("check", help="check a study without running anything")
+    check = commands.add_parser("check", help="check a study and its files, run nothing")
     check.add_argument("study", type=Path, help="study file (YAML)")
     check.set_defaults(step=_check)
 
@@ -90,6 +110,7 @@ def _parser() -> argparse.ArgumentParser:
     descent = _step(commands, "descent", "run least squares from SCE-UA's best set", _descent)
     descent.add_argument("--cost", required=True, help="cost function of the study")
     _step(commands, "collect", "gather all repetitions", _collect)
+    _step(commands, "identify", "find which parameters the data determine", _identify)
     _step(commands, "predict", "simulate the best sets at all predicted experiments", _predict)
     table = _step(commands, "table", "write one table", _table)
     table.add_argument("--name", required=True, help="name of the table")
@@ -115,6 +136,12 @@ def _open(given: argparse.Namespace, slice_of: Callable[..., Any], *arguments: A
     from pyrofit.files import Results
 
     study = read_study(given.study)
+    cost = getattr(given, "cost", None)
+    if cost is not None and cost not in study.imp.costs:
+        raise StudyError(
+            f"{given.study}: study '{study.name}' has no cost '{cost}'. "
+            + suggest(cost, study.imp.costs)
+        )
     if given.digest is not None and digest(slice_of(study, *arguments)) != given.digest:
         raise StudyError(f"{given.study}: the study changed while the workflow ran; run it again")
     return study, Results(given.results or Path("results") / study.name)
@@ -143,10 +170,15 @@ def _where(given: argparse.Namespace) -> None:
 
 def _check(given: argparse.Namespace) -> None:
     from pyrofit.config import read_study
+    from pyrofit.stages.reading import check_measurements
 
     study = read_study(given.study)
+    read = check_measurements(study, str(given.study))
     runs = study.imp.repetitions * len(study.imp.costs)
-    print(f"{given.study}: study '{study.name}' is valid; {runs} repetitions in all")
+    print(
+        f"{given.study}: study '{study.name}' is valid; {read} measured series read; "
+        f"{runs} repetitions in all"
+    )
 
 
 def _prepare(given: argparse.Namespace) -> None:
@@ -192,6 +224,12 @@ def _collect(given: argparse.Namespace) -> None:
     from pyrofit.stages import fit, slices
 
     fit.collect(*_open(given, slices.collect))
+
+
+def _identify(given: argparse.Namespace) -> None:
+    from pyrofit.stages import identify, slices
+
+    identify.identify_parameters(*_open(given, slices.identify))
 
 
 def _predict(given: argparse.Namespace) -> None:

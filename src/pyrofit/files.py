@@ -4,15 +4,24 @@ import contextlib
 import gzip
 import io
 import json
+import math
 import os
 import zlib
-from collections.abc import Mapping
+from collections.abc import Iterable, Mapping
 from pathlib import Path
 from typing import Any
 
+import numpy as np
 import pandas as pd
 
 from pyrofit.errors import DataError
+
+Keys = tuple[str, ...]
+EACH = "*"
+"""Among keys: every item of a list."""
+
+_AGAIN = "delete it and run again"
+_KINDS = {float: "a finite number", dict: "a mapping", list: "a list", str: "text"}
 
 
 def write_bytes(path: Path, content: bytes) -> None:
@@ -47,23 +56,53 @@ def write_json(path: Path, content: Mapping[str, Any]) -> None:
     write_text(path, json.dumps(content, indent=1, allow_nan=False) + "\n")
 
 
-def read_json(path: Path) -> dict[str, Any]:
+def read_json(path: Path, needs: Mapping[Keys, type] | None = None) -> dict[str, Any]:
     """Read a JSON file of results.
+
+    Parameters
+    ----------
+    path
+        The file.
+    needs
+        What it must hold: the type of each value by the keys that lead to it, such as
+        ``{("starts", EACH, "cost"): float}``.
 
     Raises
     ------
     DataError
-        The file is missing or broken.
+        The file is missing or broken, or something is missing in it.
     """
     try:
-        content = json.loads(path.read_text())
+        content = json.loads(path.read_text(encoding="utf-8"))
     except FileNotFoundError:
         raise DataError(f"{path}: this result is missing; run the workflow to make it") from None
-    except (OSError, ValueError) as error:
-        raise DataError(f"{path}: cannot be read ({error}); delete it and run again") from None
+    except (OSError, ValueError, RecursionError) as error:
+        raise DataError(f"{path}: cannot be read ({error}); {_AGAIN}") from None
     if not isinstance(content, dict):
-        raise DataError(f"{path}: this is no result; delete it and run again")
+        raise DataError(f"{path}: this is no result; {_AGAIN}")
+    for keys, kind in (needs or {}).items():
+        _check_value(path, content, keys, kind)
     return content
+
+
+def _check_value(path: Path, part: Any, keys: Keys, kind: type, place: str = "") -> None:
+    """Refuse a result that lacks the value at the end of some keys, or has one of another type."""
+    if not keys:
+        number = isinstance(part, int | float) and not isinstance(part, bool)
+        if not (number and math.isfinite(part) if kind is float else isinstance(part, kind)):
+            raise DataError(f"{path}: '{place}' is not {_KINDS[kind]}; {_AGAIN}")
+        return
+    key, *rest = keys
+    if key == EACH:
+        if not isinstance(part, list) or not part:
+            raise DataError(f"{path}: '{place}' is not a list of at least one; {_AGAIN}")
+        for i, item in enumerate(part):
+            _check_value(path, item, tuple(rest), kind, f"{place}.{i}")
+        return
+    place = f"{place}.{key}".removeprefix(".")
+    if not isinstance(part, dict) or key not in part:
+        raise DataError(f"{path}: '{place}' is missing in this result; {_AGAIN}")
+    _check_value(path, part[key], tuple(rest), kind, place)
 
 
 def write_csv(path: Path, frame: pd.DataFrame) -> None:
@@ -76,20 +115,57 @@ def write_csv(path: Path, frame: pd.DataFrame) -> None:
     write_bytes(path, content)
 
 
-def read_csv(path: Path) -> pd.DataFrame:
+def read_csv(
+    path: Path,
+    columns: Mapping[str, type] | None = None,
+    rows: Mapping[Keys, Iterable[Keys]] | None = None,
+) -> pd.DataFrame:
     """Read a table of results.
+
+    Parameters
+    ----------
+    path
+        The file.
+    columns
+        The columns it must have: float for numbers without gaps, object for anything.
+    rows
+        Values that must occur, and no others, by columns.
 
     Raises
     ------
     DataError
-        The file is missing or broken.
+        The file is missing or broken, or something is missing in it.
     """
     try:
-        return pd.read_csv(path)
+        frame = pd.read_csv(path)
     except FileNotFoundError:
         raise DataError(f"{path}: this result is missing; run the workflow to make it") from None
     except (OSError, ValueError, EOFError, zlib.error) as error:
-        raise DataError(f"{path}: cannot be read ({error}); delete it and run again") from None
+        raise DataError(f"{path}: cannot be read ({error}); {_AGAIN}") from None
+    for name, kind in (columns or {}).items():
+        if name not in frame or frame.empty:
+            raise DataError(f"{path}: the column '{name}' is missing or empty; {_AGAIN}")
+        if kind is float and not _all_numbers(frame[name]):
+            raise DataError(
+                f"{path}: the column '{name}' does not hold numbers throughout; {_AGAIN}"
+            )
+    for names, wanted in (rows or {}).items():
+        _check_rows(path, frame, names, list(wanted))
+    return frame
+
+
+def _check_rows(path: Path, frame: pd.DataFrame, names: Keys, wanted: list[Keys]) -> None:
+    if absent := [name for name in names if name not in frame]:
+        raise DataError(f"{path}: the column '{absent[0]}' is missing; {_AGAIN}")
+    found = set(frame[list(names)].itertuples(index=False, name=None))
+    for row in sorted(found ^ set(wanted), key=str):
+        what = "is of another study" if row in found else "is missing"
+        named = ", ".join(f"{n} '{value}'" for n, value in zip(names, row, strict=True))
+        raise DataError(f"{path}: the row of {named} {what}; {_AGAIN}")
+
+
+def _all_numbers(column: pd.Series) -> bool:
+    return pd.api.types.is_numeric_dtype(column) and bool(np.isfinite(column).all())
 
 
 class Results:
@@ -126,6 +202,10 @@ class Results:
     def imp(self, name: str) -> Path:
         """Results over all repetitions."""
         return self.root / "imp" / name
+
+    def identification(self, name: str) -> Path:
+        """Intervals and all that they rest on."""
+        return self.root / "identification" / name
 
     def validation(self, name: str) -> Path:
         """Predictions and scores."""

@@ -49,7 +49,8 @@ def test_unknown_command_ends_with_code_2(capsys: pytest.CaptureFixture[str]) ->
 
 def test_check_says_what_the_study_will_do(capsys: pytest.CaptureFixture[str]) -> None:
     assert cli.main(["check", str(SMOKE)]) == 0
-    assert "study 'smoke' is valid; 6 repetitions in all" in capsys.readouterr().out
+    said = "study 'smoke' is valid; 0 measured series read; 6 repetitions in all"
+    assert said in capsys.readouterr().out
 
 
 @pytest.mark.parametrize("name", STEPS[1:])
@@ -77,7 +78,7 @@ def test_unknown_cost_is_told_with_the_known_ones(
 ) -> None:
     given = ["--study", str(SMOKE), "--results", str(tmp_path), "--cost", "RMSW"]
     assert cli.main(["least-squares", *given]) == 2
-    assert "no cost 'RMSW'; known: RMSE, RANGE, BANDS" in capsys.readouterr().err
+    assert "no cost 'RMSW'. Did you mean 'RMSE'? Known: BANDS, RANGE, RMSE." in capsys.readouterr().err
 
 
 def test_error_is_kept_in_the_log(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:

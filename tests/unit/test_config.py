@@ -67,12 +67,24 @@ def test_dumped_study_reads_back_as_the_same_study(path: Path, tmp_path: Path) -
     assert read_study(kept) == study
 
 
-def test_numbers_with_an_exponent_are_numbers_however_written() -> None:
-    # YAML 1.1 reads 1e13 and 1.5e13 as text.
-    for written in ("1e13", "1.0e13", "1.0e+13", "10000000000000", "+1E+13"):
-        given = changed("experiments.slab_25.sample.layers.0.thickness_m", yaml.safe_load(written))
-        layer = as_study(given, "mine.yaml").experiments["slab_25"].sample.layers[0]
-        assert layer.thickness_m == 1e13
+@pytest.mark.parametrize("written", ["2e-3", "2.e-3", "0.2e-2", "2.0e-03", "+2E-3", ".2e-2"])
+def test_number_with_an_exponent_is_a_number_however_written(written: str, tmp_path: Path) -> None:
+    # YAML 1.1 reads some of these as text.
+    path = tmp_path / "mine.yaml"
+    text = (CONFIG / "smoke.yaml").read_text(encoding="utf-8")
+    path.write_text(text.replace("thickness_m: 0.004", f"thickness_m: {written}"), encoding="utf-8")
+    assert read_study(path).experiments["slab_25"].sample.layers[0].thickness_m == 0.002
+
+
+def test_quoted_number_stays_text(tmp_path: Path) -> None:
+    path = tmp_path / "mine.yaml"
+    text = (CONFIG / "smoke.yaml").read_text(encoding="utf-8")
+    path.write_text(f"{text}\npublished: {{source: '1e3'}}\n", encoding="utf-8")
+    study = read_study(path)
+    assert study.published.source == "1e3"
+    kept = tmp_path / "study.json"
+    kept.write_text(study.model_dump_json())
+    assert read_study(kept) == study
 
 
 def test_own_files_are_found_relative_to_the_study_file() -> None:
@@ -99,6 +111,27 @@ def test_published_and_synthetic_files_are_not_own_files() -> None:
     paper = read_study(CONFIG / "paper.yaml")
     assert paper.own_files == ()
     assert "PMMA/Calibration_Data/UMD/UMD_CAPA_25kW_Mass.csv" in paper.needs_macfp
+
+
+def test_truth_of_the_twin_is_neither_at_a_limit_nor_in_the_middle() -> None:
+    study = read_study(CONFIG / "twin.yaml")
+    assert study.synthetic is not None
+    assert study.kinetics is not None
+    assert set(study.synthetic.truth) == {*study.kinetics.estimate, *study.imp.estimate}
+    for name, truth in study.synthetic.truth.items():
+        lower, upper = study.parameters[name].lower, study.parameters[name].upper
+        share = (truth - lower) / (upper - lower)
+        assert 0.05 < share < 0.95, name
+        assert abs(share - 0.5) > 0.05, name
+
+
+def test_noise_is_a_number_or_a_description() -> None:
+    white = as_study(changed(NOISE, 2e-4), "mine.yaml")
+    described = as_study(changed(NOISE, {"sd": 2e-4}), "mine.yaml")
+    assert white == described
+    differenced = {"sd": 2e-4, "autocorrelation": [-0.5]}
+    noise = as_study(changed(NOISE, differenced), "mine.yaml").experiments["slab_25"].signals["mlr"]
+    assert noise.noise.correlation(4).tolist() == [1.0, -0.5, 0.0, 0.0]
 
 
 def test_values_are_taken_to_si_units() -> None:
@@ -140,6 +173,7 @@ def test_digest_refuses_what_it_cannot_describe() -> None:
 
 # --- what is refused ------------------------------------------------------------------------
 
+NOISE = "experiments.slab_25.signals.mlr.noise"
 BROKEN: list[tuple[str, str, object, list[str]]] = [
     # case, dotted path, value, words of the message
     ("unknown key at the top", "repetitions", 3, ["unknown key 'repetitions'", "Known:"]),
@@ -333,7 +367,7 @@ BROKEN: list[tuple[str, str, object, list[str]]] = [
         "unknown experiment in a cost",
         "imp.costs.RMSE.0.experiment",
         "slab25",
-        ["imp cost: unknown experiment 'slab25'. Did you mean 'slab_25'?"],
+        ["imp.costs.RMSE.0.experiment: unknown experiment 'slab25'. Did you mean 'slab_25'?"],
     ),
     (
         "unknown experiment to predict",
@@ -351,7 +385,7 @@ BROKEN: list[tuple[str, str, object, list[str]]] = [
         "unknown signal in a cost",
         "imp.costs.RMSE.0.signal",
         "mrl",
-        ["imp cost: experiment 'slab_25' has no signal 'mrl'. Did you mean 'mlr'?"],
+        ["imp.costs.RMSE.0.signal: experiment 'slab_25' has no signal 'mrl'. Did you mean 'mlr'?"],
     ),
     (
         "unknown signal of an experiment",
@@ -432,13 +466,13 @@ BROKEN: list[tuple[str, str, object, list[str]]] = [
         "TGA in the inverse modelling",
         "imp.costs.RMSE.0",
         {"experiment": "tga_5K", "signal": "mass_fraction", "kind": "RMSE"},
-        ["imp cost: 'tga_5K' is no gasification experiment"],
+        ["imp.costs.RMSE.0.experiment: 'tga_5K' is no gasification experiment"],
     ),
     (
         "gasification in the kinetics",
         "kinetics.cost.0",
         {"experiment": "slab_25", "signal": "mlr", "kind": "RMSE"},
-        ["kinetics cost: 'slab_25' is no tga experiment"],
+        ["kinetics.cost.0.experiment: 'slab_25' is no tga experiment"],
     ),
     (
         "gasification to compare kinetics with",
@@ -515,7 +549,7 @@ BROKEN: list[tuple[str, str, object, list[str]]] = [
         "published values without a spread",
         "published",
         {"source": "x", "costs": {"RMSE": {"rho": [1, 2]}}},
-        ["published.costs.RMSE.rho.2: this key is missing, and is required"],
+        ["published.costs.RMSE.rho.2: this item of the list is missing"],
     ),
     ("missing key", "name", GONE, ["name: this key is missing, and is required"]),
     (
@@ -587,6 +621,23 @@ BROKEN: list[tuple[str, str, object, list[str]]] = [
         {"temperature_K": [400, 300], "value": [0.2, 0.3]},
         ["conductivity_W_mK: temperature_K must increase"],
     ),
+    ("negative noise", NOISE, -1e-4, [f"{NOISE}: ", "must be at least 0"]),
+    ("noise in words", NOISE, "little", [f"{NOISE}: 'little' is neither a number nor a mapping"]),
+    (
+        "autocorrelation that no noise has",
+        NOISE,
+        {"sd": 1e-4, "autocorrelation": [-0.12, -0.4]},
+        # f(0) = 1 - 2 (0.12 + 0.4) = -0.04; times 1/1.04 = 0.9615 it is 0.
+        [f"{NOISE}: autocorrelation [-0.12, -0.4] is not positive definite", "by 0.961 or less"],
+    ),
+    (
+        "two kinds of noise",
+        NOISE,
+        {"sd": 1e-4, "autocorrelation": [0.2], "ar": 0.5},
+        [f"{NOISE}: autocorrelation and ar describe two kinds of noise; give one"],
+    ),
+    ("noise that grows", NOISE, {"sd": 1, "ar": 1}, [f"{NOISE}: ar 1 must lie between -1 and 1"]),
+    ("noise without size", NOISE, {"ar": 0.5}, [f"{NOISE}.sd: this key is missing"]),
     (
         "flux table that starts late",
         "experiments.slab_25.front.flux_W_m2",
@@ -678,7 +729,7 @@ def test_missing_file_names_the_nearest(tmp_path: Path) -> None:
 
 
 def test_missing_file_in_a_missing_folder_is_told(tmp_path: Path) -> None:
-    with pytest.raises(StudyError, match=r"there is no such study file\.$"):
+    with pytest.raises(StudyError, match=r"no such study file\. Nor is any other beside"):
         read_study(tmp_path / "nowhere" / "pmma.yaml")
 
 

@@ -153,3 +153,77 @@ def test_smoothed_limits_stay_in_order(value, spread, step, width):
     assert (lower <= upper).all()
     assert lower.min() >= (value - spread).min() - 1e-12
     assert upper.max() <= (value + spread).max() + 1e-12
+
+
+@fixed
+@given(values, spreads, st.sampled_from(EQ_4), shares)
+def test_a_perfect_fit_costs_nothing(value, spread, kind, r):
+    positive = np.abs(value) + 1.0
+    term = make_term(kind, target_of(positive, spread), **options_of(kind, r))
+    assert term(positive) == 0.0
+    assert term.residuals(positive).tolist() == [0.0] * N
+
+
+@fixed
+@given(values, steps, st.integers(0, N - 1))
+def test_a_perfect_fit_of_one_point_costs_nothing(value, step, i):
+    assume(value[i] != 0.0)
+    target = target_of(value, step=step)
+    assert make_term("NRSE", target, time_s=target.time_s[i])(value) == pytest.approx(
+        0.0, abs=1e-14
+    )
+
+
+@fixed
+@given(values, spreads, models, st.sampled_from(EQ_4), shares, st.floats(0.0, 1.0))
+def test_going_farther_from_the_target_never_lowers_the_cost(value, spread, away, kind, r, part):
+    target = target_of(value, spread)
+    term = make_term(kind, target, normalisation="none", **options_of(kind, r))
+    near, far = term(value + part * away), term(value + away)
+    assert 0.0 <= near <= far + 1e-12
+
+
+@fixed
+@given(values, spreads, models, st.sampled_from(["RMSE", "BANDS", "RANGE"]), shares)
+def test_too_high_costs_as_much_as_too_low(value, spread, away, kind, r):
+    term = make_term(kind, target_of(value, spread), normalisation="none", **options_of(kind, r))
+    assert term(value + away) == pytest.approx(term(value - away), rel=1e-12, abs=1e-12)
+
+
+@fixed
+@given(values, models)
+def test_rmse_does_not_tell_target_from_model(value, model):
+    there = make_term("RMSE", target_of(value))(model)
+    assert make_term("RMSE", target_of(model))(value) == there
+
+
+@fixed
+@given(values, spreads, models, st.sampled_from(EQ_4), shares, st.permutations(range(N)))
+def test_order_of_the_points_does_not_matter(value, spread, model, kind, r, order):
+    def cost(index):
+        target = target_of(value[index], spread[index])
+        return make_term(kind, target, normalisation="none", **options_of(kind, r))(model[index])
+
+    assert cost(np.array(order)) == pytest.approx(cost(np.arange(N)), rel=1e-12, abs=1e-150)
+
+
+@fixed
+@given(values, models, models, st.floats(0.1, 9.0), st.floats(0.0, 9.0), st.floats(0.0, 9.0))
+def test_cost_rises_with_a_weight_and_order_of_terms_does_not_matter(
+    value, first, second, w_one, w_two, more
+):
+    term = make_term("RMSE", target_of(value))
+    total = WeightedSum([(w_one, term), (w_two, term)]).value([first, second])
+    assert WeightedSum([(w_one + more, term), (w_two, term)]).value([first, second]) >= total
+    turned = WeightedSum([(w_two, term), (w_one, term)]).value([second, first])
+    assert turned == pytest.approx(total, rel=1e-14)
+
+
+@fixed
+@given(
+    values, models, st.sampled_from(["RMSE", "RANGE"]), st.floats(-1e3, 1e3), st.floats(0.1, 9.0)
+)
+def test_cost_of_a_whole_curve_does_not_depend_on_the_clock(value, model, kind, shift, pace):
+    time = np.arange(float(N))
+    one = make_term(kind, Target(time, value), normalisation="none")(model)
+    assert make_term(kind, Target(shift + pace * time, value), normalisation="none")(model) == one

@@ -81,7 +81,7 @@ BROKEN = {
     "blank row": ("Time,Mass\n0,1\n\n1,2\n", "line 3: this row is blank"),
     "short row": ("Time,Mass\n0,1\n1\n", "line 3: given 1 cells; the header names 2"),
     "long row": ("Time,Mass\n0,1\n1,2,3\n", "line 3: given 3 cells; the header names 2"),
-    "decimal commas": ("Time,Mass\n0,5,1,5\n", "decimal point, not a comma"),
+    "decimal commas": ("Time,Mass\n0,5,1,5\n", "decimal commas, write points"),
     "decimal comma": ("Time;Mass\n0;1,5\n", "given '1,5'.*decimal point"),
     "long units row": ("Time,Mass\n[s],[mg],[K]\n0,1\n", "line 2: given 3 cells"),
     "doubled name": ("Time,Mass,Time\n0,1,2\n", "columns 1 and 3 are both named 'Time'"),

@@ -2,12 +2,13 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Mapping
+from collections.abc import Iterable, Mapping, Sequence
 from typing import TYPE_CHECKING
 
+from pyrofit.config.numbers import check_numbers, check_parameter, check_parameters, require
 from pyrofit.config.uses import names_in, parameters_in, parameters_of_tga
 from pyrofit.errors import suggest
-from pyrofit.model.base import FRACTION, Rule, numbers
+from pyrofit.model.base import FRACTION
 from pyrofit.model.experiment import Gasification, Tga
 from pyrofit.model.material import REST, check_composition
 
@@ -23,17 +24,14 @@ def check_study(study: Study) -> None:
     ValueError
         With place, rule and way out.
     """
-    _check_numbers(study)
+    check_numbers(study)
     _check_compositions(study)
+    _check_signals(study)
     _check_stages(study)
     _check_values(study)
     _check_published(study)
     _check_synthetic(study)
-
-
-def _require(ok: bool, place: str, message: str) -> None:
-    if not ok:
-        raise ValueError(f"{place}: {message}")
+    check_parameters(study)
 
 
 def _largest(study: Study, number: float | str) -> float:
@@ -47,42 +45,11 @@ def _largest(study: Study, number: float | str) -> float:
 def _check_sum(study: Study, shares: Mapping[str, float | str], place: str) -> None:
     """Refuse mass fractions or yields that may add up to more than one."""
     total = sum(_largest(study, share) for share in shares.values() if share != REST)
-    _require(
+    require(
         total <= 1.0 + 1e-9,
         place,
         f"with the upper limits of parameters these add up to {total:g}, above 1; lower a limit",
     )
-
-
-def _check_numbers(study: Study) -> None:
-    described = {
-        "material": study.material,
-        **{f"experiments.{n}": e for n, e in study.experiments.items()},
-    }
-    for root, part in described.items():
-        for place, value, rules in numbers(part, root):
-            for rule in rules:
-                if isinstance(value, float):
-                    _require(rule.holds(value), place, f"{value:g} {rule.text}")
-                else:
-                    _check_parameter(study, value, rule, place)
-
-
-def _check_parameter(study: Study, name: str, rule: Rule, place: str) -> None:
-    """Refuse an unknown parameter, or one whose value or limits break the rule of its place."""
-    _require(
-        name in study.parameters,
-        place,
-        f"unknown parameter '{name}'. {suggest(name, study.parameters)}",
-    )
-    p = study.parameters[name]
-    for what in ("value", "lower", "upper"):
-        given = getattr(p, what)
-        _require(
-            given is None or rule.holds(given * p.factor),
-            f"parameters.{name}.{what}",
-            f"{given} {rule.text} (it is used as {place})",
-        )
 
 
 def _check_compositions(study: Study) -> None:
@@ -94,9 +61,17 @@ def _check_compositions(study: Study) -> None:
                 compositions[place] = layer.composition
     for label, chosen in (study.kinetics.sets if study.kinetics else {}).items():
         place = f"kinetics.sets.{label}"
-        _require(label not in ("described", "fitted"), place, f"'{label}' is a reserved name")
+        require(
+            label not in ("described", "fitted"),
+            place,
+            f"'{label}' is a reserved name; choose another",
+        )
         missing = set(study.material.reactions) ^ set(chosen.reactions)
-        _require(not missing, place, f"reactions differ from the material's: {sorted(missing)}")
+        require(
+            not missing,
+            place,
+            f"reactions differ from the material's: {sorted(missing)}; give each of them, no other",
+        )
         compositions[f"{place}.composition"] = chosen.composition
     for place, composition in compositions.items():
         try:
@@ -104,25 +79,57 @@ def _check_compositions(study: Study) -> None:
         except ValueError as error:
             raise ValueError(f"{place}: {error}") from None
         for name in sorted(names_in(composition)):
-            _check_parameter(study, name, FRACTION, place)
+            check_parameter(study, name, (FRACTION,), place)
         _check_sum(study, composition, place)
     for name, reaction in study.material.reactions.items():
         _check_sum(study, reaction.products, f"material.reactions.{name}.products")
 
 
+def _check_signals(study: Study) -> None:
+    for name, experiment in study.experiments.items():
+        require(
+            bool(experiment.signals),
+            f"experiments.{name}.signals",
+            f"empty; name a measured quantity: {', '.join(experiment.QUANTITIES)}",
+        )
+        for quantity, signal in experiment.signals.items():
+            place = f"experiments.{name}.signals.{quantity}"
+            require(
+                signal.until_K is None or isinstance(experiment, Tga),
+                f"{place}.until_K",
+                "only TGA has a temperature at each point; use until_s",
+            )
+            if signal.file == "synthetic":
+                _check_spacing(experiment, signal.every, place)
+
+
+def _check_spacing(experiment: Tga | Gasification, every: float, place: str) -> None:
+    """Refuse a synthetic record of fewer than three points."""
+    if isinstance(experiment, Tga):
+        span = experiment.end_temperature_K - experiment.start_temperature_K
+        keys = "start_temperature_K and end_temperature_K"
+    else:
+        span, keys = experiment.duration_s, "duration_s"
+    require(
+        span > 2.5 * every,
+        f"{place}.every",
+        f"{every:g} leaves fewer than 3 points of the {span:g} between them; lower it, or "
+        f"change {keys}",
+    )
+
+
 def _check_stages(study: Study) -> None:
-    stages: dict[str, tuple[tuple[str, ...], Iterable[TermSpec]]] = {
-        "imp": (study.imp.estimate, [t for terms in study.imp.costs.values() for t in terms])
-    }
+    _check_estimate(study, "imp", study.imp.estimate)
+    for cost, terms in study.imp.costs.items():
+        _check_terms(study, f"imp.costs.{cost}", terms, Gasification)
     if study.kinetics is not None:
-        stages["kinetics"] = (study.kinetics.estimate, study.kinetics.cost)
+        _check_estimate(study, "kinetics", study.kinetics.estimate)
+        _check_terms(study, "kinetics.cost", study.kinetics.cost, Tga)
         _known(study, study.kinetics.compare, "kinetics.compare", Tga)
-    for stage, (estimate, terms) in stages.items():
-        _check_estimate(study, stage, estimate)
-        _check_terms(study, stage, terms)
+    _check_identification(study)
     _known(study, study.validation.experiments, "validation.experiments", Gasification)
     choices = {"described", *(("fitted", *study.kinetics.sets) if study.kinetics else ())}
-    _require(
+    require(
         study.imp.kinetics in choices,
         "imp.kinetics",
         f"unknown kinetics '{study.imp.kinetics}'. {suggest(study.imp.kinetics, choices)}",
@@ -130,37 +137,65 @@ def _check_stages(study: Study) -> None:
 
 
 def _check_estimate(study: Study, stage: str, estimate: tuple[str, ...]) -> None:
-    _require(len(set(estimate)) == len(estimate), f"{stage}.estimate", "a name stands twice")
+    require(
+        len(set(estimate)) == len(estimate), f"{stage}.estimate", "a name stands twice; delete one"
+    )
     for name in estimate:
-        _require(
+        require(
             name in study.parameters,
             f"{stage}.estimate",
             f"unknown parameter '{name}'. {suggest(name, study.parameters)}",
         )
-        _require(
+        require(
             study.parameters[name].lower is not None,
             f"parameters.{name}",
             f"{stage} estimates it: give lower and upper limits",
         )
 
 
-def _check_terms(study: Study, stage: str, terms: Iterable[TermSpec]) -> None:
-    wanted = Tga if stage == "kinetics" else Gasification
-    for term in terms:
-        _known(study, (term.experiment,), f"{stage} cost", wanted)
+def _check_terms(
+    study: Study, place: str, terms: Sequence[TermSpec], wanted: type[Tga] | type[Gasification]
+) -> None:
+    require(
+        any(term.weight > 0.0 for term in terms),
+        place,
+        "no term has a weight above 0; give one to at least one of them",
+    )
+    for i, term in enumerate(terms):
+        _known(study, (term.experiment,), f"{place}.{i}.experiment", wanted)
         signals = study.experiments[term.experiment].signals
-        _require(
+        require(
             term.signal in signals,
-            f"{stage} cost",
+            f"{place}.{i}.signal",
             f"experiment '{term.experiment}' has no signal '{term.signal}'. "
             + suggest(term.signal, signals),
         )
 
 
+def _check_identification(study: Study) -> None:
+    place = "imp.identification"
+    _known(study, study.imp.identification, place, Gasification)
+    for name, signals in study.imp.identification.items():
+        require(bool(signals), f"{place}.{name}", "name at least one signal, or leave it out")
+        require(len(set(signals)) == len(signals), f"{place}.{name}", "a signal stands twice")
+        known = study.experiments[name].signals
+        for signal in signals:
+            require(
+                signal in known,
+                f"{place}.{name}",
+                f"experiment '{name}' has no signal '{signal}'. {suggest(signal, known)}",
+            )
+
+
 def _check_published(study: Study) -> None:
     for cost, shown in (study.published.costs if study.published else {}).items():
+        require(
+            cost in study.imp.costs,
+            "published.costs",
+            f"unknown cost '{cost}'. {suggest(cost, study.imp.costs)}",
+        )
         for name in shown:
-            _require(
+            require(
                 name == "fit" or name in study.parameters,
                 f"published.costs.{cost}",
                 f"unknown parameter '{name}'. {suggest(name, ('fit', *study.parameters))}",
@@ -196,15 +231,16 @@ def _known(
     study: Study, names: Iterable[str], place: str, wanted: type[Tga] | type[Gasification]
 ) -> None:
     for name in names:
-        _require(
+        require(
             name in study.experiments,
             place,
             f"unknown experiment '{name}'. {suggest(name, study.experiments)}",
         )
-        _require(
+        require(
             isinstance(study.experiments[name], wanted),
             place,
-            f"'{name}' is no {wanted.__name__.lower()} experiment",
+            f"'{name}' is no {wanted.__name__.lower()} experiment. "
+            + suggest(name, study.kinds(wanted)),
         )
 
 
@@ -215,9 +251,9 @@ def _check_synthetic(study: Study) -> None:
         raise ValueError("synthetic: a signal has file: synthetic; give synthetic.truth")
     known = set(study.synthetic.truth) | set(study.fixed_values())
     for name in sorted(parameters_in(study.material, *study.experiments.values()) - known):
-        raise ValueError(f"synthetic.truth: the true value of '{name}' is missing")
+        raise ValueError(f"synthetic.truth: the true value of '{name}' is missing; give it")
     for name in study.synthetic.truth:
-        _require(
+        require(
             name in study.parameters,
             "synthetic.truth",
             f"unknown parameter '{name}'. {suggest(name, study.parameters)}",

@@ -7,20 +7,27 @@ from typing import Any
 from pydantic import ValidationError
 
 
-def as_meant(given: Any, place: str = "") -> Any:
-    """Undo what YAML 1.1 makes of words and numbers: 1e-3 is text to it, ``no`` is not."""
+def refuse_booleans(given: Any, place: str = "") -> None:
+    """Refuse what YAML 1.1 makes of the words yes, no, on, off, as a value or a key.
+
+    Raises
+    ------
+    ValueError
+        With the place.
+    """
     if isinstance(given, bool):
         raise ValueError(
             f"{place}: no key takes true or false (YAML reads yes, no, on, off as such); "
             "give a number, or put text in quotes"
         )
-    if isinstance(given, str) and EXPONENT.fullmatch(given):
-        return float(given)
     if isinstance(given, Mapping):
-        return {k: as_meant(v, f"{place}.{k}" if place else str(k)) for k, v in given.items()}
-    if isinstance(given, list):
-        return [as_meant(v, f"{place}.{i}") for i, v in enumerate(given)]
-    return given
+        for key, value in given.items():
+            where = f"{place}.{key}" if place else str(key)
+            refuse_booleans(key, where)
+            refuse_booleans(value, where)
+    elif isinstance(given, list):
+        for i, value in enumerate(given):
+            refuse_booleans(value, f"{place}.{i}")
 
 
 def in_plain_words(error: ValidationError, given: object) -> list[str]:
@@ -54,15 +61,22 @@ def _place(problem: Any, given: Any) -> str:
 
 def _rule(problem: Any) -> str:
     """Return what is wrong as a rule."""
+    given = problem["input"]
     words = WORDS.get(problem["type"])
     if words is None:
-        return str(problem["msg"]).removeprefix("Value error, ")
-    given = problem["input"]
-    shown = f"'{given}'" if isinstance(given, str) else f"{given}"
-    return words.format(given=shown, **problem.get("ctx", {}))
+        said = str(problem["msg"]).removeprefix("Value error, ")
+    else:
+        shown = f"'{given}'" if isinstance(given, str) else f"{given}"
+        shown = "an empty value" if given is None else shown
+        if problem["type"] == "missing" and isinstance(problem["loc"][-1], int):
+            words = "this item of the list is missing, and is required"
+        said = words.format(given=shown, **problem.get("ctx", {}))
+    if isinstance(given, str) and DECIMAL_COMMA.fullmatch(given):
+        said += f"; numbers take a decimal point: {given.replace(',', '.')}"
+    return said
 
 
-EXPONENT = re.compile(r"[-+]?(\d+\.?\d*|\.\d+)[eE][-+]?\d+")
+DECIMAL_COMMA = re.compile(r"[-+]?\d+,\d+([eE][-+]?\d+)?")
 WORDS = {
     "missing": "this key is missing, and is required",
     "extra_forbidden": "this key is unknown",
@@ -81,8 +95,8 @@ WORDS = {
     "model_attributes_type": "{given} is not a mapping of keys",
     "dict_type": "{given} is not a mapping of keys",
     "tuple_type": "{given} is not a list",
-    "too_short": "a list of {actual_length} is too short; give at least {min_length}",
-    "too_long": "a list of {actual_length} is too long; give at most {max_length}",
+    "too_short": "with {actual_length} items this is too short; give at least {min_length}",
+    "too_long": "with {actual_length} items this is too long; give at most {max_length}",
     "literal_error": "{given} must be {expected}",
     "union_tag_invalid": "unknown {discriminator} '{tag}'; known: {expected_tags}",
     "union_tag_not_found": "{discriminator} is missing, and is required",

@@ -103,7 +103,7 @@ class Target:
             raise CostError(
                 f"window {start_s:g} to {end_s:g} s: {count} points lie inside; at least "
                 f"{_FEWEST_POINTS} must. The target runs from {self.time_s[0]:g} to "
-                f"{self.time_s[-1]:g} s."
+                f"{self.time_s[-1]:g} s. Move or widen the window."
             )
         spread = self.uncertainty
         return Target(

@@ -1,6 +1,7 @@
 """Checks of a measured series: order, signs, and values that only a wrong unit explains."""
 
 from collections.abc import Mapping
+from pathlib import Path
 
 import numpy as np
 import pandas as pd
@@ -10,6 +11,7 @@ from pyrofit.data.quantities import UNCERTAINTY_COLUMN, VALUE_COLUMN
 from pyrofit.errors import DataError
 
 _SIGN_RATIO = 3.0
+_TOO_LARGE = 1e30
 # Values outside betray a wrong unit, not a strange sample. A temperature must lie between the two
 # at all times, the others at their largest: a sample ends without mass and without loss of mass.
 _LIMITS = {
@@ -18,6 +20,16 @@ _LIMITS = {
     "mlr_kg_m2_s": (0.0, 2.0),
     "mass_fraction": (0.5, 1.5),
 }
+
+
+def check_finite(path: Path, frame: pd.DataFrame) -> None:
+    """Refuse numbers that are too large once they are in SI units."""
+    for column in frame:
+        if (bad := np.flatnonzero(~(np.abs(frame[column].to_numpy(float)) < _TOO_LARGE))).size:
+            raise DataError(
+                f"{path}, point {bad[0] + 1}: {column} is too large a number in SI units; "
+                "correct the file or the unit."
+            )
 
 
 def check_order(

@@ -18,6 +18,7 @@ FloatArray = npt.NDArray[np.float64]
 _DELIMITERS = "\t;,"
 _BRACKETED = re.compile(r"\[(.*)\]|\((.*)\)")
 _NAME_AND_UNIT = re.compile(r"(.+?)\s*(?:\[(.*)\]|\((.*)\))")
+_DECIMAL_COMMA = re.compile(r"[-+]?\d+,\d+([eE][-+]?\d+)?")
 _LISTED_FILES = 12
 
 
@@ -108,6 +109,8 @@ def _read_text(path: Path) -> str:
             f"{path}: the file cannot be read ({error.strerror}); "
             "check its permissions and its disk."
         ) from None
+    except ValueError:
+        raise DataError(f"{str(path)!r}: this is no name of a file; correct it.") from None
 
 
 def _near_files(path: Path) -> str:
@@ -124,7 +127,7 @@ def _near_files(path: Path) -> str:
 def _split(path: Path, text: str) -> list[_Line]:
     """Cut the text in lines and cells, without the blank lines around the header and at the end."""
     raw = re.split(r"\r\n|\n|\r", text)
-    header = next((line for line in raw if line.strip(_DELIMITERS + " ")), None)
+    header = next((line for line in raw if "".join(line.split()).strip(_DELIMITERS + '"')), None)
     if header is None:
         raise DataError(f"{path}: the file is empty; a header row and rows of numbers are needed.")
     delimiter = max(_DELIMITERS, key=header.count)
@@ -162,11 +165,13 @@ def _count_text_lines(path: Path, lines: Sequence[_Line]) -> int:
     if count > 2:
         raise DataError(
             f"{path}, line {lines[2].number}: given text {lines[2].cells}; above the numbers only "
-            "a row of names and a row of units may stand. Delete the other rows."
+            "a row of names and a row of units may stand. Delete the other rows; if they hold "
+            "numbers, set their cells apart by comma, semicolon or tab."
         )
     if count == len(lines):
         raise DataError(
-            f"{path}: the file holds a header and no numbers; rows of numbers must follow it."
+            f"{path}: the file holds a header and no numbers; rows of numbers must follow it, "
+            "their cells set apart by comma, semicolon or tab."
         )
     return count
 
@@ -245,7 +250,7 @@ def _trim_rows(path: Path, lines: Sequence[_Line], width: int) -> list[_Line]:
 def _ragged(path: Path, line: int, given: int, width: int) -> DataError:
     return DataError(
         f"{path}, line {line}: given {given} cells; the header names {width} columns, and each row "
-        "needs as many. Complete or delete the row (numbers take a decimal point, not a comma)."
+        "needs as many. Complete the row or delete it; for decimal commas, write points."
     )
 
 
@@ -260,6 +265,12 @@ def _parse_cell(path: Path, line: int, name: str, cell: str) -> float:
     if _is_number(cell) and math.isfinite(value := float(cell)):
         return value
     given = f"'{cell}'" if cell else "an empty cell"
+    if _DECIMAL_COMMA.fullmatch(cell):
+        raise DataError(
+            f"{path}, line {line}, column '{name}': given '{cell}', a number with a decimal comma; "
+            f"numbers take a decimal point, {cell.replace(',', '.')}. Save the file with points, "
+            "or replace the commas."
+        )
     raise DataError(
         f"{path}, line {line}, column '{name}': given {given}; each cell must be a finite number "
         "with a decimal point, and cells are set apart by comma, semicolon or tab. "

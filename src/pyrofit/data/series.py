@@ -8,7 +8,7 @@ from pathlib import Path
 import numpy as np
 import pandas as pd
 
-from pyrofit.data.checks import check_limits, check_order
+from pyrofit.data.checks import check_finite, check_limits, check_order
 from pyrofit.data.csvfile import FloatArray, Table, read_table
 from pyrofit.data.fetch import sha256
 from pyrofit.data.quantities import (
@@ -168,7 +168,10 @@ def read_series(spec: SeriesSpec) -> Measurement:
         )
     dummies = [name for name, column in table.columns.items() if not column.any()]
     headers = _assign_columns(spec, table, dummies)
-    frame, notes = _convert_columns(spec, table, headers)
+    # What overflows here is found there.
+    with np.errstate(over="ignore", invalid="ignore"):
+        frame, notes = _convert_columns(spec, table, headers)
+    check_finite(spec.path, frame)
     check_order(spec.quantity, table, headers, frame)
     check_limits(spec.quantity, table, headers, frame)
     if dummies:

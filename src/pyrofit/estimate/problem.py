@@ -1,7 +1,7 @@
 """The problem that every optimiser solves: parameter values in, cost out."""
 
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 import pandas as pd
@@ -76,6 +76,10 @@ class Problem:
             status = Status.NON_FINITE
         return Evaluation(FAILED_COST, (FAILED_COST,) * len(self.picks), status)
 
+    def refined(self) -> "Problem":
+        """Return the same problem with a quarter of the solver's error."""
+        return replace(self, accuracy=self.accuracy.refined())
+
     def residuals(self, x: FloatArray) -> FloatArray:
         """Return the residuals of the same cost for a least-squares optimiser."""
         status, models = self.simulate(x)
@@ -104,6 +108,20 @@ def target_of(frame: pd.DataFrame, signal: str) -> Target:
         frame[VALUE_COLUMN[signal]].to_numpy(float),
         frame[sigma].to_numpy(float) if sigma in frame else None,
     )
+
+
+def target_for(spec: TermSpec, measurements: Measurements) -> Target:
+    """Return the target of a term: its window of the measured series, resampled where wanted.
+
+    Raises
+    ------
+    CostError
+        The window holds too few points.
+    """
+    target = target_of(measurements[spec.experiment, spec.signal], spec.signal)
+    if spec.window_s is not None:
+        target = target.window(*spec.window_s)
+    return target.resampled(spec.points) if spec.points else target
 
 
 def request_for(
@@ -155,12 +173,7 @@ def make_problem(
     CostError
         A cost does not fit its target.
     """
-    targets = []
-    for spec in specs:
-        target = target_of(measurements[spec.experiment, spec.signal], spec.signal)
-        if spec.window_s is not None:
-            target = target.window(*spec.window_s)
-        targets.append(target.resampled(spec.points) if spec.points else target)
+    targets = [target_for(spec, measurements) for spec in specs]
     times: dict[tuple[str, str], FloatArray] = {}
     for spec, target in zip(specs, targets, strict=True):
         key = spec.experiment, spec.signal

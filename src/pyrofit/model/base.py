@@ -39,7 +39,9 @@ class Part(BaseModel):
         if isinstance(given, dict):
             for key in given:
                 if key not in cls.model_fields:
-                    raise ValueError(f"unknown key '{key}'. {suggest(str(key), cls.model_fields)}")
+                    comma = "" if isinstance(key, str) else " A decimal comma? Write a point."
+                    known = suggest(str(key), cls.model_fields)
+                    raise ValueError(f"unknown key '{key}'.{comma} {known}")
         return given
 
 
@@ -53,13 +55,18 @@ class Rule:
 
 POSITIVE = Rule(lambda x: x > 0.0, "must be above 0")
 NOT_NEGATIVE = Rule(lambda x: x >= 0.0, "must not be negative")
+WARM = Rule(
+    lambda x: x >= 150.0, "must be at least 150: temperatures are in K, and 20 °C is 293.15"
+)
+THIN = Rule(lambda x: x <= 0.5, "must be at most 0.5: thicknesses are in m, and 5 mm are 0.005")
 FRACTION = Rule(lambda x: 0.0 <= x <= 1.0, "must lie within 0 and 1")
 ANY = Rule(math.isfinite, "must be finite")
 
 
 def _number(given: Any) -> Any:
     if isinstance(given, bool) or not isinstance(given, int | float | str):
-        raise ValueError(f"{given!r} is neither a number nor the name of a parameter")
+        shown = "an empty value" if given is None else repr(given)
+        raise ValueError(f"{shown} is neither a number nor the name of a parameter")
     if isinstance(given, str):
         if not given.isidentifier():
             raise ValueError(f"'{given}' is neither a number nor the name of a parameter")
@@ -72,6 +79,8 @@ Number = Annotated[float | str, BeforeValidator(_number), ANY]
 Positive = Annotated[Number, POSITIVE]
 NotNegative = Annotated[Number, NOT_NEGATIVE]
 Fraction = Annotated[Number, FRACTION]
+Temperature = Annotated[Number, POSITIVE, WARM]
+Thickness = Annotated[Number, POSITIVE, THIN]
 
 
 def value_of(number: float | str, values: Mapping[str, float]) -> float:

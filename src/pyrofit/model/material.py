@@ -129,7 +129,9 @@ class Material(Part):
                         + suggest(used, self.components)
                     )
             if reaction.reactant in reaction.products:
-                raise ValueError(f"reaction '{name}' forms its own reactant '{reaction.reactant}'")
+                raise ValueError(
+                    f"reaction '{name}' forms its own reactant '{reaction.reactant}'; take it out"
+                )
         opaque = {c.absorption_1_m is None for c in self.components.values()}
         if len(opaque) == 2:
             raise ValueError("give absorption_1_m for every component or for none")
@@ -152,7 +154,9 @@ class Material(Part):
                 if not producers & set(waiting):
                     break
             else:
-                raise ValueError(f"the reactions of {', '.join(waiting)} form a cycle")
+                raise ValueError(
+                    f"the reactions of {', '.join(waiting)} form a cycle; take one out"
+                )
             waiting.remove(reactant)
             done += [n for n, r in self.reactions.items() if r.reactant == reactant]
         return tuple(done)

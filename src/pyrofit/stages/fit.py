@@ -7,20 +7,20 @@ from typing import Any
 import numpy as np
 import pandas as pd
 
-from pyrofit.config import Kinetics, Study, digest
+from pyrofit.config import Study, digest
 from pyrofit.constants import GAS_CONSTANT
-from pyrofit.errors import StudyError
+from pyrofit.errors import StudyError, suggest
 from pyrofit.estimate.least_squares import Start, descend, multistart
 from pyrofit.estimate.problem import Measurements, Problem, make_problem, program
 from pyrofit.estimate.sceua import Progress, best_of, convergence, search, seed_for
-from pyrofit.files import Results, read_csv, read_json, write_csv, write_json
+from pyrofit.files import Results, write_csv, write_json
 from pyrofit.model.experiment import Tga
 from pyrofit.model.material import Material
 from pyrofit.simulate import simulate_tga
 from pyrofit.solver.arrays import FloatArray, Status
 from pyrofit.solver.curves import Request
 from pyrofit.solver.lower import fractions, lower_network
-from pyrofit.stages import slices
+from pyrofit.stages import outcomes, slices
 from pyrofit.stages.measurements import load
 
 Values = Mapping[str, float]
@@ -55,7 +55,7 @@ def fit_kinetics(study: Study, results: Results) -> None:
 
     SCE-UA searches and least squares starts beside it; the lower cost of the two is the fit.
     """
-    stage = _kinetics_of(study)
+    stage = slices.kinetics_of(study)
     measurements = load(study, results)
     problem = make_problem(
         study, stage.estimate, stage.cost, measurements, study.material, study.fixed_values()
@@ -92,12 +92,6 @@ def fit_kinetics(study: Study, results: Results) -> None:
     _compare(study, results, measurements, fitted)
 
 
-def _kinetics_of(study: Study) -> Kinetics:
-    if study.kinetics is None:
-        raise StudyError(f"study '{study.name}' has no kinetics stage; add `kinetics:` to it")
-    return study.kinetics
-
-
 def _reactions(material: Material, values: Values) -> dict[str, dict[str, float]]:
     """Return A, E, n and the virgin mass fraction of the reactant, by reaction."""
     names = list(material.components)
@@ -116,7 +110,7 @@ def _reactions(material: Material, values: Values) -> dict[str, dict[str, float]
 
 def _compare(study: Study, results: Results, measurements: Measurements, fitted: Values) -> None:
     """Write curves and scores of the fit and the published kinetics, used and compared TGA."""
-    stage = _kinetics_of(study)
+    stage = slices.kinetics_of(study)
     used = {term.experiment for term in stage.cost}
     curves = []
     scores = []
@@ -163,15 +157,16 @@ def fixed_for_imp(study: Study, results: Results) -> dict[str, float]:
     """Return the values of all parameters that the inverse modelling does not estimate."""
     values = study.fixed_values()
     if study.imp.kinetics == "fitted":
-        values |= read_json(results.kinetics("fit.json"))["parameters"]
+        values |= outcomes.fitted_kinetics(study, results)
     return values
 
 
 def imp_problem(study: Study, results: Results, cost: str) -> Problem:
     """Return the inverse-modelling problem of one cost function."""
     if cost not in study.imp.costs:
-        known = ", ".join(study.imp.costs)
-        raise StudyError(f"study '{study.name}' has no cost '{cost}'; known: {known}")
+        raise StudyError(
+            f"study '{study.name}' has no cost '{cost}'. {suggest(cost, study.imp.costs)}"
+        )
     return make_problem(
         study,
         study.imp.estimate,
@@ -201,6 +196,7 @@ def repeat(study: Study, results: Results, cost: str, repetition: int) -> None:
             "seed": seed,
             "digest": digest(slices.imp(study, cost, "sceua")),
             "cost": best,
+            "cost_refined": problem.refined().evaluate(x).cost,
             "parameters": _named(problem, x),
             "calls": len(history),
             "failed_calls": int((history["status"] != Status.OK).sum()),
@@ -234,7 +230,7 @@ def collect(study: Study, results: Results) -> None:
     running = []
     for cost in study.imp.costs:
         for repetition in range(study.imp.repetitions):
-            found = read_json(results.repetition(cost, repetition, ".json"))
+            found = outcomes.repetition(study, results, cost, repetition)
             if found.pop("digest") != digest(slices.imp(study, cost, "sceua")):
                 raise StudyError(
                     f"{results.repetition(cost, repetition, '.json')}: this repetition belongs to "
@@ -242,7 +238,7 @@ def collect(study: Study, results: Results) -> None:
                 )
             parameters = found.pop("parameters")
             rows.append({**found, **parameters})
-            frame = read_csv(results.repetition(cost, repetition, "_convergence.csv"))
+            frame = outcomes.running_minimum(results, cost, repetition)
             running.append(frame.assign(cost_function=cost, repetition=repetition))
     write_csv(results.imp("summary.csv"), pd.DataFrame(rows))
     write_csv(results.imp("convergence.csv"), pd.concat(running, ignore_index=True))
@@ -250,7 +246,7 @@ def collect(study: Study, results: Results) -> None:
 
 def best_sets(study: Study, results: Results) -> dict[str, dict[str, float]]:
     """Return the best parameter set of each cost function, SI units."""
-    summary = read_csv(results.imp("summary.csv"))
+    summary = outcomes.summary(study, results)
     sets = {}
     for cost in study.imp.costs:
         group = summary[summary["cost_function"] == cost]

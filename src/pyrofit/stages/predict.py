@@ -6,11 +6,12 @@ import pandas as pd
 from pyrofit.config import Study
 from pyrofit.data.quantities import VALUE_COLUMN
 from pyrofit.errors import DataError
-from pyrofit.files import Results, read_json, write_csv
+from pyrofit.files import Results, write_csv
 from pyrofit.model.experiment import Gasification
-from pyrofit.simulate import simulate_gasification
+from pyrofit.simulate import simulate_gasification, solver_errors
 from pyrofit.solver.arrays import FloatArray
 from pyrofit.solver.curves import Request
+from pyrofit.stages import outcomes
 from pyrofit.stages.fit import best_sets, fixed_for_imp
 from pyrofit.stages.measurements import load
 
@@ -22,7 +23,7 @@ def sets_of(study: Study, results: Results) -> dict[str, dict[str, float]]:
     """Return the sets to predict: the best of each cost, published ones, least squares' ones."""
     sets = dict(best_sets(study, results))
     for cost in study.imp.costs:
-        start = read_json(results.least_squares(cost))["starts"][0]
+        start = outcomes.starts(study, results, cost)[0]
         sets[f"{cost} {LEAST_SQUARES}"] = start["parameters"]
     if study.published is not None:
         for cost, table in study.published.costs.items():
@@ -37,7 +38,8 @@ def predict(study: Study, results: Results) -> None:
     """Simulate every set at every experiment to predict; write ``curves.csv``, ``scores.csv``.
 
     Curves are given at the measured times, as averages over the bins of the measurement; the score
-    is the CV(RMSE) of mass loss rates, and the RMSE in K of temperatures.
+    is the CV(RMSE) of mass loss rates, and the RMSE in K of temperatures. Beside it stands the
+    solver's own error, estimated by refinement.
     """
     fixed = fixed_for_imp(study, results)
     material = study.material_with(study.imp.kinetics)
@@ -52,19 +54,21 @@ def predict(study: Study, results: Results) -> None:
             for q, s in experiment.signals.items()
         }
         for label, values in sets_of(study, results).items():
-            run = simulate_gasification(
-                experiment, material, {**fixed, **values}, requests, study.accuracy
-            )
+            described = experiment, material, {**fixed, **values}, requests, study.accuracy
+            run = simulate_gasification(*described)
             if not run.status.finished:
                 raise DataError(
                     f"{name}: the best set of {label} cannot be predicted: "
                     f"{run.status.explanation}; check the limits of the parameters"
                 )
+            errors = solver_errors(*described)
             for quantity, request in requests.items():
                 measured = measurements[name, quantity][VALUE_COLUMN[quantity]].to_numpy(float)
                 simulated = run.signals[quantity]
                 curves.append(_curve(name, quantity, label, request.time_s, simulated, measured))
-                scores.append(_score(name, quantity, label, simulated, measured))
+                score = _score(quantity, simulated, measured, errors[quantity])
+                about = {"experiment": name, "signal": quantity, "set": label}
+                scores.append({**about, **score})
     write_csv(results.validation("curves.csv"), pd.concat(curves, ignore_index=True))
     write_csv(results.validation("scores.csv"), pd.DataFrame(scores))
 
@@ -85,15 +89,15 @@ def _curve(
 
 
 def _score(
-    name: str, quantity: str, label: str, value: FloatArray, measured: FloatArray
+    quantity: str, value: FloatArray, measured: FloatArray, solver_rmse: float
 ) -> dict[str, object]:
     rmse = float(np.sqrt(np.mean((value - measured) ** 2)))
+    mean = abs(float(np.mean(measured))) if quantity == "mlr" else np.nan
     return {
-        "experiment": name,
-        "signal": quantity,
-        "set": label,
         "points": measured.size,
         "rmse_si": rmse,
-        "cv_rmse": rmse / abs(float(np.mean(measured))) if quantity == "mlr" else np.nan,
+        "cv_rmse": rmse / mean,
+        "solver_rmse_si": solver_rmse,
+        "solver_cv_rmse": solver_rmse / mean,
         "largest_simulated_si": float(np.max(value)),
     }

@@ -2,8 +2,9 @@
 
 from typing import Any
 
-from pyrofit.config import Study, parameters_in
+from pyrofit.config import Kinetics, Study, parameters_in
 from pyrofit.config.uses import names_in
+from pyrofit.errors import StudyError
 from pyrofit.model.experiment import Gasification, Tga
 
 
@@ -35,10 +36,22 @@ def data(study: Study) -> dict[str, Any]:
     }
 
 
+def kinetics_of(study: Study) -> Kinetics:
+    """Return the kinetics stage.
+
+    Raises
+    ------
+    StudyError
+        The study has none.
+    """
+    if study.kinetics is None:
+        raise StudyError(f"study '{study.name}' has no kinetics stage; add `kinetics:` to it")
+    return study.kinetics
+
+
 def kinetics(study: Study) -> dict[str, Any]:
     """Everything of the TGA fit."""
-    stage = study.kinetics
-    assert stage is not None
+    stage = kinetics_of(study)
     names = parameters_in(study.material, *study.kinds(Tga).values())
     composed = {n for chosen in stage.sets.values() for n in names_in(chosen.composition)}
     used = {term.experiment for term in stage.cost} | set(stage.compare)
@@ -72,6 +85,25 @@ def imp(study: Study, cost: str, optimiser: str) -> dict[str, Any]:
         "budget": getattr(stage, optimiser).model_dump(),
         "accuracy": study.accuracy.model_dump(),
         "seed": study.seed,
+    }
+
+
+def identify(study: Study) -> dict[str, Any]:
+    """Channels, parameters and material of the analysis of what the data determine."""
+    stage = study.imp
+    channels = stage.channels
+    used = sorted({c.experiment for c in channels})
+    material = study.material_with(stage.kinetics)
+    names = parameters_in(material, *(study.experiments[n] for n in used))
+    return {
+        "channels": [c.model_dump() for c in channels],
+        "experiments": {n: _experiment(study, n) for n in used},
+        "material": material.model_dump(),
+        "parameters": _parameters(study, names | set(stage.estimate)),
+        "estimate": stage.estimate,
+        "kinetics": stage.kinetics,
+        "costs": list(stage.costs),
+        "accuracy": study.accuracy.model_dump(),
     }
 
 

@@ -1,0 +1,137 @@
+"""What must hold for the numbers of a study: signs, limits, units, and that each is used."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from typing import TYPE_CHECKING
+
+from pyrofit.config.uses import names_in, parameters_in
+from pyrofit.errors import suggest
+from pyrofit.model.base import Rule, numbers
+
+if TYPE_CHECKING:
+    from pyrofit.config.study import Study
+
+# By the end of a key, longest first where one end is that of another.
+_UNITS: dict[str, tuple[str, ...]] = {
+    "_kg_m3": ("kg/m3",),
+    "_W_mK": ("W/(m K)",),
+    "_J_kgK": ("J/(kg K)", "kJ/(kg K)"),
+    "_J_kg": ("J/kg", "kJ/kg"),
+    "_J_mol": ("J/mol", "kJ/mol", "kJ/kmol"),
+    "_W_m2K43": ("W/(m2 K^(4/3))",),
+    "_W_m2K": ("W/(m2 K)",),
+    "_W_m2": ("W/m2", "kW/m2"),
+    "_1_K": ("1/K",),
+    "_1_s": ("1/s",),
+    "_1_m": ("1/m",),
+    "_K": ("K",),
+    "_m": ("m", "mm"),
+    "emissivity_depth": ("m", "mm"),
+    "": ("-",),
+}
+_SHARES = ("products", "composition")
+
+
+def require(ok: bool, place: str, message: str) -> None:
+    """Raise ValueError with the place unless something holds."""
+    if not ok:
+        raise ValueError(f"{place}: {message}")
+
+
+def check_numbers(study: Study) -> None:
+    """Check every number of material and experiments, and every parameter that stands for one.
+
+    Raises
+    ------
+    ValueError
+        A number, or a value or limit of the parameter in its place, breaks the rule of the place;
+        the parameter is unknown; or its unit is that of another quantity.
+    """
+    described = {
+        "material": study.material,
+        **{f"experiments.{n}": e for n, e in study.experiments.items()},
+    }
+    for root, part in described.items():
+        for place, value, rules in numbers(part, root):
+            if isinstance(value, str):
+                check_parameter(study, value, rules, place)
+                continue
+            for rule in rules:
+                require(rule.holds(value), place, f"{value:g} {rule.text}")
+
+
+def check_parameter(study: Study, name: str, rules: Sequence[Rule], place: str) -> None:
+    """Check what stands for a number: that there is one, its value and limits, its unit.
+
+    Raises
+    ------
+    ValueError
+        With place, rule and way out.
+    """
+    require(
+        name in study.parameters,
+        place,
+        f"unknown parameter '{name}'. {suggest(name, study.parameters)}",
+    )
+    p = study.parameters[name]
+    given = {f"parameters.{name}.{key}": getattr(p, key) for key in ("value", "lower", "upper")}
+    if study.synthetic is not None:
+        given[f"synthetic.truth.{name}"] = study.synthetic.truth.get(name)
+    for where, number in given.items():
+        for rule in rules:
+            require(
+                number is None or rule.holds(number * p.factor),
+                where,
+                f"{number} {rule.text} (it is used as {place})",
+            )
+    fitting = units_of(place)
+    require(
+        p.unit in fitting,
+        f"parameters.{name}.unit",
+        f"'{p.unit}' is no unit of {place}, where it is used; give {' or '.join(fitting)}",
+    )
+
+
+def units_of(place: str) -> tuple[str, ...]:
+    """Return the units that fit the number at a place of the description.
+
+    >>> units_of("material.components.wood.conductivity_W_mK.value")
+    ('W/(m K)',)
+    """
+    keys = [key for key in place.split(".") if not key.isdigit() and key != "value"]
+    if keys[-1] in _SHARES or keys[-2] in _SHARES:
+        return _UNITS[""]
+    return next(units for end, units in _UNITS.items() if keys[-1].endswith(end))
+
+
+def check_parameters(study: Study) -> None:
+    """Refuse values and truths outside their limits, and parameters that nothing uses.
+
+    Raises
+    ------
+    ValueError
+        With place, rule and way out.
+    """
+    sets = study.kinetics.sets.values() if study.kinetics else ()
+    used = parameters_in(study.material, *study.experiments.values())
+    used |= {name for chosen in sets for name in names_in(chosen.composition)}
+    truth = study.synthetic.truth if study.synthetic else {}
+    for name, p in study.parameters.items():
+        require(
+            name in used,
+            f"parameters.{name}",
+            "nothing uses it; put its name where its number belongs, or delete it",
+        )
+        if p.lower is None or p.upper is None:
+            continue
+        for place, value in (
+            (f"parameters.{name}.value", p.value),
+            (f"synthetic.truth.{name}", truth.get(name)),
+        ):
+            require(
+                value is None or p.lower <= value <= p.upper,
+                place,
+                f"{value} lies outside the limits {p.lower:g} to {p.upper:g}; "
+                "correct it or widen them",
+            )

@@ -1,0 +1,151 @@
+"""Results as the steps leave them: what each file must hold where it is read again."""
+
+from collections.abc import Sequence
+from typing import Any
+
+import pandas as pd
+
+from pyrofit.config import Study
+from pyrofit.data.quantities import VALUE_COLUMN
+from pyrofit.files import EACH, Keys, Results, read_csv, read_json
+
+_SETS_OF_KINETICS = ("A_1_s", "E_J_mol", "order", "mass_fraction")
+
+
+def series(results: Results, experiment: str, signal: str) -> pd.DataFrame:
+    """Return a measured series in SI units."""
+    columns = {"time_s": float, VALUE_COLUMN[signal]: float}
+    if signal == "mass_fraction":
+        columns["temperature_K"] = float
+    return read_csv(results.measurement(experiment, signal), columns)
+
+
+def measured(study: Study, results: Results) -> dict[str, Any]:
+    """Return what was read, by experiment and signal."""
+    needs: dict[Keys, type] = {}
+    for name, experiment in study.experiments.items():
+        for signal in experiment.signals:
+            here = ("signals", name, signal)
+            needs |= {(*here, "source"): str, (*here, "sha256"): str, (*here, "points"): float}
+            if signal == "mlr":
+                needs[*here, "released_kg_m2"] = float
+    return read_json(results.measurements_summary, needs)
+
+
+def fitted_kinetics(study: Study, results: Results) -> dict[str, float]:
+    """Return the parameters fitted to TGA, SI units."""
+    names = study.kinetics.estimate if study.kinetics else ()
+    found = read_json(results.kinetics("fit.json"), {("parameters", n): float for n in names})
+    parameters: dict[str, float] = found["parameters"]
+    return parameters
+
+
+def kinetic_sets(study: Study, results: Results) -> dict[str, Any]:
+    """Return the fit to TGA: ``cost``, and A, E, n and mass fraction by set and reaction."""
+    needs: dict[Keys, type] = {("cost",): float}
+    for label in _sets(study):
+        for reaction in study.material.reactions:
+            needs |= {("sets", label, reaction, key): float for key in _SETS_OF_KINETICS}
+    return read_json(results.kinetics("fit.json"), needs)
+
+
+def kinetic_curves(study: Study, results: Results, experiments: Sequence[str]) -> pd.DataFrame:
+    """Return the curves of every set at the TGA experiments."""
+    return read_csv(
+        results.kinetics("curves.csv"),
+        {"temperature_K": float, "mass_fraction": float, "experiment": object, "set": object},
+        {("experiment", "set"): [(name, label) for name in experiments for label in _sets(study)]},
+    )
+
+
+def kinetic_scores(study: Study, results: Results, experiments: Sequence[str]) -> pd.DataFrame:
+    """Return the scores of every set at the TGA experiments."""
+    return read_csv(
+        results.kinetics("scores.csv"),
+        {"rmse_mass_fraction": float, "experiment": object, "set": object},
+        {("experiment", "set"): [(name, label) for name in experiments for label in _sets(study)]},
+    )
+
+
+def _sets(study: Study) -> list[str]:
+    return ["fitted", *(study.kinetics.sets if study.kinetics else ())]
+
+
+def repetition(study: Study, results: Results, cost: str, number: int) -> dict[str, Any]:
+    """Return the result of one repetition."""
+    needs: dict[Keys, type] = {("digest",): str, ("cost",): float, ("cost_refined",): float}
+    needs |= {("parameters", name): float for name in study.imp.estimate}
+    return read_json(results.repetition(cost, number, ".json"), needs)
+
+
+def running_minimum(results: Results, cost: str, number: int) -> pd.DataFrame:
+    """Return how the lowest cost of one repetition fell."""
+    path = results.repetition(cost, number, "_convergence.csv")
+    return read_csv(path, dict.fromkeys(("generation", "calls", "best_cost"), float))
+
+
+def summary(study: Study, results: Results) -> pd.DataFrame:
+    """Return the best set of every repetition."""
+    numbers = ("cost", "cost_refined", "calls", "failed_calls", *study.imp.estimate)
+    return read_csv(
+        results.imp("summary.csv"),
+        {"cost_function": object, **dict.fromkeys(numbers, float)},
+        {("cost_function",): [(cost,) for cost in study.imp.costs]},
+    )
+
+
+def running_minima(study: Study, results: Results) -> pd.DataFrame:
+    """Return how the lowest cost of every repetition fell."""
+    numbers = ("repetition", "generation", "calls", "best_cost")
+    return read_csv(
+        results.imp("convergence.csv"),
+        {"cost_function": object, **dict.fromkeys(numbers, float)},
+        {("cost_function",): [(cost,) for cost in study.imp.costs]},
+    )
+
+
+def starts(study: Study, results: Results, cost: str) -> list[dict[str, Any]]:
+    """Return what least squares found from every start, best first."""
+    here = ("starts", EACH)
+    needs: dict[Keys, type] = {(*here, "cost"): float, (*here, "calls"): float}
+    needs[*here, "at_bound"] = list
+    needs |= {(*here, "parameters", name): float for name in study.imp.estimate}
+    found: list[dict[str, Any]] = read_json(results.least_squares(cost), needs)["starts"]
+    return found
+
+
+def end_of_descent(results: Results, cost: str) -> dict[str, Any]:
+    """Return where least squares got to from SCE-UA's best set."""
+    found: dict[str, Any] = read_json(results.descent(cost), {("end", "cost"): float})["end"]
+    return found
+
+
+def predicted_curves(study: Study, results: Results, labels: Sequence[str]) -> pd.DataFrame:
+    """Return the curves of the labelled sets at the predicted experiments."""
+    return read_csv(
+        results.validation("curves.csv"),
+        dict.fromkeys(("time_s", "simulated", "measured"), float),
+        _predicted(study, labels),
+    )
+
+
+def predicted_scores(study: Study, results: Results, labels: Sequence[str]) -> pd.DataFrame:
+    """Return the scores of the labelled sets at the predicted experiments."""
+    return read_csv(
+        results.validation("scores.csv"),
+        {
+            **dict.fromkeys(("points", "rmse_si", "solver_rmse_si"), float),
+            **dict.fromkeys(("cv_rmse", "solver_cv_rmse"), object),
+        },
+        _predicted(study, labels),
+    )
+
+
+def _predicted(study: Study, labels: Sequence[str]) -> dict[Keys, list[Keys]]:
+    rows: list[Keys] = [
+        (name, signal, label)
+        for name in study.validation.experiments
+        for signal in study.experiments[name].signals
+        for label in labels
+    ]
+    return {("experiment", "signal", "set"): rows}

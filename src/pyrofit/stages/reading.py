@@ -1,0 +1,162 @@
+"""Measured files: whether they are there, what they hold, and whether the costs fit them."""
+
+from collections.abc import Iterator, Mapping
+from pathlib import Path
+from typing import Any
+
+import pandas as pd
+
+from pyrofit.config import Study, TermSpec
+from pyrofit.cost import make_term
+from pyrofit.data.fetch import FOLDER_VARIABLE, locate, store
+from pyrofit.data.series import Measurement, SeriesSpec, read_series
+from pyrofit.errors import CostError, DataError
+from pyrofit.estimate.problem import Measurements, target_for
+from pyrofit.model.experiment import Signal
+
+SYNTHETIC = "synthetic"
+MACFP = "macfp:"
+
+Read = tuple[pd.DataFrame, dict[str, Any]]
+"""A series in SI units, and what is to be said about it."""
+
+
+def check_measurements(study: Study, source: str, macfp: bool = True) -> int:
+    """Read the measured files and try the costs on them; return the number of series.
+
+    The workflow does so before it plans anything, as a step that fails loses what it made before;
+    without the files of the MaCFP data base, whose checksums are known.
+
+    Raises
+    ------
+    DataError
+        A file is missing or breaks a rule.
+    CostError
+        A cost cannot be computed from its series.
+
+    Both name ``source``, the study's file.
+    """
+    try:
+        series = read_all(study, macfp)
+        check_terms(study, {key: frame for key, (frame, _) in series.items()})
+    except (CostError, DataError) as error:
+        raise type(error)(f"{source}: {error}") from None
+    return len(series)
+
+
+def read_all(study: Study, macfp: bool = True) -> dict[tuple[str, str], Read]:
+    """Read every measured series, those that are computed excepted.
+
+    Raises
+    ------
+    DataError
+        With key, file, row and rule, for every file that is missing or breaks a rule.
+    """
+    series = {}
+    wrong = _missing(study) if macfp else []
+    # One line says it of all files of the data base.
+    macfp = macfp and not wrong
+    for name, quantity, signal in _signals(study):
+        if signal.file.startswith(MACFP) and not macfp:
+            continue
+        try:
+            series[name, quantity] = _read(quantity, signal)
+        except DataError as error:
+            # One file may serve several experiments.
+            if not any(line.endswith(str(error)) for line in wrong):
+                wrong.append(f"{_place(name, quantity)}: {error}")
+    if len(wrong) == 1:
+        raise DataError(wrong[0])
+    if wrong:
+        text = "".join(f"\n  {line}" for line in wrong)
+        raise DataError(f"{len(wrong)} measured files cannot be used:{text}")
+    return series
+
+
+def check_terms(study: Study, measurements: Measurements) -> None:
+    """Check that every cost can be computed from the series that are given.
+
+    Raises
+    ------
+    CostError
+        With the place of the term: its window holds too few points, or its cost does not fit.
+    """
+    terms: dict[str, tuple[TermSpec, ...]] = {
+        f"imp.costs.{cost}": terms for cost, terms in study.imp.costs.items()
+    }
+    if study.kinetics is not None:
+        terms["kinetics.cost"] = study.kinetics.cost
+    for place, specs in terms.items():
+        for i, spec in enumerate(specs):
+            if (spec.experiment, spec.signal) in measurements:
+                _check_term(f"{place}.{i}", spec, measurements)
+
+
+def _check_term(place: str, spec: TermSpec, measurements: Measurements) -> None:
+    try:
+        make_term(spec.kind, target_for(spec, measurements), **spec.all_options())
+    except CostError as error:
+        raise CostError(f"{place}, on {_place(spec.experiment, spec.signal)}: {error}") from None
+
+
+def _place(experiment: str, quantity: str) -> str:
+    return f"experiments.{experiment}.signals.{quantity}"
+
+
+def _signals(study: Study) -> Iterator[tuple[str, str, Signal]]:
+    """Yield experiment, quantity and description of each signal that is read from a file."""
+    for name, experiment in study.experiments.items():
+        signals: Mapping[str, Signal] = experiment.signals
+        for quantity, signal in signals.items():
+            if signal.file != SYNTHETIC:
+                yield name, quantity, signal
+
+
+def _missing(study: Study) -> list[str]:
+    """Say in one line that several files of the MaCFP data base are not there."""
+    needed = {
+        signal.file.removeprefix(MACFP): _place(name, quantity)
+        for name, quantity, signal in _signals(study)
+        if signal.file.startswith(MACFP)
+    }
+    folder = store() if needed else Path()
+    absent = [name for name in needed if not (folder / name).is_file()]
+    if len(absent) < 2:
+        return []
+    return [
+        f"{needed[absent[0]]}: {folder / absent[0]} and {len(absent) - 1} more files of the MaCFP "
+        f"data base are not there; get them with `make data`, or set {FOLDER_VARIABLE} to a copy"
+    ]
+
+
+def _read(quantity: str, signal: Signal) -> Read:
+    found: Measurement = read_series(
+        SeriesSpec(
+            quantity=quantity,
+            path=_locate(signal.file),
+            columns=signal.columns,
+            units=signal.units,
+            uncertainty=signal.uncertainty,
+            uncertainty_meaning=signal.uncertainty_meaning,
+            sample_mass_kg=signal.sample_mass_kg,
+            sample_area_m2=signal.sample_area_m2,
+        )
+    )
+    frame = found.frame
+    if signal.until_K is not None:
+        frame = frame[frame["temperature_K"] <= signal.until_K]
+    if signal.until_s is not None:
+        frame = frame[frame["time_s"] <= signal.until_s]
+    if len(frame) < 3:
+        raise DataError(f"{found.source}: until_K or until_s leaves {len(frame)} points; raise it")
+    about = {
+        "source": signal.file,
+        "sha256": found.sha256,
+        "uncertainty": found.uncertainty_meaning,
+        "notes": list(found.notes),
+    }
+    return frame, about
+
+
+def _locate(file: str) -> Path:
+    return locate(file.removeprefix(MACFP)) if file.startswith(MACFP) else Path(file)
