@@ -4,7 +4,8 @@ The error of the mass loss rate at default settings, against a solution of our o
 the cells and a twentieth of the tolerance, in bins of at most 5 s: for the published set at 10 to
 100 kW/m² and 1 to 25 mm, and for random sets of Table 6 at random fluxes and thicknesses. Where the
 residue absorbs several times better than the virgin material, the surface heats itself up, and
-small errors grow; every run of a study states its own error, estimated by refinement.
+small errors grow. Errors below 5e-6 kg/(m² s), a hundredth of the noise of a measurement, count as
+none for random sets. Every run of a study states its own error, estimated by refinement.
 """
 
 import functools
@@ -84,10 +85,10 @@ def relevant(runs: tuple[Run, ...]) -> Curve:
 
 @pytest.mark.parametrize("flux", [10, 25, 40, 60, 100])
 def test_default_settings_hold_from_1_to_25_mm(evidence: Evidence, flux: int) -> None:
-    runs = tuple(measure(flux, thickness, BEST) for thickness in (1.0, 3.0, 5.8, 12.0, 25.0))
+    runs = [measure(flux, thickness, BEST) for thickness in (1.0, 3.0, 5.8, 12.0, 25.0)]
     evidence.number(
         f"published set, {flux} kW/m², 1 to 25 mm: largest error",
-        float(relevant(runs).max()),
+        max(run.relative for run in runs),
         2e-3,
         "rms error / mean",
         "own solution on a finer grid",
