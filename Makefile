@@ -7,7 +7,7 @@ CORES ?= 2
 VENV := .venv
 export PATH := $(CURDIR)/$(VENV)/bin:$(PATH)
 
-.PHONY: campaign test data lint bench format lock clean
+.PHONY: campaign test verification data lint bench format lock clean
 
 $(VENV)/installed: requirements.lock pyproject.toml
 	@echo "Setting up the environment in $(VENV) (about a minute)"
@@ -26,14 +26,19 @@ campaign: $(VENV)/installed
 		elif [ -n "$$PYROFIT_DATA_DIR" ]; then \
 			echo "$$reason"; echo "Correct PYROFIT_DATA_DIR, or unset it for synthetic data."; exit 2; \
 		else \
-			study=config/smoke.yaml; echo "Study: smoke, on synthetic data, because the measured files are not here"; \
-			echo "($$reason)"; \
+			study=config/twin.yaml; \
+			echo "Study: twin, on synthetic data of known truth, because the measured files are not here:"; \
+			echo "  $${reason#error: }."; \
+			echo "Then make campaign runs the published study."; \
 		fi; \
 	fi; \
-	snakemake --cores $(CORES) --configfile "$$study"
+	pyrofit check "$$study" && snakemake --cores $(CORES) --configfile "$$study"
 
 test: $(VENV)/installed
 	pytest
+
+verification: $(VENV)/installed
+	pytest tests/verification --page docs/verification
 
 data: $(VENV)/installed
 	pyrofit data fetch

@@ -4,20 +4,21 @@ import json
 import os
 from pathlib import Path
 
-from snakemake.utils import min_version
+from snakemake.utils import min_version, update_config
 
-from pyrofit.config import as_study, digest
+from pyrofit.config import as_study, digest, read_mapping
 from pyrofit.errors import PyrofitError
 from pyrofit.files import Results, write_text
 from pyrofit.figures import FIGURES
 from pyrofit.provenance import source_fingerprint
 from pyrofit.stages import slices
+from pyrofit.stages.reading import check_measurements
 from pyrofit.tables import TABLES
 
 min_version("9.27")
 
 # A given --configfile replaces the default study; Snakemake alone would merge the two.
-DEFAULT_STUDY = "config/smoke.yaml"
+DEFAULT_STUDY = "config/twin.yaml"
 if not workflow.configfiles:
 
     configfile: DEFAULT_STUDY
@@ -25,7 +26,13 @@ if not workflow.configfiles:
 
 SOURCE = os.path.relpath(workflow.configfiles[0])
 try:
-    study = as_study(config, SOURCE)
+    # Not Snakemake's `config`: to that, a key may stand twice, and 1e-3 is text.
+    given = {}
+    for path in workflow.configfiles:
+        update_config(given, read_mapping(Path(os.path.relpath(path))))
+    update_config(given, workflow.config_settings.config)
+    study = as_study(given, SOURCE)
+    check_measurements(study, SOURCE, macfp=False)
     ROOT = Path("results") / study.name
     # The study as checked and completed, with what --config changed: every step reads this file,
     # and verifies by digest that its part of it is what the rule was planned with.
@@ -64,6 +71,7 @@ localrules:
 include: "workflow/rules/data.smk"
 include: "workflow/rules/kinetics.smk"
 include: "workflow/rules/imp.smk"
+include: "workflow/rules/identify.smk"
 include: "workflow/rules/validation.smk"
 include: "workflow/rules/report.smk"
 

@@ -1,4 +1,4 @@
-"""A known truth is found again from noise-free data of a finer grid."""
+"""A known truth is found again from noise-free data of an independent solver."""
 
 from pathlib import Path
 from typing import Any
@@ -19,7 +19,7 @@ KINETICS = {"T_p": 605.0, "E_p": 190e3}
 
 
 def study() -> Study:
-    """Return the smoke study without noise, fitted on 25 cells to curves of 200."""
+    """Return the smoke study without noise, fitted on 25 cells to the reference solver."""
     given = yaml.safe_load(SMOKE.read_text(encoding="utf-8"))
     for experiment in given["experiments"].values():
         for signal in experiment["signals"].values():

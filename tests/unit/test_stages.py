@@ -26,7 +26,7 @@ def given(**changes: Any) -> dict[str, Any]:
     study["accuracy"] = {"cells": 10}
     for name in ("slab_25", "slab_60"):
         study["experiments"][name]["duration_s"] = 300
-    study["synthetic"]["accuracy"] = {"cells": 12}
+    study["synthetic"]["accuracy"] = {"elements": 40, "tolerance": 1e-4}
     for stage in ("kinetics", "imp"):
         study[stage] |= {"sceua": dict(SMALL), "least_squares": {"starts": 1}}
     for place, value in changes.items():
@@ -79,6 +79,7 @@ def by_hand(study: Study, results: Results) -> None:
                     "seed": 1,
                     "digest": digest(slices.imp(study, cost, "sceua")),
                     "cost": value,
+                    "cost_refined": value,
                     "parameters": parameters(cost, repetition),
                     "calls": 22,
                     "failed_calls": 0,
@@ -144,9 +145,31 @@ def test_synthetic_tga_runs_between_its_temperatures(results: Results) -> None:
 
 
 def test_synthetic_measurement_that_cannot_be_simulated_is_told() -> None:
-    study = study_with(synthetic__accuracy={"cells": 12, "most_steps": 100})
-    with pytest.raises(DataError, match=r"synthetic measurement failed: .*change synthetic.truth"):
+    study = study_with(synthetic__accuracy={"elements": 40, "most_steps": 100})
+    said = r"experiments.slab_25: synthetic measurement failed: .*; change synthetic.truth or"
+    with pytest.raises(DataError, match=said):
         measurements.computed(study)
+
+
+def test_synthetic_noise_has_the_autocorrelation_asked_for() -> None:
+    kinds: dict[str, Any] = {
+        "none": 0.0,
+        "balance": {"sd": 1.0, "autocorrelation": [-0.25, -0.2]},
+        "slow": {"sd": 1.0, "ar": 0.9},
+    }
+    found = {}
+    for kind, noise in kinds.items():
+        study = given(experiments__slab_25__duration_s=2000)
+        mlr = {"file": "synthetic", "every": 1, "noise": noise}
+        study["experiments"]["slab_25"]["signals"] = {"mlr": mlr}
+        series = measurements.computed(as_study(study, "smoke.yaml"))
+        found[kind] = series["slab_25", "mlr"]["mlr_kg_m2_s"].to_numpy()
+    for kind, expected in {"balance": [-0.25, -0.2, 0.0], "slow": [0.9, 0.81, 0.729]}.items():
+        e = found[kind] - found["none"]
+        r = [float(np.corrcoef(e[:-k], e[k:])[0, 1]) for k in (1, 2, 3)]
+        # 2000 points; the slow noise varies over 10 of them.
+        assert r == pytest.approx(expected, abs=0.06), kind
+        assert np.std(e) == pytest.approx(1.0, rel=0.1)
 
 
 def test_summary_says_what_was_read(results: Results) -> None:
@@ -175,7 +198,9 @@ def on_files(folder: Path, **signal: Any) -> Study:
     tga = {"file": "data/run.csv", "columns": names, "uncertainty": 0.01, **signal}
     study["experiments"]["tga_5K"]["signals"]["mass_fraction"] = tga
     for name in ("slab_25", "slab_60"):
-        study["experiments"][name]["signals"] = {"mlr": {"file": "data/mlr.csv"}}
+        study["experiments"][name]["signals"] = {
+            "mlr": {"file": "data/mlr.csv", "uncertainty": 1e-4}
+        }
     return as_study(study, str(folder / "mine.yaml"))
 
 
@@ -237,7 +262,7 @@ def test_closure_with_unknown_density_gives_the_density_it_would_take(tmp_path: 
 
 def test_closure_with_given_sample_mass_says_the_share(tmp_path: Path) -> None:
     study = on_files(tmp_path)
-    weighed = {"file": "data/mlr.csv", "sample_mass_kg": 0.0005, "sample_area_m2": 0.005}
+    weighed = {"uncertainty": 1e-4, "sample_mass_kg": 0.0005, "sample_area_m2": 0.005}
     described = json.loads(study.model_dump_json())
     described["experiments"]["slab_25"]["signals"]["mlr"] |= {
         **weighed,
@@ -251,6 +276,7 @@ def test_closure_with_known_density_takes_the_described_mass(tmp_path: Path) -> 
     described = json.loads(on_files(tmp_path).model_dump_json())
     described["material"]["components"]["polymer"]["density_kg_m3"] = 1000.0
     described["imp"]["estimate"].remove("rho")
+    del described["parameters"]["rho"], described["synthetic"]["truth"]["rho"]
     lines = measurements.prepare(as_study(described, "study.json"), Results(tmp_path / "results"))
     assert lines[0] == "slab_25: released 0.060 of 4.000 kg/m2 (1.5 %)"
 

@@ -16,6 +16,7 @@ from pyrofit.config import as_study
 PREPARE = "Measured series into tidy tables, mass closure checked"
 KINETICS = "Kinetics fitted to TGA"
 COLLECT = "All repetitions gathered"
+IDENTIFY = "What the data determine"
 PREDICT = "Best sets simulated at slab_60 slab_80"
 SQUARES = {f"Multistart least squares, {cost}" for cost in COSTS}
 DESCENTS = {f"Least squares from SCE-UA's best set, {cost}" for cost in COSTS}
@@ -27,7 +28,7 @@ def sceua(*repetitions: int, costs: tuple[str, ...] = COSTS) -> set[str]:
 
 
 SEARCHES = sceua(0, 1)
-GATHERED = {COLLECT, PREDICT} | DESCENTS
+GATHERED = {COLLECT, PREDICT, IDENTIFY} | DESCENTS
 EVERYTHING = {PREPARE, KINETICS} | GATHERED | SEARCHES | SQUARES
 
 

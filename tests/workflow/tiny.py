@@ -73,7 +73,7 @@ TINY: dict[str, Any] = {
     "accuracy": {"cells": 10},
     "synthetic": {
         "truth": {"T_p": 605, "E_p": 190, "rho": 1190, "k": 0.2},
-        "accuracy": {"cells": 20},
+        "accuracy": {"elements": 40, "tolerance": 1e-4},
     },
     "kinetics": {
         "estimate": ["T_p", "E_p"],

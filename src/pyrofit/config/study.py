@@ -12,6 +12,7 @@ from pyrofit.model.experiment import AnyExperiment, Gasification, Tga
 from pyrofit.model.material import Material
 from pyrofit.model.parameters import Parameter
 from pyrofit.simulate import Accuracy
+from pyrofit.solver.reference.resolution import Resolution
 
 Name = Annotated[str, Field(pattern=r"^[A-Za-z][A-Za-z0-9_]*$")]
 
@@ -112,6 +113,36 @@ class Imp(Part):
     repetitions: int = Field(25, ge=1, description="repetitions per cost")
     sceua: Sceua = Field(default_factory=Sceua, description="budget of SCE-UA")
     least_squares: LeastSquares = Field(default_factory=LeastSquares, description="beside it")
+    identification: dict[str, tuple[str, ...]] = Field(
+        default_factory=dict,
+        description="signals by gasification experiment from which is found what the data "
+        "determine; none = those that the costs compare",
+    )
+
+    @property
+    def channels(self) -> tuple[TermSpec, ...]:
+        """Signals from which is found what the data determine, each once, all measured points.
+
+        Signals of costs are taken from the first to the last time that any cost compares.
+        """
+        if self.identification:
+            pairs = [(e, s) for e, signals in self.identification.items() for s in signals]
+            return tuple(TermSpec(experiment=e, signal=s, kind="RMSE") for e, s in pairs)
+        windows: dict[tuple[str, str], list[tuple[float, float] | None]] = {}
+        for term in (t for terms in self.costs.values() for t in terms if t.weight > 0.0):
+            windows.setdefault((term.experiment, term.signal), []).append(term.window_s)
+        return tuple(
+            TermSpec(experiment=e, signal=s, kind="RMSE", window_s=_hull(found))
+            for (e, s), found in windows.items()
+        )
+
+
+def _hull(windows: list[tuple[float, float] | None]) -> tuple[float, float] | None:
+    """Return the window around all windows, None where one is the whole record."""
+    given = [window for window in windows if window is not None]
+    if len(given) < len(windows):
+        return None
+    return min(start for start, _ in given), max(end for _, end in given)
 
 
 class Validation(Part):
@@ -124,9 +155,9 @@ class Synthetic(Part):
     """How synthetic measurements are made."""
 
     truth: dict[str, float] = Field(description="parameter values, in the units of `parameters`")
-    accuracy: Accuracy = Field(
-        default_factory=lambda: Accuracy(cells=200, tolerance=1e-4, longest_step_s=2.0),
-        description="numerical settings, finer than those of the fit",
+    accuracy: Resolution = Field(
+        default_factory=Resolution,
+        description="numerical settings of the reference solver, which computes them",
     )
 
 
@@ -165,11 +196,11 @@ class Study(Part):
     @property
     def is_synthetic(self) -> bool:
         """Whether any measurement is computed."""
-        return any(
-            signal.file == "synthetic"
-            for experiment in self.experiments.values()
-            for signal in experiment.signals.values()
-        )
+        return any(self.is_computed(n, s) for n, e in self.experiments.items() for s in e.signals)
+
+    def is_computed(self, experiment: str, signal: str) -> bool:
+        """Whether the measurement of a signal is computed."""
+        return self.experiments[experiment].signals[signal].file == "synthetic"
 
     @property
     def needs_macfp(self) -> tuple[str, ...]:

@@ -1,9 +1,10 @@
 """Samples, exposures and experiments."""
 
-from typing import Annotated, ClassVar, Literal, Self
+from typing import Annotated, Any, ClassVar, Literal, Self
 
-from pydantic import Field, model_validator
+from pydantic import BeforeValidator, Field, model_validator
 
+from pyrofit.data.noise import FloatArray, autoregressive, lowest_density, moving_average
 from pyrofit.errors import suggest
 from pyrofit.model.base import (
     NOT_NEGATIVE,
@@ -13,6 +14,8 @@ from pyrofit.model.base import (
     Number,
     Part,
     Positive,
+    Temperature,
+    Thickness,
 )
 
 AboveZero = Annotated[float, Field(gt=0.0)]
@@ -44,8 +47,8 @@ class Side(Part):
     h_cube_root_W_m2K43: NotNegative = Field(
         0.0, description="C of an additional h = C |T - T_gas|^(1/3) [W/(m2 K^(4/3))]"
     )
-    gas_temperature_K: Positive = Field(293.15, description="gas temperature for convection [K]")
-    wall_temperature_K: Positive = Field(
+    gas_temperature_K: Temperature = Field(293.15, description="gas temperature for convection [K]")
+    wall_temperature_K: Temperature = Field(
         293.15, description="temperature of the radiating surroundings [K]"
     )
 
@@ -67,7 +70,7 @@ class Back(Side):
 class Foil(Part):
     """A thin, well conducting foil on the back: a lumped heat capacity."""
 
-    thickness_m: Positive = Field(description="thickness [m]")
+    thickness_m: Thickness = Field(description="thickness [m]")
     density_kg_m3: Positive = Field(description="density [kg/m3]")
     specific_heat_J_kgK: Positive = Field(description="specific heat capacity [J/(kg K)]")
 
@@ -75,7 +78,7 @@ class Foil(Part):
 class Layer(Part):
     """A layer of the sample, front first."""
 
-    thickness_m: Positive = Field(description="initial thickness [m]")
+    thickness_m: Thickness = Field(description="initial thickness [m]")
     composition: dict[str, float | str] | None = Field(
         None, description="mass fractions, where they differ from the material's"
     )
@@ -98,7 +101,44 @@ class Sample(Part):
     emissivity_depth: Annotated[Number | EmissivityDepth, POSITIVE] = Field(
         1e-5, description="depth [m] over which the surface emissivity is averaged by volume"
     )
-    initial_temperature_K: Positive = Field(293.15, description="initial temperature [K]")
+    initial_temperature_K: Temperature = Field(293.15, description="initial temperature [K]")
+
+
+class Noise(Part):
+    """Noise of a computed measurement, white unless one of the two correlations is given."""
+
+    sd: float = Field(ge=0.0, description="standard deviation, SI unit of the quantity")
+    autocorrelation: tuple[float, ...] = Field(
+        (), description="autocorrelation [-] at lags 1, 2 ... points, none beyond"
+    )
+    ar: float = Field(0.0, description="autocorrelation [-] ar^k at lag k")
+
+    @model_validator(mode="after")
+    def _check(self) -> Self:
+        if self.autocorrelation and self.ar:
+            raise ValueError("autocorrelation and ar describe two kinds of noise; give one")
+        if not -1.0 < self.ar < 1.0:
+            raise ValueError(f"ar {self.ar:g} must lie between -1 and 1")
+        lowest = lowest_density(self.autocorrelation)
+        if lowest < -1e-9:
+            given = ", ".join(f"{r:g}" for r in self.autocorrelation)
+            raise ValueError(
+                f"autocorrelation [{given}] is not positive definite: no noise has it; "
+                f"multiply it by {int(1000 / (1 - lowest)) / 1000:g} or less"
+            )
+        return self
+
+    def correlation(self, points: int) -> FloatArray:
+        """Return the autocorrelation [-] at lags 0 ... points - 1, shape (points,)."""
+        if self.autocorrelation:
+            return moving_average(self.autocorrelation, points)
+        return autoregressive(self.ar, points)
+
+
+def _noise(given: Any) -> Any:
+    if isinstance(given, str):
+        raise ValueError(f"'{given}' is neither a number nor a mapping with the key sd")
+    return {"sd": given} if isinstance(given, int | float) else given
 
 
 class Signal(Part):
@@ -128,8 +168,9 @@ class Signal(Part):
         None, description="TGA: use points below this temperature [K]"
     )
     until_s: AboveZero | None = Field(None, description="use points before this time [s]")
-    noise: float = Field(
-        0.0, ge=0.0, description="synthetic: standard deviation of the noise, SI unit"
+    noise: Annotated[Noise, BeforeValidator(_noise)] = Field(
+        Noise(sd=0.0),
+        description="synthetic: noise; a number is the standard deviation of white noise, SI unit",
     )
     every: AboveZero = Field(
         1.0, description="synthetic: spacing of the points [s], or [K] for TGA"

@@ -1,5 +1,6 @@
 """What tables and figures ask about a study: what was fitted, what predicted, and its names."""
 
+from collections.abc import Iterable
 from dataclasses import dataclass
 
 from pyrofit.config import Study
@@ -66,6 +67,14 @@ def use_of(study: Study, cost: str, experiment: str, signal: str) -> str:
     if (experiment, signal) in pairs:
         return FITTED
     return HELD_OUT_SIGNAL if experiment in {name for name, _ in pairs} else HELD_OUT
+
+
+def data_name(study: Study, series: Iterable[tuple[str, str]]) -> str:
+    """Return what (experiment, signal) pairs hold: 'measured', or 'synthetic data'."""
+    computed = {study.is_computed(*pair) for pair in series}
+    if computed == {True, False}:
+        return "measured or synthetic data"
+    return "synthetic data" if True in computed else "measured"
 
 
 def rates_in_fit(study: Study) -> list[str]:

@@ -5,7 +5,8 @@ from typing import Any
 import pandas as pd
 
 from pyrofit.config import Study
-from pyrofit.files import Results, read_csv, read_json
+from pyrofit.files import Results
+from pyrofit.stages import outcomes
 from pyrofit.tables.describe import all_rates, rates_in_fit
 
 _ROWS = (
@@ -27,7 +28,7 @@ def table3(study: Study, results: Results) -> pd.DataFrame:
         One row per quantity; columns ``quantity``, ``of`` (reaction or experiment), ``unit``,
         ``used_in_fit`` (for the heating rates), ``fitted`` and one per published set.
     """
-    fit = read_json(results.kinetics("fit.json"))
+    fit = outcomes.kinetic_sets(study, results)
     sets: dict[str, Any] = fit["sets"]
     rows: list[dict[str, Any]] = [
         {
@@ -45,7 +46,8 @@ def table3(study: Study, results: Results) -> pd.DataFrame:
 
 
 def _scores(study: Study, results: Results, sets: list[str]) -> list[dict[str, Any]]:
-    scores = read_csv(results.kinetics("scores.csv")).set_index(["experiment", "set"])
+    scores = outcomes.kinetic_scores(study, results, all_rates(study))
+    scores = scores.set_index(["experiment", "set"])
     used = set(rates_in_fit(study))
     return [
         {

@@ -1,0 +1,45 @@
+"""How far estimates are from the truth, in sentences whose every number comes from the table."""
+
+import pandas as pd
+
+from pyrofit.tables.truth import KINETICS
+
+_FOUND_BY = {"sceua": "SCE-UA", "least_squares": "least squares"}
+
+
+def sentences(table: pd.DataFrame) -> list[str]:
+    """Return a sentence on the best sets of each optimiser, and one on the kinetics.
+
+    Parameters
+    ----------
+    table
+        The table 'truth'.
+
+    Examples
+    --------
+    >>> errors = {f"{by}_error_limits_percent": [-12.0, 0.5] for by in _FOUND_BY}
+    >>> frame = pd.DataFrame({"fit": "RMSE", "parameter": ["k", "rho"], **errors})
+    >>> sentences(frame)[1].split(": ")[1]
+    '12 % in k, at most 0.5 % in the others (RMSE).'
+    """
+    costs = table[table["fit"] != KINETICS]
+    said = [
+        f"Of the distance between the limits, the best sets of {name} are off the truth by: "
+        + "; ".join(f"{_worst(part, by)} ({fit})" for fit, part in costs.groupby("fit", sort=False))
+        + "."
+        for by, name in _FOUND_BY.items()
+        if len(costs)
+    ]
+    kinetics = table[table["fit"] == KINETICS]
+    if len(kinetics):
+        off = "; ".join(f"{_worst(kinetics, by)} ({name})" for by, name in _FOUND_BY.items())
+        said.append(f"The kinetics are off by: {off}.")
+    return said
+
+
+def _worst(part: pd.DataFrame, by: str) -> str:
+    """Say the largest error of a set, and that of the others."""
+    errors = part.set_index("parameter")[f"{by}_error_limits_percent"].abs().sort_values()
+    *others, largest = [f"{x:.2g} %" for x in errors]
+    rest = f", at most {others[-1]} in the others" if others else ""
+    return f"{largest} in {errors.index[-1]}{rest}"
