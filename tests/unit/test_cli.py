@@ -78,7 +78,8 @@ def test_unknown_cost_is_told_with_the_known_ones(
 ) -> None:
     given = ["--study", str(SMOKE), "--results", str(tmp_path), "--cost", "RMSW"]
     assert cli.main(["least-squares", *given]) == 2
-    assert "no cost 'RMSW'. Did you mean 'RMSE'? Known: BANDS, RANGE, RMSE." in capsys.readouterr().err
+    said = capsys.readouterr().err
+    assert "no cost 'RMSW'. Did you mean 'RMSE'? Known: BANDS, RANGE, RMSE." in said
 
 
 def test_error_is_kept_in_the_log(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:

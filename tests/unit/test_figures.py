@@ -42,6 +42,7 @@ def test_any_number_of_costs_and_experiments_is_drawn(number: int, tmp_path: Pat
     given = described()
     terms = given["imp"]["costs"]["RMSE"]
     given["imp"]["costs"] = {f"cost_{i}": terms for i in range(number)}
+    given["published"]["costs"] = {"cost_0": given["published"]["costs"]["RMSE"]}
     slab = given["experiments"]["slab_60"]
     extra = {f"slab_{i}": slab for i in range(min(number, 4) - 1)}
     given["experiments"] |= extra

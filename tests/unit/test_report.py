@@ -4,6 +4,7 @@ from html.parser import HTMLParser
 from pathlib import Path
 from typing import Any
 
+import pandas as pd
 import pytest
 from test_tables import described, fake, synthetic
 
@@ -11,6 +12,8 @@ from pyrofit.errors import DataError
 from pyrofit.figures import FIGURES
 from pyrofit.files import write_text
 from pyrofit.report import write_report
+from pyrofit.report.truth import sentences
+from pyrofit.tables import TABLES
 
 LOADS = {"src", "href", "srcset", "data", "poster", "action"}
 
@@ -51,7 +54,7 @@ def written(root: Path, given: dict[str, Any] | None = None) -> tuple[Page, str]
 
 def test_report_has_all_sections_and_figures(tmp_path: Path) -> None:
     page, _ = written(tmp_path)
-    sections = ["summary", "data", "kinetics", "fit", "validation", "provenance"]
+    sections = ["summary", "data", "kinetics", "fit", "identification", "validation", "provenance"]
     assert [i for i in page.ids if i not in FIGURES] == sections
     assert set(FIGURES) <= set(page.ids)
     assert page.tags.count("figcaption") == len(FIGURES)
@@ -79,7 +82,7 @@ def test_summary_says_the_numbers(tmp_path: Path) -> None:
     for claim in (
         "2 parameters were fitted to Slab 25 kW/m² with 2 cost functions and 3 repetitions each; "
         "slab_60 was held out.",
-        "fitted to 1 of 2 heating rates, miss the measured mass fraction there by 0.0200 (RMSE), "
+        "fitted to 1 of 2 heating rates, miss the mass fraction there by 0.0200 (RMSE), "
         "and by 0.0100 at the others; the published set 'book' by 1.01 to 1.02 at all rates.",
         "0.1 for RMSE (published 0.1) and 0.1 for BANDS.",
         "RMSE by 20 %, 1 of 2 starts agree (k at a limit) and BANDS by 20 %, 1 of 2 starts agree "
@@ -89,6 +92,8 @@ def test_summary_says_the_numbers(tmp_path: Path) -> None:
         "predicted with CV(RMSE) 0.250 to 1.25 (fitted data: 0.250 to 1.25); the sets of least "
         "squares predict it with 2.25 to 3.25.",
         "missed by 7.00 to 8.00 K at slab_60 (RMSE).",
+        "By the data (width of the 95 % interval, % of the limits) determined: k (10.0 %); "
+        "undetermined: cp (70.0 %, upper bound).",
     ):
         assert claim in page.words
     assert "Slab 25 kW/m²: released 4.000 of " in page.words
@@ -99,7 +104,34 @@ def test_synthetic_data_are_said_so(tmp_path: Path) -> None:
     page, _ = written(tmp_path, synthetic())
     assert "Synthetic data." in page.words
     assert "Measured data from" not in page.words
-    assert page.words.count("(synthetic data)") == len(FIGURES) - 1 + 4
+    assert page.words.count("(synthetic data)") == len(FIGURES) - 1 + len(TABLES)
+
+
+def test_truth_stands_beside_the_estimates_where_it_is_known(tmp_path: Path) -> None:
+    page, _ = written(tmp_path, synthetic())
+    assert "truth" in page.ids
+    # By hand: (0.4985 - 0.2)/0.4 and (1.0 - 1.5)/3; (0.5 - 0.2)/0.4 and 0; (605 - 600)/100.
+    for claim in (
+        "best sets of SCE-UA are off the truth by: 75 % in k, at most 17 % in the others (RMSE); "
+        "75 % in k, at most 17 % in the others (BANDS).",
+        "best sets of least squares are off the truth by: 75 % in k, at most 0 % in the others",
+        "The kinetics are off by: 5 % in T_p (SCE-UA); 1 % in T_p (least squares).",
+    ):
+        assert claim in page.words
+
+
+def test_section_on_the_truth_is_for_synthetic_data_alone(tmp_path: Path) -> None:
+    page, _ = written(tmp_path)
+    assert "truth" not in page.ids
+    assert "synthetic" not in page.words
+
+
+def test_sentences_on_kinetics_alone_say_nothing_of_costs() -> None:
+    errors = {"sceua_error_limits_percent": [2.0], "least_squares_error_limits_percent": [-1.0]}
+    table = pd.DataFrame({"fit": "kinetics", "parameter": ["T_p"], **errors})
+    assert sentences(table) == [
+        "The kinetics are off by: 2 % in T_p (SCE-UA); 1 % in T_p (least squares)."
+    ]
 
 
 def test_study_without_kinetics_and_published_values_has_a_report(tmp_path: Path) -> None:
@@ -110,6 +142,19 @@ def test_study_without_kinetics_and_published_values_has_a_report(tmp_path: Path
     page, _ = written(tmp_path, given)
     assert "kinetics" not in page.ids
     assert "published" not in page.words
+
+
+def test_section_on_what_the_data_determine_says_correlation_misfit_and_optimisers(
+    tmp_path: Path,
+) -> None:
+    page, _ = written(tmp_path)
+    for claim in (
+        "The strongest correlation is that of k and cp, −0.80.",
+        "does not fit within the noise: chi-square per point is 3.6 (Slab 25 kW/m²",
+        "SCE-UA best 1.00 sd (chi-square 5.00); SCE-UA mean 2.00 sd (chi-square 10.0); least "
+        "squares best 3.00 sd (chi-square 15.0).",
+    ):
+        assert claim in page.words
 
 
 def test_text_of_the_study_cannot_become_markup(tmp_path: Path) -> None:

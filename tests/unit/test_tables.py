@@ -10,7 +10,9 @@ from pyrofit.errors import StudyError
 from pyrofit.files import Results, read_csv, write_csv, write_json
 from pyrofit.stages import predict
 from pyrofit.tables import TABLES, describe, imp, make_table
+from pyrofit.tables.determined import flag
 from pyrofit.tables.text import number
+from pyrofit.tables.truth import compared
 
 TGA_K = np.linspace(500.0, 700.0, 41)
 
@@ -114,6 +116,7 @@ def fake(root: Path, given: dict[str, Any] | None = None) -> tuple[Study, Result
     if study.kinetics is not None:
         _kinetics(study, results)
     _imp(study, results)
+    _identification(study, results)
     _validation(study, results)
     return study, results
 
@@ -150,8 +153,14 @@ def _kinetics(study: Study, results: Results) -> None:
     pyrolysis = {"A_1_s": 2e13, "E_J_mol": 190000.0, "order": 1.0, "mass_fraction": 1.0}
     write_json(
         results.kinetics("fit.json"),
-        {"cost": 0.0125, "sets": {label: {"pyrolysis": pyrolysis} for label in sets}},
+        {
+            "cost": 0.0125,
+            "least_squares": [{"cost": 0.0125, "parameters": {"T_p": 601.0}}],
+            "sets": {label: {"pyrolysis": pyrolysis} for label in sets},
+        },
     )
+    history = pd.DataFrame({"cost": [0.3, 0.02, 0.02], "T_p": [570.0, 605.0, 650.0]})
+    write_csv(results.kinetics("history.csv.gz"), history)
     curves, scores = [], []
     for i, name in enumerate(("fast", "slow")):
         for k, label in enumerate(sets):
@@ -168,7 +177,14 @@ def _imp(study: Study, results: Results) -> None:
         for n, (fit, k, cp) in enumerate(
             [(0.10, 0.4985, 1000.0), (0.12, 0.4, 2000.0), (0.11, 0.45, 3000.0)]
         ):
-            row = {"cost_function": cost, "repetition": n, "seed": n, "cost": fit, "calls": 100 + n}
+            row = {
+                "cost_function": cost,
+                "repetition": n,
+                "seed": n,
+                "cost": fit,
+                "cost_refined": fit,
+                "calls": 100 + n,
+            }
             rows.append({**row, "failed_calls": n, "generations": 5, "k": k, "cp": cp})
             best = [fit * (x if cost == "BANDS" else 1) for x in (5, 4, 3, 2, 1)]
             steps = {"generation": [1, 2, 3, 4, 5], "calls": [10 + n, 40, 60, 80, 100 + n]}
@@ -186,6 +202,42 @@ def _imp(study: Study, results: Results) -> None:
     write_csv(results.imp("convergence.csv"), pd.concat(running))
 
 
+def _identification(study: Study, results: Results) -> None:
+    """k is determined, cp is not: its interval ends at the upper limit."""
+    common = {"low_open": False, "bound": "", "noise_width": 0.05}
+    k = {"parameter": "k", "estimate": 0.3, "sd": 0.01, "low": 0.28, "high": 0.32, "width": 0.1}
+    k |= {"noise_low": 0.29, "noise_high": 0.31, "high_open": False, "method": "linear"}
+    cp = {"parameter": "cp", "estimate": 3500.0, "sd": 800.0, "low": 1400.0, "high": 3500.0}
+    cp |= {"width": 0.7, "noise_low": 2450.0, "noise_high": 3500.0, "high_open": True}
+    cp |= {"method": "profile", "bound": "upper", "verdict": "undetermined, at its upper bound"}
+    rows = [{**common, **k, "verdict": "determined"}, {**common, **cp}]
+    write_csv(results.identification("estimate.csv"), pd.DataFrame(rows))
+    matrix = {"parameter": ["k", "cp"], "k": [1.0, -0.8], "cp": [-0.8, 1.0]}
+    write_csv(results.identification("correlation.csv"), pd.DataFrame(matrix))
+    profile = {"parameter": "cp", "value": [1000.0, 2450.0, 3500.0], "rise": [16.0, 4.0, 0.0]}
+    write_csv(results.identification("profiles.csv"), pd.DataFrame(profile))
+    channel = {"experiment": "slab_25", "signal": "mlr", "points": 20, "sd_median": 2e-4}
+    channel |= {"whiteness": 0.5, "words": "sd 2e-4, uncorrelated", "chi2": 72.0}
+    write_json(
+        results.identification("noise.json"),
+        {"channels": [channel], "chi2": 72.0, "freedom": 18, "inflation": 2.0},
+    )
+    time = np.arange(5.0, 105.0, 5.0)
+    curves = [
+        pd.DataFrame({"time_s": time, "si": size * time, "whitened": time}).assign(
+            experiment="slab_25", signal="mlr", parameter=name
+        )
+        for name, size in (("k", 1e-5), ("cp", -1e-6))
+    ]
+    write_csv(results.identification("sensitivities.csv"), pd.concat(curves))
+    sets = [
+        {"cost_function": cost, "set": label, "chi2": 90.0 * n, "k": -0.5 * n, "cp": 1.0 * n}
+        for cost in study.imp.costs
+        for n, label in enumerate(("SCE-UA best", "SCE-UA mean", "least squares best"), 1)
+    ]
+    write_csv(results.identification("sets.csv"), pd.DataFrame(sets))
+
+
 def _validation(study: Study, results: Results) -> None:
     curves, scores = [], []
     for name in study.validation.experiments:
@@ -198,7 +250,9 @@ def _validation(study: Study, results: Results) -> None:
                 values = frame[column] * (1.0 + 0.02 * i)
                 curves.append(pd.DataFrame({**columns, "simulated": values}).assign(**here))
                 cv = 0.25 + i if signal == "mlr" else np.nan
-                scores.append({**here, "points": 20, "rmse_si": 7.0 + i, "cv_rmse": cv})
+                own = {"solver_rmse_si": 0.01, "solver_cv_rmse": 1e-3 * cv}
+                score = {"points": 20, "rmse_si": 7.0 + i, "cv_rmse": cv}
+                scores.append({**here, **score, **own})
     write_csv(results.validation("curves.csv"), pd.concat(curves))
     write_csv(results.validation("scores.csv"), pd.DataFrame(scores))
 
@@ -210,7 +264,7 @@ def made(name: str, study: Study, results: Results) -> pd.DataFrame:
 
 @pytest.mark.parametrize("name", TABLES)
 def test_every_table_is_written_twice_and_alike_each_time(name: str, tmp_path: Path) -> None:
-    study, results = fake(tmp_path)
+    study, results = fake(tmp_path, synthetic() if name == "truth" else None)
     make_table(name, study, results)
     files = [tmp_path / "tables" / f"{name}.{kind}" for kind in ("csv", "md")]
     first = [path.read_bytes() for path in files]
@@ -244,11 +298,49 @@ def test_table4_by_hand(tmp_path: Path) -> None:
     # J/(kg K) become kJ/(kg K); the best is that of the best cost, not the mean's neighbour.
     cp = table.loc[("RMSE", "cp")]
     assert [cp["best"], cp["mean"], cp["sigma"]] == pytest.approx([1.0, 2.0, 1.0], rel=1e-14)
-    assert cp["flags"] == "spread > 20 % of limits"
+    assert cp["flags"].startswith("spread > 20 % of limits; undetermined")
     # 0.4985 is 0.0015 below 0.5, and 0.5 % of 0.4 is 0.002; sigma = sqrt(0.004852/2) < 0.08.
     k = table.loc[("BANDS", "k")]
     assert k["flags"] == "at bound (upper)"
     assert np.isnan(k["published_best"])
+
+
+def test_determined_by_hand(tmp_path: Path) -> None:
+    table = made("determined", *fake(tmp_path)).set_index("parameter")
+    k, cp = table.loc["k"], table.loc["cp"]
+    assert k[["low", "high", "noise_low", "width_percent"]].tolist() == [0.28, 0.32, 0.29, 10.0]
+    # J/(kg K) become kJ/(kg K).
+    assert cp[["estimate", "low", "high"]].tolist() == [3.5, 1.4, 3.5]
+    assert cp["ends"] == "cut off by the upper limit"
+    assert [k["method"], cp["method"]] == ["linear", "profile"]
+    assert k["strongest_correlation"] == "cp −0.80"
+
+
+def test_noise_gives_chi_square_per_point(tmp_path: Path) -> None:
+    (row,) = made("noise", *fake(tmp_path)).to_dict("records")
+    assert (row["experiment"], row["signal"]) == ("Slab 25 kW/m²", "mass loss rate")
+    assert row["chi2_per_point"] == 3.6
+
+
+def test_distances_by_hand(tmp_path: Path) -> None:
+    table = made("distances", *fake(tmp_path))
+    rows = table[table["cost_function"] == "RMSE"]
+    assert rows["chi2_per_freedom"].tolist() == [5.0, 10.0, 15.0]
+    # k is 0.5, 1, 1.5 and cp 1, 2, 3 standard deviations off; 1.96 bound the interval.
+    assert rows["within"].tolist() == [2, 1, 1]
+    assert rows["farthest"].tolist() == ["cp"] * 3
+    assert rows["distance_sd"].tolist() == [1.0, 2.0, 3.0]
+
+
+def test_verdicts_are_flags_of_table4(tmp_path: Path) -> None:
+    table = made("table4", *fake(tmp_path)).set_index(["cost_function", "quantity"])
+    words = "undetermined by the data; put at its upper bound by the data"
+    assert table.loc[("RMSE", "cp"), "flags"] == f"spread > 20 % of limits; {words}"
+    assert table.loc[("RMSE", "k"), "flags"] == "at bound (upper)"
+
+
+def test_flag_of_a_parameter_at_its_bound() -> None:
+    assert flag("at its lower bound") == "put at its lower bound by the data"
 
 
 def test_flags_at_their_limits() -> None:
@@ -258,10 +350,59 @@ def test_flags_at_their_limits() -> None:
     assert imp.flags(1.0, float("nan"), 0.0, 2.0) == ""
 
 
-def test_table4_of_synthetic_data_shows_the_truth_and_nothing_published(tmp_path: Path) -> None:
-    table = made("table4", *fake(tmp_path, synthetic())).set_index("quantity")
-    assert table.loc["cp", "truth"].tolist() == [1.5, 1.5]
+def test_table4_of_synthetic_data_shows_nothing_published(tmp_path: Path) -> None:
+    table = made("table4", *fake(tmp_path, synthetic()))
     assert not [column for column in table if column.startswith("published")]
+
+
+def test_truth_by_hand(tmp_path: Path) -> None:
+    table = made("truth", *fake(tmp_path, synthetic())).set_index(["fit", "parameter"])
+    assert list(table.index) == [
+        ("kinetics", "T_p"),
+        *((cost, name) for cost in ("RMSE", "BANDS") for name in ("k", "cp")),
+    ]
+    # The best call of the search is the first of two equal ones, 605 K; the limits are 100 K apart.
+    kinetics = table.loc[("kinetics", "T_p")]
+    assert kinetics.tolist() == ["K", 600.0, 605.0, 100 * 5 / 600, 5.0, 601.0, 100 / 600, 1.0]
+    # J/(kg K) become kJ/(kg K); the limits are 3 kJ/(kg K) apart.
+    cp = table.loc[("BANDS", "cp")]
+    found = [1.5, 1.0, 100 * -0.5 / 1.5, 100 * -0.5 / 3.0, 1.5, 0.0, 0.0]
+    assert cp["unit"] == "kJ/(kg K)"
+    assert cp.tolist()[1:] == pytest.approx(found, rel=1e-14)
+
+
+def test_truth_of_zero_has_no_relative_error() -> None:
+    given = synthetic()
+    given["imp"]["estimate"] = ["k", "cp", "slope"]
+    given["parameters"]["slope"] = {"unit": "1/K", "lower": -0.01, "upper": 0.01}
+    given["material"]["components"]["polymer"]["conductivity_W_mK"] = {
+        "value": "k",
+        "slope_1_K": "slope",
+    }
+    given["synthetic"]["truth"]["slope"] = 0.0
+    study = as_study(given, "fake.json")
+    row = compared(study, "RMSE", "slope", {"sceua": 0.002})
+    assert row["sceua_error_truth_percent"] is None
+    assert row["sceua_error_limits_percent"] == pytest.approx(10.0, rel=1e-14)
+
+
+def test_truth_is_shown_only_of_what_was_fitted_to_computed_signals(tmp_path: Path) -> None:
+    given = synthetic()
+    given["experiments"]["slow"]["signals"]["mass_fraction"]["file"] = "tga.csv"
+    study, results = fake(tmp_path, given)
+    assert set(made("truth", study, results)["fit"]) == {"RMSE", "BANDS"}
+    given["experiments"]["slab_25"]["signals"]["mlr"]["file"] = "slab.csv"
+    assert not TABLES["truth"].applies(as_study(given, "fake.json"))
+
+
+def test_data_are_called_what_they_are() -> None:
+    given = synthetic()
+    given["experiments"]["slab_60"]["signals"]["mlr"]["file"] = "slab.csv"
+    study = as_study(given, "fake.json")
+    assert describe.data_name(study, [("slab_25", "mlr")]) == "synthetic data"
+    assert describe.data_name(study, [("slab_60", "mlr")]) == "measured"
+    both = [("slab_25", "mlr"), ("slab_60", "mlr")]
+    assert describe.data_name(study, both) == "measured or synthetic data"
 
 
 def test_one_repetition_has_no_sigma(tmp_path: Path) -> None:

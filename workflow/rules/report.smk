@@ -5,6 +5,7 @@ CALCULATED = [
     results.imp("convergence.csv"),
     expand(ROOT / "imp/{cost}/least_squares.json", cost=COSTS),
     expand(ROOT / "imp/{cost}/descent.json", cost=COSTS),
+    IDENTIFICATION,
     results.validation("curves.csv"),
     results.validation("scores.csv"),
 ]

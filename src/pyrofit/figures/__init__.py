@@ -7,7 +7,7 @@ from matplotlib.figure import Figure as Canvas
 
 from pyrofit.config import Study
 from pyrofit.errors import StudyError, suggest
-from pyrofit.figures import curves, style
+from pyrofit.figures import curves, determined, style
 from pyrofit.figures.convergence import fig5
 from pyrofit.figures.kinetics import fig2, kinetics_all_rates
 from pyrofit.files import Results
@@ -30,11 +30,11 @@ FIGURES: dict[str, Figure] = {
         make=fig2,
         title="Figure 2. Kinetics at the fitted heating rates",
         caption="Normalised mass (left) and mass loss rate (right) against temperature at the "
-        "heating rates used in the fit, the slowest to the left: measured (wide, light), fitted "
+        "heating rates used in the fit, the slowest to the left: data (wide, light), fitted "
         "(dashed), sets of the literature, if any (dotted). The rate is divided by the heating "
         "rate, so that all have the same height; it is the slope of a parabola fitted to each "
-        "10 K of the mass, measured and simulated alike. Good kinetics shift with the heating "
-        "rate as the measurement does.",
+        "10 K of the mass, of data and simulations alike. Good kinetics shift with the heating "
+        "rate as the data do.",
     ),
     "kinetics_all_rates": Figure(
         applies=lambda study: study.kinetics is not None,
@@ -47,7 +47,7 @@ FIGURES: dict[str, Figure] = {
         applies=lambda study: bool(curves.fitted_rates(study)),
         make=curves.fig3,
         title="Figure 3. Mass loss rate, fitted",
-        caption="Mass loss rate of the fitted experiment: measured with its uncertainty (grey "
+        caption="Mass loss rate of the fitted experiment: the data with their uncertainty (grey "
         "area), and the best set that SCE-UA found for each cost function; thin grey "
         "curves, if any, are our solver's for sets of the literature. Curves on top of each "
         "other mean that the choice of the cost function makes no difference here; long "
@@ -58,7 +58,7 @@ FIGURES: dict[str, Figure] = {
         make=curves.fig4,
         title="Figure 4. Mass loss rate, predicted",
         caption="The same sets at an experiment that was not fitted. Agreement among the simulated "
-        "curves is not agreement with the measurement: compare them with the grey area.",
+        "curves is not agreement with the data: compare them with the grey area.",
     ),
     "fig5": Figure(
         applies=lambda study: True,
@@ -79,12 +79,35 @@ FIGURES: dict[str, Figure] = {
         "at the fitted experiment comes with a worse prediction elsewhere, the fitted data do not "
         "determine the parameters, or these make up for something that the model lacks.",
     ),
+    "sensitivities": Figure(
+        applies=lambda study: True,
+        make=determined.sensitivities,
+        title="Sensitivity of the signals",
+        caption="Change of each signal per distance of a parameter's limits, at the optimum. A "
+        "curve within the noise (grey area) at all times tells little of its parameter; parameters "
+        "whose curves have the same shape cannot be told apart.",
+    ),
+    "correlation": Figure(
+        applies=lambda study: True,
+        make=determined.correlation,
+        title="Correlation of the estimates",
+        caption="Near ±1 the data determine a combination of two parameters and not each of them.",
+    ),
+    "profiles": Figure(
+        applies=lambda study: True,
+        make=determined.profiles,
+        title="Profiles of the likelihood",
+        caption="Rise of χ² over its least value against each parameter. Where it follows its "
+        "parabola to the 95 % level, the linear interval is quoted; else the profile, all other "
+        "parameters fitted anew at each point. Where a profile meets a limit (vertical line) below "
+        "the level, the limit cuts the interval off.",
+    ),
     "residuals": Figure(
         applies=lambda study: bool(predicted(study, "mlr")),
         make=curves.residuals,
         title="Residuals of the mass loss rate",
-        caption="Simulated minus measured mass loss rate of the best sets: every point (thin) and "
-        "the running mean over 3 % of the points (bold), and the uncertainty of the measurement "
+        caption="Mass loss rate of the best sets minus that of the data: every point (thin) and "
+        "the running mean over 3 % of the points (bold), and the uncertainty of the data "
         "about zero (grey area). Noise scatters about zero; long stretches on one side are "
         "systematic.",
     ),
@@ -92,7 +115,7 @@ FIGURES: dict[str, Figure] = {
         applies=lambda study: bool(predicted(study, "back_temperature")),
         make=curves.back_temperature,
         title="Back temperature",
-        caption="Temperature of the back of the sample, measured with its uncertainty and "
+        caption="Temperature of the back of the sample, the data with their uncertainty and "
         "predicted by the same sets. Where it was not fitted, it tests whether the parameters have "
         "a physical meaning.",
     ),

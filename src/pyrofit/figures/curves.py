@@ -13,12 +13,14 @@ from matplotlib.patches import Patch
 from pyrofit.config import Study
 from pyrofit.data.quantities import UNCERTAINTY_COLUMN, VALUE_COLUMN
 from pyrofit.figures import style
-from pyrofit.files import Results, read_csv
+from pyrofit.files import Results
+from pyrofit.stages import outcomes
 from pyrofit.tables.describe import (
     LEAST_SQUARES,
     PUBLISHED,
     SCEUA,
     PredictedSet,
+    data_name,
     fitted_experiments,
     predicted,
     predicted_sets,
@@ -66,10 +68,10 @@ def residuals(study: Study, results: Results) -> Canvas:
     """Draw simulated minus measured mass loss rate over time, with the uncertainty about zero."""
     names = predicted(study, "mlr")
     canvas, axes = _panels(study, names)
-    curves = read_csv(results.validation("curves.csv"))
+    curves = _predicted_curves(study, results)
     shown = [s for s in predicted_sets(study) if s.origin == SCEUA]
     for ax, name in zip(axes, names, strict=True):
-        _band(ax, read_csv(results.measurement(name, "mlr")), "mlr", _grams, about_zero=True)
+        _band(ax, outcomes.series(results, name, "mlr"), "mlr", _grams, about_zero=True)
         style.zero_line(ax)
         for chosen in shown:
             curve = _curve(curves, name, "mlr", chosen.label)
@@ -78,7 +80,8 @@ def residuals(study: Study, results: Results) -> Canvas:
             points = {"color": look["color"], "linewidth": 0.4, "alpha": 0.4}
             ax.plot(curve["time_s"], _grams(difference), **points)
             ax.plot(curve["time_s"], _grams(running_mean(difference)), **look)
-    _label(axes, "simulated − measured\n" + MLR_LABEL)
+    data = data_name(study, [(name, "mlr") for name in names])
+    _label(axes, f"simulated − {data}\n{MLR_LABEL}")
     entries = _measured_entries(study, results, names, "mlr", with_line=False)
     style.legend_below(canvas, [*entries, *_set_entries(study, shown)])
     return canvas
@@ -99,11 +102,11 @@ def _compare(
 ) -> Canvas:
     """Draw measured and predicted curves, one panel per experiment."""
     convert = _grams if signal == "mlr" else style.celsius
-    curves = read_csv(results.validation("curves.csv"))
+    curves = _predicted_curves(study, results)
     shown = [s for s in predicted_sets(study) if s.origin in origins]
     canvas, axes = _panels(study, names)
     for ax, name in zip(axes, names, strict=True):
-        frame = read_csv(results.measurement(name, signal))
+        frame = outcomes.series(results, name, signal)
         _band(ax, frame, signal, convert)
         ax.plot(frame["time_s"], convert(frame[VALUE_COLUMN[signal]]), **_MEASURED)
         # Published ones last are hidden by nothing; ours come on top of them.
@@ -139,6 +142,11 @@ def _grams(kilograms: Any) -> Any:
     return np.asarray(kilograms, dtype=float) * 1e3
 
 
+def _predicted_curves(study: Study, results: Results) -> pd.DataFrame:
+    labels = [chosen.label for chosen in predicted_sets(study)]
+    return outcomes.predicted_curves(study, results, labels)
+
+
 def _curve(curves: pd.DataFrame, name: str, signal: str, label: str) -> pd.DataFrame:
     here = (curves["experiment"] == name) & (curves["signal"] == signal)
     return curves[here & (curves["set"] == label)]
@@ -170,10 +178,9 @@ def _measured_entries(
     study: Study, results: Results, names: Sequence[str], signal: str, with_line: bool
 ) -> list[Line2D | Patch]:
     """Return the legend entries of the measurement, its band only where an uncertainty is known."""
-    known = any(
-        UNCERTAINTY_COLUMN[signal] in read_csv(results.measurement(n, signal)) for n in names
-    )
-    entries: list[Line2D | Patch] = [style.line("measured", **_MEASURED)] if with_line else []
+    known = any(UNCERTAINTY_COLUMN[signal] in outcomes.series(results, n, signal) for n in names)
+    name = data_name(study, [(n, signal) for n in names])
+    entries: list[Line2D | Patch] = [style.line(name, **_MEASURED)] if with_line else []
     return entries + ([style.patch("uncertainty", color=style.BAND)] if known else [])
 
 

@@ -1,16 +1,20 @@
 """Fig. 2: the kinetics beside TGA."""
 
+from collections.abc import Sequence
+
 import numpy as np
 import pandas as pd
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure as Canvas
+from matplotlib.lines import Line2D
 from scipy.signal import savgol_filter
 
 from pyrofit.config import Study
 from pyrofit.figures import style
-from pyrofit.files import Results, read_csv
+from pyrofit.files import Results
 from pyrofit.solver.arrays import FloatArray
-from pyrofit.tables.describe import all_rates, rates_in_fit
+from pyrofit.stages import outcomes
+from pyrofit.tables.describe import all_rates, data_name, rates_in_fit
 
 WINDOW_K = 10.0
 """Width of the window over which a slope is taken [K]."""
@@ -40,11 +44,11 @@ def slope(temperature_K: FloatArray, mass_fraction: FloatArray) -> tuple[FloatAr
 
 def fig2(study: Study, results: Results) -> Canvas:
     """Fig. 2: mass and mass loss rate of the TGA runs that were fitted, measured and simulated."""
-    curves = read_csv(results.kinetics("curves.csv"))
+    curves = outcomes.kinetic_curves(study, results, all_rates(study))
     names = rates_in_fit(study)
     canvas, (left, right) = style.panels(2, 2, style.TWO_COLUMNS, 82.0)
     for i, name in enumerate(names):
-        measured = read_csv(results.measurement(name, "mass_fraction"))
+        measured = outcomes.series(results, name, "mass_fraction")
         _draw(left, right, measured, _colour(i), "-")
         for k, (_, curve) in enumerate(_sets(study, curves, name)):
             _draw(left, right, curve, _colour(i), _dash(k))
@@ -55,11 +59,11 @@ def fig2(study: Study, results: Results) -> Canvas:
         ax.set_xlim(*_span(curves[curves["experiment"].isin(names)]))
         ax.set_xlabel("temperature [°C]")
     rates = [style.patch(_rate(study, name), color=_colour(i)) for i, name in enumerate(names)]
-    lines = [style.line("measured", color="0.6", linewidth=2.0)] + [
+    lines = [
         style.line(label, color="black", linestyle=_dash(k))
         for k, label in enumerate(_labels(study))
     ]
-    style.legend_below(canvas, [*rates, *lines])
+    style.legend_below(canvas, [*rates, _data_entry(study, names), *lines])
     return canvas
 
 
@@ -110,13 +114,13 @@ def _span(curves: pd.DataFrame) -> tuple[float, float]:
 
 def kinetics_all_rates(study: Study, results: Results) -> Canvas:
     """Draw mass against temperature at every heating rate, one panel each."""
-    curves = read_csv(results.kinetics("curves.csv"))
+    curves = outcomes.kinetic_curves(study, results, all_rates(study))
     names = all_rates(study)
     used = set(rates_in_fit(study))
     height = 52.0 if len(names) > 3 else 70.0
     canvas, axes = style.panels(len(names), 4, style.TWO_COLUMNS, height, sharex=True, sharey=True)
     for ax, name in zip(axes, names, strict=True):
-        measured = read_csv(results.measurement(name, "mass_fraction"))
+        measured = outcomes.series(results, name, "mass_fraction")
         ax.plot(
             style.celsius(measured["temperature_K"]),
             measured["mass_fraction"],
@@ -139,5 +143,10 @@ def kinetics_all_rates(study: Study, results: Results) -> Canvas:
         style.line(label, color=style.colour(k), linestyle=_dash(k))
         for k, label in enumerate(_labels(study))
     ]
-    style.legend_below(canvas, [style.line("measured", color="0.6", linewidth=2.0), *lines])
+    style.legend_below(canvas, [_data_entry(study, names), *lines])
     return canvas
+
+
+def _data_entry(study: Study, names: Sequence[str]) -> Line2D:
+    label = data_name(study, [(name, "mass_fraction") for name in names])
+    return style.line(label, color="0.6", linewidth=2.0)

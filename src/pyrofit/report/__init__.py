@@ -7,11 +7,14 @@ from jinja2 import Environment, PackageLoader, StrictUndefined, select_autoescap
 
 from pyrofit.config import Study, digest
 from pyrofit.data.fetch import COMMIT
-from pyrofit.files import Results, read_json, write_json, write_text
+from pyrofit.files import Results, write_json, write_text
 from pyrofit.model.experiment import Signal
 from pyrofit.provenance import environment
 from pyrofit.report.content import sections, tables_of
+from pyrofit.report.determined import verdicts
 from pyrofit.report.summary import summary
+from pyrofit.report.truth import sentences
+from pyrofit.stages import outcomes
 from pyrofit.stages.closure import closure_lines
 from pyrofit.tables.describe import title_of
 
@@ -24,7 +27,7 @@ def write_report(study: Study, results: Results) -> None:
     DataError
         A result is missing.
     """
-    measured = read_json(results.measurements_summary)
+    measured = outcomes.measured(study, results)
     origin = provenance(study, measured)
     tables = tables_of(study, results)
     templates = Environment(
@@ -37,7 +40,9 @@ def write_report(study: Study, results: Results) -> None:
     page = templates.get_template("report.html.j2").render(
         study=study,
         title=study.title or study.name,
-        summary=summary(study, tables),
+        summary=summary(study, tables)
+        + [verdicts(tables)]
+        + (sentences(tables["truth"])[:1] if "truth" in tables else []),
         series=_series(study, measured),
         closure=[_titled(study, line) for line in closure_lines(study, measured["signals"])],
         sources=sorted({row["source"] for row in _series(study, measured)}),
@@ -83,7 +88,7 @@ def _series(study: Study, measured: dict[str, Any]) -> list[dict[str, Any]]:
 
 def _noise(study: Study, experiment: str, signal: str) -> str:
     signals: Mapping[str, Signal] = study.experiments[experiment].signals
-    return "standard deviation of the noise" if signals[signal].noise > 0.0 else ""
+    return "standard deviation of the noise" if signals[signal].noise.sd > 0.0 else ""
 
 
 def _titled(study: Study, line: str) -> str:

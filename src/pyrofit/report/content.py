@@ -12,6 +12,7 @@ from pyrofit.errors import DataError
 from pyrofit.figures import FIGURES
 from pyrofit.figures.style import MM, TWO_COLUMNS
 from pyrofit.files import Results
+from pyrofit.report import determined, truth
 from pyrofit.tables import TABLES, readable
 from pyrofit.tables.text import number, numeric, plain_rows
 
@@ -61,6 +62,18 @@ _SECTIONS = (
         ("table4", "fig3", "fig5", "costs"),
     ),
     (
+        "truth",
+        "Truth and estimate",
+        "The data are computed from known parameter values.",
+        ("truth",),
+    ),
+    (
+        "identification",
+        "What the data determine",
+        "Optimum and curvature of the likelihood, from the noise of the signals.",
+        ("determined", "profiles", "sensitivities", "correlation", "noise", "distances"),
+    ),
+    (
         "validation",
         "Validation",
         "The best sets, simulated at experiments and signals they were not fitted to.",
@@ -86,6 +99,10 @@ def sections(study: Study, results: Results, tables: dict[str, pd.DataFrame]) ->
                 parts.append(_table(name, tables[name]))
             elif name in FIGURES and FIGURES[name].applies(study):
                 parts.append(_picture(name, results))
+        if anchor == "truth" and parts:
+            text = " ".join([text, *truth.sentences(tables["truth"])])
+        if anchor == "identification":
+            text = " ".join([text, *determined.sentences(tables)])
         if parts:
             found.append(Section(anchor, heading, text, tuple(parts)))
     return found

@@ -32,6 +32,7 @@ def summary(study: Study, tables: Frames) -> list[str]:
         _parameters,
         _validation,
         _back_temperature,
+        _solver,
     ]
     return [text for part in parts if (text := part(study, tables))]
 
@@ -82,8 +83,8 @@ def _kinetics(study: Study, tables: Frames) -> str:
     other = rows[rows["used_in_fit"] == "no"]
     fitted, every = len(rates_in_fit(study)), len(all_rates(study))
     text = (
-        f"The kinetics, fitted to {fitted} of {every} heating rates, miss the measured mass "
-        f"fraction there by {span(used['fitted'])} (RMSE)"
+        f"The kinetics, fitted to {fitted} of {every} heating rates, miss the mass fraction there "
+        f"by {span(used['fitted'])} (RMSE)"
     )
     if len(other):
         text += f", and by {span(other['fitted'])} at the others"
@@ -170,3 +171,13 @@ def _back_temperature(study: Study, tables: Frames) -> str:
         for name, part in scores.groupby("experiment", sort=False)
     ]
     return f"Back temperatures, not fitted, are missed by {listed(parts)} (RMSE)." if parts else ""
+
+
+def _solver(study: Study, tables: Frames) -> str:
+    if "validation" not in tables:
+        return ""
+    scores = tables["validation"]
+    rate, kelvin = scores["solver_cv_rmse"].max(), scores["solver_rmse_K"].max()
+    parts = [f"{100 * rate:.2g} % of the mean mass loss rate"] if pd.notna(rate) else []
+    parts += [f"{kelvin:.2g} K"] if pd.notna(kelvin) else []
+    return f"The solver's own error, estimated for every curve, is at most {listed(parts)}."

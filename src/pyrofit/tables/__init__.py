@@ -8,9 +8,11 @@ import pandas as pd
 from pyrofit.config import Study
 from pyrofit.errors import StudyError, suggest
 from pyrofit.files import Results, write_csv, write_text
+from pyrofit.tables.determined import channels, determined, distances
 from pyrofit.tables.imp import costs, table4
 from pyrofit.tables.kinetics import table3
 from pyrofit.tables.text import groups, markdown, turned
+from pyrofit.tables.truth import known, truth
 from pyrofit.tables.validation import validation
 
 
@@ -32,7 +34,7 @@ TABLES: dict[str, Table] = {
     "table3": Table(
         applies=lambda study: study.kinetics is not None,
         make=table3,
-        title="Table 3. Kinetic parameters, and how well they reproduce the measured mass",
+        title="Table 3. Kinetic parameters, and how well they reproduce the mass",
         note="E in kJ/kmol is the same number as in J/mol. The cost is the fitness of our fit; it "
         "is not computed for published sets. The RMSE of the mass fraction is over all "
         "measured points of a heating rate; 'used in fit' is about our fit.",
@@ -45,8 +47,8 @@ TABLES: dict[str, Table] = {
         note="sigma is the standard deviation over the n repetitions with n − 1 as divisor: the "
         "scatter of the optimiser, not the uncertainty of the parameter. "
         "'At bound': the best value lies within 0.5 % of the limits' distance from a limit. "
-        "'Spread > 20 % of limits': sigma exceeds this share of it, the data do not determine the "
-        "parameter.",
+        "'Spread > 20 % of limits': sigma exceeds this share of it, the optimiser finds no one "
+        "value. 'By the data': from the 95 % interval, see 'What the data determine'.",
         headings={
             "published_best": "published best",
             "published_mean": "published mean",
@@ -56,17 +58,82 @@ TABLES: dict[str, Table] = {
         },
         group_by="cost_function",
     ),
+    "determined": Table(
+        applies=lambda study: True,
+        make=determined,
+        title="95 % intervals of the parameters, and what the data determine",
+        note="Low, high: 95 % interval about the optimum of the likelihood, chi-square divided by "
+        "its value per degree of freedom where that exceeds 1; 'noise alone': without that "
+        "division, as if nothing but noise kept model and data apart. Width in per cent of the "
+        "distance of the limits: up to 20 determined, up to 50 weakly determined, else "
+        "undetermined. Linear: from the parabola of chi-square; profile: all other parameters "
+        "fitted anew at each value. All intervals take the model and its other values, the "
+        "kinetics among them, as exact.",
+        headings={
+            "low": "95 % low",
+            "high": "95 % high",
+            "width_percent": "width [% of limits]",
+            "ends": "interval",
+            "noise_low": "noise alone, low",
+            "noise_high": "noise alone, high",
+            "strongest_correlation": "strongest correlation",
+        },
+    ),
+    "noise": Table(
+        applies=lambda study: True,
+        make=channels,
+        title="Noise of the signals, and how the optimum fits them",
+        note="Estimated from the measured series alone; sd is the standard deviation. Floors are "
+        "added to it in squares: 0.5 s of timing, the solver's error, and for TGA without a stated "
+        "uncertainty a discrepancy. p: probability that white noise looks as correlated as the "
+        "whitened scatter. Chi-square per point is near 1 where the model fits within the noise.",
+        headings={"chi2_per_point": "chi-square per point"},
+    ),
+    "distances": Table(
+        applies=lambda study: True,
+        make=distances,
+        title="The optimisers' sets beside the optimum of the likelihood",
+        note="The optimum weighs each point by its noise, the costs do not: their own minima, "
+        "found by least squares, are off it as well. 'Within': parameters less than 1.96 standard "
+        "deviations off.",
+        headings={
+            "cost_function": "cost function",
+            "chi2_per_freedom": "chi-square per degree of freedom",
+            "within": "parameters within",
+            "farthest": "farthest parameter",
+            "distance_sd": "its distance [sd]",
+        },
+    ),
+    "truth": Table(
+        applies=lambda study: bool(known(study)),
+        make=truth,
+        title="Truth and the best sets",
+        note="Errors are estimate minus truth, in per cent of the truth and of the distance "
+        "between the limits. An inverse modelling with fitted kinetics takes those of the "
+        "optimiser with the lower cost.",
+        headings={
+            "sceua_best": "SCE-UA best",
+            "sceua_error_truth_percent": "SCE-UA error [% of truth]",
+            "sceua_error_limits_percent": "SCE-UA error [% of limits]",
+            "least_squares_best": "least squares best",
+            "least_squares_error_truth_percent": "least squares error [% of truth]",
+            "least_squares_error_limits_percent": "least squares error [% of limits]",
+        },
+        group_by="fit",
+    ),
     "costs": Table(
         applies=lambda study: True,
         make=costs,
         title="Optimisers compared on the same costs",
         note="Model calls are those of all repetitions, and of all starts. The ratio is the best "
         "of least squares over the best of SCE-UA. 'From SCE-UA's best': where least squares gets "
-        "from there; a set that it lowers is no minimum. 'At bound': within 0.1 % of the limits' "
+        "from there; a set that it lowers is no minimum. The solver's error is 4/3 of what twice "
+        "the cells and half the steps change. 'At bound': within 0.1 % of the limits' "
         "distance.",
         headings={
             "cost_function": "cost function",
             "sceua_best": "SCE-UA best",
+            "sceua_best_solver_error": "solver's error in it",
             "sceua_mean": "SCE-UA mean",
             "sceua_calls": "SCE-UA model calls",
             "sceua_failed_calls": "failed calls",
@@ -84,12 +151,16 @@ TABLES: dict[str, Table] = {
         make=validation,
         title="Scores of every set at every predicted experiment",
         note="CV(RMSE) is the RMSE divided by the mean of the measured mass loss rate. 'Held-out "
-        "signal': not fitted, though another signal of the same experiment was.",
+        "signal': not fitted, though another signal of the same experiment was. 'Solver': the "
+        "solver's own error in the same measure, estimated by running again with twice the cells "
+        "and half the steps.",
         headings={
             "cost_function": "cost function",
             "found_by": "found by",
             "cv_rmse": "CV(RMSE) [-]",
+            "solver_cv_rmse": "solver, CV(RMSE) [-]",
             "rmse_K": "RMSE [K]",
+            "solver_rmse_K": "solver, RMSE [K]",
         },
         group_by="experiment",
     ),

@@ -5,7 +5,9 @@ from typing import Any
 import pandas as pd
 
 from pyrofit.config import Study
-from pyrofit.files import Results, read_csv, read_json
+from pyrofit.files import Results
+from pyrofit.stages import outcomes
+from pyrofit.tables.determined import estimates, flag
 
 AT_BOUND = 0.005
 """A best value this close to a limit, as a fraction of the limits' distance, is at the bound."""
@@ -29,10 +31,10 @@ def table4(study: Study, results: Results) -> pd.DataFrame:
     Returns
     -------
     pandas.DataFrame
-        One row per cost function and quantity ('fit' and each parameter, in its own unit); with
-        the truth where the measurements are computed from it.
+        One row per cost function and quantity ('fit' and each parameter, in its own unit).
     """
-    summary = read_csv(results.imp("summary.csv"))
+    summary = outcomes.summary(study, results)
+    verdicts = estimates(study, results)["verdict"]
     rows = []
     for cost in study.imp.costs:
         group = summary[summary["cost_function"] == cost]
@@ -40,10 +42,11 @@ def table4(study: Study, results: Results) -> pd.DataFrame:
         rows.append(_row(study, cost, "fit", group["cost"], float(best["cost"])))
         for name in study.imp.estimate:
             factor = study.parameters[name].factor
-            rows.append(_row(study, cost, name, group[name] / factor, float(best[name]) / factor))
+            row = _row(study, cost, name, group[name] / factor, float(best[name]) / factor)
+            row["flags"] = "; ".join(filter(None, [row["flags"], flag(verdicts[name])]))
+            rows.append(row)
     frame = pd.DataFrame(rows)
     absent = [] if study.published else [f"published_{what}" for what in ("best", "mean", "sigma")]
-    absent += [] if study.synthetic else ["truth"]
     return frame.drop(columns=absent)
 
 
@@ -64,7 +67,6 @@ def _row(study: Study, cost: str, name: str, values: pd.Series, best: float) -> 
         "best": best,
         "mean": float(values.mean()),
         "sigma": sigma,
-        "truth": study.synthetic.truth.get(name) if study.synthetic else None,
         "published_best": theirs[0],
         "published_mean": theirs[1],
         "published_sigma": theirs[2],
@@ -101,14 +103,14 @@ def costs(study: Study, results: Results) -> pd.DataFrame:
     pandas.DataFrame
         One row per cost function; model calls are those of all repetitions and of all starts.
     """
-    summary = read_csv(results.imp("summary.csv"))
+    summary = outcomes.summary(study, results)
     return pd.DataFrame(
         [
             _comparison(
                 cost,
                 summary[summary["cost_function"] == cost],
-                read_json(results.least_squares(cost))["starts"],
-                read_json(results.descent(cost))["end"],
+                outcomes.starts(study, results, cost),
+                outcomes.end_of_descent(results, cost),
             )
             for cost in study.imp.costs
         ]
@@ -126,6 +128,7 @@ def _comparison(
         "cost_function": cost,
         "repetitions": len(group),
         "sceua_best": ours,
+        "sceua_best_solver_error": 4.0 / 3.0 * abs(float(best["cost_refined"]) - ours),
         "sceua_mean": float(group["cost"].mean()),
         "sceua_calls": int(group["calls"].sum()),
         "sceua_failed_calls": int(group["failed_calls"].sum()),

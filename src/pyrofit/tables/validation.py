@@ -6,7 +6,8 @@ import numpy as np
 import pandas as pd
 
 from pyrofit.config import Study
-from pyrofit.files import Results, read_csv
+from pyrofit.files import Results
+from pyrofit.stages import outcomes
 from pyrofit.tables.describe import predicted_sets, title_of, use_of
 
 
@@ -17,10 +18,11 @@ def validation(study: Study, results: Results) -> pd.DataFrame:
     -------
     pandas.DataFrame
         One row per experiment, signal and set; ``data`` says whether the set's cost was fitted to
-        the signal or predicts it.
+        the signal or predicts it; ``solver_...`` is the solver's own error, estimated by
+        refinement, in the same measure.
     """
-    scores = read_csv(results.validation("scores.csv"))
     sets = {chosen.label: chosen for chosen in predicted_sets(study)}
+    scores = outcomes.predicted_scores(study, results, list(sets))
     rows: list[dict[str, Any]] = []
     for score in scores.to_dict("records"):
         chosen = sets[score["set"]]
@@ -34,7 +36,9 @@ def validation(study: Study, results: Results) -> pd.DataFrame:
                 "data": use_of(study, chosen.cost, score["experiment"], score["signal"]),
                 "points": score["points"],
                 "cv_rmse": score["cv_rmse"] if rate else None,
+                "solver_cv_rmse": score["solver_cv_rmse"] if rate else None,
                 "rmse_K": None if rate else score["rmse_si"],
+                "solver_rmse_K": None if rate else score["solver_rmse_si"],
             }
         )
     frame = pd.DataFrame(rows)

@@ -1,0 +1,84 @@
+"""Correlation of noise from point to point: what it is, how it is removed, whether any is left."""
+
+from dataclasses import dataclass
+
+import numpy as np
+from scipy.linalg import cholesky_banded, solve_banded
+
+from pyrofit.data.noise import autoregressive, lowest_density, moving_average
+from pyrofit.solver.arrays import FloatArray
+
+LOWEST_DENSITY = 0.1
+"""Least spectral density, relative to white noise. A series tells little of noise as slow as its
+own curve; with a density near 0 that curve would count as known exactly."""
+LAGS = 10
+"""Lags of the Ljung-Box test."""
+
+
+@dataclass(frozen=True)
+class Correlation:
+    """Autocorrelation of stationary noise by point: a few lags, or ar^k at lag k."""
+
+    lags: tuple[float, ...] = ()
+    ar: float = 0.0
+
+    @property
+    def numbers(self) -> int:
+        """How many numbers describe it."""
+        return len(self.lags) + (self.ar != 0.0)
+
+    def sequence(self, points: int) -> FloatArray:
+        """Return the autocorrelation at lags 0 ... points - 1."""
+        if self.ar:
+            return autoregressive(self.ar, points)
+        return moving_average(self.lags, points)
+
+    def whiten(self, noise: FloatArray) -> tuple[FloatArray, float]:
+        """Return L^-1 e and log det R of the correlation matrix R = L L^T; e is (n,) or (n, k)."""
+        n = len(noise)
+        if self.ar:
+            rest = np.sqrt(1.0 - self.ar**2)
+            white = np.concatenate([noise[:1], (noise[1:] - self.ar * noise[:-1]) / rest])
+            return white, 2.0 * (n - 1) * float(np.log(rest))
+        if not self.lags:
+            return noise, 0.0
+        bands = np.tile(np.array([[1.0], *([r] for r in self.lags)]), (1, n))
+        factor = cholesky_banded(bands, lower=True, check_finite=False)
+        white = solve_banded((len(self.lags), 0), factor, noise, check_finite=False)
+        return white, 2.0 * float(np.log(factor[0]).sum())
+
+    def describe(self) -> str:
+        """Say what it is.
+
+        >>> Correlation(lags=(-0.25, -0.2)).describe()
+        'correlation -0.25, -0.20 at lag 1, 2'
+        """
+        if self.ar:
+            return f"correlation {self.ar:.3g}^k at lag k"
+        if not self.lags:
+            return "uncorrelated"
+        at = ", ".join(str(k + 1) for k in range(len(self.lags)))
+        return f"correlation {', '.join(f'{r:.2f}' for r in self.lags)} at lag {at}"
+
+
+def shrunk(lags: tuple[float, ...]) -> Correlation:
+    """Return lags multiplied by what brings the spectral density up to its least value.
+
+    >>> [round(r, 3) for r in shrunk((-0.12, -0.40)).lags]
+    [-0.104, -0.346]
+    """
+    lowest = lowest_density(lags)
+    factor = min(1.0, (1.0 - LOWEST_DENSITY) / (1.0 - lowest)) if lowest < 1.0 else 1.0
+    return Correlation(lags=tuple(factor * r for r in lags))
+
+
+def ljung_box(series: FloatArray) -> float:
+    """Return Q = n (n + 2) sum_k r_k^2 / (n - k) over lags k = 1 ... 10, r about zero.
+
+    >>> round(ljung_box(np.array([1.0, -1.0] * 10)), 6)  # r_k = (-1)^k (20 - k)/20
+    159.5
+    """
+    n = series.size
+    lags = np.arange(1, min(LAGS, n - 2) + 1)
+    r = np.array([series[k:] @ series[:-k] for k in lags]) / (series @ series)
+    return float(n * (n + 2) * np.sum(r**2 / (n - lags)))

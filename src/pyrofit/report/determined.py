@@ -1,0 +1,75 @@
+"""What the data determine, in sentences whose every number comes from the tables."""
+
+import re
+from collections.abc import Mapping
+from typing import Any
+
+import pandas as pd
+
+from pyrofit.report.summary import listed, span
+
+Frames = dict[str, pd.DataFrame]
+
+AT_BOUND = "at a bound"
+_FITS = 1.2
+"""Chi-square per point up to which the model is said to fit within the noise."""
+
+
+def verdicts(tables: Frames) -> str:
+    """Say which parameters the data determine, which weakly, which not."""
+    table = tables["determined"]
+    words = table["verdict"].str.partition(",")[0].str.replace(r"^at its .*", AT_BOUND, regex=True)
+    parts = []
+    for verdict in ("determined", "weakly determined", AT_BOUND, "undetermined"):
+        rows = table[words == verdict]
+        names = [_named(row) for row in rows.to_dict("records")]
+        if names:
+            parts.append(f"{verdict}: {listed(names)}")
+    return f"By the data (width of the 95 % interval, % of the limits) {'; '.join(parts)}."
+
+
+def _named(row: Mapping[Any, Any]) -> str:
+    bound = re.search(r"(lower|upper) bound", str(row["verdict"]))
+    width = span([float(row["width_percent"])])
+    return f"{row['parameter']} ({width} %{f', {bound[0]}' if bound else ''})"
+
+
+def sentences(tables: Frames) -> list[str]:
+    """Return the sentences of the section: verdicts, correlation, misfit, optimisers."""
+    return [verdicts(tables), _correlation(tables), _misfit(tables), _optimisers(tables)]
+
+
+def _correlation(tables: Frames) -> str:
+    table = tables["determined"]
+    sizes = table["strongest_correlation"].str.extract(r"([\d.]+)$")[0].astype(float)
+    if sizes.isna().all():
+        return "There is one parameter, hence no correlation."
+    row = table.iloc[int(sizes.argmax())]
+    partner, value = str(row["strongest_correlation"]).split(" ")
+    return f"The strongest correlation is that of {row['parameter']} and {partner}, {value}."
+
+
+def _misfit(tables: Frames) -> str:
+    rows = tables["noise"].to_dict("records")
+    said = listed(
+        [f"{row['chi2_per_point']:#.2g} ({row['experiment']}, {row['signal']})" for row in rows]
+    )
+    if max(row["chi2_per_point"] for row in rows) <= _FITS:
+        return f"The optimum fits within the noise: chi-square per point is {said}."
+    return (
+        f"The optimum does not fit within the noise: chi-square per point is {said}. What the "
+        "model lacks exceeds the noise: the intervals, widened by the root of chi-square per "
+        "degree of freedom, still take the model as right and may miss the true values."
+    )
+
+
+def _optimisers(tables: Frames) -> str:
+    table = tables["distances"]
+    parts = []
+    for label, rows in table.groupby("set", sort=False):
+        sizes = rows["distance_sd"]
+        parts.append(f"{label} {span(sizes)} sd (chi-square {span(rows['chi2_per_freedom'])})")
+    return (
+        "Distance of the cost functions' sets from this optimum in their farthest parameter, and "
+        f"chi-square per degree of freedom: {'; '.join(parts)}."
+    )

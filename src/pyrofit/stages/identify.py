@@ -1,0 +1,186 @@
+"""What the data determine: noise of the channels, intervals, profiles, the optimisers beside."""
+
+from collections.abc import Iterator
+from typing import Any
+
+import numpy as np
+import pandas as pd
+
+from pyrofit.config import Study
+from pyrofit.estimate.identify import Identification, identify
+from pyrofit.estimate.likelihood import Likelihood, likelihood_of
+from pyrofit.estimate.problem import make_problem
+from pyrofit.files import Results, write_csv, write_json
+from pyrofit.solver.arrays import FloatArray
+from pyrofit.stages import outcomes
+from pyrofit.stages.fit import fixed_for_imp
+from pyrofit.stages.measurements import load
+
+BEST, MEAN, LEAST_SQUARES = "SCE-UA best", "SCE-UA mean", "least squares best"
+
+
+def identify_parameters(study: Study, results: Results) -> None:
+    """Analyse the likelihood about its optimum and write ``identification/``.
+
+    It is searched from the best known sets: the ends of least squares and of all repetitions.
+
+    Raises
+    ------
+    DataError
+        A result is missing, or a channel is too short to show its noise.
+    """
+    likelihood = likelihood_of(
+        make_problem(
+            study,
+            study.imp.estimate,
+            study.imp.channels,
+            load(study, results),
+            study.material_with(study.imp.kinetics),
+            fixed_for_imp(study, results),
+        )
+    )
+    starts = [likelihood.scaled(values) for values in _known_sets(study, results)]
+    found = identify(likelihood, starts)
+    tables = {
+        "estimate": _estimates(likelihood, found),
+        "sensitivities": _sensitivities(likelihood, found),
+        "singular_values": _modes(likelihood, found),
+        "correlation": _correlation(likelihood, found),
+        "profiles": _profiles(likelihood, found),
+        "sets": _sets(study, results, likelihood, found),
+    }
+    for name, frame in tables.items():
+        write_csv(results.identification(f"{name}.csv"), frame)
+    write_json(results.identification("noise.json"), _noise(likelihood, found))
+
+
+def _known_sets(study: Study, results: Results) -> Iterator[FloatArray]:
+    names = list(study.imp.estimate)
+    for cost in study.imp.costs:
+        for start in outcomes.starts(study, results, cost):
+            yield np.array([start["parameters"][name] for name in names])
+    yield from outcomes.summary(study, results)[names].to_numpy(float)
+
+
+def _estimates(likelihood: Likelihood, found: Identification) -> pd.DataFrame:
+    """Return estimate and intervals in SI units, widths as fractions of the limits' distance."""
+    lower = likelihood.problem.lower
+    span = likelihood.problem.upper - lower
+    return pd.DataFrame(
+        [
+            {
+                "parameter": e.name,
+                "estimate": lower[i] + e.x * span[i],
+                "sd": e.sd * span[i],
+                "low": lower[i] + e.interval.low * span[i],
+                "high": lower[i] + e.interval.high * span[i],
+                "low_open": e.interval.low_open,
+                "high_open": e.interval.high_open,
+                "width": e.interval.width,
+                "noise_low": lower[i] + e.noise.low * span[i],
+                "noise_high": lower[i] + e.noise.high * span[i],
+                "noise_width": e.noise.width,
+                "method": e.method,
+                "bound": e.bound,
+                "verdict": e.verdict,
+            }
+            for i, e in enumerate(found.estimates)
+        ]
+    )
+
+
+def _sensitivities(likelihood: Likelihood, found: Identification) -> pd.DataFrame:
+    """Return d curve / d parameter * distance of the limits: in the signal's unit, and whitened."""
+    problem = likelihood.problem
+    parts = []
+    for (experiment, signal, _), (_, term), slopes, whitened in zip(
+        problem.picks,
+        problem.cost.terms,
+        likelihood.split(found.slopes),
+        likelihood.split(found.jacobian),
+        strict=True,
+    ):
+        for i, name in enumerate(problem.names):
+            columns = {"time_s": term.target.time_s, "si": slopes[:, i], "whitened": whitened[:, i]}
+            frame = pd.DataFrame(columns)
+            parts.append(frame.assign(experiment=experiment, signal=signal, parameter=name))
+    return pd.concat(parts, ignore_index=True)
+
+
+def _modes(likelihood: Likelihood, found: Identification) -> pd.DataFrame:
+    values, directions = found.modes()
+    frame = pd.DataFrame({"mode": np.arange(1, values.size + 1), "singular_value": values})
+    for name, components in zip(likelihood.problem.names, directions, strict=True):
+        frame[name] = components
+    return frame
+
+
+def _correlation(likelihood: Likelihood, found: Identification) -> pd.DataFrame:
+    names = list(likelihood.problem.names)
+    frame = pd.DataFrame(found.correlation, columns=names)
+    frame.insert(0, "parameter", names)
+    return frame
+
+
+def _profiles(likelihood: Likelihood, found: Identification) -> pd.DataFrame:
+    """Return the rise of chi-square against each parameter that has a profile, SI units."""
+    names = likelihood.problem.names
+    columns: dict[str, list[Any]] = {"parameter": [], "value": [], "rise": []}
+    for name, profile in found.profiles.items():
+        i = names.index(name)
+        span = likelihood.problem.upper[i] - likelihood.problem.lower[i]
+        columns["parameter"] += [name] * profile.x.size
+        columns["value"] += (likelihood.problem.lower[i] + profile.x * span).tolist()
+        columns["rise"] += profile.rise.tolist()
+    return pd.DataFrame(columns)
+
+
+def _sets(
+    study: Study, results: Results, likelihood: Likelihood, found: Identification
+) -> pd.DataFrame:
+    """Return chi-square of the optimisers' sets, and their distance from the optimum in sd."""
+    names = list(study.imp.estimate)
+    summary = outcomes.summary(study, results)
+    rows = []
+    for cost in study.imp.costs:
+        group = summary[summary["cost_function"] == cost]
+        sets = {
+            BEST: group.iloc[int(group["cost"].to_numpy().argmin())],
+            MEAN: group[names].mean(),
+            LEAST_SQUARES: outcomes.starts(study, results, cost)[0]["parameters"],
+        }
+        for label, values in sets.items():
+            x = likelihood.scaled(np.array([float(values[name]) for name in names]))
+            distances = {e.name: (x[i] - e.x) / e.sd for i, e in enumerate(found.estimates)}
+            about = {"cost_function": cost, "set": label, "chi2": likelihood.chi2(x)}
+            rows.append({**about, **distances})
+    return pd.DataFrame(rows)
+
+
+def _noise(likelihood: Likelihood, found: Identification) -> dict[str, Any]:
+    residuals = likelihood.split(likelihood.residuals(found.optimum.x))
+    channels = [
+        {
+            "experiment": experiment,
+            "signal": signal,
+            "points": part.size,
+            "sd_median": float(np.median(noise.sd)),
+            "lags": list(noise.correlation.lags),
+            "ar": noise.correlation.ar,
+            "splines": noise.splines,
+            "excess": noise.excess,
+            "whiteness": noise.whiteness,
+            "floors": dict(noise.floors),
+            "words": noise.describe(),
+            "chi2": float(part @ part),
+        }
+        for (experiment, signal, _), noise, part in zip(
+            likelihood.problem.picks, likelihood.noise, residuals, strict=True
+        )
+    ]
+    return {
+        "channels": channels,
+        "chi2": found.optimum.chi2,
+        "freedom": likelihood.freedom,
+        "inflation": found.inflation,
+    }
