@@ -110,7 +110,8 @@ def _parser() -> argparse.ArgumentParser:
     descent = _step(commands, "descent", "run least squares from SCE-UA's best set", _descent)
     descent.add_argument("--cost", required=True, help="cost function of the study")
     _step(commands, "collect", "gather all repetitions", _collect)
-    _step(commands, "identify", "find which parameters the data determine", _identify)
+    known = _step(commands, "identify", "find which parameters the data determine", _identify)
+    known.add_argument("--stage", choices=("kinetics", "imp"), default="imp", help="default: imp")
     _step(commands, "predict", "simulate the best sets at all predicted experiments", _predict)
     table = _step(commands, "table", "write one table", _table)
     table.add_argument("--name", required=True, help="name of the table")
@@ -229,7 +230,10 @@ def _collect(given: argparse.Namespace) -> None:
 def _identify(given: argparse.Namespace) -> None:
     from pyrofit.stages import identify, slices
 
-    identify.identify_parameters(*_open(given, slices.identify))
+    if given.stage == "kinetics":
+        identify.identify_kinetics(*_open(given, slices.kinetics))
+    else:
+        identify.identify_imp(*_open(given, slices.identify))
 
 
 def _predict(given: argparse.Namespace) -> None:

@@ -203,9 +203,9 @@ class Results:
         """Results over all repetitions."""
         return self.root / "imp" / name
 
-    def identification(self, name: str) -> Path:
-        """Intervals and all that they rest on."""
-        return self.root / "identification" / name
+    def identification(self, name: str, stage: str = "imp") -> Path:
+        """Intervals of a stage's parameters, 'kinetics' or 'imp', and all that they rest on."""
+        return self.root / "identification" / stage / name
 
     def validation(self, name: str) -> Path:
         """Predictions and scores."""

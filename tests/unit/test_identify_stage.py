@@ -28,7 +28,8 @@ def results(tmp_path_factory: pytest.TempPathFactory) -> Results:
     fit.fit_kinetics(study, results)
     by_hand(study, results)
     fit.collect(study, results)
-    identify.identify_parameters(study, results)
+    identify.identify_kinetics(study, results)
+    identify.identify_imp(study, results)
     return results
 
 
@@ -46,6 +47,14 @@ def test_intervals_lie_within_the_limits_about_the_estimate(results: Results) ->
         assert row["high"] <= upper * (1 + 1e-12)
         assert row["width"] == pytest.approx((row["high"] - row["low"]) / (upper - lower))
         assert row["noise_width"] <= row["width"] * (1 + 1e-9)
+
+
+def test_kinetics_have_intervals_about_their_truth(results: Results) -> None:
+    table = read_csv(results.identification("estimate.csv", "kinetics")).set_index("parameter")
+    for name, truth in {"T_p": 605.0, "E_p": 190e3}.items():
+        row = table.loc[name]
+        assert row["low"] < truth < row["high"]
+        assert row["verdict"] == "determined"
 
 
 def test_density_is_determined_by_the_released_mass(results: Results) -> None:
@@ -94,13 +103,13 @@ def test_profiles_start_from_the_estimate(results: Results) -> None:
 
 def test_equal_inputs_give_equal_bits(results: Results) -> None:
     before = {n: results.identification(f"{n}.csv").read_bytes() for n in FILES}
-    identify.identify_parameters(study_with(imp__identification=BOTH), results)
+    identify.identify_imp(study_with(imp__identification=BOTH), results)
     assert {n: results.identification(f"{n}.csv").read_bytes() for n in FILES} == before
 
 
 def test_missing_result_is_named(tmp_path: Path) -> None:
     with pytest.raises(DataError, match=r"\.csv: this result is missing"):
-        identify.identify_parameters(study_with(), Results(tmp_path))
+        identify.identify_imp(study_with(), Results(tmp_path))
 
 
 # --- its part of the study ------------------------------------------------------------------

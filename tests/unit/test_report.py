@@ -92,8 +92,9 @@ def test_summary_says_the_numbers(tmp_path: Path) -> None:
         "predicted with CV(RMSE) 0.250 to 1.25 (fitted data: 0.250 to 1.25); the sets of least "
         "squares predict it with 2.25 to 3.25.",
         "missed by 7.00 to 8.00 K at slab_60 (RMSE).",
-        "By the data (width of the 95 % interval, % of the limits) determined: k (10.0 %); "
-        "undetermined: cp (70.0 %, upper bound).",
+        "By the data (width of the 95 % interval, % of the limits): of the kinetics determined "
+        "T_p (10.0 %); of the inverse modelling determined k (10.0 %), undetermined cp (70.0 %, "
+        "upper bound).",
     ):
         assert claim in page.words
     assert "Slab 25 kW/m²: released 4.000 of " in page.words
@@ -150,7 +151,8 @@ def test_section_on_what_the_data_determine_says_correlation_misfit_and_optimise
     page, _ = written(tmp_path)
     for claim in (
         "The strongest correlation is that of k and cp, −0.80.",
-        "does not fit within the noise: chi-square per point is 3.6 (Slab 25 kW/m²",
+        "does not fit within the noise: chi-square per point is 1.0 (slow, mass fraction) and "
+        "3.6 (Slab 25 kW/m²",
         "SCE-UA best 1.00 sd (chi-square 5.00); SCE-UA mean 2.00 sd (chi-square 10.0); least "
         "squares best 3.00 sd (chi-square 15.0).",
     ):

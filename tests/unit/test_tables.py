@@ -230,6 +230,14 @@ def _identification(study: Study, results: Results) -> None:
         for name, size in (("k", 1e-5), ("cp", -1e-6))
     ]
     write_csv(results.identification("sensitivities.csv"), pd.concat(curves))
+    if study.kinetics is not None:
+        kinetics = {**common, **k, "parameter": "T_p", "verdict": "determined"}
+        write_csv(results.identification("estimate.csv", "kinetics"), pd.DataFrame([kinetics]))
+        alone = pd.DataFrame({"parameter": ["T_p"], "T_p": [1.0]})
+        write_csv(results.identification("correlation.csv", "kinetics"), alone)
+        channel |= {"experiment": "slow", "signal": "mass_fraction", "chi2": 20.0}
+        content = {"channels": [channel], "chi2": 20.0, "freedom": 19, "inflation": 1.0}
+        write_json(results.identification("noise.json", "kinetics"), content)
     sets = [
         {"cost_function": cost, "set": label, "chi2": 90.0 * n, "k": -0.5 * n, "cp": 1.0 * n}
         for cost in study.imp.costs
@@ -317,7 +325,8 @@ def test_determined_by_hand(tmp_path: Path) -> None:
 
 
 def test_noise_gives_chi_square_per_point(tmp_path: Path) -> None:
-    (row,) = made("noise", *fake(tmp_path)).to_dict("records")
+    kinetics, row = made("noise", *fake(tmp_path)).to_dict("records")
+    assert kinetics["signal"] == "mass fraction"
     assert (row["experiment"], row["signal"]) == ("Slab 25 kW/m²", "mass loss rate")
     assert row["chi2_per_point"] == 3.6
 

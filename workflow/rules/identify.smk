@@ -1,14 +1,11 @@
-IDENTIFICATION = [
-    results.identification(f"{name}.csv")
-    for name in (
-        "estimate",
-        "sensitivities",
-        "singular_values",
-        "correlation",
-        "profiles",
-        "sets",
-    )
-] + [results.identification("noise.json")]
+def identification(stage, *more):
+    """Return what is found of a stage's parameters."""
+    tables = ("estimate", "sensitivities", "singular_values", "correlation", "profiles")
+    names = [*(f"{name}.csv" for name in (*tables, *more)), "noise.json"]
+    return [results.identification(name, stage) for name in names]
+
+
+IDENTIFICATION = identification("imp", "sets")
 
 
 rule identify:
@@ -18,7 +15,7 @@ rule identify:
         results.imp("summary.csv"),
         expand(ROOT / "imp/{cost}/least_squares.json", cost=COSTS),
     output:
-        IDENTIFICATION,
+        identification("imp", "sets"),
     log:
         log_of("identify"),
     benchmark:
@@ -27,6 +24,29 @@ rule identify:
         digest=digest(slices.identify(study)),
         source=COMPUTES,
     message:
-        "What the data determine"
+        "What the data determine of the inverse modelling"
     shell:
         "pyrofit identify --study {STUDY} --digest {params.digest} --log {log}"
+
+
+if study.kinetics is not None:
+    IDENTIFICATION += identification("kinetics")
+
+    rule identify_kinetics:
+        input:
+            MEASUREMENTS,
+            KINETICS,
+        output:
+            identification("kinetics"),
+        log:
+            log_of("identify_kinetics"),
+        benchmark:
+            benchmark_of("identify_kinetics")
+        params:
+            digest=digest(slices.kinetics(study)),
+            source=COMPUTES,
+        message:
+            "What the data determine of the kinetics"
+        shell:
+            "pyrofit identify --stage kinetics --study {STUDY} --digest {params.digest}"
+            " --log {log}"

@@ -1,5 +1,6 @@
 """What a study is made of: every key with its description and unit."""
 
+from collections.abc import Iterable
 from typing import Annotated, Any, Self
 
 from pydantic import Field, model_validator
@@ -103,6 +104,11 @@ class Kinetics(Part):
         default_factory=dict, description="published kinetics, drawn and scored beside the fit"
     )
 
+    @property
+    def channels(self) -> tuple[TermSpec, ...]:
+        """Signals from which is found what the data determine, each once, all measured points."""
+        return _channels(self.cost)
+
 
 class Imp(Part):
     """Stage 2: inverse modelling, repeated for every cost."""
@@ -128,13 +134,19 @@ class Imp(Part):
         if self.identification:
             pairs = [(e, s) for e, signals in self.identification.items() for s in signals]
             return tuple(TermSpec(experiment=e, signal=s, kind="RMSE") for e, s in pairs)
-        windows: dict[tuple[str, str], list[tuple[float, float] | None]] = {}
-        for term in (t for terms in self.costs.values() for t in terms if t.weight > 0.0):
+        return _channels([term for terms in self.costs.values() for term in terms])
+
+
+def _channels(terms: Iterable[TermSpec]) -> tuple[TermSpec, ...]:
+    """Return the signals that some terms compare, each once, all measured points."""
+    windows: dict[tuple[str, str], list[tuple[float, float] | None]] = {}
+    for term in terms:
+        if term.weight > 0.0:
             windows.setdefault((term.experiment, term.signal), []).append(term.window_s)
-        return tuple(
-            TermSpec(experiment=e, signal=s, kind="RMSE", window_s=_hull(found))
-            for (e, s), found in windows.items()
-        )
+    return tuple(
+        TermSpec(experiment=e, signal=s, kind="RMSE", window_s=_hull(found))
+        for (e, s), found in windows.items()
+    )
 
 
 def _hull(windows: list[tuple[float, float] | None]) -> tuple[float, float] | None:

@@ -17,15 +17,22 @@ _FITS = 1.2
 
 def verdicts(tables: Frames) -> str:
     """Say which parameters the data determine, which weakly, which not."""
-    table = tables["determined"]
+    parts = [
+        f"of the {fit} {_sorted(rows)}"
+        for fit, rows in tables["determined"].groupby("fit", sort=False)
+    ]
+    return f"By the data (width of the 95 % interval, % of the limits): {'; '.join(parts)}."
+
+
+def _sorted(table: pd.DataFrame) -> str:
+    """List parameters by verdict."""
     words = table["verdict"].str.partition(",")[0].str.replace(r"^at its .*", AT_BOUND, regex=True)
     parts = []
     for verdict in ("determined", "weakly determined", AT_BOUND, "undetermined"):
-        rows = table[words == verdict]
-        names = [_named(row) for row in rows.to_dict("records")]
+        names = [_named(row) for row in table[words == verdict].to_dict("records")]
         if names:
-            parts.append(f"{verdict}: {listed(names)}")
-    return f"By the data (width of the 95 % interval, % of the limits) {'; '.join(parts)}."
+            parts.append(f"{verdict} {listed(names)}")
+    return ", ".join(parts)
 
 
 def _named(row: Mapping[Any, Any]) -> str:

@@ -12,17 +12,38 @@ from pyrofit.estimate.likelihood import Likelihood, likelihood_of
 from pyrofit.estimate.problem import make_problem
 from pyrofit.files import Results, write_csv, write_json
 from pyrofit.solver.arrays import FloatArray
-from pyrofit.stages import outcomes
+from pyrofit.stages import outcomes, slices
 from pyrofit.stages.fit import fixed_for_imp
 from pyrofit.stages.measurements import load
 
 BEST, MEAN, LEAST_SQUARES = "SCE-UA best", "SCE-UA mean", "least squares best"
 
 
-def identify_parameters(study: Study, results: Results) -> None:
-    """Analyse the likelihood about its optimum and write ``identification/``.
+def identify_kinetics(study: Study, results: Results) -> None:
+    """Analyse the likelihood of the kinetics about its optimum; write ``identification/kinetics``.
 
-    It is searched from the best known sets: the ends of least squares and of all repetitions.
+    It is searched from the fit and the ends of least squares.
+
+    Raises
+    ------
+    DataError
+        A result is missing, or a channel is too short to show its noise.
+    """
+    stage = slices.kinetics_of(study)
+    measurements = load(study, results)
+    fixed = study.fixed_values()
+    likelihood = likelihood_of(
+        make_problem(study, stage.estimate, stage.channels, measurements, study.material, fixed)
+    )
+    known = outcomes.kinetic_ends(study, results)
+    starts = [likelihood.scaled(np.array([end[n] for n in stage.estimate])) for end in known]
+    _write(results, "kinetics", likelihood, identify(likelihood, starts))
+
+
+def identify_imp(study: Study, results: Results) -> None:
+    """Analyse the likelihood of the inverse modelling likewise; write ``identification/imp``.
+
+    It is searched from the ends of least squares and the best sets of all repetitions.
 
     Raises
     ------
@@ -41,17 +62,21 @@ def identify_parameters(study: Study, results: Results) -> None:
     )
     starts = [likelihood.scaled(values) for values in _known_sets(study, results)]
     found = identify(likelihood, starts)
+    _write(results, "imp", likelihood, found)
+    write_csv(results.identification("sets.csv"), _sets(study, results, likelihood, found))
+
+
+def _write(results: Results, stage: str, likelihood: Likelihood, found: Identification) -> None:
     tables = {
         "estimate": _estimates(likelihood, found),
         "sensitivities": _sensitivities(likelihood, found),
         "singular_values": _modes(likelihood, found),
         "correlation": _correlation(likelihood, found),
         "profiles": _profiles(likelihood, found),
-        "sets": _sets(study, results, likelihood, found),
     }
     for name, frame in tables.items():
-        write_csv(results.identification(f"{name}.csv"), frame)
-    write_json(results.identification("noise.json"), _noise(likelihood, found))
+        write_csv(results.identification(f"{name}.csv", stage), frame)
+    write_json(results.identification("noise.json", stage), _noise(likelihood, found))
 
 
 def _known_sets(study: Study, results: Results) -> Iterator[FloatArray]:

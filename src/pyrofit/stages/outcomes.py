@@ -40,6 +40,15 @@ def fitted_kinetics(study: Study, results: Results) -> dict[str, float]:
     return parameters
 
 
+def kinetic_ends(study: Study, results: Results) -> list[dict[str, float]]:
+    """Return the fit to TGA and the ends of least squares beside it, SI units."""
+    names = study.kinetics.estimate if study.kinetics else ()
+    needs: dict[Keys, type] = {("parameters", name): float for name in names}
+    needs |= {("least_squares", EACH, "parameters", name): float for name in names}
+    found = read_json(results.kinetics("fit.json"), needs)
+    return [found["parameters"], *(start["parameters"] for start in found["least_squares"])]
+
+
 def kinetic_sets(study: Study, results: Results) -> dict[str, Any]:
     """Return the fit to TGA: ``cost``, and A, E, n and mass fraction by set and reaction."""
     needs: dict[Keys, type] = {("cost",): float}

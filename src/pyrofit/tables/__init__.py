@@ -67,8 +67,8 @@ TABLES: dict[str, Table] = {
         "division, as if nothing but noise kept model and data apart. Width in per cent of the "
         "distance of the limits: up to 20 determined, up to 50 weakly determined, else "
         "undetermined. Linear: from the parabola of chi-square; profile: all other parameters "
-        "fitted anew at each value. All intervals take the model and its other values, the "
-        "kinetics among them, as exact.",
+        "fitted anew at each value. All intervals take the model and its other values as exact, "
+        "those of the inverse modelling the kinetics as well.",
         headings={
             "low": "95 % low",
             "high": "95 % high",
@@ -78,6 +78,7 @@ TABLES: dict[str, Table] = {
             "noise_high": "noise alone, high",
             "strongest_correlation": "strongest correlation",
         },
+        group_by="fit",
     ),
     "noise": Table(
         applies=lambda study: True,

@@ -1,5 +1,6 @@
 """What the data determine: intervals, verdicts, the noise they rest on, the optimisers beside."""
 
+from collections.abc import Mapping
 from typing import Any
 
 import numpy as np
@@ -10,6 +11,8 @@ from pyrofit.files import EACH, Results, read_csv, read_json
 from pyrofit.tables.describe import title_of
 
 DETERMINED = "determined"
+WORDS = {"kinetics": "kinetics", "imp": "inverse modelling"}
+"""The stages in words."""
 WITHIN = 1.96
 """Standard deviations that a value within a 95 % interval is away at most."""
 
@@ -22,28 +25,36 @@ _CUT_OFF = {
 }
 
 
-def estimates(study: Study, results: Results) -> pd.DataFrame:
+def stages_of(study: Study) -> dict[str, tuple[str, ...]]:
+    """Return the estimated parameters of each stage, 'kinetics' and 'imp'."""
+    kinetics = {} if study.kinetics is None else {"kinetics": study.kinetics.estimate}
+    return {**kinetics, "imp": study.imp.estimate}
+
+
+def estimates(study: Study, results: Results, stage: str = "imp") -> pd.DataFrame:
     """Return what the analysis says about each parameter, SI units, in the study's order."""
-    names = [(name,) for name in study.imp.estimate]
+    names = [(name,) for name in stages_of(study)[stage]]
     columns = {**dict.fromkeys(_NUMBERS, float), "method": object, "verdict": object}
-    path = results.identification("estimate.csv")
+    path = results.identification("estimate.csv", stage)
     frame = read_csv(path, columns, {("parameter",): names})
-    return frame.fillna({"bound": ""}).set_index("parameter", drop=False)
+    bound = frame["bound"].astype(object).fillna("")  # read as numbers where all are empty
+    return frame.assign(bound=bound).set_index("parameter", drop=False)
 
 
-def matrix_of(study: Study, results: Results) -> pd.DataFrame:
+def matrix_of(study: Study, results: Results, stage: str = "imp") -> pd.DataFrame:
     """Return the correlation matrix of the estimates, by name."""
-    names = list(study.imp.estimate)
-    frame = read_csv(results.identification("correlation.csv"), dict.fromkeys(names, float))
+    names = list(stages_of(study)[stage])
+    path = results.identification("correlation.csv", stage)
+    frame = read_csv(path, dict.fromkeys(names, float))
     return frame.set_index("parameter").loc[names, names]
 
 
-def noise(results: Results) -> dict[str, Any]:
+def noise(results: Results, stage: str = "imp") -> dict[str, Any]:
     """Return the noise of the channels, and chi-square at the optimum."""
     here = ("channels", EACH)
     numbers = dict.fromkeys(("points", "sd_median", "chi2", "whiteness"), float)
     return read_json(
-        results.identification("noise.json"),
+        results.identification("noise.json", stage),
         {
             **{(*here, key): str for key in ("experiment", "signal", "words")},
             **{(*here, key): kind for key, kind in numbers.items()},
@@ -58,26 +69,31 @@ def determined(study: Study, results: Results) -> pd.DataFrame:
     ``low``, ``high``, ``width_percent``: with chi-square divided by its value per degree of
     freedom where that exceeds 1; ``noise_low``, ``noise_high``: as if noise were all.
     """
-    found = estimates(study, results)
-    related = matrix_of(study, results)
     rows = []
-    for name in study.imp.estimate:
-        row = found.loc[name].to_dict()
-        factor = study.parameters[name].factor
-        rows.append(
-            {
-                "parameter": name,
-                "unit": study.parameters[name].unit,
-                **{c: float(row[c]) / factor for c in ("estimate", "low", "high")},
-                "width_percent": 100.0 * float(row["width"]),
-                "ends": _CUT_OFF[bool(row["low_open"]), bool(row["high_open"])],
-                **{c: float(row[c]) / factor for c in ("noise_low", "noise_high")},
-                "method": row["method"],
-                "verdict": row["verdict"],
-                "strongest_correlation": _strongest(related, name),
-            }
-        )
+    for stage in stages_of(study):
+        found = estimates(study, results, stage)
+        related = matrix_of(study, results, stage)
+        rows += [_determined(study, stage, row, related) for row in found.to_dict("records")]
     return pd.DataFrame(rows)
+
+
+def _determined(
+    study: Study, stage: str, row: Mapping[Any, Any], related: pd.DataFrame
+) -> dict[str, Any]:
+    name = str(row["parameter"])
+    factor = study.parameters[name].factor
+    return {
+        "fit": WORDS[stage],
+        "parameter": name,
+        "unit": study.parameters[name].unit,
+        **{c: float(row[c]) / factor for c in ("estimate", "low", "high")},
+        "width_percent": 100.0 * float(row["width"]),
+        "ends": _CUT_OFF[bool(row["low_open"]), bool(row["high_open"])],
+        **{c: float(row[c]) / factor for c in ("noise_low", "noise_high")},
+        "method": row["method"],
+        "verdict": row["verdict"],
+        "strongest_correlation": _strongest(related, name),
+    }
 
 
 def _strongest(related: pd.DataFrame, name: str) -> str:
@@ -90,7 +106,7 @@ def _strongest(related: pd.DataFrame, name: str) -> str:
 
 def channels(study: Study, results: Results) -> pd.DataFrame:
     """List the noise of every channel in words, and how the optimum fits it."""
-    found = noise(results)
+    found = [c for stage in stages_of(study) for c in noise(results, stage)["channels"]]
     rows = [
         {
             "experiment": title_of(study, c["experiment"]),
@@ -99,7 +115,7 @@ def channels(study: Study, results: Results) -> pd.DataFrame:
             "noise": c["words"],
             "chi2_per_point": c["chi2"] / c["points"],
         }
-        for c in found["channels"]
+        for c in found
     ]
     return pd.DataFrame(rows)
 
