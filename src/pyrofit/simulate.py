@@ -2,18 +2,21 @@
 
 import math
 from collections.abc import Mapping
-from typing import Self
+from typing import NamedTuple, Self
 
 import numpy as np
 from pydantic import Field
 
-from pyrofit.model.base import Part
+from pyrofit.model.base import Part, value_of
 from pyrofit.model.experiment import Gasification, Tga
 from pyrofit.model.material import Material
-from pyrofit.solver import lower
+from pyrofit.solver import arrays
 from pyrofit.solver.arrays import FloatArray, Numerics, Status
 from pyrofit.solver.curves import Curves, Request
 from pyrofit.solver.grid import cells_needed
+from pyrofit.solver.lower import fractions, is_separate, lower_material, lower_network
+from pyrofit.solver.lower_experiment import lower_cells, lower_exposure, lower_virgin
+from pyrofit.solver.observe import observe
 
 COUPLED_STEP = 0.125
 """Temperature step over that of separate reactions, where one feeds or starves another."""
@@ -86,10 +89,12 @@ def simulate_tga(
     accuracy = accuracy or Accuracy()
     if request.temperature_K is None:
         raise ValueError("a TGA request needs temperatures")
-    network = lower.lower_network(material, values, heats=False)
-    start = lower.fractions(material.composition, list(material.components), values)
-    step = accuracy.tga_step_K * (1.0 if lower.is_separate(material) else COUPLED_STEP)
-    mass, rate = tga(request.time_s, request.temperature_K, start, network, step)
+    network = lower_network(material, values, heats=False)
+    start = fractions(material.composition, list(material.components), values)
+    lag = value_of(experiment.lag_s, values) * experiment.heating_rate_K_min / 60.0
+    temperature = request.temperature_K - lag
+    step = accuracy.tga_step_K * (1.0 if is_separate(network) else COUPLED_STEP)
+    mass, rate = tga(request.time_s, temperature, start, network, step)
     ok = bool(np.isfinite(mass[-1]))
     status = Status.OK if ok else Status.NON_FINITE
     return Curves(status, {"mass_fraction": mass, "mass_loss_rate": rate})
@@ -126,35 +131,69 @@ def simulate_gasification(
         The signals at their times, empty unless the run finished. MLR over a bin is the
         difference of the released mass, so that mass closes to round-off.
     """
+    accuracy = accuracy or Accuracy()
+    case = _lower(experiment, material, values, accuracy, probes_m)
+
+    def run(factor: float, asked: Mapping[str, Request]) -> Curves:
+        return _march(case, factor, asked, accuracy.numerics)
+
+    return observe(experiment, values, requests, run)
+
+
+class _Case(NamedTuple):
+    """A gasification experiment as the kernel takes it."""
+
+    start: FloatArray
+    """Masses of the cells [kg/m2], shape (cells, components)."""
+    T_start: float
+    properties: arrays.Material
+    network: arrays.Network
+    exposure: arrays.Exposure
+    probes: FloatArray
+    """Positions counted in cells."""
+
+
+def _lower(
+    experiment: Gasification,
+    material: Material,
+    values: Mapping[str, float],
+    accuracy: Accuracy,
+    probes_m: tuple[float, ...],
+) -> _Case:
+    length = value_of(experiment.sample.absorption_length_m, values)
+    properties = lower_material(material, values, length)
+    network = lower_network(material, values)
+    exposure = lower_exposure(experiment, material, properties, values)
+    virgin = lower_virgin(experiment, material, values)
+    cells = accuracy.cells or math.ceil(
+        accuracy.cells_factor * cells_needed(virgin, properties, network, exposure)
+    )
+    start = lower_cells(experiment, material, properties, values, cells)
+    probes = _in_cells(probes_m, start @ properties.specific_volume)
+    return _Case(start, virgin.temperature, properties, network, exposure, probes)
+
+
+def _march(case: _Case, factor: float, asked: Mapping[str, Request], numerics: Numerics) -> Curves:
+    """Run the kernel under a multiple of the flux; return the curves asked for."""
     from pyrofit.solver.kernels.slab import slab
 
-    accuracy = accuracy or Accuracy()
-    arrays = lower.lower_material(material, values)
-    network = lower.lower_network(material, values)
-    exposure = lower.lower_exposure(experiment, material, arrays, values)
-    virgin = lower.lower_virgin(experiment, material, values)
-    cells = accuracy.cells or math.ceil(
-        accuracy.cells_factor * cells_needed(virgin, arrays, network, exposure)
-    )
-    start = lower.lower_cells(experiment, material, arrays, values, cells)
-    t_end = max(float(r.time_s[-1]) + 0.5 * r.average_s for r in requests.values())
     status, steps, *trace, energy, mass = slab(
-        start,
-        virgin.temperature,
-        arrays,
-        network,
-        exposure,
-        accuracy.numerics,
-        t_end,
-        set(requests) <= {"mlr", "mass"},
-        _in_cells(probes_m, start @ arrays.specific_volume),
+        case.start,
+        case.T_start,
+        case.properties,
+        case.network,
+        case.exposure._replace(flux=factor * case.exposure.flux),
+        numerics,
+        max(float(r.time_s[-1]) + 0.5 * r.average_s for r in asked.values()),
+        set(asked) <= {"mlr", "mass"},
+        case.probes,
     )
     ended = Status(status)
     signals = {}
     if ended.finished:
-        initial = float(start.sum())
-        signals = {name: _sample(name, r, trace, initial) for name, r in requests.items()}
-    return Curves(ended, signals, cells, int(steps), float(energy), float(mass))
+        initial = float(case.start.sum())
+        signals = {name: _sample(name, r, trace, initial) for name, r in asked.items()}
+    return Curves(ended, signals, len(case.start), int(steps), float(energy), float(mass))
 
 
 def solver_errors(
@@ -196,7 +235,7 @@ def _sample(name: str, request: Request, trace: list[FloatArray], initial: float
             return _floats(held_rate(time, released, rate, at))
         start = np.maximum(at - half, 0.0)
         gained = held(time, released, rate, at + half) - held(time, released, rate, start)
-        return _floats(gained / (at + half - start))
+        return _floats(gained / np.maximum(at + half - start, 1e-9))
     if name == "mass":
         return _floats(initial - held(time, released, rate, at))
     lines = {"front_temperature": front, "back_temperature": back, "thickness": thickness}

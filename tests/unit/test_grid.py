@@ -10,7 +10,7 @@ import yaml
 from pyrofit.config import Study, as_study
 from pyrofit.model.experiment import Gasification
 from pyrofit.simulate import Accuracy, simulate_gasification
-from pyrofit.solver import lower
+from pyrofit.solver import lower, lower_experiment
 from pyrofit.solver.curves import Request
 from pyrofit.solver.grid import LEAST_CELLS, MOST_CELLS, cells_needed
 
@@ -48,10 +48,10 @@ def cells(
     at = VALUES | values
     arrays = lower.lower_material(material, at)
     return cells_needed(
-        lower.lower_virgin(experiment, material, at),
+        lower_experiment.lower_virgin(experiment, material, at),
         arrays,
         lower.lower_network(material, at),
-        lower.lower_exposure(experiment, material, arrays, at),
+        lower_experiment.lower_exposure(experiment, material, arrays, at),
     )
 
 

@@ -6,8 +6,8 @@ import pytest
 
 from pyrofit.model.experiment import Gasification
 from pyrofit.model.material import Linear, Material, PowerLaw, Reaction, Table
-from pyrofit.solver import lower
-from pyrofit.solver.arrays import TABLE_TEMPERATURES_K
+from pyrofit.solver import lower, lower_experiment
+from pyrofit.solver.arrays import TABLE_TEMPERATURES_K, Surface
 
 VIRGIN: dict[str, Any] = {
     "density_kg_m3": 1000.0,
@@ -60,7 +60,7 @@ def at(table: Any, temperature_K: float) -> float:
 
 def exposed(experiment, material):
     arrays = lower.lower_material(material, VALUES)
-    return lower.lower_exposure(experiment, material, arrays, VALUES)
+    return lower_experiment.lower_exposure(experiment, material, arrays, VALUES)
 
 
 @pytest.mark.parametrize(
@@ -187,8 +187,8 @@ def test_exposure_by_hand() -> None:
         back={"h_cube_root_W_m2K43": 1.31, "emissivity": 0.9, "wall_temperature_K": 280.0},
     )
     exposure = exposed(given, material())
-    assert exposure.front == (12.0, 0.0, 330.0, 293.15)
-    assert exposure.back == (0.0, 1.31, 293.15, 280.0)
+    assert exposure.front == Surface(12.0, 0.0, 330.0, 0.0, 0.0, 293.15)
+    assert exposure.back == Surface(0.0, 1.31, 293.15, 0.0, 0.0, 280.0)
     assert (exposure.flux_time.tolist(), exposure.flux.tolist()) == ([0.0], [3e4])
     assert exposure.back_emissivity == 0.9
     assert exposure.foil_capacity == pytest.approx(679.44)
@@ -241,7 +241,7 @@ def test_mixing_depth_follows_the_front_layer() -> None:
 
 def cells(given: Gasification, matter: Material, count: int) -> Any:
     arrays = lower.lower_material(matter, VALUES)
-    return lower.lower_cells(given, matter, arrays, VALUES, count)
+    return lower_experiment.lower_cells(given, matter, arrays, VALUES, count)
 
 
 def test_cells_share_the_mass_of_the_sample() -> None:

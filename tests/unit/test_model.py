@@ -6,6 +6,7 @@ from pydantic import ValidationError
 from pyrofit.model.base import Part, numbers, value_of
 from pyrofit.model.experiment import FluxTable, Gasification, Tga
 from pyrofit.model.material import (
+    Changed,
     Component,
     Linear,
     Material,
@@ -91,6 +92,8 @@ def test_number_that_is_not_finite_is_refused(given: float) -> None:
         ({"value": 0.2, "slope_1_K": 1e-3}, Linear),
         ({"value": 0.2, "exponent": 0.5}, PowerLaw),
         ({"temperature_K": [300.0, 400.0], "value": [0.2, "k_hot"]}, Table),
+        ({"of": {"value": 0.2, "exponent": 0.5}, "slope_1_K": 1e-3}, Changed),
+        ({"of": {"of": "k", "step": 0.1}, "peak_area": 10.0}, Changed),
         (0.2, float),
         ("k", str),
     ],
@@ -120,12 +123,16 @@ def test_every_parameter_of_a_description_is_found_with_its_place() -> None:
     given = material(
         reactions={"first": reaction("A", "C") | {"A_1_s": "A_1", "products": {"C": "nu"}}},
         A=SOLID | {"conductivity_W_mK": {"value": "k_0", "exponent": "n"}},
+        B=SOLID | {"specific_heat_J_kgK": {"of": {"of": "c", "slope_1_K": "s"}, "step": "dc"}},
         C=SOLID | {"emissivity": "eps"},
     )
     found = {place: leaf for place, leaf, _ in numbers(given) if isinstance(leaf, str)}
     assert found == {
         "components.A.conductivity_W_mK.value": "k_0",
         "components.A.conductivity_W_mK.exponent": "n",
+        "components.B.specific_heat_J_kgK.of.of": "c",
+        "components.B.specific_heat_J_kgK.of.slope_1_K": "s",
+        "components.B.specific_heat_J_kgK.step": "dc",
         "components.C.emissivity": "eps",
         "reactions.first.A_1_s": "A_1",
         "reactions.first.products.C": "nu",
@@ -138,16 +145,63 @@ def test_every_parameter_of_a_description_is_found_with_its_place() -> None:
         ("components.A.density_kg_m3", 1e-3, 0.0),
         ("components.A.conductivity_W_mK", 1e-3, -1.0),
         ("components.A.emissivity", 1.0, 1.1),
+        ("components.A.expansion", 0.1, 0.0),
+        ("components.C.specific_heat_J_kgK.of", 1.0, 0.0),
+        ("components.C.specific_heat_J_kgK.step", -1e3, float("inf")),
+        ("components.C.specific_heat_J_kgK.step_width_K", 0.1, 0.0),
+        ("components.C.specific_heat_J_kgK.peak_area", -1e3, float("inf")),
+        ("components.C.specific_heat_J_kgK.peak_width_K", 4.0, 3.9),
         ("reactions.first.E_J_mol", 0.0, -1.0),
         ("reactions.first.products.C", 0.0, -0.1),
         ("reactions.first.heat_of_reaction_J_kg", -1e6, float("nan")),
     ],
 )
 def test_numbers_carry_the_rules_of_their_place(place: str, good: float, bad: float) -> None:
-    given = material(reactions={"first": reaction("A", "C")})
+    changed = {"specific_heat_J_kgK": {"of": 2000.0}}
+    given = material(reactions={"first": reaction("A", "C")}, A=SOLID, C=SOLID | changed)
     rules = {where: rules for where, _, rules in numbers(given)}[place]
     assert all(rule.holds(good) for rule in rules)
     assert not all(rule.holds(bad) for rule in rules)
+
+
+@pytest.mark.parametrize(
+    ("place", "good", "bad"),
+    [
+        ("front.h_change_W_m2K", -5.0, float("inf")),
+        ("front.gas_rise_K", -50.0, float("nan")),
+        ("back.gas_rise_time_s", 0.0, -1.0),
+        ("front.rise_time_s", 0.0, -1.0),
+        ("front.spread", 1.0, 1.1),
+        ("front.drift_1_s", -1.0, float("nan")),
+        ("front.drift_time_s", 0.0, -1.0),
+        ("back.loss_factor", 0.0, -0.1),
+        ("sample.foil.contact_m2K_W", 0.0, -1e-3),
+        ("sample.thickness_factor", 0.1, 0.0),
+        ("sample.emissivity_change", -2.0, float("nan")),
+        ("sample.absorption_length_m", 0.0, -1e-4),
+        ("sample.edge.h_W_m2K", 0.0, -1.0),
+        ("sample.edge.perimeter_per_area_1_m", 40.0, 0.0),
+        ("sample.edge.gas_temperature_K", 293.15, 20.0),
+        ("signals.mlr.delay_s", -5.0, float("nan")),
+        ("signals.mlr.offset", -1e-3, float("nan")),
+    ],
+)
+def test_general_terms_carry_their_rules(place: str, good: float, bad: float) -> None:
+    foil = {"thickness_m": 2e-4, "density_kg_m3": 8940.0, "specific_heat_J_kgK": 380.0}
+    edge = {"h_W_m2K": 5.0, "perimeter_per_area_1_m": 40.0}
+    given = experiment(
+        sample={"layers": [{"thickness_m": 0.006}], "foil": foil, "edge": edge},
+    )
+    rules = {where: rules for where, _, rules in numbers(given)}[place]
+    assert all(rule.holds(good) for rule in rules)
+    assert not all(rule.holds(bad) for rule in rules)
+
+
+@pytest.mark.parametrize("given", [{"delay_s": 2.0}, {"offset": "zero"}])
+def test_signal_of_a_tga_experiment_has_no_delay_and_no_offset(given: dict[str, Any]) -> None:
+    signals = {"mass_fraction": {"file": "synthetic", **given}}
+    with pytest.raises(ValidationError, match=r"neither delay_s nor offset; .* has lag_s"):
+        Tga.model_validate({"kind": "tga", "heating_rate_K_min": 10.0, "signals": signals})
 
 
 @pytest.mark.parametrize(

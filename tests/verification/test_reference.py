@@ -22,6 +22,17 @@ from cases import (
 )
 from scipy.optimize import brentq
 from scipy.special import expn
+from terms import (
+    BEHIND,
+    FAST,
+    FOIL,
+    HEATED,
+    SIMPLE,
+    SLOW,
+    TERMS,
+    charring,
+    specimen,
+)
 
 from pyrofit.constants import GAS_CONSTANT
 from pyrofit.model.experiment import Gasification, Tga
@@ -33,7 +44,6 @@ from pyrofit.solver.reference import Resolution, reference_gasification, referen
 
 RHO, K, C, T0, DEPTH = 1200.0, 0.2, 1500.0, 293.15, 5.8e-3
 COMPONENT = {"density_kg_m3": RHO, "conductivity_W_mK": K, "specific_heat_J_kgK": C}
-FOIL = {"thickness_m": 2e-4, "density_kg_m3": 8940.0, "specific_heat_J_kgK": 380.0}
 FINE = Accuracy(cells=400, tolerance=1e-4, longest_step_s=1.0)
 
 
@@ -63,8 +73,6 @@ def mixture(names: str, composition: dict[str, Any], *reactions: dict[str, Any])
 # TGA: exact solutions of the reference, and the kernel
 
 TEMPERATURES = np.linspace(300.0, 850.0, 551)
-FAST = {"A_1_s": 1e8, "E_J_mol": 1.1e5}
-SLOW = {"A_1_s": 1e11, "E_J_mol": 1.6e5}
 TGA = Tga.model_validate(
     {"kind": "tga", "heating_rate_K_min": 10.0, "signals": {"mass_fraction": {"file": "synthetic"}}}
 )
@@ -290,54 +298,6 @@ def test_rate_at_points_is_the_derivative_of_the_mass() -> None:
 
 # The kernel against the reference
 
-VIRGIN = {"density_kg_m3": 1200.0, "specific_heat_J_kgK": 2000.0, "emissivity": 0.9}
-CHAR = {"density_kg_m3": 300.0, "specific_heat_J_kgK": 1500.0, "emissivity": 0.8}
-HEATED = {"heat_of_reaction_J_kg": 6e5}
-SIMPLE = {"reactant": "V", "products": {"C": 0.2}, **SLOW, **HEATED}
-
-
-def charring(
-    *reactions: dict[str, Any],
-    virgin: Mapping[str, Any] | None = None,
-    char: Mapping[str, Any] | None = None,
-    kappa: float | None = None,
-) -> Material:
-    """A virgin material V, an intermediate M and a char C; one reaction if none is given."""
-    clear = {} if kappa is None else {"absorption_1_m": kappa}
-    thick = {} if kappa is None else {"absorption_1_m": 3.0 * kappa}
-    return Material.model_validate(
-        {
-            "components": {
-                "V": {"conductivity_W_mK": 0.2, **VIRGIN, **clear, **(virgin or {})},
-                "M": {"conductivity_W_mK": 0.15, **CHAR, "density_kg_m3": 900.0, **thick},
-                "C": {"conductivity_W_mK": 0.1, **CHAR, **thick, **(char or {})},
-            },
-            "reactions": {str(j): r for j, r in enumerate(reactions or (SIMPLE,))},
-            "composition": {"V": 1.0},
-        }
-    )
-
-
-def specimen(
-    flux_kW_m2: float | dict[str, Any] = 40.0,
-    back: dict[str, Any] | None = None,
-    front: Mapping[str, Any] | None = None,
-    layers: tuple[dict[str, Any], ...] = ({"thickness_m": 5e-3},),
-    **sample: Any,
-) -> Gasification:
-    flux = flux_kW_m2 if isinstance(flux_kW_m2, dict) else 1e3 * flux_kW_m2
-    around = {"h_W_m2K": 8.0, "gas_temperature_K": 340.0, "wall_temperature_K": 290.0}
-    behind = {"h_W_m2K": 4.0, "emissivity": 0.95, "gas_temperature_K": 310.0}
-    return Gasification.model_validate(
-        {
-            "kind": "gasification",
-            "sample": {"layers": layers, "initial_temperature_K": 300.0, **sample},
-            "front": {"flux_W_m2": flux, **around, **(front or {})},
-            "back": behind if back is None else back,
-            "signals": {"mlr": {"file": "synthetic"}},
-        }
-    )
-
 
 @dataclass(frozen=True)
 class Case:
@@ -350,10 +310,57 @@ class Case:
     K: float = 0.02
     """Largest difference of front, back and probe temperatures [K]."""
     end: float = 600.0
+    x: float = 0.0
+    """Value of the parameter x."""
+
+
+def with_term(name: str, mlr: float = 2e-5, K: float = 0.015) -> Case:
+    """The charring specimen on its foil with one general term."""
+    term = TERMS[name]
+    return Case(term.material, term.experiment, mlr, K, x=term.away)
 
 
 RAMP = {"time_s": [0.0, 60.0, 200.0, 200.0], "flux_W_m2": [1e4, 4e4, 4e4, 6e4]}
 CUBE = {"h_cube_root_W_m2K43": 1.31}
+# 3.8e-5, 0.040 K; thickness 2.1e-5
+SEVERAL = Case(
+    charring(
+        virgin={
+            "specific_heat_J_kgK": {
+                "of": 1800.0,
+                "slope_1_K": 1e-3,
+                "step": 200.0,
+                "peak_area": 2e4,
+            },
+            "conductivity_W_mK": {"of": {"value": 0.2, "exponent": 0.3}, "slope_1_K": -5e-4},
+            "expansion": {"value": 1.0, "slope_1_K": 3e-4},
+        },
+        char={"expansion": 1.5},
+    ),
+    specimen(
+        RAMP,
+        back={**BEHIND, "loss_factor": 1.5, "gas_rise_K": 60.0, "gas_rise_time_s": 200.0},
+        front={
+            "h_change_W_m2K": -2.0,
+            "gas_rise_K": 100.0,
+            "gas_rise_time_s": 80.0,
+            "rise_time_s": 5.0,
+            "spread": 0.1,
+            "drift_1_s": -1e-3,
+            "drift_time_s": 150.0,
+        },
+        signals={"mlr": {"file": "synthetic", "delay_s": 3.0, "offset": 2e-4}},
+        foil={**FOIL, "contact_m2K_W": 2e-3},
+        thickness_factor=0.9,
+        emissivity_change=-0.2,
+        absorption_length_m=4e-4,
+        transmitted="lost",
+        edge={"h_W_m2K": 10.0, "perimeter_per_area_1_m": 40.0},
+    ),
+    6e-5,
+    0.06,
+)
+"""All general terms at once."""
 CASES = {
     # 1.8e-5, 0.32 K
     "paper_25": Case(paper_material(), paper_experiment(25.0), 4e-5, 0.5, 1685.0),
@@ -444,6 +451,37 @@ CASES = {
     "insulated": Case(charring(), specimen(back={})),
     # 2.4e-5, 0.022 K
     "no_residue": Case(charring({**SIMPLE, "products": {}}), specimen(back={}), 4e-5, 0.04, 500.0),
+    # 2.1e-5, 0.010 K
+    "transmitted_is_lost": Case(
+        charring(kappa=200.0), specimen(foil=FOIL, transmitted="lost"), 4e-5
+    ),
+    "front_h_change": with_term("front_h_change"),  # 0.9e-5, 0.010 K
+    "back_h_change": with_term("back_h_change"),  # 1.0e-5, 0.010 K
+    "front_gas_rise": with_term("front_gas_rise"),  # 1.0e-5, 0.011 K
+    "back_gas_rise": with_term("back_gas_rise"),  # 1.0e-5, 0.010 K
+    # The kernel's step: 2.0e-5, 0.007 K at a fifth of its tolerance.
+    "rise_time": with_term("rise_time", 8e-5, 0.05),  # 5.1e-5, 0.036 K
+    "spread": with_term("spread"),  # 0.7e-5, 0.010 K
+    "drift": with_term("drift"),  # 1.0e-5, 0.010 K
+    "drift_that_ends": with_term("drift_that_ends"),  # 1.3e-5, 0.011 K
+    "loss_factor": with_term("loss_factor"),  # 1.2e-5, 0.010 K
+    "contact": with_term("contact"),  # 1.0e-5, 0.010 K
+    "thickness_factor": with_term("thickness_factor"),  # 1.0e-5, 0.011 K
+    "emissivity_change": with_term("emissivity_change"),  # 1.0e-5, 0.010 K
+    "absorption_length": with_term("absorption_length", 4e-5),  # 2.8e-5, 0.007 K
+    "edge": with_term("edge"),  # 1.0e-5, 0.010 K
+    "delay": with_term("delay"),  # 1.0e-5, 0.010 K
+    "offset": with_term("offset"),  # 0.9e-5, 0.010 K
+    "expansion": with_term("expansion"),  # 1.1e-5, 0.010 K
+    # Thickness 0.9e-5: the kernel's is that of the temperature a step expects.
+    "expansion_with_temperature": with_term(
+        "expansion_with_temperature", 3e-5, 0.02
+    ),  # 1.0e-5, 0.013 K
+    "slope": with_term("slope"),  # 0.9e-5, 0.011 K
+    # Below, the kernel's table of properties every 5 K.
+    "step": with_term("step"),  # 1.3e-5, 0.011 K
+    "peak": with_term("peak", 5e-5, 0.05),  # 3.1e-5, 0.038 K
+    "several_terms": SEVERAL,
 }
 PROBES = (0.8e-3, 3e-3)
 
@@ -454,8 +492,9 @@ def compare(case: Case, accuracy: Accuracy = FINE) -> tuple[float, float, float,
     points = Request(np.arange(5.0, case.end, 5.0))
     names = ("front_temperature", "back_temperature", "thickness", "mass", "probe_0", "probe_1")
     requests = {"mlr": bins} | dict.fromkeys(names, points)
-    ours = refer(case.experiment, case.material, requests, probes_m=PROBES)
-    kernel = run(case.experiment, case.material, requests, accuracy, probes_m=PROBES)
+    values = BEST | {"x": case.x}
+    ours = refer(case.experiment, case.material, requests, None, values, PROBES)
+    kernel = run(case.experiment, case.material, requests, accuracy, values, PROBES)
     off = {name: np.abs(ours.signals[name] - kernel.signals[name]) for name in requests}
     temperature = {n: off[n].max() for n in names if n not in ("thickness", "mass")}
     assert ours.status is kernel.status

@@ -44,10 +44,18 @@ class Side(Part):
     """Heat exchange of one side with its surroundings."""
 
     h_W_m2K: NotNegative = Field(0.0, description="heat transfer coefficient [W/(m2 K)]")
+    h_change_W_m2K: Number = Field(
+        0.0,
+        description="added to the heat transfer coefficient; the sum is at least 0 [W/(m2 K)]",
+    )
     h_cube_root_W_m2K43: NotNegative = Field(
         0.0, description="C of an additional h = C |T - T_gas|^(1/3) [W/(m2 K^(4/3))]"
     )
     gas_temperature_K: Temperature = Field(293.15, description="gas temperature for convection [K]")
+    gas_rise_K: Number = Field(0.0, description="rise of the gas temperature from t = 0 on [K]")
+    gas_rise_time_s: NotNegative = Field(
+        0.0, description="time constant of that rise [s]; 0 = at once"
+    )
     wall_temperature_K: Temperature = Field(
         293.15, description="temperature of the radiating surroundings [K]"
     )
@@ -59,12 +67,27 @@ class Front(Side):
     flux_W_m2: Annotated[Number | FluxTable, NOT_NEGATIVE] = Field(
         description="external radiant flux [W/m2]"
     )
+    rise_time_s: NotNegative = Field(
+        0.0, description="time constant with which the heater comes up from t = 0 on [s]"
+    )
+    spread: Fraction = Field(
+        0.0, description="the flux varies over the surface, evenly within 1 -+ spread times q [-]"
+    )
+    drift_1_s: Number = Field(
+        0.0, description="relative change of the flux per second; it stays at least 0 [1/s]"
+    )
+    drift_time_s: NotNegative = Field(
+        0.0, description="time constant with which the drift comes to an end [s]; 0 = never"
+    )
 
 
 class Back(Side):
     """The other side."""
 
     emissivity: Fraction = Field(0.0, description="emissivity of the back face or foil [-]")
+    loss_factor: NotNegative = Field(
+        1.0, description="multiplies convection and radiation of the back [-]"
+    )
 
 
 class Foil(Part):
@@ -73,6 +96,18 @@ class Foil(Part):
     thickness_m: Thickness = Field(description="thickness [m]")
     density_kg_m3: Positive = Field(description="density [kg/m3]")
     specific_heat_J_kgK: Positive = Field(description="specific heat capacity [J/(kg K)]")
+    mass_factor: NotNegative = Field(1.0, description="multiplies the mass [-]")
+    contact_m2K_W: NotNegative = Field(
+        0.0, description="thermal resistance between sample and foil [m2 K/W]"
+    )
+
+
+class Edge(Part):
+    """Heat exchange of the sample's edge with the gas beside it, for every depth alike."""
+
+    h_W_m2K: NotNegative = Field(description="heat transfer coefficient [W/(m2 K)]")
+    perimeter_per_area_1_m: Positive = Field(description="perimeter over area [1/m]")
+    gas_temperature_K: Temperature = Field(293.15, description="gas temperature [K]")
 
 
 class Layer(Part):
@@ -102,6 +137,20 @@ class Sample(Part):
         1e-5, description="depth [m] over which the surface emissivity is averaged by volume"
     )
     initial_temperature_K: Temperature = Field(293.15, description="initial temperature [K]")
+    thickness_factor: Positive = Field(
+        1.0, description="multiplies the thickness of every layer [-]"
+    )
+    emissivity_change: Number = Field(
+        0.0,
+        description="added to the surface emissivity, times the mass released over the initial [-]",
+    )
+    absorption_length_m: NotNegative = Field(
+        0.0, description="1/absorption_1_m of all components, instead of theirs [m]; 0 = theirs"
+    )
+    transmitted: Literal["foil", "lost"] = Field(
+        "foil", description="radiation that passes the sample: the foil absorbs it, or it is lost"
+    )
+    edge: Edge | None = Field(None, description="heat exchange of the edge")
 
 
 class Noise(Part):
@@ -162,6 +211,8 @@ class Signal(Part):
     average_s: float = Field(
         0.0, ge=0.0, description="width of the bins the values are averages over [s]; 0 = points"
     )
+    delay_s: Number = Field(0.0, description="time by which the record is late [s]")
+    offset: Number = Field(0.0, description="what the record shows too much, SI unit")
     sample_mass_kg: AboveZero | None = Field(None, description="initial sample mass [kg]")
     sample_area_m2: AboveZero | None = Field(None, description="exposed area [m2]")
     until_K: AboveZero | None = Field(
@@ -201,8 +252,21 @@ class Tga(Experiment):
     program: Literal["nominal", "measured"] = Field(
         "measured", description="temperature over time: the measured one, or T0 + rate t"
     )
+    lag_s: Number = Field(
+        0.0, description="time by which the sample's temperature lags behind the program's [s]"
+    )
     start_temperature_K: AboveZero = Field(300.0, description="synthetic: first temperature [K]")
     end_temperature_K: AboveZero = Field(850.0, description="synthetic: last temperature [K]")
+
+    @model_validator(mode="after")
+    def _lag_instead_of_delay(self) -> Self:
+        for name, signal in self.signals.items():
+            if signal.delay_s != 0.0 or signal.offset != 0.0:
+                raise ValueError(
+                    f"signal '{name}' of a TGA experiment takes neither delay_s nor offset; "
+                    "a sample behind its program has lag_s"
+                )
+        return self
 
 
 class Gasification(Experiment):

@@ -5,10 +5,24 @@ from typing import Annotated, Any, Self
 from pydantic import Discriminator, Field, Tag, model_validator
 
 from pyrofit.errors import suggest
-from pyrofit.model.base import FRACTION, POSITIVE, Fraction, NotNegative, Number, Part, Positive
+from pyrofit.model.base import (
+    FRACTION,
+    POSITIVE,
+    Fraction,
+    NotNegative,
+    Number,
+    Part,
+    Positive,
+    Rule,
+)
 
 REST = "rest"
 """Mass fraction of the one component that makes up the remainder."""
+
+
+RESOLVED = Rule(
+    lambda x: x >= 4.0, "must be at least 4 K: a property is known every 5 K, a peak has its area"
+)
 
 
 class Linear(Part):
@@ -42,12 +56,34 @@ class Table(Part):
         return self
 
 
+class Changed(Part):
+    """p(T) = of(T) (1 + slope (T - T_ref)) + step(T) + peak(T), at least 1 % of of(T).
+
+    The step is smooth, step / (1 + exp(-(T - T_step)/width)); the peak is a normal distribution
+    of area ``peak_area`` about T_peak with the standard deviation ``peak_width_K``.
+    """
+
+    of: "Property" = Field(description="the property without these changes")
+    slope_1_K: Number = Field(0.0, description="relative slope [1/K]")
+    reference_temperature_K: Positive = Field(475.0, description="T_ref [K]")
+    step: Number = Field(0.0, description="height of the step, unit of the property")
+    step_temperature_K: Positive = Field(390.0, description="temperature of the step [K]")
+    step_width_K: Positive = Field(8.0, description="width of the step [K]")
+    peak_area: Number = Field(0.0, description="area of the peak, unit of the property times K")
+    peak_temperature_K: Positive = Field(450.0, description="temperature of the peak [K]")
+    peak_width_K: Annotated[Number, RESOLVED] = Field(
+        15.0, description="standard deviation of the peak [K]"
+    )
+
+
 def _form(given: Any) -> str:
     keys = given if isinstance(given, dict) else getattr(type(given), "model_fields", None)
     if keys is None:
         return "number"
     if "temperature_K" in keys:
         return "table"
+    if "of" in keys:
+        return "changed"
     return "power law" if "exponent" in keys else "linear"
 
 
@@ -55,11 +91,14 @@ Property = Annotated[
     Annotated[Number, Tag("number")]
     | Annotated[Linear, Tag("linear")]
     | Annotated[PowerLaw, Tag("power law")]
-    | Annotated[Table, Tag("table")],
+    | Annotated[Table, Tag("table")]
+    | Annotated[Changed, Tag("changed")],
     Discriminator(_form),
     POSITIVE,
 ]
-"""A number or parameter; {value, slope_1_K}; {value, exponent}; {temperature_K, value}."""
+"""A number or parameter; {value, slope_1_K}; {value, exponent}; {temperature_K, value}, or
+{of, ...}."""
+Changed.model_rebuild()
 
 
 class Component(Part):
@@ -68,6 +107,9 @@ class Component(Part):
     density_kg_m3: Positive = Field(description="density of the pure component [kg/m3]")
     conductivity_W_mK: Property = Field(description="thermal conductivity [W/(m K)]")
     specific_heat_J_kgK: Property = Field(description="specific heat capacity [J/(kg K)]")
+    expansion: Property = Field(
+        1.0, description="volume over mass/density [-]; thickness and d/k grow with it"
+    )
     emissivity: Fraction = Field(0.9, description="surface emissivity = absorptivity [-]")
     absorption_1_m: Annotated[Number | None, POSITIVE] = Field(
         None, description="in-depth absorption coefficient [1/m]; none = opaque"

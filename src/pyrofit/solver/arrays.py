@@ -55,6 +55,8 @@ class Material(NamedTuple):
 
     specific_volume: FloatArray
     """1 / rho_i [m3/kg], shape (components,)."""
+    expansion: FloatArray
+    """Volume over that, chi_i(T) [-], shape (components, table nodes or 1)."""
     conductivity: FloatArray
     """k_i(T) [W/(m K)], shape (components, table nodes or 1)."""
     specific_heat: FloatArray
@@ -100,7 +102,11 @@ class Surface(NamedTuple):
     h_cube_root: float
     """C of the part C |T - T_gas|^(1/3) [W/(m2 K^(4/3))]."""
     gas_temperature: float
-    """[K]."""
+    """At the start [K]."""
+    gas_rise: float
+    """Its rise in the long run [K]."""
+    gas_rise_time: float
+    """Time constant of that [s]; 0 = at once."""
     wall_temperature: float
     """Temperature of the radiating surroundings [K]."""
 
@@ -114,13 +120,27 @@ class Exposure(NamedTuple):
     """Times of the flux table [s]; a step in time is given by two equal times."""
     flux: FloatArray
     """q_ext at those times [W/m2], linear between them."""
+    rise_time: float
+    """Time constant with which the heater comes up [s]; 0 = at once."""
+    drift: float
+    """Relative change of the flux per second, at the start [1/s]."""
+    drift_time: float
+    """Time constant with which the drift comes to an end [s]; 0 = never."""
     back_emissivity: float
     foil_capacity: float
     """Heat capacity per area of the foil on the back [J/(m2 K)]."""
+    contact_resistance: float
+    """Between sample and foil [m2 K/W]."""
     foil_opaque: bool
     """Whether the foil absorbs radiation transmitted through the sample."""
     mixing_depth: float
     """delta [m]: depth over which the surface emissivity is averaged by volume."""
+    emissivity_change: float
+    """Change of the surface emissivity from virgin to burnt out, with the mass released."""
+    edge_exchange: float
+    """Heat transfer coefficient of the edge times perimeter over area [W/(m3 K)]."""
+    edge_temperature: float
+    """Of the gas there [K]."""
 
 
 class Numerics(NamedTuple):

@@ -1,4 +1,4 @@
-"""From the description in words to the arrays of the kernels."""
+"""From a material in words to the arrays of the kernels; experiments: `lower_experiment`."""
 
 import math
 from collections.abc import Mapping
@@ -10,22 +10,18 @@ import numpy as np
 from pyrofit.constants import GAS_CONSTANT
 from pyrofit.model import material as words
 from pyrofit.model.base import value_of
-from pyrofit.model.experiment import EmissivityDepth, FluxTable, Gasification, Side
 from pyrofit.solver.arrays import (
     TABLE_SIZE,
     TABLE_TEMPERATURES_K,
-    Exposure,
     FloatArray,
     IntArray,
     Material,
     Network,
-    Surface,
 )
-from pyrofit.solver.grid import Virgin
 
 Values = Mapping[str, float]
 LEAST_SHARE = 0.01
-"""Least value of a linear property, relative to its reference value."""
+"""Least value of a linear property, relative to its reference value, and of a changed one."""
 
 
 def fractions(
@@ -54,6 +50,8 @@ def property_table(prop: object, values: Values) -> FloatArray:
     if isinstance(prop, words.Table):
         points = [value_of(v, values) for v in prop.value]
         return np.interp(TABLE_TEMPERATURES_K, prop.temperature_K, points)
+    if isinstance(prop, words.Changed):
+        return _changed(prop, values)
     assert isinstance(prop, words.Linear | words.PowerLaw)
     value = value_of(prop.value, values)
     reference = value_of(prop.reference_temperature_K, values)
@@ -61,6 +59,24 @@ def property_table(prop: object, values: Values) -> FloatArray:
         slope = value_of(prop.slope_1_K, values)
         return value * np.maximum(LEAST_SHARE, 1.0 + slope * (TABLE_TEMPERATURES_K - reference))
     return value * (TABLE_TEMPERATURES_K / reference) ** value_of(prop.exponent, values)
+
+
+def _changed(prop: words.Changed, values: Values) -> FloatArray:
+    """Return of(T) with slope, step and peak; nothing but of(T) where these are zero."""
+    at = {
+        name: value_of(getattr(prop, name), values)
+        for name in words.Changed.model_fields
+        if name != "of"
+    }
+    T = TABLE_TEMPERATURES_K
+    of = property_table(prop.of, values)
+    slope = 1.0 + at["slope_1_K"] * (T - at["reference_temperature_K"])
+    # 1 / (1 + exp(-x)), which would overflow.
+    passed = 0.5 + 0.5 * np.tanh(0.5 * (T - at["step_temperature_K"]) / at["step_width_K"])
+    away = (T - at["peak_temperature_K"]) / at["peak_width_K"]
+    height = at["peak_area"] / (math.sqrt(2.0 * math.pi) * at["peak_width_K"])
+    changed = of * slope + at["step"] * passed + height * np.exp(-0.5 * away * away)
+    return np.asarray(np.maximum(changed, LEAST_SHARE * of))
 
 
 def _stack(properties: list[Any], values: Values) -> FloatArray:
@@ -71,16 +87,24 @@ def _stack(properties: list[Any], values: Values) -> FloatArray:
     return np.array([t if t.size > 1 else np.full(TABLE_SIZE, t[0]) for t in tables])
 
 
-def lower_material(material: words.Material, values: Values) -> Material:
-    """Return the component properties as arrays, in the order of ``material.components``."""
+def lower_material(
+    material: words.Material, values: Values, absorption_length: float = 0.0
+) -> Material:
+    """Return the component properties as arrays, in the order of ``material.components``.
+
+    An ``absorption_length`` [m] above zero holds for all components.
+    """
     parts = list(material.components.values())
     density = np.array([value_of(c.density_kg_m3, values) for c in parts])
     return Material(
         specific_volume=1.0 / density,
+        expansion=_stack([c.expansion for c in parts], values),
         conductivity=_stack([c.conductivity_W_mK for c in parts], values),
         specific_heat=_stack([c.specific_heat_J_kgK for c in parts], values),
         emissivity=np.array([value_of(c.emissivity, values) for c in parts]),
-        absorption=np.array([value_of(c.absorption_1_m or 0.0, values) for c in parts]),
+        absorption=np.full(len(parts), 1.0 / absorption_length)
+        if absorption_length > 0.0
+        else np.array([value_of(c.absorption_1_m or 0.0, values) for c in parts]),
     )
 
 
@@ -130,9 +154,12 @@ def _plan(material: words.Material) -> _Plan:
     )
 
 
-def is_separate(material: words.Material) -> bool:
-    """Tell whether no reaction has to do with another one."""
-    return material.derived("network", _plan).plain
+def is_separate(network: Network) -> bool:
+    """Tell whether no reaction feeds or starves another one."""
+    running = network.rate_factor > 0.0
+    reactants = network.reactant[running]
+    fed = network.yields[running][:, reactants] > 0.0
+    return len(set(reactants.tolist())) == reactants.size and not bool(fed.any())
 
 
 def lower_network(material: words.Material, values: Values, heats: bool = True) -> Network:
@@ -161,95 +188,3 @@ def lower_network(material: words.Material, values: Values, heats: bool = True) 
         residue=plan.residue,
         residue_yield=yields[np.arange(len(order)), plan.residue],
     )
-
-
-def _surface(side: Side, values: Values) -> Surface:
-    return Surface(
-        h=value_of(side.h_W_m2K, values),
-        h_cube_root=value_of(side.h_cube_root_W_m2K43, values),
-        gas_temperature=value_of(side.gas_temperature_K, values),
-        wall_temperature=value_of(side.wall_temperature_K, values),
-    )
-
-
-def lower_exposure(
-    experiment: Gasification, material: words.Material, arrays: Material, values: Values
-) -> Exposure:
-    """Return what acts on the sample as arrays."""
-    flux = experiment.front.flux_W_m2
-    if isinstance(flux, FluxTable):
-        times = np.array(flux.time_s)
-        fluxes = np.array([value_of(q, values) for q in flux.flux_W_m2])
-    else:
-        times, fluxes = np.zeros(1), np.array([value_of(flux, values)])
-    foil = experiment.sample.foil
-    capacity = 0.0
-    if foil is not None:
-        mass = value_of(foil.thickness_m, values) * value_of(foil.density_kg_m3, values)
-        capacity = mass * value_of(foil.specific_heat_J_kgK, values)
-    return Exposure(
-        front=_surface(experiment.front, values),
-        back=_surface(experiment.back, values),
-        flux_time=times,
-        flux=fluxes,
-        back_emissivity=value_of(experiment.back.emissivity, values),
-        foil_capacity=capacity,
-        foil_opaque=foil is not None,
-        mixing_depth=_mixing_depth(experiment, material, arrays, values),
-    )
-
-
-def _mixing_depth(
-    experiment: Gasification, material: words.Material, arrays: Material, values: Values
-) -> float:
-    depth = experiment.sample.emissivity_depth
-    if not isinstance(depth, EmissivityDepth):
-        return value_of(depth, values)
-    names = list(material.components)
-    composition = experiment.sample.layers[0].composition or material.composition
-    share = fractions(composition, names, values)
-    volume = share * arrays.specific_volume
-    k = float(volume @ _at(arrays.conductivity, experiment, values)) / volume.sum()
-    rho_c = float(share @ _at(arrays.specific_heat, experiment, values)) / volume.sum()
-    return value_of(depth.cell_size_factor, values) * math.sqrt(k / rho_c)
-
-
-def _at(table: FloatArray, experiment: Gasification, values: Values) -> FloatArray:
-    if table.shape[1] == 1:
-        return table[:, 0]
-    T = value_of(experiment.sample.initial_temperature_K, values)
-    return np.array([np.interp(T, TABLE_TEMPERATURES_K, row) for row in table])
-
-
-def lower_virgin(experiment: Gasification, material: words.Material, values: Values) -> Virgin:
-    """Return what the sample is before it reacts."""
-    layers = experiment.sample.layers
-    composition = layers[0].composition or material.composition
-    return Virgin(
-        share=fractions(composition, list(material.components), values),
-        thickness=sum(value_of(layer.thickness_m, values) for layer in layers),
-        temperature=value_of(experiment.sample.initial_temperature_K, values),
-    )
-
-
-def lower_cells(
-    experiment: Gasification,
-    material: words.Material,
-    arrays: Material,
-    values: Values,
-    cells: int,
-) -> FloatArray:
-    """Return the initial masses [kg/m2], shape (cells, components), front first.
-
-    The cells are shared out by thickness, at least two to a layer, equally thick in a layer.
-    """
-    names = list(material.components)
-    layers = experiment.sample.layers
-    thickness = [value_of(layer.thickness_m, values) for layer in layers]
-    parts = []
-    for layer, size in zip(layers, thickness, strict=True):
-        count = cells if len(layers) == 1 else max(2, round(cells * size / sum(thickness)))
-        share = fractions(layer.composition or material.composition, names, values)
-        mass = size / float(share @ arrays.specific_volume)
-        parts.append(np.full((count, len(names)), share * mass / count))
-    return parts[0] if len(parts) == 1 else np.concatenate(parts)

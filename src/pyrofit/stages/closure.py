@@ -11,6 +11,7 @@ from pyrofit.data.closure import Closure
 from pyrofit.model.base import value_of
 from pyrofit.model.experiment import Gasification
 from pyrofit.solver.lower import fractions
+from pyrofit.solver.lower_experiment import thicknesses
 
 
 def closure_lines(study: Study, signals: Mapping[str, Any]) -> list[str]:
@@ -36,7 +37,7 @@ def _line(study: Study, name: str, experiment: Any, released: float) -> str:
     values = study.fixed_values()
     signal = experiment.signals["mlr"]
     try:
-        thickness = sum(value_of(layer.thickness_m, values) for layer in experiment.sample.layers)
+        thickness = sum(thicknesses(experiment.sample, values))
     except KeyError:
         return f"{name}: released {released:.3f} kg/m2; thickness to be estimated"
     initial = None
@@ -58,10 +59,11 @@ def _described_mass(study: Study, experiment: Gasification, values: Mapping[str,
     components = study.material.components
     volumes = np.array([1.0 / value_of(c.density_kg_m3, values) for c in components.values()])
     total = 0.0
-    for layer in experiment.sample.layers:
+    sizes = thicknesses(experiment.sample, values)
+    for layer, size in zip(experiment.sample.layers, sizes, strict=True):
         composition = layer.composition or study.material.composition
         share = fractions(composition, list(components), values)
-        total += value_of(layer.thickness_m, values) / float(share @ volumes)
+        total += size / float(share @ volumes)
     return total
 
 

@@ -37,7 +37,7 @@ def layer(m, n, material, T):
     k = 0.0
     c = 0.0
     for i in range(m.shape[0]):
-        v = m[i, n] * material.specific_volume[i]
+        v = m[i, n] * material.specific_volume[i] * at_temperature(material.expansion, i, T)
         d += v
         k += v * at_temperature(material.conductivity, i, T)
         c += m[i, n] * at_temperature(material.specific_heat, i, T)
@@ -105,7 +105,8 @@ def properties(work, first, material):
         cell[row.d, n] = 0.0
     for i in range(work.m.shape[0]):
         for n in live(work.m, first):
-            work.v[i, n] = work.m_new[i, n] * material.specific_volume[i]
+            chi = at_temperature(material.expansion, i, cell[row.T_star, n])
+            work.v[i, n] = work.m_new[i, n] * material.specific_volume[i] * chi
             cell[row.d, n] += work.v[i, n]
     mix(work.v, material.conductivity, cell, first, row.dk)
     mix(work.m_new, material.specific_heat, cell, first, row.C_new)

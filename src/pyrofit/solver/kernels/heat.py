@@ -40,9 +40,25 @@ def flux_at(t, p, time, flux):
 
 
 @inner
-def exchange(surface, emissivity, T):
+def approach(t, time):
+    """Return 1 - exp(-t/time), what is reached of a value approached with a time constant."""
+    return 1.0 - math.exp(-t / time) if time > 0.0 else 1.0
+
+
+@inner
+def irradiation(t, piece, exposure):
+    """Return q_ext(t): the table's, times the heater's coming up and its drift."""
+    flux = flux_at(t, piece, exposure.flux_time, exposure.flux)
+    drifted = t
+    if exposure.drift_time > 0.0:
+        drifted = exposure.drift_time * approach(t, exposure.drift_time)
+    return flux * approach(t, exposure.rise_time) * max(1.0 + exposure.drift * drifted, 0.0)
+
+
+@inner
+def exchange(surface, emissivity, T, t):
     """Linearise the loss of a surface about T: net gain = gain - slope * T_new [W/m2]."""
-    dT = T - surface.gas_temperature
+    dT = T - surface.gas_temperature - surface.gas_rise * approach(t, surface.gas_rise_time)
     h = surface.h
     if surface.h_cube_root != 0.0:
         h += surface.h_cube_root * abs(dT) ** (1.0 / 3.0)
@@ -75,13 +91,23 @@ def absorb(radiation, work, first, material):
 
 
 @inner
-def surface_heat(radiation, eps, front_star, work, first, material, exposure):
+def lose_at_edge(work, first, exposure):
+    """Add to every cell what its edge exchanges with the gas beside it."""
+    cell = work.cell
+    for n in live(work.m, first):
+        loss = exposure.edge_exchange * cell[row.d, n]
+        cell[row.slope, n] += loss
+        cell[row.source, n] += loss * exposure.edge_temperature
+
+
+@inner
+def surface_heat(radiation, eps, front_star, t, work, first, material, exposure):
     """Fill the heat source of the foil and return that of the front, about T*."""
     cell = work.cell
     foil = work.m.shape[1]
-    gain, slope = exchange(exposure.front, eps, front_star)
+    gain, slope = exchange(exposure.front, eps, front_star, t)
     gain_back, slope_back = exchange(
-        exposure.back, exposure.back_emissivity, cell[row.T_star, foil]
+        exposure.back, exposure.back_emissivity, cell[row.T_star, foil], t
     )
     inside = 0.0
     if is_opaque(material):
@@ -97,18 +123,24 @@ def surface_heat(radiation, eps, front_star, work, first, material, exposure):
 
 
 @inner
-def net_flux(surface, front, work):
-    """Return the heat that enters through both surfaces at the end of the step [W/m2]."""
+def net_flux(surface, front, work, first, exposure):
+    """Return the heat that enters through surfaces and edge at the end of the step [W/m2]."""
     cell = work.cell
     foil = work.m.shape[1]
-    back_flux = cell[row.source, foil] - cell[row.slope, foil] * cell[row.T_new, foil]
-    return surface.gain - surface.slope * front + surface.inside + back_flux
+    flux = cell[row.source, foil] - cell[row.slope, foil] * cell[row.T_new, foil]
+    if exposure.edge_exchange != 0.0:
+        for n in live(work.m, first):
+            loss = exposure.edge_exchange * cell[row.d, n]
+            flux += loss * (exposure.edge_temperature - cell[row.T_new, n])
+    return surface.gain - surface.slope * front + surface.inside + flux
 
 
 @inner
 def temperature_falls(cell, first, front_star):
     """Fill half the temperature difference across each cell [K]."""
     last = cell.shape[1] - 2
+    # Before the foil the resistance of the contact counts as solid, of thickness k R.
+    cell[row.d, last + 1] = cell[row.d, last] * cell[row.half_r, last + 1] / cell[row.half_r, last]
     for n in range(first + 1, last + 1):
         d = cell[row.d, n]
         span = 0.5 * (cell[row.d, n - 1] + cell[row.d, n + 1]) + d

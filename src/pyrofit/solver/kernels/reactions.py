@@ -85,12 +85,16 @@ def react(m, formed, first, x, network, exact, m_new, used):
 
 @inner
 def consume_alone(m, first, j, x, network, exact, m_new, used):
-    """Let reaction j consume its reactant, in a network in which nothing else touches that."""
+    """Let reaction j consume its reactant, in a network in which nothing else touches that.
+
+    Rounds as `consume`, so that a reaction or component without effect changes no curve.
+    """
     i = network.reactant[j]
     for n in live(m, first):
         e, _ = decay(x[j, n], exact)
-        used[j, n] = m[i, n] * (1.0 - e)
-        m_new[i, n] = m[i, n] - used[j, n]
+        left = m[i, n] * e
+        used[j, n] = m[i, n] - left
+        m_new[i, n] = left
     i = network.residue[j]
     for n in live(m, first):
         m_new[i, n] += network.residue_yield[j] * used[j, n]
@@ -115,7 +119,7 @@ def consume(m, formed, n, j, end, x, network, exact, m_new, used):
     for a in range(j, end):
         part = consumed
         if end > j + 1:
-            part = consumed * x[a, n] / total if total > 0.0 else 0.0
+            part = consumed * (x[a, n] / total) if total > 0.0 else 0.0
         used[a, n] = part
         for b in range(m.shape[0]):
             if network.yields[a, b] != 0.0:

@@ -16,7 +16,7 @@ change = 6
 C, C_new = 7, 8
 """Heat capacity per area [J/(m2 K)]."""
 d, d_start = 9, 10
-"""Thickness [m]."""
+"""Thickness [m]; of the foil: of solid with twice the resistance of the contact."""
 dk = 11
 """Thickness times conductivity [W/K]."""
 half_r = 12

@@ -29,7 +29,7 @@ from pyrofit.solver.kernels.bdf import (
 )
 from pyrofit.solver.kernels.cells import layer, properties, rate_constants, reactant_left
 from pyrofit.solver.kernels.jit import entry, inner, live, loop
-from pyrofit.solver.kernels.step import advance
+from pyrofit.solver.kernels.step import Top, advance
 from pyrofit.solver.kernels.work import allocate
 
 GASIFICATION_SCALE = 2.0e6
@@ -58,6 +58,7 @@ def begin(work, first, material, network, exposure):
     properties(work, first, material)
     rate_constants(work, first, network)
     cell[row.C_new, -1] = exposure.foil_capacity
+    cell[row.half_r, -1] = exposure.contact_resistance
     for n in live(cell, first):
         cell[row.C, n] = cell[row.C_new, n]
         cell[row.d_start, n] = cell[row.d, n]
@@ -160,7 +161,8 @@ def probe_temperature(position, cell, first, front):
     if low < first:
         return front + (cell[row.T, first] - front) * (position - first) / 0.5
     if low >= foil - 1:
-        part = (position - foil + 0.5) / 0.5
+        half, contact = cell[row.half_r, foil - 1], cell[row.half_r, foil]
+        part = (position - foil + 0.5) / 0.5 * (half / (half + contact))
         low = foil - 1
     return cell[row.T, low] + part * (cell[row.T, low + 1] - cell[row.T, low])
 
@@ -195,41 +197,46 @@ def march(
     """Step from 0 to t_end; return how it ended, the number of steps, energy and mass error."""
     first = np.int64(0)  # a plain 0 is a type of its own, for which all would be compiled again
     begin(work, first, material, network, exposure)
-    front = front_old = T_start
-    eps = 1.0
+    top = Top(T_start, T_start, 1.0, 0.0)
     balance = Balance(0.0, 0.0, 0.0, 0.0, 0.0)
     clock = start_clock(0.0, exposure, numerics, t_end)
     rate_scale = scale_of_rate(exposure)
     mass = total_mass(work)
     depth = thickness(work, material, T_start)
-    record(trace[0], 0.0, 0.0, 0.0, front, depth, work, first, probes)
+    record(trace[0], 0.0, 0.0, 0.0, T_start, depth, work, first, probes)
     status, steps, tries = UNBURNT, 0, 0
     while clock.t < t_end - 1e-9:
         if steps >= numerics.most_steps or tries >= 2 * numerics.most_steps:
             status = TOO_MANY_STEPS
             break
         tries += 1
-        step = advance(
-            work, first, front, front_old, eps, clock, rate_scale, material, network, exposure
-        )
+        step = advance(work, first, top, clock, mass, rate_scale, material, network, exposure)
         if step.status != OK:
             status = step.status
             break
-        eps = step.eps
         ratio = step_ratio(step.error, numerics.tolerance)
         if rejected(clock, ratio, numerics.first_step):
             clock = retry(clock, ratio, numerics.first_step)
+            top = Top(top.front, top.front_old, step.eps, top.converted)
             continue
         steps += 1
         rate_scale = max(rate_scale, PEAK_MULTIPLE * step.rate)
         accept(work, first, network)
-        front_old, front = front, step.front
-        depth = thickness(work, material, T_start)
+        depth = thickness(work, material, step.front)
         first, heat = drop_thin(work, first, start, network)
         balance = booked(balance, clock, step.gas, step.heat + heat, step.net_flux)
+        top = Top(step.front, top.front, step.eps, balance.released / mass)
         clock = tick(clock, ratio, exposure, numerics, t_end)
         record(
-            trace[steps], clock.t, balance.released, step.rate, front, depth, work, first, probes
+            trace[steps],
+            clock.t,
+            balance.released,
+            step.rate,
+            top.front,
+            depth,
+            work,
+            first,
+            probes,
         )
         if status == UNBURNT and is_burnt_out(work, first, network, BURNT_FRACTION * mass):
             status = OK

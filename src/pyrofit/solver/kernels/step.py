@@ -18,7 +18,8 @@ from pyrofit.solver.kernels.cells import (
 )
 from pyrofit.solver.kernels.heat import (
     conduct,
-    flux_at,
+    irradiation,
+    lose_at_edge,
     net_flux,
     surface_heat,
     temperature_falls,
@@ -31,6 +32,19 @@ TEMPERATURE_SCALE = 400.0
 COLDEST_K, HOTTEST_K = 50.0, 5000.0
 """Range that temperatures must not leave."""
 OK, DIVERGED, NON_FINITE = int(Status.OK), int(Status.DIVERGED), int(Status.NON_FINITE)
+
+
+class Top(NamedTuple):
+    """What a step starts from, besides the cells."""
+
+    front: float
+    """Front temperature [K]."""
+    front_old: float
+    """The same a step before [K]."""
+    eps: float
+    """Front emissivity."""
+    converted: float
+    """Mass released over initial mass."""
 
 
 class Step(NamedTuple):
@@ -122,12 +136,21 @@ def heat_taken(work, first):
 
 
 @inner
-def advance(work, first, front, front_old, eps, clock, rate_scale, material, network, exposure):
+def changed_emissivity(eps, top, work, first, mass, network, exposure):
+    """Return the emissivity as it has changed with the mass released up to the end of the step."""
+    if exposure.emissivity_change == 0.0:
+        return eps
+    converted = top.converted + gas_released(work, first, network) / mass
+    return min(max(eps + exposure.emissivity_change * converted, 0.0), 1.0)
+
+
+@inner
+def advance(work, first, top, clock, mass, rate_scale, material, network, exposure):
     """Take one step; the state it starts from stays."""
     cell = work.cell
     bdf = formula(clock)
     extrapolate(cell, first, bdf.r)
-    front_star = front + bdf.r * (front - front_old)
+    front_star = top.front + bdf.r * (top.front - top.front_old)
     temperature_falls(cell, first, front_star)
     rate_constants(work, first, network)
 
@@ -135,9 +158,13 @@ def advance(work, first, front, front_old, eps, clock, rate_scale, material, net
     properties(work, first, material)
 
     linearise(work, first, bdf, network)
-    eps = top_emissivity(exposure.mixing_depth, work.skin, work.m_new, first, material, eps)
-    q = eps * flux_at(clock.t + bdf.dt, clock.piece, exposure.flux_time, exposure.flux)
-    surface = surface_heat(q, eps, front_star, work, first, material, exposure)
+    t = clock.t + bdf.dt
+    eps = top_emissivity(exposure.mixing_depth, work.skin, work.m_new, first, material, top.eps)
+    seen = changed_emissivity(eps, top, work, first, mass, network, exposure)
+    q = seen * irradiation(t, clock.piece, exposure)
+    surface = surface_heat(q, seen, front_star, t, work, first, material, exposure)
+    if exposure.edge_exchange != 0.0:
+        lose_at_edge(work, first, exposure)
     _, r_skin, C_skin = layer(work.skin, 0, material, front_star)
     cell[row.C_new, first] += C_skin
     front_new = conduct(cell, first, surface, r_skin, bdf)
@@ -157,7 +184,7 @@ def advance(work, first, front, front_old, eps, clock, rate_scale, material, net
         rate=rate,
         gas=gas_released(work, first, network),
         heat=heat_taken(work, first),
-        net_flux=net_flux(surface, front_new, work),
+        net_flux=net_flux(surface, front_new, work, first, exposure),
     )
 
 

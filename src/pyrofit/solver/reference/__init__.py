@@ -1,8 +1,9 @@
 """A second, independent solver of the same equations, slow and plain.
 
 It verifies the kernels and makes synthetic measurements, and shares nothing with them but the
-description in words: other unknowns (temperatures at nodes, the extent of every reaction in the
-elements between them), other discretisation in space (finite elements) and time (LSODA).
+description in words and what the apparatus makes of finished curves. It has other unknowns
+(temperatures at nodes, the extent of every reaction in the elements between them) and another
+discretisation in space (finite elements) and time (LSODA).
 """
 
 from pyrofit.solver.reference.gasification import reference_gasification

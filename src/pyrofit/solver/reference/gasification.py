@@ -2,19 +2,19 @@
 
 import math
 import warnings
-from collections.abc import Iterator, Mapping
-from dataclasses import dataclass
+from collections.abc import Mapping
 
 import numpy as np
 from scipy.integrate import LSODA
 
 from pyrofit.model.base import value_of
-from pyrofit.model.experiment import EmissivityDepth, FluxTable, Gasification
+from pyrofit.model.experiment import EmissivityDepth, Gasification, Sample
 from pyrofit.model.material import Material
 from pyrofit.solver.arrays import FloatArray, Status
 from pyrofit.solver.curves import Curves, Request
+from pyrofit.solver.observe import observe
 from pyrofit.solver.reference.resolution import Resolution
-from pyrofit.solver.reference.slab import Slab, surface
+from pyrofit.solver.reference.slab import Outside, Slab
 from pyrofit.solver.reference.substance import (
     COLDEST_K,
     HOTTEST_K,
@@ -23,6 +23,7 @@ from pyrofit.solver.reference.substance import (
     mass_fractions,
     substance,
 )
+from pyrofit.solver.reference.surroundings import Piece, pieces, rim, surface
 
 BURNT_FRACTION = 1e-5
 """Reactant left in the sample, relative to its initial mass, at which it counts as burnt out."""
@@ -61,22 +62,26 @@ def reference_gasification(
     """
     resolution = resolution or Resolution()
     slab = make_slab(experiment, material, values, resolution.elements)
-    wanted = [edge for r in requests.values() for edge in _edges(r)]
-    time = np.unique(np.concatenate(wanted))
-    run = _Run(slab, resolution, time, may_stop=set(requests) <= {"mlr", "mass"})
-    run.go(list(pieces(experiment, values, float(time[-1]))))
-    if not run.status.finished:
-        return Curves(run.status, {}, resolution.elements, run.steps)
-    lines = _lines(slab, run.states, probes_m)
-    lines["mlr"][time > run.ended] = 0.0
-    signals = {name: _sample(name, r, time, lines) for name, r in requests.items()}
-    energy_error = abs(run.heat_missing) / max(run.heat_crossed, 1e-300)
-    return Curves(run.status, signals, resolution.elements, run.steps, energy_error)
+
+    def solve(factor: float, asked: Mapping[str, Request]) -> Curves:
+        time = np.unique(np.concatenate([edge for r in asked.values() for edge in _edges(r)]))
+        run = _Run(slab, resolution, time, may_stop=set(asked) <= {"mlr", "mass"})
+        run.go(list(pieces(experiment.front, values, float(time[-1]), factor)))
+        if not run.status.finished:
+            return Curves(run.status, {}, resolution.elements, run.steps)
+        lines = _lines(slab, run.states, probes_m)
+        lines["mlr"][time > run.ended] = 0.0
+        signals = {name: _sample(name, r, time, lines) for name, r in asked.items()}
+        energy_error = abs(run.heat_missing) / max(run.heat_crossed, 1e-300)
+        return Curves(run.status, signals, resolution.elements, run.steps, energy_error)
+
+    return observe(experiment, values, requests, solve)
 
 
 def _edges(request: Request) -> tuple[FloatArray, FloatArray]:
+    """Return start and end of the bins; nothing happens before 0, where the initial state holds."""
     half = 0.5 * request.average_s
-    return np.maximum(request.time_s - half, 0.0), request.time_s + half
+    return np.maximum(request.time_s - half, 0.0), np.maximum(request.time_s + half, 0.0)
 
 
 def _sample(
@@ -86,17 +91,16 @@ def _sample(
         start, end = _edges(request)
         lost = lines["mass"][np.searchsorted(time, start)]
         lost = lost - lines["mass"][np.searchsorted(time, end)]
-        return np.asarray(lost / (end - start))
-    return lines[name][np.searchsorted(time, request.time_s)]
+        return np.asarray(lost / np.maximum(end - start, 1e-9))
+    return lines[name][np.searchsorted(time, np.maximum(request.time_s, 0.0))]
 
 
 def _lines(slab: Slab, states: FloatArray, probes_m: tuple[float, ...]) -> dict[str, FloatArray]:
     """Return all signals at the times of the states."""
     T, extent = slab.split(states)
     present = slab.masses(extent)
-    rate = slab.derivative(states, (0.0, np.zeros(T.shape[-1])))
+    rate = slab.derivative(states, Outside(0.0, 0.0, np.zeros(T.shape[-1])))
     lost = slab.split(rate)[1] @ slab.substance.reactions.gas
-    volume = present / slab.substance.density
     virgin = slab.mass * (slab.virgin / slab.substance.density).sum(axis=-1)
     depth = np.concatenate(([0.0], np.cumsum(virgin)))
     probes = {
@@ -106,39 +110,10 @@ def _lines(slab: Slab, states: FloatArray, probes_m: tuple[float, ...]) -> dict[
     return probes | {
         "mlr": lost @ slab.mass,
         "mass": present.sum(axis=(-2, -1)),
-        "thickness": volume.sum(axis=(-2, -1)),
+        "thickness": slab.thickness(T, extent).sum(axis=-1),
         "front_temperature": T[:, 0].copy(),
         "back_temperature": T[:, -1].copy(),
     }
-
-
-@dataclass(frozen=True)
-class Piece:
-    """A time in which the flux is linear: q_ext = flux + slope (t - start)."""
-
-    start: float
-    end: float
-    flux: float
-    slope: float
-
-    def at(self, t: float) -> float:
-        """Return q_ext(t) [W/m2], also beyond the end."""
-        return self.flux + self.slope * (t - self.start)
-
-
-def pieces(experiment: Gasification, values: Values, end: float) -> Iterator[Piece]:
-    """Yield the pieces of the external flux up to the end of the run."""
-    given = experiment.front.flux_W_m2
-    if not isinstance(given, FluxTable):
-        yield Piece(0.0, end, value_of(given, values), 0.0)
-        return
-    flux = [value_of(q, values) for q in given.flux_W_m2]
-    for n, start in enumerate(given.time_s):
-        last = n + 1 == len(flux)
-        until = math.inf if last else given.time_s[n + 1]
-        if start < min(until, end):
-            slope = 0.0 if last else (flux[n + 1] - flux[n]) / (until - start)
-            yield Piece(start, min(until, end), flux[n], slope)
 
 
 class _Run:
@@ -171,15 +146,15 @@ class _Run:
         slab = self.slab
         tolerance = np.full(y.size, self.resolution.tolerance)
         tolerance[:: slab.stride] *= 100.0
-        heat = slab.heat_in(y, slab.outside(part.at(part.start), y))
+        heat = slab.heat_in(y, slab.outside(part.start, part.at(part.start), y))
         solver = LSODA(
-            lambda t, y: slab.derivative(y, slab.outside(part.at(t), y)),
+            lambda t, y: slab.derivative(y, slab.outside(t, part.at(t), y)),
             part.start,
             y,
             part.end,
             rtol=self.resolution.tolerance,
             atol=tolerance,
-            jac=lambda t, y: slab.jacobian(y, slab.outside(part.at(t), y)),
+            jac=lambda t, y: slab.jacobian(y, slab.outside(t, part.at(t), y)),
             lband=slab.stride,
             uband=slab.stride,
         )
@@ -210,7 +185,8 @@ class _Run:
     ) -> float:
         """Add a step to the heat balance, by the trapezoidal rule; return the heat flux after."""
         t, y = before
-        after = self.slab.heat_in(solver.y, self.slab.outside(part.at(solver.t), solver.y))
+        outside = self.slab.outside(solver.t, part.at(solver.t), solver.y)
+        after = self.slab.heat_in(solver.y, outside)
         half = 0.5 * (solver.t - t)
         self.heat_crossed += half * abs(heat + after)
         self.heat_missing += half * (heat + after) - self.slab.heat_taken(y, solver.y)
@@ -231,33 +207,57 @@ class _Run:
 
 def make_slab(experiment: Gasification, material: Material, values: Values, elements: int) -> Slab:
     """Return the slab of an experiment; a layer has elements of one thickness, at least two."""
-    solid = substance(material, values)
-    sample = experiment.sample
-    sizes = [value_of(layer.thickness_m, values) for layer in sample.layers]
+    sample, back = experiment.sample, experiment.back
+    solid = substance(material, values, value_of(sample.absorption_length_m, values))
+    virgin, mass = _elements(sample, material, solid, values, elements)
+    T_start = value_of(sample.initial_temperature_K, values)
+    losses = value_of(back.loss_factor, values)
+    capacity, contact = _foil(sample, values)
+    depth = _mixing_depth(sample.emissivity_depth, solid, virgin[0], T_start, values)
+    if contact > 0.0:
+        virgin = np.concatenate((virgin, np.zeros((1, virgin.shape[1]))))
+        mass = np.append(mass, 0.0)
+    return Slab(
+        substance=solid,
+        virgin=virgin,
+        mass=mass,
+        T_start=T_start,
+        front=surface(experiment.front, values),
+        back=surface(back, values, losses),
+        back_emissivity=losses * value_of(back.emissivity, values),
+        foil_capacity=capacity,
+        contact_resistance=contact,
+        foil_opaque=sample.foil is not None and sample.transmitted == "foil",
+        mixing_depth=depth,
+        emissivity_change=value_of(sample.emissivity_change, values),
+        rim=rim(sample.edge, values),
+    )
+
+
+def _elements(
+    sample: Sample, material: Material, solid: Substance, values: Values, elements: int
+) -> tuple[FloatArray, FloatArray]:
+    """Return the mass fractions and masses [kg/m2] of the elements before they react."""
+    factor = value_of(sample.thickness_factor, values)
+    sizes = [factor * value_of(layer.thickness_m, values) for layer in sample.layers]
     virgin, mass = [], []
     for layer, size in zip(sample.layers, sizes, strict=True):
         count = max(2, round(elements * size / sum(sizes)))
         share = mass_fractions(layer.composition or material.composition, solid.names, values)
         virgin.append(np.tile(share, (count, 1)))
         mass.append(np.full(count, size / count / (share / solid.density).sum()))
-    T_start = value_of(sample.initial_temperature_K, values)
-    foil = 0.0
-    if sample.foil is not None:
-        foil = value_of(sample.foil.thickness_m, values)
-        foil *= value_of(sample.foil.density_kg_m3, values)
-        foil *= value_of(sample.foil.specific_heat_J_kgK, values)
-    return Slab(
-        substance=solid,
-        virgin=np.concatenate(virgin),
-        mass=np.concatenate(mass),
-        T_start=T_start,
-        front=surface(experiment.front, values),
-        back=surface(experiment.back, values),
-        back_emissivity=value_of(experiment.back.emissivity, values),
-        foil_capacity=foil,
-        foil_opaque=sample.foil is not None,
-        mixing_depth=_mixing_depth(sample.emissivity_depth, solid, virgin[0][0], T_start, values),
-    )
+    return np.concatenate(virgin), np.concatenate(mass)
+
+
+def _foil(sample: Sample, values: Values) -> tuple[float, float]:
+    """Return the foil's heat capacity [J/(m2 K)] and its resistance to the sample [m2 K/W]."""
+    foil = sample.foil
+    if foil is None:
+        return 0.0, 0.0
+    mass = value_of(foil.thickness_m, values) * value_of(foil.density_kg_m3, values)
+    mass *= value_of(foil.mass_factor, values)
+    capacity = mass * value_of(foil.specific_heat_J_kgK, values)
+    return capacity, value_of(foil.contact_m2K_W, values)
 
 
 def _mixing_depth(

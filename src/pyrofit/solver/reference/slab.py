@@ -9,19 +9,19 @@ element by Gauss's rule of two points, heat capacities are lumped at the nodes:
     C_n dT_n/dt = heat conducted and absorbed - sum_j dh_j r_j, weighted by the shape function of n
 
 An element that has burnt keeps its residue; floors on its heat capacity and thermal resistance keep
-the system regular where there is none.
+the system regular where there is none. The foil belongs to the last node; behind a contact
+resistance it has a node of its own, and the contact is an element without mass between the two.
 """
 
 from dataclasses import dataclass
 from functools import cached_property
+from typing import NamedTuple
 
 import numpy as np
 
-from pyrofit.constants import STEFAN_BOLTZMANN
-from pyrofit.model.base import value_of
-from pyrofit.model.experiment import Side
 from pyrofit.solver.arrays import FloatArray
-from pyrofit.solver.reference.substance import COLDEST_K, HOTTEST_K, Substance, Values
+from pyrofit.solver.reference.substance import COLDEST_K, HOTTEST_K, Substance
+from pyrofit.solver.reference.surroundings import Rim, Surface
 
 GAUSS = 0.5 - 0.5 / np.sqrt(3.0), 0.5 + 0.5 / np.sqrt(3.0)
 """Points of the rule of two points on (0, 1); both weigh 1/2."""
@@ -37,30 +37,15 @@ PERTURBED_K, PERTURBED_EXTENT = 1e-3, -1e-6
 """Differences for the Jacobian; extents go back, where there is something to react."""
 
 
-@dataclass(frozen=True)
-class Surface:
-    """Exchange of a side with its surroundings."""
+class Outside(NamedTuple):
+    """What acts on a state from outside, or depends on it as a whole."""
 
-    h: float
-    h_cube_root: float
-    gas: float
-    wall: float
-
-    def gain(self, emissivity: float, T: FloatArray) -> FloatArray:
-        """Return eps sigma (T_wall^4 - T^4) - h (T - T_gas) [W/m2]."""
-        above = T - self.gas
-        h = self.h + self.h_cube_root * np.cbrt(np.abs(above))
-        return np.asarray(emissivity * STEFAN_BOLTZMANN * (self.wall**4 - T**4) - h * above)
-
-
-def surface(side: Side, values: Values) -> Surface:
-    """Return one side with numbers."""
-    return Surface(
-        h=value_of(side.h_W_m2K, values),
-        h_cube_root=value_of(side.h_cube_root_W_m2K43, values),
-        gas=value_of(side.gas_temperature_K, values),
-        wall=value_of(side.wall_temperature_K, values),
-    )
+    t: float
+    """[s]."""
+    eps: float
+    """Emissivity of the front."""
+    absorbed: FloatArray
+    """External radiation that the nodes absorb [W/m2], shape (nodes,)."""
 
 
 @dataclass(frozen=True)
@@ -78,9 +63,13 @@ class Slab:
     back_emissivity: float
     foil_capacity: float
     """[J/(m2 K)]."""
+    contact_resistance: float
+    """Of the last element, if that has no mass [m2 K/W]."""
     foil_opaque: bool
     mixing_depth: float
     """[m]."""
+    emissivity_change: float
+    rim: Rim
 
     @cached_property
     def stride(self) -> int:
@@ -103,7 +92,10 @@ class Slab:
     @cached_property
     def least_resistance(self) -> FloatArray:
         """Thermal resistance [m2 K/W] of the elements that never vanishes."""
-        return LEAST_LEFT * self._d_k(self._cold, self.virgin * self.mass[:, None])
+        volume = self._volume(self._cold, self.virgin * self.mass[:, None])
+        out = LEAST_LEFT * self._d_k(self._cold, volume)
+        out[self.mass == 0.0] = self.contact_resistance
+        return out
 
     @cached_property
     def _cold(self) -> FloatArray:
@@ -124,11 +116,26 @@ class Slab:
         share = self.virgin + extent @ self.substance.reactions.change
         return np.asarray(share * self.mass[:, None])
 
-    def radiating(self, volume: FloatArray) -> float:
+    def _volume(self, T: FloatArray, present: FloatArray) -> FloatArray:
+        """Return the volumes [m] of the masses ``present`` at T, shape (..., components)."""
+        return np.asarray(present / self.substance.density * self.substance.expansion.of(T))
+
+    def thickness(self, T: FloatArray, extent: FloatArray) -> FloatArray:
+        """Return the thickness of the elements now [m], shape (..., elements)."""
+        between = 0.5 * (T[..., :-1] + T[..., 1:])
+        present = np.maximum(self.masses(extent), 0.0)
+        return np.asarray(self._volume(between, present).sum(axis=-1))
+
+    def radiating(self, volume: FloatArray, extent: FloatArray) -> float:
         """Return the emissivity, the average over the top ``mixing_depth`` of the sample now.
 
-        ``volume`` [m], shape (elements, components).
+        It changes with the mass released over all. ``volume`` [m], shape (elements, components).
         """
+        released = self.mass @ (extent @ self.substance.reactions.gas) / self.mass.sum()
+        changed = self._topmost(volume) + self.emissivity_change * released
+        return float(np.clip(changed, 0.0, 1.0))
+
+    def _topmost(self, volume: FloatArray) -> float:
         depth = np.concatenate(([0.0], np.cumsum(volume.sum(axis=-1))))
         filled = np.concatenate(([0.0], np.cumsum(volume @ self.substance.emissivity)))
         to = min(max(self.mixing_depth, LEAST_DEPTH), depth[-1])
@@ -160,37 +167,40 @@ class Slab:
             out[-1] += reaching[-1]
         return out
 
-    def outside(self, flux: float, y: FloatArray) -> tuple[float, FloatArray]:
-        """Return what depends on the whole state at once: emissivity, radiation of the nodes."""
-        volume = np.maximum(self.masses(self.split(y)[1]), 0.0) / self.substance.density
-        eps = self.radiating(volume)
-        return eps, self.irradiated(eps * flux, volume)
+    def outside(self, t: float, flux: float, y: FloatArray) -> Outside:
+        """Return what depends on time, or on the whole state at once, under the flux [W/m2]."""
+        extent = self.split(y)[1]
+        volume = np.maximum(self.masses(extent), 0.0) / self.substance.density
+        eps = self.radiating(volume, extent)
+        return Outside(t, eps, self.irradiated(eps * flux, volume))
 
-    def derivative(self, y: FloatArray, outside: tuple[float, FloatArray]) -> FloatArray:
+    def derivative(self, y: FloatArray, outside: Outside) -> FloatArray:
         """Return dy/dt of states of shape (..., size)."""
         T, extent = self.split(y)
         T = np.clip(T, COLDEST_K, HOTTEST_K)
         hot, cold = T[..., :-1], T[..., 1:]
         present = np.maximum(self.masses(extent), 0.0)
-        eps, gain = outside
         reacting, upper, lower = self._react(hot, cold, extent)
-        resistance = self._d_k(0.5 * (hot + cold), present) + self.least_resistance
-        conducted = (hot - cold) / resistance
-        gain = np.broadcast_to(gain, T.shape).copy()
+        between = 0.5 * (hot + cold)
+        volume = self._volume(between, present)
+        conducted = (hot - cold) / (self._d_k(between, volume) + self.least_resistance)
+        gain = outside.absorbed + self.rim.gain(T, volume.sum(axis=-1))
         gain[..., :-1] -= conducted + upper
         gain[..., 1:] += conducted - lower
-        gain[..., 0] += self.front.gain(eps, T[..., 0])
-        gain[..., -1] += self.back.gain(self.back_emissivity, T[..., -1])
+        gain[..., 0] += self.front.gain(outside.eps, T[..., 0], outside.t)
+        gain[..., -1] += self.back.gain(self.back_emissivity, T[..., -1], outside.t)
         out = np.empty(y.shape)
         out[..., :: self.stride] = gain / self._capacity(T, present)
         self.split(out)[1][...] = reacting
         return out
 
-    def heat_in(self, y: FloatArray, outside: tuple[float, FloatArray]) -> float:
+    def heat_in(self, y: FloatArray, outside: Outside) -> float:
         """Return the heat [W/m2] that a state takes from its surroundings."""
-        eps, absorbed = outside
-        front = self.front.gain(eps, y[0])
-        return float(absorbed.sum() + front + self.back.gain(self.back_emissivity, y[-1]))
+        T, extent = self.split(y)
+        gain = outside.absorbed + self.rim.gain(T, self.thickness(T, extent))
+        gain[0] += self.front.gain(outside.eps, T[0], outside.t)
+        gain[-1] += self.back.gain(self.back_emissivity, T[-1], outside.t)
+        return float(gain.sum())
 
     def heat_taken(self, y_old: FloatArray, y: FloatArray) -> float:
         """Return the heat [J/m2] stored and used by reactions from one state to the next."""
@@ -211,9 +221,8 @@ class Slab:
         lower = ((GAUSS[0] * near + GAUSS[1] * far) * heat).sum(axis=-1)
         return amount * (near + far), upper, lower
 
-    def _d_k(self, T: FloatArray, present: FloatArray) -> FloatArray:
+    def _d_k(self, T: FloatArray, volume: FloatArray) -> FloatArray:
         """Return d/k [m2 K/W] of the elements, k mixed by volume."""
-        volume = present / self.substance.density
         d = volume.sum(axis=-1)
         k_d = (volume * self.substance.conductivity.of(T)).sum(axis=-1)
         return np.asarray(d * d / np.maximum(k_d, 1e-300))
@@ -228,7 +237,7 @@ class Slab:
         out[..., -1] += self.foil_capacity
         return out
 
-    def jacobian(self, y: FloatArray, outside: tuple[float, FloatArray]) -> FloatArray:
+    def jacobian(self, y: FloatArray, outside: Outside) -> FloatArray:
         """Return d(dy/dt)/dy by differences, ``outside`` held, in the packed form of LSODA.
 
         Row u + i - j of column j holds element (i, j), u = ``stride`` the half width of the band.

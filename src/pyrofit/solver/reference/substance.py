@@ -9,6 +9,7 @@ from dataclasses import dataclass
 from typing import Any
 
 import numpy as np
+from scipy.special import expit
 
 from pyrofit.constants import GAS_CONSTANT
 from pyrofit.model import material as words
@@ -17,7 +18,7 @@ from pyrofit.solver.arrays import FloatArray, IntArray
 
 Values = Mapping[str, float]
 LEAST_SHARE = 0.01
-"""Least value of a linear property, relative to its reference value."""
+"""Least value of a linear property, relative to its reference value, and of a changed one."""
 COLDEST_K, HOTTEST_K = 50.0, 5000.0
 """Range of T in which properties and rates follow it."""
 LEAST_REMAINDER = 1e-6
@@ -46,12 +47,29 @@ class Property:
         if isinstance(given, words.Table):
             points = [value_of(v, self.values) for v in given.value]
             return np.asarray(np.interp(T, given.temperature_K, points))
+        if isinstance(given, words.Changed):
+            return self._changed(given, T)
         value = value_of(given.value, self.values)
         reference = value_of(given.reference_temperature_K, self.values)
         if isinstance(given, words.Linear):
             rise = value_of(given.slope_1_K, self.values) * (T - reference)
             return np.asarray(value * np.maximum(1.0 + rise, LEAST_SHARE))
         return np.asarray(value * (T / reference) ** value_of(given.exponent, self.values))
+
+    def _changed(self, given: words.Changed, T: FloatArray) -> FloatArray:
+        """Return of(T) with a slope, a smooth step and a peak, at least 1 % of of(T)."""
+
+        def number(name: str) -> float:
+            return value_of(getattr(given, name), self.values)
+
+        of = self._one(given.of, T)
+        rise = number("slope_1_K") * (T - number("reference_temperature_K"))
+        passed = expit((T - number("step_temperature_K")) / number("step_width_K"))
+        width = number("peak_width_K")
+        bell = np.exp(-0.5 * ((T - number("peak_temperature_K")) / width) ** 2)
+        peak = number("peak_area") / (width * np.sqrt(2.0 * np.pi)) * bell
+        changed = of * (1.0 + rise) + number("step") * passed + peak
+        return np.asarray(np.maximum(changed, LEAST_SHARE * of))
 
 
 @dataclass(frozen=True)
@@ -102,6 +120,7 @@ class Substance:
 
     names: list[str]
     density: FloatArray
+    expansion: Property
     conductivity: Property
     specific_heat: Property
     emissivity: FloatArray
@@ -110,18 +129,31 @@ class Substance:
     reactions: Reactions
 
 
-def substance(material: words.Material, values: Values) -> Substance:
-    """Return the material with the numbers of the given parameter values."""
+def substance(
+    material: words.Material, values: Values, absorption_length: float = 0.0
+) -> Substance:
+    """Return the material with the numbers of the given parameter values.
+
+    An ``absorption_length`` [m] above zero replaces that of every component.
+    """
     parts = list(material.components.values())
     return Substance(
         names=list(material.components),
         density=np.array([value_of(c.density_kg_m3, values) for c in parts]),
+        expansion=Property(tuple(c.expansion for c in parts), values),
         conductivity=Property(tuple(c.conductivity_W_mK for c in parts), values),
         specific_heat=Property(tuple(c.specific_heat_J_kgK for c in parts), values),
         emissivity=np.array([value_of(c.emissivity, values) for c in parts]),
-        absorption=np.array([value_of(c.absorption_1_m or 0.0, values) for c in parts]),
+        absorption=np.array([_absorption(c, values, absorption_length) for c in parts]),
         reactions=_reactions(material, values),
     )
+
+
+def _absorption(component: words.Component, values: Values, length: float) -> float:
+    if length > 0.0:
+        return 1.0 / length
+    given = component.absorption_1_m
+    return 0.0 if given is None else value_of(given, values)
 
 
 def mass_fractions(

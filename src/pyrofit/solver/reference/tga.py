@@ -5,6 +5,7 @@ from collections.abc import Iterator, Mapping
 import numpy as np
 from scipy.integrate import LSODA
 
+from pyrofit.model.base import value_of
 from pyrofit.model.experiment import Tga
 from pyrofit.model.material import Material
 from pyrofit.solver.arrays import FloatArray, Status
@@ -42,9 +43,10 @@ def reference_tga(
         Signals ``mass_fraction`` [-] and ``mass_loss_rate`` [1/s] at the times.
     """
     resolution = resolution or Resolution()
-    time, T = request.time_s, request.temperature_K
-    if T is None:
+    if request.temperature_K is None:
         raise ValueError("a TGA request needs temperatures")
+    lag_min = value_of(experiment.lag_s, values) / 60.0
+    time, T = request.time_s, request.temperature_K - lag_min * experiment.heating_rate_K_min
     solid = substance(material, values)
     virgin = mass_fractions(material.composition, solid.names, values)
     extent = np.zeros((time.size, solid.reactions.A.size))
