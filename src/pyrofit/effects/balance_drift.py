@@ -1,0 +1,26 @@
+"""The balance drifts, so that the mass loss rate is wrong by a constant."""
+
+from pyrofit.effects.base import AnyExperiment, Effect, Quantity, on
+
+
+def _has_mlr(experiment: AnyExperiment) -> bool:
+    return "mlr" in experiment.signals
+
+
+EFFECT = Effect(
+    title="balance drift",
+    family="apparatus",
+    equation="mlr = mlr_0 + b",
+    strength={
+        "offset_kg_m2s": Quantity(
+            label="offset of the mass loss rate",
+            unit="kg/(m2 s)",
+            lower=-1e-3,
+            upper=1e-3,
+            value=0.0,
+            typical=1e-4,
+        )
+    },
+    experiment=on("signals.mlr", {"offset": "offset_kg_m2s"}),
+    needs=_has_mlr,
+)

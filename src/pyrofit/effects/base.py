@@ -1,0 +1,127 @@
+"""What every effect states: its parameters, and the change it makes to the description."""
+
+from collections.abc import Callable, Mapping
+from dataclasses import dataclass, field
+from typing import Any, Literal, TypeVar
+
+from pyrofit.model.base import Part
+from pyrofit.model.experiment import Gasification, Tga
+from pyrofit.model.material import Material
+
+Numbers = Mapping[str, float | str]
+"""A number in SI units, or the name of a parameter, by the effect's own names."""
+AnyExperiment = Tga | Gasification
+MaterialChange = Callable[[Material, Numbers], Material]
+ExperimentChange = Callable[[AnyExperiment, Numbers], AnyExperiment]
+Family = Literal["apparatus", "environment", "material"]
+Made = TypeVar("Made", bound=Part)
+
+ASSUMED = "assumed range"
+
+
+@dataclass(frozen=True)
+class Quantity:
+    """A parameter of an effect, SI units."""
+
+    label: str
+    unit: str
+    lower: float
+    upper: float
+    value: float
+    """Where the effect vanishes; of a form parameter, its usual value."""
+    typical: float
+    """A value often met; of a form parameter, another than the usual one."""
+    source: str = ASSUMED
+
+
+def has_slab(experiment: AnyExperiment) -> bool:
+    """Tell whether an experiment is a gasification."""
+    return isinstance(experiment, Gasification)
+
+
+def has_programme(experiment: AnyExperiment) -> bool:
+    """Tell whether an experiment is a TGA."""
+    return isinstance(experiment, Tga)
+
+
+def reacts(experiment: AnyExperiment) -> bool:
+    """Tell whether the sample of an experiment reacts: always."""
+    return True
+
+
+def has_foil(experiment: AnyExperiment) -> bool:
+    """Tell whether an experiment has a foil."""
+    return isinstance(experiment, Gasification) and experiment.sample.foil is not None
+
+
+def has_open_back(experiment: AnyExperiment) -> bool:
+    """Tell whether the back of an experiment exchanges heat."""
+    if not isinstance(experiment, Gasification):
+        return False
+    back = experiment.back
+    return any(x != 0.0 for x in (back.h_W_m2K, back.h_cube_root_W_m2K43, back.emissivity))
+
+
+@dataclass(frozen=True)
+class Effect:
+    """A physical effect.
+
+    At its null value the strength leaves the base model exactly; ``form`` says how the effect looks
+    (where a step lies, how fast it comes). ``material`` and ``experiment`` make the change; names
+    of parameters may stand for numbers.
+    """
+
+    title: str
+    family: Family
+    equation: str
+    strength: dict[str, Quantity]
+    """The one parameter that measures it."""
+    form: dict[str, Quantity] = field(default_factory=dict)
+    material: MaterialChange = lambda material, at: material
+    experiment: ExperimentChange = lambda experiment, at: experiment
+    needs: Callable[[AnyExperiment], bool] = has_slab
+    """Whether an experiment can have the effect; others are not changed."""
+    same_as: str = ""
+    """An effect that these data cannot tell from this one."""
+    name: str = ""
+
+    @property
+    def quantities(self) -> dict[str, Quantity]:
+        """All its parameters, the strength first."""
+        return self.strength | self.form
+
+
+def changed(part: Made, **update: Any) -> Made:
+    """Return a part with some values changed, checked like a new one."""
+    return type(part)(**{**dict(part), **update})
+
+
+def on(place: str, takes: Mapping[str, str], **constant: Any) -> ExperimentChange:
+    """Return a change that sets keys of a part (dotted path; "" = the experiment itself).
+
+    ``takes`` maps a key of the part to the parameter of the effect that it takes, ``constant`` to
+    a value. The change raises ``ValueError`` where the description has set such a key already.
+    """
+    path = place.split(".") if place else []
+
+    def change(experiment: AnyExperiment, at: Numbers) -> AnyExperiment:
+        update = {key: at[own] for key, own in takes.items()} | constant
+        made: AnyExperiment = _set(experiment, path, update)
+        return made
+
+    return change
+
+
+def _set(part: Any, path: list[str], update: dict[str, Any]) -> Any:
+    if path and isinstance(part, Mapping):
+        return {**part, path[0]: _set(part[path[0]], path[1:], update)}
+    if path:
+        return changed(part, **{path[0]: _set(getattr(part, path[0]), path[1:], update)})
+    for key in update:
+        present = getattr(part, key)
+        if present != type(part).model_fields[key].default:
+            raise ValueError(
+                f"{key} is {present!r} already, by the description or another effect; "
+                "leave out one of the two"
+            )
+    return changed(part, **update)

@@ -1,0 +1,22 @@
+"""The foil on the back is heavier or lighter than described."""
+
+from pyrofit.effects.base import Effect, Quantity, has_foil, on
+
+EFFECT = Effect(
+    title="mass of the foil",
+    family="apparatus",
+    equation="s rho c delta dT/dt = q_in - q_out",
+    strength={
+        "factor": Quantity(
+            label="factor on the mass of the foil",
+            unit="-",
+            lower=0.0,
+            upper=40.0,
+            value=1.0,
+            typical=8.0,
+            source="MaCFP PMMA: foil of 0.025 mm; 0.2 mm have been used in models of it",
+        )
+    },
+    experiment=on("sample.foil", {"mass_factor": "factor"}),
+    needs=has_foil,
+)

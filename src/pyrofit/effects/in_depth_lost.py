@@ -1,0 +1,14 @@
+"""Radiation is absorbed in depth instead of at the surface; what passes through is lost."""
+
+from pyrofit.effects.base import Effect, on
+from pyrofit.effects.in_depth import LENGTH
+from pyrofit.effects.substance import refuse_translucent
+
+EFFECT = Effect(
+    title="in-depth absorption, transmission lost",
+    family="material",
+    equation="q''' = eps q exp(-z/l)/l; eps q exp(-L/l) leaves the sample",
+    strength={"length_m": LENGTH},
+    material=refuse_translucent,
+    experiment=on("sample", {"absorption_length_m": "length_m"}, transmitted="lost"),
+)

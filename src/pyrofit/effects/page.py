@@ -1,0 +1,39 @@
+"""The catalogue of effects as a page of the documentation."""
+
+from pyrofit.effects import known_effects
+from pyrofit.effects.base import Effect, Quantity
+
+_HEAD = """\
+# Effects
+
+What a model may lack, by the name a study gives it. At the null value of its strength an effect
+leaves the base model exactly as it is. Form parameters say how the effect looks; left out, they
+take their usual value. Effects that set the same number of the description exclude each other.
+"""
+_COLUMNS = (
+    "| parameter | what it is | unit | from | to | {} | source |\n|---|---|---|---|---|---|---|"
+)
+
+
+def effects_page() -> str:
+    """Return the page: every effect with its equation, parameters, limits and sources."""
+    return "\n".join([_HEAD, *(_section(effect) for effect in known_effects().values())])
+
+
+def _section(effect: Effect) -> str:
+    lines = [f"## `{effect.name}`", "", f"{effect.title}, {effect.family}:", ""]
+    lines += [f"    {effect.equation}", ""]
+    if effect.same_as:
+        lines += [f"Measurements hardly tell it from `{effect.same_as}`.", ""]
+    lines += [_COLUMNS.format("null, typical"), *_rows(effect.strength)]
+    if effect.form:
+        lines += ["", "Form:", "", _COLUMNS.format("usual, another"), *_rows(effect.form)]
+    return "\n".join([*lines, ""])
+
+
+def _rows(quantities: dict[str, Quantity]) -> list[str]:
+    return [
+        f"| `{name}` | {q.label} | {q.unit} | {q.lower:g} | {q.upper:g} "
+        f"| {q.value:g}, {q.typical:g} | {q.source} |"
+        for name, q in quantities.items()
+    ]

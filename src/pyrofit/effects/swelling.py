@@ -1,0 +1,44 @@
+"""All components swell."""
+
+from pyrofit.effects.base import Effect, Quantity
+from pyrofit.effects.substance import properties_changed
+
+EFFECT = Effect(
+    title="swelling",
+    family="material",
+    equation="V(T) = V_0 (1 + s / (1 + exp(-(T - T_s)/w)))",
+    strength={
+        "step": Quantity(
+            label="relative rise of the volume",
+            unit="-",
+            lower=0.0,
+            upper=2.0,
+            value=0.0,
+            typical=0.3,
+        )
+    },
+    form={
+        "temperature_K": Quantity(
+            label="temperature of swelling",
+            unit="K",
+            lower=350.0,
+            upper=700.0,
+            value=550.0,
+            typical=500.0,
+        ),
+        "width_K": Quantity(
+            label="width of swelling",
+            unit="K",
+            lower=2.0,
+            upper=60.0,
+            value=15.0,
+            typical=40.0,
+        ),
+    },
+    material=properties_changed(
+        "expansion",
+        step="step",
+        step_temperature_K="temperature_K",
+        step_width_K="width_K",
+    ),
+)

@@ -1,0 +1,21 @@
+"""The sample is thicker or thinner than described."""
+
+from pyrofit.effects.base import Effect, Quantity, on
+
+EFFECT = Effect(
+    title="thickness",
+    family="apparatus",
+    equation="L = s L_0",
+    strength={
+        "factor": Quantity(
+            label="factor on the thickness",
+            unit="-",
+            lower=0.9,
+            upper=1.1,
+            value=1.0,
+            typical=1.02,
+            source="assumed range; 0.02 is usual",
+        )
+    },
+    experiment=on("sample", {"thickness_factor": "factor"}),
+)

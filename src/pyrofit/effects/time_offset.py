@@ -1,0 +1,29 @@
+"""All records of an experiment are late."""
+
+from pyrofit.effects.base import AnyExperiment, Effect, Numbers, Quantity, on
+
+
+def _change(experiment: AnyExperiment, at: Numbers) -> AnyExperiment:
+    for name in experiment.signals:
+        experiment = on(f"signals.{name}", {"delay_s": "delay_s"})(experiment, at)
+    return experiment
+
+
+EFFECT = Effect(
+    title="time offset",
+    family="apparatus",
+    equation="y(t) = y_0(t - t_0)",
+    strength={
+        "delay_s": Quantity(
+            label="time by which the records are late",
+            unit="s",
+            lower=-25.0,
+            upper=25.0,
+            value=0.0,
+            typical=5.0,
+            source="assumed range; bins of 5 s alone make 2.5 s",
+        )
+    },
+    experiment=_change,
+    same_as="heater_ramp",
+)

@@ -1,0 +1,85 @@
+"""Moisture or monomer leaves the material before it decomposes."""
+
+from pyrofit.effects.base import AnyExperiment, Effect, Numbers, Quantity, changed
+from pyrofit.effects.substance import (
+    REFERENCE_RATE_1_S,
+    main_reaction,
+    shares,
+    with_component,
+    with_reaction,
+)
+from pyrofit.model.experiment import Tga
+from pyrofit.model.material import REST, Material, Reaction
+
+VOLATILE = "extra_volatile"
+
+
+def _composition(material: Material, main: str) -> dict[str, float | str]:
+    """Return the composition with the main component as the rest, from which a share is taken."""
+    composition = dict(material.composition)
+    if composition[main] == REST:
+        return composition
+    if any(isinstance(share, str) and share != REST for share in composition.values()):
+        raise ValueError(f"the composition must give '{main}' as '{REST}'")
+    return composition | shares(material) | {main: REST}
+
+
+def _change(material: Material, at: Numbers) -> Material:
+    _, reaction = main_reaction(material)
+    main = reaction.reactant
+    more = with_component(material, VOLATILE, material.components[main])
+    composition = _composition(material, main) | {VOLATILE: at["share"]}
+    release = Reaction(
+        reactant=VOLATILE,
+        E_J_mol=at["E_J_mol"],
+        reference_temperature_K=at["temperature_K"],
+        reference_rate_1_s=REFERENCE_RATE_1_S,
+        # ASSUME: its release takes as much heat as the decomposition of the same mass.
+        heat_of_reaction_J_kg=reaction.heat_of_reaction_J_kg,
+    )
+    return with_reaction(changed(more, composition=composition), VOLATILE, release)
+
+
+def _is_of_the_material(experiment: AnyExperiment) -> bool:
+    """Tell whether a part of the sample has no composition of its own."""
+    if isinstance(experiment, Tga):
+        return True
+    return any(layer.composition is None for layer in experiment.sample.layers)
+
+
+EFFECT = Effect(
+    title="volatile",
+    family="material",
+    equation="main component = (1 - w) itself + w volatile; volatile -> gas, k(T) = 0.001 1/s",
+    strength={
+        "share": Quantity(
+            label="mass fraction of the volatile",
+            unit="-",
+            lower=0.0,
+            upper=0.08,
+            value=0.0,
+            typical=0.015,
+            source="assumed range; 0.003 to 0.02 is usual",
+        )
+    },
+    form={
+        "temperature_K": Quantity(
+            label="temperature at which the volatile leaves at 0.001 1/s",
+            unit="K",
+            lower=350.0,
+            upper=550.0,
+            value=430.0,
+            typical=470.0,
+        ),
+        "E_J_mol": Quantity(
+            label="activation energy of the volatile",
+            unit="J/mol",
+            lower=3e4,
+            upper=2e5,
+            value=8e4,
+            typical=1.2e5,
+        ),
+    },
+    material=_change,
+    needs=_is_of_the_material,
+)
