@@ -319,7 +319,7 @@ def test_determined_by_hand(tmp_path: Path) -> None:
     assert k[["low", "high", "noise_low", "width_percent"]].tolist() == [0.28, 0.32, 0.29, 10.0]
     # J/(kg K) become kJ/(kg K).
     assert cp[["estimate", "low", "high"]].tolist() == [3.5, 1.4, 3.5]
-    assert cp["ends"] == "cut off by the upper limit"
+    assert cp["ends"] == "upper"
     assert [k["method"], cp["method"]] == ["linear", "profile"]
     assert k["strongest_correlation"] == "cp −0.80"
 

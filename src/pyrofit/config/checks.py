@@ -7,6 +7,7 @@ from typing import TYPE_CHECKING
 
 from pyrofit.config.numbers import check_numbers, check_parameter, check_parameters, require
 from pyrofit.config.uses import names_in, parameters_in, parameters_of_tga
+from pyrofit.effects.base import ADDED
 from pyrofit.errors import suggest
 from pyrofit.model.base import FRACTION
 from pyrofit.model.experiment import Gasification, Tga
@@ -66,7 +67,8 @@ def _check_compositions(study: Study) -> None:
             place,
             f"'{label}' is a reserved name; choose another",
         )
-        missing = set(study.material.reactions) ^ set(chosen.reactions)
+        described = {n for n in study.material.reactions if not n.startswith(ADDED)}
+        missing = described ^ set(chosen.reactions)
         require(
             not missing,
             place,

@@ -22,15 +22,20 @@ _UNITS: dict[str, tuple[str, ...]] = {
     "_W_m2K43": ("W/(m2 K^(4/3))",),
     "_W_m2K": ("W/(m2 K)",),
     "_W_m2": ("W/m2", "kW/m2"),
+    "_m2K_W": ("m2 K/W",),
     "_1_K": ("1/K",),
     "_1_s": ("1/s",),
     "_1_m": ("1/m",),
+    "_s": ("s",),
     "_K": ("K",),
     "_m": ("m", "mm"),
     "emissivity_depth": ("m", "mm"),
     "": ("-",),
 }
 _SHARES = ("products", "composition")
+_SAME_UNIT = ("value", "of", "step")
+"""Keys of a property whose unit is the property's."""
+_OF_SIGNALS: dict[str, tuple[str, ...]] = {"mlr": ("kg/(m2 s)",), "back_temperature": ("K",)}
 
 
 def require(ok: bool, place: str, message: str) -> None:
@@ -99,7 +104,11 @@ def units_of(place: str) -> tuple[str, ...]:
     >>> units_of("material.components.wood.conductivity_W_mK.value")
     ('W/(m K)',)
     """
-    keys = [key for key in place.split(".") if not key.isdigit() and key != "value"]
+    keys = [key for key in place.split(".") if not key.isdigit() and key not in _SAME_UNIT]
+    if keys[-1] == "offset":
+        return _OF_SIGNALS.get(keys[-2], _UNITS[""])
+    if keys[-1] == "peak_area":
+        return _UNITS["_J_kg"] if keys[-2].endswith("_J_kgK") else _UNITS[""]
     if keys[-1] in _SHARES or keys[-2] in _SHARES:
         return _UNITS[""]
     return next(units for end, units in _UNITS.items() if keys[-1].endswith(end))

@@ -12,6 +12,7 @@ from pydantic import ValidationError
 from yaml.composer import ComposerError
 from yaml.reader import ReaderError
 
+from pyrofit.config.effects import apply_effects
 from pyrofit.config.study import Study, is_own
 from pyrofit.config.words import in_plain_words, refuse_booleans
 from pyrofit.errors import StudyError, suggest
@@ -31,7 +32,8 @@ def as_study(given: Mapping[str, Any], source: str) -> Study:
     """
     try:
         refuse_booleans(given)
-        study = Study.model_validate(given)
+        applied = given if source.endswith(".json") else apply_effects(given)
+        study = Study.model_validate(applied)
     except ValidationError as error:
         lines = in_plain_words(error, given)
     except ValueError as error:

@@ -7,8 +7,9 @@ from pydantic import Field, model_validator
 
 from pyrofit.config.checks import check_study
 from pyrofit.cost import KINDS, NORMALISATIONS, check_options
+from pyrofit.effects.base import ADDED
 from pyrofit.errors import CostError, suggest
-from pyrofit.model.base import Part
+from pyrofit.model.base import Number, Part
 from pyrofit.model.experiment import AnyExperiment, Gasification, Tga
 from pyrofit.model.material import Material
 from pyrofit.model.parameters import Parameter
@@ -193,6 +194,12 @@ class Study(Part):
     parameters: dict[Name, Parameter] = Field(description="named numbers")
     material: Material = Field(description="components, reactions, composition")
     experiments: dict[Name, AnyExperiment] = Field(min_length=1, description="experiments by name")
+    effects: dict[str, dict[str, Number]] = Field(
+        default_factory=dict,
+        description="effects of the catalogue that material and experiments have, with their "
+        "parameters: a number in SI units or the name of a parameter; a strength left out is "
+        "a parameter <effect>_<strength> to be estimated",
+    )
     accuracy: Accuracy = Field(default_factory=Accuracy, description="numerical settings")
     synthetic: Synthetic | None = Field(None, description="for signals with file: synthetic")
     kinetics: Kinetics | None = Field(None, description="stage 1, TGA")
@@ -253,9 +260,16 @@ class Study(Part):
                 }
             )
             for name, reaction in self.material.reactions.items()
+            if name in chosen.reactions
         }
+        # What effects have added stays.
+        added = {n: r for n, r in self.material.reactions.items() if n not in reactions}
+        shares = {n: s for n, s in self.material.composition.items() if n.startswith(ADDED)}
         return self.material.model_copy(
-            update={"reactions": reactions, "composition": chosen.composition}
+            update={
+                "reactions": reactions | added,
+                "composition": {**chosen.composition, **shares},
+            }
         )
 
 

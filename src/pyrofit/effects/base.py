@@ -17,6 +17,8 @@ Family = Literal["apparatus", "environment", "material"]
 Made = TypeVar("Made", bound=Part)
 
 ASSUMED = "assumed range"
+ADDED = "extra_"
+"""Beginning of the names of components and reactions that effects add."""
 
 
 @dataclass(frozen=True)

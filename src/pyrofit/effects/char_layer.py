@@ -1,10 +1,10 @@
 """The main reaction leaves char, of which the model has none or too little."""
 
-from pyrofit.effects.base import Effect, Numbers, Quantity, changed, reacts
+from pyrofit.effects.base import ADDED, Effect, Numbers, Quantity, changed, reacts
 from pyrofit.effects.substance import main_reaction, with_component, with_main
 from pyrofit.model.material import Material
 
-CHAR = "extra_char"
+CHAR = f"{ADDED}char"
 
 
 def _change(material: Material, at: Numbers) -> Material:

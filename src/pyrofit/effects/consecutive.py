@@ -1,6 +1,6 @@
 """Part of the main reactant turns into an intermediate that reacts on."""
 
-from pyrofit.effects.base import Effect, Numbers, Quantity, reacts
+from pyrofit.effects.base import ADDED, Effect, Numbers, Quantity, reacts
 from pyrofit.effects.substance import (
     REFERENCE_RATE_1_S,
     main_reaction,
@@ -10,7 +10,7 @@ from pyrofit.effects.substance import (
 )
 from pyrofit.model.material import Material, Reaction
 
-INTERMEDIATE = "extra_intermediate"
+INTERMEDIATE = f"{ADDED}intermediate"
 
 
 def _change(material: Material, at: Numbers) -> Material:

@@ -1,6 +1,6 @@
 """A further reaction competes for the main reactant."""
 
-from pyrofit.effects.base import Effect, Numbers, Quantity, changed, reacts
+from pyrofit.effects.base import ADDED, Effect, Numbers, Quantity, changed, reacts
 from pyrofit.effects.substance import main_reaction, with_reaction
 from pyrofit.model.material import Material
 
@@ -17,7 +17,7 @@ def _change(material: Material, at: Numbers) -> Material:
         reference_temperature_K=REFERENCE_TEMPERATURE_K,
         reference_rate_1_s=at["rate_1_s"],
     )
-    return with_reaction(material, "extra_reaction", further)
+    return with_reaction(material, f"{ADDED}reaction", further)
 
 
 EFFECT = Effect(

@@ -1,6 +1,6 @@
 """Moisture or monomer leaves the material before it decomposes."""
 
-from pyrofit.effects.base import AnyExperiment, Effect, Numbers, Quantity, changed
+from pyrofit.effects.base import ADDED, AnyExperiment, Effect, Numbers, Quantity, changed
 from pyrofit.effects.substance import (
     REFERENCE_RATE_1_S,
     main_reaction,
@@ -11,7 +11,7 @@ from pyrofit.effects.substance import (
 from pyrofit.model.experiment import Tga
 from pyrofit.model.material import REST, Material, Reaction
 
-VOLATILE = "extra_volatile"
+VOLATILE = f"{ADDED}volatile"
 
 
 def _composition(material: Material, main: str) -> dict[str, float | str]:

@@ -73,7 +73,7 @@ TABLES: dict[str, Table] = {
             "low": "95 % low",
             "high": "95 % high",
             "width_percent": "width [% of limits]",
-            "ends": "interval",
+            "ends": "cut off by limit",
             "noise_low": "noise alone, low",
             "noise_high": "noise alone, high",
             "strongest_correlation": "strongest correlation",

@@ -18,9 +18,9 @@ WITHIN = 1.96
 
 _NUMBERS = ("estimate", "sd", "low", "high", "width", "noise_low", "noise_high", "noise_width")
 _CUT_OFF = {
-    (True, True): "cut off by both limits",
-    (True, False): "cut off by the lower limit",
-    (False, True): "cut off by the upper limit",
+    (True, True): "both",
+    (True, False): "lower",
+    (False, True): "upper",
     (False, False): "",
 }
 

@@ -1,0 +1,79 @@
+"""Effects listed in a study."""
+
+import json
+from pathlib import Path
+from typing import Any
+
+import pytest
+import yaml
+
+from pyrofit.config import Study, as_study, digest
+from pyrofit.errors import StudyError
+from pyrofit.model.material import Changed
+
+CONFIG = Path(__file__).parents[2] / "config"
+
+
+def given(name: str = "smoke", **effects: Any) -> dict[str, Any]:
+    study = yaml.safe_load((CONFIG / f"{name}.yaml").read_text(encoding="utf-8"))
+    return {**study, "effects": effects}
+
+
+def having(name: str = "smoke", **effects: Any) -> Study:
+    return as_study(given(name, **effects), f"{name}.yaml")
+
+
+def test_effect_with_a_number_changes_the_description() -> None:
+    study = having(back_loss={"factor": 0.5})
+    assert [e.back.loss_factor for n, e in study.experiments.items() if n.startswith("slab")] == [
+        0.5,
+        0.5,
+    ]
+
+
+def test_strength_left_out_is_a_parameter_with_the_limits_of_the_catalogue() -> None:
+    study = given("pmma", k_T=None)
+    study["imp"]["estimate"].append("k_T_slope_1_K")
+    found = as_study(study, "pmma.yaml")
+    assert found.parameters["k_T_slope_1_K"].bounds_si == (-3e-3, 5e-3)
+    assert found.effects == {"k_T": {"slope_1_K": "k_T_slope_1_K"}}
+    changed = found.material.components["B"].conductivity_W_mK
+    assert isinstance(changed, Changed)
+    assert (changed.of, changed.slope_1_K) == ("k_a", "k_T_slope_1_K")
+
+
+def test_strength_that_is_neither_given_nor_estimated_is_refused() -> None:
+    with pytest.raises(StudyError, match="k_T_slope_1_K"):
+        having(k_T={})
+
+
+def test_written_study_is_read_again_unchanged() -> None:
+    study = having(back_loss={"factor": 0.5}, c_T={"slope_1_K": 1e-3})
+    text = study.model_dump_json()
+    again = as_study(json.loads(text), "study.json")
+    assert again == study
+    assert digest(again.model_dump(mode="json")) == digest(study.model_dump(mode="json"))
+
+
+def test_published_kinetics_keep_what_effects_add() -> None:
+    study = having("paper", third_reaction={"rate_1_s": 3e-4})
+    material = study.material_with("Table 3")
+    assert set(material.reactions) == {"A", "B", "extra_reaction"}
+    assert material.reactions["A"].A_1_s == 9.98e4
+
+
+@pytest.mark.parametrize(
+    ("effects", "words"),
+    [
+        ({"back_los": {"factor": 0.5}}, "unknown effect 'back_los'. Did you mean 'back_loss'?"),
+        ({"back_loss": {"facto": 0.5}}, "unknown parameter 'facto'. Did you mean 'factor'?"),
+        ({"back_loss": {"factor": "half"}}, "unknown parameter 'half'"),
+        ({"back_loss": {"factor": -1.0}}, "must not be negative"),
+        ({"in_depth": {"length_m": 1e-3}, "in_depth_lost": {"length_m": 1e-3}}, "in_depth_lost"),
+        ({"back_loss": 0.5}, "effects.back_loss"),
+    ],
+)
+def test_broken_effect_is_refused_in_words(effects: dict[str, Any], words: str) -> None:
+    with pytest.raises(StudyError) as error:
+        having(**effects)
+    assert words in str(error.value)
