@@ -343,13 +343,13 @@ def test_distances_by_hand(tmp_path: Path) -> None:
 
 def test_verdicts_are_flags_of_table4(tmp_path: Path) -> None:
     table = made("table4", *fake(tmp_path)).set_index(["cost_function", "quantity"])
-    words = "undetermined by the data; put at its upper bound by the data"
+    words = "undetermined by the data; pushed to its upper bound by the data"
     assert table.loc[("RMSE", "cp"), "flags"] == f"spread > 20 % of limits; {words}"
     assert table.loc[("RMSE", "k"), "flags"] == "at bound (upper)"
 
 
 def test_flag_of_a_parameter_at_its_bound() -> None:
-    assert flag("at its lower bound") == "put at its lower bound by the data"
+    assert flag("at its lower bound") == "pushed to its lower bound by the data"
 
 
 def test_flags_at_their_limits() -> None:

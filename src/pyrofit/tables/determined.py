@@ -153,7 +153,7 @@ def flag(verdict: str) -> str:
     """Return the verdict as a flag of Table 4, empty where the data determine the parameter.
 
     >>> flag("determined"), flag("undetermined, at its upper bound")
-    ('', 'undetermined by the data; put at its upper bound by the data')
+    ('', 'undetermined by the data; pushed to its upper bound by the data')
     """
     words = [] if verdict == DETERMINED else verdict.split(", ")
-    return "; ".join(f"{'put ' * word.startswith('at ')}{word} by the data" for word in words)
+    return "; ".join(f"{word.replace('at its', 'pushed to its')} by the data" for word in words)
