@@ -2,6 +2,7 @@
 
 import json
 import os
+import re
 from pathlib import Path
 
 from snakemake.utils import min_version, update_config
@@ -38,7 +39,9 @@ try:
     # and verifies by digest that its part of it is what the rule was planned with.
     STUDY = ROOT / "study.json"
     _text = json.dumps(study.model_dump(mode="json"), indent=1) + "\n"
-    _dry = {"-n", "--dry-run", "--dryrun"} & set(sys.argv)
+    _dry = any(
+        re.fullmatch("-[A-Za-z]*n[A-Za-z]*|--dry-?run", word) for word in sys.argv
+    )
     if not _dry and (not STUDY.exists() or STUDY.read_text() != _text):
         write_text(STUDY, _text)
 except PyrofitError as error:

@@ -29,7 +29,7 @@ class Accuracy(Part):
         None, ge=2, le=5000, description="cells of the slab; none = as the reaction zone needs"
     )
     cells_factor: float = Field(
-        1.0, gt=0.0, le=100.0, description="multiplies the cells that the reaction zone needs"
+        1.0, ge=0.1, le=100.0, description="multiplies the cells that the reaction zone needs"
     )
     tolerance: float = Field(
         2e-3, gt=0.0, le=0.1, description="bound on the scaled predictor-corrector difference"

@@ -8,19 +8,20 @@ import pytest
 import yaml
 
 from pyrofit.config import Study, as_study, digest
+from pyrofit.effects import known_effects
 from pyrofit.errors import StudyError
 from pyrofit.model.material import Changed
 
 CONFIG = Path(__file__).parents[2] / "config"
 
 
-def given(name: str = "smoke", **effects: Any) -> dict[str, Any]:
-    study = yaml.safe_load((CONFIG / f"{name}.yaml").read_text(encoding="utf-8"))
+def given(source: str = "smoke", /, **effects: Any) -> dict[str, Any]:
+    study = yaml.safe_load((CONFIG / f"{source}.yaml").read_text(encoding="utf-8"))
     return {**study, "effects": effects}
 
 
-def having(name: str = "smoke", **effects: Any) -> Study:
-    return as_study(given(name, **effects), f"{name}.yaml")
+def having(source: str = "smoke", /, **effects: Any) -> Study:
+    return as_study(given(source, **effects), f"{source}.yaml")
 
 
 def test_effect_with_a_number_changes_the_description() -> None:
@@ -35,11 +36,37 @@ def test_strength_left_out_is_a_parameter_with_the_limits_of_the_catalogue() -> 
     study = given("pmma", k_T=None)
     study["imp"]["estimate"].append("k_T_slope_1_K")
     found = as_study(study, "pmma.yaml")
-    assert found.parameters["k_T_slope_1_K"].bounds_si == (-3e-3, 5e-3)
-    assert found.effects == {"k_T": {"slope_1_K": "k_T_slope_1_K"}}
+    assert found.parameters["k_T_slope_1_K"].bounds_si == (-2e-3, 5e-3)
+    assert found.with_effects == {"k_T": {"slope_1_K": "k_T_slope_1_K"}}
     changed = found.material.components["B"].conductivity_W_mK
     assert isinstance(changed, Changed)
     assert (changed.of, changed.slope_1_K) == ("k_a", "k_T_slope_1_K")
+
+
+def test_own_limits_come_before_those_of_the_catalogue() -> None:
+    study = given("pmma", k_T=None)
+    study["parameters"]["k_T_slope_1_K"] = {"unit": "1/K", "lower": -2e-4, "upper": 2e-4}
+    study["imp"]["estimate"].append("k_T_slope_1_K")
+    found = as_study(study, "pmma.yaml")
+    assert found.parameters["k_T_slope_1_K"].bounds_si == (-2e-4, 2e-4)
+
+
+def test_study_in_json_has_its_effects() -> None:
+    study = as_study(given(back_loss={"factor": 0.5}), "mine.json")
+    assert study.experiments["slab_25"].back.loss_factor == 0.5
+
+
+KINETIC = {"char_layer", "consecutive", "reaction_order", "tga_lag", "third_reaction", "volatile"}
+"""Effects that TGA sees: they are estimated with the kinetics."""
+
+
+@pytest.mark.parametrize("name", known_effects())
+def test_every_effect_can_be_estimated(name: str) -> None:
+    study = given("pmma", **{name: None})
+    strengths = [f"{name}_{key}" for key in known_effects()[name].strength]
+    study["kinetics" if name in KINETIC else "imp"]["estimate"] += strengths
+    found = as_study(study, "pmma.yaml")
+    assert set(strengths) <= set(found.parameters)
 
 
 def test_strength_that_is_neither_given_nor_estimated_is_refused() -> None:
@@ -71,9 +98,12 @@ def test_published_kinetics_keep_what_effects_add() -> None:
         ({"back_loss": {"factor": -1.0}}, "must not be negative"),
         ({"in_depth": {"length_m": 1e-3}, "in_depth_lost": {"length_m": 1e-3}}, "in_depth_lost"),
         ({"back_loss": 0.5}, "effects.back_loss"),
+        ({"k_T": {"slope_1_K": "a b"}}, "neither a number nor the name of a parameter"),
+        ({1: {}}, "unknown effect '1'"),
     ],
 )
 def test_broken_effect_is_refused_in_words(effects: dict[str, Any], words: str) -> None:
+    study = {**given(), "effects": effects}
     with pytest.raises(StudyError) as error:
-        having(**effects)
+        as_study(study, "smoke.yaml")
     assert words in str(error.value)

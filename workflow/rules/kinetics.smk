@@ -1,4 +1,8 @@
-KINETICS = [] if study.kinetics is None else [results.kinetics("fit.json")]
+_FILES = ("fit.json", "history.csv.gz", "convergence.csv", "curves.csv", "scores.csv")
+FITTED_KINETICS = (
+    [] if study.kinetics is None else [results.kinetics(name) for name in _FILES]
+)
+KINETICS = FITTED_KINETICS[:1]
 # The inverse modelling waits for the fit only where it uses it.
 KINETICS_FOR_IMP = KINETICS if study.imp.kinetics == "fitted" else []
 

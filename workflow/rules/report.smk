@@ -1,6 +1,6 @@
 CALCULATED = [
     results.measurements_summary,
-    *KINETICS,
+    *FITTED_KINETICS,
     results.imp("summary.csv"),
     results.imp("convergence.csv"),
     expand(ROOT / "imp/{cost}/least_squares.json", cost=COSTS),

@@ -74,7 +74,13 @@ def _check_compositions(study: Study) -> None:
             place,
             f"reactions differ from the material's: {sorted(missing)}; give each of them, no other",
         )
-        compositions[f"{place}.composition"] = chosen.composition
+        compositions[f"{place}.composition"] = study.material_with(label).composition
+        require(
+            label != study.imp.kinetics or "reaction_order" not in study.with_effects,
+            "effects.reaction_order",
+            f"imp.kinetics '{label}' brings its own orders; leave the effect out, or describe or "
+            "fit the kinetics",
+        )
     for place, composition in compositions.items():
         try:
             check_composition(composition, study.material.components)
@@ -220,12 +226,15 @@ def _check_values(study: Study) -> None:
     if study.kinetics is None:
         return
     given = set(study.fixed_values()) | set(study.kinetics.estimate)
+    of_records = parameters_in(*study.kinds(Tga).values())
     for label in ("fitted", *study.kinetics.sets):
-        for name in sorted(parameters_of_tga(study.material_with(label)) - given):
+        of_material = parameters_of_tga(study.material_with(label))
+        for name in sorted((of_material | of_records) - given):
             raise ValueError(
                 f"parameters.{name}: TGA needs it; add it to kinetics.estimate or give a value"
             )
-    for name in sorted(set(study.kinetics.estimate) - parameters_of_tga(study.material)):
+    seen = parameters_of_tga(study.material) | of_records
+    for name in sorted(set(study.kinetics.estimate) - seen):
         raise ValueError(f"kinetics.estimate: '{name}' has no effect on TGA")
 
 

@@ -18,7 +18,7 @@ def apply_effects(given: Mapping[str, Any]) -> Mapping[str, Any]:
     """Return a study's keys with its effects in material and experiments.
 
     A strength that is not given becomes a parameter, ``<effect>_<strength>``, with the limits of
-    the catalogue, to be estimated.
+    the catalogue, to be estimated. What is put in moves from ``effects`` to ``with_effects``.
 
     Raises
     ------
@@ -37,14 +37,15 @@ def apply_effects(given: Mapping[str, Any]) -> Mapping[str, Any]:
     catalogue = known_effects()
     for name, numbers in chosen.items():
         if name in catalogue:
-            parameters |= _free(name, catalogue[name], numbers)
+            parameters = _free(name, catalogue[name], numbers) | parameters
     material, experiments = with_effects(material, experiments, chosen)
     return {
         **given,
         "parameters": parameters,
         "material": material,
         "experiments": experiments,
-        "effects": chosen,
+        "effects": {},
+        "with_effects": {**given.get("with_effects", {}), **chosen},
     }
 
 

@@ -32,8 +32,7 @@ def as_study(given: Mapping[str, Any], source: str) -> Study:
     """
     try:
         refuse_booleans(given)
-        applied = given if source.endswith(".json") else apply_effects(given)
-        study = Study.model_validate(applied)
+        study = Study.model_validate(apply_effects(given))
     except ValidationError as error:
         lines = in_plain_words(error, given)
     except ValueError as error:
@@ -104,7 +103,7 @@ def read_mapping(path: Path) -> dict[str, Any]:
             "this file is empty" if given is None else f"this is {_KIND.get(type(given), 'text')}"
         )
         raise StudyError(
-            f"{path}: a study is a mapping of keys; {what}. Start from config/smoke.yaml"
+            f"{path}: a study is a mapping of keys; {what}. Start from config/twin.yaml"
         )
     return given
 

@@ -200,6 +200,11 @@ class Study(Part):
         "parameters: a number in SI units or the name of a parameter; a strength left out is "
         "a parameter <effect>_<strength> to be estimated",
     )
+    with_effects: dict[str, dict[str, Number]] = Field(
+        default_factory=dict,
+        description="effects that material and experiments already have, as the workflow notes "
+        "them; list yours under `effects`",
+    )
     accuracy: Accuracy = Field(default_factory=Accuracy, description="numerical settings")
     synthetic: Synthetic | None = Field(None, description="for signals with file: synthetic")
     kinetics: Kinetics | None = Field(None, description="stage 1, TGA")

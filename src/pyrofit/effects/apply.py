@@ -3,6 +3,8 @@
 from collections.abc import Iterable, Mapping
 from typing import TypeVar
 
+from pydantic import ValidationError
+
 from pyrofit.effects import known_effects
 from pyrofit.effects.base import AnyExperiment, Effect, Numbers
 from pyrofit.errors import suggest
@@ -38,6 +40,9 @@ def with_effects(
     for name in sorted(chosen):
         try:
             material, changed = _with(effects[name], material, changed, chosen[name])
+        except ValidationError as error:
+            said = str(error.errors()[0]["msg"]).removeprefix("Value error, ")
+            raise ValueError(f"effect '{name}': {said}") from None
         except ValueError as error:
             raise ValueError(f"effect '{name}': {error}") from error
     return material, changed
@@ -68,4 +73,4 @@ def _numbers(effect: Effect, given: Numbers) -> Numbers:
 def _refuse_unknown(what: str, given: Iterable[str], known: Iterable[str]) -> None:
     for name in given:
         if name not in known:
-            raise ValueError(f"unknown {what} '{name}'. {suggest(name, known)}")
+            raise ValueError(f"unknown {what} '{name}'. {suggest(str(name), known)}")

@@ -11,7 +11,7 @@ EFFECT = Effect(
         "slope_1_K": Quantity(
             label="relative slope of the conductivity",
             unit="1/K",
-            lower=-3e-3,
+            lower=-2e-3,
             upper=5e-3,
             value=0.0,
             typical=-1e-3,

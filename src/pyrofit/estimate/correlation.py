@@ -13,6 +13,8 @@ LOWEST_DENSITY = 0.1
 own curve; with a density near 0 that curve would count as known exactly."""
 LAGS = 10
 """Lags of the Ljung-Box test."""
+DRAWS = 200
+"""Draws of white noise that give the distribution of its statistic."""
 
 
 @dataclass(frozen=True)
@@ -80,5 +82,25 @@ def ljung_box(series: FloatArray) -> float:
     """
     n = series.size
     lags = np.arange(1, min(LAGS, n - 2) + 1)
-    r = np.array([series[k:] @ series[:-k] for k in lags]) / (series @ series)
+    r = np.array([series[k:] @ series[:-k] for k in lags]) / max(float(series @ series), 1e-300)
     return float(n * (n + 2) * np.sum(r**2 / (n - lags)))
+
+
+def whiteness(scatter: FloatArray, basis: FloatArray) -> float:
+    """Return the probability that white noise looks as correlated as a scatter.
+
+    The Ljung-Box statistic (1978, doi 10.1093/biomet/65.2.297) is compared to that of drawn white
+    noise less its own curve, which correlates it too.
+
+    Parameters
+    ----------
+    scatter
+        Whitened scatter about a curve, shape (n,).
+    basis
+        Orthonormal basis of the whitened curves, shape (n, k).
+    """
+    rng = np.random.default_rng(0)
+    white = rng.standard_normal((scatter.size, DRAWS))
+    white -= basis @ (basis.T @ white)
+    drawn = np.array([ljung_box(column) for column in white.T])
+    return float((1 + np.sum(drawn >= ljung_box(scatter))) / (1 + DRAWS))

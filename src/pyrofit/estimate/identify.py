@@ -91,10 +91,16 @@ class Identification:
 
     @property
     def correlation(self) -> FloatArray:
-        """Correlation of the estimates, shape (parameters, parameters)."""
-        covariance = covariance_of(self.jacobian, self.inflation)
+        """Correlation of the estimates, shape (parameters, parameters).
+
+        What rests at a limit does not move with the others.
+        """
+        free = [k for k, v in enumerate(self.optimum.x) if not _bound(v)]
+        covariance = covariance_of(self.jacobian[:, free], self.inflation)
         sd = np.sqrt(np.diag(covariance))
-        return np.asarray(covariance / np.outer(sd, sd))
+        found = np.eye(self.optimum.x.size)
+        found[np.ix_(free, free)] = covariance / np.outer(sd, sd)
+        return found
 
     def modes(self) -> tuple[FloatArray, FloatArray]:
         """Return singular values of the Jacobian and, by column, the directions they belong to.

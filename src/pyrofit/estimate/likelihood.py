@@ -186,10 +186,11 @@ def likelihood_of(problem: Problem) -> Likelihood:
     DataError
         A channel is too short.
     """
-    targets = [term.target for _, term in problem.cost.terms]
-    signals = [signal for _, signal, _ in problem.picks]
-    noise = tuple(estimate_noise(t, s) for t, s in zip(targets, signals, strict=True))
-    return Likelihood(problem, noise)
+    noise = []
+    for (name, signal, _), (_, term) in zip(problem.picks, problem.cost.terms, strict=True):
+        described = problem.runs[name].experiment.signals[signal]
+        noise.append(estimate_noise(term.target, signal, described.uncertainty_sds))
+    return Likelihood(problem, tuple(noise))
 
 
 def fit(likelihood: Likelihood, starts: Sequence[FloatArray]) -> Optimum:

@@ -15,7 +15,7 @@ from scipy.optimize import minimize, minimize_scalar
 
 from pyrofit.cost import Target
 from pyrofit.errors import DataError
-from pyrofit.estimate.correlation import Correlation, ljung_box, shrunk
+from pyrofit.estimate.correlation import Correlation, shrunk, whiteness
 from pyrofit.solver.arrays import FloatArray
 
 TIMING_S = 0.5
@@ -26,12 +26,15 @@ gives 0.06 % (root mean square) for the mass loss rate."""
 DISCREPANCY = {"mass_fraction": 0.02}
 """Least noise of a series without a stated uncertainty. TGA scatters by 5e-4 about its curve, but
 models of several heating rates come no nearer than 0.02: it would outweigh all else."""
+LASTING = 0.1
+"""Time over which such a discrepancy lasts, as a fraction of the record: it is no noise of points,
+and counts alike however many points are measured."""
 SMOOTHING = 0.1
 """Window over which a stated uncertainty is smoothed, as a fraction of the record."""
 LARGEST_AR = 0.9995
+LEAST_SQUARES = 1e-30
+"""Sum of squares at least; a series may lie on its curve exactly."""
 FEWEST_POINTS = 8
-DRAWS = 200
-"""Draws of white noise that give the distribution of its statistic."""
 UNITS = {"mlr": "kg/(m² s)", "back_temperature": "K", "mass_fraction": "-"}
 
 _SPLINES = (4, 6, 8, 11, 15, 20, 27, 36, 48, 64)
@@ -95,7 +98,7 @@ class NoiseModel:
         )
 
 
-def estimate_noise(target: Target, quantity: str) -> NoiseModel:
+def estimate_noise(target: Target, quantity: str, stated_sds: float = 1.0) -> NoiseModel:
     """Estimate size and correlation of the noise of a measured series.
 
     Parameters
@@ -105,6 +108,8 @@ def estimate_noise(target: Target, quantity: str) -> NoiseModel:
         smooth curve, the rest is taken to vary slowly.
     quantity
         ``mlr``, ``back_temperature`` or ``mass_fraction``.
+    stated_sds
+        Standard deviations that the stated uncertainty stands for.
 
     Raises
     ------
@@ -113,6 +118,7 @@ def estimate_noise(target: Target, quantity: str) -> NoiseModel:
     """
     count = target.value.size
     stated = smoothed(target)
+    stated = None if stated is None else stated / stated_sds
     if count < FEWEST_POINTS:
         return _of_few_points(stated, count, quantity)
     shape = np.ones(count) if stated is None else stated
@@ -120,14 +126,19 @@ def estimate_noise(target: Target, quantity: str) -> NoiseModel:
     larger = fit.scale > 1.0 + np.sqrt(2.0 / (count - fit.splines))
     scale = fit.scale if stated is None or larger else 1.0
     floors = _floors(target, fit.curve, quantity, stated is not None)
+    correlation = fit.correlation
+    origin = "from the scatter" if stated is None else "stated, smoothed over 10 % of the record"
+    if "discrepancy" in floors:
+        correlation = Correlation(ar=float(np.exp(-1.0 / (LASTING * (count - 1)))))
+        origin = "discrepancy of models, lasting over 10 % of the record"
     squares = (scale * shape) ** 2 + sum(floor**2 for floor in floors.values())
     return NoiseModel(
         sd=np.sqrt(squares),
-        correlation=fit.correlation,
+        correlation=correlation,
         splines=fit.splines,
         excess=1.0 if stated is None else scale,
-        whiteness=_whiteness(fit),
-        origin="from the scatter" if stated is None else "stated, smoothed over 10 % of the record",
+        whiteness=whiteness(fit.scatter, fit.basis),
+        origin=origin,
         unit=UNITS[quantity],
         floors={name: float(np.median(floor)) for name, floor in floors.items()},
     )
@@ -259,7 +270,7 @@ def _restricted(X: FloatArray, y: FloatArray, correlation: Correlation, known: b
     white, log_det = correlation.whiten(np.column_stack([X, y]))
     R = np.asarray(np.linalg.qr(white, mode="r"))
     rest = len(y) - X.shape[1]
-    squares = float(R[-1, -1] ** 2)
+    squares = max(float(R[-1, -1] ** 2), LEAST_SQUARES)
     log_curve = 2.0 * float(np.log(np.abs(np.diag(R)[:-1])).sum())
     return log_det + log_curve + (squares if known else rest * np.log(squares / rest))
 
@@ -271,7 +282,7 @@ def _fit(X: FloatArray, y: FloatArray, shape: FloatArray, found: Correlation, kn
     part = basis.T @ white[:, -1]
     scatter = white[:, -1] - basis @ part
     n, splines = X.shape
-    squares = float(scatter @ scatter)
+    squares = max(float(scatter @ scatter), LEAST_SQUARES)
     scale = float(np.sqrt(squares / (n - splines)))
     misfit = squares if known else n * np.log(squares / n)
     return _Fit(
@@ -282,15 +293,3 @@ def _fit(X: FloatArray, y: FloatArray, shape: FloatArray, found: Correlation, kn
         scatter=scatter / scale,
         basis=basis,
     )
-
-
-def _whiteness(fit: _Fit) -> float:
-    """Return the probability of the Ljung-Box statistic (1978, doi 10.1093/biomet/65.2.297).
-
-    Its distribution is that of white noise less its own splines, drawn: these correlate it too.
-    """
-    rng = np.random.default_rng(0)
-    white = rng.standard_normal((fit.scatter.size, DRAWS))
-    white -= fit.basis @ (fit.basis.T @ white)
-    drawn = np.array([ljung_box(column) for column in white.T])
-    return float((1 + np.sum(drawn >= ljung_box(fit.scatter))) / (1 + DRAWS))

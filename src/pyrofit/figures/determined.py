@@ -27,8 +27,9 @@ _LIMIT: dict[str, Any] = {"color": style.COLOURS[1], "linewidth": 1.6}
 
 def sensitivities(study: Study, results: Results) -> Canvas:
     """Draw d curve / d parameter times the distance of its limits against time, by channel."""
-    numbers = dict.fromkeys(("time_s", "si"), float)
-    frame = read_csv(results.identification("sensitivities.csv"), numbers)
+    words = dict.fromkeys(("experiment", "signal", "parameter"), object)
+    columns = {**words, **dict.fromkeys(("time_s", "si"), float)}
+    frame = read_csv(results.identification("sensitivities.csv"), columns)
     channels = noise(results)["channels"]
     canvas, axes = style.panels(len(channels), 2, style.TWO_COLUMNS, 72.0)
     style.letter(axes, [title_of(study, c["experiment"]) for c in channels])

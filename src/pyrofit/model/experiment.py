@@ -208,6 +208,10 @@ class Signal(Part):
         None, description="constant uncertainty, SI unit of the quantity"
     )
     uncertainty_meaning: str = Field("", description="what the uncertainty is, in words")
+    uncertainty_sds: AboveZero = Field(
+        1.0,
+        description="standard deviations of a point's noise that the uncertainty is",
+    )
     average_s: float = Field(
         0.0, ge=0.0, description="width of the bins the values are averages over [s]; 0 = points"
     )

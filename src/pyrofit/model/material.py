@@ -7,6 +7,7 @@ from pydantic import Discriminator, Field, Tag, model_validator
 from pyrofit.errors import suggest
 from pyrofit.model.base import (
     FRACTION,
+    NOT_NEGATIVE,
     POSITIVE,
     Fraction,
     NotNegative,
@@ -130,7 +131,7 @@ class Reaction(Part):
     reference_temperature_K: Annotated[Number | None, POSITIVE] = Field(
         None, description="temperature at which k is the reference rate, instead of A [K]"
     )
-    reference_rate_1_s: Annotated[Number | None, POSITIVE] = Field(
+    reference_rate_1_s: Annotated[Number | None, NOT_NEGATIVE] = Field(
         None, description="k at that temperature [1/s]"
     )
     order: NotNegative = Field(1.0, description="reaction order n [-]")

@@ -57,17 +57,23 @@ def _correlation(tables: Frames) -> str:
 
 
 def _misfit(tables: Frames) -> str:
-    rows = tables["noise"].to_dict("records")
+    groups = tables["noise"].groupby("fit", sort=False)
+    return " ".join(_misfit_of(str(fit), rows) for fit, rows in groups)
+
+
+def _misfit_of(fit: str, table: pd.DataFrame) -> str:
     said = listed(
-        [f"{row['chi2_per_point']:#.2g} ({row['experiment']}, {row['signal']})" for row in rows]
+        [
+            f"{row['chi2_per_point']:#.2g} ({row['experiment']}, {row['signal']})"
+            for row in table.to_dict("records")
+        ]
     )
-    if max(row["chi2_per_point"] for row in rows) <= _FITS:
-        return f"The optimum fits within the noise: chi-square per point is {said}."
-    return (
-        f"The optimum does not fit within the noise: chi-square per point is {said}. What the "
-        "model lacks exceeds the noise: the intervals, widened by the root of chi-square per "
-        "degree of freedom, still take the model as right and may miss the true values."
-    )
+    if table["chi2_per_point"].max() <= _FITS:
+        return f"The optimum of the {fit} fits within the noise: chi-square per point is {said}."
+    text = f"The optimum of the {fit} does not fit within the noise: chi-square per point is {said}"
+    if (table["chi2_per_point"] * table["points"]).sum() > table["points"].sum():
+        text += "; the intervals are widened by the root of chi-square per degree of freedom"
+    return f"{text}. What the model lacks exceeds the noise: the true values may be missed."
 
 
 def _optimisers(tables: Frames) -> str:

@@ -21,9 +21,11 @@ def _experiment(study: Study, name: str) -> dict[str, Any]:
 
 
 def data(study: Study) -> dict[str, Any]:
-    """Signals; with synthetic ones, all that makes them."""
+    """Signals as they are read; with synthetic ones, all that makes them."""
+    of_the_model = {"delay_s", "offset"}
     signals = {
-        n: {k: s.model_dump() for k, s in e.signals.items()} for n, e in study.experiments.items()
+        n: {k: s.model_dump(exclude=of_the_model) for k, s in e.signals.items()}
+        for n, e in study.experiments.items()
     }
     if not study.is_synthetic:
         return {"signals": signals}

@@ -34,7 +34,8 @@ def stages_of(study: Study) -> dict[str, tuple[str, ...]]:
 def estimates(study: Study, results: Results, stage: str = "imp") -> pd.DataFrame:
     """Return what the analysis says about each parameter, SI units, in the study's order."""
     names = [(name,) for name in stages_of(study)[stage]]
-    columns = {**dict.fromkeys(_NUMBERS, float), "method": object, "verdict": object}
+    words = ("bound", "low_open", "high_open", "method", "verdict")
+    columns = {**dict.fromkeys(_NUMBERS, float), **dict.fromkeys(words, object)}
     path = results.identification("estimate.csv", stage)
     frame = read_csv(path, columns, {("parameter",): names})
     bound = frame["bound"].astype(object).fillna("")  # read as numbers where all are empty
@@ -45,7 +46,7 @@ def matrix_of(study: Study, results: Results, stage: str = "imp") -> pd.DataFram
     """Return the correlation matrix of the estimates, by name."""
     names = list(stages_of(study)[stage])
     path = results.identification("correlation.csv", stage)
-    frame = read_csv(path, dict.fromkeys(names, float))
+    frame = read_csv(path, {"parameter": object, **dict.fromkeys(names, float)})
     return frame.set_index("parameter").loc[names, names]
 
 
@@ -106,9 +107,14 @@ def _strongest(related: pd.DataFrame, name: str) -> str:
 
 def channels(study: Study, results: Results) -> pd.DataFrame:
     """List the noise of every channel in words, and how the optimum fits it."""
-    found = [c for stage in stages_of(study) for c in noise(results, stage)["channels"]]
+    found = [
+        {**c, "fit": WORDS[stage]}
+        for stage in stages_of(study)
+        for c in noise(results, stage)["channels"]
+    ]
     rows = [
         {
+            "fit": c["fit"],
             "experiment": title_of(study, c["experiment"]),
             "signal": c["signal"].replace("_", " ").replace("mlr", "mass loss rate"),
             "points": c["points"],

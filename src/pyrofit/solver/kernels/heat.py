@@ -79,15 +79,37 @@ def is_opaque(material):
 
 
 @inner
-def absorb(radiation, work, first, material):
-    """Add the radiation that each cell absorbs to its source; return what passes through all."""
-    passing = radiation * math.exp(-optical_depth(work.skin, 0, material))
-    work.cell[row.source, first] += radiation - passing
+def mean_depth(optical):
+    """Return the mean depth at which a layer absorbs over its thickness, 1/tau - 1/(e^tau - 1)."""
+    if optical < 1e-2:
+        return 0.5 - optical / 12.0
+    return 1.0 / optical - 1.0 / math.expm1(min(optical, 700.0))
+
+
+@inner
+def absorb(radiation, r_skin, work, first, material):
+    """Add the radiation that each cell absorbs to its source.
+
+    Return what passes through all, and what acts at the front. What skin and first half cell
+    absorb acts at the front and at the first cell's centre as its resistance to these tells.
+    """
+    cell = work.cell
+    half = cell[row.half_r, first]
+    skin = optical_depth(work.skin, 0, material)
+    passing = radiation * math.exp(-skin)
+    at_front = (radiation - passing) * (1.0 - mean_depth(skin) * r_skin / (r_skin + half))
+    cell[row.source, first] += radiation - passing - at_front
     for n in live(work.m, first):
-        passed = passing * math.exp(-optical_depth(work.m_new, n, material))
-        work.cell[row.source, n] += passing - passed
+        optical = optical_depth(work.m_new, n, material)
+        passed = passing * math.exp(-optical)
+        forward = 0.0
+        if n == first:
+            share = half * (1.0 - 2.0 * mean_depth(optical)) / (r_skin + half)
+            forward = share * (passing - passed)
+            at_front += forward
+        cell[row.source, n] += passing - passed - forward
         passing = passed
-    return passing
+    return passing, at_front
 
 
 @inner
@@ -101,7 +123,7 @@ def lose_at_edge(work, first, exposure):
 
 
 @inner
-def surface_heat(radiation, eps, front_star, t, work, first, material, exposure):
+def surface_heat(radiation, eps, front_star, t, r_skin, work, first, material, exposure):
     """Fill the heat source of the foil and return that of the front, about T*."""
     cell = work.cell
     foil = work.m.shape[1]
@@ -113,8 +135,9 @@ def surface_heat(radiation, eps, front_star, t, work, first, material, exposure)
     if is_opaque(material):
         gain += radiation
     else:
-        transmitted = absorb(radiation, work, first, material)
-        inside = radiation - transmitted
+        transmitted, at_front = absorb(radiation, r_skin, work, first, material)
+        gain += at_front
+        inside = radiation - at_front - transmitted
         if exposure.foil_opaque:
             gain_back += transmitted
     cell[row.source, foil] = gain_back

@@ -162,10 +162,11 @@ def advance(work, first, top, clock, mass, rate_scale, material, network, exposu
     eps = top_emissivity(exposure.mixing_depth, work.skin, work.m_new, first, material, top.eps)
     seen = changed_emissivity(eps, top, work, first, mass, network, exposure)
     q = seen * irradiation(t, clock.piece, exposure)
-    surface = surface_heat(q, seen, front_star, t, work, first, material, exposure)
+    T_skin = 0.5 * (front_star + cell[row.T_star, first])
+    _, r_skin, C_skin = layer(work.skin, 0, material, T_skin)
+    surface = surface_heat(q, seen, front_star, t, r_skin, work, first, material, exposure)
     if exposure.edge_exchange != 0.0:
         lose_at_edge(work, first, exposure)
-    _, r_skin, C_skin = layer(work.skin, 0, material, front_star)
     cell[row.C_new, first] += C_skin
     front_new = conduct(cell, first, surface, r_skin, bdf)
 
