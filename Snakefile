@@ -67,6 +67,10 @@ def benchmark_of(name):
     return str(ROOT / "benchmarks" / f"{name}.tsv")
 
 
+onsuccess:
+    print(f"Report: {ROOT / 'report.html'}")
+
+
 localrules:
     all,
 

@@ -25,7 +25,7 @@ NO_STUDY = rows_of(
     [
         ("study file missing", delete("study.yaml"), ("there is no such study file",)),
         ("study file is a folder", folder("study.yaml"), ("a directory; give the study's YAML",)),
-        ("study file empty", write("study.yaml", ""), ("file is empty", "config/smoke.yaml")),
+        ("study file empty", write("study.yaml", ""), ("file is empty", "config/twin.yaml")),
         ("study file of comments", write("study.yaml", "# later\n"), ("this file is empty",)),
         ("study file binary", write("study.yaml", bytes(range(256))), ("UTF-8",)),
         (

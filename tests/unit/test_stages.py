@@ -197,6 +197,7 @@ def on_files(folder: Path, **signal: Any) -> Study:
     names = {"time": "t", "temperature": "T", "value": "m"}
     tga = {"file": "data/run.csv", "columns": names, "uncertainty": 0.01, **signal}
     study["experiments"]["tga_5K"]["signals"]["mass_fraction"] = tga
+    study["experiments"]["tga_5K"]["heating_rate_K_min"] = 100
     for name in ("slab_25", "slab_60"):
         study["experiments"][name]["signals"] = {
             "mlr": {"file": "data/mlr.csv", "uncertainty": 1e-4}
@@ -238,6 +239,14 @@ def test_points_after_until_s_are_left_out(tmp_path: Path) -> None:
 def test_limit_that_leaves_too_few_points_is_told(tmp_path: Path) -> None:
     study = on_files(tmp_path, until_K=400)
     with pytest.raises(DataError, match=r"run.csv: until_K or until_s leaves 2 points; raise it"):
+        measurements.prepare(study, Results(tmp_path / "results"))
+
+
+def test_other_heating_rate_than_the_files_is_told(tmp_path: Path) -> None:
+    study = on_files(tmp_path)
+    tga = study.experiments["tga_5K"].model_copy(update={"heating_rate_K_min": 5.0})
+    study = study.model_copy(update={"experiments": {**study.experiments, "tga_5K": tga}})
+    with pytest.raises(DataError, match=r"rises by 100 K/min, the .* heating_rate_K_min is 5;"):
         measurements.prepare(study, Results(tmp_path / "results"))
 
 

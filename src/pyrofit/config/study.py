@@ -194,7 +194,7 @@ class Study(Part):
     parameters: dict[Name, Parameter] = Field(description="named numbers")
     material: Material = Field(description="components, reactions, composition")
     experiments: dict[Name, AnyExperiment] = Field(min_length=1, description="experiments by name")
-    effects: dict[str, dict[str, Number]] = Field(
+    effects: dict[str, dict[str, Number] | None] = Field(
         default_factory=dict,
         description="effects of the catalogue that material and experiments have, with their "
         "parameters: a number in SI units or the name of a parameter; a strength left out is "

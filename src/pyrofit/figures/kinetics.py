@@ -28,7 +28,7 @@ def slope(temperature_K: FloatArray, mass_fraction: FloatArray) -> tuple[FloatAr
     """Return -d(m/m0)/dT [1/K], the slope of a parabola fitted to each 10 K of a curve.
 
     Savitzky and Golay (1964, doi 10.1021/ac60214a047) on an even grid of temperature. Divided by
-    the heating rate like this, curves of all heating rates have the same height.
+    the heating rate like this, curves of all heating rates are of similar height.
 
     >>> T, rate = slope(np.arange(300.0, 340.0, 2.0), 1.0 - 0.01 * np.arange(0.0, 40.0, 2.0))
     >>> bool(np.allclose(rate, 0.01))

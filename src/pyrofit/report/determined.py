@@ -62,13 +62,15 @@ def _misfit(tables: Frames) -> str:
 
 
 def _misfit_of(fit: str, table: pd.DataFrame) -> str:
+    fits = table["chi2_per_point"].max() <= _FITS
+    shown = table if fits else table[table["chi2_per_point"] > _FITS]
     said = listed(
         [
             f"{row['chi2_per_point']:#.2g} ({row['experiment']}, {row['signal']})"
-            for row in table.to_dict("records")
+            for row in shown.to_dict("records")
         ]
     )
-    if table["chi2_per_point"].max() <= _FITS:
+    if fits:
         return f"The optimum of the {fit} fits within the noise: chi-square per point is {said}."
     text = f"The optimum of the {fit} does not fit within the noise: chi-square per point is {said}"
     if (table["chi2_per_point"] * table["points"]).sum() > table["points"].sum():

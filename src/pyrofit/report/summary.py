@@ -134,7 +134,7 @@ def _parameters(study: Study, tables: Frames) -> str:
     wide = _flagged(table, "spread")
     if not bound and not wide:
         once = "" if table["sigma"].notna().any() else " (no spread from one repetition)"
-        return f"No parameter is flagged: at a limit, or spread over 20 % of its limits{once}."
+        return f"No best set is at a limit, no spread above 20 % of the limits{once}."
     parts = [f"at a limit: {bound}"] if bound else []
     parts += [f"not determined (spread above 20 % of the limits): {wide}"] if wide else []
     return f"Parameters not to rely on: {'; '.join(parts)}."

@@ -4,6 +4,7 @@ from collections.abc import Iterator, Mapping
 from pathlib import Path
 from typing import Any
 
+import numpy as np
 import pandas as pd
 
 from pyrofit.config import Study, TermSpec
@@ -12,8 +13,13 @@ from pyrofit.data.fetch import FOLDER_VARIABLE, locate, store
 from pyrofit.data.series import Measurement, SeriesSpec, read_series
 from pyrofit.errors import CostError, DataError
 from pyrofit.estimate.problem import Measurements, target_for
-from pyrofit.model.experiment import Signal
+from pyrofit.model.base import value_of
+from pyrofit.model.experiment import Signal, Tga
 
+OTHER_RATE = 0.2
+"""Share by which a measured heating rate may differ from the one given."""
+OTHER_START_K = 3.0
+"""Difference from the described initial temperature from which it is noted."""
 SYNTHETIC = "synthetic"
 MACFP = "macfp:"
 
@@ -61,6 +67,7 @@ def read_all(study: Study, macfp: bool = True) -> dict[tuple[str, str], Read]:
             continue
         try:
             series[name, quantity] = _read(quantity, signal)
+            _check_experiment(study, name, quantity, *series[name, quantity])
         except DataError as error:
             # One file may serve several experiments.
             if not any(line.endswith(str(error)) for line in wrong):
@@ -156,6 +163,28 @@ def _read(quantity: str, signal: Signal) -> Read:
         "notes": list(found.notes),
     }
     return frame, about
+
+
+def _check_experiment(
+    study: Study, name: str, quantity: str, frame: pd.DataFrame, about: dict[str, Any]
+) -> None:
+    """Compare a series with its experiment: refuse another heating rate, note another start."""
+    experiment = study.experiments[name]
+    if isinstance(experiment, Tga):
+        rise = np.gradient(frame["temperature_K"].to_numpy(), frame["time_s"].to_numpy())
+        found, given = 60.0 * float(np.median(rise)), experiment.heating_rate_K_min
+        if abs(found - given) > OTHER_RATE * given:
+            raise DataError(
+                f"{about['source']}: the temperature rises by {found:.3g} K/min, the experiment's "
+                f"heating_rate_K_min is {given:g}; correct it, or the unit of the time column"
+            )
+    elif quantity == "back_temperature":
+        start = float(frame["back_temperature_K"].iloc[0])
+        described = value_of(experiment.sample.initial_temperature_K, study.fixed_values())
+        if abs(start - described) > OTHER_START_K:
+            about["notes"].append(
+                f"starts at {start:.1f} K, initial_temperature_K of the sample is {described:.1f}"
+            )
 
 
 def _locate(file: str) -> Path:

@@ -102,7 +102,7 @@ TABLES: dict[str, Table] = {
         headings={
             "cost_function": "cost function",
             "chi2_per_freedom": "chi-square per degree of freedom",
-            "within": "parameters within",
+            "within": "parameters inside their interval",
             "farthest": "farthest parameter",
             "distance_sd": "its distance [sd]",
         },

@@ -21,7 +21,7 @@ _CUT_OFF = {
     (True, True): "both",
     (True, False): "lower",
     (False, True): "upper",
-    (False, False): "",
+    (False, False): None,
 }
 
 
@@ -83,10 +83,12 @@ def _determined(
 ) -> dict[str, Any]:
     name = str(row["parameter"])
     factor = study.parameters[name].factor
+    truth = {} if study.synthetic is None else {"truth": study.synthetic.truth.get(name)}
     return {
         "fit": WORDS[stage],
         "parameter": name,
         "unit": study.parameters[name].unit,
+        **truth,
         **{c: float(row[c]) / factor for c in ("estimate", "low", "high")},
         "width_percent": 100.0 * float(row["width"]),
         "ends": _CUT_OFF[bool(row["low_open"]), bool(row["high_open"])],
