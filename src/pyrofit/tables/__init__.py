@@ -97,7 +97,7 @@ TABLES: dict[str, Table] = {
         make=distances,
         title="The optimisers' sets beside the optimum of the likelihood",
         note="The optimum weighs each point by its noise, the costs do not: their own minima, "
-        "found by least squares, are off it as well. 'Within': parameters less than 1.96 standard "
+        "found by least squares, are off it as well. 'Inside': parameters less than 1.96 standard "
         "deviations off.",
         headings={
             "cost_function": "cost function",

@@ -101,7 +101,7 @@ def _determined(
 
 def _strongest(related: pd.DataFrame, name: str) -> str:
     others = related[name].drop(name)
-    if others.empty:
+    if others.empty or not others.any():
         return ""
     partner = str(others.abs().idxmax())
     return f"{partner} {round(others[partner], 2) + 0.0:+.2f}".replace("-", "−")
