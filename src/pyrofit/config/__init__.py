@@ -7,7 +7,7 @@ a part uses.
 
 from pyrofit.config.read import as_study, digest, read_mapping, read_study
 from pyrofit.config.study import Imp, Kinetics, Study, TermSpec
-from pyrofit.config.uses import parameters_in, parameters_of_tga
+from pyrofit.config.uses import parameters_in
 
 __all__ = [
     "Imp",
@@ -17,7 +17,6 @@ __all__ = [
     "as_study",
     "digest",
     "parameters_in",
-    "parameters_of_tga",
     "read_mapping",
     "read_study",
 ]

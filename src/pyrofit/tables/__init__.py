@@ -64,7 +64,7 @@ TABLES: dict[str, Table] = {
         title="95 % intervals of the parameters, and what the data determine",
         note="Low, high: 95 % interval about the optimum of the likelihood, chi-square divided by "
         "its value per degree of freedom where that exceeds 1; 'noise alone': without that "
-        "division, as if nothing but noise kept model and data apart. Width in per cent of the "
+        "division, where that differs. Width in per cent of the "
         "distance of the limits: up to 20 determined, up to 50 weakly determined, else "
         "undetermined. Linear: from the parabola of chi-square; profile: all other parameters "
         "fitted anew at each value. All intervals take the model and its other values as exact, "
@@ -73,7 +73,7 @@ TABLES: dict[str, Table] = {
             "low": "95 % low",
             "high": "95 % high",
             "width_percent": "width [% of limits]",
-            "ends": "cut off by limit",
+            "ends": "cut off",
             "noise_low": "noise alone, low",
             "noise_high": "noise alone, high",
             "strongest_correlation": "strongest correlation",

@@ -92,11 +92,17 @@ def _determined(
         **{c: float(row[c]) / factor for c in ("estimate", "low", "high")},
         "width_percent": 100.0 * float(row["width"]),
         "ends": _CUT_OFF[bool(row["low_open"]), bool(row["high_open"])],
-        **{c: float(row[c]) / factor for c in ("noise_low", "noise_high")},
+        **{f"noise_{end}": _another(row, end, factor) for end in ("low", "high")},
         "method": row["method"],
         "verdict": row["verdict"],
         "strongest_correlation": _strongest(related, name),
     }
+
+
+def _another(row: Mapping[Any, Any], end: str, factor: float) -> float | None:
+    """Return an end of the interval of noise alone where it is not that of the interval."""
+    noise = float(row[f"noise_{end}"])
+    return None if noise == float(row[end]) else noise / factor
 
 
 def _strongest(related: pd.DataFrame, name: str) -> str:

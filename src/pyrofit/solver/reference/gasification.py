@@ -39,26 +39,8 @@ def reference_gasification(
 ) -> Curves:
     """Simulate a gasification experiment, as `pyrofit.simulate.simulate_gasification` does.
 
-    Parameters
-    ----------
-    experiment, material
-        The description.
-    values
-        Parameter values in SI units by name.
-    requests
-        By signal: ``mlr`` [kg/(m2 s)], averaged over the bin width; ``mass`` [kg/m2],
-        ``back_temperature``, ``front_temperature`` [K], ``thickness`` [m], and
-        ``probe_0`` ... [K] for the probes.
-    resolution
-        Numerical settings.
-    probes_m
-        Depths of temperature probes in the virgin sample [m].
-
-    Returns
-    -------
-    Curves
-        The signals at their times, empty unless the run finished. MLR over a bin is the
-        difference of the mass, which closes to round-off because extents are the unknowns.
+    Arguments and result are the same; ``resolution`` holds the numerical settings. MLR over a bin
+    is the difference of the mass, which closes to round-off because extents are the unknowns.
     """
     resolution = resolution or Resolution()
     slab = make_slab(experiment, material, values, resolution.elements)

@@ -26,21 +26,7 @@ def reference_tga(
 ) -> Curves:
     """Simulate a TGA experiment, as `pyrofit.simulate.simulate_tga` does.
 
-    Parameters
-    ----------
-    experiment, material
-        The description.
-    values
-        Parameter values in SI units by name.
-    request
-        Times [s] and temperatures [K], shape (points,), increasing times.
-    resolution
-        Numerical settings.
-
-    Returns
-    -------
-    Curves
-        Signals ``mass_fraction`` [-] and ``mass_loss_rate`` [1/s] at the times.
+    Arguments and result are the same; ``resolution`` holds the numerical settings.
     """
     resolution = resolution or Resolution()
     if request.temperature_K is None:
