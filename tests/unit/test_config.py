@@ -11,7 +11,8 @@ import pytest
 import yaml
 
 from pyrofit.cli import main
-from pyrofit.config import Study, as_study, digest, parameters_of_tga, read_study
+from pyrofit.config import Study, as_study, digest, read_study
+from pyrofit.config.uses import parameters_of_tga
 from pyrofit.errors import StudyError
 
 CONFIG = Path(__file__).parents[2] / "config"
