@@ -1,6 +1,6 @@
 """Every effect: the base model at null, another one elsewhere, always balanced."""
 
-from itertools import product
+from itertools import combinations, product
 
 import numpy as np
 import pytest
@@ -17,6 +17,7 @@ from bases import (
 )
 
 from pyrofit.effects import known_effects
+from pyrofit.effects.apply import with_effects
 from pyrofit.effects.base import Effect
 from pyrofit.model.base import numbers
 from pyrofit.model.parameters import UNITS, Parameter
@@ -170,6 +171,8 @@ def test_effect_is_finite_and_balanced_within_its_limits(effect: Effect) -> None
 def test_effect_states_sane_limits_in_known_units(effect: Effect) -> None:
     assert len(effect.strength) == 1
     assert effect.title
+    assert effect.group
+    assert effect.needs.words
     assert effect.equation
     for quantity in effect.quantities.values():
         assert UNITS[quantity.unit] == 1.0
@@ -179,4 +182,22 @@ def test_effect_states_sane_limits_in_known_units(effect: Effect) -> None:
         assert quantity.label
         assert quantity.source
         Parameter(unit=quantity.unit, lower=quantity.lower, upper=quantity.upper)
-    assert not effect.same_as or effect.same_as in EFFECTS
+    if effect.same_as:
+        assert EFFECTS[effect.same_as].group == effect.group
+
+
+def test_effects_that_set_the_same_number_are_of_one_group() -> None:
+    base = BASES["pmma"]
+    typical = {n: {strength(e): e.strength[strength(e)].typical} for n, e in EFFECTS.items()}
+    excluded = set()
+    for one, other in combinations(EFFECTS, 2):
+        try:
+            with_effects(base.material, base.experiments, {n: typical[n] for n in (one, other)})
+        except ValueError:
+            excluded.add((one, other))
+    assert excluded == {
+        ("flux_decay", "flux_drift"),
+        ("gas_heating", "gas_temperature"),
+        ("in_depth", "in_depth_lost"),
+    }
+    assert all(EFFECTS[one].group == EFFECTS[other].group for one, other in excluded)

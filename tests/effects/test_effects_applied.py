@@ -134,7 +134,7 @@ def test_wrong_choice_is_refused(chosen: Numbers, message: str) -> None:
 
 
 def test_effect_that_no_experiment_can_have_is_refused() -> None:
-    with pytest.raises(ValueError, match="'foil_mass': no experiment can have it"):
+    with pytest.raises(ValueError, match="'foil_mass': no experiment can have it; it needs a foil"):
         having(BASES["wood"], {"foil_mass": {"factor": 2.0}})
 
 

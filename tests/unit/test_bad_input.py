@@ -9,6 +9,7 @@ import sys
 from pathlib import Path
 
 import pytest
+from bad_diagnosis import DIAGNOSIS
 from bad_files import FILES_ELSEWHERE, PREPARE, TABLES
 from bad_input import FILES, Case
 from bad_results import BROKEN_RESULTS, COMMANDS, PLACES
@@ -17,7 +18,7 @@ from bad_studies import KEYS, LIMITS, NO_STUDY, PHYSICS, STAGES
 from pyrofit.cli import main
 
 CASES = [
-    *(*NO_STUDY, *KEYS, *LIMITS, *PHYSICS, *STAGES),
+    *(*NO_STUDY, *KEYS, *LIMITS, *PHYSICS, *STAGES, *DIAGNOSIS),
     *(*TABLES, *FILES_ELSEWHERE, *PREPARE),
     *(*BROKEN_RESULTS, *PLACES, *COMMANDS),
 ]

@@ -1,22 +1,43 @@
 """The study description: the only reader of YAML, and all checks that need no measured data.
 
-`study` says what a study is made of, `checks` and `numbers` what must hold between its parts and
-for its numbers, `read` reads it, `words` says in plain words what is wrong, `uses` which parameters
-a part uses.
+`study` says what a study is made of, `terms` the terms of its costs, `diagnosis` the diagnosis and
+what holds where a study says nothing of it, `checks`, `diagnosis_checks` and `numbers` what must
+hold between its parts and for its numbers, `effects` puts effects in, `read` reads it, `words` says
+in plain words what is wrong, `uses` which parameters a part uses.
 """
 
-from pyrofit.config.read import as_study, digest, read_mapping, read_study
-from pyrofit.config.study import Imp, Kinetics, Study, TermSpec
+from pyrofit.config.diagnosis import (
+    Diagnosis,
+    Known,
+    calibration_channels,
+    candidate_effects,
+    diagnosed_material,
+    diagnosed_parameters,
+    held_out_channels,
+)
+from pyrofit.config.effects import true_description
+from pyrofit.config.read import as_study, as_yaml, digest, read_mapping, read_study
+from pyrofit.config.study import Imp, Kinetics, Study
+from pyrofit.config.terms import TermSpec
 from pyrofit.config.uses import parameters_in
 
 __all__ = [
+    "Diagnosis",
     "Imp",
     "Kinetics",
+    "Known",
     "Study",
     "TermSpec",
     "as_study",
+    "as_yaml",
+    "calibration_channels",
+    "candidate_effects",
+    "diagnosed_material",
+    "diagnosed_parameters",
     "digest",
+    "held_out_channels",
     "parameters_in",
     "read_mapping",
     "read_study",
+    "true_description",
 ]

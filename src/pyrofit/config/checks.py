@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterable, Mapping, Sequence
 from typing import TYPE_CHECKING
 
+from pyrofit.config.effects import check_true_effects
 from pyrofit.config.numbers import check_numbers, check_parameter, check_parameters, require
 from pyrofit.config.uses import names_in, parameters_in, parameters_of_tga
 from pyrofit.effects.base import ADDED
@@ -14,7 +15,8 @@ from pyrofit.model.experiment import Gasification, Tga
 from pyrofit.model.material import REST, check_composition
 
 if TYPE_CHECKING:
-    from pyrofit.config.study import Study, TermSpec
+    from pyrofit.config.study import Study
+    from pyrofit.config.terms import TermSpec
 
 
 def check_study(study: Study) -> None:
@@ -127,14 +129,15 @@ def _check_spacing(experiment: Tga | Gasification, every: float, place: str) -> 
 
 
 def _check_stages(study: Study) -> None:
-    _check_estimate(study, "imp", study.imp.estimate)
+    check_estimate(study, "imp", study.imp.estimate)
     for cost, terms in study.imp.costs.items():
         _check_terms(study, f"imp.costs.{cost}", terms, Gasification)
     if study.kinetics is not None:
-        _check_estimate(study, "kinetics", study.kinetics.estimate)
+        check_estimate(study, "kinetics", study.kinetics.estimate)
         _check_terms(study, "kinetics.cost", study.kinetics.cost, Tga)
         _known(study, study.kinetics.compare, "kinetics.compare", Tga)
-    _check_identification(study)
+    _known(study, study.imp.identification, "imp.identification", Gasification)
+    check_choice(study, "imp.identification", study.imp.identification)
     _known(study, study.validation.experiments, "validation.experiments", Gasification)
     choices = {"described", *(("fitted", *study.kinetics.sets) if study.kinetics else ())}
     require(
@@ -144,7 +147,14 @@ def _check_stages(study: Study) -> None:
     )
 
 
-def _check_estimate(study: Study, stage: str, estimate: tuple[str, ...]) -> None:
+def check_estimate(study: Study, stage: str, estimate: Sequence[str]) -> None:
+    """Check parameters that a stage estimates: that they are known, have limits and stand once.
+
+    Raises
+    ------
+    ValueError
+        With place, rule and way out.
+    """
     require(
         len(set(estimate)) == len(estimate), f"{stage}.estimate", "a name stands twice; delete one"
     )
@@ -180,10 +190,16 @@ def _check_terms(
         )
 
 
-def _check_identification(study: Study) -> None:
-    place = "imp.identification"
-    _known(study, study.imp.identification, place, Gasification)
-    for name, signals in study.imp.identification.items():
+def check_choice(study: Study, place: str, chosen: Mapping[str, Sequence[str]]) -> None:
+    """Check signals chosen by experiment: that they are known, and each stands once.
+
+    Raises
+    ------
+    ValueError
+        With place, rule and way out.
+    """
+    for name, signals in chosen.items():
+        _check_experiment(study, name, place)
         require(bool(signals), f"{place}.{name}", "name at least one signal, or leave it out")
         require(len(set(signals)) == len(signals), f"{place}.{name}", "a signal stands twice")
         known = study.experiments[name].signals
@@ -238,15 +254,19 @@ def _check_values(study: Study) -> None:
         raise ValueError(f"kinetics.estimate: '{name}' has no effect on TGA")
 
 
+def _check_experiment(study: Study, name: str, place: str) -> None:
+    require(
+        name in study.experiments,
+        place,
+        f"unknown experiment '{name}'. {suggest(name, study.experiments)}",
+    )
+
+
 def _known(
     study: Study, names: Iterable[str], place: str, wanted: type[Tga] | type[Gasification]
 ) -> None:
     for name in names:
-        require(
-            name in study.experiments,
-            place,
-            f"unknown experiment '{name}'. {suggest(name, study.experiments)}",
-        )
+        _check_experiment(study, name, place)
         require(
             isinstance(study.experiments[name], wanted),
             place,
@@ -269,3 +289,4 @@ def _check_synthetic(study: Study) -> None:
             "synthetic.truth",
             f"unknown parameter '{name}'. {suggest(name, study.parameters)}",
         )
+    check_true_effects(study)

@@ -1,15 +1,22 @@
-"""Effects of a study, put into its description before it is checked."""
+"""Effects of a study, put into its description before it is checked, and those of its truth."""
+
+from __future__ import annotations
 
 from collections.abc import Mapping
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 from pydantic import TypeAdapter, ValidationError
 
+from pyrofit.config.numbers import require
 from pyrofit.effects import known_effects
 from pyrofit.effects.apply import with_effects
 from pyrofit.effects.base import Effect
-from pyrofit.model.experiment import AnyExperiment
-from pyrofit.model.material import Material
+from pyrofit.model.base import value_of
+from pyrofit.model.experiment import AnyExperiment, Gasification, Tga
+from pyrofit.model.material import REST, Material
+
+if TYPE_CHECKING:
+    from pyrofit.config.study import Study
 
 _EXPERIMENTS: TypeAdapter[dict[str, Any]] = TypeAdapter(dict[str, AnyExperiment])
 
@@ -62,3 +69,56 @@ def _free(name: str, effect: Effect, numbers: dict[str, Any]) -> dict[str, Any]:
                 "label": quantity.label,
             }
     return made
+
+
+def true_description(study: Study) -> tuple[Material, dict[str, Tga | Gasification]]:
+    """Return material and computed experiments as they truly are, with the effects of the truth.
+
+    Raises
+    ------
+    ValueError
+        The description cannot have an effect.
+    """
+    assert study.synthetic is not None
+    computed = {
+        name: experiment
+        for name, experiment in study.experiments.items()
+        if any(study.is_computed(name, signal) for signal in experiment.signals)
+    }
+    return with_effects(study.material, computed, study.synthetic.effects)
+
+
+def check_true_effects(study: Study) -> None:
+    """Check the effects of the truth: that they are others than the model's, and their numbers.
+
+    Raises
+    ------
+    ValueError
+        With place, rule and way out.
+    """
+    assert study.synthetic is not None
+    place, catalogue = "synthetic.effects", known_effects()
+    for name, numbers in study.synthetic.effects.items():
+        require(
+            name not in study.with_effects,
+            f"{place}.{name}",
+            "the model has this effect, too; leave it out, there or under effects",
+        )
+        quantities = catalogue[name].quantities if name in catalogue else {}
+        for key in (key for key in quantities if key in numbers):
+            q = quantities[key]
+            require(
+                q.lower <= numbers[key] <= q.upper,
+                f"{place}.{name}.{key}",
+                f"{numbers[key]:g} lies outside the limits {q.lower:g} to {q.upper:g} of the "
+                "catalogue; correct it",
+            )
+    try:
+        material, _ = true_description(study)
+    except ValueError as error:
+        raise ValueError(f"{place}: {error}") from None
+    values = study.true_values()
+    total = sum(value_of(x, values) for x in material.composition.values() if x != REST)
+    require(
+        total <= 1.0 + 1e-9, place, f"the mass fractions add up to {total:g}, above 1; lower one"
+    )

@@ -183,6 +183,12 @@ def _explain(error: yaml.YAMLError, text: str) -> str:
     return f", line {line + 1}: {problem}" + (f"; {way}" if way else "")
 
 
+def as_yaml(keys: Mapping[str, Any], comment: str) -> str:
+    """Return a study's keys as YAML, under a comment."""
+    text = yaml.safe_dump(dict(keys), sort_keys=False, allow_unicode=True, width=100)
+    return "".join(f"# {line}\n" for line in comment.splitlines()) + "\n" + text
+
+
 def digest(part: object) -> str:
     """Return the SHA-256 of a slice of a description, order of keys excepted."""
     text = json.dumps(part, sort_keys=True, default=_plain)

@@ -1,14 +1,14 @@
 """What a study is made of: every key with its description and unit."""
 
-from collections.abc import Iterable
 from typing import Annotated, Any, Self
 
 from pydantic import Field, model_validator
 
 from pyrofit.config.checks import check_study
-from pyrofit.cost import KINDS, NORMALISATIONS, check_options
+from pyrofit.config.diagnosis import Diagnosis
+from pyrofit.config.diagnosis_checks import check_diagnosis
+from pyrofit.config.terms import Terms, TermSpec, channels_of
 from pyrofit.effects.base import ADDED
-from pyrofit.errors import CostError, suggest
 from pyrofit.model.base import Number, Part
 from pyrofit.model.experiment import AnyExperiment, Gasification, Tga
 from pyrofit.model.material import Material
@@ -17,48 +17,6 @@ from pyrofit.simulate import Accuracy
 from pyrofit.solver.reference.resolution import Resolution
 
 Name = Annotated[str, Field(pattern=r"^[A-Za-z][A-Za-z0-9_]*$")]
-
-
-class TermSpec(Part):
-    """One cost of one signal, a term of Eq. 5."""
-
-    experiment: str = Field(description="name of the experiment")
-    signal: str = Field(description="measured quantity: mlr, back_temperature or mass_fraction")
-    kind: str = Field(description="cost: " + ", ".join(KINDS))
-    weight: float = Field(1.0, ge=0.0, description="weight w of Eq. 5")
-    normalisation: str | None = Field(
-        None, description="y_N of Table 1: " + ", ".join(NORMALISATIONS) + "; default: the cost's"
-    )
-    points: int | None = Field(
-        None, ge=2, description="points the target is interpolated to; none = measured points"
-    )
-    window_s: tuple[float, float] | None = Field(None, description="compared time window [s]")
-    options: dict[str, float] = Field(default_factory=dict, description="options of the cost")
-
-    @model_validator(mode="after")
-    def _check(self) -> Self:
-        try:
-            check_options(self.kind, self.all_options())
-        except CostError as error:
-            raise ValueError(str(error)) from None
-        if self.normalisation is not None and self.normalisation not in NORMALISATIONS:
-            raise ValueError(
-                f"unknown normalisation '{self.normalisation}'. "
-                + suggest(self.normalisation, NORMALISATIONS)
-            )
-        if self.window_s is not None and self.window_s[0] >= self.window_s[1]:
-            raise ValueError("window_s must be [start, end] with start below end")
-        return self
-
-    def all_options(self) -> dict[str, object]:
-        """Return the options of the cost, the normalisation among them where it is given."""
-        options: dict[str, object] = dict(self.options)
-        if self.normalisation is not None:
-            options["normalisation"] = self.normalisation
-        return options
-
-
-Terms = Annotated[tuple[TermSpec, ...], Field(min_length=1)]
 
 
 class Sceua(Part):
@@ -108,7 +66,7 @@ class Kinetics(Part):
     @property
     def channels(self) -> tuple[TermSpec, ...]:
         """Signals from which is found what the data determine, each once, all measured points."""
-        return _channels(self.cost)
+        return channels_of(self.cost)
 
 
 class Imp(Part):
@@ -135,27 +93,7 @@ class Imp(Part):
         if self.identification:
             pairs = [(e, s) for e, signals in self.identification.items() for s in signals]
             return tuple(TermSpec(experiment=e, signal=s, kind="RMSE") for e, s in pairs)
-        return _channels([term for terms in self.costs.values() for term in terms])
-
-
-def _channels(terms: Iterable[TermSpec]) -> tuple[TermSpec, ...]:
-    """Return the signals that some terms compare, each once, all measured points."""
-    windows: dict[tuple[str, str], list[tuple[float, float] | None]] = {}
-    for term in terms:
-        if term.weight > 0.0:
-            windows.setdefault((term.experiment, term.signal), []).append(term.window_s)
-    return tuple(
-        TermSpec(experiment=e, signal=s, kind="RMSE", window_s=_hull(found))
-        for (e, s), found in windows.items()
-    )
-
-
-def _hull(windows: list[tuple[float, float] | None]) -> tuple[float, float] | None:
-    """Return the window around all windows, None where one is the whole record."""
-    given = [window for window in windows if window is not None]
-    if len(given) < len(windows):
-        return None
-    return min(start for start, _ in given), max(end for _, end in given)
+        return channels_of([term for terms in self.costs.values() for term in terms])
 
 
 class Validation(Part):
@@ -171,6 +109,11 @@ class Synthetic(Part):
     accuracy: Resolution = Field(
         default_factory=Resolution,
         description="numerical settings of the reference solver, which computes them",
+    )
+    effects: dict[str, dict[str, float]] = Field(
+        default_factory=dict,
+        description="effects of the catalogue that the truth has besides those of the model, with "
+        "their parameters in SI units",
     )
 
 
@@ -210,11 +153,15 @@ class Study(Part):
     kinetics: Kinetics | None = Field(None, description="stage 1, TGA")
     imp: Imp = Field(description="stage 2, inverse modelling")
     validation: Validation = Field(description="stage 3, prediction")
+    diagnosis: Diagnosis = Field(
+        default_factory=Diagnosis, description="stage 4, which effect the model lacks"
+    )
     published: Published | None = Field(None, description="published results")
 
     @model_validator(mode="after")
     def _check(self) -> Self:
         check_study(self)
+        check_diagnosis(self)
         return self
 
     @property
@@ -247,6 +194,11 @@ class Study(Part):
         return {
             name: p.value * p.factor for name, p in self.parameters.items() if p.value is not None
         }
+
+    def true_values(self) -> dict[str, float]:
+        """Return the parameter values of computed measurements in SI units."""
+        truth = self.synthetic.truth if self.synthetic else {}
+        return self.fixed_values() | {n: v * self.parameters[n].factor for n, v in truth.items()}
 
     def material_with(self, kinetics: str) -> Material:
         """Return the material with the kinetics 'described', 'fitted' or of a published set."""

@@ -16,6 +16,8 @@ UNCERTAINTY_COLUMN = {
 }
 """Column of the uncertainty of the value, in the unit of the value, by quantity."""
 
+_TIDY_UNITS = {"mlr": "kg/(m2 s)", "back_temperature": "K", "mass_fraction": "-"}
+
 SCALES = {
     "time": {"s": 1.0, "min": 60.0, "h": 3600.0},
     "temperature": {"K": 1.0, "degC": 1.0, "°C": 1.0, "C": 1.0},
@@ -52,6 +54,24 @@ HEADERS: dict[str, dict[str, tuple[str, ...]]] = {
         "uncertainty": ("Mass fraction error", "Mass error", "Error", "Uncertainty"),
     },
 }
+
+
+def tidy_keys(quantity: str) -> dict[str, dict[str, str]]:
+    """Return ``columns`` and ``units`` of a signal whose file is a tidy table of the workflow's.
+
+    >>> tidy_keys("mlr")["units"]
+    {'time': 's', 'value': 'kg/(m2 s)', 'uncertainty': 'kg/(m2 s)'}
+    """
+    columns = {
+        "time": "time_s",
+        "value": VALUE_COLUMN[quantity],
+        "uncertainty": UNCERTAINTY_COLUMN[quantity],
+    }
+    unit = _TIDY_UNITS[quantity]
+    units = {"time": "s", "value": unit, "uncertainty": unit}
+    if quantity == "mass_fraction":
+        columns["temperature"], units["temperature"] = "temperature_K", "K"
+    return {"columns": columns, "units": units}
 
 
 def unit_key(unit: str) -> str:

@@ -6,10 +6,12 @@ A file defines ``EFFECT``; nothing else needs to know it.
 import importlib
 import pkgutil
 from dataclasses import replace
+from functools import cache
 
 from pyrofit.effects.base import Effect
 
 
+@cache
 def known_effects() -> dict[str, Effect]:
     """Return all effects by name, sorted."""
     effects = {}

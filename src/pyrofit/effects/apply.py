@@ -53,7 +53,7 @@ def _with(
 ) -> tuple[Material, dict[str, Kind]]:
     at = _numbers(effect, given)
     if not any(effect.needs(e) for e in experiments.values()):
-        raise ValueError("no experiment can have it")
+        raise ValueError(f"no experiment can have it; it needs {effect.needs.words}")
     changed = {
         name: effect.experiment(experiment, at) if effect.needs(experiment) else experiment
         for name, experiment in experiments.items()

@@ -5,6 +5,7 @@ from pyrofit.effects.base import Effect, Quantity, has_open_back, on
 EFFECT = Effect(
     title="back convection",
     family="environment",
+    group="back loss",
     equation="h = max(h_0 + dh, 0)",
     strength={
         "change_W_m2K": Quantity(

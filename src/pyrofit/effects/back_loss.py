@@ -5,6 +5,7 @@ from pyrofit.effects.base import Effect, Quantity, has_open_back, on
 EFFECT = Effect(
     title="back loss",
     family="environment",
+    group="back loss",
     equation="q_back = s (h (T - T_gas) + eps sigma (T^4 - T_wall^4))",
     strength={
         "factor": Quantity(

@@ -1,8 +1,9 @@
 """The balance drifts, so that the mass loss rate is wrong by a constant."""
 
-from pyrofit.effects.base import AnyExperiment, Effect, Quantity, on
+from pyrofit.effects.base import AnyExperiment, Effect, Quantity, need, on
 
 
+@need("a mass loss rate")
 def _has_mlr(experiment: AnyExperiment) -> bool:
     return "mlr" in experiment.signals
 
@@ -10,6 +11,7 @@ def _has_mlr(experiment: AnyExperiment) -> bool:
 EFFECT = Effect(
     title="balance drift",
     family="apparatus",
+    group="balance",
     equation="mlr = mlr_0 + b",
     strength={
         "offset_kg_m2s": Quantity(

@@ -36,26 +36,48 @@ class Quantity:
     source: str = ASSUMED
 
 
+@dataclass(frozen=True)
+class Need:
+    """What an experiment must have for an effect, and the same in words."""
+
+    words: str
+    holds: Callable[[AnyExperiment], bool]
+
+    def __call__(self, experiment: AnyExperiment) -> bool:
+        """Tell whether an experiment has it."""
+        return self.holds(experiment)
+
+
+def need(words: str) -> Callable[[Callable[[AnyExperiment], bool]], Need]:
+    """Make a `Need` of the function that follows."""
+    return lambda holds: Need(words, holds)
+
+
+@need("a gasification experiment")
 def has_slab(experiment: AnyExperiment) -> bool:
     """Tell whether an experiment is a gasification."""
     return isinstance(experiment, Gasification)
 
 
+@need("a TGA experiment")
 def has_programme(experiment: AnyExperiment) -> bool:
     """Tell whether an experiment is a TGA."""
     return isinstance(experiment, Tga)
 
 
+@need("any experiment")
 def reacts(experiment: AnyExperiment) -> bool:
     """Tell whether the sample of an experiment reacts: always."""
     return True
 
 
+@need("a foil on the back")
 def has_foil(experiment: AnyExperiment) -> bool:
     """Tell whether an experiment has a foil."""
     return isinstance(experiment, Gasification) and experiment.sample.foil is not None
 
 
+@need("a back that exchanges heat")
 def has_open_back(experiment: AnyExperiment) -> bool:
     """Tell whether the back of an experiment exchanges heat."""
     if not isinstance(experiment, Gasification):
@@ -75,14 +97,16 @@ class Effect:
 
     title: str
     family: Family
+    group: str
+    """What is missing; effects of one group are forms of one another."""
     equation: str
     strength: dict[str, Quantity]
     """The one parameter that measures it."""
     form: dict[str, Quantity] = field(default_factory=dict)
     material: MaterialChange = lambda material, at: material
     experiment: ExperimentChange = lambda experiment, at: experiment
-    needs: Callable[[AnyExperiment], bool] = has_slab
-    """Whether an experiment can have the effect; others are not changed."""
+    needs: Need = has_slab
+    """What an experiment must have; others are not changed."""
     same_as: str = ""
     """An effect that these data cannot tell from this one."""
     name: str = ""

@@ -6,6 +6,7 @@ from pyrofit.effects.substance import properties_changed
 EFFECT = Effect(
     title="slope of the specific heat",
     family="material",
+    group="heat capacity with temperature",
     equation="c(T) = c max(0.01, 1 + b (T - 475 K))",
     strength={
         "slope_1_K": Quantity(

@@ -21,6 +21,7 @@ def _change(material: Material, at: Numbers) -> Material:
 EFFECT = Effect(
     title="char layer",
     family="material",
+    group="residue",
     equation="main reactant -> its products + y char; c and eps of char are the reactant's",
     strength={
         "yield": Quantity(

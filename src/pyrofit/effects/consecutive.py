@@ -29,6 +29,7 @@ def _change(material: Material, at: Numbers) -> Material:
 EFFECT = Effect(
     title="consecutive reaction",
     family="material",
+    group="reactions",
     equation="main reactant -> its products + y intermediate; intermediate -> gas, "
     "k(T) = 0.001 1/s, no heat",
     strength={

@@ -20,6 +20,7 @@ def _change(experiment: AnyExperiment, at: Numbers) -> AnyExperiment:
 EFFECT = Effect(
     title="edge loss",
     family="environment",
+    group="edge loss",
     equation="q''' = -h (P/A) (T - T_gas), T_gas of the back",
     strength={
         "h_W_m2K": Quantity(

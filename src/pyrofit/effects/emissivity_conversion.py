@@ -5,6 +5,7 @@ from pyrofit.effects.base import Effect, Quantity, on
 EFFECT = Effect(
     title="emissivity with conversion",
     family="material",
+    group="emissivity with conversion",
     equation="eps = min(max(eps_0 + d (1 - m/m_0), 0), 1)",
     strength={
         "change": Quantity(

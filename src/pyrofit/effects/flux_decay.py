@@ -5,6 +5,7 @@ from pyrofit.effects.base import Effect, Quantity, on
 EFFECT = Effect(
     title="flux decay",
     family="apparatus",
+    group="flux over time",
     equation="q(t) = q_0(t) max(1 + d tau (1 - exp(-t/tau)), 0)",
     strength={
         "drift_1_s": Quantity(

@@ -5,6 +5,7 @@ from pyrofit.effects.base import Effect, Quantity, on
 EFFECT = Effect(
     title="flux spread",
     family="apparatus",
+    group="flux over the surface",
     equation="y = mean of y(q) over q_0 (1 - s) to q_0 (1 + s)",
     strength={
         "spread": Quantity(

@@ -5,6 +5,7 @@ from pyrofit.effects.base import Effect, Quantity, has_foil, on
 EFFECT = Effect(
     title="contact of the foil",
     family="apparatus",
+    group="contact to the foil",
     equation="q = (T_sample - T_foil) / R",
     strength={
         "resistance_m2K_W": Quantity(

@@ -5,6 +5,7 @@ from pyrofit.effects.base import Effect, Quantity, has_foil, on
 EFFECT = Effect(
     title="mass of the foil",
     family="apparatus",
+    group="heat capacity of the foil",
     equation="s rho c delta dT/dt = q_in - q_out",
     strength={
         "factor": Quantity(

@@ -5,6 +5,7 @@ from pyrofit.effects.base import Effect, Quantity, on
 EFFECT = Effect(
     title="front convection",
     family="environment",
+    group="front loss",
     equation="h = max(h_0 + dh, 0)",
     strength={
         "change_W_m2K": Quantity(

@@ -6,6 +6,7 @@ from pyrofit.effects.gas_temperature import RISE
 EFFECT = Effect(
     title="gas heating up",
     family="environment",
+    group="front loss",
     equation="T_gas(t) = T_gas,0 + dT (1 - exp(-t/tau))",
     strength={"rise_K": RISE},
     form={

@@ -14,6 +14,7 @@ RISE = Quantity(
 EFFECT = Effect(
     title="gas temperature",
     family="environment",
+    group="front loss",
     equation="T_gas = T_gas,0 + dT",
     strength={"rise_K": RISE},
     experiment=on("front", {"gas_rise_K": "rise_K"}),

@@ -6,6 +6,7 @@ from pyrofit.effects.substance import properties_changed
 EFFECT = Effect(
     title="glass transition",
     family="material",
+    group="heat capacity with temperature",
     equation="c(T) = c + s / (1 + exp(-(T - T_g)/w))",
     strength={
         "step_J_kgK": Quantity(

@@ -5,6 +5,7 @@ from pyrofit.effects.base import Effect, Quantity, on
 EFFECT = Effect(
     title="heater coming up",
     family="apparatus",
+    group="timing",
     equation="q(t) = q_0(t) (1 - exp(-t/tau))",
     strength={
         "time_s": Quantity(

@@ -16,6 +16,7 @@ LENGTH = Quantity(
 EFFECT = Effect(
     title="in-depth absorption",
     family="material",
+    group="absorption in depth",
     equation="q''' = eps q exp(-z/l)/l; the foil absorbs eps q exp(-L/l)",
     strength={"length_m": LENGTH},
     material=refuse_translucent,

@@ -7,6 +7,7 @@ from pyrofit.effects.substance import refuse_translucent
 EFFECT = Effect(
     title="in-depth absorption, transmission lost",
     family="material",
+    group="absorption in depth",
     equation="q''' = eps q exp(-z/l)/l; eps q exp(-L/l) leaves the sample",
     strength={"length_m": LENGTH},
     material=refuse_translucent,

@@ -6,6 +6,7 @@ from pyrofit.effects.substance import properties_changed
 EFFECT = Effect(
     title="slope of the conductivity",
     family="material",
+    group="conductivity with temperature",
     equation="k(T) = k max(0.01, 1 + b (T - 475 K))",
     strength={
         "slope_1_K": Quantity(

@@ -6,6 +6,7 @@ from pyrofit.effects.substance import properties_changed
 EFFECT = Effect(
     title="melting",
     family="material",
+    group="heat capacity with temperature",
     equation="c(T) = c + dh_m exp(-((T - T_m)/w)^2/2) / (sqrt(2 pi) w)",
     strength={
         "heat_J_kg": Quantity(

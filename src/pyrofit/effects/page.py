@@ -9,6 +9,10 @@ _HEAD = """\
 What a model may lack, by the name a study gives it. At the null value of its strength an effect
 leaves the base model exactly as it is. Form parameters say how the effect looks; left out, they
 take their usual value. Effects that set the same number of the description exclude each other.
+Those of one group are forms of one another.
+
+| group | effects |
+|---|---|
 """
 _COLUMNS = (
     "| parameter | what it is | unit | from | to | {} | source |\n|---|---|---|---|---|---|---|"
@@ -17,12 +21,18 @@ _COLUMNS = (
 
 def effects_page() -> str:
     """Return the page: every effect with its equation, parameters, limits and sources."""
-    return "\n".join([_HEAD, *(_section(effect) for effect in known_effects().values())])
+    effects = known_effects().values()
+    groups: dict[str, list[str]] = {}
+    for effect in effects:
+        groups.setdefault(effect.group, []).append(f"`{effect.name}`")
+    rows = [f"| {group} | {', '.join(names)} |\n" for group, names in sorted(groups.items())]
+    return "\n".join(["".join([_HEAD, *rows]), *(_section(effect) for effect in effects)])
 
 
 def _section(effect: Effect) -> str:
     lines = [f"## `{effect.name}`", "", f"{effect.title}, {effect.family}:", ""]
     lines += [f"    {effect.equation}", ""]
+    lines += [f"Group: {effect.group}. Needs {effect.needs.words}.", ""]
     if effect.same_as:
         lines += [f"Measurements hardly tell it from `{effect.same_as}`.", ""]
     lines += [_COLUMNS.format("null, typical"), *_rows(effect.strength)]

@@ -15,6 +15,7 @@ def _change(material: Material, at: Numbers) -> Material:
 EFFECT = Effect(
     title="reaction order",
     family="material",
+    group="reactions",
     equation="r = k m_0 (m/m_0)^n",
     strength={
         "order": Quantity(

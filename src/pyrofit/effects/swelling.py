@@ -6,6 +6,7 @@ from pyrofit.effects.substance import properties_changed
 EFFECT = Effect(
     title="swelling",
     family="material",
+    group="swelling",
     equation="V(T) = V_0 (1 + s / (1 + exp(-(T - T_s)/w)))",
     strength={
         "step": Quantity(

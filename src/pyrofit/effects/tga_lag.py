@@ -5,6 +5,7 @@ from pyrofit.effects.base import Effect, Quantity, has_programme, on
 EFFECT = Effect(
     title="TGA temperature lag",
     family="apparatus",
+    group="temperature of the TGA sample",
     equation="T_sample(t) = T(t) - beta tau",
     strength={
         "time_s": Quantity(

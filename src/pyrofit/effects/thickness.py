@@ -5,6 +5,7 @@ from pyrofit.effects.base import Effect, Quantity, on
 EFFECT = Effect(
     title="thickness",
     family="apparatus",
+    group="amount of material",
     equation="L = s L_0",
     strength={
         "factor": Quantity(

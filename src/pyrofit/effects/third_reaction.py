@@ -23,6 +23,7 @@ def _change(material: Material, at: Numbers) -> Material:
 EFFECT = Effect(
     title="third reaction",
     family="material",
+    group="reactions",
     equation="r = (k_main + k) m, k(600 K) given; same products, same heat",
     strength={
         "rate_1_s": Quantity(

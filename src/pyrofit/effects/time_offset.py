@@ -12,6 +12,7 @@ def _change(experiment: AnyExperiment, at: Numbers) -> AnyExperiment:
 EFFECT = Effect(
     title="time offset",
     family="apparatus",
+    group="timing",
     equation="y(t) = y_0(t - t_0)",
     strength={
         "delay_s": Quantity(

@@ -1,6 +1,6 @@
 """Moisture or monomer leaves the material before it decomposes."""
 
-from pyrofit.effects.base import ADDED, AnyExperiment, Effect, Numbers, Quantity, changed
+from pyrofit.effects.base import ADDED, AnyExperiment, Effect, Numbers, Quantity, changed, need
 from pyrofit.effects.substance import (
     REFERENCE_RATE_1_S,
     main_reaction,
@@ -40,6 +40,7 @@ def _change(material: Material, at: Numbers) -> Material:
     return with_reaction(changed(more, composition=composition), VOLATILE, release)
 
 
+@need("a TGA, or a layer without a composition of its own")
 def _is_of_the_material(experiment: AnyExperiment) -> bool:
     """Tell whether a part of the sample has no composition of its own."""
     if isinstance(experiment, Tga):
@@ -50,6 +51,7 @@ def _is_of_the_material(experiment: AnyExperiment) -> bool:
 EFFECT = Effect(
     title="volatile",
     family="material",
+    group="volatiles",
     equation="main component = (1 - w) itself + w volatile; volatile -> gas, k(T) = 0.001 1/s",
     strength={
         "share": Quantity(

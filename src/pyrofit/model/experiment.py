@@ -20,6 +20,9 @@ from pyrofit.model.base import (
 
 AboveZero = Annotated[float, Field(gt=0.0)]
 
+TIMING_S = 0.5
+"""Error of the clocks [s]: a tenth of the usual 5-s bins."""
+
 
 class FluxTable(Part):
     """q_ext(t), linear between given points; two equal times are a step."""
@@ -211,6 +214,9 @@ class Signal(Part):
     uncertainty_sds: AboveZero = Field(
         1.0,
         description="standard deviations of a point's noise that the uncertainty is",
+    )
+    timing_s: float = Field(
+        TIMING_S, ge=0.0, description="error of the clock [s]; it counts where the curve is steep"
     )
     average_s: float = Field(
         0.0, ge=0.0, description="width of the bins the values are averages over [s]; 0 = points"

@@ -5,7 +5,7 @@ from typing import Any
 import numpy as np
 import pandas as pd
 
-from pyrofit.config import Study
+from pyrofit.config import Study, true_description
 from pyrofit.data.closure import mass_closure
 from pyrofit.data.noise import draw
 from pyrofit.data.quantities import UNCERTAINTY_COLUMN, VALUE_COLUMN
@@ -14,9 +14,11 @@ from pyrofit.estimate.problem import Measurements
 from pyrofit.estimate.sceua import seed_for
 from pyrofit.files import Results, write_csv, write_json
 from pyrofit.model.experiment import Gasification, Noise, Signal, Tga
+from pyrofit.model.material import Material
 from pyrofit.solver.arrays import FloatArray
 from pyrofit.solver.curves import Curves, Request
 from pyrofit.solver.reference.gasification import reference_gasification
+from pyrofit.solver.reference.resolution import Resolution
 from pyrofit.solver.reference.tga import reference_tga
 from pyrofit.stages import outcomes
 from pyrofit.stages.closure import closure_lines
@@ -62,7 +64,7 @@ def load(study: Study, results: Results) -> Measurements:
 
 
 def computed(study: Study) -> dict[tuple[str, str], pd.DataFrame]:
-    """Return synthetic measurements: curves of the reference solver, with noise.
+    """Return synthetic measurements: curves of the reference solver under the truth, with noise.
 
     Deterministic by the study's seed; noise is normal with the autocorrelation asked for, and its
     standard deviation is given as the uncertainty.
@@ -73,15 +75,14 @@ def computed(study: Study) -> dict[tuple[str, str], pd.DataFrame]:
         The reference solver does not finish.
     """
     assert study.synthetic is not None
-    truth = {n: v * study.parameters[n].factor for n, v in study.synthetic.truth.items()}
-    values = {**study.fixed_values(), **truth}
+    values = study.true_values()
     series = {}
-    for name, experiment in study.experiments.items():
+    material, experiments = true_description(study)
+    resolution = study.synthetic.accuracy
+    for name, experiment in experiments.items():
         wanted = {q: s for q, s in experiment.signals.items() if study.is_computed(name, q)}
-        if not wanted:
-            continue
         requests = _requests(experiment, wanted)
-        curves = _simulate(study, experiment, requests, values)
+        curves = _simulate(experiment, material, values, requests, resolution)
         if not curves.status.finished:
             raise DataError(
                 f"experiments.{name}: synthetic measurement failed: "
@@ -106,17 +107,16 @@ def _requests(experiment: Tga | Gasification, signals: dict[str, Signal]) -> dic
 
 
 def _simulate(
-    study: Study,
     experiment: Tga | Gasification,
-    requests: dict[str, Request],
+    material: Material,
     values: dict[str, float],
+    requests: dict[str, Request],
+    resolution: Resolution,
 ) -> Curves:
-    assert study.synthetic is not None
-    resolution = study.synthetic.accuracy
     if isinstance(experiment, Tga):
         request = requests["mass_fraction"]
-        return reference_tga(experiment, study.material, values, request, resolution)
-    return reference_gasification(experiment, study.material, values, requests, resolution)
+        return reference_tga(experiment, material, values, request, resolution)
+    return reference_gasification(experiment, material, values, requests, resolution)
 
 
 def _noisy(

@@ -2,7 +2,16 @@
 
 from typing import Any
 
-from pyrofit.config import Kinetics, Study, parameters_in
+from pyrofit.config import (
+    Kinetics,
+    Study,
+    calibration_channels,
+    candidate_effects,
+    diagnosed_material,
+    diagnosed_parameters,
+    held_out_channels,
+    parameters_in,
+)
 from pyrofit.config.uses import names_in
 from pyrofit.errors import StudyError
 from pyrofit.model.experiment import Gasification, Tga
@@ -17,12 +26,19 @@ def _values(study: Study) -> dict[str, Any]:
 
 
 def _experiment(study: Study, name: str) -> dict[str, Any]:
+    """As it is simulated and compared by costs, which know nothing of errors of clocks."""
+    clocks = {"signals": {"__all__": {"timing_s"}}}
+    return study.experiments[name].model_dump(exclude={"title": True, **clocks})
+
+
+def _measured(study: Study, name: str) -> dict[str, Any]:
+    """As it is simulated and compared with regard to its noise."""
     return study.experiments[name].model_dump(exclude={"title"})
 
 
 def data(study: Study) -> dict[str, Any]:
     """Signals as they are read; with synthetic ones, all that makes them."""
-    of_the_model = {"delay_s", "offset"}
+    of_the_model = {"delay_s", "offset", "timing_s"}
     signals = {
         n: {k: s.model_dump(exclude=of_the_model) for k, s in e.signals.items()}
         for n, e in study.experiments.items()
@@ -59,7 +75,7 @@ def kinetics(study: Study) -> dict[str, Any]:
     used = {term.experiment for term in stage.cost} | set(stage.compare)
     return {
         "terms": [t.model_dump() for t in stage.cost],
-        "experiments": {n: _experiment(study, n) for n in sorted(used)},
+        "experiments": {n: _measured(study, n) for n in sorted(used)},
         "material": study.material.model_dump(),
         "parameters": _parameters(
             study, (names | composed) & (set(stage.estimate) | set(study.fixed_values()))
@@ -99,13 +115,36 @@ def identify(study: Study) -> dict[str, Any]:
     names = parameters_in(material, *(study.experiments[n] for n in used))
     return {
         "channels": [c.model_dump() for c in channels],
-        "experiments": {n: _experiment(study, n) for n in used},
+        "experiments": {n: _measured(study, n) for n in used},
         "material": material.model_dump(),
         "parameters": _parameters(study, names | set(stage.estimate)),
         "estimate": stage.estimate,
         "kinetics": stage.kinetics,
         "costs": list(stage.costs),
         "accuracy": study.accuracy.model_dump(),
+    }
+
+
+def diagnose(study: Study) -> dict[str, Any]:
+    """Channels, parameters, prior knowledge, material and candidates of the diagnosis."""
+    stage = study.diagnosis
+    fitted, held_out = calibration_channels(study), held_out_channels(study)
+    used = sorted({c.experiment for c in fitted + held_out})
+    material = diagnosed_material(study)
+    estimate = diagnosed_parameters(study)
+    names = parameters_in(material, *(study.experiments[n] for n in used))
+    return {
+        "calibrate": [c.model_dump() for c in fitted],
+        "hold_out": [c.model_dump() for c in held_out],
+        "experiments": {n: _measured(study, n) for n in used},
+        "material": material.model_dump(),
+        "parameters": _parameters(study, names | set(estimate)),
+        "estimate": estimate,
+        "known": {n: known.model_dump() for n, known in stage.known.items()},
+        "candidates": candidate_effects(study),
+        "most_effects": stage.most_effects,
+        "accuracy": study.accuracy.model_dump(),
+        "seed": study.seed,
     }
 
 

@@ -1,0 +1,112 @@
+"""What must hold for the diagnosis of a study."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+from pyrofit.config.checks import check_choice, check_estimate
+from pyrofit.config.diagnosis import (
+    calibrated,
+    calibration_channels,
+    diagnosed,
+    diagnosed_material,
+    diagnosed_parameters,
+    held_out_channels,
+    obstacle,
+)
+from pyrofit.config.numbers import require
+from pyrofit.config.uses import parameters_in
+from pyrofit.effects import known_effects
+from pyrofit.errors import suggest
+from pyrofit.model.experiment import Gasification
+
+if TYPE_CHECKING:
+    from pyrofit.config.study import Study
+
+
+def check_diagnosis(study: Study) -> None:
+    """Check signals, parameters, prior knowledge and candidates of the diagnosis.
+
+    Raises
+    ------
+    ValueError
+        With place, rule and way out.
+    """
+    _check_kinetics(study)
+    _check_channels(study)
+    _check_parameters(study)
+    _check_known(study)
+    _check_effects(study)
+
+
+def _check_channels(study: Study) -> None:
+    check_choice(study, "diagnosis.calibrate", study.diagnosis.calibrate)
+    check_choice(study, "diagnosis.hold_out", study.diagnosis.hold_out)
+    require(
+        any(isinstance(e, Gasification) for e in calibrated(study).values()),
+        "diagnosis.calibrate",
+        "a TGA alone shows nothing of the slab; add a gasification signal",
+    )
+    fitted = {(c.experiment, c.signal) for c in calibration_channels(study)}
+    for c in held_out_channels(study):
+        require(
+            (c.experiment, c.signal) not in fitted,
+            f"diagnosis.hold_out.{c.experiment}",
+            f"'{c.signal}' is calibrated, too; leave it out, or list under diagnosis.calibrate "
+            "the other signals only",
+        )
+
+
+def _check_kinetics(study: Study) -> None:
+    stage = study.kinetics
+    choices = ("", "described", *(("fitted", *stage.sets) if stage else ()))
+    given = study.diagnosis.kinetics
+    require(
+        given in choices,
+        "diagnosis.kinetics",
+        f"unknown kinetics '{given}'. {suggest(given, choices[1:])}",
+    )
+
+
+def _check_parameters(study: Study) -> None:
+    material = diagnosed_material(study)
+    check_estimate(study, "diagnosis", study.diagnosis.estimate)
+    used = parameters_in(material, *calibrated(study).values())
+    for name in study.diagnosis.estimate:
+        require(
+            name in used,
+            "diagnosis.estimate",
+            f"'{name}' has no effect on any calibrated signal; leave it out",
+        )
+    given = set(study.fixed_values()) | set(diagnosed_parameters(study))
+    for name in sorted(parameters_in(material, *diagnosed(study).values()) - given):
+        raise ValueError(
+            f"parameters.{name}: the diagnosis needs it; add it to diagnosis.estimate or give a "
+            "value"
+        )
+
+
+def _check_known(study: Study) -> None:
+    names = diagnosed_parameters(study)
+    for name, known in study.diagnosis.known.items():
+        place = f"diagnosis.known.{name}"
+        require(name in names, place, f"the diagnosis does not estimate it. {suggest(name, names)}")
+        p = study.parameters[name]
+        assert p.lower is not None
+        assert p.upper is not None
+        require(
+            p.lower <= known.value <= p.upper,
+            f"{place}.value",
+            f"{known.value:g} lies outside the limits {p.lower:g} to {p.upper:g}; correct it or "
+            "widen them",
+        )
+
+
+def _check_effects(study: Study) -> None:
+    place = "diagnosis.effects"
+    chosen, catalogue = study.diagnosis.effects, known_effects()
+    require(len(set(chosen)) == len(chosen), place, "a name stands twice; delete one")
+    for name in chosen:
+        require(name in catalogue, place, f"unknown effect '{name}'. {suggest(name, catalogue)}")
+        found = obstacle(study, name)
+        require(not found, place, f"'{name}' cannot be a candidate: {found}; leave it out")
