@@ -189,7 +189,8 @@ def likelihood_of(problem: Problem) -> Likelihood:
     noise = []
     for (name, signal, _), (_, term) in zip(problem.picks, problem.cost.terms, strict=True):
         described = problem.runs[name].experiment.signals[signal]
-        noise.append(estimate_noise(term.target, signal, described.uncertainty_sds))
+        stated_sds, timing_s = described.uncertainty_sds, described.timing_s
+        noise.append(estimate_noise(term.target, signal, stated_sds, timing_s))
     return Likelihood(problem, tuple(noise))
 
 

@@ -1,28 +1,21 @@
-"""The noise of a measured series, estimated from the series itself.
+"""The noise of a measured series: what it scatters about a smooth curve, and known errors."""
 
-A series is a smooth curve and noise, y = X b + sd(t) e: X are cubic B-splines, e has unit variance
-and is correlated over few points. Its correlation, and its size where none is stated, are those of
-the highest restricted likelihood (Patterson and Thompson 1971, doi 10.1093/biomet/58.3.545), which
-allows for what the curve takes away from the noise; the number of splines has the lowest BIC.
-"""
-
+import math
 from collections.abc import Mapping
 from dataclasses import dataclass, field
 
 import numpy as np
-from scipy.interpolate import BSpline
-from scipy.optimize import minimize, minimize_scalar
 
 from pyrofit.cost import Target
 from pyrofit.errors import DataError
-from pyrofit.estimate.correlation import Correlation, shrunk, whiteness
+from pyrofit.estimate.correlation import Correlation, whiteness
+from pyrofit.estimate.scatter import scatter_of
+from pyrofit.model.experiment import TIMING_S
 from pyrofit.solver.arrays import FloatArray
 
-TIMING_S = 0.5
-"""Error of the clocks [s]: a tenth of the usual 5-s bins. It counts where the curve is steep."""
-SOLVER_ERROR = 1e-3
+SOLVER_ERROR = {"mlr": 1e-3, "back_temperature": 1e-3, "mass_fraction": 1e-5}
 """Error of a simulated curve as a fraction of the largest rise of the series: at default settings
-the mass loss rate is off by 0.02 to 0.2 % of its mean."""
+the mass loss rate is off by 0.02 to 0.2 % of its mean, and a TGA by less than 1e-6."""
 DISCREPANCY = {"mass_fraction": 0.02}
 """Least noise of a series without a stated uncertainty. TGA scatters by 5e-4 about its curve, but
 models of several heating rates come no nearer than 0.02: it would outweigh all else."""
@@ -31,16 +24,8 @@ LASTING = 0.1
 and counts alike however many points are measured."""
 SMOOTHING = 0.1
 """Window over which a stated uncertainty is smoothed, as a fraction of the record."""
-LARGEST_AR = 0.9995
-LEAST_SQUARES = 1e-30
-"""Sum of squares at least; a series may lie on its curve exactly."""
 FEWEST_POINTS = 8
 UNITS = {"mlr": "kg/(m² s)", "back_temperature": "K", "mass_fraction": "-"}
-
-_SPLINES = (4, 6, 8, 11, 15, 20, 27, 36, 48, 64)
-_ENOUGH_SPLINES = 27
-_MOST_SPLINES = 0.34
-"""Most splines per point."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -75,6 +60,8 @@ class NoiseModel:
     origin: str = "given"
     unit: str = "-"
     floors: Mapping[str, float] = field(default_factory=dict)
+    criterion: float = math.inf
+    """BIC of curve and scatter, the lower the better."""
 
     def whiten(self, residual: FloatArray) -> FloatArray:
         """Return w = L^-1 (r / sd): white and of unit variance if the residual is this noise.
@@ -98,7 +85,13 @@ class NoiseModel:
         )
 
 
-def estimate_noise(target: Target, quantity: str, stated_sds: float = 1.0) -> NoiseModel:
+def estimate_noise(
+    target: Target,
+    quantity: str,
+    stated_sds: float = 1.0,
+    timing_s: float = TIMING_S,
+    about: FloatArray | None = None,
+) -> NoiseModel:
     """Estimate size and correlation of the noise of a measured series.
 
     Parameters
@@ -110,6 +103,11 @@ def estimate_noise(target: Target, quantity: str, stated_sds: float = 1.0) -> No
         ``mlr``, ``back_temperature`` or ``mass_fraction``.
     stated_sds
         Standard deviations that the stated uncertainty stands for.
+    timing_s
+        Error of the clock [s]; it counts where the curve is steep.
+    about
+        A simulated curve, shape (n,), where one is at hand: the noise is what the series scatters
+        about that and a smooth one, which then need not follow what is steep.
 
     Raises
     ------
@@ -122,10 +120,11 @@ def estimate_noise(target: Target, quantity: str, stated_sds: float = 1.0) -> No
     if count < FEWEST_POINTS:
         return _of_few_points(stated, count, quantity)
     shape = np.ones(count) if stated is None else stated
-    fit = _best_fit(target, shape, stated is not None)
+    near = np.zeros(count) if about is None else about
+    fit = scatter_of(target.time_s, target.value - near, shape, stated is not None)
     larger = fit.scale > 1.0 + np.sqrt(2.0 / (count - fit.splines))
     scale = fit.scale if stated is None or larger else 1.0
-    floors = _floors(target, fit.curve, quantity, stated is not None)
+    floors = _floors(target, near + fit.curve, quantity, timing_s, stated is not None)
     correlation = fit.correlation
     origin = "from the scatter" if stated is None else "stated, smoothed over 10 % of the record"
     if "discrepancy" in floors:
@@ -141,6 +140,7 @@ def estimate_noise(target: Target, quantity: str, stated_sds: float = 1.0) -> No
         origin=origin,
         unit=UNITS[quantity],
         floors={name: float(np.median(floor)) for name, floor in floors.items()},
+        criterion=fit.criterion,
     )
 
 
@@ -171,125 +171,14 @@ def smoothed(target: Target) -> FloatArray | None:
 
 
 def _floors(
-    target: Target, curve: FloatArray, quantity: str, stated: bool
+    target: Target, curve: FloatArray, quantity: str, timing_s: float, stated: bool
 ) -> dict[str, FloatArray]:
     """Return what is added to the standard deviation, shape (n,) each."""
     slope = np.abs(np.gradient(curve, target.time_s))
     floors = {
-        "timing": TIMING_S * slope,
-        "solver": np.full(curve.size, SOLVER_ERROR * np.ptp(curve)),
+        "timing": timing_s * slope,
+        "solver": np.full(curve.size, SOLVER_ERROR[quantity] * np.ptp(curve)),
     }
     if quantity in DISCREPANCY and not stated:
         floors["discrepancy"] = np.full(curve.size, DISCREPANCY[quantity])
     return floors
-
-
-@dataclass(frozen=True, eq=False)
-class _Fit:
-    """Curve, correlation and scale; the criterion is lowest for the best of several."""
-
-    criterion: float
-    correlation: Correlation
-    scale: float
-    curve: FloatArray
-    scatter: FloatArray
-    """Whitened, of unit variance, shape (n,)."""
-    basis: FloatArray
-    """Orthonormal basis of the whitened splines, shape (n, splines)."""
-
-    @property
-    def splines(self) -> int:
-        return int(self.basis.shape[1])
-
-
-def _best_fit(target: Target, shape: FloatArray, known: bool) -> _Fit:
-    """Return the fit of the lowest criterion.
-
-    From enough splines to follow any curve, more are tried while they lower it. Before that, few
-    splines and lasting noise may look likelier than one more spline.
-    """
-    best: _Fit | None = None
-    worse = 0
-    for splines in _SPLINES:
-        if best is not None and splines > _MOST_SPLINES * shape.size:
-            break
-        if splines > _ENOUGH_SPLINES and worse > 1:
-            break
-        X = _basis(target.time_s, splines) / shape[:, None]
-        y = target.value / shape
-        here = min(
-            (_fit(X, y, shape, found, known) for found in _correlations(X, y, known)),
-            key=lambda fit: fit.criterion,
-        )
-        worse = 0 if best is None or here.criterion < best.criterion else worse + 1
-        best = here if worse == 0 else best
-    assert best is not None
-    return best
-
-
-def _basis(time: FloatArray, splines: int) -> FloatArray:
-    """Return cubic B-splines on evenly spaced knots, shape (n, splines)."""
-    inner = np.linspace(time[0], time[-1], splines - 2)
-    knots = np.concatenate([[time[0]] * 3, inner, [time[-1]] * 3])
-    return np.asarray(BSpline.design_matrix(time, knots, 3).toarray(), dtype=np.float64)
-
-
-def _correlations(X: FloatArray, y: FloatArray, known: bool) -> list[Correlation]:
-    """Return the likeliest correlation of each kind: none, one lag, two lags, lasting."""
-
-    def one(lag: float) -> float:
-        return _restricted(X, y, shrunk((lag,)), known)
-
-    def two(lags: FloatArray) -> float:
-        return _restricted(X, y, shrunk(tuple(lags.tolist())), known)
-
-    def lasting(size: float) -> float:
-        return _restricted(X, y, Correlation(ar=float(np.tanh(size))), known)
-
-    lag = minimize_scalar(one, bounds=(-0.5, 0.5), method="bounded", options={"xatol": 5e-3}).x
-    options = {
-        "xatol": 5e-3,
-        "fatol": 0.05,
-        "initial_simplex": [[lag, 0.0], [lag, -0.1], [0.0, 0.1]],
-    }
-    lags = minimize(two, [lag, 0.0], method="Nelder-Mead", options=options).x
-    # Where its size is not known, noise as slow as the curve would be taken for the curve.
-    slowest = LARGEST_AR if known else float(np.exp(-3.0 * (X.shape[1] - 3) / len(y)))
-    limits = (-1.5, float(np.arctanh(slowest)))
-    ar = minimize_scalar(lasting, bounds=limits, method="bounded", options={"xatol": 5e-3}).x
-    return [
-        Correlation(),
-        shrunk((float(lag),)),
-        shrunk(tuple(lags.tolist())),
-        Correlation(ar=float(np.tanh(ar))),
-    ]
-
-
-def _restricted(X: FloatArray, y: FloatArray, correlation: Correlation, known: bool) -> float:
-    """Return -2 log of the restricted likelihood, up to a constant."""
-    white, log_det = correlation.whiten(np.column_stack([X, y]))
-    R = np.asarray(np.linalg.qr(white, mode="r"))
-    rest = len(y) - X.shape[1]
-    squares = max(float(R[-1, -1] ** 2), LEAST_SQUARES)
-    log_curve = 2.0 * float(np.log(np.abs(np.diag(R)[:-1])).sum())
-    return log_det + log_curve + (squares if known else rest * np.log(squares / rest))
-
-
-def _fit(X: FloatArray, y: FloatArray, shape: FloatArray, found: Correlation, known: bool) -> _Fit:
-    """Fit the curve, and judge it by BIC: -2 log likelihood + numbers fitted * log n."""
-    white, log_det = found.whiten(np.column_stack([X, y]))
-    basis, R = np.linalg.qr(white[:, :-1], mode="reduced")
-    part = basis.T @ white[:, -1]
-    scatter = white[:, -1] - basis @ part
-    n, splines = X.shape
-    squares = max(float(scatter @ scatter), LEAST_SQUARES)
-    scale = float(np.sqrt(squares / (n - splines)))
-    misfit = squares if known else n * np.log(squares / n)
-    return _Fit(
-        criterion=log_det + misfit + (splines + found.numbers) * np.log(n),
-        correlation=found,
-        scale=scale,
-        curve=shape * (X @ np.linalg.solve(R, part)),
-        scatter=scatter / scale,
-        basis=basis,
-    )

@@ -1,0 +1,148 @@
+"""A series as a smooth curve and correlated scatter.
+
+y = X b + sd(t) e: X are cubic B-splines, e has unit variance and is correlated over few points. Its
+correlation, and its size where none is stated, are those of the highest restricted likelihood
+(Patterson and Thompson 1971, doi 10.1093/biomet/58.3.545), which allows for what the curve takes
+away from the noise; the number of splines has the lowest BIC.
+"""
+
+from dataclasses import dataclass
+
+import numpy as np
+from scipy.interpolate import BSpline
+from scipy.optimize import minimize, minimize_scalar
+
+from pyrofit.estimate.correlation import Correlation, shrunk
+from pyrofit.solver.arrays import FloatArray
+
+LARGEST_AR = 0.9995
+LEAST_SQUARES = 1e-30
+"""Sum of squares at least; a series may lie on its curve exactly."""
+
+_SPLINES = (4, 6, 8, 11, 15, 20, 27, 36, 48, 64)
+_ENOUGH_SPLINES = 27
+_MOST_SPLINES = 0.34
+"""Most splines per point."""
+
+
+@dataclass(frozen=True, eq=False)
+class Scatter:
+    """Curve and the scatter about it; the criterion is lowest for the best of several."""
+
+    criterion: float
+    correlation: Correlation
+    scale: float
+    curve: FloatArray
+    scatter: FloatArray
+    """Whitened, of unit variance, shape (n,)."""
+    basis: FloatArray
+    """Orthonormal basis of the whitened splines, shape (n, splines)."""
+
+    @property
+    def splines(self) -> int:
+        """Number of splines of the curve."""
+        return int(self.basis.shape[1])
+
+
+def scatter_of(time: FloatArray, value: FloatArray, shape: FloatArray, known: bool) -> Scatter:
+    """Return curve and scatter of a series, of the lowest criterion.
+
+    From enough splines to follow any curve, more are tried while they lower it. Before that, few
+    splines and lasting noise may look likelier than one more spline.
+
+    Parameters
+    ----------
+    time, value
+        The series, shape (n,).
+    shape
+        sd(t), or what it is proportional to, shape (n,).
+    known
+        Whether ``shape`` is sd(t) itself.
+    """
+    best: Scatter | None = None
+    worse = 0
+    for splines in _SPLINES:
+        if best is not None and splines > _MOST_SPLINES * shape.size:
+            break
+        if splines > _ENOUGH_SPLINES and worse > 1:
+            break
+        X = _basis(time, splines) / shape[:, None]
+        y = value / shape
+        here = min(
+            (_fit(X, y, shape, found, known) for found in _correlations(X, y, known)),
+            key=lambda fit: fit.criterion,
+        )
+        worse = 0 if best is None or here.criterion < best.criterion else worse + 1
+        best = here if worse == 0 else best
+    assert best is not None
+    return best
+
+
+def _basis(time: FloatArray, splines: int) -> FloatArray:
+    """Return cubic B-splines on evenly spaced knots, shape (n, splines)."""
+    inner = np.linspace(time[0], time[-1], splines - 2)
+    knots = np.concatenate([[time[0]] * 3, inner, [time[-1]] * 3])
+    return np.asarray(BSpline.design_matrix(time, knots, 3).toarray(), dtype=np.float64)
+
+
+def _correlations(X: FloatArray, y: FloatArray, known: bool) -> list[Correlation]:
+    """Return the likeliest correlation of each kind: none, one lag, two lags, lasting."""
+
+    def one(lag: float) -> float:
+        return _restricted(X, y, shrunk((lag,)), known)
+
+    def two(lags: FloatArray) -> float:
+        return _restricted(X, y, shrunk(tuple(lags.tolist())), known)
+
+    def lasting(size: float) -> float:
+        return _restricted(X, y, Correlation(ar=float(np.tanh(size))), known)
+
+    lag = minimize_scalar(one, bounds=(-0.5, 0.5), method="bounded", options={"xatol": 5e-3}).x
+    options = {
+        "xatol": 5e-3,
+        "fatol": 0.05,
+        "initial_simplex": [[lag, 0.0], [lag, -0.1], [0.0, 0.1]],
+    }
+    lags = minimize(two, [lag, 0.0], method="Nelder-Mead", options=options).x
+    # Where its size is not known, noise as slow as the curve would be taken for the curve.
+    slowest = LARGEST_AR if known else float(np.exp(-3.0 * (X.shape[1] - 3) / len(y)))
+    limits = (-1.5, float(np.arctanh(slowest)))
+    ar = minimize_scalar(lasting, bounds=limits, method="bounded", options={"xatol": 5e-3}).x
+    return [
+        Correlation(),
+        shrunk((float(lag),)),
+        shrunk(tuple(lags.tolist())),
+        Correlation(ar=float(np.tanh(ar))),
+    ]
+
+
+def _restricted(X: FloatArray, y: FloatArray, correlation: Correlation, known: bool) -> float:
+    """Return -2 log of the restricted likelihood, up to a constant."""
+    white, log_det = correlation.whiten(np.column_stack([X, y]))
+    R = np.asarray(np.linalg.qr(white, mode="r"))
+    rest = len(y) - X.shape[1]
+    squares = max(float(R[-1, -1] ** 2), LEAST_SQUARES)
+    log_curve = 2.0 * float(np.log(np.abs(np.diag(R)[:-1])).sum())
+    return log_det + log_curve + (squares if known else rest * np.log(squares / rest))
+
+
+def _fit(
+    X: FloatArray, y: FloatArray, shape: FloatArray, found: Correlation, known: bool
+) -> Scatter:
+    """Fit the curve, and judge it by BIC: -2 log likelihood + numbers fitted * log n."""
+    white, log_det = found.whiten(np.column_stack([X, y]))
+    basis, R = np.linalg.qr(white[:, :-1], mode="reduced")
+    part = basis.T @ white[:, -1]
+    scatter = white[:, -1] - basis @ part
+    n, splines = X.shape
+    squares = max(float(scatter @ scatter), LEAST_SQUARES)
+    scale = float(np.sqrt(squares / (n - splines)))
+    misfit = squares if known else n * np.log(squares / n)
+    return Scatter(
+        criterion=log_det + misfit + (splines + found.numbers) * np.log(n),
+        correlation=found,
+        scale=scale,
+        curve=shape * (X @ np.linalg.solve(R, part)),
+        scatter=scatter / scale,
+        basis=basis,
+    )
