@@ -1,0 +1,1 @@
+"""Diagnosis: where model and measurement disagree, and which effect the model lacks."""

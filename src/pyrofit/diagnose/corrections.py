@@ -1,0 +1,254 @@
+"""Free corrections of a description: a handful of coefficients, zero where nothing is corrected.
+
+The flux over time, the conductivity and the heat capacity over temperature, and the loss of the
+front over its temperature, the same for all experiments.
+"""
+
+from collections.abc import Callable, Mapping
+from dataclasses import dataclass, fields, replace
+from typing import Any
+
+import numpy as np
+
+from pyrofit.effects.base import changed
+from pyrofit.effects.substance import properties_changed, shares
+from pyrofit.estimate.problem import Problem
+from pyrofit.model.base import value_of
+from pyrofit.model.experiment import FluxTable, Front, Gasification
+from pyrofit.simulate import simulate_gasification
+from pyrofit.solver.arrays import FloatArray, Status
+from pyrofit.solver.curves import Request
+from pyrofit.solver.lower import property_table
+
+COEFFICIENTS = 6
+"""Of a curve over time or temperature."""
+FLUX_SD = 0.15
+"""Prior standard deviation of the relative change of the flux."""
+PROPERTY_SD = 0.2
+"""The same of a property, relative to its median over temperature, of the main component."""
+LOSS_SD = {"gas_temperature_K": 30.0, "h_change_W_m2K": 6.0, "h_cube_root_W_m2K43": 0.8}
+"""The same of what makes up the front's loss, SI units, by key of the description."""
+PROPERTIES = {
+    "conductivity": ("conductivity_W_mK", "W/(m K)", "a conductivity that varies with temperature"),
+    "heat_capacity": (
+        "specific_heat_J_kgK",
+        "J/(kg K)",
+        "heat taken up or released at certain temperatures, as by a heat capacity that varies",
+    ),
+}
+"""Key of the description, unit and words, by probe."""
+BURNT = 0.9
+"""Share of the lost mass after which the front's temperature does not count: little is left."""
+DRAWN = 60
+"""Points of a shape over temperature."""
+
+Shape = list[tuple[float, float]]
+Values = Mapping[str, float]
+
+
+@dataclass(frozen=True, eq=False)
+class Correction:
+    """A correction before its fit.
+
+    ``sd`` are the standard deviations of the coefficients' priors by name, ``problem`` is the
+    problem with the coefficients in its description, ``shape`` says what to draw of the values of
+    all parameters.
+    """
+
+    probe: str
+    what: str
+    unit: str
+    sd: dict[str, float]
+    problem: Problem
+    shape: Callable[[Values], Shape]
+
+
+@dataclass(frozen=True)
+class _Derived(Problem):
+    """A problem of which some numbers are made of the described ones and of coefficients."""
+
+    derive: Callable[[Values], Values]
+
+    def simulate(self, x: FloatArray) -> tuple[Status, list[FloatArray]]:
+        """Return the model at each term's target; shape of ``x``: (parameters,), SI units."""
+        values = parameters(self, x)
+        return Problem.simulate(replace(self, fixed={**values, **self.derive(values)}), x)
+
+
+def parameters(problem: Problem, x: FloatArray) -> dict[str, float]:
+    """Return the values of all parameters by name, SI units."""
+    return {**problem.fixed, **dict(zip(problem.names, x.tolist(), strict=True))}
+
+
+def corrections(problem: Problem, x: FloatArray) -> list[Correction]:
+    """Return all corrections of a problem about fitted values x [SI]; none without gasification."""
+    if not _slabs(problem):
+        return []
+    values = parameters(problem, x)
+    T = _temperatures(problem, values)
+    of_properties = [_property(problem, values, T, probe) for probe in PROPERTIES]
+    return [_flux(problem), *of_properties, _front_loss(problem, T)]
+
+
+def _flux(problem: Problem) -> Correction:
+    """Make q(t) = q_0(t) (1 + c(t)), c linear between knots that lie closest at the start."""
+    end = max(float(times[-1]) for times in _times(problem).values())
+    knots = end * np.linspace(0.0, 1.0, COEFFICIENTS) ** 2
+    names = _names("flux", COEFFICIENTS)
+    described = {name: _table(slab.front.flux_W_m2) for name, slab in _slabs(problem).items()}
+    time = {name: _merged(table.time_s, knots) for name, table in described.items()}
+    own = {name: _names(f"flux_{i}_at", len(time[name])) for i, name in enumerate(described)}
+    fronts = {
+        name: {"flux_W_m2": FluxTable(time_s=time[name], flux_W_m2=own[name])} for name in described
+    }
+
+    def derive(values: Values) -> dict[str, float]:
+        c = [values[name] for name in names]
+        found: dict[str, float] = {}
+        for name, table in described.items():
+            q = _at(table, time[name], values) * (1.0 + np.interp(time[name], knots, c))
+            found |= zip(own[name], q.tolist(), strict=True)
+        return found
+
+    def shape(values: Values) -> Shape:
+        return [(t, 1.0 + values[name]) for t, name in zip(knots.tolist(), names, strict=True)]
+
+    return Correction(
+        probe="flux",
+        what="a factor on the external flux that varies over time",
+        unit="-",
+        sd=dict.fromkeys(names, FLUX_SD),
+        problem=_derived(problem, fronts, derive),
+        shape=shape,
+    )
+
+
+def _table(flux: float | str | FluxTable) -> FluxTable:
+    return flux if isinstance(flux, FluxTable) else FluxTable(time_s=(0.0,), flux_W_m2=(flux,))
+
+
+def _merged(time: tuple[float, ...], knots: FloatArray) -> tuple[float, ...]:
+    """Return the times and those knots that are none of them; two equal times remain a step."""
+    return tuple(sorted([*time, *(t for t in knots.tolist() if t not in time)]))
+
+
+def _at(table: FluxTable, time: tuple[float, ...], values: Values) -> FloatArray:
+    """Return the described flux at its own times and at others between them [W/m2]."""
+    own = np.array([value_of(q, values) for q in table.flux_W_m2])
+    flux = np.interp(time, table.time_s, own)
+    flux[np.isin(time, table.time_s)] = own
+    return np.asarray(flux)
+
+
+def _property(problem: Problem, values: Values, T: tuple[float, float], probe: str) -> Correction:
+    """Make p(T) = p_0(T) + sum_k c_k exp(-((T - T_k)/w)^2/2)/(sqrt(2 pi) w), of all components."""
+    key, unit, what = PROPERTIES[probe]
+    names = _names(probe, COEFFICIENTS)
+    centres = np.linspace(*T, COEFFICIENTS)
+    width = 0.5 * float(centres[1] - centres[0])
+    area = width * float(np.sqrt(2.0 * np.pi))
+    peak = properties_changed(key, peak_area="c", peak_temperature_K="T", peak_width_K="w")
+    material = problem.material
+    for name, centre in zip(names, centres.tolist(), strict=True):
+        material = peak(material, {"c": name, "T": centre, "w": width})
+    share = shares(problem.material)
+    main = problem.material.components[max(share, key=lambda name: share[name])]
+    size = float(np.median(property_table(getattr(main, key), values)))
+
+    def shape(values: Values) -> Shape:
+        at = np.linspace(*T, DRAWN)
+        peaks = np.exp(-0.5 * (np.subtract.outer(at, centres) / width) ** 2)
+        change = peaks @ [values[name] / area for name in names]
+        return list(zip(at.tolist(), change.tolist(), strict=True))
+
+    return Correction(
+        probe=probe,
+        what=what,
+        unit=unit,
+        sd=dict.fromkeys(names, PROPERTY_SD * size * area),
+        problem=replace(problem, material=material),
+        shape=shape,
+    )
+
+
+def _front_loss(problem: Problem, T: tuple[float, float]) -> Correction:
+    """Make q = (h_0 + c_1)(T_s - T_g) + (C_0 + c_2)(T_s - T_g)^(4/3), with T_g = T_gas + c_0."""
+    names = dict(zip(LOSS_SD, _names("front_loss", len(LOSS_SD)), strict=True))
+    described = {name: slab.front for name, slab in _slabs(problem).items()}
+    own = {name: {key: f"probe_{key}_{i}" for key in LOSS_SD} for i, name in enumerate(described)}
+
+    def derive(values: Values) -> dict[str, float]:
+        return {
+            own[name][key]: value_of(getattr(front, key), values) + values[coefficient]
+            for name, front in described.items()
+            for key, coefficient in names.items()
+        }
+
+    def shape(values: Values) -> Shape:
+        name, front = next(iter(described.items()))
+        at = np.linspace(*T, DRAWN)
+        before = _convection(front, values, at)
+        after = _convection(changed(front, **own[name]), {**values, **derive(values)}, at)
+        return list(zip(at.tolist(), (after - before).tolist(), strict=True))
+
+    return Correction(
+        probe="front_loss",
+        what="another heat loss of the front over its temperature",
+        unit="W/m2",
+        sd=dict(zip(names.values(), LOSS_SD.values(), strict=True)),
+        problem=_derived(problem, own, derive),
+        shape=shape,
+    )
+
+
+def _convection(front: Front, values: Values, T: FloatArray) -> FloatArray:
+    """Return what the front loses by convection, its gas as warm as it gets [W/m2]."""
+    h = max(value_of(front.h_W_m2K, values) + value_of(front.h_change_W_m2K, values), 0.0)
+    above = T - value_of(front.gas_temperature_K, values) - value_of(front.gas_rise_K, values)
+    root = value_of(front.h_cube_root_W_m2K43, values) * np.cbrt(np.abs(above))
+    return np.asarray((h + root) * above)
+
+
+def _names(probe: str, count: int) -> tuple[str, ...]:
+    return tuple(f"probe_{probe}_{k}" for k in range(count))
+
+
+def _slabs(problem: Problem) -> dict[str, Gasification]:
+    found = {name: run.experiment for name, run in problem.runs.items()}
+    return {name: e for name, e in found.items() if isinstance(e, Gasification)}
+
+
+def _times(problem: Problem) -> dict[str, FloatArray]:
+    """Return the times of a record of each gasification."""
+    return {
+        name: next(iter(problem.runs[name].requests.values())).time_s for name in _slabs(problem)
+    }
+
+
+def _derived(
+    problem: Problem,
+    fronts: Mapping[str, Mapping[str, Any]],
+    derive: Callable[[Values], Values],
+) -> Problem:
+    """Return the problem with names in its fronts, by experiment and key, and their values."""
+    runs = dict(problem.runs)
+    for name, update in fronts.items():
+        slab = _slabs(problem)[name]
+        slab = changed(slab, front=changed(slab.front, **update))
+        runs[name] = replace(runs[name], experiment=slab)
+    parts = {field.name: getattr(problem, field.name) for field in fields(Problem)}
+    return _Derived(**{**parts, "runs": runs}, derive=derive)
+
+
+def _temperatures(problem: Problem, values: Values) -> tuple[float, float]:
+    """Return the range of the sample's temperatures: from the start to the front's highest [K]."""
+    low, high = [], []
+    for name, slab in _slabs(problem).items():
+        at = Request(_times(problem)[name])
+        asked = {"mass": at, "front_temperature": at}
+        curves = simulate_gasification(slab, problem.material, values, asked, problem.accuracy)
+        mass, front = curves.signals["mass"], curves.signals["front_temperature"]
+        present = mass >= mass[0] - BURNT * (mass[0] - mass[-1])
+        low.append(value_of(slab.sample.initial_temperature_K, values))
+        high.append(float(front[present].max()))
+    return min(low), max(high)

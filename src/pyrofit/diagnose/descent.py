@@ -1,0 +1,98 @@
+"""Least squares from a start: Levenberg and Marquardt with Broyden's updates, within limits.
+
+Marquardt (1963, doi 10.1137/0111030); Broyden (1965, doi 10.1090/S0025-5718-1965-0198670-6). A
+step costs one simulation instead of one per parameter; the derivatives are made anew where the
+updated ones lead nowhere.
+"""
+
+from dataclasses import dataclass, replace
+
+import numpy as np
+
+from pyrofit.diagnose.model import Model
+from pyrofit.solver.arrays import FloatArray
+
+MOST_STEPS = 80
+MOST_REFUSED = 4
+"""Steps in a row, ten times more damped each, that fresh derivatives may promise in vain."""
+ENOUGH = 0.05
+"""A step that promises or brings less is the last one."""
+PRIOR = 1e-6
+"""Added to the curvature, so that what the data say nothing about does not move."""
+
+
+@dataclass(frozen=True, eq=False)
+class Fit:
+    """Where a descent ended: chi-square, x, whitened residuals and their derivatives there.
+
+    chi2 counts what is known; ``jacobian`` has shape (points + known, parameters) and is exact at x
+    only where it is ``fresh``.
+    """
+
+    chi2: float
+    x: FloatArray
+    residuals: FloatArray
+    jacobian: FloatArray
+    fresh: bool = True
+
+
+def descend(model: Model, x: FloatArray, jacobian: FloatArray | None = None) -> Fit:
+    """Minimise chi-square from x, with derivatives to begin with if some are at hand."""
+    x = np.clip(x, 0.0, 1.0)
+    r = model.residuals(x)
+    fresh = jacobian is None
+    J = model.jacobian(x, r) if jacobian is None else jacobian
+    damping, refused = 1e-3, 0
+    for _ in range(MOST_STEPS):
+        step, promised = _step(J, r, x, damping)
+        gained = -1.0
+        if promised > ENOUGH:
+            there = model.residuals(x + step)
+            gained = float(r @ r - there @ there)
+        if gained > 0.0:
+            J = J + np.outer(there - r - J @ step, step) / (step @ step)
+            x, r, fresh, refused = x + step, there, False, 0
+            damping = max(damping * (0.2 if gained > 0.5 * promised else 1.0), 1e-6)
+        if gained > ENOUGH:
+            continue
+        if not fresh:
+            J, fresh = model.jacobian(x, r), True
+        elif promised <= ENOUGH or refused == MOST_REFUSED:
+            break
+        else:
+            damping, refused = 10.0 * damping, refused + 1
+    return Fit(float(r @ r), x, r, J, fresh)
+
+
+def refreshed(model: Model, fit: Fit) -> Fit:
+    """Return a fit with derivatives made at its end, where it has updated ones."""
+    return (
+        fit
+        if fit.fresh
+        else replace(fit, jacobian=model.jacobian(fit.x, fit.residuals), fresh=True)
+    )
+
+
+def _step(J: FloatArray, r: FloatArray, x: FloatArray, damping: float) -> tuple[FloatArray, float]:
+    """Return a damped step that stays within the limits, and the fall of chi-square it promises.
+
+    What a limit stops rests there, and the others step without it.
+    """
+    bend, slope = J.T @ J, J.T @ r
+    free = ~((x <= 0.0) & (slope > 0.0)) & ~((x >= 1.0) & (slope < 0.0))
+    step = np.zeros(x.size)
+    for _ in range(x.size):
+        index = np.flatnonzero(free)
+        if not index.size:
+            break
+        held = slope[index] + bend[np.ix_(index, ~free)] @ step[~free]
+        part = bend[np.ix_(index, index)]
+        damped = part + np.diag(damping * np.diag(part) + PRIOR)
+        step[index] = -np.linalg.solve(damped, held)
+        beyond = free & ((x + step < 0.0) | (x + step > 1.0))
+        if not beyond.any():
+            break
+        step[beyond] = np.clip(x + step, 0.0, 1.0)[beyond] - x[beyond]
+        free &= ~beyond
+    promised = -float(2.0 * slope @ step + step @ bend @ step)
+    return step, promised

@@ -1,0 +1,235 @@
+"""The next experiment: which measurement would separate models that the data cannot tell apart.
+
+D is the difference of the predictions of two fitted models, whitened with the noise of the new
+record, J_i are the predictions' derivatives with respect to the parameters, whitened too, and C_i
+the parameters' covariance after the calibration. The separation in standard deviations,
+
+    sqrt(D^T (I + J_1 C_1 J_1^T + J_2 C_2 J_2^T)^-1 D),
+
+leaves out what a model could make up within what the calibration leaves it (as Buzzi-Ferraris and
+Forzatti 1984, Chem. Eng. Sci. 39, 81).
+"""
+
+import math
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
+from itertools import combinations
+
+import numpy as np
+
+from pyrofit.diagnose.corrections import parameters
+from pyrofit.diagnose.ideas import Idea, ideas
+from pyrofit.diagnose.model import STEP, UNIFORM, Base
+from pyrofit.diagnose.refit import Trial
+from pyrofit.estimate.correlation import Correlation
+from pyrofit.estimate.noise import NoiseModel
+from pyrofit.model.experiment import TIMING_S, Gasification
+from pyrofit.simulate import simulate_gasification, simulate_tga
+from pyrofit.solver.arrays import FloatArray
+from pyrofit.solver.curves import Curves, Request
+
+LONGEST_S = 3600.0
+"""Longest record of a new test."""
+BURNT_OUT = 0.995
+"""Share of the lost mass at which a record ends, but for a tenth of its length."""
+SPACING_S = 5.0
+"""Spacing of the points of a signal that the study does not measure."""
+# ASSUME: the noise of such a signal.
+USUAL_SD = {"mlr": 5e-4, "back_temperature": 2.0, "mass_fraction": 0.02}
+"""SI units."""
+
+
+@dataclass(frozen=True)
+class Design:
+    """A measurement that was not made.
+
+    Parameters
+    ----------
+    design
+        Short name.
+    words
+        What it is.
+    separation_sd
+        By how many standard deviations it separates those two models that it separates least.
+    pairs
+        The same of each two models.
+    """
+
+    design: str
+    words: str
+    separation_sd: float
+    pairs: dict[str, float]
+
+
+@dataclass(frozen=True, eq=False)
+class _Kind:
+    """Noise of a signal in this study, and the spacing of its points [s]."""
+
+    sd: float
+    correlation: Correlation
+    spacing_s: float
+
+
+@dataclass(frozen=True, eq=False)
+class _Forecast:
+    """Curve of each signal at a model's fit, and what the parameters' uncertainty makes of it.
+
+    ``spread`` has shape (points, parameters), spread @ spread.T is the curve's covariance.
+    """
+
+    curve: dict[str, FloatArray]
+    spread: dict[str, FloatArray]
+
+
+def next_experiments(trials: Sequence[Trial]) -> list[Design]:
+    """Return new measurements, that which separates fitted models best first.
+
+    Parameters
+    ----------
+    trials
+        Models fitted to the same channels; fewer than two leave nothing to separate.
+    """
+    if len(trials) < 2:
+        return []
+    found: list[Design] = []
+    for idea in ideas(trials[0].model.likelihood.problem):
+        found += _designs(trials, idea)
+    return sorted(found, key=lambda d: (d.separation_sd, sum(d.pairs.values())), reverse=True)
+
+
+def _designs(trials: Sequence[Trial], idea: Idea) -> list[Design]:
+    """Return an idea with each choice of its signals; none where a simulation does not finish."""
+    kinds = {s: _kind(trials[0].model.base, s) for s in idea.most_signals}
+    requests = _requests(trials, idea, kinds)
+    forecasts = [_forecast(trial, idea, requests) for trial in trials]
+    known = [forecast for forecast in forecasts if forecast is not None]
+    if len(known) < len(trials):
+        return []
+    noise = {s: _noise(kinds[s], r.time_s, known[0].curve[s]) for s, r in requests.items()}
+    names = [_name(trial) for trial in trials]
+    found = []
+    for design, words, signals in idea.choices:
+        of = {signal: noise[signal] for signal in signals}
+        each = {
+            f"{names[i]} | {names[j]}": _separation(known[i], known[j], of)
+            for i, j in combinations(range(len(known)), 2)
+        }
+        found.append(Design(design, words, min(each.values()), each))
+    return found
+
+
+def _name(trial: Trial) -> str:
+    """Name a model by its effects, with the form parameters that are fitted."""
+    free = [[name, *parameters[1:]] for name, parameters in trial.model.effects.items()]
+    return " + ".join(" ".join(words) for words in free) or "base"
+
+
+def _separation(one: _Forecast, other: _Forecast, noise: Mapping[str, NoiseModel]) -> float:
+    """Return the separation in standard deviations, by Woodbury's identity.
+
+    D^T (I + A A^T)^-1 D = |D|^2 - D^T A (I + A^T A)^-1 A^T D, A = (A_1, A_2).
+    """
+
+    def stacked(parts: dict[str, FloatArray], others: dict[str, FloatArray]) -> list[FloatArray]:
+        return [np.concatenate([n.whiten(p[s]) for s, n in noise.items()]) for p in (parts, others)]
+
+    y, z = stacked(one.curve, other.curve)
+    D, A = y - z, np.column_stack(stacked(one.spread, other.spread))
+    seen = A.T @ D
+    rest = float(D @ D - seen @ np.linalg.solve(np.eye(seen.size) + A.T @ A, seen))
+    return math.sqrt(max(rest, 0.0))
+
+
+def _forecast(trial: Trial, idea: Idea, requests: Mapping[str, Request]) -> _Forecast | None:
+    """Return what a model predicts; None where it does not finish."""
+    x = trial.fit.x
+    curves = _run(trial, idea, x, requests)
+    if not curves.status.finished:
+        return None
+    slopes: dict[str, list[FloatArray]] = {signal: [] for signal in requests}
+    for i in range(x.size):
+        by = STEP if x[i] < 0.5 else -STEP
+        moved = _run(trial, idea, x + by * (np.arange(x.size) == i), requests)
+        if not moved.status.finished:
+            return None
+        for signal, columns in slopes.items():
+            columns.append((moved.signals[signal] - curves.signals[signal]) / by)
+    bend = trial.fit.jacobian.T @ trial.fit.jacobian + UNIFORM * np.eye(x.size)
+    # C = bend^-1 = R R^T with R = L^-T of Cholesky's bend = L L^T.
+    R = np.linalg.inv(np.linalg.cholesky(bend)).T
+    return _Forecast(
+        curve={signal: curves.signals[signal] for signal in requests},
+        spread={signal: np.column_stack(columns) @ R for signal, columns in slopes.items()},
+    )
+
+
+def _run(trial: Trial, idea: Idea, x: FloatArray, requests: Mapping[str, Request]) -> Curves:
+    """Simulate the new test with a model's own description of the one it is like."""
+    likelihood = trial.model.likelihood
+    problem = likelihood.problem
+    values = parameters(problem, likelihood.values(x))
+    experiment = idea.change(problem.runs[idea.like].experiment)
+    if isinstance(experiment, Gasification):
+        return simulate_gasification(
+            experiment, problem.material, values, requests, problem.accuracy
+        )
+    request = requests["mass_fraction"]
+    return simulate_tga(experiment, problem.material, values, request, problem.accuracy)
+
+
+def _requests(
+    trials: Sequence[Trial], idea: Idea, kinds: Mapping[str, _Kind]
+) -> dict[str, Request]:
+    """Return times until all models have burnt out; of a TGA, the measured range of temperature."""
+    run = trials[0].model.likelihood.problem.runs[idea.like]
+    if not isinstance(run.experiment, Gasification):
+        (request,) = run.requests.values()
+        assert request.temperature_K is not None
+        T = np.linspace(request.temperature_K[0], request.temperature_K[-1], request.time_s.size)
+        rate = idea.change(run.experiment).heating_rate_K_min / 60.0
+        return {"mass_fraction": Request((T - T[0]) / rate, temperature_K=T)}
+    end = max(_burnt_out(trial, idea) for trial in trials)
+    signals = run.experiment.signals
+    return {
+        signal: Request(
+            np.arange(kind.spacing_s, end, kind.spacing_s),
+            signals[signal].average_s if signal in signals else 0.0,
+        )
+        for signal, kind in kinds.items()
+    }
+
+
+def _burnt_out(trial: Trial, idea: Idea) -> float:
+    """Return the time at which a test may end [s]."""
+    time = np.arange(0.0, LONGEST_S + SPACING_S, SPACING_S)
+    curves = _run(trial, idea, trial.fit.x, {"mass": Request(time)})
+    if not curves.status.finished:
+        return LONGEST_S
+    lost = curves.signals["mass"][0] - curves.signals["mass"]
+    end = float(time[np.searchsorted(lost, BURNT_OUT * lost[-1])])
+    return min(1.1 * end, LONGEST_S)
+
+
+def _kind(base: Base, signal: str) -> _Kind:
+    """Return the noise of a signal's channel that is neither the quietest nor the noisiest."""
+    terms = base.likelihood.problem.cost.terms
+    found = [
+        _Kind(
+            float(np.median(noise.sd)),
+            noise.correlation,
+            float(np.median(np.diff(term.target.time_s))),
+        )
+        for (_, name), noise, (_, term) in zip(
+            base.channels, base.likelihood.noise, terms, strict=True
+        )
+        if name == signal
+    ]
+    if not found:
+        return _Kind(USUAL_SD[signal], Correlation(), SPACING_S)
+    return sorted(found, key=lambda kind: kind.sd)[len(found) // 2]
+
+
+def _noise(kind: _Kind, time: FloatArray, curve: FloatArray) -> NoiseModel:
+    """Return the noise of a new record, with the clock's error where the curve is steep."""
+    steep = TIMING_S * np.gradient(curve, time)
+    return NoiseModel(np.hypot(kind.sd, steep), kind.correlation)

@@ -1,0 +1,145 @@
+"""What a claim must pass besides its gain: limits, agreement of experiments, prediction.
+
+A prediction is scored by the logarithm of its density (Gneiting and Raftery 2007,
+doi 10.1198/016214506000001437), parameters uncertain as the calibration leaves them:
+
+    log p(y_out | y_cal) = log p(y_out, y_cal) - log p(y_cal),
+    log p(y) = -(min chi2 + log det(J^T J + Pi))/2 + constant   (Laplace),
+
+Pi the inverse variance of a value anywhere within its limits. So a model that predicts badly, but
+leaves room for that, loses less than one that is sure of itself.
+"""
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+
+import numpy as np
+from scipy.stats import chi2 as chi_squared
+
+from pyrofit.diagnose.descent import Fit, descend, refreshed
+from pyrofit.diagnose.model import UNIFORM, model_of
+from pyrofit.diagnose.refit import Trial
+from pyrofit.diagnose.screen import project, projector
+from pyrofit.solver.arrays import FloatArray
+
+AT_LIMIT = 0.005
+"""A parameter within this fraction of the limits' distance from a limit rests there."""
+AGREE = 1e-3
+"""Probability below which strengths that differ from one experiment to another are no chance."""
+INFORMATIVE = 2.0
+"""Difference of log scores that counts: odds of 7 to 1."""
+
+
+@dataclass(frozen=True)
+class Trust:
+    """What speaks for or against an effect besides the calibration."""
+
+    limit: str
+    """Parameter of the effect that rests at a limit, or empty."""
+    disagree: float
+    """Probability that equal strengths look as different between experiments."""
+    gains: dict[str, float]
+    """Gain of the log score, by experiments left out or held out."""
+
+    @property
+    def informative(self) -> bool:
+        """Whether some prediction distinguishes the models."""
+        return any(abs(gain) >= INFORMATIVE for gain in self.gains.values())
+
+    @property
+    def predicts(self) -> bool:
+        """Whether predictions improve on the whole, and none gets clearly worse."""
+        total = sum(self.gains.values())
+        return total >= INFORMATIVE and min(self.gains.values(), default=0.0) > -INFORMATIVE
+
+
+def at_limit(trial: Trial, effect: str) -> str:
+    """Return the name of a parameter of an effect that rests at a limit, or nothing."""
+    for parameter in trial.model.effects[effect]:
+        name = f"{effect}_{parameter}"
+        x = trial.fit.x[trial.model.names.index(name)]
+        if not AT_LIMIT < x < 1.0 - AT_LIMIT:
+            return name
+    return ""
+
+
+def disagreement(trial: Trial, effect: str) -> float:
+    """Return the probability that a strength common to all experiments looks as different.
+
+    Score test: the columns of d w/d strength, one experiment each, against what the fit leaves.
+    """
+    model, fit = trial.model, trial.fit
+    column = fit.jacobian[: model.points, model.position(effect)]
+    owners = [model.base.channels[i][0] for i in model.channels]
+    parts = np.split(column, np.cumsum(model.likelihood.points)[:-1])
+    moved = [o for o in dict.fromkeys(owners) if _size(parts, owners, o) > 1e-9]
+    if len(moved) < 2:
+        return 1.0
+    d = np.zeros((fit.residuals.size, len(moved) - 1))
+    for k, experiment in enumerate(moved[1:]):
+        own = [p if o == experiment else 0.0 * p for p, o in zip(parts, owners, strict=True)]
+        d[: model.points, k] = np.concatenate(own)
+    d = project(projector(fit), d)
+    found = np.linalg.lstsq(d, fit.residuals, rcond=1e-8)[0]
+    return float(chi_squared.sf(float(fit.residuals @ d @ found), len(moved) - 1))
+
+
+def _size(parts: Sequence[FloatArray], owners: Sequence[str], experiment: str) -> float:
+    return max(
+        float(np.abs(p).max()) for p, o in zip(parts, owners, strict=True) if o == experiment
+    )
+
+
+def forecast(part: Fit, whole: Fit) -> float:
+    """Return the log score of what a fit to the whole has more than a fit to a part."""
+    misfit = whole.chi2 - part.chi2
+    return -0.5 * (misfit + _log_det(whole) - _log_det(part))
+
+
+def _log_det(fit: Fit) -> float:
+    bend = fit.jacobian.T @ fit.jacobian + UNIFORM * np.eye(fit.x.size)
+    return float(np.linalg.slogdet(bend)[1])
+
+
+def left_out(trial: Trial, experiment: str) -> float:
+    """Return the log score of the channels of an experiment, predicted from the others."""
+    base = trial.model.base
+    rest = [i for i in trial.model.channels if base.channels[i][0] != experiment]
+    model = model_of(base, trial.model.effects, rest)
+    return forecast(refreshed(model, descend(model, trial.fit.x)), trial.fit)
+
+
+def held_out(trial: Trial) -> float:
+    """Return the log score of the channels that are held out."""
+    base = trial.model.base
+    whole = model_of(base, trial.model.effects, (*trial.model.channels, *base.held_out))
+    return forecast(trial.fit, refreshed(whole, descend(whole, trial.fit.x)))
+
+
+def slabs(trial: Trial) -> list[str]:
+    """Return the calibrated experiments that show the slab: without any of them others remain."""
+    base = trial.model.base
+    found = [base.channels[i] for i in trial.model.channels]
+    names = dict.fromkeys(name for name, signal in found if signal != "mass_fraction")
+    return list(names) if len(names) > 1 else []
+
+
+def forecasts(trial: Trial) -> dict[str, float]:
+    """Return all predictions: of each experiment from the others, and of what is held out."""
+    found = {name: left_out(trial, name) for name in slabs(trial)}
+    if trial.model.base.held_out:
+        found["held out"] = held_out(trial)
+    return found
+
+
+def trust(trial: Trial, without: dict[str, float], effect: str) -> Trust:
+    """Return what speaks for or against the last effect of a model.
+
+    Parameters
+    ----------
+    without
+        The predictions without it.
+    """
+    own = forecasts(trial)
+    gains = {name: own[name] - before for name, before in without.items()}
+    return Trust(at_limit(trial, effect), disagreement(trial, effect), gains)

@@ -1,0 +1,88 @@
+"""What the calibration leaves of each parameter: 95 % intervals."""
+
+from typing import Any
+
+import numpy as np
+
+from pyrofit.diagnose.model import UNIFORM, fraction, model_of
+from pyrofit.diagnose.refit import Trial
+from pyrofit.effects import known_effects
+from pyrofit.estimate.profile import QUANTILE
+from pyrofit.solver.arrays import FloatArray
+
+
+def values_of(trial: Trial) -> tuple[FloatArray, FloatArray]:
+    """Return values and standard deviations in SI units; misfit beyond the noise widens these."""
+    problem = trial.model.likelihood.problem
+    inflation = max(1.0, trial.fit.chi2 / trial.fit.residuals.size)
+    return trial.model.likelihood.values(trial.fit.x), np.sqrt(
+        np.diag(covariance(trial.fit.jacobian, inflation))
+    ) * (problem.upper - problem.lower)
+
+
+def covariance(jacobian: FloatArray, inflation: float) -> FloatArray:
+    """Return (J^T J / inflation + 12 I)^-1, of fractions of the limits' distances."""
+    bend = jacobian.T @ jacobian / inflation + UNIFORM * np.eye(jacobian.shape[1])
+    return np.asarray(np.linalg.inv(bend))
+
+
+def interval(
+    trial: Trial, i: int, values: FloatArray, sd: FloatArray, factor: float = 1.0
+) -> dict[str, float]:
+    """Return value and 95 % interval of a parameter, within its limits, over ``factor``."""
+    problem = trial.model.likelihood.problem
+    low = max(values[i] - QUANTILE * sd[i], problem.lower[i])
+    high = min(values[i] + QUANTILE * sd[i], problem.upper[i])
+    return {
+        "value": float(values[i] / factor),
+        "low": float(low / factor),
+        "high": float(high / factor),
+    }
+
+
+def strengths(trial: Trial, with_form: bool) -> dict[str, Any]:
+    """Return the parameters of a model's effects, SI units.
+
+    ``with_form`` adds the interval that the strength has with the effect's form as uncertain as the
+    limits of its form parameters.
+    """
+    values, sd = values_of(trial)
+    catalogue = known_effects()
+    found = {}
+    for effect, free in trial.model.effects.items():
+        for parameter in free:
+            name = f"{effect}_{parameter}"
+            i = trial.model.names.index(name)
+            found[name] = {
+                **interval(trial, i, values, sd),
+                "unit": catalogue[effect].quantities[parameter].unit,
+                **(_with_form(trial, effect, i) if with_form else _NO_FORM),
+            }
+    return found
+
+
+_NO_FORM: dict[str, float | None] = {"low_form": None, "high_form": None}
+
+
+def _with_form(trial: Trial, effect: str, i: int) -> dict[str, float | None]:
+    """Return the 95 % interval with the effect's form as uncertain as its limits."""
+    form = [p for p in known_effects()[effect].form if p not in trial.model.effects[effect]]
+    if not form:
+        return _NO_FORM
+    quantities = known_effects()[effect].quantities
+    free = {**trial.model.effects, effect: (*trial.model.effects[effect], *form)}
+    model = model_of(trial.model.base, free, trial.model.channels)
+    x = np.full(len(model.names), np.nan)
+    for name, value in zip(trial.model.names, trial.fit.x, strict=True):
+        x[model.names.index(name)] = value
+    for parameter in form:
+        at = model.names.index(f"{effect}_{parameter}")
+        x[at] = fraction(quantities[parameter], quantities[parameter].value)
+    wide = Trial(model, trial.fit)
+    jacobian = model.jacobian(x, model.residuals(x))
+    inflation = max(1.0, trial.fit.chi2 / trial.fit.residuals.size)
+    at = model.names.index(trial.model.names[i])
+    problem = model.likelihood.problem
+    sd = np.sqrt(np.diag(covariance(jacobian, inflation))) * (problem.upper - problem.lower)
+    found = interval(wide, at, model.likelihood.values(x), sd)
+    return {"low_form": found["low"], "high_form": found["high"]}

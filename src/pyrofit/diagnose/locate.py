@@ -1,0 +1,129 @@
+"""Where model and measurement disagree, at a controlled level of false alarm.
+
+For a window of L of a channel's n whitened residuals w the statistic is
+|sum w|/sqrt(L) - sqrt(2 log(n/L)): short windows, of which there are many, must stand out more
+(Duembgen and Spokoiny 2001, doi 10.1214/aos/996986504). Its critical value is that of the noise
+itself, projected as the fit projects it. Where the largest is above, its window is noted and both
+sides are searched on, as in narrowest-significance pursuit (Fryzlewicz 2024,
+doi 10.1080/01621459.2023.2211733).
+"""
+
+from dataclasses import dataclass
+
+import numpy as np
+from scipy.stats import chi2 as chi_squared
+
+from pyrofit.diagnose.descent import Fit
+from pyrofit.diagnose.model import Model
+from pyrofit.diagnose.screen import Look, project, projector
+from pyrofit.solver.arrays import FloatArray
+
+LEVEL = 0.01
+"""Probability of a false alarm, of the scan, of the scores and of chi-square each."""
+DRAWS = 1000
+MOST_WINDOWS = 8
+"""Most windows of one channel."""
+_LENGTHS = (1, 2, 3, 4, 6, 8, 11, 16, 23, 32, 45, 64, 91, 128, 181, 256, 362, 512, 724, 1024)
+
+
+@dataclass(frozen=True)
+class Stretch:
+    """Points ``start`` to ``end`` (excluded) of a channel that are off to one side."""
+
+    channel: int
+    start: int
+    end: int
+    statistic: float
+    sign: int
+
+
+@dataclass(frozen=True, eq=False)
+class Alarm:
+    """What the fit leaves, against what noise would leave."""
+
+    windows: tuple[Stretch, ...]
+    scan: float
+    scan_critical: float
+    score: float
+    score_critical: float
+    chi2: float
+    chi2_critical: float
+
+    @property
+    def adequate(self) -> bool:
+        """Whether the scan and chi-square find nothing that noise would not leave."""
+        return not self.windows and self.chi2 <= self.chi2_critical
+
+    @property
+    def silent(self) -> bool:
+        """Whether no effect's score is remarkable either."""
+        return self.adequate and self.score <= self.score_critical
+
+
+def alarm(model: Model, fit: Fit, looks: list[Look], rng: np.random.Generator) -> Alarm:
+    """Compare what a fit leaves with draws of the noise, projected as the fit projects it."""
+    spanned = projector(fit)
+    noise = project(spanned, rng.standard_normal((fit.residuals.size, DRAWS)))
+    parts = model.by_channel(fit.residuals)
+    drawn = np.split(noise[: model.points], np.cumsum([p.size for p in parts])[:-1])
+    highest = np.max([_highest(part.T) for part in drawn], axis=0)
+    critical = float(np.quantile(highest, 1.0 - LEVEL))
+    scores = [-(noise.T @ look.directions).min(axis=1, initial=0.0) for look in looks]
+    freedom = fit.residuals.size - float(np.sum(spanned**2))
+    windows = [w for i, part in enumerate(parts) for w in windows_of(part, critical, i)]
+    return Alarm(
+        windows=tuple(windows),
+        scan=float(max(_highest(part[None])[0] for part in parts)),
+        scan_critical=critical,
+        score=max((look.score(fit.residuals) for look in looks), default=0.0),
+        score_critical=float(np.quantile(np.max(scores, axis=0), 1.0 - LEVEL)) if looks else 0.0,
+        chi2=fit.chi2,
+        chi2_critical=float(chi_squared.isf(LEVEL, freedom)),
+    )
+
+
+def windows_of(w: FloatArray, critical: float, channel: int = 0) -> list[Stretch]:
+    """Return the windows of a channel above the critical value, in order of time."""
+    found: list[Stretch] = []
+    waiting = [(0, w.size)]
+    while waiting and len(found) < MOST_WINDOWS:
+        low, high = waiting.pop(0)
+        best = _best(w, low, high)
+        if best is None or best[0] <= critical:
+            continue
+        value, start, end = best
+        sign = 1 if w[start:end].sum() > 0.0 else -1
+        found.append(Stretch(channel, start, end, value, sign))
+        waiting += [(low, start), (end, high)]
+    return sorted(found, key=lambda window: window.start)
+
+
+def _best(w: FloatArray, low: int, high: int) -> tuple[float, int, int] | None:
+    """Return statistic, start and end of the window that stands out most."""
+    best = None
+    total = np.concatenate([[0.0], np.cumsum(w[low:high])])
+    for length in _lengths(high - low):
+        sums = np.abs(total[length:] - total[:-length]) / np.sqrt(length)
+        at = int(sums.argmax())
+        value = float(sums[at]) - _handicap(w.size, length)
+        if best is None or value > best[0]:
+            best = value, low + at, low + at + length
+    return best
+
+
+def _highest(w: FloatArray) -> FloatArray:
+    """Return the largest statistic of each row of (draws, points)."""
+    total = np.concatenate([np.zeros((len(w), 1)), np.cumsum(w, axis=1)], axis=1)
+    found = np.full(len(w), -np.inf)
+    for length in _lengths(w.shape[1]):
+        sums = np.abs(total[:, length:] - total[:, :-length]).max(axis=1) / np.sqrt(length)
+        found = np.maximum(found, sums - _handicap(w.shape[1], length))
+    return found
+
+
+def _lengths(points: int) -> list[int]:
+    return [length for length in _LENGTHS if length <= points]
+
+
+def _handicap(points: int, length: int) -> float:
+    return float(np.sqrt(2.0 * np.log(points / length)))

@@ -1,0 +1,128 @@
+"""Which free correction, put into the model, would absorb what no effect of the catalogue explains.
+
+Each correction (`pyrofit.diagnose.corrections`) is fitted jointly with all other parameters, its
+coefficients with a normal prior about zero, where the model is what it was. A probe tells what
+kind of term is missing, and about its shape; it is no effect and claims none.
+"""
+
+from dataclasses import dataclass, replace
+
+import numpy as np
+from scipy.stats import chi2 as chi_squared
+
+from pyrofit.diagnose.corrections import Correction, Shape, corrections, parameters
+from pyrofit.diagnose.descent import descend
+from pyrofit.diagnose.locate import LEVEL
+from pyrofit.diagnose.model import Known, Model
+from pyrofit.diagnose.refit import Trial
+from pyrofit.diagnose.screen import projector
+from pyrofit.estimate.likelihood import Likelihood
+
+WIDEST = 3.0
+"""Limits of a coefficient, in standard deviations of its prior."""
+PRICE = 2.0
+"""Per coefficient, added to chi-square for the order.
+
+Akaike (1974, doi 10.1109/TAC.1974.1100705).
+"""
+
+
+@dataclass(frozen=True)
+class Probe:
+    """A free correction that was fitted.
+
+    Parameters
+    ----------
+    probe
+        ``flux``, ``conductivity``, ``heat_capacity`` or ``front_loss``.
+    what
+        The same in words.
+    coefficients
+        By name, SI units.
+    chi2
+        Of the data and of what is known, without the coefficients' priors.
+    absorbed
+        Share of the excess of chi-square that it takes away, at most 1.
+    shape
+        Abscissa (time [s] or temperature [K]) and correction, for drawing.
+    unit
+        Of the correction.
+    """
+
+    probe: str
+    what: str
+    coefficients: dict[str, float]
+    chi2: float
+    absorbed: float
+    shape: Shape
+    unit: str
+
+
+def probes(trial: Trial) -> list[Probe]:
+    """Fit all probes to what a fitted model leaves.
+
+    The excess is what chi-square has above the noise's: above the degrees of freedom, or above
+    the best probe where that is lower, since the noise is rather over- than underestimated. A
+    probe absorbs nothing where as many useless coefficients would gain as much by chance, with a
+    probability above 1 %.
+
+    Returns
+    -------
+    list of Probe
+        The lowest chi-square first, 2 added per coefficient; none without a gasification.
+    """
+    likelihood = trial.model.likelihood
+    wanted = corrections(likelihood.problem, likelihood.values(trial.fit.x))
+    found = [_fitted(trial, correction) for correction in wanted]
+    freedom = trial.fit.residuals.size - float(np.sum(projector(trial.fit) ** 2))
+    noise = min([freedom, *(probe.chi2 for probe in found)])
+    judged = [replace(probe, absorbed=_absorbed(trial.fit.chi2, probe, noise)) for probe in found]
+    return sorted(judged, key=lambda probe: probe.chi2 + PRICE * len(probe.coefficients))
+
+
+def _absorbed(before: float, probe: Probe, noise: float) -> float:
+    gain = before - probe.chi2
+    if chi_squared.sf(gain, len(probe.coefficients)) > LEVEL:
+        return 0.0
+    return min(gain / (before - noise), 1.0)
+
+
+def _fitted(trial: Trial, correction: Correction) -> Probe:
+    """Fit all parameters and the coefficients from the model's fit, where these are zero."""
+    model = with_coefficients(trial.model, correction)
+    sd = np.array(list(correction.sd.values()))
+    fit = descend(model, np.append(trial.fit.x, np.full(sd.size, 0.5)))
+    values = model.likelihood.values(fit.x)
+    c = values[-sd.size :]
+    return Probe(
+        probe=correction.probe,
+        what=correction.what,
+        coefficients=dict(zip(correction.sd, c.tolist(), strict=True)),
+        chi2=fit.chi2 - float(np.sum((c / sd) ** 2)),
+        absorbed=0.0,
+        shape=correction.shape(parameters(model.likelihood.problem, values)),
+        unit=correction.unit,
+    )
+
+
+def with_coefficients(model: Model, correction: Correction) -> Model:
+    """Return the model with a correction; its coefficients follow all other parameters."""
+    problem, known = correction.problem, model.base.known
+    sd = np.array(list(correction.sd.values()))
+    count = len(problem.names)
+    wider = replace(
+        problem,
+        names=(*problem.names, *correction.sd),
+        lower=np.append(problem.lower, -WIDEST * sd),
+        upper=np.append(problem.upper, WIDEST * sd),
+    )
+    prior = Known(
+        index=(*known.index, *range(count, count + sd.size)),
+        mean=np.append(known.mean, np.zeros(sd.size)),
+        sd=np.append(known.sd, sd),
+    )
+    return replace(
+        model,
+        base=replace(model.base, known=prior),
+        likelihood=Likelihood(wider, model.likelihood.noise),
+    )

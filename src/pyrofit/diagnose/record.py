@@ -1,0 +1,269 @@
+"""The results of a diagnosis as plain numbers and words, keys as in docs/diagnosis.md."""
+
+from dataclasses import asdict
+from typing import Any
+
+import numpy as np
+import pandas as pd
+
+from pyrofit.config import Study
+from pyrofit.diagnose.design import Design
+from pyrofit.diagnose.gates import at_limit
+from pyrofit.diagnose.intervals import interval, strengths, values_of
+from pyrofit.diagnose.model import model_of, strength_of
+from pyrofit.diagnose.phases import describe
+from pyrofit.diagnose.probes import Probe
+from pyrofit.diagnose.refit import Trial
+from pyrofit.diagnose.screen import confusability
+from pyrofit.diagnose.search import Search
+from pyrofit.diagnose.verdict import AMBIGUOUS, Judged, Verdict
+from pyrofit.diagnose.words import form_of, sentences
+from pyrofit.effects import known_effects
+
+SCHEMA = 1
+CALIBRATION, HELD_OUT = "calibration", "held out"
+
+
+def content(study: Study, found: Search, verdict: Verdict) -> dict[str, Any]:
+    """Return all but the probes and the next experiment."""
+    return {
+        "schema": SCHEMA,
+        "study": study.name,
+        "verdict": _verdict(verdict),
+        "noise": _noise(found),
+        "base": _base(study, found),
+        "windows": _windows(found),
+        "screen": _screen(found),
+        "confusability": _confusability(found),
+        "needed": found.spare + float(np.log(found.base.model.points)),
+        "ambiguity": AMBIGUOUS,
+        "candidates": _candidates(found, verdict),
+        "gap": _gap(found),
+    }
+
+
+def _verdict(verdict: Verdict) -> dict[str, Any]:
+    catalogue = known_effects()
+    leading = [finding.leading for finding in verdict.findings]
+    return {
+        "kind": verdict.kind,
+        "effects": leading,
+        "groups": [catalogue[name].group for name in leading],
+        "forms": [form_of(finding) for finding in verdict.findings],
+        "sets": [finding.effects for finding in verdict.findings],
+        "confirmed": verdict.kind in ("named", "multiple")
+        and all(finding.predicted for finding in verdict.findings),
+        "words": sentences(verdict),
+        "reasons": list(verdict.reasons),
+    }
+
+
+def _noise(found: Search) -> list[dict[str, Any]]:
+    base = found.base.model.base
+    misfit = _misfits(found.base)
+    return [
+        {
+            "experiment": name,
+            "signal": signal,
+            "role": _role(found, i),
+            "points": noise.sd.size,
+            "unit": noise.unit,
+            "sd_median": float(np.median(noise.sd)),
+            "words": noise.describe(),
+            "chi2_base": misfit[i]["chi2"],
+        }
+        for i, ((name, signal), noise) in enumerate(
+            zip(base.channels, base.likelihood.noise, strict=True)
+        )
+    ]
+
+
+def _role(found: Search, channel: int) -> str:
+    return CALIBRATION if channel in found.base.model.base.calibrated else HELD_OUT
+
+
+def _base(study: Study, found: Search) -> dict[str, Any]:
+    first = found.rounds[0].alarm
+    trial = found.base
+    return {
+        "chi2": trial.fit.chi2,
+        "points": trial.model.points,
+        "chi2_critical": first.chi2_critical,
+        "scan": first.scan,
+        "scan_critical": first.scan_critical,
+        "score": first.score,
+        "score_critical": first.score_critical,
+        "adequate": first.adequate,
+        "parameters": _parameters(study, trial),
+    }
+
+
+def _parameters(study: Study, trial: Trial) -> dict[str, Any]:
+    """Return the base's parameters with 95 % intervals, each in the unit that the study gives."""
+    values, sd = values_of(trial)
+    size = len(trial.model.names) - trial.numbers
+    found = {}
+    for i, name in enumerate(trial.model.names[:size]):
+        given = study.parameters[name]
+        x = trial.fit.x[i]
+        found[name] = {
+            **interval(trial, i, values, sd, given.factor),
+            "unit": given.unit,
+            "at_limit": bool(x <= 0.0 or x >= 1.0),
+        }
+    return found
+
+
+def _windows(found: Search) -> list[dict[str, Any]]:
+    alarms = {"base": (found.base, found.rounds[0].alarm)}
+    if found.end is not found.base:
+        alarms["extended"] = (found.end, found.end_alarm)
+    return [
+        {"model": name, **window}
+        for name, (trial, alarm) in alarms.items()
+        for window in describe(trial, alarm.windows, alarm.scan_critical)
+    ]
+
+
+def _screen(found: Search) -> list[dict[str, Any]]:
+    catalogue = known_effects()
+    rows = []
+    for look in found.rounds[0].looks:
+        effect = catalogue[look.effect]
+        _, quantity = strength_of(look.effect)
+        row = {
+            "effect": look.effect,
+            "group": effect.group,
+            "family": effect.family,
+            "detectability": look.detectability,
+            "typical": quantity.typical,
+            "unit": quantity.unit,
+            "z": look.score(found.base.fit.residuals),
+            "ahead": max(0.0, found.base.fit.chi2 - float(look.ahead.min())),
+        }
+        rows.append(row)
+    return sorted(rows, key=lambda row: -float(row["z"]))
+
+
+def _confusability(found: Search) -> dict[str, Any]:
+    looks = list(found.rounds[0].looks)
+    cosine = confusability(looks) if looks else np.zeros((0, 0))
+    return {"effects": [look.effect for look in looks], "cosine": cosine.tolist()}
+
+
+def _candidates(found: Search, verdict: Verdict) -> list[dict[str, Any]]:
+    judged = {_key(j.trial): j for finding in verdict.findings for j in finding.judged}
+    best = found.end.penalised
+    rows = []
+    for step in found.rounds:
+        for trial in step.trials:
+            row = {
+                "effects": list(trial.effects),
+                "free": {name: list(free) for name, free in trial.model.effects.items()},
+                "chi2": trial.fit.chi2,
+                "gain": step.start.fit.chi2 - trial.fit.chi2,
+                "penalised": trial.penalised,
+                "parameters": strengths(trial, _key(trial) in judged),
+                "adequate": found.end_alarm.adequate if _key(trial) == _key(found.end) else None,
+                **_judgement(judged.get(_key(trial))),
+            }
+            if not row["rejected"] and _key(trial) not in judged:
+                row["rejected"] = _why_not(found, step.start, trial, best)
+            rows.append(row)
+    return sorted(rows, key=lambda row: float(row["penalised"]))
+
+
+def _key(trial: Trial) -> frozenset[tuple[str, tuple[str, ...]]]:
+    """Return what tells a model from others: its effects and what of them is fitted."""
+    return frozenset(trial.model.effects.items())
+
+
+def _judgement(judged: Judged | None) -> dict[str, Any]:
+    if judged is None:
+        return {"disagree": None, "predictions": {}, "rejected": ""}
+    return {
+        "disagree": judged.trust.disagree,
+        "predictions": judged.trust.gains,
+        "rejected": judged.rejected,
+    }
+
+
+def _why_not(found: Search, start: Trial, trial: Trial, best: float) -> str:
+    gain = start.penalised - trial.penalised
+    if gain < found.spare:
+        return f"gains {gain:.1f} of penalised chi-square, {found.spare:.1f} are asked for"
+    limits = [name for name in (at_limit(trial, effect) for effect in trial.effects) if name]
+    if limits:
+        return f"{limits[0]} rests at a limit"
+    if found.end is found.base:
+        return "what is left is noise without it"
+    return f"{trial.penalised - best:.1f} above the best in penalised chi-square"
+
+
+def _misfits(trial: Trial) -> list[dict[str, Any]]:
+    """Return misfit, in the signal's unit and in the noise, of every channel."""
+    base = trial.model.base
+    model = model_of(base, trial.model.effects, range(len(base.channels)))
+    curves = model.likelihood.curves(trial.fit.x)
+    white = model.by_channel(model.residuals(trial.fit.x))
+    targets = [term.target for _, term in model.likelihood.problem.cost.terms]
+    parts = [t.value for t in targets] if curves is None else model.likelihood.split(curves)
+    return [
+        {"curve": c, "chi2": float(w @ w), "rms": float(np.sqrt(np.mean((c - t.value) ** 2)))}
+        for c, t, w in zip(parts, targets, white, strict=True)
+    ]
+
+
+def _gap(found: Search) -> list[dict[str, Any]]:
+    base = found.base.model.base
+    rows = []
+    pairs = zip(_misfits(found.base), _misfits(found.end), strict=True)
+    for i, (before, after) in enumerate(pairs):
+        noise = base.likelihood.noise[i]
+        name, signal = base.channels[i]
+        row = {
+            "experiment": name,
+            "signal": signal,
+            "role": _role(found, i),
+            "points": noise.sd.size,
+            "unit": noise.unit,
+            "noise_sd": float(np.median(noise.sd)),
+        }
+        for key in ("rms", "chi2"):
+            row |= {f"{key}_before": before[key], f"{key}_after": after[key]}
+        rows.append(row)
+    return rows
+
+
+def curves(found: Search) -> pd.DataFrame:
+    """Return measured and simulated curves of all channels before and after, SI units."""
+    base = found.base.model.base
+    problem = base.likelihood.problem
+    parts = []
+    before, after = _misfits(found.base), _misfits(found.end)
+    for i, (name, signal, index) in enumerate(problem.picks):
+        target = problem.cost.terms[i][1].target
+        T = problem.runs[name].requests[signal].temperature_K
+        columns = {
+            "experiment": name,
+            "signal": signal,
+            "role": _role(found, i),
+            "time_s": target.time_s,
+            "temperature_K": np.nan if T is None else T[index],
+            "measured": target.value,
+            "sd": base.likelihood.noise[i].sd,
+            "before": before[i]["curve"],
+            "after": after[i]["curve"],
+        }
+        parts.append(pd.DataFrame(columns))
+    return pd.concat(parts, ignore_index=True)
+
+
+def probe(found: Probe) -> dict[str, Any]:
+    """Return a probe without its coefficients' names."""
+    return asdict(found)
+
+
+def design(found: Design) -> dict[str, Any]:
+    """Return a design."""
+    return asdict(found)

@@ -1,0 +1,153 @@
+"""Fits of the base with an effect more, jointly with all other parameters, from several starts."""
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+
+import numpy as np
+
+from pyrofit.diagnose.descent import Fit, descend, refreshed
+from pyrofit.diagnose.model import UNIFORM, Model, extended, fraction, model_of, strength_of
+from pyrofit.diagnose.screen import Look, look
+from pyrofit.effects import known_effects
+from pyrofit.solver.arrays import FloatArray
+
+STARTS = 3
+"""Strengths from which an effect is fitted."""
+FAR = 4.0
+"""A start must not promise a chi-square above that of the model without the effect times this."""
+
+
+HOPELESS = 100.0
+"""How far above the best chi-square an effect ends that is not tried from a second start."""
+SAME = 0.5
+"""Two starts whose chi-squares end as near have found the same valley; no third is needed."""
+WIDE = 0.1
+"""Standard deviation, as a fraction of the limits' distance, of what is hardly determined."""
+ELSEWHERE = (0.15, 0.5, 0.85)
+APART = 0.2
+"""Values of such a parameter to search from, where it is not as near as this."""
+
+
+@dataclass(frozen=True, eq=False)
+class Trial:
+    """A model that was fitted, and the look at its last effect it was started from."""
+
+    model: Model
+    fit: Fit
+
+    @property
+    def effects(self) -> tuple[str, ...]:
+        """Names of its effects."""
+        return tuple(self.model.effects)
+
+    @property
+    def numbers(self) -> int:
+        """How many parameters its effects have."""
+        return sum(len(free) for free in self.model.effects.values())
+
+    @property
+    def penalised(self) -> float:
+        """chi2 + log(n) per parameter of an effect (Schwarz 1978, doi 10.1214/aos/1176344136)."""
+        return self.fit.chi2 + self.numbers * float(np.log(self.model.points))
+
+    def strength(self, effect: str) -> float:
+        """Return the fitted strength of an effect in SI units."""
+        values = self.model.likelihood.values(self.fit.x)
+        return float(values[self.model.position(effect)])
+
+
+def with_effect(trial: Trial, seen: Look, best_known: float = np.inf) -> Trial:
+    """Fit an effect in addition; never worse than without it.
+
+    From one start only, where that ends far above the best chi-square that is known.
+    """
+    name, quantity = strength_of(seen.effect)
+    model = model_of(
+        trial.model.base, {**trial.model.effects, seen.effect: (name,)}, trial.model.channels
+    )
+    null = extended(trial.fit.x, seen.effect, quantity.value)
+    none = np.zeros((trial.fit.residuals.size, 1))
+    jacobian = np.hstack([trial.fit.jacobian, none])
+    best = Fit(trial.fit.chi2, null, trial.fit.residuals, jacobian, fresh=False)
+    ends: list[float] = []
+    for start in starts(seen, trial.fit.chi2):
+        x, jacobian = _start(trial, seen, start)
+        end = descend(model, x, jacobian)
+        best = end if end.chi2 < best.chi2 else best
+        if end.chi2 > best_known + HOPELESS or any(abs(end.chi2 - e) < SAME for e in ends):
+            break
+        ends.append(end.chi2)
+    return Trial(model, best)
+
+
+def starts(seen: Look, chi2: float) -> list[int]:
+    """Return the positions of the strengths to start from, the most promising first.
+
+    The best of either side of the null value, and the best of the rest.
+    """
+    _, quantity = strength_of(seen.effect)
+    above = seen.strengths > quantity.value
+    order = [int(i) for i in np.argsort(seen.ahead)]
+    sides = [next((i for i in order if above[i] == side), None) for side in (True, False)]
+    first = [i for i in order if i in sides]
+    rest = [i for i in order if i not in first]
+    chosen = [*first, *rest][:STARTS]
+    promising = [i for i in chosen if seen.ahead[i] <= FAR * chi2]
+    return promising or chosen[:1]
+
+
+def _start(trial: Trial, seen: Look, at: int) -> tuple[FloatArray, FloatArray]:
+    """Return x with the effect at a strength and the others moved towards it, and derivatives."""
+    _, quantity = strength_of(seen.effect)
+    x = extended(trial.fit.x, seen.effect, float(seen.strengths[at]))
+    change = seen.raw[:, at]
+    J = trial.fit.jacobian
+    bend = J.T @ J + UNIFORM * np.eye(J.shape[1])
+    x[:-1] -= np.linalg.solve(bend, J.T @ (trial.fit.residuals + change))
+    slope = change / (x[-1] - fraction(quantity, quantity.value))
+    return x, np.column_stack([J, slope])
+
+
+def polished(trial: Trial) -> Trial:
+    """Search from elsewhere for what the data hardly determine; never worse than before.
+
+    A parameter at a limit, or one of wide uncertainty, may be in the wrong of several valleys.
+    """
+    best = refreshed(trial.model, trial.fit)
+    bend = best.jacobian.T @ best.jacobian + UNIFORM * np.eye(best.x.size)
+    wide = np.sqrt(np.diag(np.linalg.inv(bend))) > WIDE
+    resting = (best.x <= 0.0) | (best.x >= 1.0)
+    base = len(trial.model.names) - trial.numbers
+    for i in np.flatnonzero((wide | resting)[:base]):
+        for value in ELSEWHERE:
+            if abs(value - best.x[i]) > APART:
+                x = best.x.copy()
+                x[i] = value
+                end = descend(trial.model, x)
+                best = end if end.chi2 < best.chi2 else best
+    return Trial(trial.model, refreshed(trial.model, best))
+
+
+def with_form(trial: Trial, effect: str, parameter: str) -> Trial:
+    """Fit a form parameter of an effect in addition; never worse than without it."""
+    quantity = known_effects()[effect].quantities[parameter]
+    free = {n: (*f, parameter) if n == effect else f for n, f in trial.model.effects.items()}
+    model = model_of(trial.model.base, free, trial.model.channels)
+    at = model.names.index(f"{effect}_{parameter}")
+    best: Fit | None = None
+    for value in _forms(quantity.lower, quantity.value, quantity.upper):
+        x = np.insert(trial.fit.x, at, fraction(quantity, value))
+        end = descend(model, x)
+        best = end if best is None or end.chi2 < best.chi2 else best
+    assert best is not None
+    return Trial(model, best)
+
+
+def _forms(lower: float, usual: float, upper: float) -> Sequence[float]:
+    return (usual, 0.5 * (lower + usual), 0.5 * (usual + upper))
+
+
+def look_at(trial: Trial, effects: Sequence[str]) -> list[Look]:
+    """Return what each effect would change of a fitted model that can have it."""
+    looks = (look(trial.model, trial.fit, effect) for effect in effects)
+    return [found for found in looks if found is not None]

@@ -1,0 +1,145 @@
+"""From a study and its measurements to the base model's fit, noise and all."""
+
+from dataclasses import dataclass, replace
+
+import numpy as np
+from scipy.stats import qmc
+
+from pyrofit.config import (
+    Study,
+    calibration_channels,
+    candidate_effects,
+    diagnosed_material,
+    diagnosed_parameters,
+    held_out_channels,
+)
+from pyrofit.diagnose.descent import descend, refreshed
+from pyrofit.diagnose.model import Base, Known, model_of
+from pyrofit.diagnose.refit import Trial, polished
+from pyrofit.errors import DataError
+from pyrofit.estimate.likelihood import FAILED, Likelihood, likelihood_of
+from pyrofit.estimate.noise import NoiseModel, estimate_noise
+from pyrofit.estimate.problem import Measurements, Problem, make_problem
+from pyrofit.solver.arrays import FloatArray
+
+STARTS = 15
+"""Points within the limits whose chi-square is looked at, beside their centre."""
+DESCENTS = 3
+"""How many of them are followed."""
+
+
+@dataclass(frozen=True, eq=False)
+class Setup:
+    """What a diagnosis starts from: the fitted base and the names of the candidates."""
+
+    base: Trial
+    candidates: tuple[str, ...]
+
+
+def set_up(study: Study, measurements: Measurements) -> Setup:
+    """Fit the base model, with the noise of every channel estimated twice.
+
+    First from the series alone; then, as what is steep in a series looks like noise to a smooth
+    curve, about the fitted curve.
+
+    Raises
+    ------
+    DataError
+        A channel is too short, or no run within the limits finishes.
+    """
+    likelihood = likelihood_of(_problem(study, measurements))
+    calibrated = tuple(range(len(calibration_channels(study))))
+    base = Base(likelihood, _known(study, likelihood.problem), calibrated)
+    first = _fitted(base, study.seed)
+    return Setup(refitted(first, with_noise_about(first)), candidate_effects(study))
+
+
+def _problem(study: Study, measurements: Measurements) -> Problem:
+    channels = (*calibration_channels(study), *held_out_channels(study))
+    return make_problem(
+        study,
+        diagnosed_parameters(study),
+        channels,
+        measurements,
+        diagnosed_material(study),
+        study.fixed_values(),
+    )
+
+
+def _known(study: Study, problem: Problem) -> Known:
+    found = study.diagnosis.known
+    factors = {name: study.parameters[name].factor for name in found}
+    return Known(
+        tuple(problem.names.index(name) for name in found),
+        np.array([known.value * factors[name] for name, known in found.items()]),
+        np.array([known.sd * factors[name] for name, known in found.items()]),
+    )
+
+
+def _fitted(base: Base, seed: int) -> Trial:
+    """Return the fit of the base from the best of several points spread over the limits."""
+    model = model_of(base, {})
+    ordered = sorted(_starts(base, seed), key=lambda x: _chi2(model.residuals(x)))
+    ends = [descend(model, x) for x in ordered[:DESCENTS]]
+    best = min(ends, key=lambda end: end.chi2)
+    if np.any(best.residuals[: model.points] == FAILED):
+        raise DataError(
+            "diagnosis: no run within the limits of the parameters finishes; check the limits and "
+            "the description of the experiments"
+        )
+    return polished(Trial(model, best))
+
+
+def _starts(base: Base, seed: int) -> list[FloatArray]:
+    """Return the centre and points spread over the limits, known parameters at their means."""
+    size = len(base.likelihood.problem.names)
+    spread = 0.05 + 0.9 * qmc.LatinHypercube(size, seed=np.random.default_rng(seed)).random(STARTS)
+    points = [np.full(size, 0.5), *spread]
+    problem, index = base.likelihood.problem, list(base.known.index)
+    for x in points:
+        span = (problem.upper - problem.lower)[index]
+        x[index] = (base.known.mean - problem.lower[index]) / span
+    return points
+
+
+def _chi2(residuals: FloatArray) -> float:
+    return float(residuals @ residuals)
+
+
+def with_noise_about(trial: Trial) -> Base:
+    """Return the base with each channel's noise about a fitted curve, where that explains more."""
+    base = trial.model.base
+    problem = base.likelihood.problem
+    every = tuple(range(len(problem.picks)))
+    model = model_of(base, trial.model.effects, every)
+    curves = model.likelihood.curves(trial.fit.x)
+    if curves is None:
+        return base
+    parts = zip(every, base.likelihood.noise, base.likelihood.split(curves), strict=True)
+    noise = tuple(_noise(problem, i, known, curve) for i, known, curve in parts)
+    return replace(base, likelihood=Likelihood(problem, noise))
+
+
+def _noise(problem: Problem, channel: int, known: NoiseModel, about: FloatArray) -> NoiseModel:
+    name, quantity, _ = problem.picks[channel]
+    signal = problem.runs[name].experiment.signals[quantity]
+    target = problem.cost.terms[channel][1].target
+    found = estimate_noise(target, quantity, signal.uncertainty_sds, signal.timing_s, about)
+    return found if found.criterion < known.criterion else known
+
+
+def refitted(trial: Trial, base: Base) -> Trial:
+    """Return the same effects fitted with another noise."""
+    model = model_of(base, trial.model.effects, trial.model.channels)
+    return Trial(model, refreshed(model, descend(model, trial.fit.x)))
+
+
+def clearer(base: Base, other: Base) -> float:
+    """Return by how much the noise of the calibrated channels explains more, in BIC."""
+    pairs = ((base.likelihood.noise[i], other.likelihood.noise[i]) for i in base.calibrated)
+    return sum(b.criterion - o.criterion for b, o in pairs if b is not o)
+
+
+def blurred(base: Base) -> bool:
+    """Tell whether a calibrated channel scatters more than is stated: that may be misfit."""
+    return any(base.likelihood.noise[i].excess > 1.0 for i in base.calibrated)

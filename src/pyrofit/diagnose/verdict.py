@@ -1,0 +1,168 @@
+"""The verdict: what of the search may be claimed, and how surely."""
+
+from collections.abc import Sequence
+from dataclasses import dataclass, replace
+from typing import Literal
+
+from pyrofit.diagnose.descent import refreshed
+from pyrofit.diagnose.gates import AGREE, INFORMATIVE, Trust, forecasts, trust
+from pyrofit.diagnose.refit import Trial
+from pyrofit.diagnose.search import Search, dropped
+from pyrofit.effects import known_effects
+
+AMBIGUOUS = 9.0
+"""Models whose penalised chi-square is above the best one's by less are not told apart."""
+MOST_JUDGED = 6
+"""Most models that are judged in one effect's place."""
+ORDER = ("apparatus", "environment", "material")
+"""What an experimenter can check comes first."""
+
+Kind = Literal["none", "named", "ambiguous", "multiple", "unknown"]
+
+
+@dataclass(frozen=True, eq=False)
+class Judged:
+    """A model with an effect in the leading one's place, and what speaks against it."""
+
+    effect: str
+    trial: Trial
+    trust: Trust
+    rejected: str
+
+
+@dataclass(frozen=True, eq=False)
+class Finding:
+    """One effect of the model that the search ended with, and those it cannot be told from."""
+
+    effect: str
+    judged: tuple[Judged, ...]
+    """The best of each effect, the leading one first."""
+
+    @property
+    def kept(self) -> list[Judged]:
+        """Those that nothing speaks against, the best first."""
+        return [judged for judged in self.judged if not judged.rejected]
+
+    @property
+    def leading(self) -> str:
+        """Name of the best one that nothing speaks against, or of the best one."""
+        return (self.kept or list(self.judged))[0].effect
+
+    @property
+    def effects(self) -> list[str]:
+        """Names of those that nothing speaks against, apparatus before environment and material."""
+        catalogue = known_effects()
+        return sorted(
+            (judged.effect for judged in self.kept),
+            key=lambda name: ORDER.index(catalogue[name].family),
+        )
+
+    @property
+    def group(self) -> str:
+        """What is missing, where all agree on it, else nothing."""
+        groups = {known_effects()[name].group for name in self.effects}
+        return groups.pop() if len(groups) == 1 else ""
+
+    @property
+    def predicted(self) -> bool:
+        """Whether predictions improve with each one that is kept."""
+        return bool(self.kept) and all(judged.trust.predicts for judged in self.kept)
+
+
+@dataclass(frozen=True, eq=False)
+class Verdict:
+    """What is claimed, with the findings it rests on and the reasons, in words."""
+
+    kind: Kind
+    findings: tuple[Finding, ...]
+    reasons: tuple[str, ...]
+
+
+def judge(found: Search) -> Verdict:
+    """Return what may be claimed of a search's end."""
+    findings = tuple(_finding(found, effect) for effect in found.end.effects)
+    if not findings:
+        return _without_effects(found)
+    reasons = [f"{f.effect}: {j.rejected}" for f in findings for j in f.judged[:1] if j.rejected]
+    if not found.end_alarm.adequate:
+        reasons.append("what is left is more than noise, with every effect that gains enough")
+    if reasons and (not found.end_alarm.adequate or any(not f.kept for f in findings)):
+        return Verdict("unknown", findings, tuple(reasons))
+    reasons += _doubts(found, findings)
+    if len(findings) > 1:
+        return Verdict("multiple", findings, tuple(reasons))
+    return Verdict(
+        "ambiguous" if _open(findings[0], reasons) else "named", findings, tuple(reasons)
+    )
+
+
+def _without_effects(found: Search) -> Verdict:
+    alarm = found.end_alarm
+    if alarm.silent:
+        return Verdict("none", (), ("what is left is noise",))
+    if alarm.adequate:
+        reason = "an effect's score is remarkable, but none gains enough to be claimed"
+        return Verdict("none", (), (reason,))
+    return Verdict("unknown", (), ("no effect of the catalogue gains enough",))
+
+
+def _open(finding: Finding, reasons: Sequence[str]) -> bool:
+    return not finding.group or not finding.predicted or any(r.startswith("only") for r in reasons)
+
+
+def _doubts(found: Search, findings: Sequence[Finding]) -> list[str]:
+    """Say why a claim is less than sure."""
+    doubts = []
+    base = found.base.model.base
+    slab = {base.channels[i] for i in base.calibrated if base.channels[i][1] != "mass_fraction"}
+    if len(slab) == 1 and {signal for _, signal in slab} == {"mlr"}:
+        doubts.append("only the mass loss rate at one flux is calibrated")
+    return doubts + [
+        f"{finding.leading}: no prediction confirms it clearly"
+        for finding in findings
+        if not finding.predicted
+    ]
+
+
+def _finding(found: Search, effect: str) -> Finding:
+    others = tuple(name for name in found.end.effects if name != effect)
+    without = dropped(found.end, effect) if others else found.base
+    before = forecasts(without)
+    judged = []
+    for name, trial in alternatives(found, effect):
+        about = trust(trial, before, name)
+        judged.append(Judged(name, trial, about, _against(found, trial, about)))
+    return Finding(effect, tuple(judged))
+
+
+def alternatives(found: Search, effect: str) -> list[tuple[str, Trial]]:
+    """Return the models with another effect in one's place that cannot be told from the best.
+
+    Of each effect the best form; the end of the search itself first.
+    """
+    others = set(found.end.effects) - {effect}
+    best = {effect: found.end}
+    for trial in sorted(found.trials, key=lambda trial: trial.penalised):
+        (*rest,) = set(trial.effects) - others
+        same = others <= set(trial.effects) and len(rest) == 1
+        if same and trial.penalised <= found.end.penalised + AMBIGUOUS:
+            best.setdefault(rest[0], trial)
+    return [
+        (name, replace(trial, fit=refreshed(trial.model, trial.fit)))
+        for name, trial in list(best.items())[:MOST_JUDGED]
+    ]
+
+
+def _against(found: Search, trial: Trial, about: Trust) -> str:
+    """Say what speaks against a model, nothing where it passes."""
+    if about.limit:
+        return f"{about.limit} rests at a limit"
+    if about.disagree < AGREE:
+        return f"the experiments ask for different strengths (p = {about.disagree:.1g})"
+    if about.informative and not about.predicts:
+        worst = min(about.gains, key=lambda name: about.gains[name])
+        return (
+            f"predictions do not improve: log score {about.gains[worst]:+.1f} for {worst}, "
+            f"{sum(about.gains.values()):+.1f} in all; {INFORMATIVE:g} at least is asked for"
+        )
+    return ""
