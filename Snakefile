@@ -68,7 +68,9 @@ def benchmark_of(name):
 
 
 onsuccess:
-    print(f"Report: {ROOT / 'report.html'}")
+    for _page in (ROOT / "report.html", results.diagnosis("report.html")):
+        if _page.exists():
+            print(f"Page: {_page}")
 
 
 localrules:
@@ -81,6 +83,8 @@ include: "workflow/rules/imp.smk"
 include: "workflow/rules/identify.smk"
 include: "workflow/rules/validation.smk"
 include: "workflow/rules/report.smk"
+include: "workflow/rules/diagnosis.smk"
+include: "workflow/rules/hidden_effects.smk"
 
 
 # Everything, not the report alone: what is deleted or was removed with a failed run is made again.

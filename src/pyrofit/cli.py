@@ -117,6 +117,14 @@ def _parser() -> argparse.ArgumentParser:
     table.add_argument("--name", required=True, help="name of the table")
     figure = _step(commands, "figure", "draw one figure", _figure)
     figure.add_argument("--name", required=True, help="name of the figure")
+    _step(commands, "diagnose", "find which effect the model lacks", _diagnose)
+    _step(commands, "diagnosis-page", "draw and write the page of the diagnosis", _diagnosis_page)
+    hidden = commands.add_parser("hidden-effects", help="run the blind test of the diagnosis")
+    hidden.add_argument("--setting", type=Path, default=Path("config/hidden_effects.yaml"))
+    hidden.add_argument("--plan", required=True, help="plan of the setting")
+    hidden.add_argument("--chunk", type=int, help="job to run; without: gather all jobs")
+    hidden.add_argument("--log", type=Path, help="file that keeps what is printed")
+    hidden.set_defaults(step=_hidden_effects)
     _step(commands, "report", "write report.html and provenance.json", _report)
     return parser
 
@@ -236,6 +244,27 @@ def _identify(given: argparse.Namespace) -> None:
         identify.identify_imp(*_open(given, slices.identify))
 
 
+def _diagnose(given: argparse.Namespace) -> None:
+    from pyrofit.stages import diagnose, measurements, slices
+
+    study, results = _open(given, slices.diagnose)
+    if given.digest is None:  # by hand, without the workflow that has read the measurements
+        measurements.prepare(study, results)
+    diagnose.diagnose(study, results, lambda text: print(text, file=sys.stderr))
+    if given.digest is None:
+        _diagnosis_page(given)
+
+
+def _diagnosis_page(given: argparse.Namespace) -> None:
+    from pyrofit.figures.diagnosis import draw_all
+    from pyrofit.report.diagnosis import write_page
+    from pyrofit.stages import slices
+
+    study, results = _open(given, slices.presentation)
+    draw_all(results, study)
+    write_page(study, results)
+
+
 def _predict(given: argparse.Namespace) -> None:
     from pyrofit.stages import predict, slices
 
@@ -261,3 +290,19 @@ def _report(given: argparse.Namespace) -> None:
     from pyrofit.stages import slices
 
     write_report(*_open(given, slices.presentation))
+
+
+def _hidden_effects(given: argparse.Namespace) -> None:
+    from pyrofit.hidden.places import FOLDER, Places
+    from pyrofit.hidden.setting import read_setting
+
+    setting, places = read_setting(given.setting), Places(FOLDER / given.plan)
+    if given.chunk is None:
+        from pyrofit.report.hidden_effects import write_hidden_effects
+
+        write_hidden_effects(setting, given.plan, places)
+    else:
+        from pyrofit.diagnose.diagnosis import diagnose
+        from pyrofit.hidden.run import run_chunk
+
+        run_chunk(setting, given.plan, given.chunk, places, diagnose)

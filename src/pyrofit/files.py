@@ -210,3 +210,7 @@ class Results:
     def validation(self, name: str) -> Path:
         """Predictions and scores."""
         return self.root / "validation" / name
+
+    def diagnosis(self, name: str) -> Path:
+        """Where model and measurement disagree, and what the model lacks."""
+        return self.root / "diagnosis" / name

@@ -16,7 +16,7 @@ from pyrofit.config.uses import parameters_of_tga
 from pyrofit.errors import StudyError
 
 CONFIG = Path(__file__).parents[2] / "config"
-SHIPPED = sorted(CONFIG.glob("*.yaml"))
+SHIPPED = [p for p in sorted(CONFIG.glob("*.yaml")) if p.stem != "hidden_effects"]
 SMOKE = json.dumps(yaml.safe_load((CONFIG / "smoke.yaml").read_text(encoding="utf-8")))
 GONE = object()
 JARGON = re.compile(

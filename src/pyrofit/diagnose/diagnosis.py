@@ -1,7 +1,7 @@
 """The diagnosis of a study, from its measurements to what is said of it."""
 
 from collections.abc import Callable
-from dataclasses import dataclass
+from dataclasses import asdict, dataclass
 from typing import Any
 
 import numpy as np
@@ -28,7 +28,10 @@ class Diagnosis:
 
 
 def examine(
-    study: Study, measurements: Measurements, tell: Callable[[str], None] = lambda text: None
+    study: Study,
+    measurements: Measurements,
+    tell: Callable[[str], None] = lambda text: None,
+    advise: bool = True,
 ) -> Diagnosis:
     """Find where a study's model and measurements disagree, and which effect the model lacks.
 
@@ -40,6 +43,8 @@ def examine(
         Measured series by (experiment, signal), SI units.
     tell
         Is told what goes on.
+    advise
+        Whether to look for free corrections and the next experiment as well.
 
     Raises
     ------
@@ -52,15 +57,16 @@ def examine(
     found = search(setup.base, setup.candidates, study.diagnosis.most_effects, rng, tell)
     verdict = judge(found)
     content = record.content(study, found, verdict)
-    content["probes"] = [record.probe(p) for p in _probes(found, verdict)]
-    content["next_experiment"] = [record.design(d) for d in _designs(found, verdict)]
+    content["probes"] = [asdict(p) for p in (_probes(found, verdict) if advise else [])]
+    designs = _designs(found, verdict) if advise else []
+    content["next_experiment"] = [asdict(design) for design in designs]
     tell(content["verdict"]["words"])
     return Diagnosis(found, verdict, content, record.curves(found))
 
 
 def diagnose(study: Study, measurements: Measurements) -> dict[str, Any]:
-    """Return the content of ``diagnosis.json``."""
-    return examine(study, measurements).content
+    """Return the content of ``diagnosis.json``, without advice."""
+    return examine(study, measurements, advise=False).content
 
 
 def _probes(found: Search, verdict: Verdict) -> list[Any]:

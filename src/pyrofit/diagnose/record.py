@@ -1,22 +1,19 @@
 """The results of a diagnosis as plain numbers and words, keys as in docs/diagnosis.md."""
 
-from dataclasses import asdict
 from typing import Any
 
 import numpy as np
 import pandas as pd
 
 from pyrofit.config import Study
-from pyrofit.diagnose.design import Design
 from pyrofit.diagnose.gates import at_limit
 from pyrofit.diagnose.intervals import interval, strengths, values_of
 from pyrofit.diagnose.model import model_of, strength_of
 from pyrofit.diagnose.phases import describe
-from pyrofit.diagnose.probes import Probe
 from pyrofit.diagnose.refit import Trial
 from pyrofit.diagnose.screen import confusability
-from pyrofit.diagnose.search import Search
-from pyrofit.diagnose.verdict import AMBIGUOUS, Judged, Verdict
+from pyrofit.diagnose.search import AMBIGUOUS, Search
+from pyrofit.diagnose.verdict import Judged, Verdict
 from pyrofit.diagnose.words import form_of, sentences
 from pyrofit.effects import known_effects
 
@@ -257,13 +254,3 @@ def curves(found: Search) -> pd.DataFrame:
         }
         parts.append(pd.DataFrame(columns))
     return pd.concat(parts, ignore_index=True)
-
-
-def probe(found: Probe) -> dict[str, Any]:
-    """Return a probe without its coefficients' names."""
-    return asdict(found)
-
-
-def design(found: Design) -> dict[str, Any]:
-    """Return a design."""
-    return asdict(found)

@@ -17,7 +17,7 @@ FAR = 4.0
 """A start must not promise a chi-square above that of the model without the effect times this."""
 
 
-HOPELESS = 100.0
+HOPELESS = 50.0
 """How far above the best chi-square an effect ends that is not tried from a second start."""
 SAME = 0.5
 """Two starts whose chi-squares end as near have found the same valley; no third is needed."""

@@ -15,6 +15,8 @@ from pyrofit.effects import known_effects
 
 LEADING = 3
 """Effects that are tried in other forms."""
+AMBIGUOUS = 9.0
+"""Models whose penalised chi-square is above the best one's by less are not told apart."""
 POLISHED = 5
 """Models that are searched on from elsewhere in what the data hardly determine."""
 BEAM = 2
@@ -95,21 +97,24 @@ def search(
     best, best_alarm, rounds = first.start, first.alarm, [first]
     if first.alarm.silent:
         return Search((first,), best, best_alarm, spare)
-    rounds = [replace(first, trials=_singles(first, tell))]
+    rounds = [replace(first, trials=_singles(first, rng, tell))]
     beam = _claims(rounds, spare)
     while beam:
-        beam = [replace(trial, fit=refreshed(trial.model, trial.fit)) for trial in beam]
-        steps = [
-            _look(trial, [e for e in effects if e not in trial.effects], rng) for trial in beam
-        ]
+        steps = [_onwards(beam[0], effects, rng)]
         if best.penalised - beam[0].penalised >= spare:
-            best, best_alarm = beam[0], steps[0].alarm
-        if best_alarm.silent or len(beam[0].effects) >= most:
+            best, best_alarm = steps[0].start, steps[0].alarm
+        if best_alarm.silent or len(best.effects) >= most:
             break
+        steps += [_onwards(trial, effects, rng) for trial in beam[1:]]
         steps = [replace(step, trials=_more(step, tell)) for step in steps]
         rounds += steps
         beam = _claims(steps, spare)
     return Search(tuple(rounds), best, best_alarm, spare)
+
+
+def _onwards(trial: Trial, effects: Sequence[str], rng: np.random.Generator) -> Round:
+    start = replace(trial, fit=refreshed(trial.model, trial.fit))
+    return _look(start, [effect for effect in effects if effect not in trial.effects], rng)
 
 
 def _sharp(step: Round, rng: np.random.Generator) -> Round:
@@ -133,10 +138,18 @@ def _look(trial: Trial, effects: Sequence[str], rng: np.random.Generator) -> Rou
     return Round(trial, alarm(trial.model, trial.fit, looks, rng), tuple(looks))
 
 
-def _singles(step: Round, tell: Tell) -> tuple[Trial, ...]:
-    """Fit every effect alone, then the leading ones with a form parameter each."""
+def _singles(step: Round, rng: np.random.Generator, tell: Tell) -> tuple[Trial, ...]:
+    """Fit every effect alone, then those that lead with a form parameter each.
+
+    Where the best leaves noise only, those lead that a form parameter could bring near it.
+    """
     trials = _polished(_fitted(step, len(step.looks), tell))
-    return _sorted([*trials, *_forms(trials[:LEADING], tell)])
+    leading = trials[:LEADING]
+    best = leading[0]
+    if alarm(best.model, best.fit, [], rng).adequate:
+        near = best.penalised + AMBIGUOUS + float(np.log(best.model.points))
+        leading = [trial for trial in leading if trial.penalised < near and trial is not best]
+    return _sorted([*trials, *_forms(leading, tell)])
 
 
 def _fitted(step: Round, most: int, tell: Tell) -> list[Trial]:

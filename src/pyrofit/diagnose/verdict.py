@@ -7,11 +7,9 @@ from typing import Literal
 from pyrofit.diagnose.descent import refreshed
 from pyrofit.diagnose.gates import AGREE, INFORMATIVE, Trust, forecasts, trust
 from pyrofit.diagnose.refit import Trial
-from pyrofit.diagnose.search import Search, dropped
+from pyrofit.diagnose.search import AMBIGUOUS, Search, dropped
 from pyrofit.effects import known_effects
 
-AMBIGUOUS = 9.0
-"""Models whose penalised chi-square is above the best one's by less are not told apart."""
 MOST_JUDGED = 6
 """Most models that are judged in one effect's place."""
 ORDER = ("apparatus", "environment", "material")

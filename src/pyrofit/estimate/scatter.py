@@ -15,6 +15,8 @@ from scipy.optimize import minimize, minimize_scalar
 from pyrofit.estimate.correlation import Correlation, shrunk
 from pyrofit.solver.arrays import FloatArray
 
+NEAR = 0.02
+"""How nearly a correlation is found: a few hundred points tell it to 0.05 at best."""
 LARGEST_AR = 0.9995
 LEAST_SQUARES = 1e-30
 """Sum of squares at least; a series may lie on its curve exactly."""
@@ -97,17 +99,17 @@ def _correlations(X: FloatArray, y: FloatArray, known: bool) -> list[Correlation
     def lasting(size: float) -> float:
         return _restricted(X, y, Correlation(ar=float(np.tanh(size))), known)
 
-    lag = minimize_scalar(one, bounds=(-0.5, 0.5), method="bounded", options={"xatol": 5e-3}).x
+    lag = minimize_scalar(one, bounds=(-0.5, 0.5), method="bounded", options={"xatol": NEAR}).x
     options = {
-        "xatol": 5e-3,
-        "fatol": 0.05,
+        "xatol": NEAR,
+        "fatol": 0.2,
         "initial_simplex": [[lag, 0.0], [lag, -0.1], [0.0, 0.1]],
     }
     lags = minimize(two, [lag, 0.0], method="Nelder-Mead", options=options).x
     # Where its size is not known, noise as slow as the curve would be taken for the curve.
     slowest = LARGEST_AR if known else float(np.exp(-3.0 * (X.shape[1] - 3) / len(y)))
     limits = (-1.5, float(np.arctanh(slowest)))
-    ar = minimize_scalar(lasting, bounds=limits, method="bounded", options={"xatol": 5e-3}).x
+    ar = minimize_scalar(lasting, bounds=limits, method="bounded", options={"xatol": NEAR}).x
     return [
         Correlation(),
         shrunk((float(lag),)),

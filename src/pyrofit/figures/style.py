@@ -139,12 +139,12 @@ def zero_line(ax: Axes) -> None:
     ax.axhline(0.0, color="0.3", linewidth=0.5, zorder=1.5)
 
 
-def save(canvas: Canvas, results: Results, name: str) -> None:
-    """Write ``figures/<name>.svg`` and ``.png``; equal results give equal SVG bytes."""
+def save(canvas: Canvas, results: Results, name: str, folder: str = "figures") -> None:
+    """Write ``<folder>/<name>.svg`` and ``.png``; equal results give equal SVG bytes."""
     for kind, metadata in (("svg", {"Date": None, "Creator": None}), ("png", {"Software": None})):
         buffer = io.BytesIO()
         canvas.savefig(buffer, format=kind, metadata=metadata)
-        write_bytes(results.root / "figures" / f"{name}.{kind}", buffer.getvalue())
+        write_bytes(results.root / folder / f"{name}.{kind}", buffer.getvalue())
 
 
 def style() -> Any:

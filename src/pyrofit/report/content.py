@@ -3,6 +3,7 @@
 import base64
 import re
 from dataclasses import dataclass, field
+from pathlib import Path
 from typing import Any
 
 import pandas as pd
@@ -14,16 +15,19 @@ from pyrofit.figures.style import MM, TWO_COLUMNS
 from pyrofit.files import Results
 from pyrofit.report import determined, truth
 from pyrofit.tables import TABLES, readable
+from pyrofit.tables.table import Table
 from pyrofit.tables.text import number, numeric, plain_rows
 
 
 @dataclass(frozen=True)
 class Part:
-    """A table of the page, with one body per group."""
+    """A heading with sentences, a table with one body per group, its note, a command; or some."""
 
     title: str
-    note: str
-    bodies: tuple[dict[str, Any], ...]
+    note: str = ""
+    bodies: tuple[dict[str, Any], ...] = ()
+    text: str = ""
+    command: str = ""
 
 
 @dataclass(frozen=True)
@@ -96,9 +100,10 @@ def sections(study: Study, results: Results, tables: dict[str, pd.DataFrame]) ->
         parts: list[Part | Picture] = []
         for name in names:
             if name in tables:
-                parts.append(_table(name, tables[name]))
+                parts.append(table_part(TABLES[name], tables[name]))
             elif name in FIGURES and FIGURES[name].applies(study):
-                parts.append(_picture(name, results))
+                path = results.root / "figures" / f"{name}.svg"
+                parts.append(picture(path, name, FIGURES[name].title, FIGURES[name].caption))
         if anchor == "truth" and parts:
             text = " ".join([text, *truth.sentences(tables["truth"])])
         if anchor == "identification":
@@ -108,8 +113,8 @@ def sections(study: Study, results: Results, tables: dict[str, pd.DataFrame]) ->
     return found
 
 
-def _table(name: str, frame: pd.DataFrame) -> Part:
-    table = TABLES[name]
+def table_part(table: Table, frame: pd.DataFrame, text: str = "") -> Part:
+    """Return a table as a part of a page, with sentences before it."""
     bodies = tuple(
         {
             "heading": heading,
@@ -118,12 +123,17 @@ def _table(name: str, frame: pd.DataFrame) -> Part:
         }
         for heading, part in readable(table, frame)
     )
-    return Part(table.title, table.note, bodies)
+    return Part(table.title, table.note, bodies, text)
 
 
-def _picture(name: str, results: Results) -> Picture:
-    """Embed a drawn figure; as an image, its identifiers cannot clash with those of others."""
-    path = results.root / "figures" / f"{name}.svg"
+def picture(path: Path, name: str, title: str, caption: str) -> Picture:
+    """Embed a drawn figure; as an image, its identifiers cannot clash with those of others.
+
+    Raises
+    ------
+    DataError
+        It has not been drawn.
+    """
     try:
         content = path.read_bytes()
     except OSError as error:
@@ -131,5 +141,4 @@ def _picture(name: str, results: Results) -> Picture:
     source = "data:image/svg+xml;base64," + base64.b64encode(content).decode()
     width = re.search(rb'<svg[^>]* width="([\d.]+)pt"', content)
     share = float(width[1]) / (TWO_COLUMNS * MM * 72.0) if width else 1.0
-    figure = FIGURES[name]
-    return Picture(name, figure.title, figure.caption, source, round(min(share, 1.0), 3))
+    return Picture(name, title, caption, source, round(min(share, 1.0), 3))

@@ -1,7 +1,6 @@
 """The tables of a study, as CSV (every digit) and Markdown (four digits)."""
 
-from collections.abc import Callable, Mapping
-from dataclasses import dataclass, field
+from pathlib import Path
 
 import pandas as pd
 
@@ -9,26 +8,13 @@ from pyrofit.config import Study
 from pyrofit.errors import StudyError, suggest
 from pyrofit.files import Results, write_csv, write_text
 from pyrofit.tables.determined import channels, determined, distances
+from pyrofit.tables.diagnosed import DIAGNOSIS_TABLES
 from pyrofit.tables.imp import costs, table4
 from pyrofit.tables.kinetics import table3
+from pyrofit.tables.table import Table
 from pyrofit.tables.text import groups, markdown, turned
 from pyrofit.tables.truth import known, truth
 from pyrofit.tables.validation import validation
-
-
-@dataclass(frozen=True)
-class Table:
-    """A table: when a study has it, how it is made from results, and how it is read."""
-
-    applies: Callable[[Study], bool]
-    make: Callable[[Study, Results], pd.DataFrame]
-    title: str
-    note: str = ""
-    headings: Mapping[str, str] = field(default_factory=dict)
-    group_by: str | None = None
-    upright: str | None = None
-    """Column whose values become the headings where the table is read: few rows, many columns."""
-
 
 TABLES: dict[str, Table] = {
     "table3": Table(
@@ -184,7 +170,29 @@ def make_table(name: str, study: Study, results: Results) -> None:
     if not table.applies(study):
         raise StudyError(f"study '{study.name}' has no {name}: it lacks what the table shows")
     frame = table.make(study, results)
-    folder = results.root / "tables"
+    _write(results.root / "tables", name, table, frame, study)
+
+
+def make_diagnosis_tables(study: Study, results: Results) -> dict[str, pd.DataFrame]:
+    """Write the tables of the diagnosis to ``diagnosis/tables``; return them, none without rows."""
+    folder = results.diagnosis("tables")
+    frames = diagnosis_tables(study, results)
+    for name, table in DIAGNOSIS_TABLES.items():
+        if name in frames:
+            _write(folder, name, table, frames[name], study)
+        else:  # of an earlier diagnosis
+            for kind in ("csv", "md"):
+                (folder / f"{name}.{kind}").unlink(missing_ok=True)
+    return frames
+
+
+def diagnosis_tables(study: Study, results: Results) -> dict[str, pd.DataFrame]:
+    """Return the tables of the diagnosis that have rows."""
+    frames = {name: table.make(study, results) for name, table in DIAGNOSIS_TABLES.items()}
+    return {name: frame for name, frame in frames.items() if len(frame)}
+
+
+def _write(folder: Path, name: str, table: Table, frame: pd.DataFrame, study: Study) -> None:
     write_csv(folder / f"{name}.csv", frame)
     write_text(folder / f"{name}.md", _page(study, table, frame))
 

@@ -1,0 +1,181 @@
+"""The blind test of the diagnosis, drawn: from the tables of all twins and of their rates."""
+
+from collections.abc import Callable
+from typing import Any
+
+import numpy as np
+import pandas as pd
+from matplotlib.axes import Axes
+from matplotlib.figure import Figure as Canvas
+
+from pyrofit.effects import known_effects
+from pyrofit.figures import style
+from pyrofit.files import Results
+from pyrofit.hidden.places import Places
+from pyrofit.tables.hidden_effects import one_name
+from pyrofit.tables.hidden_rates import SHARES, by_detectability, interval
+
+OTHER = ("ambiguous", "multiple", "unknown", "none")
+"""Verdicts that do not name one effect, the last columns of the confusion matrix."""
+MARKERS = ("o", "s", "^", "D")
+_FALSE_ALARM_TARGET = 0.02
+
+
+def confusion(twins: pd.DataFrame) -> Canvas:
+    """Draw what was named against what is hidden: numbers of twins, one effect hidden each."""
+    single = twins[twins["kind"] == "effect"]
+    names = _sorted_names()
+    columns = [*names, *OTHER]
+    counts = np.zeros((len(names), len(columns)), dtype=int)
+    for row in single.itertuples():
+        column = one_name(str(row.named)) if row.verdict == "named" else str(row.verdict)
+        counts[names.index(one_name(str(row.hidden))), columns.index(column)] += 1
+    canvas, (ax,) = style.panels(1, 1, style.TWO_COLUMNS, 150.0)
+    shown = counts / np.maximum(counts.sum(axis=1, keepdims=True), 1)
+    ax.imshow(shown, cmap="Blues", vmin=0.0, vmax=1.3, aspect="auto")
+    for i, k in zip(*np.nonzero(counts), strict=True):
+        bold = "bold" if i == k else "normal"
+        ax.text(k, i, str(counts[i, k]), ha="center", va="center", fontsize=6, weight=bold)
+    _lines_between_groups(ax, names)
+    ax.set_xticks(range(len(columns)), columns, rotation=90, fontsize=6)
+    ax.set_yticks(range(len(names)), names, fontsize=6)
+    ax.tick_params(length=0)
+    ax.set_xlabel("verdict")
+    ax.set_ylabel("hidden effect")
+    return canvas
+
+
+def _sorted_names() -> list[str]:
+    """Return the effects by group, those that cannot be told apart under one name."""
+    catalogue = known_effects()
+    groups = list(dict.fromkeys(e.group for e in catalogue.values()))
+    names = dict.fromkeys(one_name(name) for name in catalogue)
+    return sorted(names, key=lambda name: (groups.index(catalogue[name].group), name))
+
+
+def _lines_between_groups(ax: Axes, names: list[str]) -> None:
+    catalogue = known_effects()
+    groups = [catalogue[name].group for name in names]
+    for i in range(1, len(names)):
+        if groups[i] != groups[i - 1]:
+            ax.axhline(i - 0.5, color="0.8", linewidth=0.4)
+            ax.axvline(i - 0.5, color="0.8", linewidth=0.4)
+    ax.axvline(len(names) - 0.5, color="black", linewidth=0.8)
+
+
+def accuracy(twins: pd.DataFrame) -> Canvas:
+    """Draw the shares claimed and rightly named against detectability, with 95 % intervals."""
+    shares = by_detectability(twins)
+    canvas, (ax,) = style.panels(1, 1, style.ONE_COLUMN + 25.0, 75.0)
+    classes = shares.drop_duplicates("from_sd")
+    for i, what in enumerate(SHARES):
+        part = shares[shares["share"] == what].reset_index(drop=True)
+        _with_intervals(ax, part, i, len(SHARES), what)
+    labels = [
+        f"{low:g} to {high:g}\nn = {count}" if np.isfinite(high) else f"over {low:g}\nn = {count}"
+        for low, high, count in classes[["from_sd", "to_sd", "twins"]].itertuples(index=False)
+    ]
+    ax.set_xticks(range(len(labels)), labels)
+    ax.set_xlim(-0.5, len(labels) - 0.5)
+    ax.set_ylim(-0.03, 1.03)
+    ax.set_xlabel("detectability [standard deviations of the noise]")
+    ax.set_ylabel("share of twins [–]")
+    style.legend_below(canvas, [style.line(what, **_look(i)) for i, what in enumerate(SHARES)])
+    return canvas
+
+
+def false_alarms(twins: pd.DataFrame) -> Canvas:
+    """Draw the share of twins without any effect that are claimed to have one, by noise."""
+    nulls = twins[twins["kind"] == "null"]
+    noises, sets = sorted(nulls["noise"].unique()), [*sorted(nulls["signals"].unique()), "all"]
+    canvas, (ax,) = style.panels(1, 1, style.ONE_COLUMN + 25.0, 65.0)
+    for i, signals in enumerate(sets):
+        rows = []
+        for noise in noises:
+            seen = (nulls["signals"] == signals) | (signals == "all")
+            here = nulls[(nulls["noise"] == noise) & seen]["claim"]
+            hits, count = int(here.sum()), len(here)
+            low, high = interval(hits, count) if count else (np.nan, np.nan)
+            share = hits / count if count else np.nan
+            rows.append({"rate": share, "low": low, "high": high})
+        _with_intervals(ax, pd.DataFrame(rows), i, len(sets), signals)
+    ax.axhline(_FALSE_ALARM_TARGET, color="black", linewidth=0.7)
+    counts = nulls["noise"].value_counts()
+    ax.set_xticks(range(len(noises)), [f"{noise}\nn = {counts[noise]}" for noise in noises])
+    ax.set_xlim(-0.5, len(noises) - 0.5)
+    ax.set_ylim(bottom=-0.01)
+    ax.set_xlabel("noise")
+    ax.set_ylabel("share claimed,\nnothing hidden [–]")
+    entries = [style.line(signals, **_look(i)) for i, signals in enumerate(sets)]
+    entries.append(style.line("2 %", color="black", linewidth=0.7))
+    style.legend_below(canvas, entries)
+    return canvas
+
+
+def _look(i: int) -> dict[str, Any]:
+    return {"color": style.colour(i), "marker": MARKERS[i], "markersize": 4, "linestyle": "none"}
+
+
+def _with_intervals(ax: Axes, part: pd.DataFrame, i: int, of: int, label: str) -> None:
+    """Draw rates and their intervals, the i-th of several beside each other."""
+    x = np.arange(len(part)) + 0.16 * (i - 0.5 * (of - 1))
+    rate = part["rate"].to_numpy(float)
+    seen = np.isfinite(rate)
+    below, above = rate - part["low"].to_numpy(float), part["high"].to_numpy(float) - rate
+    error = np.vstack([below, above])[:, seen]
+    ax.errorbar(x[seen], rate[seen], error, **_look(i), elinewidth=0.9, label=label)
+
+
+def gaps(twins: pd.DataFrame) -> Canvas:
+    """Draw the gap between model and measurement before and after, fitted and held out."""
+    claimed = twins[(twins["kind"] == "effect") & twins["claim"]]
+    canvas, axes = style.panels(2, 2, style.TWO_COLUMNS, 82.0)
+    style.letter(axes, ["fitted signals", "held-out signals"])
+    looks = (("name right", True), ("name wrong", False))
+    for ax, role in zip(axes, ("calibration", "held_out"), strict=True):
+        before, after = claimed[f"{role}_before"], claimed[f"{role}_after"]
+        for i, (_, right) in enumerate(looks):
+            # Ones that are wrong are few; on top, none is covered.
+            part = claimed["right"] == right
+            ax.plot(before[part], after[part], **_look(i), alpha=0.75, zorder=2 + i)
+        both = pd.concat([before, after]).dropna()
+        low, high = (both.min() / 1.2, both.max() * 1.2) if len(both) else (0.5, 2.0)
+        ax.plot([low, high], [low, high], color="0.4", linewidth=0.7)
+        ax.set(xscale="log", yscale="log", xlim=(low, high), ylim=(low, high))
+        ax.set_xlabel("rms of whitened residuals, base model [–]")
+        ax.set_ylabel("the same, with the named effect [–]")
+    entries = [style.line(words, **_look(i)) for i, (words, _) in enumerate(looks)]
+    style.legend_below(canvas, [*entries, style.line("unchanged", color="0.4", linewidth=0.7)])
+    return canvas
+
+
+HIDDEN_FIGURES: dict[str, tuple[Callable[[pd.DataFrame], Canvas], str]] = {
+    "confusion": (
+        confusion,
+        "Hidden effect against verdict, numbers of twins with one hidden effect. Lines part groups "
+        "of effects that are forms of one another.",
+    ),
+    "accuracy": (
+        accuracy,
+        "Shares claimed and rightly named against detectability, with 95 % intervals; beside it "
+        "the name of the largest score, which needs no fit and always names one.",
+    ),
+    "false_alarms": (
+        false_alarms,
+        "Share of twins with nothing hidden that are claimed to lack an effect, by the noise they "
+        "were made with, with 95 % intervals.",
+    ),
+    "gaps": (
+        gaps,
+        "Root mean square of the whitened residuals before and after the named effect was added; "
+        "1 is noise alone. Below the line the model came nearer.",
+    ),
+}
+"""How each figure is drawn, and what it shows."""
+
+
+def draw_hidden(twins: pd.DataFrame, places: Places) -> None:
+    """Write all figures to ``figures/<name>.svg`` and ``.png``."""
+    with style.style():
+        for name, (make, _) in HIDDEN_FIGURES.items():
+            style.save(make(twins), Results(places.root), name)

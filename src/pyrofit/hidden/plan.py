@@ -1,0 +1,183 @@
+"""The cases of a plan: what each twin hides, under which signals and noise, from which seed."""
+
+from collections.abc import Iterator, Mapping
+from pathlib import Path
+from typing import Any
+
+from pydantic import Field
+
+from pyrofit.config import Study, digest, read_study
+from pyrofit.effects import known_effects
+from pyrofit.effects.base import AnyExperiment, Effect
+from pyrofit.errors import StudyError, suggest
+from pyrofit.estimate.sceua import seed_for
+from pyrofit.hidden.setting import Hidden, Kind, Plan, Setting
+from pyrofit.model.base import Part
+
+
+class Case(Part):
+    """One twin."""
+
+    kind: Kind = Field(description="what it hides")
+    hidden: Hidden = Field(description="effects of the truth")
+    without: tuple[str, ...] = Field((), description="effects that are not candidates")
+    strength: float = Field(description="part of the nominal strength")
+    signals: str = Field(description="set of signals")
+    noise: str = Field(description="kind of noise")
+    seed: int = Field(description="seed of truth and noise")
+    left_out: bool = Field(False, description="diagnosed once more without the hidden effect")
+
+    @property
+    def id(self) -> str:
+        """Name of the twin, which does not tell what it hides."""
+        return f"twin_{digest(self)[:10]}"
+
+
+def cases_of(setting: Setting, name: str) -> tuple[Case, ...]:
+    """Return the cases of a plan, sorted by their names: kinds and effects are mixed.
+
+    A seed is a function of the case alone, so that other cases do not change where a plan grows.
+
+    Raises
+    ------
+    StudyError
+        There is no such plan, the base study breaks a rule, or a truth may leave its limits.
+    """
+    plan = setting.plan(name)
+    base = read_study(Path(setting.base))
+    _check_ranges(setting, base)
+    makers = (_effects, _nulls, _forms, _pairs)
+    drafts = [draft for make in makers for draft in make(setting, plan, base)]
+    cases = sorted((_seeded(setting, plan, draft) for draft in drafts), key=lambda c: c.id)
+    taken: list[Case] = []
+    for case in cases:
+        so_far = sum(other.kind == case.kind for other in taken)
+        if so_far < plan.most.get(case.kind, len(cases)):
+            taken.append(case)
+    return tuple(taken)
+
+
+def _check_ranges(setting: Setting, base: Study) -> None:
+    """Refuse ranges of the truth that pass a parameter's limits."""
+    if base.synthetic is None:
+        raise StudyError(f"{setting.base}: has no `synthetic`, so no truth to vary; add it")
+    for name, by in setting.vary.items():
+        if name not in base.synthetic.truth:
+            known = suggest(name, base.synthetic.truth)
+            raise StudyError(f"vary: unknown parameter '{name}'. {known}")
+        at, parameter = base.synthetic.truth[name], base.parameters[name]
+        lower, upper = parameter.lower, parameter.upper
+        if lower is not None and upper is not None and not lower <= at - by < at + by <= upper:
+            raise StudyError(
+                f"vary.{name}: {at:g} -+ {by:g} passes the limits {lower:g} to {upper:g}; lower it"
+            )
+
+
+def chunk_of(cases: tuple[Case, ...], chunk: int, chunks: int) -> tuple[Case, ...]:
+    """Return the cases of one job.
+
+    Every case belongs to exactly one of the ``chunks`` jobs, numbered from 0.
+    """
+    return cases[chunk::chunks]
+
+
+def strength_of(setting: Setting, effect: str, part: float = 1.0) -> dict[str, float]:
+    """Return null + part (nominal - null) of an effect's strength, by its name, SI units."""
+    (name, quantity), *_ = known_effects()[effect].strength.items()
+    nominal = setting.nominal.get(effect, quantity.typical)
+    return {name: quantity.value + part * (nominal - quantity.value)}
+
+
+def experiments_of(setting: Setting, base: Study, signals: str) -> dict[str, AnyExperiment]:
+    """Return the experiments of the base that a set of signals is of, the held-out one excepted."""
+    wanted = setting.signals[signals]
+    return {
+        name: experiment
+        for name, experiment in base.experiments.items()
+        if any(quantity in wanted for quantity in experiment.signals)
+        and (experiment.kind == "tga" or name in setting.calibrate)
+    }
+
+
+def _visible(
+    setting: Setting, base: Study, effects: Mapping[str, Effect], signals: str, names: Hidden
+) -> bool:
+    """Tell whether some calibrated experiment can have each of the effects."""
+    experiments = experiments_of(setting, base, signals).values()
+    return all(any(effects[name].needs(e) for e in experiments) for name in names)
+
+
+Draft = dict[str, Any]
+
+
+def _effects(setting: Setting, plan: Plan, base: Study) -> Iterator[Draft]:
+    effects, noises = known_effects(), list(setting.noise)
+    count = 0
+    for i, name in enumerate(effects):
+        for j, part in enumerate(plan.strengths):
+            hidden = {name: strength_of(setting, name, part)}
+            for k, signals in enumerate(setting.signals):
+                if not _visible(setting, base, effects, signals, hidden):
+                    continue
+                for repeat in range(plan.effects):
+                    # Neighbours differ in noise, whichever of the four goes on.
+                    noise = noises[(i + j + k + repeat) % len(noises)]
+                    full = part == 1.0
+                    left_out = full and plan.left_out > 0 and count % plan.left_out == 0
+                    count += full
+                    yield {
+                        "kind": "effect",
+                        "hidden": hidden,
+                        "strength": part,
+                        "signals": signals,
+                        "noise": noise,
+                        "left_out": left_out,
+                        "seed": repeat,
+                    }
+
+
+def _nulls(setting: Setting, plan: Plan, base: Study) -> Iterator[Draft]:
+    for noise in setting.noise:
+        for signals in setting.signals:
+            for repeat in range(plan.nulls):
+                yield {
+                    "kind": "null",
+                    "hidden": {},
+                    "strength": 0.0,
+                    "signals": signals,
+                    "noise": noise,
+                    "seed": repeat,
+                }
+
+
+def _forms(setting: Setting, plan: Plan, base: Study) -> Iterator[Draft]:
+    for i, form in enumerate(setting.forms):
+        hidden = {n: strength_of(setting, n) | given for n, given in form.hidden.items()}
+        more = {"kind": "form", "hidden": hidden, "without": form.without}
+        yield from _seen(setting, base, more, list(setting.signals), plan.forms, i)
+
+
+def _pairs(setting: Setting, plan: Plan, base: Study) -> Iterator[Draft]:
+    for i, pair in enumerate(setting.pairs):
+        more = {"kind": "pair", "hidden": {name: strength_of(setting, name) for name in pair}}
+        yield from _seen(setting, base, more, list(setting.pair_signals), plan.pairs, i)
+
+
+def _seen(
+    setting: Setting, base: Study, more: Draft, sets: list[str], repeats: int, first: int
+) -> Iterator[Draft]:
+    """Yield drafts under every set of signals that shows their effects, noise in turn."""
+    noises = list(setting.noise)
+    for k, signals in enumerate(sets):
+        if not _visible(setting, base, known_effects(), signals, more["hidden"]):
+            continue
+        for repeat in range(repeats):
+            noise = noises[(first + k + repeat) % len(noises)]
+            yield {**more, "strength": 1.0, "signals": signals, "noise": noise, "seed": repeat}
+
+
+def _seeded(setting: Setting, plan: Plan, draft: Draft) -> Case:
+    """Return the case of a draft, whose seed is the number of the repetition until here."""
+    start, end = setting.seeds[plan.seeds]
+    identity = {key: value for key, value in draft.items() if key != "left_out"}
+    return Case(**{**draft, "seed": start + seed_for(start, digest(identity)) % (end - start + 1)})

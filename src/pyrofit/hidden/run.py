@@ -1,0 +1,106 @@
+"""Run a plan: make each twin, have it diagnosed, keep what was found beside the truth."""
+
+import time
+from collections.abc import Callable, Iterator, Mapping
+from contextlib import contextmanager
+from pathlib import Path
+from typing import Any
+
+from pyrofit.config import Study, digest, read_mapping
+from pyrofit.errors import DataError, StudyError
+from pyrofit.estimate.problem import Measurements
+from pyrofit.files import read_json, write_json
+from pyrofit.hidden.detectability import detectability
+from pyrofit.hidden.places import Places
+from pyrofit.hidden.plan import Case, cases_of, chunk_of
+from pyrofit.hidden.setting import Setting
+from pyrofit.hidden.twin import make_twin, read_twin, same_as, without_effects, write_twin
+from pyrofit.provenance import source_fingerprint
+
+Found = Mapping[str, Any]
+Diagnose = Callable[[Study, Measurements], Found]
+"""What is on trial: study and measurements in, verdict and what it rests on out."""
+KEPT = ("verdict", "base", "screen", "candidates", "gap")
+"""What is kept of a diagnosis."""
+
+
+def run_chunk(setting: Setting, plan: str, chunk: int, places: Places, diagnose: Diagnose) -> None:
+    """Diagnose the twins of one job, those excepted that have been before, by the same source.
+
+    Raises
+    ------
+    StudyError
+        There is no such plan or job, or a truth breaks a rule.
+    DataError
+        A twin cannot be computed, or a file cannot be written.
+    """
+    chunks = setting.plan(plan).chunks
+    if not 0 <= chunk < chunks:
+        raise StudyError(f"plan '{plan}' has the jobs 0 to {chunks - 1}; there is no job {chunk}")
+    cases = chunk_of(cases_of(setting, plan), chunk, chunks)
+    for case in cases:
+        made_of = case_digest(setting, case)
+        if not _is_done(places, case, made_of):
+            content = {
+                "id": case.id,
+                "digest": made_of,
+                **run_case(setting, case, places, diagnose),
+            }
+            write_json(places.case(case.id), content)
+    write_json(places.chunk(chunk), {"cases": [case.id for case in cases]})
+
+
+def case_digest(setting: Setting, case: Case) -> str:
+    """Return a digest of all that the result of a case depends on."""
+    of_twins = setting.model_dump(exclude={"plans", "seeds", "nominal", "forms", "pairs"})
+    base = read_mapping(Path(setting.base))
+    return digest([case.model_dump(), of_twins, base, source_fingerprint()])
+
+
+def run_case(setting: Setting, case: Case, places: Places, diagnose: Diagnose) -> dict[str, Any]:
+    """Make and diagnose one twin; return verdict and truth.
+
+    The diagnosis reads the twin's study and measurements from their files, no more.
+    """
+    seconds: dict[str, float] = {}
+    with _timed(seconds, "twin"):
+        twin = make_twin(setting, case)
+        write_twin(places, twin)
+    study, measurements = read_twin(places, case.id)
+    known = {name: prior.sd for name, prior in study.diagnosis.known.items()}
+    with _timed(seconds, "detectability"):
+        stands_out = detectability(twin.truth, twin.series, known)
+    with _timed(seconds, "diagnosis"):
+        found = diagnose(study, measurements)
+    result = {"case": case.model_dump(mode="json"), "detectability": stands_out}
+    result |= {key: found[key] for key in KEPT} | {"score_only": largest_score(found)}
+    result["left_out"] = None
+    if case.left_out:
+        hidden = set().union(*(same_as(name) for name in case.hidden))
+        with _timed(seconds, "left_out"):
+            result["left_out"] = diagnose(without_effects(study, hidden), measurements)["verdict"]
+    return result | {"seconds": seconds}
+
+
+def largest_score(found: Found) -> str:
+    """Return the effect of the largest score, which needs no fit: the name to do better than.
+
+    >>> largest_score({"screen": [{"effect": "k_T", "z": 3.0}, {"effect": "c_T", "z": 4.0}]})
+    'c_T'
+    """
+    scores = {str(entry["effect"]): abs(entry["z"]) for entry in found["screen"]}
+    return max(scores, key=lambda name: scores[name], default="")
+
+
+def _is_done(places: Places, case: Case, made_of: str) -> bool:
+    try:
+        return bool(read_json(places.case(case.id), {("digest",): str})["digest"] == made_of)
+    except DataError:
+        return False
+
+
+@contextmanager
+def _timed(seconds: dict[str, float], name: str) -> Iterator[None]:
+    start = time.perf_counter()
+    yield
+    seconds[name] = round(time.perf_counter() - start, 3)

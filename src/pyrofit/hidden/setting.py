@@ -1,0 +1,150 @@
+"""What the blind test is made of: every key of its YAML file."""
+
+from pathlib import Path
+from typing import Annotated, Any, Literal, Self
+
+from pydantic import Field, ValidationError, model_validator
+
+from pyrofit.config import read_mapping
+from pyrofit.config.words import in_plain_words
+from pyrofit.effects import known_effects
+from pyrofit.errors import StudyError, suggest
+from pyrofit.model.base import Part
+from pyrofit.model.experiment import Noise
+from pyrofit.solver.reference.resolution import Resolution
+
+Kind = Literal["effect", "null", "form", "pair"]
+Hidden = dict[str, dict[str, float]]
+"""By effect, numbers of its parameters in SI units."""
+Count = Annotated[int, Field(ge=0)]
+Size = Annotated[float, Field(gt=0.0)]
+
+
+class HeldOut(Part):
+    """The experiment that is predicted only."""
+
+    name: str = Field(description="its name")
+    like: str = Field(description="experiment of the base that it is a copy of")
+    changes: dict[str, Any] = Field(description="keys that differ")
+
+
+class Form(Part):
+    """A truth of another form than the candidates'."""
+
+    hidden: Hidden = Field(description="effect and its form; strength left out = nominal")
+    without: tuple[str, ...] = Field((), description="effects that are not candidates")
+
+
+class Plan(Part):
+    """How many twins of each kind."""
+
+    seeds: str = Field(description="range that the seeds are from")
+    strengths: tuple[Size, ...] = Field(
+        (1.0, 1.0 / 3.0), min_length=1, description="parts of the nominal strength"
+    )
+    effects: Count = Field(description="twins per effect, strength and signals")
+    nulls: Count = Field(description="twins without any effect per noise and signals")
+    forms: Count = Field(description="twins per form and signals")
+    pairs: Count = Field(description="twins per pair and signals")
+    left_out: Count = Field(
+        0,
+        description="one in so many effects of full strength is diagnosed once more, without the "
+        "effect among the candidates; 0 = none",
+    )
+    most: dict[Kind, Count] = Field(default_factory=dict, description="at most so many, by kind")
+    chunks: int = Field(ge=1, description="jobs that share the twins")
+
+
+class Setting(Part):
+    """The blind test."""
+
+    base: str = Field(description="study of the model and its truth, relative to this file")
+    vary: dict[str, Size] = Field(description="truths lie within -+ this, in a parameter's unit")
+    known: dict[str, Size] = Field(
+        description="standard deviations of the kinetics where no TGA tells them, in their units"
+    )
+    calibrate: tuple[str, ...] = Field(min_length=1, description="fitted gasification experiments")
+    held_out: HeldOut = Field(description="predicted experiment")
+    signals: dict[str, tuple[str, ...]] = Field(min_length=1, description="quantities, by set")
+    noise: dict[str, dict[str, dict[str, Any]]] = Field(
+        min_length=1, description="correlation of the noise by quantity, by kind of noise"
+    )
+    accuracy: Resolution = Field(description="numerical settings of the reference solver")
+    nominal: dict[str, float] = Field(
+        description="strength of effects, SI units; of the others, the typical one"
+    )
+    forms: tuple[Form, ...] = Field(description="truths of another form")
+    pairs: tuple[tuple[str, str], ...] = Field(description="two effects at once")
+    pair_signals: tuple[str, ...] = Field(description="sets of signals that pairs are seen by")
+    seeds: dict[str, tuple[Count, Count]] = Field(description="first and last seed, by name")
+    plans: dict[str, Plan] = Field(min_length=1, description="plans by name")
+
+    @model_validator(mode="after")
+    def _check(self) -> Self:
+        effects = known_effects()
+        for place, names in self._effects_named().items():
+            for name in names:
+                _require(name, effects, place, "effect")
+        for name in self.pair_signals:
+            _require(name, self.signals, "pair_signals", "set of signals")
+        for name, plan in self.plans.items():
+            _require(plan.seeds, self.seeds, f"plans.{name}.seeds", "range of seeds")
+        for name, quantities in self.signals.items():
+            if "mlr" not in quantities:
+                raise ValueError(f"signals.{name}: without mlr nothing tells of the slab; add it")
+        for by_quantity in self.noise.values():
+            for correlation in by_quantity.values():
+                Noise(sd=1.0, **correlation)
+        _check_seeds(self.seeds)
+        return self
+
+    def _effects_named(self) -> dict[str, list[str]]:
+        return {
+            "nominal": list(self.nominal),
+            "forms": [name for form in self.forms for name in (*form.hidden, *form.without)],
+            "pairs": [name for pair in self.pairs for name in pair],
+        }
+
+    def plan(self, name: str) -> Plan:
+        """Return a plan by name.
+
+        Raises
+        ------
+        StudyError
+            There is none of that name.
+        """
+        if name not in self.plans:
+            raise StudyError(f"unknown plan '{name}'. {suggest(name, self.plans)}")
+        return self.plans[name]
+
+
+def _require(name: str, known: Any, place: str, what: str) -> None:
+    if name not in known:
+        raise ValueError(f"{place}: unknown {what} '{name}'. {suggest(name, known)}")
+
+
+def _check_seeds(seeds: dict[str, tuple[int, int]]) -> None:
+    """Refuse ranges that overlap: what was seen while developing is not reported."""
+    last, before = -1, ""
+    for name, (start, end) in sorted(seeds.items(), key=lambda item: item[1]):
+        if end < start:
+            raise ValueError(f"seeds.{name}: [{start}, {end}] is empty; put the lower one first")
+        if start <= last:
+            raise ValueError(f"seeds: '{name}' overlaps '{before}'; keep them apart")
+        last, before = end, name
+
+
+def read_setting(path: Path) -> Setting:
+    """Read the blind test's YAML file; ``base`` is returned as seen from the working folder.
+
+    Raises
+    ------
+    StudyError
+        The file is missing, not YAML, or breaks a rule.
+    """
+    given = read_mapping(path)
+    try:
+        setting = Setting.model_validate(given)
+    except ValidationError as error:
+        raise StudyError(f"{path}: " + "; ".join(in_plain_words(error, given))) from None
+    return setting.model_copy(update={"base": (path.parent / setting.base).as_posix()})

@@ -1,0 +1,246 @@
+"""Twins: synthetic measurements of a drawn truth, and the study that sees them."""
+
+import copy
+import json
+from collections.abc import Mapping
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+import pandas as pd
+
+from pyrofit.config import Study, as_study, candidate_effects, read_mapping, read_study
+from pyrofit.data.quantities import tidy_keys
+from pyrofit.effects import known_effects
+from pyrofit.errors import StudyError
+from pyrofit.estimate.problem import Measurements
+from pyrofit.files import write_csv, write_json, write_text
+from pyrofit.hidden.places import Places
+from pyrofit.hidden.plan import Case
+from pyrofit.hidden.setting import Setting
+from pyrofit.stages.measurements import computed
+from pyrofit.stages.reading import read_all
+
+"""Units of the written columns, by quantity."""
+Given = dict[str, Any]
+"""Keys of a study."""
+
+
+@dataclass(frozen=True, eq=False)
+class Twin:
+    """A twin.
+
+    Parameters
+    ----------
+    case
+        What it hides.
+    study
+        Keys of the study that sees it; they tell nothing of the truth.
+    truth
+        The study that it was computed by, with the truth's values and effects.
+    series
+        Measurements by (experiment, signal).
+    """
+
+    case: Case
+    study: Given
+    truth: Study
+    series: Mapping[tuple[str, str], pd.DataFrame]
+
+
+def make_twin(setting: Setting, case: Case) -> Twin:
+    """Compute the measurements of a case; the same bits for the same case.
+
+    Raises
+    ------
+    StudyError
+        The truth breaks a rule, such as a limit.
+    DataError
+        The reference solver does not finish.
+    """
+    blind, truth = describe(setting, case)
+    return Twin(case, blind, truth, computed(truth))
+
+
+def describe(setting: Setting, case: Case) -> tuple[Given, Study]:
+    """Return the keys of the study that sees a case, and the study of its truth.
+
+    Raises
+    ------
+    StudyError
+        The truth breaks a rule, such as a limit.
+    """
+    base = _seen(setting, case)
+    truth = _draw(setting, base, case)
+    known = {} if _has_tga(base) else _known(setting, base, truth, case)
+    for name, prior in known.items():
+        base["parameters"][name]["value"] = prior["value"]
+    blind = _blind(case, base, known)
+    synthetic = {
+        "truth": truth,
+        "effects": case.hidden,
+        "accuracy": setting.accuracy.model_dump(),
+    }
+    return blind, as_study({**base, "seed": case.seed, "synthetic": synthetic}, setting.base)
+
+
+def write_twin(places: Places, twin: Twin) -> None:
+    """Write a twin: study and measurements to one folder, the truth to another."""
+    folder, study = places.twin(twin.case.id), copy.deepcopy(twin.study)
+    for (name, quantity), frame in twin.series.items():
+        write_csv(folder / _file(name, quantity), frame)
+    path = folder / "study.yaml"
+    _leave_out(study, twin.case.without, path)
+    # JSON is YAML as well; files named in a YAML file are found beside it.
+    write_text(path, json.dumps(study, indent=1) + "\n")
+    assert twin.truth.synthetic is not None
+    write_json(
+        places.truth(twin.case.id),
+        {"case": twin.case.model_dump(mode="json"), "values": twin.truth.synthetic.truth},
+    )
+
+
+def read_twin(places: Places, case: str) -> tuple[Study, Measurements]:
+    """Read what the diagnosis sees of a twin: its study and its measurements.
+
+    Raises
+    ------
+    StudyError, DataError
+        A file is missing or breaks a rule.
+    """
+    study = read_study(places.twin(case) / "study.yaml")
+    return study, {key: frame for key, (frame, _) in read_all(study).items()}
+
+
+def without_effects(study: Study, names: set[str]) -> Study:
+    """Return a study whose candidates are what they were but for some effects."""
+    left = tuple(name for name in candidate_effects(study) if name not in names)
+    diagnosis = study.diagnosis.model_copy(update={"effects": left})
+    return study.model_copy(update={"diagnosis": diagnosis})
+
+
+def same_as(effect: str) -> set[str]:
+    """Return an effect and those that no data of these kinds can tell from it.
+
+    >>> sorted(same_as("time_offset"))
+    ['heater_ramp', 'time_offset']
+    """
+    partners = {n for n, e in known_effects().items() if e.same_as == effect}
+    return {effect, known_effects()[effect].same_as or effect} | partners
+
+
+def _leave_out(study: Given, without: tuple[str, ...], path: Path) -> None:
+    if without:
+        left = without_effects(as_study(study, str(path)), set(without))
+        study["diagnosis"]["effects"] = list(left.diagnosis.effects)
+
+
+def _seen(setting: Setting, case: Case) -> Given:
+    """Return the keys of the base with the experiments and signals of a case, and its noise."""
+    base: Given = json.loads(json.dumps(read_mapping(Path(setting.base))))
+    held_out = setting.held_out
+    if held_out.like not in base["experiments"]:
+        raise StudyError(f"{setting.base}: held_out.like: no experiment '{held_out.like}'")
+    like = base["experiments"][held_out.like]
+    everything = base["experiments"] | {held_out.name: _merged(like, held_out.changes)}
+    base["experiments"] = {}
+    for name, experiment in everything.items():
+        signals = {
+            quantity: {**signal, "noise": _noise(setting, case, quantity, signal["noise"])}
+            for quantity, signal in experiment["signals"].items()
+            if quantity in setting.signals[case.signals]
+        }
+        used = experiment["kind"] == "tga" or name in (*setting.calibrate, held_out.name)
+        if signals and used:
+            base["experiments"][name] = {**experiment, "signals": signals}
+    return base | _stages(setting, base)
+
+
+def _noise(setting: Setting, case: Case, quantity: str, given: Any) -> Given:
+    size = given["sd"] if isinstance(given, dict) else given
+    return {"sd": size, **setting.noise[case.noise].get(quantity, {})}
+
+
+def _stages(setting: Setting, base: Given) -> Given:
+    """Return the stages of a study of these experiments."""
+    fitted, held_out = list(setting.calibrate), setting.held_out.name
+    costs = [{"experiment": name, "signal": "mlr", "kind": "RMSE"} for name in fitted]
+    imp = {
+        "estimate": base["imp"]["estimate"],
+        "kinetics": base["imp"]["kinetics"] if _has_tga(base) else "described",
+        "costs": {"RMSE": costs},
+        "identification": {name: list(base["experiments"][name]["signals"]) for name in fitted},
+    }
+    kinetics = {key: base["kinetics"][key] for key in ("estimate", "cost")}
+    return {
+        "kinetics": kinetics if _has_tga(base) else None,
+        "imp": imp,
+        "validation": {"experiments": [*fitted, held_out]},
+        "diagnosis": {
+            "calibrate": {
+                name: list(experiment["signals"])
+                for name, experiment in base["experiments"].items()
+                if name != held_out
+            },
+            "hold_out": {held_out: list(base["experiments"][held_out]["signals"])},
+            "estimate": [*base["kinetics"]["estimate"], *base["imp"]["estimate"]],
+        },
+    }
+
+
+def _has_tga(base: Given) -> bool:
+    return any(experiment["kind"] == "tga" for experiment in base["experiments"].values())
+
+
+def _merged(part: Any, changes: Mapping[str, Any]) -> Given:
+    merged = dict(part)
+    for key, value in changes.items():
+        merged[key] = _merged(part[key], value) if isinstance(value, dict) else value
+    return merged
+
+
+def _draw(setting: Setting, base: Given, case: Case) -> dict[str, float]:
+    """Return the truth of a case, uniform about that of the base, in the parameters' units."""
+    rng = np.random.default_rng([case.seed, 0])
+    truth: dict[str, float] = base["synthetic"]["truth"]
+    return {n: at + float(rng.uniform(-1, 1)) * setting.vary.get(n, 0.0) for n, at in truth.items()}
+
+
+def _known(setting: Setting, base: Given, truth: Mapping[str, float], case: Case) -> Given:
+    """Return what is known of the kinetics: drawn about the truth, within the limits."""
+    rng = np.random.default_rng([case.seed, 1])
+    known = {}
+    for name, sd in setting.known.items():
+        drawn = truth[name] + sd * float(rng.standard_normal())
+        parameter = base["parameters"][name]
+        # Half a standard deviation within a limit, so that the fit can start there.
+        lower, upper = parameter["lower"] + 0.5 * sd, parameter["upper"] - 0.5 * sd
+        known[name] = {"value": min(max(drawn, lower), upper), "sd": sd}
+    return known
+
+
+def _blind(case: Case, base: Given, known: Given) -> Given:
+    """Return the keys of the study that sees a twin: files instead of a truth."""
+    study = {key: value for key, value in base.items() if key not in ("synthetic", "seed")}
+    study["name"] = case.id
+    study["title"] = study["description"] = "Twin of a blind test."
+    study["diagnosis"] = {**base["diagnosis"], "known": known}
+    study["experiments"] = {
+        name: {
+            **experiment,
+            "signals": {q: _from_file(name, q, s) for q, s in experiment["signals"].items()},
+        }
+        for name, experiment in base["experiments"].items()
+    }
+    return study
+
+
+def _from_file(experiment: str, quantity: str, signal: Given) -> Given:
+    """Return a signal that is read from the file of a twin."""
+    kept = {key: signal[key] for key in ("average_s",) if key in signal}
+    return {"file": _file(experiment, quantity), **tidy_keys(quantity), **kept}
+
+
+def _file(experiment: str, quantity: str) -> str:
+    return f"{experiment}_{quantity}.csv"

@@ -1,0 +1,251 @@
+"""What the diagnosis found, as a section of the report and as a page of its own."""
+
+from collections.abc import Callable, Mapping
+from typing import Any
+
+import pandas as pd
+
+from pyrofit.config import Study
+from pyrofit.effects import known_effects
+from pyrofit.figures.diagnosis import DIAGNOSIS_FIGURES, figures_of
+from pyrofit.files import Results, write_text
+from pyrofit.report.content import Part, Picture, Section, picture, table_part
+from pyrofit.report.page import page_of
+from pyrofit.report.summary import listed
+from pyrofit.stages import outcomes
+from pyrofit.tables import diagnosis_tables, make_diagnosis_tables
+from pyrofit.tables.diagnosed import DIAGNOSIS_TABLES
+from pyrofit.tables.diagnosis import HELD_OUT, ROLES, effect_name, leading
+from pyrofit.tables.text import number
+
+Found = Mapping[str, Any]
+Frames = Mapping[str, pd.DataFrame]
+_TOO_FEW = ", too few to tell them apart"
+_CURVES = ("mass_loss_rate", "back_temperature", "mass_fraction")
+
+
+def exists(results: Results) -> bool:
+    """Tell whether a study has been diagnosed and that is drawn: its page is written last."""
+    return results.diagnosis("report.html").is_file()
+
+
+def write_page(study: Study, results: Results) -> None:
+    """Write ``diagnosis/report.html`` and the tables, from what was found and the drawn figures.
+
+    Raises
+    ------
+    DataError
+        A result or a figure is missing.
+    """
+    make_diagnosis_tables(study, results)
+    shown = section(study, results)
+    title = f"{study.title or study.name}: diagnosis"
+    said = [headline(study, results), *_facts(outcomes.diagnosis(study, results))]
+    write_text(results.diagnosis("report.html"), page_of(study, results, title, said, [shown]))
+
+
+def headline(study: Study, results: Results) -> str:
+    """Return the verdict in one sentence or two."""
+    found = outcomes.diagnosis(study, results)
+    return _SENTENCES[found["verdict"]["kind"]](found)
+
+
+def section(study: Study, results: Results) -> Section:
+    """Return all that was found, in the order in which it is read."""
+    found = outcomes.diagnosis(study, results)
+    tables, drawn = diagnosis_tables(study, results), figures_of(study, results)
+
+    def parts(text: str, *names: str) -> list[Part | Picture]:
+        """Return the tables and figures that there are, sentences before them."""
+        made: list[Part | Picture] = []
+        for name in names:
+            if name in tables:
+                made.append(table_part(DIAGNOSIS_TABLES[name], tables[name], text))
+                text = ""
+        if text:
+            made.insert(0, Part(DIAGNOSIS_TABLES[names[0]].title, text=text))
+        for name in names:
+            if name in drawn:
+                figure, path = DIAGNOSIS_FIGURES[name], results.diagnosis(f"{name}.svg")
+                made.append(picture(path, f"diagnosis_{name}", figure.title, figure.caption))
+        return made
+
+    return Section(
+        "diagnosis",
+        "What the model lacks",
+        found["verdict"]["words"],
+        (
+            *parts(_where(found), "windows", *_CURVES),
+            *parts(_what(found), "strengths", "candidates", "ranking"),
+            *parts("", "probes"),
+            *parts(_gap(found), "gap"),
+            Part("How sure that is", text=_sure(study, found)),
+            *parts("", "parameters", "noise", "effects"),
+            *parts(_next(found), "next_experiments"),
+            *_extended(study, results, found),
+        ),
+    )
+
+
+def _none(found: Found) -> str:
+    if found["base"]["score"] > found["base"]["score_critical"]:
+        return "The misfit points towards some effect, but none gains enough to be claimed."
+    return "What the model leaves is noise: nothing is missing that these measurements show."
+
+
+def _named(found: Found) -> str:
+    verdict = found["verdict"]
+    of = f" ({verdict['groups'][0]})" if len(verdict["sets"][0]) > 1 else ""
+    return f"One effect is missing{of}: {_sets(verdict)}. {_confirmed(verdict, 'it')}"
+
+
+def _ambiguous(found: Found) -> str:
+    verdict = found["verdict"]
+    if len(verdict["sets"][0]) == 1:
+        return f"One effect is missing, probably {_sets(verdict)}. {_confirmed(verdict, 'it')}"
+    return f"One effect is missing, and these measurements cannot tell which: {_sets(verdict)}."
+
+
+def _multiple(found: Found) -> str:
+    verdict = found["verdict"]
+    count = {2: "Two", 3: "Three"}.get(len(verdict["effects"]), "Several")
+    return f"{count} effects are missing: {_sets(verdict)}. {_confirmed(verdict, 'them')}"
+
+
+def _unknown(found: Found) -> str:
+    best = listed([effect_name(name) for name in found["verdict"]["effects"]])
+    text = "Model and measurement disagree, and no effect of the catalogue explains it"
+    return f"{text}; {best} explains a part." if best else f"{text}."
+
+
+def _confirmed(verdict: Found, what: str) -> str:
+    return (
+        f"Predictions confirm {what}."
+        if verdict["confirmed"]
+        else (f"No prediction confirms {what}.")
+    )
+
+
+_SENTENCES: dict[str, Callable[[Found], str]] = {
+    "none": _none,
+    "named": _named,
+    "ambiguous": _ambiguous,
+    "multiple": _multiple,
+    "unknown": _unknown,
+}
+
+
+def _sets(verdict: Found) -> str:
+    """Name the effects, each with those that cannot be told from it."""
+    return ", and ".join(
+        " or ".join(effect_name(name) for name in names) for names in verdict["sets"]
+    )
+
+
+def _facts(found: Found) -> list[str]:
+    """Return the sentences of a summary: where, the gap, the next experiment."""
+    said = [_where(found), _gap(found)]
+    return said + ([_next(found)] if found["next_experiment"] else [])
+
+
+def _where(found: Found) -> str:
+    here = [w for w in found["windows"] if w["model"] == "base"]
+    base = found["base"]
+    text = (
+        f"The base model leaves chi-square {number(base['chi2'])} on {int(base['points'])} points; "
+        f"noise leaves more than {number(base['chi2_critical'])} in 1 % of studies."
+    )
+    if not here:
+        return f"{text} No stretch of a curve is off by more than noise would be."
+    phases = list(dict.fromkeys(str(w["phase"]) for w in here))
+    stretches = "one stretch" if len(here) == 1 else f"{len(here)} stretches"
+    return f"{text} Curves are off by more than noise in {stretches}: {listed(phases)}."
+
+
+def _what(found: Found) -> str:
+    chosen = leading(found)
+    if not found["candidates"]:
+        return "No effect was tried: there is nothing to explain."
+    if chosen is None:
+        return f"A claim needs a gain of {number(found['needed'])}."
+    names = [f"{effect_name(n)}, {known_effects()[n].equation}" for n in chosen["effects"]]
+    return (
+        f"Chi-square falls from {number(found['base']['chi2'])} to {number(chosen['chi2'])} with "
+        f"{'; and '.join(names)}. The last effect gains {number(chosen['gain'])}; a claim needs "
+        f"{number(found['needed'])}."
+    )
+
+
+def _gap(found: Found) -> str:
+    """Say how far curves are apart in standard deviations, fitted and held out."""
+    parts = []
+    for role in dict.fromkeys(g["role"] for g in found["gap"]):
+        rows = [g for g in found["gap"] if g["role"] == role]
+        points = sum(g["points"] for g in rows)
+        before, after = (
+            (sum(g[f"chi2_{when}"] for g in rows) / points) ** 0.5 for when in ("before", "after")
+        )
+        change = f" to {after:.3g}" if found["verdict"]["effects"] else ""
+        start = "from " if change else ""
+        parts.append(f"{start}{before:.3g}{change} ({ROLES.get(role, role)})")
+    verb = "goes" if found["verdict"]["effects"] else "is"
+    return (
+        f"The gap, root mean square in standard deviations of the noise, {verb} {listed(parts)}; "
+        "1 is noise alone."
+    )
+
+
+def _sure(study: Study, found: Found) -> str:
+    """Say what speaks for the verdict besides the fit, and what against it."""
+    chosen = leading(found)
+    bound = [name for name, p in found["base"]["parameters"].items() if p["at_limit"]]
+    said = [f"Of the base model, {listed(bound)} rest at a limit."] if len(bound) > 1 else []
+    said += [f"Of the base model, {bound[0]} rests at a limit."] if len(bound) == 1 else []
+    said += [] if bound else ["No parameter of the base model rests at a limit."]
+    if chosen is None:
+        return " ".join(said)
+    if chosen.get("adequate") is not None:
+        left = "noise" if chosen["adequate"] else "more than noise"
+        said.append(f"With the effects found the model leaves {left}.")
+    if chosen.get("disagree") is not None:
+        said.append(
+            "That the strength differs from one experiment to another as much as it does has the "
+            f"probability {number(chosen['disagree'])} if it is the same in all."
+        )
+    gains = [
+        f"{gain:+.1f} ({_predicted(study, name)})" for name, gain in chosen["predictions"].items()
+    ]
+    said += [f"The log score of predictions changes by {listed(gains)}; 2 counts."] * bool(gains)
+    return " ".join(said)
+
+
+def _predicted(study: Study, name: str) -> str:
+    if name == HELD_OUT:
+        return "what is held out"
+    return f"{study.experiments[name].title or name} from the others"
+
+
+def _next(found: Found) -> str:
+    if not found["next_experiment"]:
+        return "No experiment is proposed: there are no two models to tell apart."
+    best = max(found["next_experiment"], key=lambda d: float(d["separation_sd"]))
+    short = best["separation_sd"] ** 2 < found["ambiguity"]
+    return (
+        f"Of new experiments, this would separate competing models best: {best['words']}; by "
+        f"{best['separation_sd']:.1f} standard deviations{_TOO_FEW if short else ''}."
+    )
+
+
+def _extended(study: Study, results: Results, found: Found) -> list[Part]:
+    """Say how the study with the named effects is run."""
+    if not found["extended_study"]:
+        return []
+    path = results.diagnosis(found["extended_study"]).as_posix()
+    return [
+        Part(
+            "The study with the effects",
+            text=f"{path} is this study with the effects that were found, at their fitted "
+            "strengths. It is a study like any other:",
+            command=f"snakemake --cores 2 --configfile {path}",
+        )
+    ]

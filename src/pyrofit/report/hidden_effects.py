@@ -1,0 +1,92 @@
+"""The blind test of the diagnosis on one page."""
+
+import pandas as pd
+
+from pyrofit.figures.hidden_effects import HIDDEN_FIGURES, draw_hidden
+from pyrofit.files import write_csv, write_text
+from pyrofit.hidden.places import Places
+from pyrofit.hidden.setting import Setting
+from pyrofit.tables.hidden_effects import diagnosed, twins
+from pyrofit.tables.hidden_rates import DETECTABLE, by_detectability, middles, rates
+from pyrofit.tables.text import markdown
+
+_WRONG = ["id", "hidden", "named", "verdict", "strength", "signals", "noise", "detectability"]
+
+
+def write_hidden_effects(setting: Setting, plan: str, places: Places) -> None:
+    """Write tables, figures and page of a plan whose jobs are done.
+
+    Raises
+    ------
+    StudyError
+        There is no such plan.
+    DataError
+        A job has not been run, or a result is broken.
+    """
+    found = twins(places, diagnosed(places, setting.plan(plan).chunks))
+    tables = {
+        "twins": found,
+        "rates": rates(found),
+        "by_detectability": by_detectability(found),
+        "middles": middles(found),
+    }
+    for name, frame in tables.items():
+        write_csv(places.table(name), frame)
+    draw_hidden(found, places)
+    write_text(places.page, page(setting, plan, tables))
+
+
+def page(setting: Setting, plan: str, tables: dict[str, pd.DataFrame]) -> str:
+    """Return the page as Markdown."""
+    found, all_rates = tables["twins"], tables["rates"]
+    seeds = setting.plan(plan).seeds
+    overall = all_rates[all_rates["by"] == "all"].drop(columns=["by", "of"])
+    by = {
+        f"By {what}": all_rates[all_rates["by"] == what].drop(columns="by")
+        for what in ("signals", "noise")
+    }
+    sections = [
+        f"# Blind test of the diagnosis, plan {plan}\n\n{_summary(found, seeds)}",
+        _section("Rates", overall, "With 95 % intervals of Clopper and Pearson."),
+        *(_section(title, frame) for title, frame in by.items()),
+        _section("By detectability", tables["by_detectability"]),
+        _section("Sets and gaps of claimed effects", tables["middles"]),
+        _section("Wrong claims", _wrong(found), "One effect hidden, or none."),
+        _section("Pairs", found[found["kind"] == "pair"][_WRONG].sort_values("hidden")),
+        _section("Diagnosed without the hidden effect", _left_out(found)),
+        "## Figures\n",
+        *(
+            f"![{name}](figures/{name}.svg)\n\n{caption}\n"
+            for name, (_, caption) in HIDDEN_FIGURES.items()
+        ),
+    ]
+    return "\n".join(sections)
+
+
+def _summary(found: pd.DataFrame, seeds: str) -> str:
+    count = found["kind"].value_counts()
+    kinds = ", ".join(f"{count[kind]} {kind}" for kind in count.index)
+    return (
+        f"{len(found)} twins ({kinds}), seeds of the range '{seeds}'. The diagnosis saw the "
+        "measurements of each, not its truth. Detectability is by how many standard deviations of "
+        f"the noise the base model fails at its best; {DETECTABLE:g} are held to suffice. A claim "
+        "is a verdict of one effect, of an ambiguous set, or of several effects; its name is the "
+        "first of a set, and a second effect that is not there makes it wrong. Effects that these "
+        "data cannot tell apart (a heater's ramp, a clock that is late) count as one.\n"
+    )
+
+
+def _section(title: str, frame: pd.DataFrame, note: str = "") -> str:
+    body = markdown(frame) if len(frame) else "None.\n"
+    return f"## {title}\n\n" + (f"{note}\n\n" if note else "") + body
+
+
+def _wrong(found: pd.DataFrame) -> pd.DataFrame:
+    single = found["kind"].isin(["effect", "null"])
+    wrong = found[single & found["claim"] & ~found["right"]]
+    return wrong[_WRONG].sort_values(["hidden", "id"])
+
+
+def _left_out(found: pd.DataFrame) -> pd.DataFrame:
+    again = found[found["left_out"] != ""].sort_values(["left_out_wrong", "hidden"])
+    return again[["id", "hidden", "left_out", "left_out_named", "left_out_wrong", "signals"]]

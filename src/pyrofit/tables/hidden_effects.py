@@ -1,0 +1,154 @@
+"""The blind test of the diagnosis: what each twin hides beside what was found."""
+
+from collections.abc import Iterable, Mapping
+from typing import Any
+
+import numpy as np
+import pandas as pd
+
+from pyrofit.effects import known_effects
+from pyrofit.files import Keys, read_json
+from pyrofit.hidden.places import Places
+from pyrofit.hidden.twin import same_as
+
+CLAIMS = ("named", "ambiguous", "multiple")
+"""Verdicts that say what is missing."""
+CONFIDENT = ("named", "multiple")
+"""Verdicts that name one effect for each that is missing."""
+Verdict = Mapping[str, Any]
+_NEEDS: dict[Keys, type] = {
+    ("case",): dict,
+    ("detectability",): float,
+    ("score_only",): str,
+    ("verdict", "kind"): str,
+    ("verdict", "effects"): list,
+    ("verdict", "sets"): list,
+    ("gap",): list,
+}
+
+
+def twins(places: Places, cases: Iterable[str]) -> pd.DataFrame:
+    """Return one row for each diagnosed twin, see `row_of`.
+
+    Raises
+    ------
+    DataError
+        A result is missing or broken.
+    """
+    return pd.DataFrame([row_of(read_json(places.case(case), _NEEDS)) for case in sorted(cases)])
+
+
+def diagnosed(places: Places, chunks: int) -> list[str]:
+    """Return the names of the twins of all jobs of a plan.
+
+    Raises
+    ------
+    DataError
+        A job has not been run.
+    """
+    needs: dict[Keys, type] = {("cases",): list}
+    found = [read_json(places.chunk(chunk), needs)["cases"] for chunk in range(chunks)]
+    return [str(case) for part in found for case in part]
+
+
+def row_of(found: Mapping[str, Any]) -> dict[str, Any]:
+    """Judge what was found of a twin by what it hides.
+
+    A claim is right if every effect it leads with is hidden; of an ambiguous one, the first counts.
+    A second effect that is not there makes a claim wrong. Effects that no data of these kinds can
+    tell apart count as one (`same_as`), in sets as well.
+    """
+    case, verdict = found["case"], found["verdict"]
+    hidden = set(case["hidden"])
+    named = leading(verdict)
+    claim = bool(named)
+    listed = _one_name({*verdict["effects"], *(n for names in verdict["sets"] for n in names)})
+    score_only = {found["score_only"]} - {""}
+    return {
+        "id": found["id"],
+        **{key: case[key] for key in ("kind", "strength", "signals", "noise", "seed")},
+        "hidden": " + ".join(sorted(hidden)),
+        "group": " + ".join(sorted(_groups(hidden))),
+        "is_candidate": not hidden & set(case["without"]),
+        "detectability": found["detectability"],
+        "verdict": verdict["kind"],
+        "named": " + ".join(named),
+        "named_group": " + ".join(sorted(_groups(named))),
+        "claim": claim,
+        "unknown": verdict["kind"] == "unknown",
+        "right": claim and _one_name(named) <= _one_name(hidden),
+        "group_right": claim and _groups(named) <= _groups(hidden),
+        "all_lead": claim and _one_name(named) == _one_name(hidden),
+        "in_set": claim and bool(hidden) and _one_name(hidden) <= listed,
+        "set_size": _set_size(verdict) if claim else np.nan,
+        "score_only": found["score_only"],
+        "score_only_right": bool(score_only) and _one_name(score_only) <= _one_name(hidden),
+        **_gaps(found["gap"]),
+        **_left_out(hidden, found.get("left_out")),
+    }
+
+
+def leading(verdict: Verdict) -> list[str]:
+    """Return the effects that a verdict leads with; none if it claims nothing.
+
+    >>> leading({"kind": "ambiguous", "effects": ["k_T", "c_T"]})
+    ['k_T']
+    """
+    if verdict["kind"] not in CLAIMS:
+        return []
+    names = [str(name) for name in verdict["effects"]]
+    return names if verdict["kind"] == "multiple" else names[:1]
+
+
+def one_name(effect: str) -> str:
+    """Return one name for effects that cannot be told apart.
+
+    >>> one_name("time_offset"), one_name("k_T")
+    ('heater_ramp', 'k_T')
+    """
+    return min(same_as(effect))
+
+
+def _one_name(effects: Iterable[str]) -> set[str]:
+    return {one_name(effect) for effect in effects}
+
+
+def _groups(effects: Iterable[str]) -> set[str]:
+    catalogue = known_effects()
+    return {catalogue[effect].group for effect in effects}
+
+
+def _set_size(verdict: Verdict) -> float:
+    sizes = [float(len(_one_name(names))) for names in verdict["sets"]]
+    return float(np.mean(sizes)) if sizes else np.nan
+
+
+def _gaps(gap: list[Mapping[str, Any]]) -> dict[str, float]:
+    """Return root mean squares of the whitened residuals before and after, by role."""
+    row = {}
+    for role in ("calibration", "held out"):
+        here = [entry for entry in gap if entry["role"] == role]
+        points = sum(entry["points"] for entry in here)
+        for when in ("before", "after"):
+            total = sum(entry[f"chi2_{when}"] for entry in here)
+            name = f"{role.replace(' ', '_')}_{when}"
+            row[name] = float(np.sqrt(total / points)) if points else np.nan
+        if role == "held out":
+            row["held_out_gain"] = sum(e["score_gain"] for e in here) if points else np.nan
+    # A verdict without effects changes nothing, and gains nothing.
+    return row | {"held_out_better": bool(row["held_out_gain"] > 0.0)}
+
+
+def _left_out(hidden: set[str], verdict: Verdict | None) -> dict[str, Any]:
+    """Judge the verdict of a diagnosis that cannot name the hidden effect.
+
+    It is wrong if it names, with confidence, an effect of another group.
+    """
+    if verdict is None:
+        return {"left_out": "", "left_out_named": "", "left_out_wrong": False}
+    named = leading(verdict) if verdict["kind"] in CONFIDENT else []
+    return {
+        "left_out": verdict["kind"],
+        "left_out_named": " + ".join(named),
+        "left_out_wrong": not _groups(named) <= _groups(hidden),
+    }

@@ -1,0 +1,165 @@
+"""The blind test of the diagnosis: rates with their intervals, over the table of all twins."""
+
+from collections.abc import Callable, Iterator
+from dataclasses import dataclass
+from itertools import pairwise
+
+import numpy as np
+import pandas as pd
+from scipy.stats import beta
+
+DETECTABLE = 10.0
+"""Standard deviations from which an effect should be named."""
+EDGES = (0.0, 3.0, 10.0, 30.0, 100.0, np.inf)
+"""Limits of the classes of detectability [standard deviations]."""
+LEVEL = 0.95
+Mask = Callable[[pd.DataFrame], "pd.Series[bool]"]
+
+
+@dataclass(frozen=True)
+class Rate:
+    """The share of twins for which a column of the table is true."""
+
+    words: str
+    among: Mask
+    hit: str
+
+
+def interval(hits: int, of: int) -> tuple[float, float]:
+    """Return the 95 % interval of a rate (Clopper and Pearson 1934, doi 10.1093/biomet/26.4.404).
+
+    It holds the true rate in at least 95 % of all cases, however few they are.
+
+    Examples
+    --------
+    No false alarm in 100: the rate is below 1 - 0.025^(1/100).
+
+    >>> [round(float(bound), 4) for bound in interval(0, 100)]
+    [0.0, 0.0362]
+    """
+    tail = 0.5 * (1.0 - LEVEL)
+    low = beta.ppf(tail, hits, of - hits + 1) if hits > 0 else 0.0
+    high = beta.ppf(1.0 - tail, hits + 1, of - hits) if hits < of else 1.0
+    return float(low), float(high)
+
+
+def _of(kind: str) -> Mask:
+    return lambda t: t["kind"] == kind
+
+
+def _plain(t: pd.DataFrame) -> "pd.Series[bool]":
+    return (t["kind"] == "effect") & (t["detectability"] >= DETECTABLE)
+
+
+def _weak(t: pd.DataFrame) -> "pd.Series[bool]":
+    back = t["signals"].str.contains("back")
+    return (t["kind"] == "effect") & (t["strength"] < 1.0) & back
+
+
+def _claimed(among: Mask) -> Mask:
+    return lambda t: among(t) & t["claim"]
+
+
+def _candidate(among: Mask) -> Mask:
+    return lambda t: among(t) & t["is_candidate"]
+
+
+def _predicted(t: pd.DataFrame) -> "pd.Series[bool]":
+    return (t["kind"] == "effect") & t["claim"] & t["held_out_gain"].notna()
+
+
+RATES = (
+    Rate("effect of 10 sd or more: claimed", _plain, "claim"),
+    Rate("effect of 10 sd or more, claimed: name right", _claimed(_plain), "right"),
+    Rate("effect of 10 sd or more, claimed: group right", _claimed(_plain), "group_right"),
+    Rate("effect of 10 sd or more: largest score right", _plain, "score_only_right"),
+    Rate(
+        "effect of 10 sd or more, claimed: largest score right",
+        _claimed(_plain),
+        "score_only_right",
+    ),
+    Rate("effect of part strength, back temperature: name right", _weak, "right"),
+    Rate(
+        "effect of part strength, back temperature, claimed: name right", _claimed(_weak), "right"
+    ),
+    Rate("effect, claimed: truth in set", _claimed(_of("effect")), "in_set"),
+    Rate("effect, claimed: held-out prediction better", _predicted, "held_out_better"),
+    Rate("nothing hidden: claimed", _of("null"), "claim"),
+    Rate("nothing hidden: verdict unknown", _of("null"), "unknown"),
+    Rate(
+        "effect no candidate: another group named",
+        lambda t: t["left_out"] != "",
+        "left_out_wrong",
+    ),
+    Rate("pair: both in the sets", _of("pair"), "in_set"),
+    Rate("pair: both lead", _of("pair"), "all_lead"),
+    Rate("pair, claimed: nothing else leads", _claimed(_of("pair")), "right"),
+    Rate("other form: claimed", _of("form"), "claim"),
+    Rate("other form, claimed: group right", _claimed(_of("form")), "group_right"),
+    Rate(
+        "other form, own effect a candidate, claimed: name right",
+        _claimed(_candidate(_of("form"))),
+        "right",
+    ),
+)
+
+
+def rates(twins: pd.DataFrame) -> pd.DataFrame:
+    """Return all rates over all twins, by signals, and by noise; without those of no twin."""
+    return pd.DataFrame(
+        [
+            {"quantity": rate.words, "by": by, "of": of, **_rate(part[rate.among(part)], rate.hit)}
+            for rate in RATES
+            for by, of, part in _parts(twins)
+            if bool(rate.among(part).any())
+        ]
+    )
+
+
+def _parts(twins: pd.DataFrame) -> Iterator[tuple[str, str, pd.DataFrame]]:
+    yield "all", "", twins
+    for by in ("signals", "noise"):
+        for value in sorted(twins[by].unique()):
+            yield by, str(value), twins[twins[by] == value]
+
+
+def _rate(part: pd.DataFrame, hit: str) -> dict[str, float]:
+    count, hits = len(part), int(part[hit].sum())
+    low, high = interval(hits, count) if count else (0.0, 1.0)
+    share = hits / count if count else np.nan
+    return {"hits": hits, "twins": count, "rate": share, "low": low, "high": high}
+
+
+def by_detectability(twins: pd.DataFrame) -> pd.DataFrame:
+    """Return, by class of detectability, what share of effects is claimed and rightly named."""
+    effects = twins[twins["kind"] == "effect"]
+    rows = []
+    for low, high in pairwise(EDGES):
+        here = effects[(effects["detectability"] >= low) & (effects["detectability"] < high)]
+        for what, hit in SHARES.items():
+            rows.append({"from_sd": low, "to_sd": high, "share": what, **_rate(here, hit)})
+    return pd.DataFrame(rows)
+
+
+SHARES = {
+    "claimed": "claim",
+    "rightly named": "right",
+    "largest score right": "score_only_right",
+}
+"""What is drawn against detectability, by its column."""
+
+
+def middles(twins: pd.DataFrame) -> pd.DataFrame:
+    """Return means and medians over claimed effects, by signals.
+
+    Gaps are root mean squares of whitened residuals, 1 where a model is right.
+    """
+    claimed = twins[(twins["kind"] == "effect") & twins["claim"]]
+    gaps = [f"{r}_{w}" for r in ("calibration", "held_out") for w in ("before", "after")]
+    rows = []
+    for _, of, part in _parts(claimed):
+        row: dict[str, object] = {"of": of or "all", "twins": len(part)}
+        row["set_size_mean"] = part["set_size"].mean()
+        row |= {f"{name}_median": part[name].median() for name in (*gaps, "held_out_gain")}
+        rows.append(row)
+    return pd.DataFrame(rows)

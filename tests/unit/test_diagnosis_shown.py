@@ -1,0 +1,613 @@
+"""Tables, figures and page of a diagnosis, from hand-made results of every kind of verdict."""
+
+import json
+import re
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+import pandas as pd
+import pytest
+from test_report import Page
+from test_tables import described, fake, synthetic
+
+from pyrofit.config import Study
+from pyrofit.diagnose.model import strength_of
+from pyrofit.effects import known_effects
+from pyrofit.errors import DataError
+from pyrofit.figures import FIGURES
+from pyrofit.figures.diagnosis import DIAGNOSIS_FIGURES, draw_all, figures_of
+from pyrofit.files import Results, write_csv, write_json, write_text
+from pyrofit.report import diagnosis as report
+from pyrofit.report import write_report
+from pyrofit.stages import outcomes
+from pyrofit.tables import diagnosis, diagnosis_tables, make_diagnosis_tables
+from pyrofit.tables.diagnosed import DIAGNOSIS_TABLES
+
+KINDS = outcomes.VERDICTS
+CHANNELS = (
+    ("slow", "mass_fraction", "calibration"),
+    ("slab_25", "mlr", "calibration"),
+    ("slab_60", "mlr", "calibration"),
+    ("slab_60", "back_temperature", "held out"),
+)
+UNITS = {"mlr": "kg/(m2 s)", "mass_fraction": "-", "back_temperature": "K"}
+NOISE = {"mlr": 3e-4, "mass_fraction": 0.005, "back_temperature": 1.0}
+EFFECTS = ("k_T", "c_T", "heater_ramp", "time_offset", "front_convection", "melting")
+EFFECTS_OF = {
+    "none": [],
+    "named": ["k_T"],
+    "ambiguous": ["heater_ramp"],
+    "multiple": ["k_T", "melting"],
+    "unknown": [],
+}
+SETS = {"ambiguous": [["heater_ramp", "time_offset"]], "multiple": [["k_T", "c_T"], ["melting"]]}
+HEADLINES = {
+    "none": "What the model leaves is noise",
+    "named": "One effect is missing: slope of the conductivity (k_T). Predictions confirm it.",
+    "ambiguous": "cannot tell which: heater coming up (heater_ramp) or time offset (time_offset).",
+    "multiple": "Two effects are missing: slope of the conductivity (k_T) or slope of the "
+    "specific heat (c_T), and melting. No prediction confirms them.",
+    "unknown": "no effect of the catalogue explains it.",
+}
+
+
+def diagnosed(root: Path, kind: str, given: dict[str, Any] | None = None) -> tuple[Study, Results]:
+    """Write the results of a diagnosis with a verdict."""
+    study, results = fake(root, given)
+    write_json(results.diagnosis("diagnosis.json"), found(study, kind))
+    write_csv(results.diagnosis("curves.csv"), curves(study, kind))
+    return study, results
+
+
+def channels(study: Study) -> list[tuple[str, str, str]]:
+    return [c for c in CHANNELS if c[1] in study.experiments[c[0]].signals]
+
+
+def found(study: Study, kind: str) -> dict[str, Any]:
+    quiet, effects = kind == "none", EFFECTS_OF[kind]
+    return {
+        "schema": 1,
+        "study": study.name,
+        "verdict": {
+            "kind": kind,
+            "effects": effects,
+            "groups": ["conductivity with temperature"] * len(effects),
+            "forms": ["linear in temperature"] * len(effects),
+            "sets": SETS.get(kind, [[name] for name in effects]),
+            "confirmed": kind == "named",
+            "words": f"These are the words of {kind}.",
+            "reasons": [] if quiet else ["chi-square falls by 400.", "predictions improve"],
+        },
+        "noise": [noise_of(c) for c in channels(study)],
+        "base": {
+            "chi2": 330.0 if quiet else 2000.0,
+            "points": 320,
+            "chi2_critical": 380.0,
+            "scan": 2.0 if quiet else 12.0,
+            "scan_critical": 2.5,
+            "score": 1.0 if quiet else 30.0,
+            "score_critical": 3.3,
+            "adequate": quiet,
+            "parameters": {
+                "k": parameter(0.25, "W/(m K)", at_limit=False),
+                "cp": parameter(3.5, "kJ/(kg K)", at_limit=not quiet),
+            },
+        },
+        "windows": [] if quiet else windows(study),
+        "screen": [screened(i, name) for i, name in enumerate(EFFECTS)],
+        "confusability": {"effects": list(EFFECTS), "cosine": cosine()},
+        "needed": 12.4,
+        "ambiguity": 9.0,
+        "candidates": [] if quiet else candidates(kind),
+        "gap": [gap_of(c, effects) for c in channels(study)],
+        "probes": probes() if kind == "unknown" else [],
+        "next_experiment": designs() if kind == "ambiguous" else [],
+        "extended_study": "extended.yaml" if effects else "",
+    }
+
+
+def noise_of(channel: tuple[str, str, str]) -> dict[str, Any]:
+    experiment, signal, role = channel
+    place = {"experiment": experiment, "signal": signal, "role": role, "unit": UNITS[signal]}
+    return {**place, "points": 80, "sd_median": NOISE[signal], "words": "white", "chi2_base": 480.0}
+
+
+def gap_of(channel: tuple[str, str, str], effects: list[str]) -> dict[str, Any]:
+    experiment, signal, role = channel
+    sd = NOISE[signal]
+    after = 1.0 if effects else 5.0
+    return {
+        "experiment": experiment,
+        "signal": signal,
+        "role": role,
+        "points": 80,
+        "unit": UNITS[signal],
+        "noise_sd": sd,
+        "rms_before": 4.0 * sd,
+        "rms_after": after * sd,
+        "chi2_before": 80 * 25.0,
+        "chi2_after": 80 * after**2,
+    }
+
+
+def parameter(value: float, unit: str, **more: Any) -> dict[str, Any]:
+    return {"value": value, "low": 0.9 * value, "high": 1.1 * value, "unit": unit, **more}
+
+
+def windows(study: Study) -> list[dict[str, Any]]:
+    """Windows close to each other, a short one, and one of a TGA."""
+    phases = ["heat-up", "onset", "onset", "plateau", "burn-out", "tail"]
+    starts = [5.0, 60.0, 100.0, 130.0, 330.0, 355.0]
+    ends = [60.0, 80.0, 120.0, 320.0, 352.0, 380.0]
+    slab = [
+        {
+            **window("slab_25", "mlr", phase, start, end),
+            "start_K": None,
+            "end_K": None,
+            "surface_temperature_K": [400.0, 500.0],
+            "model": model,
+        }
+        for model in ("base", "extended")
+        for phase, start, end in zip(phases, starts, ends, strict=True)
+        if model == "base" or phase == "tail"
+    ]
+    tga = {"start_K": 620.0, "end_K": 680.0, "surface_temperature_K": None}
+    return [*slab, {**window("slow", "mass_fraction", "onset", 1500.0, 2400.0), **tga}]
+
+
+def window(experiment: str, signal: str, phase: str, start: float, end: float) -> dict[str, Any]:
+    return {
+        "model": "base",
+        "experiment": experiment,
+        "signal": signal,
+        "start_s": start,
+        "end_s": end,
+        "conversion": [0.1, 0.25],
+        "phase": phase,
+        "sign": -1,
+        "mean": -2.0 * NOISE[signal],
+        "relative": -0.12,
+        "unit": UNITS[signal],
+        "statistic": 7.5,
+        "critical": 2.5,
+    }
+
+
+def screened(i: int, name: str) -> dict[str, Any]:
+    family = ("material", "material", "apparatus", "apparatus", "environment", "material")[i]
+    return {
+        "effect": name,
+        "group": "a group",
+        "family": family,
+        "detectability": 3.0 * 2.0**i,
+        "typical": 1.0,
+        "unit": "-",
+        "z": 30.0 / (i + 1) if i else 0.0,
+        "ahead": 10.0,
+    }
+
+
+def cosine() -> list[list[float]]:
+    matrix = np.eye(len(EFFECTS))
+    matrix[2, 3] = matrix[3, 2] = -0.998
+    matrix[0, 1] = matrix[1, 0] = 0.7
+    return [[float(value) for value in row] for row in matrix]
+
+
+def candidates(kind: str) -> list[dict[str, Any]]:
+    """Every effect alone, the leading one with a form free, a pair; the best is no first."""
+    kept = EFFECTS_OF[kind]
+    alone = [({name: strength(name)}, 1900.0 - 10 * i) for i, name in enumerate(EFFECTS)]
+    form = ({"melting": (*strength("melting"), "temperature_K")}, 1700.0)
+    pair = ({"k_T": strength("k_T"), "melting": strength("melting")}, 400.0)
+    tried = [*alone, form, pair]
+    made = []
+    for free, chi2 in tried:
+        effects = list(free)
+        best = effects == kept or (kind == "ambiguous" and effects[0] in SETS[kind][0])
+        count = sum(len(names) for names in free.values())
+        lower = 350.0 if best else chi2
+        made.append(
+            {
+                "effects": effects,
+                "free": {name: list(names) for name, names in free.items()},
+                "chi2": lower,
+                "gain": 2000.0 - lower,
+                "penalised": lower + count * float(np.log(320)),
+                "parameters": {
+                    f"{effect}_{name}": {
+                        **parameter(-0.00123, "1/K"),
+                        "low_form": -0.005,
+                        "high_form": 0.004,
+                    }
+                    for effect, names in free.items()
+                    for name in names
+                }
+                | {"k": parameter(0.31, "W/(m K)")},
+                "adequate": best,
+                "disagree": 0.25 if best else None,
+                "predictions": {"slab_60": 12.0, "held out": -1.5} if best else {},
+                "rejected": "" if best else "chi-square is 1500 above that of the best",
+            }
+        )
+    return made
+
+
+def strength(name: str) -> tuple[str, ...]:
+    return (strength_of(name)[0],)
+
+
+def probes() -> list[dict[str, Any]]:
+    shapes = {
+        "flux": ("a factor on the external flux that varies over time", "-"),
+        "front_loss": ("another heat loss of the front", "W/m2"),
+    }
+    return [
+        {
+            "probe": name,
+            "what": what,
+            "chi2": 500.0,
+            "absorbed": 0.83,
+            "shape": [[300.0, -0.1], [400.0, 0.05], [600.0, 0.2]],
+            "unit": unit,
+        }
+        for name, (what, unit) in shapes.items()
+    ]
+
+
+def designs() -> list[dict[str, Any]]:
+    return [
+        {
+            "design": f"d{i}",
+            "words": words,
+            "separation_sd": sd,
+            "pairs": {"heater_ramp / time_offset": sd},
+        }
+        for i, (words, sd) in enumerate(
+            (
+                ("gasification at half the flux", 0.7),
+                ("gasification at 90 kW/m² with the back temperature", 6.4),
+            )
+        )
+    ]
+
+
+def curves(study: Study, kind: str) -> pd.DataFrame:
+    rng = np.random.default_rng(3)
+    frames = []
+    for experiment, signal, role in channels(study):
+        time = np.arange(5.0, 405.0, 5.0)
+        shape = np.exp(-(((time - 250.0) / 80.0) ** 2))
+        scale = {"mlr": 0.012, "mass_fraction": 1.0, "back_temperature": 400.0}[signal]
+        sd = NOISE[signal]
+        noise = sd * rng.standard_normal(time.size)
+        off = 0.0 if kind == "none" else 5.0 * sd * np.sin(time / 50.0)
+        true = scale * (1.0 - time / 405.0 if signal == "mass_fraction" else shape)
+        after = true if EFFECTS_OF[kind] else np.nan
+        frames.append(
+            pd.DataFrame(
+                {
+                    "experiment": experiment,
+                    "signal": signal,
+                    "role": role,
+                    "time_s": time,
+                    "temperature_K": 500.0 + time / 2 if signal == "mass_fraction" else np.nan,
+                    "measured": true + noise,
+                    "sd": sd,
+                    "before": true + off,
+                    "after": after,
+                }
+            )
+        )
+    return pd.concat(frames)
+
+
+def table(root: Path, kind: str, name: str) -> pd.DataFrame:
+    study, results = diagnosed(root, kind)
+    return diagnosis_tables(study, results)[name]
+
+
+# Tables
+
+
+def test_values_and_units_of_the_gap_are_those_a_person_works_out(tmp_path: Path) -> None:
+    gap = table(tmp_path, "named", "gap").set_index(["experiment", "signal"])
+    rate = gap.loc[("Slab 25 kW/m²", "mass loss rate")]
+    # 4 sd of 3e-4 kg/(m2 s), and 1; chi-square 25 per point.
+    assert rate["rms_before"] == pytest.approx(1.2)
+    assert rate["rms_after"] == pytest.approx(0.3)
+    assert rate["unit"] == "g/(m² s)"
+    assert rate["closed_percent"] == pytest.approx(75.0)
+    assert (rate["before_sd"], rate["after_sd"]) == (5.0, 1.0)
+    back = gap.loc[("slab_60", "back temperature")]
+    assert (back["role"], back["rms_before"], back["unit"]) == ("held out", 4.0, "K")
+
+
+@pytest.mark.parametrize("kind", ["none", "unknown"])
+def test_without_named_effects_there_is_no_after(kind: str, tmp_path: Path) -> None:
+    study, results = diagnosed(tmp_path, kind)
+    frames = diagnosis_tables(study, results)
+    assert not {"rms_after", "after_sd", "closed_percent"} & set(frames["gap"])
+    assert "extended" not in frames["parameters"]
+    assert "strengths" not in frames
+
+
+def test_windows_say_where_and_how_far(tmp_path: Path) -> None:
+    frame = table(tmp_path, "named", "windows")
+    assert list(frame["model"].unique()) == ["base model", "with the effects found"]
+    first = frame.iloc[0]
+    assert (first["phase"], first["time_s"]) == ("heat-up", "5 to 60")
+    assert first["difference"] == "-0.6 g/(m² s)"
+    assert first["relative_percent"] == pytest.approx(-12.0)
+    assert first["temperature_K"] == "400 to 500"
+    assert frame.iloc[-1]["temperature_K"] == "620 to 680"
+
+
+def test_candidates_are_ranked_and_say_why_they_were_rejected(tmp_path: Path) -> None:
+    frame = table(tmp_path, "named", "candidates")
+    assert list(frame["above_best"]) == sorted(frame["above_best"])
+    best = frame.iloc[0]
+    assert (best["model"], best["gain"], best["remark"]) == (
+        "slope of the conductivity (k_T)",
+        1650.0,
+        "in the verdict",
+    )
+    # The interval is that with the form's uncertainty.
+    assert "-0.00123 (-0.005 to 0.004) 1/K" in best["fitted"]
+    assert best["predictions"] == "slab_60 +12.0; held out -1.5"
+    assert set(frame["remark"][1:]) == {"chi-square is 1500 above that of the best"}
+
+
+def test_what_was_not_rejected_is_only_in_a_verdict_that_claims_it(tmp_path: Path) -> None:
+    study, results = diagnosed(tmp_path, "named")
+    altered(results, "verdict.kind", "unknown")
+    assert diagnosis_tables(study, results)["candidates"]["remark"][0] == "not claimed"
+
+
+def test_strengths_have_both_intervals(tmp_path: Path) -> None:
+    frame = table(tmp_path, "multiple", "strengths")
+    assert list(frame["effect"]) == ["slope of the conductivity (k_T)", "melting"]
+    row = frame.iloc[0]
+    assert row[["low_form", "high_form"]].tolist() == [-0.005, 0.004]
+    assert row["high"] == pytest.approx(1.1 * -0.00123)
+
+
+def test_parameters_stand_beside_those_with_the_effects(tmp_path: Path) -> None:
+    frame = table(tmp_path, "named", "parameters").set_index("parameter")
+    assert frame.loc["k", ["base", "extended"]].tolist() == [0.25, 0.31]
+    assert frame["at_limit"].tolist() == ["", "yes"]
+
+
+def test_tables_are_written_and_those_of_an_earlier_diagnosis_removed(tmp_path: Path) -> None:
+    make_diagnosis_tables(*diagnosed(tmp_path, "unknown"))
+    folder = tmp_path / "diagnosis" / "tables"
+    assert (folder / "probes.md").exists()
+    make_diagnosis_tables(*diagnosed(tmp_path, "named"))
+    assert {p.stem for p in folder.glob("*.csv")} == set(DIAGNOSIS_TABLES) - {
+        "probes",
+        "next_experiments",
+    }
+    assert not (folder / "probes.md").exists()
+
+
+# Figures
+
+
+@pytest.mark.parametrize("kind", KINDS)
+def test_every_figure_there_is_is_drawn(kind: str, tmp_path: Path) -> None:
+    study, results = diagnosed(tmp_path, kind)
+    wanted = {"mass_loss_rate", "back_temperature", "mass_fraction", "effects"}
+    wanted |= set() if kind == "none" else {"ranking"}
+    wanted |= {"probes"} if kind == "unknown" else set()
+    wanted |= {"next_experiments"} if kind == "ambiguous" else set()
+    assert set(draw_all(results, study)) == wanted
+    folder = tmp_path / "diagnosis"
+    assert {p.stem for p in folder.glob("*.png")} == wanted
+    assert all((folder / f"{name}.png").stat().st_size > 5000 for name in wanted)
+
+
+@pytest.mark.parametrize("kind", ["ambiguous", "unknown"])
+def test_figures_are_drawn_alike_each_time(kind: str, tmp_path: Path) -> None:
+    study, results = diagnosed(tmp_path, kind)
+    names = draw_all(results, study)
+    first = {name: results.diagnosis(f"{name}.svg").read_bytes() for name in names}
+    draw_all(results, study)
+    assert {name: results.diagnosis(f"{name}.svg").read_bytes() for name in names} == first
+
+
+def test_figures_of_an_earlier_diagnosis_are_removed(tmp_path: Path) -> None:
+    rectangles(*diagnosed(tmp_path, "unknown"))
+    study, results = diagnosed(tmp_path, "none")
+    assert results.diagnosis("probes.svg").exists()
+    draw_all(results, study)
+    assert not results.diagnosis("probes.svg").exists()
+    assert not results.diagnosis("ranking.svg").exists()
+
+
+def words_of(results: Results, name: str) -> list[str]:
+    """Return the texts of a figure: drawn as paths, the SVG keeps them as comments."""
+    text = results.diagnosis(f"{name}.svg").read_text()
+    return re.findall(r"<!-- (.*?) -->", text)
+
+
+def test_named_windows_and_held_out_signals_are_labelled(tmp_path: Path) -> None:
+    study, results = diagnosed(tmp_path, "named")
+    draw_all(results, study)
+    said = words_of(results, "mass_loss_rate")
+    # Neighbours of one phase carry one label; windows of the extended model carry none.
+    assert [said.count(p) for p in ("heat-up", "onset", "plateau", "tail")] == [1, 1, 1, 1]
+    assert "with the effects found" in said
+    assert "slab_60, held out" in words_of(results, "back_temperature")
+
+
+def test_rejected_candidates_carry_their_reason(tmp_path: Path) -> None:
+    study, results = diagnosed(tmp_path, "ambiguous")
+    draw_all(results, study)
+    said = words_of(results, "ranking")
+    assert said.count("in the verdict") == 3  # two candidates and the legend
+    assert said.count("chi-square is 1500 above that of the best") == len(EFFECTS) + 2 - 2
+    assert "melting (temperature_K)" in said
+
+
+def test_synthetic_data_are_named_in_every_title(tmp_path: Path) -> None:
+    study, results = diagnosed(tmp_path, "named", synthetic())
+    for name in draw_all(results, study):
+        assert "(synthetic data) -->" in results.diagnosis(f"{name}.svg").read_text()
+
+
+def test_a_probe_is_a_factor_or_a_change_with_a_unit(tmp_path: Path) -> None:
+    study, results = diagnosed(tmp_path, "unknown")
+    draw_all(results, study)
+    said = words_of(results, "probes")
+    assert "factor on the flux" in said
+    assert "change of the front loss" in said
+    assert {"[–]", "[kW/m²]"} <= set(said)
+
+
+# Page
+
+
+def rectangles(study: Study, results: Results) -> None:
+    """Write a rectangle for each figure of the diagnosis."""
+    for name in figures_of(study, results):
+        write_text(results.diagnosis(f"{name}.svg"), '<svg width="240.95pt"><rect/></svg>')
+
+
+def page_of(root: Path, kind: str) -> tuple[Page, str]:
+    study, results = diagnosed(root, kind)
+    rectangles(study, results)
+    report.write_page(study, results)
+    text = results.diagnosis("report.html").read_text()
+    return Page(text), text
+
+
+@pytest.mark.parametrize("kind", KINDS)
+def test_page_of_every_verdict_says_it_and_loads_nothing(kind: str, tmp_path: Path) -> None:
+    page, text = page_of(tmp_path, kind)
+    assert HEADLINES[kind] in page.words
+    assert f"These are the words of {kind}." in page.words
+    assert page.loads
+    assert all(load.startswith(("data:image/svg+xml;base64,", "#")) for load in page.loads)
+    assert "http" not in re.sub(r"base64,[A-Za-z0-9+/=]+", "", text)
+    assert "nan" not in re.findall(r"\w+", page.words.casefold())
+    assert "None" not in re.findall(r"\w+", page.words)
+    command = "snakemake --cores 2 --configfile" in page.words
+    assert command == bool(EFFECTS_OF[kind])
+
+
+@pytest.mark.parametrize(
+    ("kind", "place", "value", "said"),
+    [
+        ("none", "base.score", 9.0, "none gains enough to be claimed."),
+        ("ambiguous", "verdict.sets", [["heater_ramp"]], "missing, probably heater coming up ("),
+        ("named", "verdict.sets", [["k_T", "c_T"]], "missing (conductivity with temperature): sl"),
+        ("unknown", "verdict.effects", ["melting"], "explains it; melting explains a part."),
+    ],
+)
+def test_headline_says_what_is_left_open(
+    kind: str, place: str, value: Any, said: str, tmp_path: Path
+) -> None:
+    study, results = diagnosed(tmp_path, kind)
+    altered(results, place, value)
+    assert said in report.headline(study, results)
+
+
+def test_page_says_the_numbers(tmp_path: Path) -> None:
+    page, _ = page_of(tmp_path, "named")
+    words = " ".join(page.words.split())
+    assert "The base model leaves chi-square 2000 on 320 points" in words
+    assert "in 7 stretches: heat-up, onset, plateau, burn-out and tail" in words
+    equation = known_effects()["k_T"].equation
+    assert (
+        "Chi-square falls from 2000 to 350 with slope of the conductivity (k_T), "
+        f"{equation}. The last effect gains 1650; a claim needs 12.4."
+    ) in words
+    assert "goes from 5 to 1 (fitted) and from 5 to 1 (held out)" in words
+    assert "cp rests at a limit" in words
+    assert "+12.0 (slab_60 from the others) and -1.5 (what is held out)" in words
+
+
+def test_page_of_an_ambiguous_verdict_says_what_to_measure(tmp_path: Path) -> None:
+    page, _ = page_of(tmp_path, "ambiguous")
+    words = " ".join(page.words.split())
+    assert "best: gasification at 90 kW/m² with the back temperature; by 6.4 standard" in words
+
+
+def test_report_shows_the_diagnosis_where_there_is_one(tmp_path: Path) -> None:
+    study, results = diagnosed(tmp_path, "named")
+    rectangles(study, results)
+    for name, figure in FIGURES.items():
+        if figure.applies(study):
+            write_text(tmp_path / "figures" / f"{name}.svg", '<svg width="240.95pt"><rect/></svg>')
+    write_report(study, results)
+    assert "diagnosis" not in Page((tmp_path / "report.html").read_text()).ids
+    report.write_page(study, results)
+    write_report(study, results)
+    page = Page((tmp_path / "report.html").read_text())
+    assert "diagnosis" in page.ids
+    assert len(set(page.ids)) == len(page.ids)
+    assert page.words.count(HEADLINES["named"]) == 1
+    assert "These are the words of named." in page.words
+
+
+def test_page_without_drawn_figures_says_to_draw_them(tmp_path: Path) -> None:
+    study, results = diagnosed(tmp_path, "named")
+    with pytest.raises(DataError, match=r"mass_loss_rate\.svg: cannot be read .*; draw it first"):
+        report.write_page(study, results)
+
+
+# Broken results
+
+
+def altered(results: Results, place: str, value: Any) -> None:
+    path = results.diagnosis("diagnosis.json")
+    content = json.loads(path.read_text())
+    part: Any = content
+    *keys, last = place.split(".")
+    for key in keys:
+        part = part[int(key) if key.isdigit() else key]
+    part[last] = value
+    write_json(path, content)
+
+
+@pytest.mark.parametrize(
+    ("place", "value", "message"),
+    [
+        ("study", "other", "the diagnosis of another study"),
+        ("noise.0.experiment", "gone", "the diagnosis of another study"),
+        ("verdict.kind", "perhaps", "unknown verdict 'perhaps'"),
+        ("verdict.sets", [], r"'verdict\.sets' is empty"),
+        ("windows.0.phase", None, r"'windows\.0\.phase' is not text"),
+        ("candidates.1.gain", "many", r"'candidates\.1\.gain' is not a finite number"),
+        ("base.chi2", None, r"'base\.chi2' is not a finite number"),
+    ],
+)
+def test_broken_diagnosis_is_refused_and_named(
+    place: str, value: Any, message: str, tmp_path: Path
+) -> None:
+    study, results = diagnosed(tmp_path, "named")
+    altered(results, place, value)
+    with pytest.raises(DataError, match=message):
+        outcomes.diagnosis(study, results)
+
+
+def test_curves_that_lack_a_channel_are_refused(tmp_path: Path) -> None:
+    study, results = diagnosed(tmp_path, "named")
+    frame = curves(study, "named")
+    write_csv(results.diagnosis("curves.csv"), frame[frame["experiment"] != "slow"])
+    with pytest.raises(DataError, match="experiment 'slow', signal 'mass_fraction' is missing"):
+        outcomes.diagnosed_curves(study, results)
+
+
+def test_leading_candidate_is_the_best_that_was_not_rejected(tmp_path: Path) -> None:
+    study, _ = diagnosed(tmp_path, "named", described())
+    chosen = diagnosis.leading(found(study, "named"))
+    assert chosen is not None
+    assert (chosen["effects"], chosen["rejected"]) == (["k_T"], "")
+    assert diagnosis.leading(found(study, "unknown")) is None
+
+
+def test_every_figure_belongs_to_some_verdict(tmp_path: Path) -> None:
+    shown = {n for kind in KINDS for n in figures_of(*diagnosed(tmp_path / kind, kind))}
+    assert shown == set(DIAGNOSIS_FIGURES)

@@ -1,0 +1,43 @@
+DIAGNOSIS = results.diagnosis("diagnosis.json")
+
+
+rule diagnosis:
+    input:
+        MEASUREMENTS,
+    output:
+        DIAGNOSIS,
+        results.diagnosis("curves.csv"),
+    log:
+        log_of("diagnosis"),
+    benchmark:
+        benchmark_of("diagnosis")
+    params:
+        digest=digest(slices.diagnose(study)),
+        source=COMPUTES,
+    message:
+        "Which effect the model lacks"
+    shell:
+        "pyrofit diagnose --study {STUDY} --digest {params.digest} --log {log}"
+
+
+rule diagnosis_page:
+    input:
+        MEASUREMENTS,
+        DIAGNOSIS,
+        results.diagnosis("curves.csv"),
+    output:
+        results.diagnosis("report.html"),
+    log:
+        log_of("diagnosis_page"),
+    params:
+        digest=digest(slices.presentation(study)),
+        source=SHOWS,
+    message:
+        "Diagnosis: {output}"
+    shell:
+        "pyrofit diagnosis-page --study {STUDY} --digest {params.digest} --log {log}"
+
+
+rule diagnose:
+    input:
+        results.diagnosis("report.html"),

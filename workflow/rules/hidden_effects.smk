@@ -1,0 +1,87 @@
+from pyrofit.hidden.places import FOLDER, Places
+from pyrofit.hidden.setting import read_setting
+from pyrofit.figures.hidden_effects import HIDDEN_FIGURES
+
+HIDDEN_EFFECTS = "config/hidden_effects.yaml"
+try:
+    blind = read_setting(Path(HIDDEN_EFFECTS))
+    BLIND = digest(
+        [blind.model_dump(exclude={"plans"}), read_mapping(Path(blind.base))]
+    )
+except PyrofitError as error:
+    raise WorkflowError(str(error)) from None
+
+
+def places_of(plan):
+    return Places(FOLDER / plan)
+
+
+def chunks_of(wildcards):
+    """Return what the jobs of a plan leave behind."""
+    chunks = range(blind.plan(wildcards.plan).chunks)
+    return [places_of(wildcards.plan).chunk(chunk) for chunk in chunks]
+
+
+def blind_digest(wildcards):
+    """Return a digest of what the twins of a plan depend on."""
+    return digest([BLIND, blind.plan(wildcards.plan).model_dump()])
+
+
+# A twin that has been diagnosed is a file of its own, which no rule removes: after a stop, a job
+# goes on with the next.
+rule hidden_effects_chunk:
+    output:
+        places_of("{plan}").root / "chunks/{chunk}.json",
+    log:
+        FOLDER / "{plan}/logs/{chunk}.log",
+    benchmark:
+        FOLDER / "{plan}/benchmarks/{chunk}.tsv"
+    wildcard_constraints:
+        plan="|".join(blind.plans),
+        chunk=r"\d+",
+    params:
+        digest=blind_digest,
+        source=COMPUTES,
+    message:
+        "Blind test of the diagnosis, plan {wildcards.plan}, job {wildcards.chunk}"
+    shell:
+        "pyrofit hidden-effects --setting {HIDDEN_EFFECTS} --plan {wildcards.plan}"
+        " --chunk {wildcards.chunk} --log {log}"
+
+
+rule hidden_effects_page:
+    input:
+        chunks_of,
+    output:
+        page=FOLDER / "{plan}/page.md",
+        tables=[
+            FOLDER / f"{{plan}}/tables/{name}.csv"
+            for name in ("twins", "rates", "by_detectability", "middles")
+        ],
+        figures=[
+            FOLDER / f"{{plan}}/figures/{name}.{kind}"
+            for name in HIDDEN_FIGURES
+            for kind in ("svg", "png")
+        ],
+    log:
+        FOLDER / "{plan}/logs/page.log",
+    wildcard_constraints:
+        plan="|".join(blind.plans),
+    params:
+        digest=blind_digest,
+        source=SHOWS,
+    message:
+        "Blind test of the diagnosis, plan {wildcards.plan}: tables, figures, page"
+    shell:
+        "pyrofit hidden-effects --setting {HIDDEN_EFFECTS} --plan {wildcards.plan}"
+        " --log {log}"
+
+
+rule hidden_effects:
+    input:
+        FOLDER / "full/page.md",
+
+
+rule hidden_effects_short:
+    input:
+        FOLDER / "short/page.md",
