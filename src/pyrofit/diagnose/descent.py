@@ -8,6 +8,7 @@ updated ones lead nowhere.
 from dataclasses import dataclass, replace
 
 import numpy as np
+from scipy.optimize import lsq_linear
 
 from pyrofit.diagnose.model import Model
 from pyrofit.solver.arrays import FloatArray
@@ -74,25 +75,15 @@ def refreshed(model: Model, fit: Fit) -> Fit:
 
 
 def _step(J: FloatArray, r: FloatArray, x: FloatArray, damping: float) -> tuple[FloatArray, float]:
-    """Return a damped step that stays within the limits, and the fall of chi-square it promises.
+    """Return the best damped step within the limits, and the fall of chi-square it promises.
 
-    What a limit stops rests there, and the others step without it.
+    The least of 2 g^T s + s^T (J^T J + D) s for limits of s (Stark and Parker 1995, Comput. Stat.
+    10, 129): a step that is cut off at the limits one by one may promise next to nothing.
     """
     bend, slope = J.T @ J, J.T @ r
-    free = ~((x <= 0.0) & (slope > 0.0)) & ~((x >= 1.0) & (slope < 0.0))
-    step = np.zeros(x.size)
-    for _ in range(x.size):
-        index = np.flatnonzero(free)
-        if not index.size:
-            break
-        held = slope[index] + bend[np.ix_(index, ~free)] @ step[~free]
-        part = bend[np.ix_(index, index)]
-        damped = part + np.diag(damping * np.diag(part) + PRIOR)
-        step[index] = -np.linalg.solve(damped, held)
-        beyond = free & ((x + step < 0.0) | (x + step > 1.0))
-        if not beyond.any():
-            break
-        step[beyond] = np.clip(x + step, 0.0, 1.0)[beyond] - x[beyond]
-        free &= ~beyond
-    promised = -float(2.0 * slope @ step + step @ bend @ step)
-    return step, promised
+    R = np.linalg.cholesky(bend + np.diag(damping * np.diag(bend) + PRIOR)).T
+    best = lsq_linear(
+        R, -np.linalg.solve(R.T, slope), (-x, 1.0 - x), method="bvls", max_iter=10 * x.size
+    )
+    step = np.asarray(best.x)
+    return step, -float(2.0 * slope @ step + step @ bend @ step)

@@ -55,7 +55,7 @@ def examine(
     tell(f"base model: chi-square {setup.base.fit.chi2:.1f} of {setup.base.model.points} points")
     rng = np.random.default_rng(study.seed)
     found = search(setup.base, setup.candidates, study.diagnosis.most_effects, rng, tell)
-    verdict = judge(found)
+    verdict = judge(found, rng)
     content = record.content(study, found, verdict)
     content["probes"] = [asdict(p) for p in (_probes(found, verdict) if advise else [])]
     designs = _designs(found, verdict) if advise else []

@@ -17,6 +17,7 @@ import numpy as np
 from scipy.stats import chi2 as chi_squared
 
 from pyrofit.diagnose.descent import Fit, descend, refreshed
+from pyrofit.diagnose.locate import alarm
 from pyrofit.diagnose.model import UNIFORM, model_of
 from pyrofit.diagnose.refit import Trial
 from pyrofit.diagnose.screen import project, projector
@@ -40,6 +41,8 @@ class Trust:
     """Probability that equal strengths look as different between experiments."""
     gains: dict[str, float]
     """Gain of the log score, by experiments left out or held out."""
+    explains: bool
+    """Whether the model fits what is held out as well, once that is fitted, too."""
 
     @property
     def informative(self) -> bool:
@@ -109,11 +112,11 @@ def left_out(trial: Trial, experiment: str) -> float:
     return forecast(refreshed(model, descend(model, trial.fit.x)), trial.fit)
 
 
-def held_out(trial: Trial) -> float:
-    """Return the log score of the channels that are held out."""
+def with_held_out(trial: Trial) -> Trial:
+    """Fit what is held out, too."""
     base = trial.model.base
     whole = model_of(base, trial.model.effects, (*trial.model.channels, *base.held_out))
-    return forecast(trial.fit, refreshed(whole, descend(whole, trial.fit.x)))
+    return Trial(whole, refreshed(whole, descend(whole, trial.fit.x)))
 
 
 def slabs(trial: Trial) -> list[str]:
@@ -125,21 +128,28 @@ def slabs(trial: Trial) -> list[str]:
 
 
 def forecasts(trial: Trial) -> dict[str, float]:
-    """Return all predictions: of each experiment from the others, and of what is held out."""
+    """Return the log scores of all predictions: of experiments from the others, and held out."""
     found = {name: left_out(trial, name) for name in slabs(trial)}
     if trial.model.base.held_out:
-        found["held out"] = held_out(trial)
+        found["held out"] = forecast(trial.fit, with_held_out(trial).fit)
     return found
 
 
-def trust(trial: Trial, without: dict[str, float], effect: str) -> Trust:
-    """Return what speaks for or against the last effect of a model.
+def trust(trial: Trial, without: dict[str, float], effect: str, rng: np.random.Generator) -> Trust:
+    """Return what speaks for or against an effect of a model.
 
     Parameters
     ----------
     without
         The predictions without it.
+    rng
+        Source of the draws of noise that what is held out is compared with.
     """
-    own = forecasts(trial)
+    own = {name: left_out(trial, name) for name in slabs(trial)}
+    explains = True
+    if trial.model.base.held_out:
+        whole = with_held_out(trial)
+        own["held out"] = forecast(trial.fit, whole.fit)
+        explains = alarm(whole.model, whole.fit, [], rng).adequate
     gains = {name: own[name] - before for name, before in without.items()}
-    return Trust(at_limit(trial, effect), disagreement(trial, effect), gains)
+    return Trust(at_limit(trial, effect), disagreement(trial, effect), gains, explains)

@@ -48,8 +48,7 @@ def _verdict(verdict: Verdict) -> dict[str, Any]:
         "groups": [catalogue[name].group for name in leading],
         "forms": [form_of(finding) for finding in verdict.findings],
         "sets": [finding.effects for finding in verdict.findings],
-        "confirmed": verdict.kind in ("named", "multiple")
-        and all(finding.predicted for finding in verdict.findings),
+        "confirmed": verdict.confirmed,
         "words": sentences(verdict),
         "reasons": list(verdict.reasons),
     }
@@ -177,10 +176,11 @@ def _key(trial: Trial) -> frozenset[tuple[str, tuple[str, ...]]]:
 
 def _judgement(judged: Judged | None) -> dict[str, Any]:
     if judged is None:
-        return {"disagree": None, "predictions": {}, "rejected": ""}
+        return {"disagree": None, "predictions": {}, "explains": None, "rejected": ""}
     return {
         "disagree": judged.trust.disagree,
         "predictions": judged.trust.gains,
+        "explains": judged.trust.explains,
         "rejected": judged.rejected,
     }
 

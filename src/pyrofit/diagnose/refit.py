@@ -7,8 +7,9 @@ import numpy as np
 
 from pyrofit.diagnose.descent import Fit, descend, refreshed
 from pyrofit.diagnose.model import UNIFORM, Model, extended, fraction, model_of, strength_of
-from pyrofit.diagnose.screen import Look, look
+from pyrofit.diagnose.screen import Look, look, project, projector
 from pyrofit.effects import known_effects
+from pyrofit.effects.base import Quantity
 from pyrofit.solver.arrays import FloatArray
 
 STARTS = 3
@@ -129,22 +130,27 @@ def polished(trial: Trial) -> Trial:
 
 
 def with_form(trial: Trial, effect: str, parameter: str) -> Trial:
-    """Fit a form parameter of an effect in addition; never worse than without it."""
+    """Fit a form parameter of an effect in addition, from its usual value and the best of others.
+
+    Never worse than without it.
+    """
     quantity = known_effects()[effect].quantities[parameter]
     free = {n: (*f, parameter) if n == effect else f for n, f in trial.model.effects.items()}
     model = model_of(trial.model.base, free, trial.model.channels)
     at = model.names.index(f"{effect}_{parameter}")
-    best: Fit | None = None
-    for value in _forms(quantity.lower, quantity.value, quantity.upper):
-        x = np.insert(trial.fit.x, at, fraction(quantity, value))
-        end = descend(model, x)
-        best = end if best is None or end.chi2 < best.chi2 else best
-    assert best is not None
-    return Trial(model, best)
+    usual, *others = (
+        np.insert(trial.fit.x, at, fraction(quantity, value)) for value in _forms_of(quantity)
+    )
+    spanned = projector(trial.fit)
+    ahead = [float(np.sum(project(spanned, model.residuals(x)) ** 2)) for x in others]
+    ends = [descend(model, usual), descend(model, others[int(np.argmin(ahead))])]
+    return Trial(model, min(ends, key=lambda end: end.chi2))
 
 
-def _forms(lower: float, usual: float, upper: float) -> Sequence[float]:
-    return (usual, 0.5 * (lower + usual), 0.5 * (usual + upper))
+def _forms_of(quantity: Quantity) -> Sequence[float]:
+    """Return the usual value of a form parameter, another one, and two towards the limits."""
+    lower, usual, upper = quantity.lower, quantity.value, quantity.upper
+    return (usual, quantity.typical, 0.5 * (lower + usual), 0.5 * (usual + upper))
 
 
 def look_at(trial: Trial, effects: Sequence[str]) -> list[Look]:

@@ -14,6 +14,8 @@ from pyrofit.diagnose.setup import blurred, clearer, refitted, with_noise_about
 from pyrofit.effects import known_effects
 
 LEADING = 3
+"""Effects about which the noise is estimated again."""
+FORMED = 5
 """Effects that are tried in other forms."""
 AMBIGUOUS = 9.0
 """Models whose penalised chi-square is above the best one's by less are not told apart."""
@@ -97,7 +99,7 @@ def search(
     best, best_alarm, rounds = first.start, first.alarm, [first]
     if first.alarm.silent:
         return Search((first,), best, best_alarm, spare)
-    rounds = [replace(first, trials=_singles(first, rng, tell))]
+    rounds = [replace(first, trials=_singles(first, tell))]
     beam = _claims(rounds, spare)
     while beam:
         steps = [_onwards(beam[0], effects, rng)]
@@ -138,17 +140,11 @@ def _look(trial: Trial, effects: Sequence[str], rng: np.random.Generator) -> Rou
     return Round(trial, alarm(trial.model, trial.fit, looks, rng), tuple(looks))
 
 
-def _singles(step: Round, rng: np.random.Generator, tell: Tell) -> tuple[Trial, ...]:
-    """Fit every effect alone, then those that lead with a form parameter each.
-
-    Where the best leaves noise only, those lead that a form parameter could bring near it.
-    """
+def _singles(step: Round, tell: Tell) -> tuple[Trial, ...]:
+    """Fit every effect alone, then the leading ones that have several forms in these."""
     trials = _polished(_fitted(step, len(step.looks), tell))
-    leading = trials[:LEADING]
-    best = leading[0]
-    if alarm(best.model, best.fit, [], rng).adequate:
-        near = best.penalised + AMBIGUOUS + float(np.log(best.model.points))
-        leading = [trial for trial in leading if trial.penalised < near and trial is not best]
+    catalogue = known_effects()
+    leading = [trial for trial in trials if catalogue[trial.effects[-1]].form][:FORMED]
     return _sorted([*trials, *_forms(leading, tell)])
 
 

@@ -4,6 +4,8 @@ from collections.abc import Sequence
 from dataclasses import dataclass, replace
 from typing import Literal
 
+import numpy as np
+
 from pyrofit.diagnose.descent import refreshed
 from pyrofit.diagnose.gates import AGREE, INFORMATIVE, Trust, forecasts, trust
 from pyrofit.diagnose.refit import Trial
@@ -66,6 +68,11 @@ class Finding:
         """Whether predictions improve with each one that is kept."""
         return bool(self.kept) and all(judged.trust.predicts for judged in self.kept)
 
+    @property
+    def explains(self) -> bool:
+        """Whether the leading one fits what is held out, too."""
+        return bool(self.kept) and self.kept[0].trust.explains
+
 
 @dataclass(frozen=True, eq=False)
 class Verdict:
@@ -75,10 +82,22 @@ class Verdict:
     findings: tuple[Finding, ...]
     reasons: tuple[str, ...]
 
+    @property
+    def confirmed(self) -> bool:
+        """Whether effects are claimed that explain and predict what was not fitted."""
+        sure = all(finding.predicted and finding.explains for finding in self.findings)
+        return self.kind in ("named", "multiple") and sure
 
-def judge(found: Search) -> Verdict:
-    """Return what may be claimed of a search's end."""
-    findings = tuple(_finding(found, effect) for effect in found.end.effects)
+
+def judge(found: Search, rng: np.random.Generator) -> Verdict:
+    """Return what may be claimed of a search's end.
+
+    Parameters
+    ----------
+    rng
+        Source of the draws of noise that what is held out is compared with.
+    """
+    findings = tuple(_finding(found, effect, rng) for effect in found.end.effects)
     if not findings:
         return _without_effects(found)
     reasons = [f"{f.effect}: {j.rejected}" for f in findings for j in f.judged[:1] if j.rejected]
@@ -105,7 +124,8 @@ def _without_effects(found: Search) -> Verdict:
 
 
 def _open(finding: Finding, reasons: Sequence[str]) -> bool:
-    return not finding.group or not finding.predicted or any(r.startswith("only") for r in reasons)
+    sure = finding.group and finding.predicted and finding.explains
+    return not sure or any(reason.startswith("only") for reason in reasons)
 
 
 def _doubts(found: Search, findings: Sequence[Finding]) -> list[str]:
@@ -115,6 +135,8 @@ def _doubts(found: Search, findings: Sequence[Finding]) -> list[str]:
     slab = {base.channels[i] for i in base.calibrated if base.channels[i][1] != "mass_fraction"}
     if len(slab) == 1 and {signal for _, signal in slab} == {"mlr"}:
         doubts.append("only the mass loss rate at one flux is calibrated")
+    if not all(finding.explains for finding in findings):
+        doubts.append("what is held out is not explained, not even if it is fitted, too")
     return doubts + [
         f"{finding.leading}: no prediction confirms it clearly"
         for finding in findings
@@ -122,13 +144,13 @@ def _doubts(found: Search, findings: Sequence[Finding]) -> list[str]:
     ]
 
 
-def _finding(found: Search, effect: str) -> Finding:
+def _finding(found: Search, effect: str, rng: np.random.Generator) -> Finding:
     others = tuple(name for name in found.end.effects if name != effect)
     without = dropped(found.end, effect) if others else found.base
     before = forecasts(without)
     judged = []
     for name, trial in alternatives(found, effect):
-        about = trust(trial, before, name)
+        about = trust(trial, before, name, rng)
         judged.append(Judged(name, trial, about, _against(found, trial, about)))
     return Finding(effect, tuple(judged))
 

@@ -13,8 +13,6 @@ from pyrofit.hidden.twin import same_as
 
 CLAIMS = ("named", "ambiguous", "multiple")
 """Verdicts that say what is missing."""
-CONFIDENT = ("named", "multiple")
-"""Verdicts that name one effect for each that is missing."""
 Verdict = Mapping[str, Any]
 _NEEDS: dict[Keys, type] = {
     ("case",): dict,
@@ -146,7 +144,7 @@ def _left_out(hidden: set[str], verdict: Verdict | None) -> dict[str, Any]:
     """
     if verdict is None:
         return {"left_out": "", "left_out_named": "", "left_out_wrong": False}
-    named = leading(verdict) if verdict["kind"] in CONFIDENT else []
+    named = leading(verdict) if verdict["confirmed"] else []
     return {
         "left_out": verdict["kind"],
         "left_out_named": " + ".join(named),
