@@ -55,6 +55,8 @@ rule report:
         CALCULATED,
         expand(ROOT / "tables/{name}.md", name=SHOWN_TABLES),
         expand(ROOT / "figures/{name}.svg", name=SHOWN_FIGURES),
+        # Once a study has been diagnosed, its report shows that, kept up to date.
+        [page for page in [results.diagnosis("report.html")] if page.exists()],
     output:
         page=ROOT / "report.html",
         provenance=ROOT / "provenance.json",

@@ -21,6 +21,7 @@ from pyrofit.diagnose.locate import alarm
 from pyrofit.diagnose.model import UNIFORM, model_of
 from pyrofit.diagnose.refit import Trial
 from pyrofit.diagnose.screen import project, projector
+from pyrofit.diagnose.setup import refitted, with_noise_about
 from pyrofit.solver.arrays import FloatArray
 
 AT_LIMIT = 0.005
@@ -150,6 +151,8 @@ def trust(trial: Trial, without: dict[str, float], effect: str, rng: np.random.G
     if trial.model.base.held_out:
         whole = with_held_out(trial)
         own["held out"] = forecast(trial.fit, whole.fit)
+        # The scores are compared under one noise; this is judged under the one that it leaves.
+        whole = refitted(whole, with_noise_about(whole, trial.model.base.held_out))
         explains = alarm(whole.model, whole.fit, [], rng).adequate
     gains = {name: own[name] - before for name, before in without.items()}
     return Trust(at_limit(trial, effect), disagreement(trial, effect), gains, explains)

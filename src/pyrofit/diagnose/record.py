@@ -12,7 +12,7 @@ from pyrofit.diagnose.model import model_of, strength_of
 from pyrofit.diagnose.phases import describe
 from pyrofit.diagnose.refit import Trial
 from pyrofit.diagnose.screen import confusability
-from pyrofit.diagnose.search import AMBIGUOUS, Search
+from pyrofit.diagnose.search import AMBIGUOUS, Round, Search
 from pyrofit.diagnose.verdict import Judged, Verdict
 from pyrofit.diagnose.words import form_of, sentences
 from pyrofit.effects import known_effects
@@ -151,22 +151,33 @@ def _candidates(found: Search, verdict: Verdict) -> list[dict[str, Any]]:
     judged = {_key(j.trial): j for finding in verdict.findings for j in finding.judged}
     best = found.end.penalised
     rows = []
-    for step in found.rounds:
-        for trial in step.trials:
-            row = {
-                "effects": list(trial.effects),
-                "free": {name: list(free) for name, free in trial.model.effects.items()},
-                "chi2": trial.fit.chi2,
-                "gain": step.start.fit.chi2 - trial.fit.chi2,
-                "penalised": trial.penalised,
-                "parameters": strengths(trial, _key(trial) in judged),
-                "adequate": found.end_alarm.adequate if _key(trial) == _key(found.end) else None,
-                **_judgement(judged.get(_key(trial))),
-            }
-            if not row["rejected"] and _key(trial) not in judged:
-                row["rejected"] = _why_not(found, step.start, trial, best)
-            rows.append(row)
-    return sorted(rows, key=lambda row: float(row["penalised"]))
+    for step, trial in _models(found):
+        row = {
+            "effects": list(trial.effects),
+            "free": {name: list(free) for name, free in trial.model.effects.items()},
+            "chi2": trial.fit.chi2,
+            "gain": step.start.fit.chi2 - trial.fit.chi2,
+            "penalised": trial.penalised,
+            "parameters": strengths(trial, _key(trial) in judged),
+            "adequate": found.end_alarm.adequate if _key(trial) == _key(found.end) else None,
+            **_judgement(judged.get(_key(trial))),
+        }
+        if not row["rejected"] and _key(trial) not in judged:
+            row["rejected"] = _why_not(found, step.start, trial, best)
+        rows.append(row)
+    return rows
+
+
+def _models(found: Search) -> list[tuple[Round, Trial]]:
+    """Return all fits, the best penalised chi-square first, each model once.
+
+    Two effects are fitted twice, where each of them was carried on.
+    """
+    fits = [(step, trial) for step in found.rounds for trial in step.trials]
+    models: dict[Any, tuple[Round, Trial]] = {}
+    for step, trial in sorted(fits, key=lambda fit: fit[1].penalised):
+        models.setdefault(_key(trial), (step, trial))
+    return list(models.values())
 
 
 def _key(trial: Trial) -> frozenset[tuple[str, tuple[str, ...]]]:

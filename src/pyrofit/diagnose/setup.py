@@ -1,5 +1,6 @@
 """From a study and its measurements to the base model's fit, noise and all."""
 
+from collections.abc import Sequence
 from dataclasses import dataclass, replace
 
 import numpy as np
@@ -106,18 +107,22 @@ def _chi2(residuals: FloatArray) -> float:
     return float(residuals @ residuals)
 
 
-def with_noise_about(trial: Trial) -> Base:
-    """Return the base with each channel's noise about a fitted curve, where that explains more."""
+def with_noise_about(trial: Trial, channels: Sequence[int] | None = None) -> Base:
+    """Return the base with channels' noise about a fitted curve, where that explains more.
+
+    By default of all channels.
+    """
     base = trial.model.base
     problem = base.likelihood.problem
-    every = tuple(range(len(problem.picks)))
-    model = model_of(base, trial.model.effects, every)
-    curves = model.likelihood.curves(trial.fit.x)
+    every = range(len(problem.picks))
+    curves = model_of(base, trial.model.effects, every).likelihood.curves(trial.fit.x)
     if curves is None:
         return base
-    parts = zip(every, base.likelihood.noise, base.likelihood.split(curves), strict=True)
-    noise = tuple(_noise(problem, i, known, curve) for i, known, curve in parts)
-    return replace(base, likelihood=Likelihood(problem, noise))
+    noise = list(base.likelihood.noise)
+    parts = base.likelihood.split(curves)
+    for i in every if channels is None else channels:
+        noise[i] = _noise(problem, i, noise[i], parts[i])
+    return replace(base, likelihood=Likelihood(problem, tuple(noise)))
 
 
 def _noise(problem: Problem, channel: int, known: NoiseModel, about: FloatArray) -> NoiseModel:
