@@ -6,37 +6,12 @@ import os
 import sys
 from collections.abc import Callable, Sequence
 from pathlib import Path
-from typing import IO, Any
+from typing import Any
 
 from pyrofit.errors import PyrofitError, StudyError, suggest
+from pyrofit.logs import Tee, open_log
 
 Step = Callable[[argparse.Namespace], None]
-
-
-class _Tee:
-    """Standard error that is written to a log file as well, as long as there is room for it."""
-
-    def __init__(self, usual: IO[str], log: IO[str]) -> None:
-        self._usual = usual
-        self._log: IO[str] | None = log
-
-    def write(self, text: str) -> int:
-        self._usual.write(text)
-        if self._log is not None:
-            try:
-                self._log.write(text)
-                self._log.flush()
-            except OSError as error:
-                # What is computed is worth more than its log: go on.
-                self._usual.write(f"{self._log.name}: log cut off here ({error.strerror})\n")
-                self._log = None
-        return len(text)
-
-    def flush(self) -> None:
-        self._usual.flush()
-
-    def isatty(self) -> bool:
-        return False
 
 
 def main(arguments: Sequence[str] | None = None) -> int:
@@ -47,7 +22,7 @@ def main(arguments: Sequence[str] | None = None) -> int:
     if getattr(given, "log", None) is None:
         return _run(given)
     try:
-        log = _open_log(given.log)
+        log = open_log(given.log)
     except OSError as error:
         print(
             f"error: {given.log}: cannot be written ({error.strerror}); make room or name "
@@ -56,7 +31,7 @@ def main(arguments: Sequence[str] | None = None) -> int:
         )
         return 2
     usual = sys.stderr
-    sys.stderr = _Tee(usual, log)
+    sys.stderr = Tee(usual, log)
     try:
         return _run(given)
     finally:
@@ -64,13 +39,6 @@ def main(arguments: Sequence[str] | None = None) -> int:
         # Where the disk is full, closing fails once more.
         with contextlib.suppress(OSError):
             log.close()
-
-
-def _open_log(path: Path) -> IO[str]:
-    """Open a log; a disk that is full says so before anything is computed."""
-    path.parent.mkdir(parents=True, exist_ok=True)
-    path.write_bytes(b"\n")
-    return path.open("w", encoding="utf-8")
 
 
 def _run(given: argparse.Namespace) -> int:
@@ -117,7 +85,8 @@ def _parser() -> argparse.ArgumentParser:
     table.add_argument("--name", required=True, help="name of the table")
     figure = _step(commands, "figure", "draw one figure", _figure)
     figure.add_argument("--name", required=True, help="name of the figure")
-    _step(commands, "diagnose", "find which effect the model lacks", _diagnose)
+    lacks = _step(commands, "diagnose", "find which effect the model lacks", _diagnose)
+    lacks.add_argument("--cores", type=_cores, default=1, help="processes; default: 1")
     _step(commands, "diagnosis-page", "draw and write the page of the diagnosis", _diagnosis_page)
     hidden = commands.add_parser("hidden-effects", help="run the blind test of the diagnosis")
     hidden.add_argument("--setting", type=Path, default=Path("config/hidden_effects.yaml"))
@@ -137,6 +106,12 @@ def _step(commands: Any, name: str, text: str, step: Step) -> argparse.ArgumentP
     parser.add_argument("--log", type=Path, help="file that keeps what is printed")
     parser.set_defaults(step=step)
     return parser
+
+
+def _cores(text: str) -> int:
+    if not text.isdigit() or int(text) < 1:
+        raise argparse.ArgumentTypeError(f"'{text}' is no number of cores; give 1 or more")
+    return int(text)
 
 
 def _open(given: argparse.Namespace, slice_of: Callable[..., Any], *arguments: Any) -> Any:
@@ -250,7 +225,7 @@ def _diagnose(given: argparse.Namespace) -> None:
     study, results = _open(given, slices.diagnose)
     if given.digest is None:  # by hand, without the workflow that has read the measurements
         measurements.prepare(study, results)
-    diagnose.diagnose(study, results, lambda text: print(text, file=sys.stderr))
+    diagnose.diagnose(study, results, lambda text: print(text, file=sys.stderr), given.cores)
     if given.digest is None:
         _diagnosis_page(given)
 

@@ -10,7 +10,7 @@ import pytest
 ROOT = Path(__file__).parents[2]
 SOURCE = ROOT / "src" / "pyrofit"
 ORDER = [
-    {"errors", "constants", "provenance"},
+    {"errors", "constants", "logs", "provenance"},
     {"data"},
     {"model"},
     {"effects"},

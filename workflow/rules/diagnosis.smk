@@ -11,6 +11,7 @@ rule diagnosis:
         log_of("diagnosis"),
     benchmark:
         benchmark_of("diagnosis")
+    threads: 2
     params:
         digest=digest(slices.diagnose(study)),
         source=COMPUTES,
@@ -18,6 +19,7 @@ rule diagnosis:
         "Which effect the model lacks"
     shell:
         "pyrofit diagnose --study {STUDY} --digest {params.digest} --log {log}"
+        " --cores {threads}"
 
 
 rule diagnosis_page:

@@ -1,6 +1,5 @@
 """The diagnosis of a study, from its measurements to what is said of it."""
 
-from collections.abc import Callable
 from dataclasses import asdict, dataclass
 from typing import Any
 
@@ -10,8 +9,8 @@ import pandas as pd
 from pyrofit.config import Study
 from pyrofit.diagnose import record
 from pyrofit.diagnose.design import next_experiments
-from pyrofit.diagnose.probes import probes
-from pyrofit.diagnose.search import Search, search
+from pyrofit.diagnose.probes import Probe, probes
+from pyrofit.diagnose.search import Means, Search, Tell, search
 from pyrofit.diagnose.setup import set_up
 from pyrofit.diagnose.verdict import Verdict, judge
 from pyrofit.estimate.problem import Measurements
@@ -30,7 +29,8 @@ class Diagnosis:
 def examine(
     study: Study,
     measurements: Measurements,
-    tell: Callable[[str], None] = lambda text: None,
+    tell: Tell = lambda text: None,
+    processes: int = 1,
     advise: bool = True,
 ) -> Diagnosis:
     """Find where a study's model and measurements disagree, and which effect the model lacks.
@@ -43,6 +43,8 @@ def examine(
         Measured series by (experiment, signal), SI units.
     tell
         Is told what goes on.
+    processes
+        Processes that share the fits; the result does not depend on their number.
     advise
         Whether to look for free corrections and the next experiment as well.
 
@@ -53,11 +55,11 @@ def examine(
     """
     setup = set_up(study, measurements)
     tell(f"base model: chi-square {setup.base.fit.chi2:.1f} of {setup.base.model.points} points")
-    rng = np.random.default_rng(study.seed)
-    found = search(setup.base, setup.candidates, study.diagnosis.most_effects, rng, tell)
-    verdict = judge(found, rng)
+    means = Means(np.random.default_rng(study.seed), tell, processes)
+    found = search(setup.base, setup.candidates, study.diagnosis.most_effects, means)
+    verdict = judge(found, means.rng)
     content = record.content(study, found, verdict)
-    content["probes"] = [asdict(p) for p in (_probes(found, verdict) if advise else [])]
+    content["probes"] = [_shown(p) for p in (_probes(found, verdict) if advise else [])]
     designs = _designs(found, verdict) if advise else []
     content["next_experiment"] = [asdict(design) for design in designs]
     tell(content["verdict"]["words"])
@@ -69,8 +71,13 @@ def diagnose(study: Study, measurements: Measurements) -> dict[str, Any]:
     return examine(study, measurements, advise=False).content
 
 
-def _probes(found: Search, verdict: Verdict) -> list[Any]:
-    return list(probes(found.end)) if verdict.kind == "unknown" else []
+def _probes(found: Search, verdict: Verdict) -> list[Probe]:
+    return probes(found.end) if verdict.kind == "unknown" else []
+
+
+def _shown(probe: Probe) -> dict[str, Any]:
+    """Return a probe without its coefficients, which its shape shows."""
+    return {key: value for key, value in asdict(probe).items() if key != "coefficients"}
 
 
 def _designs(found: Search, verdict: Verdict) -> list[Any]:

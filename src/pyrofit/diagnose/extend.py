@@ -4,6 +4,7 @@ from collections.abc import Mapping
 from typing import Any
 
 from pyrofit.config import Study
+from pyrofit.diagnose.model import model_of, strength_of
 from pyrofit.diagnose.refit import Trial
 from pyrofit.effects import known_effects
 
@@ -28,6 +29,8 @@ def extended_keys(study: Study, trial: Trial, signals: Mapping[tuple[str, str], 
     keys["name"] = f"{study.name}_extended"
     keys["title"] = f"{study.title or study.name}, with {titles}"
     keys["effects"] = _effects(trial)
+    if study.diagnosis.effects:
+        keys["diagnosis"]["effects"] = [n for n in study.diagnosis.effects if _fits(trial, n)]
     for (experiment, signal), given in signals.items():
         keys["experiments"][experiment]["signals"][signal] |= given
     # What was computed once is read from its file now: the truth stays what it was.
@@ -35,6 +38,16 @@ def extended_keys(study: Study, trial: Trial, signals: Mapping[tuple[str, str], 
     if "synthetic" not in files:
         keys.pop("synthetic", None)
     return keys
+
+
+def _fits(trial: Trial, effect: str) -> bool:
+    """Tell whether a model can have an effect beside its own."""
+    try:
+        more = {**trial.model.effects, effect: (strength_of(effect)[0],)}
+        model_of(trial.model.base, more, trial.model.channels)
+    except ValueError:  # both set the same number of the description
+        return False
+    return effect not in trial.effects
 
 
 def _effects(trial: Trial) -> Keys:

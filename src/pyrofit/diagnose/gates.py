@@ -37,7 +37,7 @@ class Trust:
     """What speaks for or against an effect besides the calibration."""
 
     limit: str
-    """Parameter of the effect that rests at a limit, or empty."""
+    """The effect's strength if it rests at a limit, or empty."""
     disagree: float
     """Probability that equal strengths look as different between experiments."""
     gains: dict[str, float]
@@ -58,13 +58,13 @@ class Trust:
 
 
 def at_limit(trial: Trial, effect: str) -> str:
-    """Return the name of a parameter of an effect that rests at a limit, or nothing."""
-    for parameter in trial.model.effects[effect]:
-        name = f"{effect}_{parameter}"
-        x = trial.fit.x[trial.model.names.index(name)]
-        if not AT_LIMIT < x < 1.0 - AT_LIMIT:
-            return name
-    return ""
+    """Return the name of an effect's strength if it rests at a limit, else nothing.
+
+    A form may be as extreme as its limits allow: a step that is sharper than the data can show.
+    """
+    x = trial.fit.x[trial.model.position(effect)]
+    name = trial.model.names[trial.model.position(effect)]
+    return "" if AT_LIMIT < x < 1.0 - AT_LIMIT else name
 
 
 def disagreement(trial: Trial, effect: str) -> float:

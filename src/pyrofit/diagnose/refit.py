@@ -6,8 +6,17 @@ from dataclasses import dataclass
 import numpy as np
 
 from pyrofit.diagnose.descent import Fit, descend, refreshed
-from pyrofit.diagnose.model import UNIFORM, Model, extended, fraction, model_of, strength_of
+from pyrofit.diagnose.model import (
+    UNIFORM,
+    Model,
+    extended,
+    fraction,
+    model_of,
+    name_of,
+    strength_of,
+)
 from pyrofit.diagnose.screen import Look, look, project, projector
+from pyrofit.diagnose.share import shared
 from pyrofit.effects import known_effects
 from pyrofit.effects.base import Quantity
 from pyrofit.solver.arrays import FloatArray
@@ -57,15 +66,21 @@ class Trial:
         return float(values[self.model.position(effect)])
 
 
+def model_with(trial: Trial, effect: str) -> Model:
+    """Return the model with an effect in addition, its strength free."""
+    name, _ = strength_of(effect)
+    return model_of(
+        trial.model.base, {**trial.model.effects, effect: (name,)}, trial.model.channels
+    )
+
+
 def with_effect(trial: Trial, seen: Look, best_known: float = np.inf) -> Trial:
     """Fit an effect in addition; never worse than without it.
 
     From one start only, where that ends far above the best chi-square that is known.
     """
-    name, quantity = strength_of(seen.effect)
-    model = model_of(
-        trial.model.base, {**trial.model.effects, seen.effect: (name,)}, trial.model.channels
-    )
+    _, quantity = strength_of(seen.effect)
+    model = model_with(trial, seen.effect)
     null = extended(trial.fit.x, seen.effect, quantity.value)
     none = np.zeros((trial.fit.residuals.size, 1))
     jacobian = np.hstack([trial.fit.jacobian, none])
@@ -129,15 +144,22 @@ def polished(trial: Trial) -> Trial:
     return Trial(trial.model, refreshed(trial.model, best))
 
 
-def with_form(trial: Trial, effect: str, parameter: str) -> Trial:
-    """Fit a form parameter of an effect in addition, from its usual value and the best of others.
+def model_with_form(trial: Trial, parameter: str) -> Model:
+    """Return the model with a form parameter of its last effect free in addition."""
+    last = trial.effects[-1]
+    free = {n: (*f, parameter) if n == last else f for n, f in trial.model.effects.items()}
+    return model_of(trial.model.base, free, trial.model.channels)
+
+
+def with_form(trial: Trial, parameter: str) -> Trial:
+    """Fit a form parameter of the last effect, too: from its usual value and the best of others.
 
     Never worse than without it.
     """
+    effect = trial.effects[-1]
     quantity = known_effects()[effect].quantities[parameter]
-    free = {n: (*f, parameter) if n == effect else f for n, f in trial.model.effects.items()}
-    model = model_of(trial.model.base, free, trial.model.channels)
-    at = model.names.index(f"{effect}_{parameter}")
+    model = model_with_form(trial, parameter)
+    at = model.names.index(name_of(effect, parameter))
     usual, *others = (
         np.insert(trial.fit.x, at, fraction(quantity, value)) for value in _forms_of(quantity)
     )
@@ -153,7 +175,7 @@ def _forms_of(quantity: Quantity) -> Sequence[float]:
     return (usual, quantity.typical, 0.5 * (lower + usual), 0.5 * (usual + upper))
 
 
-def look_at(trial: Trial, effects: Sequence[str]) -> list[Look]:
+def look_at(trial: Trial, effects: Sequence[str], processes: int = 1) -> list[Look]:
     """Return what each effect would change of a fitted model that can have it."""
-    looks = (look(trial.model, trial.fit, effect) for effect in effects)
-    return [found for found in looks if found is not None]
+    found = shared(lambda i: look(trial.model, trial.fit, effects[i]), len(effects), processes)
+    return [seen for seen in found if seen is not None]

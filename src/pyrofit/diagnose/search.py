@@ -6,11 +6,21 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from pyrofit.diagnose.descent import descend, refreshed
+from pyrofit.diagnose.gates import at_limit
 from pyrofit.diagnose.locate import Alarm, alarm
 from pyrofit.diagnose.model import Base, model_of
-from pyrofit.diagnose.refit import Trial, look_at, polished, with_effect, with_form
+from pyrofit.diagnose.refit import (
+    Trial,
+    look_at,
+    model_with,
+    model_with_form,
+    polished,
+    with_effect,
+    with_form,
+)
 from pyrofit.diagnose.screen import Look
 from pyrofit.diagnose.setup import blurred, clearer, refitted, with_noise_about
+from pyrofit.diagnose.share import shared
 from pyrofit.effects import known_effects
 
 LEADING = 3
@@ -24,12 +34,21 @@ POLISHED = 5
 BEAM = 2
 """Models that are carried on from one effect to the next."""
 BRANCHES = 8
-"""Effects that are tried as the second or third one, those that promise most."""
+"""Effects that are tried as the second or third one in addition to the second best model."""
 
 CLEARER = 6.0
 """What the noise must explain more, in BIC, to be worth new fits."""
 
 Tell = Callable[[str], None]
+
+
+@dataclass(frozen=True, eq=False)
+class Means:
+    """What a search works with: draws of noise, someone who is told what goes on, processes."""
+
+    rng: np.random.Generator
+    tell: Tell = print
+    processes: int = 1
 
 
 @dataclass(frozen=True, eq=False)
@@ -76,9 +95,7 @@ class Search:
         return [trial for step in self.rounds for trial in step.trials]
 
 
-def search(
-    base: Trial, effects: Sequence[str], most: int, rng: np.random.Generator, tell: Tell
-) -> Search:
+def search(base: Trial, effects: Sequence[str], most: int, means: Means) -> Search:
     """Add effects to the base until what is left is noise, none gains enough, or there are most.
 
     Parameters
@@ -89,37 +106,40 @@ def search(
         Names of the candidates.
     most
         Most effects of a model.
-    rng
-        Source of the draws of noise.
-    tell
-        Is told what goes on.
+    means
+        Noise, listener, processes.
     """
     spare = 2.0 * float(np.log(max(len(effects), 1)))
-    first = _sharp(_look(base, effects, rng), rng)
+    first = _sharp(_look(base, effects, means), means)
     best, best_alarm, rounds = first.start, first.alarm, [first]
     if first.alarm.silent:
         return Search((first,), best, best_alarm, spare)
-    rounds = [replace(first, trials=_singles(first, tell))]
+    rounds = [replace(first, trials=_singles(first, means))]
     beam = _claims(rounds, spare)
     while beam:
-        steps = [_onwards(beam[0], effects, rng)]
+        steps = [_onwards(beam[0], effects, means)]
         if best.penalised - beam[0].penalised >= spare:
             best, best_alarm = steps[0].start, steps[0].alarm
         if best_alarm.silent or len(best.effects) >= most:
             break
-        steps += [_onwards(trial, effects, rng) for trial in beam[1:]]
-        steps = [replace(step, trials=_more(step, tell)) for step in steps]
+        steps += [_onwards(trial, effects, means) for trial in beam[1:]]
+        # The best may get any effect more; the others those that promise most.
+        most_tried = [len(effects), *[BRANCHES] * len(steps)]
+        steps = [
+            replace(step, trials=_more(step, tried, means))
+            for step, tried in zip(steps, most_tried, strict=False)
+        ]
         rounds += steps
         beam = _claims(steps, spare)
     return Search(tuple(rounds), best, best_alarm, spare)
 
 
-def _onwards(trial: Trial, effects: Sequence[str], rng: np.random.Generator) -> Round:
+def _onwards(trial: Trial, effects: Sequence[str], means: Means) -> Round:
     start = replace(trial, fit=refreshed(trial.model, trial.fit))
-    return _look(start, [effect for effect in effects if effect not in trial.effects], rng)
+    return _look(start, [effect for effect in effects if effect not in trial.effects], means)
 
 
-def _sharp(step: Round, rng: np.random.Generator) -> Round:
+def _sharp(step: Round, means: Means) -> Round:
     """Return the first look with a noise that does not count the misfit of the base as noise.
 
     The noise is estimated again about the most promising models with one effect.
@@ -127,60 +147,73 @@ def _sharp(step: Round, rng: np.random.Generator) -> Round:
     if step.alarm.silent and not blurred(step.start.model.base):
         return step
     order = sorted(step.looks, key=lambda look: float(look.ahead.min()))[:LEADING]
-    best = min((with_effect(step.start, look) for look in order), key=lambda t: t.fit.chi2)
+    fits = shared(lambda i: with_effect(step.start, order[i]).fit, len(order), means.processes)
+    at = int(np.argmin([fit.chi2 for fit in fits]))
+    best = Trial(model_with(step.start, order[at].effect), fits[at])
     base = with_noise_about(best)
     if clearer(best.model.base, base) < CLEARER:
         return step
     start = refitted(step.start, base)
-    return _look(start, [look.effect for look in step.looks], rng)
+    return _look(start, [look.effect for look in step.looks], means)
 
 
-def _look(trial: Trial, effects: Sequence[str], rng: np.random.Generator) -> Round:
-    looks = look_at(trial, effects)
-    return Round(trial, alarm(trial.model, trial.fit, looks, rng), tuple(looks))
+def _look(trial: Trial, effects: Sequence[str], means: Means) -> Round:
+    looks = look_at(trial, effects, means.processes)
+    return Round(trial, alarm(trial.model, trial.fit, looks, means.rng), tuple(looks))
 
 
-def _singles(step: Round, tell: Tell) -> tuple[Trial, ...]:
+def _singles(step: Round, means: Means) -> tuple[Trial, ...]:
     """Fit every effect alone, then the leading ones that have several forms in these."""
-    trials = _polished(_fitted(step, len(step.looks), tell))
+    trials = _polished(_fitted(step, len(step.looks), means), means)
     catalogue = known_effects()
     leading = [trial for trial in trials if catalogue[trial.effects[-1]].form][:FORMED]
-    return _sorted([*trials, *_forms(leading, tell)])
+    return _sorted([*trials, *_forms(leading, means)])
 
 
-def _fitted(step: Round, most: int, tell: Tell) -> list[Trial]:
-    """Fit one effect more, those that promise most first."""
-    trials: list[Trial] = []
-    best = np.inf
-    for look in sorted(step.looks, key=lambda look: float(look.ahead.min()))[:most]:
-        trials.append(with_effect(step.start, look, best))
-        best = min(best, trials[-1].fit.chi2)
-        tell(f"{' + '.join(trials[-1].effects)}: chi-square {trials[-1].fit.chi2:.1f}")
-    return trials
+def _more(step: Round, most_tried: int, means: Means) -> tuple[Trial, ...]:
+    """Fit one effect more, those that promise most."""
+    trials = _polished(_fitted(step, most_tried, means), means)
+    return _sorted([*trials, *_forms(trials[:1], means)])
 
 
-def _forms(leading: Sequence[Trial], tell: Tell) -> list[Trial]:
+def _fitted(step: Round, most: int, means: Means) -> list[Trial]:
+    """Fit one effect more, those that promise most; the first is what the others are held to."""
+    looks = sorted(step.looks, key=lambda look: float(look.ahead.min()))[:most]
+    if not looks:
+        return []
+    first = with_effect(step.start, looks[0])
+    rest = shared(
+        lambda i: with_effect(step.start, looks[1 + i], first.fit.chi2).fit,
+        len(looks) - 1,
+        means.processes,
+    )
+    models = [model_with(step.start, look.effect) for look in looks[1:]]
+    return _told([first, *map(Trial, models, rest)], means)
+
+
+def _forms(leading: Sequence[Trial], means: Means) -> list[Trial]:
     """Fit the last effect of each model with each of its form parameters free."""
     catalogue = known_effects()
-    found = []
-    for trial in leading:
-        effect = trial.effects[-1]
-        for parameter in catalogue[effect].form:
-            found.append(with_form(trial, effect, parameter))
-            tell(f"{effect}, {parameter} free: chi-square {found[-1].fit.chi2:.1f}")
-    return found
+    forms = [(t, form) for t in leading for form in catalogue[t.effects[-1]].form]
+    fits = shared(lambda i: with_form(*forms[i]).fit, len(forms), means.processes)
+    models = [model_with_form(trial, form) for trial, form in forms]
+    return _told(list(map(Trial, models, fits)), means)
 
 
-def _more(step: Round, tell: Tell) -> tuple[Trial, ...]:
-    """Fit one effect more, those that promise most."""
-    trials = _polished(_fitted(step, BRANCHES, tell))
-    return _sorted([*trials, *_forms(trials[:1], tell)])
-
-
-def _polished(trials: Sequence[Trial]) -> list[Trial]:
+def _polished(trials: Sequence[Trial], means: Means) -> list[Trial]:
     """Return the trials in order, the leading ones searched on from elsewhere."""
     order = _sorted(trials)
-    return list(_sorted([*map(polished, order[:POLISHED]), *order[POLISHED:]]))
+    first, rest = order[:POLISHED], order[POLISHED:]
+    fits = shared(lambda i: polished(first[i]).fit, len(first), means.processes)
+    better = [replace(trial, fit=fit) for trial, fit in zip(first, fits, strict=True)]
+    return list(_sorted([*better, *rest]))
+
+
+def _told(trials: list[Trial], means: Means) -> list[Trial]:
+    for trial in trials:
+        free = [f"{e} ({', '.join(f)})" for e, f in trial.model.effects.items()]
+        means.tell(f"{' + '.join(free)}: chi-square {trial.fit.chi2:.1f}")
+    return trials
 
 
 def _sorted(trials: Sequence[Trial]) -> tuple[Trial, ...]:
@@ -188,14 +221,18 @@ def _sorted(trials: Sequence[Trial]) -> tuple[Trial, ...]:
 
 
 def _claims(steps: Sequence[Round], spare: float) -> list[Trial]:
-    """Return the best trials that gain enough over the model they started from."""
+    """Return the best trials that gain enough over the model they started from.
+
+    Those with a strength at a limit, which may not be claimed, only where there are no others.
+    """
     found = [
         trial
         for step in steps
         for trial in step.trials
         if step.start.penalised - trial.penalised >= spare
     ]
-    return sorted(found, key=lambda trial: trial.penalised)[:BEAM]
+    inside = [trial for trial in found if not any(at_limit(trial, e) for e in trial.effects)]
+    return sorted(inside or found, key=lambda trial: trial.penalised)[:BEAM]
 
 
 def dropped(trial: Trial, effect: str) -> Trial:

@@ -22,7 +22,7 @@ parameter <effect>_<strength> to imp.estimate then.
 """
 
 
-def diagnose(study: Study, results: Results, tell: Tell) -> dict[str, Any]:
+def diagnose(study: Study, results: Results, tell: Tell, processes: int = 1) -> dict[str, Any]:
     """Diagnose a study from its measurements; write ``diagnosis``, return ``diagnosis.json``.
 
     Raises
@@ -30,7 +30,7 @@ def diagnose(study: Study, results: Results, tell: Tell) -> dict[str, Any]:
     DataError
         A measurement is missing, a channel is too short, or no run within the limits finishes.
     """
-    found = examine(study, load(study, results), tell)
+    found = examine(study, load(study, results), tell, processes)
     effects = found.search.end.effects
     if effects:
         path = results.diagnosis(EXTENDED)

@@ -1,0 +1,53 @@
+"""Independent work shared by processes; the results do not depend on how many there are."""
+
+import multiprocessing
+import signal
+from collections.abc import Callable
+from multiprocessing.connection import Connection
+from typing import TypeVar
+
+Result = TypeVar("Result")
+Work = Callable[[int], Result]
+
+
+def shared(work: Work[Result], count: int, processes: int = 1) -> list[Result]:
+    """Return ``[work(0), ..., work(count - 1)]``, computed by some processes.
+
+    The processes are forks: what ``work`` knows is not copied, what it returns is. Each does every
+    n-th piece and ends by itself, even if this process is killed.
+
+    Raises
+    ------
+    RuntimeError
+        A process ended before its work was done.
+
+    Examples
+    --------
+    >>> shared(lambda i: i * i, 5, processes=2)
+    [0, 1, 4, 9, 16]
+    """
+    if processes == 1 or count < 2:
+        return [work(i) for i in range(count)]
+    context = multiprocessing.get_context("fork")
+    results: dict[int, Result] = {}
+    running = []
+    for first in range(processes):
+        ours, theirs = context.Pipe(duplex=False)
+        pieces = range(first, count, processes)
+        process = context.Process(target=_do, args=(work, pieces, theirs), daemon=True)
+        process.start()
+        theirs.close()
+        running.append((process, ours))
+    for process, ours in running:
+        try:
+            results |= ours.recv()
+        except EOFError:
+            raise RuntimeError("a process of the diagnosis ended early; run it again") from None
+        process.join()
+    return [results[i] for i in range(count)]
+
+
+def _do(work: Work[Result], pieces: range, results: "Connection[dict[int, Result], None]") -> None:
+    signal.signal(signal.SIGINT, signal.SIG_IGN)  # the first process answers it, and ends this one
+    results.send({i: work(i) for i in pieces})
+    results.close()
