@@ -268,14 +268,23 @@ class Fake:
 
     def __call__(self, study: Study, measurements: Measurements) -> Mapping[str, Any]:
         self.candidates.append(candidate_effects(study))
-        return verdict("named", ["k_T"]) | {"base": {}, "candidates": [], "next_experiment": []}
+        return verdict("named", ["k_T"]) | {"base": {}, "next_experiment": []}
 
 
 def verdict(kind: str, effects: list[str], sets: list[list[str]] | None = None) -> dict[str, Any]:
     gap = {"experiment": "capa_25", "signal": "mlr", "points": 100, "rms_before": 1, "rms_after": 1}
-    before_after = {"chi2_before": 400.0, "chi2_after": 100.0, "score_gain": 3.0}
+    before_after = {"chi2_before": 400.0, "chi2_after": 100.0}
     return {
-        "verdict": {"kind": kind, "effects": effects, "sets": sets or [[e] for e in effects]},
+        "verdict": {
+            "kind": kind,
+            "effects": effects,
+            "sets": sets or [[e] for e in effects],
+            "confirmed": kind in ("named", "multiple"),
+        },
+        "candidates": [
+            {"rejected": "gains too little", "predictions": {}},
+            {"rejected": "", "predictions": {"capa_25": 1.0, "held out": 3.0}},
+        ],
         "screen": [{"effect": "c_T", "z": -9.0}, {"effect": "k_T", "z": 3.0}],
         "gap": [
             {**gap, **before_after, "role": "calibration"},

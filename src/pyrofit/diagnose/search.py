@@ -98,6 +98,9 @@ class Search:
 def search(base: Trial, effects: Sequence[str], most: int, means: Means) -> Search:
     """Add effects to the base until what is left is noise, none gains enough, or there are most.
 
+    Where more than noise is left, the noise is estimated about the end, and if that explains more
+    the search is made once more: what the base cannot follow may have been taken for noise.
+
     Parameters
     ----------
     base
@@ -109,6 +112,17 @@ def search(base: Trial, effects: Sequence[str], most: int, means: Means) -> Sear
     means
         Noise, listener, processes.
     """
+    found = _search(base, effects, most, means)
+    if found.end_alarm.adequate or not found.end.effects:
+        return found
+    sharper = with_noise_about(found.end)
+    if clearer(found.end.model.base, sharper) < CLEARER:
+        return found
+    means.tell("once more, with the noise about the best model")
+    return _search(refitted(found.base, sharper), effects, most, means)
+
+
+def _search(base: Trial, effects: Sequence[str], most: int, means: Means) -> Search:
     spare = 2.0 * float(np.log(max(len(effects), 1)))
     first = _sharp(_look(base, effects, means), means)
     best, best_alarm, rounds = first.start, first.alarm, [first]

@@ -22,6 +22,7 @@ _NEEDS: dict[Keys, type] = {
     ("verdict", "effects"): list,
     ("verdict", "sets"): list,
     ("gap",): list,
+    ("candidates",): list,
 }
 
 
@@ -82,6 +83,7 @@ def row_of(found: Mapping[str, Any]) -> dict[str, Any]:
         "score_only": found["score_only"],
         "score_only_right": bool(score_only) and _one_name(score_only) <= _one_name(hidden),
         **_gaps(found["gap"]),
+        **_held_out_gain(found["candidates"]),
         **_left_out(hidden, found.get("left_out")),
     }
 
@@ -131,10 +133,14 @@ def _gaps(gap: list[Mapping[str, Any]]) -> dict[str, float]:
             total = sum(entry[f"chi2_{when}"] for entry in here)
             name = f"{role.replace(' ', '_')}_{when}"
             row[name] = float(np.sqrt(total / points)) if points else np.nan
-        if role == "held out":
-            row["held_out_gain"] = sum(e["score_gain"] for e in here) if points else np.nan
-    # A verdict without effects changes nothing, and gains nothing.
-    return row | {"held_out_better": bool(row["held_out_gain"] > 0.0)}
+    return row
+
+
+def _held_out_gain(candidates: list[Mapping[str, Any]]) -> dict[str, Any]:
+    """Return what the claimed model gains in the log score of what is held out, if one is."""
+    gains = (c["predictions"].get("held out") for c in candidates if not c["rejected"])
+    gain = next((gain for gain in gains if gain is not None), np.nan)
+    return {"held_out_gain": gain, "held_out_better": bool(gain > 0.0)}
 
 
 def _left_out(hidden: set[str], verdict: Verdict | None) -> dict[str, Any]:
