@@ -32,8 +32,9 @@ def diagnose(study: Study, results: Results, tell: Tell, processes: int = 1) -> 
     """
     found = examine(study, load(study, results), tell, processes)
     effects = found.search.end.effects
+    path = results.diagnosis(EXTENDED)
+    path.unlink(missing_ok=True)  # that of an earlier diagnosis
     if effects:
-        path = results.diagnosis(EXTENDED)
         signals = dict(_files(study, results, path.parent))
         write_text(path, as_yaml(extended_keys(study, found.search.end, signals), _COMMENT))
     found.content["extended_study"] = EXTENDED if effects else ""

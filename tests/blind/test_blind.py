@@ -1,0 +1,75 @@
+"""The blind test of the diagnosis in small: twins from the reference solver, effects hidden."""
+
+import subprocess
+import sys
+from pathlib import Path
+
+import pandas as pd
+import pytest
+
+sys.path.insert(0, str(Path(__file__).parents[1] / "workflow"))
+from tiny import Project
+
+ROOT = Path(__file__).parents[2]
+SHORT = "results/hidden_effects/short"
+
+
+@pytest.fixture(scope="module")
+def project(tmp_path_factory: pytest.TempPathFactory) -> Project:
+    """A copy of the project in which the short plan has been run."""
+    made = Project.copy(ROOT, tmp_path_factory.mktemp("blind") / "project")
+    subprocess.run(
+        ["snakemake", "--nocolor", "--cores", "2", "hidden_effects_short"],
+        cwd=made.root,
+        env=made.environment,
+        check=True,
+    )
+    return made
+
+
+@pytest.fixture(scope="module")
+def twins(project: Project) -> pd.DataFrame:
+    return pd.read_csv(project.root / SHORT / "tables" / "twins.csv", keep_default_na=False)
+
+
+def test_nothing_is_found_where_nothing_is_hidden(twins: pd.DataFrame) -> None:
+    nulls = twins[twins["kind"] == "null"]
+    assert len(nulls) >= 6
+    assert set(nulls["verdict"]) == {"none"}
+
+
+def test_effects_that_stand_out_are_named(twins: pd.DataFrame) -> None:
+    seen = twins[(twins["kind"] == "effect") & (twins["detectability"] >= 10.0)]
+    assert len(seen) >= 4
+    assert seen["right"].all()
+
+
+def test_claims_hold_the_truth(twins: pd.DataFrame) -> None:
+    claimed = twins[twins["claim"] & (twins["kind"] != "form")]
+    assert claimed["in_set"].all()
+    assert claimed["set_size"].mean() <= 2.0
+
+
+def test_both_effects_of_a_pair_are_found(twins: pd.DataFrame) -> None:
+    pairs = twins[twins["kind"] == "pair"]
+    assert len(pairs) >= 2
+    assert pairs["in_set"].all()
+
+
+def test_effect_that_is_no_candidate_is_not_replaced_by_another(twins: pd.DataFrame) -> None:
+    again = twins[twins["left_out"] != ""]
+    assert len(again) >= 2
+    assert not again["left_out_wrong"].astype(bool).any()
+
+
+def test_gap_shrinks_on_what_was_held_out(twins: pd.DataFrame) -> None:
+    found = twins[(twins["kind"] == "effect") & twins["right"]]
+    gained = pd.to_numeric(found["held_out_gain"])
+    assert (gained > 0.0).mean() >= 0.9
+
+
+def test_page_shows_rates_and_figures(project: Project) -> None:
+    page = (project.root / SHORT / "page.md").read_text()
+    assert "nothing hidden: claimed" in page
+    for name in ("confusion", "accuracy", "false_alarms"):
+        assert list((project.root / SHORT / "figures").glob(f"*{name}*.png"))

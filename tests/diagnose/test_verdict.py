@@ -1,0 +1,278 @@
+"""Every kind of verdict, from searches on linear models whose truth is planted; and its words."""
+
+from dataclasses import replace
+
+import linear
+import numpy as np
+import pytest
+from linear import POINTS, TOTAL, column_of
+
+from pyrofit.diagnose import record
+from pyrofit.diagnose.model import strength_of
+from pyrofit.diagnose.search import Means, Search, search
+from pyrofit.diagnose.verdict import Judged, Verdict, _against, alternatives, judge
+from pyrofit.diagnose.words import form_of, sentences
+from pyrofit.effects import known_effects
+from pyrofit.solver.arrays import FloatArray
+
+EFFECTS = ("back_loss", "c_T", "heater_ramp", "k_T", "time_offset")
+COLUMNS = linear.random_columns(6, *EFFECTS, size=60.0)
+ALL, MLR_25 = (0, 1, 2, 3), (0,)
+
+
+def planted(seed: int = 1, **typical: float) -> FloatArray:
+    """Return noise and a truth with effects, in fractions of the typical distance from null."""
+    y = np.random.default_rng(seed).standard_normal(TOTAL)
+    y = y + 2.0 * COLUMNS["rho"] - COLUMNS["k"]
+    for effect, share in typical.items():
+        q = strength_of(effect)[1]
+        y = y + (q.value + share * (q.typical - q.value)) * column_of(COLUMNS, effect)
+    return np.asarray(y)
+
+
+def searched(
+    y: FloatArray,
+    columns: linear.Columns = COLUMNS,
+    effects: tuple[str, ...] = ("c_T", "heater_ramp", "k_T"),
+    calibrated: tuple[int, ...] = ALL,
+    most: int = 3,
+) -> Search:
+    trial = linear.fit(columns, y, calibrated=calibrated)
+    return search(trial, effects, most, Means(np.random.default_rng(1), lambda text: None))
+
+
+def verdict_on(found: Search) -> Verdict:
+    return judge(found, np.random.default_rng(2))
+
+
+def alike(effect: str, other: str, share: float = 0.01) -> dict[str, FloatArray]:
+    """Return columns in which another effect does nearly the same as one."""
+    q, p = strength_of(effect)[1], strength_of(other)[1]
+    scale = (q.typical - q.value) / (p.typical - p.value)
+    nearly = (1.0 - share) * column_of(COLUMNS, effect) * scale + share * column_of(COLUMNS, other)
+    return {**COLUMNS, linear.strength_name(other): nearly}
+
+
+# --- none -----------------------------------------------------------------------------------
+
+
+def test_nothing_planted_is_none() -> None:
+    found = searched(planted())
+    verdict = verdict_on(found)
+    assert verdict.kind == "none"
+    assert verdict.findings == ()
+    assert verdict.reasons == ("what is left is noise",)
+    assert found.trials == []
+    assert "nothing is missing that these data show. What is left is noise." in sentences(verdict)
+
+
+def test_remarkable_score_without_enough_gain_is_none_and_says_so() -> None:
+    found = searched(planted())
+    alarm = replace(found.end_alarm, score=found.end_alarm.score_critical + 1.0)
+    verdict = verdict_on(replace(found, end_alarm=alarm))
+    assert verdict.kind == "none"
+    assert "none gains enough to be claimed" in sentences(verdict)
+
+
+# --- named ----------------------------------------------------------------------------------
+
+
+@pytest.mark.parametrize("effect", ["k_T", "c_T", "heater_ramp"])
+def test_planted_effect_is_named_with_its_strength(effect: str) -> None:
+    found = searched(planted(**{effect: 0.8}))
+    verdict = verdict_on(found)
+    assert verdict.kind == "named", verdict.reasons
+    (finding,) = verdict.findings
+    assert (finding.leading, finding.effects) == (effect, [effect])
+    assert finding.group == known_effects()[effect].group
+    assert verdict.confirmed
+    assert found.end.strength(effect) == pytest.approx(
+        0.8 * strength_of(effect)[1].typical, rel=0.1
+    )
+    said = sentences(verdict)
+    assert f"The model lacks: {finding.group} ({known_effects()[effect].title}" in said
+    assert "predictions improve" in said
+
+
+def test_forms_of_one_group_that_look_alike_are_named_together() -> None:
+    columns = alike("heater_ramp", "time_offset")
+    verdict = verdict_on(
+        searched(planted(heater_ramp=0.8), columns, ("heater_ramp", "time_offset"))
+    )
+    assert verdict.kind == "named", verdict.reasons
+    assert set(verdict.findings[0].effects) == {"heater_ramp", "time_offset"}
+    assert verdict.findings[0].group == "timing"
+    titles = {known_effects()[name].title for name in ("heater_ramp", "time_offset")}
+    assert set(form_of(verdict.findings[0]).split(" or ")) == titles
+
+
+# --- ambiguous ------------------------------------------------------------------------------
+
+
+def test_effects_of_two_groups_that_look_alike_are_ambiguous_apparatus_first() -> None:
+    verdict = verdict_on(searched(planted(k_T=0.8), alike("k_T", "heater_ramp")))
+    assert verdict.kind == "ambiguous", verdict.reasons
+    (finding,) = verdict.findings
+    assert finding.effects == ["heater_ramp", "k_T"]
+    assert finding.group == ""
+    said = sentences(verdict)
+    assert "heater coming up (apparatus) or slope of the conductivity (material)" in said
+    assert "Check the apparatus first." in said
+    assert not verdict.confirmed
+
+
+def test_effect_is_told_from_one_that_looks_less_alike() -> None:
+    verdict = verdict_on(searched(planted(k_T=0.8), alike("k_T", "heater_ramp", share=0.6)))
+    assert verdict.findings[0].effects == ["k_T"]
+
+
+def test_rate_at_one_flux_alone_confirms_nothing() -> None:
+    found = searched(planted(k_T=1.0), calibrated=MLR_25)
+    verdict = verdict_on(found)
+    assert found.end.effects == ("k_T",)
+    assert verdict.kind == "ambiguous"
+    assert "only the mass loss rate at one flux is calibrated" in verdict.reasons
+    assert not verdict.confirmed
+    assert "but that is not confirmed" in sentences(verdict)
+
+
+def test_two_effects_from_the_rate_at_one_flux_are_not_confirmed() -> None:
+    found = searched(planted(k_T=0.8, heater_ramp=0.8), calibrated=MLR_25)
+    verdict = verdict_on(found)
+    assert len(verdict.findings) == 2
+    assert "only the mass loss rate at one flux is calibrated" in verdict.reasons
+    assert not verdict.confirmed, verdict.kind
+
+
+# --- multiple -------------------------------------------------------------------------------
+
+
+def test_two_planted_effects_are_multiple_and_each_is_found() -> None:
+    found = searched(planted(k_T=0.8, c_T=-0.7))
+    verdict = verdict_on(found)
+    assert verdict.kind == "multiple", verdict.reasons
+    assert {finding.leading for finding in verdict.findings} == {"k_T", "c_T"}
+    assert found.end.strength("c_T") == pytest.approx(-0.7 * strength_of("c_T")[1].typical, rel=0.1)
+    assert verdict.confirmed
+    assert sentences(verdict).startswith("The model lacks 2 effects: ")
+
+
+def test_one_of_two_planted_effects_is_not_claimed_where_one_is_the_most() -> None:
+    verdict = verdict_on(searched(planted(k_T=0.8, c_T=-0.7), most=1))
+    assert verdict.kind == "unknown"
+    assert "what is left is more than noise" in verdict.reasons[-1]
+
+
+def test_alternatives_of_one_of_two_effects_keep_the_other() -> None:
+    found = searched(planted(k_T=0.8, c_T=-0.7), alike("k_T", "heater_ramp"))
+    names = dict(alternatives(found, "k_T"))
+    assert list(names) == ["k_T", "heater_ramp"] or list(names) == ["heater_ramp", "k_T"]
+    assert all("c_T" in trial.effects for trial in names.values())
+    assert list(dict(alternatives(found, "c_T"))) == ["c_T"]
+
+
+# --- unknown --------------------------------------------------------------------------------
+
+
+ELSEWHERE = {
+    name: column * (np.arange(TOTAL) >= (2 * POINTS if name.endswith(("K", "s")) else 0))
+    for name, column in COLUMNS.items()
+}
+"""Columns of which no effect shows at the first flux."""
+
+
+def test_misfit_that_no_effect_explains_is_unknown() -> None:
+    y = planted()
+    y[20:26] += 7.0
+    found = searched(y, ELSEWHERE)
+    verdict = verdict_on(found)
+    assert verdict.kind == "unknown"
+    assert verdict.findings == ()
+    assert "no effect of the catalogue explains it" in sentences(verdict)
+    assert [(w.channel, w.sign) for w in found.end_alarm.windows] == [(0, -1)]
+    assert abs(found.end_alarm.windows[0].start - 20) <= 1
+
+
+def test_effect_that_leaves_a_misfit_is_unknown_and_comes_nearest() -> None:
+    y = planted() + 0.8 * strength_of("k_T")[1].typical * column_of(ELSEWHERE, "k_T")
+    y[20:26] += 9.0
+    verdict = verdict_on(searched(y, ELSEWHERE))
+    assert verdict.kind == "unknown"
+    assert "what is left is more than noise" in verdict.reasons[0]
+    assert "Nearest comes slope of the conductivity, which is not confirmed." in sentences(verdict)
+
+
+def test_effect_at_its_limit_is_not_claimed() -> None:
+    q = strength_of("k_T")[1]
+    beyond = 1.3 * (q.lower if q.typical < 0.0 else q.upper) / q.typical
+    verdict = verdict_on(searched(planted(k_T=beyond)))
+    assert verdict.kind == "unknown"
+    assert "k_T: k_T_slope_1_K rests at a limit" in verdict.reasons
+
+
+def test_effect_whose_strength_differs_between_experiments_is_not_claimed() -> None:
+    later = np.arange(TOTAL) >= 2 * POINTS
+    y = planted(k_T=0.3)
+    y = y + 0.8 * strength_of("k_T")[1].typical * column_of(COLUMNS, "k_T") * later
+    verdict = verdict_on(searched(y, effects=("k_T",)))
+    assert verdict.kind == "unknown"
+    assert any("ask for different strengths (p = " in reason for reason in verdict.reasons)
+
+
+def test_effect_that_makes_predictions_worse_is_rejected_with_their_scores() -> None:
+    found = searched(planted(k_T=0.8))
+    finding = verdict_on(found).findings[0]
+    judged = finding.judged[0]
+    worse = replace(judged.trust, gains={"slab_25": 30.0, "slab_60": -4.0})
+    assert _against(found, judged.trial, judged.trust) == ""
+    said = _against(found, judged.trial, worse)
+    assert "log score -4.0 for slab_60, +26.0 in all" in said
+    none_left = replace(finding, judged=(Judged("k_T", judged.trial, worse, said),))
+    assert (none_left.kept, none_left.effects, none_left.predicted) == ([], [], False)
+    assert none_left.leading == "k_T"
+
+
+def test_claim_that_does_not_explain_what_is_held_out_is_open() -> None:
+    y = planted(k_T=0.8)
+    y[3 * POINTS + 20 : 3 * POINTS + 30] += 8.0
+    verdict = verdict_on(searched(y, calibrated=(0, 1, 2)))
+    assert verdict.kind == "ambiguous"
+    assert any("what is held out is not explained" in reason for reason in verdict.reasons)
+
+
+# --- search and record ----------------------------------------------------------------------
+
+
+def test_no_fit_with_an_effect_ends_above_the_one_without() -> None:
+    for y in (planted(k_T=0.8), planted(k_T=0.8, c_T=-0.7)):
+        found = searched(y, effects=EFFECTS)
+        assert len(found.trials) >= len(EFFECTS)
+        for step in found.rounds:
+            assert all(trial.fit.chi2 <= step.start.fit.chi2 for trial in step.trials)
+
+
+def test_claims_gain_as_much_as_is_asked_for() -> None:
+    found = searched(planted(k_T=0.8, c_T=-0.7))
+    rows = record._candidates(found, verdict_on(found))
+    assert found.spare == pytest.approx(2.0 * np.log(3.0))
+    best = min(rows, key=lambda row: row["penalised"])
+    assert set(best["effects"]) == {"k_T", "c_T"}
+    assert best["penalised"] == pytest.approx(best["chi2"] + 2.0 * np.log(TOTAL))
+    assert best["gain"] > found.spare + np.log(TOTAL)
+
+
+def test_every_candidate_that_is_not_claimed_says_why() -> None:
+    found = searched(planted(k_T=0.8), effects=EFFECTS)
+    rows = record._candidates(found, verdict_on(found))
+    reasons = {tuple(row["effects"]): row["rejected"] for row in rows}
+    assert reasons.pop(("k_T",)) == ""
+    assert reasons
+    assert all(reasons.values()), reasons
+
+
+def test_every_model_is_listed_once() -> None:
+    found = searched(planted(k_T=0.8, c_T=-0.7), effects=EFFECTS)
+    rows = record._candidates(found, verdict_on(found))
+    models = [sorted((e, *p) for e, p in row["free"].items()) for row in rows]
+    assert len(rows) > 10
+    assert [m for i, m in enumerate(models) if m in models[:i]] == []
