@@ -40,7 +40,7 @@ def test_nothing_is_found_where_nothing_is_hidden(twins: pd.DataFrame) -> None:
 
 def test_effects_that_stand_out_are_named(twins: pd.DataFrame) -> None:
     seen = twins[(twins["kind"] == "effect") & (twins["detectability"] >= 10.0)]
-    assert len(seen) >= 4
+    assert len(seen) >= 6
     assert seen["right"].all()
 
 
@@ -52,13 +52,13 @@ def test_claims_hold_the_truth(twins: pd.DataFrame) -> None:
 
 def test_both_effects_of_a_pair_are_found(twins: pd.DataFrame) -> None:
     pairs = twins[twins["kind"] == "pair"]
-    assert len(pairs) >= 2
+    assert len(pairs) >= 1
     assert pairs["in_set"].all()
 
 
 def test_effect_that_is_no_candidate_is_not_replaced_by_another(twins: pd.DataFrame) -> None:
-    again = twins[twins["left_out"] != ""]
-    assert len(again) >= 2
+    again = twins[(twins["left_out"] != "") & (twins["detectability"] >= 10.0)]
+    assert len(again) >= 1
     assert not again["left_out_wrong"].astype(bool).any()
 
 

@@ -224,8 +224,8 @@ def test_effect_that_makes_predictions_worse_is_rejected_with_their_scores() -> 
     finding = verdict_on(found).findings[0]
     judged = finding.judged[0]
     worse = replace(judged.trust, gains={"slab_25": 30.0, "slab_60": -4.0})
-    assert _against(found, judged.trial, judged.trust) == ""
-    said = _against(found, judged.trial, worse)
+    assert _against(100.0, found.spare, judged.trust) == ""
+    said = _against(100.0, found.spare, worse)
     assert "log score -4.0 for slab_60, +26.0 in all" in said
     none_left = replace(finding, judged=(Judged("k_T", judged.trial, worse, said),))
     assert (none_left.kept, none_left.effects, none_left.predicted) == ([], [], False)

@@ -17,6 +17,7 @@ from pyrofit.config import (
     diagnosed_parameters,
     digest,
     held_out_channels,
+    read_mapping,
     read_study,
     true_description,
 )
@@ -70,7 +71,8 @@ def test_calibrated_window_is_that_of_the_costs() -> None:
 
 
 def test_tga_is_not_calibrated_where_its_kinetics_are_published() -> None:
-    study = read_study(CONFIG / "paper.yaml")
+    given = read_mapping(CONFIG / "paper.yaml")
+    study = as_study({**given, "diagnosis": {}}, "paper.yaml")
     assert pairs(calibration_channels(study)) == [("capa_25", "mlr")]
     assert set(diagnosed_parameters(study)) == set(study.imp.estimate)
     assert "tga_lag" not in candidate_effects(study)
@@ -103,10 +105,18 @@ def test_given_signals_are_held_out() -> None:
 # --- parameters -----------------------------------------------------------------------------
 
 
-def test_kinetics_are_estimated_where_a_tga_is_calibrated() -> None:
+def test_kinetics_are_estimated_where_a_tga_is_calibrated_or_nothing_else_gives_them() -> None:
     assert diagnosed_parameters(study_with()) == (*KINETICS, *SLAB)
     slab_only = study_with(diagnosis={"calibrate": {"slab_25": ["mlr"]}})
-    assert diagnosed_parameters(slab_only) == SLAB
+    assert diagnosed_parameters(slab_only) == (*KINETICS, *SLAB)
+
+
+def test_kinetics_of_a_given_value_are_not_estimated_without_a_tga() -> None:
+    given = study_with().model_dump(mode="json", exclude_defaults=True)
+    for name, value in {"T_p": 605, "E_p": 190}.items():
+        given["parameters"][name]["value"] = value
+    given["diagnosis"] = {"calibrate": {"slab_25": ["mlr"]}}
+    assert diagnosed_parameters(as_study(given, "smoke.yaml")) == SLAB
 
 
 def test_parameter_of_both_stages_is_estimated_once() -> None:
@@ -242,7 +252,7 @@ CHANGES: dict[str, tuple[dict[str, Any], bool]] = {
     "knowledge": ({"diagnosis": {"known": {"k": {"value": 0.2, "sd": 0.01}}}}, True),
     "candidates": ({"diagnosis": {"effects": ["k_T"]}}, True),
     "effects at most": ({"diagnosis": {"most_effects": 2}}, True),
-    "kinetics": ({"imp__kinetics": "described", "imp__estimate": [*SLAB, *KINETICS]}, True),
+    "kinetics": ({"imp__kinetics": "described", "imp__estimate": [*SLAB, *KINETICS]}, False),
     "error of a clock": ({"experiments__slab_25__signals__mlr__timing_s": 0}, True),
     "cells": ({"accuracy": {"cells": 11}}, True),
     "seed": ({"seed": 8}, True),

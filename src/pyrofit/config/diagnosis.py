@@ -45,8 +45,8 @@ class Diagnosis(Part):
     )
     estimate: tuple[str, ...] = Field(
         (),
-        description="parameters to estimate; none = those of kinetics where a TGA is fitted, then "
-        "those of imp",
+        description="parameters to estimate; none = those of kinetics where a TGA is fitted or "
+        "they have no value, then those of imp",
     )
     kinetics: str = Field(
         "", description="'described', 'fitted', or one of kinetics.sets; none = as imp.kinetics"
@@ -54,8 +54,8 @@ class Diagnosis(Part):
     known: dict[str, Known] = Field(
         default_factory=dict, description="what is known of estimated parameters beforehand"
     )
-    effects: tuple[str, ...] = Field(
-        (), description="candidates; none = all of the catalogue that the fitted signals can show"
+    effects: tuple[str, ...] | None = Field(
+        None, description="candidates; none = all of the catalogue that the fitted signals can show"
     )
     most_effects: int = Field(3, ge=1, le=3, description="effects that are added at most")
 
@@ -102,16 +102,17 @@ def diagnosed_parameters(study: Study) -> tuple[str, ...]:
     """Return the names of the parameters that the diagnosis estimates beside the effects."""
     if study.diagnosis.estimate:
         return study.diagnosis.estimate
-    names = study.imp.estimate
-    if study.kinetics and any(isinstance(e, Tga) for e in calibrated(study).values()):
-        names = study.kinetics.estimate + names
+    kinetics = study.kinetics.estimate if study.kinetics else ()
+    if not any(isinstance(e, Tga) for e in calibrated(study).values()):
+        kinetics = tuple(name for name in kinetics if study.parameters[name].value is None)
+    names = kinetics + study.imp.estimate
     used = parameters_in(diagnosed_material(study), *diagnosed(study).values())
     return tuple(name for name in dict.fromkeys(names) if name in used)
 
 
 def candidate_effects(study: Study) -> tuple[str, ...]:
     """Return the names of the effects that the diagnosis considers."""
-    if study.diagnosis.effects:
+    if study.diagnosis.effects is not None:
         return study.diagnosis.effects
     return tuple(name for name in known_effects() if not obstacle(study, name))
 

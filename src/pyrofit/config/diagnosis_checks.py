@@ -104,7 +104,7 @@ def _check_known(study: Study) -> None:
 
 def _check_effects(study: Study) -> None:
     place = "diagnosis.effects"
-    chosen, catalogue = study.diagnosis.effects, known_effects()
+    chosen, catalogue = study.diagnosis.effects or (), known_effects()
     require(len(set(chosen)) == len(chosen), place, "a name stands twice; delete one")
     for name in chosen:
         require(name in catalogue, place, f"unknown effect '{name}'. {suggest(name, catalogue)}")

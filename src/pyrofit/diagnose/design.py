@@ -28,6 +28,7 @@ from pyrofit.simulate import simulate_gasification, simulate_tga
 from pyrofit.solver.arrays import FloatArray
 from pyrofit.solver.curves import Curves, Request
 
+FEWEST_TIMES = 20
 LONGEST_S = 3600.0
 """Longest record of a new test."""
 BURNT_OUT = 0.995
@@ -192,11 +193,17 @@ def _requests(
     signals = run.experiment.signals
     return {
         signal: Request(
-            np.arange(kind.spacing_s, end, kind.spacing_s),
+            _times(kind.spacing_s, end),
             signals[signal].average_s if signal in signals else 0.0,
         )
         for signal, kind in kinds.items()
     }
+
+
+def _times(spacing: float, end: float) -> FloatArray:
+    """Return times of a record, twenty at least."""
+    spacing = min(spacing, end / FEWEST_TIMES)
+    return np.arange(spacing, end, spacing)
 
 
 def _burnt_out(trial: Trial, idea: Idea) -> float:
@@ -206,6 +213,8 @@ def _burnt_out(trial: Trial, idea: Idea) -> float:
     if not curves.status.finished:
         return LONGEST_S
     lost = curves.signals["mass"][0] - curves.signals["mass"]
+    if lost[-1] <= 0.0:
+        return LONGEST_S
     end = float(time[np.searchsorted(lost, BURNT_OUT * lost[-1])])
     return min(1.1 * end, LONGEST_S)
 

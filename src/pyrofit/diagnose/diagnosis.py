@@ -1,6 +1,6 @@
 """The diagnosis of a study, from its measurements to what is said of it."""
 
-from dataclasses import asdict, dataclass
+from dataclasses import asdict, dataclass, replace
 from typing import Any
 
 import numpy as np
@@ -8,6 +8,7 @@ import pandas as pd
 
 from pyrofit.config import Study
 from pyrofit.diagnose import record
+from pyrofit.diagnose.descent import refreshed
 from pyrofit.diagnose.design import next_experiments
 from pyrofit.diagnose.probes import Probe, probes
 from pyrofit.diagnose.search import Means, Search, Tell, search
@@ -58,6 +59,7 @@ def examine(
     means = Means(np.random.default_rng(study.seed), tell, processes)
     found = search(setup.base, setup.candidates, study.diagnosis.most_effects, means)
     verdict = judge(found, means.rng)
+    found = verdict.search
     content = record.content(study, found, verdict)
     content["probes"] = [_shown(p) for p in (_probes(found, verdict) if advise else [])]
     designs = _designs(found, verdict) if advise else []
@@ -85,5 +87,7 @@ def _designs(found: Search, verdict: Verdict) -> list[Any]:
     for finding in verdict.findings:
         if len(finding.kept) > 1:
             return list(next_experiments([judged.trial for judged in finding.kept[:3]]))
-    best = sorted(found.rounds[0].trials, key=lambda trial: trial.penalised)[:2]
+    first = {trial.effects: trial for trial in reversed(found.rounds[0].trials)}
+    best = sorted(first.values(), key=lambda trial: trial.penalised)[:2]
+    best = [replace(trial, fit=refreshed(trial.model, trial.fit)) for trial in best]
     return list(next_experiments(best)) if len(best) == 2 else []

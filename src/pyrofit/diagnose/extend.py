@@ -29,7 +29,7 @@ def extended_keys(study: Study, trial: Trial, signals: Mapping[tuple[str, str], 
     keys["name"] = f"{study.name}_extended"
     keys["title"] = f"{study.title or study.name}, with {titles}"
     keys["effects"] = _effects(trial)
-    if study.diagnosis.effects:
+    if study.diagnosis.effects is not None:
         keys["diagnosis"]["effects"] = [n for n in study.diagnosis.effects if _fits(trial, n)]
     for (experiment, signal), given in signals.items():
         keys["experiments"][experiment]["signals"][signal] |= given

@@ -23,7 +23,6 @@ LEVEL = 0.01
 DRAWS = 1000
 MOST_WINDOWS = 8
 """Most windows of one channel."""
-_LENGTHS = (1, 2, 3, 4, 6, 8, 11, 16, 23, 32, 45, 64, 91, 128, 181, 256, 362, 512, 724, 1024)
 
 
 @dataclass(frozen=True)
@@ -122,7 +121,16 @@ def _highest(w: FloatArray) -> FloatArray:
 
 
 def _lengths(points: int) -> list[int]:
-    return [length for length in _LENGTHS if length <= points]
+    """Return lengths of windows, each about sqrt(2) times the one before.
+
+    >>> _lengths(12)
+    [1, 2, 3, 4, 6, 8, 11]
+    """
+    found, k = [], 0
+    while (length := round(2.0 ** (0.5 * k))) <= points:
+        found += [length, 3] if length == 2 and points > 2 else [length]
+        k += 1
+    return list(dict.fromkeys(found))
 
 
 def _handicap(points: int, length: int) -> float:

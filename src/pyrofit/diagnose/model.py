@@ -9,7 +9,7 @@ from pyrofit.cost import WeightedSum
 from pyrofit.effects import known_effects
 from pyrofit.effects.apply import with_effects
 from pyrofit.effects.base import Quantity
-from pyrofit.estimate.likelihood import Likelihood
+from pyrofit.estimate.likelihood import FAILED, Likelihood
 from pyrofit.estimate.problem import Problem
 from pyrofit.solver.arrays import FloatArray
 
@@ -92,13 +92,27 @@ class Model:
         return np.concatenate([self.likelihood.residuals(x), (values - known.mean) / known.sd])
 
     def jacobian(self, x: FloatArray, residuals: FloatArray) -> FloatArray:
-        """Return d residuals / d x by differences towards the farther limit."""
+        """Return d residuals / d x by differences towards the farther limit.
+
+        Towards the nearer one where no run finishes there, and zero where none does.
+        """
         columns = []
         for i in range(x.size):
-            moved = x.copy()
-            moved[i] += STEP if x[i] < 0.5 else -STEP
-            columns.append((self.residuals(moved) - residuals) / (moved[i] - x[i]))
+            column = np.zeros(residuals.size)
+            far = STEP if x[i] < 0.5 else -STEP
+            for step in (far, -far):
+                moved = x.copy()
+                moved[i] = np.clip(x[i] + step, 0.0, 1.0)
+                there = self.residuals(moved)
+                if moved[i] != x[i] and self.finished(there):
+                    column = (there - residuals) / (moved[i] - x[i])
+                    break
+            columns.append(column)
         return np.column_stack(columns)
+
+    def finished(self, residuals: FloatArray) -> bool:
+        """Tell whether all runs finished that some residuals come from."""
+        return not bool(np.all(residuals[: self.points] == FAILED))
 
     def by_channel(self, residuals: FloatArray) -> list[FloatArray]:
         """Split whitened residuals by channel; what is known is left out."""

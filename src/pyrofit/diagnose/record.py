@@ -16,6 +16,7 @@ from pyrofit.diagnose.search import AMBIGUOUS, Round, Search
 from pyrofit.diagnose.verdict import Judged, Verdict
 from pyrofit.diagnose.words import form_of, sentences
 from pyrofit.effects import known_effects
+from pyrofit.errors import DataError
 
 SCHEMA = 1
 CALIBRATION, HELD_OUT = "calibration", "held out"
@@ -148,21 +149,26 @@ def _confusability(found: Search) -> dict[str, Any]:
 
 
 def _candidates(found: Search, verdict: Verdict) -> list[dict[str, Any]]:
-    judged = {_key(j.trial): j for finding in verdict.findings for j in finding.judged}
+    judged: dict[Any, list[Judged]] = {}
+    for finding in verdict.findings:
+        for one in finding.judged:
+            judged.setdefault(_key(one.trial), []).append(one)
     best = found.end.penalised
     rows = []
     for step, trial in _models(found):
+        here = judged.get(_key(trial), [])
+        trial = here[0].trial if here else trial
         row = {
             "effects": list(trial.effects),
             "free": {name: list(free) for name, free in trial.model.effects.items()},
             "chi2": trial.fit.chi2,
             "gain": step.start.fit.chi2 - trial.fit.chi2,
             "penalised": trial.penalised,
-            "parameters": strengths(trial, _key(trial) in judged),
+            "parameters": strengths(trial, bool(here)),
             "adequate": found.end_alarm.adequate if _key(trial) == _key(found.end) else None,
-            **_judgement(judged.get(_key(trial))),
+            **_judgement(here),
         }
-        if not row["rejected"] and _key(trial) not in judged:
+        if not here:
             row["rejected"] = _why_not(found, step.start, trial, best)
         rows.append(row)
     return rows
@@ -185,14 +191,16 @@ def _key(trial: Trial) -> frozenset[tuple[str, tuple[str, ...]]]:
     return frozenset(trial.model.effects.items())
 
 
-def _judgement(judged: Judged | None) -> dict[str, Any]:
-    if judged is None:
+def _judgement(judged: list[Judged]) -> dict[str, Any]:
+    """Return what was found of a model, in all its effects' places."""
+    if not judged:
         return {"disagree": None, "predictions": {}, "explains": None, "rejected": ""}
+    against = dict.fromkeys(f"{j.effect}: {j.rejected}" for j in judged if j.rejected)
     return {
-        "disagree": judged.trust.disagree,
-        "predictions": judged.trust.gains,
-        "explains": judged.trust.explains,
-        "rejected": judged.rejected,
+        "disagree": min(j.trust.disagree for j in judged),
+        "predictions": min((j.trust.gains for j in judged), key=lambda g: sum(g.values())),
+        "explains": all(j.trust.explains for j in judged),
+        "rejected": "; ".join(against),
     }
 
 
@@ -203,8 +211,6 @@ def _why_not(found: Search, start: Trial, trial: Trial, best: float) -> str:
     limits = [name for name in (at_limit(trial, effect) for effect in trial.effects) if name]
     if limits:
         return f"{limits[0]} rests at a limit"
-    if found.end is found.base:
-        return "what is left is noise without it"
     return f"{trial.penalised - best:.1f} above the best in penalised chi-square"
 
 
@@ -213,9 +219,14 @@ def _misfits(trial: Trial) -> list[dict[str, Any]]:
     base = trial.model.base
     model = model_of(base, trial.model.effects, range(len(base.channels)))
     curves = model.likelihood.curves(trial.fit.x)
+    if curves is None:
+        raise DataError(
+            "diagnosis: not every held-out run finishes with the fitted parameters; leave out, by "
+            "diagnosis.hold_out, those that are furthest from what is fitted"
+        )
     white = model.by_channel(model.residuals(trial.fit.x))
     targets = [term.target for _, term in model.likelihood.problem.cost.terms]
-    parts = [t.value for t in targets] if curves is None else model.likelihood.split(curves)
+    parts = model.likelihood.split(curves)
     return [
         {"curve": c, "chi2": float(w @ w), "rms": float(np.sqrt(np.mean((c - t.value) ** 2)))}
         for c, t, w in zip(parts, targets, white, strict=True)

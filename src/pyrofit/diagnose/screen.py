@@ -82,17 +82,19 @@ def project(spanned: FloatArray, w: FloatArray) -> FloatArray:
 
 
 def look(model: Model, fit: Fit, effect: str) -> Look | None:
-    """Return what an effect would change of a fitted model; nothing where that excludes it."""
+    """Return what an effect would change of a fitted model; nothing where it cannot have it."""
     name, _ = strength_of(effect)
     try:
         more = model_of(model.base, {**model.effects, effect: (name,)}, model.channels)
     except ValueError:  # another effect sets the same number of the description
         return None
     spanned = projector(fit)
-    strengths = tried(effect)
-    d = np.column_stack(
-        [more.residuals(extended(fit.x, effect, s)) - fit.residuals for s in strengths]
-    )
+    runs = [(s, more.residuals(extended(fit.x, effect, s))) for s in tried(effect)]
+    runs = [(s, residuals) for s, residuals in runs if more.finished(residuals)]
+    if not runs:
+        return None
+    strengths = np.array([s for s, _ in runs])
+    d = np.column_stack([residuals for _, residuals in runs]) - fit.residuals[:, None]
     ahead = np.sum(project(spanned, fit.residuals[:, None] + d) ** 2, axis=0)
     return Look(effect, strengths, d, project(spanned, d), ahead, _typical(effect, strengths))
 

@@ -47,7 +47,7 @@ class Means:
     """What a search works with: draws of noise, someone who is told what goes on, processes."""
 
     rng: np.random.Generator
-    tell: Tell = print
+    tell: Tell = lambda text: None
     processes: int = 1
 
 
@@ -132,16 +132,16 @@ def _search(base: Trial, effects: Sequence[str], most: int, means: Means) -> Sea
     beam = _claims(rounds, spare)
     while beam:
         steps = [_onwards(beam[0], effects, means)]
-        if best.penalised - beam[0].penalised >= spare:
+        more = len(beam[0].effects) - len(best.effects)
+        if best.penalised - beam[0].penalised >= more * spare:
             best, best_alarm = steps[0].start, steps[0].alarm
-        if best_alarm.silent or len(best.effects) >= most:
+        if best_alarm.silent or len(beam[0].effects) >= most:
             break
         steps += [_onwards(trial, effects, means) for trial in beam[1:]]
-        # The best may get any effect more; the others those that promise most.
-        most_tried = [len(effects), *[BRANCHES] * len(steps)]
+        # The best may get any effect more; the other those that promise most.
         steps = [
-            replace(step, trials=_more(step, tried, means))
-            for step, tried in zip(steps, most_tried, strict=False)
+            replace(step, trials=_more(step, BRANCHES if i else len(effects), means))
+            for i, step in enumerate(steps)
         ]
         rounds += steps
         beam = _claims(steps, spare)
@@ -161,6 +161,8 @@ def _sharp(step: Round, means: Means) -> Round:
     if step.alarm.silent and not blurred(step.start.model.base):
         return step
     order = sorted(step.looks, key=lambda look: float(look.ahead.min()))[:LEADING]
+    if not order:
+        return step
     fits = shared(lambda i: with_effect(step.start, order[i]).fit, len(order), means.processes)
     at = int(np.argmin([fit.chi2 for fit in fits]))
     best = Trial(model_with(step.start, order[at].effect), fits[at])
@@ -235,7 +237,7 @@ def _sorted(trials: Sequence[Trial]) -> tuple[Trial, ...]:
 
 
 def _claims(steps: Sequence[Round], spare: float) -> list[Trial]:
-    """Return the best trials that gain enough over the model they started from.
+    """Return the best trials that gain enough over the model they started from, each effect once.
 
     Those with a strength at a limit, which may not be claimed, only where there are no others.
     """
@@ -246,7 +248,10 @@ def _claims(steps: Sequence[Round], spare: float) -> list[Trial]:
         if step.start.penalised - trial.penalised >= spare
     ]
     inside = [trial for trial in found if not any(at_limit(trial, e) for e in trial.effects)]
-    return sorted(inside or found, key=lambda trial: trial.penalised)[:BEAM]
+    best: dict[frozenset[str], Trial] = {}
+    for trial in _sorted(inside or found):
+        best.setdefault(frozenset(trial.effects), trial)
+    return list(best.values())[:BEAM]
 
 
 def dropped(trial: Trial, effect: str) -> Trial:

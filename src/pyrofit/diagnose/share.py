@@ -19,14 +19,17 @@ def shared(work: Work[Result], count: int, processes: int = 1) -> list[Result]:
     Raises
     ------
     RuntimeError
-        A process ended before its work was done.
+        A process was ended before its work was done.
+
+    Whatever ``work`` raises is raised here.
 
     Examples
     --------
     >>> shared(lambda i: i * i, 5, processes=2)
     [0, 1, 4, 9, 16]
     """
-    if processes == 1 or count < 2:
+    forks = "fork" in multiprocessing.get_all_start_methods()
+    if processes == 1 or count < 2 or not forks:
         return [work(i) for i in range(count)]
     context = multiprocessing.get_context("fork")
     results: dict[int, Result] = {}
@@ -40,14 +43,22 @@ def shared(work: Work[Result], count: int, processes: int = 1) -> list[Result]:
         running.append((process, ours))
     for process, ours in running:
         try:
-            results |= ours.recv()
+            found = ours.recv()
         except EOFError:
-            raise RuntimeError("a process of the diagnosis ended early; run it again") from None
+            raise RuntimeError("a process of the diagnosis was ended; run it again") from None
+        if isinstance(found, Exception):
+            raise found
+        results |= found
         process.join()
     return [results[i] for i in range(count)]
 
 
-def _do(work: Work[Result], pieces: range, results: "Connection[dict[int, Result], None]") -> None:
+def _do(
+    work: Work[Result], pieces: range, results: "Connection[dict[int, Result] | Exception, None]"
+) -> None:
     signal.signal(signal.SIGINT, signal.SIG_IGN)  # the first process answers it, and ends this one
-    results.send({i: work(i) for i in pieces})
+    try:
+        results.send({i: work(i) for i in pieces})
+    except Exception as error:
+        results.send(error)
     results.close()

@@ -8,6 +8,7 @@ import numpy as np
 
 from pyrofit.diagnose.descent import refreshed
 from pyrofit.diagnose.gates import AGREE, INFORMATIVE, Trust, forecasts, trust
+from pyrofit.diagnose.locate import alarm
 from pyrofit.diagnose.refit import Trial
 from pyrofit.diagnose.search import AMBIGUOUS, Search, dropped
 from pyrofit.effects import known_effects
@@ -81,13 +82,15 @@ class Verdict:
     """What is claimed, with the findings it rests on and the reasons, in words."""
 
     kind: Kind
+    search: Search
+    """The search, ended with the model that the verdict is about."""
     findings: tuple[Finding, ...]
     reasons: tuple[str, ...]
 
     @property
     def confirmed(self) -> bool:
         """Whether effects are claimed that explain and predict what was not fitted."""
-        sure = all(finding.predicted and finding.explains for finding in self.findings)
+        sure = all(f.group and f.predicted and f.explains for f in self.findings)
         return self.kind in ("named", "multiple") and sure and ONE_FLUX not in self.reasons
 
 
@@ -103,26 +106,29 @@ def judge(found: Search, rng: np.random.Generator) -> Verdict:
     if not findings:
         return _without_effects(found)
     reasons = [f"{f.effect}: {j.rejected}" for f in findings for j in f.judged[:1] if j.rejected]
+    if len(findings) == 1 and reasons and findings[0].kept:
+        # The best one fails, another does not: the verdict is about that one.
+        end = findings[0].kept[0].trial
+        found = replace(found, end=end, end_alarm=alarm(end.model, end.fit, [], rng))
+        reasons = []
     if not found.end_alarm.adequate:
         reasons.append("what is left is more than noise, with every effect that gains enough")
-    if reasons and (not found.end_alarm.adequate or any(not f.kept for f in findings)):
-        return Verdict("unknown", findings, tuple(reasons))
-    reasons += _doubts(found, findings)
+    if reasons:
+        return Verdict("unknown", found, findings, tuple(reasons))
+    doubts = tuple(_doubts(found, findings))
     if len(findings) > 1:
-        return Verdict("multiple", findings, tuple(reasons))
-    return Verdict(
-        "ambiguous" if _open(findings[0], reasons) else "named", findings, tuple(reasons)
-    )
+        return Verdict("multiple", found, findings, doubts)
+    kind: Kind = "ambiguous" if _open(findings[0], doubts) else "named"
+    return Verdict(kind, found, findings, doubts)
 
 
 def _without_effects(found: Search) -> Verdict:
-    alarm = found.end_alarm
-    if alarm.silent:
-        return Verdict("none", (), ("what is left is noise",))
-    if alarm.adequate:
+    if found.end_alarm.silent:
+        return Verdict("none", found, (), ("what is left is noise",))
+    if found.end_alarm.adequate:
         reason = "an effect's score is remarkable, but none gains enough to be claimed"
-        return Verdict("none", (), (reason,))
-    return Verdict("unknown", (), ("no effect of the catalogue gains enough",))
+        return Verdict("none", found, (), (reason,))
+    return Verdict("unknown", found, (), ("no effect of the catalogue gains enough",))
 
 
 def _open(finding: Finding, reasons: Sequence[str]) -> bool:
@@ -153,7 +159,8 @@ def _finding(found: Search, effect: str, rng: np.random.Generator) -> Finding:
     judged = []
     for name, trial in alternatives(found, effect):
         about = trust(trial, before, name, rng)
-        judged.append(Judged(name, trial, about, _against(found, trial, about)))
+        gain = without.penalised - trial.penalised
+        judged.append(Judged(name, trial, about, _against(gain, found.spare, about)))
     return Finding(effect, tuple(judged))
 
 
@@ -175,8 +182,13 @@ def alternatives(found: Search, effect: str) -> list[tuple[str, Trial]]:
     ]
 
 
-def _against(found: Search, trial: Trial, about: Trust) -> str:
-    """Say what speaks against a model, nothing where it passes."""
+def _against(gain: float, spare: float, about: Trust) -> str:
+    """Say what speaks against a model, nothing where it passes.
+
+    ``gain`` is that of penalised chi-square over the model without the effect.
+    """
+    if gain < spare:
+        return f"gains {gain:.1f} of penalised chi-square, {spare:.1f} are asked for"
     if about.limit:
         return f"{about.limit} rests at a limit"
     if about.disagree < AGREE:

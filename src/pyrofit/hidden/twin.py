@@ -133,7 +133,7 @@ def same_as(effect: str) -> set[str]:
 def _leave_out(study: Given, without: tuple[str, ...], path: Path) -> None:
     if without:
         left = without_effects(as_study(study, str(path)), set(without))
-        study["diagnosis"]["effects"] = list(left.diagnosis.effects)
+        study["diagnosis"]["effects"] = list(candidate_effects(left))
 
 
 def _seen(setting: Setting, case: Case) -> Given:
