@@ -7,6 +7,7 @@ import numpy as np
 import pandas as pd
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure as Canvas
+from matplotlib.ticker import FormatStrFormatter, LogLocator, NullFormatter
 
 from pyrofit.effects import known_effects
 from pyrofit.figures import style
@@ -35,7 +36,9 @@ def confusion(twins: pd.DataFrame) -> Canvas:
     ax.imshow(shown, cmap="Blues", vmin=0.0, vmax=1.3, aspect="auto")
     for i, k in zip(*np.nonzero(counts), strict=True):
         bold = "bold" if i == k else "normal"
-        ax.text(k, i, str(counts[i, k]), ha="center", va="center", fontsize=6, weight=bold)
+        color = "white" if shown[i, k] > 0.6 else "black"
+        number = str(counts[i, k])
+        ax.text(k, i, number, ha="center", va="center", fontsize=6, weight=bold, color=color)
     _lines_between_groups(ax, names)
     ax.set_xticks(range(len(columns)), columns, rotation=90, fontsize=6)
     ax.set_yticks(range(len(names)), names, fontsize=6)
@@ -142,6 +145,10 @@ def gaps(twins: pd.DataFrame) -> Canvas:
         low, high = (both.min() / 1.2, both.max() * 1.2) if len(both) else (0.5, 2.0)
         ax.plot([low, high], [low, high], color="0.4", linewidth=0.7)
         ax.set(xscale="log", yscale="log", xlim=(low, high), ylim=(low, high))
+        for axis in (ax.xaxis, ax.yaxis):
+            axis.set_major_locator(LogLocator(subs=(1.0, 2.0, 5.0)))
+            axis.set_major_formatter(FormatStrFormatter("%g"))
+            axis.set_minor_formatter(NullFormatter())
         ax.set_xlabel("rms of whitened residuals, base model [–]")
         ax.set_ylabel("the same, with the named effect [–]")
     entries = [style.line(words, **_look(i)) for i, (words, _) in enumerate(looks)]
