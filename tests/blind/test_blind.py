@@ -47,7 +47,7 @@ def test_effects_that_stand_out_are_named(twins: pd.DataFrame) -> None:
 def test_claims_hold_the_truth(twins: pd.DataFrame) -> None:
     claimed = twins[twins["claim"] & (twins["kind"] != "form")]
     assert claimed["in_set"].all()
-    assert claimed["set_size"].mean() <= 2.0
+    assert pd.to_numeric(claimed["set_size"]).mean() <= 2.0
 
 
 def test_both_effects_of_a_pair_are_found(twins: pd.DataFrame) -> None:
@@ -57,7 +57,7 @@ def test_both_effects_of_a_pair_are_found(twins: pd.DataFrame) -> None:
 
 
 def test_effect_that_is_no_candidate_is_not_replaced_by_another(twins: pd.DataFrame) -> None:
-    again = twins[(twins["left_out"] != "") & (twins["detectability"] >= 10.0)]
+    again = twins[twins["left_out"] != ""]
     assert len(again) >= 1
     assert not again["left_out_wrong"].astype(bool).any()
 
