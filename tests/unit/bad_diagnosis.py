@@ -83,7 +83,7 @@ DIAGNOSIS = rows_of(
         ),
         (
             "parameter that the diagnosis lacks",
-            put(diagnosis={"estimate": ["rho"]}),
+            put(diagnosis={"estimate": ["rho", "T_p", "E_p"]}),
             ("parameters.k: the diagnosis needs it; add it to diagnosis.estimate or give a value",),
         ),
         (

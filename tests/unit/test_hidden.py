@@ -10,7 +10,7 @@ import pandas as pd
 import pytest
 
 from pyrofit.config import Study, candidate_effects
-from pyrofit.effects import known_effects
+from pyrofit.effects import known_effects, same_as
 from pyrofit.errors import DataError, StudyError
 from pyrofit.estimate.problem import Measurements
 from pyrofit.files import read_json, write_json
@@ -19,7 +19,7 @@ from pyrofit.hidden.places import Places
 from pyrofit.hidden.plan import Case, cases_of, chunk_of
 from pyrofit.hidden.run import run_case, run_chunk
 from pyrofit.hidden.setting import Setting, read_setting
-from pyrofit.hidden.twin import describe, make_twin, read_twin, same_as, write_twin
+from pyrofit.hidden.twin import describe, make_twin, read_twin, write_twin
 from pyrofit.report.hidden_effects import write_hidden_effects
 from pyrofit.solver.reference.resolution import Resolution
 from pyrofit.tables.hidden_effects import row_of

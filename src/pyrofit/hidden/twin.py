@@ -12,7 +12,6 @@ import pandas as pd
 
 from pyrofit.config import Study, as_study, candidate_effects, read_mapping, read_study
 from pyrofit.data.quantities import tidy_keys
-from pyrofit.effects import known_effects
 from pyrofit.errors import StudyError
 from pyrofit.estimate.problem import Measurements
 from pyrofit.files import write_csv, write_json, write_text
@@ -118,16 +117,6 @@ def without_effects(study: Study, names: set[str]) -> Study:
     left = tuple(name for name in candidate_effects(study) if name not in names)
     diagnosis = study.diagnosis.model_copy(update={"effects": left})
     return study.model_copy(update={"diagnosis": diagnosis})
-
-
-def same_as(effect: str) -> set[str]:
-    """Return an effect and those that no data of these kinds can tell from it.
-
-    >>> sorted(same_as("time_offset"))
-    ['heater_ramp', 'time_offset']
-    """
-    partners = {n for n, e in known_effects().items() if e.same_as == effect}
-    return {effect, known_effects()[effect].same_as or effect} | partners
 
 
 def _leave_out(study: Given, without: tuple[str, ...], path: Path) -> None:

@@ -19,6 +19,7 @@ def write_report(study: Study, results: Results) -> None:
     DataError
         A result is missing.
     """
+    origin = provenance(study, outcomes.measured(study, results))
     tables = tables_of(study, results)
     said = [*summary(study, tables), verdicts(tables)]
     said += sentences(tables["truth"])[:1] if "truth" in tables else []
@@ -27,7 +28,6 @@ def write_report(study: Study, results: Results) -> None:
     if diagnosis.exists(results):
         said.append(diagnosis.headline(study, results))
         shown.append(diagnosis.section(study, results))
-    origin = provenance(study, outcomes.measured(study, results))
     text = page_of(study, results, study.title or study.name, said, shown)
     write_json(results.root / "provenance.json", origin)
     write_text(results.root / "report.html", text)

@@ -6,10 +6,9 @@ from typing import Any
 import numpy as np
 import pandas as pd
 
-from pyrofit.effects import known_effects
+from pyrofit.effects import known_effects, same_as
 from pyrofit.files import Keys, read_json
 from pyrofit.hidden.places import Places
-from pyrofit.hidden.twin import same_as
 
 CLAIMS = ("named", "ambiguous", "multiple")
 """Verdicts that say what is missing."""
