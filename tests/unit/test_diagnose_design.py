@@ -6,7 +6,6 @@ import numpy as np
 import pytest
 from test_diagnose_probes import MLR, SLABS, STEP, nothing, substance, twin
 
-from pyrofit.diagnose.corrections import parameters
 from pyrofit.diagnose.descent import Fit
 from pyrofit.diagnose.design import Design, next_experiments
 from pyrofit.diagnose.ideas import ideas
@@ -104,7 +103,7 @@ def test_separation_by_a_tga_is_the_formula_written_out() -> None:
     request = Request((T - T[0]) / 0.5, temperature_K=T)
 
     def curve(x: np.ndarray) -> np.ndarray:
-        values = parameters(problem, trial.model.likelihood.values(x))
+        values = problem.values(trial.model.likelihood.values(x))
         return simulate_tga(run.experiment, problem.material, values, request).signals[  # type: ignore[arg-type]
             "mass_fraction"
         ]

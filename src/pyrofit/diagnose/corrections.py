@@ -71,20 +71,15 @@ class _Derived(Problem):
 
     def simulate(self, x: FloatArray) -> tuple[Status, list[FloatArray]]:
         """Return the model at each term's target; shape of ``x``: (parameters,), SI units."""
-        values = parameters(self, x)
+        values = self.values(x)
         return Problem.simulate(replace(self, fixed={**values, **self.derive(values)}), x)
-
-
-def parameters(problem: Problem, x: FloatArray) -> dict[str, float]:
-    """Return the values of all parameters by name, SI units."""
-    return {**problem.fixed, **dict(zip(problem.names, x.tolist(), strict=True))}
 
 
 def corrections(problem: Problem, x: FloatArray) -> list[Correction]:
     """Return all corrections of a problem about fitted values x [SI]; none without gasification."""
     if not _slabs(problem):
         return []
-    values = parameters(problem, x)
+    values = problem.values(x)
     T = _temperatures(problem, values)
     of_properties = [_property(problem, values, T, probe) for probe in PROPERTIES]
     return [_flux(problem), *of_properties, _front_loss(problem, T)]

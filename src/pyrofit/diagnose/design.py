@@ -17,9 +17,8 @@ from itertools import combinations
 
 import numpy as np
 
-from pyrofit.diagnose.corrections import parameters
 from pyrofit.diagnose.ideas import Idea, ideas
-from pyrofit.diagnose.model import STEP, UNIFORM, Base
+from pyrofit.diagnose.model import STEP, Base, curvature
 from pyrofit.diagnose.refit import Trial
 from pyrofit.estimate.correlation import Correlation
 from pyrofit.estimate.noise import NoiseModel
@@ -155,7 +154,7 @@ def _forecast(trial: Trial, idea: Idea, requests: Mapping[str, Request]) -> _For
             return None
         for signal, columns in slopes.items():
             columns.append((moved.signals[signal] - curves.signals[signal]) / by)
-    bend = trial.fit.jacobian.T @ trial.fit.jacobian + UNIFORM * np.eye(x.size)
+    bend = curvature(trial.fit.jacobian)
     # C = bend^-1 = R R^T with R = L^-T of Cholesky's bend = L L^T.
     R = np.linalg.inv(np.linalg.cholesky(bend)).T
     return _Forecast(
@@ -168,7 +167,7 @@ def _run(trial: Trial, idea: Idea, x: FloatArray, requests: Mapping[str, Request
     """Simulate the new test with a model's own description of the one it is like."""
     likelihood = trial.model.likelihood
     problem = likelihood.problem
-    values = parameters(problem, likelihood.values(x))
+    values = problem.values(likelihood.values(x))
     experiment = idea.change(problem.runs[idea.like].experiment)
     if isinstance(experiment, Gasification):
         return simulate_gasification(

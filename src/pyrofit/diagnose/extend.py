@@ -4,7 +4,7 @@ from collections.abc import Mapping
 from typing import Any
 
 from pyrofit.config import Study
-from pyrofit.diagnose.model import model_of, strength_of
+from pyrofit.diagnose.model import model_of, name_of, strength_of
 from pyrofit.diagnose.refit import Trial
 from pyrofit.effects import known_effects
 
@@ -54,6 +54,6 @@ def _effects(trial: Trial) -> Keys:
     values = trial.model.likelihood.values(trial.fit.x).tolist()
     fitted = dict(zip(trial.model.names, values, strict=True))
     return {
-        effect: {parameter: fitted[f"{effect}_{parameter}"] for parameter in free}
+        effect: {parameter: fitted[name_of(effect, parameter)] for parameter in free}
         for effect, free in trial.model.effects.items()
     }

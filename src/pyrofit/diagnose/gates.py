@@ -18,12 +18,13 @@ from scipy.stats import chi2 as chi_squared
 
 from pyrofit.diagnose.descent import Fit, descend, refreshed
 from pyrofit.diagnose.locate import alarm
-from pyrofit.diagnose.model import UNIFORM, model_of
+from pyrofit.diagnose.model import curvature, model_of
 from pyrofit.diagnose.refit import Trial
 from pyrofit.diagnose.screen import project, projector
 from pyrofit.diagnose.setup import refitted, with_noise_about
 from pyrofit.solver.arrays import FloatArray
 
+HELD_OUT = "held out"
 AT_LIMIT = 0.005
 """A parameter within this fraction of the limits' distance from a limit rests there."""
 AGREE = 1e-3
@@ -101,8 +102,7 @@ def forecast(part: Fit, whole: Fit) -> float:
 
 
 def _log_det(fit: Fit) -> float:
-    bend = fit.jacobian.T @ fit.jacobian + UNIFORM * np.eye(fit.x.size)
-    return float(np.linalg.slogdet(bend)[1])
+    return float(np.linalg.slogdet(curvature(fit.jacobian))[1])
 
 
 def left_out(trial: Trial, experiment: str) -> float:
@@ -130,10 +130,16 @@ def slabs(trial: Trial) -> list[str]:
 
 def forecasts(trial: Trial) -> dict[str, float]:
     """Return the log scores of all predictions: of experiments from the others, and held out."""
+    return _forecasts(trial)[0]
+
+
+def _forecasts(trial: Trial) -> tuple[dict[str, float], Trial]:
+    """Return the log scores, and the fit to all signals."""
     found = {name: left_out(trial, name) for name in slabs(trial)}
-    if trial.model.base.held_out:
-        found["held out"] = forecast(trial.fit, with_held_out(trial).fit)
-    return found
+    if not trial.model.base.held_out:
+        return found, trial
+    whole = with_held_out(trial)
+    return {**found, HELD_OUT: forecast(trial.fit, whole.fit)}, whole
 
 
 def trust(trial: Trial, without: dict[str, float], effect: str, rng: np.random.Generator) -> Trust:
@@ -146,11 +152,9 @@ def trust(trial: Trial, without: dict[str, float], effect: str, rng: np.random.G
     rng
         Source of the draws of noise that what is held out is compared with.
     """
-    own = {name: left_out(trial, name) for name in slabs(trial)}
+    own, whole = _forecasts(trial)
     explains = True
     if trial.model.base.held_out:
-        whole = with_held_out(trial)
-        own["held out"] = forecast(trial.fit, whole.fit)
         # The scores are compared under one noise; this is judged under the one that it leaves.
         whole = refitted(whole, with_noise_about(whole, trial.model.base.held_out))
         explains = alarm(whole.model, whole.fit, [], rng).adequate

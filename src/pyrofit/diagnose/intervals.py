@@ -4,7 +4,7 @@ from typing import Any
 
 import numpy as np
 
-from pyrofit.diagnose.model import UNIFORM, fraction, model_of
+from pyrofit.diagnose.model import curvature, fraction, model_of, name_of
 from pyrofit.diagnose.refit import Trial
 from pyrofit.effects import known_effects
 from pyrofit.estimate.profile import QUANTILE
@@ -22,8 +22,7 @@ def values_of(trial: Trial) -> tuple[FloatArray, FloatArray]:
 
 def covariance(jacobian: FloatArray, inflation: float) -> FloatArray:
     """Return (J^T J / inflation + 12 I)^-1, of fractions of the limits' distances."""
-    bend = jacobian.T @ jacobian / inflation + UNIFORM * np.eye(jacobian.shape[1])
-    return np.asarray(np.linalg.inv(bend))
+    return np.asarray(np.linalg.inv(curvature(jacobian, inflation)))
 
 
 def interval(
@@ -51,7 +50,7 @@ def strengths(trial: Trial, with_form: bool) -> dict[str, Any]:
     found = {}
     for effect, free in trial.model.effects.items():
         for parameter in free:
-            name = f"{effect}_{parameter}"
+            name = name_of(effect, parameter)
             i = trial.model.names.index(name)
             found[name] = {
                 **interval(trial, i, values, sd),
@@ -76,7 +75,7 @@ def _with_form(trial: Trial, effect: str, i: int) -> dict[str, float | None]:
     for name, value in zip(trial.model.names, trial.fit.x, strict=True):
         x[model.names.index(name)] = value
     for parameter in form:
-        at = model.names.index(f"{effect}_{parameter}")
+        at = model.names.index(name_of(effect, parameter))
         x[at] = fraction(quantities[parameter], quantities[parameter].value)
     wide = Trial(model, trial.fit)
     jacobian = model.jacobian(x, model.residuals(x))

@@ -163,6 +163,11 @@ def _restricted(problem: Problem, channels: Sequence[int]) -> Problem:
     return replace(problem, picks=picks, runs=runs, cost=cost)
 
 
+def curvature(jacobian: FloatArray, inflation: float = 1.0) -> FloatArray:
+    """Return J^T J / inflation + 12 I: the inverse covariance, the limits as uniform prior."""
+    return np.asarray(jacobian.T @ jacobian / inflation + UNIFORM * np.eye(jacobian.shape[1]))
+
+
 def name_of(effect: str, parameter: str) -> str:
     """Return the name that an effect's parameter has in a study."""
     return f"{effect}_{parameter}"

@@ -88,10 +88,7 @@ def course(model: Model, x: FloatArray, channel: int) -> Course:
     problem = model.likelihood.problem
     name, signal, index = problem.picks[channel]
     run = problem.runs[name]
-    values = {
-        **problem.fixed,
-        **dict(zip(problem.names, model.likelihood.values(x).tolist(), strict=True)),
-    }
+    values = problem.values(model.likelihood.values(x))
     request = run.requests[signal]
     if not isinstance(run.experiment, Gasification):
         curves = simulate_tga(run.experiment, problem.material, values, request, problem.accuracy)

@@ -10,7 +10,7 @@ from dataclasses import dataclass, replace
 import numpy as np
 from scipy.stats import chi2 as chi_squared
 
-from pyrofit.diagnose.corrections import Correction, Shape, corrections, parameters
+from pyrofit.diagnose.corrections import Correction, Shape, corrections
 from pyrofit.diagnose.descent import descend
 from pyrofit.diagnose.locate import LEVEL
 from pyrofit.diagnose.model import Known, Model
@@ -100,7 +100,7 @@ def _fitted(trial: Trial, correction: Correction) -> Probe:
         coefficients=dict(zip(correction.sd, c.tolist(), strict=True)),
         chi2=fit.chi2 - float(np.sum((c / sd) ** 2)),
         absorbed=0.0,
-        shape=correction.shape(parameters(model.likelihood.problem, values)),
+        shape=correction.shape(model.likelihood.problem.values(values)),
         unit=correction.unit,
     )
 

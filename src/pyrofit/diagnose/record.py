@@ -6,7 +6,7 @@ import numpy as np
 import pandas as pd
 
 from pyrofit.config import Study
-from pyrofit.diagnose.gates import at_limit
+from pyrofit.diagnose.gates import HELD_OUT, at_limit
 from pyrofit.diagnose.intervals import interval, strengths, values_of
 from pyrofit.diagnose.model import model_of, strength_of
 from pyrofit.diagnose.phases import describe
@@ -19,7 +19,7 @@ from pyrofit.effects import known_effects
 from pyrofit.errors import DataError
 
 SCHEMA = 1
-CALIBRATION, HELD_OUT = "calibration", "held out"
+CALIBRATION = "calibration"
 
 
 def content(study: Study, found: Search, verdict: Verdict) -> dict[str, Any]:

@@ -7,8 +7,8 @@ import numpy as np
 
 from pyrofit.diagnose.descent import Fit, descend, refreshed
 from pyrofit.diagnose.model import (
-    UNIFORM,
     Model,
+    curvature,
     extended,
     fraction,
     model_of,
@@ -25,8 +25,6 @@ STARTS = 3
 """Strengths from which an effect is fitted."""
 FAR = 4.0
 """A start must not promise a chi-square above that of the model without the effect times this."""
-
-
 HOPELESS = 50.0
 """How far above the best chi-square an effect ends that is not tried from a second start."""
 SAME = 0.5
@@ -34,13 +32,14 @@ SAME = 0.5
 WIDE = 0.1
 """Standard deviation, as a fraction of the limits' distance, of what is hardly determined."""
 ELSEWHERE = (0.15, 0.5, 0.85)
+"""Values of such a parameter to search from."""
 APART = 0.2
-"""Values of such a parameter to search from, where it is not as near as this."""
+"""Where it is nearer to one than this, that one is left out."""
 
 
 @dataclass(frozen=True, eq=False)
 class Trial:
-    """A model that was fitted, and the look at its last effect it was started from."""
+    """A model that was fitted."""
 
     model: Model
     fit: Fit
@@ -118,7 +117,7 @@ def _start(trial: Trial, seen: Look, at: int) -> tuple[FloatArray, FloatArray]:
     x = extended(trial.fit.x, seen.effect, float(seen.strengths[at]))
     change = seen.raw[:, at]
     J = trial.fit.jacobian
-    bend = J.T @ J + UNIFORM * np.eye(J.shape[1])
+    bend = curvature(J)
     x[:-1] -= np.linalg.solve(bend, J.T @ (trial.fit.residuals + change))
     slope = change / (x[-1] - fraction(quantity, quantity.value))
     return x, np.column_stack([J, slope])
@@ -130,7 +129,7 @@ def polished(trial: Trial) -> Trial:
     A parameter at a limit, or one of wide uncertainty, may be in the wrong of several valleys.
     """
     best = refreshed(trial.model, trial.fit)
-    bend = best.jacobian.T @ best.jacobian + UNIFORM * np.eye(best.x.size)
+    bend = curvature(best.jacobian)
     wide = np.sqrt(np.diag(np.linalg.inv(bend))) > WIDE
     resting = (best.x <= 0.0) | (best.x >= 1.0)
     base = len(trial.model.names) - trial.numbers

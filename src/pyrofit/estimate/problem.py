@@ -54,9 +54,13 @@ class Problem:
     cost: WeightedSum
     accuracy: Accuracy
 
+    def values(self, x: FloatArray) -> dict[str, float]:
+        """Return all parameters by name, fixed ones too, SI units; x has shape (parameters,)."""
+        return {**self.fixed, **dict(zip(self.names, x.tolist(), strict=True))}
+
     def simulate(self, x: FloatArray) -> tuple[Status, list[FloatArray]]:
         """Return the model at each term's target; shape of ``x``: (parameters,), SI units."""
-        values = {**self.fixed, **dict(zip(self.names, x.tolist(), strict=True))}
+        values = self.values(x)
         curves: dict[str, Curves] = {}
         for name, run in self.runs.items():
             curves[name] = _simulate(run, self.material, values, self.accuracy)

@@ -21,7 +21,6 @@ from pyrofit.hidden.setting import Setting
 from pyrofit.stages.measurements import computed
 from pyrofit.stages.reading import read_all
 
-"""Units of the written columns, by quantity."""
 Given = dict[str, Any]
 """Keys of a study."""
 
