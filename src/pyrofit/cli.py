@@ -16,8 +16,9 @@ Step = Callable[[argparse.Namespace], None]
 
 def main(arguments: Sequence[str] | None = None) -> int:
     """Run a command; return 0, or 2 with a message where the user can repair something."""
-    # The workflow runs one job per core; threads of linear algebra would only get in its way.
-    os.environ.setdefault("OPENBLAS_NUM_THREADS", "1")
+    # Threads of linear algebra would get in the way of the workflow's jobs, and change last bits:
+    # Snakemake asks for as many as a job has cores.
+    os.environ["OPENBLAS_NUM_THREADS"] = "1"
     given = _parser().parse_args(arguments)
     if getattr(given, "log", None) is None:
         return _run(given)
