@@ -224,6 +224,17 @@ def _check_published(study: Study) -> None:
                 f"published.costs.{cost}",
                 f"unknown parameter '{name}'. {suggest(name, ('fit', *study.parameters))}",
             )
+    for name, (lower, upper) in (study.published.limits if study.published else {}).items():
+        require(
+            name in study.parameters,
+            "published.limits",
+            f"unknown parameter '{name}'. {suggest(name, study.parameters)}",
+        )
+        require(
+            lower < upper,
+            f"published.limits.{name}",
+            f"lower ({lower:g}) must be below upper ({upper:g})",
+        )
 
 
 def _check_values(study: Study) -> None:

@@ -60,9 +60,10 @@ def fig5(study: Study, results: Results) -> Canvas:
         frame = convergence[convergence["cost_function"] == cost]
         for ax, abscissa in ((axes[first], "generation"), (axes[first + across], "calls")):
             _draw(ax, study, results, cost, frame, abscissa)
-    for ax in axes:
-        if not ax.has_data():
-            ax.set_axis_off()
+    drawn = [ax for ax in axes if ax.has_data()]
+    style.letter(drawn, [ax.get_title(loc="left") for ax in drawn])
+    for ax in set(axes) - set(drawn):
+        ax.set_axis_off()
     for row in range(2 * blocks):
         axes[row * across].set_ylabel("lowest cost so far [–]")
     style.legend_below(canvas, _entries(study))

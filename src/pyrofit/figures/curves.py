@@ -16,6 +16,7 @@ from pyrofit.figures import style
 from pyrofit.files import Results
 from pyrofit.stages import outcomes
 from pyrofit.tables.describe import (
+    CMAES,
     LEAST_SQUARES,
     PUBLISHED,
     SCEUA,
@@ -53,9 +54,9 @@ def fig4(study: Study, results: Results) -> Canvas:
 
 
 def optimisers(study: Study, results: Results) -> Canvas:
-    """Draw the best sets of least squares beside those of SCE-UA at all predicted experiments."""
+    """Draw the best sets of all optimisers at all predicted experiments."""
     names = predicted(study, "mlr")
-    return _compare(study, results, names, (SCEUA, LEAST_SQUARES))
+    return _compare(study, results, names, (SCEUA, LEAST_SQUARES, CMAES))
 
 
 def back_temperature(study: Study, results: Results) -> Canvas:
@@ -120,6 +121,11 @@ def _compare(
 
 
 _MEASURED: Look = {"color": style.MEASURED, "linewidth": 0.7}
+_THEIRS: Look = {"color": style.PUBLISHED, "linewidth": 0.6, "markersize": 3.2}
+_THEIRS |= {"markerfacecolor": "white", "markeredgewidth": 0.7}
+_MARKERS = "osD^vp"
+_MARK_EVERY = 0.09
+"""Distance of markers, in diagonals of the panel."""
 
 
 def _panels(study: Study, names: Sequence[str]) -> tuple[Canvas, list[Axes]]:
@@ -165,13 +171,22 @@ def _band(
 
 
 def _look(study: Study, chosen: PredictedSet) -> Look:
-    styles = style.cost_styles(study)
-    look = dict(styles.get(chosen.cost, {"linestyle": "-", "color": style.PUBLISHED}))
+    look = dict(style.cost_styles(study)[chosen.cost])
     if chosen.origin == PUBLISHED:
-        return {**look, "color": style.PUBLISHED, "linewidth": 0.8}
-    if chosen.origin == LEAST_SQUARES:
-        return {**look, "linewidth": 0.7, "marker": "o", "markersize": 2.2, "markevery": 0.06}
+        return {**_THEIRS, **_marks(study, chosen.cost)}
+    if chosen.origin in (LEAST_SQUARES, CMAES):
+        first, marker = (0.0, "o") if chosen.origin == LEAST_SQUARES else (0.03, "s")
+        marks = {"marker": marker, "markersize": 2.2, "markevery": (first, 0.06)}
+        return {**look, "linewidth": 0.7, **marks}
     return look
+
+
+def _marks(study: Study, cost: str) -> Look:
+    """Return the markers of a cost's published set, beside those of the other costs."""
+    costs = list(study.imp.costs)
+    i = costs.index(cost)
+    first = _MARK_EVERY * (i + 1) / (len(costs) + 1)
+    return {"marker": _MARKERS[i % len(_MARKERS)], "markevery": (first, _MARK_EVERY)}
 
 
 def _measured_entries(

@@ -62,7 +62,11 @@ def sensitivities(study: Study, results: Results) -> Canvas:
 
 def correlation(study: Study, results: Results) -> Canvas:
     """Draw the correlation matrix of the estimates, with its numbers."""
-    matrix = matrix_of(study, results)
+    return draw_matrix(matrix_of(study, results), "correlation [–]")
+
+
+def draw_matrix(matrix: pd.DataFrame, label: str) -> Canvas:
+    """Draw a matrix of correlations, with its numbers."""
     names = [str(name) for name in matrix]
     size = min(style.TWO_COLUMNS, 34.0 + 11.5 * len(names))
     canvas, (ax,) = style.panels(1, 1, size + 12.0, size - 8.0)
@@ -76,7 +80,7 @@ def correlation(study: Study, results: Results) -> Canvas:
     ax.set_xticks(range(len(names)), names, rotation=45, ha="right", rotation_mode="anchor")
     ax.set_yticks(range(len(names)), names)
     ax.tick_params(length=0)
-    canvas.colorbar(image, ax=ax, label="correlation [–]", shrink=0.85)
+    canvas.colorbar(image, ax=ax, label=label, shrink=0.85)
     return canvas
 
 

@@ -7,9 +7,11 @@ import pandas as pd
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure as Canvas
 from matplotlib.lines import Line2D
+from matplotlib.patches import Patch
 from scipy.signal import savgol_filter
 
 from pyrofit.config import Study
+from pyrofit.data.quantities import UNCERTAINTY_COLUMN
 from pyrofit.figures import style
 from pyrofit.files import Results
 from pyrofit.solver.arrays import FloatArray
@@ -19,9 +21,10 @@ from pyrofit.tables.describe import all_rates, data_name, rates_in_fit
 WINDOW_K = 10.0
 """Width of the window over which a slope is taken [K]."""
 FITTED = "fitted"
-# Okabe and Ito's colours in an order that keeps the first three apart in grey.
-_RATES = ("#000000", "#D55E00", "#56B4E9", "#009E73", "#CC79A7", "#E69F00")
+# In an order that keeps the first three far apart in grey, though measured lines are lighter.
+_RATES = ("#000000", "#BB3344", "#56B4E9", "#009E73", "#CC8800", "#CC79A7")
 _NOTICEABLE = 0.01
+_UNCERTAINTY = UNCERTAINTY_COLUMN["mass_fraction"]
 
 
 def slope(temperature_K: FloatArray, mass_fraction: FloatArray) -> tuple[FloatArray, FloatArray]:
@@ -49,6 +52,7 @@ def fig2(study: Study, results: Results) -> Canvas:
     canvas, (left, right) = style.panels(2, 2, style.TWO_COLUMNS, 82.0)
     for i, name in enumerate(names):
         measured = outcomes.series(results, name, "mass_fraction")
+        _band(left, measured)
         _draw(left, right, measured, _colour(i), "-")
         for k, (_, curve) in enumerate(_sets(study, curves, name)):
             _draw(left, right, curve, _colour(i), _dash(k))
@@ -63,7 +67,7 @@ def fig2(study: Study, results: Results) -> Canvas:
         style.line(label, color="black", linestyle=_dash(k))
         for k, label in enumerate(_labels(study))
     ]
-    style.legend_below(canvas, [*rates, _data_entry(study, names), *lines])
+    style.legend_below(canvas, [*rates, *_data_entries(study, results, names), *lines])
     return canvas
 
 
@@ -121,6 +125,7 @@ def kinetics_all_rates(study: Study, results: Results) -> Canvas:
     canvas, axes = style.panels(len(names), 4, style.TWO_COLUMNS, height, sharex=True, sharey=True)
     for ax, name in zip(axes, names, strict=True):
         measured = outcomes.series(results, name, "mass_fraction")
+        _band(ax, measured)
         ax.plot(
             style.celsius(measured["temperature_K"]),
             measured["mass_fraction"],
@@ -137,16 +142,27 @@ def kinetics_all_rates(study: Study, results: Results) -> Canvas:
             ax.set_ylabel("normalised mass $m/m_0$ [–]")
         if i + 4 >= len(axes):  # the last of its column
             ax.tick_params(labelbottom=True)
-        if i // 4 == (len(axes) - 1) // 4:
             ax.set_xlabel("temperature [°C]")
     lines = [
         style.line(label, color=style.colour(k), linestyle=_dash(k))
         for k, label in enumerate(_labels(study))
     ]
-    style.legend_below(canvas, [_data_entry(study, names), *lines])
+    style.legend_below(canvas, [*_data_entries(study, results, names), *lines])
     return canvas
 
 
-def _data_entry(study: Study, names: Sequence[str]) -> Line2D:
+def _band(ax: Axes, measured: pd.DataFrame) -> None:
+    """Shade measured mass ± uncertainty, where one is known."""
+    if _UNCERTAINTY in measured:
+        mass, width = (measured[c].to_numpy(float) for c in ("mass_fraction", _UNCERTAINTY))
+        temperature = style.celsius(measured["temperature_K"])
+        low, high = mass - width, mass + width
+        ax.fill_between(temperature, low, high, color=style.BAND, linewidth=0.0)
+
+
+def _data_entries(study: Study, results: Results, names: Sequence[str]) -> list[Line2D | Patch]:
+    """Return the legend entries of the data, their band only where an uncertainty is known."""
     label = data_name(study, [(name, "mass_fraction") for name in names])
-    return style.line(label, color="0.6", linewidth=2.0)
+    line = style.line(label, color="0.6", linewidth=2.0)
+    known = any(_UNCERTAINTY in outcomes.series(results, n, "mass_fraction") for n in names)
+    return [line, style.patch("uncertainty", color=style.BAND)] if known else [line]

@@ -24,8 +24,9 @@ DPI = 200
 MEASURED = "black"
 BAND = "0.82"
 PUBLISHED = "0.5"
-# Okabe and Ito's colours, dark ones first, without yellow, which is lost on white.
-COLOURS = ("#0072B2", "#D55E00", "#009E73", "#CC79A7", "#E69F00", "#56B4E9")
+# Blue, red and ochre as in Tol's scheme of high contrast, darkened: apart in grey and for
+# colour-blind readers, darker than the band. Then colours of Okabe and Ito, apart by dashes.
+COLOURS = ("#004488", "#BB3344", "#CC8800", "#009E73", "#CC79A7", "#56B4E9")
 DASHES: tuple[Any, ...] = (
     "-",
     (0, (5, 1.5)),
@@ -51,6 +52,7 @@ STYLE: dict[str, Any] = {
     "legend.borderaxespad": 0.2,
     "lines.linewidth": 1.2,
     "lines.dash_capstyle": "butt",
+    "hatch.linewidth": 0.4,
     "axes.linewidth": 0.5,
     "axes.axisbelow": True,
     "axes.xmargin": 0.0,
