@@ -48,6 +48,7 @@ lint: $(VENV)/installed
 	ruff format --check .
 	mypy
 	snakefmt --check Snakefile workflow
+	codespell
 	! grep -n "://" requirements.lock
 
 bench: $(VENV)/installed

@@ -14,10 +14,11 @@ rule prepare:
     log:
         log_of("prepare"),
     params:
+        study=STUDY,
         digest=digest(slices.data(study)),
         files=study.needs_macfp,
         source=COMPUTES,
     message:
         "Measured series into tidy tables, mass closure checked"
     shell:
-        "pyrofit prepare --study {STUDY} --digest {params.digest} --log {log}"
+        "pyrofit prepare --study {params.study} --digest {params.digest} --log {log}"

@@ -13,12 +13,13 @@ rule diagnosis:
         benchmark_of("diagnosis")
     threads: 2
     params:
+        study=STUDY,
         digest=digest(slices.diagnose(study)),
         source=COMPUTES,
     message:
         "Which effect the model lacks"
     shell:
-        "pyrofit diagnose --study {STUDY} --digest {params.digest} --log {log}"
+        "pyrofit diagnose --study {params.study} --digest {params.digest} --log {log}"
         " --cores {threads}"
 
 
@@ -32,12 +33,13 @@ rule diagnosis_page:
     log:
         log_of("diagnosis_page"),
     params:
+        study=STUDY,
         digest=digest(slices.presentation(study)),
         source=SHOWS,
     message:
         "Diagnosis: {output}"
     shell:
-        "pyrofit diagnosis-page --study {STUDY} --digest {params.digest} --log {log}"
+        "pyrofit diagnosis-page --study {params.study} --digest {params.digest} --log {log}"
 
 
 rule diagnose:

@@ -12,21 +12,6 @@ except PyrofitError as error:
     raise WorkflowError(str(error)) from None
 
 
-def places_of(plan):
-    return Places(FOLDER / plan)
-
-
-def chunks_of(wildcards):
-    """Return what the jobs of a plan leave behind."""
-    chunks = range(blind.plan(wildcards.plan).chunks)
-    return [places_of(wildcards.plan).chunk(chunk) for chunk in chunks]
-
-
-def blind_digest(wildcards):
-    """Return a digest of what the twins of a plan depend on."""
-    return digest([BLIND, blind.plan(wildcards.plan).model_dump()])
-
-
 # A twin that has been diagnosed is a file of its own, which no rule removes: after a stop, a job
 # goes on with the next.
 rule hidden_effects_chunk:
@@ -40,12 +25,13 @@ rule hidden_effects_chunk:
         plan="|".join(blind.plans),
         chunk=r"\d+",
     params:
+        setting=HIDDEN_EFFECTS,
         digest=blind_digest,
         source=COMPUTES,
     message:
         "Blind test of the diagnosis, plan {wildcards.plan}, job {wildcards.chunk}"
     shell:
-        "pyrofit hidden-effects --setting {HIDDEN_EFFECTS} --plan {wildcards.plan}"
+        "pyrofit hidden-effects --setting {params.setting} --plan {wildcards.plan}"
         " --chunk {wildcards.chunk} --log {log}"
 
 
@@ -68,12 +54,13 @@ rule hidden_effects_page:
     wildcard_constraints:
         plan="|".join(blind.plans),
     params:
+        setting=HIDDEN_EFFECTS,
         digest=blind_digest,
         source=SHOWS,
     message:
         "Blind test of the diagnosis, plan {wildcards.plan}: tables, figures, page"
     shell:
-        "pyrofit hidden-effects --setting {HIDDEN_EFFECTS} --plan {wildcards.plan}"
+        "pyrofit hidden-effects --setting {params.setting} --plan {wildcards.plan}"
         " --log {log}"
 
 

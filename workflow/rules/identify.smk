@@ -1,10 +1,3 @@
-def identification(stage, *more):
-    """Return what is found of a stage's parameters."""
-    tables = ("estimate", "sensitivities", "singular_values", "correlation", "profiles")
-    names = [*(f"{name}.csv" for name in (*tables, *more)), "noise.json"]
-    return [results.identification(name, stage) for name in names]
-
-
 IDENTIFICATION = identification("imp", "sets")
 
 
@@ -14,6 +7,7 @@ rule identify:
         KINETICS_FOR_IMP,
         results.imp("summary.csv"),
         expand(ROOT / "imp/{cost}/least_squares.json", cost=COSTS),
+        expand(ROOT / "imp/{cost}/cmaes.json", cost=COSTS),
     output:
         identification("imp", "sets"),
     log:
@@ -21,12 +15,13 @@ rule identify:
     benchmark:
         benchmark_of("identify")
     params:
+        study=STUDY,
         digest=digest(slices.identify(study)),
         source=COMPUTES,
     message:
         "What the data determine of the inverse modelling"
     shell:
-        "pyrofit identify --study {STUDY} --digest {params.digest} --log {log}"
+        "pyrofit identify --study {params.study} --digest {params.digest} --log {log}"
 
 
 if study.kinetics is not None:
@@ -43,10 +38,11 @@ if study.kinetics is not None:
         benchmark:
             benchmark_of("identify_kinetics")
         params:
+            study=STUDY,
             digest=digest(slices.kinetics(study)),
             source=COMPUTES,
         message:
             "What the data determine of the kinetics"
         shell:
-            "pyrofit identify --stage kinetics --study {STUDY} --digest {params.digest}"
+            "pyrofit identify --stage kinetics --study {params.study} --digest {params.digest}"
             " --log {log}"

@@ -23,6 +23,7 @@ if study.kinetics is not None:
         benchmark:
             benchmark_of("kinetics")
         params:
+            study=STUDY,
             digest=digest(slices.kinetics(study)),
             generations=study.kinetics.sceua.generations,
             seed=study.seed,
@@ -30,4 +31,4 @@ if study.kinetics is not None:
         message:
             "Kinetics fitted to TGA"
         shell:
-            "pyrofit kinetics --study {STUDY} --digest {params.digest} --log {log}"
+            "pyrofit kinetics --study {params.study} --digest {params.digest} --log {log}"

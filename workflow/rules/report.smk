@@ -4,10 +4,12 @@ CALCULATED = [
     results.imp("summary.csv"),
     results.imp("convergence.csv"),
     expand(ROOT / "imp/{cost}/least_squares.json", cost=COSTS),
+    expand(ROOT / "imp/{cost}/cmaes.json", cost=COSTS),
     expand(ROOT / "imp/{cost}/descent.json", cost=COSTS),
     IDENTIFICATION,
     results.validation("curves.csv"),
     results.validation("scores.csv"),
+    COMPARED,
 ]
 SHOWN_TABLES = [name for name, table in TABLES.items() if table.applies(study)]
 SHOWN_FIGURES = [name for name, figure in FIGURES.items() if figure.applies(study)]
@@ -17,17 +19,24 @@ rule table:
     input:
         CALCULATED,
     output:
-        csv=ROOT / "tables/{name}.csv",
+        csv=report(
+            ROOT / "tables/{name}.csv",
+            caption="../report/table.rst",
+            category="Tables",
+            labels=lambda wildcards: {"table": TABLES[wildcards.name].title},
+        ),
         markdown=ROOT / "tables/{name}.md",
     log:
         log_of("table_{name}"),
     params:
+        study=STUDY,
         digest=digest(slices.presentation(study)),
+        note=lambda wildcards: TABLES[wildcards.name].note,
         source=SHOWS,
     message:
         "Table {wildcards.name}"
     shell:
-        "pyrofit table --study {STUDY} --digest {params.digest} --log {log}"
+        "pyrofit table --study {params.study} --digest {params.digest} --log {log}"
         " --name {wildcards.name}"
 
 
@@ -36,17 +45,24 @@ rule figure:
         CALCULATED,
         MEASUREMENTS,
     output:
-        svg=ROOT / "figures/{name}.svg",
+        svg=report(
+            ROOT / "figures/{name}.svg",
+            caption="../report/figure.rst",
+            category="Figures",
+            labels=lambda wildcards: {"figure": FIGURES[wildcards.name].title},
+        ),
         png=ROOT / "figures/{name}.png",
     log:
         log_of("figure_{name}"),
     params:
+        study=STUDY,
         digest=digest(slices.presentation(study)),
+        caption=lambda wildcards: FIGURES[wildcards.name].caption,
         source=SHOWS,
     message:
         "Figure {wildcards.name}"
     shell:
-        "pyrofit figure --study {STUDY} --digest {params.digest} --log {log}"
+        "pyrofit figure --study {params.study} --digest {params.digest} --log {log}"
         " --name {wildcards.name}"
 
 
@@ -58,14 +74,20 @@ rule report:
         # Once a study has been diagnosed, its report shows that, kept up to date.
         [page for page in [results.diagnosis("report.html")] if page.exists()],
     output:
-        page=ROOT / "report.html",
+        page=report(
+            ROOT / "report.html",
+            caption="../report/page.rst",
+            category="Report",
+            labels={"page": "the report of the study"},
+        ),
         provenance=ROOT / "provenance.json",
     log:
         log_of("report"),
     params:
+        study=STUDY,
         digest=digest(slices.presentation(study)),
         source=SHOWS,
     message:
         "Report: {output.page}"
     shell:
-        "pyrofit report --study {STUDY} --digest {params.digest} --log {log}"
+        "pyrofit report --study {params.study} --digest {params.digest} --log {log}"

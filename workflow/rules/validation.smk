@@ -4,16 +4,18 @@ rule predict:
         KINETICS_FOR_IMP,
         results.imp("summary.csv"),
         expand(ROOT / "imp/{cost}/least_squares.json", cost=COSTS),
+        expand(ROOT / "imp/{cost}/cmaes.json", cost=COSTS),
     output:
         curves=results.validation("curves.csv"),
         scores=results.validation("scores.csv"),
     log:
         log_of("predict"),
     params:
+        study=STUDY,
         digest=digest(slices.validation(study)),
         experiments=" ".join(study.validation.experiments),
         source=COMPUTES,
     message:
         "Best sets simulated at {params.experiments}"
     shell:
-        "pyrofit predict --study {STUDY} --digest {params.digest} --log {log}"
+        "pyrofit predict --study {params.study} --digest {params.digest} --log {log}"

@@ -257,7 +257,7 @@ class Tga(Experiment):
     """Thermogravimetric analysis."""
 
     QUANTITIES: ClassVar[tuple[str, ...]] = ("mass_fraction",)
-    kind: Literal["tga"]
+    kind: Literal["tga"] = Field(description="mass against temperature")
     heating_rate_K_min: AboveZero = Field(description="nominal heating rate [K/min]")
     program: Literal["nominal", "measured"] = Field(
         "measured", description="temperature over time: the measured one, or T0 + rate t"
@@ -283,7 +283,7 @@ class Gasification(Experiment):
     """Mass loss of a slab under radiant heat in an inert atmosphere."""
 
     QUANTITIES: ClassVar[tuple[str, ...]] = ("mlr", "back_temperature")
-    kind: Literal["gasification"]
+    kind: Literal["gasification"] = Field(description="a slab under radiant heat")
     sample: Sample = Field(description="the specimen")
     front: Front = Field(description="irradiated side")
     back: Back = Field(default_factory=Back, description="other side; default: insulated")

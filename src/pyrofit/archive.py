@@ -1,0 +1,256 @@
+"""One file with all of a study: what was given, what came out, and what it takes to run it again.
+
+Measured files of the MaCFP data base are not copied: their commit and checksums stand in the
+provenance. Equal results give equal bytes: entries are sorted and carry no date.
+"""
+
+import csv
+import hashlib
+import io
+import re
+import zipfile
+from collections.abc import Iterator, Mapping, Sequence
+from pathlib import Path
+from typing import Any
+
+from pyrofit import __version__
+from pyrofit.config import Study, as_yaml, digest
+from pyrofit.errors import DataError
+from pyrofit.figures import FIGURES
+from pyrofit.files import Results, read_json, write_bytes
+from pyrofit.model.experiment import Signal
+from pyrofit.provenance import source_fingerprint
+from pyrofit.stages.reading import MACFP
+from pyrofit.tables import TABLES
+
+Entries = dict[str, bytes]
+"""Contents by name in the archive."""
+
+_PAGES = ("study.json", "provenance.json", "report.html")
+_LEFT_OUT = ("logs", "benchmarks")
+"""Folders of results that differ from run to run."""
+_SOFTWARE = (
+    "CITATION.cff",
+    "LICENSE",
+    "Makefile",
+    "README.md",
+    "Snakefile",
+    "pyproject.toml",
+    "requirements.lock",
+    "config/*.yaml",
+    "profiles/*/config.yaml",
+    "workflow/**/*",
+)
+_NO_DATE = (1980, 1, 1, 0, 0, 0)  # the earliest that the format knows
+
+_COMMENT = """\
+The study as it was run, with what the command line had changed. The files of its measurements are
+in data/. It runs in the folder software/; README.txt says how.
+"""
+_README = """\
+{title}
+
+study.yaml         the study as it was run; as_given/ has the files it came from
+data/              measured files of its own
+results/           study.json (every key completed), provenance.json (versions, seed, checksums of
+                   all measured files), histories and best sets of all searches, predictions,
+                   tables, figures, report.html
+software/          pyrofit {version} as it made the results, source fingerprint {fingerprint},
+                   and requirements.lock with the exact versions of all packages
+SHA256SUMS         checksums of all these files: sha256sum --check SHA256SUMS
+
+To run it again you need Python 3.11 or newer and make:
+
+    cd software
+    make .venv/installed
+    export PATH=$PWD/.venv/bin:$PATH
+    pyrofit check ../study.yaml
+    snakemake --cores 2 --configfile ../study.yaml
+    diff -r ../results/tables results/{name}/tables
+
+On the same kind of machine the tables agree in every digit, on another in most.
+"""
+_MACFP = """
+{count} measured files are of the MaCFP data base, commit {commit}. They are not
+in this archive, nor are columns that repeat them: results/provenance.json has their checksums.
+Before the study is run, `make data` fetches them into the user's cache, or PYROFIT_DATA_DIR names a
+folder that has them.
+"""
+
+
+def write_archive(study: Study, results: Results, given: Sequence[Path], project: Path) -> Path:
+    """Write ``<name>.zip`` beside the results of a study; return its path.
+
+    Parameters
+    ----------
+    study
+        The study as it was run.
+    results
+        Its results, complete.
+    given
+        The study files as the user wrote them.
+    project
+        The folder with Snakefile and requirements.lock.
+
+    Raises
+    ------
+    DataError
+        A result or file is missing, or the results are those of another study or source.
+    """
+    origin = read_json(results.root / "provenance.json", {("data",): dict})
+    _check_origin(study, results, origin)
+    own = _own_files(study)
+    entries: Entries = {"study.yaml": _study_file(study, own).encode()}
+    entries |= {f"as_given/{path.name}": _bytes(path) for path in given}
+    entries |= {inside: _bytes(Path(file)) for file, inside in own.items()}
+    for path in _results(study, results):
+        name = path.relative_to(results.root).as_posix()
+        entries[f"results/{name}"] = _without_macfp(study, path)
+    entries |= {f"software/{name}": _bytes(path) for name, path in _software(project)}
+    entries["README.txt"] = _readme(study, origin).encode()
+    sums = [f"{hashlib.sha256(entries[n]).hexdigest()}  {n}\n" for n in sorted(entries)]
+    entries["SHA256SUMS"] = "".join(sums).encode()
+    target = results.root / f"{study.name}.zip"
+    write_bytes(target, _zipped(entries))
+    return target
+
+
+def _check_origin(study: Study, results: Results, origin: Mapping[str, Any]) -> None:
+    """Refuse results of another study, and of a source that is not the one to be packed."""
+    for key, now, what in (
+        ("config_digest", digest(study.model_dump(mode="json")), "the study has"),
+        ("source_fingerprint", source_fingerprint(showing=True), "pyrofit or its packages have"),
+    ):
+        if origin.get(key) != now:
+            raise DataError(
+                f"{results.root}: {what} changed since these results were made; run the workflow "
+                "again, then archive"
+            )
+
+
+def _readme(study: Study, origin: Mapping[str, Any]) -> str:
+    text = _README.format(
+        title=study.title or study.name,
+        name=study.name,
+        version=__version__,
+        fingerprint=origin["source_fingerprint"],
+    )
+    if study.needs_macfp:
+        text += _MACFP.format(count=len(set(study.needs_macfp)), commit=origin["macfp_commit"])
+    return text
+
+
+def _own_files(study: Study) -> dict[str, str]:
+    """Return the place in the archive of each of the user's files, no two alike."""
+    places: dict[str, str] = {}
+    for file in study.own_files:
+        name = f"data/{Path(file).name}"
+        if name in places.values():
+            name = f"data/{len(places)}_{Path(file).name}"
+        places[file] = name
+    return places
+
+
+def _study_file(study: Study, own: Mapping[str, str]) -> str:
+    """Return the study as YAML, its own files where the archive has them."""
+    keys = study.model_dump(mode="json", exclude_defaults=True)
+    for experiment in keys["experiments"].values():
+        for signal in experiment["signals"].values():
+            signal["file"] = own.get(signal["file"], signal["file"])
+    return as_yaml(keys, _COMMENT)
+
+
+def _results(study: Study, results: Results) -> Iterator[Path]:
+    """Yield the files of results that go into the archive."""
+    measured = {
+        results.measurement(name, quantity)
+        for name, quantity, signal in _signals(study)
+        if signal.file.startswith(MACFP)
+    }
+    for path in results.root.rglob("*"):
+        parts = path.relative_to(results.root).parts
+        if path.is_file() and path not in measured and _belongs(study, *parts):
+            yield path
+
+
+def _belongs(study: Study, folder: str, *inside: str) -> bool:
+    """Tell whether a result is this study's, not left of an earlier one nor of a single run."""
+    if not inside:
+        return folder in _PAGES
+    name, stem = inside[-1], Path(inside[-1]).stem
+    if folder in _LEFT_OUT or name.startswith("."):
+        return False
+    if folder == "tables":
+        return stem in TABLES and TABLES[stem].applies(study)
+    if folder == "figures":
+        return stem in FIGURES and FIGURES[stem].applies(study)
+    if folder == "imp" and len(inside) > 1:
+        number = re.match(r"\d+", name)
+        current = number is None or int(number[0]) < study.imp.repetitions
+        return current and inside[0] in study.imp.costs
+    return True
+
+
+def _signals(study: Study) -> Iterator[tuple[str, str, Signal]]:
+    for name, experiment in study.experiments.items():
+        signals: Mapping[str, Signal] = experiment.signals
+        for quantity, signal in signals.items():
+            yield name, quantity, signal
+
+
+def _without_macfp(study: Study, path: Path) -> bytes:
+    """Return a result; what it repeats of files of the data base is left empty."""
+    content = _bytes(path)
+    if path.suffix != ".csv" or not study.needs_macfp:
+        return content
+    rows = list(csv.reader(io.StringIO(content.decode())))
+    if not {"experiment", "signal", "measured"} <= {*rows[0]}:
+        return content
+    at, of, measured = (rows[0].index(key) for key in ("experiment", "signal", "measured"))
+    theirs = {(n, q) for n, q, signal in _signals(study) if signal.file.startswith(MACFP)}
+    for row in rows[1:]:
+        if (row[at], row[of]) in theirs:
+            row[measured] = ""
+    text = io.StringIO()
+    csv.writer(text, lineterminator="\n").writerows(rows)
+    return text.getvalue().encode()
+
+
+def _software(project: Path) -> Iterator[tuple[str, Path]]:
+    """Yield what it takes to run the study, by name in the archive's folder of software."""
+    for needed in ("Snakefile", "requirements.lock"):
+        if not (project / needed).is_file():
+            raise DataError(
+                f"{project / needed}: there is no such file; archive in the folder that has the "
+                "Snakefile of pyrofit"
+            )
+    for pattern in _SOFTWARE:
+        for path in project.glob(pattern):
+            if path.is_file():
+                yield path.relative_to(project).as_posix(), path
+    package = Path(__file__).parent
+    for path in package.rglob("*"):
+        if path.is_file() and "__pycache__" not in path.parts:
+            yield f"src/pyrofit/{path.relative_to(package).as_posix()}", path
+
+
+def _bytes(path: Path) -> bytes:
+    try:
+        return path.read_bytes()
+    except OSError as error:
+        raise DataError(
+            f"{path}: cannot be read ({error.strerror}); the archive needs it"
+        ) from None
+
+
+def _zipped(entries: Entries) -> bytes:
+    """Return a zip file: sorted entries, no dates, no rights of a user."""
+    buffer = io.BytesIO()
+    with zipfile.ZipFile(buffer, "w") as archive:
+        for name in sorted(entries):
+            about = zipfile.ZipInfo(name, _NO_DATE)
+            about.compress_type = zipfile.ZIP_DEFLATED
+            about.create_system = 3  # Unix, wherever it is written: the rights mean the same
+            about.external_attr = 0o644 << 16
+            archive.writestr(about, entries[name])
+    return buffer.getvalue()

@@ -1,0 +1,203 @@
+"""Recognise the columns of a measured file, more widely than its reader does by itself."""
+
+import re
+from collections.abc import Mapping
+from dataclasses import dataclass
+
+import numpy as np
+
+from pyrofit.data.csvfile import FloatArray, Table
+from pyrofit.data.quantities import HEADERS, SCALES, VALUE_KINDS, header_key, unit_key
+
+_UNIT_WORDS = {
+    "sec": "s",
+    "secs": "s",
+    "seconds": "s",
+    "mins": "min",
+    "minutes": "min",
+    "hours": "h",
+    "kelvin": "K",
+    "celsius": "degC",
+    "°c": "degC",
+    "c": "degC",
+    "k": "K",
+    "percent": "%",
+    "pct": "%",
+    "wt%": "%",
+    "wt.%": "%",
+    "gm2s": "g/m2/s",
+    "kgm2s": "kg/m2/s",
+}
+"""Spellings of units that the reader does not know."""
+_SUFFIX = re.compile(
+    r"[_ ]((?:k|m)?g[_ ./]*m-?2[_ ./]*s(?:-?1)?|(?:s|sec|secs|seconds|min|mins|minutes|h"
+    r"|hours|k|kelvin|deg_?c|c|celsius|mg|kg|g|pct|percent))$",
+    re.IGNORECASE,
+)
+_ERROR = re.compile(r"err(or)?|unc(ertainty)?|sigma|std(ev|dev)?|deviation|sd$")
+_WORDS = {
+    "time": r"time.*|(elapsed|test)time|zeit",
+    "temperature": r"(sample|program|furnace)?temp.*|ts",
+    "mass_fraction": r"(norm\w*|residual|relative|sample)?(mass|weight)(?!loss|flux).*|m|tga?|w|y",
+    "mlr": r"s?mlr.*|.*masslossrate.*|massflux.*|mdot.*|dmdt.*",
+    "back_temperature": r".*(back|rear|bottom).*|temp.*|tb|tc\d*",
+}
+_STANDARD_RATES = np.array([1, 2, 3, 5, 10, 15, 20, 25, 30, 40, 50, 80, 100.0])
+
+
+@dataclass(frozen=True)
+class Found:
+    """What a file holds of one quantity.
+
+    Parameters
+    ----------
+    quantity
+        `mlr`, `back_temperature` or `mass_fraction`.
+    columns
+        Header by role.
+    units
+        Unit by role, where the file does not give it in a way that its reader knows.
+    guessed
+        Roles whose unit is inferred from the numbers.
+    missing
+        Roles that no column, or more than one, may have.
+    """
+
+    quantity: str
+    columns: Mapping[str, str]
+    units: Mapping[str, str]
+    guessed: tuple[str, ...]
+    missing: tuple[str, ...]
+
+
+def recognise(table: Table, quantity: str) -> Found:
+    """Tell which column of a table is what, and in which unit.
+
+    Names that the reader knows come first, then words that hold them. A unit is that of the
+    file, else the end of a name as in `time_min`, else guessed from the numbers.
+
+    Examples
+    --------
+    >>> from pathlib import Path
+    >>> columns = {"t": np.arange(3.0), "T_degC": np.array([20.0, 30.0, 40.0])}
+    >>> columns["weight"] = np.array([100.0, 100.0, 99.0])
+    >>> table = Table(Path("tga.csv"), columns, dict.fromkeys(columns), 2)
+    >>> found = recognise(table, "mass_fraction")
+    >>> found.columns
+    {'time': 't', 'temperature': 'T_degC', 'value': 'weight'}
+    >>> found.units
+    {'time': 'min', 'temperature': 'degC', 'value': '%'}
+    """
+    columns: dict[str, str] = {}
+    missing = []
+    for role in HEADERS[quantity]:
+        if role == "uncertainty" and "value" not in columns:
+            continue
+        matches = _matches(table, quantity, role, columns)
+        if len(matches) == 1:
+            columns[role] = matches[0]
+        elif role != "uncertainty":
+            missing.append(role)
+    units: dict[str, str] = {}
+    guessed = []
+    # Time last: where it has no unit, the heating rate tells it.
+    for role in sorted(columns, key=("temperature", "value", "uncertainty", "time").index):
+        kinds = VALUE_KINDS[quantity] if role in ("value", "uncertainty") else (role,)
+        if _known(table.units[columns[role]], kinds):
+            continue
+        unit = _unit(table, columns[role], kinds)
+        if role == "uncertainty" and not unit:
+            unit = _unit(table, columns["value"], kinds)
+        units[role] = unit or _guess(table, quantity, role, columns, units)
+        if not unit:
+            guessed.append(role)
+    ordered = {role: units[role] for role in columns if role in units}
+    return Found(quantity, columns, ordered, tuple(guessed), tuple(missing))
+
+
+def _matches(table: Table, quantity: str, role: str, taken: Mapping[str, str]) -> list[str]:
+    """Return the columns that may have a role, those with a usual name before others."""
+    free = [
+        name
+        for name, numbers in table.columns.items()
+        if name not in taken.values() and (role == "time" or numbers.any())
+    ]
+    usual = {header_key(name) for name in HEADERS[quantity][role]}
+    if known := [name for name in free if header_key(name) in usual]:
+        return known
+    return [name for name in free if _is(name, quantity, role)]
+
+
+def _is(name: str, quantity: str, role: str) -> bool:
+    """Tell whether the words of a header are those of a role."""
+    stem = _stem(name)
+    if role == "uncertainty":
+        rest, errors = _ERROR.subn("", stem)
+        return bool(errors) and (not rest or bool(re.fullmatch(_WORDS[quantity], rest)))
+    if _ERROR.search(stem):
+        return False
+    if stem == "t":  # the symbols: t for time, T for a temperature
+        symbol = "time" if name.startswith("t") else "temperature"
+        return role == symbol or (role == "value" and f"back_{symbol}" == quantity)
+    return bool(re.fullmatch(_WORDS[quantity if role == "value" else role], stem))
+
+
+def _stem(name: str) -> str:
+    return header_key(_SUFFIX.sub("", name))
+
+
+def _known(unit: str | None, kinds: tuple[str, ...]) -> bool:
+    """Tell whether the reader knows a unit."""
+    known = {unit_key(word) for kind in kinds for word in SCALES[kind]}
+    return unit is not None and unit_key(unit) in known
+
+
+def _unit(table: Table, name: str, kinds: tuple[str, ...]) -> str:
+    """Return the unit of a column in a spelling that the reader knows; nothing where none is."""
+    suffix = _SUFFIX.search(name)
+    for given in (table.units[name], suffix and suffix[1]):
+        if given:
+            plain = re.sub(r"deg_?c", "degC", given, flags=re.IGNORECASE)
+            word = plain.casefold().strip()
+            spelled = re.sub(r"[_ ./-]|1$", "", word)
+            for unit in (plain, word, _UNIT_WORDS.get(word), _UNIT_WORDS.get(spelled)):
+                if unit and _known(unit, kinds):
+                    return unit
+    return "1" if "fraction" in kinds and "fraction" in _stem(name) else ""
+
+
+def _guess(
+    table: Table,
+    quantity: str,
+    role: str,
+    columns: Mapping[str, str],
+    units: Mapping[str, str],
+) -> str:
+    """Return the unit that the numbers look like."""
+    numbers = table.columns[columns[role]]
+    if role == "uncertainty":
+        return units["value"]
+    if role == "time":
+        heated = columns.get("temperature")
+        return "s" if heated is None else _time_unit(numbers, table.columns[heated])
+    if role == "temperature" or quantity == "back_temperature":
+        return "degC" if numbers[0] < 200.0 else "K"
+    largest = float(numbers.max())
+    if quantity == "mlr":
+        return "g/m2/s" if largest > 0.3 else "kg/m2/s"
+    if largest <= 1.5:
+        return "1"
+    return "%" if 95.0 < numbers[0] < 105.0 else "mg"
+
+
+def _time_unit(time: FloatArray, temperature: FloatArray) -> str:
+    """Return s or min, whichever makes the heating rate nearer to a usual one."""
+    if len(time) < 2 or not (np.diff(time) > 0.0).all():
+        return "s"
+    with np.errstate(over="ignore", invalid="ignore"):  # what overflows is refused when it is read
+        rate = max(float(np.median(np.gradient(temperature, time))), 1e-6)
+    off = {
+        unit: float(np.abs(np.log(factor * rate / _STANDARD_RATES)).min())
+        for unit, factor in (("s", 60.0), ("min", 1.0))
+    }
+    return min(off, key=lambda unit: off[unit])

@@ -1,0 +1,180 @@
+"""The reference of all keys of a study, generated from its description."""
+
+import re
+from collections.abc import Iterator
+from types import NoneType, UnionType
+from typing import Annotated, Any, Literal, Union, get_args, get_origin
+
+from annotated_types import Ge, Gt, Le, Lt, MinLen
+from pydantic.fields import FieldInfo
+
+from pyrofit.config import Study
+from pyrofit.hidden.setting import Setting
+from pyrofit.model.base import ANY, Part, Rule
+from pyrofit.model.parameters import UNITS
+
+_HEAD = """\
+# Keys of a study
+
+Every key that a study file may have, by the place where it stands; `<name>` is a name of yours,
+and `[]` marks the items of a list. *Required* keys have no usual value. Where it says "number or
+parameter", the name of one of the `parameters` may stand. Unknown keys are refused, with the
+nearest known one; `pyrofit check STUDY` tells all that is wrong. The studies in this folder are
+examples, and `pyrofit init NAME` writes one for your own material.
+
+Units of parameters: {units}.
+
+This page is generated: `pyrofit reference > config/README.md`.
+"""
+_HIDDEN = """\
+# Keys of the blind test
+
+Those of `hidden_effects.yaml`.
+"""
+_WORDS: dict[Any, str] = {float: "number", int: "whole number", str: "text", Any: "anything"}
+
+
+def reference_page() -> str:
+    """Return the page: every key of a study and of the blind test."""
+    head = _HEAD.format(units=", ".join(f"`{unit}`" for unit in UNITS))
+    study, hidden = _sections(Study), _sections(Setting)
+    return "\n".join([head, *study, _HIDDEN, *hidden]).rstrip("\n") + "\n"
+
+
+def _sections(root: type[Part]) -> list[str]:
+    """Return one section per kind of part, with all places where it stands."""
+    places: dict[type[Part], list[str]] = {root: [""]}
+    waiting = [root]
+    while waiting:
+        part = waiting.pop(0)
+        for name, field in part.model_fields.items():
+            for inner, tail in _parts(field.annotation):
+                where = [".".join(filter(None, [place, name + tail])) for place in places[part]]
+                # A property may be made of another: once is enough.
+                new = [p for p in where if inner is not part and p not in places.get(inner, ())]
+                if inner not in places:
+                    waiting.append(inner)
+                places.setdefault(inner, []).extend(new)
+    return [_section(part, where) for part, where in places.items()]
+
+
+def _section(part: type[Part], places: list[str]) -> str:
+    title = ", ".join(f"`{place}`" for place in places if place) or "The whole file"
+    lines = [f"## {part.__name__}", "", f"{title}: {_sentence(part)}", ""]
+    lines += ["| key | what it is | unit | takes | usual |", "|---|---|---|---|---|"]
+    lines += [_row(name, field) for name, field in part.model_fields.items()]
+    return "\n".join([*lines, ""])
+
+
+def _sentence(part: type[Part]) -> str:
+    """Return the first sentence of a part's docstring, in the middle of a sentence."""
+    text = (part.__doc__ or "").split("\n\n")[0].replace("\n", " ").strip()
+    return re.sub(r"\s+", " ", text)
+
+
+def _row(name: str, field: FieldInfo) -> str:
+    text, unit = _unit(field.description or "")
+    words = " or ".join(dict.fromkeys(_takes(field.annotation)))
+    rules = ", ".join(dict.fromkeys(_rules(field)))
+    cells = [f"`{name}`", text, unit, f"{words}; {rules}" if rules else words, _usual(field)]
+    return "| " + " | ".join(cell.replace("|", "\\|").replace("<", "\\<") for cell in cells) + " |"
+
+
+def _unit(description: str) -> tuple[str, str]:
+    """Take the one unit in brackets out of a description.
+
+    >>> _unit("time constant [s]; 0 = never")
+    ('time constant; 0 = never', 's')
+    """
+    units = re.findall(r"\s*\[([^\]]+)\]", description)
+    if len(units) != 1:
+        return description, ", ".join(units)
+    return re.sub(r"\s*\[[^\]]+\]", "", description), units[0]
+
+
+def _usual(field: FieldInfo) -> str:
+    if field.is_required():
+        return "*required*"
+    value = field.get_default(call_default_factory=True)
+    if isinstance(value, Part):
+        return "those of its keys"
+    if value is None or value in ("", (), {}):
+        return "none"
+    if isinstance(value, tuple):
+        return ", ".join(f"{item:g}" for item in value)
+    return f"{value:g}" if isinstance(value, float) else str(value)
+
+
+def _parts(annotation: Any, tail: str = "") -> Iterator[tuple[type[Part], str]]:
+    """Yield the kinds of part in an annotation, with how they are reached."""
+    if isinstance(annotation, type) and issubclass(annotation, Part):
+        yield annotation, tail
+        return
+    origin, inside = get_origin(annotation), get_args(annotation)
+    if origin is Annotated:
+        yield from _parts(inside[0], tail)
+    elif origin is dict:
+        yield from _parts(inside[1], f"{tail}.<name>")
+    elif origin is tuple:
+        yield from _parts(inside[0], f"{tail}[]")
+    elif origin in (Union, UnionType):
+        for choice in inside:
+            yield from _parts(choice, tail)
+
+
+def _takes(annotation: Any) -> Iterator[str]:
+    """Yield what may stand in a place, in words."""
+    origin, inside = get_origin(annotation), get_args(annotation)
+    if origin is Annotated:
+        yield from _takes(inside[0])
+    elif annotation is NoneType:
+        return
+    elif origin in (Union, UnionType):
+        if {*inside} == {float, str}:
+            yield "number or parameter"
+            return
+        for choice in inside:
+            yield from _takes(choice)
+    elif origin is Literal:
+        yield from (f"`{choice}`" for choice in inside)
+    elif origin is dict:
+        yield f"by name: {' or '.join(dict.fromkeys(_takes(inside[1])))}".replace(
+            "by name: by name", "by name, by name"
+        )
+    elif origin is tuple:
+        if inside[-1] is Ellipsis:
+            yield f"list: {' or '.join(dict.fromkeys(_takes(inside[0])))}"
+        else:
+            yield f"list of {len(inside)}: {' or '.join(dict.fromkeys(_takes(inside[0])))}"
+    elif annotation in _WORDS:
+        yield _WORDS[annotation]
+    else:
+        yield f"[{annotation.__name__}](#{annotation.__name__.lower()})"
+
+
+def _rules(field: FieldInfo) -> Iterator[str]:
+    """Yield what must hold for the value, in words."""
+    yield from _said(field.metadata)
+    choices = get_args(field.annotation)
+    for choice in (field.annotation, *choices):
+        if get_origin(choice) is Annotated:
+            yield from _said(get_args(choice)[1:])
+
+
+def _said(metadata: Any) -> Iterator[str]:
+    for rule in metadata:
+        if isinstance(rule, FieldInfo):
+            yield from _said(rule.metadata)
+        elif isinstance(rule, Rule) and rule is not ANY:
+            words = rule.text.split(":")[0].removeprefix("must ")
+            yield words.replace("not be ", "not ").removeprefix("be ").removeprefix("lie ")
+        elif isinstance(rule, Gt):
+            yield f"above {rule.gt:g}"
+        elif isinstance(rule, Ge):
+            yield f"at least {rule.ge:g}"
+        elif isinstance(rule, Le):
+            yield f"at most {rule.le:g}"
+        elif isinstance(rule, Lt):
+            yield f"below {rule.lt:g}"
+        elif isinstance(rule, MinLen):
+            yield f"at least {rule.min_length}"

@@ -1,0 +1,333 @@
+"""A study for one's own files, and the page of all keys."""
+
+import re
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+from pyrofit import cli
+from pyrofit.config import Study, read_study
+from pyrofit.config.read import read_mapping
+from pyrofit.hidden.setting import Setting
+from pyrofit.stages.reading import read_all
+from pyrofit.start import draft
+from pyrofit.start.reference import reference_page
+
+ROOT = Path(__file__).parents[2]
+TEMPERATURE_K = np.arange(400.0, 800.0, 5.0)
+RATE_K_MIN = 10.0
+MINUTES = (TEMPERATURE_K - TEMPERATURE_K[0]) / RATE_K_MIN
+MASS = 0.2 + 0.8 / (1.0 + np.exp((TEMPERATURE_K - 640.0) / 12.0))
+SECONDS = np.arange(0.0, 600.0, 10.0)
+MLR = 0.012 * np.exp(-(((SECONDS - 300.0) / 90.0) ** 2))
+BACK_K = 293.15 + SECONDS / 2.0
+
+
+@pytest.fixture
+def folder(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
+    monkeypatch.chdir(tmp_path)
+    return tmp_path
+
+
+def write(name: str, header: str, *columns: np.ndarray, sep: str = ",") -> None:
+    rows = [sep.join(f"{x:.10g}" for x in row) for row in zip(*columns, strict=True)]
+    Path(name).write_text("\n".join([header, *rows]) + "\n", encoding="utf-8")
+
+
+def lab(tga: str = "tga_10K.csv", slab: str = "cone_25.csv") -> None:
+    """Write a TGA file and a gasification file."""
+    header = "Time (min),Temperature (degC),Mass (mg)"
+    write(tga, header, MINUTES, TEMPERATURE_K - 273.15, 5.0 * MASS)
+    write(slab, "Time [s],MLR [g/m2/s],MLR error [g/m2/s]", SECONDS, 1e3 * MLR, 0.2 + 0 * MLR)
+
+
+def contents(folder: Path) -> dict[str, bytes]:
+    return {str(p.relative_to(folder)): p.read_bytes() for p in folder.rglob("*") if p.is_file()}
+
+
+def made(*arguments: str, name: str = "wood") -> Study:
+    """Make a study and read it as `pyrofit check` does."""
+    assert cli.main(["init", name, *arguments]) == 0
+    return read_study(Path(name, f"{name}.yaml"))
+
+
+TGA_FILES = {
+    "units in the header": ("Time (min),Temperature (degC),Mass (mg)", 1.0, -273.15, 5.0),
+    "seconds, kelvin, fraction": ("Time [s],Temp [K],Mass fraction [-]", 60.0, 0.0, 1.0),
+    "units at the end of names": ("time_s,temperature_K,mass_fraction", 60.0, 0.0, 1.0),
+    "other words": ("Elapsed time (sec),Sample Temp (Celsius),Weight (%)", 60.0, -273.15, 100.0),
+    "symbols, no units": ("t,T,m", 1.0, -273.15, 5.0),
+    "symbols, seconds": ("t,T_degC,TG [%]", 60.0, -273.15, 100.0),
+    "hours": ("Time (h);Temperature (K);Mass (g)", 1.0 / 60.0, 0.0, 0.005),
+}
+
+
+@pytest.mark.parametrize(("header", "time", "zero", "mass"), TGA_FILES.values(), ids=TGA_FILES)
+def test_tga_file_of_a_laboratory_is_recognised_and_read_in_si_units(
+    header: str, time: float, zero: float, mass: float, folder: Path
+) -> None:
+    lab()
+    sep = ";" if ";" in header else ","
+    write("tga_10K.csv", header, time * MINUTES, TEMPERATURE_K + zero, mass * MASS, sep=sep)
+    study = made("--tga", "tga_10K.csv", "--gasification", "cone_25.csv")
+    frame, _ = read_all(study)["tga_10K", "mass_fraction"]
+    np.testing.assert_allclose(frame["time_s"], 60.0 * MINUTES, rtol=1e-8)
+    np.testing.assert_allclose(frame["temperature_K"], TEMPERATURE_K, rtol=1e-8)
+    # A mass is divided by its first value, which is not quite that of the virgin sample.
+    np.testing.assert_allclose(frame["mass_fraction"], MASS, rtol=1e-6)
+    assert study.experiments["tga_10K"].heating_rate_K_min == RATE_K_MIN
+
+
+SLAB_FILES = {
+    "g/m2/s with uncertainty": ("Time [s],MLR [g/m2/s],MLR error [g/m2/s]", 1.0, 1e3, True),
+    "kg/m2/s in minutes": ("Time (min),Mass loss rate (kg/m2/s),Std (kg/m2/s)", 1 / 60, 1.0, True),
+    "units at the end of names": ("time_s,mlr_g_m2_s,mlr_uncertainty_g_m2_s", 1.0, 1e3, True),
+    "no units": ("time,mass flux,sigma", 1.0, 1e3, True),
+    "no uncertainty": ("t,MLRPUA (g/m2s),note", 1.0, 1e3, False),
+}
+
+
+@pytest.mark.parametrize(("header", "time", "rate", "sure"), SLAB_FILES.values(), ids=SLAB_FILES)
+def test_file_of_a_mass_loss_rate_is_recognised_and_read_in_si_units(
+    header: str, time: float, rate: float, sure: bool, folder: Path
+) -> None:
+    write("cone 25 kW.csv", header, time * SECONDS, rate * MLR, rate * (2e-4 + 0 * MLR))
+    study = made("--gasification", "cone 25 kW.csv")
+    frame, _ = read_all(study)["cone_25_kW", "mlr"]
+    np.testing.assert_allclose(frame["time_s"], SECONDS, rtol=1e-8)
+    np.testing.assert_allclose(frame["mlr_kg_m2_s"], MLR, rtol=1e-8)
+    if sure:
+        np.testing.assert_allclose(frame["mlr_uncertainty_kg_m2_s"], 2e-4, rtol=1e-8)
+    else:
+        assert "mlr_uncertainty_kg_m2_s" not in frame
+    assert study.experiments["cone_25_kW"].front.flux_W_m2 == 25e3
+
+
+def test_back_temperature_of_the_same_file_is_a_second_signal(folder: Path) -> None:
+    header = "Time (s);MLR (g/m2s);T_back [C];MLR error (g/m2s)"
+    columns = (SECONDS, 1e3 * MLR, BACK_K - 273.15, 0.2 + 0 * MLR)
+    write("slab_25kW.csv", header, *columns, sep=";")
+    study = made("--gasification", "slab_25kW.csv")
+    series = read_all(study)
+    np.testing.assert_allclose(
+        series["slab_25kW", "back_temperature"][0]["back_temperature_K"], BACK_K, rtol=1e-8
+    )
+    assert "back_temperature_uncertainty_K" not in series["slab_25kW", "back_temperature"][0]
+    assert "mlr_uncertainty_kg_m2_s" in series["slab_25kW", "mlr"][0]
+    assert study.imp.identification == {"slab_25kW": ("mlr", "back_temperature")}
+    assert study.experiments["slab_25kW"].sample.initial_temperature_K == 293.1
+
+
+def test_written_study_passes_check_and_says_what_it_took(
+    folder: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    lab()
+    before = contents(folder)
+    made("--tga", "tga_10K.csv", "--gasification", "cone_25.csv")
+    said = capsys.readouterr().out
+    assert "tga_10K.csv: mass_fraction: time 'Time', temperature 'Temperature', value 'M" in said
+    assert "study 'wood' is valid; 2 measured series read" in said
+    assert cli.main(["check", "wood/wood.yaml"]) == 0
+    after = contents(folder)
+    assert {name: after[name] for name in before} == before
+    assert after["wood/data/tga_10K.csv"] == before["tga_10K.csv"]
+
+
+def test_every_group_of_keys_is_commented_and_marks_what_to_change(folder: Path) -> None:
+    lab()
+    made("--tga", "tga_10K.csv", "--gasification", "cone_25.csv")
+    text = Path("wood/wood.yaml").read_text(encoding="utf-8")
+    for key in read_mapping(Path("wood/wood.yaml")):
+        if key not in ("title", "experiments"):
+            # On its own line, or in the comment above.
+            assert re.search(rf"(#[^\n]*\n{key}:|^{key}:[^\n]*#)", text, re.M), key
+    assert text.count("CHANGE") > 5
+    for place in ("thickness_m: 0.006}] # CHANGE", "front: # CHANGE", "insulated"):
+        assert place in text
+
+
+def test_limits_of_the_kinetics_hold_the_truth_of_a_record(folder: Path) -> None:
+    # First order, 10 K/min: k = 0.001 1/s at 605 K with 190 kJ/mol is seen at half the mass later.
+    rate = 1e-3 * np.exp(-190e3 / 8.314 * (1.0 / TEMPERATURE_K - 1.0 / 605.0))
+    mass = 0.05 + 0.95 * np.exp(-np.cumsum(rate) * 5.0 / (RATE_K_MIN / 60.0))
+    lab()
+    write("tga_10K.csv", "time_s,temperature_K,mass_fraction", 60 * MINUTES, TEMPERATURE_K, mass)
+    study = made("--tga", "tga_10K.csv", "--gasification", "cone_25.csv")
+    limits = study.parameters["T_p"]
+    assert limits.lower is not None
+    assert limits.upper is not None
+    assert limits.lower + 50.0 < 605.0 < limits.upper - 20.0
+    assert study.material.reactions["pyrolysis"].products == {"residue": 0.05}
+
+
+def test_last_of_several_gasification_files_is_held_out(folder: Path) -> None:
+    for flux in (25, 40, 60):
+        write(f"slab_{flux}.csv", "Time [s],MLR [g/m2/s]", SECONDS, 1e3 * MLR)
+    study = made("--gasification", "slab_25.csv", "slab_40.csv", "slab_60.csv")
+    assert [term.experiment for term in study.imp.costs["RMSE"]] == ["slab_25", "slab_40"]
+    assert study.validation.experiments == ("slab_25", "slab_40", "slab_60")
+    assert study.kinetics is None
+    assert {"T_p", "E_p"} <= set(study.imp.estimate)
+
+
+def test_without_files_the_study_computes_its_measurements(folder: Path) -> None:
+    study = made()
+    assert study.is_synthetic
+    assert study.own_files == ()
+    assert Path("wood/data").is_dir()
+
+
+def test_column_that_is_not_recognised_is_told_and_left_to_the_user(
+    folder: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    write("run_25.csv", "time_s,alpha,beta", SECONDS, 1e3 * MLR, MLR)
+    assert cli.main(["init", "wood", "--gasification", "run_25.csv"]) == 0
+    said = capsys.readouterr().out
+    assert "run_25.csv: mlr: time 'time_s' in s, value not recognised: name it in the study" in said
+    assert "Still to do, as `pyrofit check` says:" in said
+    path = Path("wood/wood.yaml")
+    text = path.read_text(encoding="utf-8")
+    assert "# CHANGE: no one column is recognised as value." in text
+    assert '# The file has: "time_s", "alpha", "beta".' in text
+    assert cli.main(["check", str(path)]) == 2
+    assert "no column is known to be the value of mlr" in capsys.readouterr().err
+    # Named, as the comment asks, it is read.
+    text = text.replace('{time: "time_s"}', '{time: "time_s", value: alpha}')
+    path.write_text(text.replace('{time: "s"}', '{time: "s", value: g/m2/s}'), encoding="utf-8")
+    assert cli.main(["check", str(path)]) == 0
+
+
+def test_two_columns_that_may_have_one_role_are_left_to_the_user(
+    folder: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    write("run_25.csv", "time_s,mlr_1,mlr_2", SECONDS, MLR, MLR)
+    assert cli.main(["init", "wood", "--gasification", "run_25.csv"]) == 0
+    assert "value not recognised" in capsys.readouterr().out
+
+
+def test_guessed_unit_is_told_and_marked(folder: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    write("run_25.csv", "t,MLR", SECONDS, 1e3 * MLR)
+    made("--gasification", "run_25.csv")
+    assert "value 'MLR' in g/m2/s (guessed)" in capsys.readouterr().out
+    text = Path("wood/wood.yaml").read_text(encoding="utf-8")
+    assert "# CHANGE where wrong: guessed from the numbers: value and time" in text
+
+
+def test_flux_that_no_name_tells_is_marked(folder: Path) -> None:
+    write("slab.csv", "Time [s],MLR [g/m2/s]", SECONDS, 1e3 * MLR)
+    made("--gasification", "slab.csv")
+    text = Path("wood/wood.yaml").read_text(encoding="utf-8")
+    assert "flux_W_m2: 50000 # CHANGE: the file's name does not tell it" in text
+
+
+@pytest.mark.parametrize("name", ['he said "no": {x}', "Zeit, Uhr", "a#b", "- x"])
+def test_header_with_signs_of_yaml_is_text_in_the_study(name: str, folder: Path) -> None:
+    header = f'"{name.replace(chr(34), chr(34) * 2)}",time_s,MLR [g/m2/s]'
+    write("slab_25.csv", header, SECONDS, SECONDS, 1e3 * MLR)
+    made("--gasification", "slab_25.csv")
+    assert cli.main(["init", "other", "--gasification", "slab_25.csv"]) == 0
+
+
+def test_files_that_the_reader_refuses_are_still_to_do(
+    folder: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    # Numbers that cannot be: time that stands still, and temperatures that overflow.
+    lab()
+    columns = (0 * MINUTES, 1e299 * TEMPERATURE_K**3, MASS)
+    write("tga_10K.csv", "t,T,m", *columns)
+    arguments = ["--tga", "tga_10K.csv", "--gasification", "cone_25.csv"]
+    assert cli.main(["init", "wood", *arguments]) == 0
+    assert "Still to do, as `pyrofit check` says:\nwood/wood.yaml: " in capsys.readouterr().out
+    assert cli.main(["check", "wood/wood.yaml"]) == 2
+    assert "too large a number" in capsys.readouterr().err
+
+
+def test_heating_rate_is_that_of_the_record_where_the_name_says_another(folder: Path) -> None:
+    lab(tga="tga_20K.csv")
+    assert draft.tga(Path("tga_20K.csv")).number == pytest.approx(RATE_K_MIN)
+
+
+BAD = {
+    "no name": ("1wood --gasification cone_25.csv", "'1wood' is no name; letters, digits and _"),
+    "path as name": ("a/b --gasification cone_25.csv", "'a/b' is no name"),
+    "name too long": (f"{'x' * 300} --gasification cone_25.csv", "is no name of a folder (File"),
+    "folder exists": ("there --gasification cone_25.csv", "there: exists already and is left"),
+    "file of that name": ("cone --gasification cone_25.csv", "cone: exists already and is left"),
+    "no such file": ("x --gasification cone_52.csv", "Did you mean 'cone_25.csv'?"),
+    "folder as file": ("x --gasification there", "there: this is a folder; give a file in it"),
+    "empty file": ("x --gasification empty.csv", "empty.csv: the file is empty"),
+    "no number": ("x --gasification text.csv", "text.csv: the file holds a header and no numbers"),
+    "no header": ("x --gasification bare.csv", "bare.csv, line 1: the first row holds numbers"),
+    "not text": ("x --gasification bytes.csv", "bytes.csv, line 1: byte 0xff is not UTF-8 text"),
+    "tga alone": ("x --tga tga_10K.csv", "TGA alone makes no study"),
+    "one name twice": (
+        "x --tga tga_10K.csv --gasification sub/tga_10K.csv",
+        "would both be experiment 'tga_10K'; give the files different names",
+    ),
+}
+
+
+@pytest.mark.parametrize(("command", "words"), BAD.values(), ids=BAD)
+def test_bad_input_is_told_and_nothing_is_written(
+    command: str, words: str, folder: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    lab()
+    Path("there").mkdir()
+    Path("there/kept.txt").write_text("kept")
+    Path("cone").write_text("kept")
+    Path("empty.csv").write_text("")
+    Path("text.csv").write_text("a,b\nx,y\n")
+    Path("bare.csv").write_text("1,2\n3,4\n")
+    Path("bytes.csv").write_bytes(b"\xff\xfe")
+    Path("sub").mkdir()
+    lab(tga="sub/tga_10K.csv")
+    before, folders = contents(folder), sorted(folder.rglob("*"))
+    assert cli.main(["init", *command.split()]) == 2
+    shown = capsys.readouterr()
+    assert words in shown.err
+    assert shown.out == ""
+    assert contents(folder) == before
+    assert sorted(folder.rglob("*")) == folders
+
+
+# --- the page of keys -----------------------------------------------------------------------
+
+
+def test_page_of_keys_is_up_to_date() -> None:
+    written = (ROOT / "config" / "README.md").read_text(encoding="utf-8")
+    assert written == reference_page(), "run: pyrofit reference > config/README.md"
+
+
+def test_every_key_of_a_study_is_described() -> None:
+    rows = [line.split(" | ") for line in reference_page().splitlines() if line.startswith("| `")]
+    assert len(rows) > 120
+    assert [row[0] for row in rows if not row[1].strip()] == []
+    assert [row[0] for row in rows if not row[3].strip()] == []
+
+
+def test_page_has_the_keys_that_the_shipped_studies_use() -> None:
+    page = reference_page()
+
+    def keys(part: object) -> set[str]:
+        if isinstance(part, dict):
+            return {str(k) for k in part} | {k for v in part.values() for k in keys(v)}
+        return {k for v in part for k in keys(v)} if isinstance(part, list) else set()
+
+    known = set(re.findall(r"^\| `(\w+)`", page, re.M))
+    for file in ("smoke", "twin", "pmma", "paper"):
+        given = read_mapping(ROOT / "config" / f"{file}.yaml")
+        top = set(given) | {k for k in keys(given["experiments"]) if "_" in k and k[-1] in "sKm"}
+        assert {k for k in top if k not in given["experiments"]} <= known, file
+
+
+def test_page_tells_units_limits_and_usual_values() -> None:
+    page = reference_page()
+    row = "| `heating_rate_K_min` | nominal heating rate | K/min | number; above 0 | *required* |"
+    assert row in page
+    assert (
+        "`wall_temperature_K` | temperature of the radiating surroundings | K | number or" in page
+    )
+    assert "| `repetitions` | repetitions per cost |  | whole number; at least 1 | 25 |" in page
+    for name in (*Study.model_fields, *Setting.model_fields):
+        assert f"| `{name}` |" in page

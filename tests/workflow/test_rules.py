@@ -1,0 +1,86 @@
+"""The rules themselves: what Snakemake says of them, its own report, the profile of a cluster."""
+
+import os
+import re
+import subprocess
+import sys
+from importlib.util import find_spec
+from pathlib import Path
+
+import pytest
+import yaml
+from tiny import ROOT, Project, Run
+
+SLURM = ROOT / "profiles" / "slurm" / "config.yaml"
+SMOKE = ("--configfile", "config/smoke.yaml")
+
+
+def snakemake(*arguments: str) -> subprocess.CompletedProcess[str]:
+    """Call Snakemake without running anything."""
+    path = f"{Path(sys.executable).parent}{os.pathsep}{os.environ['PATH']}"
+    return subprocess.run(
+        ["snakemake", "--nocolor", *arguments],
+        cwd=ROOT,
+        env={**os.environ, "PATH": path},
+        capture_output=True,
+        text=True,
+        check=False,
+    )
+
+
+def test_snakemake_finds_nothing_in_the_rules_but_that_they_name_no_container() -> None:
+    # The software is fixed by requirements.lock.
+    said = snakemake("--lint").stderr
+    titles = set(re.findall(r"^    \* (.*?):?$", said, re.M))
+    assert titles == {"Specify a conda environment or container for each rule."}, said
+
+
+def test_report_of_snakemake_shows_every_figure_and_table(
+    finished: tuple[Project, Run],
+) -> None:
+    project, _ = finished
+    run = project.snakemake("--report", "results/tiny/snakemake.html")
+    assert run.code == 0, run.said
+    assert "Report created." in run.said
+    assert "arning" not in run.said
+    results = project.root / "results" / "tiny"
+    shown = [*results.glob("figures/*.svg"), *results.glob("tables/*.csv"), results / "report.html"]
+    assert len(shown) > 15
+    for path in shown:
+        assert f"Adding {path.name} " in run.said
+    page = (results / "snakemake.html").read_text(encoding="utf-8")
+    for words in ("Figure 5. Convergence of SCE-UA", "Table 4. Best set, mean", "by inverse model"):
+        assert words in page
+    (results / "snakemake.html").unlink()
+
+
+@pytest.mark.skipif(
+    find_spec("snakemake_executor_plugin_slurm") is not None, reason="the plugin is installed"
+)
+def test_slurm_without_its_plugin_is_told() -> None:
+    ran = snakemake("--dry-run", "--workflow-profile", "profiles/slurm", *SMOKE)
+    assert ran.returncode != 0
+    assert "invalid choice: 'slurm'" in ran.stderr
+    assert "pip install snakemake-executor-plugin-slurm" in SLURM.read_text(encoding="utf-8")
+
+
+def test_profile_of_slurm_holds_for_the_rules() -> None:
+    # All but the executor, which is a plugin.
+    profile = ("--workflow-profile", "profiles/slurm", "--executor", "local")
+    ran = snakemake("--dry-run", "--forceall", *profile, *SMOKE)
+    assert ran.returncode == 0, ran.stderr
+    assert "slurm_partition=" in ran.stdout + ran.stderr
+    given = yaml.safe_load(SLURM.read_text(encoding="utf-8"))
+    rules = snakemake("--list-rules", *SMOKE).stdout.split()
+    assert set(given["groups"]) <= set(rules)
+    assert set(given["groups"].values()) == set(given["group-components"])
+    known = snakemake("--help").stdout
+    for key in given:
+        assert f"--{key}" in known, key
+
+
+def test_profile_of_slurm_keeps_what_the_default_profile_says() -> None:
+    usual = yaml.safe_load((ROOT / "profiles" / "default" / "config.yaml").read_text())
+    given = yaml.safe_load(SLURM.read_text(encoding="utf-8"))
+    del usual["cores"]  # those of this machine; on a cluster it is `jobs`
+    assert {key: given[key] for key in usual} == usual

@@ -1,0 +1,166 @@
+"""The tutorial, as a stranger follows it, and the archive that it ends with."""
+
+import hashlib
+import os
+import re
+import shutil
+import subprocess
+import sys
+import zipfile
+from dataclasses import dataclass
+from pathlib import Path
+
+import pytest
+from tiny import ROOT
+
+TUTORIAL = ROOT / "docs" / "tutorial.md"
+LOCK = "requirements.lock"
+# That of the tests: its kernels are compiled.
+SOURCE = ROOT / "src"
+BLOCK = re.compile(r"^```sh\n(.*?)^```$", re.M | re.S)
+
+
+@dataclass(frozen=True)
+class Followed:
+    """What the tutorial left behind."""
+
+    root: Path
+    said: str
+
+    @property
+    def results(self) -> Path:
+        return self.root / "results" / "mypolymer"
+
+
+def run(folder: Path, *command: str, source: Path = SOURCE) -> subprocess.CompletedProcess[str]:
+    """Run a command that imports the package from a folder."""
+    environment = {
+        **os.environ,
+        "PATH": f"{Path(sys.executable).parent}{os.pathsep}{os.environ['PATH']}",
+        "PYTHONPATH": str(source),
+        "OPENBLAS_NUM_THREADS": "1",
+    }
+    return subprocess.run(
+        command, cwd=folder, env=environment, capture_output=True, text=True, check=False
+    )
+
+
+@pytest.fixture(scope="module")
+def followed(tmp_path_factory: pytest.TempPathFactory) -> Followed:
+    """Return a copy of the project in which all framed blocks were run, one after the other."""
+    root = tmp_path_factory.mktemp("tutorial")
+    for folder in ("workflow", "profiles", "config"):
+        shutil.copytree(ROOT / folder, root / folder)
+    for name in ("Snakefile", "Makefile", "README.md", "LICENSE", "pyproject.toml", LOCK):
+        shutil.copy2(ROOT / name, root)
+    blocks = BLOCK.findall(TUTORIAL.read_text(encoding="utf-8"))
+    assert len(blocks) > 4
+    ran = run(root, "bash", "-eu", "-o", "pipefail", "-c", "\n".join(blocks))
+    assert ran.returncode == 0, ran.stdout + ran.stderr
+    return Followed(root, ran.stdout)
+
+
+@pytest.fixture(scope="module")
+def unpacked(followed: Followed, tmp_path_factory: pytest.TempPathFactory) -> Path:
+    """Return a folder with what the tutorial's archive holds."""
+    folder = tmp_path_factory.mktemp("unpacked")
+    with zipfile.ZipFile(followed.results / "mypolymer.zip") as archive:
+        archive.extractall(folder)
+    return folder
+
+
+def test_tutorial_recognises_its_two_files_and_its_study_is_valid(followed: Followed) -> None:
+    assert "tga_20K.csv: mass_fraction: time 'time_s' in s, temperature" in followed.said
+    assert "slab_25kW.csv: mlr: time 'time_s' in s, value" in followed.said
+    assert followed.said.count("study 'mypolymer' is valid; 2 measured series read") == 2
+
+
+def test_tutorial_ends_in_a_report_and_a_table_of_what_the_data_determine(
+    followed: Followed,
+) -> None:
+    page = (followed.results / "report.html").read_text(encoding="utf-8")
+    assert "mypolymer" in page
+    table = (followed.results / "tables" / "determined.md").read_text(encoding="utf-8")
+    assert table in followed.said
+    for name in ("T_p", "E_p", "rho", "k", "cp", "eps", "dh"):
+        assert re.search(rf"^\| *{name} ", table, re.M) or f"| {name} |" in table, name
+
+
+def test_changes_of_the_tutorial_reach_the_study(followed: Followed) -> None:
+    # A pattern that no longer matches the written study would change nothing, silently.
+    (block,) = [b for b in BLOCK.findall(TUTORIAL.read_text("utf-8")) if "sed" in b]
+    patterns = re.findall(r"'s/(.*?)/(.*)/'", block)
+    before = (followed.root / "mypolymer" / "mypolymer.yaml.bak").read_text(encoding="utf-8")
+    after = (followed.root / "mypolymer" / "mypolymer.yaml").read_text(encoding="utf-8")
+    assert len(patterns) > 5
+    for old, new in patterns:
+        assert old in before
+        assert new in after
+
+
+def test_archive_holds_what_its_checksums_say(unpacked: Path) -> None:
+    sums = (unpacked / "SHA256SUMS").read_text().splitlines()
+    listed = dict(reversed(line.split("  ")) for line in sums)
+    there = {p.relative_to(unpacked).as_posix() for p in unpacked.rglob("*") if p.is_file()}
+    assert there == {*listed, "SHA256SUMS"}
+    for name, digest in listed.items():
+        assert hashlib.sha256((unpacked / name).read_bytes()).hexdigest() == digest, name
+
+
+def test_archive_holds_study_files_results_and_software(followed: Followed, unpacked: Path) -> None:
+    for name in ("mypolymer/mypolymer.yaml", "quick.yaml"):
+        given = (followed.root / name).read_bytes()
+        assert (unpacked / "as_given" / Path(name).name).read_bytes() == given
+    for name in ("tga_20K.csv", "slab_25kW.csv"):
+        assert (unpacked / "data" / name).read_bytes() == (followed.root / name).read_bytes()
+    left_out = {"logs", "benchmarks", "mypolymer.zip"}
+    for path in followed.results.rglob("*"):
+        place = path.relative_to(followed.results)
+        if path.is_file() and place.parts[0] not in left_out:
+            assert (unpacked / "results" / place).read_bytes() == path.read_bytes(), place
+    for path in [*(SOURCE / "pyrofit").rglob("*"), *(ROOT / "workflow").rglob("*"), ROOT / LOCK]:
+        if path.is_file() and "__pycache__" not in path.parts:
+            place = path.relative_to(ROOT)
+            assert (unpacked / "software" / place).read_bytes() == path.read_bytes(), place
+
+
+def test_unpacked_study_passes_check_with_the_software_of_the_archive(unpacked: Path) -> None:
+    software = unpacked / "software"
+    ran = run(software, "pyrofit", "check", "../study.yaml", source=software / "src")
+    assert ran.returncode == 0, ran.stderr
+    assert "study 'mypolymer' is valid; 2 measured series read; 1 repetitions" in ran.stdout
+
+
+def test_unpacked_study_gives_the_same_sets_again(unpacked: Path) -> None:
+    wanted = ["kinetics/fit.json", "imp/RMSE/00.json"]
+    targets = [f"results/mypolymer/{name}" for name in wanted]
+    study = ("--configfile", "../study.yaml")
+    ran = run(unpacked / "software", "snakemake", "--cores", "2", *targets, *study)
+    assert ran.returncode == 0, ran.stdout + ran.stderr
+    for name in wanted:
+        again = unpacked / "software" / "results" / "mypolymer" / name
+        assert _without_digest(again) == _without_digest(unpacked / "results" / name), name
+
+
+def _without_digest(path: Path) -> str:
+    """Return a result without the digest of the study, which knows where the files lay."""
+    return re.sub(r'"(config_)?digest": "\w+"', "", path.read_text(encoding="utf-8"))
+
+
+def test_archive_of_the_same_results_has_the_same_bytes(followed: Followed) -> None:
+    archive = followed.results / "mypolymer.zip"
+    before = archive.read_bytes()
+    for path in followed.results.rglob("*.csv"):
+        os.utime(path, (2e9, 2e9))
+    command = ["pyrofit", "archive", "--study", str(followed.results / "study.json")]
+    given = ["--given", "mypolymer/mypolymer.yaml", "quick.yaml"]
+    ran = run(followed.root, *command, *given)
+    assert ran.returncode == 0, ran.stderr
+    assert archive.read_bytes() == before
+
+
+def test_results_of_another_study_are_not_archived(followed: Followed) -> None:
+    command = ["pyrofit", "archive", "--study", "mypolymer/mypolymer.yaml"]
+    ran = run(followed.root, *command)
+    assert ran.returncode == 2
+    assert "the study has changed since these results were made; run the workflow" in ran.stderr

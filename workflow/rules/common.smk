@@ -1,0 +1,31 @@
+"""What several files of rules share."""
+
+
+def log_of(name):
+    return str(ROOT / "logs" / f"{name}.log")
+
+
+def benchmark_of(name):
+    return str(ROOT / "benchmarks" / f"{name}.tsv")
+
+
+def identification(stage, *more):
+    """Return what is found of a stage's parameters."""
+    tables = ("estimate", "sensitivities", "singular_values", "correlation", "profiles")
+    names = [*(f"{name}.csv" for name in (*tables, *more)), "noise.json"]
+    return [results.identification(name, stage) for name in names]
+
+
+def places_of(plan):
+    return Places(FOLDER / plan)
+
+
+def chunks_of(wildcards):
+    """Return what the jobs of a plan leave behind."""
+    chunks = range(blind.plan(wildcards.plan).chunks)
+    return [places_of(wildcards.plan).chunk(chunk) for chunk in chunks]
+
+
+def blind_digest(wildcards):
+    """Return a digest of what the twins of a plan depend on."""
+    return digest([BLIND, blind.plan(wildcards.plan).model_dump()])
