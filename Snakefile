@@ -18,6 +18,10 @@ from pyrofit.tables import TABLES
 
 min_version("9.27")
 
+
+report: "workflow/report/workflow.rst"
+
+
 # A given --configfile replaces the default study; Snakemake alone would merge the two.
 DEFAULT_STUDY = "config/twin.yaml"
 if not workflow.configfiles:
@@ -59,30 +63,36 @@ wildcard_constraints:
     repetition=r"\d\d+",
 
 
-def log_of(name):
-    return str(ROOT / "logs" / f"{name}.log")
-
-
-def benchmark_of(name):
-    return str(ROOT / "benchmarks" / f"{name}.tsv")
-
-
 onsuccess:
     for _page in (ROOT / "report.html", results.diagnosis("report.html")):
         if _page.exists():
             print(f"Page: {_page}")
 
 
+# Short steps, which on a cluster run where Snakemake was started.
 localrules:
     all,
+    prepare,
+    collect,
+    report,
+    robustness,
+    archive,
+    diagnosis_page,
+    diagnose,
+    hidden_effects_page,
+    hidden_effects,
+    hidden_effects_short,
 
 
+include: "workflow/rules/common.smk"
 include: "workflow/rules/data.smk"
 include: "workflow/rules/kinetics.smk"
 include: "workflow/rules/imp.smk"
 include: "workflow/rules/identify.smk"
 include: "workflow/rules/validation.smk"
+include: "workflow/rules/comparison.smk"
 include: "workflow/rules/report.smk"
+include: "workflow/rules/robustness.smk"
 include: "workflow/rules/diagnosis.smk"
 include: "workflow/rules/hidden_effects.smk"
 
@@ -102,3 +112,6 @@ rule all:
         ),
         expand(ROOT / "tables/{name}.csv", name=SHOWN_TABLES),
         expand(ROOT / "figures/{name}.png", name=SHOWN_FIGURES),
+
+
+include: "workflow/rules/archive.smk"

@@ -65,6 +65,23 @@ def _parser() -> argparse.ArgumentParser:
     where = actions.add_parser("where", help="print their folder; exit 2 where files are missing")
     where.set_defaults(step=_where)
 
+    init = commands.add_parser("init", help="write a study and a folder for your own material")
+    init.add_argument("name", help="name of study and folder: letters, digits and _")
+    init.add_argument("--tga", type=Path, nargs="+", default=[], metavar="CSV", help="TGA files")
+    init.add_argument(
+        "--gasification",
+        type=Path,
+        nargs="+",
+        default=[],
+        metavar="CSV",
+        help="files with a mass loss rate, a back temperature or both; without any file the "
+        "measurements are computed",
+    )
+    init.set_defaults(step=_init)
+
+    reference = commands.add_parser("reference", help="print the reference of all keys of a study")
+    reference.set_defaults(step=_reference)
+
     check = commands.add_parser("check", help="check a study and its files, run nothing")
     check.add_argument("study", type=Path, help="study file (YAML)")
     check.set_defaults(step=_check)
@@ -76,12 +93,17 @@ def _parser() -> argparse.ArgumentParser:
     imp.add_argument("--repetition", type=int, required=True, help="number of the repetition")
     squares = _step(commands, "least-squares", "run least squares on one cost", _least_squares)
     squares.add_argument("--cost", required=True, help="cost function of the study")
+    cma_es = _step(commands, "cma-es", "run CMA-ES on one cost", _cma_es)
+    cma_es.add_argument("--cost", required=True, help="cost function of the study")
     descent = _step(commands, "descent", "run least squares from SCE-UA's best set", _descent)
     descent.add_argument("--cost", required=True, help="cost function of the study")
     _step(commands, "collect", "gather all repetitions", _collect)
     known = _step(commands, "identify", "find which parameters the data determine", _identify)
     known.add_argument("--stage", choices=("kinetics", "imp"), default="imp", help="default: imp")
     _step(commands, "predict", "simulate the best sets at all predicted experiments", _predict)
+    _step(commands, "compare", "score all sets of all optimisers by all costs", _compare)
+    twins = _step(commands, "robustness", "compare the costs on twins of known truth", _robustness)
+    twins.add_argument("--cost", help="cost function to fit them with; without: gather all")
     table = _step(commands, "table", "write one table", _table)
     table.add_argument("--name", required=True, help="name of the table")
     figure = _step(commands, "figure", "draw one figure", _figure)
@@ -96,6 +118,12 @@ def _parser() -> argparse.ArgumentParser:
     hidden.add_argument("--log", type=Path, help="file that keeps what is printed")
     hidden.set_defaults(step=_hidden_effects)
     _step(commands, "report", "write report.html and provenance.json", _report)
+    archive = _step(
+        commands, "archive", "put all of a study in one file, to be run again", _archive
+    )
+    archive.add_argument(
+        "--given", type=Path, nargs="+", help="study files; default: that of --study"
+    )
     return parser
 
 
@@ -153,6 +181,25 @@ def _where(given: argparse.Namespace) -> None:
     print(folder)
 
 
+def _init(given: argparse.Namespace) -> None:
+    from pyrofit.start.write import init
+
+    study, lines = init(given.name, given.tga, given.gasification, Path())
+    for line in lines:
+        print(line)
+    print(f"{study}: written. Change what is marked CHANGE.")
+    try:
+        _check(argparse.Namespace(study=study))
+    except PyrofitError as error:
+        print(f"Still to do, as `pyrofit check` says:\n{error}")
+
+
+def _reference(given: argparse.Namespace) -> None:
+    from pyrofit.start.reference import reference_page
+
+    print(reference_page(), end="")
+
+
 def _check(given: argparse.Namespace) -> None:
     from pyrofit.config import read_study
     from pyrofit.stages.reading import check_measurements
@@ -196,6 +243,13 @@ def _least_squares(given: argparse.Namespace) -> None:
 
     study, results = _open(given, slices.imp, given.cost, "least_squares")
     fit.least_squares(study, results, given.cost)
+
+
+def _cma_es(given: argparse.Namespace) -> None:
+    from pyrofit.stages import fit, slices
+
+    study, results = _open(given, slices.imp, given.cost, "cmaes")
+    fit.cma_es(study, results, given.cost)
 
 
 def _descent(given: argparse.Namespace) -> None:
@@ -247,6 +301,30 @@ def _predict(given: argparse.Namespace) -> None:
     predict.predict(*_open(given, slices.validation))
 
 
+def _compare(given: argparse.Namespace) -> None:
+    from pyrofit.stages import compare, slices
+
+    compare.compare(*_open(given, slices.compare))
+
+
+def _robustness(given: argparse.Namespace) -> None:
+    from pyrofit.stages import robustness, slices
+
+    if given.cost is not None:
+        study, results = _open(given, slices.robustness, given.cost)
+        robustness.robustness(study, results, given.cost)
+        return
+    from pyrofit.figures.robustness import draw_robustness
+    from pyrofit.report.comparison import robustness as said
+    from pyrofit.tables.robustness import write_robustness
+
+    study, results = _open(given, slices.presentation)
+    write_robustness(study, results)
+    draw_robustness(study, results)
+    for line in said(study, results):
+        print(line, file=sys.stderr)
+
+
 def _table(given: argparse.Namespace) -> None:
     from pyrofit.stages import slices
     from pyrofit.tables import make_table
@@ -266,6 +344,14 @@ def _report(given: argparse.Namespace) -> None:
     from pyrofit.stages import slices
 
     write_report(*_open(given, slices.presentation))
+
+
+def _archive(given: argparse.Namespace) -> None:
+    from pyrofit.archive import write_archive
+    from pyrofit.stages import slices
+
+    study, results = _open(given, slices.presentation)
+    print(write_archive(study, results, given.given or [given.study], Path()))
 
 
 def _hidden_effects(given: argparse.Namespace) -> None:

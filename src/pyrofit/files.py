@@ -195,6 +195,10 @@ class Results:
         """Multistart least squares on one cost."""
         return self.root / "imp" / cost / "least_squares.json"
 
+    def cmaes(self, cost: str) -> Path:
+        """CMA-ES from several starts on one cost."""
+        return self.root / "imp" / cost / "cmaes.json"
+
     def descent(self, cost: str) -> Path:
         """Least squares from SCE-UA's best set on one cost."""
         return self.root / "imp" / cost / "descent.json"
@@ -206,6 +210,14 @@ class Results:
     def identification(self, name: str, stage: str = "imp") -> Path:
         """Intervals of a stage's parameters, 'kinetics' or 'imp', and all that they rest on."""
         return self.root / "identification" / stage / name
+
+    def comparison(self, name: str) -> Path:
+        """All sets of all optimisers under all costs, and the family of good ones."""
+        return self.root / "comparison" / name
+
+    def robustness(self, name: str) -> Path:
+        """Fits of all cost functions to twins of known truth."""
+        return self.root / "robustness" / name
 
     def validation(self, name: str) -> Path:
         """Predictions and scores."""

@@ -75,6 +75,7 @@ imp:
   repetitions: 1
   sceua: {complexes: 1, generations: 3}
   least_squares: {starts: 1}
+  cmaes: {starts: 1, calls: 20}
   costs:
     RMSE: [{experiment: slab_25, signal: mlr, kind: RMSE, normalisation: mean}]
     RANGE: [{experiment: slab_25, signal: mlr, kind: RANGE, options: {r: 0.05}}]

@@ -207,6 +207,13 @@ BROKEN_RESULTS = _results(
             ("'starts' is not a list of at least one", AGAIN),
         ),
         (
+            "CMA-ES without starts",
+            PREDICT,
+            result("imp/RMSE/cmaes.json", "starts", []),
+            "imp/RMSE/cmaes.json",
+            ("'starts' is not a list of at least one", AGAIN),
+        ),
+        (
             "least squares without a parameter",
             PREDICT,
             result("imp/RMSE/least_squares.json", "starts.0.parameters.k", GONE),

@@ -273,6 +273,12 @@ KEYS = rows_of(
         ),
         ("0 complexes", put(imp__sceua__complexes=0), ("imp.sceua.complexes: 0 must be at least",)),
         ("0 starts", put(imp__least_squares__starts=0), ("imp.least_squares.starts: 0 must be",)),
+        (
+            "0 starts of CMA-ES",
+            put(imp__cmaes__starts=0),
+            ("imp.cmaes.starts: 0 must be at least 1",),
+        ),
+        ("1 call", put(imp__cmaes__calls=1), ("imp.cmaes.calls: 1 must be at least 10",)),
         ("1 cell", put(accuracy__cells=1), ("accuracy.cells: 1 must be at least 2",)),
     ],
 )
@@ -684,6 +690,16 @@ STAGES = rows_of(
             "published parameter unknown",
             put(published__costs__RMSE={"rhoo": [1, 2, 3]}),
             ("published.costs.RMSE: unknown parameter 'rhoo'. Did you mean 'rho'?",),
+        ),
+        (
+            "published limits of an unknown parameter",
+            put(published__limits={"rhoo": [1, 2]}),
+            ("published.limits: unknown parameter 'rhoo'. Did you mean 'rho'?",),
+        ),
+        (
+            "published limits in the wrong order",
+            put(published__limits={"rho": [2, 1]}),
+            ("published.limits.rho: lower (2) must be below upper (1)",),
         ),
         (
             "unknown experiment to predict",

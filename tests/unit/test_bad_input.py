@@ -28,6 +28,7 @@ STEPS = [
     "kinetics",
     *(f"imp --cost {cost} --repetition 0" for cost in COSTS),
     *(f"least-squares --cost {cost}" for cost in COSTS),
+    *(f"cma-es --cost {cost}" for cost in COSTS),
     "collect",
     *(f"descent --cost {cost}" for cost in COSTS),
     "predict",

@@ -11,7 +11,7 @@ from pyrofit.errors import DataError
 
 ROOT = Path(__file__).parents[2]
 SMOKE = ROOT / "config" / "smoke.yaml"
-STEPS = ["prepare", "kinetics", "imp", "least-squares", "collect", "predict"]
+STEPS = ["prepare", "kinetics", "imp", "least-squares", "cma-es", "collect", "predict"]
 SHOWS = ["table", "figure", "report"]
 
 
@@ -57,7 +57,8 @@ def test_check_says_what_the_study_will_do(capsys: pytest.CaptureFixture[str]) -
 def test_step_before_its_time_says_what_is_missing(
     name: str, tmp_path: Path, capsys: pytest.CaptureFixture[str]
 ) -> None:
-    options = {"imp": ["--cost", "RMSE", "--repetition", "0"], "least-squares": ["--cost", "RMSE"]}
+    cost = ["--cost", "RMSE"]
+    options = {"imp": [*cost, "--repetition", "0"], "least-squares": cost, "cma-es": cost}
     given = [name, "--study", str(SMOKE), "--results", str(tmp_path), *options.get(name, [])]
     assert cli.main(given) == 2
     said = capsys.readouterr().err

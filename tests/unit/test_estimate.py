@@ -11,6 +11,7 @@ import pytest
 
 from pyrofit.config import Study, TermSpec, read_study
 from pyrofit.errors import CostError
+from pyrofit.estimate import cmaes
 from pyrofit.estimate.least_squares import multistart
 from pyrofit.estimate.problem import (
     FAILED_COST,
@@ -264,6 +265,66 @@ def test_multistart_stays_inside_the_limits_and_counts_its_calls() -> None:
     assert start.calls == len(asked)
     assert np.all(np.array(asked) >= problem.lower)
     assert np.all(np.array(asked) <= problem.upper)
+
+
+# --- CMA-ES ---------------------------------------------------------------------------------
+
+
+def test_cmaes_finds_the_optimum_from_every_start() -> None:
+    starts = cmaes.minimise(Valley(), 3, 1, 2000)
+    assert len(starts) == 3
+    assert [s.cost for s in starts] == sorted(s.cost for s in starts)
+    for start in starts:
+        assert start.values == pytest.approx([0.3, -20.0], rel=1e-3)
+        assert start.cost < 1e-3
+        assert start.at_bound == ()
+
+
+def test_cmaes_draws_from_its_seed_alone() -> None:
+    def ends(seed: int) -> list[list[float]]:
+        return [s.values.tolist() for s in cmaes.minimise(Valley(), 2, seed, 60)]
+
+    first = ends(1)
+    np.random.seed(5)  # noqa: NPY002
+    assert ends(1) == first
+    assert ends(2) != first
+    np.random.seed(5)  # noqa: NPY002
+    before = np.random.get_state()[1].tolist()  # noqa: NPY002
+    ends(1)
+    assert np.random.get_state()[1].tolist() == before  # noqa: NPY002
+
+
+def test_cmaes_counts_its_calls_stays_within_the_limits_and_keeps_to_its_budget() -> None:
+    problem = Valley(optimum=(1.3, -50.0))
+    start = cmaes.minimise(problem, 1, 1, 100)[0]
+    asked = np.array(problem.asked)
+    assert start.calls == len(asked)
+    assert 100 <= len(asked) < 120  # the last generation is not cut
+    assert np.all(asked >= problem.lower)
+    assert np.all(asked <= problem.upper)
+    assert start.cost == min(np.linalg.norm(problem.residuals(x)) for x in asked)
+
+
+def test_cmaes_names_the_parameters_at_their_limits() -> None:
+    start = cmaes.minimise(Valley(optimum=(1.3, -20.0)), 1, 1, 2000)[0]
+    assert start.at_bound == ("a",)
+    assert start.values == pytest.approx([1.0, -20.0], rel=1e-3)
+
+
+def test_cmaes_goes_on_where_runs_fail() -> None:
+    problem = Valley(fails=lambda x: x[0] > 0.5)
+    start = cmaes.minimise(problem, 1, 1, 2000)[0]
+    assert start.values == pytest.approx([0.3, -20.0], rel=1e-3)
+
+
+def test_cmaes_depends_on_ranks_of_the_cost_alone() -> None:
+    class Small(Valley):
+        def residuals(self, x: FloatArray) -> FloatArray:
+            return 1e-9 * super().residuals(x)
+
+    large, small = (cmaes.minimise(p, 1, 1, 2000)[0] for p in (Valley(), Small()))
+    assert small.calls == large.calls
+    assert np.array_equal(small.values, large.values)
 
 
 # --- the problem ----------------------------------------------------------------------------

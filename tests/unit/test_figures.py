@@ -4,11 +4,14 @@ import matplotlib as mpl
 import numpy as np
 import pandas as pd
 import pytest
+from matplotlib.colors import to_rgb
 from test_tables import described, fake, synthetic
 
 from pyrofit.config import as_study
 from pyrofit.errors import StudyError
-from pyrofit.figures import FIGURES, convergence, curves, kinetics, make_figure
+from pyrofit.figures import FIGURES, convergence, curves, kinetics, make_figure, style
+from pyrofit.files import Results, read_csv, write_csv
+from pyrofit.tables.describe import PUBLISHED, predicted_sets
 
 
 @pytest.mark.parametrize("name", FIGURES)
@@ -121,3 +124,57 @@ def test_running_mean_is_centred_and_leaves_short_records_alone() -> None:
     assert curves.running_mean(series)[50] == pytest.approx(2500.0 + 2.0 / 3.0)
     short = pd.Series([1.0, 5.0, 2.0])
     assert curves.running_mean(short).tolist() == [1.0, 5.0, 2.0]
+
+
+def lightness(colour: str) -> float:
+    """Grey of a colour, 0 black to 1 white, as Rec. 601 weighs red, green and blue."""
+    return float(np.dot(to_rgb(colour), (0.299, 0.587, 0.114)))
+
+
+def test_curves_of_three_costs_and_the_band_stay_apart_in_grey() -> None:
+    first = [lightness(colour) for colour in style.COLOURS[:3]]
+    greys = [lightness(style.MEASURED), *first, lightness(style.BAND), 1.0]
+    assert min(np.diff(greys)) > 0.1
+    assert len({str(dashes) for dashes in style.DASHES}) == len(style.COLOURS)
+
+
+def test_published_sets_are_told_apart_from_ours_without_colour(tmp_path: Path) -> None:
+    given = described()
+    given["published"]["costs"]["BANDS"] = given["published"]["costs"]["RMSE"]
+    study, results = fake(tmp_path, given)
+    published = [s for s in predicted_sets(study) if s.origin == PUBLISHED]
+    with style.style():
+        axes = curves.fig3(study, results).axes[0]
+    drawn = [line.get_marker() for line in axes.lines if line.get_marker() != "None"]
+    assert len(set(drawn)) == len(published) == 2
+
+
+def with_uncertain_mass(results: Results) -> None:
+    """Give one of the TGA runs an uncertainty."""
+    path = results.measurement("slow", "mass_fraction")
+    write_csv(path, read_csv(path).assign(mass_fraction_uncertainty=0.02))
+
+
+@pytest.mark.parametrize("name", ["fig2", "kinetics_all_rates"])
+def test_uncertainty_of_the_mass_is_a_band_where_it_is_known(name: str, tmp_path: Path) -> None:
+    study, results = fake(tmp_path)
+    for bands in (0, 1):
+        with style.style():
+            canvas = FIGURES[name].make(study, results)
+        assert sum(len(ax.collections) for ax in canvas.axes) == bands
+        entries = [text.get_text() for text in canvas.legends[0].get_texts()]
+        assert entries.count("uncertainty") == bands
+        with_uncertain_mass(results)
+
+
+@pytest.mark.parametrize("name", ["fig1", "fig2", "fig3", "fig4", "fig5", "kinetics_all_rates"])
+def test_axes_of_the_papers_figures_name_quantity_and_unit(name: str, tmp_path: Path) -> None:
+    study, results = fake(tmp_path)
+    with style.style():
+        axes = FIGURES[name].make(study, results).axes
+    labels = {ax.get_xlabel() for ax in axes} | {ax.get_ylabel() for ax in axes}
+    assert {label for label in labels if "[" not in label} <= {"", "generation", "model calls"}
+    # Panels without a label share an axis with one that has it.
+    for ax in axes:
+        below = [other for other in axes if ax in other.get_shared_x_axes().get_siblings(other)]
+        assert any(other.get_xlabel() for other in below)

@@ -84,7 +84,7 @@ def test_singular_values_are_those_of_the_whitened_sensitivities(results: Result
 def test_no_set_of_the_optimisers_is_below_the_optimum(results: Results) -> None:
     sets = read(results, "sets")
     noise = read_json(results.identification("noise.json"))
-    assert len(sets) == 3 * 3
+    assert len(sets) == 3 * 4
     assert sets["chi2"].min() >= noise["chi2"] - 1e-6
     assert noise["chi2"] == pytest.approx(sum(c["chi2"] for c in noise["channels"]))
     assert noise["freedom"] == sum(c["points"] for c in noise["channels"]) - len(TRUTH)

@@ -93,6 +93,8 @@ def by_hand(study: Study, results: Results) -> None:
             results.least_squares(cost),
             {"cost_function": cost, "seed": 1, "starts": [start, {**start, "cost": 0.07}]},
         )
+        end = {**start, "cost": 0.06, "parameters": parameters(cost, 7)}
+        write_json(results.cmaes(cost), {"cost_function": cost, "seed": 1, "starts": [end]})
 
 
 # --- prepare --------------------------------------------------------------------------------
@@ -428,17 +430,18 @@ def test_best_set_of_each_cost_has_its_lowest_cost(results: Results) -> None:
 # --- prediction -----------------------------------------------------------------------------
 
 
-def test_sets_to_predict_are_best_least_squares_and_published(results: Results) -> None:
+def test_sets_to_predict_are_the_best_of_every_optimiser_and_published(results: Results) -> None:
     shown = {"rho": [1200, 1, 1], "k": [0.2, 1, 1], "cp": [2, 1, 1], "eps": [0.9, 1, 1]}
     published = {"RMSE": {**shown, "dh": [700, 1, 1]}, "RANGE": shown}
     study = study_with(published={"source": "x", "costs": published})
     sets = predict.sets_of(study, results)
     assert set(sets) == {
         *SETS,
-        *(f"{cost} least squares" for cost in SETS),
+        *(f"{cost} {who}" for cost in SETS for who in ("least squares", "CMA-ES")),
         "RMSE published",  # that of RANGE lacks a parameter
     }
     assert sets["RANGE least squares"] == parameters("RANGE", 5)
+    assert sets["RANGE CMA-ES"] == parameters("RANGE", 7)
     assert sets["RMSE published"] == {"rho": 1200, "k": 0.2, "cp": 2000, "eps": 0.9, "dh": 700e3}
 
 
@@ -462,7 +465,7 @@ def test_predicted_curves_stand_beside_the_measured_ones(results: Results) -> No
 
 def test_scores_are_those_of_the_curves(results: Results) -> None:
     scores = read_csv(results.validation("scores.csv"))
-    assert len(scores) == 2 * 2 * 6
+    assert len(scores) == 2 * 2 * 9
     curves = read_csv(results.validation("curves.csv")).groupby(["experiment", "signal", "set"])
     for row in scores.itertuples():
         curve = curves.get_group((row.experiment, row.signal, row.set))
@@ -490,11 +493,12 @@ SLICES = {
     "RMSE": lambda study: slices.imp(study, "RMSE", "sceua"),
     "RANGE": lambda study: slices.imp(study, "RANGE", "sceua"),
     "least squares": lambda study: slices.imp(study, "RMSE", "least_squares"),
+    "CMA-ES": lambda study: slices.imp(study, "RMSE", "cmaes"),
     "collect": slices.collect,
     "validation": slices.validation,
     "presentation": slices.presentation,
 }
-IMP = {"RMSE", "RANGE", "least squares"}
+IMP = {"RMSE", "RANGE", "least squares", "CMA-ES"}
 RANGE_TERM = {"experiment": "slab_25", "signal": "mlr", "kind": "RANGE", "options": {"r": 0.1}}
 CHANGES: dict[str, tuple[dict[str, Any], set[str]]] = {
     "title": ({"title": "x"}, set()),
@@ -504,6 +508,7 @@ CHANGES: dict[str, tuple[dict[str, Any], set[str]]] = {
     "option of one cost": ({"imp__costs__RANGE": [RANGE_TERM]}, {"RANGE"}),
     "budget of SCE-UA": ({"imp__sceua": {"generations": 4}}, {"RMSE", "RANGE"}),
     "budget of least squares": ({"imp__least_squares": {"starts": 3}}, {"least squares"}),
+    "budget of CMA-ES": ({"imp__cmaes": {"calls": 100}}, {"CMA-ES"}),
     "budget of the kinetics": ({"kinetics__sceua": {"generations": 4}}, {"kinetics"}),
     "limits of a slab parameter": ({"parameters__k__upper": 0.5}, IMP),
     "limits of a TGA parameter": ({"parameters__T_p__upper": 650}, IMP | {"kinetics"}),

@@ -22,8 +22,9 @@ ORDER = [
     {"diagnose"},
     {"files", "stages"},
     {"hidden"},
+    {"start"},
     {"tables", "figures"},
-    {"report"},
+    {"report", "archive"},
     {"cli"},
 ]
 RANK = {part: rank for rank, parts in enumerate(ORDER) for part in parts}
@@ -126,6 +127,10 @@ def test_only_config_reads_yaml() -> None:
 
 def test_only_the_sce_ua_module_imports_spotpy() -> None:
     assert names_of([p for p in modules() if "spotpy" in outside(p)]) == ["estimate/sceua.py"]
+
+
+def test_only_the_cma_es_module_imports_cma() -> None:
+    assert names_of([p for p in modules() if "cma" in outside(p)]) == ["estimate/cmaes.py"]
 
 
 def test_library_never_prints_or_exits() -> None:

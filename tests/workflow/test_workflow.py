@@ -20,6 +20,8 @@ IDENTIFY = "What the data determine of the inverse modelling"
 IDENTIFY_KINETICS = "What the data determine of the kinetics"
 PREDICT = "Best sets simulated at slab_60 slab_80"
 SQUARES = {f"Multistart least squares, {cost}" for cost in COSTS}
+CMA_ES = {f"CMA-ES, {cost}" for cost in COSTS}
+COMPARE = "All sets of all optimisers under all costs"
 DESCENTS = {f"Least squares from SCE-UA's best set, {cost}" for cost in COSTS}
 SUMMARY = "results/tiny/imp/summary.csv"
 
@@ -29,8 +31,8 @@ def sceua(*repetitions: int, costs: tuple[str, ...] = COSTS) -> set[str]:
 
 
 SEARCHES = sceua(0, 1)
-GATHERED = {COLLECT, PREDICT, IDENTIFY} | DESCENTS
-EVERYTHING = {PREPARE, KINETICS, IDENTIFY_KINETICS} | GATHERED | SEARCHES | SQUARES
+GATHERED = {COLLECT, PREDICT, IDENTIFY, COMPARE} | DESCENTS
+EVERYTHING = {PREPARE, KINETICS, IDENTIFY_KINETICS} | GATHERED | SEARCHES | SQUARES | CMA_ES
 
 
 def computing(jobs: set[str]) -> set[str]:
@@ -78,15 +80,22 @@ def test_second_run_does_nothing(project: Project) -> None:
 
 # --- what a change runs again ---------------------------------------------------------------
 
-ALL_IMP = SEARCHES | SQUARES | GATHERED
+ALL_IMP = SEARCHES | SQUARES | CMA_ES | GATHERED
 RANGE = {"experiment": "slab_60", "signal": "mlr", "kind": "RANGE", "options": {"r": 0.1}}
 CHANGES: dict[str, tuple[str, object, set[str]]] = {
     "title": ("title", "Another title", set()),
-    "one more repetition": ("imp.repetitions", 3, sceua(2) | GATHERED),
+    # Three repetitions are enough for one more figure.
+    "one more repetition": (
+        "imp.repetitions",
+        3,
+        sceua(2) | GATHERED | {"Figure correlation_of_sets"},
+    ),
     "option of one cost": (
         "imp.costs.RANGE",
         [RANGE],
-        sceua(0, 1, costs=("RANGE",)) | {"Multistart least squares, RANGE"} | GATHERED,
+        sceua(0, 1, costs=("RANGE",))
+        | {"Multistart least squares, RANGE", "CMA-ES, RANGE"}
+        | GATHERED,
     ),
     "seed": ("seed", 4, EVERYTHING),
     "budget of the kinetics, used by all": (
@@ -97,7 +106,7 @@ CHANGES: dict[str, tuple[str, object, set[str]]] = {
     "experiments to predict": (
         "validation.experiments",
         ["slab_80", "slab_60"],
-        {"Best sets simulated at slab_80 slab_60"},
+        {"Best sets simulated at slab_80 slab_60", COMPARE},
     ),
 }
 

@@ -94,12 +94,14 @@ TINY: dict[str, Any] = {
         "repetitions": 2,
         "sceua": {"complexes": 2, "generations": 3},
         "least_squares": {"starts": 1},
+        "cmaes": {"starts": 1, "calls": 30},
         "costs": {
             "RMSE": [{**TERM, "kind": "RMSE"}],
             "RANGE": [{**TERM, "kind": "RANGE", "options": {"r": 0.05}}],
         },
     },
     "validation": {"experiments": ["slab_60", "slab_80"]},
+    "robustness": {"noise": [1], "outliers": [0.1], "draws": 1, "starts": 1},
 }
 OWN_FILE = "Time,Temperature,Mass\n[s],[K],[mg]\n" + "".join(
     f"{60 * i},{500 + 10 * i},{5.0 if i < 10 else 1.0}\n" for i in range(20)

@@ -11,6 +11,7 @@ rule imp:
     benchmark:
         benchmark_of("imp_{cost}_{repetition}")
     params:
+        study=STUDY,
         digest=lambda wildcards: digest(slices.imp(study, wildcards.cost, "sceua")),
         generations=study.imp.sceua.generations,
         seed=study.seed,
@@ -18,7 +19,7 @@ rule imp:
     message:
         "Inverse modelling, {wildcards.cost}, repetition {wildcards.repetition}"
     shell:
-        "pyrofit imp --study {STUDY} --digest {params.digest} --log {log}"
+        "pyrofit imp --study {params.study} --digest {params.digest} --log {log}"
         " --cost {wildcards.cost} --repetition {wildcards.repetition}"
 
 
@@ -33,6 +34,7 @@ rule least_squares:
     benchmark:
         benchmark_of("least_squares_{cost}")
     params:
+        study=STUDY,
         digest=lambda wildcards: digest(
             slices.imp(study, wildcards.cost, "least_squares")
         ),
@@ -42,7 +44,30 @@ rule least_squares:
     message:
         "Multistart least squares, {wildcards.cost}"
     shell:
-        "pyrofit least-squares --study {STUDY} --digest {params.digest} --log {log}"
+        "pyrofit least-squares --study {params.study} --digest {params.digest} --log {log}"
+        " --cost {wildcards.cost}"
+
+
+rule cma_es:
+    input:
+        MEASUREMENTS,
+        KINETICS_FOR_IMP,
+    output:
+        ROOT / "imp/{cost}/cmaes.json",
+    log:
+        log_of("cmaes_{cost}"),
+    benchmark:
+        benchmark_of("cmaes_{cost}")
+    params:
+        study=STUDY,
+        digest=lambda wildcards: digest(slices.imp(study, wildcards.cost, "cmaes")),
+        starts=study.imp.cmaes.starts,
+        seed=study.seed,
+        source=COMPUTES,
+    message:
+        "CMA-ES, {wildcards.cost}"
+    shell:
+        "pyrofit cma-es --study {params.study} --digest {params.digest} --log {log}"
         " --cost {wildcards.cost}"
 
 
@@ -56,6 +81,7 @@ rule descent:
     log:
         log_of("descent_{cost}"),
     params:
+        study=STUDY,
         digest=lambda wildcards: digest(
             slices.imp(study, wildcards.cost, "least_squares")
         ),
@@ -63,7 +89,7 @@ rule descent:
     message:
         "Least squares from SCE-UA's best set, {wildcards.cost}"
     shell:
-        "pyrofit descent --study {STUDY} --digest {params.digest} --log {log}"
+        "pyrofit descent --study {params.study} --digest {params.digest} --log {log}"
         " --cost {wildcards.cost}"
 
 
@@ -83,9 +109,10 @@ rule collect:
     log:
         log_of("collect"),
     params:
+        study=STUDY,
         digest=digest(slices.collect(study)),
         source=COMPUTES,
     message:
         "All repetitions gathered"
     shell:
-        "pyrofit collect --study {STUDY} --digest {params.digest} --log {log}"
+        "pyrofit collect --study {params.study} --digest {params.digest} --log {log}"

@@ -36,6 +36,15 @@ class LeastSquares(Part):
     starts: int = Field(8, ge=1, description="random starts within the limits")
 
 
+class Cmaes(Part):
+    """CMA-ES beside it."""
+
+    starts: int = Field(2, ge=1, description="random starts within the limits")
+    calls: int = Field(
+        3000, ge=10, description="model calls after which a start begins no further generation"
+    )
+
+
 class KineticValues(Part):
     """Published kinetics of one reaction."""
 
@@ -78,6 +87,7 @@ class Imp(Part):
     repetitions: int = Field(25, ge=1, description="repetitions per cost")
     sceua: Sceua = Field(default_factory=Sceua, description="budget of SCE-UA")
     least_squares: LeastSquares = Field(default_factory=LeastSquares, description="beside it")
+    cmaes: Cmaes = Field(default_factory=Cmaes, description="beside both")
     identification: dict[str, tuple[str, ...]] = Field(
         default_factory=dict,
         description="signals by gasification experiment from which is found what the data "
@@ -94,6 +104,22 @@ class Imp(Part):
             pairs = [(e, s) for e, signals in self.identification.items() for s in signals]
             return tuple(TermSpec(experiment=e, signal=s, kind="RMSE") for e, s in pairs)
         return channels_of([term for terms in self.costs.values() for term in terms])
+
+
+class Robustness(Part):
+    """Twins of known truth on which the cost functions are compared, `snakemake robustness`."""
+
+    noise: tuple[Annotated[float, Field(gt=0.0)], ...] = Field(
+        (1.0, 3.0, 10.0), min_length=1, description="noise, multiples of the measurement's"
+    )
+    outliers: tuple[Annotated[float, Field(gt=0.0, lt=1.0)], ...] = Field(
+        (0.02, 0.1), min_length=1, description="outliers, shares of the points"
+    )
+    outlier_size: float = Field(
+        0.5, gt=0.0, description="size of an outlier, share of the signal's range"
+    )
+    draws: int = Field(10, ge=1, description="twins of each level")
+    starts: int = Field(3, ge=1, description="random starts of least squares for each")
 
 
 class Validation(Part):
@@ -125,6 +151,10 @@ class Published(Part):
         default_factory=dict,
         description="by cost: best, mean and sigma of 'fit' and of each parameter, in its unit",
     )
+    limits: dict[str, tuple[float, float]] = Field(
+        default_factory=dict,
+        description="lower and upper sampling limit of each parameter, in its unit",
+    )
 
 
 class Study(Part):
@@ -153,6 +183,9 @@ class Study(Part):
     kinetics: Kinetics | None = Field(None, description="stage 1, TGA")
     imp: Imp = Field(description="stage 2, inverse modelling")
     validation: Validation = Field(description="stage 3, prediction")
+    robustness: Robustness = Field(
+        default_factory=Robustness, description="cost functions on twins of known truth"
+    )
     diagnosis: Diagnosis = Field(
         default_factory=Diagnosis, description="stage 4, which effect the model lacks"
     )

@@ -7,8 +7,9 @@ from matplotlib.figure import Figure as Canvas
 
 from pyrofit.config import Study
 from pyrofit.errors import StudyError, suggest
-from pyrofit.figures import curves, determined, style
+from pyrofit.figures import compared, curves, determined, style
 from pyrofit.figures.convergence import fig5
+from pyrofit.figures.cost_functions import R, fig1
 from pyrofit.figures.kinetics import fig2, kinetics_all_rates
 from pyrofit.files import Results
 from pyrofit.tables.describe import predicted, rates_in_fit
@@ -25,6 +26,19 @@ class Figure:
 
 
 FIGURES: dict[str, Figure] = {
+    "fig1": Figure(
+        applies=lambda study: True,
+        make=fig1,
+        title="Figure 1. What the cost functions count",
+        caption="An example, the same for every study: target (solid), model (dashed), the "
+        "distance that counts (green, hatched; green bars for a single point and a threshold), and "
+        "the area in which a model costs nothing (light blue). The numbers are the costs of this "
+        "example. a) Relative difference at one time. b) Time at which the model passes a level "
+        "that the target passes at the dot. c) to e) Root mean square of the shaded differences "
+        "divided by the mean of the target: to the target, to its band of uncertainty, to "
+        f"{100 * R:g} % about it (usually 5 %). f) Three of them added with weights, BANDS over "
+        "part of the time.",
+    ),
     "fig2": Figure(
         applies=lambda study: bool(rates_in_fit(study)),
         make=fig2,
@@ -49,9 +63,9 @@ FIGURES: dict[str, Figure] = {
         title="Figure 3. Mass loss rate, fitted",
         caption="Mass loss rate of the fitted experiment: the data with their uncertainty (grey "
         "area), and the best set that SCE-UA found for each cost function; thin grey "
-        "curves, if any, are our solver's for sets of the literature. Curves on top of each "
-        "other mean that the choice of the cost function makes no difference here; long "
-        "stretches outside the grey area are what no set explains.",
+        "curves with markers, if any, are our solver's for sets of the literature. Curves on "
+        "top of each other mean that the choice of the cost function makes no difference here; "
+        "long stretches outside the grey area are what no set explains.",
     ),
     "fig4": Figure(
         applies=lambda study: bool(curves.held_out_rates(study)),
@@ -74,10 +88,11 @@ FIGURES: dict[str, Figure] = {
     "optimisers": Figure(
         applies=lambda study: bool(predicted(study, "mlr")),
         make=curves.optimisers,
-        title="Mass loss rate of the two optimisers",
-        caption="The best sets of least squares (dots) beside those of SCE-UA. Where a lower cost "
-        "at the fitted experiment comes with a worse prediction elsewhere, the fitted data do not "
-        "determine the parameters, or these make up for something that the model lacks.",
+        title="Mass loss rate of the optimisers",
+        caption="The best sets of least squares (dots) and CMA-ES (squares) beside those of "
+        "SCE-UA. Where a lower cost at the fitted experiment comes with a worse prediction "
+        "elsewhere, the fitted data do not determine the parameters, or these make up for "
+        "something that the model lacks.",
     ),
     "sensitivities": Figure(
         applies=lambda study: True,
@@ -101,6 +116,33 @@ FIGURES: dict[str, Figure] = {
         "parabola to the 95 % level, the linear interval is quoted; else the profile, all other "
         "parameters fitted anew at each point. Where a profile meets a limit (vertical line) below "
         "the level, the limit cuts the interval off.",
+    ),
+    "spread": Figure(
+        applies=lambda study: True,
+        make=compared.spread,
+        title="Where the sets of all repetitions lie",
+        caption="Each dot is the best set of one repetition of SCE-UA, in their order from left to "
+        "right; beside them the best sets of the other optimisers; to the left those of the "
+        "literature, if any. The axis ends at the limits. Dots all over the height: the search "
+        "finds no one value. Dots at one height but off the grey area, or off the truth: the "
+        "searches agree on a value that the data, with the noise of each point, do not support.",
+    ),
+    "correlation_of_sets": Figure(
+        applies=lambda study: study.imp.repetitions > 2,
+        make=compared.correlation_of_sets,
+        title="Correlation of the sets of all repetitions",
+        caption="Spearman's correlation over the repetitions of SCE-UA, ranked within each cost "
+        "function. It tells along which combinations of parameters the searches come to rest, and "
+        "need not be that of the likelihood.",
+    ),
+    "good_sets": Figure(
+        applies=lambda study: bool(study.validation.experiments),
+        make=compared.good_sets,
+        title="What the good sets predict",
+        caption="Lowest and highest prediction of all sets whose cost is near the lowest known one "
+        "(blue), and the set of the lowest cost for each cost function. Data outside the "
+        "blue area are missed by all sets that fit well: what is wrong there is the model or its "
+        "given values, not the choice of a set.",
     ),
     "residuals": Figure(
         applies=lambda study: bool(predicted(study, "mlr")),

@@ -13,7 +13,7 @@ from pyrofit.errors import DataError
 from pyrofit.figures import FIGURES
 from pyrofit.figures.style import MM, TWO_COLUMNS
 from pyrofit.files import Results
-from pyrofit.report import determined, truth
+from pyrofit.report import comparison, determined, truth
 from pyrofit.tables import TABLES, readable
 from pyrofit.tables.table import Table
 from pyrofit.tables.text import number, numeric, plain_rows
@@ -63,7 +63,7 @@ _SECTIONS = (
         "Inverse modelling",
         "Parameters from gasification, once per repetition and cost function, by SCE-UA; least "
         "squares from random starts on the same costs as a check.",
-        ("table4", "fig3", "fig5", "costs"),
+        ("table4", "fig3", "fig5", "costs", "fig1", "table6", "table5"),
     ),
     (
         "truth",
@@ -81,7 +81,13 @@ _SECTIONS = (
         "validation",
         "Validation",
         "The best sets, simulated at experiments and signals they were not fitted to.",
-        ("fig4", "residuals", "back_temperature", "optimisers", "validation"),
+        ("fig4", "residuals", "back_temperature", "optimisers", "validation", "good_sets", "bands"),
+    ),
+    (
+        "comparison",
+        "Optimisers and cost functions compared",
+        "All sets of all optimisers, under all cost functions and on one metric.",
+        ("every_cost", "cost_tests", "spread", "correlation_of_sets"),
     ),
 )
 
@@ -106,6 +112,8 @@ def sections(study: Study, results: Results, tables: dict[str, pd.DataFrame]) ->
                 parts.append(picture(path, name, FIGURES[name].title, FIGURES[name].caption))
         if anchor == "truth" and parts:
             text = " ".join([text, *truth.sentences(tables["truth"])])
+        if anchor == "comparison":
+            text = " ".join([text, *comparison.sentences(study, results, tables)])
         if anchor == "identification":
             text = " ".join([text, *determined.sentences(tables)])
         if parts:

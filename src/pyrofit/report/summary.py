@@ -16,7 +16,7 @@ from pyrofit.tables.describe import (
     rates_in_fit,
     title_of,
 )
-from pyrofit.tables.imp import LOCAL_OPTIMUM, NOT_A_MINIMUM
+from pyrofit.tables.imp import LOCAL_OPTIMUM, NOT_A_MINIMUM, WORDS
 from pyrofit.tables.text import number
 
 Frames = dict[str, pd.DataFrame]
@@ -108,15 +108,15 @@ def _optimisers(study: Study, tables: Frames) -> str:
     stuck = [r for r in rows if r["remark"] == LOCAL_OPTIMUM]
     short = [r for r in rows if r["remark"] == NOT_A_MINIMUM]
     if not stuck and not short:
-        return "Least squares from random starts found no cost lower by more than 1 %."
+        return "Least squares and CMA-ES from random starts found no cost lower by more than 1 %."
     parts = []
     for r in stuck + short:
-        bound = (
-            f" ({r['least_squares_at_bound']} at a limit)" if r["least_squares_at_bound"] else ""
-        )
-        agree = f"{r['starts_at_best']} of {r['starts']} starts agree"
+        name = r["lowest_by"]
+        by = next(key for key, word in WORDS.items() if word == name)
+        bound = f" ({r[f'{by}_at_bound']} at a limit)" if r[f"{by}_at_bound"] else ""
+        agree = f"{r[f'{by}_starts_at_best']} of {r[f'{by}_starts']} starts of {name} agree"
         parts.append(f"{r['cost_function']} by {100 * (1 - r['ratio']):.0f} %, {agree}{bound}")
-    text = f"Least squares on the same costs goes lower: {listed(parts)}"
+    text = f"On the same costs other optimisers go lower: {listed(parts)}"
     if stuck:
         text += f"; SCE-UA stopped at a local optimum for {_costs(stuck)}"
     if short:

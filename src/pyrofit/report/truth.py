@@ -4,7 +4,7 @@ import pandas as pd
 
 from pyrofit.tables.truth import KINETICS
 
-_FOUND_BY = {"sceua": "SCE-UA", "least_squares": "least squares"}
+_FOUND_BY = {"sceua": "SCE-UA", "least_squares": "least squares", "cmaes": "CMA-ES"}
 
 
 def sentences(table: pd.DataFrame) -> list[str]:
@@ -27,14 +27,24 @@ def sentences(table: pd.DataFrame) -> list[str]:
         f"Of the distance between the limits, the best sets of {name} are off the truth by: "
         + "; ".join(f"{_worst(part, by)} ({fit})" for fit, part in costs.groupby("fit", sort=False))
         + "."
-        for by, name in _FOUND_BY.items()
-        if len(costs)
+        for by, name in _found_by(costs).items()
     ]
     kinetics = table[table["fit"] == KINETICS]
     if len(kinetics):
-        off = "; ".join(f"{_worst(kinetics, by)} ({name})" for by, name in _FOUND_BY.items())
+        found = _found_by(kinetics)
+        off = "; ".join(f"{_worst(kinetics, by)} ({name})" for by, name in found.items())
         said.append(f"The kinetics are off by: {off}.")
     return said
+
+
+def _found_by(part: pd.DataFrame) -> dict[str, str]:
+    """Return the optimisers that some fits have errors of."""
+    errors = {by: part.get(f"{by}_error_limits_percent") for by in _FOUND_BY}
+    return {
+        by: name
+        for by, name in _FOUND_BY.items()
+        if (column := errors[by]) is not None and column.notna().any()
+    }
 
 
 def _worst(part: pd.DataFrame, by: str) -> str:

@@ -10,6 +10,7 @@ import pandas as pd
 from pyrofit.config import Study, digest
 from pyrofit.constants import GAS_CONSTANT
 from pyrofit.errors import StudyError, suggest
+from pyrofit.estimate import cmaes
 from pyrofit.estimate.least_squares import Start, descend, multistart
 from pyrofit.estimate.problem import Measurements, Problem, make_problem, program
 from pyrofit.estimate.sceua import Progress, best_of, convergence, search, seed_for
@@ -212,6 +213,18 @@ def least_squares(study: Study, results: Results, cost: str) -> None:
     starts = multistart(problem, study.imp.least_squares.starts, seed)
     write_json(
         results.least_squares(cost),
+        {"cost_function": cost, "seed": seed, "starts": [_start(problem, s) for s in starts]},
+    )
+
+
+def cma_es(study: Study, results: Results, cost: str) -> None:
+    """Run CMA-ES on the same cost and write the end of every start, best first."""
+    problem = imp_problem(study, results, cost)
+    seed = seed_for(study.seed, cost, "cmaes")
+    budget = study.imp.cmaes
+    starts = cmaes.minimise(problem, budget.starts, seed, budget.calls)
+    write_json(
+        results.cmaes(cost),
         {"cost_function": cost, "seed": seed, "starts": [_start(problem, s) for s in starts]},
     )
 

@@ -16,7 +16,8 @@ from pyrofit.stages import outcomes, slices
 from pyrofit.stages.fit import fixed_for_imp
 from pyrofit.stages.measurements import load
 
-BEST, MEAN, LEAST_SQUARES = "SCE-UA best", "SCE-UA mean", "least squares best"
+BEST, MEAN = "SCE-UA best", "SCE-UA mean"
+LEAST_SQUARES, CMAES = "least squares best", "CMA-ES best"
 
 
 def identify_kinetics(study: Study, results: Results) -> None:
@@ -43,7 +44,7 @@ def identify_kinetics(study: Study, results: Results) -> None:
 def identify_imp(study: Study, results: Results) -> None:
     """Analyse the likelihood of the inverse modelling likewise; write ``identification/imp``.
 
-    It is searched from the ends of least squares and the best sets of all repetitions.
+    It is searched from the ends of least squares and CMA-ES and the best sets of all repetitions.
 
     Raises
     ------
@@ -82,7 +83,7 @@ def _write(results: Results, stage: str, likelihood: Likelihood, found: Identifi
 def _known_sets(study: Study, results: Results) -> Iterator[FloatArray]:
     names = list(study.imp.estimate)
     for cost in study.imp.costs:
-        for start in outcomes.starts(study, results, cost):
+        for start in outcomes.starts(study, results, cost) + outcomes.cmaes(study, results, cost):
             yield np.array([start["parameters"][name] for name in names])
     yield from outcomes.summary(study, results)[names].to_numpy(float)
 
@@ -173,6 +174,7 @@ def _sets(
             BEST: group.iloc[int(group["cost"].to_numpy().argmin())],
             MEAN: group[names].mean(),
             LEAST_SQUARES: outcomes.starts(study, results, cost)[0]["parameters"],
+            CMAES: outcomes.cmaes(study, results, cost)[0]["parameters"],
         }
         for label, values in sets.items():
             x = likelihood.scaled(np.array([float(values[name]) for name in names]))

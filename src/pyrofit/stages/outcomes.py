@@ -1,6 +1,7 @@
 """Results as the steps leave them: what each file must hold where it is read again."""
 
 from collections.abc import Sequence
+from pathlib import Path
 from typing import Any
 
 import pandas as pd
@@ -119,11 +120,20 @@ def running_minima(study: Study, results: Results) -> pd.DataFrame:
 
 def starts(study: Study, results: Results, cost: str) -> list[dict[str, Any]]:
     """Return what least squares found from every start, best first."""
+    return _ends(study, results.least_squares(cost))
+
+
+def cmaes(study: Study, results: Results, cost: str) -> list[dict[str, Any]]:
+    """Return what CMA-ES found from every start, best first."""
+    return _ends(study, results.cmaes(cost))
+
+
+def _ends(study: Study, path: Path) -> list[dict[str, Any]]:
     here = ("starts", EACH)
     needs: dict[Keys, type] = {(*here, "cost"): float, (*here, "calls"): float}
     needs[*here, "at_bound"] = list
     needs |= {(*here, "parameters", name): float for name in study.imp.estimate}
-    found: list[dict[str, Any]] = read_json(results.least_squares(cost), needs)["starts"]
+    found: list[dict[str, Any]] = read_json(path, needs)["starts"]
     return found
 
 

@@ -15,23 +15,31 @@ from pyrofit.stages import outcomes
 from pyrofit.stages.fit import best_sets, fixed_for_imp
 from pyrofit.stages.measurements import load
 
-LEAST_SQUARES = "least squares"
-"""Suffix of the sets that least squares found on a cost."""
+LEAST_SQUARES, CMAES = "least squares", "CMA-ES"
+"""Suffixes of the sets that these optimisers found on a cost."""
 
 
 def sets_of(study: Study, results: Results) -> dict[str, dict[str, float]]:
-    """Return the sets to predict: the best of each cost, published ones, least squares' ones."""
+    """Return the sets to predict: the best of each cost and optimiser, and published ones."""
     sets = dict(best_sets(study, results))
     for cost in study.imp.costs:
         start = outcomes.starts(study, results, cost)[0]
         sets[f"{cost} {LEAST_SQUARES}"] = start["parameters"]
-    if study.published is not None:
-        for cost, table in study.published.costs.items():
-            if set(study.imp.estimate) <= set(table):
-                sets[f"{cost} published"] = {
-                    n: table[n][0] * study.parameters[n].factor for n in study.imp.estimate
-                }
+    for cost in study.imp.costs:
+        sets[f"{cost} {CMAES}"] = outcomes.cmaes(study, results, cost)[0]["parameters"]
+    for cost, values in published_sets(study).items():
+        sets[f"{cost} published"] = values
     return sets
+
+
+def published_sets(study: Study) -> dict[str, dict[str, float]]:
+    """Return the published best set of every cost that has a complete one, SI units."""
+    costs = study.published.costs if study.published else {}
+    return {
+        cost: {n: table[n][0] * study.parameters[n].factor for n in study.imp.estimate}
+        for cost, table in costs.items()
+        if set(study.imp.estimate) <= set(table)
+    }
 
 
 def predict(study: Study, results: Results) -> None:

@@ -87,7 +87,7 @@ def kinetics(study: Study) -> dict[str, Any]:
 
 
 def imp(study: Study, cost: str, optimiser: str) -> dict[str, Any]:
-    """Everything of one cost's searches; ``optimiser`` is 'sceua' or 'least_squares'."""
+    """Everything of one cost's searches; ``optimiser`` is its key: 'sceua', 'cmaes' ..."""
     stage = study.imp
     terms = stage.costs[cost]
     used = sorted({t.experiment for t in terms})
@@ -159,6 +159,32 @@ def validation(study: Study) -> dict[str, Any]:
         "validation": study.validation.model_dump(),
         "published": study.published.costs if study.published else {},
         "accuracy": study.accuracy.model_dump(),
+    }
+
+
+def robustness(study: Study, cost: str) -> dict[str, Any]:
+    """Cost, twins, and all that a prediction rests on."""
+    return {
+        "terms": [t.model_dump() for terms in study.imp.costs.values() for t in terms],
+        "cost": cost,
+        "twins": study.robustness.model_dump(),
+        "truth": study.synthetic.truth if study.synthetic else {},
+        "measured": {n: _measured(study, n) for n in study.experiments},
+        "limits": {n: study.parameters[n].bounds_si for n in study.imp.estimate},
+        "seed": study.seed,
+        **validation(study),
+    }
+
+
+def compare(study: Study) -> dict[str, Any]:
+    """Costs, predicted experiments and material: what all sets are judged by."""
+    return {
+        "terms": {n: [t.model_dump() for t in terms] for n, terms in study.imp.costs.items()},
+        "measured": {n: _experiment(study, n) for n in study.experiments},
+        "limits": {n: study.parameters[n].bounds_si for n in study.imp.estimate},
+        "seed": study.seed,
+        **validation(study),
+        **collect(study),
     }
 
 

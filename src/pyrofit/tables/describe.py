@@ -8,6 +8,7 @@ from pyrofit.model.experiment import Tga
 
 SCEUA = "SCE-UA"
 LEAST_SQUARES = "least squares"
+CMAES = "CMA-ES"
 PUBLISHED = "published"
 
 FITTED = "fitted"
@@ -50,6 +51,7 @@ def predicted_sets(study: Study) -> list[PredictedSet]:
     """Return the sets that the validation simulates, in its order and under its labels."""
     sets = [PredictedSet(cost, cost, SCEUA) for cost in study.imp.costs]
     sets += [PredictedSet(f"{c} {LEAST_SQUARES}", c, LEAST_SQUARES) for c in study.imp.costs]
+    sets += [PredictedSet(f"{c} {CMAES}", c, CMAES) for c in study.imp.costs]
     if study.published is not None:
         sets += [
             PredictedSet(f"{cost} {PUBLISHED}", cost, PUBLISHED)

@@ -1,5 +1,6 @@
 """Table 4 and the comparison of the optimisers."""
 
+from collections.abc import Mapping
 from typing import Any
 
 import pandas as pd
@@ -7,6 +8,7 @@ import pandas as pd
 from pyrofit.config import Study
 from pyrofit.files import Results
 from pyrofit.stages import outcomes
+from pyrofit.tables.describe import CMAES, LEAST_SQUARES
 from pyrofit.tables.determined import estimates, flag
 
 AT_BOUND = 0.005
@@ -16,10 +18,13 @@ WIDE_SPREAD = 0.20
 LOWER = 0.01
 """Relative difference of two costs from which one optimiser is said to be ahead."""
 
+WORDS = {"least_squares": LEAST_SQUARES, "cmaes": CMAES}
+"""Optimisers in words, by the beginning of their columns."""
+
 LOCAL_OPTIMUM = "SCE-UA stopped at a local optimum"
 NOT_A_MINIMUM = "SCE-UA had not converged: least squares goes on from its best set"
-AGREE = "both agree within 1 %"
-LEAST_SQUARES_BEHIND = "SCE-UA found a lower cost than least squares"
+AGREE = "all agree within 1 %"
+SCEUA_AHEAD = "SCE-UA found a lower cost than the others"
 
 
 def table4(study: Study, results: Results) -> pd.DataFrame:
@@ -96,7 +101,7 @@ def flags(best: float, sigma: float, lower: float | None, upper: float | None) -
 
 
 def costs(study: Study, results: Results) -> pd.DataFrame:
-    """Compare SCE-UA with multistart least squares on the same costs.
+    """Compare SCE-UA with multistart least squares and CMA-ES on the same costs.
 
     Returns
     -------
@@ -104,47 +109,61 @@ def costs(study: Study, results: Results) -> pd.DataFrame:
         One row per cost function; model calls are those of all repetitions and of all starts.
     """
     summary = outcomes.summary(study, results)
-    return pd.DataFrame(
-        [
-            _comparison(
-                cost,
-                summary[summary["cost_function"] == cost],
-                outcomes.starts(study, results, cost),
-                outcomes.end_of_descent(results, cost),
-            )
-            for cost in study.imp.costs
-        ]
-    )
+    rows = []
+    for cost in study.imp.costs:
+        others = {
+            "least_squares": outcomes.starts(study, results, cost),
+            "cmaes": outcomes.cmaes(study, results, cost),
+        }
+        descent = float(outcomes.end_of_descent(results, cost)["cost"])
+        group = summary[summary["cost_function"] == cost]
+        rows.append({"cost_function": cost, **_comparison(group, others, descent)})
+    return pd.DataFrame(rows)
 
 
 def _comparison(
-    cost: str, group: pd.DataFrame, starts: list[dict[str, Any]], descent: dict[str, Any]
+    group: pd.DataFrame, others: Mapping[str, list[dict[str, Any]]], descent: float
 ) -> dict[str, Any]:
     best = _lowest(group)
-    squares = min(starts, key=lambda start: float(start["cost"]))
-    theirs, ours = float(squares["cost"]), float(best["cost"])
-    near = sum(float(start["cost"]) <= (1.0 + LOWER) * theirs for start in starts)
-    return {
-        "cost_function": cost,
+    ours = float(best["cost"])
+    lowest = {name: min(float(s["cost"]) for s in starts) for name, starts in others.items()}
+    theirs = min(lowest.values())
+    row = {
         "repetitions": len(group),
         "sceua_best": ours,
         "sceua_best_solver_error": 4.0 / 3.0 * abs(float(best["cost_refined"]) - ours),
         "sceua_mean": float(group["cost"].mean()),
+        "sceua_at_lowest": int((group["cost"] <= (1.0 + LOWER) * min(ours, theirs)).sum()),
         "sceua_calls": int(group["calls"].sum()),
         "sceua_failed_calls": int(group["failed_calls"].sum()),
-        "least_squares_from_sceua": float(descent["cost"]),
-        "starts": len(starts),
-        "starts_at_best": near,
-        "least_squares_best": theirs,
-        "least_squares_calls": sum(int(start["calls"]) for start in starts),
-        "least_squares_at_bound": ", ".join(squares["at_bound"]),
+        "least_squares_from_sceua": descent,
+    }
+    for name, starts in others.items():
+        row |= _starts(name, starts)
+    return {
+        **row,
+        "lowest_by": WORDS[min(lowest, key=lambda name: lowest[name])],
         "ratio": theirs / ours if ours > 0.0 else None,
-        "remark": remark(ours, theirs, float(descent["cost"])),
+        "remark": remark(ours, theirs, descent),
     }
 
 
-def remark(sceua: float, least_squares: float, descent: float) -> str:
-    """Say which optimiser is ahead; ``descent`` is the cost least squares reaches from SCE-UA."""
-    if least_squares < (1.0 - LOWER) * sceua:
+def _starts(name: str, starts: list[dict[str, Any]]) -> dict[str, Any]:
+    """Return how the starts of an optimiser ended, under names that begin with its own."""
+    best = min(starts, key=lambda start: float(start["cost"]))
+    lowest = float(best["cost"])
+    near = sum(float(start["cost"]) <= (1.0 + LOWER) * lowest for start in starts)
+    return {
+        f"{name}_starts": len(starts),
+        f"{name}_starts_at_best": near,
+        f"{name}_best": lowest,
+        f"{name}_calls": sum(int(start["calls"]) for start in starts),
+        f"{name}_at_bound": ", ".join(best["at_bound"]),
+    }
+
+
+def remark(sceua: float, others: float, descent: float) -> str:
+    """Say who is ahead; ``descent`` is the cost that least squares reaches from SCE-UA's best."""
+    if others < (1.0 - LOWER) * sceua:
         return LOCAL_OPTIMUM if descent >= (1.0 - LOWER) * sceua else NOT_A_MINIMUM
-    return LEAST_SQUARES_BEHIND if sceua < (1.0 - LOWER) * least_squares else AGREE
+    return SCEUA_AHEAD if sceua < (1.0 - LOWER) * others else AGREE

@@ -64,6 +64,7 @@ def _imp(study: Study, results: Results, cost: str) -> dict[str, Any]:
     return {
         "sceua": _lowest(summary[summary["cost_function"] == cost]),
         "least_squares": _best(outcomes.starts(study, results, cost)),
+        "cmaes": _best(outcomes.cmaes(study, results, cost)),
     }
 
 

@@ -1,0 +1,208 @@
+"""Step 5: all sets of all optimisers under all costs and one metric, and what good sets predict."""
+
+from collections.abc import Mapping
+from typing import Any
+
+import numpy as np
+import pandas as pd
+
+from pyrofit.config import Study, TermSpec
+from pyrofit.cost import make_term
+from pyrofit.errors import CostError
+from pyrofit.estimate.family import GOOD, explore, thinned
+from pyrofit.estimate.problem import Measurements, Problem, make_problem, target_for
+from pyrofit.estimate.sceua import seed_for
+from pyrofit.files import Results, write_csv
+from pyrofit.stages import outcomes
+from pyrofit.stages.fit import fixed_for_imp, imp_problem
+from pyrofit.stages.measurements import load
+from pyrofit.stages.predict import CMAES, LEAST_SQUARES, published_sets
+
+FITTED = "fitted"
+"""Place of the costs as the study describes them; the other places are experiments."""
+SCEUA, PUBLISHED = "SCE-UA", "published"
+METRICS = {
+    "mlr": "CV(RMSE) of the mass loss rate",
+    "back_temperature": "RMSE of the back temperature",
+}
+"""The common metric by signal, over all measured points; names of costs hold no spaces."""
+
+Judges = dict[str, list[TermSpec]]
+
+
+def compare(study: Study, results: Results) -> None:
+    """Write ``comparison``: every end under every cost, the good sets, and what they predict.
+
+    Raises
+    ------
+    DataError
+        A result is missing or broken.
+    """
+    measurements = load(study, results)
+    found = ends(study, results)
+    scores = pd.concat(
+        [
+            _scores(found, _problem(study, results, measurements, judges), place, judges)
+            for place, judges in places(study, measurements).items()
+        ],
+        ignore_index=True,
+    )
+    write_csv(results.comparison("scores.csv"), scores)
+    family = good(study, results, found, scores)
+    write_csv(results.comparison("family.csv"), family)
+    write_csv(results.comparison("bands.csv"), _bands(study, results, measurements, family))
+
+
+def ends(study: Study, results: Results) -> pd.DataFrame:
+    """Return where every repetition and every start ended, and published sets, SI units.
+
+    Columns: ``cost_function``, ``found_by``, ``number``, ``best`` (whether it has the lowest cost
+    of those that an optimiser found for a cost function), ``cost``, and the parameters.
+    """
+    rows = []
+    names = list(study.imp.estimate)
+    summary = outcomes.summary(study, results)
+    for cost in study.imp.costs:
+        ours = summary[summary["cost_function"] == cost].to_dict("records")
+        starts = {
+            LEAST_SQUARES: outcomes.starts(study, results, cost),
+            CMAES: outcomes.cmaes(study, results, cost),
+        }
+        groups = {
+            SCEUA: [(float(row["cost"]), row) for row in ours],
+            **{by: [(float(s["cost"]), s["parameters"]) for s in e] for by, e in starts.items()},
+        }
+        if cost in (theirs := published_sets(study)):
+            groups[PUBLISHED] = [(np.nan, theirs[cost])]
+        for by, group in groups.items():
+            best = min(range(len(group)), key=lambda i: group[i][0])
+            for i, (value, values) in enumerate(group):
+                about = {"cost_function": cost, "found_by": by, "number": i, "best": i == best}
+                parameters = {name: float(values[name]) for name in names}
+                rows.append({**about, "cost": value, **parameters})
+    return pd.DataFrame(rows)
+
+
+def places(study: Study, measurements: Measurements) -> dict[str, Judges]:
+    """Return what judges the sets where, the terms of every measure.
+
+    At `FITTED` every cost as it is; at every predicted experiment the common metric of its signals;
+    where no cost was fitted, also every cost with this experiment in the place of its own, over
+    the whole record, as far as it can be computed there.
+    """
+    found: dict[str, Judges] = {FITTED: {c: list(t) for c, t in study.imp.costs.items()}}
+    fitted = {t.experiment for terms in study.imp.costs.values() for t in terms if t.weight}
+    for name in study.validation.experiments:
+        signals = study.experiments[name].signals
+        found[name] = {METRICS[signal]: [_metric(name, signal)] for signal in signals}
+        for cost, terms in study.imp.costs.items() if name not in fitted else ():
+            there = [t.model_copy(update={"experiment": name, "window_s": None}) for t in terms]
+            # Terms that differ in the experiment alone are one and the same there.
+            there = [t for i, t in enumerate(there) if t not in there[:i]]
+            if all(_computable(term, measurements) for term in there):
+                found[name][cost] = there
+    return found
+
+
+def _metric(name: str, signal: str) -> TermSpec:
+    normalisation = "mean" if signal == "mlr" else None
+    return TermSpec(experiment=name, signal=signal, kind="RMSE", normalisation=normalisation)
+
+
+def _computable(term: TermSpec, measurements: Measurements) -> bool:
+    """Tell whether a term can be computed of what was measured."""
+    if (term.experiment, term.signal) not in measurements:
+        return False
+    try:
+        make_term(term.kind, target_for(term, measurements), **term.all_options())
+    except CostError:
+        return False
+    return True
+
+
+def _problem(study: Study, results: Results, measurements: Measurements, judges: Judges) -> Problem:
+    """Return one problem of all terms, so that a set is simulated once."""
+    specs = [term for terms in judges.values() for term in terms]
+    material = study.material_with(study.imp.kinetics)
+    fixed = fixed_for_imp(study, results)
+    return make_problem(study, study.imp.estimate, specs, measurements, material, fixed)
+
+
+def _scores(found: pd.DataFrame, problem: Problem, place: str, judges: Judges) -> pd.DataFrame:
+    """Return the value of every measure for every set; none where the run does not finish."""
+    rows: list[dict[str, Any]] = []
+    for row in found.to_dict("records"):
+        result = problem.evaluate(np.array([row[name] for name in problem.names]))
+        about = {key: row[key] for key in ("cost_function", "found_by", "number", "best")}
+        first = 0
+        for measure, terms in judges.items():
+            value = float(sum(result.parts[first : first + len(terms)]))
+            first += len(terms)
+            kept = value if result.status.finished else None
+            rows.append({**about, "place": place, "measure": measure, "value": kept})
+    return pd.DataFrame(rows)
+
+
+def good(study: Study, results: Results, found: pd.DataFrame, scores: pd.DataFrame) -> pd.DataFrame:
+    """Return the family of good sets of every cost function, the best one first.
+
+    They are looked for about the set of the lowest cost known, whatever it was fitted with.
+    Columns: ``cost_function``, ``cost``, ``lowest_by`` and ``lowest_of`` (optimiser and cost
+    function of that set), ``met`` (how many good sets were met), parameters in SI units.
+    """
+    parts = []
+    for cost in study.imp.costs:
+        problem = imp_problem(study, results, cost)
+        here = scores[(scores["place"] == FITTED) & (scores["measure"] == cost)]
+        values = here["value"].astype(float).to_numpy()
+        lowest = int(np.nanargmin(values))
+        best = found.iloc[lowest]
+        rng = np.random.default_rng(seed_for(study.seed, cost, "family"))
+        start = best[list(problem.names)].to_numpy(float)
+        costs, sets = explore(problem, start, GOOD * float(values[lowest]), rng)
+        chosen = thinned((sets - problem.lower) / (problem.upper - problem.lower))
+        about = {
+            "cost_function": cost,
+            "cost": costs[chosen],
+            "lowest_by": best["found_by"],
+            "lowest_of": best["cost_function"],
+            "met": costs.size,
+        }
+        parameters = pd.DataFrame(sets[chosen], columns=list(problem.names))
+        parts.append(pd.concat([pd.DataFrame(about), parameters], axis="columns"))
+    return pd.concat(parts, ignore_index=True)
+
+
+def _bands(
+    study: Study, results: Results, measurements: Measurements, family: pd.DataFrame
+) -> pd.DataFrame:
+    """Return lowest and highest value that the good sets predict, and that of the best, SI units.
+
+    One row per experiment, signal, cost function and measured time. Sets whose run does not finish
+    are left out.
+    """
+    parts = []
+    for name in study.validation.experiments:
+        signals = list(study.experiments[name].signals)
+        judges = {signal: [_metric(name, signal)] for signal in signals}
+        problem = _problem(study, results, measurements, judges)
+        for cost, group in family.groupby("cost_function", sort=False):
+            runs = [problem.simulate(x) for x in group[list(problem.names)].to_numpy(float)]
+            models = [curves for status, curves in runs if status.finished]
+            for i, signal in enumerate(signals):
+                target = problem.cost.terms[i][1].target
+                about = {"experiment": name, "signal": signal, "cost_function": cost}
+                parts.append(_band(target.time_s, target.value, [m[i] for m in models], about))
+    return pd.concat(parts, ignore_index=True)
+
+
+def _band(time: Any, measured: Any, curves: list[Any], about: Mapping[str, Any]) -> pd.DataFrame:
+    stacked = np.array(curves) if curves else np.full((1, len(time)), np.nan)
+    columns = {
+        "time_s": time,
+        "measured": measured,
+        "best": stacked[0],
+        "low": stacked.min(axis=0),
+        "high": stacked.max(axis=0),
+    }
+    return pd.DataFrame(columns).assign(**about, sets=len(curves))

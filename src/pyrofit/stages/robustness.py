@@ -1,0 +1,170 @@
+"""Robustness of the cost functions: twins of known truth with stronger noise and with outliers.
+
+A twin is the study's own experiment: the curve of the model itself at known parameter values, with
+noise, is fitted like the measurement. Whatever is found besides the truth is the doing of noise,
+outliers, cost function and search, as the model is right.
+"""
+
+from collections.abc import Iterator, Mapping
+from dataclasses import dataclass
+from typing import Any
+
+import numpy as np
+import pandas as pd
+
+from pyrofit.config import Study, TermSpec
+from pyrofit.data.quantities import UNCERTAINTY_COLUMN, VALUE_COLUMN
+from pyrofit.errors import DataError, StudyError
+from pyrofit.estimate.least_squares import multistart
+from pyrofit.estimate.noise import estimate_noise
+from pyrofit.estimate.problem import Measurements, Problem, make_problem, target_of
+from pyrofit.estimate.sceua import seed_for
+from pyrofit.files import Results, write_csv
+from pyrofit.solver.arrays import FloatArray
+from pyrofit.stages import outcomes
+from pyrofit.stages.fit import fixed_for_imp
+from pyrofit.stages.measurements import load
+
+NOISE, OUTLIERS = "noise", "outliers"
+"""What is added: noise of a multiple of the measurement's, or outliers to a share of the points."""
+
+Channel = tuple[str, str]
+
+
+@dataclass(frozen=True)
+class Twin:
+    """Curves at the truth, SI units, with the noise of the measurement.
+
+    Parameters
+    ----------
+    truth
+        The estimated parameters, shape (parameters,).
+    clean
+        The measured series with the curves of the model in the place of the measured values.
+    sd
+        Standard deviation of each series' noise, shape (n,).
+    """
+
+    truth: FloatArray
+    clean: Mapping[Channel, pd.DataFrame]
+    sd: Mapping[Channel, FloatArray]
+
+
+def robustness(study: Study, results: Results, cost: str) -> None:
+    """Fit twins with one cost function; write ``robustness/<cost>.csv``.
+
+    One row per twin: what was added, the lowest cost and its set, and ``prediction_error``: the
+    CV(RMSE) of the mass loss rate at held-out experiments, mean of these, against the truth.
+
+    Raises
+    ------
+    StudyError
+        The study has no such cost.
+    DataError
+        A result is missing, or the model does not finish at the truth.
+    """
+    if cost not in study.imp.costs:
+        raise StudyError(f"study '{study.name}' has no cost '{cost}'")
+    twin = _twin(study, results)
+    held_out = _held_out(study, results, twin)
+    budget = study.robustness
+    rows = []
+    for kind, level, draw in plan(study):
+        series = noisy(study, twin, kind, level, draw)
+        problem = _problem(study, results, study.imp.costs[cost], series)
+        seed = seed_for(study.seed, "robustness", kind, level, draw, "starts")
+        best = multistart(problem, budget.starts, seed)[0]
+        errors = [other.evaluate(best.values).cost for other in held_out]
+        about = {"cost_function": cost, "kind": kind, "level": level, "draw": draw}
+        about |= {"cost": best.cost, "calls": best.calls}
+        about["prediction_error"] = float(np.mean(errors)) if errors else None
+        rows.append({**about, **dict(zip(problem.names, best.values.tolist(), strict=True))})
+    write_csv(results.robustness(f"{cost}.csv"), pd.DataFrame(rows))
+
+
+def plan(study: Study) -> Iterator[tuple[str, float, int]]:
+    """Yield what is added to each twin: kind, level, number of the draw."""
+    levels = {NOISE: study.robustness.noise, OUTLIERS: study.robustness.outliers}
+    for kind, values in levels.items():
+        for level in values:
+            for draw in range(study.robustness.draws):
+                yield kind, level, draw
+
+
+def true_set(study: Study, results: Results) -> FloatArray:
+    """Return the parameters of the twins, SI units.
+
+    The truth of synthetic measurements where there is one, else the mean over all repetitions,
+    which lies inside the limits.
+    """
+    if study.synthetic is not None:
+        truth = study.true_values()
+        return np.array([truth[name] for name in study.imp.estimate])
+    summary = outcomes.summary(study, results)
+    return summary[list(study.imp.estimate)].mean().to_numpy(float)
+
+
+def _twin(study: Study, results: Results) -> Twin:
+    measured = load(study, results)
+    truth = true_set(study, results)
+    channels = {(t.experiment, t.signal) for terms in study.imp.costs.values() for t in terms}
+    channels |= {
+        (name, "mlr")
+        for name in study.validation.experiments
+        if "mlr" in study.experiments[name].signals
+    }
+    clean, sd = {}, {}
+    for name, signal in sorted(channels):
+        frame = measured[name, signal]
+        spec = TermSpec(experiment=name, signal=signal, kind="RMSE")
+        status, curves = _problem(study, results, [spec], measured).simulate(truth)
+        if not status.finished:
+            raise DataError(f"{name}: no twin can be made: {status.explanation}")
+        clean[name, signal] = frame.assign(**{VALUE_COLUMN[signal]: curves[0]})
+        described = study.experiments[name].signals[signal]
+        noise = estimate_noise(
+            target_of(frame, signal), signal, described.uncertainty_sds, described.timing_s
+        )
+        sd[name, signal] = noise.sd
+    return Twin(truth, clean, sd)
+
+
+def noisy(study: Study, twin: Twin, kind: str, level: float, draw: int) -> Measurements:
+    """Return the series of a twin with noise and, perhaps, outliers.
+
+    The noise is white. A stated uncertainty grows with it; outliers are what nobody states.
+    """
+    series = {}
+    for (name, signal), frame in twin.clean.items():
+        # The same for every cost function, so that they are compared on the same data.
+        rng = np.random.default_rng(seed_for(study.seed, "robustness", level, draw, name, signal))
+        value = frame[VALUE_COLUMN[signal]].to_numpy(float)
+        multiple = level if kind == NOISE else 1.0
+        added = multiple * twin.sd[name, signal] * rng.standard_normal(value.size)
+        if kind == OUTLIERS:
+            hit = rng.random(value.size) < level
+            size = study.robustness.outlier_size * float(np.ptp(value))
+            added += np.where(hit, size * rng.choice([-1.0, 1.0], value.size), 0.0)
+        columns: dict[str, Any] = {VALUE_COLUMN[signal]: value + added}
+        stated = UNCERTAINTY_COLUMN[signal]
+        if stated in frame:
+            columns[stated] = multiple * frame[stated]
+        series[name, signal] = frame.assign(**columns)
+    return series
+
+
+def _held_out(study: Study, results: Results, twin: Twin) -> list[Problem]:
+    """Return problems whose cost is the CV(RMSE) against the truth, where nothing is fitted."""
+    fitted = {t.experiment for terms in study.imp.costs.values() for t in terms if t.weight}
+    specs = [
+        TermSpec(experiment=name, signal="mlr", kind="RMSE", normalisation="mean")
+        for name in study.validation.experiments
+        if name not in fitted and (name, "mlr") in twin.clean
+    ]
+    return [_problem(study, results, [spec], twin.clean) for spec in specs]
+
+
+def _problem(study: Study, results: Results, specs: Any, series: Measurements) -> Problem:
+    material = study.material_with(study.imp.kinetics)
+    fixed = fixed_for_imp(study, results)
+    return make_problem(study, study.imp.estimate, specs, series, material, fixed)

@@ -1,0 +1,16 @@
+"""The target that compares the cost functions on twins of known truth."""
+
+from tiny import COSTS, Project
+
+
+def test_robustness_is_a_target_of_its_own_that_leaves_table_and_figure(project: Project) -> None:
+    assert not (project.root / "results/tiny/robustness").exists()
+    run = project.snakemake("robustness", "--cores", "2")
+    assert run.code == 0, run.said
+    assert run.jobs == {
+        *(f"Robustness, {cost}" for cost in COSTS),
+        "Robustness of the cost functions: table and figure",
+    }
+    assert "Median error of the parameters in per cent of their limits" in run.said
+    for name in ("table.csv", "table.md", "robustness.svg", "robustness.png"):
+        assert (project.root / "results/tiny/robustness" / name).stat().st_size > 0

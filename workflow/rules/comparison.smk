@@ -1,0 +1,24 @@
+COMPARED = [results.comparison(f"{name}.csv") for name in ("scores", "family", "bands")]
+
+
+rule compare:
+    input:
+        MEASUREMENTS,
+        KINETICS_FOR_IMP,
+        results.imp("summary.csv"),
+        expand(ROOT / "imp/{cost}/least_squares.json", cost=COSTS),
+        expand(ROOT / "imp/{cost}/cmaes.json", cost=COSTS),
+    output:
+        COMPARED,
+    log:
+        log_of("compare"),
+    benchmark:
+        benchmark_of("compare")
+    params:
+        study=STUDY,
+        digest=digest(slices.compare(study)),
+        source=COMPUTES,
+    message:
+        "All sets of all optimisers under all costs"
+    shell:
+        "pyrofit compare --study {params.study} --digest {params.digest} --log {log}"

@@ -1,0 +1,41 @@
+rule robustness_of_cost:
+    input:
+        MEASUREMENTS,
+        KINETICS_FOR_IMP,
+        # The truth of the twins, where the measurements have none.
+        [] if study.synthetic else [results.imp("summary.csv")],
+    output:
+        ROOT / "robustness/{cost}.csv",
+    log:
+        log_of("robustness_{cost}"),
+    benchmark:
+        benchmark_of("robustness_{cost}")
+    params:
+        study=STUDY,
+        digest=lambda wildcards: digest(slices.robustness(study, wildcards.cost)),
+        source=COMPUTES,
+    message:
+        "Robustness, {wildcards.cost}"
+    shell:
+        "pyrofit robustness --study {params.study} --digest {params.digest} --log {log}"
+        " --cost {wildcards.cost}"
+
+
+rule robustness:
+    input:
+        expand(ROOT / "robustness/{cost}.csv", cost=COSTS),
+    output:
+        [
+            results.robustness(name)
+            for name in ("table.csv", "table.md", "robustness.svg", "robustness.png")
+        ],
+    log:
+        log_of("robustness"),
+    params:
+        study=STUDY,
+        digest=digest(slices.presentation(study)),
+        source=SHOWS,
+    message:
+        "Robustness of the cost functions: table and figure"
+    shell:
+        "pyrofit robustness --study {params.study} --digest {params.digest} --log {log}"
