@@ -8,11 +8,15 @@ import pytest
 import yaml
 
 from pyrofit.config import Study, as_study
+from pyrofit.model.base import value_of
 from pyrofit.model.experiment import Gasification
+from pyrofit.model.material import Material
 from pyrofit.simulate import Accuracy, simulate_gasification
 from pyrofit.solver import lower, lower_experiment
+from pyrofit.solver.arrays import IntArray
 from pyrofit.solver.curves import Request
-from pyrofit.solver.grid import LEAST_CELLS, MOST_CELLS, cells_needed
+from pyrofit.solver.kernels.grid import LEAST_CELLS, MOST_CELLS, cells_needed
+from pyrofit.solver.lower import Values
 
 SMOKE = Path(__file__).parents[2] / "config" / "smoke.yaml"
 VALUES = {
@@ -45,13 +49,20 @@ def cells(
     sample = experiment.sample.model_copy(update={"layers": (layer,)})
     experiment = experiment.model_copy(update={"sample": sample})
     assert isinstance(experiment, Gasification)
-    at = VALUES | values
-    arrays = lower.lower_material(material, at)
+    (found,) = of_sets(experiment, material, VALUES | values, 1)
+    return int(found)
+
+
+def of_sets(experiment: Gasification, material: Material, values: Values, sets: int) -> IntArray:
+    arrays = lower.lower_material(material, values, sets)
+    layers = lower_experiment.lower_layers(experiment, material, arrays, values, sets)
     return cells_needed(
-        lower_experiment.lower_virgin(experiment, material, at),
+        lower_experiment.lower_share(experiment, material, values, sets),
+        np.asarray(sum(layer.thickness for layer in layers)),
+        np.full(sets, value_of(experiment.sample.initial_temperature_K, values)),
         arrays,
-        lower.lower_network(material, at),
-        lower_experiment.lower_exposure(experiment, material, arrays, at),
+        lower.lower_network(material, values, sets),
+        lower_experiment.lower_exposure(experiment, material, arrays, values, sets),
     )
 
 
@@ -94,3 +105,14 @@ def test_given_cells_or_a_factor_override_the_choice() -> None:
     ]
     assert found == [50, 17, 75]
     assert Accuracy(cells=17).refined().cells == 34
+
+
+def test_every_set_gets_its_own_cells() -> None:
+    chosen = study()
+    experiment = chosen.experiments["slab_60"]
+    assert isinstance(experiment, Gasification)
+    conductivity = np.array([0.02, 0.2, 0.05, 0.01])
+    given = experiment, chosen.material
+    at_once = of_sets(*given, VALUES | {"k": conductivity}, 4).tolist()
+    assert at_once == [of_sets(*given, VALUES | {"k": k}, 1).item() for k in conductivity.tolist()]
+    assert len(set(at_once)) == 4

@@ -7,7 +7,7 @@ import pytest
 from pyrofit.model.experiment import Gasification
 from pyrofit.model.material import Linear, Material, PowerLaw, Reaction, Table
 from pyrofit.solver import lower, lower_experiment
-from pyrofit.solver.arrays import TABLE_TEMPERATURES_K, Surface
+from pyrofit.solver.arrays import TABLE_TEMPERATURES_K
 
 VIRGIN: dict[str, Any] = {
     "density_kg_m3": 1000.0,
@@ -55,7 +55,7 @@ def reaction(reactant: str, **more: Any) -> dict[str, Any]:
 
 
 def at(table: Any, temperature_K: float) -> float:
-    return float(np.interp(temperature_K, TABLE_TEMPERATURES_K, table))
+    return float(np.interp(temperature_K, TABLE_TEMPERATURES_K, table[:, 0]))
 
 
 def exposed(experiment, material):
@@ -75,12 +75,13 @@ def exposed(experiment, material):
 def test_fractions_are_in_the_order_of_the_components(
     composition: dict[str, Any], expected: list[float]
 ) -> None:
-    assert lower.fractions(composition, ["A", "B", "char"], VALUES).tolist() == expected
+    found = lower.fractions(composition, ["A", "B", "char"], VALUES)
+    assert found.tolist() == [[share] for share in expected]
 
 
 def test_constant_property_is_one_value() -> None:
-    assert lower.property_table(0.3, VALUES).tolist() == [0.3]
-    assert lower.property_table("rho_c", VALUES).tolist() == [500.0]
+    assert lower.property_table(0.3, VALUES).tolist() == [[0.3]]
+    assert lower.property_table("rho_c", VALUES).tolist() == [[500.0]]
 
 
 def test_linear_property_by_hand() -> None:
@@ -104,19 +105,19 @@ def test_table_is_linear_inside_and_constant_outside() -> None:
 
 def test_constants_are_stretched_beside_tables_only() -> None:
     plain = lower.lower_material(material(), VALUES)
-    assert plain.conductivity.tolist() == [[0.2], [0.2], [0.4]]
+    assert plain.conductivity.tolist() == [[[0.2]], [[0.2]], [[0.4]]]
     virgin = {"conductivity_W_mK": {"value": 0.2, "exponent": 0.7}}
     mixed = lower.lower_material(material(virgin=virgin), VALUES)
-    assert mixed.conductivity.shape == (3, TABLE_TEMPERATURES_K.size)
+    assert mixed.conductivity.shape == (3, TABLE_TEMPERATURES_K.size, 1)
     assert (mixed.conductivity[2] == 0.4).all()
-    assert mixed.specific_heat.shape == (3, 1)
+    assert mixed.specific_heat.shape == (3, 1, 1)
 
 
 def test_properties_are_in_the_order_of_the_components() -> None:
     arrays = lower.lower_material(material(), VALUES)
-    assert arrays.specific_volume.tolist() == [1e-3, 1e-3, 2e-3]
-    assert arrays.emissivity.tolist() == [0.8, 0.8, 0.95]
-    assert arrays.absorption.tolist() == [0.0, 0.0, 0.0]
+    assert arrays.specific_volume.tolist() == [[1e-3], [1e-3], [2e-3]]
+    assert arrays.emissivity.tolist() == [[0.8], [0.8], [0.95]]
+    assert arrays.absorption.tolist() == [[0.0], [0.0], [0.0]]
 
 
 def test_rate_given_at_a_temperature_is_that_rate_there() -> None:
@@ -139,11 +140,12 @@ def test_network_by_hand() -> None:
     }
     network = lower.lower_network(material(reactions), VALUES)
     assert network.reactant.tolist() == [0, 1]
-    assert network.yields.tolist() == [[0.0, 0.5, 0.125], [0.0, 0.0, 0.25]]
-    assert network.gas.tolist() == [0.375, 0.75]
-    assert network.heat.tolist() == [0.0, 4e5]
-    assert network.order.tolist() == [2.0, 1.0]
-    assert network.activation_temperature[0] == pytest.approx(1000.0)
+    assert network.yields[:, :, 0].tolist() == [[0.0, 0.5, 0.125], [0.0, 0.0, 0.25]]
+    assert network.gas.tolist() == [[0.375], [0.75]]
+    assert network.heat.tolist() == [[0.0], [4e5]]
+    assert network.order.tolist() == [[2.0], [1.0]]
+    assert network.root_factor.tolist() == [[1e5], [1e5]]
+    assert network.activation_temperature[0, 0] == pytest.approx(1000.0)
     assert not network.first_order
     assert not network.plain
 
@@ -168,13 +170,13 @@ def test_plain_network_knows_its_residue() -> None:
     reactions = {"1": reaction("A", products={"char": 0.1}), "2": reaction("B")}
     network = lower.lower_network(material(reactions), VALUES)
     assert network.residue[0] == 2
-    assert network.residue_yield.tolist() == [0.1, 0.0]
+    assert network.residue_yield.tolist() == [[0.1], [0.0]]
 
 
 def test_material_without_reactions_has_an_empty_network() -> None:
     network = lower.lower_network(material(), VALUES)
-    assert network.yields.shape == (0, 3)
-    assert network.reactant.size == network.rate_factor.size == 0
+    assert network.yields.shape == (0, 3, 1)
+    assert network.reactant.size == network.root_factor.size == 0
 
 
 def test_exposure_by_hand() -> None:
@@ -187,9 +189,9 @@ def test_exposure_by_hand() -> None:
         back={"h_cube_root_W_m2K43": 1.31, "emissivity": 0.9, "wall_temperature_K": 280.0},
     )
     exposure = exposed(given, material())
-    assert exposure.front == Surface(12.0, 0.0, 330.0, 0.0, 0.0, 293.15)
-    assert exposure.back == Surface(0.0, 1.31, 293.15, 0.0, 0.0, 280.0)
-    assert (exposure.flux_time.tolist(), exposure.flux.tolist()) == ([0.0], [3e4])
+    assert [n.tolist() for n in exposure.front] == [[12.0], [0.0], [330.0], [0.0], [0.0], [293.15]]
+    assert [n.tolist() for n in exposure.back] == [[0.0], [1.31], [293.15], [0.0], [0.0], [280.0]]
+    assert (exposure.flux_time.tolist(), exposure.flux.tolist()) == ([[0.0]], [[3e4]])
     assert exposure.back_emissivity == 0.9
     assert exposure.foil_capacity == pytest.approx(679.44)
     assert exposure.foil_opaque
@@ -205,8 +207,8 @@ def test_sample_without_foil_has_no_foil_capacity() -> None:
 def test_flux_table_keeps_its_points() -> None:
     table = {"time_s": [0.0, 30.0, 30.0], "flux_W_m2": [0.0, 0.0, "q"]}
     exposure = exposed(experiment(front={"flux_W_m2": table}), material())
-    assert exposure.flux_time.tolist() == [0.0, 30.0, 30.0]
-    assert exposure.flux.tolist() == [0.0, 0.0, 3e4]
+    assert exposure.flux_time.tolist() == [[0.0], [30.0], [30.0]]
+    assert exposure.flux.tolist() == [[0.0], [0.0], [3e4]]
 
 
 @pytest.mark.parametrize(
@@ -241,32 +243,150 @@ def test_mixing_depth_follows_the_front_layer() -> None:
 
 def cells(given: Gasification, matter: Material, count: int) -> Any:
     arrays = lower.lower_material(matter, VALUES)
-    return lower_experiment.lower_cells(given, matter, arrays, VALUES, count)
+    layers = lower_experiment.lower_layers(given, matter, arrays, VALUES)
+    mass, empty = lower_experiment.cells_of(layers, np.array([count]))
+    assert empty.tolist() == [0]
+    return mass
+
+
+LAYERS = [
+    {"thickness_m": 1e-3, "composition": {"char": 1.0}},
+    {"thickness_m": 3e-3},
+]
 
 
 def test_cells_share_the_mass_of_the_sample() -> None:
     # Density of half A, half char by mass: 1/(0.5/1000 + 0.5/500) = 2000/3 kg/m3.
     matter = material(composition={"A": 0.5, "char": "rest"})
     mass = cells(experiment(), matter, 8)
-    assert mass.shape == (8, 3)
-    assert mass[0].tolist() == pytest.approx([0.25, 0.0, 0.25])
+    assert mass.shape == (8, 3, 1)
+    assert mass[0, :, 0].tolist() == pytest.approx([0.25, 0.0, 0.25])
     assert (mass == mass[0]).all()
     assert mass.sum() == pytest.approx(4.0)
 
 
 def test_layers_share_the_cells_by_thickness() -> None:
-    layers = [
-        {"thickness_m": 1e-3, "composition": {"char": 1.0}},
-        {"thickness_m": 3e-3},
-    ]
-    mass = cells(experiment(sample={"layers": layers}), material(), 20)
-    assert mass.shape == (20, 3)
-    assert mass[:5].tolist() == [[0.0, 0.0, pytest.approx(0.1)]] * 5
-    assert mass[5:].tolist() == [[pytest.approx(0.2), 0.0, 0.0]] * 15
+    mass = cells(experiment(sample={"layers": LAYERS}), material(), 20)
+    assert mass.shape == (20, 3, 1)
+    assert mass[:5, :, 0].tolist() == [[0.0, 0.0, pytest.approx(0.1)]] * 5
+    assert mass[5:, :, 0].tolist() == [[pytest.approx(0.2), 0.0, 0.0]] * 15
 
 
 def test_thin_layer_keeps_two_cells() -> None:
     layers = [{"thickness_m": 1e-6, "composition": {"char": 1.0}}, {"thickness_m": 6e-3}]
     mass = cells(experiment(sample={"layers": layers}), material(), 10)
-    assert mass.shape == (12, 3)
-    assert mass[:2, 2].tolist() == pytest.approx([2.5e-4, 2.5e-4])
+    assert mass.shape == (12, 3, 1)
+    assert mass[:2, 2, 0].tolist() == pytest.approx([2.5e-4, 2.5e-4])
+
+
+def test_set_with_fewer_cells_begins_with_empty_ones() -> None:
+    given, matter = experiment(sample={"layers": LAYERS}), material()
+    arrays = lower.lower_material(matter, VALUES, 3)
+    layers = lower_experiment.lower_layers(given, matter, arrays, VALUES, 3)
+    mass, empty = lower_experiment.cells_of(layers, np.array([8, 20, 12]))
+    assert mass.shape == (20, 3, 3)
+    assert empty.tolist() == [12, 0, 8]
+    for s, count in enumerate((8, 20, 12)):
+        assert not mass[: 20 - count, :, s].any()
+        assert np.array_equal(mass[20 - count :, :, s], cells(given, matter, count)[:, :, 0])
+
+
+def test_number_of_cells_is_made_a_multiple_by_empty_ones() -> None:
+    given, matter = experiment(sample={"layers": LAYERS}), material()
+    arrays = lower.lower_material(matter, VALUES, 2)
+    layers = lower_experiment.lower_layers(given, matter, arrays, VALUES, 2)
+    mass, empty = lower_experiment.cells_of(layers, np.array([8, 17]), 8)
+    assert mass.shape == (24, 3, 2)
+    assert empty.tolist() == [16, 7]
+    for s, count in enumerate((8, 17)):
+        assert not mass[: 24 - count, :, s].any()
+        assert np.array_equal(mass[24 - count :, :, s], cells(given, matter, count)[:, :, 0])
+
+
+# Many sets at once
+
+PER_SET = {
+    "rho_c": np.array([400.0, 500.0, 600.0]),
+    "q": np.array([2e4, 3e4, 4e4]),
+    "k": np.array([0.1, 0.2, 0.3]),
+    "n": np.array([0.7, 0.5, 2.0]),
+    "order": np.array([1.0, 2.0, 1.0]),
+    "rate": np.array([2e-3, 3e-3, 5e-3]),
+    "x": np.array([0.0, 1e-3, -1e-3]),
+    "length": np.array([0.0, 1e-3, 5e-4]),
+    "T0": np.array([290.0, 301.0, 312.0]),
+    "size": np.array([4e-3, 5e-3, 6e-3]),
+    "share": np.array([0.1, 0.2, 0.3]),
+    "E": np.array([1.4e5, 1.5e5, 1.6e5]),
+}
+VARIED = {
+    "conductivity_W_mK": {"value": "k", "exponent": "n"},
+    "specific_heat_J_kgK": {"of": 2000.0, "slope_1_K": "x", "step": "q", "peak_area": "q"},
+    "expansion": {"value": 1.0, "slope_1_K": "x"},
+    "emissivity": "share",
+}
+TABLE = {"temperature_K": (300.0, 400.0), "value": ("k", 0.3)}
+REACTIONS = {
+    "given": reaction("A", products={"B": "share"}, order="order", E_J_mol="E"),
+    "at_a_temperature": {
+        "reactant": "B",
+        "E_J_mol": "E",
+        "reference_temperature_K": 600.0,
+        "reference_rate_1_s": "rate",
+        "heat_of_reaction_J_kg": "q",
+    },
+}
+
+
+def everything(values: Any, sets: int) -> list[Any]:
+    """Return all that is lowered of a case in which every number differs from set to set."""
+    matter = material(REACTIONS, {"A": "rest", "char": "share"}, VARIED)
+    front = {"flux_W_m2": {"time_s": [0.0, 9.0], "flux_W_m2": ["q", 0.0]}, "drift_1_s": "x"}
+    layers = [{"thickness_m": "size"}, {"thickness_m": 1e-3, "composition": {"char": 1.0}}]
+    sample = {"layers": layers, "absorption_length_m": "length", "initial_temperature_K": "T0"}
+    given = experiment(
+        sample=sample | {"emissivity_depth": {"cell_size_factor": "share"}},
+        front=front,
+        back={"h_W_m2K": "T0", "loss_factor": "share"},
+    )
+    arrays = lower.lower_material(matter, values, sets, values["length"])
+    return [
+        *arrays,
+        *lower.lower_network(matter, values, sets),
+        *lower_experiment.lower_exposure(given, matter, arrays, values, sets),
+        *(
+            part
+            for layer in lower_experiment.lower_layers(given, matter, arrays, values, sets)
+            for part in layer
+        ),
+        lower_experiment.lower_share(given, matter, values, sets),
+        lower.property_table(Table(**TABLE), values, sets),
+    ]
+
+
+def flat(parts: Any) -> list[Any]:
+    """Return the arrays of floats in nested tuples."""
+    if isinstance(parts, list | tuple):
+        return [array for part in parts for array in flat(part)]
+    return [parts] if isinstance(parts, np.ndarray) and parts.dtype == float else []
+
+
+@pytest.mark.parametrize("s", range(3))
+def test_sets_lowered_at_once_have_the_bits_of_each_alone(s: int) -> None:
+    at_once = flat(everything(PER_SET, 3))
+    alone = flat(everything({name: float(value[s]) for name, value in PER_SET.items()}, 1))
+    assert len(at_once) == len(alone) >= 40
+    for many, one in zip(at_once, alone, strict=True):
+        assert many.shape == (*one.shape[:-1], 3)
+        assert np.array_equal(many[..., s], one[..., 0])
+    differ = [many for many in at_once if (many[..., :1] != many).any()]
+    assert len(differ) >= 20
+
+
+def test_network_is_first_order_where_every_set_is() -> None:
+    def network(order: Any) -> Any:
+        given = material({"1": reaction("A", order="n")})
+        return lower.lower_network(given, {"n": np.array(order)}, 2)
+
+    assert network([1.0, 1.0]).first_order
+    assert not network([1.0, 2.0]).first_order

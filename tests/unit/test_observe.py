@@ -5,9 +5,9 @@ import numpy as np
 import pytest
 
 from pyrofit.model.experiment import Gasification
-from pyrofit.solver.arrays import Status
-from pyrofit.solver.curves import Curves, Request
-from pyrofit.solver.observe import observe
+from pyrofit.solver.arrays import FloatArray, Status
+from pyrofit.solver.curves import Curves, Request, Runs
+from pyrofit.solver.observe import observe, observe_one
 
 TIME = np.array([0.0, 10.0, 20.0])
 
@@ -32,7 +32,7 @@ def to_the_fourth(factor: float, asked: Mapping[str, Request]) -> Curves:
 
 
 def seen(given: Gasification, values: Mapping[str, float] | None = None) -> Curves:
-    return observe(
+    return observe_one(
         given, values or {}, {"mlr": Request(TIME), "mass": Request(TIME)}, to_the_fourth
     )
 
@@ -62,6 +62,48 @@ def test_run_that_fails_under_one_flux_fails_as_a_whole() -> None:
         return Curves(Status.DIVERGED, {}) if hot else to_the_fourth(factor, asked)
 
     requests = {"mlr": Request(TIME)}
-    assert observe(experiment(0.1), {}, requests, failing).status is Status.UNBURNT
-    failed = observe(experiment(0.5), {}, requests, failing)
+    assert observe_one(experiment(0.1), {}, requests, failing).status is Status.UNBURNT
+    failed = observe_one(experiment(0.5), {}, requests, failing)
     assert (failed.status, failed.signals) == (Status.DIVERGED, {})
+
+
+def side_by_side(factor: FloatArray, asked: Mapping[str, Request]) -> Runs:
+    """Run as `to_the_fourth`, every set under its factor; factors above 1.4 fail."""
+    hot = factor > 1.4
+    status = np.where(hot, Status.DIVERGED, np.where(factor > 1.0, Status.OK, Status.UNBURNT))
+    curves = {name: factor[:, None] ** 4 * request.time_s for name, request in asked.items()}
+    return Runs(
+        status=status,
+        signals={name: np.where(hot[:, None], np.nan, curve) for name, curve in curves.items()},
+        cells=np.arange(factor.size),
+        steps=np.arange(factor.size) + 10,
+        energy_error=factor,
+        mass_error=-factor,
+    )
+
+
+def test_every_set_has_its_own_spread_delay_and_offset() -> None:
+    sets = 4
+    values = {
+        "s": np.array([0.0, 0.25, 0.0, 0.5]),
+        "t": np.array([0.0, 4.0, -3.0, 0.0]),
+        "up": np.array([0.0, 0.0, 0.5, 0.0]),
+    }
+    given = experiment("s", delay_s="t", offset="up")
+    asked = {"mlr": Request(TIME), "mass": Request(TIME)}
+    at_once = observe(given, values, asked, side_by_side, sets)
+    for s in range(sets):
+        one = {name: value[s : s + 1] for name, value in values.items()}
+        alone = observe(given, one, asked, side_by_side)
+        for name in asked:
+            assert np.array_equal(at_once.signals[name][s], alone.signals[name][0], equal_nan=True)
+        assert at_once.status[s] == alone.status[0]
+        assert at_once.energy_error[s] == alone.energy_error[0]
+        assert at_once.mass_error[s] == alone.mass_error[0]
+    curves = at_once.curves()
+    # Gauss's outermost point is 0.906: the last set is run under a factor of 1.45, and fails.
+    assert [c.status for c in curves] == [*3 * [Status.UNBURNT], Status.DIVERGED]
+    assert curves[2].signals["mlr"].tolist() == (TIME + 3.0 + 0.5).tolist()
+    assert curves[2].signals["mass"].tolist() == TIME.tolist()
+    assert curves[3].signals == {}
+    assert [(c.cells, c.steps) for c in curves] == [(n, n + 10) for n in range(sets)]

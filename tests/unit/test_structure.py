@@ -98,12 +98,19 @@ def test_only_kernels_import_numba() -> None:
     assert all(name.startswith("solver/kernels/") for name in names_of(found))
 
 
+def test_only_the_lanes_are_compiled_by_hand() -> None:
+    found = [p for p in modules() if "llvmlite" in outside(p)]
+    assert names_of(found) == ["solver/kernels/lanes.py"]
+
+
 def test_kernels_import_nothing_but_arrays() -> None:
     for path in (SOURCE / "solver" / "kernels").glob("*.py"):
         assert own(path) <= {"solver", "constants"}, path.name
         allowed = {"pyrofit", "numpy", "numba", "math", "typing"}
         if path.name == "__init__.py":
             allowed |= {"hashlib", "os", "pathlib"}
+        if path.name == "lanes.py":
+            allowed |= {"collections", "llvmlite", "operator"}
         assert outside(path) <= allowed, path.name
 
 

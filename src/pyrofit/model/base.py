@@ -83,7 +83,7 @@ Temperature = Annotated[Number, POSITIVE, WARM]
 Thickness = Annotated[Number, POSITIVE, THIN]
 
 
-def value_of(number: float | str, values: Mapping[str, float]) -> float:
+def value_of(number: float | str, values: Mapping[str, Made]) -> float | Made:
     """Return a number itself, or the value of the parameter it names."""
     return values[number] if isinstance(number, str) else number
 

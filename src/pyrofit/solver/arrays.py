@@ -1,6 +1,8 @@
 """The plain arrays that the kernels work on, and how a run can end.
 
-Symbols: i component, j reaction, n cell, T temperature node of the property tables.
+Symbols: i component, j reaction, n cell, T temperature node of the property tables. Parameter sets
+that run side by side, each in its lane, share integers and truth values; of every other array the
+last axis is the lanes, and what is a number here is an array of shape (lanes,).
 """
 
 from enum import IntEnum
@@ -11,6 +13,8 @@ from numpy.typing import NDArray
 
 FloatArray = NDArray[np.float64]
 IntArray = NDArray[np.int64]
+Number = FloatArray
+"""One number per lane, shape (lanes,); in the kernels a number."""
 
 TABLE_START_K = 200.0
 TABLE_STEP_K = 5.0
@@ -72,8 +76,8 @@ class Network(NamedTuple):
 
     reactant: IntArray
     """Component consumed by reaction j."""
-    rate_factor: FloatArray
-    """A_j [1/s]."""
+    root_factor: FloatArray
+    """Square root of A_j [1/s^0.5]."""
     activation_temperature: FloatArray
     """E_j / R [K]."""
     order: FloatArray
@@ -97,17 +101,17 @@ class Network(NamedTuple):
 class Surface(NamedTuple):
     """Heat exchange of one side, SI units."""
 
-    h: float
+    h: Number
     """Constant part of the heat transfer coefficient [W/(m2 K)]."""
-    h_cube_root: float
+    h_cube_root: Number
     """C of the part C |T - T_gas|^(1/3) [W/(m2 K^(4/3))]."""
-    gas_temperature: float
+    gas_temperature: Number
     """At the start [K]."""
-    gas_rise: float
+    gas_rise: Number
     """Its rise in the long run [K]."""
-    gas_rise_time: float
+    gas_rise_time: Number
     """Time constant of that [s]; 0 = at once."""
-    wall_temperature: float
+    wall_temperature: Number
     """Temperature of the radiating surroundings [K]."""
 
 
@@ -117,29 +121,29 @@ class Exposure(NamedTuple):
     front: Surface
     back: Surface
     flux_time: FloatArray
-    """Times of the flux table [s]; a step in time is given by two equal times."""
+    """Times of the flux table [s], shape (points,); a step is given by two equal times."""
     flux: FloatArray
     """q_ext at those times [W/m2], linear between them."""
-    rise_time: float
+    rise_time: Number
     """Time constant with which the heater comes up [s]; 0 = at once."""
-    drift: float
+    drift: Number
     """Relative change of the flux per second, at the start [1/s]."""
-    drift_time: float
+    drift_time: Number
     """Time constant with which the drift comes to an end [s]; 0 = never."""
-    back_emissivity: float
-    foil_capacity: float
+    back_emissivity: Number
+    foil_capacity: Number
     """Heat capacity per area of the foil on the back [J/(m2 K)]."""
-    contact_resistance: float
+    contact_resistance: Number
     """Between sample and foil [m2 K/W]."""
     foil_opaque: bool
     """Whether the foil absorbs radiation transmitted through the sample."""
-    mixing_depth: float
+    mixing_depth: Number
     """delta [m]: depth over which the surface emissivity is averaged by volume."""
-    emissivity_change: float
+    emissivity_change: Number
     """Change of the surface emissivity from virgin to burnt out, with the mass released."""
-    edge_exchange: float
+    edge_exchange: Number
     """Heat transfer coefficient of the edge times perimeter over area [W/(m3 K)]."""
-    edge_temperature: float
+    edge_temperature: Number
     """Of the gas there [K]."""
 
 

@@ -3,7 +3,7 @@
 from collections.abc import Mapping
 from dataclasses import dataclass
 
-from pyrofit.solver.arrays import FloatArray, Status
+from pyrofit.solver.arrays import FloatArray, IntArray, Status
 
 
 @dataclass(frozen=True)
@@ -25,3 +25,31 @@ class Curves:
     steps: int = 0
     energy_error: float = 0.0
     mass_error: float = 0.0
+
+
+@dataclass(frozen=True)
+class Runs:
+    """The same of several sets: shape (sets,), signals (sets, points)."""
+
+    status: IntArray
+    signals: Mapping[str, FloatArray]
+    cells: IntArray
+    steps: IntArray
+    energy_error: FloatArray
+    mass_error: FloatArray
+
+    def curves(self) -> list[Curves]:
+        """Return the sets one by one; what did not finish has no signals."""
+        return [self._one(s) for s in range(self.status.size)]
+
+    def _one(self, s: int) -> Curves:
+        status = Status(int(self.status[s]))
+        signals = {name: curve[s] for name, curve in self.signals.items()}
+        return Curves(
+            status,
+            signals if status.finished else {},
+            int(self.cells[s]),
+            int(self.steps[s]),
+            float(self.energy_error[s]),
+            float(self.mass_error[s]),
+        )

@@ -1,11 +1,16 @@
-"""From a material in words to the arrays of the kernels; experiments: `lower_experiment`."""
+"""From a material in words to the arrays of the kernels; experiments: `lower_experiment`.
+
+Parameter values are numbers, or arrays of shape (sets,): then everything is made for all sets at
+once. The last axis of what is made is the sets, also where there is one.
+"""
 
 import math
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from typing import Any
 
 import numpy as np
+from numpy.typing import NDArray
 
 from pyrofit.constants import GAS_CONSTANT
 from pyrofit.model import material as words
@@ -19,16 +24,28 @@ from pyrofit.solver.arrays import (
     Network,
 )
 
-Values = Mapping[str, float]
+Value = float | FloatArray
+Values = Mapping[str, Value]
 LEAST_SHARE = 0.01
 """Least value of a linear property, relative to its reference value, and of a changed one."""
+NODES_K: FloatArray = TABLE_TEMPERATURES_K[:, None]
+
+
+def stack(rows: Sequence[Value], sets: int) -> FloatArray:
+    """Return one row per value, shape (values, sets)."""
+    if sets == 1 and all(isinstance(value, float) for value in rows):
+        return np.array(rows)[:, None]
+    out = np.empty((len(rows), sets))
+    for row, value in zip(out, rows, strict=True):
+        row[:] = value
+    return out
 
 
 def fractions(
-    composition: Mapping[str, float | str], names: list[str], values: Values
+    composition: Mapping[str, float | str], names: list[str], values: Values, sets: int = 1
 ) -> FloatArray:
-    """Return the mass fractions of the named components, shape (components,)."""
-    out = np.zeros(len(names))
+    """Return the mass fractions of the named components, shape (components, sets)."""
+    out = np.zeros((len(names), sets))
     rest = None
     for name, fraction in composition.items():
         if fraction == words.REST:
@@ -36,40 +53,49 @@ def fractions(
         else:
             out[names.index(name)] = value_of(fraction, values)
     if rest is not None:
-        out[rest] = 1.0 - out.sum()
+        out[rest] = 1.0 - total(out)
     return out
 
 
-def property_table(prop: object, values: Values) -> FloatArray:
-    """Return p at the nodes of `TABLE_TEMPERATURES_K`, or one value for a constant.
+def total(rows: FloatArray) -> FloatArray:
+    """Return the sum of the rows, one after the other: the same bits for any number of sets."""
+    return np.asarray(sum(rows))
+
+
+def property_table(prop: object, values: Values, sets: int = 1) -> FloatArray:
+    """Return p at the nodes of `TABLE_TEMPERATURES_K`, shape (nodes, sets); constant: (1, sets).
 
     A linear property ends at 1 % of its reference value: it must not become negative.
     """
     if isinstance(prop, float | str):
-        return np.array([value_of(prop, values)])
+        return stack([value_of(prop, values)], sets)
     if isinstance(prop, words.Table):
-        points = [value_of(v, values) for v in prop.value]
-        return np.interp(TABLE_TEMPERATURES_K, prop.temperature_K, points)
+        points = stack([value_of(v, values) for v in prop.value], sets)
+        columns = [np.interp(TABLE_TEMPERATURES_K, prop.temperature_K, p) for p in points.T]
+        return np.stack(columns, axis=1)
     if isinstance(prop, words.Changed):
-        return _changed(prop, values)
+        return _changed(prop, values, sets)
     assert isinstance(prop, words.Linear | words.PowerLaw)
     value = value_of(prop.value, values)
     reference = value_of(prop.reference_temperature_K, values)
     if isinstance(prop, words.Linear):
-        slope = value_of(prop.slope_1_K, values)
-        return value * np.maximum(LEAST_SHARE, 1.0 + slope * (TABLE_TEMPERATURES_K - reference))
-    return value * (TABLE_TEMPERATURES_K / reference) ** value_of(prop.exponent, values)
+        rise = value_of(prop.slope_1_K, values) * (NODES_K - reference)
+        table = value * np.maximum(LEAST_SHARE, 1.0 + rise)
+    else:
+        # Not a power: of some exponents numpy makes a root or a square, which rounds otherwise.
+        table = value * np.exp(value_of(prop.exponent, values) * np.log(NODES_K / reference))
+    return np.broadcast_to(table, (TABLE_SIZE, sets))
 
 
-def _changed(prop: words.Changed, values: Values) -> FloatArray:
+def _changed(prop: words.Changed, values: Values, sets: int) -> FloatArray:
     """Return of(T) with slope, step and peak; nothing but of(T) where these are zero."""
     at = {
         name: value_of(getattr(prop, name), values)
         for name in words.Changed.model_fields
         if name != "of"
     }
-    T = TABLE_TEMPERATURES_K
-    of = property_table(prop.of, values)
+    T = NODES_K
+    of = property_table(prop.of, values, sets)
     slope = 1.0 + at["slope_1_K"] * (T - at["reference_temperature_K"])
     # 1 / (1 + exp(-x)), which would overflow.
     passed = 0.5 + 0.5 * np.tanh(0.5 * (T - at["step_temperature_K"]) / at["step_width_K"])
@@ -79,36 +105,39 @@ def _changed(prop: words.Changed, values: Values) -> FloatArray:
     return np.asarray(np.maximum(changed, LEAST_SHARE * of))
 
 
-def _stack(properties: list[Any], values: Values) -> FloatArray:
-    """Return one row per component, of one column where no property depends on temperature."""
+def _tables(properties: list[Any], values: Values, sets: int) -> FloatArray:
+    """Return one table per component, of one node where no property depends on temperature."""
     if all(isinstance(p, float | str) for p in properties):
-        return np.array([[value_of(p, values)] for p in properties])
-    tables = [property_table(p, values) for p in properties]
-    return np.array([t if t.size > 1 else np.full(TABLE_SIZE, t[0]) for t in tables])
+        return stack([value_of(p, values) for p in properties], sets)[:, None, :]
+    shape = TABLE_SIZE, sets
+    tables = [np.broadcast_to(property_table(p, values, sets), shape) for p in properties]
+    return np.stack(tables)
 
 
 def lower_material(
-    material: words.Material, values: Values, absorption_length: float = 0.0
+    material: words.Material, values: Values, sets: int = 1, absorption_length: Value = 0.0
 ) -> Material:
     """Return the component properties as arrays, in the order of ``material.components``.
 
     An ``absorption_length`` [m] above zero holds for all components.
     """
     parts = list(material.components.values())
-    density = np.array([value_of(c.density_kg_m3, values) for c in parts])
+    density = stack([value_of(c.density_kg_m3, values) for c in parts], sets)
+    absorption = stack([value_of(c.absorption_1_m or 0.0, values) for c in parts], sets)
+    if np.any(np.asarray(absorption_length) > 0.0):
+        length = np.asarray(absorption_length)
+        absorption = np.where(length > 0.0, 1.0 / np.where(length > 0.0, length, 1.0), absorption)
     return Material(
         specific_volume=1.0 / density,
-        expansion=_stack([c.expansion for c in parts], values),
-        conductivity=_stack([c.conductivity_W_mK for c in parts], values),
-        specific_heat=_stack([c.specific_heat_J_kgK for c in parts], values),
-        emissivity=np.array([value_of(c.emissivity, values) for c in parts]),
-        absorption=np.full(len(parts), 1.0 / absorption_length)
-        if absorption_length > 0.0
-        else np.array([value_of(c.absorption_1_m or 0.0, values) for c in parts]),
+        expansion=_tables([c.expansion for c in parts], values, sets),
+        conductivity=_tables([c.conductivity_W_mK for c in parts], values, sets),
+        specific_heat=_tables([c.specific_heat_J_kgK for c in parts], values, sets),
+        emissivity=stack([value_of(c.emissivity, values) for c in parts], sets),
+        absorption=absorption,
     )
 
 
-def rate_factor(reaction: words.Reaction, values: Values) -> float:
+def rate_factor(reaction: words.Reaction, values: Values) -> Value:
     """Return A [1/s]: given, or k_ref exp(E/(R T_ref))."""
     if reaction.A_1_s is not None:
         return value_of(reaction.A_1_s, values)
@@ -116,7 +145,7 @@ def rate_factor(reaction: words.Reaction, values: Values) -> float:
     assert reaction.reference_temperature_K is not None
     rate = value_of(reaction.reference_rate_1_s, values)
     temperature = value_of(reaction.reference_temperature_K, values)
-    return rate * math.exp(value_of(reaction.E_J_mol, values) / (GAS_CONSTANT * temperature))
+    return rate * np.exp(value_of(reaction.E_J_mol, values) / (GAS_CONSTANT * temperature))
 
 
 @dataclass(frozen=True)
@@ -154,35 +183,43 @@ def _plan(material: words.Material) -> _Plan:
     )
 
 
-def is_separate(network: Network) -> bool:
-    """Tell whether no reaction feeds or starves another one."""
-    running = network.rate_factor > 0.0
-    reactants = network.reactant[running]
-    fed = network.yields[running][:, reactants] > 0.0
-    return len(set(reactants.tolist())) == reactants.size and not bool(fed.any())
+def is_separate(network: Network) -> NDArray[np.bool_]:
+    """Tell whether no reaction feeds or starves another one, shape (sets,)."""
+    running = network.root_factor > 0.0
+    separate = np.ones(running.shape[1], dtype=bool)
+    for j, a in enumerate(network.reactant.tolist()):
+        for k, b in enumerate(network.reactant.tolist()):
+            fed = network.yields[j, b] > 0.0
+            if j != k and a == b:
+                fed = np.ones_like(fed)
+            separate &= ~(running[j] & running[k] & fed)
+    return separate
 
 
-def lower_network(material: words.Material, values: Values, heats: bool = True) -> Network:
+def lower_network(
+    material: words.Material, values: Values, sets: int = 1, heats: bool = True
+) -> Network:
     """Return the reactions as arrays, sorted so that products react after their formation.
 
     Without ``heats`` the heats of reaction are left out (TGA prescribes the temperature).
     """
     plan = material.derived("network", _plan)
     order = [material.reactions[name] for name in plan.reactions]
-    yields = np.zeros((len(order), len(material.components)))
+    yields = np.zeros((len(order), len(material.components), sets))
     for j, i, product in plan.products:
         yields[j, i] = value_of(order[j].products[product], values)
-    orders = [value_of(r.order, values) for r in order]
-    first_order = all(n == 1.0 for n in orders)
-    energies = [value_of(r.E_J_mol, values) / GAS_CONSTANT for r in order]
+    orders = stack([value_of(r.order, values) for r in order], sets)
+    first_order = bool(np.all(orders == 1.0))
+    energies = [value_of(r.E_J_mol, values) for r in order]
+    heat = [value_of(r.heat_of_reaction_J_kg, values) if heats else 0.0 for r in order]
     return Network(
         reactant=plan.reactant,
-        rate_factor=np.array([rate_factor(r, values) for r in order]),
-        activation_temperature=np.array(energies),
-        order=np.array(orders),
-        heat=np.array([value_of(r.heat_of_reaction_J_kg, values) if heats else 0.0 for r in order]),
+        root_factor=np.sqrt(stack([rate_factor(r, values) for r in order], sets)),
+        activation_temperature=stack(energies, sets) / GAS_CONSTANT,
+        order=orders,
+        heat=stack(heat, sets),
         yields=yields,
-        gas=1.0 - yields.sum(axis=1),
+        gas=1.0 - total(yields.swapaxes(0, 1)),
         first_order=first_order,
         plain=first_order and plan.plain,
         residue=plan.residue,

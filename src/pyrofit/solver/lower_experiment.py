@@ -1,6 +1,6 @@
-"""From an experiment in words to the arrays of the kernels."""
+"""From an experiment in words to the arrays of the kernels, for all sets at once as in `lower`."""
 
-import math
+from typing import NamedTuple
 
 import numpy as np
 
@@ -15,68 +15,96 @@ from pyrofit.model.experiment import (
     Sample,
     Side,
 )
-from pyrofit.solver.arrays import TABLE_TEMPERATURES_K, Exposure, FloatArray, Material, Surface
-from pyrofit.solver.grid import Virgin
-from pyrofit.solver.lower import Values, fractions
+from pyrofit.solver.arrays import (
+    TABLE_TEMPERATURES_K,
+    Exposure,
+    FloatArray,
+    IntArray,
+    Material,
+    Number,
+    Surface,
+)
+from pyrofit.solver.lower import Value, Values, fractions, stack, total
 
 
-def _surface(side: Side, values: Values, factor: float = 1.0) -> Surface:
+class Layer(NamedTuple):
+    """A layer of the virgin sample."""
+
+    mass: FloatArray
+    """Mass per area of its components [kg/m2], shape (components, sets)."""
+    thickness: Number
+    """[m], shape (sets,)."""
+
+
+def _number(value: Value, sets: int) -> Number:
+    return np.array([value]) if sets == 1 and isinstance(value, float) else np.full(sets, value)
+
+
+def _surface(side: Side, values: Values, sets: int, factor: Value = 1.0) -> Surface:
+    h = value_of(side.h_W_m2K, values) + value_of(side.h_change_W_m2K, values)
     return Surface(
-        h=factor * max(value_of(side.h_W_m2K, values) + value_of(side.h_change_W_m2K, values), 0.0),
-        h_cube_root=factor * value_of(side.h_cube_root_W_m2K43, values),
-        gas_temperature=value_of(side.gas_temperature_K, values),
-        gas_rise=value_of(side.gas_rise_K, values),
-        gas_rise_time=value_of(side.gas_rise_time_s, values),
-        wall_temperature=value_of(side.wall_temperature_K, values),
+        h=_number(factor * np.maximum(h, 0.0), sets),
+        h_cube_root=_number(factor * value_of(side.h_cube_root_W_m2K43, values), sets),
+        gas_temperature=_number(value_of(side.gas_temperature_K, values), sets),
+        gas_rise=_number(value_of(side.gas_rise_K, values), sets),
+        gas_rise_time=_number(value_of(side.gas_rise_time_s, values), sets),
+        wall_temperature=_number(value_of(side.wall_temperature_K, values), sets),
     )
 
 
 def lower_exposure(
-    experiment: Gasification, material: words.Material, arrays: Material, values: Values
+    experiment: Gasification,
+    material: words.Material,
+    arrays: Material,
+    values: Values,
+    sets: int = 1,
 ) -> Exposure:
     """Return what acts on the sample as arrays."""
     front, back, sample = experiment.front, experiment.back, experiment.sample
-    times, fluxes = _flux(front.flux_W_m2, values)
+    times, fluxes = _flux(front.flux_W_m2, values, sets)
     losses = value_of(back.loss_factor, values)
     capacity, contact = _foil(sample.foil, values)
     exchange, edge_gas = _edge(sample.edge, values)
     return Exposure(
-        front=_surface(front, values),
-        back=_surface(back, values, losses),
+        front=_surface(front, values, sets),
+        back=_surface(back, values, sets, losses),
         flux_time=times,
         flux=fluxes,
-        rise_time=value_of(front.rise_time_s, values),
-        drift=value_of(front.drift_1_s, values),
-        drift_time=value_of(front.drift_time_s, values),
-        back_emissivity=losses * value_of(back.emissivity, values),
-        foil_capacity=capacity,
-        contact_resistance=contact,
+        rise_time=_number(value_of(front.rise_time_s, values), sets),
+        drift=_number(value_of(front.drift_1_s, values), sets),
+        drift_time=_number(value_of(front.drift_time_s, values), sets),
+        back_emissivity=_number(losses * value_of(back.emissivity, values), sets),
+        foil_capacity=_number(capacity, sets),
+        contact_resistance=_number(contact, sets),
         foil_opaque=sample.foil is not None and sample.transmitted == "foil",
-        mixing_depth=_mixing_depth(experiment, material, arrays, values),
-        emissivity_change=value_of(sample.emissivity_change, values),
-        edge_exchange=exchange,
-        edge_temperature=edge_gas,
+        mixing_depth=_number(_mixing_depth(experiment, material, arrays, values, sets), sets),
+        emissivity_change=_number(value_of(sample.emissivity_change, values), sets),
+        edge_exchange=_number(exchange, sets),
+        edge_temperature=_number(edge_gas, sets),
     )
 
 
-def _flux(flux: float | str | FluxTable, values: Values) -> tuple[FloatArray, FloatArray]:
-    """Return times [s] and fluxes [W/m2]."""
+def _flux(
+    flux: float | str | FluxTable, values: Values, sets: int
+) -> tuple[FloatArray, FloatArray]:
+    """Return times [s] and fluxes [W/m2], shape (points, sets) both."""
     if isinstance(flux, FluxTable):
-        return np.array(flux.time_s), np.array([value_of(q, values) for q in flux.flux_W_m2])
-    return np.zeros(1), np.array([value_of(flux, values)])
+        fluxes = [value_of(q, values) for q in flux.flux_W_m2]
+        return stack(list(flux.time_s), sets), stack(fluxes, sets)
+    return np.zeros((1, sets)), stack([value_of(flux, values)], sets)
 
 
-def _foil(foil: Foil | None, values: Values) -> tuple[float, float]:
+def _foil(foil: Foil | None, values: Values) -> tuple[Value, Value]:
     """Return heat capacity [J/(m2 K)] and resistance to the sample [m2 K/W]."""
     if foil is None:
         return 0.0, 0.0
     mass = value_of(foil.thickness_m, values) * value_of(foil.density_kg_m3, values)
-    mass *= value_of(foil.mass_factor, values)
+    mass = mass * value_of(foil.mass_factor, values)
     capacity = mass * value_of(foil.specific_heat_J_kgK, values)
     return capacity, value_of(foil.contact_m2K_W, values)
 
 
-def _edge(edge: Edge | None, values: Values) -> tuple[float, float]:
+def _edge(edge: Edge | None, values: Values) -> tuple[Value, Value]:
     """Return h times perimeter over area [W/(m3 K)] and the gas temperature [K]."""
     if edge is None:
         return 0.0, 0.0
@@ -85,62 +113,94 @@ def _edge(edge: Edge | None, values: Values) -> tuple[float, float]:
 
 
 def _mixing_depth(
-    experiment: Gasification, material: words.Material, arrays: Material, values: Values
-) -> float:
+    experiment: Gasification,
+    material: words.Material,
+    arrays: Material,
+    values: Values,
+    sets: int,
+) -> Value:
     depth = experiment.sample.emissivity_depth
     if not isinstance(depth, EmissivityDepth):
         return value_of(depth, values)
-    names = list(material.components)
-    composition = experiment.sample.layers[0].composition or material.composition
-    share = fractions(composition, names, values)
+    share = lower_share(experiment, material, values, sets)
     volume = share * arrays.specific_volume
-    k = float(volume @ _at(arrays.conductivity, experiment, values)) / volume.sum()
-    rho_c = float(share @ _at(arrays.specific_heat, experiment, values)) / volume.sum()
-    return value_of(depth.cell_size_factor, values) * math.sqrt(k / rho_c)
-
-
-def _at(table: FloatArray, experiment: Gasification, values: Values) -> FloatArray:
-    if table.shape[1] == 1:
-        return table[:, 0]
     T = value_of(experiment.sample.initial_temperature_K, values)
-    return np.array([np.interp(T, TABLE_TEMPERATURES_K, row) for row in table])
+    k = total(volume * _at(arrays.conductivity, T)) / total(volume)
+    rho_c = total(share * _at(arrays.specific_heat, T)) / total(volume)
+    return value_of(depth.cell_size_factor, values) * np.sqrt(k / rho_c)
 
 
-def thicknesses(sample: Sample, values: Values) -> list[float]:
+def _at(tables: FloatArray, T: Value) -> FloatArray:
+    """Return the properties of all components at T, shape (components, sets)."""
+    if tables.shape[1] == 1:
+        return tables[:, 0]
+    at = np.broadcast_to(T, tables.shape[2:])
+    return np.array(
+        [
+            [np.interp(x, TABLE_TEMPERATURES_K, table[:, s]) for s, x in enumerate(at)]
+            for table in tables
+        ]
+    )
+
+
+def thicknesses(sample: Sample, values: Values) -> list[Value]:
     """Return the thickness of each layer [m]."""
     factor = value_of(sample.thickness_factor, values)
     return [factor * value_of(layer.thickness_m, values) for layer in sample.layers]
 
 
-def lower_virgin(experiment: Gasification, material: words.Material, values: Values) -> Virgin:
-    """Return what the sample is before it reacts."""
-    layers = experiment.sample.layers
-    composition = layers[0].composition or material.composition
-    return Virgin(
-        share=fractions(composition, list(material.components), values),
-        thickness=sum(thicknesses(experiment.sample, values)),
-        temperature=value_of(experiment.sample.initial_temperature_K, values),
-    )
+def lower_share(
+    experiment: Gasification, material: words.Material, values: Values, sets: int = 1
+) -> FloatArray:
+    """Return the mass fractions of the front layer, shape (components, sets)."""
+    composition = experiment.sample.layers[0].composition or material.composition
+    return fractions(composition, list(material.components), values, sets)
 
 
-def lower_cells(
+def lower_layers(
     experiment: Gasification,
     material: words.Material,
     arrays: Material,
     values: Values,
-    cells: int,
-) -> FloatArray:
-    """Return the initial masses [kg/m2], shape (cells, components), front first.
-
-    The cells are shared out by thickness, at least two to a layer, equally thick in a layer.
-    """
+    sets: int = 1,
+) -> list[Layer]:
+    """Return the layers of the virgin sample, front first."""
     names = list(material.components)
-    layers = experiment.sample.layers
-    thickness = thicknesses(experiment.sample, values)
-    parts = []
-    for layer, size in zip(layers, thickness, strict=True):
-        count = cells if len(layers) == 1 else max(2, round(cells * size / sum(thickness)))
-        share = fractions(layer.composition or material.composition, names, values)
-        mass = size / float(share @ arrays.specific_volume)
-        parts.append(np.full((count, len(names)), share * mass / count))
-    return parts[0] if len(parts) == 1 else np.concatenate(parts)
+    sample = experiment.sample
+    layers = []
+    for layer, size in zip(sample.layers, thicknesses(sample, values), strict=True):
+        share = fractions(layer.composition or material.composition, names, values, sets)
+        mass = size / total(share * arrays.specific_volume)
+        layers.append(Layer(share * mass, _number(size, sets)))
+    return layers
+
+
+def cells_of(
+    layers: list[Layer], cells: IntArray, multiple: int = 1
+) -> tuple[FloatArray, IntArray]:
+    """Share out the cells by thickness, at least two to a layer, equally thick in a layer.
+
+    Their number is made a multiple by empty ones ahead of the others.
+
+    Returns
+    -------
+    masses [kg/m2], shape (cells, components, sets), front first, and how many of these cells are
+    empty, shape (sets,).
+    """
+    if len(layers) == 1:
+        counts = [cells]
+    else:
+        size = sum(layer.thickness for layer in layers)
+        shares = [np.rint(cells * layer.thickness / size) for layer in layers]
+        counts = [np.maximum(2, share).astype(np.int64) for share in shares]
+    needed = np.asarray(sum(counts))
+    most = -(-int(needed.max()) // multiple) * multiple
+    empty = most - needed
+    out = np.zeros((most, *layers[0].mass.shape))
+    begin = empty
+    n = np.arange(most)[:, None]
+    for layer, count in zip(layers, counts, strict=True):
+        here = (n >= begin) & (n < begin + count)
+        out += np.where(here[:, None, :], layer.mass / count, 0.0)
+        begin = begin + count
+    return out, empty

@@ -7,20 +7,24 @@ import numpy as np
 
 from pyrofit.model.base import value_of
 from pyrofit.model.experiment import Gasification
-from pyrofit.solver.curves import Curves, Request
+from pyrofit.solver.arrays import FloatArray
+from pyrofit.solver.curves import Curves, Request, Runs
+from pyrofit.solver.lower import Value, Values
 
-Run = Callable[[float, Mapping[str, Request]], Curves]
-"""A run under a multiple of the flux, and its curves at the requests."""
+Run = Callable[[FloatArray, Mapping[str, Request]], Runs]
+"""Runs under multiples of the flux, shape (sets,), at times of shape (sets, points)."""
 POINTS, WEIGHTS = np.polynomial.legendre.leggauss(5)
 """Gauss's rule on (-1, 1), for fluxes that are spread evenly over the surface."""
+MIDDLE = 2
 
 
 def observe(
     experiment: Gasification,
-    values: Mapping[str, float],
+    values: Values,
     requests: Mapping[str, Request],
     run: Run,
-) -> Curves:
+    sets: int = 1,
+) -> Runs:
     """Return the curves as the apparatus sees them.
 
     y(t) = offset + sum_g w_g y_g(t - delay), y_g the curve under the flux (1 + s x_g) q, with the
@@ -31,39 +35,74 @@ def observe(
     experiment
         The experiment, with ``front.spread`` and, by signal, ``delay_s`` and ``offset``.
     values
-        Parameter values in SI units by name.
+        Parameter values in SI units by name, each a number or of shape (sets,).
     requests
         What is asked for, by signal.
     run
         The solver.
+    sets
+        Number of parameter sets.
     """
     shifted = {
-        name: replace(request, time_s=request.time_s - _of(experiment, name, "delay_s", values))
+        name: replace(
+            request,
+            time_s=request.time_s - _of(experiment, name, "delay_s", values, sets)[:, None],
+        )
         for name, request in requests.items()
     }
-    curves = _spread(value_of(experiment.front.spread, values), shifted, run)
+    spread = np.full(sets, value_of(experiment.front.spread, values))
+    runs = _spread(spread, shifted, run)
     signals = {
-        name: curve + _of(experiment, name, "offset", values)
-        for name, curve in curves.signals.items()
+        name: curve + _of(experiment, name, "offset", values, sets)[:, None]
+        for name, curve in runs.signals.items()
     }
-    return replace(curves, signals=signals)
+    return replace(runs, signals=signals)
 
 
-def _of(experiment: Gasification, name: str, key: str, values: Mapping[str, float]) -> float:
+def observe_one(
+    experiment: Gasification,
+    values: Mapping[str, float],
+    requests: Mapping[str, Request],
+    run: Callable[[float, Mapping[str, Request]], Curves],
+) -> Curves:
+    """Return the same for a solver of one set, whose times asked for have the shape (points,)."""
+
+    def runs(factor: FloatArray, asked: Mapping[str, Request]) -> Runs:
+        plain = {name: replace(r, time_s=r.time_s[0]) for name, r in asked.items()}
+        one = run(float(factor[0]), plain)
+        missing = {name: np.full(r.time_s.shape, np.nan) for name, r in plain.items()}
+        return Runs(
+            status=np.array([one.status]),
+            signals={name: curve[None] for name, curve in (one.signals or missing).items()},
+            cells=np.array([one.cells]),
+            steps=np.array([one.steps]),
+            energy_error=np.array([one.energy_error]),
+            mass_error=np.array([one.mass_error]),
+        )
+
+    return observe(experiment, values, requests, runs).curves()[0]
+
+
+def _of(experiment: Gasification, name: str, key: str, values: Values, sets: int) -> FloatArray:
     signal = experiment.signals.get(name)
-    return 0.0 if signal is None else value_of(getattr(signal, key), values)
+    value: Value = 0.0 if signal is None else value_of(getattr(signal, key), values)
+    return np.full(sets, value)
 
 
-def _spread(spread: float, requests: Mapping[str, Request], run: Run) -> Curves:
-    if spread == 0.0:
-        return run(1.0, requests)
+def _spread(spread: FloatArray, requests: Mapping[str, Request], run: Run) -> Runs:
+    if not spread.any():
+        return run(np.ones(spread.size), requests)
     runs = [run(1.0 + spread * float(x), requests) for x in POINTS]
-    failed = [r for r in runs if not r.status.finished]
-    if failed:
-        return failed[0]
+    even = spread == 0.0
     weights = 0.5 * WEIGHTS
-    signals = {
-        name: np.einsum("g,gt->t", weights, [r.signals[name] for r in runs]) for name in requests
-    }
-    worst = max(runs, key=lambda r: r.status)
-    return replace(worst, signals=signals)
+    signals = {}
+    for name in requests:
+        mean = sum(w * r.signals[name] for w, r in zip(weights, runs, strict=True))
+        signals[name] = np.where(even[:, None], runs[MIDDLE].signals[name], mean)
+    return replace(
+        runs[MIDDLE],
+        status=np.max([r.status for r in runs], axis=0),
+        signals=signals,
+        energy_error=np.max([r.energy_error for r in runs], axis=0),
+        mass_error=np.max([r.mass_error for r in runs], axis=0),
+    )

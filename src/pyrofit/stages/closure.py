@@ -62,8 +62,8 @@ def _described_mass(study: Study, experiment: Gasification, values: Mapping[str,
     sizes = thicknesses(experiment.sample, values)
     for layer, size in zip(experiment.sample.layers, sizes, strict=True):
         composition = layer.composition or study.material.composition
-        share = fractions(composition, list(components), values)
-        total += size / float(share @ volumes)
+        share = fractions(composition, list(components), values)[:, 0]
+        total += float(size) / float(share @ volumes)
     return total
 
 

@@ -8,19 +8,19 @@ import numpy as np
 import pandas as pd
 
 from pyrofit.config import Study, digest
-from pyrofit.constants import GAS_CONSTANT
 from pyrofit.errors import StudyError, suggest
 from pyrofit.estimate import cmaes
 from pyrofit.estimate.least_squares import Start, descend, multistart
 from pyrofit.estimate.problem import Measurements, Problem, make_problem, program
 from pyrofit.estimate.sceua import Progress, best_of, convergence, search, seed_for
 from pyrofit.files import Results, write_csv, write_json
+from pyrofit.model.base import value_of
 from pyrofit.model.experiment import Tga
 from pyrofit.model.material import Material
 from pyrofit.simulate import simulate_tga
 from pyrofit.solver.arrays import FloatArray, Status
 from pyrofit.solver.curves import Request
-from pyrofit.solver.lower import fractions, lower_network
+from pyrofit.solver.lower import fractions, rate_factor
 from pyrofit.stages import outcomes, slices
 from pyrofit.stages.measurements import load
 
@@ -96,16 +96,16 @@ def fit_kinetics(study: Study, results: Results) -> None:
 def _reactions(material: Material, values: Values) -> dict[str, dict[str, float]]:
     """Return A, E, n and the virgin mass fraction of the reactant, by reaction."""
     names = list(material.components)
-    share = fractions(material.composition, names, values)
-    network = lower_network(material, values, heats=False)
+    share = fractions(material.composition, names, values)[:, 0]
+    reactions = material.reactions
     return {
         name: {
-            "A_1_s": float(network.rate_factor[j]),
-            "E_J_mol": float(network.activation_temperature[j] * GAS_CONSTANT),
-            "order": float(network.order[j]),
-            "mass_fraction": float(share[names.index(material.reactions[name].reactant)]),
+            "A_1_s": float(rate_factor(reactions[name], values)),
+            "E_J_mol": value_of(reactions[name].E_J_mol, values),
+            "order": value_of(reactions[name].order, values),
+            "mass_fraction": float(share[names.index(reactions[name].reactant)]),
         }
-        for j, name in enumerate(material.reaction_order())
+        for name in material.reaction_order()
     }
 
 

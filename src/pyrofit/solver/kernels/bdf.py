@@ -3,8 +3,10 @@
 import math
 from typing import NamedTuple
 
+from pyrofit.solver.arrays import Number
 from pyrofit.solver.kernels.heat import flux_piece
 from pyrofit.solver.kernels.jit import inner
+from pyrofit.solver.kernels.lanes import root, where
 
 SAFETY = 0.9
 SHRINK, GROW, REJECT = 0.3, 1.6, 0.5
@@ -13,50 +15,51 @@ SHRINK, GROW, REJECT = 0.3, 1.6, 0.5
 class Bdf(NamedTuple):
     """dy/dt at the end of a step = b1 y_new - b2 y + b3 y_old, second order."""
 
-    dt: float
-    r: float
+    dt: Number
+    r: Number
     """dt over the step before; 0 at a start, where the formula is Euler's."""
-    b1: float
-    b2: float
-    b3: float
+    b1: Number
+    b2: Number
+    b3: Number
 
 
 class Clock(NamedTuple):
     """Where the run is, and the step it tries next."""
 
-    t: float
-    dt: float
-    dt_old: float
+    t: Number
+    dt: Number
+    dt_old: Number
     """Infinite at a start."""
-    piece: int
+    piece: Number
     """Piece of the flux table."""
-    landing: float
+    landing: Number
     """Time that a step must hit: the end of the piece, or of the run [s]."""
 
 
 class Balance(NamedTuple):
     """Sums from the start of the run."""
 
-    released: float
+    released: Number
     """Gas [kg/m2]."""
-    heat_in: float
+    heat_in: Number
     """Heat through the surfaces [J/m2]."""
-    heat_crossed: float
+    heat_crossed: Number
     """The same without sign."""
-    heat_used: float
+    heat_used: Number
     """Heat stored and used by reactions [J/m2]."""
-    net_flux: float
+    net_flux: Number
     """Net heat flux at the end of the last step [W/m2]."""
 
 
 @inner
 def start_clock(t, exposure, numerics, t_end):
     """Return the clock of a start at t, where a run begins or the flux changes."""
-    p = flux_piece(t, exposure.flux_time)
+    time = exposure.flux_time
+    piece = flux_piece(t, time)
     landing = t_end
-    if p + 1 < exposure.flux_time.size:
-        landing = min(landing, exposure.flux_time[p + 1])
-    return hit(t, numerics.first_step, math.inf, p, landing)
+    for p in range(1, time.size):
+        landing = where(piece == p - 1.0, min(landing, time[p]), landing)
+    return hit(t, numerics.first_step + 0.0 * t, math.inf + 0.0 * t, piece, landing)
 
 
 @inner
@@ -68,9 +71,19 @@ def reaches(t, dt, landing):
 @inner
 def hit(t, dt, dt_old, piece, landing):
     """Return the clock, its step shortened if it would pass the landing."""
-    if reaches(t, dt, landing):
-        dt = landing - t
-    return Clock(t, dt, dt_old, piece, landing)
+    return Clock(t, where(reaches(t, dt, landing), landing - t, dt), dt_old, piece, landing)
+
+
+@inner
+def either(condition, a, b):
+    """Return clock a where the condition holds, b elsewhere."""
+    return Clock(
+        where(condition, a.t, b.t),
+        where(condition, a.dt, b.dt),
+        where(condition, a.dt_old, b.dt_old),
+        where(condition, a.piece, b.piece),
+        where(condition, a.landing, b.landing),
+    )
 
 
 @inner
@@ -91,29 +104,28 @@ def retry(clock, ratio, first_step):
 @inner
 def rejected(clock, ratio, first_step):
     """Tell whether the error of a step is too large, and the step can be shortened."""
-    return ratio < REJECT and clock.dt > 1.001 * first_step
+    return (ratio < REJECT) & (clock.dt > 1.001 * first_step)
 
 
 @inner
 def tick(clock, ratio, exposure, numerics, t_end):
     """Return the clock after the step."""
-    if reaches(clock.t, clock.dt, clock.landing):
-        return start_clock(clock.landing, exposure, numerics, t_end)
     dt = min(clock.dt * min(ratio, GROW), numerics.longest_step)
-    return hit(clock.t + clock.dt, dt, clock.dt, clock.piece, clock.landing)
+    on = hit(clock.t + clock.dt, dt, clock.dt, clock.piece, clock.landing)
+    landed = reaches(clock.t, clock.dt, clock.landing)
+    return either(landed, start_clock(clock.landing, exposure, numerics, t_end), on)
 
 
 @inner
 def step_ratio(error, tolerance):
     """Return the factor by which the next step should differ from this one."""
-    return SAFETY * math.sqrt(tolerance / (error + 1e-30))
+    return SAFETY * root(tolerance / (error + 1e-30))
 
 
 @inner
 def booked(balance, clock, gas, heat_used, net_flux):
     """Return the balance after a step; the surface heat is its trapezoidal integral."""
-    before = balance.net_flux if clock.dt_old < math.inf else net_flux
-    both = net_flux + before
+    both = net_flux + where(clock.dt_old < math.inf, balance.net_flux, net_flux)
     return Balance(
         balance.released + gas,
         balance.heat_in + 0.5 * clock.dt * both,
@@ -124,8 +136,20 @@ def booked(balance, clock, gas, heat_used, net_flux):
 
 
 @inner
+def kept(condition, new, old):
+    """Return the new balance where the condition holds, the old one elsewhere."""
+    return Balance(
+        where(condition, new.released, old.released),
+        where(condition, new.heat_in, old.heat_in),
+        where(condition, new.heat_crossed, old.heat_crossed),
+        where(condition, new.heat_used, old.heat_used),
+        where(condition, new.net_flux, old.net_flux),
+    )
+
+
+@inner
 def energy_error(balance):
     """Return the heat that is not accounted for, relative to what crossed the surfaces."""
-    if balance.heat_crossed == 0.0:
-        return 0.0
-    return abs(balance.heat_in - balance.heat_used) / balance.heat_crossed
+    crossed = balance.heat_crossed
+    off = abs(balance.heat_in - balance.heat_used)
+    return where(crossed == 0.0, 0.0, off / max(crossed, 1e-300))

@@ -1,10 +1,21 @@
 """Properties and reaction rates of single cells."""
 
-import math
-
 from pyrofit.solver.arrays import TABLE_SIZE, TABLE_START_K, TABLE_STEP_K
 from pyrofit.solver.kernels import row
 from pyrofit.solver.kernels.jit import inner, live
+from pyrofit.solver.kernels.lanes import (
+    exp,
+    fma,
+    in_lane,
+    inverse,
+    lanes_of,
+    opposite,
+    power,
+    somewhere,
+    where,
+    with_lane,
+)
+from pyrofit.solver.kernels.reactions import TINY, react, remaining
 
 RATES_FROM_K, RATES_TO_K = 200.0, 2000.0
 """Range in which rates follow T."""
@@ -19,12 +30,17 @@ TABLE_END_K = TABLE_START_K + TABLE_STEP_K * (TABLE_SIZE - 1)
 
 @inner
 def at_temperature(table, i, T):
-    """Return property i at T, linear between the table's nodes; one column = constant."""
+    """Return property i at T, linear between the table's nodes; one node = constant."""
     if table.shape[1] == 1:
-        return table[i, 0]
-    x = (min(max(T, TABLE_START_K), TABLE_END_K) - TABLE_START_K) / TABLE_STEP_K
-    p = min(int(x), TABLE_SIZE - 2)
-    return table[i, p] + (x - p) * (table[i, p + 1] - table[i, p])
+        return table[i, 0] + 0.0 * T
+    x = (min(max(TABLE_START_K, T), TABLE_END_K) - TABLE_START_K) / TABLE_STEP_K
+    value = x
+    for lane in range(lanes_of(x)):
+        at = in_lane(x, lane)
+        p = min(int(at), TABLE_SIZE - 2)
+        low, high = in_lane(table[i, p], lane), in_lane(table[i, p + 1], lane)
+        value = with_lane(value, lane, low + (at - p) * (high - low))
+    return value
 
 
 @inner
@@ -33,21 +49,21 @@ def layer(m, n, material, T):
 
     k is mixed by volume, c by mass.
     """
-    d = 0.0
-    k = 0.0
-    c = 0.0
+    d = 0.0 * T
+    k = 0.0 * T
+    c = 0.0 * T
     for i in range(m.shape[0]):
         v = m[i, n] * material.specific_volume[i] * at_temperature(material.expansion, i, T)
         d += v
         k += v * at_temperature(material.conductivity, i, T)
         c += m[i, n] * at_temperature(material.specific_heat, i, T)
-    return d, (d * d / k if k > 0.0 else 0.0), c
+    return d, where(k > 0.0, d * d / max(k, TINY), 0.0), c
 
 
 @inner
 def optical_depth(m, n, material):
     """Return kappa d [-] of cell n, the absorption coefficient mixed by volume."""
-    optical = 0.0
+    optical = 0.0 * m[0, n]
     for i in range(m.shape[0]):
         optical += m[i, n] * material.specific_volume[i] * material.absorption[i]
     return optical
@@ -56,8 +72,8 @@ def optical_depth(m, n, material):
 @inner
 def emitting_layer(m, n, material):
     """Return thickness d [m] and eps d [m] of cell n, the emissivity mixed by volume."""
-    d = 0.0
-    e = 0.0
+    d = 0.0 * m[0, n]
+    e = 0.0 * m[0, n]
     for i in range(m.shape[0]):
         v = m[i, n] * material.specific_volume[i]
         d += v
@@ -73,134 +89,180 @@ def top_emissivity(depth, skin, m, first, material, before):
     """
     depth = max(depth, LEAST_DEPTH)
     z, total = emitting_layer(skin, 0, material)
-    if z >= depth:
-        return total / z
+    found = z >= depth
+    eps = where(found, total / max(z, TINY), before)
     for n in live(m, first):
+        if not somewhere(opposite(found)):
+            return eps
         d, e = emitting_layer(m, n, material)
-        if d >= depth - z:
-            return (total + (depth - z) / d * e) / depth
+        here = opposite(found) & (d >= depth - z)
+        eps = where(here, (total + (depth - z) / max(d, TINY) * e) / depth, eps)
+        found = found | here
         total += e
         z += d
-    return total / z if z > 0.0 else before
+    return where(opposite(found) & (z > 0.0), total / max(z, TINY), eps)
 
 
 @inner
-def mix(amount, table, cell, first, to):
-    """Fill row ``to`` of the cells with sum_i amount_i p_i(T*)."""
-    for n in live(amount, first):
-        cell[to, n] = 0.0
-    for i in range(amount.shape[0]):
-        for n in live(amount, first):
-            cell[to, n] += amount[i, n] * at_temperature(table, i, cell[row.T_star, n])
-
-
-@inner
-def properties(work, first, material):
-    """Fill volumes, thickness, resistance and capacity of the cells, from m_new and T*.
+def describe(work, first, material):
+    """Fill thickness, resistance and capacity of the cells, from m_new and T*.
 
     k is mixed by volume, c by mass.
     """
     cell = work.cell
-    for n in live(work.m, first):
-        cell[row.d, n] = 0.0
+    clear(work, first, (row.d, row.dk, row.C_new))
     for i in range(work.m.shape[0]):
+        volume = material.specific_volume[i]
         for n in live(work.m, first):
-            chi = at_temperature(material.expansion, i, cell[row.T_star, n])
-            work.v[i, n] = work.m_new[i, n] * material.specific_volume[i] * chi
-            cell[row.d, n] += work.v[i, n]
-    mix(work.v, material.conductivity, cell, first, row.dk)
-    mix(work.m_new, material.specific_heat, cell, first, row.C_new)
+            m, T = work.m_new[i, n], cell[row.T_star, n]
+            v = m * volume * at_temperature(material.expansion, i, T)
+            cell[row.d, n] += v
+            cell[row.dk, n] += v * at_temperature(material.conductivity, i, T)
+            cell[row.C_new, n] += m * at_temperature(material.specific_heat, i, T)
     for n in live(work.m, first):
         d = cell[row.d, n]
-        dk = cell[row.dk, n]
-        cell[row.half_r, n] = (0.5 * d * d / dk if dk > 0.0 else 0.0) + LEAST_RESISTANCE
+        inverse_dk = inverse(max(cell[row.dk, n], TINY))
+        cell[row.half_r, n] = fma(0.5 * d * d, inverse_dk, LEAST_RESISTANCE)
+
+
+@inner
+def clear(work, first, rows):
+    """Set rows of the cells to zero, not of the foil."""
+    for a in rows:
+        for n in live(work.m, first):
+            work.cell[a, n] = 0.0
 
 
 @inner
 def rate_constants(work, first, network):
-    """Fill k_j [1/s] at T*, averaged over a linear temperature profile in each cell.
+    """Fill the roots of k_j [1/s] at T*, averaged over a linear temperature profile in each cell.
 
-    The mean of exp(b x) over |x| <= ``fall`` is sinh(s)/s with s = b fall, b = E/(R T^2); its
-    series is cut after s^4.
+    The mean of exp(b x) over |x| <= ``fall`` is sinh(s)/s with s = b fall, b = E/(R T^2); the
+    series of its root is cut after s^4.
     """
     cell = work.cell
     for n in live(work.m, first):
-        cell[row.inverse_T, n] = 1.0 / min(max(cell[row.T_star, n], RATES_FROM_K), RATES_TO_K)
-    for j in range(work.k.shape[0]):
+        T = min(max(cell[row.T_star, n], RATES_FROM_K), RATES_TO_K)
+        cell[row.inverse_T, n] = inverse(T)
+    for j in range(work.root.shape[0]):
+        half_E = 0.5 * network.activation_temperature[j]
+        scale = network.root_factor[j]
         for n in live(work.m, first):
-            e = network.activation_temperature[j] * cell[row.inverse_T, n]
-            s = e * cell[row.fall, n] * cell[row.inverse_T, n]
+            e = half_E * cell[row.inverse_T, n]
+            s = 2.0 * e * cell[row.fall, n] * cell[row.inverse_T, n]
             s2 = min(s * s, 9.0)
-            factor = 1.0 + s2 * (1.0 / 6.0 + s2 * (1.0 / 120.0))
-            work.k_new[j, n] = network.rate_factor[j] * math.exp(-e) * factor
+            factor = fma(s2, fma(s2, 1.0 / 1440.0, 1.0 / 12.0), 1.0)
+            work.root_new[j, n] = scale * exp(-e) * factor
 
 
 @inner
 def correct_rate_constants(work, first, network):
-    """Bring k_j from T* to T_new, to second order in the difference."""
+    """Bring k_j from T* to T_new, its root to second order in the difference."""
     cell = work.cell
-    for n in live(work.m, first):
-        change = cell[row.T_new, n] - cell[row.T_star, n]
-        change = min(max(change, -MOST_CORRECTION_K), MOST_CORRECTION_K)
-        cell[row.change, n] = change * cell[row.inverse_T, n] * cell[row.inverse_T, n]
-    for j in range(work.k.shape[0]):
+    for j in range(work.root.shape[0]):
+        half_E = 0.5 * network.activation_temperature[j]
         for n in live(work.m, first):
-            y = network.activation_temperature[j] * cell[row.change, n]
-            work.k_new[j, n] *= 1.0 + y * (1.0 + 0.5 * y)
+            change = cell[row.T_new, n] - cell[row.T_star, n]
+            change = min(max(change, -MOST_CORRECTION_K), MOST_CORRECTION_K)
+            y = half_E * change * cell[row.inverse_T, n] * cell[row.inverse_T, n]
+            work.root_new[j, n] *= fma(y, fma(y, 0.5, 1.0), 1.0)
 
 
 @inner
-def log_mean(a, b):
+def log_mean(root_a, root_b):
     """Return the mean of what grows exponentially from a to b, and its derivative times b.
 
     The logarithmic mean (b - a)/ln(b/a), to fourth order in ln(b/a): (2 sqrt(a b) + (a + b)/2)/3.
     """
-    root = math.sqrt(a * b)
-    return (2.0 / 3.0) * root + (1.0 / 6.0) * (a + b), (1.0 / 3.0) * root + (1.0 / 6.0) * b
+    third = (1.0 / 3.0) * root_a * root_b
+    b = root_b * root_b
+    both = fma(root_a, root_a, b)
+    return fma(1.0 / 6.0, both, 2.0 * third), fma(1.0 / 6.0, b, third)
 
 
 @inner
-def integrate_rate_constants(work, first, dt):
-    """Fill the integrals x_j of k_j over the step and how they grow with ln k_j."""
-    for j in range(work.k.shape[0]):
+def react_over(work, first, dt, room, network, final):
+    """Fill what follows from k_j over a step of the cells: masses, and the rows of `book`."""
+    clear(work, first, (row.heat_new, row.rate, row.gas if final else row.grows))
+    if network.plain:
+        react_alone(work, first, dt, network, final)
+        return
+    for n in live(work.m, first):
+        for j in range(work.root.shape[0]):
+            mean, growth = log_mean(work.root[j, n], work.root_new[j, n])
+            room.x[j] = dt * mean
+            room.growth[j] = dt * growth
+        react(work.m, work.formed, n, room.x, network, False, work.m_new, room.used)
+        for j in range(work.root.shape[0]):
+            left = reacting(work, n, j, room, network)
+            book(work, n, j, room.used[j], left, room.growth[j], network, final)
+        if not network.first_order:
+            for i in range(work.m.shape[0]):
+                work.formed_new[i, n] = ever_formed(work, i, n, room, network)
+
+
+@inner
+def react_alone(work, first, dt, network, final):
+    """Do that for reactions that have nothing to do with each other, one after the other."""
+    for i in range(work.m.shape[0]):
         for n in live(work.m, first):
-            mean, growth = log_mean(work.k[j, n], work.k_new[j, n])
-            work.x[j, n] = dt * mean
-            work.growth[j, n] = dt * growth
+            work.m_new[i, n] = work.m[i, n]
+    for j in range(work.root.shape[0]):
+        i, residue = network.reactant[j], network.residue[j]
+        share = network.residue_yield[j]
+        for n in live(work.m, first):
+            mean, growth = log_mean(work.root[j, n], work.root_new[j, n])
+            left, used = remaining(work.m[i, n], dt * mean, False)
+            work.m_new[i, n] = left
+            work.m_new[residue, n] += share * used
+            book(work, n, j, used, left, dt * growth, network, final)
 
 
 @inner
-def ever_formed(work, i, n, network):
+def book(work, n, j, used, left, growth, network, final):
+    """Add to heat used and rate of cell n what reaction j gives.
+
+    If the step is final also to the gas, else to sum_j dh_j E_j/R (d x_j / d ln k_j) m_j, which is
+    T^2 times the slope of that heat in T.
+    """
+    cell = work.cell
+    heat, gas = network.heat[j], network.gas[j]
+    k = work.root_new[j, n] * work.root_new[j, n]
+    cell[row.heat_new, n] += heat * used
+    cell[row.rate, n] += gas * k * left
+    if final:
+        cell[row.gas, n] += gas * used
+    else:
+        cell[row.grows, n] += heat * network.activation_temperature[j] * growth * left
+
+
+@inner
+def reacting(work, n, j, room, network):
+    """Return the mass of cell n that r_j is proportional to, r_j / k_j [kg/m2]."""
+    i = network.reactant[j]
+    left = work.m_new[i, n]
+    if not network.first_order and somewhere(network.order[j] != 1.0):
+        formed = max(ever_formed(work, i, n, room, network), TINY)
+        higher = network.order[j] - 1.0
+        u = where(left > 0.0, left / formed, 1.0)
+        left = left * where(higher == 0.0, 1.0, power(u, higher))
+    return left
+
+
+@inner
+def ever_formed(work, i, n, room, network):
     """Return the mass of component i that has ever been in cell n, up to the end of the step."""
     formed = work.formed[i, n]
-    for j in range(work.k.shape[0]):
-        formed += network.yields[j, i] * work.used[j, n]
+    for j in range(work.root.shape[0]):
+        formed += network.yields[j, i] * room.used[j]
     return formed
 
 
 @inner
-def mass_loss_rate(work, first, network):
-    """Fill the masses that the rates r_j are proportional to; return sum_j gas_j r_j."""
-    total = 0.0
-    for j in range(work.k.shape[0]):
-        i = network.reactant[j]
-        for n in live(work.m, first):
-            work.left[j, n] = work.m_new[i, n]
-        if not network.first_order and network.order[j] != 1.0:
-            for n in live(work.m, first):
-                if work.left[j, n] > 0.0:
-                    u = work.m_new[i, n] / ever_formed(work, i, n, network)
-                    work.left[j, n] *= u ** (network.order[j] - 1.0)
-        for n in live(work.m, first):
-            total += network.gas[j] * work.k_new[j, n] * work.left[j, n]
-    return total
-
-
-@inner
-def reactant_left(m, n, network):
-    """Return the mass of cell n that can still react [kg/m2]."""
+def reactant_left(m, n, lane, network):
+    """Return the mass of cell n that can still react in one lane [kg/m2]."""
     left = 0.0
     for j in range(network.reactant.size):
         if j == 0 or network.reactant[j] != network.reactant[j - 1]:
-            left += m[network.reactant[j], n]
+            left += m[network.reactant[j], n, lane]
     return left

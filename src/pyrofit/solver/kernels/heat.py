@@ -1,12 +1,14 @@
 """Heat exchange of the surfaces and conduction through the cells."""
 
-import math
 from typing import NamedTuple
 
 from pyrofit.constants import STEFAN_BOLTZMANN
+from pyrofit.solver.arrays import Number
 from pyrofit.solver.kernels import row
 from pyrofit.solver.kernels.cells import optical_depth
-from pyrofit.solver.kernels.jit import inner, live
+from pyrofit.solver.kernels.jit import between, inner, live
+from pyrofit.solver.kernels.lanes import exp, fma, inverse, log, opposite, somewhere, where
+from pyrofit.solver.kernels.reactions import TINY
 
 SIGMA = STEFAN_BOLTZMANN
 
@@ -14,44 +16,55 @@ SIGMA = STEFAN_BOLTZMANN
 class Front(NamedTuple):
     """Heat that enters through the front: gain - slope * T_new, and inside the cells [W/m2]."""
 
-    gain: float
-    slope: float
-    inside: float
+    gain: Number
+    slope: Number
+    inside: Number
     """Radiation that does not stop at the surface, less what leaves at the back."""
+
+
+class Edge(NamedTuple):
+    """Where the sample begins: cells that have left the grid are ahead of it."""
+
+    first: int
+    """The first cell on the grid, of all lanes."""
+    behind: int
+    """One behind the last that is the first in a lane."""
+    at: Number
+    """The first cell in each lane."""
 
 
 @inner
 def flux_piece(t, time):
     """Return the piece of the flux table in which the time after t lies."""
-    p = 0
-    while p + 1 < time.size and time[p + 1] <= t:
-        p += 1
-    return p
+    piece = 0.0 * t
+    for p in range(1, time.size):
+        piece = where(time[p] <= t, 1.0 * p, piece)
+    return piece
 
 
 @inner
-def flux_at(t, p, time, flux):
-    """Return q_ext(t) on piece p of the flux table."""
-    if p >= time.size - 1:
-        return flux[time.size - 1]
-    if t <= time[p]:
-        return flux[p]
-    return flux[p] + (flux[p + 1] - flux[p]) * (t - time[p]) / (time[p + 1] - time[p])
+def flux_at(t, piece, time, flux):
+    """Return q_ext(t) on a piece of the flux table."""
+    q = flux[time.size - 1] + 0.0 * t
+    for p in range(time.size - 1):
+        span = max(time[p + 1] - time[p], TINY)
+        part = min(max(t - time[p], 0.0) / span, 1.0)
+        q = where(piece == 1.0 * p, flux[p] + (flux[p + 1] - flux[p]) * part, q)
+    return q
 
 
 @inner
 def approach(t, time):
     """Return 1 - exp(-t/time), what is reached of a value approached with a time constant."""
-    return 1.0 - math.exp(-t / time) if time > 0.0 else 1.0
+    return where(time > 0.0, 1.0 - exp(-t / max(time, TINY)), 1.0)
 
 
 @inner
 def irradiation(t, piece, exposure):
     """Return q_ext(t): the table's, times the heater's coming up and its drift."""
     flux = flux_at(t, piece, exposure.flux_time, exposure.flux)
-    drifted = t
-    if exposure.drift_time > 0.0:
-        drifted = exposure.drift_time * approach(t, exposure.drift_time)
+    rest = exposure.drift_time
+    drifted = where(rest > 0.0, rest * approach(t, rest), t)
     return flux * approach(t, exposure.rise_time) * max(1.0 + exposure.drift * drifted, 0.0)
 
 
@@ -60,8 +73,8 @@ def exchange(surface, emissivity, T, t):
     """Linearise the loss of a surface about T: net gain = gain - slope * T_new [W/m2]."""
     dT = T - surface.gas_temperature - surface.gas_rise * approach(t, surface.gas_rise_time)
     h = surface.h
-    if surface.h_cube_root != 0.0:
-        h += surface.h_cube_root * abs(dT) ** (1.0 / 3.0)
+    if somewhere(surface.h_cube_root != 0.0):
+        h = h + surface.h_cube_root * exp((1.0 / 3.0) * log(max(abs(dT), 1e-150)))
     cube = T * T * T
     slope = 4.0 * emissivity * SIGMA * cube + h
     wall = surface.wall_temperature
@@ -72,41 +85,54 @@ def exchange(surface, emissivity, T, t):
 @inner
 def is_opaque(material):
     """Tell whether all components absorb at the surface."""
-    opaque = True
-    for i in range(material.absorption.size):
-        opaque = opaque and material.absorption[i] <= 0.0
+    opaque = material.absorption[0] <= 0.0
+    for i in range(1, material.absorption.size):
+        opaque = opaque & (material.absorption[i] <= 0.0)
     return opaque
 
 
 @inner
 def mean_depth(optical):
     """Return the mean depth at which a layer absorbs over its thickness, 1/tau - 1/(e^tau - 1)."""
-    if optical < 1e-2:
-        return 0.5 - optical / 12.0
-    return 1.0 / optical - 1.0 / math.expm1(min(optical, 700.0))
+    tau = max(optical, 1e-2)
+    return where(optical < 1e-2, 0.5 - optical / 12.0, 1.0 / tau - 1.0 / (exp(tau) - 1.0))
 
 
 @inner
-def absorb(radiation, r_skin, work, first, material):
+def at_edge(cell, to, edge):
+    """Return a row's value in the first cell of each lane."""
+    value = cell[to, edge.first]
+    for n in between(edge.first + 1, edge.behind):
+        value = where(edge.at == 1.0 * n, cell[to, n], value)
+    return value
+
+
+@inner
+def add_at_edge(cell, to, edge, value):
+    """Add to a row's value in the first cell of each lane."""
+    for n in between(edge.first, edge.behind):
+        cell[to, n] += where(edge.at == 1.0 * n, value, 0.0)
+
+
+@inner
+def absorb(radiation, r_skin, work, edge, material):
     """Add the radiation that each cell absorbs to its source.
 
     Return what passes through all, and what acts at the front. What skin and first half cell
     absorb acts at the front and at the first cell's centre as its resistance to these tells.
     """
     cell = work.cell
-    half = cell[row.half_r, first]
+    half = at_edge(cell, row.half_r, edge)
     skin = optical_depth(work.skin, 0, material)
-    passing = radiation * math.exp(-skin)
+    passing = radiation * exp(-skin)
     at_front = (radiation - passing) * (1.0 - mean_depth(skin) * r_skin / (r_skin + half))
-    cell[row.source, first] += radiation - passing - at_front
-    for n in live(work.m, first):
+    add_at_edge(cell, row.source, edge, radiation - passing - at_front)
+    for n in live(work.m, edge.first):
         optical = optical_depth(work.m_new, n, material)
-        passed = passing * math.exp(-optical)
-        forward = 0.0
-        if n == first:
-            share = half * (1.0 - 2.0 * mean_depth(optical)) / (r_skin + half)
-            forward = share * (passing - passed)
-            at_front += forward
+        passed = passing * exp(-optical)
+        share = half * (1.0 - 2.0 * mean_depth(optical)) / (r_skin + half)
+        forward = where(edge.at == 1.0 * n, share * (passing - passed), 0.0)
+        at_front += forward
         cell[row.source, n] += passing - passed - forward
         passing = passed
     return passing, at_front
@@ -123,7 +149,7 @@ def lose_at_edge(work, first, exposure):
 
 
 @inner
-def surface_heat(radiation, eps, front_star, t, r_skin, work, first, material, exposure):
+def surface_heat(radiation, eps, front_star, t, r_skin, work, edge, material, exposure):
     """Fill the heat source of the foil and return that of the front, about T*."""
     cell = work.cell
     foil = work.m.shape[1]
@@ -131,18 +157,19 @@ def surface_heat(radiation, eps, front_star, t, r_skin, work, first, material, e
     gain_back, slope_back = exchange(
         exposure.back, exposure.back_emissivity, cell[row.T_star, foil], t
     )
-    inside = 0.0
-    if is_opaque(material):
-        gain += radiation
-    else:
-        transmitted, at_front = absorb(radiation, r_skin, work, first, material)
-        gain += at_front
-        inside = radiation - at_front - transmitted
+    inside = 0.0 * gain
+    opaque = is_opaque(material)
+    at_front = radiation
+    if somewhere(opposite(opaque)):
+        entering = where(opaque, 0.0, radiation)
+        transmitted, at_front = absorb(entering, r_skin, work, edge, material)
+        inside = entering - at_front - transmitted
+        at_front = where(opaque, radiation, at_front)
         if exposure.foil_opaque:
             gain_back += transmitted
     cell[row.source, foil] = gain_back
     cell[row.slope, foil] = slope_back
-    return Front(gain, slope, inside)
+    return Front(gain + at_front, slope, inside)
 
 
 @inner
@@ -151,7 +178,7 @@ def net_flux(surface, front, work, first, exposure):
     cell = work.cell
     foil = work.m.shape[1]
     flux = cell[row.source, foil] - cell[row.slope, foil] * cell[row.T_new, foil]
-    if exposure.edge_exchange != 0.0:
+    if somewhere(exposure.edge_exchange != 0.0):
         for n in live(work.m, first):
             loss = exposure.edge_exchange * cell[row.d, n]
             flux += loss * (exposure.edge_temperature - cell[row.T_new, n])
@@ -159,45 +186,60 @@ def net_flux(surface, front, work, first, exposure):
 
 
 @inner
-def temperature_falls(cell, first, front_star):
+def temperature_falls(cell, foil, edge, front_star):
     """Fill half the temperature difference across each cell [K]."""
-    last = cell.shape[1] - 2
+    last = foil - 1
     # Before the foil the resistance of the contact counts as solid, of thickness k R.
     cell[row.d, last + 1] = cell[row.d, last] * cell[row.half_r, last + 1] / cell[row.half_r, last]
-    for n in range(first + 1, last + 1):
+    for n in between(edge.first + 1, last + 1):
         d = cell[row.d, n]
         span = 0.5 * (cell[row.d, n - 1] + cell[row.d, n + 1]) + d
         across = cell[row.T_star, n - 1] - cell[row.T_star, n + 1]
-        cell[row.fall, n] = 0.5 * across * d / span if span > 0.0 else 0.0
-    cell[row.fall, first] = front_star - cell[row.T_star, first]
+        cell[row.fall, n] = 0.5 * across * d * inverse(max(span, TINY))
+    for n in between(edge.first, edge.behind):
+        across = front_star - cell[row.T_star, n]
+        cell[row.fall, n] = where(edge.at == 1.0 * n, across, cell[row.fall, n])
 
 
 @inner
-def conduct(cell, first, surface, r_skin, bdf):
+def eliminate(cell, n, below, seen, carried, bdf):
+    """Eliminate row n of the system; return what the next one sees."""
+    C = cell[row.C_new, n]
+    alone = fma(C, bdf.b1, cell[row.slope, n])
+    own = alone + seen
+    inverse_sum = 1.0 / ((alone + below) + seen)
+    stored = C * (bdf.b2 * cell[row.T, n] - bdf.b3 * cell[row.T_old, n])
+    heat = (stored + cell[row.source, n]) + carried
+    upper = below * inverse_sum
+    cell[row.right, n] = heat * inverse_sum
+    cell[row.upper, n] = upper
+    return (own * below) * inverse_sum, heat * upper
+
+
+@inner
+def conduct(cell, foil, edge, surface, r_skin, bdf):
     """Solve C dT/dt = conduction + source for T_new; return the front temperature.
 
     Elimination from the front: ``seen`` is the conductance to the surroundings through all that
     lies above a row, ``carried`` the heat that comes that way.
     """
-    foil = cell.shape[1] - 1
-    lead = r_skin + cell[row.half_r, first]
+    lead = r_skin + at_edge(cell, row.half_r, edge)
     couple = 1.0 / (1.0 + surface.slope * lead)
     seen = surface.slope * couple
     carried = surface.gain * couple
-    for n in range(first, foil + 1):
-        C = cell[row.C_new, n]
-        below = 1.0 / (cell[row.half_r, n] + cell[row.half_r, n + 1]) if n < foil else 0.0
-        own = C * bdf.b1 + cell[row.slope, n] + seen
-        stored = C * (bdf.b2 * cell[row.T, n] - bdf.b3 * cell[row.T_old, n])
-        inverse = 1.0 / (own + below)
-        upper = below * inverse
-        heat = stored + cell[row.source, n] + carried
-        cell[row.right, n] = heat * inverse
-        cell[row.upper, n] = upper
-        seen = own * upper
-        carried = heat * upper
-    T = 0.0
-    for n in range(foil, first - 1, -1):
-        T = cell[row.right, n] + cell[row.upper, n] * T
+    for n in between(edge.first, foil):
+        below = inverse(cell[row.half_r, n] + cell[row.half_r, n + 1])
+        seen_below, carried_below = eliminate(cell, n, below, seen, carried, bdf)
+        if n + 1 < edge.behind:
+            ahead = edge.at > 1.0 * n
+            seen_below = where(ahead, seen, seen_below)
+            carried_below = where(ahead, carried, carried_below)
+            cell[row.right, n] = where(ahead, 0.0, cell[row.right, n])
+            cell[row.upper, n] = where(ahead, 1.0, cell[row.upper, n])
+        seen, carried = seen_below, carried_below
+    eliminate(cell, foil, 0.0, seen, carried, bdf)
+    T = 0.0 * seen
+    for n in range(foil, edge.first - 1, -1):
+        T = fma(cell[row.upper, n], T, cell[row.right, n])
         cell[row.T_new, n] = T
     return (surface.gain * lead + T) * couple

@@ -3,8 +3,11 @@
 import numpy as np
 from numba import njit
 
-entry = njit(cache=True, error_model="numpy", no_cfunc_wrapper=True)
-"""For functions called from Python: they allocate, and are cached on disk."""
+entry = njit(cache=True, error_model="numpy", no_cfunc_wrapper=True, nogil=True)
+"""For functions called from Python; cached on disk."""
+
+making = njit(error_model="numpy", no_cfunc_wrapper=True, no_cpython_wrapper=True)
+"""For what these call that makes arrays, or hands out views of them."""
 
 inner = njit(
     error_model="numpy",
@@ -15,7 +18,7 @@ inner = njit(
 """For what they call, compiled into the caller.
 
 Without the private `_nrt=False` numba counts references, atomically, at every access to an array
-held in a tuple: more than half of the time of a run. Such functions must not allocate.
+held in a tuple: more than half of the time of a run. Such functions must not make arrays.
 """
 
 loop = njit(error_model="numpy", _nrt=False, no_cfunc_wrapper=True)
@@ -29,3 +32,9 @@ def live(array, first):
     They are unsigned: a signed index could count from the end, and its loop is not vectorised.
     """
     return range(np.uint32(first), np.uint32(array.shape[1]))
+
+
+@inner
+def between(first, behind):
+    """Return the same from the first up to the one behind the last."""
+    return range(np.uint32(first), np.uint32(behind))

@@ -1,67 +1,91 @@
-"""Curves at requested times from what a run holds at its steps."""
+"""Curves at requested times from what runs hold at their steps."""
 
 import numpy as np
 
-from pyrofit.solver.kernels.jit import entry
+from pyrofit.solver.kernels.jit import entry, inner
+from pyrofit.solver.kernels.slab import RATE, RELEASED, TIME
 
 
-@entry
-def held(time, value, rate, at):
-    """Return ``value`` at ascending times by cubic Hermite interpolation, held after the end."""
-    out = np.empty(at.size)
+@inner
+def find(time, last, n, at):
+    """Return the last step before a time, not before step n."""
+    while n < last and time[n + 1] < at:
+        n += 1
+    return n
+
+
+@inner
+def hermite(h, s, low, high, slope_low, slope_high):
+    """Return the cubic with given values and slopes at both ends of a step h, at its part s."""
+    bend = h * s * (1.0 - s) * ((1.0 - s) * slope_low - s * slope_high)
+    return low + s * s * (3.0 - 2.0 * s) * (high - low) + bend
+
+
+@inner
+def slope_at(time, value, n, last):
+    """Return dvalue/dt at a step from the parabola through three neighbours."""
+    if last == 0:
+        return 0.0
+    if n == 0:
+        return (value[1] - value[0]) / (time[1] - time[0])
+    before = (value[n] - value[n - 1]) / (time[n] - time[n - 1])
+    if n == last:
+        return before
+    h0, h1 = time[n] - time[n - 1], time[n + 1] - time[n]
+    return (h1 * before + h0 * ((value[n + 1] - value[n]) / h1)) / (h0 + h1)
+
+
+@inner
+def held(rows, last, column, at, out):
+    """Fill a column at ascending times by cubic Hermite interpolation, held after the end.
+
+    What was released goes with its rate, everything else with parabolas' slopes.
+    """
+    time, value = rows[:, TIME], rows[:, column]
     n = 0
-    last = time.size - 1
     for a in range(at.size):
-        while n < last and time[n + 1] < at[a]:
-            n += 1
+        n = find(time, last, n, at[a])
         if at[a] <= time[0]:
             out[a] = value[0]
         elif n == last:
             out[a] = value[last]
         else:
+            if column == RELEASED:
+                low, high = rows[n, RATE], rows[n + 1, RATE]
+            else:
+                low = slope_at(time, value, n, last)
+                high = slope_at(time, value, n + 1, last)
             h = time[n + 1] - time[n]
-            s = (at[a] - time[n]) / h
-            rise = s * s * (3.0 - 2.0 * s) * (value[n + 1] - value[n])
-            bend = h * s * (1.0 - s) * ((1.0 - s) * rate[n] - s * rate[n + 1])
-            out[a] = value[n] + rise + bend
+            out[a] = hermite(h, (at[a] - time[n]) / h, value[n], value[n + 1], low, high)
+
+
+@entry
+def sampled(trace, last, column, at):
+    """Return a column of the traces at times, shape (runs, points) both.
+
+    ``trace`` has shape (runs, steps, columns); ``last`` is the last step of each run.
+    """
+    out = np.empty(at.shape)
+    for a in range(at.shape[0]):
+        held(trace[a], last[a], column, at[a], out[a])
     return out
 
 
 @entry
-def held_rate(time, value, rate, at):
-    """Return the time derivative of that interpolation; after the end it is zero."""
-    out = np.empty(at.size)
-    n = 0
-    last = time.size - 1
-    for a in range(at.size):
-        while n < last and time[n + 1] < at[a]:
-            n += 1
-        if at[a] <= time[0]:
-            out[a] = rate[0]
-        elif n == last:
-            out[a] = 0.0
-        else:
-            h = time[n + 1] - time[n]
-            s = (at[a] - time[n]) / h
-            mean = 6.0 * s * (1.0 - s) * (value[n + 1] - value[n]) / h
-            ends = (1.0 - s) * (1.0 - 3.0 * s) * rate[n] + s * (3.0 * s - 2.0) * rate[n + 1]
-            out[a] = mean + ends
-    return out
-
-
-@entry
-def slopes(time, value):
-    """Return dvalue/dt at the steps from the parabola through three neighbours."""
-    size = time.size
-    out = np.zeros(size)
-    if size < 2:
-        return out
-    for n in range(1, size - 1):
-        h0 = time[n] - time[n - 1]
-        h1 = time[n + 1] - time[n]
-        s0 = (value[n] - value[n - 1]) / h0
-        s1 = (value[n + 1] - value[n]) / h1
-        out[n] = (h1 * s0 + h0 * s1) / (h0 + h1)
-    out[0] = (value[1] - value[0]) / (time[1] - time[0])
-    out[size - 1] = (value[size - 1] - value[size - 2]) / (time[size - 1] - time[size - 2])
+def sampled_rate(trace, last, at):
+    """Return the time derivative of what was released; after the end it is zero."""
+    out = np.zeros(at.shape)
+    for a in range(at.shape[0]):
+        time, value, rate = trace[a, :, TIME], trace[a, :, RELEASED], trace[a, :, RATE]
+        n = 0
+        for b in range(at.shape[1]):
+            n = find(time, last[a], n, at[a, b])
+            if at[a, b] <= time[0]:
+                out[a, b] = rate[0]
+            elif n < last[a]:
+                h = time[n + 1] - time[n]
+                s = (at[a, b] - time[n]) / h
+                mean = 6.0 * s * (1.0 - s) * (value[n + 1] - value[n]) / h
+                ends = (1.0 - s) * (1.0 - 3.0 * s) * rate[n] + s * (3.0 * s - 2.0) * rate[n + 1]
+                out[a, b] = mean + ends
     return out

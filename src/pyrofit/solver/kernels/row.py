@@ -1,4 +1,4 @@
-"""Rows of the table of cells (work array ``cell``): one column per cell, the last one the foil.
+"""Rows of the table of cells (work array ``cell``): one column per cell, then the foil.
 
 New = after the step that is being taken, old = one step before the current state.
 """
@@ -11,21 +11,27 @@ inverse_T = 4
 """1 / T*, within the range in which rates and properties follow T."""
 fall = 5
 """Half the temperature difference across the cell [K]."""
-change = 6
-"""-(1/T_new - 1/T*), to first order [1/K]."""
-C, C_new = 7, 8
+C, C_new = 6, 7
 """Heat capacity per area [J/(m2 K)]."""
-d, d_start = 9, 10
+d, d_start = 8, 9
 """Thickness [m]; of the foil: of solid with twice the resistance of the contact."""
-dk = 11
-"""Thickness times conductivity [W/K]."""
-half_r = 12
+half_r = 10
 """Thermal resistance of half the cell [m2 K/W]."""
-heat, heat_new = 13, 14
+heat, heat_new = 11, 12
 """Heat used by the reactions in the step [J/m2]."""
-source, slope = 15, 16
+source, slope = 13, 14
 """Heat source = source - slope * T_new [W/m2], without conduction."""
-right, upper = 17, 18
+right, upper = 15, 16
 """T_new = right + upper * (T_new of the cell below)."""
+rate = 17
+"""Gas released per time at the end of the step [kg/(m2 s)]."""
+gas = 18
+"""Gas released in the step [kg/m2]."""
+stored = 19
+"""Heat stored in the step, and used by the reactions [J/m2]."""
+dk = 20
+"""Thickness times conductivity [W/K]."""
+grows = 21
+"""T^2 times the slope of the reaction heat in T [J K/m2]."""
 
-COUNT = 19
+COUNT = 22

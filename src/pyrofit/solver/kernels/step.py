@@ -1,22 +1,21 @@
 """One time step of the slab, from the state before to the state after it."""
 
-import math
 from typing import NamedTuple
 
-from pyrofit.solver.arrays import Status
+from pyrofit.solver.arrays import Number, Status
 from pyrofit.solver.kernels import row
 from pyrofit.solver.kernels.bdf import formula
 from pyrofit.solver.kernels.cells import (
     correct_rate_constants,
-    integrate_rate_constants,
+    describe,
     layer,
-    log_mean,
-    mass_loss_rate,
-    properties,
     rate_constants,
+    react_over,
     top_emissivity,
 )
 from pyrofit.solver.kernels.heat import (
+    add_at_edge,
+    at_edge,
     conduct,
     irradiation,
     lose_at_edge,
@@ -24,179 +23,180 @@ from pyrofit.solver.kernels.heat import (
     surface_heat,
     temperature_falls,
 )
-from pyrofit.solver.kernels.jit import inner, live, loop
-from pyrofit.solver.kernels.reactions import react
+from pyrofit.solver.kernels.jit import between, inner, live, loop
+from pyrofit.solver.kernels.lanes import fma, inverse, somewhere, where
+from pyrofit.solver.kernels.reactions import TINY
 
 TEMPERATURE_SCALE = 400.0
 """Surface temperature error [K] that counts as much as an error of the whole rate scale."""
 COLDEST_K, HOTTEST_K = 50.0, 5000.0
 """Range that temperatures must not leave."""
-OK, DIVERGED, NON_FINITE = int(Status.OK), int(Status.DIVERGED), int(Status.NON_FINITE)
+OK, DIVERGED, NON_FINITE = float(Status.OK), float(Status.DIVERGED), float(Status.NON_FINITE)
 
 
 class Top(NamedTuple):
     """What a step starts from, besides the cells."""
 
-    front: float
+    front: Number
     """Front temperature [K]."""
-    front_old: float
+    front_old: Number
     """The same a step before [K]."""
-    eps: float
+    eps: Number
     """Front emissivity."""
-    converted: float
+    converted: Number
     """Mass released over initial mass."""
 
 
 class Step(NamedTuple):
     """What a step came to."""
 
-    status: int
+    status: Number
     """OK, DIVERGED or NON_FINITE."""
-    error: float
+    error: Number
     """Scaled difference of predictor and corrector."""
-    front: float
+    front: Number
     """Front temperature [K]."""
-    eps: float
+    eps: Number
     """Front emissivity."""
-    rate: float
+    rate: Number
     """Mass loss rate at the end [kg/(m2 s)]."""
-    gas: float
+    gas: Number
     """Gas released [kg/m2]."""
-    heat: float
+    heat: Number
     """Heat stored and used by reactions [J/m2]."""
-    net_flux: float
+    net_flux: Number
     """Heat flux through both surfaces at the end [W/m2]."""
 
 
 @inner
-def extrapolate(cell, first, r):
+def extrapolate(wide, first, r):
     """Fill T*."""
+    cell = wide.cell
     for n in live(cell, first):
         T = cell[row.T, n]
-        cell[row.T_star, n] = T + r * (T - cell[row.T_old, n])
-
-
-@inner
-def linearise(work, first, bdf, network):
-    """Fill the heat source -sum_j dh_j r_j of the cells as a line in T_new."""
-    cell = work.cell
-    for n in live(work.m, first):
-        cell[row.slope, n] = 0.0
-    for j in range(work.k.shape[0]):
-        by_rate = network.heat[j] * network.activation_temperature[j]
-        for n in live(work.m, first):
-            cell[row.slope, n] += by_rate * work.growth[j, n] * work.left[j, n]
-    for n in live(work.m, first):
-        slope = bdf.b1 * cell[row.slope, n] * cell[row.inverse_T, n] * cell[row.inverse_T, n]
-        used = bdf.b1 * cell[row.heat_new, n] - bdf.b3 * cell[row.heat, n]
-        cell[row.slope, n] = slope
-        cell[row.source, n] = slope * cell[row.T_star, n] - used
-
-
-@inner
-def used_heat(work, first, network):
-    """Fill the reaction heat used in the step."""
-    cell = work.cell
-    for n in live(work.m, first):
-        cell[row.heat_new, n] = 0.0
-    for j in range(work.k.shape[0]):
-        for n in live(work.m, first):
-            cell[row.heat_new, n] += network.heat[j] * work.used[j, n]
+        cell[row.T_star, n] = fma(r, T - cell[row.T_old, n], T)
 
 
 @loop
-def react_all(work, first, dt, network):
-    """Fill masses and heat after the step that follow from its rates; return the MLR at its end."""
-    integrate_rate_constants(work, first, dt)
-    react(work.m, work.formed, first, work.x, network, False, work.m_new, work.used)
-    used_heat(work, first, network)
-    return mass_loss_rate(work, first, network)
+def predict(wide, first, bdf, room, material, network):
+    """Fill rates at T*, the masses they lead to, properties, and the heat source as a line in T."""
+    cell = wide.cell
+    rate_constants(wide, first, network)
+    react_over(wide, first, bdf.dt, room, network, False)
+    describe(wide, first, material)
+    for n in live(wide.m, first):
+        slope = bdf.b1 * cell[row.grows, n] * cell[row.inverse_T, n] * cell[row.inverse_T, n]
+        used = bdf.b1 * cell[row.heat_new, n] - bdf.b3 * cell[row.heat, n]
+        cell[row.slope, n] = slope
+        cell[row.source, n] = fma(slope, cell[row.T_star, n], -used)
+
+
+@loop
+def correct(wide, first, dt, room, network):
+    """Fill rates at T_new, the masses they lead to, and the heat stored in the step."""
+    cell = wide.cell
+    correct_rate_constants(wide, first, network)
+    react_over(wide, first, dt, room, network, True)
+    for n in live(wide.m, first):
+        C = mean_capacity(cell[row.C, n], cell[row.C_new, n])
+        risen = cell[row.T_new, n] - cell[row.T, n]
+        cell[row.stored, n] = fma(C, risen, cell[row.heat_new, n])
 
 
 @inner
-def gas_released(work, first, network):
-    """Return the gas released in the step [kg/m2]."""
-    gas = 0.0
-    for j in range(work.k.shape[0]):
-        for n in live(work.m, first):
-            gas += network.gas[j] * work.used[j, n]
-    return gas
+def mean_capacity(a, b):
+    """Return the logarithmic mean of a and b, m (1 - d^2/3 - 4 d^4/45), d = (b - a)/(b + a)."""
+    both = max(a + b, TINY)
+    d = (b - a) * inverse(both)
+    d2 = d * d
+    return 0.5 * both * fma(d2, fma(d2, -4.0 / 45.0, -1.0 / 3.0), 1.0)
 
 
 @inner
-def heat_taken(work, first):
-    """Return the heat stored in the step and used by its reactions [J/m2]."""
-    cell = work.cell
-    foil = work.m.shape[1]
-    taken = cell[row.C_new, foil] * (cell[row.T_new, foil] - cell[row.T, foil])
+def summed(work, what, first):
+    """Return the sum of a row over the cells."""
+    total = 0.0 * work.cell[what, first]
     for n in live(work.m, first):
-        C, _ = log_mean(cell[row.C, n], cell[row.C_new, n])
-        taken += cell[row.heat_new, n] + C * (cell[row.T_new, n] - cell[row.T, n])
-    return taken
+        total += work.cell[what, n]
+    return total
 
 
 @inner
-def changed_emissivity(eps, top, work, first, mass, network, exposure):
+def changed_emissivity(eps, top, released, mass, exposure):
     """Return the emissivity as it has changed with the mass released up to the end of the step."""
-    if exposure.emissivity_change == 0.0:
-        return eps
-    converted = top.converted + gas_released(work, first, network) / mass
-    return min(max(eps + exposure.emissivity_change * converted, 0.0), 1.0)
+    change = exposure.emissivity_change
+    changed = min(max(fma(change, top.converted + released / mass, eps), 0.0), 1.0)
+    return where(change != 0.0, changed, eps)
 
 
 @inner
-def advance(work, first, top, clock, mass, rate_scale, material, network, exposure):
+def advance(work, wide, edge, top, clock, mass, rate_scale, room, material, network, exposure):
     """Take one step; the state it starts from stays."""
     cell = work.cell
+    first = edge.first
+    # Wide cells hold several of a set that runs alone; the empty ones among them do no harm.
+    block = first * wide.m.shape[1] // work.m.shape[1]
+    foil = work.m.shape[1]
     bdf = formula(clock)
-    extrapolate(cell, first, bdf.r)
-    front_star = top.front + bdf.r * (top.front - top.front_old)
-    temperature_falls(cell, first, front_star)
-    rate_constants(work, first, network)
+    extrapolate(wide, block, bdf.r)
+    front_star = fma(bdf.r, top.front - top.front_old, top.front)
+    temperature_falls(cell, foil, edge, front_star)
+    predict(wide, block, bdf, room, material, network)
 
-    predicted = react_all(work, first, bdf.dt, network)
-    properties(work, first, material)
-
-    linearise(work, first, bdf, network)
     t = clock.t + bdf.dt
     eps = top_emissivity(exposure.mixing_depth, work.skin, work.m_new, first, material, top.eps)
-    seen = changed_emissivity(eps, top, work, first, mass, network, exposure)
+    seen = eps
+    if somewhere(exposure.emissivity_change != 0.0):
+        seen = changed_emissivity(eps, top, released(work, first, network), mass, exposure)
     q = seen * irradiation(t, clock.piece, exposure)
-    T_skin = 0.5 * (front_star + cell[row.T_star, first])
+    T_skin = 0.5 * (front_star + at_edge(cell, row.T_star, edge))
     _, r_skin, C_skin = layer(work.skin, 0, material, T_skin)
-    surface = surface_heat(q, seen, front_star, t, r_skin, work, first, material, exposure)
-    if exposure.edge_exchange != 0.0:
+    surface = surface_heat(q, seen, front_star, t, r_skin, work, edge, material, exposure)
+    if somewhere(exposure.edge_exchange != 0.0):
         lose_at_edge(work, first, exposure)
-    cell[row.C_new, first] += C_skin
-    front_new = conduct(cell, first, surface, r_skin, bdf)
+    add_at_edge(cell, row.C_new, edge, C_skin)
+    predicted = summed(work, row.rate, first)
+    front_new = conduct(cell, foil, edge, surface, r_skin, bdf)
 
-    correct_rate_constants(work, first, network)
-    rate = react_all(work, first, bdf.dt, network)
+    correct(wide, block, bdf.dt, room, network)
+    rate = summed(work, row.rate, first)
+    C_foil = cell[row.C_new, foil]
+    in_foil = C_foil * (cell[row.T_new, foil] - cell[row.T, foil])
 
     error = abs(rate - predicted) / rate_scale
     error = max(error, abs(front_new - front_star) / TEMPERATURE_SCALE)
-    foil_change = abs(cell[row.T_new, -1] - cell[row.T_star, -1])
+    foil_change = abs(cell[row.T_new, foil] - cell[row.T_star, foil])
     error = max(error, foil_change / TEMPERATURE_SCALE)
     return Step(
-        status=check(cell, first, front_new, rate),
+        status=check(cell, foil, first, front_new, rate),
         error=error,
         front=front_new,
         eps=eps,
         rate=rate,
-        gas=gas_released(work, first, network),
-        heat=heat_taken(work, first),
+        gas=summed(work, row.gas, first),
+        heat=summed(work, row.stored, first) + in_foil,
         net_flux=net_flux(surface, front_new, work, first, exposure),
     )
 
 
 @inner
-def check(cell, first, front, rate):
+def released(work, first, network):
+    """Return the gas that the masses predicted for the end of the step have released [kg/m2]."""
+    gas = 0.0 * work.m[0, first]
+    for n in live(work.m, first):
+        for i in range(work.m.shape[0]):
+            gas += work.m[i, n] - work.m_new[i, n]
+    return gas
+
+
+@inner
+def check(cell, foil, first, front, rate):
     """Return whether the step can be used: OK, DIVERGED or NON_FINITE."""
-    if not math.isfinite(front + cell[row.T_new, -1] + rate):
-        return NON_FINITE
+    total = front + cell[row.T_new, foil] + rate
     coldest = front
     hottest = front
-    for n in live(cell, first):
+    for n in between(first, foil + 1):
         coldest = min(coldest, cell[row.T_new, n])
         hottest = max(hottest, cell[row.T_new, n])
-    return OK if coldest > COLDEST_K and hottest < HOTTEST_K else DIVERGED
+    within = (coldest > COLDEST_K) & (hottest < HOTTEST_K)
+    return where(total - total == 0.0, where(within, OK, DIVERGED), NON_FINITE)

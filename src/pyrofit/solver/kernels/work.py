@@ -6,60 +6,95 @@ import numpy as np
 
 from pyrofit.solver.arrays import FloatArray
 from pyrofit.solver.kernels import row
-from pyrofit.solver.kernels.jit import entry
+from pyrofit.solver.kernels.jit import making
+from pyrofit.solver.kernels.lanes import in_lanes
+
+ALIGNED = 8
+"""Numbers in a line of the processor's cache, at which registers are loaded best."""
 
 
 class Work(NamedTuple):
     """Symbols: i component; j reaction; n cell, front first; new = after the step.
 
-    The cells come last, so that the loops over them are vectorised.
+    The arrays are looked at in three ways. As *numbers* they have the shapes given here. As plain
+    *floats*, in which single lanes are reached, they have an axis more, the lanes. *Wide*, for
+    what is done to all cells alike, an element fills a register: it is a cell in all lanes, or, of
+    a set that runs alone, several cells.
     """
 
     cell: FloatArray
-    """What `row` lists, shape (rows, cells + 1); the last column is the foil."""
+    """What `row` lists, shape (rows, cells + 1 or more); the foil is behind the last cell."""
     m: FloatArray
-    """Masses [kg/m2], shape (components, cells), like ``m_new``, ``formed`` and ``v``."""
+    """Masses [kg/m2], shape (components, cells), like ``m_new``, ``formed`` and ``formed_new``."""
     m_new: FloatArray
     formed: FloatArray
     """Mass ever present, the reference of the reaction order."""
-    v: FloatArray
-    """Volumes per area [m]."""
+    formed_new: FloatArray
+    root: FloatArray
+    """Square root of k_j [1/s^0.5], shape (reactions, cells)."""
+    root_new: FloatArray
     skin: FloatArray
     """What the cells that left the grid have left behind, shape (components, 1)."""
-    k: FloatArray
-    """k_j [1/s], shape (reactions, cells), like all below."""
-    k_new: FloatArray
+
+
+class Room(NamedTuple):
+    """Room to work on one (wide) cell, shape (reactions,)."""
+
     x: FloatArray
     """Integral of k_j over the step."""
     growth: FloatArray
     """d x_j / d ln k_j."""
-    left: FloatArray
-    """Mass that r_j is proportional to, r_j / k_j [kg/m2]."""
     used: FloatArray
     """Mass consumed by each reaction in the step [kg/m2]."""
 
 
-@entry
-def allocate(start, T_start, reactions):
-    """Return the work arrays of a run that starts with the given masses and temperature."""
-    cells, components = start.shape
-    cell = np.zeros((row.COUNT, cells + 1))
-    cell[row.T] = T_start
-    cell[row.T_old] = T_start
-    cell[row.T_star] = T_start
-    m = np.ascontiguousarray(start.T)
-    per_reaction = np.zeros((6, reactions, cells))
+@making
+def allocate(cells, behind, components, reactions, lanes):
+    """Return the work arrays of a run as floats, all zero, with room behind the cells."""
+    columns = cells + behind
+    of_cells = row.COUNT * columns
+    of_masses = 4 * components * cells
+    of_rates = 2 * reactions * cells
+    raw = np.zeros((of_cells + of_masses + of_rates + components) * lanes + ALIGNED)
+    free = raw[-(np.int64(raw.ctypes.data) // 8) % ALIGNED :]
+    cell = free[: of_cells * lanes].reshape(row.COUNT, columns, lanes)
+    free = free[of_cells * lanes :]
+    masses = free[: of_masses * lanes].reshape(4, components, cells, lanes)
+    free = free[of_masses * lanes :]
+    rates = free[: of_rates * lanes].reshape(2, reactions, cells, lanes)
+    free = free[of_rates * lanes :]
     return Work(
         cell=cell,
-        m=m,
-        m_new=m.copy(),
-        formed=m.copy(),
-        v=np.zeros((components, cells)),
-        skin=np.zeros((components, 1)),
-        k=per_reaction[0],
-        k_new=per_reaction[1],
-        x=per_reaction[2],
-        growth=per_reaction[3],
-        left=per_reaction[4],
-        used=per_reaction[5],
+        m=masses[0],
+        m_new=masses[1],
+        formed=masses[2],
+        formed_new=masses[3],
+        root=rates[0],
+        root_new=rates[1],
+        skin=free[: components * lanes].reshape(components, 1, lanes),
     )
+
+
+@making
+def in_width(width, flat):
+    """Return work arrays whose elements hold so many floats."""
+    w = len(width)
+    return Work(
+        cell=in_lanes(width, flat.cell.reshape(flat.cell.shape[0], -1, w)),
+        m=in_lanes(width, flat.m.reshape(flat.m.shape[0], -1, w)),
+        m_new=in_lanes(width, flat.m_new.reshape(flat.m.shape[0], -1, w)),
+        formed=in_lanes(width, flat.formed.reshape(flat.m.shape[0], -1, w)),
+        formed_new=in_lanes(width, flat.formed_new.reshape(flat.m.shape[0], -1, w)),
+        root=in_lanes(width, flat.root.reshape(flat.root.shape[0], -1, w)),
+        root_new=in_lanes(width, flat.root_new.reshape(flat.root.shape[0], -1, w)),
+        skin=in_lanes(width, flat.skin),
+    )
+
+
+@making
+def make_room(width, reactions):
+    """Return room to work on a cell."""
+    raw = np.zeros(3 * reactions * len(width) + ALIGNED)
+    free = raw[-(np.int64(raw.ctypes.data) // 8) % ALIGNED :]
+    room = free[: 3 * reactions * len(width)].reshape(3, reactions, len(width))
+    return Room(in_lanes(width, room[0]), in_lanes(width, room[1]), in_lanes(width, room[2]))

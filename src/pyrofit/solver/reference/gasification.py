@@ -12,7 +12,7 @@ from pyrofit.model.experiment import EmissivityDepth, Gasification, Sample
 from pyrofit.model.material import Material
 from pyrofit.solver.arrays import FloatArray, Status
 from pyrofit.solver.curves import Curves, Request
-from pyrofit.solver.observe import observe
+from pyrofit.solver.observe import observe_one
 from pyrofit.solver.reference.resolution import Resolution
 from pyrofit.solver.reference.slab import Outside, Slab
 from pyrofit.solver.reference.substance import (
@@ -57,7 +57,7 @@ def reference_gasification(
         energy_error = abs(run.heat_missing) / max(run.heat_crossed, 1e-300)
         return Curves(run.status, signals, resolution.elements, run.steps, energy_error)
 
-    return observe(experiment, values, requests, solve)
+    return observe_one(experiment, values, requests, solve)
 
 
 def _edges(request: Request) -> tuple[FloatArray, FloatArray]:

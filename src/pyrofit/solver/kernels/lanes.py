@@ -1,0 +1,437 @@
+"""Numbers of several parameter sets side by side, one to a lane of the processor's registers.
+
+The kernels are written for numbers. Compiled for one set these are plain floats; for more they are
+`Lanes`, on which arithmetic acts lane by lane. No operation mixes lanes, none is contracted or
+reordered, and none is the C library's: a set has the same result to the last bit in any lane,
+beside any neighbours. Where a branch would depend on a number, both sides are computed and `where`
+chooses.
+"""
+
+import operator
+from collections.abc import Callable
+from typing import Any
+
+from llvmlite import ir
+from numba import types
+from numba.core import cgutils
+from numba.core.imputils import impl_ret_borrowed
+from numba.core.typeconv import Conversion
+from numba.core.typing.templates import AbstractTemplate, infer_global, signature
+from numba.extending import (
+    intrinsic,
+    lower_builtin,
+    lower_cast,
+    models,
+    register_model,
+)
+from numba.np.arrayobj import make_array, populate_array
+
+from pyrofit.solver.kernels.jit import inner
+
+_DOUBLE = ir.DoubleType()
+_BITS = ir.IntType(64)
+
+
+class Lanes(types.Type):  # type: ignore[misc]
+    """A number for each of several parameter sets."""
+
+    def __init__(self, count: int) -> None:
+        self.count = count
+        super().__init__(name=f"Lanes({count})")
+
+    def unify(self, context: Any, other: Any) -> Any:
+        """Return the type that a variable has which is once this and once that."""
+        return self if isinstance(other, types.Float | types.Integer) else None
+
+    def can_convert_from(self, context: Any, other: Any) -> Any:
+        """Tell that a plain number stands for the same one in every lane."""
+        return Conversion.safe if isinstance(other, types.Float | types.Integer) else None
+
+
+class Mask(types.Type):  # type: ignore[misc]
+    """A truth value for each of several parameter sets."""
+
+    def __init__(self, count: int) -> None:
+        self.count = count
+        super().__init__(name=f"Mask({count})")
+
+    def unify(self, context: Any, other: Any) -> Any:
+        """Return the type that a variable has which is once this and once that."""
+        return self if isinstance(other, types.Boolean) else None
+
+    def can_convert_from(self, context: Any, other: Any) -> Any:
+        """Tell that a plain truth value stands for the same one in every lane."""
+        return Conversion.safe if isinstance(other, types.Boolean) else None
+
+
+@register_model(Lanes)
+class _LanesModel(models.PrimitiveModel):  # type: ignore[misc]
+    def __init__(self, dmm: Any, of: Lanes) -> None:
+        super().__init__(dmm, of, ir.VectorType(_DOUBLE, of.count))
+
+
+@register_model(Mask)
+class _MaskModel(models.PrimitiveModel):  # type: ignore[misc]
+    def __init__(self, dmm: Any, of: Mask) -> None:
+        super().__init__(dmm, of, ir.VectorType(ir.IntType(1), of.count))
+
+
+def _splat(builder: Any, value: Any, count: int) -> Any:
+    vector = ir.Constant(ir.VectorType(value.type, count), ir.Undefined)
+    for lane in range(count):
+        vector = builder.insert_element(vector, value, ir.Constant(ir.IntType(32), lane))
+    return vector
+
+
+@lower_cast(types.Float, Lanes)
+@lower_cast(types.Integer, Lanes)
+def _number_to_lanes(context: Any, builder: Any, given: Any, wanted: Any, value: Any) -> Any:
+    number = context.cast(builder, value, given, types.float64)
+    return _splat(builder, number, wanted.count)
+
+
+@lower_cast(types.Boolean, Mask)
+def _truth_to_mask(context: Any, builder: Any, given: Any, wanted: Any, value: Any) -> Any:
+    return _splat(builder, context.cast(builder, value, given, types.boolean), wanted.count)
+
+
+def _operation(
+    symbol: Any, given: type, gives: type, arity: int, build: Callable[..., Any]
+) -> None:
+    """Let an operator or builtin act on lanes."""
+
+    class Typed(AbstractTemplate):  # type: ignore[misc]
+        def generic(self, args: Any, kws: Any) -> Any:
+            """Return the types of a call, where some argument has lanes."""
+            found = [a for a in args if isinstance(a, given)]
+            if len(args) != arity or not found or kws:
+                return None
+            return signature(gives(found[0].count), *arity * [found[0]])
+
+    Typed.key = symbol
+    infer_global(symbol)(Typed)
+
+    @lower_builtin(symbol, *arity * [given])
+    def _(context: Any, builder: Any, sig: Any, args: Any) -> Any:
+        return build(builder, *args)
+
+
+def _choose(compare: str) -> Callable[..., Any]:
+    def build(builder: Any, a: Any, b: Any) -> Any:
+        return builder.select(builder.fcmp_ordered(compare, b, a), b, a)
+
+    return build
+
+
+def _compare(how: str) -> Callable[..., Any]:
+    return lambda builder, a, b: builder.fcmp_ordered(how, a, b)
+
+
+def _unordered_differ(builder: Any, a: Any, b: Any) -> Any:
+    return builder.fcmp_unordered("!=", a, b)
+
+
+def _absolute(builder: Any, a: Any) -> Any:
+    function = cgutils.get_or_insert_function(
+        builder.module, ir.FunctionType(a.type, [a.type]), f"llvm.fabs.v{a.type.count}f64"
+    )
+    return builder.call(function, [a])
+
+
+for _symbols, _name in (
+    ((operator.add, operator.iadd), "fadd"),
+    ((operator.sub, operator.isub), "fsub"),
+    ((operator.mul, operator.imul), "fmul"),
+    ((operator.truediv, operator.itruediv), "fdiv"),
+):
+    for _symbol in _symbols:
+        _operation(_symbol, Lanes, Lanes, 2, lambda b, x, y, name=_name: getattr(b, name)(x, y))
+_operation(operator.neg, Lanes, Lanes, 1, lambda builder, a: builder.fneg(a))
+_operation(abs, Lanes, Lanes, 1, _absolute)
+_operation(min, Lanes, Lanes, 2, _choose("<"))
+_operation(max, Lanes, Lanes, 2, _choose(">"))
+for _symbol, _how in (
+    (operator.lt, "<"),
+    (operator.le, "<="),
+    (operator.gt, ">"),
+    (operator.ge, ">="),
+    (operator.eq, "=="),
+):
+    _operation(_symbol, Lanes, Mask, 2, _compare(_how))
+_operation(operator.ne, Lanes, Mask, 2, _unordered_differ)
+_operation(operator.and_, Mask, Mask, 2, lambda builder, a, b: builder.and_(a, b))
+_operation(operator.or_, Mask, Mask, 2, lambda builder, a, b: builder.or_(a, b))
+
+
+def _number_like(*given: Any) -> Any:
+    """Return the type that numbers of these types have together."""
+    return next((g for g in given if isinstance(g, Lanes)), types.float64)
+
+
+@intrinsic  # type: ignore[untyped-decorator]
+def where(typing: Any, condition: Any, a: Any, b: Any) -> Any:
+    """Return a where the condition holds, b elsewhere, lane by lane."""
+    if isinstance(condition, Mask):
+        kind: Any = Lanes(condition.count)
+        if all(isinstance(x, Mask | types.Boolean) for x in (a, b)):
+            kind = Mask(condition.count)
+    else:
+        kind = _number_like(a, b)
+        if all(isinstance(x, types.Boolean) for x in (a, b)):
+            kind = types.boolean
+        condition = types.boolean
+
+    def build(context: Any, builder: Any, sig: Any, args: Any) -> Any:
+        return builder.select(*args)
+
+    return signature(kind, condition, kind, kind), build
+
+
+@intrinsic  # type: ignore[untyped-decorator]
+def opposite(typing: Any, condition: Any) -> Any:
+    """Return whether the condition does not hold, lane by lane."""
+    if not isinstance(condition, Mask | types.Boolean):
+        return None
+
+    def build(context: Any, builder: Any, sig: Any, args: Any) -> Any:
+        return builder.not_(args[0])
+
+    return signature(condition, condition), build
+
+
+@intrinsic  # type: ignore[untyped-decorator]
+def somewhere(typing: Any, condition: Any) -> Any:
+    """Tell whether the condition holds in some lane."""
+    if not isinstance(condition, Mask | types.Boolean):
+        return None
+
+    def build(context: Any, builder: Any, sig: Any, args: Any) -> Any:
+        if isinstance(condition, types.Boolean):
+            return args[0]
+        as_bits = builder.bitcast(args[0], ir.IntType(condition.count))
+        return builder.icmp_unsigned("!=", as_bits, ir.Constant(as_bits.type, 0))
+
+    return signature(types.boolean, condition), build
+
+
+@intrinsic  # type: ignore[untyped-decorator]
+def root(typing: Any, x: Any) -> Any:
+    """Return the square root, correctly rounded."""
+    kind = _number_like(x)
+
+    def build(context: Any, builder: Any, sig: Any, args: Any) -> Any:
+        (value,) = args
+        name = f"llvm.sqrt.v{kind.count}f64" if isinstance(kind, Lanes) else "llvm.sqrt.f64"
+        function = cgutils.get_or_insert_function(
+            builder.module, ir.FunctionType(value.type, [value.type]), name
+        )
+        return builder.call(function, [value])
+
+    return signature(kind, kind), build
+
+
+@intrinsic  # type: ignore[untyped-decorator]
+def fma(typing: Any, a: Any, b: Any, c: Any) -> Any:
+    """Return a b + c, rounded once."""
+    kind = _number_like(a, b, c)
+
+    def build(context: Any, builder: Any, sig: Any, args: Any) -> Any:
+        value = args[0].type
+        name = f"llvm.fma.v{kind.count}f64" if isinstance(kind, Lanes) else "llvm.fma.f64"
+        function = cgutils.get_or_insert_function(
+            builder.module, ir.FunctionType(value, 3 * [value]), name
+        )
+        return builder.call(function, args)
+
+    return signature(kind, kind, kind, kind), build
+
+
+@intrinsic  # type: ignore[untyped-decorator]
+def _roughly_inverse(typing: Any, x: Any) -> Any:
+    """Return 1/x to 12 %: the exponent changed in sign, the mantissa by a straight line."""
+    kind = _number_like(x)
+
+    def build(context: Any, builder: Any, sig: Any, args: Any) -> Any:
+        bits = builder.bitcast(args[0], _bits(kind))
+        flipped = builder.sub(_constant(kind, 0x7FDE623822FC16E6), bits)
+        return builder.bitcast(flipped, context.get_value_type(kind))
+
+    return signature(kind, kind), build
+
+
+@inner
+def inverse(x):
+    """Return 1/x to 3e-16, for a normal x above zero and below 1e300.
+
+    Three times y (1 + e + e^2) with e = 1 - x y, which is of third order; a division takes longer.
+    """
+    y = _roughly_inverse(x)
+    for _ in range(3):
+        e = fma(-x, y, 1.0)
+        y = fma(y, fma(e, e, e), y)
+    return y
+
+
+@intrinsic  # type: ignore[untyped-decorator]
+def in_lane(typing: Any, x: Any, lane: Any) -> Any:
+    """Return the number in one lane."""
+    kind = _number_like(x)
+
+    def build(context: Any, builder: Any, sig: Any, args: Any) -> Any:
+        if not isinstance(kind, Lanes):
+            return args[0]
+        return builder.extract_element(args[0], args[1])
+
+    return signature(types.float64, kind, types.int64), build
+
+
+@intrinsic  # type: ignore[untyped-decorator]
+def with_lane(typing: Any, x: Any, lane: Any, value: Any) -> Any:
+    """Return the numbers with another one in one lane."""
+    kind = _number_like(x)
+
+    def build(context: Any, builder: Any, sig: Any, args: Any) -> Any:
+        if not isinstance(kind, Lanes):
+            return args[2]
+        return builder.insert_element(args[0], args[2], args[1])
+
+    return signature(kind, kind, types.int64, types.float64), build
+
+
+@intrinsic  # type: ignore[untyped-decorator]
+def in_lanes(typing: Any, width: Any, array: Any) -> Any:
+    """Return an array whose last axis is the lanes as one of numbers, of one axis less.
+
+    ``width`` is a tuple with one entry per lane: its length is known when the code is compiled. The
+    result is a view; of an array of one axis it is the number itself.
+    """
+    if not isinstance(array, types.Array) or array.layout != "C":
+        return None
+    number = types.float64 if len(width) == 1 else Lanes(len(width))
+    kind = number
+    if array.ndim > 1:
+        kind = types.Array(number, array.ndim - 1, "C", aligned=False)
+
+    def build(context: Any, builder: Any, sig: Any, args: Any) -> Any:
+        given = make_array(array)(context, builder, args[1])
+        content = context.get_value_type(number)
+        data = builder.bitcast(given.data, content.as_pointer())
+        if array.ndim == 1:
+            return builder.load(data, align=8)
+        shape = cgutils.unpack_tuple(builder, given.shape, array.ndim)[:-1]
+        strides = cgutils.unpack_tuple(builder, given.strides, array.ndim)[:-1]
+        view = make_array(kind)(context, builder)
+        populate_array(
+            view,
+            data=data,
+            shape=shape,
+            strides=strides,
+            itemsize=context.get_constant(types.intp, 8 * len(width)),
+            meminfo=given.meminfo,
+            parent=given.parent,
+        )
+        return impl_ret_borrowed(context, builder, kind, view._getvalue())
+
+    return signature(kind, width, array), build
+
+
+def _bits(kind: Any) -> Any:
+    return ir.VectorType(_BITS, kind.count) if isinstance(kind, Lanes) else _BITS
+
+
+def _constant(kind: Any, value: int) -> Any:
+    shape = _bits(kind)
+    return ir.Constant(shape, [value] * kind.count if isinstance(kind, Lanes) else value)
+
+
+ROUNDING = 6755399441055744.0
+"""1.5 * 2^52: added to a number, it leaves the nearest integer in the last bits."""
+_ROUNDING_BITS = 0x4338000000000000
+
+
+@intrinsic  # type: ignore[untyped-decorator]
+def power_of_two(typing: Any, rounded: Any) -> Any:
+    """Return 2^n for n + `ROUNDING`, n an integer from -1022 to 1023."""
+    kind = _number_like(rounded)
+
+    def build(context: Any, builder: Any, sig: Any, args: Any) -> Any:
+        bits = builder.bitcast(args[0], _bits(kind))
+        exponent = builder.add(bits, _constant(kind, 1023 - _ROUNDING_BITS))
+        shifted = builder.shl(exponent, _constant(kind, 52))
+        return builder.bitcast(shifted, context.get_value_type(kind))
+
+    return signature(kind, kind), build
+
+
+@intrinsic  # type: ignore[untyped-decorator]
+def binary_exponent(typing: Any, x: Any) -> Any:
+    """Return n of x = f 2^n with f from sqrt(1/2) to sqrt(2), for a normal x above zero."""
+    kind = _number_like(x)
+
+    def build(context: Any, builder: Any, sig: Any, args: Any) -> Any:
+        bits = builder.bitcast(args[0], _bits(kind))
+        moved = builder.add(bits, _constant(kind, 0x95F619980C433))
+        exponent = builder.lshr(moved, _constant(kind, 52))
+        as_float = builder.or_(exponent, _constant(kind, 0x4330000000000000))
+        number = builder.bitcast(as_float, context.get_value_type(kind))
+        offset = context.get_constant(types.float64, 2.0**52 + 1023.0)
+        if isinstance(kind, Lanes):
+            offset = _splat(builder, offset, kind.count)
+        return builder.fsub(number, offset)
+
+    return signature(kind, kind), build
+
+
+@inner
+def exp(x):
+    """Return e^x to 1e-13, for x from -700 to 700, and the ends beyond.
+
+    x = n ln 2 + r with |r| <= ln(2)/2; the series of e^r is cut after r^11.
+    """
+    x = min(max(x, -700.0), 700.0)
+    rounded = fma(x, 1.4426950408889634, ROUNDING)
+    n = rounded - ROUNDING
+    r = fma(-n, 1.90821492927058770002e-10, fma(-n, 0.693147180369123816490, x))
+    p = fma(r, 1.0 / 39916800.0, 1.0 / 3628800.0)
+    p = fma(r, p, 1.0 / 362880.0)
+    p = fma(r, p, 1.0 / 40320.0)
+    p = fma(r, p, 1.0 / 5040.0)
+    p = fma(r, p, 1.0 / 720.0)
+    p = fma(r, p, 1.0 / 120.0)
+    p = fma(r, p, 1.0 / 24.0)
+    p = fma(r, p, 1.0 / 6.0)
+    p = fma(r, p, 0.5)
+    p = fma(r, p, 1.0)
+    return fma(r, p, 1.0) * power_of_two(rounded)
+
+
+@inner
+def log(x):
+    """Return ln x to 1e-14, for a normal x above zero and below 1e307.
+
+    x = f 2^n; ln f = 2 artanh(s), s = (f - 1)/(f + 1), whose series is cut after s^19.
+    """
+    n = binary_exponent(x)
+    f = x * power_of_two(ROUNDING - n)
+    s = (f - 1.0) / (f + 1.0)
+    q = s * s
+    p = 1.0 / 11.0 + q * (1.0 / 13.0 + q * (1.0 / 15.0 + q * (1.0 / 17.0 + q * (1.0 / 19.0))))
+    p = 1.0 / 3.0 + q * (1.0 / 5.0 + q * (1.0 / 7.0 + q * (1.0 / 9.0 + q * p)))
+    return n * 0.6931471805599453 + 2.0 * (s + s * q * p)
+
+
+@inner
+def power(x, n):
+    """Return x^n for a normal x above zero."""
+    return exp(n * log(x))
+
+
+@intrinsic  # type: ignore[untyped-decorator]
+def lanes_of(typing: Any, x: Any) -> Any:
+    """Return how many lanes a number has."""
+    count = x.count if isinstance(x, Lanes) else 1
+
+    def build(context: Any, builder: Any, sig: Any, args: Any) -> Any:
+        return context.get_constant(types.intp, count)
+
+    return signature(types.intp, x), build
