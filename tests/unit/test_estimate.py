@@ -49,6 +49,9 @@ class Valley:
     def residuals(self, x: FloatArray) -> FloatArray:
         return (x - np.array(self.optimum)) / (self.upper - self.lower)
 
+    def residuals_all(self, X: FloatArray) -> list[FloatArray]:
+        return [self.residuals(x) for x in X]
+
     def evaluate(self, x: FloatArray) -> Evaluation:
         self.asked.append(x.copy())
         if self.fails(x):
@@ -466,6 +469,26 @@ def test_unfinished_run_has_as_many_residuals_as_a_finished_one(study: Study) ->
     )
     problem = make_problem(hasty, ESTIMATE, terms, slab(study), study.material, TRUTH)
     assert problem.residuals(AT_TRUTH).shape == finished.shape
+
+
+def test_sets_evaluated_at_once_are_as_each_alone(study: Study) -> None:
+    hasty = study.model_copy(
+        update={"accuracy": study.accuracy.model_copy(update={"most_steps": 260})}
+    )
+    terms = [term(), term(signal="back_temperature", weight=1e-3)]
+    problem = make_problem(hasty, ESTIMATE, terms, slab(study), study.material, TRUTH)
+    draw = np.random.default_rng(12)
+    X = problem.lower + (problem.upper - problem.lower) * draw.random((13, len(ESTIMATE)))
+    X[4, 1] = 1e-4
+    evaluations = problem.evaluate_all(X)
+    assert evaluations == [problem.evaluate(x) for x in X]
+    assert len({e.cost for e in evaluations}) == len(X)
+    for found, x in zip(problem.residuals_all(X), X, strict=True):
+        assert np.array_equal(found, problem.residuals(x))
+
+
+def test_no_sets_have_no_costs(study: Study) -> None:
+    assert posed(study, term()).evaluate_all(np.empty((0, len(ESTIMATE)))) == []
 
 
 def test_cost_that_does_not_fit_its_target_is_refused(study: Study) -> None:

@@ -12,12 +12,13 @@ import numpy as np
 
 from pyrofit.effects.base import changed
 from pyrofit.effects.substance import properties_changed, shares
-from pyrofit.estimate.problem import Problem
+from pyrofit.estimate.problem import Outcome, Problem
 from pyrofit.model.base import value_of
 from pyrofit.model.experiment import FluxTable, Front, Gasification
 from pyrofit.simulate import simulate_gasification
-from pyrofit.solver.arrays import FloatArray, Status
+from pyrofit.solver.arrays import FloatArray
 from pyrofit.solver.curves import Request
+from pyrofit.solver.lower import Values as Sets
 from pyrofit.solver.lower import property_table
 
 COEFFICIENTS = 6
@@ -69,10 +70,15 @@ class _Derived(Problem):
 
     derive: Callable[[Values], Values]
 
-    def simulate(self, x: FloatArray) -> tuple[Status, list[FloatArray]]:
-        """Return the model at each term's target; shape of ``x``: (parameters,), SI units."""
-        values = self.values(x)
-        return Problem.simulate(replace(self, fixed={**values, **self.derive(values)}), x)
+    def outcomes(self, values: Sets, sets: int) -> list[Outcome]:
+        """Return how each set ended and its models, with what is made of its values."""
+        columns = {name: np.broadcast_to(value, sets) for name, value in values.items()}
+        each = [
+            self.derive({name: float(column[s]) for name, column in columns.items()})
+            for s in range(sets)
+        ]
+        made = {name: np.array([one[name] for one in each]) for name in each[0]}
+        return Problem.outcomes(self, {**values, **made}, sets)
 
 
 def corrections(problem: Problem, x: FloatArray) -> list[Correction]:

@@ -87,28 +87,34 @@ class Model:
 
     def residuals(self, x: FloatArray) -> FloatArray:
         """Return the whitened residuals of the channels, then those of what is known."""
+        return self.residuals_all(x[None])[0]
+
+    def residuals_all(self, X: FloatArray) -> list[FloatArray]:
+        """Return the same for several sets at once, shape (sets, parameters)."""
         known = self.base.known
-        values = self.likelihood.values(x)[list(known.index)]
-        return np.concatenate([self.likelihood.residuals(x), (values - known.mean) / known.sd])
+        apart = (self.likelihood.values(X)[:, list(known.index)] - known.mean) / known.sd
+        channels = self.likelihood.residuals_all(X)
+        return [np.concatenate(both) for both in zip(channels, apart, strict=True)]
 
     def jacobian(self, x: FloatArray, residuals: FloatArray) -> FloatArray:
         """Return d residuals / d x by differences towards the farther limit.
 
         Towards the nearer one where no run finishes there, and zero where none does.
         """
-        columns = []
-        for i in range(x.size):
-            column = np.zeros(residuals.size)
-            far = STEP if x[i] < 0.5 else -STEP
-            for step in (far, -far):
-                moved = x.copy()
-                moved[i] = np.clip(x[i] + step, 0.0, 1.0)
-                there = self.residuals(moved)
-                if moved[i] != x[i] and self.finished(there):
-                    column = (there - residuals) / (moved[i] - x[i])
-                    break
-            columns.append(column)
-        return np.column_stack(columns)
+        J = np.zeros((residuals.size, x.size))
+        missing = np.arange(x.size)
+        for step in (np.where(x < 0.5, STEP, -STEP), np.where(x < 0.5, -STEP, STEP)):
+            moved = np.clip(x[missing] + step[missing], 0.0, 1.0)
+            sets = np.tile(x, (missing.size, 1))
+            sets[np.arange(missing.size), missing] = moved
+            found = np.zeros(missing.size, bool)
+            for a, there in enumerate(self.residuals_all(sets)):
+                i = missing[a]
+                found[a] = moved[a] != x[i] and self.finished(there)
+                if found[a]:
+                    J[:, i] = (there - residuals) / (moved[a] - x[i])
+            missing = missing[~found]
+        return J
 
     def finished(self, residuals: FloatArray) -> bool:
         """Tell whether all runs finished that some residuals come from."""

@@ -163,7 +163,8 @@ def with_form(trial: Trial, parameter: str) -> Trial:
         np.insert(trial.fit.x, at, fraction(quantity, value)) for value in _forms_of(quantity)
     )
     spanned = projector(trial.fit)
-    ahead = [float(np.sum(project(spanned, model.residuals(x)) ** 2)) for x in others]
+    there = model.residuals_all(np.array(others))
+    ahead = [float(np.sum(project(spanned, residuals) ** 2)) for residuals in there]
     ends = [descend(model, usual), descend(model, others[int(np.argmin(ahead))])]
     return Trial(model, min(ends, key=lambda end: end.chi2))
 

@@ -89,7 +89,8 @@ def look(model: Model, fit: Fit, effect: str) -> Look | None:
     except ValueError:  # another effect sets the same number of the description
         return None
     spanned = projector(fit)
-    runs = [(s, more.residuals(extended(fit.x, effect, s))) for s in tried(effect)]
+    sets = np.array([extended(fit.x, effect, s) for s in tried(effect)])
+    runs = list(zip(tried(effect), more.residuals_all(sets), strict=True))
     runs = [(s, residuals) for s, residuals in runs if more.finished(residuals)]
     if not runs:
         return None

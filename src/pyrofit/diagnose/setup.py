@@ -80,8 +80,9 @@ def _known(study: Study, problem: Problem) -> Known:
 def _fitted(base: Base, seed: int) -> Trial:
     """Return the fit of the base from the best of several points spread over the limits."""
     model = model_of(base, {})
-    ordered = sorted(_starts(base, seed), key=lambda x: _chi2(model.residuals(x)))
-    ends = [descend(model, x) for x in ordered[:DESCENTS]]
+    starts = _starts(base, seed)
+    ahead = [_chi2(residuals) for residuals in model.residuals_all(np.array(starts))]
+    ends = [descend(model, starts[i]) for i in np.argsort(ahead, kind="stable")[:DESCENTS]]
     best = min(ends, key=lambda end: end.chi2)
     if np.any(best.residuals[: model.points] == FAILED):
         raise DataError(

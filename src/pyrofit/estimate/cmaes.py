@@ -1,13 +1,11 @@
 """CMA-ES (Hansen 2016, arXiv 1604.00772) as pycma implements it, from several random starts."""
 
-from collections.abc import Sequence
 from typing import Any
 
 import numpy as np
 
 from pyrofit.estimate.least_squares import STEP, Start
-from pyrofit.estimate.problem import Evaluation, Problem
-from pyrofit.solver.arrays import FloatArray
+from pyrofit.estimate.problem import Problem
 
 SPREAD = 0.3
 """First standard deviation, as a fraction of the limits' distance."""
@@ -67,7 +65,8 @@ def _search(problem: Problem, rng: np.random.Generator, calls: int) -> Start:
     while not strategy.stop():
         drawn = strategy.ask()
         scaled = np.clip(np.array(drawn), 0.0, 1.0)
-        costs = np.array([e.cost for e in _evaluate(problem, problem.lower + scaled * span)])
+        generation = problem.evaluate_all(problem.lower + scaled * span)
+        costs = np.array([e.cost for e in generation])
         strategy.tell(drawn, np.log(np.maximum(costs, LEAST)))
         done += costs.size
         lowest = int(costs.argmin())
@@ -81,8 +80,3 @@ def _search(problem: Problem, rng: np.random.Generator, calls: int) -> Start:
             n for n, u in zip(problem.names, found, strict=True) if not STEP <= u <= 1.0 - STEP
         ),
     )
-
-
-def _evaluate(problem: Problem, sets: FloatArray) -> Sequence[Evaluation]:
-    """Return the costs of a generation, sets of shape (individuals, parameters), SI units."""
-    return [problem.evaluate(x) for x in sets]

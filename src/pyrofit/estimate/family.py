@@ -56,7 +56,7 @@ def explore(
     walkers = [_Walker.at(start, pool, rng) for _ in range(WALKERS)]
     for _ in range(SWEEPS):
         tried = [walker.propose(rng) for walker in walkers]
-        found = [problem.evaluate(problem.lower + x * span) for x in tried]
+        found = problem.evaluate_all(problem.lower + np.array(tried) * span)
         for i, (x, result) in enumerate(zip(tried, found, strict=True)):
             if result.cost <= top:
                 pool.append(x)

@@ -65,8 +65,18 @@ def descend(problem: Problem, values: FloatArray) -> Start:
         calls += 1
         return problem.residuals(problem.lower + v * span)
 
+    def slopes(v: FloatArray) -> FloatArray:
+        """Return d residuals / d v, by differences towards the farther limit."""
+        nonlocal calls
+        calls += v.size + 1
+        step = np.where(v < 0.5, STEP, -STEP)
+        here, *there = problem.residuals_all(
+            problem.lower + (v + np.vstack([np.zeros(v.size), np.diag(step)])) * span
+        )
+        return np.column_stack([(r - here) / h for r, h in zip(there, step, strict=True)])
+
     found = least_squares(
-        residuals, u, bounds=(0.0, 1.0), diff_step=STEP, xtol=1e-7, ftol=1e-7, max_nfev=200
+        residuals, u, slopes, bounds=(0.0, 1.0), xtol=1e-7, ftol=1e-7, max_nfev=200
     )
     end = problem.lower + np.clip(found.x, 0.0, 1.0) * span
     near = (found.x < STEP) | (found.x > 1.0 - STEP)

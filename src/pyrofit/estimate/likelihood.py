@@ -70,8 +70,12 @@ class Likelihood:
 
     def curves(self, x: FloatArray) -> FloatArray | None:
         """Return the simulated channels one after the other; None where a run does not finish."""
-        status, models = self.problem.simulate(self.values(x))
-        return np.concatenate(models) if status.finished else None
+        return self.curves_all(x[None])[0]
+
+    def curves_all(self, X: FloatArray) -> list[FloatArray | None]:
+        """Return the same for several sets at once, shape (sets, parameters)."""
+        outcomes = self.problem.simulate_all(self.values(X))
+        return [np.concatenate(models) if status.finished else None for status, models in outcomes]
 
     def split(self, stacked: FloatArray) -> list[FloatArray]:
         """Return what belongs to each channel of (points,) or (points, k)."""
@@ -84,7 +88,13 @@ class Likelihood:
 
     def residuals(self, x: FloatArray) -> FloatArray:
         """Return the whitened residuals of all channels, shape (points,)."""
-        curves = self.curves(x)
+        return self._residuals(self.curves(x))
+
+    def residuals_all(self, X: FloatArray) -> list[FloatArray]:
+        """Return the same for several sets at once, shape (sets, parameters)."""
+        return [self._residuals(curves) for curves in self.curves_all(X)]
+
+    def _residuals(self, curves: FloatArray | None) -> FloatArray:
         if curves is None or not np.all(np.isfinite(curves)):
             return np.full(sum(self.points), FAILED)
         measured = np.concatenate([term.target.value for _, term in self.problem.cost.terms])
@@ -103,19 +113,18 @@ class Likelihood:
         Differences of second order: central, or of three points on one side at a limit. ``index``
         picks the parameters; default all. Zero where a run does not finish.
         """
+        chosen = range(x.size) if index is None else index
+        moves = [_moves(x[i], step) for i in chosen]
+        moved = [_moved(x, i, by) for i, m in zip(chosen, moves, strict=True) for by in m]
+        curves = iter(self.curves_all(np.array(moved).reshape(-1, x.size)))
         columns = []
-        for i in range(x.size) if index is None else index:
-            inside = step <= x[i] <= 1.0 - step
-            inward = step if x[i] < 0.5 else -step
-            moves = (
-                {step: 0.5, -step: -0.5} if inside else {0.0: -1.5, inward: 2.0, 2 * inward: -0.5}
-            )
-            curves = [self.curves(_moved(x, i, by)) for by in moves]
-            width = step if inside else inward
-            total = np.zeros(sum(self.points))
-            for weight, curve in zip(moves.values(), curves, strict=True):
-                total += 0.0 if curve is None else weight * curve / width
-            columns.append(total if all(c is not None for c in curves) else 0.0 * total)
+        for weights in moves:
+            there = [c for c in (next(curves) for _ in weights) if c is not None]
+            column = np.zeros(sum(self.points))
+            if len(there) == len(weights):
+                for weight, curve in zip(weights.values(), there, strict=True):
+                    column += weight * curve
+            columns.append(column)
         return np.column_stack(columns)
 
     def jacobian(
@@ -172,6 +181,14 @@ def _free(x: FloatArray, slope: FloatArray) -> FloatArray:
     return np.asarray(~((x <= 0.0) & (slope > 0.0)) & ~((x >= 1.0) & (slope < 0.0)))
 
 
+def _moves(x: float, step: float) -> dict[float, float]:
+    """Return how far to move a parameter, and the weights of the curves there in its slope."""
+    if step <= x <= 1.0 - step:
+        return {step: 0.5 / step, -step: -0.5 / step}
+    inward = step if x < 0.5 else -step
+    return {0.0: -1.5 / inward, inward: 2.0 / inward, 2.0 * inward: -0.5 / inward}
+
+
 def _moved(x: FloatArray, i: int, by: float) -> FloatArray:
     moved = x.copy()
     moved[i] += by
@@ -197,7 +214,8 @@ def likelihood_of(problem: Problem) -> Likelihood:
 def fit(likelihood: Likelihood, starts: Sequence[FloatArray]) -> Optimum:
     """Descend from the best of several scaled starts that differ; return the lowest end."""
     chosen: list[FloatArray] = []
-    for x in sorted(starts, key=likelihood.chi2):
+    ahead = [float(r @ r) for r in likelihood.residuals_all(np.array(starts))]
+    for _, x in sorted(zip(ahead, starts, strict=True), key=lambda pair: pair[0]):
         if all(np.max(np.abs(x - other)) > APART for other in chosen):
             chosen.append(x)
     ends = [likelihood.descend(x) for x in chosen[:DESCENTS]]

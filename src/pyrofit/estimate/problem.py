@@ -12,15 +12,18 @@ from pyrofit.cost import Target, WeightedSum, make_term
 from pyrofit.data.quantities import UNCERTAINTY_COLUMN, VALUE_COLUMN
 from pyrofit.model.experiment import Gasification, Tga
 from pyrofit.model.material import Material
-from pyrofit.simulate import Accuracy, simulate_gasification, simulate_tga
+from pyrofit.simulate import Accuracy, simulate_gasifications, simulate_tgas
 from pyrofit.solver.arrays import FloatArray, Status
 from pyrofit.solver.curves import Curves, Request
+from pyrofit.solver.lower import Values
 
 FAILED_COST = 1e12
 """Cost of a run that did not finish: finite, and worse than any run that did."""
 
 Measurements = Mapping[tuple[str, str], pd.DataFrame]
 """Measured series by (experiment, signal)."""
+Outcome = tuple[Status, list[FloatArray]]
+"""How a simulation ended, and the model at each term's target, if it finished."""
 
 
 @dataclass(frozen=True)
@@ -58,12 +61,46 @@ class Problem:
         """Return all parameters by name, fixed ones too, SI units; x has shape (parameters,)."""
         return {**self.fixed, **dict(zip(self.names, x.tolist(), strict=True))}
 
-    def simulate(self, x: FloatArray) -> tuple[Status, list[FloatArray]]:
-        """Return the model at each term's target; shape of ``x``: (parameters,), SI units."""
-        values = self.values(x)
-        curves: dict[str, Curves] = {}
+    def simulate(self, x: FloatArray) -> Outcome:
+        """Return how it ended, and the model at each term's target.
+
+        ``x`` has the shape (parameters,), SI units.
+        """
+        return self.simulate_all(x[None])[0]
+
+    def simulate_all(self, X: FloatArray) -> list[Outcome]:
+        """Return the same for several sets at once, shape (sets, parameters)."""
+        columns = X[0].tolist() if len(X) == 1 else X.T
+        return self.outcomes({**self.fixed, **dict(zip(self.names, columns, strict=True))}, len(X))
+
+    def outcomes(self, values: Values, sets: int) -> list[Outcome]:
+        """Return the same for values by name, each a number or of shape (sets,)."""
+        if sets == 0:
+            return []
+        simulated = self._simulated(values, sets)
+        return [
+            self._picked({name: curves[s] for name, curves in simulated.items()})
+            for s in range(sets)
+        ]
+
+    def _simulated(self, values: Values, sets: int) -> dict[str, list[Curves]]:
+        """Return the curves by experiment and set; all TGA in one call."""
+        tgas = [(n, r.experiment) for n, r in self.runs.items() if isinstance(r.experiment, Tga)]
+        curves: dict[str, list[Curves]] = {}
+        if tgas:
+            names, experiments = zip(*tgas, strict=True)
+            requests = [self.runs[name].requests["mass_fraction"] for name in names]
+            found = simulate_tgas(experiments, self.material, values, requests, self.accuracy, sets)
+            curves.update(zip(names, found, strict=True))
         for name, run in self.runs.items():
-            curves[name] = _simulate(run, self.material, values, self.accuracy)
+            if isinstance(run.experiment, Gasification):
+                curves[name] = simulate_gasifications(
+                    run.experiment, self.material, values, run.requests, self.accuracy, sets=sets
+                )
+        return curves
+
+    def _picked(self, curves: Mapping[str, Curves]) -> Outcome:
+        for name in self.runs:
             if not curves[name].status.finished:
                 return curves[name].status, []
         models = [curves[name].signals[signal][index] for name, signal, index in self.picks]
@@ -71,7 +108,13 @@ class Problem:
 
     def evaluate(self, x: FloatArray) -> Evaluation:
         """Return the cost of a parameter set; a failed run costs `FAILED_COST`."""
-        status, models = self.simulate(x)
+        return self._evaluation(*self.simulate(x))
+
+    def evaluate_all(self, X: FloatArray) -> list[Evaluation]:
+        """Return the same for several sets at once, shape (sets, parameters)."""
+        return [self._evaluation(*outcome) for outcome in self.simulate_all(X)]
+
+    def _evaluation(self, status: Status, models: list[FloatArray]) -> Evaluation:
         if status.finished:
             parts = self.cost.parts(models)
             total = float(sum(parts))
@@ -86,22 +129,19 @@ class Problem:
 
     def residuals(self, x: FloatArray) -> FloatArray:
         """Return the residuals of the same cost for a least-squares optimiser."""
-        status, models = self.simulate(x)
+        return self._residuals(*self.simulate(x))
+
+    def residuals_all(self, X: FloatArray) -> list[FloatArray]:
+        """Return the same for several sets at once, shape (sets, parameters)."""
+        return [self._residuals(*outcome) for outcome in self.simulate_all(X)]
+
+    def _residuals(self, status: Status, models: list[FloatArray]) -> FloatArray:
         if status.finished:
             residuals = self.cost.residuals(models)
             if np.all(np.isfinite(residuals)):
                 return residuals
         met = [term.target.value for _, term in self.cost.terms]
         return np.full(self.cost.residuals(met).size, np.sqrt(FAILED_COST))
-
-
-def _simulate(
-    run: _Run, material: Material, values: Mapping[str, float], accuracy: Accuracy
-) -> Curves:
-    if isinstance(run.experiment, Tga):
-        request = run.requests["mass_fraction"]
-        return simulate_tga(run.experiment, material, values, request, accuracy)
-    return simulate_gasification(run.experiment, material, values, run.requests, accuracy)
 
 
 def target_of(frame: pd.DataFrame, signal: str) -> Target:

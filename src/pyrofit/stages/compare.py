@@ -131,8 +131,8 @@ def _problem(study: Study, results: Results, measurements: Measurements, judges:
 def _scores(found: pd.DataFrame, problem: Problem, place: str, judges: Judges) -> pd.DataFrame:
     """Return the value of every measure for every set; none where the run does not finish."""
     rows: list[dict[str, Any]] = []
-    for row in found.to_dict("records"):
-        result = problem.evaluate(np.array([row[name] for name in problem.names]))
+    results = problem.evaluate_all(found[list(problem.names)].to_numpy(float))
+    for row, result in zip(found.to_dict("records"), results, strict=True):
         about = {key: row[key] for key in ("cost_function", "found_by", "number", "best")}
         first = 0
         for measure, terms in judges.items():
@@ -187,7 +187,7 @@ def _bands(
         judges = {signal: [_metric(name, signal)] for signal in signals}
         problem = _problem(study, results, measurements, judges)
         for cost, group in family.groupby("cost_function", sort=False):
-            runs = [problem.simulate(x) for x in group[list(problem.names)].to_numpy(float)]
+            runs = problem.simulate_all(group[list(problem.names)].to_numpy(float))
             models = [curves for status, curves in runs if status.finished]
             for i, signal in enumerate(signals):
                 target = problem.cost.terms[i][1].target

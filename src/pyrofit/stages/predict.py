@@ -8,7 +8,7 @@ from pyrofit.data.quantities import VALUE_COLUMN
 from pyrofit.errors import DataError
 from pyrofit.files import Results, write_csv
 from pyrofit.model.experiment import Gasification
-from pyrofit.simulate import simulate_gasification, solver_errors
+from pyrofit.simulate import errors_between, simulate_gasifications
 from pyrofit.solver.arrays import FloatArray
 from pyrofit.solver.curves import Request
 from pyrofit.stages import outcomes
@@ -52,6 +52,8 @@ def predict(study: Study, results: Results) -> None:
     fixed = fixed_for_imp(study, results)
     material = study.material_with(study.imp.kinetics)
     measurements = load(study, results)
+    chosen = sets_of(study, results)
+    columns = {n: np.array([values[n] for values in chosen.values()]) for n in study.imp.estimate}
     curves = []
     scores = []
     for name in study.validation.experiments:
@@ -61,15 +63,19 @@ def predict(study: Study, results: Results) -> None:
             q: Request(measurements[name, q]["time_s"].to_numpy(float), s.average_s)
             for q, s in experiment.signals.items()
         }
-        for label, values in sets_of(study, results).items():
-            described = experiment, material, {**fixed, **values}, requests, study.accuracy
-            run = simulate_gasification(*described)
+        runs, finer = (
+            simulate_gasifications(
+                experiment, material, {**fixed, **columns}, requests, accuracy, sets=len(chosen)
+            )
+            for accuracy in (study.accuracy, study.accuracy.refined())
+        )
+        for label, run, fine in zip(chosen, runs, finer, strict=True):
             if not run.status.finished:
                 raise DataError(
                     f"{name}: the best set of {label} cannot be predicted: "
                     f"{run.status.explanation}; check the limits of the parameters"
                 )
-            errors = solver_errors(*described)
+            errors = errors_between(run, fine, requests)
             for quantity, request in requests.items():
                 measured = measurements[name, quantity][VALUE_COLUMN[quantity]].to_numpy(float)
                 simulated = run.signals[quantity]
