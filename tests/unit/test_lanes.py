@@ -10,17 +10,12 @@ from numba import njit
 
 from pyrofit.solver.arrays import TABLE_SIZE, TABLE_TEMPERATURES_K
 from pyrofit.solver.kernels.cells import at_temperature
+from pyrofit.solver.kernels.functions import exp, fma, inverse, log, power, root
 from pyrofit.solver.kernels.lanes import (
-    exp,
-    fma,
     in_lane,
     in_lanes,
-    inverse,
     lanes_of,
-    log,
     opposite,
-    power,
-    root,
     somewhere,
     where,
     with_lane,

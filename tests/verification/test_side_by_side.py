@@ -15,8 +15,6 @@ from pyrofit.config import as_study
 from pyrofit.model.experiment import Gasification, Tga
 from pyrofit.model.material import Material
 from pyrofit.simulate import (
-    FEW,
-    LANES,
     Accuracy,
     simulate_gasification,
     simulate_gasifications,
@@ -25,6 +23,7 @@ from pyrofit.simulate import (
 )
 from pyrofit.solver.arrays import FloatArray, Status
 from pyrofit.solver.curves import Curves, Request
+from pyrofit.solver.run import FEW, LANES
 
 PAPER = Path(__file__).parents[2] / "config" / "paper.yaml"
 ENDS_S = {"capa_25": 1400.0, "capa_60": 400.0}

@@ -17,8 +17,8 @@ from pyrofit.model.base import value_of
 from pyrofit.model.experiment import FluxTable, Front, Gasification
 from pyrofit.simulate import simulate_gasification
 from pyrofit.solver.arrays import FloatArray
+from pyrofit.solver.arrays import Values as Sets
 from pyrofit.solver.curves import Request
-from pyrofit.solver.lower import Values as Sets
 from pyrofit.solver.lower import property_table
 
 COEFFICIENTS = 6

@@ -13,9 +13,8 @@ from pyrofit.data.quantities import UNCERTAINTY_COLUMN, VALUE_COLUMN
 from pyrofit.model.experiment import Gasification, Tga
 from pyrofit.model.material import Material
 from pyrofit.simulate import Accuracy, simulate_gasifications, simulate_tgas
-from pyrofit.solver.arrays import FloatArray, Status
+from pyrofit.solver.arrays import FloatArray, Status, Values
 from pyrofit.solver.curves import Curves, Request
-from pyrofit.solver.lower import Values
 
 FAILED_COST = 1e12
 """Cost of a run that did not finish: finite, and worse than any run that did."""

@@ -5,6 +5,7 @@ that run side by side, each in its lane, share integers and truth values; of eve
 last axis is the lanes, and what is a number here is an array of shape (lanes,).
 """
 
+from collections.abc import Mapping
 from enum import IntEnum
 from typing import NamedTuple
 
@@ -13,6 +14,9 @@ from numpy.typing import NDArray
 
 FloatArray = NDArray[np.float64]
 IntArray = NDArray[np.int64]
+Value = float | FloatArray
+Values = Mapping[str, Value]
+"""Parameter values in SI units by name, each a number or of shape (sets,)."""
 Number = FloatArray
 """One number per lane, shape (lanes,); in the kernels a number."""
 

@@ -22,10 +22,10 @@ from pyrofit.solver.arrays import (
     IntArray,
     Material,
     Network,
+    Value,
+    Values,
 )
 
-Value = float | FloatArray
-Values = Mapping[str, Value]
 LEAST_SHARE = 0.01
 """Least value of a linear property, relative to its reference value, and of a changed one."""
 NODES_K: FloatArray = TABLE_TEMPERATURES_K[:, None]

@@ -23,8 +23,10 @@ from pyrofit.solver.arrays import (
     Material,
     Number,
     Surface,
+    Value,
+    Values,
 )
-from pyrofit.solver.lower import Value, Values, fractions, stack, total
+from pyrofit.solver.lower import fractions, stack, total
 
 
 class Layer(NamedTuple):

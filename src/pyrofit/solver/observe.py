@@ -7,9 +7,8 @@ import numpy as np
 
 from pyrofit.model.base import value_of
 from pyrofit.model.experiment import Gasification
-from pyrofit.solver.arrays import FloatArray
+from pyrofit.solver.arrays import FloatArray, Value, Values
 from pyrofit.solver.curves import Curves, Request, Runs
-from pyrofit.solver.lower import Value, Values
 
 Run = Callable[[FloatArray, Mapping[str, Request]], Runs]
 """Runs under multiples of the flux, shape (sets,), at times of shape (sets, points)."""

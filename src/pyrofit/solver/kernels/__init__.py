@@ -5,6 +5,7 @@ function, not of what it calls. The cache therefore lies in a folder named by al
 """
 
 import hashlib
+import logging
 import os
 from pathlib import Path
 
@@ -33,3 +34,8 @@ def _cache_folder() -> Path:
 
 if not numba.config.CACHE_DIR:
     numba.config.CACHE_DIR = str(_cache_folder())
+if not Path(numba.config.CACHE_DIR).exists():
+    logging.getLogger(__name__).warning(
+        "Compiling the solver: about half a minute, once, and again when more parameter sets run "
+        "side by side."
+    )

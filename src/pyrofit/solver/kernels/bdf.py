@@ -4,9 +4,10 @@ import math
 from typing import NamedTuple
 
 from pyrofit.solver.arrays import Number
+from pyrofit.solver.kernels.functions import root
 from pyrofit.solver.kernels.heat import flux_piece
 from pyrofit.solver.kernels.jit import inner
-from pyrofit.solver.kernels.lanes import root, where
+from pyrofit.solver.kernels.lanes import where
 
 SAFETY = 0.9
 SHRINK, GROW, REJECT = 0.3, 1.6, 0.5

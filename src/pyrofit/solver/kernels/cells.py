@@ -2,19 +2,9 @@
 
 from pyrofit.solver.arrays import TABLE_SIZE, TABLE_START_K, TABLE_STEP_K
 from pyrofit.solver.kernels import row
+from pyrofit.solver.kernels.functions import exp, fma, inverse, power
 from pyrofit.solver.kernels.jit import inner, live
-from pyrofit.solver.kernels.lanes import (
-    exp,
-    fma,
-    in_lane,
-    inverse,
-    lanes_of,
-    opposite,
-    power,
-    somewhere,
-    where,
-    with_lane,
-)
+from pyrofit.solver.kernels.lanes import in_lane, lanes_of, opposite, somewhere, where, with_lane
 from pyrofit.solver.kernels.reactions import TINY, react, remaining
 
 RATES_FROM_K, RATES_TO_K = 200.0, 2000.0

@@ -6,8 +6,9 @@ from pyrofit.constants import STEFAN_BOLTZMANN
 from pyrofit.solver.arrays import Number
 from pyrofit.solver.kernels import row
 from pyrofit.solver.kernels.cells import optical_depth
+from pyrofit.solver.kernels.functions import exp, fma, inverse, log
 from pyrofit.solver.kernels.jit import between, inner, live
-from pyrofit.solver.kernels.lanes import exp, fma, inverse, log, opposite, somewhere, where
+from pyrofit.solver.kernels.lanes import opposite, somewhere, where
 from pyrofit.solver.kernels.reactions import TINY
 
 SIGMA = STEFAN_BOLTZMANN

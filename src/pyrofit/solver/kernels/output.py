@@ -3,7 +3,7 @@
 import numpy as np
 
 from pyrofit.solver.kernels.jit import entry, inner
-from pyrofit.solver.kernels.slab import RATE, RELEASED, TIME
+from pyrofit.solver.kernels.trace import RATE, RELEASED, TIME
 
 
 @inner

@@ -1,7 +1,8 @@
 """Mass change of a cell by its reactions over one time step."""
 
+from pyrofit.solver.kernels.functions import exp, fma, inverse, log, power
 from pyrofit.solver.kernels.jit import inner
-from pyrofit.solver.kernels.lanes import exp, fma, inverse, log, power, somewhere, where
+from pyrofit.solver.kernels.lanes import somewhere, where
 
 MOST_DECAY = 700.0
 """k dt beyond which nothing is left."""

@@ -13,6 +13,7 @@ from pyrofit.solver.kernels.cells import (
     react_over,
     top_emissivity,
 )
+from pyrofit.solver.kernels.functions import fma, inverse
 from pyrofit.solver.kernels.heat import (
     add_at_edge,
     at_edge,
@@ -24,7 +25,7 @@ from pyrofit.solver.kernels.heat import (
     temperature_falls,
 )
 from pyrofit.solver.kernels.jit import between, inner, live, loop
-from pyrofit.solver.kernels.lanes import fma, inverse, somewhere, where
+from pyrofit.solver.kernels.lanes import somewhere, where
 from pyrofit.solver.kernels.reactions import TINY
 
 TEMPERATURE_SCALE = 400.0

@@ -4,10 +4,11 @@ import math
 
 import numpy as np
 
+from pyrofit.solver.kernels.functions import exp, power
 from pyrofit.solver.kernels.jit import entry, inner, loop
-from pyrofit.solver.kernels.lanes import exp, in_lanes, power, somewhere, where
+from pyrofit.solver.kernels.lanes import in_lanes, somewhere, where
 from pyrofit.solver.kernels.reactions import TINY, react
-from pyrofit.solver.kernels.slab import network_in_lanes
+from pyrofit.solver.kernels.views import network_in_lanes
 
 
 @inner

@@ -1,0 +1,119 @@
+"""The state of a slab: its beginning, from one step to the next, and what leaves the grid."""
+
+from pyrofit.solver.kernels import row
+from pyrofit.solver.kernels.cells import describe, layer, rate_constants, reactant_left
+from pyrofit.solver.kernels.jit import inner, live, loop
+from pyrofit.solver.kernels.lanes import where
+from pyrofit.solver.kernels.step import summed
+
+DEAD_FRACTION = 1.0e-7
+"""Reactant left, relative to the cell's initial mass, below which a cell may leave the grid."""
+THIN_FRACTION = 0.01
+"""Residue thickness, relative to the cell's initial one, below which a cell may leave the grid."""
+
+
+@inner
+def begin(work, wide, material, network, exposure, T_start):
+    """Fill temperatures, properties and rates of the initial state."""
+    cell = work.cell
+    foil = work.m.shape[1]
+    for n in live(cell, 0):
+        cell[row.T, n] = T_start
+        cell[row.T_old, n] = T_start
+        cell[row.T_star, n] = T_start
+    describe(wide, 0, material)
+    rate_constants(wide, 0, network)
+    for n in live(wide.m, 0):
+        wide.cell[row.C, n] = wide.cell[row.C_new, n]
+        wide.cell[row.d_start, n] = wide.cell[row.d, n]
+        for j in range(wide.root.shape[0]):
+            wide.root[j, n] = wide.root_new[j, n]
+    cell[row.C_new, foil] = exposure.foil_capacity
+    cell[row.C, foil] = exposure.foil_capacity
+    cell[row.half_r, foil] = exposure.contact_resistance
+
+
+@inner
+def fill(work, start):
+    """Give the cells their masses."""
+    for i in range(work.m.shape[0]):
+        for n in live(work.m, 0):
+            work.m[i, n] = start[n, i]
+            work.m_new[i, n] = start[n, i]
+            work.formed[i, n] = start[n, i]
+
+
+@loop
+def accept(wide, first, network, accepted):
+    """Make the state after the step the current one, in the lanes in which it was accepted."""
+    cell = wide.cell
+    for n in live(cell, first):
+        cell[row.T_old, n] = where(accepted, cell[row.T, n], cell[row.T_old, n])
+        cell[row.T, n] = where(accepted, cell[row.T_new, n], cell[row.T, n])
+    for n in live(wide.m, first):
+        cell[row.C, n] = where(accepted, cell[row.C_new, n], cell[row.C, n])
+        cell[row.heat, n] = where(accepted, cell[row.heat_new, n], cell[row.heat, n])
+    for i in range(wide.m.shape[0]):
+        for n in live(wide.m, first):
+            wide.m[i, n] = where(accepted, wide.m_new[i, n], wide.m[i, n])
+    for j in range(wide.root.shape[0]):
+        for n in live(wide.m, first):
+            wide.root[j, n] = where(accepted, wide.root_new[j, n], wide.root[j, n])
+    if not network.first_order:
+        for i in range(wide.m.shape[0]):
+            for n in live(wide.m, first):
+                wide.formed[i, n] = where(accepted, wide.formed_new[i, n], wide.formed[i, n])
+
+
+@inner
+def drop_thin(flat, lane, first, start, network):
+    """Move cells that are burnt and thin to the skin; return the first one left, heat stored."""
+    cell = flat.cell
+    heat = 0.0
+    while first < start.shape[0] - 1:
+        total = 0.0
+        for i in range(start.shape[1]):
+            total += start[first, i, lane]
+        burnt = reactant_left(flat.m, first, lane, network) < DEAD_FRACTION * total
+        thin = THIN_FRACTION * cell[row.d_start, first, lane]
+        if not burnt or cell[row.d, first, lane] > thin:
+            break
+        for i in range(start.shape[1]):
+            flat.skin[i, 0, lane] += flat.m[i, first, lane]
+            flat.m[i, first, lane] = 0.0
+        C = cell[row.C, first, lane]
+        cell[row.d, first, lane] = 0.0
+        cell[row.C, first, lane] = 0.0
+        cell[row.C, first + 1, lane] += C
+        heat += C * (cell[row.T, first + 1, lane] - cell[row.T, first, lane])
+        first += 1
+    return first, heat
+
+
+@inner
+def is_burnt_out(flat, lane, first, network, limit):
+    """Tell whether no more reactant than the limit [kg/m2] is left."""
+    left = 0.0
+    for n in range(flat.m.shape[1] - 1, first - 1, -1):
+        left += reactant_left(flat.m, n, lane, network)
+        if left > limit:
+            return False
+    return True
+
+
+@inner
+def total_mass(work):
+    """Return the mass of all cells and of the skin [kg/m2]."""
+    mass = 0.0 * work.skin[0, 0]
+    for i in range(work.m.shape[0]):
+        mass += work.skin[i, 0]
+        for n in live(work.m, 0):
+            mass += work.m[i, n]
+    return mass
+
+
+@inner
+def thickness(work, first, material, T):
+    """Return the thickness of all cells and of the skin [m]."""
+    skin, _, _ = layer(work.skin, 0, material, T)
+    return skin + summed(work, row.d, first)
