@@ -18,7 +18,7 @@ from pyrofit.diagnose.refit import Trial
 from pyrofit.estimate.correlation import Correlation
 from pyrofit.estimate.likelihood import Likelihood
 from pyrofit.estimate.noise import NoiseModel
-from pyrofit.estimate.problem import Problem
+from pyrofit.estimate.problem import Outcome, Problem
 from pyrofit.solver.arrays import FloatArray, Status
 
 POINTS = 50
@@ -36,8 +36,11 @@ class Linear(Problem):
 
     columns: Columns
 
-    def simulate(self, x: FloatArray) -> tuple[Status, list[FloatArray]]:
+    def simulate_all(self, X: FloatArray) -> list[Outcome]:
         """Return the curves of the channels."""
+        return [self._simulated_one(x) for x in X]
+
+    def _simulated_one(self, x: FloatArray) -> Outcome:
         total = np.zeros(TOTAL)
         for name, value in zip(self.names, x.tolist(), strict=True):
             total = total + value * self.columns.get(name, 0.0)

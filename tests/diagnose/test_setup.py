@@ -112,7 +112,9 @@ def test_noise_that_is_not_stated_is_found_from_the_scatter(series: Measurements
 def test_model_that_never_finishes_is_a_clear_error(
     series: Measurements, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    monkeypatch.setattr(Likelihood, "residuals", lambda self, x: np.full(sum(self.points), FAILED))
+    monkeypatch.setattr(
+        Likelihood, "residuals_all", lambda self, X: [np.full(sum(self.points), FAILED) for _ in X]
+    )
     with pytest.raises(DataError, match="no run within the limits of the parameters finishes"):
         set_up(study(), series)
 

@@ -59,6 +59,9 @@ class Valley:
         cost = float(np.linalg.norm(self.residuals(x)))
         return Evaluation(cost, (cost,), Status.OK)
 
+    def evaluate_all(self, X: FloatArray) -> list[Evaluation]:
+        return [self.evaluate(x) for x in X]
+
 
 def run(problem: Any, seed: int = 1, generations: int = GENERATIONS) -> pd.DataFrame:
     return search(problem, seed, generations, COMPLEXES)

@@ -39,9 +39,9 @@ class Posed:
     def cost(self) -> Any:
         return SimpleNamespace(terms=[(1.0, SimpleNamespace(target=self.target))])
 
-    def simulate(self, x: FloatArray) -> tuple[Status, list[FloatArray]]:
-        curve = self.formula(x)
-        return (Status.DIVERGED, []) if curve is None else (Status.OK, [curve])
+    def simulate_all(self, X: FloatArray) -> list[tuple[Status, list[FloatArray]]]:
+        curves = [self.formula(x) for x in X]
+        return [(Status.DIVERGED, []) if c is None else (Status.OK, [c]) for c in curves]
 
 
 def likelihood(formula: Any, value: FloatArray, sd: float, limits: Any) -> Likelihood:

@@ -69,13 +69,13 @@ class Problem:
 
     def simulate_all(self, X: FloatArray) -> list[Outcome]:
         """Return the same for several sets at once, shape (sets, parameters)."""
+        if len(X) == 0:
+            return []
         columns = X[0].tolist() if len(X) == 1 else X.T
         return self.outcomes({**self.fixed, **dict(zip(self.names, columns, strict=True))}, len(X))
 
     def outcomes(self, values: Values, sets: int) -> list[Outcome]:
         """Return the same for values by name, each a number or of shape (sets,)."""
-        if sets == 0:
-            return []
         simulated = self._simulated(values, sets)
         return [
             self._picked({name: curves[s] for name, curves in simulated.items()})
