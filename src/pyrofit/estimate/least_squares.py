@@ -66,14 +66,14 @@ def descend(problem: Problem, values: FloatArray) -> Start:
         return problem.residuals(problem.lower + v * span)
 
     def slopes(v: FloatArray) -> FloatArray:
-        """Return d residuals / d v, by differences towards the farther limit."""
+        """Return d residuals / d v, by central differences, one-sided at the limits."""
         nonlocal calls
-        calls += v.size + 1
-        step = np.where(v < 0.5, STEP, -STEP)
-        here, *there = problem.residuals_all(
-            problem.lower + (v + np.vstack([np.zeros(v.size), np.diag(step)])) * span
-        )
-        return np.column_stack([(r - here) / h for r, h in zip(there, step, strict=True)])
+        calls += 2 * v.size
+        ahead, behind = np.minimum(v + STEP, 1.0), np.maximum(v - STEP, 0.0)
+        moved = np.vstack([v + np.diag(ahead - v), v + np.diag(behind - v)])
+        there = problem.residuals_all(problem.lower + moved * span)
+        pairs = zip(there[: v.size], there[v.size :], ahead - behind, strict=True)
+        return np.column_stack([(high - low) / apart for high, low, apart in pairs])
 
     found = least_squares(
         residuals, u, slopes, bounds=(0.0, 1.0), xtol=1e-7, ftol=1e-7, max_nfev=200
