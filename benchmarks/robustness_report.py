@@ -1,0 +1,87 @@
+"""What came of the random sets, as a section of docs/benchmarks.md."""
+
+from collections import Counter
+from typing import Any
+
+import numpy as np
+from boxes import BATCH, DURATION_S, SEED, Case, described
+from page import table
+
+from pyrofit.simulate import Accuracy, simulate_gasification
+from pyrofit.solver.curves import Request
+
+
+def summed(state: dict[str, Any]) -> Counter[str]:
+    """Return the counts of all boxes together."""
+    total: Counter[str] = Counter()
+    for case in state["cases"].values():
+        total.update(case["counts"])
+    total["hung batches"] = len(state["hung"])
+    return +total
+
+
+def corner(rows: list[dict[str, Any]]) -> str:
+    """Return where in their boxes sets lie: mean places, 0 to 1, far from the middle."""
+    places: dict[str, list[float]] = {}
+    for row in rows:
+        case = Case(*row["case"].split(" / "))
+        for name, (low, high) in described(case)[2].items():
+            places.setdefault(name, []).append((row["values"][name] - low) / (high - low))
+    far = {
+        name: float(np.mean(at))
+        for name, at in places.items()
+        if len(at) >= 0.1 * len(rows) and abs(np.mean(at) - 0.5) > 0.15
+    }
+    order = sorted(far.items(), key=lambda item: -abs(item[1] - 0.5))
+    return ", ".join(f"{name} {at:.2f}" for name, at in order) or "no corner"
+
+
+def refined(rows: list[dict[str, Any]]) -> str:
+    """Return how the largest energy errors change with twice the cells and half the steps."""
+    found = []
+    for row in rows:
+        case = Case(*row["case"].split(" / "))
+        experiment, material, _ = described(case)
+        asked = {"mass": Request(np.array([DURATION_S[case.experiment]]))}
+        pair = [
+            simulate_gasification(experiment, material, row["values"], asked, accuracy).energy_error
+            for accuracy in (Accuracy(), Accuracy().refined())
+        ]
+        found.append((*pair, pair[0] / pair[1]))
+    coarse, fine, ratio = np.array(found).T
+    return (
+        f"The {len(rows)} largest energy errors again, with twice the cells and half the steps: "
+        f"{coarse.max():.2g} becomes {fine.max():.2g}; each falls {np.median(ratio):.1f} times "
+        f"(median; least {ratio.min():.1f}). An error of second order falls four times."
+    )
+
+
+def page(state: dict[str, Any]) -> str:
+    """Return the section of docs/benchmarks.md."""
+    sets = sum(case["sets"] for case in state["cases"].values())
+    seconds = sum(case["seconds"] for case in state["cases"].values())
+    counts = [(name.lower(), f"{n:,}") for name, n in sorted(summed(state).items())]
+    rows = []
+    for key, found in state["worst"].items():
+        if found:
+            of = Counter(row["case"] for row in found).most_common(2)
+            most = f"{found[0][key]:.3g}"
+            where = "; ".join(f"{name} ({n})" for name, n in of)
+            rows.append((key.replace("_", " "), most, len(found), where, corner(found)))
+    boxes = len(state["cases"])
+    return "\n\n".join(
+        [
+            f"{sets:,} sets drawn from {boxes} boxes: the limits of `config/paper.yaml` (Table 3 "
+            "kinetics, and kinetics within their limits) and of `config/pmma.yaml`, at 25 and "
+            "60 kW/m², as they are and with each effect of the catalogue within its limits. "
+            f"Seed {SEED}, default accuracy, batches of {BATCH}; {seconds:.0f} s of run time on "
+            "a busy machine. Every other round asks for all signals, so that runs go on after "
+            "burn-out.",
+            table(("how it ended", "sets"), counts),
+            "The worst sets, at most a hundred of each kind, and where in their boxes they lie "
+            "(0 lower, 1 upper limit; only parameters whose mean is far from the middle):",
+            table(("by", "worst", "sets", "mostly of", "mean place"), rows),
+            refined(state["worst"]["energy_error"]),
+            "Command: `python benchmarks/robustness.py FOLDER --sets 1000000`, then `--page`.",
+        ]
+    )

@@ -1,0 +1,122 @@
+"""What is spent before and beside the solver: imports, first calls, compiling, a job.
+
+Everything runs in a process of its own.
+"""
+
+import json
+import os
+import subprocess
+import sys
+import tempfile
+import time
+from pathlib import Path
+
+from page import table
+
+HERE = Path(__file__).parent
+SMOKE = HERE.parent / "config" / "smoke.yaml"
+NOTE = (
+    "One repetition of `config/smoke.yaml` (`pyrofit imp --cost RMSE --repetition 0`), a small "
+    "job, the shortest of three, compiled code on disk:"
+)
+JOB = ("--cost", "RMSE", "--repetition", "0")
+
+FIRST_CALLS = """
+import json, sys, time
+start = time.perf_counter()
+import pyrofit.simulate
+imported = time.perf_counter()
+sys.path.insert(0, {here!r})
+from case import setup
+given = setup("capa_25")
+times = dict(**{{"import": imported - start}})
+for name, sets in (("scalar", 1), ("scalar again", 1), ("lanes", 8), ("lanes again", 8)):
+    start = time.perf_counter()
+    given.run(None, sets)
+    times[name] = time.perf_counter() - start
+print(json.dumps(times))
+"""
+
+JOB_TIMES = """
+import json, sys, time
+spent = dict.fromkeys(("kernel", "evaluate", "search"), 0.0)
+def timed(name, function):
+    def run(*given, **named):
+        start = time.perf_counter()
+        try:
+            return function(*given, **named)
+        finally:
+            spent[name] += time.perf_counter() - start
+    return run
+start = time.perf_counter()
+from pyrofit import cli
+from pyrofit.estimate import problem
+from pyrofit.solver.kernels import slab
+from pyrofit.stages import fit
+spent["imports"] = time.perf_counter() - start
+slab.slab = timed("kernel", slab.slab)
+problem.Problem.evaluate = timed("evaluate", problem.Problem.evaluate)
+fit.search = timed("search", fit.search)
+code = cli.main(sys.argv[1:])
+spent["all"] = time.perf_counter() - start
+print(json.dumps(spent))
+sys.exit(code)
+"""
+
+
+def child(code: str, *arguments: str, **environment: str) -> tuple[dict[str, float], float]:
+    """Return what a process prints at its end, as JSON, and how long it ran [s]."""
+    start = time.perf_counter()
+    done = subprocess.run(
+        [sys.executable, "-c", code, *arguments],
+        env={**os.environ, **environment},
+        check=True,
+        capture_output=True,
+        text=True,
+    )
+    took = time.perf_counter() - start
+    return json.loads(done.stdout.splitlines()[-1]), took
+
+
+def best_of(runs: list[tuple[dict[str, float], float]]) -> tuple[dict[str, float], float]:
+    """Return the shortest of several processes."""
+    return min(runs, key=lambda run: run[1])
+
+
+def first_calls() -> str:
+    """Time import and first calls, with the compiled code on disk and without."""
+    code = FIRST_CALLS.format(here=str(HERE))
+    child(code)
+    warm, _ = best_of([child(code) for _ in range(5)])
+    with tempfile.TemporaryDirectory() as empty:
+        cold, _ = child(code, NUMBA_CACHE_DIR=empty)
+    rows = [
+        ("import pyrofit.simulate", warm["import"], cold["import"]),
+        ("first call, one set", warm["scalar"], cold["scalar"]),
+        ("second call, one set", warm["scalar again"], cold["scalar again"]),
+        ("first call, eight sets", warm["lanes"], cold["lanes"]),
+        ("second call, eight sets", warm["lanes again"], cold["lanes again"]),
+    ]
+    head = ("in a fresh process", "compiled code on disk [s]", "nothing on disk [s]")
+    return table(head, [(label, f"{a:.4f}", f"{b:.4f}") for label, a, b in rows])
+
+
+def job() -> str:
+    """Time one repetition of config/smoke.yaml, and what of it is neither solver nor SPOTPY."""
+    with tempfile.TemporaryDirectory() as folder:
+        where = ("--study", str(SMOKE), "--results", folder)
+        for step in ("prepare", "kinetics"):
+            child(JOB_TIMES, step, *where)
+        spent, took = best_of([child(JOB_TIMES, "imp", *where, *JOB) for _ in range(3)])
+    evaluate, kernel = spent["evaluate"], spent["kernel"]
+    rest = took - spent["imports"] - spent["search"]
+    rows = [
+        ("solver's kernel, loading it counted", kernel),
+        ("rest of the evaluations (lowering, sampling, cost)", evaluate - kernel),
+        ("SPOTPY", spent["search"] - evaluate),
+        ("imports", spent["imports"]),
+        ("rest (interpreter, study, files)", rest),
+        ("all", took),
+        ("**outside solver and SPOTPY**", took - kernel - (spent["search"] - evaluate)),
+    ]
+    return table(("part of one job", "s"), [(label, f"{s:.3f}") for label, s in rows])
