@@ -19,7 +19,7 @@ PACKAGES = (
 )
 NUMERIC = ("numba", "numpy", "pandas", "scipy", "spotpy")
 """Packages whose version may change a number."""
-SHOWING = ("figures", "tables", "report", "start", "archive.py", "cli.py")
+SHOWING = ("figures", "tables", "report", "start", "archive.py", "cli")
 """Parts of the source that show results and do not change a number."""
 
 

@@ -73,7 +73,7 @@ def contents() -> dict[str, str]:
 @pytest.fixture
 def without_page(monkeypatch: pytest.MonkeyPatch) -> None:
     """Leave out the page, which takes longer than the diagnosis."""
-    monkeypatch.setattr("pyrofit.cli._diagnosis_page", lambda given: None)
+    monkeypatch.setattr("pyrofit.cli.diagnosing._diagnosis_page", lambda given: None)
 
 
 @pytest.fixture(scope="module")

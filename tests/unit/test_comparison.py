@@ -15,7 +15,7 @@ from pyrofit.errors import DataError
 from pyrofit.estimate import family, groups
 from pyrofit.figures.compared import rank_correlation
 from pyrofit.files import Results, read_csv, write_csv
-from pyrofit.report.comparison import sentences
+from pyrofit.report.comparison import costs, good_sets, optimisers
 from pyrofit.solver.arrays import FloatArray
 from pyrofit.stages import compare, fit, measurements, predict
 from pyrofit.tables import TABLES
@@ -334,14 +334,14 @@ def test_rank_correlation_knows_nothing_of_what_the_costs_differ_in(tmp_path: Pa
 
 def said(study: Study, results: Results) -> str:
     names = ("costs", "every_cost", "cost_tests", "bands")
-    return " ".join(sentences(study, results, {n: TABLES[n].make(study, results) for n in names}))
+    tables = {n: TABLES[n].make(study, results) for n in names}
+    return " ".join([*optimisers(study, results, tables), *costs(tables), good_sets(tables)])
 
 
 def test_sentences_say_the_numbers(tmp_path: Path) -> None:
     text = said(*fake(tmp_path))
     for claim in (
-        "RMSE: SCE-UA 0.1 (303 calls), least squares 0.08 (50 calls), CMA-ES 0.085 (1000 calls); "
-        "SCE-UA stopped at a local optimum.",
+        "other optimisers go lower: RMSE by 20 %, 1 of 2 starts of least squares agree",
         "Under no cost function is a set lower by 1 % than those that were fitted with it.",
         "not tested: fewer than 5 repetitions",
         "mass loss rate at Slab 25 kW/m² 3 % of the mean, 95 % of the measured points inside",

@@ -49,7 +49,7 @@ def test_report_of_snakemake_shows_every_figure_and_table(
     for path in shown:
         assert f"Adding {path.name} " in run.said
     page = (results / "snakemake.html").read_text(encoding="utf-8")
-    for words in ("Figure 5. Convergence of SCE-UA", "Table 4. Best set, mean", "by inverse model"):
+    for words in ("Convergence of SCE-UA", "Best set, mean and standard", "by inverse model"):
         assert words in page
     (results / "snakemake.html").unlink()
 

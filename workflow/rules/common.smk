@@ -1,5 +1,7 @@
 """What several files of rules share."""
 
+from pyrofit.tables.describe import titled
+
 
 def log_of(name):
     return str(ROOT / "logs" / f"{name}.log")
@@ -29,3 +31,8 @@ def chunks_of(wildcards):
 def blind_digest(wildcards):
     """Return a digest of what the twins of a plan depend on."""
     return digest([BLIND, blind.plan(wildcards.plan).model_dump()])
+
+
+def title_in(shown, name):
+    """Return the title of a table or figure in this study."""
+    return titled(study, shown[name].title, shown[name].paper)

@@ -23,7 +23,7 @@ rule table:
             ROOT / "tables/{name}.csv",
             caption="../report/table.rst",
             category="Tables",
-            labels=lambda wildcards: {"table": TABLES[wildcards.name].title},
+            labels=lambda wildcards: {"table": title_in(TABLES, wildcards.name)},
         ),
         markdown=ROOT / "tables/{name}.md",
     log:
@@ -49,7 +49,7 @@ rule figure:
             ROOT / "figures/{name}.svg",
             caption="../report/figure.rst",
             category="Figures",
-            labels=lambda wildcards: {"figure": FIGURES[wildcards.name].title},
+            labels=lambda wildcards: {"figure": title_in(FIGURES, wildcards.name)},
         ),
         png=ROOT / "figures/{name}.png",
     log:
@@ -71,8 +71,15 @@ rule report:
         CALCULATED,
         expand(ROOT / "tables/{name}.md", name=SHOWN_TABLES),
         expand(ROOT / "figures/{name}.svg", name=SHOWN_FIGURES),
-        # Once a study has been diagnosed, its report shows that, kept up to date.
-        [page for page in [results.diagnosis("report.html")] if page.exists()],
+        # Once a study has been diagnosed, its report shows that, kept up to date; so with twins.
+        [
+            page
+            for page in (
+                results.diagnosis("report.html"),
+                results.robustness("table.csv"),
+            )
+            if page.exists()
+        ],
     output:
         page=report(
             ROOT / "report.html",

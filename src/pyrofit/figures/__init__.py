@@ -23,13 +23,16 @@ class Figure:
     make: Callable[[Study, Results], Canvas]
     title: str
     caption: str
+    paper: str = ""
+    """Figure of the paper that it reproduces, such as 'Figure 3'."""
 
 
 FIGURES: dict[str, Figure] = {
     "fig1": Figure(
         applies=lambda study: True,
         make=fig1,
-        title="Figure 1. What the cost functions count",
+        title="What the cost functions count",
+        paper="Figure 1",
         caption="An example, the same for every study: target (solid), model (dashed), the "
         "distance that counts (green, hatched; green bars for a single point and a threshold), and "
         "the area in which a model costs nothing (light blue). The numbers are the costs of this "
@@ -42,7 +45,8 @@ FIGURES: dict[str, Figure] = {
     "fig2": Figure(
         applies=lambda study: bool(rates_in_fit(study)),
         make=fig2,
-        title="Figure 2. Kinetics at the fitted heating rates",
+        title="Kinetics at the fitted heating rates",
+        paper="Figure 2",
         caption="Normalised mass (left) and mass loss rate (right) against temperature at the "
         "heating rates used in the fit, the slowest to the left: data (wide, light), fitted "
         "(dashed), sets of the literature, if any (dotted). The rate is divided by the heating "
@@ -60,7 +64,8 @@ FIGURES: dict[str, Figure] = {
     "fig3": Figure(
         applies=lambda study: bool(curves.fitted_rates(study)),
         make=curves.fig3,
-        title="Figure 3. Mass loss rate, fitted",
+        title="Mass loss rate, fitted",
+        paper="Figure 3",
         caption="Mass loss rate of the fitted experiment: the data with their uncertainty (grey "
         "area), and the best set that SCE-UA found for each cost function; thin grey "
         "curves with markers, if any, are our solver's for sets of the literature. Curves on "
@@ -70,14 +75,16 @@ FIGURES: dict[str, Figure] = {
     "fig4": Figure(
         applies=lambda study: bool(curves.held_out_rates(study)),
         make=curves.fig4,
-        title="Figure 4. Mass loss rate, predicted",
+        title="Mass loss rate, predicted",
+        paper="Figure 4",
         caption="The same sets at an experiment that was not fitted. Agreement among the simulated "
         "curves is not agreement with the data: compare them with the grey area.",
     ),
     "fig5": Figure(
         applies=lambda study: True,
         make=fig5,
-        title="Figure 5. Convergence of SCE-UA",
+        title="Convergence of SCE-UA",
+        paper="Figure 5",
         caption="Lowest cost found so far, from the lowest to the highest of the repetitions "
         "(area) and their median (line), by generation and by model calls. The scale is "
         "logarithmic and each cost function has its own: heights of different cost functions are "

@@ -13,6 +13,12 @@ from pyrofit.files import Results
 from pyrofit.stages.robustness import NOISE, OUTLIERS
 from pyrofit.tables.robustness import errors
 
+TITLE = "Robustness on twins of known truth"
+CAPTION = (
+    "Errors of the fits against how much noise (left) and how many outliers (right) the twins "
+    "have; dots: one twin each, lines: their median. A cost function whose line stays low bears "
+    "what disturbs it; lines that lie within each other's dots do not differ."
+)
 _ASIDE = 0.14
 """Distance of the cost functions' marks at one level, in levels."""
 _LABELS = {NOISE: "noise, multiple of the measurement's", OUTLIERS: "outliers [% of points]"}

@@ -3,12 +3,12 @@
 from pyrofit.config import Study
 from pyrofit.files import Results, write_json, write_text
 from pyrofit.report import diagnosis
-from pyrofit.report.content import sections, tables_of
-from pyrofit.report.determined import verdicts
+from pyrofit.report.answer import advice
+from pyrofit.report.content import sections, table_part, tables_of
 from pyrofit.report.page import page_of, provenance
 from pyrofit.report.summary import summary
-from pyrofit.report.truth import sentences
 from pyrofit.stages import outcomes
+from pyrofit.tables import TABLES
 
 
 def write_report(study: Study, results: Results) -> None:
@@ -21,13 +21,14 @@ def write_report(study: Study, results: Results) -> None:
     """
     origin = provenance(study, outcomes.measured(study, results))
     tables = tables_of(study, results)
-    said = [*summary(study, tables), verdicts(tables)]
-    said += sentences(tables["truth"])[:1] if "truth" in tables else []
+    said = summary(study, tables)
+    answer = table_part(study, TABLES["answer"], tables["answer"], advice(study, tables))
     shown = sections(study, results, tables)
     # The diagnosis is a step of its own, which a study may go without.
+    lacks = ""
     if diagnosis.exists(results):
-        said.append(diagnosis.headline(study, results))
+        lacks = diagnosis.headline(study, results)
         shown.append(diagnosis.section(study, results))
-    text = page_of(study, results, study.title or study.name, said, shown)
+    text = page_of(study, results, study.title or study.name, said, shown, answer, lacks)
     write_json(results.root / "provenance.json", origin)
     write_text(results.root / "report.html", text)

@@ -7,7 +7,8 @@ import pandas as pd
 
 from pyrofit.config import Study
 from pyrofit.files import Results, read_csv
-from pyrofit.report.summary import listed, span
+from pyrofit.report import remarks
+from pyrofit.report.words import listed, span
 from pyrofit.stages.compare import FITTED, METRICS
 from pyrofit.tables.comparison import ALL
 from pyrofit.tables.describe import CMAES, LEAST_SQUARES, PUBLISHED, SCEUA
@@ -20,34 +21,15 @@ Frames = dict[str, pd.DataFrame]
 _BENCHMARKS = {SCEUA: "imp_{}_??", LEAST_SQUARES: "least_squares_{}", CMAES: "cmaes_{}"}
 
 
-def sentences(study: Study, results: Results, tables: Frames) -> list[str]:
-    """Return the sentences of the section: optimisers, every cost, tests, predictions, times."""
-    said = [
-        _optimisers(tables),
-        _beaten(tables),
-        _metric(tables),
-        *_tests(tables),
-        _bands(tables),
-        _times(study, results),
-    ]
+def optimisers(study: Study, results: Results, tables: Frames) -> list[str]:
+    """Return the sentences on the optimisers: who is ahead, and times."""
+    said = [remarks.optimisers(tables), _beaten(tables), _times(study, results)]
     return [text for text in said if text]
 
 
-def _optimisers(tables: Frames) -> str:
-    """Say the lowest costs, by how many searches they were reached, and with how many calls."""
-    parts = []
-    for row in tables["costs"].to_dict("records"):
-        found = {
-            SCEUA: (row["sceua_best"], row["sceua_calls"]),
-            LEAST_SQUARES: (row["least_squares_best"], row["least_squares_calls"]),
-            CMAES: (row["cmaes_best"], row["cmaes_calls"]),
-        }
-        said = ", ".join(
-            f"{by} {number(float(best))} ({int(calls)} calls)"
-            for by, (best, calls) in found.items()
-        )
-        parts.append(f"{row['cost_function']}: {said}; {row['remark']}")
-    return f"Lowest costs and all model calls. {'. '.join(parts)}."
+def costs(tables: Frames) -> list[str]:
+    """Return the sentences on the cost functions: on one metric, and by tests."""
+    return [text for text in (_metric(tables), *_tests(tables)) if text]
 
 
 def _beaten(tables: Frames) -> str:
@@ -132,7 +114,7 @@ def _scatter(table: pd.DataFrame) -> str:
     return f"They scatter differently in {listed(apart)} (Brown and Forsythe's test)."
 
 
-def _bands(tables: Frames) -> str:
+def good_sets(tables: Frames) -> str:
     """Say how far the good sets reach, and what of the data they reach."""
     table = tables["bands"]
     names = table["cost_function"]

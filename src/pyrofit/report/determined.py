@@ -6,7 +6,7 @@ from typing import Any
 
 import pandas as pd
 
-from pyrofit.report.summary import listed, span
+from pyrofit.report.words import listed, span
 
 Frames = dict[str, pd.DataFrame]
 
@@ -26,13 +26,15 @@ def verdicts(tables: Frames) -> str:
 
 def _sorted(table: pd.DataFrame) -> str:
     """List parameters by verdict."""
+    return ", ".join(f"{verdict} {listed(names)}" for verdict, names in by_verdict(table).items())
+
+
+def by_verdict(table: pd.DataFrame) -> dict[str, list[str]]:
+    """Return the parameters, each with the width of its interval, by verdict, the best first."""
     words = table["verdict"].str.partition(",")[0].str.replace(r"^at its .*", AT_BOUND, regex=True)
-    parts = []
-    for verdict in ("determined", "weakly determined", AT_BOUND, "undetermined"):
-        names = [_named(row) for row in table[words == verdict].to_dict("records")]
-        if names:
-            parts.append(f"{verdict} {listed(names)}")
-    return ", ".join(parts)
+    verdicts = ("determined", "weakly determined", AT_BOUND, "undetermined")
+    found = {v: [_named(row) for row in table[words == v].to_dict("records")] for v in verdicts}
+    return {verdict: names for verdict, names in found.items() if names}
 
 
 def _named(row: Mapping[Any, Any]) -> str:

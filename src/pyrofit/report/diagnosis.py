@@ -11,7 +11,7 @@ from pyrofit.figures.diagnosis import DIAGNOSIS_FIGURES, figures_of
 from pyrofit.files import Results, write_text
 from pyrofit.report.content import Part, Picture, Section, picture, table_part
 from pyrofit.report.page import page_of
-from pyrofit.report.summary import listed
+from pyrofit.report.words import listed
 from pyrofit.stages import outcomes
 from pyrofit.tables import diagnosis_tables, make_diagnosis_tables
 from pyrofit.tables.diagnosed import DIAGNOSIS_TABLES
@@ -60,7 +60,7 @@ def section(study: Study, results: Results) -> Section:
         made: list[Part | Picture] = []
         for name in names:
             if name in tables:
-                made.append(table_part(DIAGNOSIS_TABLES[name], tables[name], text))
+                made.append(table_part(study, DIAGNOSIS_TABLES[name], tables[name], text))
                 text = ""
         if text:
             made.insert(0, Part(DIAGNOSIS_TABLES[names[0]].title, text=text))

@@ -1,6 +1,6 @@
 """A page that needs nothing else: what was measured, sections, and what all of it rests on."""
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Sequence
 from typing import Any
 
 from jinja2 import Environment, PackageLoader, StrictUndefined, select_autoescape
@@ -8,12 +8,10 @@ from jinja2 import Environment, PackageLoader, StrictUndefined, select_autoescap
 from pyrofit.config import Study, digest
 from pyrofit.data.fetch import COMMIT
 from pyrofit.files import Results
-from pyrofit.model.experiment import Signal
 from pyrofit.provenance import environment
-from pyrofit.report.content import Section
+from pyrofit.report import measured as measurements
+from pyrofit.report.content import Part, Section
 from pyrofit.stages import outcomes
-from pyrofit.stages.closure import closure_lines
-from pyrofit.tables.describe import title_of
 
 
 def page_of(
@@ -22,8 +20,25 @@ def page_of(
     title: str,
     summary: Sequence[str],
     sections: Sequence[Section],
+    answer: Part | None = None,
+    lacks: str = "",
 ) -> str:
     """Return a page as HTML: sentences of the summary, the data, sections, provenance.
+
+    Parameters
+    ----------
+    study, results
+        The study, and where its measurements lie.
+    title
+        Heading of the page.
+    summary
+        Sentences that come first.
+    sections
+        What follows the measurements.
+    answer
+        Table that ends the summary, if any.
+    lacks
+        What the model lacks, in a sentence, if that is known and not the summary itself.
 
     Raises
     ------
@@ -31,24 +46,31 @@ def page_of(
         The measurements have not been read.
     """
     measured = outcomes.measured(study, results)
-    series = _series(study, measured)
-    templates = Environment(
+    template = _templates().get_template("report.html.j2")
+    return template.render(
+        study=study,
+        title=title,
+        summary=summary,
+        series=measurements.series(study, results, measured),
+        notes=measurements.notes(study, measured),
+        answer=answer,
+        lacks=lacks,
+        costs=list(study.imp.costs),
+        closure=measurements.closure(study, measured),
+        sources=len({a["source"] for s in measured["signals"].values() for a in s.values()}),
+        sections=sections,
+        origin=provenance(study, measured),
+        description=study.model_dump_json(indent=1, exclude_defaults=True),
+    )
+
+
+def _templates() -> Environment:
+    return Environment(
         loader=PackageLoader("pyrofit.report", "."),
         autoescape=select_autoescape(("html", "html.j2")),
         undefined=StrictUndefined,
         trim_blocks=True,
         lstrip_blocks=True,
-    )
-    return templates.get_template("report.html.j2").render(
-        study=study,
-        title=title,
-        summary=summary,
-        series=series,
-        closure=[_titled(study, line) for line in closure_lines(study, measured["signals"])],
-        sources=sorted({row["source"] for row in series}),
-        sections=sections,
-        origin=provenance(study, measured),
-        description=study.model_dump_json(indent=1, exclude_defaults=True),
     )
 
 
@@ -67,30 +89,3 @@ def provenance(study: Study, measured: dict[str, Any]) -> dict[str, Any]:
             for signal, about in signals.items()
         },
     }
-
-
-def _series(study: Study, measured: dict[str, Any]) -> list[dict[str, Any]]:
-    return [
-        {
-            "experiment": title_of(study, name),
-            "signal": signal.replace("_", " ").replace("mlr", "mass loss rate"),
-            "points": about["points"],
-            "source": about["source"],
-            "uncertainty": about.get("uncertainty", _noise(study, name, signal)),
-            "notes": about.get("notes", []),
-        }
-        for name, signals in measured["signals"].items()
-        for signal, about in signals.items()
-    ]
-
-
-def _noise(study: Study, experiment: str, signal: str) -> str:
-    signals: Mapping[str, Signal] = study.experiments[experiment].signals
-    return "standard deviation of the noise" if signals[signal].noise.sd > 0.0 else ""
-
-
-def _titled(study: Study, line: str) -> str:
-    """Put titles in place of the experiments' names at the start of a line."""
-    head, colon, rest = line.partition(": ")
-    names = [title_of(study, n) if n in study.experiments else n for n in head.split(" and ")]
-    return " and ".join(names) + colon + rest

@@ -7,7 +7,9 @@ import pandas as pd
 from pyrofit.config import Study
 from pyrofit.errors import StudyError, suggest
 from pyrofit.files import Results, write_csv, write_text
+from pyrofit.tables.answer import answer
 from pyrofit.tables.compared import COMPARED_TABLES
+from pyrofit.tables.describe import titled
 from pyrofit.tables.determined import channels, determined, distances
 from pyrofit.tables.diagnosed import DIAGNOSIS_TABLES
 from pyrofit.tables.imp import costs, table4
@@ -19,10 +21,21 @@ from pyrofit.tables.truth import known, truth
 from pyrofit.tables.validation import validation
 
 TABLES: dict[str, Table] = {
+    "answer": Table(
+        applies=lambda study: True,
+        make=answer,
+        title="The answer: estimate, 95 % interval, and the best set of each cost function",
+        note="Estimate: the optimum of the likelihood, which weighs each point by its noise; the "
+        "interval says how far other values fit as well, the model taken as right. Best sets: of "
+        "the lowest cost, by whichever optimiser found it. Values of one column belong together.",
+        headings={"low": "95 % low", "high": "95 % high"},
+        group_by="fit",
+    ),
     "table3": Table(
         applies=lambda study: study.kinetics is not None,
         make=table3,
-        title="Table 3. Kinetic parameters, and how well they reproduce the mass",
+        title="Kinetic parameters, and how well they reproduce the mass",
+        paper="Table 3",
         note="E in kJ/kmol is the same number as in J/mol. The cost is the fitness of our fit; it "
         "is not computed for published sets. The RMSE of the mass fraction is over all "
         "measured points of a heating rate; 'used in fit' is about our fit.",
@@ -31,7 +44,8 @@ TABLES: dict[str, Table] = {
     "table4": Table(
         applies=lambda study: True,
         make=table4,
-        title="Table 4. Best set, mean and standard deviation over the repetitions",
+        title="Best set, mean and standard deviation over the repetitions",
+        paper="Table 4",
         note="sigma is the standard deviation over the n repetitions with n − 1 as divisor: the "
         "scatter of the optimiser, not the uncertainty of the parameter. "
         "'At bound': the best value lies within 0.5 % of the limits' distance from a limit. "
@@ -49,13 +63,15 @@ TABLES: dict[str, Table] = {
     "table5": Table(
         applies=lambda study: True,
         make=table5,
-        title="Table 5. Symbols and units",
-        note="The paper prints kJ/kg for E and m/K for k, two misprints; here stand kJ/kmol, as in "
-        "its Table 3, and W/(m K). kJ/kmol is the same number as J/mol. The code and its files of "
-        "results are in SI units; a parameter is given and shown in the unit behind its name. "
-        "Where T stands for A, it is the temperature at which the rate constant has a given value.",
+        title="Symbols and units",
+        paper="Table 5",
+        note="Lauer et al. (2020) print kJ/kg for E and m/K for k, two misprints; here stand "
+        "kJ/kmol, as in their Table 3, and W/(m K). kJ/kmol is the same number as J/mol. The code "
+        "and its files of results are in SI units; a parameter is given and shown in the unit "
+        "behind its name. Where T stands for A, it is the temperature at which the rate constant "
+        "has a given value.",
         headings={
-            "paper_unit": "unit in the paper, corrected",
+            "paper_unit": "unit in Lauer et al. (2020), corrected",
             "si_unit": "SI unit",
             "parameters": "parameters of this study [unit]",
         },
@@ -63,9 +79,10 @@ TABLES: dict[str, Table] = {
     "table6": Table(
         applies=lambda study: True,
         make=table6,
-        title="Table 6. Sampling limits",
+        title="Sampling limits",
+        paper="Table 6",
         note="All optimisers search within these limits, the same for all cost functions, as in "
-        "the paper, which gives none for the kinetics.",
+        "Lauer et al. (2020), who give none for the kinetics.",
         headings={
             "lower_limit": "lower limit",
             "upper_limit": "upper limit",
@@ -253,7 +270,7 @@ def readable(table: Table, frame: pd.DataFrame) -> list[tuple[str, pd.DataFrame]
 
 def _page(study: Study, table: Table, frame: pd.DataFrame) -> str:
     synthetic = " (synthetic data)" if study.is_synthetic else ""
-    parts = [f"# {table.title}{synthetic}\n"]
+    parts = [f"# {titled(study, table.title, table.paper)}{synthetic}\n"]
     for heading, part in readable(table, frame):
         parts += [f"## {heading}\n"] if heading else []
         parts.append(markdown(part))

@@ -26,6 +26,11 @@ class PredictedSet:
     origin: str
 
 
+def titled(study: Study, title: str, place: str) -> str:
+    """Return a title; where a study has published values, with the place of their like."""
+    return f"{title} ({place} of Lauer et al., 2020)" if place and study.published else title
+
+
 def title_of(study: Study, experiment: str) -> str:
     """Return the name of an experiment in figures."""
     return study.experiments[experiment].title or experiment

@@ -90,14 +90,20 @@ def flags(best: float, sigma: float, lower: float | None, upper: float | None) -
     if lower is None or upper is None:
         return ""
     span = upper - lower
-    found = []
-    if best - lower <= AT_BOUND * span:
-        found.append("at bound (lower)")
-    if upper - best <= AT_BOUND * span:
-        found.append("at bound (upper)")
+    found = [f"at bound ({end})"] if (end := at_bound(best, lower, upper)) else []
     if sigma > WIDE_SPREAD * span:
         found.append("spread > 20 % of limits")
     return "; ".join(found)
+
+
+def at_bound(value: float, lower: float, upper: float) -> str:
+    """Name the limit that a value is at, if any.
+
+    >>> at_bound(0.989, 0.01, 0.99), at_bound(0.5, 0.01, 0.99)
+    ('upper', '')
+    """
+    near = AT_BOUND * (upper - lower)
+    return "lower" if value - lower <= near else "upper" if upper - value <= near else ""
 
 
 def costs(study: Study, results: Results) -> pd.DataFrame:

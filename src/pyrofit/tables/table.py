@@ -19,5 +19,7 @@ class Table:
     note: str = ""
     headings: Mapping[str, str] = field(default_factory=dict)
     group_by: str | None = None
+    paper: str = ""
+    """Table of the paper that it reproduces, such as 'Table 4'."""
     upright: str | None = None
     """Column whose values become the headings where the table is read: few rows, many columns."""

@@ -1,0 +1,59 @@
+"""The command line: what the workflow's rules call, usable by hand."""
+
+import argparse
+import contextlib
+import os
+import sys
+from collections.abc import Sequence
+
+from pyrofit.cli import diagnosing, fitting, showing, starting
+from pyrofit.errors import PyrofitError
+from pyrofit.logs import Tee, open_log
+
+
+def main(arguments: Sequence[str] | None = None) -> int:
+    """Run a command; return 0, or 2 with a message where the user can repair something."""
+    # Threads of linear algebra would get in the way of the workflow's jobs, and change last bits:
+    # Snakemake asks for as many as a job has cores.
+    os.environ["OPENBLAS_NUM_THREADS"] = "1"
+    given = _parser().parse_args(arguments)
+    if getattr(given, "log", None) is None:
+        return _run(given)
+    try:
+        log = open_log(given.log)
+    except OSError as error:
+        print(
+            f"error: {given.log}: cannot be written ({error.strerror}); make room or name "
+            "another file with --log. Everything finished before is kept.",
+            file=sys.stderr,
+        )
+        return 2
+    usual = sys.stderr
+    sys.stderr = Tee(usual, log)
+    try:
+        return _run(given)
+    finally:
+        sys.stderr = usual
+        # Where the disk is full, closing fails once more.
+        with contextlib.suppress(OSError):
+            log.close()
+
+
+def _run(given: argparse.Namespace) -> int:
+    try:
+        given.step(given)
+    except PyrofitError as error:
+        print(f"error: {error}", file=sys.stderr)
+        return 2
+    except KeyboardInterrupt:
+        print("interrupted; run again to go on, finished parts are kept", file=sys.stderr)
+        return 130
+    return 0
+
+
+def _parser() -> argparse.ArgumentParser:
+    parser = argparse.ArgumentParser(prog="pyrofit", description=__doc__)
+    commands = parser.add_subparsers(dest="command", required=True, metavar="COMMAND")
+    for group in (starting, fitting, diagnosing, showing):
+        group.add(commands)
+    return parser

@@ -1,0 +1,38 @@
+"""What the steps of a study share: their options, and how its results are opened."""
+
+import argparse
+from collections.abc import Callable
+from pathlib import Path
+from typing import Any
+
+from pyrofit.errors import StudyError, suggest
+
+Step = Callable[[argparse.Namespace], None]
+
+
+def add_step(commands: Any, name: str, text: str, step: Step) -> argparse.ArgumentParser:
+    """Add a command that takes a study, and return its parser for further options."""
+    parser: argparse.ArgumentParser = commands.add_parser(name, help=text)
+    parser.add_argument("--study", type=Path, required=True, help="study file (YAML or JSON)")
+    parser.add_argument("--results", type=Path, help="results folder; default results/<name>")
+    parser.add_argument("--digest", help="expected digest of what the step depends on")
+    parser.add_argument("--log", type=Path, help="file that keeps what is printed")
+    parser.set_defaults(step=step)
+    return parser
+
+
+def open_study(given: argparse.Namespace, slice_of: Callable[..., Any], *arguments: Any) -> Any:
+    """Return study and results; refuse a study that differs from what the caller described."""
+    from pyrofit.config import digest, read_study
+    from pyrofit.files import Results
+
+    study = read_study(given.study)
+    cost = getattr(given, "cost", None)
+    if cost is not None and cost not in study.imp.costs:
+        raise StudyError(
+            f"{given.study}: study '{study.name}' has no cost '{cost}'. "
+            + suggest(cost, study.imp.costs)
+        )
+    if given.digest is not None and digest(slice_of(study, *arguments)) != given.digest:
+        raise StudyError(f"{given.study}: the study changed while the workflow ran; run it again")
+    return study, Results(given.results or Path("results") / study.name)

@@ -1,0 +1,66 @@
+"""Commands of the diagnosis, and of its blind test."""
+
+import argparse
+import sys
+from pathlib import Path
+from typing import Any
+
+from pyrofit.cli.common import add_step, open_study
+
+
+def add(commands: Any) -> None:
+    """Add these commands."""
+    lacks = add_step(commands, "diagnose", "find which effect the model lacks", _diagnose)
+    lacks.add_argument("--cores", type=_cores, default=1, help="processes; default: 1")
+    add_step(
+        commands, "diagnosis-page", "draw and write the page of the diagnosis", _diagnosis_page
+    )
+    hidden = commands.add_parser("hidden-effects", help="run the blind test of the diagnosis")
+    hidden.add_argument("--setting", type=Path, default=Path("config/hidden_effects.yaml"))
+    hidden.add_argument("--plan", required=True, help="plan of the setting")
+    hidden.add_argument("--chunk", type=int, help="job to run; without: gather all jobs")
+    hidden.add_argument("--log", type=Path, help="file that keeps what is printed")
+    hidden.set_defaults(step=_hidden_effects)
+
+
+def _cores(text: str) -> int:
+    if not text.isdigit() or int(text) < 1:
+        raise argparse.ArgumentTypeError(f"'{text}' is no number of cores; give 1 or more")
+    return int(text)
+
+
+def _diagnose(given: argparse.Namespace) -> None:
+    from pyrofit.stages import diagnose, measurements, slices
+
+    study, results = open_study(given, slices.diagnose)
+    if given.digest is None:  # by hand, without the workflow that has read the measurements
+        measurements.prepare(study, results)
+    diagnose.diagnose(study, results, lambda text: print(text, file=sys.stderr), given.cores)
+    if given.digest is None:
+        _diagnosis_page(given)
+
+
+def _diagnosis_page(given: argparse.Namespace) -> None:
+    from pyrofit.figures.diagnosis import draw_all
+    from pyrofit.report.diagnosis import write_page
+    from pyrofit.stages import slices
+
+    study, results = open_study(given, slices.presentation)
+    draw_all(results, study)
+    write_page(study, results)
+
+
+def _hidden_effects(given: argparse.Namespace) -> None:
+    from pyrofit.hidden.places import FOLDER, Places
+    from pyrofit.hidden.setting import read_setting
+
+    setting, places = read_setting(given.setting), Places(FOLDER / given.plan)
+    if given.chunk is None:
+        from pyrofit.report.hidden_effects import write_hidden_effects
+
+        write_hidden_effects(setting, given.plan, places)
+    else:
+        from pyrofit.diagnose.diagnosis import diagnose
+        from pyrofit.hidden.run import run_chunk
+
+        run_chunk(setting, given.plan, given.chunk, places, diagnose)

@@ -1,0 +1,123 @@
+"""Commands that compute: measurements, kinetics, inverse modelling, predictions, comparisons."""
+
+import argparse
+import sys
+from typing import Any
+
+from pyrofit.cli.common import add_step, open_study
+from pyrofit.errors import StudyError
+
+
+def add(commands: Any) -> None:
+    """Add these commands."""
+    add_step(commands, "prepare", "read the measurements into tidy tables", _prepare)
+    add_step(commands, "kinetics", "fit the kinetics to TGA", _kinetics)
+    imp = add_step(commands, "imp", "run one repetition of the inverse modelling", _imp)
+    imp.add_argument("--cost", required=True, help="cost function of the study")
+    imp.add_argument("--repetition", type=int, required=True, help="number of the repetition")
+    squares = add_step(commands, "least-squares", "run least squares on one cost", _least_squares)
+    squares.add_argument("--cost", required=True, help="cost function of the study")
+    cma_es = add_step(commands, "cma-es", "run CMA-ES on one cost", _cma_es)
+    cma_es.add_argument("--cost", required=True, help="cost function of the study")
+    descent = add_step(commands, "descent", "run least squares from SCE-UA's best set", _descent)
+    descent.add_argument("--cost", required=True, help="cost function of the study")
+    add_step(commands, "collect", "gather all repetitions", _collect)
+    known = add_step(commands, "identify", "find which parameters the data determine", _identify)
+    known.add_argument("--stage", choices=("kinetics", "imp"), default="imp", help="default: imp")
+    add_step(commands, "predict", "simulate the best sets at all predicted experiments", _predict)
+    add_step(commands, "compare", "score all sets of all optimisers by all costs", _compare)
+    twins = add_step(
+        commands, "robustness", "compare the costs on twins of known truth", _robustness
+    )
+    twins.add_argument("--cost", help="cost function to fit them with; without: gather all")
+
+
+def _prepare(given: argparse.Namespace) -> None:
+    from pyrofit.stages import measurements, slices
+
+    for line in measurements.prepare(*open_study(given, slices.data)):
+        print(f"mass closure: {line}", file=sys.stderr)
+
+
+def _kinetics(given: argparse.Namespace) -> None:
+    from pyrofit.stages import fit, slices
+
+    fit.fit_kinetics(*open_study(given, slices.kinetics))
+
+
+def _imp(given: argparse.Namespace) -> None:
+    from pyrofit.stages import fit, slices
+
+    study, results = open_study(given, slices.imp, given.cost, "sceua")
+    if not 0 <= given.repetition < study.imp.repetitions:
+        raise StudyError(
+            f"repetition {given.repetition}: study '{study.name}' has repetitions 0 to "
+            f"{study.imp.repetitions - 1}; raise imp.repetitions for more"
+        )
+    fit.repeat(study, results, given.cost, given.repetition)
+
+
+def _least_squares(given: argparse.Namespace) -> None:
+    from pyrofit.stages import fit, slices
+
+    study, results = open_study(given, slices.imp, given.cost, "least_squares")
+    fit.least_squares(study, results, given.cost)
+
+
+def _cma_es(given: argparse.Namespace) -> None:
+    from pyrofit.stages import fit, slices
+
+    study, results = open_study(given, slices.imp, given.cost, "cmaes")
+    fit.cma_es(study, results, given.cost)
+
+
+def _descent(given: argparse.Namespace) -> None:
+    from pyrofit.stages import fit, slices
+
+    study, results = open_study(given, slices.imp, given.cost, "least_squares")
+    fit.descent(study, results, given.cost)
+
+
+def _collect(given: argparse.Namespace) -> None:
+    from pyrofit.stages import fit, slices
+
+    fit.collect(*open_study(given, slices.collect))
+
+
+def _identify(given: argparse.Namespace) -> None:
+    from pyrofit.stages import identify, slices
+
+    if given.stage == "kinetics":
+        identify.identify_kinetics(*open_study(given, slices.kinetics))
+    else:
+        identify.identify_imp(*open_study(given, slices.identify))
+
+
+def _predict(given: argparse.Namespace) -> None:
+    from pyrofit.stages import predict, slices
+
+    predict.predict(*open_study(given, slices.validation))
+
+
+def _compare(given: argparse.Namespace) -> None:
+    from pyrofit.stages import compare, slices
+
+    compare.compare(*open_study(given, slices.compare))
+
+
+def _robustness(given: argparse.Namespace) -> None:
+    from pyrofit.stages import robustness, slices
+
+    if given.cost is not None:
+        study, results = open_study(given, slices.robustness, given.cost)
+        robustness.robustness(study, results, given.cost)
+        return
+    from pyrofit.figures.robustness import draw_robustness
+    from pyrofit.report.comparison import robustness as said
+    from pyrofit.tables.robustness import write_robustness
+
+    study, results = open_study(given, slices.presentation)
+    write_robustness(study, results)
+    draw_robustness(study, results)
+    for line in said(study, results):
+        print(line, file=sys.stderr)

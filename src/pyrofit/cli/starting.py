@@ -1,0 +1,91 @@
+"""Commands that come before a run: data, a new study, the reference of its keys, a check."""
+
+import argparse
+from pathlib import Path
+from typing import Any
+
+from pyrofit.errors import PyrofitError
+
+
+def add(commands: Any) -> None:
+    """Add these commands."""
+    data = commands.add_parser("data", help="the measured files of the MaCFP data base")
+    actions = data.add_subparsers(dest="action", required=True, metavar="ACTION")
+    fetch = actions.add_parser("fetch", help="download them, by commit and SHA-256")
+    fetch.set_defaults(step=_fetch)
+    where = actions.add_parser("where", help="print their folder; exit 2 where files are missing")
+    where.set_defaults(step=_where)
+
+    init = commands.add_parser("init", help="write a study and a folder for your own material")
+    init.add_argument("name", help="name of study and folder: letters, digits and _")
+    init.add_argument("--tga", type=Path, nargs="+", default=[], metavar="CSV", help="TGA files")
+    init.add_argument(
+        "--gasification",
+        type=Path,
+        nargs="+",
+        default=[],
+        metavar="CSV",
+        help="files with a mass loss rate, a back temperature or both; without any file the "
+        "measurements are computed",
+    )
+    init.set_defaults(step=_init)
+
+    reference = commands.add_parser("reference", help="print the reference of all keys of a study")
+    reference.set_defaults(step=_reference)
+
+    check = commands.add_parser("check", help="check a study and its files, run nothing")
+    check.add_argument("study", type=Path, help="study file (YAML)")
+    check.set_defaults(step=_check)
+
+
+def _fetch(given: argparse.Namespace) -> None:
+    from pyrofit.data.fetch import fetch, store
+
+    files = fetch()
+    print(f"{len(files)} measured files, checksums verified, in {store()}")
+
+
+def _where(given: argparse.Namespace) -> None:
+    from pyrofit.data.fetch import missing, store
+    from pyrofit.errors import DataError
+
+    folder = store()
+    absent = missing(folder)
+    if absent:
+        raise DataError(
+            f"{folder}: {len(absent)} measured files are missing, the first is {absent[0]}; "
+            "get them with `make data`, or set PYROFIT_DATA_DIR to a copy of the data base"
+        )
+    print(folder)
+
+
+def _init(given: argparse.Namespace) -> None:
+    from pyrofit.start.write import init
+
+    study, lines = init(given.name, given.tga, given.gasification, Path())
+    for line in lines:
+        print(line)
+    print(f"{study}: written. Change what is marked CHANGE.")
+    try:
+        _check(argparse.Namespace(study=study))
+    except PyrofitError as error:
+        print(f"Still to do, as `pyrofit check` says:\n{error}")
+
+
+def _reference(given: argparse.Namespace) -> None:
+    from pyrofit.start.reference import reference_page
+
+    print(reference_page(), end="")
+
+
+def _check(given: argparse.Namespace) -> None:
+    from pyrofit.config import read_study
+    from pyrofit.stages.reading import check_measurements
+
+    study = read_study(given.study)
+    read = check_measurements(study, str(given.study))
+    runs = study.imp.repetitions * len(study.imp.costs)
+    print(
+        f"{given.study}: study '{study.name}' is valid; {read} measured series read; "
+        f"{runs} repetitions in all"
+    )
