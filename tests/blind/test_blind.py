@@ -40,8 +40,12 @@ def test_nothing_is_found_where_nothing_is_hidden(twins: pd.DataFrame) -> None:
 
 def test_effects_that_stand_out_are_named(twins: pd.DataFrame) -> None:
     seen = twins[(twins["kind"] == "effect") & (twins["detectability"] >= 10.0)]
-    assert len(seen) >= 6
-    assert seen["right"].all()
+    assert seen["claim"].all()
+    # Of two that fit alike an ambiguous verdict names none: that its set holds the truth is asked
+    # for below.
+    named = seen[seen["verdict"] != "ambiguous"]
+    assert len(named) >= 6
+    assert named["right"].all()
 
 
 def test_claims_hold_the_truth(twins: pd.DataFrame) -> None:

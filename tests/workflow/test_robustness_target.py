@@ -5,7 +5,7 @@ from tiny import COSTS, Project
 
 def test_robustness_is_a_target_of_its_own_that_leaves_table_and_figure(project: Project) -> None:
     assert not (project.root / "results/tiny/robustness").exists()
-    run = project.snakemake("robustness", "--cores", "2")
+    run = project.snakemake("--cores", "2", "robustness")
     assert run.code == 0, run.said
     assert run.jobs == {
         *(f"Robustness, {cost}" for cost in COSTS),
