@@ -59,7 +59,7 @@ def _tested(tables: Frames, cost: str, by: str) -> str:
     if held.max() > _WORSE * fitted.max():
         text += (
             ", so that predictions are not to be trusted before it is known what model or given "
-            "values lack (`snakemake diagnose`)"
+            "values lack (snakemake diagnose)"
         )
     return text
 
