@@ -8,9 +8,10 @@ import pytest
 import yaml
 
 from pyrofit.config import Study, as_study
+from pyrofit.estimate.history import best_of, convergence
 from pyrofit.estimate.least_squares import multistart
 from pyrofit.estimate.problem import Problem, make_problem
-from pyrofit.estimate.sceua import best_of, convergence, search
+from pyrofit.estimate.sceua import search
 from pyrofit.stages.measurements import computed
 
 SMOKE = Path(__file__).parents[2] / "config" / "smoke.yaml"

@@ -12,6 +12,7 @@ import pytest
 from pyrofit.config import Study, TermSpec, read_study
 from pyrofit.errors import CostError
 from pyrofit.estimate import cmaes
+from pyrofit.estimate.history import best_of, convergence, seed_for
 from pyrofit.estimate.least_squares import multistart
 from pyrofit.estimate.problem import (
     FAILED_COST,
@@ -22,7 +23,7 @@ from pyrofit.estimate.problem import (
     request_for,
     target_of,
 )
-from pyrofit.estimate.sceua import best_of, convergence, search, seed_for
+from pyrofit.estimate.sceua import search
 from pyrofit.model.experiment import Tga
 from pyrofit.simulate import simulate_gasification, simulate_tga
 from pyrofit.solver.arrays import FloatArray, Status

@@ -3,6 +3,7 @@
 import ast
 import re
 import subprocess
+import sys
 from pathlib import Path
 
 import pytest
@@ -96,6 +97,13 @@ def test_only_kernels_import_numba() -> None:
     found = [p for p in modules() if "numba" in outside(p)]
     assert found
     assert all(name.startswith("solver/kernels/") for name in names_of(found))
+
+
+def test_planning_the_workflow_loads_no_optimiser() -> None:
+    planned = "pyrofit.tables, pyrofit.figures, pyrofit.stages.slices, pyrofit.stages.reading"
+    code = f"import sys, {planned}; print([n for n in ('cma', 'spotpy') if n in sys.modules])"
+    said = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, check=True)
+    assert said.stdout.strip() == "[]"
 
 
 def test_only_the_lanes_are_compiled_by_hand() -> None:

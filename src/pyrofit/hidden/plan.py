@@ -10,7 +10,7 @@ from pyrofit.config import Study, digest, read_study
 from pyrofit.effects import known_effects
 from pyrofit.effects.base import AnyExperiment, Effect
 from pyrofit.errors import StudyError, suggest
-from pyrofit.estimate.sceua import seed_for
+from pyrofit.estimate.history import seed_for
 from pyrofit.hidden.setting import Hidden, Kind, Plan, Setting
 from pyrofit.model.base import Part
 

@@ -10,9 +10,9 @@ import pandas as pd
 from pyrofit.config import Study, digest
 from pyrofit.errors import StudyError, suggest
 from pyrofit.estimate import cmaes
+from pyrofit.estimate.history import Progress, best_of, convergence, seed_for
 from pyrofit.estimate.least_squares import Start, descend, multistart
 from pyrofit.estimate.problem import Measurements, Problem, make_problem, program
-from pyrofit.estimate.sceua import Progress, best_of, convergence, search, seed_for
 from pyrofit.files import Results, write_csv, write_json
 from pyrofit.model.base import value_of
 from pyrofit.model.experiment import Tga
@@ -63,6 +63,8 @@ def fit_kinetics(study: Study, results: Results) -> None:
     )
     seed = seed_for(study.seed, "kinetics")
     generations = stage.sceua.generations
+    from pyrofit.estimate.sceua import search  # SPOTPY sets up a logger of its own for all
+
     history = search(
         problem, seed, generations, stage.sceua.complexes, _tell("kinetics", generations)
     )
@@ -185,6 +187,8 @@ def repeat(study: Study, results: Results, cost: str, repetition: int) -> None:
     budget = study.imp.sceua
     label = f"{cost} {repetition:02d}"
     tell = _tell(label, budget.generations)
+    from pyrofit.estimate.sceua import search  # as above
+
     history = search(problem, seed, budget.generations, budget.complexes, tell)
     best, x = best_of(history, problem)
     write_csv(results.repetition(cost, repetition, ".csv.gz"), history)

@@ -10,8 +10,8 @@ from pyrofit.data.closure import mass_closure
 from pyrofit.data.noise import draw
 from pyrofit.data.quantities import UNCERTAINTY_COLUMN, VALUE_COLUMN
 from pyrofit.errors import DataError
+from pyrofit.estimate.history import seed_for
 from pyrofit.estimate.problem import Measurements
-from pyrofit.estimate.sceua import seed_for
 from pyrofit.files import Results, write_csv, write_json
 from pyrofit.model.experiment import Gasification, Noise, Signal, Tga
 from pyrofit.model.material import Material
