@@ -226,13 +226,9 @@ def _lower(
 
 
 def solver_errors(
-    experiment: Gasification,
-    material: Material,
-    values: Mapping[str, float],
-    requests: Mapping[str, Request],
-    accuracy: Accuracy | None = None,
+    coarse: Curves, fine: Curves, requests: Mapping[str, Request]
 ) -> dict[str, float]:
-    """Estimate the solver's own error of a run, by running it again more finely.
+    """Estimate the solver's own error of a run from a finer one, with `Accuracy.refined`.
 
     With twice the cells and half the steps both errors, of second order, are a quarter; so the
     error is 4/3 of the difference (Richardson).
@@ -242,16 +238,6 @@ def solver_errors(
     dict
         Root mean square of the error by signal, in its SI unit; NaN where a run did not finish.
     """
-    accuracy = accuracy or Accuracy()
-    coarse = simulate_gasification(experiment, material, values, requests, accuracy)
-    fine = simulate_gasification(experiment, material, values, requests, accuracy.refined())
-    return errors_between(coarse, fine, requests)
-
-
-def errors_between(
-    coarse: Curves, fine: Curves, requests: Mapping[str, Request]
-) -> dict[str, float]:
-    """Return the same of two runs that are at hand, the second with `Accuracy.refined`."""
     if not (coarse.status.finished and fine.status.finished):
         return dict.fromkeys(requests, math.nan)
     return {

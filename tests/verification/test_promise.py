@@ -63,7 +63,8 @@ def measure(flux: float, thickness: float, values: dict[str, float]) -> Run:
     fine = simulate_gasification(experiment, MATERIAL, values, request, finer)
     relative = rms_over_mean(run.signals["mlr"], fine.signals["mlr"])
     error = relative * float(fine.signals["mlr"].mean())
-    return Run(error, relative, solver_errors(experiment, MATERIAL, values, request)["mlr"])
+    refined = simulate_gasification(experiment, MATERIAL, values, request, Accuracy().refined())
+    return Run(error, relative, solver_errors(run, refined, request)["mlr"])
 
 
 @functools.cache

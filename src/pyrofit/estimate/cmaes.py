@@ -4,7 +4,7 @@ from typing import Any
 
 import numpy as np
 
-from pyrofit.estimate.least_squares import STEP, Start
+from pyrofit.estimate.least_squares import Start, at_limits
 from pyrofit.estimate.problem import Problem
 
 SPREAD = 0.3
@@ -76,7 +76,5 @@ def _search(problem: Problem, rng: np.random.Generator, calls: int) -> Start:
         cost=best,
         values=problem.lower + found * span,
         calls=done,
-        at_bound=tuple(
-            n for n, u in zip(problem.names, found, strict=True) if not STEP <= u <= 1.0 - STEP
-        ),
+        at_bound=at_limits(problem, found),
     )

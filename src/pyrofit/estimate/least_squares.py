@@ -79,10 +79,14 @@ def descend(problem: Problem, values: FloatArray) -> Start:
         residuals, u, slopes, bounds=(0.0, 1.0), xtol=1e-7, ftol=1e-7, max_nfev=200
     )
     end = problem.lower + np.clip(found.x, 0.0, 1.0) * span
-    near = (found.x < STEP) | (found.x > 1.0 - STEP)
     return Start(
         cost=problem.evaluate(end).cost,
         values=end,
         calls=calls + 1,
-        at_bound=tuple(n for n, b in zip(problem.names, near, strict=True) if b),
+        at_bound=at_limits(problem, found.x),
     )
+
+
+def at_limits(problem: Problem, u: FloatArray) -> tuple[str, ...]:
+    """Return the names of the parameters at a limit, values scaled to [0, 1] by the limits."""
+    return tuple(n for n, x in zip(problem.names, u, strict=True) if not STEP <= x <= 1.0 - STEP)

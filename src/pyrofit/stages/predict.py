@@ -8,7 +8,7 @@ from pyrofit.data.quantities import VALUE_COLUMN
 from pyrofit.errors import DataError
 from pyrofit.files import Results, write_csv
 from pyrofit.model.experiment import Gasification
-from pyrofit.simulate import errors_between, simulate_gasifications
+from pyrofit.simulate import simulate_gasifications, solver_errors
 from pyrofit.solver.arrays import FloatArray
 from pyrofit.solver.curves import Request
 from pyrofit.stages import outcomes
@@ -75,7 +75,7 @@ def predict(study: Study, results: Results) -> None:
                     f"{name}: the best set of {label} cannot be predicted: "
                     f"{run.status.explanation}; check the limits of the parameters"
                 )
-            errors = errors_between(run, fine, requests)
+            errors = solver_errors(run, fine, requests)
             for quantity, request in requests.items():
                 measured = measurements[name, quantity][VALUE_COLUMN[quantity]].to_numpy(float)
                 simulated = run.signals[quantity]

@@ -23,7 +23,7 @@ def _constant(kind: Any, value: int) -> Any:
     return ir.Constant(shape, [value] * kind.count if isinstance(kind, Lanes) else value)
 
 
-@intrinsic  # type: ignore[untyped-decorator]
+@intrinsic
 def root(typing: Any, x: Any) -> Any:
     """Return the square root, correctly rounded."""
     kind = number_like(x)
@@ -39,7 +39,7 @@ def root(typing: Any, x: Any) -> Any:
     return signature(kind, kind), build
 
 
-@intrinsic  # type: ignore[untyped-decorator]
+@intrinsic
 def fma(typing: Any, a: Any, b: Any, c: Any) -> Any:
     """Return a b + c, rounded once."""
     kind = number_like(a, b, c)
@@ -55,7 +55,7 @@ def fma(typing: Any, a: Any, b: Any, c: Any) -> Any:
     return signature(kind, kind, kind, kind), build
 
 
-@intrinsic  # type: ignore[untyped-decorator]
+@intrinsic
 def _roughly_inverse(typing: Any, x: Any) -> Any:
     """Return 1/x to 12 %: the exponent changed in sign, the mantissa by a straight line."""
     kind = number_like(x)
@@ -86,7 +86,7 @@ ROUNDING = 6755399441055744.0
 _ROUNDING_BITS = 0x4338000000000000
 
 
-@intrinsic  # type: ignore[untyped-decorator]
+@intrinsic
 def power_of_two(typing: Any, rounded: Any) -> Any:
     """Return 2^n for n + `ROUNDING`, n an integer from -1022 to 1023."""
     kind = number_like(rounded)
@@ -100,7 +100,7 @@ def power_of_two(typing: Any, rounded: Any) -> Any:
     return signature(kind, kind), build
 
 
-@intrinsic  # type: ignore[untyped-decorator]
+@intrinsic
 def binary_exponent(typing: Any, x: Any) -> Any:
     """Return n of x = f 2^n with f from sqrt(1/2) to sqrt(2), for a normal x above zero."""
     kind = number_like(x)

@@ -29,7 +29,7 @@ from numba.np.arrayobj import make_array, populate_array
 _DOUBLE = ir.DoubleType()
 
 
-class Lanes(types.Type):  # type: ignore[misc]
+class Lanes(types.Type):
     """A number for each of several parameter sets."""
 
     def __init__(self, count: int) -> None:
@@ -45,7 +45,7 @@ class Lanes(types.Type):  # type: ignore[misc]
         return Conversion.safe if isinstance(other, types.Float | types.Integer) else None
 
 
-class Mask(types.Type):  # type: ignore[misc]
+class Mask(types.Type):
     """A truth value for each of several parameter sets."""
 
     def __init__(self, count: int) -> None:
@@ -62,13 +62,13 @@ class Mask(types.Type):  # type: ignore[misc]
 
 
 @register_model(Lanes)
-class _LanesModel(models.PrimitiveModel):  # type: ignore[misc]
+class _LanesModel(models.PrimitiveModel):
     def __init__(self, dmm: Any, of: Lanes) -> None:
         super().__init__(dmm, of, ir.VectorType(_DOUBLE, of.count))
 
 
 @register_model(Mask)
-class _MaskModel(models.PrimitiveModel):  # type: ignore[misc]
+class _MaskModel(models.PrimitiveModel):
     def __init__(self, dmm: Any, of: Mask) -> None:
         super().__init__(dmm, of, ir.VectorType(ir.IntType(1), of.count))
 
@@ -98,7 +98,7 @@ def _operation(
 ) -> None:
     """Let an operator or builtin act on lanes."""
 
-    class Typed(AbstractTemplate):  # type: ignore[misc]
+    class Typed(AbstractTemplate):
         def generic(self, args: Any, kws: Any) -> Any:
             """Return the types of a call, where some argument has lanes."""
             found = [a for a in args if isinstance(a, given)]
@@ -166,7 +166,7 @@ def number_like(*given: Any) -> Any:
     return next((g for g in given if isinstance(g, Lanes)), types.float64)
 
 
-@intrinsic  # type: ignore[untyped-decorator]
+@intrinsic
 def where(typing: Any, condition: Any, a: Any, b: Any) -> Any:
     """Return a where the condition holds, b elsewhere, lane by lane."""
     if isinstance(condition, Mask):
@@ -185,7 +185,7 @@ def where(typing: Any, condition: Any, a: Any, b: Any) -> Any:
     return signature(kind, condition, kind, kind), build
 
 
-@intrinsic  # type: ignore[untyped-decorator]
+@intrinsic
 def opposite(typing: Any, condition: Any) -> Any:
     """Return whether the condition does not hold, lane by lane."""
     if not isinstance(condition, Mask | types.Boolean):
@@ -197,7 +197,7 @@ def opposite(typing: Any, condition: Any) -> Any:
     return signature(condition, condition), build
 
 
-@intrinsic  # type: ignore[untyped-decorator]
+@intrinsic
 def somewhere(typing: Any, condition: Any) -> Any:
     """Tell whether the condition holds in some lane."""
     if not isinstance(condition, Mask | types.Boolean):
@@ -212,7 +212,7 @@ def somewhere(typing: Any, condition: Any) -> Any:
     return signature(types.boolean, condition), build
 
 
-@intrinsic  # type: ignore[untyped-decorator]
+@intrinsic
 def in_lane(typing: Any, x: Any, lane: Any) -> Any:
     """Return the number in one lane."""
     kind = number_like(x)
@@ -225,7 +225,7 @@ def in_lane(typing: Any, x: Any, lane: Any) -> Any:
     return signature(types.float64, kind, types.int64), build
 
 
-@intrinsic  # type: ignore[untyped-decorator]
+@intrinsic
 def with_lane(typing: Any, x: Any, lane: Any, value: Any) -> Any:
     """Return the numbers with another one in one lane."""
     kind = number_like(x)
@@ -238,7 +238,7 @@ def with_lane(typing: Any, x: Any, lane: Any, value: Any) -> Any:
     return signature(kind, kind, types.int64, types.float64), build
 
 
-@intrinsic  # type: ignore[untyped-decorator]
+@intrinsic
 def in_lanes(typing: Any, width: Any, array: Any) -> Any:
     """Return an array whose last axis is the lanes as one of numbers, of one axis less.
 
@@ -275,7 +275,7 @@ def in_lanes(typing: Any, width: Any, array: Any) -> Any:
     return signature(kind, width, array), build
 
 
-@intrinsic  # type: ignore[untyped-decorator]
+@intrinsic
 def lanes_of(typing: Any, x: Any) -> Any:
     """Return how many lanes a number has."""
     count = x.count if isinstance(x, Lanes) else 1
