@@ -15,7 +15,7 @@ from pyrofit.simulate import Accuracy, simulate_gasification
 from pyrofit.solver import lower, lower_experiment
 from pyrofit.solver.arrays import IntArray
 from pyrofit.solver.curves import Request
-from pyrofit.solver.kernels.grid import LEAST_CELLS, MOST_CELLS, cells_needed
+from pyrofit.solver.kernels.grid import LEAST_CELLS, MANY_CELLS, MOST_CELLS, cells_needed
 from pyrofit.solver.lower import Values
 
 SMOKE = Path(__file__).parents[2] / "config" / "smoke.yaml"
@@ -56,23 +56,26 @@ def cells(
 def of_sets(experiment: Gasification, material: Material, values: Values, sets: int) -> IntArray:
     arrays = lower.lower_material(material, values, sets)
     layers = lower_experiment.lower_layers(experiment, material, arrays, values, sets)
+    share = lower_experiment.lower_share(experiment, material, values, sets)
     return cells_needed(
-        lower_experiment.lower_share(experiment, material, values, sets),
+        share,
         np.asarray(sum(layer.thickness for layer in layers)),
         np.full(sets, value_of(experiment.sample.initial_temperature_K, values)),
         arrays,
         lower.lower_network(material, values, sets),
-        lower_experiment.lower_exposure(experiment, material, arrays, values, sets),
+        lower_experiment.lower_exposure(experiment, share, arrays, values, sets),
     )
 
 
 def test_cells_grow_with_the_thickness() -> None:
-    assert cells(0.04) == pytest.approx(2 * cells(0.02), abs=1)
+    # And their number with its eighth root.
+    assert cells(0.02) > MANY_CELLS
+    assert cells(0.04) == pytest.approx(2**1.125 * cells(0.02), rel=5e-3)
 
 
 def test_cells_are_inverse_to_the_conductivity() -> None:
     # Not quite: the surface is hotter where less heat is led away, and radiates more.
-    assert 1.8 < cells(k=0.1) / cells(k=0.2) < 2.0
+    assert 1.8**1.125 < cells(k=0.1) / cells(k=0.2) < 2.0**1.125
 
 
 def test_a_reaction_of_higher_activation_energy_needs_more_cells() -> None:

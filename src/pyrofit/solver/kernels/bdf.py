@@ -14,13 +14,12 @@ SHRINK, GROW, REJECT = 0.3, 1.6, 0.5
 
 
 class Bdf(NamedTuple):
-    """dy/dt at the end of a step = b1 y_new - b2 y + b3 y_old, second order."""
+    """dy/dt at the end of a step = b1 (y_new - y) - b3 (y - y_old), second order."""
 
     dt: Number
     r: Number
     """dt over the step before; 0 at a start, where the formula is Euler's."""
     b1: Number
-    b2: Number
     b3: Number
 
 
@@ -48,8 +47,8 @@ class Balance(NamedTuple):
     """The same without sign."""
     heat_used: Number
     """Heat stored and used by reactions [J/m2]."""
-    net_flux: Number
-    """Net heat flux at the end of the last step [W/m2]."""
+    heat_last: Number
+    """Heat through the surfaces in the last step [J/m2]."""
 
 
 @inner
@@ -92,7 +91,7 @@ def formula(clock):
     """Return the coefficients of the step."""
     dt = clock.dt
     r = dt / clock.dt_old
-    return Bdf(dt, r, (1.0 + 2.0 * r) / (1.0 + r) / dt, (1.0 + r) / dt, r * r / (1.0 + r) / dt)
+    return Bdf(dt, r, (1.0 + 2.0 * r) / (1.0 + r) / dt, r * r / (1.0 + r) / dt)
 
 
 @inner
@@ -125,14 +124,18 @@ def step_ratio(error, tolerance):
 
 @inner
 def booked(balance, clock, gas, heat_used, net_flux):
-    """Return the balance after a step; the surface heat is its trapezoidal integral."""
-    both = net_flux + where(clock.dt_old < math.inf, balance.net_flux, net_flux)
+    """Return the balance after a step with this net flux at its end [W/m2].
+
+    Heat enters as the formula integrates it: net_flux = b1 heat - b3 heat_last.
+    """
+    bdf = formula(clock)
+    heat = (net_flux + bdf.b3 * balance.heat_last) / bdf.b1
     return Balance(
         balance.released + gas,
-        balance.heat_in + 0.5 * clock.dt * both,
-        balance.heat_crossed + 0.5 * clock.dt * abs(both),
+        balance.heat_in + heat,
+        balance.heat_crossed + abs(heat),
         balance.heat_used + heat_used,
-        net_flux,
+        heat,
     )
 
 
@@ -144,7 +147,7 @@ def kept(condition, new, old):
         where(condition, new.heat_in, old.heat_in),
         where(condition, new.heat_crossed, old.heat_crossed),
         where(condition, new.heat_used, old.heat_used),
-        where(condition, new.net_flux, old.net_flux),
+        where(condition, new.heat_last, old.heat_last),
     )
 
 

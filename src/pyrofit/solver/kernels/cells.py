@@ -173,7 +173,7 @@ def log_mean(root_a, root_b):
 @inner
 def react_over(work, first, dt, room, network, final):
     """Fill what follows from k_j over a step of the cells: masses, and the rows of `book`."""
-    clear(work, first, (row.heat_new, row.rate, row.gas if final else row.grows))
+    clear(work, first, (row.heat, row.rate, row.gas if final else row.grows))
     if network.plain:
         react_alone(work, first, dt, network, final)
         return
@@ -218,7 +218,7 @@ def book(work, n, j, used, left, growth, network, final):
     cell = work.cell
     heat, gas = network.heat[j], network.gas[j]
     k = work.root_new[j, n] * work.root_new[j, n]
-    cell[row.heat_new, n] += heat * used
+    cell[row.heat, n] += heat * used
     cell[row.rate, n] += gas * k * left
     if final:
         cell[row.gas, n] += gas * used

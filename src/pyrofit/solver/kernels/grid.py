@@ -16,6 +16,8 @@ from pyrofit.solver.kernels.jit import entry, inner
 
 LEAST_CELLS, MOST_CELLS = 50, 2000
 CELLS_PER_ZONE = 1.2
+MANY_CELLS = 100.0
+"""The error grows with their number, too; above this one they are more by its eighth root."""
 CELLS_FOR_CHAR = 2.0
 """So many times more where the residue keeps the volume of the virgin material."""
 STEEPEST_RISE = 4.0
@@ -120,5 +122,7 @@ def cells_needed(share, thickness, T_start, material, network, exposure):
         rise = eps * volume / max(shine, 1e-9 * volume)
         factor = CELLS_PER_ZONE * math.sqrt(math.sqrt(min(rise, STEEPEST_RISE) ** 3))
         factor *= 1.0 + CELLS_FOR_CHAR * min(stays / volume, 1.0)
-        cells[s] = min(max(math.ceil(factor * most), LEAST_CELLS), MOST_CELLS)
+        many = max(factor * most / MANY_CELLS, 1.0)
+        needed = factor * most * math.sqrt(math.sqrt(math.sqrt(many)))
+        cells[s] = min(max(math.ceil(needed), LEAST_CELLS), MOST_CELLS)
     return cells

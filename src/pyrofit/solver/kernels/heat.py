@@ -205,12 +205,11 @@ def temperature_falls(cell, foil, edge, front_star):
 @inner
 def eliminate(cell, n, below, seen, carried, bdf):
     """Eliminate row n of the system; return what the next one sees."""
-    C = cell[row.C_new, n]
-    alone = fma(C, bdf.b1, cell[row.slope, n])
+    C = bdf.b1 * cell[row.C_mean, n]
+    alone = C + cell[row.slope, n]
     own = alone + seen
     inverse_sum = 1.0 / ((alone + below) + seen)
-    stored = C * (bdf.b2 * cell[row.T, n] - bdf.b3 * cell[row.T_old, n])
-    heat = (stored + cell[row.source, n]) + carried
+    heat = fma(C, cell[row.T, n], cell[row.source, n]) + carried
     upper = below * inverse_sum
     cell[row.right, n] = heat * inverse_sum
     cell[row.upper, n] = upper
@@ -238,7 +237,7 @@ def conduct(cell, foil, edge, surface, r_skin, bdf):
             cell[row.right, n] = where(ahead, 0.0, cell[row.right, n])
             cell[row.upper, n] = where(ahead, 1.0, cell[row.upper, n])
         seen, carried = seen_below, carried_below
-    eliminate(cell, foil, 0.0, seen, carried, bdf)
+    eliminate(cell, foil, 0.0, seen, fma(bdf.b3, cell[row.stored_old, foil], carried), bdf)
     T = 0.0 * seen
     for n in range(foil, edge.first - 1, -1):
         T = fma(cell[row.upper, n], T, cell[row.right, n])

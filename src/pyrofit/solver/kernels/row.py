@@ -11,13 +11,13 @@ inverse_T = 4
 """1 / T*, within the range in which rates and properties follow T."""
 fall = 5
 """Half the temperature difference across the cell [K]."""
-C, C_new = 6, 7
-"""Heat capacity per area [J/(m2 K)]."""
-d, d_start = 8, 9
+C, C_new, C_mean = 6, 7, 8
+"""Heat capacity per area [J/(m2 K)], and its mean over the step."""
+d, d_start = 9, 10
 """Thickness [m]; of the foil: of solid with twice the resistance of the contact."""
-half_r = 10
+half_r = 11
 """Thermal resistance of half the cell [m2 K/W]."""
-heat, heat_new = 11, 12
+heat = 12
 """Heat used by the reactions in the step [J/m2]."""
 source, slope = 13, 14
 """Heat source = source - slope * T_new [W/m2], without conduction."""
@@ -27,11 +27,11 @@ rate = 17
 """Gas released per time at the end of the step [kg/(m2 s)]."""
 gas = 18
 """Gas released in the step [kg/m2]."""
-stored = 19
+stored, stored_old = 19, 20
 """Heat stored in the step, and used by the reactions [J/m2]."""
-dk = 20
+dk = 21
 """Thickness times conductivity [W/K]."""
-grows = 21
+grows = 22
 """T^2 times the slope of the reaction heat in T [J K/m2]."""
 
-COUNT = 22
+COUNT = 23

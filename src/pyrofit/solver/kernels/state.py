@@ -28,8 +28,7 @@ def begin(work, wide, material, network, exposure, T_start):
         wide.cell[row.d_start, n] = wide.cell[row.d, n]
         for j in range(wide.root.shape[0]):
             wide.root[j, n] = wide.root_new[j, n]
-    cell[row.C_new, foil] = exposure.foil_capacity
-    cell[row.C, foil] = exposure.foil_capacity
+    cell[row.C_mean, foil] = exposure.foil_capacity
     cell[row.half_r, foil] = exposure.contact_resistance
 
 
@@ -50,9 +49,9 @@ def accept(wide, first, network, accepted):
     for n in live(cell, first):
         cell[row.T_old, n] = where(accepted, cell[row.T, n], cell[row.T_old, n])
         cell[row.T, n] = where(accepted, cell[row.T_new, n], cell[row.T, n])
+        cell[row.stored_old, n] = where(accepted, cell[row.stored, n], cell[row.stored_old, n])
     for n in live(wide.m, first):
         cell[row.C, n] = where(accepted, cell[row.C_new, n], cell[row.C, n])
-        cell[row.heat, n] = where(accepted, cell[row.heat_new, n], cell[row.heat, n])
     for i in range(wide.m.shape[0]):
         for n in live(wide.m, first):
             wide.m[i, n] = where(accepted, wide.m_new[i, n], wide.m[i, n])
@@ -85,6 +84,7 @@ def drop_thin(flat, lane, first, start, network):
         cell[row.d, first, lane] = 0.0
         cell[row.C, first, lane] = 0.0
         cell[row.C, first + 1, lane] += C
+        cell[row.stored_old, first + 1, lane] += cell[row.stored_old, first, lane]
         heat += C * (cell[row.T, first + 1, lane] - cell[row.T, first, lane])
         first += 1
     return first, heat

@@ -87,9 +87,10 @@ def predict(wide, first, bdf, room, material, network):
     describe(wide, first, material)
     for n in live(wide.m, first):
         slope = bdf.b1 * cell[row.grows, n] * cell[row.inverse_T, n] * cell[row.inverse_T, n]
-        used = bdf.b1 * cell[row.heat_new, n] - bdf.b3 * cell[row.heat, n]
+        used = bdf.b1 * cell[row.heat, n] - bdf.b3 * cell[row.stored_old, n]
         cell[row.slope, n] = slope
         cell[row.source, n] = fma(slope, cell[row.T_star, n], -used)
+        cell[row.C_mean, n] = mean_capacity(cell[row.C, n], cell[row.C_new, n])
 
 
 @loop
@@ -99,9 +100,8 @@ def correct(wide, first, dt, room, network):
     correct_rate_constants(wide, first, network)
     react_over(wide, first, dt, room, network, True)
     for n in live(wide.m, first):
-        C = mean_capacity(cell[row.C, n], cell[row.C_new, n])
         risen = cell[row.T_new, n] - cell[row.T, n]
-        cell[row.stored, n] = fma(C, risen, cell[row.heat_new, n])
+        cell[row.stored, n] = fma(cell[row.C_mean, n], risen, cell[row.heat, n])
 
 
 @inner
@@ -156,13 +156,15 @@ def advance(work, wide, edge, top, clock, mass, rate_scale, room, material, netw
     if somewhere(exposure.edge_exchange != 0.0):
         lose_at_edge(work, first, exposure)
     add_at_edge(cell, row.C_new, edge, C_skin)
+    for n in between(edge.first, edge.behind):
+        cell[row.C_mean, n] = mean_capacity(cell[row.C, n], cell[row.C_new, n])
     predicted = summed(work, row.rate, first)
     front_new = conduct(cell, foil, edge, surface, r_skin, bdf)
 
     correct(wide, block, bdf.dt, room, network)
     rate = summed(work, row.rate, first)
-    C_foil = cell[row.C_new, foil]
-    in_foil = C_foil * (cell[row.T_new, foil] - cell[row.T, foil])
+    in_foil = cell[row.C_mean, foil] * (cell[row.T_new, foil] - cell[row.T, foil])
+    cell[row.stored, foil] = in_foil
 
     error = abs(rate - predicted) / rate_scale
     error = max(error, abs(front_new - front_star) / TEMPERATURE_SCALE)
