@@ -211,14 +211,14 @@ def _lower(
     length = value_of(experiment.sample.absorption_length_m, values)
     properties = lower_material(material, values, sets, length)
     network = lower_network(material, values, sets)
-    exposure = lower_exposure(experiment, material, properties, values, sets)
+    share = lower_share(experiment, material, values, sets)
+    exposure = lower_exposure(experiment, share, properties, values, sets)
     layers = lower_layers(experiment, material, properties, values, sets)
     T_start = np.full(sets, value_of(experiment.sample.initial_temperature_K, values))
     cells = np.full(sets, accuracy.cells or 0)
     if accuracy.cells is None:
         from pyrofit.solver.kernels.grid import cells_needed
 
-        share = lower_share(experiment, material, values, sets)
         thickness = np.asarray(sum(layer.thickness for layer in layers))
         needed = cells_needed(share, thickness, T_start, properties, network, exposure)
         cells = np.ceil(accuracy.cells_factor * needed).astype(np.int64)

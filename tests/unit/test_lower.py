@@ -60,7 +60,8 @@ def at(table: Any, temperature_K: float) -> float:
 
 def exposed(experiment, material):
     arrays = lower.lower_material(material, VALUES)
-    return lower_experiment.lower_exposure(experiment, material, arrays, VALUES)
+    share = lower_experiment.lower_share(experiment, material, VALUES)
+    return lower_experiment.lower_exposure(experiment, share, arrays, VALUES)
 
 
 @pytest.mark.parametrize(
@@ -350,16 +351,17 @@ def everything(values: Any, sets: int) -> list[Any]:
         back={"h_W_m2K": "T0", "loss_factor": "share"},
     )
     arrays = lower.lower_material(matter, values, sets, values["length"])
+    share = lower_experiment.lower_share(given, matter, values, sets)
     return [
         *arrays,
         *lower.lower_network(matter, values, sets),
-        *lower_experiment.lower_exposure(given, matter, arrays, values, sets),
+        *lower_experiment.lower_exposure(given, share, arrays, values, sets),
         *(
             part
             for layer in lower_experiment.lower_layers(given, matter, arrays, values, sets)
             for part in layer
         ),
-        lower_experiment.lower_share(given, matter, values, sets),
+        share,
         lower.property_table(Table(**TABLE), values, sets),
     ]
 

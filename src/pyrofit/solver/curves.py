@@ -40,16 +40,10 @@ class Runs:
 
     def curves(self) -> list[Curves]:
         """Return the sets one by one; what did not finish has no signals."""
-        return [self._one(s) for s in range(self.status.size)]
-
-    def _one(self, s: int) -> Curves:
-        status = Status(int(self.status[s]))
-        signals = {name: curve[s] for name, curve in self.signals.items()}
-        return Curves(
-            status,
-            signals if status.finished else {},
-            int(self.cells[s]),
-            int(self.steps[s]),
-            float(self.energy_error[s]),
-            float(self.mass_error[s]),
-        )
+        numbers = self.status, self.cells, self.steps, self.energy_error, self.mass_error
+        found = []
+        for s, (code, *books) in enumerate(zip(*(n.tolist() for n in numbers), strict=True)):
+            status = Status(code)
+            signals = {name: curve[s] for name, curve in self.signals.items()}
+            found.append(Curves(status, signals if status.finished else {}, *books))
+        return found

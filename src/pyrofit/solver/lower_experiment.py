@@ -5,7 +5,7 @@ from typing import NamedTuple
 import numpy as np
 
 from pyrofit.model import material as words
-from pyrofit.model.base import value_of
+from pyrofit.model.base import numbers, value_of
 from pyrofit.model.experiment import (
     Edge,
     EmissivityDepth,
@@ -55,13 +55,30 @@ def _surface(side: Side, values: Values, sets: int, factor: Value = 1.0) -> Surf
 
 
 def lower_exposure(
-    experiment: Gasification,
-    material: words.Material,
-    arrays: Material,
-    values: Values,
-    sets: int = 1,
+    experiment: Gasification, share: FloatArray, arrays: Material, values: Values, sets: int = 1
 ) -> Exposure:
-    """Return what acts on the sample as arrays."""
+    """Return what acts on the sample, whose front layer has these mass fractions, as arrays.
+
+    What no parameter changes is made once for a set that runs alone.
+    """
+    depth = _mixing_depth(experiment, share, arrays, values)
+    fixed = experiment.derived("exposure", _fixed_exposure) if sets == 1 else None
+    found = fixed or _exposure(experiment, values, sets)
+    return found._replace(mixing_depth=_number(depth, sets))
+
+
+def _fixed_exposure(experiment: Gasification) -> Exposure | None:
+    """Return the exposure of one set, none if a parameter changes it."""
+    sample = experiment.sample
+    parts = experiment.front, experiment.back, sample.foil, sample.edge
+    named = any(isinstance(leaf, str) for part in parts for _, leaf, _ in numbers(part))
+    if named or isinstance(sample.emissivity_change, str):
+        return None
+    return _exposure(experiment, {}, 1)
+
+
+def _exposure(experiment: Gasification, values: Values, sets: int) -> Exposure:
+    """Return the exposure without its mixing depth."""
     front, back, sample = experiment.front, experiment.back, experiment.sample
     times, fluxes = _flux(front.flux_W_m2, values, sets)
     losses = value_of(back.loss_factor, values)
@@ -79,7 +96,7 @@ def lower_exposure(
         foil_capacity=_number(capacity, sets),
         contact_resistance=_number(contact, sets),
         foil_opaque=sample.foil is not None and sample.transmitted == "foil",
-        mixing_depth=_number(_mixing_depth(experiment, material, arrays, values, sets), sets),
+        mixing_depth=_number(0.0, sets),
         emissivity_change=_number(value_of(sample.emissivity_change, values), sets),
         edge_exchange=_number(exchange, sets),
         edge_temperature=_number(edge_gas, sets),
@@ -115,16 +132,11 @@ def _edge(edge: Edge | None, values: Values) -> tuple[Value, Value]:
 
 
 def _mixing_depth(
-    experiment: Gasification,
-    material: words.Material,
-    arrays: Material,
-    values: Values,
-    sets: int,
+    experiment: Gasification, share: FloatArray, arrays: Material, values: Values
 ) -> Value:
     depth = experiment.sample.emissivity_depth
     if not isinstance(depth, EmissivityDepth):
         return value_of(depth, values)
-    share = lower_share(experiment, material, values, sets)
     volume = share * arrays.specific_volume
     T = value_of(experiment.sample.initial_temperature_K, values)
     k = total(volume * _at(arrays.conductivity, T)) / total(volume)
@@ -165,7 +177,7 @@ def lower_layers(
     arrays: Material,
     values: Values,
     sets: int = 1,
-) -> list[Layer]:
+) -> tuple[Layer, ...]:
     """Return the layers of the virgin sample, front first."""
     names = list(material.components)
     sample = experiment.sample
@@ -174,11 +186,11 @@ def lower_layers(
         share = fractions(layer.composition or material.composition, names, values, sets)
         mass = size / total(share * arrays.specific_volume)
         layers.append(Layer(share * mass, _number(size, sets)))
-    return layers
+    return tuple(layers)
 
 
 def cells_of(
-    layers: list[Layer], cells: IntArray, multiple: int = 1
+    layers: tuple[Layer, ...], cells: IntArray, multiple: int = 1
 ) -> tuple[FloatArray, IntArray]:
     """Share out the cells by thickness, at least two to a layer, equally thick in a layer.
 

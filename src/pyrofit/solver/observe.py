@@ -43,16 +43,13 @@ def observe(
         Number of parameter sets.
     """
     shifted = {
-        name: replace(
-            request,
-            time_s=request.time_s - _of(experiment, name, "delay_s", values, sets)[:, None],
-        )
-        for name, request in requests.items()
+        name: Request(_each(r.time_s, sets) - _of(experiment, name, "delay_s", values), r.average_s)
+        for name, r in requests.items()
     }
     spread = np.full(sets, value_of(experiment.front.spread, values))
     runs = _spread(spread, shifted, run)
     signals = {
-        name: curve + _of(experiment, name, "offset", values, sets)[:, None]
+        name: curve + _of(experiment, name, "offset", values)
         for name, curve in runs.signals.items()
     }
     return replace(runs, signals=signals)
@@ -82,10 +79,15 @@ def observe_one(
     return observe(experiment, values, requests, runs).curves()[0]
 
 
-def _of(experiment: Gasification, name: str, key: str, values: Values, sets: int) -> FloatArray:
+def _each(time_s: FloatArray, sets: int) -> FloatArray:
+    return np.broadcast_to(time_s, (sets, time_s.size))
+
+
+def _of(experiment: Gasification, name: str, key: str, values: Values) -> Value:
+    """Return a value of a signal, of several sets in a column."""
     signal = experiment.signals.get(name)
     value: Value = 0.0 if signal is None else value_of(getattr(signal, key), values)
-    return np.full(sets, value)
+    return value[:, None] if isinstance(value, np.ndarray) else value
 
 
 def _spread(spread: FloatArray, requests: Mapping[str, Request], run: Run) -> Runs:

@@ -1,7 +1,8 @@
 """Runs of the kernels: parameter sets side by side, and what comes of each."""
 
-from collections.abc import Mapping
+from collections.abc import Callable, Mapping
 from concurrent.futures import ThreadPoolExecutor
+from operator import itemgetter
 from typing import Any, NamedTuple
 
 import numpy as np
@@ -21,7 +22,7 @@ FEW = 3
 class Case(NamedTuple):
     """A gasification experiment as the kernel takes it, the sets last."""
 
-    layers: list[Layer]
+    layers: tuple[Layer, ...]
     cells: IntArray
     """Number of cells, shape (sets,)."""
     T_start: FloatArray
@@ -45,37 +46,57 @@ def heat(
     mass = np.empty((sets, programs[0].size))
     rate = np.empty_like(mass)
     for longest_rise in np.unique(step):
-        for index, width in _lanes(np.flatnonzero(step == longest_rise)):
-            parts = _take((lags, start, network), _filled(index, width))
-            in_lanes = tga((0,) * width, *programs, *parts, longest_rise)
-            mass[index], rate[index] = (curve.T[: index.size] for curve in in_lanes)
+        order = np.flatnonzero(step == longest_rise)
+        for group in _groups((lags, start, network), order, sets):
+            in_lanes = tga((0,) * group.width, *programs, *group.parts, longest_rise)
+            mass[group.sets], rate[group.sets] = (c.T[: group.sets.size] for c in in_lanes)
     return mass, rate
 
 
-def _lanes(order: IntArray) -> list[tuple[IntArray, int]]:
-    """Return groups of sets, and in how many lanes each runs."""
-    whole = order.size - order.size % LANES
-    groups = [(order[a : a + LANES], LANES) for a in range(0, whole, LANES)]
-    rest = order[whole:]
-    if rest.size > FEW:
-        return [*groups, (rest, LANES)]
-    return groups + [(rest[a : a + 1], 1) for a in range(rest.size)]
+class _Group(NamedTuple):
+    """Sets that run side by side, in how many lanes, and the arrays of these lanes."""
+
+    sets: IntArray
+    width: int
+    parts: Any
 
 
-def _filled(index: IntArray, width: int) -> IntArray:
-    """Return as many sets as there are lanes, the last one again in those left over."""
-    return np.append(index, np.repeat(index[-1:], width - index.size))
+def _groups(parts: Any, order: IntArray, sets: int) -> list[_Group]:
+    """Share out sets in the order given, of as many as the last axis of the arrays has."""
+    if sets == 1:
+        return [_Group(order, 1, parts)]
+    size = order.size
+    if 0 < size % LANES <= FEW:
+        size -= size % LANES
+    groups = []
+    if size:
+        # In the lanes left over the last one runs again.
+        filled = np.append(order[:size], np.repeat(order[size - 1 : size], -size % LANES))
+        together = _mapped(lambda a: _split(a, filled), parts)
+        for g in range(filled.size // LANES):
+            index = order[g * LANES : min((g + 1) * LANES, size)]
+            groups.append(_Group(index, LANES, _mapped(itemgetter(g), together)))
+    return groups + [_alone(parts, index) for index in order[size:, None]]
 
 
-def _take(part: Any, index: IntArray) -> Any:
-    """Return some sets of arrays, whatever they are held in."""
+def _alone(parts: Any, index: IntArray) -> _Group:
+    return _Group(index, 1, _mapped(lambda a: a.take(index, axis=-1), parts))
+
+
+def _split(array: FloatArray, order: IntArray) -> FloatArray:
+    """Return an array with an axis more, the first one: groups of sets, which are the last."""
+    rows, groups = array.size // array.shape[-1], order.size // LANES
+    taken = array.take(order, axis=-1).reshape(rows, groups, LANES).swapaxes(0, 1)
+    return np.ascontiguousarray(taken).reshape(groups, *array.shape[:-1], LANES)
+
+
+def _mapped(change: Callable[[FloatArray], FloatArray], part: Any) -> Any:
+    """Return arrays of numbers changed, whatever tuples they are held in; all else as it is."""
     if isinstance(part, np.ndarray) and part.dtype == np.float64:
-        if part.shape[-1] == index.size == 1:
-            return part if part.flags.c_contiguous else np.ascontiguousarray(part)
-        return np.take(part, index, axis=-1)
+        return change(part)
     if isinstance(part, tuple):
-        taken = (_take(p, index) for p in part)
-        return type(part)(*taken) if hasattr(part, "_fields") else tuple(taken)
+        changed = [_mapped(change, p) for p in part]
+        return type(part)(*changed) if hasattr(part, "_fields") else tuple(changed)
     return part
 
 
@@ -91,10 +112,11 @@ def march(case: Case, asked: Mapping[str, Request], numerics: Numerics, threads:
         mass_error=np.empty(sets),
     )
 
-    def fill(group: tuple[IntArray, int]) -> None:
-        _march_group(case, asked, numerics, *group, runs)
+    def fill(group: _Group) -> None:
+        _march_group(case, asked, numerics, group, runs)
 
-    groups = _lanes(np.argsort(case.cells, kind="stable"))
+    ends = [r.time_s.max(axis=1) + 0.5 * r.average_s for r in asked.values()]
+    groups = _groups((case, np.max(ends, axis=0)), np.argsort(case.cells, kind="stable"), sets)
     if threads > 1 and len(groups) > 1:
         with ThreadPoolExecutor(threads) as pool:
             list(pool.map(fill, groups))
@@ -108,42 +130,41 @@ def _march_group(
     case: Case,
     asked: Mapping[str, Request],
     numerics: Numerics,
-    index: IntArray,
-    width: int,
+    group: _Group,
     runs: Runs,
 ) -> None:
     """Run sets side by side, and write what comes of them."""
     from pyrofit.solver.kernels.slab import slab
 
-    filled = _filled(index, width)
-    layers = [_take(layer, filled) for layer in case.layers]
-    start, empty = cells_of(layers, case.cells[filled], LANES // width)
-    properties, network, exposure = _take((case.properties, case.network, case.exposure), filled)
-    ends = [r.time_s[filled].max(axis=1) + 0.5 * r.average_s for r in asked.values()]
+    index, width, (lanes, t_end) = group
+    count = index.size
+    cells = case.cells[index]
+    if count < width:
+        cells = np.append(cells, np.repeat(cells[-1:], width - count))
+    start, empty = cells_of(lanes.layers, cells, LANES // width)
     trace, outcome = slab(
         (0,) * width,
         (0,) * LANES,
         start,
         empty,
-        case.T_start[filled],
-        properties,
-        network,
-        exposure,
+        lanes.T_start,
+        lanes.properties,
+        lanes.network,
+        lanes.exposure,
         numerics,
-        np.max(ends, axis=0),
+        t_end,
         set(asked) <= {"mlr", "mass"},
-        _in_cells(case.probes_m, start, empty, properties),
+        _in_cells(case.probes_m, start, empty, lanes.properties),
     )
-    count = index.size
     outcome = outcome[:count]
     runs.status[index], runs.steps[index] = outcome[:, 0], outcome[:, 1]
     runs.energy_error[index], runs.mass_error[index] = outcome[:, 2], outcome[:, 3]
     runs.cells[index] = len(start) - empty[:count]
-    initial = np.asarray(sum(total(layer.mass) for layer in layers))[:count]
+    last = outcome[:, 1].astype(np.int64)
     finished = outcome[:, :1] <= Status.UNBURNT
     for name, request in asked.items():
-        curve = _sample(name, request, index, trace, outcome[:, 1].astype(np.int64), initial)
-        runs.signals[name][index] = np.where(finished, curve, np.nan)
+        curve = _sample(name, request, index, trace, last, lanes.layers)
+        runs.signals[name][index] = curve if finished.all() else np.where(finished, curve, np.nan)
 
 
 def _sample(
@@ -152,23 +173,20 @@ def _sample(
     index: IntArray,
     trace: FloatArray,
     last: IntArray,
-    initial: FloatArray,
+    layers: tuple[Layer, ...],
 ) -> FloatArray:
     """Return a signal of some sets, shape (sets, points)."""
     from pyrofit.solver.kernels import trace as columns_of
-    from pyrofit.solver.kernels.output import sampled, sampled_rate
+    from pyrofit.solver.kernels.output import averaged_rate, sampled, sampled_rate
 
     at = request.time_s[index]
     if name == "mlr":
-        half = 0.5 * request.average_s
-        if half == 0.0:
+        if request.average_s == 0.0:
             return _floats(sampled_rate(trace, last, at))
-        begin = np.maximum(at - half, 0.0)
-        gained = sampled(trace, last, columns_of.RELEASED, at + half)
-        gained -= sampled(trace, last, columns_of.RELEASED, begin)
-        return _floats(gained / np.maximum(at + half - begin, 1e-9))
+        return _floats(averaged_rate(trace, last, at, 0.5 * request.average_s))
     if name == "mass":
-        return _floats(initial[:, None] - sampled(trace, last, columns_of.RELEASED, at))
+        initial = np.asarray(sum(total(layer.mass) for layer in layers))[: index.size, None]
+        return _floats(initial - sampled(trace, last, columns_of.RELEASED, at))
     columns = {
         "front_temperature": columns_of.FRONT,
         "back_temperature": columns_of.BACK,

@@ -36,38 +36,58 @@ def slope_at(time, value, n, last):
 
 
 @inner
-def held(rows, last, column, at, out):
-    """Fill a column at ascending times by cubic Hermite interpolation, held after the end.
+def value_at(rows, last, column, n, at):
+    """Return a column at a time not before step n by cubic Hermite interpolation, held at the end.
 
-    What was released goes with its rate, everything else with parabolas' slopes.
+    What was released goes with its rate, everything else with parabolas' slopes. Return also the
+    last step before that time.
     """
     time, value = rows[:, TIME], rows[:, column]
-    n = 0
-    for a in range(at.size):
-        n = find(time, last, n, at[a])
-        if at[a] <= time[0]:
-            out[a] = value[0]
-        elif n == last:
-            out[a] = value[last]
-        else:
-            if column == RELEASED:
-                low, high = rows[n, RATE], rows[n + 1, RATE]
-            else:
-                low = slope_at(time, value, n, last)
-                high = slope_at(time, value, n + 1, last)
-            h = time[n + 1] - time[n]
-            out[a] = hermite(h, (at[a] - time[n]) / h, value[n], value[n + 1], low, high)
+    n = find(time, last, n, at)
+    if at <= time[0]:
+        return value[0], n
+    if n == last:
+        return value[last], n
+    if column == RELEASED:
+        low, high = rows[n, RATE], rows[n + 1, RATE]
+    else:
+        low = slope_at(time, value, n, last)
+        high = slope_at(time, value, n + 1, last)
+    h = time[n + 1] - time[n]
+    return hermite(h, (at - time[n]) / h, value[n], value[n + 1], low, high), n
 
 
 @entry
 def sampled(trace, last, column, at):
-    """Return a column of the traces at times, shape (runs, points) both.
+    """Return a column of the traces at ascending times, shape (runs, points) both.
 
     ``trace`` has shape (runs, steps, columns); ``last`` is the last step of each run.
     """
     out = np.empty(at.shape)
     for a in range(at.shape[0]):
-        held(trace[a], last[a], column, at[a], out[a])
+        n = 0
+        for b in range(at.shape[1]):
+            out[a, b], n = value_at(trace[a], last[a], column, n, at[a, b])
+    return out
+
+
+@entry
+def averaged_rate(trace, last, at, half):
+    """Return what was released over time, on average from ``half`` [s] before to after a time."""
+    out = np.empty(at.shape)
+    for a in range(at.shape[0]):
+        rows = trace[a]
+        n_begin = n_end = 0
+        end, gone = -1.0, 0.0
+        for b in range(at.shape[1]):
+            begin = max(at[a, b] - half, 0.0)
+            if begin == end:
+                n_begin, before = n_end, gone
+            else:
+                before, n_begin = value_at(rows, last[a], RELEASED, n_begin, begin)
+            end = at[a, b] + half
+            gone, n_end = value_at(rows, last[a], RELEASED, n_end, end)
+            out[a, b] = (gone - before) / max(end - begin, 1e-9)
     return out
 
 
