@@ -101,9 +101,19 @@ def test_only_kernels_import_numba() -> None:
 
 def test_planning_the_workflow_loads_no_optimiser() -> None:
     planned = "pyrofit.tables, pyrofit.figures, pyrofit.stages.slices, pyrofit.stages.reading"
-    code = f"import sys, {planned}; print([n for n in ('cma', 'spotpy') if n in sys.modules])"
-    said = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, check=True)
-    assert said.stdout.strip() == "[]"
+    assert loaded(planned, "cma", "spotpy") == "[]"
+
+
+def test_one_repetition_loads_no_integrator() -> None:
+    assert loaded("pyrofit.stages.fit", "scipy.integrate", "scipy.optimize", "scipy.stats") == "[]"
+
+
+def loaded(modules: str, *names: str) -> str:
+    """Return which of the named modules a process holds that has imported others."""
+    code = f"import sys, {modules}; print([n for n in {names} if n in sys.modules])"
+    return subprocess.run(
+        [sys.executable, "-c", code], capture_output=True, text=True, check=True
+    ).stdout.strip()
 
 
 def test_only_the_lanes_are_compiled_by_hand() -> None:

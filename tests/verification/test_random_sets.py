@@ -22,7 +22,8 @@ from pyrofit.estimate.problem import FAILED_COST, Problem, make_problem
 from pyrofit.simulate import simulate_gasification
 from pyrofit.solver.arrays import Status
 from pyrofit.solver.curves import Request
-from pyrofit.solver.reference import Resolution, reference_gasification
+from pyrofit.solver.reference.gasification import reference_gasification
+from pyrofit.solver.reference.resolution import Resolution
 
 PAPER = Path(__file__).parents[2] / "config" / "paper.yaml"
 EXPERIMENTS = {25: ("capa_25", 1700.0), 60: ("capa_60", 420.0)}

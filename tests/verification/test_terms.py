@@ -16,7 +16,9 @@ from pyrofit.simulate import Accuracy, simulate_tga
 from pyrofit.solver.arrays import TABLE_TEMPERATURES_K, Status
 from pyrofit.solver.curves import Curves, Request
 from pyrofit.solver.lower import property_table
-from pyrofit.solver.reference import Resolution, reference_gasification, reference_tga
+from pyrofit.solver.reference.gasification import reference_gasification
+from pyrofit.solver.reference.resolution import Resolution
+from pyrofit.solver.reference.tga import reference_tga
 
 BINS = Request(np.arange(2.5, 600.0, 5.0), 5.0)
 POINTS = Request(np.arange(5.0, 600.0, 5.0))

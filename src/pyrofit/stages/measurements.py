@@ -17,9 +17,7 @@ from pyrofit.model.experiment import Gasification, Noise, Signal, Tga
 from pyrofit.model.material import Material
 from pyrofit.solver.arrays import FloatArray
 from pyrofit.solver.curves import Curves, Request
-from pyrofit.solver.reference.gasification import reference_gasification
 from pyrofit.solver.reference.resolution import Resolution
-from pyrofit.solver.reference.tga import reference_tga
 from pyrofit.stages import outcomes
 from pyrofit.stages.closure import closure_lines
 from pyrofit.stages.reading import SYNTHETIC, check_terms, read_all
@@ -113,6 +111,10 @@ def _simulate(
     requests: dict[str, Request],
     resolution: Resolution,
 ) -> Curves:
+    # Not above: its integrator takes as long to load as a small job, and few need it.
+    from pyrofit.solver.reference.gasification import reference_gasification
+    from pyrofit.solver.reference.tga import reference_tga
+
     if isinstance(experiment, Tga):
         request = requests["mass_fraction"]
         return reference_tga(experiment, material, values, request, resolution)

@@ -5,9 +5,3 @@ description in words and what the apparatus makes of finished curves. It has oth
 (temperatures at nodes, the extent of every reaction in the elements between them) and another
 discretisation in space (finite elements) and time (LSODA).
 """
-
-from pyrofit.solver.reference.gasification import reference_gasification
-from pyrofit.solver.reference.resolution import Resolution
-from pyrofit.solver.reference.tga import reference_tga
-
-__all__ = ["Resolution", "reference_gasification", "reference_tga"]
