@@ -76,7 +76,9 @@ def page(state: dict[str, Any]) -> str:
             "60 kW/m², as they are and with each effect of the catalogue within its limits. "
             f"Seed {SEED}, default accuracy, batches of {BATCH}; {seconds:.0f} s of run time on "
             "a busy machine. Every other round asks for all signals, so that runs go on after "
-            "burn-out.",
+            "burn-out. Energy error: heat stored and used less heat through the surfaces, the "
+            "latter integrated with the weights of the time steps' own formula, over the heat "
+            "that crossed the surfaces.",
             table(("how it ended", "sets"), counts),
             "The worst sets, at most a hundred of each kind, and where in their boxes they lie "
             "(0 lower, 1 upper limit; only parameters whose mean is far from the middle):",

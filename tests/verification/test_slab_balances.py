@@ -3,8 +3,8 @@
 The paper's case (Table 4's RMSE set on 0.2 mm copper) at 10 to 100 kW/m², and variants of it:
 char, insulated back, no foil, properties of temperature, absorption in depth. Mass closes to
 round-off. The energy error is the imbalance of heat stored, used by reactions and exchanged,
-relative to the heat that crossed the surfaces; it is an error of the time steps and falls with
-the tolerance.
+relative to the heat that crossed the surfaces, which is integrated with the weights of the steps'
+own formula: what is left is that a step is solved with the reaction heat as it is predicted.
 """
 
 from typing import Any, NamedTuple
@@ -95,7 +95,7 @@ def test_mass_and_energy_balance(evidence: Evidence, name: str) -> None:
     mass, energy = errors(CASES[name])
     title = f"{name} kW/m²"
     evidence.number(f"{title}: mass", mass, 1e-12, "imbalance / initial mass", "balance")
-    evidence.number(f"{title}: energy", energy, 1e-4, HEAT, "balance")
+    evidence.number(f"{title}: energy", energy, 1e-5, HEAT, "balance")
 
 
 @pytest.mark.parametrize("name", CASES)
@@ -104,7 +104,7 @@ def test_a_tolerance_of_a_thousandth_closes_the_energy_balance(
 ) -> None:
     _, energy = errors(CASES[name], Accuracy(tolerance=1e-3))
     title = f"{name} kW/m², tolerance 1e-3: energy"
-    evidence.number(title, energy, 1e-4, HEAT, "balance")
+    evidence.number(title, energy, 1e-5, HEAT, "balance")
 
 
 def test_gas_in_the_bins_is_the_mass_that_is_lost(evidence: Evidence) -> None:
@@ -152,4 +152,4 @@ def test_every_set_of_table_6_runs_and_balances(evidence: Evidence, flux: int) -
         energy.append(curves.energy_error)
     title = f"200 random sets within Table 6, {flux} kW/m²"
     evidence.number(f"{title}: mass", max(mass), 1e-12, "largest imbalance", "balance")
-    evidence.number(f"{title}: energy", max(energy), 1e-3, "largest imbalance", "balance")
+    evidence.number(f"{title}: energy", max(energy), 1e-4, "largest imbalance", "balance")

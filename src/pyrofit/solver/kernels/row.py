@@ -23,8 +23,8 @@ source, slope = 13, 14
 """Heat source = source - slope * T_new [W/m2], without conduction."""
 right, upper = 15, 16
 """T_new = right + upper * (T_new of the cell below)."""
-rate = 17
-"""Gas released per time at the end of the step [kg/(m2 s)]."""
+rate, rate_old = 17, 23
+"""Gas released per time at the end of the step, and at its start [kg/(m2 s)]."""
 gas = 18
 """Gas released in the step [kg/m2]."""
 stored, stored_old = 19, 20
@@ -34,4 +34,4 @@ dk = 21
 grows = 22
 """T^2 times the slope of the reaction heat in T [J K/m2]."""
 
-COUNT = 23
+COUNT = 24

@@ -52,6 +52,7 @@ def accept(wide, first, network, accepted):
         cell[row.stored_old, n] = where(accepted, cell[row.stored, n], cell[row.stored_old, n])
     for n in live(wide.m, first):
         cell[row.C, n] = where(accepted, cell[row.C_new, n], cell[row.C, n])
+        cell[row.rate_old, n] = where(accepted, cell[row.rate, n], cell[row.rate_old, n])
     for i in range(wide.m.shape[0]):
         for n in live(wide.m, first):
             wide.m[i, n] = where(accepted, wide.m_new[i, n], wide.m[i, n])
