@@ -214,7 +214,7 @@ def _lower(
     share = lower_share(experiment, material, values, sets)
     exposure = lower_exposure(experiment, share, properties, values, sets)
     layers = lower_layers(experiment, material, properties, values, sets)
-    T_start = np.full(sets, value_of(experiment.sample.initial_temperature_K, values))
+    T_start = np.full(sets, value_of(experiment.sample.initial_temperature_K, values), np.float64)
     cells = np.full(sets, accuracy.cells or 0)
     if accuracy.cells is None:
         from pyrofit.solver.kernels.grid import cells_needed

@@ -2,8 +2,8 @@
 
 With cells of half the size, or steps of half the length, a second-order method has a quarter of
 the error. The order is observed without reactions (a slab on copper, temperature) and with them
-(the paper's case, Table 4's RMSE set, mass loss rate in bins of 5 s at 25 and 60 kW/m²). The
-default settings are compared with a solution on 1600 cells.
+(the paper's case, Table 4's RMSE set, mass loss rate in bins of 5 s at 25 and 60 kW/m²; in time at
+25 only). The default settings are compared with a solution on 1600 cells.
 """
 
 import functools
@@ -172,11 +172,11 @@ def test_mlr_error_falls_with_the_square_of_the_step(evidence: Evidence) -> None
     title, source = "mass loss rate, order in time", "pyrofit with steps of 0.05 s: same cells"
     lines = {"25 kW/m²": (steps, errors_of(25, chosen, finest))}
     evidence.order(title, STEP, SHARE, lines, source, 0.3)
-    # At 60 kW/m2 a step is as long as a cell burns: the error falls faster than by the square.
+    # At 60 kW/m2 the longest steps are nearly as long as a cell burns: the error falls faster.
     found = errors_of(60, chosen, finest)
     evidence.number(
         "60 kW/m²: largest error over that of 2 s and the square of the step",
-        float(np.max(found / (found[0] * (steps / steps[0]) ** 2))),
+        float(np.max(found[1:] / (found[0] * (steps[1:] / steps[0]) ** 2))),
         1.0,
         "ratio",
         source,
@@ -193,7 +193,7 @@ def test_mlr_error_is_proportional_to_the_tolerance(evidence: Evidence) -> None:
     title, source = "mass loss rate, error by tolerance", "pyrofit with tolerance 1e-6: same cells"
     lines = {"25 kW/m²": (tolerances, errors_of(25, chosen, finest))}
     evidence.order(title, TOLERANCE, SHARE, lines, source, 0.15, 1.0)
-    # At 60 kW/m2 it is smaller at large tolerances, and at small ones the ripple of single cells.
+    # At 60 kW/m2 it is smaller at large tolerances; at small ones single cells' ripple is left.
     found = errors_of(60, chosen, finest)
     title = "60 kW/m²: largest error over the tolerance"
     evidence.number(title, float(np.max(found / tolerances)), 0.25, "ratio", source)

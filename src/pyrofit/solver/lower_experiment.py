@@ -39,7 +39,9 @@ class Layer(NamedTuple):
 
 
 def _number(value: Value, sets: int) -> Number:
-    return np.array([value]) if sets == 1 and isinstance(value, float) else np.full(sets, value)
+    if sets == 1 and isinstance(value, float):
+        return np.array([value])
+    return np.full(sets, value, np.float64)
 
 
 def _surface(side: Side, values: Values, sets: int, factor: Value = 1.0) -> Surface:

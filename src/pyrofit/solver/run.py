@@ -65,16 +65,15 @@ def _groups(parts: Any, order: IntArray, sets: int) -> list[_Group]:
     """Share out sets in the order given, of as many as the last axis of the arrays has."""
     if sets == 1:
         return [_Group(order, 1, parts)]
-    size = order.size
-    if 0 < size % LANES <= FEW:
-        size -= size % LANES
+    rest = order.size % LANES
+    size = order.size - rest if rest <= FEW else order.size
     groups = []
     if size:
         # In the lanes left over the last one runs again.
         filled = np.append(order[:size], np.repeat(order[size - 1 : size], -size % LANES))
         together = _mapped(lambda a: _split(a, filled), parts)
         for g in range(filled.size // LANES):
-            index = order[g * LANES : min((g + 1) * LANES, size)]
+            index = order[:size][g * LANES : (g + 1) * LANES]
             groups.append(_Group(index, LANES, _mapped(itemgetter(g), together)))
     return groups + [_alone(parts, index) for index in order[size:, None]]
 
@@ -84,7 +83,7 @@ def _alone(parts: Any, index: IntArray) -> _Group:
 
 
 def _split(array: FloatArray, order: IntArray) -> FloatArray:
-    """Return an array with an axis more, the first one: groups of sets, which are the last."""
+    """Return an array with one more axis in front, the groups; the last axis is a group's sets."""
     rows, groups = array.size // array.shape[-1], order.size // LANES
     taken = array.take(order, axis=-1).reshape(rows, groups, LANES).swapaxes(0, 1)
     return np.ascontiguousarray(taken).reshape(groups, *array.shape[:-1], LANES)

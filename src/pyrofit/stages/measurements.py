@@ -111,7 +111,7 @@ def _simulate(
     requests: dict[str, Request],
     resolution: Resolution,
 ) -> Curves:
-    # Not above: its integrator takes as long to load as a small job, and few need it.
+    # Not above: loading its integrator takes a quarter of the time of a small job, and few need it.
     from pyrofit.solver.reference.gasification import reference_gasification
     from pyrofit.solver.reference.tga import reference_tga
 

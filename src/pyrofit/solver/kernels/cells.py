@@ -100,7 +100,7 @@ def describe(work, first, material):
     k is mixed by volume, c by mass.
     """
     cell = work.cell
-    clear(work, first, (row.d, row.dk, row.C_new))
+    clear(work, first, (row.d, row.dk, row.C_new, row.C_lost))
     for i in range(work.m.shape[0]):
         volume = material.specific_volume[i]
         for n in live(work.m, first):
@@ -108,7 +108,9 @@ def describe(work, first, material):
             v = m * volume * at_temperature(material.expansion, i, T)
             cell[row.d, n] += v
             cell[row.dk, n] += v * at_temperature(material.conductivity, i, T)
-            cell[row.C_new, n] += m * at_temperature(material.specific_heat, i, T)
+            c = at_temperature(material.specific_heat, i, T)
+            cell[row.C_new, n] += m * c
+            cell[row.C_lost, n] += (work.m[i, n] - m) * c
     for n in live(work.m, first):
         d = cell[row.d, n]
         inverse_dk = inverse(max(cell[row.dk, n], TINY))

@@ -17,7 +17,8 @@ from pyrofit.solver.kernels.jit import entry, inner
 LEAST_CELLS, MOST_CELLS = 50, 2000
 CELLS_PER_ZONE = 1.2
 MANY_CELLS = 100.0
-"""The error grows with their number, too; above this one they are more by its eighth root."""
+"""The error grows a little with the number of cells, too: above this number it is multiplied by the
+eighth root of its ratio to this one."""
 CELLS_FOR_CHAR = 2.0
 """So many times more where the residue keeps the volume of the virgin material."""
 STEEPEST_RISE = 4.0

@@ -218,7 +218,7 @@ def eliminate(cell, n, below, seen, carried, bdf):
 
 @inner
 def conduct(cell, foil, edge, surface, r_skin, bdf):
-    """Solve C dT/dt = conduction + source for T_new; return the front temperature.
+    """Solve C_mean dT/dt = conduction + source for T_new; return the front temperature.
 
     Elimination from the front: ``seen`` is the conductance to the surroundings through all that
     lies above a row, ``carried`` the heat that comes that way.

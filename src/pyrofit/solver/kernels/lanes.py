@@ -245,7 +245,7 @@ def in_lanes(typing: Any, width: Any, array: Any) -> Any:
     ``width`` is a tuple with one entry per lane: its length is known when the code is compiled. The
     result is a view; of an array of one axis it is the number itself.
     """
-    if not isinstance(array, types.Array) or array.layout != "C":
+    if not isinstance(array, types.Array) or (array.layout, array.dtype) != ("C", types.float64):
         return None
     number = types.float64 if len(width) == 1 else Lanes(len(width))
     kind = number

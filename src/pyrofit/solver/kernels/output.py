@@ -73,7 +73,10 @@ def sampled(trace, last, column, at):
 
 @entry
 def averaged_rate(trace, last, at, half):
-    """Return what was released over time, on average from ``half`` [s] before to after a time."""
+    """Return the mean rate of release from ``half`` [s] before each time to as long after it.
+
+    Nothing is released before 0. Shapes and order are those of `sampled`.
+    """
     out = np.empty(at.shape)
     for a in range(at.shape[0]):
         rows = trace[a]
@@ -82,7 +85,7 @@ def averaged_rate(trace, last, at, half):
         for b in range(at.shape[1]):
             begin = max(at[a, b] - half, 0.0)
             if begin == end:
-                n_begin, before = n_end, gone
+                before, n_begin = gone, n_end
             else:
                 before, n_begin = value_at(rows, last[a], RELEASED, n_begin, begin)
             end = at[a, b] + half

@@ -1,6 +1,7 @@
 """Rows of the table of cells (work array ``cell``): one column per cell, then the foil.
 
-New = after the step that is being taken, old = one step before the current state.
+New = after the step that is being taken, old = one step before the current state; rate, heat, gas
+and stored belong to the step that is being taken, their old ones to the step before.
 """
 
 T, T_old, T_new = range(3)
@@ -13,25 +14,28 @@ fall = 5
 """Half the temperature difference across the cell [K]."""
 C, C_new, C_mean = 6, 7, 8
 """Heat capacity per area [J/(m2 K)], and its mean over the step."""
-d, d_start = 9, 10
+C_lost = 9
+"""What of C the masses lost in the step make up, at T*."""
+d, d_start = 10, 11
 """Thickness [m]; of the foil: of solid with twice the resistance of the contact."""
-half_r = 11
+half_r = 12
 """Thermal resistance of half the cell [m2 K/W]."""
-heat = 12
+heat = 13
 """Heat used by the reactions in the step [J/m2]."""
-source, slope = 13, 14
-"""Heat source = source - slope * T_new [W/m2], without conduction."""
-right, upper = 15, 16
+source, slope = 14, 15
+"""Heat source = source - slope * T_new [W/m2], without conduction; of a cell, with what the formula
+carries over from the step before."""
+right, upper = 16, 17
 """T_new = right + upper * (T_new of the cell below)."""
-rate, rate_old = 17, 23
+rate, rate_old = 18, 19
 """Gas released per time at the end of the step, and at its start [kg/(m2 s)]."""
-gas = 18
+gas = 20
 """Gas released in the step [kg/m2]."""
-stored, stored_old = 19, 20
+stored, stored_old = 21, 22
 """Heat stored in the step, and used by the reactions [J/m2]."""
-dk = 21
+dk = 23
 """Thickness times conductivity [W/K]."""
-grows = 22
+grows = 24
 """T^2 times the slope of the reaction heat in T [J K/m2]."""
 
-COUNT = 24
+COUNT = 25

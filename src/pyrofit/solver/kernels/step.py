@@ -108,18 +108,19 @@ def correct(wide, first, dt, room, network):
 def mean_capacity(cell, n):
     """Return the mean of C over the step: logarithmic, and more where gas is released ever faster.
 
-    The cubic with the ends C and C_new, and slopes in proportion to the rates there, has the mean
-    (C + C_new)/2 + (C - C_new) (r_new - r)/(6 (r_new + r)). If C falls exponentially, r_new/r is
-    C_new/C and that is the logarithmic mean m (1 - d^2/3), d = (C_new - C)/(C_new + C).
+    The cubic with the ends C and C_new, and slopes in proportion to the rates r there, has the mean
+    (C + C_new)/2 + (C - C_new) (r_new - r)/(6 (r_new + r)). What is returned is that to first order
+    in r_new/r, and the logarithmic mean m (1 - d^2/3 - 4 d^4/45), d = (C_new - C)/(C_new + C),
+    where C falls exponentially: r_new/r is C_new/C. C that changes with temperature leaves it.
     """
     C, C_new = cell[row.C, n], cell[row.C_new, n]
-    before, after = cell[row.rate_old, n] * C_new, cell[row.rate, n] * C
-    faster = (after - before) * inverse(max(abs(after) + abs(before), TINY))
     both = max(C + C_new, TINY)
     d = (C_new - C) * inverse(both)
     d2 = d * d
     mean = 0.5 * both * fma(d2, fma(d2, -4.0 / 45.0, -1.0 / 3.0), 1.0)
-    return fma((1.0 / 6.0) * (C - C_new), faster, mean)
+    before, after = cell[row.rate_old, n] * C_new, cell[row.rate, n] * C
+    faster = (after - before) * inverse(max(abs(after) + abs(before), TINY))
+    return fma((1.0 / 6.0) * cell[row.C_lost, n], faster, mean)
 
 
 @inner
