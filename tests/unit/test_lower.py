@@ -230,6 +230,25 @@ def test_mixing_depth_is_the_cell_of_fds(virgin: dict[str, Any], expected: float
     assert exposure.mixing_depth == pytest.approx(expected, rel=1e-5)
 
 
+@pytest.mark.parametrize("sets", [1, 2])
+def test_whole_numbers_are_taken_as_floats(sets: int) -> None:
+    given, matter = experiment(front={"flux_W_m2": "q", "h_W_m2K": "h"}), material()
+    values = VALUES | {"h": 12, "q": 30000}
+    arrays = lower.lower_material(matter, values, sets)
+    share = lower_experiment.lower_share(given, matter, values, sets)
+    exposure = lower_experiment.lower_exposure(given, share, arrays, values, sets)
+    for found, exact in ((exposure.front.h, 12.0), (exposure.flux[0], 3e4)):
+        assert found.dtype == np.float64
+        assert found.tolist() == [exact] * sets
+
+
+def test_exposure_of_numbers_is_lowered_once() -> None:
+    given = experiment(front={"flux_W_m2": 3e4, "h_W_m2K": 12.0})
+    first, second = exposed(given, material()), exposed(given, material())
+    assert first.front is second.front
+    assert exposed(experiment(front={"flux_W_m2": "q"}), material()).flux.tolist() == [[3e4]]
+
+
 def test_mixing_depth_follows_the_front_layer() -> None:
     # Half A, half char by mass: volumes 1 and 2 of 3, k = (0.2 + 2 0.4)/3, rho = 2000/3,
     # c = 1500, so k/(rho c) = (1/3)/1e6.
