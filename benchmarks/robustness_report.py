@@ -52,7 +52,7 @@ def refined(rows: list[dict[str, Any]]) -> str:
     return (
         f"The {len(rows)} largest energy errors again, with twice the cells and half the steps: "
         f"{coarse.max():.2g} becomes {fine.max():.2g}; each falls {np.median(ratio):.1f} times "
-        f"(median; least {ratio.min():.1f}). An error of second order falls four times."
+        f"(median; least {ratio.min():.1f})."
     )
 
 

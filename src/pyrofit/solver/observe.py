@@ -43,7 +43,11 @@ def observe(
         Number of parameter sets.
     """
     shifted = {
-        name: Request(_each(r.time_s, sets) - _of(experiment, name, "delay_s", values), r.average_s)
+        name: Request(
+            np.broadcast_to(r.time_s, (sets, r.time_s.size))
+            - _of(experiment, name, "delay_s", values),
+            r.average_s,
+        )
         for name, r in requests.items()
     }
     spread = np.full(sets, value_of(experiment.front.spread, values))
@@ -77,10 +81,6 @@ def observe_one(
         )
 
     return observe(experiment, values, requests, runs).curves()[0]
-
-
-def _each(time_s: FloatArray, sets: int) -> FloatArray:
-    return np.broadcast_to(time_s, (sets, time_s.size))
 
 
 def _of(experiment: Gasification, name: str, key: str, values: Values) -> Value:
