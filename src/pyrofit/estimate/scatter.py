@@ -13,13 +13,12 @@ from scipy.interpolate import BSpline
 from scipy.optimize import minimize, minimize_scalar
 
 from pyrofit.estimate.correlation import Correlation, shrunk
+from pyrofit.estimate.restricted import LEAST_SQUARES, Restricted
 from pyrofit.solver.arrays import FloatArray
 
 NEAR = 0.02
 """How nearly a correlation is found: a few hundred points tell it to 0.05 at best."""
 LARGEST_AR = 0.9995
-LEAST_SQUARES = 1e-30
-"""Sum of squares at least; a series may lie on its curve exactly."""
 
 _SPLINES = (4, 6, 8, 11, 15, 20, 27, 36, 48, 64)
 _ENOUGH_SPLINES = 27
@@ -89,15 +88,16 @@ def _basis(time: FloatArray, splines: int) -> FloatArray:
 
 def _correlations(X: FloatArray, y: FloatArray, known: bool) -> list[Correlation]:
     """Return the likeliest correlation of each kind: none, one lag, two lags, lasting."""
+    criterion = Restricted(X, y, known)
 
     def one(lag: float) -> float:
-        return _restricted(X, y, shrunk((lag,)), known)
+        return criterion(shrunk((lag,)))
 
     def two(lags: FloatArray) -> float:
-        return _restricted(X, y, shrunk(tuple(lags.tolist())), known)
+        return criterion(shrunk(tuple(lags.tolist())))
 
     def lasting(size: float) -> float:
-        return _restricted(X, y, Correlation(ar=float(np.tanh(size))), known)
+        return criterion(Correlation(ar=float(np.tanh(size))))
 
     lag = minimize_scalar(one, bounds=(-0.5, 0.5), method="bounded", options={"xatol": NEAR}).x
     options = {
@@ -116,16 +116,6 @@ def _correlations(X: FloatArray, y: FloatArray, known: bool) -> list[Correlation
         shrunk(tuple(lags.tolist())),
         Correlation(ar=float(np.tanh(ar))),
     ]
-
-
-def _restricted(X: FloatArray, y: FloatArray, correlation: Correlation, known: bool) -> float:
-    """Return -2 log of the restricted likelihood, up to a constant."""
-    white, log_det = correlation.whiten(np.column_stack([X, y]))
-    R = np.asarray(np.linalg.qr(white, mode="r"))
-    rest = len(y) - X.shape[1]
-    squares = max(float(R[-1, -1] ** 2), LEAST_SQUARES)
-    log_curve = 2.0 * float(np.log(np.abs(np.diag(R)[:-1])).sum())
-    return log_det + log_curve + (squares if known else rest * np.log(squares / rest))
 
 
 def _fit(

@@ -1,0 +1,73 @@
+"""The restricted likelihood of many correlations for the same splines and series.
+
+-2 log L = log det R + log det X^T R^-1 X + q, where q = r^T R^-1 r is what generalised least
+squares leaves, or (n - k) log(q/(n - k)) if the size of the noise is not known (Patterson and
+Thompson 1971, doi 10.1093/biomet/58.3.545). All of it is in the small matrix Z^T R^-1 Z of
+Z = [X y], for which no R is factorised:
+
+- ar^k at lag k: (1 - ar^2) R^-1 = (1 + ar^2) I - ar (S + S^T) - ar^2 (e_1 e_1^T + e_n e_n^T), S the
+  shift by one point.
+- Two lags: R = I + r_1 K + r_2 (K^2 - 2 I) + r_2 (e_1 e_1^T + e_n e_n^T) with K = S + S^T. The
+  sine transform makes K diagonal, 2 cos(pi i/(n + 1)); Woodbury's formula takes the ends in.
+"""
+
+import numpy as np
+from scipy.fft import dst
+from scipy.linalg.lapack import dposv
+
+from pyrofit.estimate.correlation import Correlation
+from pyrofit.solver.arrays import FloatArray
+
+LEAST_SQUARES = 1e-30
+"""Sum of squares at least; a series may lie on its curve exactly."""
+
+
+class Restricted:
+    """-2 log of the restricted likelihood of correlations, up to a constant.
+
+    Parameters
+    ----------
+    X
+        Splines, shape (n, k), over the size of the noise.
+    y
+        The series, shape (n,), over the same.
+    known
+        Whether that is the size of the noise itself, or only proportional to it.
+    """
+
+    def __init__(self, X: FloatArray, y: FloatArray, known: bool) -> None:
+        n, self.splines = X.shape
+        self.rest, self.known = n - self.splines, known
+        # The likelihood does not see what splines follow; without it, no digits are lost.
+        Z = np.column_stack([X, y - X @ np.linalg.lstsq(X, y, rcond=None)[0]])
+        self.ends = Z[[0, -1]]
+        self.square = Z.T @ Z
+        shifted = Z[1:].T @ Z[:-1]
+        self.shifted = shifted + shifted.T
+        ends = np.zeros((n, 2))
+        ends[0, 0] = ends[-1, 1] = 1.0
+        self.waves = dst(np.column_stack([Z, ends]), type=1, norm="ortho", axis=0)
+        self.eigenvalues = 2.0 * np.cos(np.pi * np.arange(1, n + 1) / (n + 1))
+
+    def __call__(self, correlation: Correlation) -> float:
+        """Return -2 log L of a correlation over up to two lags, or of ar^k at lag k."""
+        G, log_det = self._lasting(correlation.ar) if correlation.ar else self._lags(correlation)
+        factor, solution, _ = dposv(G[:-1, :-1], G[:-1, -1])
+        squares = max(float(G[-1, -1] - G[:-1, -1] @ solution), LEAST_SQUARES)
+        log_curve = 2.0 * float(np.log(np.diag(factor)).sum())
+        size = squares if self.known else self.rest * np.log(squares / self.rest)
+        return log_det + log_curve + size
+
+    def _lasting(self, ar: float) -> tuple[FloatArray, float]:
+        rest = 1.0 - ar**2
+        G = (1.0 + ar**2) * self.square - ar * self.shifted - ar**2 * self.ends.T @ self.ends
+        return G / rest, (len(self.eigenvalues) - 1) * float(np.log(rest))
+
+    def _lags(self, correlation: Correlation) -> tuple[FloatArray, float]:
+        one, two = (*correlation.lags, 0.0, 0.0)[:2]
+        density = 1.0 + one * self.eigenvalues + two * (self.eigenvalues**2 - 2.0)
+        G = self.waves.T @ (self.waves / density[:, None])
+        inner, cross = G[:-2, :-2], G[:-2, -2:]
+        ends = np.eye(2) + two * G[-2:, -2:]
+        log_det = float(np.log(density).sum() + np.log(np.linalg.det(ends)))
+        return inner - two * cross @ np.linalg.solve(ends, cross.T), log_det
