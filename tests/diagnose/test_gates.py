@@ -14,8 +14,8 @@ from pyrofit.diagnose.gates import (
     Trust,
     at_limit,
     disagreement,
-    forecasts,
-    left_out,
+    explains,
+    predictions,
     slabs,
     trust,
 )
@@ -29,6 +29,15 @@ SLAB_25, SLAB_60 = np.arange(TOTAL) < 2 * POINTS, np.arange(TOTAL) >= 2 * POINTS
 def truth(k_T: float = 0.0, seed: int = 1) -> FloatArray:
     noise = np.random.default_rng(seed).standard_normal(TOTAL)
     return noise + 2.0 * COLUMNS["rho"] - 3.0 * COLUMNS["k"] + k_T * column_of(COLUMNS, "k_T")
+
+
+def scores(trial: linear.Trial) -> dict[str, float]:
+    return predictions([trial])[0].scores
+
+
+def trusted(trial: linear.Trial, without: linear.Trial) -> Trust:
+    own, before = predictions([trial, without])
+    return trust(trial, "k_T", own, before, explains(own, np.random.default_rng(1)))
 
 
 def log_density(J: FloatArray, y: FloatArray, seen: Any, out: Any) -> float:
@@ -60,8 +69,7 @@ def test_log_score_of_an_experiment_left_out_is_the_exact_log_density(
     J = linear.fraction_columns(COLUMNS, trial.model)
     exact = log_density(J, at_zero(J, y, trial), ~out, out)
     # The fit is that without the prior; descents end within 0.05 of the least chi-square.
-    assert left_out(trial, experiment) == pytest.approx(exact, abs=0.05)
-    assert forecasts(trial)[experiment] == left_out(trial, experiment)
+    assert scores(trial)[experiment] == pytest.approx(exact, abs=0.05)
 
 
 def test_log_score_of_what_is_held_out_is_the_exact_log_density() -> None:
@@ -71,7 +79,7 @@ def test_log_score_of_what_is_held_out_is_the_exact_log_density() -> None:
     J = linear.fraction_columns(COLUMNS, whole.model)
     out = np.arange(TOTAL) >= 3 * POINTS
     exact = log_density(J, at_zero(J, y, whole), ~out, out)
-    assert forecasts(trial)["held out"] == pytest.approx(exact, abs=0.05)
+    assert scores(trial)["held out"] == pytest.approx(exact, abs=0.05)
 
 
 def test_prediction_by_a_model_that_knows_little_is_uncertain_not_wrong() -> None:
@@ -82,7 +90,7 @@ def test_prediction_by_a_model_that_knows_little_is_uncertain_not_wrong() -> Non
     trial = linear.fit(only_60, y)
     J = linear.fraction_columns(only_60, trial.model)
     room = 0.5 * np.log1p(np.sum(J[SLAB_60, 1] ** 2) / UNIFORM)
-    assert left_out(trial, "slab_60") == pytest.approx(-0.5 * 2 * POINTS - room, abs=20.0)
+    assert scores(trial)["slab_60"] == pytest.approx(-0.5 * 2 * POINTS - room, abs=20.0)
     # As a prediction of its lower limit without any room it would be hopeless.
     assert -0.5 * float(np.sum((0.5 * J[SLAB_60, 1]) ** 2)) < -1000.0
 
@@ -92,11 +100,11 @@ def test_right_effect_gains_and_useless_one_does_not() -> None:
     for hidden, gains in ((0.5 * typical, True), (0.0, False)):
         base = linear.fit(COLUMNS, truth(hidden))
         more = linear.fit_with(base, "k_T")
-        found = trust(more, forecasts(base), "k_T", np.random.default_rng(1))
+        found = trusted(more, base)
         assert found.predicts == gains
         assert set(found.gains) == {"slab_25", "slab_60"}
         assert found.gains["slab_25"] == pytest.approx(
-            left_out(more, "slab_25") - left_out(base, "slab_25")
+            scores(more)["slab_25"] - scores(base)["slab_25"]
         )
 
 
@@ -156,7 +164,7 @@ def test_prediction_improves_on_the_whole_and_gets_clearly_worse_nowhere(
 def test_one_slab_alone_is_not_left_out() -> None:
     trial = linear.fit(COLUMNS, truth(), calibrated=(0, 1))
     assert slabs(trial) == []
-    assert list(forecasts(trial)) == ["held out"]
+    assert list(scores(trial)) == ["held out"]
     channels = [("slab", "mlr"), ("tga", "mass_fraction")]
     model = SimpleNamespace(base=SimpleNamespace(channels=channels), channels=(0, 1))
     fake: Any = SimpleNamespace(model=model)
@@ -168,5 +176,5 @@ def test_misfit_of_what_is_held_out_is_noticed() -> None:
     wrong[3 * POINTS + 10 : 3 * POINTS + 30] += 6.0
     for y, explained in ((truth(), True), (wrong, False)):
         trial = linear.fit_with(linear.fit(COLUMNS, y, calibrated=(0, 1, 2)), "k_T")
-        found = trust(trial, forecasts(trial), "k_T", np.random.default_rng(1))
+        found = trusted(trial, trial)
         assert found.explains == explained

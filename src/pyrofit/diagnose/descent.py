@@ -14,7 +14,7 @@ from pyrofit.diagnose.model import Model
 from pyrofit.solver.arrays import FloatArray
 
 MOST_STEPS = 80
-MOST_REFUSED = 4
+MOST_REFUSED = 8
 """Steps in a row, ten times more damped each, that fresh derivatives may promise in vain."""
 ENOUGH = 0.05
 """A step that promises or brings less is the last one."""
@@ -48,11 +48,12 @@ def descend(model: Model, x: FloatArray, jacobian: FloatArray | None = None) -> 
         step, promised = _step(J, r, x, damping)
         gained = -1.0
         if promised > ENOUGH:
-            there = model.residuals(x + step)
+            ahead = np.clip(x + step, 0.0, 1.0)  # a rate rounded below zero is no rate
+            there = model.residuals(ahead)
             gained = float(r @ r - there @ there)
         if gained > 0.0:
             J = J + np.outer(there - r - J @ step, step) / (step @ step)
-            x, r, fresh, refused = x + step, there, False, 0
+            x, r, fresh, refused = ahead, there, False, 0
             damping = max(damping * (0.2 if gained > 0.5 * promised else 1.0), 1e-6)
         if gained > ENOUGH:
             continue

@@ -1,6 +1,6 @@
 """The diagnosis of a study, from its measurements to what is said of it."""
 
-from dataclasses import asdict, dataclass, replace
+from dataclasses import asdict, dataclass
 from typing import Any
 
 import numpy as np
@@ -8,9 +8,9 @@ import pandas as pd
 
 from pyrofit.config import Study
 from pyrofit.diagnose import record
-from pyrofit.diagnose.descent import refreshed
 from pyrofit.diagnose.design import next_experiments
 from pyrofit.diagnose.probes import Probe, probes
+from pyrofit.diagnose.refit import up_to_date
 from pyrofit.diagnose.search import Means, Search, Tell, search
 from pyrofit.diagnose.setup import set_up
 from pyrofit.diagnose.verdict import Verdict, judge
@@ -54,14 +54,14 @@ def examine(
     DataError
         A channel is too short, or no run within the limits finishes.
     """
-    setup = set_up(study, measurements)
+    setup = set_up(study, measurements, processes)
     tell(f"base model: chi-square {setup.base.fit.chi2:.1f} of {setup.base.model.points} points")
     means = Means(np.random.default_rng(study.seed), tell, processes)
     found = search(setup.base, setup.candidates, study.diagnosis.most_effects, means)
-    verdict = judge(found, means.rng)
+    verdict = judge(found, means.rng, processes)
     found = verdict.search
     content = record.content(study, found, verdict)
-    content["probes"] = [_shown(p) for p in (_probes(found, verdict) if advise else [])]
+    content["probes"] = [_shown(p) for p in (_probes(found, verdict, processes) if advise else [])]
     designs = _designs(found, verdict) if advise else []
     content["next_experiment"] = [asdict(design) for design in designs]
     tell(content["verdict"]["words"])
@@ -73,8 +73,8 @@ def diagnose(study: Study, measurements: Measurements) -> dict[str, Any]:
     return examine(study, measurements, advise=False).content
 
 
-def _probes(found: Search, verdict: Verdict) -> list[Probe]:
-    return probes(found.end) if verdict.kind == "unknown" else []
+def _probes(found: Search, verdict: Verdict, processes: int) -> list[Probe]:
+    return probes(found.end, processes) if verdict.kind == "unknown" else []
 
 
 def _shown(probe: Probe) -> dict[str, Any]:
@@ -89,5 +89,4 @@ def _designs(found: Search, verdict: Verdict) -> list[Any]:
             return list(next_experiments([judged.trial for judged in finding.kept[:3]]))
     first = {trial.effects: trial for trial in reversed(found.rounds[0].trials)}
     best = sorted(first.values(), key=lambda trial: trial.penalised)[:2]
-    best = [replace(trial, fit=refreshed(trial.model, trial.fit)) for trial in best]
-    return list(next_experiments(best)) if len(best) == 2 else []
+    return list(next_experiments(list(map(up_to_date, best)))) if len(best) == 2 else []

@@ -11,17 +11,18 @@ leaves room for that, loses less than one that is sure of itself.
 """
 
 from collections.abc import Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 from scipy.stats import chi2 as chi_squared
 
-from pyrofit.diagnose.descent import Fit, descend, refreshed
+from pyrofit.diagnose.descent import Fit, descend
 from pyrofit.diagnose.locate import alarm
-from pyrofit.diagnose.model import curvature, model_of
-from pyrofit.diagnose.refit import Trial
+from pyrofit.diagnose.model import Model, curvature, model_of
+from pyrofit.diagnose.refit import Trial, up_to_date
 from pyrofit.diagnose.screen import project, projector
 from pyrofit.diagnose.setup import refitted, with_noise_about
+from pyrofit.diagnose.share import shared
 from pyrofit.solver.arrays import FloatArray
 
 HELD_OUT = "held out"
@@ -56,6 +57,14 @@ class Trust:
         """Whether predictions improve on the whole, and none gets clearly worse."""
         total = sum(self.gains.values())
         return total >= INFORMATIVE and min(self.gains.values(), default=0.0) > -INFORMATIVE
+
+
+@dataclass(frozen=True, eq=False)
+class Predictions:
+    """Log scores by experiment left out, or held out, and the fit to all signals."""
+
+    scores: dict[str, float]
+    whole: Trial
 
 
 def at_limit(trial: Trial, effect: str) -> str:
@@ -105,21 +114,6 @@ def _log_det(fit: Fit) -> float:
     return float(np.linalg.slogdet(curvature(fit.jacobian))[1])
 
 
-def left_out(trial: Trial, experiment: str) -> float:
-    """Return the log score of the channels of an experiment, predicted from the others."""
-    base = trial.model.base
-    rest = [i for i in trial.model.channels if base.channels[i][0] != experiment]
-    model = model_of(base, trial.model.effects, rest)
-    return forecast(refreshed(model, descend(model, trial.fit.x)), trial.fit)
-
-
-def with_held_out(trial: Trial) -> Trial:
-    """Fit what is held out, too."""
-    base = trial.model.base
-    whole = model_of(base, trial.model.effects, (*trial.model.channels, *base.held_out))
-    return Trial(whole, refreshed(whole, descend(whole, trial.fit.x)))
-
-
 def slabs(trial: Trial) -> list[str]:
     """Return the calibrated experiments that show the slab: without any of them others remain."""
     base = trial.model.base
@@ -128,35 +122,57 @@ def slabs(trial: Trial) -> list[str]:
     return list(names) if len(names) > 1 else []
 
 
-def forecasts(trial: Trial) -> dict[str, float]:
-    """Return the log scores of all predictions: of experiments from the others, and held out."""
-    return _forecasts(trial)[0]
+def predictions(trials: Sequence[Trial], processes: int = 1) -> list[Predictions]:
+    """Return what models predict: experiments from the others, and what is held out."""
+    tasks = [(k, HELD_OUT) for k, trial in enumerate(trials) if trial.model.base.held_out]
+    tasks += [(k, name) for k, trial in enumerate(trials) for name in slabs(trial)]
+    fits = shared(lambda i: _refit(trials[tasks[i][0]], tasks[i][1]).fit, len(tasks), processes)
+    found = [Predictions({}, trial) for trial in trials]
+    for (k, name), fit in zip(tasks, fits, strict=True):
+        part, whole = (trials[k].fit, fit) if name == HELD_OUT else (fit, trials[k].fit)
+        found[k].scores[name] = forecast(part, whole)
+        if name == HELD_OUT:
+            found[k] = replace(found[k], whole=Trial(_model_for(trials[k], HELD_OUT), fit))
+    return found
 
 
-def _forecasts(trial: Trial) -> tuple[dict[str, float], Trial]:
-    """Return the log scores, and the fit to all signals."""
-    found = {name: left_out(trial, name) for name in slabs(trial)}
-    if not trial.model.base.held_out:
-        return found, trial
-    whole = with_held_out(trial)
-    return {**found, HELD_OUT: forecast(trial.fit, whole.fit)}, whole
+def _model_for(trial: Trial, prediction: str) -> Model:
+    """Return the model against all channels, or without those of an experiment."""
+    base, used = trial.model.base, trial.model.channels
+    rest = tuple(i for i in used if base.channels[i][0] != prediction)
+    channels = (*used, *base.held_out) if prediction == HELD_OUT else rest
+    return model_of(base, trial.model.effects, channels)
 
 
-def trust(trial: Trial, without: dict[str, float], effect: str, rng: np.random.Generator) -> Trust:
+def _refit(trial: Trial, prediction: str) -> Trial:
+    model = _model_for(trial, prediction)
+    return up_to_date(Trial(model, descend(model, trial.fit.x)))
+
+
+def explains(found: Predictions, rng: np.random.Generator) -> bool:
+    """Tell whether a model fits what is held out as well, once that is fitted, too.
+
+    ``rng`` draws the noise that it is compared with. The scores are compared under one noise; this
+    is judged under the one that the fit leaves.
+    """
+    held_out = found.whole.model.base.held_out
+    if not held_out:
+        return True
+    whole = refitted(found.whole, with_noise_about(found.whole, held_out))
+    return alarm(whole.model, whole.fit, [], rng).adequate
+
+
+def trust(
+    trial: Trial, effect: str, own: Predictions, without: Predictions, explained: bool
+) -> Trust:
     """Return what speaks for or against an effect of a model.
 
     Parameters
     ----------
-    without
-        The predictions without it.
-    rng
-        Source of the draws of noise that what is held out is compared with.
+    own, without
+        What the model predicts, and what it predicts without the effect.
+    explained
+        Whether it fits what is held out, too.
     """
-    own, whole = _forecasts(trial)
-    explains = True
-    if trial.model.base.held_out:
-        # The scores are compared under one noise; this is judged under the one that it leaves.
-        whole = refitted(whole, with_noise_about(whole, trial.model.base.held_out))
-        explains = alarm(whole.model, whole.fit, [], rng).adequate
-    gains = {name: own[name] - before for name, before in without.items()}
-    return Trust(at_limit(trial, effect), disagreement(trial, effect), gains, explains)
+    gains = {name: own.scores[name] - before for name, before in without.scores.items()}
+    return Trust(at_limit(trial, effect), disagreement(trial, effect), gains, explained)

@@ -8,6 +8,7 @@ sides are searched on, as in narrowest-significance pursuit (Fryzlewicz 2024,
 doi 10.1080/01621459.2023.2211733).
 """
 
+from collections.abc import Sequence
 from dataclasses import dataclass
 
 import numpy as np
@@ -16,11 +17,14 @@ from scipy.stats import chi2 as chi_squared
 from pyrofit.diagnose.descent import Fit
 from pyrofit.diagnose.model import Model
 from pyrofit.diagnose.screen import Look, project, projector
+from pyrofit.diagnose.share import shared
 from pyrofit.solver.arrays import FloatArray
 
 LEVEL = 0.01
 """Probability of a false alarm, of the scan, of the scores and of chi-square each."""
-DRAWS = 1000
+BLOCKS = 10
+DRAWS = 100
+"""Draws of a block."""
 MOST_WINDOWS = 8
 """Most windows of one channel."""
 
@@ -59,23 +63,36 @@ class Alarm:
         return self.adequate and self.score <= self.score_critical
 
 
-def alarm(model: Model, fit: Fit, looks: list[Look], rng: np.random.Generator) -> Alarm:
+def alarm(
+    model: Model,
+    fit: Fit,
+    looks: Sequence[Look],
+    rng: np.random.Generator,
+    processes: int = 1,
+) -> Alarm:
     """Compare what a fit leaves with draws of the noise, projected as the fit projects it."""
     spanned = projector(fit)
-    noise = project(spanned, rng.standard_normal((fit.residuals.size, DRAWS)))
+    rngs = rng.spawn(BLOCKS)
+
+    def block(b: int) -> tuple[FloatArray, FloatArray]:
+        noise = project(spanned, rngs[b].standard_normal((fit.residuals.size, DRAWS)))
+        highest = [_highest(part) for part in model.by_channel(noise)]
+        scores = [-(noise.T @ look.directions).min(axis=1, initial=0.0) for look in looks]
+        return np.max(highest, axis=0), np.max([np.zeros(DRAWS), *scores], axis=0)
+
+    drawn = zip(*shared(block, BLOCKS, processes), strict=True)
+    critical, score_critical = (
+        float(np.quantile(np.concatenate(of_blocks), 1.0 - LEVEL)) for of_blocks in drawn
+    )
     parts = model.by_channel(fit.residuals)
-    drawn = np.split(noise[: model.points], np.cumsum([p.size for p in parts])[:-1])
-    highest = np.max([_highest(part.T) for part in drawn], axis=0)
-    critical = float(np.quantile(highest, 1.0 - LEVEL))
-    scores = [-(noise.T @ look.directions).min(axis=1, initial=0.0) for look in looks]
     freedom = fit.residuals.size - float(np.sum(spanned**2))
     windows = [w for i, part in enumerate(parts) for w in windows_of(part, critical, i)]
     return Alarm(
         windows=tuple(windows),
-        scan=float(max(_highest(part[None])[0] for part in parts)),
+        scan=float(max(_highest(part[:, None])[0] for part in parts)),
         scan_critical=critical,
         score=max((look.score(fit.residuals) for look in looks), default=0.0),
-        score_critical=float(np.quantile(np.max(scores, axis=0), 1.0 - LEVEL)) if looks else 0.0,
+        score_critical=score_critical,
         chi2=fit.chi2,
         chi2_critical=float(chi_squared.isf(LEVEL, freedom)),
     )
@@ -111,12 +128,12 @@ def _best(w: FloatArray, low: int, high: int) -> tuple[float, int, int] | None:
 
 
 def _highest(w: FloatArray) -> FloatArray:
-    """Return the largest statistic of each row of (draws, points)."""
-    total = np.concatenate([np.zeros((len(w), 1)), np.cumsum(w, axis=1)], axis=1)
-    found = np.full(len(w), -np.inf)
-    for length in _lengths(w.shape[1]):
-        sums = np.abs(total[:, length:] - total[:, :-length]).max(axis=1) / np.sqrt(length)
-        found = np.maximum(found, sums - _handicap(w.shape[1], length))
+    """Return the largest statistic of each column of (points, draws)."""
+    total = np.concatenate([np.zeros((1, w.shape[1])), np.cumsum(w, axis=0)])
+    found = np.full(w.shape[1], -np.inf)
+    for length in _lengths(len(w)):
+        sums = np.abs(total[length:] - total[:-length]).max(axis=0) / np.sqrt(length)
+        found = np.maximum(found, sums - _handicap(len(w), length))
     return found
 
 

@@ -11,11 +11,12 @@ import numpy as np
 from scipy.stats import chi2 as chi_squared
 
 from pyrofit.diagnose.corrections import Correction, Shape, corrections
-from pyrofit.diagnose.descent import descend
+from pyrofit.diagnose.descent import Fit, descend
 from pyrofit.diagnose.locate import LEVEL
 from pyrofit.diagnose.model import Known, Model
 from pyrofit.diagnose.refit import Trial
 from pyrofit.diagnose.screen import projector
+from pyrofit.diagnose.share import shared
 from pyrofit.estimate.likelihood import Likelihood
 
 WIDEST = 3.0
@@ -58,7 +59,7 @@ class Probe:
     unit: str
 
 
-def probes(trial: Trial) -> list[Probe]:
+def probes(trial: Trial, processes: int = 1) -> list[Probe]:
     """Fit all probes to what a fitted model leaves.
 
     The excess is what chi-square has above the noise's: above the degrees of freedom, or above
@@ -73,7 +74,8 @@ def probes(trial: Trial) -> list[Probe]:
     """
     likelihood = trial.model.likelihood
     wanted = corrections(likelihood.problem, likelihood.values(trial.fit.x))
-    found = [_fitted(trial, correction) for correction in wanted]
+    fits = shared(lambda i: _fit(trial, wanted[i]), len(wanted), processes)
+    found = [_probe(trial, *pair) for pair in zip(wanted, fits, strict=True)]
     freedom = trial.fit.residuals.size - float(np.sum(projector(trial.fit) ** 2))
     noise = min([freedom, *(probe.chi2 for probe in found)])
     judged = [replace(probe, absorbed=_absorbed(trial.fit.chi2, probe, noise)) for probe in found]
@@ -87,11 +89,15 @@ def _absorbed(before: float, probe: Probe, noise: float) -> float:
     return min(gain / (before - noise), 1.0)
 
 
-def _fitted(trial: Trial, correction: Correction) -> Probe:
+def _fit(trial: Trial, correction: Correction) -> Fit:
     """Fit all parameters and the coefficients from the model's fit, where these are zero."""
+    none = np.full(len(correction.sd), 0.5)
+    return descend(with_coefficients(trial.model, correction), np.append(trial.fit.x, none))
+
+
+def _probe(trial: Trial, correction: Correction, fit: Fit) -> Probe:
     model = with_coefficients(trial.model, correction)
     sd = np.array(list(correction.sd.values()))
-    fit = descend(model, np.append(trial.fit.x, np.full(sd.size, 0.5)))
     values = model.likelihood.values(fit.x)
     c = values[-sd.size :]
     return Probe(

@@ -1,7 +1,7 @@
 """Fits of the base with an effect more, jointly with all other parameters, from several starts."""
 
-from collections.abc import Sequence
-from dataclasses import dataclass
+from collections.abc import Iterator, Sequence
+from dataclasses import dataclass, replace
 
 import numpy as np
 
@@ -25,14 +25,14 @@ STARTS = 3
 """Strengths from which an effect is fitted."""
 FAR = 4.0
 """A start must not promise a chi-square above that of the model without the effect times this."""
-HOPELESS = 50.0
-"""How far above the best chi-square an effect ends that is not tried from a second start."""
 SAME = 0.5
 """Two starts whose chi-squares end as near have found the same valley; no third is needed."""
 WIDE = 0.1
 """Standard deviation, as a fraction of the limits' distance, of what is hardly determined."""
 ELSEWHERE = (0.15, 0.5, 0.85)
 """Values of such a parameter to search from."""
+MOST_ROUNDS = 3
+"""How often what such a search has lowered is searched on."""
 APART = 0.2
 """Where it is nearer to one than this, that one is left out."""
 
@@ -73,26 +73,37 @@ def model_with(trial: Trial, effect: str) -> Model:
     )
 
 
-def with_effect(trial: Trial, seen: Look, best_known: float = np.inf) -> Trial:
-    """Fit an effect in addition; never worse than without it.
+def with_effect(trial: Trial, seen: Look) -> Trial:
+    """Fit an effect in addition, from several starts; never worse than without it."""
+    return from_elsewhere(trial, seen, from_best_start(trial, seen))
 
-    From one start only, where that ends far above the best chi-square that is known.
-    """
+
+def from_best_start(trial: Trial, seen: Look) -> Trial:
+    """Fit an effect in addition from the most promising start; never worse than without it."""
     _, quantity = strength_of(seen.effect)
-    model = model_with(trial, seen.effect)
     null = extended(trial.fit.x, seen.effect, quantity.value)
     none = np.zeros((trial.fit.residuals.size, 1))
     jacobian = np.hstack([trial.fit.jacobian, none])
-    best = Fit(trial.fit.chi2, null, trial.fit.residuals, jacobian, fresh=False)
-    ends: list[float] = []
-    for start in starts(seen, trial.fit.chi2):
-        x, jacobian = _start(trial, seen, start)
-        end = descend(model, x, jacobian)
-        best = end if end.chi2 < best.chi2 else best
-        if end.chi2 > best_known + HOPELESS or any(abs(end.chi2 - e) < SAME for e in ends):
+    fit = Fit(trial.fit.chi2, null, trial.fit.residuals, jacobian, fresh=False)
+    best = Trial(model_with(trial, seen.effect), fit)
+    first = starts(seen, trial.fit.chi2)[0]
+    return _lower(best, descend(best.model, *_start(trial, seen, first)))
+
+
+def from_elsewhere(trial: Trial, seen: Look, best: Trial) -> Trial:
+    """Fit an effect from the other starts, too, until two end alike."""
+    ends = [best.fit.chi2]
+    for start in starts(seen, trial.fit.chi2)[1:]:
+        end = descend(best.model, *_start(trial, seen, start))
+        best = _lower(best, end)
+        if any(abs(end.chi2 - other) < SAME for other in ends):
             break
         ends.append(end.chi2)
-    return Trial(model, best)
+    return best
+
+
+def _lower(trial: Trial, end: Fit) -> Trial:
+    return replace(trial, fit=end) if end.chi2 < trial.fit.chi2 else trial
 
 
 def starts(seen: Look, chi2: float) -> list[int]:
@@ -123,14 +134,37 @@ def _start(trial: Trial, seen: Look, at: int) -> tuple[FloatArray, FloatArray]:
     return x, np.column_stack([J, slope])
 
 
-def polished(trial: Trial) -> Trial:
+def polished(trials: Sequence[Trial], processes: int = 1) -> list[Trial]:
     """Search from elsewhere for what the data hardly determine; never worse than before.
 
     A parameter at a limit, or one of wide uncertainty, may be in the wrong of several valleys.
     """
-    best = refreshed(trial.model, trial.fit)
-    bend = curvature(best.jacobian)
-    wide = np.sqrt(np.diag(np.linalg.inv(bend))) > WIDE
+    found = [up_to_date(trial) for trial in trials]
+    lowered = list(range(len(found)))
+    for _ in range(MOST_ROUNDS):
+        begins = [(k, x) for k in lowered for x in _elsewhere(found[k])]
+        ends = _ends([(found[k].model, x) for k, x in begins], processes)
+        before = [trial.fit.chi2 for trial in found]
+        for (k, _), end in zip(begins, ends, strict=True):
+            found[k] = _lower(found[k], end)
+        found = [up_to_date(trial) for trial in found]
+        lowered = [k for k in lowered if found[k].fit.chi2 < before[k] - SAME]
+    return found
+
+
+def _ends(begins: Sequence[tuple[Model, FloatArray]], processes: int) -> list[Fit]:
+    return shared(lambda i: descend(*begins[i]), len(begins), processes)
+
+
+def up_to_date(trial: Trial) -> Trial:
+    """Return a trial with derivatives made at its end."""
+    return replace(trial, fit=refreshed(trial.model, trial.fit))
+
+
+def _elsewhere(trial: Trial) -> Iterator[FloatArray]:
+    """Yield the fit with a parameter moved that is hardly determined or rests at a limit."""
+    best = trial.fit
+    wide = np.sqrt(np.diag(np.linalg.inv(curvature(best.jacobian)))) > WIDE
     resting = (best.x <= 0.0) | (best.x >= 1.0)
     base = len(trial.model.names) - trial.numbers
     for i in np.flatnonzero((wide | resting)[:base]):
@@ -138,9 +172,7 @@ def polished(trial: Trial) -> Trial:
             if abs(value - best.x[i]) > APART:
                 x = best.x.copy()
                 x[i] = value
-                end = descend(trial.model, x)
-                best = end if end.chi2 < best.chi2 else best
-    return Trial(trial.model, refreshed(trial.model, best))
+                yield x
 
 
 def model_with_form(trial: Trial, parameter: str) -> Model:

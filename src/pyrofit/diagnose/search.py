@@ -5,16 +5,19 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
-from pyrofit.diagnose.descent import descend, refreshed
+from pyrofit.diagnose.descent import Fit, descend, refreshed
 from pyrofit.diagnose.gates import at_limit
 from pyrofit.diagnose.locate import Alarm, alarm
 from pyrofit.diagnose.model import Base, model_of
 from pyrofit.diagnose.refit import (
     Trial,
+    from_best_start,
+    from_elsewhere,
     look_at,
     model_with,
     model_with_form,
     polished,
+    up_to_date,
     with_effect,
     with_form,
 )
@@ -29,6 +32,8 @@ FORMED = 5
 """Effects that are tried in other forms."""
 AMBIGUOUS = 9.0
 """Models whose penalised chi-square is above the best one's by less are not told apart."""
+HOPELESS = 50.0
+"""How far above the best chi-square an effect ends that is not tried from other starts."""
 POLISHED = 5
 """Models that are searched on from elsewhere in what the data hardly determine."""
 BEAM = 2
@@ -149,8 +154,9 @@ def _search(base: Trial, effects: Sequence[str], most: int, means: Means) -> Sea
 
 
 def _onwards(trial: Trial, effects: Sequence[str], means: Means) -> Round:
-    start = replace(trial, fit=refreshed(trial.model, trial.fit))
-    return _look(start, [effect for effect in effects if effect not in trial.effects], means)
+    return _look(
+        up_to_date(trial), [effect for effect in effects if effect not in trial.effects], means
+    )
 
 
 def _sharp(step: Round, means: Means) -> Round:
@@ -175,7 +181,9 @@ def _sharp(step: Round, means: Means) -> Round:
 
 def _look(trial: Trial, effects: Sequence[str], means: Means) -> Round:
     looks = look_at(trial, effects, means.processes)
-    return Round(trial, alarm(trial.model, trial.fit, looks, means.rng), tuple(looks))
+    return Round(
+        trial, alarm(trial.model, trial.fit, looks, means.rng, means.processes), tuple(looks)
+    )
 
 
 def _singles(step: Round, means: Means) -> tuple[Trial, ...]:
@@ -193,18 +201,21 @@ def _more(step: Round, most_tried: int, means: Means) -> tuple[Trial, ...]:
 
 
 def _fitted(step: Round, most: int, means: Means) -> list[Trial]:
-    """Fit one effect more, those that promise most; the first is what the others are held to."""
+    """Fit one effect more, those that promise most, and the best of these from several starts."""
+    start, processes = step.start, means.processes
     looks = sorted(step.looks, key=lambda look: float(look.ahead.min()))[:most]
-    if not looks:
-        return []
-    first = with_effect(step.start, looks[0])
-    rest = shared(
-        lambda i: with_effect(step.start, looks[1 + i], first.fit.chi2).fit,
-        len(looks) - 1,
-        means.processes,
+    fits = shared(lambda i: from_best_start(start, looks[i]).fit, len(looks), processes)
+    trials = [
+        Trial(model_with(start, look.effect), fit) for look, fit in zip(looks, fits, strict=True)
+    ]
+    best = min((fit.chi2 for fit in fits), default=0.0)
+    near = [i for i, fit in enumerate(fits) if fit.chi2 <= best + HOPELESS]
+    ends = shared(
+        lambda k: from_elsewhere(start, looks[near[k]], trials[near[k]]).fit, len(near), processes
     )
-    models = [model_with(step.start, look.effect) for look in looks[1:]]
-    return _told([first, *map(Trial, models, rest)], means)
+    for i, end in zip(near, ends, strict=True):
+        trials[i] = replace(trials[i], fit=end)
+    return _told(trials, means)
 
 
 def _forms(leading: Sequence[Trial], means: Means) -> list[Trial]:
@@ -219,10 +230,8 @@ def _forms(leading: Sequence[Trial], means: Means) -> list[Trial]:
 def _polished(trials: Sequence[Trial], means: Means) -> list[Trial]:
     """Return the trials in order, the leading ones searched on from elsewhere."""
     order = _sorted(trials)
-    first, rest = order[:POLISHED], order[POLISHED:]
-    fits = shared(lambda i: polished(first[i]).fit, len(first), means.processes)
-    better = [replace(trial, fit=fit) for trial, fit in zip(first, fits, strict=True)]
-    return list(_sorted([*better, *rest]))
+    better = polished(order[:POLISHED], means.processes)
+    return list(_sorted([*better, *order[POLISHED:]]))
 
 
 def _told(trials: list[Trial], means: Means) -> list[Trial]:
@@ -254,10 +263,15 @@ def _claims(steps: Sequence[Round], spare: float) -> list[Trial]:
     return list(best.values())[:BEAM]
 
 
-def dropped(trial: Trial, effect: str) -> Trial:
-    """Fit the model without one of its effects, from where it stands."""
+def dropped(trial: Trial, effects: Sequence[str], processes: int = 1) -> list[Trial]:
+    """Fit the model without each of some effects, from where it stands."""
     base: Base = trial.model.base
-    free = {name: of for name, of in trial.model.effects.items() if name != effect}
-    model = model_of(base, free, trial.model.channels)
-    keep = [i for i, name in enumerate(trial.model.names) if name in model.names]
-    return Trial(model, refreshed(model, descend(model, trial.fit.x[keep])))
+    of = trial.model.effects
+    free = [{name: of[name] for name in of if name != effect} for effect in effects]
+    models = [model_of(base, kept, trial.model.channels) for kept in free]
+
+    def fit(k: int) -> Fit:
+        keep = [name in models[k].names for name in trial.model.names]
+        return refreshed(models[k], descend(models[k], trial.fit.x[keep]))
+
+    return list(map(Trial, models, shared(fit, len(models), processes)))

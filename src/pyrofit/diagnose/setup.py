@@ -17,6 +17,7 @@ from pyrofit.config import (
 from pyrofit.diagnose.descent import descend, refreshed
 from pyrofit.diagnose.model import Base, Known, model_of
 from pyrofit.diagnose.refit import Trial, polished
+from pyrofit.diagnose.share import shared
 from pyrofit.errors import DataError
 from pyrofit.estimate.likelihood import FAILED, Likelihood, likelihood_of
 from pyrofit.estimate.noise import NoiseModel, estimate_noise
@@ -37,7 +38,7 @@ class Setup:
     candidates: tuple[str, ...]
 
 
-def set_up(study: Study, measurements: Measurements) -> Setup:
+def set_up(study: Study, measurements: Measurements, processes: int = 1) -> Setup:
     """Fit the base model, with the noise of every channel estimated twice.
 
     First from the series alone; then, as what is steep in a series looks like noise to a smooth
@@ -51,7 +52,7 @@ def set_up(study: Study, measurements: Measurements) -> Setup:
     likelihood = likelihood_of(_problem(study, measurements))
     calibrated = tuple(range(len(calibration_channels(study))))
     base = Base(likelihood, _known(study, likelihood.problem), calibrated)
-    first = _fitted(base, study.seed)
+    first = _fitted(base, study.seed, processes)
     return Setup(refitted(first, with_noise_about(first)), candidate_effects(study))
 
 
@@ -77,19 +78,20 @@ def _known(study: Study, problem: Problem) -> Known:
     )
 
 
-def _fitted(base: Base, seed: int) -> Trial:
+def _fitted(base: Base, seed: int, processes: int) -> Trial:
     """Return the fit of the base from the best of several points spread over the limits."""
     model = model_of(base, {})
     starts = _starts(base, seed)
     ahead = [_chi2(residuals) for residuals in model.residuals_all(np.array(starts))]
-    ends = [descend(model, starts[i]) for i in np.argsort(ahead, kind="stable")[:DESCENTS]]
+    order = np.argsort(ahead, kind="stable")[:DESCENTS]
+    ends = shared(lambda k: descend(model, starts[order[k]]), len(order), processes)
     best = min(ends, key=lambda end: end.chi2)
     if np.any(best.residuals[: model.points] == FAILED):
         raise DataError(
             "diagnosis: no run within the limits of the parameters finishes; check the limits and "
             "the description of the experiments"
         )
-    return polished(Trial(model, best))
+    return polished([Trial(model, best)], processes)[0]
 
 
 def _starts(base: Base, seed: int) -> list[FloatArray]:

@@ -1,6 +1,7 @@
 """Independent work shared by processes; the results do not depend on how many there are."""
 
 import multiprocessing
+import os
 import signal
 from collections.abc import Callable
 from multiprocessing.connection import Connection
@@ -8,13 +9,15 @@ from typing import TypeVar
 
 Result = TypeVar("Result")
 Work = Callable[[int], Result]
+NUMBER = 4
+"""Bytes of a piece's number; a pipe holds 65536 bytes, more than there ever are pieces."""
 
 
 def shared(work: Work[Result], count: int, processes: int = 1) -> list[Result]:
     """Return ``[work(0), ..., work(count - 1)]``, computed by some processes.
 
-    The processes are forks: what ``work`` knows is not copied, what it returns is. Each does every
-    n-th piece and ends by itself, even if this process is killed.
+    The processes are forks: what ``work`` knows is not copied, what it returns is. Each takes the
+    next piece when it is free, and ends by itself, even if this process is killed.
 
     Raises
     ------
@@ -32,15 +35,16 @@ def shared(work: Work[Result], count: int, processes: int = 1) -> list[Result]:
     if processes == 1 or count < 2 or not forks:
         return [work(i) for i in range(count)]
     context = multiprocessing.get_context("fork")
+    pieces = _numbers(count)
     results: dict[int, Result] = {}
     running = []
-    for first in range(processes):
+    for _ in range(min(processes, count)):
         ours, theirs = context.Pipe(duplex=False)
-        pieces = range(first, count, processes)
         process = context.Process(target=_do, args=(work, pieces, theirs), daemon=True)
         process.start()
         theirs.close()
         running.append((process, ours))
+    os.close(pieces)
     for process, ours in running:
         try:
             found = ours.recv()
@@ -53,12 +57,21 @@ def shared(work: Work[Result], count: int, processes: int = 1) -> list[Result]:
     return [results[i] for i in range(count)]
 
 
+def _numbers(count: int) -> int:
+    """Return a pipe from which several processes read the numbers up to count, each once."""
+    pipe, entrance = os.pipe()
+    os.write(entrance, b"".join(i.to_bytes(NUMBER) for i in range(count)))
+    os.close(entrance)
+    return pipe
+
+
 def _do(
-    work: Work[Result], pieces: range, results: "Connection[dict[int, Result] | Exception, None]"
+    work: Work[Result], pieces: int, results: "Connection[dict[int, Result] | Exception, None]"
 ) -> None:
     signal.signal(signal.SIGINT, signal.SIG_IGN)  # the first process answers it, and ends this one
     try:
-        results.send({i: work(i) for i in pieces})
+        taken = iter(lambda: os.read(pieces, NUMBER), b"")
+        results.send({i: work(i) for i in map(int.from_bytes, taken)})
     except Exception as error:
         results.send(error)
     results.close()

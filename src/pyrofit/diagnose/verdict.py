@@ -6,11 +6,11 @@ from typing import Literal
 
 import numpy as np
 
-from pyrofit.diagnose.descent import refreshed
-from pyrofit.diagnose.gates import AGREE, INFORMATIVE, Trust, forecasts, trust
+from pyrofit.diagnose.gates import AGREE, INFORMATIVE, Trust, explains, predictions, trust
 from pyrofit.diagnose.locate import alarm
-from pyrofit.diagnose.refit import Trial
+from pyrofit.diagnose.refit import Trial, up_to_date
 from pyrofit.diagnose.search import AMBIGUOUS, Search, dropped
+from pyrofit.diagnose.share import shared
 from pyrofit.effects import known_effects
 
 MOST_JUDGED = 6
@@ -94,17 +94,19 @@ class Verdict:
         return self.kind in ("named", "multiple") and sure and ONE_FLUX not in self.reasons
 
 
-def judge(found: Search, rng: np.random.Generator) -> Verdict:
+def judge(found: Search, rng: np.random.Generator, processes: int = 1) -> Verdict:
     """Return what may be claimed of a search's end.
 
     Parameters
     ----------
     rng
         Source of the draws of noise that what is held out is compared with.
+    processes
+        Processes that share the fits.
     """
-    findings = tuple(_finding(found, effect, rng) for effect in found.end.effects)
-    if not findings:
+    if not found.end.effects:
         return _without_effects(found)
+    findings = _findings(found, rng, processes)
     reasons = [f"{f.effect}: {j.rejected}" for f in findings for j in f.judged[:1] if j.rejected]
     if len(findings) == 1 and reasons and findings[0].kept:
         # The best one fails, another does not: the verdict is about that one.
@@ -152,16 +154,33 @@ def _doubts(found: Search, findings: Sequence[Finding]) -> list[str]:
     ]
 
 
-def _finding(found: Search, effect: str, rng: np.random.Generator) -> Finding:
-    others = tuple(name for name in found.end.effects if name != effect)
-    without = dropped(found.end, effect) if others else found.base
-    before = forecasts(without)
-    judged = []
-    for name, trial in alternatives(found, effect):
-        about = trust(trial, before, name, rng)
-        gain = without.penalised - trial.penalised
-        judged.append(Judged(name, trial, about, _against(gain, found.spare, about)))
-    return Finding(effect, tuple(judged))
+def _findings(found: Search, rng: np.random.Generator, processes: int) -> tuple[Finding, ...]:
+    effects = found.end.effects
+    base = [found.base]  # the model without its only effect is at hand
+    without = dropped(found.end, effects, processes) if len(effects) > 1 else base
+    places = [alternatives(found, effect) for effect in effects]
+    # The end of the search has a place among the rivals of each of its effects.
+    rivals = {_key(trial): trial for place in places for _, trial in place}
+    predicted = predictions([*without, *rivals.values()], processes)
+    before, own = predicted[: len(without)], predicted[len(without) :]
+    rngs = rng.spawn(len(own))
+    explained = shared(lambda i: explains(own[i], rngs[i]), len(own), processes)
+    known = dict(zip(rivals, zip(own, explained, strict=True), strict=True))
+
+    def judged(name: str, trial: Trial, k: int) -> Judged:
+        foreseen, also = known[_key(trial)]
+        about = trust(trial, name, foreseen, before[k], also)
+        gain = without[k].penalised - trial.penalised
+        return Judged(name, trial, about, _against(gain, found.spare, about))
+
+    return tuple(
+        Finding(effect, tuple(judged(name, trial, k) for name, trial in places[k]))
+        for k, effect in enumerate(effects)
+    )
+
+
+def _key(trial: Trial) -> tuple[tuple[str, tuple[str, ...]], ...]:
+    return tuple(trial.model.effects.items())
 
 
 def alternatives(found: Search, effect: str) -> list[tuple[str, Trial]]:
@@ -176,10 +195,7 @@ def alternatives(found: Search, effect: str) -> list[tuple[str, Trial]]:
         same = others <= set(trial.effects) and len(rest) == 1
         if same and trial.penalised <= found.end.penalised + AMBIGUOUS:
             best.setdefault(rest[0], trial)
-    return [
-        (name, replace(trial, fit=refreshed(trial.model, trial.fit)))
-        for name, trial in list(best.items())[:MOST_JUDGED]
-    ]
+    return [(name, up_to_date(trial)) for name, trial in list(best.items())[:MOST_JUDGED]]
 
 
 def _against(gain: float, spare: float, about: Trust) -> str:
