@@ -33,7 +33,7 @@ FORMED = 5
 AMBIGUOUS = 9.0
 """Models whose penalised chi-square is above the best one's by less are not told apart."""
 HOPELESS = 50.0
-"""How far above the best chi-square an effect ends that is not tried from other starts."""
+"""How far above the best chi-square a fit ends that is not searched on from other starts."""
 POLISHED = 5
 """Models that are searched on from elsewhere in what the data hardly determine."""
 BEAM = 2
@@ -230,8 +230,9 @@ def _forms(leading: Sequence[Trial], means: Means) -> list[Trial]:
 def _polished(trials: Sequence[Trial], means: Means) -> list[Trial]:
     """Return the trials in order, the leading ones searched on from elsewhere."""
     order = _sorted(trials)
-    better = polished(order[:POLISHED], means.processes)
-    return list(_sorted([*better, *order[POLISHED:]]))
+    leading = [t for t in order[:POLISHED] if t.penalised <= order[0].penalised + HOPELESS]
+    better = polished(leading, means.processes)
+    return list(_sorted([*better, *order[len(leading) :]]))
 
 
 def _told(trials: list[Trial], means: Means) -> list[Trial]:
