@@ -39,7 +39,7 @@ print(json.dumps(times))
 
 JOB_TIMES = """
 import json, sys, time
-spent = dict.fromkeys(("kernel", "evaluate", "search"), 0.0)
+spent = dict.fromkeys(("solver", "evaluate", "search"), 0.0)
 def timed(name, function):
     def run(*given, **named):
         start = time.perf_counter()
@@ -51,12 +51,14 @@ def timed(name, function):
 start = time.perf_counter()
 from pyrofit import cli
 from pyrofit.estimate import problem
-from pyrofit.solver.kernels import slab
-from pyrofit.stages import fit
 spent["imports"] = time.perf_counter() - start
 from pyrofit.estimate import sceua
 spent["library"] = time.perf_counter() - start - spent["imports"]
-slab.slab = timed("kernel", slab.slab)
+from pyrofit.solver.kernels import slab
+spent["numba"] = time.perf_counter() - start - spent["imports"] - spent["library"]
+from pyrofit.stages import fit
+spent["imports"] = time.perf_counter() - start - spent["library"] - spent["numba"]
+problem.simulate_gasifications = timed("solver", problem.simulate_gasifications)
 problem.Problem.evaluate = timed("evaluate", problem.Problem.evaluate)
 sceua.search = timed("search", sceua.search)
 code = cli.main(sys.argv[1:])
@@ -110,16 +112,19 @@ def job() -> str:
         for step in ("prepare", "kinetics"):
             child(JOB_TIMES, step, *where)
         spent, took = best_of([child(JOB_TIMES, "imp", *where, *JOB) for _ in range(3)])
-    evaluate, kernel = spent["evaluate"], spent["kernel"]
-    library = spent["library"] + spent["search"] - evaluate
-    rest = took - spent["imports"] - library - evaluate
+    library = spent["library"] + spent["search"] - spent["evaluate"]
+    outside = took - spent["numba"] - spent["solver"] - library
     rows = [
-        ("solver's kernel, loading it counted", kernel),
-        ("rest of the evaluations (lowering, sampling, cost)", evaluate - kernel),
+        ("solver: numba, which loads its compiled code", spent["numba"]),
+        ("solver: compiled code and runs", spent["solver"]),
         ("SPOTPY, loading it counted", library),
-        ("imports", spent["imports"]),
-        ("rest (interpreter, study, files)", rest),
+        ("imports of all else", spent["imports"]),
+        ("cost", spent["evaluate"] - spent["solver"]),
+        (
+            "rest (interpreter, study, files)",
+            outside - spent["imports"] - spent["evaluate"] + spent["solver"],
+        ),
         ("all", took),
-        ("**outside solver and SPOTPY**", took - kernel - library),
+        ("**outside solver and SPOTPY**", outside),
     ]
     return table(("part of one job", "s"), [(label, f"{s:.3f}") for label, s in rows])
