@@ -11,6 +11,7 @@ from scipy.stats import kstest, multivariate_normal
 
 from pyrofit.diagnose.gates import (
     AGREE,
+    HELD_OUT,
     Trust,
     at_limit,
     disagreement,
@@ -79,7 +80,7 @@ def test_log_score_of_what_is_held_out_is_the_exact_log_density() -> None:
     J = linear.fraction_columns(COLUMNS, whole.model)
     out = np.arange(TOTAL) >= 3 * POINTS
     exact = log_density(J, at_zero(J, y, whole), ~out, out)
-    assert scores(trial)["held out"] == pytest.approx(exact, abs=0.05)
+    assert scores(trial)[HELD_OUT] == pytest.approx(exact, abs=0.05)
 
 
 def test_prediction_by_a_model_that_knows_little_is_uncertain_not_wrong() -> None:
@@ -161,10 +162,27 @@ def test_prediction_improves_on_the_whole_and_gets_clearly_worse_nowhere(
     assert found.predicts == predicts
 
 
+@pytest.mark.parametrize(
+    ("gains", "confirmed"),
+    [
+        ({"a": 30.0}, True),
+        ({"a": 30.0, HELD_OUT: 2.0}, True),
+        ({"a": 30.0, HELD_OUT: 1.9}, False),
+        ({"a": 1.0, HELD_OUT: 30.0}, True),
+        ({"a": -2.5, HELD_OUT: 30.0}, False),
+        ({}, False),
+    ],
+)
+def test_what_is_held_out_must_be_predicted_better_for_an_effect_to_be_sure(
+    gains: dict[str, float], confirmed: bool
+) -> None:
+    assert Trust("", 1.0, gains, True).confirmed == confirmed
+
+
 def test_one_slab_alone_is_not_left_out() -> None:
     trial = linear.fit(COLUMNS, truth(), calibrated=(0, 1))
     assert slabs(trial) == []
-    assert list(scores(trial)) == ["held out"]
+    assert list(scores(trial)) == [HELD_OUT]
     channels = [("slab", "mlr"), ("tga", "mass_fraction")]
     model = SimpleNamespace(base=SimpleNamespace(channels=channels), channels=(0, 1))
     fake: Any = SimpleNamespace(model=model)

@@ -58,6 +58,11 @@ class Trust:
         total = sum(self.gains.values())
         return total >= INFORMATIVE and min(self.gains.values(), default=0.0) > -INFORMATIVE
 
+    @property
+    def confirmed(self) -> bool:
+        """Whether they do, and what is held out is predicted better, where there is such."""
+        return self.predicts and self.gains.get(HELD_OUT, INFORMATIVE) >= INFORMATIVE
+
 
 @dataclass(frozen=True, eq=False)
 class Predictions:

@@ -68,8 +68,8 @@ class Finding:
 
     @property
     def predicted(self) -> bool:
-        """Whether predictions improve with each one that is kept."""
-        return bool(self.kept) and all(judged.trust.predicts for judged in self.kept)
+        """Whether predictions improve with each one that is kept, also of what is held out."""
+        return bool(self.kept) and all(judged.trust.confirmed for judged in self.kept)
 
     @property
     def explains(self) -> bool:
