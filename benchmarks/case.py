@@ -110,18 +110,19 @@ class _Caught(Exception):  # noqa: N818
 
 
 def kernel_arguments(given: Setup, accuracy: Accuracy, sets: int) -> tuple[Any, ...]:
-    """Return what the kernel is called with for one set or `LANES` equal ones."""
+    """Return what the kernel is called with for one set or several equal ones."""
 
     def catch(*arguments: Any) -> None:
         raise _Caught(arguments)
 
-    original, kernel.slab = kernel.slab, catch
+    original = kernel.slab, kernel.slabs
+    kernel.slab = kernel.slabs = catch
     try:
         given.run(accuracy, sets)
     except _Caught as caught:
         return tuple(caught.args[0])
     finally:
-        kernel.slab = original
+        kernel.slab, kernel.slabs = original
     raise AssertionError
 
 
@@ -149,7 +150,7 @@ def rates(given: Setup, accuracy: Accuracy, least: float = LEAST_S) -> Rates:
         1.0 / seconds(lambda: given.run(accuracy), least),
         LANES / seconds(lambda: given.run(accuracy, LANES), least),
         1.0 / seconds(lambda: kernel.slab(*one), least),
-        LANES / seconds(lambda: kernel.slab(*all_lanes), least),
+        LANES / seconds(lambda: kernel.slabs(*all_lanes), least),
         found.steps,
         found.cells or int(one[2].shape[0]),
     )

@@ -161,3 +161,14 @@ class Numerics(NamedTuple):
     longest_step: float
     """[s]."""
     most_steps: int
+
+
+class Asked(NamedTuple):
+    """The signals that are asked of a run, one behind the other."""
+
+    column: IntArray
+    """Columns of the trace, shape (signals,)."""
+    half: FloatArray
+    """Half the width of the bins over which the rate is averaged [s]; 0 = none."""
+    begin: IntArray
+    """First point of each signal, and the one behind the last, shape (signals + 1,)."""

@@ -2,8 +2,11 @@
 
 from collections.abc import Mapping
 from dataclasses import dataclass
+from typing import NamedTuple
 
 from pyrofit.solver.arrays import FloatArray, IntArray, Status
+
+_STATUSES = tuple(Status)
 
 
 @dataclass(frozen=True)
@@ -15,8 +18,7 @@ class Request:
     temperature_K: FloatArray | None = None
 
 
-@dataclass(frozen=True)
-class Curves:
+class Curves(NamedTuple):
     """How a run ended, the signals asked for, and the balances of the run."""
 
     status: Status
@@ -40,10 +42,13 @@ class Runs:
 
     def curves(self) -> list[Curves]:
         """Return the sets one by one; what did not finish has no signals."""
-        numbers = self.status, self.cells, self.steps, self.energy_error, self.mass_error
-        found = []
-        for s, (code, *books) in enumerate(zip(*(n.tolist() for n in numbers), strict=True)):
-            status = Status(code)
-            signals = {name: curve[s] for name, curve in self.signals.items()}
-            found.append(Curves(status, signals if status.finished else {}, *books))
-        return found
+        numbers = self.cells, self.steps, self.energy_error, self.mass_error
+        statuses = map(_STATUSES.__getitem__, self.status.tolist())
+        books = zip(*(n.tolist() for n in numbers), strict=True)
+        return [
+            Curves(status, self._signals(s) if status.finished else {}, *numbers)
+            for s, (status, numbers) in enumerate(zip(statuses, books, strict=True))
+        ]
+
+    def _signals(self, s: int) -> dict[str, FloatArray]:
+        return {name: curve[s] for name, curve in self.signals.items()}

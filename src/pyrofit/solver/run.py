@@ -2,6 +2,7 @@
 
 from collections.abc import Callable, Mapping
 from concurrent.futures import ThreadPoolExecutor
+from functools import cache, partial
 from operator import itemgetter
 from typing import Any, NamedTuple
 
@@ -17,6 +18,8 @@ LANES = 8
 """Parameter sets that run side by side."""
 FEW = 3
 """Sets that are faster one after the other than with empty lanes."""
+EARLY = {"mlr", "mass"}
+"""Signals that do not change any more once the reactant is gone."""
 
 
 class Case(NamedTuple):
@@ -75,11 +78,10 @@ def _groups(parts: Any, order: IntArray, sets: int) -> list[_Group]:
         for g in range(filled.size // LANES):
             index = order[:size][g * LANES : (g + 1) * LANES]
             groups.append(_Group(index, LANES, _mapped(itemgetter(g), together)))
-    return groups + [_alone(parts, index) for index in order[size:, None]]
-
-
-def _alone(parts: Any, index: IntArray) -> _Group:
-    return _Group(index, 1, _mapped(lambda a: a.take(index, axis=-1), parts))
+    return groups + [
+        _Group(i, 1, _mapped(partial(np.take, indices=i, axis=-1), parts))
+        for i in order[size:, None]
+    ]
 
 
 def _split(array: FloatArray, order: IntArray) -> FloatArray:
@@ -110,104 +112,161 @@ def march(case: Case, asked: Mapping[str, Request], numerics: Numerics, threads:
         energy_error=np.empty(sets),
         mass_error=np.empty(sets),
     )
-
-    def fill(group: _Group) -> None:
-        _march_group(case, asked, numerics, group, runs)
-
     ends = [r.time_s.max(axis=1) + 0.5 * r.average_s for r in asked.values()]
-    groups = _groups((case, np.max(ends, axis=0)), np.argsort(case.cells, kind="stable"), sets)
-    if threads > 1 and len(groups) > 1:
+    wanted = _asked(tuple((n, r.average_s, r.time_s.shape[1]) for n, r in asked.items()))
+    at = np.concatenate([r.time_s for r in asked.values()], axis=1)
+    work = _Work(case, numerics, np.max(ends, axis=0), wanted, at, set(asked) <= EARLY)
+
+    def fill(index: IntArray) -> None:
+        found = _alone(work, index) if index.size == 1 else _together(work, index)
+        _write(runs, index, work, *found)
+
+    parts = _parts(case.cells, threads)
+    if threads > 1 and len(parts) > 1:
         with ThreadPoolExecutor(threads) as pool:
-            list(pool.map(fill, groups))
+            list(pool.map(fill, parts))
     else:
-        for group in groups:
-            fill(group)
+        for index in parts:
+            fill(index)
     return runs
 
 
-def _march_group(
-    case: Case,
-    asked: Mapping[str, Request],
-    numerics: Numerics,
-    group: _Group,
-    runs: Runs,
-) -> None:
-    """Run sets side by side, and write what comes of them."""
+class _Work(NamedTuple):
+    """What the kernel needs, of all sets; ``at`` are the times asked for, shape (sets, points)."""
+
+    case: Case
+    numerics: Numerics
+    t_end: FloatArray
+    asked: arrays.Asked
+    at: FloatArray
+    stop_when_burnt: bool
+
+
+@cache
+def _asked(signals: tuple[tuple[str, float, int], ...]) -> arrays.Asked:
+    """Return as the kernel takes them: names, bin widths [s] and numbers of points."""
+    from pyrofit.solver.kernels import trace
+
+    columns = {
+        "mlr": trace.RATE,
+        "mass": trace.RELEASED,
+        "front_temperature": trace.FRONT,
+        "back_temperature": trace.BACK,
+        "thickness": trace.THICKNESS,
+    }
+    names, widths, points = zip(*signals, strict=True)
+    column = [columns[n] if n in columns else trace.PROBES + int(n[6:]) for n in names]
+    return arrays.Asked(np.array(column), 0.5 * np.array(widths), np.cumsum([0, *points]))
+
+
+def _parts(cells: IntArray, threads: int) -> list[IntArray]:
+    """Share out sets, by cells: full groups to as many calls as there are threads, others alone."""
+    order = np.argsort(cells, kind="stable")
+    rest = order.size % LANES
+    together = order.size - rest if rest <= FEW else order.size
+    share = LANES * -(-together // (LANES * threads))
+    parts = [order[i : min(i + share, together)] for i in range(0, together, share or 1)]
+    return parts + list(order[together:, None])
+
+
+Found = tuple[FloatArray, FloatArray, IntArray]
+"""Signals, shape (sets, points), outcomes, and numbers of cells."""
+
+
+def _alone(work: _Work, index: IntArray) -> Found:
+    """Run one set."""
     from pyrofit.solver.kernels.slab import slab
 
-    index, width, (lanes, t_end) = group
-    count = index.size
-    cells = case.cells[index]
-    if count < width:
-        cells = np.append(cells, np.repeat(cells[-1:], width - count))
-    start, empty = cells_of(lanes.layers, cells, LANES // width)
-    trace, outcome = slab(
-        (0,) * width,
+    case, t_end = work.case, work.t_end
+    if case.cells.size > 1:
+        case, t_end = _mapped(lambda a: a.take(index, axis=-1), (case, t_end))
+    start, empty = cells_of(case.layers, work.case.cells[index], LANES)
+    signals, outcome = slab(
+        (0,),
         (0,) * LANES,
         start,
         empty,
-        lanes.T_start,
-        lanes.properties,
-        lanes.network,
-        lanes.exposure,
-        numerics,
+        case.T_start,
+        case.properties,
+        case.network,
+        case.exposure,
+        work.numerics,
         t_end,
-        set(asked) <= {"mlr", "mass"},
-        _in_cells(case.probes_m, start, empty, lanes.properties),
+        work.stop_when_burnt,
+        _in_cells(case.probes_m, start, empty, case.properties.specific_volume),
+        work.asked,
+        work.at[index],
     )
-    outcome = outcome[:count]
+    return signals, outcome, len(start) - empty
+
+
+def _together(work: _Work, index: IntArray) -> Found:
+    """Run sets side by side; in the lanes left over the last one runs again."""
+    from pyrofit.solver.kernels.slab import slabs
+
+    case = work.case
+    filled = np.append(index, np.repeat(index[-1:], -index.size % LANES))
+    layers, volumes = _mapped(
+        lambda a: a.take(filled, axis=-1), (case.layers, case.properties.specific_volume)
+    )
+    start, empty = cells_of(layers, case.cells[filled])
+    probes = _in_cells(case.probes_m, start, empty, volumes)
+    T_start, properties, network, exposure, t_end = _mapped(
+        lambda a: _split(a, filled),
+        (case.T_start, case.properties, case.network, case.exposure, work.t_end),
+    )
+    per_lane = (filled.size // LANES, LANES)
+    signals, outcome = slabs(
+        (0,) * LANES,
+        _split(start, np.arange(filled.size)),
+        empty.reshape(per_lane),
+        T_start,
+        properties,
+        network,
+        exposure,
+        work.numerics,
+        t_end,
+        work.stop_when_burnt,
+        probes.reshape(*per_lane, probes.shape[1]),
+        work.asked,
+        work.at[filled].reshape(*per_lane, work.at.shape[1]),
+    )
+    count = index.size
+    flat = (a.reshape(filled.size, -1)[:count] for a in (signals, outcome))
+    return (*flat, (len(start) - empty)[:count])
+
+
+def _write(
+    runs: Runs,
+    index: IntArray,
+    work: _Work,
+    signals: FloatArray,
+    outcome: FloatArray,
+    cells: IntArray,
+) -> None:
+    """Write what came of some sets."""
     runs.status[index], runs.steps[index] = outcome[:, 0], outcome[:, 1]
     runs.energy_error[index], runs.mass_error[index] = outcome[:, 2], outcome[:, 3]
-    runs.cells[index] = len(start) - empty[:count]
-    last = outcome[:, 1].astype(np.int64)
-    finished = outcome[:, :1] <= Status.UNBURNT
-    for name, request in asked.items():
-        curve = _sample(name, request, index, trace, last, lanes.layers)
-        runs.signals[name][index] = curve if finished.all() else np.where(finished, curve, np.nan)
-
-
-def _sample(
-    name: str,
-    request: Request,
-    index: IntArray,
-    trace: FloatArray,
-    last: IntArray,
-    layers: tuple[Layer, ...],
-) -> FloatArray:
-    """Return a signal of some sets, shape (sets, points)."""
-    from pyrofit.solver.kernels import trace as columns_of
-    from pyrofit.solver.kernels.output import averaged_rate, sampled, sampled_rate
-
-    at = request.time_s[index]
-    if name == "mlr":
-        if request.average_s == 0.0:
-            return _floats(sampled_rate(trace, last, at))
-        return _floats(averaged_rate(trace, last, at, 0.5 * request.average_s))
-    if name == "mass":
-        initial = np.asarray(sum(total(layer.mass) for layer in layers))[: index.size, None]
-        return _floats(initial - sampled(trace, last, columns_of.RELEASED, at))
-    columns = {
-        "front_temperature": columns_of.FRONT,
-        "back_temperature": columns_of.BACK,
-        "thickness": columns_of.THICKNESS,
-    }
-    if name.startswith("probe_"):
-        columns[name] = columns_of.PROBES + int(name[6:])
-    return _floats(sampled(trace, last, columns[name], at))
+    runs.cells[index] = cells
+    failed = outcome[:, 0] > Status.UNBURNT
+    if failed.any():
+        signals[failed] = np.nan
+    begin = work.asked.begin.tolist()
+    for k, (name, curve) in enumerate(runs.signals.items()):
+        curve[index] = signals[:, begin[k] : begin[k + 1]]
+        if name == "mass":
+            initial = np.asarray(sum(total(layer.mass) for layer in work.case.layers))
+            curve[index] = initial[index, None] - curve[index]
 
 
 def _in_cells(
-    depths_m: tuple[float, ...], start: FloatArray, empty: IntArray, properties: arrays.Material
+    depths_m: tuple[float, ...], start: FloatArray, empty: IntArray, volumes: FloatArray
 ) -> FloatArray:
     """Return depths in the virgin sample counted in its cells, shape (lanes, probes)."""
     out = np.empty((empty.size, len(depths_m)))
     if depths_m:
-        thickness = total((start * properties.specific_volume).swapaxes(0, 1))
+        thickness = total((start * volumes).swapaxes(0, 1))
         for lane, ahead in enumerate(empty):
             edges = np.concatenate(([0.0], np.cumsum(thickness[ahead:, lane])))
             out[lane] = np.interp(depths_m, edges, np.arange(edges.size))
     return out
-
-
-def _floats(values: object) -> FloatArray:
-    return np.asarray(values, dtype=np.float64)

@@ -1,9 +1,7 @@
 """Curves at requested times from what runs hold at their steps."""
 
-import numpy as np
-
-from pyrofit.solver.kernels.jit import entry, inner
-from pyrofit.solver.kernels.trace import RATE, RELEASED, TIME
+from pyrofit.solver.kernels.jit import inner, loop
+from pyrofit.solver.kernels.trace import RATE, RELEASED, STEPS, TIME
 
 
 @inner
@@ -57,58 +55,65 @@ def value_at(rows, last, column, n, at):
     return hermite(h, (at - time[n]) / h, value[n], value[n + 1], low, high), n
 
 
-@entry
-def sampled(trace, last, column, at):
-    """Return a column of the traces at ascending times, shape (runs, points) both.
+@loop
+def sampled(rows, last, column, at, out):
+    """Write a column at ascending times."""
+    n = 0
+    for b in range(at.size):
+        out[b], n = value_at(rows, last, column, n, at[b])
 
-    ``trace`` has shape (runs, steps, columns); ``last`` is the last step of each run.
+
+@loop
+def averaged_rate(rows, last, half, at, out):
+    """Write the mean rate of release from ``half`` [s] before each time to as long after it.
+
+    Nothing is released before 0.
     """
-    out = np.empty(at.shape)
-    for a in range(at.shape[0]):
-        n = 0
-        for b in range(at.shape[1]):
-            out[a, b], n = value_at(trace[a], last[a], column, n, at[a, b])
-    return out
+    n_begin = n_end = 0
+    end, gone = -1.0, 0.0
+    for b in range(at.size):
+        begin = max(at[b] - half, 0.0)
+        if begin == end:
+            before, n_begin = gone, n_end
+        else:
+            before, n_begin = value_at(rows, last, RELEASED, n_begin, begin)
+        end = at[b] + half
+        gone, n_end = value_at(rows, last, RELEASED, n_end, end)
+        out[b] = (gone - before) / max(end - begin, 1e-9)
 
 
-@entry
-def averaged_rate(trace, last, at, half):
-    """Return the mean rate of release from ``half`` [s] before each time to as long after it.
+@loop
+def sampled_rate(rows, last, at, out):
+    """Write the time derivative of what was released; after the end it is zero."""
+    time, value, rate = rows[:, TIME], rows[:, RELEASED], rows[:, RATE]
+    n = 0
+    for b in range(at.size):
+        n = find(time, last, n, at[b])
+        out[b] = 0.0
+        if at[b] <= time[0]:
+            out[b] = rate[0]
+        elif n < last:
+            h = time[n + 1] - time[n]
+            s = (at[b] - time[n]) / h
+            mean = 6.0 * s * (1.0 - s) * (value[n + 1] - value[n]) / h
+            ends = (1.0 - s) * (1.0 - 3.0 * s) * rate[n] + s * (3.0 * s - 2.0) * rate[n + 1]
+            out[b] = mean + ends
 
-    Nothing is released before 0. Shapes and order are those of `sampled`.
+
+@loop
+def sample(trace, outcome, asked, at, out):
+    """Write all that is asked of the runs of a trace, one signal behind the other.
+
+    ``trace`` has shape (runs, steps, columns); ``at``, times [s], and ``out`` (runs, points).
     """
-    out = np.empty(at.shape)
-    for a in range(at.shape[0]):
-        rows = trace[a]
-        n_begin = n_end = 0
-        end, gone = -1.0, 0.0
-        for b in range(at.shape[1]):
-            begin = max(at[a, b] - half, 0.0)
-            if begin == end:
-                before, n_begin = gone, n_end
+    for lane in range(at.shape[0]):
+        rows, last = trace[lane], int(outcome[lane, STEPS])
+        for a in range(asked.column.size):
+            begin, end = asked.begin[a], asked.begin[a + 1]
+            times, curve = at[lane, begin:end], out[lane, begin:end]
+            if asked.column[a] != RATE:
+                sampled(rows, last, asked.column[a], times, curve)
+            elif asked.half[a] == 0.0:
+                sampled_rate(rows, last, times, curve)
             else:
-                before, n_begin = value_at(rows, last[a], RELEASED, n_begin, begin)
-            end = at[a, b] + half
-            gone, n_end = value_at(rows, last[a], RELEASED, n_end, end)
-            out[a, b] = (gone - before) / max(end - begin, 1e-9)
-    return out
-
-
-@entry
-def sampled_rate(trace, last, at):
-    """Return the time derivative of what was released; after the end it is zero."""
-    out = np.zeros(at.shape)
-    for a in range(at.shape[0]):
-        time, value, rate = trace[a, :, TIME], trace[a, :, RELEASED], trace[a, :, RATE]
-        n = 0
-        for b in range(at.shape[1]):
-            n = find(time, last[a], n, at[a, b])
-            if at[a, b] <= time[0]:
-                out[a, b] = rate[0]
-            elif n < last[a]:
-                h = time[n + 1] - time[n]
-                s = (at[a, b] - time[n]) / h
-                mean = 6.0 * s * (1.0 - s) * (value[n + 1] - value[n]) / h
-                ends = (1.0 - s) * (1.0 - 3.0 * s) * rate[n] + s * (3.0 * s - 2.0) * rate[n + 1]
-                out[a, b] = mean + ends
-    return out
+                averaged_rate(rows, last, asked.half[a], times, curve)

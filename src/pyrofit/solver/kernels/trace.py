@@ -8,6 +8,8 @@ from pyrofit.solver.kernels.lanes import in_lane
 
 TIME, RELEASED, RATE, FRONT, BACK, THICKNESS, PROBES = range(7)
 """Columns of the trace; any number of probes."""
+STATUS, STEPS, ENERGY_ERROR, MASS_ERROR = range(4)
+"""Columns of what a run came to."""
 
 
 @inner

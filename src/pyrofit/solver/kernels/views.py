@@ -1,4 +1,4 @@
-"""Descriptions with the lanes as numbers."""
+"""Descriptions with the lanes as numbers, and those of one group of many."""
 
 from pyrofit.solver.arrays import Exposure, Material, Network, Surface
 from pyrofit.solver.kernels.jit import making
@@ -67,4 +67,69 @@ def network_in_lanes(width, network):
         plain=network.plain,
         residue=network.residue,
         residue_yield=in_lanes(width, network.residue_yield),
+    )
+
+
+@making
+def _surface_of(side, g):
+    return Surface(
+        h=side.h[g],
+        h_cube_root=side.h_cube_root[g],
+        gas_temperature=side.gas_temperature[g],
+        gas_rise=side.gas_rise[g],
+        gas_rise_time=side.gas_rise_time[g],
+        wall_temperature=side.wall_temperature[g],
+    )
+
+
+@making
+def exposure_of(exposure, g):
+    """Return what acts on the samples of a group."""
+    return Exposure(
+        front=_surface_of(exposure.front, g),
+        back=_surface_of(exposure.back, g),
+        flux_time=exposure.flux_time[g],
+        flux=exposure.flux[g],
+        rise_time=exposure.rise_time[g],
+        drift=exposure.drift[g],
+        drift_time=exposure.drift_time[g],
+        back_emissivity=exposure.back_emissivity[g],
+        foil_capacity=exposure.foil_capacity[g],
+        contact_resistance=exposure.contact_resistance[g],
+        foil_opaque=exposure.foil_opaque,
+        mixing_depth=exposure.mixing_depth[g],
+        emissivity_change=exposure.emissivity_change[g],
+        edge_exchange=exposure.edge_exchange[g],
+        edge_temperature=exposure.edge_temperature[g],
+    )
+
+
+@making
+def material_of(material, g):
+    """Return the properties of a group."""
+    return Material(
+        specific_volume=material.specific_volume[g],
+        expansion=material.expansion[g],
+        conductivity=material.conductivity[g],
+        specific_heat=material.specific_heat[g],
+        emissivity=material.emissivity[g],
+        absorption=material.absorption[g],
+    )
+
+
+@making
+def network_of(network, g):
+    """Return the reactions of a group."""
+    return Network(
+        reactant=network.reactant,
+        root_factor=network.root_factor[g],
+        activation_temperature=network.activation_temperature[g],
+        order=network.order[g],
+        heat=network.heat[g],
+        yields=network.yields[g],
+        gas=network.gas[g],
+        first_order=network.first_order,
+        plain=network.plain,
+        residue=network.residue,
+        residue_yield=network.residue_yield[g],
     )
