@@ -60,7 +60,7 @@ class Trust:
 
     @property
     def confirmed(self) -> bool:
-        """Whether they do, and what is held out is predicted better, where there is such."""
+        """Whether predictions improve and what is held out, if anything, gains enough by itself."""
         return self.predicts and self.gains.get(HELD_OUT, INFORMATIVE) >= INFORMATIVE
 
 

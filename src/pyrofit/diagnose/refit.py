@@ -92,7 +92,10 @@ def from_best_start(trial: Trial, seen: Look) -> Trial:
 
 def from_elsewhere(trial: Trial, seen: Look, best: Trial) -> Trial:
     """Fit an effect from the other starts, too, until two end alike."""
-    ends = [best.fit.chi2]
+    _, quantity = strength_of(seen.effect)
+    # Where the first start led nowhere, the model is the one without the effect: that is no end.
+    led = best.fit.x[-1] != fraction(quantity, quantity.value)
+    ends = [best.fit.chi2] if led else []
     for start in starts(seen, trial.fit.chi2)[1:]:
         end = descend(best.model, *_start(trial, seen, start))
         best = _lower(best, end)
