@@ -8,9 +8,18 @@ import pytest
 from linear import POINTS, TOTAL, column_of
 
 from pyrofit.diagnose import record
+from pyrofit.diagnose.gates import HELD_OUT
 from pyrofit.diagnose.model import strength_of
 from pyrofit.diagnose.search import Means, Search, search
-from pyrofit.diagnose.verdict import Judged, Verdict, _against, alternatives, judge
+from pyrofit.diagnose.verdict import (
+    Judged,
+    Verdict,
+    _against,
+    _doubts,
+    _open,
+    alternatives,
+    judge,
+)
 from pyrofit.diagnose.words import form_of, sentences
 from pyrofit.effects import known_effects
 from pyrofit.solver.arrays import FloatArray
@@ -230,6 +239,29 @@ def test_effect_that_makes_predictions_worse_is_rejected_with_their_scores() -> 
     none_left = replace(finding, judged=(Judged("k_T", judged.trial, worse, said),))
     assert (none_left.kept, none_left.effects, none_left.predicted) == ([], [], False)
     assert none_left.leading == "k_T"
+
+
+def test_claim_that_predicts_what_is_held_out_no_better_is_open_and_says_so() -> None:
+    finding = verdict_on(searched(planted(k_T=0.8))).findings[0]
+    found = searched(planted(k_T=0.8))
+    judged = finding.judged[0]
+    assert finding.predicted
+    little = replace(judged, trust=replace(judged.trust, gains={"slab_25": 30.0, HELD_OUT: 1.9}))
+    unsure = replace(finding, judged=(little,))
+    assert unsure.kept == [little]
+    assert not unsure.predicted
+    assert _open(unsure, ())
+    (said,) = _doubts(found, [unsure])
+    assert said.startswith("k_T: the log score of what is held out gains +1.9 only")
+
+
+def test_verdict_on_two_effects_is_the_same_by_two_processes() -> None:
+    found = searched(planted(k_T=0.8, c_T=-0.7))
+    one, two = (judge(found, np.random.default_rng(2), processes) for processes in (1, 2))
+    assert [f.effects for f in one.findings] == [f.effects for f in two.findings]
+    assert [j.trust for f in one.findings for j in f.judged] == [
+        j.trust for f in two.findings for j in f.judged
+    ]
 
 
 def test_claim_that_does_not_explain_what_is_held_out_is_open() -> None:

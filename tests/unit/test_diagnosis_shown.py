@@ -47,7 +47,7 @@ HEADLINES = {
     "named": "One effect is missing: slope of the conductivity (k_T). Predictions confirm it.",
     "ambiguous": "cannot tell which: heater coming up (heater_ramp) or time offset (time_offset).",
     "multiple": "Two effects are missing: slope of the conductivity (k_T) or slope of the "
-    "specific heat (c_T), and melting. No prediction confirms them.",
+    "specific heat (c_T), and melting. Predictions do not confirm them.",
     "unknown": "no effect of the catalogue explains it.",
 }
 

@@ -2,7 +2,11 @@
 
 import os
 import signal
+import subprocess
+import sys
 import time
+from collections.abc import Callable
+from pathlib import Path
 
 import pytest
 
@@ -15,18 +19,61 @@ def test_every_piece_is_done_once_and_in_its_place(count: int, processes: int) -
     assert shared(lambda i: i * i, count, processes) == [i * i for i in range(count)]
 
 
-def test_process_that_is_free_takes_the_next_piece() -> None:
+def test_process_that_is_free_takes_the_next_piece(tmp_path: Path) -> None:
     def work(i: int) -> int:
-        time.sleep(0.5 if i == 0 else 0.001)
+        if i == 0:
+            while not (tmp_path / "19").exists():
+                time.sleep(0.001)
+        (tmp_path / str(i)).touch()
         return os.getpid()
 
     first, *others = shared(work, 20, processes=2)
     assert first not in others
 
 
-def test_error_of_a_piece_is_raised_here() -> None:
+def test_error_of_a_piece_is_raised_here_at_once(tmp_path: Path) -> None:
+    def work(i: int) -> None:
+        if i == 1:
+            raise ZeroDivisionError
+        time.sleep(0.05)
+        (tmp_path / str(i)).touch()
+
     with pytest.raises(ZeroDivisionError):
-        shared(lambda i: 1 // (i - 3), 5, processes=2)
+        shared(work, 1000, processes=2)
+    assert len(list(tmp_path.iterdir())) < 500
+
+
+def test_processes_end_even_if_the_one_that_shares_is_killed(tmp_path: Path) -> None:
+    """Their results, more than a pipe holds, are read by nobody then."""
+    code = """
+import os, signal, sys, time
+from pathlib import Path
+from pyrofit.diagnose.share import shared
+def work(i):
+    Path(sys.argv[1], str(os.getpid())).touch()
+    while os.getppid() == parent:
+        time.sleep(0.01)
+    return b"x" * 1_000_000
+parent = os.getpid()
+shared(work, 2, processes=2)
+"""
+    parent = subprocess.Popen([sys.executable, "-c", code, str(tmp_path)])
+    _until(lambda: len(list(tmp_path.iterdir())) == 2)
+    parent.kill()
+    parent.wait()
+    _until(lambda: not any(_runs(int(path.name)) for path in tmp_path.iterdir()))
+
+
+def _until(done: Callable[[], bool]) -> None:
+    end = time.monotonic() + 60.0
+    while not done():
+        assert time.monotonic() < end
+        time.sleep(0.01)
+
+
+def _runs(pid: int) -> bool:
+    status = Path(f"/proc/{pid}/stat")
+    return status.exists() and status.read_text().rpartition(")")[2].split()[0] != "Z"
 
 
 def test_end_of_a_process_is_an_error() -> None:

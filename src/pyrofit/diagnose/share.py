@@ -3,14 +3,16 @@
 import multiprocessing
 import os
 import signal
-from collections.abc import Callable
-from multiprocessing.connection import Connection
-from typing import TypeVar
+from collections.abc import Callable, Sequence
+from multiprocessing.connection import wait
+from typing import Any, TypeVar
 
 Result = TypeVar("Result")
 Work = Callable[[int], Result]
 NUMBER = 4
-"""Bytes of a piece's number; a pipe holds 65536 bytes, more than there ever are pieces."""
+"""Bytes of a piece's number."""
+MOST_PIECES = 4096
+"""As many numbers a pipe holds everywhere."""
 
 
 def shared(work: Work[Result], count: int, processes: int = 1) -> list[Result]:
@@ -36,39 +38,52 @@ def shared(work: Work[Result], count: int, processes: int = 1) -> list[Result]:
         return [work(i) for i in range(count)]
     context = multiprocessing.get_context("fork")
     pieces = _numbers(count)
-    results: dict[int, Result] = {}
-    running = []
+    running: dict[Any, multiprocessing.process.BaseProcess] = {}
     for _ in range(min(processes, count)):
         ours, theirs = context.Pipe(duplex=False)
-        process = context.Process(target=_do, args=(work, pieces, theirs), daemon=True)
-        process.start()
+        # An end held open by a process that reads nothing would keep the writers waiting for ever.
+        unread = [*running, ours]
+        running[ours] = context.Process(
+            target=_do, args=(work, pieces, theirs, unread), daemon=True
+        )
+        running[ours].start()
         theirs.close()
-        running.append((process, ours))
     os.close(pieces)
-    for process, ours in running:
-        try:
-            found = ours.recv()
-        except EOFError:
-            raise RuntimeError("a process of the diagnosis was ended; run it again") from None
-        if isinstance(found, Exception):
-            raise found
-        results |= found
-        process.join()
+    results: dict[int, Result] = {}
+    try:
+        while running:
+            for end in wait(list(running)):
+                results |= _received(end)
+                running.pop(end).join()
+    finally:
+        for process in running.values():
+            process.terminate()
     return [results[i] for i in range(count)]
+
+
+def _received(results: Any) -> dict[int, Any]:
+    try:
+        found = results.recv()
+    except EOFError:
+        raise RuntimeError("a process of the diagnosis was ended; run it again") from None
+    if isinstance(found, Exception):
+        raise found
+    return dict(found)
 
 
 def _numbers(count: int) -> int:
     """Return a pipe from which several processes read the numbers up to count, each once."""
+    assert count <= MOST_PIECES
     pipe, entrance = os.pipe()
     os.write(entrance, b"".join(i.to_bytes(NUMBER) for i in range(count)))
     os.close(entrance)
     return pipe
 
 
-def _do(
-    work: Work[Result], pieces: int, results: "Connection[dict[int, Result] | Exception, None]"
-) -> None:
+def _do(work: Work[Result], pieces: int, results: Any, unread: Sequence[Any]) -> None:
     signal.signal(signal.SIGINT, signal.SIG_IGN)  # the first process answers it, and ends this one
+    for end in unread:
+        end.close()
     try:
         taken = iter(lambda: os.read(pieces, NUMBER), b"")
         results.send({i: work(i) for i in map(int.from_bytes, taken)})

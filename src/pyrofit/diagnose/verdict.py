@@ -6,7 +6,15 @@ from typing import Literal
 
 import numpy as np
 
-from pyrofit.diagnose.gates import AGREE, INFORMATIVE, Trust, explains, predictions, trust
+from pyrofit.diagnose.gates import (
+    AGREE,
+    HELD_OUT,
+    INFORMATIVE,
+    Trust,
+    explains,
+    predictions,
+    trust,
+)
 from pyrofit.diagnose.locate import alarm
 from pyrofit.diagnose.refit import Trial, up_to_date
 from pyrofit.diagnose.search import AMBIGUOUS, Search, dropped
@@ -147,11 +155,18 @@ def _doubts(found: Search, findings: Sequence[Finding]) -> list[str]:
         doubts.append(ONE_FLUX)
     if not all(finding.explains for finding in findings):
         doubts.append("what is held out is not explained, not even if it is fitted, too")
-    return doubts + [
-        f"{finding.leading}: no prediction confirms it clearly"
-        for finding in findings
-        if not finding.predicted
-    ]
+    kept = [judged for finding in findings for judged in finding.kept]
+    return doubts + [_unconfirmed(judged) for judged in kept if not judged.trust.confirmed]
+
+
+def _unconfirmed(judged: Judged) -> str:
+    if not judged.trust.predicts:
+        return f"{judged.effect}: no prediction confirms it clearly"
+    gain = judged.trust.gains[HELD_OUT]
+    return (
+        f"{judged.effect}: the log score of what is held out gains {gain:+.1f} only; "
+        f"{INFORMATIVE:g} at least is asked for"
+    )
 
 
 def _findings(found: Search, rng: np.random.Generator, processes: int) -> tuple[Finding, ...]:

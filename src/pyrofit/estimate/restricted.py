@@ -36,8 +36,8 @@ class Restricted:
     """
 
     def __init__(self, X: FloatArray, y: FloatArray, known: bool) -> None:
-        n, self.splines = X.shape
-        self.rest, self.known = n - self.splines, known
+        n = len(y)
+        self.rest, self.known = n - X.shape[1], known
         # The likelihood does not see what splines follow; without it, no digits are lost.
         Z = np.column_stack([X, y - X @ np.linalg.lstsq(X, y, rcond=None)[0]])
         self.ends = Z[[0, -1]]
@@ -52,7 +52,9 @@ class Restricted:
     def __call__(self, correlation: Correlation) -> float:
         """Return -2 log L of a correlation over up to two lags, or of ar^k at lag k."""
         G, log_det = self._lasting(correlation.ar) if correlation.ar else self._lags(correlation)
-        factor, solution, _ = dposv(G[:-1, :-1], G[:-1, -1])
+        factor, solution, failed = dposv(G[:-1, :-1], G[:-1, -1])
+        if failed:
+            return np.inf  # splines without a point
         squares = max(float(G[-1, -1] - G[:-1, -1] @ solution), LEAST_SQUARES)
         log_curve = 2.0 * float(np.log(np.diag(factor)).sum())
         size = squares if self.known else self.rest * np.log(squares / self.rest)

@@ -122,7 +122,7 @@ def _confirmed(verdict: Found, what: str) -> str:
     return (
         f"Predictions confirm {what}."
         if verdict["confirmed"]
-        else (f"No prediction confirms {what}.")
+        else (f"Predictions do not confirm {what}.")
     )
 
 
