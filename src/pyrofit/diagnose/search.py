@@ -120,7 +120,7 @@ def search(base: Trial, effects: Sequence[str], most: int, means: Means) -> Sear
     found = _search(base, effects, most, means)
     if found.end_alarm.adequate or not found.end.effects:
         return found
-    sharper = with_noise_about(found.end)
+    sharper = with_noise_about(found.end, processes=means.processes)
     if clearer(found.end.model.base, sharper) < CLEARER:
         return found
     means.tell("once more, with the noise about the best model")
@@ -172,7 +172,7 @@ def _sharp(step: Round, means: Means) -> Round:
     fits = shared(lambda i: with_effect(step.start, order[i]).fit, len(order), means.processes)
     at = int(np.argmin([fit.chi2 for fit in fits]))
     best = Trial(model_with(step.start, order[at].effect), fits[at])
-    base = with_noise_about(best)
+    base = with_noise_about(best, processes=means.processes)
     if clearer(best.model.base, base) < CLEARER:
         return step
     start = refitted(step.start, base)

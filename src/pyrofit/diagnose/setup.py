@@ -53,7 +53,8 @@ def set_up(study: Study, measurements: Measurements, processes: int = 1) -> Setu
     calibrated = tuple(range(len(calibration_channels(study))))
     base = Base(likelihood, _known(study, likelihood.problem), calibrated)
     first = _fitted(base, study.seed, processes)
-    return Setup(refitted(first, with_noise_about(first)), candidate_effects(study))
+    base = with_noise_about(first, processes=processes)
+    return Setup(refitted(first, base), candidate_effects(study))
 
 
 def _problem(study: Study, measurements: Measurements) -> Problem:
@@ -110,7 +111,9 @@ def _chi2(residuals: FloatArray) -> float:
     return float(residuals @ residuals)
 
 
-def with_noise_about(trial: Trial, channels: Sequence[int] | None = None) -> Base:
+def with_noise_about(
+    trial: Trial, channels: Sequence[int] | None = None, processes: int = 1
+) -> Base:
     """Return the base with channels' noise about a fitted curve, where that explains more.
 
     By default of all channels.
@@ -123,17 +126,23 @@ def with_noise_about(trial: Trial, channels: Sequence[int] | None = None) -> Bas
         return base
     noise = list(base.likelihood.noise)
     parts = base.likelihood.split(curves)
-    for i in every if channels is None else channels:
-        noise[i] = _noise(problem, i, noise[i], parts[i])
+    wanted = list(every if channels is None else channels)
+
+    def better(k: int) -> NoiseModel | None:
+        i = wanted[k]
+        found = _noise(problem, i, parts[i])
+        return found if found.criterion < noise[i].criterion else None
+
+    for i, found in zip(wanted, shared(better, len(wanted), processes), strict=True):
+        noise[i] = found or noise[i]
     return replace(base, likelihood=Likelihood(problem, tuple(noise)))
 
 
-def _noise(problem: Problem, channel: int, known: NoiseModel, about: FloatArray) -> NoiseModel:
+def _noise(problem: Problem, channel: int, about: FloatArray) -> NoiseModel:
     name, quantity, _ = problem.picks[channel]
     signal = problem.runs[name].experiment.signals[quantity]
     target = problem.cost.terms[channel][1].target
-    found = estimate_noise(target, quantity, signal.uncertainty_sds, signal.timing_s, about)
-    return found if found.criterion < known.criterion else known
+    return estimate_noise(target, quantity, signal.uncertainty_sds, signal.timing_s, about)
 
 
 def refitted(trial: Trial, base: Base) -> Trial:
