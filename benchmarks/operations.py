@@ -136,7 +136,7 @@ def main() -> None:
     from case import kernel_arguments, setup
 
     from pyrofit.simulate import Accuracy
-    from pyrofit.solver.kernels import slab
+    from pyrofit.solver.kernels import slab, trace
 
     for module in [m for n, m in sys.modules.items() if n.startswith("pyrofit.solver.kernels.")]:
         module.min, module.max = _least, _most
@@ -144,7 +144,7 @@ def main() -> None:
     given = kernel_arguments(setup(name), accuracy, 1)
     cells = accuracy.cells
     _, outcome = slab.slab((0,), (0,), *given[2:])
-    steps = int(outcome[0, slab.STEPS])
+    steps = int(outcome[0, trace.STEPS])
     per = {name: n / (steps * cells) for name, n in COUNTS.items()}
     flops = sum(FLOPS.get(name, 0) * n for name, n in per.items())
     print(json.dumps({"steps": steps, "cells": cells, "per": per, "flops": flops}))
