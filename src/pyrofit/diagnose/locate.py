@@ -23,6 +23,7 @@ from pyrofit.solver.arrays import FloatArray
 LEVEL = 0.01
 """Probability of a false alarm, of the scan, of the scores and of chi-square each."""
 BLOCKS = 10
+"""Blocks of draws of noise, each with a generator of its own."""
 DRAWS = 100
 """Draws of a block."""
 MOST_WINDOWS = 8

@@ -8,14 +8,7 @@ from pyrofit.solver.kernels.march import march
 from pyrofit.solver.kernels.output import sample
 from pyrofit.solver.kernels.state import fill
 from pyrofit.solver.kernels.trace import PROBES
-from pyrofit.solver.kernels.views import (
-    exposure_in_lanes,
-    exposure_of,
-    material_in_lanes,
-    material_of,
-    network_in_lanes,
-    network_of,
-)
+from pyrofit.solver.kernels.views import exposure_in_lanes, material_in_lanes, network_in_lanes
 from pyrofit.solver.kernels.work import allocate, in_width, make_room
 
 
@@ -23,6 +16,7 @@ from pyrofit.solver.kernels.work import allocate, in_width, make_room
 def run(
     width,
     wide,
+    g,
     start,
     empty,
     T_start,
@@ -36,7 +30,7 @@ def run(
     trace,
     outcome,
 ):
-    """Run one group of samples; see `slab`."""
+    """Run one group of samples, see `slab`; the description is that of group g, or of all."""
     lanes = len(width)
     cells, components = start.shape[0], start.shape[1]
     reactions = network.reactant.size
@@ -48,9 +42,9 @@ def run(
         empty,
         empty.copy(),
         in_lanes(width, T_start),
-        material_in_lanes(width, material),
-        network_in_lanes(width, network),
-        exposure_in_lanes(width, exposure),
+        material_in_lanes(width, g, material),
+        network_in_lanes(width, g, network),
+        exposure_in_lanes(width, g, exposure),
         numerics,
         in_lanes(width, t_end),
         stop_when_burnt,
@@ -112,6 +106,7 @@ def slab(
     run(
         width,
         wide,
+        None,
         start,
         empty,
         T_start,
@@ -155,12 +150,13 @@ def slabs(
         run(
             width,
             width,
+            g,
             start[g, spare:],
             empty[g] - spare,
             T_start[g],
-            material_of(material, g),
-            network_of(network, g),
-            exposure_of(exposure, g),
+            material,
+            network,
+            exposure,
             numerics,
             t_end[g],
             stop_when_burnt,

@@ -99,7 +99,7 @@ def tga(width, time, temperature, begins, lag, start, network, longest_rise):
     room = np.empty((3, reactions, lanes))
     in_mass, in_rate = in_lanes(width, mass), in_lanes(width, rate)
     in_masses, in_room = in_lanes(width, masses), in_lanes(width, room)
-    reacting = network_in_lanes(width, network)
+    reacting = network_in_lanes(width, None, network)
     for p in range(begins.size - 1):
         masses[0, :, 0, :] = start
         masses[2, :, 0, :] = start
