@@ -1,29 +1,27 @@
 """Curves at requested times from what runs hold at their steps."""
 
+from typing import NamedTuple
+
 from pyrofit.solver.kernels.jit import inner, loop
 from pyrofit.solver.kernels.trace import RATE, RELEASED, STEPS, TIME
 
 
-@inner
-def find(time, last, n, at):
-    """Return the last step before a time, not before step n."""
-    while n < last and time[n + 1] < at:
-        n += 1
-    return n
+class Piece(NamedTuple):
+    """A column of a trace from one step to the next; behind the last one it is constant."""
 
-
-@inner
-def hermite(h, s, low, high, slope_low, slope_high):
-    """Return the cubic with given values and slopes at both ends of a step h, at its part s."""
-    bend = h * s * (1.0 - s) * ((1.0 - s) * slope_low - s * slope_high)
-    return low + s * s * (3.0 - 2.0 * s) * (high - low) + bend
+    n: int
+    """The step it begins with."""
+    h: float
+    """Its length [s]."""
+    low: float
+    high: float
+    slope_low: float
+    slope_high: float
 
 
 @inner
 def slope_at(time, value, n, last):
     """Return dvalue/dt at a step from the parabola through three neighbours."""
-    if last == 0:
-        return 0.0
     if n == 0:
         return (value[1] - value[0]) / (time[1] - time[0])
     before = (value[n] - value[n - 1]) / (time[n] - time[n - 1])
@@ -34,33 +32,71 @@ def slope_at(time, value, n, last):
 
 
 @inner
-def value_at(rows, last, column, n, at):
-    """Return a column at a time not before step n by cubic Hermite interpolation, held at the end.
+def piece_from(rows, last, column, n):
+    """Return the piece that begins with step n.
 
-    What was released goes with its rate, everything else with parabolas' slopes. Return also the
-    last step before that time.
+    What was released goes with its rate, everything else with parabolas' slopes.
     """
     time, value = rows[:, TIME], rows[:, column]
-    n = find(time, last, n, at)
-    if at <= time[0]:
-        return value[0], n
     if n == last:
-        return value[last], n
+        return Piece(n, 1.0, value[n], value[n], 0.0, 0.0)
     if column == RELEASED:
         low, high = rows[n, RATE], rows[n + 1, RATE]
     else:
-        low = slope_at(time, value, n, last)
-        high = slope_at(time, value, n + 1, last)
-    h = time[n + 1] - time[n]
-    return hermite(h, (at - time[n]) / h, value[n], value[n + 1], low, high), n
+        low, high = slope_at(time, value, n, last), slope_at(time, value, n + 1, last)
+    return Piece(n, time[n + 1] - time[n], value[n], value[n + 1], low, high)
+
+
+@inner
+def piece_at(rows, last, column, piece, at):
+    """Return the piece in which a time lies that is not before the given one."""
+    n = piece.n
+    while n < last and rows[n + 1, TIME] < at:
+        n += 1
+    return piece if n == piece.n else piece_from(rows, last, column, n)
+
+
+@inner
+def part_at(rows, piece, at):
+    """Return which part of a piece has passed at a time; before the start, none."""
+    return max(at - rows[piece.n, TIME], 0.0) / piece.h
+
+
+@inner
+def value_at(rows, piece, at):
+    """Return the cubic of a piece at a time."""
+    s = part_at(rows, piece, at)
+    low, high, h = piece.low, piece.high, piece.h
+    bend = h * s * (1.0 - s) * ((1.0 - s) * piece.slope_low - s * piece.slope_high)
+    return low + s * s * (3.0 - 2.0 * s) * (high - low) + bend
+
+
+@inner
+def rate_at(rows, piece, at):
+    """Return its derivative there."""
+    s = part_at(rows, piece, at)
+    mean = 6.0 * s * (1.0 - s) * (piece.high - piece.low) / piece.h
+    return mean + (
+        (1.0 - s) * (1.0 - 3.0 * s) * piece.slope_low + s * (3.0 * s - 2.0) * piece.slope_high
+    )
 
 
 @loop
 def sampled(rows, last, column, at, out):
     """Write a column at ascending times."""
-    n = 0
+    piece = piece_from(rows, last, column, 0)
     for b in range(at.size):
-        out[b], n = value_at(rows, last, column, n, at[b])
+        piece = piece_at(rows, last, column, piece, at[b])
+        out[b] = value_at(rows, piece, at[b])
+
+
+@loop
+def sampled_rate(rows, last, at, out):
+    """Write the time derivative of what was released; after the end it is zero."""
+    piece = piece_from(rows, last, RELEASED, 0)
+    for b in range(at.size):
+        piece = piece_at(rows, last, RELEASED, piece, at[b])
+        out[b] = rate_at(rows, piece, at[b])
 
 
 @loop
@@ -69,35 +105,18 @@ def averaged_rate(rows, last, half, at, out):
 
     Nothing is released before 0.
     """
-    n_begin = n_end = 0
+    piece = ahead = piece_from(rows, last, RELEASED, 0)
     end, gone = -1.0, 0.0
     for b in range(at.size):
         begin = max(at[b] - half, 0.0)
-        if begin == end:
-            before, n_begin = gone, n_end
-        else:
-            before, n_begin = value_at(rows, last, RELEASED, n_begin, begin)
+        before = gone
+        if begin != end:
+            piece = piece_at(rows, last, RELEASED, piece, begin)
+            before = value_at(rows, piece, begin)
         end = at[b] + half
-        gone, n_end = value_at(rows, last, RELEASED, n_end, end)
+        ahead = piece_at(rows, last, RELEASED, ahead, end)
+        gone = value_at(rows, ahead, end)
         out[b] = (gone - before) / max(end - begin, 1e-9)
-
-
-@loop
-def sampled_rate(rows, last, at, out):
-    """Write the time derivative of what was released; after the end it is zero."""
-    time, value, rate = rows[:, TIME], rows[:, RELEASED], rows[:, RATE]
-    n = 0
-    for b in range(at.size):
-        n = find(time, last, n, at[b])
-        out[b] = 0.0
-        if at[b] <= time[0]:
-            out[b] = rate[0]
-        elif n < last:
-            h = time[n + 1] - time[n]
-            s = (at[b] - time[n]) / h
-            mean = 6.0 * s * (1.0 - s) * (value[n + 1] - value[n]) / h
-            ends = (1.0 - s) * (1.0 - 3.0 * s) * rate[n] + s * (3.0 * s - 2.0) * rate[n + 1]
-            out[b] = mean + ends
 
 
 @loop
