@@ -116,7 +116,6 @@ PLAIN = {
     "in_lane": lambda x, lane: x,
     "with_lane": lambda x, lane, value: Counted(value),
     "in_lanes": _in_lanes,
-    "lanes_of": lambda x: 1,
 }
 FLOPS = {"fma": 2, "add": 1, "mul": 1, "div": 1, "root": 1}
 

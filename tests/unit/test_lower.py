@@ -158,10 +158,10 @@ def test_network_by_hand() -> None:
         ({"1": reaction("A", products={"B": 0.1}), "2": reaction("B")}, False),
         ({"1": reaction("A"), "2": reaction("A")}, False),
         ({"1": reaction("A", products={"B": 0.1, "char": 0.1})}, False),
-        ({"1": reaction("A", order=1.5)}, False),
+        ({"1": reaction("A", order=1.5)}, True),
     ],
 )
-def test_short_cut_is_taken_for_parallel_first_order_reactions_only(
+def test_short_cut_is_taken_for_parallel_reactions_only(
     reactions: dict[str, Any], plain: bool
 ) -> None:
     assert lower.lower_network(material(reactions), VALUES).plain is plain

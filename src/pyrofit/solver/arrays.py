@@ -95,7 +95,7 @@ class Network(NamedTuple):
     first_order: bool
     """Whether every n_j is 1."""
     plain: bool
-    """Whether moreover every reaction has its own reactant and at most one, inert, product."""
+    """Whether every reaction has its own reactant and at most one, inert, product."""
     residue: IntArray
     """That product of reaction j."""
     residue_yield: FloatArray

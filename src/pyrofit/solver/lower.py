@@ -221,7 +221,7 @@ def lower_network(
         yields=yields,
         gas=1.0 - total(yields.swapaxes(0, 1)),
         first_order=first_order,
-        plain=first_order and plan.plain,
+        plain=plan.plain,
         residue=plan.residue,
         residue_yield=yields[np.arange(len(order)), plan.residue],
     )

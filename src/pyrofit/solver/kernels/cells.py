@@ -1,11 +1,11 @@
 """Properties and reaction rates of single cells."""
 
-from pyrofit.solver.arrays import TABLE_SIZE, TABLE_START_K, TABLE_STEP_K
 from pyrofit.solver.kernels import row
-from pyrofit.solver.kernels.functions import exp, fma, inverse, power
+from pyrofit.solver.kernels.functions import exp, fma, nearly_inverse
 from pyrofit.solver.kernels.jit import inner, live
-from pyrofit.solver.kernels.lanes import in_lane, lanes_of, opposite, somewhere, where, with_lane
-from pyrofit.solver.kernels.reactions import TINY, react, remaining
+from pyrofit.solver.kernels.lanes import opposite, somewhere, where
+from pyrofit.solver.kernels.reactions import TINY, is_curved, known, ordered, react, remaining
+from pyrofit.solver.kernels.tables import at_temperature
 
 RATES_FROM_K, RATES_TO_K = 200.0, 2000.0
 """Range in which rates follow T."""
@@ -15,22 +15,6 @@ LEAST_RESISTANCE = 1.0e-13
 """[m2 K/W]; keeps vanished cells from dividing by zero."""
 LEAST_DEPTH = 1.0e-9
 """Depth [m] from which a surface radiates at least."""
-TABLE_END_K = TABLE_START_K + TABLE_STEP_K * (TABLE_SIZE - 1)
-
-
-@inner
-def at_temperature(table, i, T):
-    """Return property i at T, linear between the table's nodes; one node = constant."""
-    if table.shape[1] == 1:
-        return table[i, 0] + 0.0 * T
-    x = (min(max(TABLE_START_K, T), TABLE_END_K) - TABLE_START_K) / TABLE_STEP_K
-    value = x
-    for lane in range(lanes_of(x)):
-        at = in_lane(x, lane)
-        p = min(int(at), TABLE_SIZE - 2)
-        low, high = in_lane(table[i, p], lane), in_lane(table[i, p + 1], lane)
-        value = with_lane(value, lane, low + (at - p) * (high - low))
-    return value
 
 
 @inner
@@ -100,29 +84,29 @@ def describe(work, first, material):
     k is mixed by volume, c by mass.
     """
     cell = work.cell
-    clear(work, first, (row.d, row.dk, row.C_new, row.C_lost))
     for i in range(work.m.shape[0]):
         volume = material.specific_volume[i]
         for n in live(work.m, first):
             m, T = work.m_new[i, n], cell[row.T_star, n]
             v = m * volume * at_temperature(material.expansion, i, T)
-            cell[row.d, n] += v
-            cell[row.dk, n] += v * at_temperature(material.conductivity, i, T)
             c = at_temperature(material.specific_heat, i, T)
-            cell[row.C_new, n] += m * c
-            cell[row.C_lost, n] += (work.m[i, n] - m) * c
+            add(cell, row.d, n, v, i)
+            add(cell, row.dk, n, v * at_temperature(material.conductivity, i, T), i)
+            add(cell, row.C_new, n, m * c, i)
+            add(cell, row.C_lost, n, (work.m[i, n] - m) * c, i)
     for n in live(work.m, first):
         d = cell[row.d, n]
-        inverse_dk = inverse(max(cell[row.dk, n], TINY))
+        inverse_dk = nearly_inverse(max(cell[row.dk, n], TINY))
         cell[row.half_r, n] = fma(0.5 * d * d, inverse_dk, LEAST_RESISTANCE)
 
 
 @inner
-def clear(work, first, rows):
-    """Set rows of the cells to zero, not of the foil."""
-    for a in rows:
-        for n in live(work.m, first):
-            work.cell[a, n] = 0.0
+def add(cell, to, n, value, count):
+    """Add to a row of cell n what is not the first of it, of which there have been ``count``."""
+    if count == 0:
+        cell[to, n] = value
+    else:
+        cell[to, n] += value
 
 
 @inner
@@ -135,7 +119,7 @@ def rate_constants(work, first, network):
     cell = work.cell
     for n in live(work.m, first):
         T = min(max(cell[row.T_star, n], RATES_FROM_K), RATES_TO_K)
-        cell[row.inverse_T, n] = inverse(T)
+        cell[row.inverse_T, n] = nearly_inverse(T)
     for j in range(work.root.shape[0]):
         half_E = 0.5 * network.activation_temperature[j]
         scale = network.root_factor[j]
@@ -175,7 +159,6 @@ def log_mean(root_a, root_b):
 @inner
 def react_over(work, first, dt, room, network, final):
     """Fill what follows from k_j over a step of the cells: masses, and the rows of `book`."""
-    clear(work, first, (row.heat, row.rate, row.gas if final else row.grows))
     if network.plain:
         react_alone(work, first, dt, network, final)
         return
@@ -184,9 +167,11 @@ def react_over(work, first, dt, room, network, final):
             mean, growth = log_mean(work.root[j, n], work.root_new[j, n])
             room.x[j] = dt * mean
             room.growth[j] = dt * growth
-        react(work.m, work.formed, n, room.x, network, False, work.m_new, room.used)
+        react(work.m, work.formed, n, room, network, False, work.m_new)
         for j in range(work.root.shape[0]):
-            left = reacting(work, n, j, room, network)
+            left = work.m_new[network.reactant[j], n]
+            if not network.first_order:
+                left = left * room.behind[j]
             book(work, n, j, room.used[j], left, room.growth[j], network, final)
         if not network.first_order:
             for i in range(work.m.shape[0]):
@@ -197,17 +182,32 @@ def react_over(work, first, dt, room, network, final):
 def react_alone(work, first, dt, network, final):
     """Do that for reactions that have nothing to do with each other, one after the other."""
     for i in range(work.m.shape[0]):
-        for n in live(work.m, first):
-            work.m_new[i, n] = work.m[i, n]
+        if not is_consumed(i, network):
+            for n in live(work.m, first):
+                work.m_new[i, n] = work.m[i, n]
     for j in range(work.root.shape[0]):
         i, residue = network.reactant[j], network.residue[j]
-        share = network.residue_yield[j]
+        share, curved = network.residue_yield[j], is_curved(network, j)
         for n in live(work.m, first):
             mean, growth = log_mean(work.root[j, n], work.root_new[j, n])
-            left, used = remaining(work.m[i, n], dt * mean, False)
+            x, behind = dt * mean, 1.0
+            if curved:
+                x, behind = ordered(work.m[i, n], work.formed[i, n], x, network.order[j])
+            left, used = remaining(work.m[i, n], x, False)
+            if curved:
+                behind = known(behind, left, work.formed[i, n], network.order[j])
             work.m_new[i, n] = left
             work.m_new[residue, n] += share * used
-            book(work, n, j, used, left, dt * growth, network, final)
+            book(work, n, j, used, left * behind, dt * growth, network, final)
+
+
+@inner
+def is_consumed(i, network):
+    """Tell whether a component is a reactant."""
+    found = False
+    for j in range(network.reactant.size):
+        found = found or network.reactant[j] == i
+    return found
 
 
 @inner
@@ -220,25 +220,12 @@ def book(work, n, j, used, left, growth, network, final):
     cell = work.cell
     heat, gas = network.heat[j], network.gas[j]
     k = work.root_new[j, n] * work.root_new[j, n]
-    cell[row.heat, n] += heat * used
-    cell[row.rate, n] += gas * k * left
+    add(cell, row.heat, n, heat * used, j)
+    add(cell, row.rate, n, gas * k * left, j)
     if final:
-        cell[row.gas, n] += gas * used
+        add(cell, row.gas, n, gas * used, j)
     else:
-        cell[row.grows, n] += heat * network.activation_temperature[j] * growth * left
-
-
-@inner
-def reacting(work, n, j, room, network):
-    """Return the mass of cell n that r_j is proportional to, r_j / k_j [kg/m2]."""
-    i = network.reactant[j]
-    left = work.m_new[i, n]
-    if not network.first_order and somewhere(network.order[j] != 1.0):
-        formed = max(ever_formed(work, i, n, room, network), TINY)
-        higher = network.order[j] - 1.0
-        u = where(left > 0.0, left / formed, 1.0)
-        left = left * where(higher == 0.0, 1.0, power(u, higher))
-    return left
+        add(cell, row.grows, n, heat * network.activation_temperature[j] * growth * left, j)
 
 
 @inner

@@ -6,7 +6,7 @@ from pyrofit.constants import STEFAN_BOLTZMANN
 from pyrofit.solver.arrays import Number
 from pyrofit.solver.kernels import row
 from pyrofit.solver.kernels.cells import optical_depth
-from pyrofit.solver.kernels.functions import exp, fma, inverse, log
+from pyrofit.solver.kernels.functions import exp, fma, log, nearly_inverse
 from pyrofit.solver.kernels.jit import between, inner, live
 from pyrofit.solver.kernels.lanes import opposite, somewhere, where
 from pyrofit.solver.kernels.reactions import TINY
@@ -196,7 +196,7 @@ def temperature_falls(cell, foil, edge, front_star):
         d = cell[row.d, n]
         span = 0.5 * (cell[row.d, n - 1] + cell[row.d, n + 1]) + d
         across = cell[row.T_star, n - 1] - cell[row.T_star, n + 1]
-        cell[row.fall, n] = 0.5 * across * d * inverse(max(span, TINY))
+        cell[row.fall, n] = 0.5 * across * d * nearly_inverse(max(span, TINY))
     for n in between(edge.first, edge.behind):
         across = front_star - cell[row.T_star, n]
         cell[row.fall, n] = where(edge.at == 1.0 * n, across, cell[row.fall, n])
@@ -228,7 +228,7 @@ def conduct(cell, foil, edge, surface, r_skin, bdf):
     seen = surface.slope * couple
     carried = surface.gain * couple
     for n in between(edge.first, foil):
-        below = inverse(cell[row.half_r, n] + cell[row.half_r, n + 1])
+        below = nearly_inverse(cell[row.half_r, n] + cell[row.half_r, n + 1])
         seen_below, carried_below = eliminate(cell, n, below, seen, carried, bdf)
         if n + 1 < edge.behind:
             ahead = edge.at > 1.0 * n

@@ -273,14 +273,3 @@ def in_lanes(typing: Any, width: Any, array: Any) -> Any:
         return impl_ret_borrowed(context, builder, kind, view._getvalue())
 
     return signature(kind, width, array), build
-
-
-@intrinsic
-def lanes_of(typing: Any, x: Any) -> Any:
-    """Return how many lanes a number has."""
-    count = x.count if isinstance(x, Lanes) else 1
-
-    def build(context: Any, builder: Any, sig: Any, args: Any) -> Any:
-        return context.get_constant(types.intp, count)
-
-    return signature(types.intp, x), build

@@ -1,6 +1,6 @@
 """Mass change of a cell by its reactions over one time step."""
 
-from pyrofit.solver.kernels.functions import exp, fma, inverse, log, power
+from pyrofit.solver.kernels.functions import exp, fma, inverse, log, nearly_inverse, power
 from pyrofit.solver.kernels.jit import inner
 from pyrofit.solver.kernels.lanes import somewhere, where
 
@@ -11,6 +11,10 @@ MOST_PADE = 1e60
 LEAST_MASS = 1.0e-200
 """[kg/m2]; less is nothing: the processor is slow with the numbers next to zero."""
 TINY = 1.0e-300
+NEAR = 0.4
+"""Share |y| of u^(1-n) up to which the series of ln(1 - y) is good to 2e-11."""
+UNKNOWN = -1.0
+"""Stands for what follows from what is left after the step."""
 
 
 @inner
@@ -30,69 +34,123 @@ def decay(x, exact):
 
 
 @inner
-def order_factor(u, x, n):
-    """Return the factor on x = k dt that turns first order into order n, for a single reaction.
+def order_factors(u, x, n):
+    """Return what turns x = k dt of a single reaction into that of order n, and k behind the step.
 
-    du/dt = -k u^n is solved exactly: u_new^(1-n) = u^(1-n) - (1-n) x.
+    du/dt = -k u^n is solved exactly: u_new^(1-n) = u^(1-n) (1 - y), y = (1 - n) x u^(n-1). That is
+    first order with x u^(n-1) (-ln(1 - y)/y), and u_new^(n-1) = u^(n-1)/(1 - y).
     """
-    m = where(n == 1.0, 1.0, 1.0 - n)
-    log_u = log(u)
-    base = exp(m * log_u) - m * x
-    solved = (log_u - log(max(base, TINY)) / m) / max(x, TINY)
-    factor = where(base <= 0.0, MOST_DECAY / max(x, TINY), solved)
-    factor = where(x <= 0.0, exp(-m * log_u), factor)
-    return where(n == 1.0, 1.0, factor)
+    held = power(u, n - 1.0)
+    y = (1.0 - n) * x * held
+    far = abs(y) > NEAR
+    near = where(far, 0.0, y)
+    # -ln(1 - y) = 2 artanh(s), the series cut after s^15.
+    part = nearly_inverse(2.0 - near)
+    s = near * part
+    q = s * s
+    p = fma(q, fma(q, fma(q, 1.0 / 15.0, 1.0 / 13.0), 1.0 / 11.0), 1.0 / 9.0)
+    p = fma(q, fma(q, fma(q, fma(q, p, 1.0 / 7.0), 1.0 / 5.0), 1.0 / 3.0), 1.0)
+    factor = 2.0 * held * part * p
+    behind = held * nearly_inverse(1.0 - near)
+    if somewhere(far):
+        exact = -held * log(max(1.0 - y, TINY)) / where(far, y, 1.0)
+        factor = where(far, where(y < 1.0, exact, MOST_DECAY / max(x, TINY)), factor)
+        behind = where(far, UNKNOWN, behind)
+    plain = n == 1.0
+    return where(plain, 1.0, factor), where(plain, 1.0, behind)
 
 
 @inner
-def apply_order(x, j, end, u, network):
-    """Bring x of the reactions j to end of one reactant to their orders; u is its m/m_formed.
+def ordered(m, ever, x, n):
+    """Return x = k dt brought to order n, and what multiplies k at the end of the step.
 
-    Several reactions of one reactant take u^(order - 1) at the middle of the step.
+    The order is that in m over the mass ``ever`` present.
     """
+    u = m / max(ever, TINY)
+    some = u > 0.0
+    factor, behind = order_factors(where(some, u, 1.0), x, n)
+    return where(some, x * factor, x), behind
+
+
+@inner
+def bring_to_order(m, ever, j, end, room, network):
+    """Bring x of the reactions j to end, all of one reactant, to their orders."""
+    if end > j + 1:
+        order_several(m, ever, j, end, room, network)
+        return
+    room.behind[j] = 1.0
+    if is_curved(network, j):
+        room.x[j], room.behind[j] = ordered(m, ever, room.x[j], network.order[j])
+
+
+@inner
+def order_several(m, ever, j, end, room, network):
+    """Do that for more than one, at the middle of the step."""
+    u = m / max(ever, TINY)
     some = u > 0.0
     u = where(some, u, 1.0)
-    if end == j + 1:
-        x[j] *= where(some, order_factor(u, x[j], network.order[j]), 1.0)
-        return
     fall = 0.0 * u
     for a in range(j, end):
-        fall += x[a] * power(u, network.order[a] - 1.0)
+        fall += room.x[a] * power(u, network.order[a] - 1.0)
     middle = u * exp(-0.5 * min(fall, 100.0))
     for a in range(j, end):
-        x[a] *= where(some, power(middle, network.order[a] - 1.0), 1.0)
+        room.x[a] *= where(some, power(middle, network.order[a] - 1.0), 1.0)
+        room.behind[a] = UNKNOWN
 
 
 @inner
-def react(m, formed, n, x, network, exact, m_new, used):
+def react(m, formed, n, room, network, exact, m_new):
     """Advance the masses of cell n by dm_i/dt = sum_j (nu_ji - delta_i,i(j)) r_j over one step.
 
     ``m`` and ``m_new`` [kg/m2] have shape (components, cells); ``formed``, same shape, is the mass
-    ever present, the reference of reaction order; ``x[j]`` is the integral of k_j over the step;
-    ``used[j]`` becomes the mass consumed by each reaction. What earlier reactions form during the
-    step decays with phi.
+    ever present, the reference of reaction order. Of the room, ``x[j]`` is the integral of k_j over
+    the step; ``used[j]`` becomes the mass consumed by each reaction, ``behind[j]`` what its order
+    multiplies k_j with at the end. What earlier reactions form during the step decays with phi.
     """
     for i in range(m.shape[0]):
         m_new[i, n] = m[i, n]
-    for j in range(x.shape[0]):
+    for j in range(network.reactant.size):
         if network.plain:
-            consume_alone(m, n, j, x, network, exact, m_new, used)
+            consume_alone(m, formed, n, j, room, network, exact, m_new)
         elif j == 0 or network.reactant[j] != network.reactant[j - 1]:
             end = j + 1
-            while end < x.shape[0] and network.reactant[end] == network.reactant[j]:
+            while end < network.reactant.size and network.reactant[end] == network.reactant[j]:
                 end += 1
-            consume(m, formed, n, j, end, x, network, exact, m_new, used)
+            consume(m, formed, n, j, end, room, network, exact, m_new)
 
 
 @inner
-def consume_alone(m, n, j, x, network, exact, m_new, used):
+def consume_alone(m, formed, n, j, room, network, exact, m_new):
     """Let reaction j consume its reactant, in a network in which nothing else touches that.
 
     Rounds as `consume`, so that a reaction or component without effect changes no curve.
     """
     i = network.reactant[j]
-    m_new[i, n], used[j] = remaining(m[i, n], x[j], exact)
-    m_new[network.residue[j], n] += network.residue_yield[j] * used[j]
+    room.behind[j] = 1.0
+    curved = is_curved(network, j)
+    if curved:
+        room.x[j], room.behind[j] = ordered(m[i, n], formed[i, n], room.x[j], network.order[j])
+    m_new[i, n], room.used[j] = remaining(m[i, n], room.x[j], exact)
+    if curved:
+        left = m_new[i, n]
+        room.behind[j] = known(room.behind[j], left, formed[i, n], network.order[j])
+    m_new[network.residue[j], n] += network.residue_yield[j] * room.used[j]
+
+
+@inner
+def known(behind, left, ever, n):
+    """Return what order n multiplies k with after the step: from what is left, where unknown."""
+    unknown = behind < 0.0
+    if somewhere(unknown):
+        u = where(left > 0.0, left / max(ever, TINY), 1.0)
+        behind = where(unknown, power(u, n - 1.0), behind)
+    return behind
+
+
+@inner
+def is_curved(network, j):
+    """Tell whether reaction j is of another order than the first in some lane."""
+    return not network.first_order and somewhere(network.order[j] != 1.0)
 
 
 @inner
@@ -105,27 +163,30 @@ def remaining(m, x, exact):
 
 
 @inner
-def consume(m, formed, n, j, end, x, network, exact, m_new, used):
+def consume(m, formed, n, j, end, room, network, exact, m_new):
     """Let reactions j to end, all of one reactant, consume it in cell n."""
     i = network.reactant[j]
     gained = m_new[i, n] - m[i, n]
     if not network.first_order:
-        reference = formed[i, n] + 0.5 * gained
-        u = (m[i, n] + 0.5 * gained) / max(reference, TINY)
-        apply_order(x, j, end, where(reference > 0.0, u, 0.0), network)
+        middle, ever = m[i, n] + 0.5 * gained, formed[i, n] + 0.5 * gained
+        bring_to_order(middle, ever, j, end, room, network)
     total = 0.0 * gained
     for a in range(j, end):
-        total += x[a]
+        total += room.x[a]
     e, phi = decay(total, exact)
     left = m[i, n] * e + gained * phi
     left = where(left > LEAST_MASS, left, 0.0)
     consumed = (m[i, n] - left) + gained
     m_new[i, n] = left
+    if not network.first_order:
+        for a in range(j, end):
+            behind = where(gained > 0.0, UNKNOWN, room.behind[a])
+            room.behind[a] = known(behind, left, formed[i, n] + gained, network.order[a])
     for a in range(j, end):
         part = consumed
         if end > j + 1:
-            part = where(total > 0.0, consumed * (x[a] / max(total, TINY)), 0.0)
-        used[a] = part
+            part = where(total > 0.0, consumed * (room.x[a] / max(total, TINY)), 0.0)
+        room.used[a] = part
         for b in range(m.shape[0]):
             if somewhere(network.yields[a, b] != 0.0):
                 m_new[b, n] += network.yields[a, b] * part

@@ -3,7 +3,7 @@
 from pyrofit.solver.kernels import row
 from pyrofit.solver.kernels.cells import describe, layer, rate_constants, reactant_left
 from pyrofit.solver.kernels.jit import inner, live, loop
-from pyrofit.solver.kernels.lanes import where
+from pyrofit.solver.kernels.lanes import opposite, somewhere, where
 from pyrofit.solver.kernels.step import summed
 
 DEAD_FRACTION = 1.0e-7
@@ -46,23 +46,32 @@ def fill(work, start):
 def accept(wide, first, network, accepted):
     """Make the state after the step the current one, in the lanes in which it was accepted."""
     cell = wide.cell
-    for n in live(cell, first):
-        cell[row.T_old, n] = where(accepted, cell[row.T, n], cell[row.T_old, n])
-        cell[row.T, n] = where(accepted, cell[row.T_new, n], cell[row.T, n])
-        cell[row.stored_old, n] = where(accepted, cell[row.stored, n], cell[row.stored_old, n])
-    for n in live(wide.m, first):
-        cell[row.C, n] = where(accepted, cell[row.C_new, n], cell[row.C, n])
-        cell[row.rate_old, n] = where(accepted, cell[row.rate, n], cell[row.rate_old, n])
+    every = not somewhere(opposite(accepted))
+    for to, new in ((row.T_old, row.T), (row.T, row.T_new), (row.stored_old, row.stored)):
+        for n in live(cell, first):
+            cell[to, n] = taken(every, accepted, cell[new, n], cell[to, n])
+    for to, new in ((row.C, row.C_new), (row.rate_old, row.rate)):
+        for n in live(wide.m, first):
+            cell[to, n] = taken(every, accepted, cell[new, n], cell[to, n])
     for i in range(wide.m.shape[0]):
         for n in live(wide.m, first):
-            wide.m[i, n] = where(accepted, wide.m_new[i, n], wide.m[i, n])
+            wide.m[i, n] = taken(every, accepted, wide.m_new[i, n], wide.m[i, n])
     for j in range(wide.root.shape[0]):
         for n in live(wide.m, first):
-            wide.root[j, n] = where(accepted, wide.root_new[j, n], wide.root[j, n])
-    if not network.first_order:
+            wide.root[j, n] = taken(every, accepted, wide.root_new[j, n], wide.root[j, n])
+    if not (network.first_order or network.plain):
         for i in range(wide.m.shape[0]):
             for n in live(wide.m, first):
-                wide.formed[i, n] = where(accepted, wide.formed_new[i, n], wide.formed[i, n])
+                formed = taken(every, accepted, wide.formed_new[i, n], wide.formed[i, n])
+                wide.formed[i, n] = formed
+
+
+@inner
+def taken(every, accepted, new, old):
+    """Return the new number in the lanes in which it was accepted, maybe in every one."""
+    if every:
+        return new
+    return where(accepted, new, old)
 
 
 @inner

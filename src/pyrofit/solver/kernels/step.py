@@ -13,7 +13,7 @@ from pyrofit.solver.kernels.cells import (
     react_over,
     top_emissivity,
 )
-from pyrofit.solver.kernels.functions import fma, inverse
+from pyrofit.solver.kernels.functions import fma, nearly_inverse
 from pyrofit.solver.kernels.heat import (
     add_at_edge,
     at_edge,
@@ -115,11 +115,11 @@ def mean_capacity(cell, n):
     """
     C, C_new = cell[row.C, n], cell[row.C_new, n]
     both = max(C + C_new, TINY)
-    d = (C_new - C) * inverse(both)
+    d = (C_new - C) * nearly_inverse(both)
     d2 = d * d
     mean = 0.5 * both * fma(d2, fma(d2, -4.0 / 45.0, -1.0 / 3.0), 1.0)
     before, after = cell[row.rate_old, n] * C_new, cell[row.rate, n] * C
-    faster = (after - before) * inverse(max(abs(after) + abs(before), TINY))
+    faster = (after - before) * nearly_inverse(max(abs(after) + abs(before), TINY))
     return fma((1.0 / 6.0) * cell[row.C_lost, n], faster, mean)
 
 

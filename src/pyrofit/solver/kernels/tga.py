@@ -9,6 +9,7 @@ from pyrofit.solver.kernels.jit import entry, inner, loop
 from pyrofit.solver.kernels.lanes import in_lanes, somewhere, where
 from pyrofit.solver.kernels.reactions import TINY, react
 from pyrofit.solver.kernels.views import network_in_lanes
+from pyrofit.solver.kernels.work import make_room
 
 
 @inner
@@ -43,7 +44,7 @@ def _loss(m, formed, k, network):
 
 
 @loop
-def _heat(time, temperature, lag, network, longest_rise, m, m_new, formed, x, used, k, mass, rate):
+def _heat(time, temperature, lag, network, longest_rise, m, m_new, formed, room, k, mass, rate):
     """Follow one program; the arrays are the state at its start, and room to work."""
     for j in range(k.size):
         k[j] = _arrhenius(network, j, temperature[0] - lag)
@@ -59,12 +60,12 @@ def _heat(time, temperature, lag, network, longest_rise, m, m_new, formed, x, us
             for j in range(k.size):
                 k_new = _arrhenius(network, j, there - lag)
                 middle = _arrhenius(network, j, 0.5 * (here + there) - lag)
-                x[j] = dt * (k[j] + 4.0 * middle + k_new) / 6.0
+                room.x[j] = dt * (k[j] + 4.0 * middle + k_new) / 6.0
                 k[j] = k_new
-            react(m, formed, 0, x, network, True, m_new, used)
+            react(m, formed, 0, room, network, True, m_new)
             for j in range(k.size):
                 for i in range(m.shape[0]):
-                    formed[i, 0] += network.yields[j, i] * used[j]
+                    formed[i, 0] += network.yields[j, i] * room.used[j]
             for i in range(m.shape[0]):
                 m[i, 0] = m_new[i, 0]
         mass[n] = _mass(m)
@@ -96,9 +97,10 @@ def tga(width, time, temperature, begins, lag, start, network, longest_rise):
     mass = np.empty((time.size, lanes))
     rate = np.empty((time.size, lanes))
     masses = np.empty((3, components, 1, lanes))
-    room = np.empty((3, reactions, lanes))
+    rates = np.empty((reactions, lanes))
     in_mass, in_rate = in_lanes(width, mass), in_lanes(width, rate)
-    in_masses, in_room = in_lanes(width, masses), in_lanes(width, room)
+    in_masses, k = in_lanes(width, masses), in_lanes(width, rates)
+    room = make_room(width, reactions)
     reacting = network_in_lanes(width, None, network)
     for p in range(begins.size - 1):
         masses[0, :, 0, :] = start
@@ -113,9 +115,8 @@ def tga(width, time, temperature, begins, lag, start, network, longest_rise):
             in_masses[0],
             in_masses[1],
             in_masses[2],
-            in_room[0],
-            in_room[1],
-            in_room[2],
+            room,
+            k,
             in_mass[here],
             in_rate[here],
         )

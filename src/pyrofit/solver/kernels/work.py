@@ -46,6 +46,8 @@ class Room(NamedTuple):
     """d x_j / d ln k_j."""
     used: FloatArray
     """Mass consumed by each reaction in the step [kg/m2]."""
+    behind: FloatArray
+    """What the reaction's order multiplies k_j with at the end of the step."""
 
 
 @making
@@ -94,7 +96,12 @@ def in_width(width, flat):
 @making
 def make_room(width, reactions):
     """Return room to work on a cell."""
-    raw = np.zeros(3 * reactions * len(width) + ALIGNED)
+    raw = np.zeros(4 * reactions * len(width) + ALIGNED)
     free = raw[-(np.int64(raw.ctypes.data) // 8) % ALIGNED :]
-    room = free[: 3 * reactions * len(width)].reshape(3, reactions, len(width))
-    return Room(in_lanes(width, room[0]), in_lanes(width, room[1]), in_lanes(width, room[2]))
+    room = free[: 4 * reactions * len(width)].reshape(4, reactions, len(width))
+    return Room(
+        in_lanes(width, room[0]),
+        in_lanes(width, room[1]),
+        in_lanes(width, room[2]),
+        in_lanes(width, room[3]),
+    )
