@@ -14,6 +14,7 @@ inner = njit(
     forceinline=True,
     _nrt=False,
     no_cfunc_wrapper=True,
+    no_cpython_wrapper=True,
 )
 """For what they call, compiled into the caller.
 
@@ -21,7 +22,7 @@ Without the private `_nrt=False` numba counts references, atomically, at every a
 held in a tuple: more than half of the time of a run. Such functions must not make arrays.
 """
 
-loop = njit(error_model="numpy", _nrt=False, no_cfunc_wrapper=True)
+loop = njit(error_model="numpy", _nrt=False, no_cfunc_wrapper=True, no_cpython_wrapper=True)
 """The same for long functions, not compiled into every caller."""
 
 
