@@ -23,7 +23,7 @@ from pyrofit.estimate.problem import (
     request_for,
     target_of,
 )
-from pyrofit.estimate.sceua import search
+from pyrofit.estimate.sceua import search, search_several
 from pyrofit.model.experiment import Tga
 from pyrofit.simulate import simulate_gasification, simulate_tga
 from pyrofit.solver.arrays import FloatArray, Status
@@ -84,6 +84,14 @@ def test_search_depends_on_nothing_drawn_before() -> None:
     np.random.seed(99)  # noqa: NPY002
     np.random.random(17)  # noqa: NPY002
     pd.testing.assert_frame_equal(first, run(Valley()), check_exact=True)
+
+
+def test_searches_side_by_side_have_the_bits_of_each_alone() -> None:
+    # Some end earlier than others.
+    seeds = [1, 2, 3, 1]
+    together = search_several(Valley(), seeds, GENERATIONS, COMPLEXES)
+    for seed, found in zip(seeds, together, strict=True):
+        pd.testing.assert_frame_equal(found, run(Valley(), seed), check_exact=True)
 
 
 def test_history_holds_every_call_in_order() -> None:

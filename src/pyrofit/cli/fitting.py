@@ -12,9 +12,15 @@ def add(commands: Any) -> None:
     """Add these commands."""
     add_step(commands, "prepare", "read the measurements into tidy tables", _prepare)
     add_step(commands, "kinetics", "fit the kinetics to TGA", _kinetics)
-    imp = add_step(commands, "imp", "run one repetition of the inverse modelling", _imp)
+    imp = add_step(commands, "imp", "run repetitions of the inverse modelling", _imp)
     imp.add_argument("--cost", required=True, help="cost function of the study")
-    imp.add_argument("--repetition", type=int, required=True, help="number of the repetition")
+    imp.add_argument(
+        "--repetition",
+        type=int,
+        required=True,
+        nargs="+",
+        help="their numbers; several run side by side",
+    )
     squares = add_step(commands, "least-squares", "run least squares on one cost", _least_squares)
     squares.add_argument("--cost", required=True, help="cost function of the study")
     cma_es = add_step(commands, "cma-es", "run CMA-ES on one cost", _cma_es)
@@ -49,9 +55,10 @@ def _imp(given: argparse.Namespace) -> None:
     from pyrofit.stages import fit, slices
 
     study, results = open_study(given, slices.imp, given.cost, "sceua")
-    if not 0 <= given.repetition < study.imp.repetitions:
+    wrong = [n for n in given.repetition if not 0 <= n < study.imp.repetitions]
+    if wrong:
         raise StudyError(
-            f"repetition {given.repetition}: study '{study.name}' has repetitions 0 to "
+            f"repetition {wrong[0]}: study '{study.name}' has repetitions 0 to "
             f"{study.imp.repetitions - 1}; raise imp.repetitions for more"
         )
     fit.repeat(study, results, given.cost, given.repetition)

@@ -1,7 +1,7 @@
 """Steps 2 and 3: the kinetics fit, and the repeated inverse modelling."""
 
 import sys
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from typing import Any
 
 import numpy as np
@@ -180,34 +180,34 @@ def imp_problem(study: Study, results: Results, cost: str) -> Problem:
     )
 
 
-def repeat(study: Study, results: Results, cost: str, repetition: int) -> None:
-    """Run one repetition of the inverse modelling and write its history and result."""
+def repeat(study: Study, results: Results, cost: str, repetitions: Sequence[int]) -> None:
+    """Run repetitions of the inverse modelling side by side; write histories and results."""
     problem = imp_problem(study, results, cost)
-    seed = seed_for(study.seed, cost, repetition)
+    seeds = [seed_for(study.seed, cost, repetition) for repetition in repetitions]
     budget = study.imp.sceua
-    label = f"{cost} {repetition:02d}"
-    tell = _tell(label, budget.generations)
-    from pyrofit.estimate.sceua import search  # as above
+    tell = [_tell(f"{cost} {repetition:02d}", budget.generations) for repetition in repetitions]
+    from pyrofit.estimate.sceua import search_several  # as above
 
-    history = search(problem, seed, budget.generations, budget.complexes, tell)
-    best, x = best_of(history, problem)
-    write_csv(results.repetition(cost, repetition, ".csv.gz"), history)
-    write_csv(results.repetition(cost, repetition, "_convergence.csv"), convergence(history))
-    write_json(
-        results.repetition(cost, repetition, ".json"),
-        {
-            "cost_function": cost,
-            "repetition": repetition,
-            "seed": seed,
-            "digest": digest(slices.imp(study, cost, "sceua")),
-            "cost": best,
-            "cost_refined": problem.refined().evaluate(x).cost,
-            "parameters": _named(problem, x),
-            "calls": len(history),
-            "failed_calls": int((history["status"] != Status.OK).sum()),
-            "generations": int(history["generation"].max()),
-        },
-    )
+    found = search_several(problem, seeds, budget.generations, budget.complexes, tell)
+    for repetition, seed, history in zip(repetitions, seeds, found, strict=True):
+        best, x = best_of(history, problem)
+        write_csv(results.repetition(cost, repetition, ".csv.gz"), history)
+        write_csv(results.repetition(cost, repetition, "_convergence.csv"), convergence(history))
+        write_json(
+            results.repetition(cost, repetition, ".json"),
+            {
+                "cost_function": cost,
+                "repetition": repetition,
+                "seed": seed,
+                "digest": digest(slices.imp(study, cost, "sceua")),
+                "cost": best,
+                "cost_refined": problem.refined().evaluate(x).cost,
+                "parameters": _named(problem, x),
+                "calls": len(history),
+                "failed_calls": int((history["status"] != Status.OK).sum()),
+                "generations": int(history["generation"].max()),
+            },
+        )
 
 
 def least_squares(study: Study, results: Results, cost: str) -> None:

@@ -1,0 +1,86 @@
+"""Searches side by side: what they ask, draw and raise, and that none is left behind."""
+
+import threading
+from collections.abc import Callable
+from functools import partial
+
+import numpy as np
+import pytest
+
+from pyrofit.estimate.turns import in_turns
+
+Ask = Callable[[int], int]
+
+
+def adds(times: int, step: int, ask: Ask) -> int:
+    """Ask so many times, each question one step above the last answer."""
+    found = 0
+    for _ in range(times):
+        found = ask(found + step)
+    return found
+
+
+def draws(seed: int, ask: Ask) -> list[float]:
+    np.random.seed(seed)  # noqa: NPY002
+    return [np.random.random() + ask(0) for _ in range(5)]  # noqa: NPY002
+
+
+def test_what_all_ask_is_answered_together_until_all_have_ended() -> None:
+    asked = []
+
+    def answer(questions: list[int]) -> list[int]:
+        asked.append(questions)
+        return [10 * q for q in questions]
+
+    assert in_turns([partial(adds, 1, 1), partial(adds, 3, 2), partial(adds, 0, 3)], answer) == [
+        10,
+        2220,
+        0,
+    ]
+    assert asked == [[1, 2], [22], [222]]
+
+
+def test_each_draws_what_it_draws_alone() -> None:
+    def zeros(questions: list[int]) -> list[int]:
+        return [0 for _ in questions]
+
+    together = in_turns([partial(draws, seed) for seed in (1, 2, 1)], zeros)
+    assert together == [in_turns([partial(draws, seed)], zeros)[0] for seed in (1, 2, 1)]
+
+
+def test_the_generator_of_the_caller_is_as_it_was() -> None:
+    np.random.seed(5)  # noqa: NPY002
+    expected = np.random.random(2)[1]  # noqa: NPY002
+    np.random.seed(5)  # noqa: NPY002
+    np.random.random()  # noqa: NPY002
+    in_turns([partial(draws, 1)], lambda questions: questions)
+    assert np.random.random() == expected  # noqa: NPY002
+
+
+def fails(ask: Ask) -> int:
+    ask(1)
+    raise ValueError("no cost")
+
+
+def test_error_of_a_search_ends_all() -> None:
+    go_on: Callable[[Ask], int] = partial(adds, 9, 1)
+    before = threading.active_count()
+    with pytest.raises(ValueError, match="no cost"):
+        in_turns([go_on, fails, go_on], lambda questions: questions)
+    assert threading.active_count() == before
+
+
+@pytest.mark.parametrize("kind", [RuntimeError, KeyboardInterrupt])
+def test_error_of_the_answer_ends_all(kind: type[BaseException]) -> None:
+    before = threading.active_count()
+
+    def answer(questions: list[int]) -> list[int]:
+        raise kind
+
+    with pytest.raises(kind):
+        in_turns([partial(adds, 9, 1), partial(adds, 9, 1)], answer)
+    assert threading.active_count() == before
+
+
+def test_nothing_to_search_is_nothing_found() -> None:
+    assert in_turns([], lambda questions: questions) == []
