@@ -2,7 +2,7 @@
 
 A search written as one loop asks for one cost after the other. Here several run, one at a time,
 each until it asks; when all wait, their questions are answered together, and they go on in order.
-Each has numpy's global random generator for itself, so that it draws what it would draw alone.
+Each finds a generator of its own as numpy's global one, which it must seed.
 """
 
 import threading
@@ -14,6 +14,7 @@ import numpy as np
 Question = TypeVar("Question")
 Answer = TypeVar("Answer")
 Result = TypeVar("Result")
+_RANDOM: Any = np.random
 
 
 class _Stopped(BaseException):
@@ -31,19 +32,18 @@ class _Turn(Generic[Question, Answer, Result]):
         self._search = search
         self._error: BaseException | None = None
         self._stopped = False
-        self._draws: Any = np.random.get_state()  # noqa: NPY002
+        self._generator = np.random.MT19937()
         self._on, self._off = threading.Semaphore(0), threading.Semaphore(0)
         self._thread = threading.Thread(target=self._run, daemon=True)
         self._thread.start()
 
     def go(self) -> None:
         """Let it run until it asks or ends; raise what it raises."""
-        before = np.random.get_state()  # noqa: NPY002
-        np.random.set_state(self._draws)  # noqa: NPY002
+        before = _RANDOM.get_bit_generator()
+        _RANDOM.set_bit_generator(self._generator)
         self._on.release()
         self._off.acquire()
-        self._draws = np.random.get_state()  # noqa: NPY002
-        np.random.set_state(before)  # noqa: NPY002
+        _RANDOM.set_bit_generator(before)
         if self._error is not None:
             raise self._error
 
