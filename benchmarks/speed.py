@@ -9,6 +9,7 @@ import platform
 import sys
 from pathlib import Path
 
+import campaign
 import cost
 import scaling
 import startup
@@ -117,6 +118,7 @@ SECTIONS = {
     "sets": lambda: scales("Sets", "Threads"),
     "effects": lambda: scales("Effects"),
     "startup": starts,
+    "campaign": lambda: put_section("The campaign", campaign.campaign()),
 }
 
 
