@@ -4,7 +4,14 @@ from pyrofit.solver.kernels import row
 from pyrofit.solver.kernels.functions import exp, fma, nearly_inverse
 from pyrofit.solver.kernels.jit import inner, live
 from pyrofit.solver.kernels.lanes import opposite, somewhere, where
-from pyrofit.solver.kernels.reactions import TINY, is_curved, known, ordered, react, remaining
+from pyrofit.solver.kernels.reactions import (
+    TINY,
+    decay_of_order,
+    is_curved,
+    ordered,
+    react,
+    remaining,
+)
 from pyrofit.solver.kernels.tables import at_temperature
 
 RATES_FROM_K, RATES_TO_K = 200.0, 2000.0
@@ -193,9 +200,8 @@ def react_alone(work, first, dt, network, final):
             x, behind = dt * mean, 1.0
             if curved:
                 x, behind = ordered(work.m[i, n], work.formed[i, n], x, network.order[j])
-            left, used = remaining(work.m[i, n], x, False)
-            if curved:
-                behind = known(behind, left, work.formed[i, n], network.order[j])
+            e, _ = decay_of_order(x, network.order[j], curved, False)
+            left, used = remaining(work.m[i, n], e)
             work.m_new[i, n] = left
             work.m_new[residue, n] += share * used
             book(work, n, j, used, left * behind, dt * growth, network, final)

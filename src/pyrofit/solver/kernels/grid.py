@@ -10,9 +10,9 @@ import math
 import numpy as np
 
 from pyrofit.constants import STEFAN_BOLTZMANN
-from pyrofit.solver.kernels.cells import at_temperature
 from pyrofit.solver.kernels.functions import log
 from pyrofit.solver.kernels.jit import entry, inner
+from pyrofit.solver.kernels.tables import at_temperature
 
 LEAST_CELLS, MOST_CELLS = 50, 2000
 CELLS_PER_ZONE = 1.2

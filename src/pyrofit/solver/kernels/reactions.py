@@ -5,7 +5,7 @@ from pyrofit.solver.kernels.jit import inner
 from pyrofit.solver.kernels.lanes import somewhere, where
 
 MOST_DECAY = 700.0
-"""k dt beyond which nothing is left."""
+"""k dt beyond which the exact form leaves nothing."""
 MOST_PADE = 1e60
 """The same for the Padé form."""
 LEAST_MASS = 1.0e-200
@@ -13,8 +13,8 @@ LEAST_MASS = 1.0e-200
 TINY = 1.0e-300
 NEAR = 0.4
 """Share |y| of u^(1-n) up to which the series of ln(1 - y) is good to 2e-11."""
-UNKNOWN = -1.0
-"""Stands for what follows from what is left after the step."""
+LEAST_LEFT = 1.0e-17
+"""Less of u^(1-n) than rounding leaves."""
 
 
 @inner
@@ -51,11 +51,10 @@ def order_factors(u, x, n):
     p = fma(q, fma(q, fma(q, 1.0 / 15.0, 1.0 / 13.0), 1.0 / 11.0), 1.0 / 9.0)
     p = fma(q, fma(q, fma(q, fma(q, p, 1.0 / 7.0), 1.0 / 5.0), 1.0 / 3.0), 1.0)
     factor = 2.0 * held * part * p
-    behind = held * nearly_inverse(1.0 - near)
     if somewhere(far):
         exact = -held * log(max(1.0 - y, TINY)) / where(far, y, 1.0)
         factor = where(far, where(y < 1.0, exact, MOST_DECAY / max(x, TINY)), factor)
-        behind = where(far, UNKNOWN, behind)
+    behind = where(y < 1.0, held / max(1.0 - y, LEAST_LEFT), 0.0)
     plain = n == 1.0
     return where(plain, 1.0, factor), where(plain, 1.0, behind)
 
@@ -95,7 +94,6 @@ def order_several(m, ever, j, end, room, network):
     middle = u * exp(-0.5 * min(fall, 100.0))
     for a in range(j, end):
         room.x[a] *= where(some, power(middle, network.order[a] - 1.0), 1.0)
-        room.behind[a] = UNKNOWN
 
 
 @inner
@@ -104,8 +102,9 @@ def react(m, formed, n, room, network, exact, m_new):
 
     ``m`` and ``m_new`` [kg/m2] have shape (components, cells); ``formed``, same shape, is the mass
     ever present, the reference of reaction order. Of the room, ``x[j]`` is the integral of k_j over
-    the step; ``used[j]`` becomes the mass consumed by each reaction, ``behind[j]`` what its order
-    multiplies k_j with at the end. What earlier reactions form during the step decays with phi.
+    the step, and becomes that of k_j u^(n-1); ``used[j]`` becomes the mass consumed by each
+    reaction, ``behind[j]`` what its order multiplies k_j with at the end. What earlier reactions
+    form during the step decays with phi.
     """
     for i in range(m.shape[0]):
         m_new[i, n] = m[i, n]
@@ -130,21 +129,9 @@ def consume_alone(m, formed, n, j, room, network, exact, m_new):
     curved = is_curved(network, j)
     if curved:
         room.x[j], room.behind[j] = ordered(m[i, n], formed[i, n], room.x[j], network.order[j])
-    m_new[i, n], room.used[j] = remaining(m[i, n], room.x[j], exact)
-    if curved:
-        left = m_new[i, n]
-        room.behind[j] = known(room.behind[j], left, formed[i, n], network.order[j])
+    e, _ = decay_of_order(room.x[j], network.order[j], curved, exact)
+    m_new[i, n], room.used[j] = remaining(m[i, n], e)
     m_new[network.residue[j], n] += network.residue_yield[j] * room.used[j]
-
-
-@inner
-def known(behind, left, ever, n):
-    """Return what order n multiplies k with after the step: from what is left, where unknown."""
-    unknown = behind < 0.0
-    if somewhere(unknown):
-        u = where(left > 0.0, left / max(ever, TINY), 1.0)
-        behind = where(unknown, power(u, n - 1.0), behind)
-    return behind
 
 
 @inner
@@ -154,9 +141,18 @@ def is_curved(network, j):
 
 
 @inner
-def remaining(m, x, exact):
+def decay_of_order(x, n, curved, exact):
+    """Return `decay`: exact where the order is not the first, as its closed form is."""
+    e, phi = decay(x, exact)
+    if curved and not exact:
+        e_exact, phi_exact = decay(x, True)
+        e, phi = where(n == 1.0, e, e_exact), where(n == 1.0, phi, phi_exact)
+    return e, phi
+
+
+@inner
+def remaining(m, e):
     """Return what is left of a mass, and what is used."""
-    e, _ = decay(x, exact)
     left = m * e
     left = where(left > LEAST_MASS, left, 0.0)
     return left, m - left
@@ -173,15 +169,14 @@ def consume(m, formed, n, j, end, room, network, exact, m_new):
     total = 0.0 * gained
     for a in range(j, end):
         total += room.x[a]
-    e, phi = decay(total, exact)
+    alone = end == j + 1
+    e, phi = decay_of_order(total, network.order[j], alone and is_curved(network, j), exact)
     left = m[i, n] * e + gained * phi
     left = where(left > LEAST_MASS, left, 0.0)
     consumed = (m[i, n] - left) + gained
     m_new[i, n] = left
-    if not network.first_order:
-        for a in range(j, end):
-            behind = where(gained > 0.0, UNKNOWN, room.behind[a])
-            room.behind[a] = known(behind, left, formed[i, n] + gained, network.order[a])
+    if not (exact or network.first_order) and (somewhere(gained > 0.0) or not alone):
+        mix_behind(left, formed[i, n] + gained, gained, j, end, room, network)
     for a in range(j, end):
         part = consumed
         if end > j + 1:
@@ -190,3 +185,12 @@ def consume(m, formed, n, j, end, room, network, exact, m_new):
         for b in range(m.shape[0]):
             if somewhere(network.yields[a, b] != 0.0):
                 m_new[b, n] += network.yields[a, b] * part
+
+
+@inner
+def mix_behind(left, ever, gained, j, end, room, network):
+    """Fill what multiplies k after the step of what was formed in it, or reacts more than once."""
+    u = where(left > 0.0, left / max(ever, TINY), 1.0)
+    for a in range(j, end):
+        mixed = power(u, network.order[a] - 1.0)
+        room.behind[a] = where((gained > 0.0) | (end > j + 1), mixed, room.behind[a])

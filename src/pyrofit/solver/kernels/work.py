@@ -41,7 +41,7 @@ class Room(NamedTuple):
     """Room to work on one (wide) cell, shape (reactions,)."""
 
     x: FloatArray
-    """Integral of k_j over the step."""
+    """Integral of k_j over the step, then of k_j u^(n-1)."""
     growth: FloatArray
     """d x_j / d ln k_j."""
     used: FloatArray
