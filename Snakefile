@@ -60,7 +60,6 @@ REPETITIONS = [f"{n:02d}" for n in range(study.imp.repetitions)]
 
 wildcard_constraints:
     cost="|".join(COSTS),
-    repetition=r"\d\d+",
 
 
 onsuccess:

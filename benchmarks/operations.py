@@ -116,6 +116,8 @@ PLAIN = {
     "in_lane": lambda x, lane: x,
     "with_lane": lambda x, lane, value: Counted(value),
     "in_lanes": _in_lanes,
+    "whole": _noting("bits", lambda x: float(int(x))),
+    "at_node": lambda table, i, node: table[i, int(node)],
 }
 FLOPS = {"fma": 2, "add": 1, "mul": 1, "div": 1, "root": 1}
 

@@ -60,6 +60,7 @@ from pyrofit.stages import fit
 spent["imports"] = time.perf_counter() - start - spent["library"] - spent["numba"]
 problem.simulate_gasifications = timed("solver", problem.simulate_gasifications)
 problem.Problem.evaluate_all = timed("evaluate", problem.Problem.evaluate_all)
+problem.Problem.evaluate = timed("evaluate", problem.Problem.evaluate)
 search = sceua.search_several
 def searched(*given, **named):
     before, start = spent["evaluate"], time.perf_counter()

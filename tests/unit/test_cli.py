@@ -58,7 +58,7 @@ def test_step_before_its_time_says_what_is_missing(
     name: str, tmp_path: Path, capsys: pytest.CaptureFixture[str]
 ) -> None:
     cost = ["--cost", "RMSE"]
-    options = {"imp": [*cost, "--repetition", "0"], "least-squares": cost, "cma-es": cost}
+    options = {"imp": [*cost, "--repetition", "0", "1"], "least-squares": cost, "cma-es": cost}
     given = [name, "--study", str(SMOKE), "--results", str(tmp_path), *options.get(name, [])]
     assert cli.main(given) == 2
     said = capsys.readouterr().err

@@ -381,7 +381,7 @@ def test_repetition_writes_its_best_history_and_convergence(
     own = Results(tmp_path)
     measurements.prepare(study, own)
     write_json(own.kinetics("fit.json"), read_json(results.kinetics("fit.json")))
-    fit.repeat(study, own, "RMSE", 1)
+    fit.repeat(study, own, "RMSE", [0, 1])
     found = read_json(own.repetition("RMSE", 1, ".json"))
     history = read_csv(own.repetition("RMSE", 1, ".csv.gz"))
     frame = read_csv(own.repetition("RMSE", 1, "_convergence.csv"))

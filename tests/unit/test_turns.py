@@ -7,7 +7,7 @@ from functools import partial
 import numpy as np
 import pytest
 
-from pyrofit.estimate.turns import in_turns
+from pyrofit.estimate.turns import RANDOM, in_turns
 
 Ask = Callable[[int], int]
 
@@ -63,11 +63,13 @@ def fails(ask: Ask) -> int:
 
 
 def test_error_of_a_search_ends_all() -> None:
+    generator = RANDOM.get_bit_generator()
     go_on: Callable[[Ask], int] = partial(adds, 9, 1)
     before = threading.active_count()
     with pytest.raises(ValueError, match="no cost"):
         in_turns([go_on, fails, go_on], lambda questions: questions)
     assert threading.active_count() == before
+    assert RANDOM.get_bit_generator() is generator
 
 
 @pytest.mark.parametrize("kind", [RuntimeError, KeyboardInterrupt])

@@ -124,6 +124,12 @@ def test_change_on_the_command_line_counts_like_one_in_the_file(project: Project
     assert computing(jobs) == sceua(2) | GATHERED
 
 
+def test_eight_repetitions_share_a_job_and_the_rest_run_alone(project: Project) -> None:
+    jobs = project.plan("--config", 'imp={"repetitions": 9}')
+    eights = {f"Inverse modelling, {cost}, repetition 00 to 07" for cost in COSTS}
+    assert computing(jobs) == eights | sceua(8) | GATHERED
+
+
 def test_changed_file_of_measurements_runs_its_readers_again(project: Project) -> None:
     file = project.root / "mine" / "data" / "run.csv"
     file.write_text(OWN_FILE.replace("5.0", "5.1"))

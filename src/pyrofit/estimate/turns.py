@@ -14,7 +14,8 @@ import numpy as np
 Question = TypeVar("Question")
 Answer = TypeVar("Answer")
 Result = TypeVar("Result")
-_RANDOM: Any = np.random
+RANDOM: Any = np.random
+"""Of which numpy declares too little."""
 
 
 class _Stopped(BaseException):
@@ -39,11 +40,13 @@ class _Turn(Generic[Question, Answer, Result]):
 
     def go(self) -> None:
         """Let it run until it asks or ends; raise what it raises."""
-        before = _RANDOM.get_bit_generator()
-        _RANDOM.set_bit_generator(self._generator)
-        self._on.release()
-        self._off.acquire()
-        _RANDOM.set_bit_generator(before)
+        before = RANDOM.get_bit_generator()
+        RANDOM.set_bit_generator(self._generator)
+        try:
+            self._on.release()
+            self._off.acquire()
+        finally:
+            RANDOM.set_bit_generator(before)
         if self._error is not None:
             raise self._error
 
@@ -92,8 +95,9 @@ def in_turns(
     BaseException
         What a search or the answering raises; all other searches end, too.
     """
-    turns = [_Turn[Question, Answer, Result](search) for search in searches]
+    turns: list[_Turn[Question, Answer, Result]] = []
     try:
+        turns.extend(map(_Turn, searches))
         for turn in turns:
             turn.go()
         while waiting := [turn for turn in turns if turn.waits]:
