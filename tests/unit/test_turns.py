@@ -4,7 +4,6 @@ import threading
 from collections.abc import Callable
 from functools import partial
 
-import numpy as np
 import pytest
 
 from pyrofit.estimate.turns import RANDOM, in_turns
@@ -21,8 +20,8 @@ def adds(times: int, step: int, ask: Ask) -> int:
 
 
 def draws(seed: int, ask: Ask) -> list[float]:
-    np.random.seed(seed)  # noqa: NPY002
-    return [np.random.random() + ask(0) for _ in range(5)]  # noqa: NPY002
+    RANDOM.seed(seed)
+    return [RANDOM.random() + ask(0) for _ in range(5)]
 
 
 def test_what_all_ask_is_answered_together_until_all_have_ended() -> None:
@@ -49,12 +48,12 @@ def test_each_draws_what_it_draws_alone() -> None:
 
 
 def test_the_generator_of_the_caller_is_as_it_was() -> None:
-    np.random.seed(5)  # noqa: NPY002
-    expected = np.random.random(2)[1]  # noqa: NPY002
-    np.random.seed(5)  # noqa: NPY002
-    np.random.random()  # noqa: NPY002
+    RANDOM.seed(5)
+    expected = RANDOM.random(2)[1]
+    RANDOM.seed(5)
+    RANDOM.random()
     in_turns([partial(draws, 1)], lambda questions: questions)
-    assert np.random.random() == expected  # noqa: NPY002
+    assert RANDOM.random() == expected
 
 
 def fails(ask: Ask) -> int:
