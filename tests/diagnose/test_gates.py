@@ -143,6 +143,16 @@ def test_effect_within_half_a_percent_of_a_limit_rests_there(x: float, found: bo
     assert at_limit(resting, "k_T") == ("k_T_slope_1_K" if found else "")
 
 
+@pytest.mark.parametrize(("x", "found"), [(0.0, False), (0.004, False), (0.5, False), (1.0, True)])
+def test_nothing_left_of_what_is_usually_there_is_a_state_and_no_limit(
+    x: float, found: bool
+) -> None:
+    """A factor of 0 on the loss of the back is an insulated back."""
+    trial = linear.fit_with(linear.fit(COLUMNS, truth()), "back_loss")
+    resting = linear.moved(trial, x=np.array([0.5, 0.5, x]))
+    assert at_limit(resting, "back_loss") == ("back_loss_factor" if found else "")
+
+
 @pytest.mark.parametrize(
     ("gains", "informative", "predicts"),
     [

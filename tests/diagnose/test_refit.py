@@ -9,7 +9,9 @@ import pytest
 
 from pyrofit.diagnose import refit
 from pyrofit.diagnose.descent import Fit
-from pyrofit.diagnose.refit import SAME, STARTS, from_best_start, from_elsewhere, look_at, polished
+from pyrofit.diagnose.model import extended, strength_of
+from pyrofit.diagnose.refit import SAME, from_best_start, from_elsewhere, look_at, polished
+from pyrofit.diagnose.screen import Look, tried
 from pyrofit.solver.arrays import FloatArray
 
 # The data say nothing of k, so that it is wide.
@@ -57,22 +59,52 @@ def test_search_from_elsewhere_goes_on_while_it_lowers_but_not_for_ever(
         assert found.fit.chi2 == pytest.approx(given.fit.chi2 - sum(falls[:rounds]))
 
 
+def test_starts_are_the_most_promising_strength_a_strong_one_and_the_other_side() -> None:
+    seen = two_sided = look_at(trial(), ["k_T"])[0]
+    typical = strength_of("k_T")[1].typical
+    for promising in range(seen.strengths.size):
+        ahead = np.arange(seen.strengths.size) != promising
+        seen = replace(two_sided, ahead=ahead.astype(float))
+        found = [seen.strengths[i] / typical for i in refit.starts(seen)]
+        asked = [seen.strengths[promising] / typical, max(seen.strengths / typical), -1.0]
+        assert found == pytest.approx(list(dict.fromkeys(asked)))
+
+
+def test_starts_of_an_effect_with_one_sign_hold_the_typical_strength() -> None:
+    seen = Look(
+        "in_depth", tried("in_depth"), *np.zeros((2, 3, 4)), np.array([1.0, 2.0, 3.0, 4.0]), 2
+    )
+    _, quantity = strength_of("in_depth")
+    found = seen.strengths[refit.starts(seen)]
+    assert found[0] == seen.strengths.min()
+    assert found[1:].tolist() == [seen.strengths.max(), pytest.approx(quantity.typical)]
+
+
 def test_starts_end_once_two_lead_to_the_same_valley(
     ends: Callable[[Iterable[float]], list[FloatArray]],
 ) -> None:
     given = trial()
     (seen,) = look_at(given, ["k_T"])
     best = given.fit.chi2
-    assert len(refit.starts(seen, best)) == STARTS == 3
-    for chi2, tried in (
+    assert len(refit.starts(seen)) == 3
+    for chi2, tried_starts in (
         ([best - 20.0, best - 20.1, best - 30.0], 2),
         ([best - 20.0, best - 25.0, best - 30.0], 3),
-        # The first leads nowhere: that the second comes back to no effect says nothing.
-        ([best + 5.0, best, best - 30.0], 3),
     ):
         begun = ends(chi2)
         first = from_best_start(given, seen)
-        assert first.fit.chi2 == min(best, chi2[0])
+        assert first.fit.chi2 == chi2[0]
         found = from_elsewhere(given, seen, first)
-        assert len(begun) == tried
-        assert found.fit.chi2 == min(best, *chi2[:tried])
+        assert len(begun) == tried_starts
+        assert found.fit.chi2 == min(chi2[:tried_starts])
+
+
+def test_effect_whose_start_leads_nowhere_is_fitted_from_where_it_is_absent(
+    ends: Callable[[Iterable[float]], list[FloatArray]],
+) -> None:
+    given = trial()
+    (seen,) = look_at(given, ["k_T"])
+    begun = ends([given.fit.chi2 + 5.0, given.fit.chi2 - 3.0])
+    found = from_best_start(given, seen)
+    assert found.fit.chi2 == given.fit.chi2 - 3.0
+    assert begun[1] == pytest.approx(extended(given.fit.x, "k_T", strength_of("k_T")[1].value))

@@ -16,6 +16,7 @@ from pyrofit.effects import known_effects
 from pyrofit.errors import DataError
 from pyrofit.estimate.likelihood import FAILED, Likelihood
 from pyrofit.estimate.problem import Measurements
+from pyrofit.solver.arrays import FloatArray
 
 KNOWN = {"cp": {"value": 2.3, "sd": 0.02}, "k": {"value": 0.21, "sd": 0.01}}
 
@@ -117,6 +118,21 @@ def test_model_that_never_finishes_is_a_clear_error(
     )
     with pytest.raises(DataError, match="no run within the limits of the parameters finishes"):
         set_up(study(), series)
+
+
+def test_held_out_run_that_does_not_finish_is_named_before_anything_is_searched(
+    series: Measurements, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    usual = Likelihood.curves
+
+    def failing(self: Likelihood, x: FloatArray) -> FloatArray | None:
+        held_out = [name for name, _, _ in self.problem.picks] == ["slab_60"]
+        return None if held_out else usual(self, x)
+
+    monkeypatch.setattr(Likelihood, "curves", failing)
+    described = study(calibrate={"slab_25": list(SD)}, hold_out={"slab_60": ["mlr"]})
+    with pytest.raises(DataError, match="hold_out: slab_60 does not finish with the parameters"):
+        set_up(described, series)
 
 
 def test_channels_and_effects_keep_their_order(series: Measurements) -> None:

@@ -5,18 +5,19 @@ from dataclasses import replace
 import linear
 import numpy as np
 import pytest
-from linear import POINTS, TOTAL, column_of
+from linear import POINTS, TOTAL, column_of, fit_with, moved
 
 from pyrofit.diagnose import record
 from pyrofit.diagnose.gates import HELD_OUT
 from pyrofit.diagnose.model import strength_of
 from pyrofit.diagnose.search import Means, Search, search
 from pyrofit.diagnose.verdict import (
+    ONE_FLUX,
     Judged,
     Verdict,
     _against,
     _doubts,
-    _open,
+    _without,
     alternatives,
     judge,
 )
@@ -150,7 +151,23 @@ def test_two_effects_from_the_rate_at_one_flux_are_not_confirmed() -> None:
     verdict = verdict_on(found)
     assert len(verdict.findings) == 2
     assert "only the mass loss rate at one flux is calibrated" in verdict.reasons
-    assert not verdict.confirmed, verdict.kind
+    assert verdict.kind == "ambiguous"
+    assert not verdict.confirmed
+    said = sentences(verdict)
+    assert "The model seems to lack 2 effects: " in said
+    assert "but that is not confirmed" in said
+
+
+def test_repeats_at_one_flux_are_one_flux() -> None:
+    found = searched(planted(k_T=1.0), calibrated=(0, 2))  # the rates of both experiments
+    assert verdict_on(found).kind == "named"
+    base = found.base.model.base
+    problem = base.likelihood.problem
+    runs = dict.fromkeys(problem.runs, next(iter(problem.runs.values())))
+    likelihood = replace(base.likelihood, problem=replace(problem, runs=runs))
+    model = replace(found.base.model, base=replace(base, likelihood=likelihood))
+    rounds = (replace(found.rounds[0], start=replace(found.base, model=model)),)
+    assert ONE_FLUX in _doubts(replace(found, rounds=rounds), ())
 
 
 # --- multiple -------------------------------------------------------------------------------
@@ -178,6 +195,33 @@ def test_alternatives_of_one_of_two_effects_keep_the_other() -> None:
     assert list(names) == ["k_T", "heater_ramp"] or list(names) == ["heater_ramp", "k_T"]
     assert all("c_T" in trial.effects for trial in names.values())
     assert list(dict(alternatives(found, "c_T"))) == ["c_T"]
+
+
+def test_effect_that_another_makes_superfluous_is_dropped() -> None:
+    found = searched(planted(k_T=0.8))
+    both = fit_with(found.base, "c_T", "k_T")
+    verdict = verdict_on(replace(found, end=both))
+    assert verdict.kind == "named", verdict.reasons
+    assert verdict.search.end.effects == ("k_T",)
+    rows = record._candidates(verdict.search, verdict)
+    (row,) = [row for row in rows if row["free"] == {"k_T": ["slope_1_K"]}]
+    assert row["rejected"] == ""
+
+
+def test_model_without_an_effect_is_the_best_one_at_hand() -> None:
+    """A descent from where the effects end may miss a valley that was found before."""
+    found = searched(planted(k_T=0.8, c_T=-0.7))
+    assert len(found.end.effects) == 2
+    lower = [
+        moved(trial, chi2=trial.fit.chi2 - 40.0) if trial.effects == ("k_T",) else trial
+        for trial in found.rounds[0].trials
+    ]
+    rounds = (replace(found.rounds[0], trials=tuple(lower)), *found.rounds[1:])
+    at = found.end.effects.index("c_T")
+    before, after = (
+        _without(searched, 1)[at].fit.chi2 for searched in (found, replace(found, rounds=rounds))
+    )
+    assert after == pytest.approx(before - 40.0, abs=0.1)
 
 
 # --- unknown --------------------------------------------------------------------------------
@@ -250,7 +294,7 @@ def test_claim_that_predicts_what_is_held_out_no_better_is_open_and_says_so() ->
     unsure = replace(finding, judged=(little,))
     assert unsure.kept == [little]
     assert not unsure.predicted
-    assert _open(unsure, ())
+    assert not unsure.sure
     (said,) = _doubts(found, [unsure])
     assert said.startswith("k_T: the log score of what is held out gains +1.9 only")
 

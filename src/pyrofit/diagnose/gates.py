@@ -18,7 +18,7 @@ from scipy.stats import chi2 as chi_squared
 
 from pyrofit.diagnose.descent import Fit, descend
 from pyrofit.diagnose.locate import alarm
-from pyrofit.diagnose.model import Model, curvature, model_of
+from pyrofit.diagnose.model import Model, curvature, model_of, strength_of
 from pyrofit.diagnose.refit import Trial, up_to_date
 from pyrofit.diagnose.screen import project, projector
 from pyrofit.diagnose.setup import refitted, with_noise_about
@@ -75,11 +75,14 @@ class Predictions:
 def at_limit(trial: Trial, effect: str) -> str:
     """Return the name of an effect's strength if it rests at a limit, else nothing.
 
-    A form may be as extreme as its limits allow: a step that is sharper than the data can show.
+    Nothing left of what is usually there is no limit but a state, as an insulated back is. A form
+    may be as extreme as its limits allow: a step that is sharper than the data can show.
     """
     x = trial.fit.x[trial.model.position(effect)]
+    _, quantity = strength_of(effect)
+    lowest = -1.0 if quantity.lower == 0.0 < quantity.value else AT_LIMIT
     name = trial.model.names[trial.model.position(effect)]
-    return "" if AT_LIMIT < x < 1.0 - AT_LIMIT else name
+    return "" if lowest < x < 1.0 - AT_LIMIT else name
 
 
 def disagreement(trial: Trial, effect: str) -> float:

@@ -21,10 +21,6 @@ from pyrofit.effects import known_effects
 from pyrofit.effects.base import Quantity
 from pyrofit.solver.arrays import FloatArray
 
-STARTS = 3
-"""Strengths from which an effect is fitted."""
-FAR = 4.0
-"""A start must not promise a chi-square above that of the model without the effect times this."""
 SAME = 0.5
 """Two starts whose chi-squares end as near have found the same valley; no third is needed."""
 WIDE = 0.1
@@ -79,25 +75,23 @@ def with_effect(trial: Trial, seen: Look) -> Trial:
 
 
 def from_best_start(trial: Trial, seen: Look) -> Trial:
-    """Fit an effect in addition from the most promising start; never worse than without it."""
-    _, quantity = strength_of(seen.effect)
-    null = extended(trial.fit.x, seen.effect, quantity.value)
-    none = np.zeros((trial.fit.residuals.size, 1))
-    jacobian = np.hstack([trial.fit.jacobian, none])
-    fit = Fit(trial.fit.chi2, null, trial.fit.residuals, jacobian, fresh=False)
-    best = Trial(model_with(trial, seen.effect), fit)
-    first = starts(seen, trial.fit.chi2)[0]
-    return _lower(best, descend(best.model, *_start(trial, seen, first)))
+    """Fit an effect in addition from the most promising strength; never worse than without it.
+
+    Where that ends higher, from no effect at all.
+    """
+    model = model_with(trial, seen.effect)
+    end = descend(model, _start(trial, seen, starts(seen)[0]))
+    if end.chi2 >= trial.fit.chi2:
+        _, quantity = strength_of(seen.effect)
+        end = descend(model, extended(trial.fit.x, seen.effect, quantity.value))
+    return Trial(model, end)
 
 
 def from_elsewhere(trial: Trial, seen: Look, best: Trial) -> Trial:
     """Fit an effect from the other starts, too, until two end alike."""
-    _, quantity = strength_of(seen.effect)
-    # Where the first start led nowhere, the model is the one without the effect: that is no end.
-    led = best.fit.x[-1] != fraction(quantity, quantity.value)
-    ends = [best.fit.chi2] if led else []
-    for start in starts(seen, trial.fit.chi2)[1:]:
-        end = descend(best.model, *_start(trial, seen, start))
+    ends = [best.fit.chi2]
+    for at in starts(seen)[1:]:
+        end = descend(best.model, _start(trial, seen, at))
         best = _lower(best, end)
         if any(abs(end.chi2 - other) < SAME for other in ends):
             break
@@ -109,32 +103,27 @@ def _lower(trial: Trial, end: Fit) -> Trial:
     return replace(trial, fit=end) if end.chi2 < trial.fit.chi2 else trial
 
 
-def starts(seen: Look, chi2: float) -> list[int]:
-    """Return the positions of the strengths to start from, the most promising first.
+def starts(seen: Look) -> list[int]:
+    """Return the positions of the strengths to start from.
 
-    The best of either side of the null value, and the best of the rest.
+    The most promising one; the strongest one of the typical side; the typical one turned round, or
+    itself where the other side has none. On 170 twins with one effect these lead within 1 of where
+    a descent from the truth ends in 166, the most promising one alone in 147.
     """
     _, quantity = strength_of(seen.effect)
-    above = seen.strengths > quantity.value
-    order = [int(i) for i in np.argsort(seen.ahead)]
-    sides = [next((i for i in order if above[i] == side), None) for side in (True, False)]
-    first = [i for i in order if i in sides]
-    rest = [i for i in order if i not in first]
-    chosen = [*first, *rest][:STARTS]
-    promising = [i for i in chosen if seen.ahead[i] <= FAR * chi2]
-    return promising or chosen[:1]
+    share = (seen.strengths - quantity.value) / (quantity.typical - quantity.value)
+    first = int(np.argmin(seen.ahead))
+    turned = -1.0 if np.any(share < 0.0) else 1.0
+    others = [int(np.argmax(share)), int(np.argmin(np.abs(share - turned)))]
+    return list(dict.fromkeys([first, *others]))
 
 
-def _start(trial: Trial, seen: Look, at: int) -> tuple[FloatArray, FloatArray]:
-    """Return x with the effect at a strength and the others moved towards it, and derivatives."""
-    _, quantity = strength_of(seen.effect)
+def _start(trial: Trial, seen: Look, at: int) -> FloatArray:
+    """Return x with the effect at a strength, and the others where a linear refit moves them."""
     x = extended(trial.fit.x, seen.effect, float(seen.strengths[at]))
-    change = seen.raw[:, at]
     J = trial.fit.jacobian
-    bend = curvature(J)
-    x[:-1] -= np.linalg.solve(bend, J.T @ (trial.fit.residuals + change))
-    slope = change / (x[-1] - fraction(quantity, quantity.value))
-    return x, np.column_stack([J, slope])
+    x[:-1] -= np.linalg.solve(curvature(J), J.T @ (trial.fit.residuals + seen.raw[:, at]))
+    return x
 
 
 def polished(trials: Sequence[Trial], processes: int = 1) -> list[Trial]:

@@ -34,6 +34,8 @@ AMBIGUOUS = 9.0
 """Models whose penalised chi-square is above the best one's by less are not told apart."""
 HOPELESS = 50.0
 """How far above the best chi-square a fit ends that is not searched on from other starts."""
+LITTLE = 0.01
+"""An effect that lowers chi-square by less than this part may have started in the wrong place."""
 POLISHED = 5
 """Models that are searched on from elsewhere in what the data hardly determine."""
 BEAM = 2
@@ -209,7 +211,8 @@ def _fitted(step: Round, most: int, means: Means) -> list[Trial]:
         Trial(model_with(start, look.effect), fit) for look, fit in zip(looks, fits, strict=True)
     ]
     best = min((fit.chi2 for fit in fits), default=0.0)
-    near = [i for i, fit in enumerate(fits) if fit.chi2 <= best + HOPELESS]
+    little = (1.0 - LITTLE) * start.fit.chi2
+    near = [i for i, f in enumerate(fits) if f.chi2 <= best + HOPELESS or f.chi2 > little]
     ends = shared(
         lambda k: from_elsewhere(start, looks[near[k]], trials[near[k]]).fit, len(near), processes
     )

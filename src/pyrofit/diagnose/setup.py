@@ -47,14 +47,26 @@ def set_up(study: Study, measurements: Measurements, processes: int = 1) -> Setu
     Raises
     ------
     DataError
-        A channel is too short, or no run within the limits finishes.
+        A channel is too short, no run within the limits finishes, or none of what is held out.
     """
     likelihood = likelihood_of(_problem(study, measurements))
     calibrated = tuple(range(len(calibration_channels(study))))
     base = Base(likelihood, _known(study, likelihood.problem), calibrated)
     first = _fitted(base, study.seed, processes)
+    _check_held_out(first)
     base = with_noise_about(first, processes=processes)
     return Setup(refitted(first, base), candidate_effects(study))
+
+
+def _check_held_out(trial: Trial) -> None:
+    """Refuse held-out runs that do not finish with the fitted parameters."""
+    base = trial.model.base
+    for i in base.held_out:
+        if model_of(base, {}, (i,)).likelihood.curves(trial.fit.x) is None:
+            raise DataError(
+                f"diagnosis.hold_out: {base.channels[i][0]} does not finish with the parameters "
+                "that are fitted to the calibrated signals; leave it out"
+            )
 
 
 def _problem(study: Study, measurements: Measurements) -> Problem:

@@ -11,13 +11,14 @@ from pyrofit.diagnose.gates import (
     HELD_OUT,
     INFORMATIVE,
     Trust,
+    at_limit,
     explains,
     predictions,
     trust,
 )
 from pyrofit.diagnose.locate import alarm
 from pyrofit.diagnose.refit import Trial, up_to_date
-from pyrofit.diagnose.search import AMBIGUOUS, Search, dropped
+from pyrofit.diagnose.search import AMBIGUOUS, Round, Search, dropped
 from pyrofit.diagnose.share import shared
 from pyrofit.effects import known_effects
 
@@ -84,6 +85,11 @@ class Finding:
         """Whether the leading one fits what is held out, too."""
         return bool(self.kept) and self.kept[0].trust.explains
 
+    @property
+    def sure(self) -> bool:
+        """Whether all agree on what is missing, and it explains and predicts what is not fitted."""
+        return bool(self.group) and self.predicted and self.explains
+
 
 @dataclass(frozen=True, eq=False)
 class Verdict:
@@ -98,8 +104,7 @@ class Verdict:
     @property
     def confirmed(self) -> bool:
         """Whether effects are claimed that explain and predict what was not fitted."""
-        sure = all(f.group and f.predicted and f.explains for f in self.findings)
-        return self.kind in ("named", "multiple") and sure and ONE_FLUX not in self.reasons
+        return self.kind in ("named", "multiple") and all(f.sure for f in self.findings)
 
 
 def judge(found: Search, rng: np.random.Generator, processes: int = 1) -> Verdict:
@@ -114,21 +119,20 @@ def judge(found: Search, rng: np.random.Generator, processes: int = 1) -> Verdic
     """
     if not found.end.effects:
         return _without_effects(found)
-    findings = _findings(found, rng, processes)
+    found, without = _needed(found, rng, processes)
+    findings = _findings(found, without, rng, processes)
     reasons = [f"{f.effect}: {j.rejected}" for f in findings for j in f.judged[:1] if j.rejected]
     if len(findings) == 1 and reasons and findings[0].kept:
         # The best one fails, another does not: the verdict is about that one.
-        end = findings[0].kept[0].trial
-        found = replace(found, end=end, end_alarm=alarm(end.model, end.fit, [], rng))
-        reasons = []
+        found, reasons = _ended(found, findings[0].kept[0].trial, rng), []
     if not found.end_alarm.adequate:
         reasons.append("what is left is more than noise, with every effect that gains enough")
     if reasons:
         return Verdict("unknown", found, findings, tuple(reasons))
     doubts = tuple(_doubts(found, findings))
-    if len(findings) > 1:
-        return Verdict("multiple", found, findings, doubts)
-    kind: Kind = "ambiguous" if _open(findings[0], doubts) else "named"
+    kind: Kind = "multiple" if len(findings) > 1 else "named"
+    if ONE_FLUX in doubts or (kind == "named" and not findings[0].sure):
+        kind = "ambiguous"
     return Verdict(kind, found, findings, doubts)
 
 
@@ -141,17 +145,51 @@ def _without_effects(found: Search) -> Verdict:
     return Verdict("unknown", found, (), ("no effect of the catalogue gains enough",))
 
 
-def _open(finding: Finding, reasons: Sequence[str]) -> bool:
-    sure = finding.group and finding.predicted and finding.explains
-    return not sure or ONE_FLUX in reasons
+def _needed(found: Search, rng: np.random.Generator, processes: int) -> tuple[Search, list[Trial]]:
+    """End a search without the effects that others make superfluous, the least one first.
+
+    Returns the search, and the best model without each of the effects that are left.
+    """
+    without = _without(found, processes)
+    while len(without) > 1:
+        least = min(without, key=lambda trial: trial.penalised)
+        if least.penalised - found.end.penalised >= found.spare:
+            break
+        found = _ended(found, least, rng)
+        without = _without(found, processes)
+    if all(found.end is not trial for trial in found.trials):
+        step = Round(without[0], found.end_alarm, (), (found.end,))
+        found = replace(found, rounds=(*found.rounds, step))
+    return found, without
+
+
+def _without(found: Search, processes: int) -> list[Trial]:
+    """Return the best model without each effect of a search's end: as dropped, or as at hand."""
+    dropped_ones = dropped(found.end, found.end.effects, processes)
+    at_hand = [found.base, *found.trials]
+    return [
+        up_to_date(min([one, *(t for t in at_hand if _same(t, one))], key=lambda t: t.fit.chi2))
+        for one in dropped_ones
+    ]
+
+
+def _same(trial: Trial, other: Trial) -> bool:
+    return dict(trial.model.effects) == dict(other.model.effects)
+
+
+def _ended(found: Search, end: Trial, rng: np.random.Generator) -> Search:
+    """Return a search with another end."""
+    return replace(found, end=end, end_alarm=alarm(end.model, end.fit, [], rng))
 
 
 def _doubts(found: Search, findings: Sequence[Finding]) -> list[str]:
     """Say why a claim is less than sure."""
     doubts = []
     base = found.base.model.base
-    slab = {base.channels[i] for i in base.calibrated if base.channels[i][1] != "mass_fraction"}
-    if len(slab) == 1 and {signal for _, signal in slab} == {"mlr"}:
+    slab = [base.channels[i] for i in base.calibrated if base.channels[i][1] != "mass_fraction"]
+    shown = [base.likelihood.problem.runs[name].experiment for name, _ in slab]
+    fluxes = {str(e.front.flux_W_m2) for e in shown if e.kind == "gasification"}
+    if len(fluxes) == 1 and {signal for _, signal in slab} == {"mlr"}:
         doubts.append(ONE_FLUX)
     if not all(finding.explains for finding in findings):
         doubts.append("what is held out is not explained, not even if it is fitted, too")
@@ -169,10 +207,14 @@ def _unconfirmed(judged: Judged) -> str:
     )
 
 
-def _findings(found: Search, rng: np.random.Generator, processes: int) -> tuple[Finding, ...]:
+def _findings(
+    found: Search, without: Sequence[Trial], rng: np.random.Generator, processes: int
+) -> tuple[Finding, ...]:
+    """Judge each effect of a search's end, and those that it cannot be told from.
+
+    ``without`` are the models without each of them.
+    """
     effects = found.end.effects
-    base = [found.base]  # the model without its only effect is at hand
-    without = dropped(found.end, effects, processes) if len(effects) > 1 else base
     places = [alternatives(found, effect) for effect in effects]
     # The end of the search has a place among the rivals of each of its effects.
     rivals = {_key(trial): trial for place in places for _, trial in place}
@@ -185,6 +227,9 @@ def _findings(found: Search, rng: np.random.Generator, processes: int) -> tuple[
     def judged(name: str, trial: Trial, k: int) -> Judged:
         foreseen, also = known[_key(trial)]
         about = trust(trial, name, foreseen, before[k], also)
+        if trial is not places[k][0][1]:  # the end's other effects have places of their own
+            limits = filter(None, (at_limit(trial, effect) for effect in trial.effects))
+            about = replace(about, limit=next(limits, ""))
         gain = without[k].penalised - trial.penalised
         return Judged(name, trial, about, _against(gain, found.spare, about))
 

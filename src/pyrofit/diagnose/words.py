@@ -26,7 +26,7 @@ def sentences(verdict: Verdict) -> str:
         "multiple": _multiple,
         "unknown": _unknown,
     }[verdict.kind](verdict)
-    return " ".join(said)
+    return " ".join(filter(None, said))
 
 
 def _none(verdict: Verdict) -> list[str]:
@@ -46,6 +46,9 @@ def _named(verdict: Verdict) -> list[str]:
 
 
 def _ambiguous(verdict: Verdict) -> list[str]:
+    if len(verdict.findings) > 1:
+        several = f"The model seems to lack {_several(verdict)}, but that is not confirmed."
+        return [several, _because(verdict)]
     (finding,) = verdict.findings
     said = [f"The model lacks an effect; these data leave open which: {_listed(finding)}."]
     if len(finding.effects) == 1:
@@ -57,9 +60,8 @@ def _ambiguous(verdict: Verdict) -> list[str]:
 
 
 def _multiple(verdict: Verdict) -> list[str]:
-    found = "; and ".join(_listed(finding) for finding in verdict.findings)
     return [
-        f"The model lacks {len(verdict.findings)} effects: {found}.",
+        f"The model lacks {_several(verdict)}.",
         "Each of them is needed with the others there.",
         _because(verdict),
     ]
@@ -76,8 +78,19 @@ def _unknown(verdict: Verdict) -> list[str]:
     return [*said, _because(verdict)]
 
 
+def _several(verdict: Verdict) -> str:
+    found = "; and ".join(_listed(finding) for finding in verdict.findings)
+    return f"{len(verdict.findings)} effects: {found}"
+
+
 def _because(verdict: Verdict) -> str:
-    return " ".join(f"{reason[0].upper()}{reason[1:]}." for reason in verdict.reasons)
+    return " ".join(f"{_begun(reason)}." for reason in verdict.reasons)
+
+
+def _begun(reason: str) -> str:
+    """Return a reason with its first letter large, unless it begins with an effect's name."""
+    named = reason.partition(":")[0] in known_effects()
+    return reason if named else f"{reason[0].upper()}{reason[1:]}"
 
 
 def _listed(finding: Finding) -> str:

@@ -14,10 +14,12 @@ CLAIMS = ("named", "ambiguous", "multiple")
 """Verdicts that say what is missing."""
 Verdict = Mapping[str, Any]
 _NEEDS: dict[Keys, type] = {
+    ("id",): str,
     ("case",): dict,
     ("detectability",): float,
     ("score_only",): str,
     ("verdict", "kind"): str,
+    ("verdict", "confirmed"): bool,
     ("verdict", "effects"): list,
     ("verdict", "sets"): list,
     ("gap",): list,
@@ -52,7 +54,7 @@ def diagnosed(places: Places, chunks: int) -> list[str]:
 def row_of(found: Mapping[str, Any]) -> dict[str, Any]:
     """Judge what was found of a twin by what it hides.
 
-    A claim is right if every effect it leads with is hidden; of an ambiguous one, the first counts.
+    A claim is right if every effect it leads with is hidden; of a set, the best fit counts.
     A second effect that is not there makes a claim wrong. Effects that no data of these kinds can
     tell apart count as one (`same_as`), in sets as well.
     """
@@ -88,15 +90,8 @@ def row_of(found: Mapping[str, Any]) -> dict[str, Any]:
 
 
 def leading(verdict: Verdict) -> list[str]:
-    """Return the effects that a verdict leads with; none if it claims nothing.
-
-    >>> leading({"kind": "ambiguous", "effects": ["k_T", "c_T"]})
-    ['k_T']
-    """
-    if verdict["kind"] not in CLAIMS:
-        return []
-    names = [str(name) for name in verdict["effects"]]
-    return names if verdict["kind"] == "multiple" else names[:1]
+    """Return the effects that a verdict leads with, one per finding; none if it claims nothing."""
+    return [str(name) for name in verdict["effects"]] if verdict["kind"] in CLAIMS else []
 
 
 def one_name(effect: str) -> str:
