@@ -10,7 +10,8 @@ from small import measured, study, truth_of
 from pyrofit.diagnose.descent import descend
 from pyrofit.diagnose.diagnosis import Diagnosis, examine
 from pyrofit.diagnose.model import model_of, strength_of
-from pyrofit.diagnose.search import Means, search
+from pyrofit.diagnose.rounds import Means
+from pyrofit.diagnose.search import search
 from pyrofit.diagnose.setup import set_up
 from pyrofit.effects import known_effects
 

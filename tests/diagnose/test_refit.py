@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 
 from pyrofit.diagnose import refit
-from pyrofit.diagnose.descent import Fit
+from pyrofit.diagnose.descent import ENOUGH, Fit
 from pyrofit.diagnose.model import extended, strength_of
 from pyrofit.diagnose.refit import SAME, from_best_start, from_elsewhere, look_at, polished
 from pyrofit.diagnose.screen import Look, tried
@@ -27,11 +27,12 @@ def ends(monkeypatch: pytest.MonkeyPatch) -> Callable[[Iterable[float]], list[Fl
         waiting: Iterator[float] = iter(chi2)
         begun: list[FloatArray] = []
 
-        def descend(model: object, x: FloatArray, jacobian: FloatArray | None = None) -> Fit:
+        def descend(model: object, x: FloatArray, enough: float = ENOUGH) -> Fit:
             begun.append(x)
             return replace(trial().fit, x=x, chi2=next(waiting))
 
         monkeypatch.setattr(refit, "descend", descend)
+        monkeypatch.setattr(refit, "followed", lambda trial: trial)
         return begun
 
     return planned
@@ -94,7 +95,7 @@ def test_starts_end_once_two_lead_to_the_same_valley(
         begun = ends(chi2)
         first = from_best_start(given, seen)
         assert first.fit.chi2 == chi2[0]
-        found = from_elsewhere(given, seen, first)
+        found = from_elsewhere(given, seen, first, refit.starts(seen)[1:])
         assert len(begun) == tried_starts
         assert found.fit.chi2 == min(chi2[:tried_starts])
 

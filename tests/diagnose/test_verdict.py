@@ -10,7 +10,8 @@ from linear import POINTS, TOTAL, column_of, fit_with, moved
 from pyrofit.diagnose import record
 from pyrofit.diagnose.gates import HELD_OUT
 from pyrofit.diagnose.model import strength_of
-from pyrofit.diagnose.search import Means, Search, search
+from pyrofit.diagnose.rounds import Means
+from pyrofit.diagnose.search import Search, search
 from pyrofit.diagnose.verdict import (
     ONE_FLUX,
     Judged,

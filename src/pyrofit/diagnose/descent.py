@@ -37,8 +37,13 @@ class Fit:
     fresh: bool = True
 
 
-def descend(model: Model, x: FloatArray, jacobian: FloatArray | None = None) -> Fit:
-    """Minimise chi-square from x, with derivatives to begin with if some are at hand."""
+def descend(
+    model: Model, x: FloatArray, jacobian: FloatArray | None = None, enough: float = ENOUGH
+) -> Fit:
+    """Minimise chi-square from x, with derivatives to begin with if some are at hand.
+
+    It ends where fresh derivatives promise less than ``enough``.
+    """
     x = np.clip(x, 0.0, 1.0)
     r = model.residuals(x)
     fresh = jacobian is None
@@ -47,7 +52,7 @@ def descend(model: Model, x: FloatArray, jacobian: FloatArray | None = None) -> 
     for _ in range(MOST_STEPS):
         step, promised = _step(J, r, x, damping)
         gained = -1.0
-        if promised > ENOUGH:
+        if promised > enough:
             ahead = np.clip(x + step, 0.0, 1.0)  # a rate rounded below zero is no rate
             there = model.residuals(ahead)
             gained = float(r @ r - there @ there)
@@ -55,11 +60,11 @@ def descend(model: Model, x: FloatArray, jacobian: FloatArray | None = None) -> 
             J = J + np.outer(there - r - J @ step, step) / (step @ step)
             x, r, fresh, refused = ahead, there, False, 0
             damping = max(damping * (0.2 if gained > 0.5 * promised else 1.0), 1e-6)
-        if gained > ENOUGH:
+        if gained > enough:
             continue
         if not fresh:
             J, fresh = model.jacobian(x, r), True
-        elif promised <= ENOUGH or refused == MOST_REFUSED:
+        elif promised <= enough or refused == MOST_REFUSED:
             break
         else:
             damping, refused = 10.0 * damping, refused + 1

@@ -11,7 +11,8 @@ from pyrofit.diagnose import record
 from pyrofit.diagnose.design import next_experiments
 from pyrofit.diagnose.probes import Probe, probes
 from pyrofit.diagnose.refit import up_to_date
-from pyrofit.diagnose.search import Means, Search, Tell, search
+from pyrofit.diagnose.rounds import Means, Tell
+from pyrofit.diagnose.search import Search, search
 from pyrofit.diagnose.setup import set_up
 from pyrofit.diagnose.verdict import Verdict, judge
 from pyrofit.estimate.problem import Measurements

@@ -11,8 +11,9 @@ from pyrofit.diagnose.intervals import interval, strengths, values_of
 from pyrofit.diagnose.model import model_of, strength_of
 from pyrofit.diagnose.phases import describe
 from pyrofit.diagnose.refit import Trial
+from pyrofit.diagnose.rounds import Round
 from pyrofit.diagnose.screen import confusability
-from pyrofit.diagnose.search import AMBIGUOUS, Round, Search
+from pyrofit.diagnose.search import AMBIGUOUS, Search
 from pyrofit.diagnose.verdict import Judged, Verdict
 from pyrofit.diagnose.words import form_of, sentences
 from pyrofit.effects import known_effects

@@ -5,7 +5,7 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
-from pyrofit.diagnose.descent import Fit, descend, refreshed
+from pyrofit.diagnose.descent import ENOUGH, Fit, descend, refreshed
 from pyrofit.diagnose.model import (
     Model,
     curvature,
@@ -21,6 +21,8 @@ from pyrofit.effects import known_effects
 from pyrofit.effects.base import Quantity
 from pyrofit.solver.arrays import FloatArray
 
+ROUGH = 1.0
+"""A rough descent ends where fresh derivatives promise less of chi-square."""
 SAME = 0.5
 """Two starts whose chi-squares end as near have found the same valley; no third is needed."""
 WIDE = 0.1
@@ -71,32 +73,39 @@ def model_with(trial: Trial, effect: str) -> Model:
 
 def with_effect(trial: Trial, seen: Look) -> Trial:
     """Fit an effect in addition, from several starts; never worse than without it."""
-    return from_elsewhere(trial, seen, from_best_start(trial, seen))
+    return from_elsewhere(trial, seen, from_best_start(trial, seen), starts(seen)[1:])
 
 
-def from_best_start(trial: Trial, seen: Look) -> Trial:
+def from_best_start(trial: Trial, seen: Look, enough: float = ENOUGH) -> Trial:
     """Fit an effect in addition from the most promising strength; never worse than without it.
 
     Where that ends higher, from no effect at all.
     """
     model = model_with(trial, seen.effect)
-    end = descend(model, _start(trial, seen, starts(seen)[0]))
+    end = descend(model, _start(trial, seen, starts(seen)[0]), enough=enough)
     if end.chi2 >= trial.fit.chi2:
         _, quantity = strength_of(seen.effect)
-        end = descend(model, extended(trial.fit.x, seen.effect, quantity.value))
+        end = descend(model, extended(trial.fit.x, seen.effect, quantity.value), enough=enough)
     return Trial(model, end)
 
 
-def from_elsewhere(trial: Trial, seen: Look, best: Trial) -> Trial:
-    """Fit an effect from the other starts, too, until two end alike."""
+def from_elsewhere(
+    trial: Trial, seen: Look, best: Trial, others: Sequence[int], enough: float = ENOUGH
+) -> Trial:
+    """Fit an effect from other starts, too, until two end alike."""
     ends = [best.fit.chi2]
-    for at in starts(seen)[1:]:
-        end = descend(best.model, _start(trial, seen, at))
+    for at in others:
+        end = descend(best.model, _start(trial, seen, at), enough=enough)
         best = _lower(best, end)
         if any(abs(end.chi2 - other) < SAME for other in ends):
             break
         ends.append(end.chi2)
     return best
+
+
+def followed(trial: Trial) -> Trial:
+    """Return a rough fit followed to its end."""
+    return _lower(trial, descend(trial.model, trial.fit.x, trial.fit.jacobian))
 
 
 def _lower(trial: Trial, end: Fit) -> Trial:
@@ -135,8 +144,8 @@ def polished(trials: Sequence[Trial], processes: int = 1) -> list[Trial]:
     lowered = list(range(len(found)))
     for _ in range(MOST_ROUNDS):
         begins = [(k, x) for k in lowered for x in _elsewhere(found[k])]
-        ends = _ends([(found[k].model, x) for k, x in begins], processes)
         before = [trial.fit.chi2 for trial in found]
+        ends = _ends([(found[k], x) for k, x in begins], processes)
         for (k, _), end in zip(begins, ends, strict=True):
             found[k] = _lower(found[k], end)
         found = [up_to_date(trial) for trial in found]
@@ -144,8 +153,14 @@ def polished(trials: Sequence[Trial], processes: int = 1) -> list[Trial]:
     return found
 
 
-def _ends(begins: Sequence[tuple[Model, FloatArray]], processes: int) -> list[Fit]:
-    return shared(lambda i: descend(*begins[i]), len(begins), processes)
+def _ends(begins: Sequence[tuple[Trial, FloatArray]], processes: int) -> list[Fit]:
+    return shared(lambda i: _from(*begins[i]), len(begins), processes)
+
+
+def _from(trial: Trial, x: FloatArray) -> Fit:
+    """Return where a rough descent from x ends, followed to its end if it ends lower."""
+    end = descend(trial.model, x, enough=ROUGH)
+    return followed(replace(trial, fit=end)).fit if end.chi2 < trial.fit.chi2 else end
 
 
 def up_to_date(trial: Trial) -> Trial:

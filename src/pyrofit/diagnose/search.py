@@ -1,6 +1,6 @@
 """The search: every effect alone, the leading ones in other forms, then pairs, then three."""
 
-from collections.abc import Callable, Sequence
+from collections.abc import Sequence
 from dataclasses import dataclass, replace
 
 import numpy as np
@@ -9,75 +9,21 @@ from pyrofit.diagnose.descent import Fit, descend, refreshed
 from pyrofit.diagnose.gates import at_limit
 from pyrofit.diagnose.locate import Alarm, alarm
 from pyrofit.diagnose.model import Base, model_of
-from pyrofit.diagnose.refit import (
-    Trial,
-    from_best_start,
-    from_elsewhere,
-    look_at,
-    model_with,
-    model_with_form,
-    polished,
-    up_to_date,
-    with_effect,
-    with_form,
-)
-from pyrofit.diagnose.screen import Look
+from pyrofit.diagnose.refit import Trial, look_at, model_with, up_to_date, with_effect
+from pyrofit.diagnose.rounds import Means, Round, in_order, more, singles
 from pyrofit.diagnose.setup import blurred, clearer, refitted, with_noise_about
 from pyrofit.diagnose.share import shared
-from pyrofit.effects import known_effects
 
 LEADING = 3
 """Effects about which the noise is estimated again."""
-FORMED = 5
-"""Effects that are tried in other forms."""
 AMBIGUOUS = 9.0
 """Models whose penalised chi-square is above the best one's by less are not told apart."""
-HOPELESS = 50.0
-"""How far above the best chi-square a fit ends that is not searched on from other starts."""
-LITTLE = 0.01
-"""An effect that lowers chi-square by less than this part may have started in the wrong place."""
-POLISHED = 5
-"""Models that are searched on from elsewhere in what the data hardly determine."""
 BEAM = 2
 """Models that are carried on from one effect to the next."""
 BRANCHES = 8
 """Effects that are tried as the second or third one in addition to the second best model."""
-
 CLEARER = 6.0
 """What the noise must explain more, in BIC, to be worth new fits."""
-
-Tell = Callable[[str], None]
-
-
-@dataclass(frozen=True, eq=False)
-class Means:
-    """What a search works with: draws of noise, someone who is told what goes on, processes."""
-
-    rng: np.random.Generator
-    tell: Tell = lambda text: None
-    processes: int = 1
-
-
-@dataclass(frozen=True, eq=False)
-class Round:
-    """One step of the search.
-
-    Parameters
-    ----------
-    start
-        The model that gets one effect more.
-    alarm
-        What its fit leaves.
-    looks
-        What each effect would change of it.
-    trials
-        The fits with one effect more, the best penalised chi-square first.
-    """
-
-    start: Trial
-    alarm: Alarm
-    looks: tuple[Look, ...]
-    trials: tuple[Trial, ...] = ()
 
 
 @dataclass(frozen=True, eq=False)
@@ -135,19 +81,19 @@ def _search(base: Trial, effects: Sequence[str], most: int, means: Means) -> Sea
     best, best_alarm, rounds = first.start, first.alarm, [first]
     if first.alarm.silent:
         return Search((first,), best, best_alarm, spare)
-    rounds = [replace(first, trials=_singles(first, means))]
+    rounds = [replace(first, trials=singles(first, means))]
     beam = _claims(rounds, spare)
     while beam:
         steps = [_onwards(beam[0], effects, means)]
-        more = len(beam[0].effects) - len(best.effects)
-        if best.penalised - beam[0].penalised >= more * spare:
+        added = len(beam[0].effects) - len(best.effects)
+        if best.penalised - beam[0].penalised >= added * spare:
             best, best_alarm = steps[0].start, steps[0].alarm
         if best_alarm.silent or len(beam[0].effects) >= most:
             break
         steps += [_onwards(trial, effects, means) for trial in beam[1:]]
         # The best may get any effect more; the other those that promise most.
         steps = [
-            replace(step, trials=_more(step, BRANCHES if i else len(effects), means))
+            replace(step, trials=more(step, BRANCHES if i else len(effects), means))
             for i, step in enumerate(steps)
         ]
         rounds += steps
@@ -188,67 +134,6 @@ def _look(trial: Trial, effects: Sequence[str], means: Means) -> Round:
     )
 
 
-def _singles(step: Round, means: Means) -> tuple[Trial, ...]:
-    """Fit every effect alone, then the leading ones that have several forms in these."""
-    trials = _polished(_fitted(step, len(step.looks), means), means)
-    catalogue = known_effects()
-    leading = [trial for trial in trials if catalogue[trial.effects[-1]].form][:FORMED]
-    return _sorted([*trials, *_forms(leading, means)])
-
-
-def _more(step: Round, most_tried: int, means: Means) -> tuple[Trial, ...]:
-    """Fit one effect more, those that promise most."""
-    trials = _polished(_fitted(step, most_tried, means), means)
-    return _sorted([*trials, *_forms(trials[:1], means)])
-
-
-def _fitted(step: Round, most: int, means: Means) -> list[Trial]:
-    """Fit one effect more, those that promise most, and the best of these from several starts."""
-    start, processes = step.start, means.processes
-    looks = sorted(step.looks, key=lambda look: float(look.ahead.min()))[:most]
-    fits = shared(lambda i: from_best_start(start, looks[i]).fit, len(looks), processes)
-    trials = [
-        Trial(model_with(start, look.effect), fit) for look, fit in zip(looks, fits, strict=True)
-    ]
-    best = min((fit.chi2 for fit in fits), default=0.0)
-    little = (1.0 - LITTLE) * start.fit.chi2
-    near = [i for i, f in enumerate(fits) if f.chi2 <= best + HOPELESS or f.chi2 > little]
-    ends = shared(
-        lambda k: from_elsewhere(start, looks[near[k]], trials[near[k]]).fit, len(near), processes
-    )
-    for i, end in zip(near, ends, strict=True):
-        trials[i] = replace(trials[i], fit=end)
-    return _told(trials, means)
-
-
-def _forms(leading: Sequence[Trial], means: Means) -> list[Trial]:
-    """Fit the last effect of each model with each of its form parameters free."""
-    catalogue = known_effects()
-    forms = [(t, form) for t in leading for form in catalogue[t.effects[-1]].form]
-    fits = shared(lambda i: with_form(*forms[i]).fit, len(forms), means.processes)
-    models = [model_with_form(trial, form) for trial, form in forms]
-    return _told(list(map(Trial, models, fits)), means)
-
-
-def _polished(trials: Sequence[Trial], means: Means) -> list[Trial]:
-    """Return the trials in order, the leading ones searched on from elsewhere."""
-    order = _sorted(trials)
-    leading = [t for t in order[:POLISHED] if t.penalised <= order[0].penalised + HOPELESS]
-    better = polished(leading, means.processes)
-    return list(_sorted([*better, *order[len(leading) :]]))
-
-
-def _told(trials: list[Trial], means: Means) -> list[Trial]:
-    for trial in trials:
-        free = [f"{e} ({', '.join(f)})" for e, f in trial.model.effects.items()]
-        means.tell(f"{' + '.join(free)}: chi-square {trial.fit.chi2:.1f}")
-    return trials
-
-
-def _sorted(trials: Sequence[Trial]) -> tuple[Trial, ...]:
-    return tuple(sorted(trials, key=lambda trial: trial.penalised))
-
-
 def _claims(steps: Sequence[Round], spare: float) -> list[Trial]:
     """Return the best trials that gain enough over the model they started from, each effect once.
 
@@ -262,7 +147,7 @@ def _claims(steps: Sequence[Round], spare: float) -> list[Trial]:
     ]
     inside = [trial for trial in found if not any(at_limit(trial, e) for e in trial.effects)]
     best: dict[frozenset[str], Trial] = {}
-    for trial in _sorted(inside or found):
+    for trial in in_order(inside or found):
         best.setdefault(frozenset(trial.effects), trial)
     return list(best.values())[:BEAM]
 

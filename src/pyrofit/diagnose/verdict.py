@@ -18,7 +18,8 @@ from pyrofit.diagnose.gates import (
 )
 from pyrofit.diagnose.locate import alarm
 from pyrofit.diagnose.refit import Trial, up_to_date
-from pyrofit.diagnose.search import AMBIGUOUS, Round, Search, dropped
+from pyrofit.diagnose.rounds import Round
+from pyrofit.diagnose.search import AMBIGUOUS, Search, dropped
 from pyrofit.diagnose.share import shared
 from pyrofit.effects import known_effects
 
