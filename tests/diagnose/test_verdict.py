@@ -8,6 +8,7 @@ import pytest
 from linear import POINTS, TOTAL, column_of, fit_with, moved
 
 from pyrofit.diagnose import record
+from pyrofit.diagnose.diagnosis import _undecided
 from pyrofit.diagnose.gates import HELD_OUT
 from pyrofit.diagnose.model import strength_of
 from pyrofit.diagnose.rounds import Means
@@ -315,6 +316,25 @@ def test_claim_that_does_not_explain_what_is_held_out_is_open() -> None:
     verdict = verdict_on(searched(y, calibrated=(0, 1, 2)))
     assert verdict.kind == "ambiguous"
     assert any("what is held out is not explained" in reason for reason in verdict.reasons)
+
+
+def test_next_experiment_tells_apart_the_two_best_models_of_different_effects() -> None:
+    y = planted(k_T=0.8, c_T=-0.7)
+    y[20:26] += 12.0
+    found = searched(y, ELSEWHERE, EFFECTS)
+    verdict = verdict_on(found)
+    assert verdict.kind == "unknown"
+    one, other = _undecided(verdict.search, verdict)
+    assert set(one.effects) != set(other.effects)
+    assert one.penalised == min(trial.penalised for trial in found.trials)
+    between = [t for t in found.trials if one.penalised < t.penalised < other.penalised]
+    assert all(set(trial.effects) == set(one.effects) for trial in between)
+
+
+def test_next_experiment_tells_apart_all_that_is_left_open() -> None:
+    verdict = verdict_on(searched(planted(k_T=0.8), alike("k_T", "heater_ramp")))
+    left = _undecided(verdict.search, verdict)
+    assert {trial.effects for trial in left} == {("heater_ramp",), ("k_T",)}
 
 
 # --- search and record ----------------------------------------------------------------------

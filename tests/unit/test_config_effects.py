@@ -89,6 +89,20 @@ def test_published_kinetics_keep_what_effects_add() -> None:
     assert material.reactions["A"].A_1_s == 9.98e4
 
 
+def test_published_kinetics_of_first_order_take_the_order_that_an_effect_sets() -> None:
+    study = having("paper", reaction_order={"order": 1.4})
+    reactions = study.material_with("Table 3").reactions
+    assert {name: r.order for name, r in reactions.items()} == {"A": 1.0, "B": 1.4}
+    assert reactions["B"].A_1_s == having("paper").material_with("Table 3").reactions["B"].A_1_s
+
+
+def test_order_beside_published_kinetics_of_another_order_is_refused() -> None:
+    study = given("paper", reaction_order={"order": 1.4})
+    study["kinetics"]["sets"]["Table 3"]["reactions"]["B"]["order"] = 2.0
+    with pytest.raises(StudyError, match=r"imp\.kinetics 'Table 3' brings an order of its own"):
+        as_study(study, "paper.yaml")
+
+
 @pytest.mark.parametrize(
     ("effects", "words"),
     [

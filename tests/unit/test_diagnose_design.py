@@ -124,7 +124,7 @@ def test_separation_by_a_tga_is_the_formula_written_out() -> None:
 
 def test_ideas_cover_fluxes_thicknesses_backs_and_rates() -> None:
     problem = twin(STEP, WITH_TGA).model.likelihood.problem
-    names = [idea.choices[0][0] for idea in ideas(problem)]
+    names = [idea.choices[0][0] for idea in ideas(problem, problem)]
     assert names == [
         "flux_15_kW_m2",
         "flux_40_kW_m2",
@@ -143,7 +143,7 @@ def test_ideas_cover_fluxes_thicknesses_backs_and_rates() -> None:
 
 def test_back_temperature_that_was_not_calibrated_is_an_idea() -> None:
     problem = twin(nothing, MLR).model.likelihood.problem
-    choices = [choice for idea in ideas(problem) for choice in idea.choices]
+    choices = [choice for idea in ideas(problem, problem) for choice in idea.choices]
     words = {name: (words, signals) for name, words, signals in choices}
     assert words["capa_25+back_temperature"] == (
         "gasification at 25 kW/m2 again, with the back temperature",
@@ -151,11 +151,27 @@ def test_back_temperature_that_was_not_calibrated_is_an_idea() -> None:
     )
 
 
+def test_what_is_held_out_is_measured_and_no_idea() -> None:
+    everything = twin(nothing, WITH_TGA).model.likelihood.problem
+    fitted = {"capa_25": everything.runs["capa_25"]}
+    names = [choice[0] for idea in ideas(everything, everything) for choice in idea.choices]
+    partly = replace(everything, runs=fitted)
+    left = [choice[0] for idea in ideas(partly, everything) for choice in idea.choices]
+    assert left
+    assert set(left) < set(names)
+    assert "flux_60_kW_m2" in [i.choices[0][0] for i in ideas(partly, partly)]
+    bare = replace(fitted["capa_25"], requests={"mlr": fitted["capa_25"].requests["mlr"]})
+    partly = replace(everything, runs={"capa_25": bare})
+    again = "capa_25+back_temperature"
+    assert again in [i.choices[0][0] for i in ideas(partly, partly)]
+    assert again not in [i.choices[0][0] for i in ideas(partly, everything)]
+
+
 def test_changed_experiments_are_what_they_are_called() -> None:
     problem = twin(nothing, WITH_TGA).model.likelihood.problem
     made = {
         idea.choices[0][0]: idea.change(problem.runs[idea.like].experiment)
-        for idea in ideas(problem)
+        for idea in ideas(problem, problem)
     }
     assert made["flux_90_kW_m2"].front.flux_W_m2 == 9e4
     assert made["flux_90_kW_m2"].front.gas_temperature_K == 365.0

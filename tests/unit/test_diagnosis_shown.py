@@ -80,6 +80,7 @@ def found(study: Study, kind: str) -> dict[str, Any]:
             "reasons": [] if quiet else ["chi-square falls by 400.", "predictions improve"],
         },
         "noise": [noise_of(c) for c in channels(study)],
+        "extended": {"parameters": {} if quiet else {"k": parameter(0.31, "W/(m K)")}},
         "base": {
             "chi2": 330.0 if quiet else 2000.0,
             "points": 320,
@@ -223,8 +224,7 @@ def candidates(kind: str) -> list[dict[str, Any]]:
                     }
                     for effect, names in free.items()
                     for name in names
-                }
-                | {"k": parameter(0.31, "W/(m K)")},
+                },
                 "adequate": best,
                 "disagree": 0.25 if best else None,
                 "predictions": {"slab_60": 12.0, "held out": -1.5} if best else {},

@@ -9,6 +9,7 @@ from pyrofit.config.effects import check_true_effects
 from pyrofit.config.numbers import check_numbers, check_parameter, check_parameters, require
 from pyrofit.config.uses import names_in, parameters_in, parameters_of_tga
 from pyrofit.effects.base import ADDED
+from pyrofit.effects.substance import main_reaction
 from pyrofit.errors import suggest
 from pyrofit.model.base import FRACTION
 from pyrofit.model.experiment import Gasification, Tga
@@ -78,10 +79,12 @@ def _check_compositions(study: Study) -> None:
         )
         compositions[f"{place}.composition"] = study.material_with(label).composition
         require(
-            label != study.imp.kinetics or "reaction_order" not in study.with_effects,
+            label != study.imp.kinetics
+            or "reaction_order" not in study.with_effects
+            or chosen.reactions[main_reaction(study.material)[0]].order == 1.0,
             "effects.reaction_order",
-            f"imp.kinetics '{label}' brings its own orders; leave the effect out, or describe or "
-            "fit the kinetics",
+            f"imp.kinetics '{label}' brings an order of its own; leave the effect out, or describe "
+            "or fit the kinetics",
         )
     for place, composition in compositions.items():
         try:

@@ -9,6 +9,7 @@ from pyrofit.config.diagnosis import Diagnosis
 from pyrofit.config.diagnosis_checks import check_diagnosis
 from pyrofit.config.terms import Terms, TermSpec, channels_of
 from pyrofit.effects.base import ADDED
+from pyrofit.effects.substance import main_reaction
 from pyrofit.model.base import Number, Part
 from pyrofit.model.experiment import AnyExperiment, Gasification, Tga
 from pyrofit.model.material import Material
@@ -239,12 +240,14 @@ class Study(Part):
             return self.material
         assert self.kinetics is not None
         chosen = self.kinetics.sets[kinetics]
+        # What effects have set stays, too.
+        ordered = main_reaction(self.material)[0] if "reaction_order" in self.with_effects else ""
         reactions = {
             name: reaction.model_copy(
                 update={
                     "A_1_s": chosen.reactions[name].A_1_s,
                     "E_J_mol": chosen.reactions[name].E_J_mol,
-                    "order": chosen.reactions[name].order,
+                    "order": reaction.order if name == ordered else chosen.reactions[name].order,
                     "reference_temperature_K": None,
                     "reference_rate_1_s": None,
                 }

@@ -63,11 +63,12 @@ class Design:
 
 @dataclass(frozen=True, eq=False)
 class _Kind:
-    """Noise of a signal in this study, and the spacing of its points [s]."""
+    """Noise of a signal in this study, the spacing of its points and its clock's error [s]."""
 
     sd: float
     correlation: Correlation
     spacing_s: float
+    timing_s: float
 
 
 @dataclass(frozen=True, eq=False)
@@ -92,7 +93,8 @@ def next_experiments(trials: Sequence[Trial]) -> list[Design]:
     if len(trials) < 2:
         return []
     found: list[Design] = []
-    for idea in ideas(trials[0].model.likelihood.problem):
+    model = trials[0].model
+    for idea in ideas(model.likelihood.problem, model.base.likelihood.problem):
         found += _designs(trials, idea)
     return sorted(found, key=lambda d: (d.separation_sd, sum(d.pairs.values())), reverse=True)
 
@@ -220,24 +222,25 @@ def _burnt_out(trial: Trial, idea: Idea) -> float:
 
 def _kind(base: Base, signal: str) -> _Kind:
     """Return the noise of a signal's channel that is neither the quietest nor the noisiest."""
-    terms = base.likelihood.problem.cost.terms
+    terms, runs = base.likelihood.problem.cost.terms, base.likelihood.problem.runs
     found = [
         _Kind(
             float(np.median(noise.sd)),
             noise.correlation,
             float(np.median(np.diff(term.target.time_s))),
+            runs[experiment].experiment.signals[name].timing_s,
         )
-        for (_, name), noise, (_, term) in zip(
+        for (experiment, name), noise, (_, term) in zip(
             base.channels, base.likelihood.noise, terms, strict=True
         )
         if name == signal
     ]
     if not found:
-        return _Kind(USUAL_SD[signal], Correlation(), SPACING_S)
+        return _Kind(USUAL_SD[signal], Correlation(), SPACING_S, TIMING_S)
     return sorted(found, key=lambda kind: kind.sd)[len(found) // 2]
 
 
 def _noise(kind: _Kind, time: FloatArray, curve: FloatArray) -> NoiseModel:
     """Return the noise of a new record, with the clock's error where the curve is steep."""
-    steep = TIMING_S * np.gradient(curve, time)
+    steep = kind.timing_s * np.gradient(curve, time)
     return NoiseModel(np.hypot(kind.sd, steep), kind.correlation)

@@ -10,8 +10,8 @@ from pyrofit.config import Study
 from pyrofit.diagnose import record
 from pyrofit.diagnose.design import next_experiments
 from pyrofit.diagnose.probes import Probe, probes
-from pyrofit.diagnose.refit import up_to_date
-from pyrofit.diagnose.rounds import Means, Tell
+from pyrofit.diagnose.refit import Trial, up_to_date
+from pyrofit.diagnose.rounds import Means, Tell, in_order
 from pyrofit.diagnose.search import Search, search
 from pyrofit.diagnose.setup import set_up
 from pyrofit.diagnose.verdict import Verdict, judge
@@ -63,7 +63,7 @@ def examine(
     found = verdict.search
     content = record.content(study, found, verdict)
     content["probes"] = [_shown(p) for p in (_probes(found, verdict, processes) if advise else [])]
-    designs = _designs(found, verdict) if advise else []
+    designs = next_experiments(_undecided(found, verdict)) if advise else []
     content["next_experiment"] = [asdict(design) for design in designs]
     tell(content["verdict"]["words"])
     return Diagnosis(found, verdict, content, record.curves(found))
@@ -83,11 +83,12 @@ def _shown(probe: Probe) -> dict[str, Any]:
     return {key: value for key, value in asdict(probe).items() if key != "coefficients"}
 
 
-def _designs(found: Search, verdict: Verdict) -> list[Any]:
-    """Return the experiments that would tell apart what this one does not."""
+def _undecided(found: Search, verdict: Verdict) -> list[Trial]:
+    """Return the models that are not told apart, or else the two best of different effects."""
     for finding in verdict.findings:
         if len(finding.kept) > 1:
-            return list(next_experiments([judged.trial for judged in finding.kept[:3]]))
-    first = {trial.effects: trial for trial in reversed(found.rounds[0].trials)}
-    best = sorted(first.values(), key=lambda trial: trial.penalised)[:2]
-    return list(next_experiments(list(map(up_to_date, best)))) if len(best) == 2 else []
+            return [judged.trial for judged in finding.kept]
+    best: dict[frozenset[str], Trial] = {}
+    for trial in in_order(found.trials):
+        best.setdefault(frozenset(trial.effects), trial)
+    return [up_to_date(trial) for trial in list(best.values())[:2]]

@@ -50,26 +50,37 @@ class Idea:
         return max((signals for _, _, signals in self.choices), key=len)
 
 
-def ideas(problem: Problem) -> Iterator[Idea]:
+def ideas(problem: Problem, measured: Problem) -> Iterator[Idea]:
     """Yield new tests like those of a problem.
 
     At other fluxes, thicknesses and heating rates, with the back insulated, and the measured ones
     with the back temperature where that was not measured.
+
+    Parameters
+    ----------
+    problem
+        What was calibrated.
+    measured
+        That, and what was held out.
     """
-    runs = problem.runs
-    slabs = {n: r.experiment for n, r in runs.items() if isinstance(r.experiment, Gasification)}
-    yield from _other_fluxes(slabs)
+    slabs, others = _slabs(problem), _slabs(measured)
+    yield from _other_fluxes(slabs, others)
     for name, slab in slabs.items():
-        if "back_temperature" not in runs[name].requests:
+        if "back_temperature" not in measured.runs[name].requests:
             yield Idea(name, lambda e: e, (_with_back(name, f"{_words(name, slab)} again"),))
-        measured = all(isinstance(layer.thickness_m, float) for layer in slab.sample.layers)
-        for word, factor in THICKNESSES.items() if measured else ():
+        known = all(isinstance(layer.thickness_m, float) for layer in slab.sample.layers)
+        for word, factor in THICKNESSES.items() if known else ():
             words = f"{_words(name, slab)}, {word} the thickness"
             yield Idea(name, _thicker(factor), _choices(f"{name}_{word}_thickness", words))
         if has_open_back(slab):
             words = f"{_words(name, slab)}, the back insulated"
             yield Idea(name, _insulated, _choices(f"{name}_insulated_back", words))
-    yield from _other_rates({n: r.experiment for n, r in runs.items()})
+    yield from _other_rates({n: r.experiment for n, r in problem.runs.items()})
+
+
+def _slabs(problem: Problem) -> dict[str, Gasification]:
+    found = {name: run.experiment for name, run in problem.runs.items()}
+    return {name: e for name, e in found.items() if isinstance(e, Gasification)}
 
 
 def _words(name: str, slab: Gasification) -> str:
@@ -86,12 +97,12 @@ def _with_back(design: str, words: str) -> tuple[str, str, tuple[str, ...]]:
     return f"{design}+back_temperature", f"{words}, with the back temperature", signals
 
 
-def _other_fluxes(slabs: dict[str, Gasification]) -> Iterator[Idea]:
+def _other_fluxes(
+    slabs: dict[str, Gasification], others: dict[str, Gasification]
+) -> Iterator[Idea]:
     """Yield tests at fluxes that were not measured, each like the one at the nearest flux."""
-    fluxes = {name: slab.front.flux_W_m2 for name, slab in slabs.items()}
-    measured = {name: q for name, q in fluxes.items() if isinstance(q, float)}
-    taken = list(measured.values())
-    wanted = FLUXES_W_M2 + tuple(f * q for q in taken for f in FLUX_FACTORS)
+    measured, taken = _fluxes(slabs), list(_fluxes(others).values())
+    wanted = FLUXES_W_M2 + tuple(f * q for q in measured.values() for f in FLUX_FACTORS)
     for q in wanted if measured else ():
         if any(abs(q - other) < SAME_FLUX * other for other in taken):
             continue
@@ -99,6 +110,11 @@ def _other_fluxes(slabs: dict[str, Gasification]) -> Iterator[Idea]:
         like = min(measured, key=lambda name: abs(measured[name] - q))
         choices = _choices(f"flux_{q / 1e3:g}_kW_m2", f"gasification at {q / 1e3:g} kW/m2")
         yield Idea(like, _at_flux(q), choices)
+
+
+def _fluxes(slabs: dict[str, Gasification]) -> dict[str, float]:
+    found = {name: slab.front.flux_W_m2 for name, slab in slabs.items()}
+    return {name: q for name, q in found.items() if isinstance(q, float)}
 
 
 def _at_flux(flux: float) -> Callable[[Gasification], Gasification]:

@@ -1,11 +1,13 @@
 """What the calibration leaves of each parameter: 95 % intervals."""
 
+from dataclasses import replace
 from typing import Any
 
 import numpy as np
 
 from pyrofit.diagnose.model import curvature, fraction, model_of, name_of
 from pyrofit.diagnose.refit import Trial
+from pyrofit.diagnose.screen import projector
 from pyrofit.effects import known_effects
 from pyrofit.estimate.profile import QUANTILE
 from pyrofit.solver.arrays import FloatArray
@@ -13,16 +15,13 @@ from pyrofit.solver.arrays import FloatArray
 
 def values_of(trial: Trial) -> tuple[FloatArray, FloatArray]:
     """Return values and standard deviations in SI units; misfit beyond the noise widens these."""
-    problem = trial.model.likelihood.problem
-    inflation = max(1.0, trial.fit.chi2 / trial.fit.residuals.size)
-    return trial.model.likelihood.values(trial.fit.x), np.sqrt(
-        np.diag(covariance(trial.fit.jacobian, inflation))
-    ) * (problem.upper - problem.lower)
-
-
-def covariance(jacobian: FloatArray, inflation: float) -> FloatArray:
-    """Return (J^T J / inflation + 12 I)^-1, of fractions of the limits' distances."""
-    return np.asarray(np.linalg.inv(curvature(jacobian, inflation)))
+    problem, fit = trial.model.likelihood.problem, trial.fit
+    freedom = fit.residuals.size - float(np.sum(projector(fit) ** 2))
+    inflation = max(1.0, fit.chi2 / freedom)
+    # (J^T J / inflation + 12 I)^-1, of fractions of the limits' distances.
+    covariance = np.linalg.inv(curvature(fit.jacobian, inflation))
+    sd = np.sqrt(np.diag(covariance)) * (problem.upper - problem.lower)
+    return trial.model.likelihood.values(fit.x), sd
 
 
 def interval(
@@ -77,11 +76,8 @@ def _with_form(trial: Trial, effect: str, i: int) -> dict[str, float | None]:
     for parameter in form:
         at = model.names.index(name_of(effect, parameter))
         x[at] = fraction(quantities[parameter], quantities[parameter].value)
-    wide = Trial(model, trial.fit)
     jacobian = model.jacobian(x, model.residuals(x))
-    inflation = max(1.0, trial.fit.chi2 / trial.fit.residuals.size)
+    wide = Trial(model, replace(trial.fit, x=x, jacobian=jacobian))
     at = model.names.index(trial.model.names[i])
-    problem = model.likelihood.problem
-    sd = np.sqrt(np.diag(covariance(jacobian, inflation))) * (problem.upper - problem.lower)
-    found = interval(wide, at, model.likelihood.values(x), sd)
+    found = interval(wide, at, *values_of(wide))
     return {"low_form": found["low"], "high_form": found["high"]}

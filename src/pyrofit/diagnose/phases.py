@@ -69,8 +69,8 @@ def _window(trial: Trial, w: Stretch, of: Course, critical: float) -> dict[str, 
         "end_K": None if T is None else float(T[-1]),
         "conversion": _ends(of.conversion[part]),
         "surface_temperature_K": None if surface is None else _ends(surface[part]),
-        "phase": PHASES[int(np.median(of.phase[part]))],
-        "sign": w.sign,
+        "phase": PHASES[int(np.sort(of.phase[part])[(w.end - w.start) // 2])],
+        "sign": 1 if mean > 0.0 else -1,
         "mean": mean,
         "relative": mean / level if level > 0.0 else None,
         "unit": UNITS[signal],
@@ -113,7 +113,7 @@ def _of_slab(curves: Mapping[str, FloatArray]) -> Course:
     level = float(np.median(rate[middle])) if middle.any() else float(rate.max())
     started = _since(rate >= _STARTED * rate.max())
     risen = started & _since(rate >= _RISEN * level)
-    warmed = _since(back - back[0] > _WARMED * (front - front[0]))
+    warmed = _since((front > front[0]) & (back - back[0] > _WARMED * (front - front[0])))
     phase = np.zeros(X.size)
     for k, passed in enumerate((started, risen, risen & warmed, X >= _NEARLY, X >= _GONE), 1):
         phase[passed] = k

@@ -10,7 +10,7 @@ from pyrofit.diagnose.gates import HELD_OUT, at_limit
 from pyrofit.diagnose.intervals import interval, strengths, values_of
 from pyrofit.diagnose.model import model_of, strength_of
 from pyrofit.diagnose.phases import describe
-from pyrofit.diagnose.refit import Trial
+from pyrofit.diagnose.refit import Trial, up_to_date
 from pyrofit.diagnose.rounds import Round
 from pyrofit.diagnose.screen import confusability
 from pyrofit.diagnose.search import AMBIGUOUS, Search
@@ -37,6 +37,7 @@ def content(study: Study, found: Search, verdict: Verdict) -> dict[str, Any]:
         "needed": found.spare + float(np.log(found.base.model.points)),
         "ambiguity": AMBIGUOUS,
         "candidates": _candidates(found, verdict),
+        "extended": {"parameters": _extended(study, found)},
         "gap": _gap(found),
     }
 
@@ -110,6 +111,11 @@ def _parameters(study: Study, trial: Trial) -> dict[str, Any]:
             "at_limit": bool(x <= 0.0 or x >= 1.0),
         }
     return found
+
+
+def _extended(study: Study, found: Search) -> dict[str, Any]:
+    """Return the base's parameters beside the effects that the search ended with, if any."""
+    return _parameters(study, up_to_date(found.end)) if found.end.effects else {}
 
 
 def _windows(found: Search) -> list[dict[str, Any]]:

@@ -20,6 +20,8 @@ AMBIGUOUS = 9.0
 """Models whose penalised chi-square is above the best one's by less are not told apart."""
 BEAM = 2
 """Models that are carried on from one effect to the next."""
+FAR = 10.0
+"""One whose chi-square is that of the best one times more than this is not carried on."""
 BRANCHES = 8
 """Effects that are tried as the second or third one in addition to the second best model."""
 CLEARER = 6.0
@@ -149,7 +151,8 @@ def _claims(steps: Sequence[Round], spare: float) -> list[Trial]:
     best: dict[frozenset[str], Trial] = {}
     for trial in in_order(inside or found):
         best.setdefault(frozenset(trial.effects), trial)
-    return list(best.values())[:BEAM]
+    leading = list(best.values())[:BEAM]
+    return [trial for trial in leading if trial.fit.chi2 <= FAR * leading[0].fit.chi2]
 
 
 def dropped(trial: Trial, effects: Sequence[str], processes: int = 1) -> list[Trial]:

@@ -5,6 +5,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from pyrofit.errors import DataError
 from pyrofit.estimate.noise import NoiseModel, estimate_noise
 from pyrofit.estimate.problem import Problem
 from pyrofit.solver.arrays import FloatArray
@@ -207,7 +208,10 @@ def likelihood_of(problem: Problem) -> Likelihood:
     for (name, signal, _), (_, term) in zip(problem.picks, problem.cost.terms, strict=True):
         described = problem.runs[name].experiment.signals[signal]
         stated_sds, timing_s = described.uncertainty_sds, described.timing_s
-        noise.append(estimate_noise(term.target, signal, stated_sds, timing_s))
+        try:
+            noise.append(estimate_noise(term.target, signal, stated_sds, timing_s))
+        except DataError as error:
+            raise DataError(f"{name}: {error}") from None
     return Likelihood(problem, tuple(noise))
 
 

@@ -148,7 +148,7 @@ def _of_few_points(stated: FloatArray | None, count: int, quantity: str) -> Nois
     if stated is None:
         raise DataError(
             f"{quantity}: {count} points tell nothing of their noise, at least {FEWEST_POINTS} do; "
-            "give an uncertainty, or leave the signal out of imp.identification"
+            "give an uncertainty, or do not fit the signal"
         )
     return NoiseModel(stated, Correlation(), origin="stated", unit=UNITS[quantity])
 

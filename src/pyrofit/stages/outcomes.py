@@ -210,6 +210,7 @@ _DIAGNOSED: dict[Keys, type] = {
     ("needed",): float,
     ("ambiguity",): float,
     ("extended_study",): str,
+    ("extended", "parameters"): dict,
     **{("verdict", key): str for key in ("kind", "words")},
     **{("verdict", key): list for key in ("effects", "groups", "forms", "sets", "reasons")},
     **{("base", key): float for key in ("chi2", "points", "chi2_critical", "score_critical")},

@@ -184,8 +184,7 @@ def strengths(study: Study, results: Results) -> pd.DataFrame:
 def parameters(study: Study, results: Results) -> pd.DataFrame:
     """List the parameters of the base, without and with the effects of the verdict."""
     found = outcomes.diagnosis(study, results)
-    chosen = leading(found)
-    after = chosen["parameters"] if chosen else {}
+    after = found["extended"]["parameters"] if leading(found) else {}
     rows = [
         {
             "parameter": name,
