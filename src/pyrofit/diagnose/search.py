@@ -26,6 +26,8 @@ BRANCHES = 8
 """Effects that are tried as the second or third one in addition to the second best model."""
 CLEARER = 6.0
 """What the noise must explain more, in BIC, to be worth new fits."""
+MISFIT = 2.0
+"""Where more than this of chi-square per point is left, misfit was not taken for noise."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -68,7 +70,8 @@ def search(base: Trial, effects: Sequence[str], most: int, means: Means) -> Sear
         Noise, listener, processes.
     """
     found = _search(base, effects, most, means)
-    if found.end_alarm.adequate or not found.end.effects:
+    off = found.end.fit.chi2 > MISFIT * found.end.model.points
+    if found.end_alarm.adequate or not found.end.effects or off:
         return found
     sharper = with_noise_about(found.end, processes=means.processes)
     if clearer(found.end.model.base, sharper) < CLEARER:

@@ -156,6 +156,39 @@ def gaps(twins: pd.DataFrame) -> Canvas:
     return canvas
 
 
+def sets(twins: pd.DataFrame) -> Canvas:
+    """Draw how many effects are left open, and what held-out predictions gain by those claimed."""
+    claimed = twins[(twins["kind"] == "effect") & twins["claim"]]
+    canvas, axes = style.panels(2, 2, style.TWO_COLUMNS, 75.0)
+    style.letter(axes, ["effects not told apart", "held-out prediction"])
+    looks = (("truth in the set", True), ("truth not in the set", False))
+    sizes = np.arange(1, 1 + int(np.ceil(claimed["set_size"].max())) if len(claimed) else 2)
+    below = np.zeros(sizes.size)
+    for i, (_, inside) in enumerate(looks):
+        of = np.ceil(claimed[claimed["in_set"] == inside]["set_size"])
+        counts = np.array([np.sum(of == size) for size in sizes])
+        hatch = "" if inside else "////"
+        axes[0].bar(sizes, counts, bottom=below, color=style.colour(i), hatch=hatch, width=0.7)
+        part = claimed[(claimed["in_set"] == inside) & claimed["held_out_gain"].notna()]
+        axes[1].plot(part["detectability"], part["held_out_gain"], **_look(i), alpha=0.75)
+        below += counts
+    axes[0].set_xticks(sizes)
+    axes[0].set_xlim(0.3, sizes[-1] + 0.7)
+    axes[0].set_ylim(top=1.05 * max(below.max(), 1.0))
+    axes[1].margins(0.05)
+    axes[0].set_xlabel("effects in the set")
+    axes[0].set_ylabel("twins")
+    axes[1].axhline(0.0, color="0.4", linewidth=0.7)
+    axes[1].set_xscale("log")
+    axes[1].set_yscale("symlog", linthresh=2.0)
+    axes[1].set_xlabel("detectability [standard deviations]")
+    axes[1].set_ylabel("gain of the log score [–]")
+    style.legend_below(
+        canvas, [style.line(words, **_look(i)) for i, (words, _) in enumerate(looks)]
+    )
+    return canvas
+
+
 HIDDEN_FIGURES: dict[str, tuple[Callable[[pd.DataFrame], Canvas], str]] = {
     "confusion": (
         confusion,
@@ -176,6 +209,11 @@ HIDDEN_FIGURES: dict[str, tuple[Callable[[pd.DataFrame], Canvas], str]] = {
         gaps,
         "Root mean square of the whitened residuals before and after the named effect was added; "
         "1 is noise alone. Below the line the model came nearer.",
+    ),
+    "sets": (
+        sets,
+        "Numbers of effects that a claim leaves open, and what the log score of the held-out "
+        "prediction gains by the claimed effect, against detectability.",
     ),
 }
 """How each figure is drawn, and what it shows."""

@@ -71,8 +71,8 @@ def _summary(found: pd.DataFrame, seeds: str) -> str:
         "measurements of each, not its truth. Detectability is by how many standard deviations of "
         f"the noise the base model fails at its best; {DETECTABLE:g} are held to suffice. A claim "
         "is a verdict of one effect, of an ambiguous set, or of several effects; its name is the "
-        "first of a set, and a second effect that is not there makes it wrong. Effects that these "
-        "data cannot tell apart (a heater's ramp, a clock that is late) count as one.\n"
+        "best fit of a set, and a second effect that is not there makes it wrong. Effects that "
+        "these data cannot tell apart (a heater's ramp, a clock that is late) count as one.\n"
     )
 
 

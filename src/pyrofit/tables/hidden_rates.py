@@ -60,6 +60,10 @@ def _claimed(among: Mask) -> Mask:
     return lambda t: among(t) & t["claim"]
 
 
+def _verdict(among: Mask, kind: str) -> Mask:
+    return lambda t: among(t) & (t["verdict"] == kind)
+
+
 def _candidate(among: Mask) -> Mask:
     return lambda t: among(t) & t["is_candidate"]
 
@@ -71,6 +75,8 @@ def _predicted(t: pd.DataFrame) -> "pd.Series[bool]":
 RATES = (
     Rate("effect of 10 sd or more: claimed", _plain, "claim"),
     Rate("effect of 10 sd or more, claimed: name right", _claimed(_plain), "right"),
+    Rate("effect of 10 sd or more, named: name right", _verdict(_plain, "named"), "right"),
+    Rate("effect of 10 sd or more, left open: best right", _verdict(_plain, "ambiguous"), "right"),
     Rate("effect of 10 sd or more, claimed: group right", _claimed(_plain), "group_right"),
     Rate("effect of 10 sd or more: largest score right", _plain, "score_only_right"),
     Rate(
