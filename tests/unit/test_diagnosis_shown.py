@@ -2,6 +2,7 @@
 
 import json
 import re
+from itertools import pairwise
 from pathlib import Path
 from typing import Any
 
@@ -15,7 +16,7 @@ from pyrofit.config import Study
 from pyrofit.diagnose.model import strength_of
 from pyrofit.effects import known_effects
 from pyrofit.errors import DataError
-from pyrofit.figures import FIGURES
+from pyrofit.figures import FIGURES, style
 from pyrofit.figures.diagnosis import DIAGNOSIS_FIGURES, draw_all, figures_of
 from pyrofit.files import Results, write_csv, write_json, write_text
 from pyrofit.report import diagnosis as report
@@ -414,6 +415,30 @@ def test_figures_are_drawn_alike_each_time(kind: str, tmp_path: Path) -> None:
     first = {name: results.diagnosis(f"{name}.svg").read_bytes() for name in names}
     draw_all(results, study)
     assert {name: results.diagnosis(f"{name}.svg").read_bytes() for name in names} == first
+
+
+def test_candidates_of_three_effects_stay_on_the_canvas(tmp_path: Path) -> None:
+    study, results = diagnosed(tmp_path, "unknown")
+    path = results.diagnosis("diagnosis.json")
+    found = json.loads(path.read_text())
+    forms = {"glass_transition": "temperature_K", "emissivity_conversion": "", "melting": "width_K"}
+    for candidate in found["candidates"]:
+        candidate["effects"] = list(forms)
+        candidate["free"] = {e: ["strength", *filter(None, [form])] for e, form in forms.items()}
+        candidate["rejected"] = "emissivity_conversion: predictions do not improve, " * 4
+    write_json(path, found)
+    with style.style():
+        canvas = DIAGNOSIS_FIGURES["ranking"].make(study, results)
+        canvas.draw_without_rendering()
+        (ax,) = canvas.axes
+        extents = [text.get_window_extent() for text in (*ax.get_yticklabels(), *ax.texts)]
+    assert len(extents) == 2 * len(found["candidates"])
+    width = canvas.bbox.width
+    assert ax.get_window_extent().width > 0.3 * width
+    assert all(0.0 <= extent.x0 < extent.x1 <= width for extent in extents)
+    # Names do not run into each other.
+    names = sorted(extents[: len(found["candidates"])], key=lambda extent: -extent.y1)
+    assert all(above.y0 >= below.y1 for above, below in pairwise(names))
 
 
 def test_figures_of_an_earlier_diagnosis_are_removed(tmp_path: Path) -> None:

@@ -21,6 +21,8 @@ Found = Mapping[str, Any]
 FOLDER = "diagnosis"
 MOST = 20
 """Candidates that a figure shows."""
+WRAP = 42
+"""Letters of a line beside the candidates."""
 MOST_DESIGNS = 12
 FAMILIES = {"apparatus": "xxxx", "environment": "////", "material": ""}
 """Hatching of each family, so that they stay apart in grey."""
@@ -35,7 +37,11 @@ def _ranking(study: Study, results: Results) -> Canvas:
     found = outcomes.diagnosis(study, results)
     shown = ranked(found)[:MOST]
     lowest = float(shown[0]["penalised"])
-    canvas, (ax,) = style.panels(1, 1, style.TWO_COLUMNS, 26.0 + 5.2 * len(shown))
+    labels = [textwrap.fill(_label(candidate), WRAP) for candidate in shown]
+    reasons = [_reason(found, candidate) for candidate in shown]
+    lines = max(text.count("\n") + 1 for text in (*labels, *reasons))
+    height = max(5.2, 0.8 + 2.6 * lines)
+    canvas, (ax,) = style.panels(1, 1, style.TWO_COLUMNS, 26.0 + height * len(shown))
     limit = float(found["ambiguity"])
     base, points = float(found["base"]["chi2"]) - lowest, float(found["base"]["points"])
     needed = base - (float(found["needed"]) - np.log(points))
@@ -47,14 +53,13 @@ def _ranking(study: Study, results: Results) -> Canvas:
     for i, candidate in enumerate(shown):
         look = _REJECTED if candidate["rejected"] else _KEPT
         ax.plot([candidate["penalised"] - lowest], [i], **look, markersize=4.5)
-        reason = textwrap.shorten(remark(found, candidate), 58, placeholder=" …")
         place: dict[str, Any] = {
             "va": "center",
             "ha": "left",
             "transform": ax.get_yaxis_transform(),
         }
-        ax.text(1.015, i, reason, fontsize=6.5, **place)
-    ax.set_yticks(range(len(shown)), [_label(candidate) for candidate in shown])
+        ax.text(1.015, i, reasons[i], fontsize=6.5, **place)
+    ax.set_yticks(range(len(shown)), labels, fontsize=6.5)
     ax.set_ylim(len(shown) - 0.4, -0.6)
     ax.set_xlim(min(-0.3, 1.3 * needed), right)
     ax.tick_params(axis="y", length=0)
@@ -69,6 +74,12 @@ def _ranking(study: Study, results: Results) -> Canvas:
     ]
     style.legend_below(canvas, entries)
     return canvas
+
+
+def _reason(found: Found, candidate: Found) -> str:
+    """Say what speaks against a candidate, in two lines at most."""
+    said = textwrap.shorten(remark(found, candidate), 2 * WRAP - 6, placeholder=" …")
+    return textwrap.fill(said, WRAP, break_on_hyphens=False)
 
 
 def _label(candidate: Found) -> str:
