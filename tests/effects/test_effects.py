@@ -1,5 +1,6 @@
 """Every effect: the base model at null, another one elsewhere, always balanced."""
 
+import re
 from itertools import combinations, product
 
 import numpy as np
@@ -181,6 +182,8 @@ def test_effect_states_sane_limits_in_known_units(effect: Effect) -> None:
         assert quantity.typical != quantity.value
         assert quantity.label
         assert quantity.source
+        symbol = re.escape(quantity.symbol)
+        assert re.search(rf"(?<![A-Za-z_]){symbol}(?![A-Za-z_0-9])", effect.equation), symbol
         Parameter(unit=quantity.unit, lower=quantity.lower, upper=quantity.upper)
     if effect.same_as:
         assert EFFECTS[effect.same_as].group == effect.group

@@ -9,6 +9,7 @@ EFFECT = Effect(
     equation="h = max(h_0 + dh, 0)",
     strength={
         "change_W_m2K": Quantity(
+            symbol="dh",
             label="change of the back's heat transfer coefficient",
             unit="W/(m2 K)",
             lower=-10.0,

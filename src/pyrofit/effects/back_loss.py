@@ -9,6 +9,7 @@ EFFECT = Effect(
     equation="q_back = s (h (T - T_gas) + eps sigma (T^4 - T_wall^4))",
     strength={
         "factor": Quantity(
+            symbol="s",
             label="factor on the heat loss of the back",
             unit="-",
             lower=0.0,

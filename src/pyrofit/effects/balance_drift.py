@@ -15,6 +15,7 @@ EFFECT = Effect(
     equation="mlr = mlr_0 + b",
     strength={
         "offset_kg_m2s": Quantity(
+            symbol="b",
             label="offset of the mass loss rate",
             unit="kg/(m2 s)",
             lower=-1e-3,

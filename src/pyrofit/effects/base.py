@@ -25,6 +25,8 @@ ADDED = "extra_"
 class Quantity:
     """A parameter of an effect, SI units."""
 
+    symbol: str
+    """As in the effect's equation."""
     label: str
     unit: str
     lower: float

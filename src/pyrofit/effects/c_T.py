@@ -10,6 +10,7 @@ EFFECT = Effect(
     equation="c(T) = c max(0.01, 1 + b (T - 475 K))",
     strength={
         "slope_1_K": Quantity(
+            symbol="b",
             label="relative slope of the specific heat",
             unit="1/K",
             lower=-1e-3,

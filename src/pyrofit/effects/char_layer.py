@@ -22,9 +22,10 @@ EFFECT = Effect(
     title="char layer",
     family="material",
     group="residue",
-    equation="main reactant -> its products + y char; c and eps of char are the reactant's",
+    equation="main reactant -> its products + y char of rho_c and k_c; c and eps as the reactant's",
     strength={
         "yield": Quantity(
+            symbol="y",
             label="char yield of the main reaction",
             unit="-",
             lower=0.0,
@@ -36,6 +37,7 @@ EFFECT = Effect(
     },
     form={
         "density_kg_m3": Quantity(
+            symbol="rho_c",
             label="density of the char",
             unit="kg/m3",
             lower=50.0,
@@ -44,6 +46,7 @@ EFFECT = Effect(
             typical=150.0,
         ),
         "conductivity_W_mK": Quantity(
+            symbol="k_c",
             label="conductivity of the char",
             unit="W/(m K)",
             lower=0.03,

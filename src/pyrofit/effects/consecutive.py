@@ -31,9 +31,10 @@ EFFECT = Effect(
     family="material",
     group="reactions",
     equation="main reactant -> its products + y intermediate; intermediate -> gas, "
-    "k(T) = 0.001 1/s, no heat",
+    "k(T_i) = 0.001 1/s, E_i, no heat",
     strength={
         "yield": Quantity(
+            symbol="y",
             label="yield of the intermediate",
             unit="-",
             lower=0.0,
@@ -45,6 +46,7 @@ EFFECT = Effect(
     },
     form={
         "temperature_K": Quantity(
+            symbol="T_i",
             label="temperature at which the intermediate reacts at 0.001 1/s",
             unit="K",
             lower=500.0,
@@ -53,6 +55,7 @@ EFFECT = Effect(
             typical=620.0,
         ),
         "E_J_mol": Quantity(
+            symbol="E_i",
             label="activation energy of the intermediate",
             unit="J/mol",
             lower=5e4,

@@ -24,6 +24,7 @@ EFFECT = Effect(
     equation="q''' = -h (P/A) (T - T_gas), T_gas of the back",
     strength={
         "h_W_m2K": Quantity(
+            symbol="h",
             label="heat transfer coefficient of the edge",
             unit="W/(m2 K)",
             lower=0.0,
@@ -34,6 +35,7 @@ EFFECT = Effect(
     },
     form={
         "perimeter_per_area_1_m": Quantity(
+            symbol="P/A",
             label="perimeter over area of the sample",
             unit="1/m",
             lower=10.0,

@@ -9,6 +9,7 @@ EFFECT = Effect(
     equation="eps = min(max(eps_0 + d (1 - m/m_0), 0), 1)",
     strength={
         "change": Quantity(
+            symbol="d",
             label="change of the emissivity until all has reacted",
             unit="-",
             lower=-0.3,

@@ -9,6 +9,7 @@ EFFECT = Effect(
     equation="q(t) = q_0(t) max(1 + d tau (1 - exp(-t/tau)), 0)",
     strength={
         "drift_1_s": Quantity(
+            symbol="d",
             label="relative change of the flux per second at the start",
             unit="1/s",
             lower=-1e-3,
@@ -19,6 +20,7 @@ EFFECT = Effect(
     },
     form={
         "time_s": Quantity(
+            symbol="tau",
             label="time constant of the flux",
             unit="s",
             lower=20.0,

@@ -9,6 +9,7 @@ EFFECT = Effect(
     equation="q(t) = q_0(t) max(1 + d t, 0)",
     strength={
         "drift_1_s": Quantity(
+            symbol="d",
             label="relative change of the flux per second",
             unit="1/s",
             lower=-3e-4,

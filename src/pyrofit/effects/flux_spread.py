@@ -9,6 +9,7 @@ EFFECT = Effect(
     equation="y = mean of y(q) over q_0 (1 - s) to q_0 (1 + s)",
     strength={
         "spread": Quantity(
+            symbol="s",
             label="half the relative spread of the flux",
             unit="-",
             lower=0.0,

@@ -9,6 +9,7 @@ EFFECT = Effect(
     equation="q = (T_sample - T_foil) / R",
     strength={
         "resistance_m2K_W": Quantity(
+            symbol="R",
             label="contact resistance of the foil",
             unit="m2 K/W",
             lower=0.0,

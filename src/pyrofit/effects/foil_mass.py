@@ -9,6 +9,7 @@ EFFECT = Effect(
     equation="s rho c delta dT/dt = q_in - q_out",
     strength={
         "factor": Quantity(
+            symbol="s",
             label="factor on the mass of the foil",
             unit="-",
             lower=0.0,

@@ -11,6 +11,7 @@ EFFECT = Effect(
     strength={"rise_K": RISE},
     form={
         "time_s": Quantity(
+            symbol="tau",
             label="time constant of the gas temperature",
             unit="s",
             lower=5.0,

@@ -3,6 +3,7 @@
 from pyrofit.effects.base import Effect, Quantity, on
 
 RISE = Quantity(
+    symbol="dT",
     label="rise of the gas temperature before the front",
     unit="K",
     lower=-50.0,

@@ -10,6 +10,7 @@ EFFECT = Effect(
     equation="c(T) = c + s / (1 + exp(-(T - T_g)/w))",
     strength={
         "step_J_kgK": Quantity(
+            symbol="s",
             label="step of the specific heat",
             unit="J/(kg K)",
             lower=0.0,
@@ -20,6 +21,7 @@ EFFECT = Effect(
     },
     form={
         "temperature_K": Quantity(
+            symbol="T_g",
             label="glass transition temperature",
             unit="K",
             lower=330.0,
@@ -29,6 +31,7 @@ EFFECT = Effect(
             source="PMMA: 378 to 395 K, MaCFP PMMA",
         ),
         "width_K": Quantity(
+            symbol="w",
             label="width of the glass transition",
             unit="K",
             lower=2.0,

@@ -9,6 +9,7 @@ EFFECT = Effect(
     equation="q(t) = q_0(t) (1 - exp(-t/tau))",
     strength={
         "time_s": Quantity(
+            symbol="tau",
             label="time constant of the heater",
             unit="s",
             lower=0.0,

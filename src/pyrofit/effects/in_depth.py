@@ -4,6 +4,7 @@ from pyrofit.effects.base import Effect, Quantity, on
 from pyrofit.effects.substance import refuse_translucent
 
 LENGTH = Quantity(
+    symbol="l",
     label="absorption length",
     unit="m",
     lower=0.0,

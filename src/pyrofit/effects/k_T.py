@@ -10,6 +10,7 @@ EFFECT = Effect(
     equation="k(T) = k max(0.01, 1 + b (T - 475 K))",
     strength={
         "slope_1_K": Quantity(
+            symbol="b",
             label="relative slope of the conductivity",
             unit="1/K",
             lower=-2e-3,

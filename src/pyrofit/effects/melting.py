@@ -10,6 +10,7 @@ EFFECT = Effect(
     equation="c(T) = c + dh_m exp(-((T - T_m)/w)^2/2) / (sqrt(2 pi) w)",
     strength={
         "heat_J_kg": Quantity(
+            symbol="dh_m",
             label="heat of melting",
             unit="J/kg",
             lower=0.0,
@@ -21,6 +22,7 @@ EFFECT = Effect(
     },
     form={
         "temperature_K": Quantity(
+            symbol="T_m",
             label="melting temperature",
             unit="K",
             lower=350.0,
@@ -29,6 +31,7 @@ EFFECT = Effect(
             typical=420.0,
         ),
         "width_K": Quantity(
+            symbol="w",
             label="standard deviation of the melting peak",
             unit="K",
             lower=6.0,

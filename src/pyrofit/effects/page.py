@@ -15,7 +15,8 @@ Those of one group are forms of one another.
 |---|---|
 """
 _COLUMNS = (
-    "| parameter | what it is | unit | from | to | {} | source |\n|---|---|---|---|---|---|---|"
+    "| parameter | symbol | what it is | unit | from | to | {} | source |\n"
+    "|---|---|---|---|---|---|---|---|"
 )
 
 
@@ -43,7 +44,7 @@ def _section(effect: Effect) -> str:
 
 def _rows(quantities: dict[str, Quantity]) -> list[str]:
     return [
-        f"| `{name}` | {q.label} | {q.unit} | {q.lower:g} | {q.upper:g} "
+        f"| `{name}` | {q.symbol} | {q.label} | {q.unit} | {q.lower:g} | {q.upper:g} "
         f"| {q.value:g}, {q.typical:g} | {q.source} |"
         for name, q in quantities.items()
     ]

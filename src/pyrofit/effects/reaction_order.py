@@ -19,6 +19,7 @@ EFFECT = Effect(
     equation="r = k m_0 (m/m_0)^n",
     strength={
         "order": Quantity(
+            symbol="n",
             label="order of the main reaction",
             unit="-",
             lower=0.3,

@@ -10,6 +10,7 @@ EFFECT = Effect(
     equation="V(T) = V_0 (1 + s / (1 + exp(-(T - T_s)/w)))",
     strength={
         "step": Quantity(
+            symbol="s",
             label="relative rise of the volume",
             unit="-",
             lower=0.0,
@@ -20,6 +21,7 @@ EFFECT = Effect(
     },
     form={
         "temperature_K": Quantity(
+            symbol="T_s",
             label="temperature of swelling",
             unit="K",
             lower=350.0,
@@ -28,6 +30,7 @@ EFFECT = Effect(
             typical=500.0,
         ),
         "width_K": Quantity(
+            symbol="w",
             label="width of swelling",
             unit="K",
             lower=2.0,

@@ -9,6 +9,7 @@ EFFECT = Effect(
     equation="T_sample(t) = T(t) - beta tau",
     strength={
         "time_s": Quantity(
+            symbol="tau",
             label="time by which the sample lags behind",
             unit="s",
             lower=0.0,

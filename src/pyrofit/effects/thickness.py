@@ -9,6 +9,7 @@ EFFECT = Effect(
     equation="L = s L_0",
     strength={
         "factor": Quantity(
+            symbol="s",
             label="factor on the thickness",
             unit="-",
             lower=0.9,

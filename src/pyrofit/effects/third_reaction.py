@@ -24,9 +24,10 @@ EFFECT = Effect(
     title="third reaction",
     family="material",
     group="reactions",
-    equation="r = (k_main + k) m, k(600 K) given; same products, same heat",
+    equation="r = (k_main + k) m, k(600 K) = k_600, E_c; same products, same heat",
     strength={
         "rate_1_s": Quantity(
+            symbol="k_600",
             label="rate constant of the competing reaction at 600 K",
             unit="1/s",
             lower=0.0,
@@ -38,6 +39,7 @@ EFFECT = Effect(
     },
     form={
         "E_J_mol": Quantity(
+            symbol="E_c",
             label="activation energy of the competing reaction",
             unit="J/mol",
             lower=3e4,

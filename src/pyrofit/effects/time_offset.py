@@ -16,6 +16,7 @@ EFFECT = Effect(
     equation="y(t) = y_0(t - t_0)",
     strength={
         "delay_s": Quantity(
+            symbol="t_0",
             label="time by which the records are late",
             unit="s",
             lower=-25.0,

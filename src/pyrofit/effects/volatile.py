@@ -52,9 +52,11 @@ EFFECT = Effect(
     title="volatile",
     family="material",
     group="volatiles",
-    equation="main component = (1 - w) itself + w volatile; volatile -> gas, k(T) = 0.001 1/s",
+    equation="main component = (1 - w) itself + w volatile; volatile -> gas, "
+    "k(T_v) = 0.001 1/s, E_v",
     strength={
         "share": Quantity(
+            symbol="w",
             label="mass fraction of the volatile",
             unit="-",
             lower=0.0,
@@ -66,6 +68,7 @@ EFFECT = Effect(
     },
     form={
         "temperature_K": Quantity(
+            symbol="T_v",
             label="temperature at which the volatile leaves at 0.001 1/s",
             unit="K",
             lower=350.0,
@@ -74,6 +77,7 @@ EFFECT = Effect(
             typical=470.0,
         ),
         "E_J_mol": Quantity(
+            symbol="E_v",
             label="activation energy of the volatile",
             unit="J/mol",
             lower=3e4,
