@@ -71,6 +71,29 @@ def test_linear_model_ends_at_the_normal_equations_solution() -> None:
         assert end.chi2 == pytest.approx(float(np.sum((A @ exact - y) ** 2)), abs=ENOUGH)
 
 
+def test_fixed_parameter_keeps_its_value_and_the_others_are_best_beside_it() -> None:
+    rng = np.random.default_rng(1)
+    A, y = 20.0 * rng.standard_normal((30, 4)), 20.0 * rng.standard_normal(30)
+    start = np.array([0.5, 0.3, 0.5, 0.5])
+    end = descend(fake(linear(A, A @ np.array([0.4, 0.7, 0.6, 0.5]) + 0.05 * y)), start, fixed=1)
+    assert end.x[1] == 0.3
+    rest = [0, 2, 3]
+    target = A @ np.array([0.4, 0.7, 0.6, 0.5]) + 0.05 * y - 0.3 * A[:, 1]
+    exact = np.linalg.lstsq(A[:, rest], target, rcond=None)[0]
+    assert np.all((exact > 0.0) & (exact < 1.0))
+    assert end.x[rest] == pytest.approx(exact, abs=2e-3)
+
+
+def test_rough_descent_asks_less_and_ends_near() -> None:
+    rough, fine = fake(rosenbrock), fake(rosenbrock)
+    ends = [
+        descend(model, np.array([0.2, 0.75]), enough=enough)
+        for model, enough in ((rough, 5.0), (fine, ENOUGH))
+    ]
+    assert len(rough.asked) < len(fine.asked)
+    assert ends[1].chi2 <= ends[0].chi2
+
+
 @pytest.mark.parametrize("seed", range(8))
 def test_parameters_rest_exactly_at_limits_and_the_others_are_best_beside_them(seed: int) -> None:
     rng = np.random.default_rng(seed)

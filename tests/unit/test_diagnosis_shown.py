@@ -103,9 +103,27 @@ def found(study: Study, kind: str) -> dict[str, Any]:
         "ambiguity": 9.0,
         "candidates": [] if quiet else candidates(kind),
         "gap": [gap_of(c, effects) for c in channels(study)],
+        "profiles": [profile_of(effect) for effect in effects],
         "probes": probes() if kind == "unknown" else [],
         "next_experiment": designs() if kind == "ambiguous" else [],
         "extended_study": "extended.yaml" if effects else "",
+    }
+
+
+def profile_of(effect: str) -> dict[str, Any]:
+    ((parameter, quantity),) = known_effects()[effect].strength.items()
+    strengths = quantity.typical * np.array([0.8, 0.9, 1.0, 1.1, 1.2])
+    return {
+        "effect": effect,
+        "parameter": parameter,
+        "unit": quantity.unit,
+        "value": strengths.tolist(),
+        "rise": [6.0, 1.5, 0.0, 1.5, 6.0],
+        "level": 3.84,
+        "low": 0.84 * quantity.typical,
+        "high": 1.16 * quantity.typical,
+        "low_open": False,
+        "high_open": False,
     }
 
 
@@ -402,6 +420,7 @@ def test_every_figure_there_is_is_drawn(kind: str, tmp_path: Path) -> None:
     wanted |= set() if kind == "none" else {"ranking"}
     wanted |= {"probes"} if kind == "unknown" else set()
     wanted |= {"next_experiments"} if kind == "ambiguous" else set()
+    wanted |= {"profiles"} if EFFECTS_OF[kind] else set()
     assert set(draw_all(results, study)) == wanted
     folder = tmp_path / "diagnosis"
     assert {p.stem for p in folder.glob("*.png")} == wanted

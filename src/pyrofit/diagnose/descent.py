@@ -38,19 +38,26 @@ class Fit:
 
 
 def descend(
-    model: Model, x: FloatArray, jacobian: FloatArray | None = None, enough: float = ENOUGH
+    model: Model,
+    x: FloatArray,
+    jacobian: FloatArray | None = None,
+    enough: float = ENOUGH,
+    fixed: int | None = None,
 ) -> Fit:
     """Minimise chi-square from x, with derivatives to begin with if some are at hand.
 
-    It ends where fresh derivatives promise less than ``enough``.
+    It ends where fresh derivatives promise less than ``enough``. The parameter at position
+    ``fixed`` keeps its value.
     """
     x = np.clip(x, 0.0, 1.0)
     r = model.residuals(x)
     fresh = jacobian is None
-    J = model.jacobian(x, r) if jacobian is None else jacobian
+    held = [] if fixed is None else [fixed]
+    J = _without(held, model.jacobian(x, r)) if jacobian is None else jacobian
     damping, refused = 1e-3, 0
     for _ in range(MOST_STEPS):
         step, promised = _step(J, r, x, damping)
+        step[held] = 0.0
         gained = -1.0
         if promised > enough:
             ahead = np.clip(x + step, 0.0, 1.0)  # a rate rounded below zero is no rate
@@ -63,12 +70,18 @@ def descend(
         if gained > enough:
             continue
         if not fresh:
-            J, fresh = model.jacobian(x, r), True
+            J, fresh = _without(held, model.jacobian(x, r)), True
         elif promised <= enough or refused == MOST_REFUSED:
             break
         else:
             damping, refused = 10.0 * damping, refused + 1
     return Fit(float(r @ r), x, r, J, fresh)
+
+
+def _without(held: list[int], jacobian: FloatArray) -> FloatArray:
+    """Return derivatives by which parameters that are held change nothing."""
+    jacobian[:, held] = 0.0
+    return jacobian
 
 
 def refreshed(model: Model, fit: Fit) -> Fit:

@@ -10,6 +10,7 @@ from pyrofit.config import Study
 from pyrofit.diagnose import record
 from pyrofit.diagnose.design import next_experiments
 from pyrofit.diagnose.probes import Probe, probes
+from pyrofit.diagnose.profiles import profiles
 from pyrofit.diagnose.refit import Trial, up_to_date
 from pyrofit.diagnose.rounds import Means, Tell, in_order
 from pyrofit.diagnose.search import Search, search
@@ -62,6 +63,7 @@ def examine(
     verdict = judge(found, means.rng, processes)
     found = verdict.search
     content = record.content(study, found, verdict)
+    content["profiles"] = profiles(found.end, processes) if advise else []
     content["probes"] = [_shown(p) for p in (_probes(found, verdict, processes) if advise else [])]
     designs = next_experiments(_undecided(found, verdict)) if advise else []
     content["next_experiment"] = [asdict(design) for design in designs]

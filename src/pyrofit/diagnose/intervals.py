@@ -5,6 +5,7 @@ from typing import Any
 
 import numpy as np
 
+from pyrofit.diagnose.descent import Fit
 from pyrofit.diagnose.model import curvature, fraction, model_of, name_of
 from pyrofit.diagnose.refit import Trial
 from pyrofit.diagnose.screen import projector
@@ -16,12 +17,19 @@ from pyrofit.solver.arrays import FloatArray
 def values_of(trial: Trial) -> tuple[FloatArray, FloatArray]:
     """Return values and standard deviations in SI units; misfit beyond the noise widens these."""
     problem, fit = trial.model.likelihood.problem, trial.fit
-    freedom = fit.residuals.size - float(np.sum(projector(fit) ** 2))
-    inflation = max(1.0, fit.chi2 / freedom)
-    # (J^T J / inflation + 12 I)^-1, of fractions of the limits' distances.
-    covariance = np.linalg.inv(curvature(fit.jacobian, inflation))
-    sd = np.sqrt(np.diag(covariance)) * (problem.upper - problem.lower)
+    sd = np.sqrt(np.diag(covariance(fit))) * (problem.upper - problem.lower)
     return trial.model.likelihood.values(fit.x), sd
+
+
+def inflation(fit: Fit) -> float:
+    """Return chi-square per degree of freedom, 1 at least."""
+    freedom = fit.residuals.size - float(np.sum(projector(fit) ** 2))
+    return max(1.0, fit.chi2 / freedom)
+
+
+def covariance(fit: Fit) -> FloatArray:
+    """Return (J^T J / inflation + 12 I)^-1, of fractions of the limits' distances."""
+    return np.asarray(np.linalg.inv(curvature(fit.jacobian, inflation(fit))))
 
 
 def interval(

@@ -1,10 +1,11 @@
 """Profiles of chi-square, and the intervals read from them."""
 
 from dataclasses import dataclass
+from typing import Protocol
 
 import numpy as np
 
-from pyrofit.estimate.likelihood import Likelihood, Optimum
+from pyrofit.estimate.likelihood import Optimum
 from pyrofit.solver.arrays import FloatArray
 
 QUANTILE = 1.96
@@ -62,8 +63,15 @@ def _crossing(x: FloatArray, root: FloatArray, top: float) -> tuple[float] | Non
     return (float(x[k - 1] + share * (x[k] - x[k - 1])),)
 
 
+class Fits(Protocol):
+    """What a profile asks of a likelihood."""
+
+    def descend(self, x: FloatArray, fixed: int) -> Optimum:
+        """Return the least chi-square from x, one parameter kept."""
+
+
 def profile_of(
-    likelihood: Likelihood,
+    likelihood: Fits,
     optimum: Optimum,
     i: int,
     follow: FloatArray,
@@ -88,7 +96,7 @@ def profile_of(
 class _Line:
     """One parameter at given values, all others at their best."""
 
-    likelihood: Likelihood
+    likelihood: Fits
     optimum: Optimum
     i: int
     follow: FloatArray

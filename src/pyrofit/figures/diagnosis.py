@@ -12,9 +12,10 @@ from matplotlib.figure import Figure as Canvas
 from pyrofit.config import Study
 from pyrofit.figures import style
 from pyrofit.figures.diagnosed_curves import has, of_signal
+from pyrofit.figures.diagnosed_shapes import probes, profiles
 from pyrofit.files import Results
 from pyrofit.stages import outcomes
-from pyrofit.tables.diagnosis import CLAIMS, ranked, remark, shown_unit
+from pyrofit.tables.diagnosis import CLAIMS, ranked, remark
 
 Found = Mapping[str, Any]
 
@@ -149,24 +150,6 @@ def _bars(ax: Axes, rows: Sequence[Found], critical: float) -> None:
     ax.set_xlabel("standard deviations [–]")
 
 
-def _probes(study: Study, results: Results) -> Canvas:
-    """Draw the free corrections that were put into the model."""
-    found = outcomes.diagnosis(study, results)["probes"]
-    canvas, axes = style.panels(len(found), 2, style.TWO_COLUMNS, 55.0)
-    titles = [f"{p['what']}: absorbs {100.0 * p['absorbed']:.0f} %" for p in found]
-    style.letter(axes, [textwrap.fill(title, 44) for title in titles])
-    for ax, probe in zip(axes, found, strict=True):
-        x, y = np.array(probe["shape"], dtype=float).reshape(-1, 2).T
-        unit, factor = shown_unit(probe["unit"])
-        # Without a unit it is a factor, else a change.
-        ax.axhline(1.0 if probe["unit"] == "-" else 0.0, color="0.3", linewidth=0.5)
-        ax.plot(x, factor * y, color=style.COLOURS[0])
-        ax.set_xlabel("time [s]" if probe["probe"] == "flux" else "temperature [K]")
-        what = "factor on the" if probe["unit"] == "-" else "change of the"
-        ax.set_ylabel(f"{what} {probe['probe'].replace('_', ' ')}\n[{unit}]")
-    return canvas
-
-
 def _next(study: Study, results: Results) -> Canvas:
     """Draw how well each planned experiment would separate what is not told apart."""
     found = outcomes.diagnosis(study, results)
@@ -241,6 +224,14 @@ DIAGNOSIS_FIGURES: dict[str, Figure] = {
         "little to be claimed. In brackets: parameters of the form that were fitted, too. "
         f"At most {MOST} are shown.",
     ),
+    "profiles": Figure(
+        applies=lambda found: bool(found["profiles"]),
+        make=profiles,
+        title="How sure the strengths are",
+        caption="Rise of chi-square with the strength of each effect found, all else fitted anew "
+        "at every point. The 95 % interval lies below the dashed line, at 3.84 times chi-square "
+        "per degree of freedom; dotted: the effect is absent.",
+    ),
     "effects": Figure(
         applies=lambda found: bool(found["screen"]) and bool(found["confusability"]["effects"]),
         make=_effects,
@@ -253,7 +244,7 @@ DIAGNOSIS_FIGURES: dict[str, Figure] = {
     ),
     "probes": Figure(
         applies=lambda found: any(p["shape"] for p in found["probes"]),
-        make=_probes,
+        make=probes,
         title="What would absorb the misfit",
         caption="Free curves, each put into the model in one place and fitted with all parameters, "
         "and the share of the excess of chi-square that they absorb; grey lines: no correction.",

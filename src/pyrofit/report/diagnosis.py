@@ -76,7 +76,7 @@ def section(study: Study, results: Results) -> Section:
         found["verdict"]["words"],
         (
             *parts(_where(found), "windows", *_CURVES),
-            *parts(_what(found), "strengths", "candidates", "ranking"),
+            *parts(_what(found), "strengths", "profiles", "candidates", "ranking"),
             *parts("", "probes"),
             *parts(_gap(found), "gap"),
             Part("How sure that is", text=_sure(study, found)),
@@ -101,15 +101,20 @@ def _named(found: Found) -> str:
 
 def _ambiguous(found: Found) -> str:
     verdict = found["verdict"]
+    if len(verdict["sets"]) > 1:
+        return _several(verdict, "seem to be")
     if len(verdict["sets"][0]) == 1:
         return f"One effect is missing, probably {_sets(verdict)}. {_confirmed(verdict, 'it')}"
     return f"One effect is missing, and these measurements cannot tell which: {_sets(verdict)}."
 
 
 def _multiple(found: Found) -> str:
-    verdict = found["verdict"]
+    return _several(found["verdict"], "are")
+
+
+def _several(verdict: Found, are: str) -> str:
     count = {2: "Two", 3: "Three"}.get(len(verdict["effects"]), "Several")
-    return f"{count} effects are missing: {_sets(verdict)}. {_confirmed(verdict, 'them')}"
+    return f"{count} effects {are} missing: {_sets(verdict)}. {_confirmed(verdict, 'them')}"
 
 
 def _unknown(found: Found) -> str:

@@ -222,7 +222,7 @@ _DIAGNOSED: dict[Keys, type] = {
 }
 _WHOLE: tuple[Keys, ...] = (
     *((name,) for name in ("noise", "windows", "screen", "candidates", "gap", "probes")),
-    ("next_experiment",),
+    *((name,) for name in ("profiles", "next_experiment")),
 )
 _LISTED: dict[str, dict[type, tuple[str, ...]]] = {
     "noise": {
@@ -245,6 +245,11 @@ _LISTED: dict[str, dict[type, tuple[str, ...]]] = {
     "gap": {
         str: ("experiment", "signal", "role", "unit"),
         float: ("points", "rms_before", "rms_after", "chi2_before", "chi2_after", "noise_sd"),
+    },
+    "profiles": {
+        str: ("effect", "parameter", "unit"),
+        float: ("level", "low", "high"),
+        list: ("value", "rise"),
     },
     "probes": {str: ("probe", "what", "unit"), float: ("absorbed",), list: ("shape",)},
     "next_experiment": {str: ("words",), float: ("separation_sd",)},
