@@ -81,6 +81,7 @@ def found(study: Study, kind: str) -> dict[str, Any]:
             "reasons": [] if quiet else ["chi-square falls by 400.", "predictions improve"],
         },
         "noise": [noise_of(c) for c in channels(study)],
+        "not_tried": [{"effect": "tga_lag", "reason": "no calibrated signal can show it"}],
         "extended": {"parameters": {} if quiet else {"k": parameter(0.31, "W/(m K)")}},
         "base": {
             "chi2": 330.0 if quiet else 2000.0,
@@ -130,7 +131,15 @@ def profile_of(effect: str) -> dict[str, Any]:
 def noise_of(channel: tuple[str, str, str]) -> dict[str, Any]:
     experiment, signal, role = channel
     place = {"experiment": experiment, "signal": signal, "role": role, "unit": UNITS[signal]}
-    return {**place, "points": 80, "sd_median": NOISE[signal], "words": "white", "chi2_base": 480.0}
+    told = {"stated": signal != "mass_fraction", "white": signal != "mlr"}
+    return {
+        **place,
+        "points": 80,
+        "sd_median": NOISE[signal],
+        "words": "white",
+        "chi2_base": 480.0,
+        **told,
+    }
 
 
 def gap_of(channel: tuple[str, str, str], effects: list[str]) -> dict[str, Any]:
@@ -540,11 +549,21 @@ def test_page_of_every_verdict_says_it_and_loads_nothing(kind: str, tmp_path: Pa
     assert command == bool(EFFECTS_OF[kind])
 
 
+def test_page_says_what_was_not_tried_and_whose_noise_is_uncertain(tmp_path: Path) -> None:
+    page, _ = page_of(tmp_path, "named")
+    assert "(tga_lag) (no calibrated signal can show it)." in page.words
+    assert (
+        "No uncertainty is given, so that it comes from the scatter: slow, mass fra" in page.words
+    )
+    assert "hold less surely: Slab 25 kW/m², mass loss rate" in page.words
+
+
 @pytest.mark.parametrize(
     ("kind", "place", "value", "said"),
     [
         ("none", "base.score", 9.0, "none gains enough to be claimed."),
         ("ambiguous", "verdict.sets", [["heater_ramp"]], "missing, probably heater coming up ("),
+        ("ambiguous", "verdict.sets", [["heater_ramp"], ["k_T"]], "effects seem to be missing: "),
         ("named", "verdict.sets", [["k_T", "c_T"]], "missing (conductivity with temperature): sl"),
         ("unknown", "verdict.effects", ["melting"], "explains it; melting explains a part."),
     ],

@@ -5,7 +5,8 @@ from typing import Any
 import numpy as np
 import pandas as pd
 
-from pyrofit.config import Study
+from pyrofit.config import Study, candidate_effects
+from pyrofit.config.diagnosis import obstacle
 from pyrofit.diagnose.gates import HELD_OUT, at_limit
 from pyrofit.diagnose.intervals import interval, strengths, values_of
 from pyrofit.diagnose.model import model_of, strength_of
@@ -36,6 +37,7 @@ def content(study: Study, found: Search, verdict: Verdict) -> dict[str, Any]:
         "confusability": _confusability(found),
         "needed": found.spare + float(np.log(found.base.model.points)),
         "ambiguity": AMBIGUOUS,
+        "not_tried": _not_tried(study),
         "candidates": _candidates(found, verdict),
         "extended": {"parameters": _extended(study, found)},
         "gap": _gap(found),
@@ -69,6 +71,8 @@ def _noise(found: Search) -> list[dict[str, Any]]:
             "unit": noise.unit,
             "sd_median": float(np.median(noise.sd)),
             "words": noise.describe(),
+            "stated": noise.origin.startswith("stated"),
+            "white": noise.white,
             "chi2_base": misfit[i]["chi2"],
         }
         for i, ((name, signal), noise) in enumerate(
@@ -79,6 +83,13 @@ def _noise(found: Search) -> list[dict[str, Any]]:
 
 def _role(found: Search, channel: int) -> str:
     return CALIBRATION if channel in found.base.model.base.calibrated else HELD_OUT
+
+
+def _not_tried(study: Study) -> list[dict[str, str]]:
+    """Return the effects of the catalogue that are no candidates, and why."""
+    others = [name for name in known_effects() if name not in candidate_effects(study)]
+    unlisted = "diagnosis.effects does not list it"
+    return [{"effect": name, "reason": obstacle(study, name) or unlisted} for name in others]
 
 
 def _base(study: Study, found: Search) -> dict[str, Any]:

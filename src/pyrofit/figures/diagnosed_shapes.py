@@ -25,6 +25,7 @@ def profiles(study: Study, results: Results) -> Canvas:
     canvas, axes = style.panels(len(found), 3, style.TWO_COLUMNS, 58.0)
     catalogue = known_effects()
     style.letter(axes, [catalogue[profile["effect"]].title for profile in found])
+    absent: list[Any] = []
     for ax, profile in zip(axes, found, strict=True):
         quantity = catalogue[profile["effect"]].quantities[profile["parameter"]]
         strength, rise = np.array(profile["value"]), np.array(profile["rise"])
@@ -37,13 +38,14 @@ def profiles(study: Study, results: Results) -> Canvas:
         low, high = ax.get_xlim()
         if low <= quantity.value <= high:
             ax.axvline(quantity.value, **_ABSENT)
+            absent = [style.line("effect absent", **_ABSENT)]
         ax.set_ylim(min(0.0, rise.min()), 1.6 * float(profile["level"]))
         ax.xaxis.set_major_locator(MaxNLocator(4))
         ax.ticklabel_format(axis="x", scilimits=(-3, 4))
         ax.set_xlabel(f"{quantity.symbol} [{quantity.unit.replace('-', '–')}]")
     axes[0].set_ylabel("rise of χ² [–]")
     entries = [style.line("fitted anew", **_PROFILE), style.line("95 %", **_LEVEL)]
-    style.legend_below(canvas, [*entries, style.line("effect absent", **_ABSENT)])
+    style.legend_below(canvas, [*entries, *absent])
     return canvas
 
 

@@ -14,8 +14,9 @@ from pyrofit.report.page import page_of
 from pyrofit.report.words import listed
 from pyrofit.stages import outcomes
 from pyrofit.tables import diagnosis_tables, make_diagnosis_tables
+from pyrofit.tables.describe import title_of
 from pyrofit.tables.diagnosed import DIAGNOSIS_TABLES
-from pyrofit.tables.diagnosis import HELD_OUT, ROLES, effect_name, leading
+from pyrofit.tables.diagnosis import HELD_OUT, ROLES, effect_name, leading, signal_name
 from pyrofit.tables.text import number
 
 Found = Mapping[str, Any]
@@ -168,6 +169,15 @@ def _where(found: Found) -> str:
 
 
 def _what(found: Found) -> str:
+    """Say what was found, and what was not looked for."""
+    reasons: dict[str, list[str]] = {}
+    for one in found["not_tried"]:
+        reasons.setdefault(one["reason"], []).append(effect_name(one["effect"]))
+    left = [f"{listed(names)} ({reason})" for reason, names in reasons.items()]
+    return " ".join([_found(found), *([f"Not tried: {'; '.join(left)}."] if left else [])])
+
+
+def _found(found: Found) -> str:
     chosen = leading(found)
     if not found["candidates"]:
         return "No effect was tried: there is nothing to explain."
@@ -207,6 +217,7 @@ def _sure(study: Study, found: Found) -> str:
     said = [f"Of the base model, {listed(bound)} rest at a limit."] if len(bound) > 1 else []
     said += [f"Of the base model, {bound[0]} rests at a limit."] if len(bound) == 1 else []
     said += [] if bound else ["No parameter of the base model rests at a limit."]
+    said += _of_noise(study, found)
     if chosen is None:
         return " ".join(said)
     if chosen.get("adequate") is not None:
@@ -222,6 +233,22 @@ def _sure(study: Study, found: Found) -> str:
     ]
     said += [f"The log score of predictions changes by {listed(gains)}; 2 counts."] * bool(gains)
     return " ".join(said)
+
+
+def _of_noise(study: Study, found: Found) -> list[str]:
+    """Say of which fitted series the noise is not well known: all rests on it."""
+
+    def those(key: str) -> str:
+        series = [n for n in found["noise"] if n["role"] == "calibration" and not n[key]]
+        words = [f"{title_of(study, n['experiment'])}, {signal_name(n['signal'])}" for n in series]
+        return listed(words)
+
+    scattered, lasting = those("stated"), those("white")
+    said = [f"No uncertainty is given, so that it comes from the scatter: {scattered}."]
+    return said * bool(scattered) + [
+        "What is left of the noise is not white where the estimated correlation is taken out, so "
+        f"that the levels of the gates hold less surely: {lasting}."
+    ] * bool(lasting)
 
 
 def _predicted(study: Study, name: str) -> str:

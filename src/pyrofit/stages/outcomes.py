@@ -222,12 +222,13 @@ _DIAGNOSED: dict[Keys, type] = {
 }
 _WHOLE: tuple[Keys, ...] = (
     *((name,) for name in ("noise", "windows", "screen", "candidates", "gap", "probes")),
-    *((name,) for name in ("profiles", "next_experiment")),
+    *((name,) for name in ("not_tried", "profiles", "next_experiment")),
 )
 _LISTED: dict[str, dict[type, tuple[str, ...]]] = {
     "noise": {
         str: ("experiment", "signal", "role", "unit", "words"),
         float: ("points", "sd_median", "chi2_base"),
+        object: ("stated", "white"),
     },
     "windows": {
         str: ("model", "experiment", "signal", "phase", "unit"),
@@ -246,6 +247,7 @@ _LISTED: dict[str, dict[type, tuple[str, ...]]] = {
         str: ("experiment", "signal", "role", "unit"),
         float: ("points", "rms_before", "rms_after", "chi2_before", "chi2_after", "noise_sd"),
     },
+    "not_tried": {str: ("effect", "reason")},
     "profiles": {
         str: ("effect", "parameter", "unit"),
         float: ("level", "low", "high"),
