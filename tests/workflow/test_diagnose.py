@@ -127,6 +127,14 @@ def test_run_leaves_results_page_figures_and_tables(diagnosed: Diagnosed) -> Non
     assert found["verdict"]["words"] in log
 
 
+def test_extended_study_runs_as_it_is(diagnosed: Diagnosed) -> None:
+    root = diagnosed.project.root
+    run = diagnosed.project.snakemake("--cores", "2", "--configfile", FOUND[2])
+    assert run.code == 0, run.said
+    report = (root / "results" / "tiny_extended" / "report.html").read_text(encoding="utf-8")
+    assert "heater coming up" in report
+
+
 def test_second_call_has_nothing_to_do(diagnosed: Diagnosed) -> None:
     run = diagnosed.again("2")
     assert "Nothing to be done" in run.said
