@@ -12,6 +12,7 @@ from pyrofit.diagnose.refit import (
     followed,
     from_best_start,
     from_elsewhere,
+    model_with,
     model_with_form,
     polished,
     starts,
@@ -87,12 +88,14 @@ def _fitted(step: Round, most: int, means: Means) -> list[Trial]:
     start, processes = step.start, means.processes
     looks = sorted(step.looks, key=lambda look: float(look.ahead.min()))[:most]
     others = [starts(look)[1:] for look in looks]
-    found = shared(lambda i: from_best_start(start, looks[i], ROUGH), len(looks), processes)
+    fits = shared(lambda i: from_best_start(start, looks[i], ROUGH).fit, len(looks), processes)
+    models = [model_with(start, look.effect) for look in looks]
+    found = list(map(Trial, models, fits))
 
     def again(which: list[int], fit: Callable[[int], Trial]) -> None:
-        ends = shared(lambda k: fit(which[k]), len(which), processes)
+        ends = shared(lambda k: fit(which[k]).fit, len(which), processes)
         for i, end in zip(which, ends, strict=True):
-            found[i] = end
+            found[i] = Trial(models[i], end)
 
     def once_more(i: int) -> Trial:
         return from_elsewhere(start, looks[i], found[i], others[i][:1], ROUGH)

@@ -47,7 +47,7 @@ def set_up(study: Study, measurements: Measurements, processes: int = 1) -> Setu
     Raises
     ------
     DataError
-        A channel is too short, no run within the limits finishes, or none of what is held out.
+        A channel is too short; no run within the limits finishes, or one that is held out does not.
     """
     likelihood = likelihood_of(_problem(study, measurements))
     calibrated = tuple(range(len(calibration_channels(study))))

@@ -158,7 +158,7 @@ def _needed(found: Search, rng: np.random.Generator, processes: int) -> tuple[Se
             break
         found = _ended(found, least, rng)
         without = _without(found, processes)
-    if all(found.end is not trial for trial in found.trials):
+    if not any(_same(trial, found.end) for trial in found.trials):
         step = Round(without[0], found.end_alarm, (), (found.end,))
         found = replace(found, rounds=(*found.rounds, step))
     return found, without
