@@ -553,7 +553,7 @@ def test_page_says_what_was_not_tried_and_whose_noise_is_uncertain(tmp_path: Pat
     page, _ = page_of(tmp_path, "named")
     assert "(tga_lag) (no calibrated signal can show it)." in page.words
     assert (
-        "No uncertainty is given, so that it comes from the scatter: slow, mass fra" in page.words
+        "No uncertainty is given, so that the noise is estimated: slow, mass fraction" in page.words
     )
     assert "hold less surely: Slab 25 kW/m², mass loss rate" in page.words
 

@@ -243,9 +243,9 @@ def _of_noise(study: Study, found: Found) -> list[str]:
         words = [f"{title_of(study, n['experiment'])}, {signal_name(n['signal'])}" for n in series]
         return listed(words)
 
-    scattered, lasting = those("stated"), those("white")
-    said = [f"No uncertainty is given, so that it comes from the scatter: {scattered}."]
-    return said * bool(scattered) + [
+    estimated, lasting = those("stated"), those("white")
+    said = [f"No uncertainty is given, so that the noise is estimated: {estimated}."]
+    return said * bool(estimated) + [
         "What is left of the noise is not white where the estimated correlation is taken out, so "
         f"that the levels of the gates hold less surely: {lasting}."
     ] * bool(lasting)
