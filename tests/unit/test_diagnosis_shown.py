@@ -113,7 +113,7 @@ def found(study: Study, kind: str) -> dict[str, Any]:
 
 def profile_of(effect: str) -> dict[str, Any]:
     ((parameter, quantity),) = known_effects()[effect].strength.items()
-    strengths = quantity.typical * np.array([0.8, 0.9, 1.0, 1.1, 1.2])
+    strengths = np.sort(quantity.typical * np.array([0.8, 0.9, 1.0, 1.1, 1.2]))
     return {
         "effect": effect,
         "parameter": parameter,
@@ -121,8 +121,8 @@ def profile_of(effect: str) -> dict[str, Any]:
         "value": strengths.tolist(),
         "rise": [6.0, 1.5, 0.0, 1.5, 6.0],
         "level": 3.84,
-        "low": 0.84 * quantity.typical,
-        "high": 1.16 * quantity.typical,
+        "low": quantity.typical - 0.16 * abs(quantity.typical),
+        "high": quantity.typical + 0.16 * abs(quantity.typical),
         "low_open": False,
         "high_open": False,
     }
