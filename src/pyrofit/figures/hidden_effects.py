@@ -161,6 +161,8 @@ def sets(twins: pd.DataFrame) -> Canvas:
     claimed = twins[(twins["kind"] == "effect") & twins["claim"]]
     canvas, axes = style.panels(2, 2, style.TWO_COLUMNS, 75.0)
     style.letter(axes, ["effects not told apart", "held-out prediction"])
+    axes[1].set_xscale("log")
+    axes[1].set_yscale("symlog", linthresh=2.0)
     looks = (("truth in the set", True), ("truth not in the set", False))
     sizes = np.arange(1, 1 + int(np.ceil(claimed["set_size"].max())) if len(claimed) else 2)
     below = np.zeros(sizes.size)
@@ -179,8 +181,6 @@ def sets(twins: pd.DataFrame) -> Canvas:
     axes[0].set_xlabel("effects in the set")
     axes[0].set_ylabel("twins")
     axes[1].axhline(0.0, color="0.4", linewidth=0.7)
-    axes[1].set_xscale("log")
-    axes[1].set_yscale("symlog", linthresh=2.0)
     axes[1].set_xlabel("detectability [standard deviations]")
     axes[1].set_ylabel("gain of the log score [–]")
     style.legend_below(
