@@ -32,7 +32,7 @@ def test_series_from_zero_is_the_trapezoidal_rule() -> None:
 
 
 def test_description_is_one_line_with_both_masses() -> None:
-    assert Closure(6.3, 7.0, 0.9).describe() == "released 6.300 of 7.000 kg/m2 (90.0 %)"
+    assert Closure(6.3, 7.0, 0.9).describe() == "released 6.300 of 7.000 kg/m² (90.0 %)"
 
 
 @pytest.mark.parametrize("mass", [0.0, -1.0, float("nan"), float("inf")])

@@ -41,7 +41,7 @@ def test_insulated_back_or_thicker_sample_tells_conductivity_from_heat_capacity(
     assert best.separation_sd > 2.0
     again = found["capa_25_insulated_back+back_temperature"]
     assert again.words == (
-        "gasification at 25 kW/m2, the back insulated, with the back temperature"
+        "gasification at 25 kW/m², the back insulated, with the back temperature"
     )
 
 
@@ -146,7 +146,7 @@ def test_back_temperature_that_was_not_calibrated_is_an_idea() -> None:
     choices = [choice for idea in ideas(problem, problem) for choice in idea.choices]
     words = {name: (words, signals) for name, words, signals in choices}
     assert words["capa_25+back_temperature"] == (
-        "gasification at 25 kW/m2 again, with the back temperature",
+        "gasification at 25 kW/m² again, with the back temperature",
         ("mlr", "back_temperature"),
     )
 

@@ -565,7 +565,7 @@ def test_page_says_what_was_not_tried_and_whose_noise_is_uncertain(tmp_path: Pat
         ("ambiguous", "verdict.sets", [["heater_ramp"]], "missing, probably heater coming up ("),
         ("ambiguous", "verdict.sets", [["heater_ramp"], ["k_T"]], "effects seem to be missing: "),
         ("named", "verdict.sets", [["k_T", "c_T"]], "missing (conductivity with temperature): sl"),
-        ("unknown", "verdict.effects", ["melting"], "explains it; melting explains a part."),
+        ("unknown", "verdict.effects", ["melting"], "explains it; a part is explained by melting."),
     ],
 )
 def test_headline_says_what_is_left_open(

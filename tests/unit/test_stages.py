@@ -265,7 +265,7 @@ def test_missing_own_file_is_told(tmp_path: Path) -> None:
 def test_closure_with_unknown_density_gives_the_density_it_would_take(tmp_path: Path) -> None:
     lines = measurements.prepare(on_files(tmp_path), Results(tmp_path / "results"))
     assert lines[0] == (
-        "slab_25: released 0.060 kg/m2, 15 kg/m3 over the 4 mm of the sample; "
+        "slab_25: released 0.060 kg/m², 15 kg/m³ over the 4 mm of the sample; "
         "initial mass not given, density to be estimated"
     )
     assert lines[2] == "slab_25 and slab_60: equal samples, released masses 0.0% apart"
@@ -280,7 +280,7 @@ def test_closure_with_given_sample_mass_says_the_share(tmp_path: Path) -> None:
         "file": str(tmp_path / "data/mlr.csv"),
     }
     lines = measurements.prepare(as_study(described, "study.json"), Results(tmp_path / "results"))
-    assert lines[0] == "slab_25: released 0.060 of 0.100 kg/m2 (60.0 %)"
+    assert lines[0] == "slab_25: released 0.060 of 0.100 kg/m² (60.0 %)"
 
 
 def test_closure_with_known_density_takes_the_described_mass(tmp_path: Path) -> None:
@@ -289,7 +289,7 @@ def test_closure_with_known_density_takes_the_described_mass(tmp_path: Path) -> 
     described["imp"]["estimate"].remove("rho")
     del described["parameters"]["rho"], described["synthetic"]["truth"]["rho"]
     lines = measurements.prepare(as_study(described, "study.json"), Results(tmp_path / "results"))
-    assert lines[0] == "slab_25: released 0.060 of 4.000 kg/m2 (1.5 %)"
+    assert lines[0] == "slab_25: released 0.060 of 4.000 kg/m² (1.5 %)"
 
 
 def test_different_samples_are_not_compared(tmp_path: Path) -> None:
@@ -297,7 +297,7 @@ def test_different_samples_are_not_compared(tmp_path: Path) -> None:
     described["experiments"]["slab_25"]["sample"]["layers"][0]["thickness_m"] = 0.003
     lines = measurements.prepare(as_study(described, "study.json"), Results(tmp_path / "results"))
     assert len(lines) == 2
-    assert "20 kg/m3 over the 3 mm" in lines[0]
+    assert "20 kg/m³ over the 3 mm" in lines[0]
 
 
 # --- kinetics -------------------------------------------------------------------------------

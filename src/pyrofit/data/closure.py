@@ -30,10 +30,10 @@ class Closure:
         """Say it in one line.
 
         >>> Closure(6.3, 7.0, 0.9).describe()
-        'released 6.300 of 7.000 kg/m2 (90.0 %)'
+        'released 6.300 of 7.000 kg/m² (90.0 %)'
         """
         return (
-            f"released {self.released_kg_m2:.3f} of {self.initial_kg_m2:.3f} kg/m2 "
+            f"released {self.released_kg_m2:.3f} of {self.initial_kg_m2:.3f} kg/m² "
             f"({100 * self.ratio:.1f} %)"
         )
 

@@ -85,7 +85,7 @@ def _slabs(problem: Problem) -> dict[str, Gasification]:
 
 def _words(name: str, slab: Gasification) -> str:
     flux = slab.front.flux_W_m2
-    return f"gasification at {flux / 1e3:g} kW/m2" if isinstance(flux, float) else f"'{name}'"
+    return f"gasification at {flux / 1e3:g} kW/m²" if isinstance(flux, float) else f"'{name}'"
 
 
 def _choices(design: str, words: str) -> tuple[tuple[str, str, tuple[str, ...]], ...]:
@@ -108,7 +108,7 @@ def _other_fluxes(
             continue
         taken.append(q)
         like = min(measured, key=lambda name: abs(measured[name] - q))
-        choices = _choices(f"flux_{q / 1e3:g}_kW_m2", f"gasification at {q / 1e3:g} kW/m2")
+        choices = _choices(f"flux_{q / 1e3:g}_kW_m2", f"gasification at {q / 1e3:g} kW/m²")
         yield Idea(like, _at_flux(q), choices)
 
 

@@ -121,7 +121,7 @@ def _several(verdict: Found, are: str) -> str:
 def _unknown(found: Found) -> str:
     best = listed([effect_name(name) for name in found["verdict"]["effects"]])
     text = "Model and measurement disagree, and no effect of the catalogue explains it"
-    return f"{text}; {best} explains a part." if best else f"{text}."
+    return f"{text}; a part is explained by {best}." if best else f"{text}."
 
 
 def _confirmed(verdict: Found, what: str) -> str:

@@ -39,7 +39,7 @@ def _line(study: Study, name: str, experiment: Any, released: float) -> str:
     try:
         thickness = sum(thicknesses(experiment.sample, values))
     except KeyError:
-        return f"{name}: released {released:.3f} kg/m2; thickness to be estimated"
+        return f"{name}: released {released:.3f} kg/m²; thickness to be estimated"
     initial = None
     if signal.sample_mass_kg is not None and signal.sample_area_m2 is not None:
         initial = signal.sample_mass_kg / signal.sample_area_m2
@@ -49,7 +49,7 @@ def _line(study: Study, name: str, experiment: Any, released: float) -> str:
     if initial is not None:
         return f"{name}: {Closure(released, initial, released / initial).describe()}"
     return (
-        f"{name}: released {released:.3f} kg/m2, {released / thickness:.0f} kg/m3 over the "
+        f"{name}: released {released:.3f} kg/m², {released / thickness:.0f} kg/m³ over the "
         f"{thickness * 1e3:g} mm of the sample; initial mass not given, density to be estimated"
     )
 
