@@ -71,7 +71,7 @@ def _noise(found: Search) -> list[dict[str, Any]]:
             "unit": noise.unit,
             "sd_median": float(np.median(noise.sd)),
             "words": noise.describe(),
-            "stated": noise.origin.startswith("stated"),
+            "stated": noise.stated,
             "white": noise.white,
             "chi2_base": misfit[i]["chi2"],
         }

@@ -62,6 +62,8 @@ class NoiseModel:
     floors: Mapping[str, float] = field(default_factory=dict)
     criterion: float = math.inf
     """BIC of curve and scatter, the lower the better."""
+    stated: bool = False
+    """Whether the series has an uncertainty of its own."""
 
     def whiten(self, residual: FloatArray) -> FloatArray:
         """Return w = L^-1 (r / sd): white and of unit variance if the residual is this noise.
@@ -152,6 +154,7 @@ def estimate_noise(
         unit=UNITS[quantity],
         floors={name: float(np.median(floor)) for name, floor in floors.items()},
         criterion=fit.criterion,
+        stated=stated is not None,
     )
 
 
@@ -161,7 +164,7 @@ def _of_few_points(stated: FloatArray | None, count: int, quantity: str) -> Nois
             f"{quantity}: {count} points tell nothing of their noise, at least {FEWEST_POINTS} do; "
             "give an uncertainty, or do not fit the signal"
         )
-    return NoiseModel(stated, Correlation(), origin="stated", unit=UNITS[quantity])
+    return NoiseModel(stated, Correlation(), origin="stated", unit=UNITS[quantity], stated=True)
 
 
 def smoothed(target: Target) -> FloatArray | None:
