@@ -230,7 +230,7 @@ DIAGNOSIS_FIGURES: dict[str, Figure] = {
         title="How sure the strengths are",
         caption="Rise of chi-square with the strength of each effect found, all else fitted anew "
         "at every point. The 95 % interval lies below the dashed line, at 3.84 times chi-square "
-        "per degree of freedom; dotted: the effect is absent.",
+        "per degree of freedom.",
     ),
     "effects": Figure(
         applies=lambda found: bool(found["screen"]) and bool(found["confusability"]["effects"]),
