@@ -19,7 +19,7 @@ PACKAGES = (
 )
 NUMERIC = ("numba", "numpy", "pandas", "scipy", "spotpy")
 """Packages whose version may change a number."""
-SHOWING = ("figures", "tables", "report", "start", "archive.py", "cli")
+SHOWING = ("figures", "tables", "report", "new_study", "config/reference.py", "archive.py", "cli")
 """Parts of the source that show results and do not change a number."""
 
 
@@ -35,7 +35,7 @@ def source_fingerprint(showing: bool = False) -> str:
         total.update(f"{package} {importlib.metadata.version(package)}".encode())
     for path in sorted((*root.rglob("*.py"), *root.rglob("*.j2"))):
         name = path.relative_to(root)
-        if showing or name.parts[0] not in SHOWING:
+        if showing or not any(name.is_relative_to(part) for part in SHOWING):
             total.update(name.as_posix().encode())
             total.update(path.read_bytes())
     return total.hexdigest()[:16]

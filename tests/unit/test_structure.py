@@ -11,7 +11,7 @@ import pytest
 ROOT = Path(__file__).parents[2]
 SOURCE = ROOT / "src" / "pyrofit"
 ORDER = [
-    {"errors", "constants", "logs", "provenance"},
+    {"errors", "constants", "logs", "parallel", "provenance"},
     {"data"},
     {"model"},
     {"effects"},
@@ -22,8 +22,8 @@ ORDER = [
     {"estimate"},
     {"diagnose"},
     {"files", "stages"},
+    {"new_study"},
     {"hidden"},
-    {"start"},
     {"tables", "figures"},
     {"report", "archive"},
     {"cli"},

@@ -60,7 +60,7 @@ def _where(given: argparse.Namespace) -> None:
 
 
 def _init(given: argparse.Namespace) -> None:
-    from pyrofit.start.write import init
+    from pyrofit.new_study.write import init
 
     study, lines = init(given.name, given.tga, given.gasification, Path())
     for line in lines:
@@ -73,9 +73,10 @@ def _init(given: argparse.Namespace) -> None:
 
 
 def _reference(given: argparse.Namespace) -> None:
-    from pyrofit.start.reference import reference_page
+    from pyrofit.config.reference import reference_page
+    from pyrofit.hidden.reference import blind_test_keys
 
-    print(reference_page(), end="")
+    print(reference_page(), blind_test_keys(), sep="\n", end="")
 
 
 def _check(given: argparse.Namespace) -> None:

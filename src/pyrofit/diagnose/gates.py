@@ -22,7 +22,7 @@ from pyrofit.diagnose.model import Model, curvature, model_of, strength_of
 from pyrofit.diagnose.refit import Trial, up_to_date
 from pyrofit.diagnose.screen import project, projector
 from pyrofit.diagnose.setup import refitted, with_noise_about
-from pyrofit.diagnose.share import shared
+from pyrofit.parallel import parallel_map
 from pyrofit.solver.arrays import FloatArray
 
 HELD_OUT = "held out"
@@ -134,7 +134,9 @@ def predictions(trials: Sequence[Trial], processes: int = 1) -> list[Predictions
     """Return what models predict: experiments from the others, and what is held out."""
     tasks = [(k, HELD_OUT) for k, trial in enumerate(trials) if trial.model.base.held_out]
     tasks += [(k, name) for k, trial in enumerate(trials) for name in slabs(trial)]
-    fits = shared(lambda i: _refit(trials[tasks[i][0]], tasks[i][1]).fit, len(tasks), processes)
+    fits = parallel_map(
+        lambda i: _refit(trials[tasks[i][0]], tasks[i][1]).fit, len(tasks), processes
+    )
     found = [Predictions({}, trial) for trial in trials]
     for (k, name), fit in zip(tasks, fits, strict=True):
         part, whole = (trials[k].fit, fit) if name == HELD_OUT else (fit, trials[k].fit)

@@ -17,7 +17,7 @@ from scipy.stats import chi2 as chi_squared
 from pyrofit.diagnose.descent import Fit
 from pyrofit.diagnose.model import Model
 from pyrofit.diagnose.screen import Look, project, projector
-from pyrofit.diagnose.share import shared
+from pyrofit.parallel import parallel_map
 from pyrofit.solver.arrays import FloatArray
 
 LEVEL = 0.01
@@ -81,7 +81,7 @@ def alarm(
         scores = [-(noise.T @ look.directions).min(axis=1, initial=0.0) for look in looks]
         return np.max(highest, axis=0), np.max([np.zeros(DRAWS), *scores], axis=0)
 
-    drawn = zip(*shared(block, BLOCKS, processes), strict=True)
+    drawn = zip(*parallel_map(block, BLOCKS, processes), strict=True)
     critical, score_critical = (
         float(np.quantile(np.concatenate(of_blocks), 1.0 - LEVEL)) for of_blocks in drawn
     )

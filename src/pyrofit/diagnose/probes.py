@@ -16,8 +16,8 @@ from pyrofit.diagnose.locate import LEVEL
 from pyrofit.diagnose.model import Known, Model
 from pyrofit.diagnose.refit import Trial
 from pyrofit.diagnose.screen import projector
-from pyrofit.diagnose.share import shared
 from pyrofit.estimate.likelihood import Likelihood
+from pyrofit.parallel import parallel_map
 
 WIDEST = 3.0
 """Limits of a coefficient, in standard deviations of its prior."""
@@ -74,7 +74,7 @@ def probes(trial: Trial, processes: int = 1) -> list[Probe]:
     """
     likelihood = trial.model.likelihood
     wanted = corrections(likelihood.problem, likelihood.values(trial.fit.x))
-    fits = shared(lambda i: _fit(trial, wanted[i]), len(wanted), processes)
+    fits = parallel_map(lambda i: _fit(trial, wanted[i]), len(wanted), processes)
     found = [_probe(trial, *pair) for pair in zip(wanted, fits, strict=True)]
     freedom = trial.fit.residuals.size - float(np.sum(projector(trial.fit) ** 2))
     noise = min([freedom, *(probe.chi2 for probe in found)])

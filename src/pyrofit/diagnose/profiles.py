@@ -9,9 +9,9 @@ from pyrofit.diagnose.descent import descend
 from pyrofit.diagnose.intervals import covariance, inflation
 from pyrofit.diagnose.model import Model, strength_of
 from pyrofit.diagnose.refit import Trial, up_to_date
-from pyrofit.diagnose.share import shared
 from pyrofit.estimate.likelihood import Optimum
 from pyrofit.estimate.profile import QUANTILE, profile_of
+from pyrofit.parallel import parallel_map
 from pyrofit.solver.arrays import FloatArray
 
 
@@ -35,7 +35,7 @@ def profiles(trial: Trial, processes: int = 1) -> list[dict[str, Any]]:
     """
     trial = up_to_date(trial)
     effects = trial.effects
-    return shared(lambda k: _profile(trial, effects[k]), len(effects), processes)
+    return parallel_map(lambda k: _profile(trial, effects[k]), len(effects), processes)
 
 
 def _profile(trial: Trial, effect: str) -> dict[str, Any]:

@@ -16,9 +16,9 @@ from pyrofit.diagnose.model import (
     strength_of,
 )
 from pyrofit.diagnose.screen import Look, look, project, projector
-from pyrofit.diagnose.share import shared
 from pyrofit.effects import known_effects
 from pyrofit.effects.base import Quantity
+from pyrofit.parallel import parallel_map
 from pyrofit.solver.arrays import FloatArray
 
 ROUGH = 1.0
@@ -154,7 +154,7 @@ def polished(trials: Sequence[Trial], processes: int = 1) -> list[Trial]:
 
 
 def _ends(begins: Sequence[tuple[Trial, FloatArray]], processes: int) -> list[Fit]:
-    return shared(lambda i: _from(*begins[i]), len(begins), processes)
+    return parallel_map(lambda i: _from(*begins[i]), len(begins), processes)
 
 
 def _from(trial: Trial, x: FloatArray) -> Fit:
@@ -216,5 +216,7 @@ def _forms_of(quantity: Quantity) -> Sequence[float]:
 
 def look_at(trial: Trial, effects: Sequence[str], processes: int = 1) -> list[Look]:
     """Return what each effect would change of a fitted model that can have it."""
-    found = shared(lambda i: look(trial.model, trial.fit, effects[i]), len(effects), processes)
+    found = parallel_map(
+        lambda i: look(trial.model, trial.fit, effects[i]), len(effects), processes
+    )
     return [seen for seen in found if seen is not None]

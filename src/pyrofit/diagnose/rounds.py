@@ -19,8 +19,8 @@ from pyrofit.diagnose.refit import (
     with_form,
 )
 from pyrofit.diagnose.screen import Look
-from pyrofit.diagnose.share import shared
 from pyrofit.effects import known_effects
+from pyrofit.parallel import parallel_map
 
 FORMED = 5
 """Effects that are tried in other forms."""
@@ -88,12 +88,14 @@ def _fitted(step: Round, most: int, means: Means) -> list[Trial]:
     start, processes = step.start, means.processes
     looks = sorted(step.looks, key=lambda look: float(look.ahead.min()))[:most]
     others = [starts(look)[1:] for look in looks]
-    fits = shared(lambda i: from_best_start(start, looks[i], ROUGH).fit, len(looks), processes)
+    fits = parallel_map(
+        lambda i: from_best_start(start, looks[i], ROUGH).fit, len(looks), processes
+    )
     models = [model_with(start, look.effect) for look in looks]
     found = list(map(Trial, models, fits))
 
     def again(which: list[int], fit: Callable[[int], Trial]) -> None:
-        ends = shared(lambda k: fit(which[k]).fit, len(which), processes)
+        ends = parallel_map(lambda k: fit(which[k]).fit, len(which), processes)
         for i, end in zip(which, ends, strict=True):
             found[i] = Trial(models[i], end)
 
@@ -114,7 +116,7 @@ def _forms(leading: Sequence[Trial], means: Means) -> list[Trial]:
     """Fit the last effect of each model with each of its form parameters free."""
     catalogue = known_effects()
     forms = [(t, form) for t in leading for form in catalogue[t.effects[-1]].form]
-    fits = shared(lambda i: with_form(*forms[i]).fit, len(forms), means.processes)
+    fits = parallel_map(lambda i: with_form(*forms[i]).fit, len(forms), means.processes)
     models = [model_with_form(trial, form) for trial, form in forms]
     return _told(list(map(Trial, models, fits)), means)
 

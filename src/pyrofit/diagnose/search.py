@@ -12,7 +12,7 @@ from pyrofit.diagnose.model import Base, model_of
 from pyrofit.diagnose.refit import Trial, look_at, model_with, up_to_date, with_effect
 from pyrofit.diagnose.rounds import Means, Round, in_order, more, singles
 from pyrofit.diagnose.setup import blurred, clearer, refitted, with_noise_about
-from pyrofit.diagnose.share import shared
+from pyrofit.parallel import parallel_map
 
 LEADING = 3
 """Effects about which the noise is estimated again."""
@@ -122,7 +122,9 @@ def _sharp(step: Round, means: Means) -> Round:
     order = sorted(step.looks, key=lambda look: float(look.ahead.min()))[:LEADING]
     if not order:
         return step
-    fits = shared(lambda i: with_effect(step.start, order[i]).fit, len(order), means.processes)
+    fits = parallel_map(
+        lambda i: with_effect(step.start, order[i]).fit, len(order), means.processes
+    )
     at = int(np.argmin([fit.chi2 for fit in fits]))
     best = Trial(model_with(step.start, order[at].effect), fits[at])
     base = with_noise_about(best, processes=means.processes)
@@ -169,4 +171,4 @@ def dropped(trial: Trial, effects: Sequence[str], processes: int = 1) -> list[Tr
         keep = [name in models[k].names for name in trial.model.names]
         return refreshed(models[k], descend(models[k], trial.fit.x[keep]))
 
-    return list(map(Trial, models, shared(fit, len(models), processes)))
+    return list(map(Trial, models, parallel_map(fit, len(models), processes)))

@@ -17,11 +17,11 @@ from pyrofit.config import (
 from pyrofit.diagnose.descent import descend, refreshed
 from pyrofit.diagnose.model import Base, Known, model_of
 from pyrofit.diagnose.refit import Trial, polished
-from pyrofit.diagnose.share import shared
 from pyrofit.errors import DataError
 from pyrofit.estimate.likelihood import FAILED, Likelihood, likelihood_of
 from pyrofit.estimate.noise import NoiseModel, estimate_noise
 from pyrofit.estimate.problem import Measurements, Problem, make_problem
+from pyrofit.parallel import parallel_map
 from pyrofit.solver.arrays import FloatArray
 
 STARTS = 15
@@ -97,7 +97,7 @@ def _fitted(base: Base, seed: int, processes: int) -> Trial:
     starts = _starts(base, seed)
     ahead = [_chi2(residuals) for residuals in model.residuals_all(np.array(starts))]
     order = np.argsort(ahead, kind="stable")[:DESCENTS]
-    ends = shared(lambda k: descend(model, starts[order[k]]), len(order), processes)
+    ends = parallel_map(lambda k: descend(model, starts[order[k]]), len(order), processes)
     best = min(ends, key=lambda end: end.chi2)
     if np.any(best.residuals[: model.points] == FAILED):
         raise DataError(
@@ -145,7 +145,7 @@ def with_noise_about(
         found = _noise(problem, i, parts[i])
         return found if found.criterion < noise[i].criterion else None
 
-    for i, found in zip(wanted, shared(better, len(wanted), processes), strict=True):
+    for i, found in zip(wanted, parallel_map(better, len(wanted), processes), strict=True):
         noise[i] = found or noise[i]
     return replace(base, likelihood=Likelihood(problem, tuple(noise)))
 

@@ -20,8 +20,8 @@ from pyrofit.diagnose.locate import alarm
 from pyrofit.diagnose.refit import Trial, up_to_date
 from pyrofit.diagnose.rounds import Round
 from pyrofit.diagnose.search import AMBIGUOUS, Search, dropped
-from pyrofit.diagnose.share import shared
 from pyrofit.effects import known_effects
+from pyrofit.parallel import parallel_map
 
 MOST_JUDGED = 6
 """Most models that are judged in one effect's place."""
@@ -222,7 +222,7 @@ def _findings(
     predicted = predictions([*without, *rivals.values()], processes)
     before, own = predicted[: len(without)], predicted[len(without) :]
     rngs = rng.spawn(len(own))
-    explained = shared(lambda i: explains(own[i], rngs[i]), len(own), processes)
+    explained = parallel_map(lambda i: explains(own[i], rngs[i]), len(own), processes)
     known = dict(zip(rivals, zip(own, explained, strict=True), strict=True))
 
     def judged(name: str, trial: Trial, k: int) -> Judged:

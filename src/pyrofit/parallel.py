@@ -1,4 +1,4 @@
-"""Independent work shared by processes; the results do not depend on how many there are."""
+"""Map a function over numbers in several processes; the results do not depend on how many."""
 
 import multiprocessing
 import os
@@ -15,7 +15,7 @@ MOST_PIECES = 4096
 """As many numbers a pipe holds everywhere."""
 
 
-def shared(work: Work[Result], count: int, processes: int = 1) -> list[Result]:
+def parallel_map(work: Work[Result], count: int, processes: int = 1) -> list[Result]:
     """Return ``[work(0), ..., work(count - 1)]``, computed by some processes.
 
     The processes are forks: what ``work`` knows is not copied, what it returns is. Each takes the
@@ -30,7 +30,7 @@ def shared(work: Work[Result], count: int, processes: int = 1) -> list[Result]:
 
     Examples
     --------
-    >>> shared(lambda i: i * i, 5, processes=2)
+    >>> parallel_map(lambda i: i * i, 5, processes=2)
     [0, 1, 4, 9, 16]
     """
     forks = "fork" in multiprocessing.get_all_start_methods()
@@ -65,7 +65,7 @@ def _received(results: Any) -> dict[int, Any]:
     try:
         found = results.recv()
     except EOFError:
-        raise RuntimeError("a process of the diagnosis was ended; run it again") from None
+        raise RuntimeError("a process was ended from outside; run it again") from None
     if isinstance(found, Exception):
         raise found
     return dict(found)

@@ -9,9 +9,9 @@ from jinja2 import Environment, PackageLoader, StrictUndefined
 
 from pyrofit.errors import DataError, StudyError
 from pyrofit.files import write_bytes, write_text
-from pyrofit.start import draft
-from pyrofit.start.columns import Found
-from pyrofit.start.draft import Kinetics, Measured
+from pyrofit.new_study import draft
+from pyrofit.new_study.columns import Found
+from pyrofit.new_study.draft import Kinetics, Measured
 
 _NAME = re.compile(r"[A-Za-z][A-Za-z0-9_]*")
 _FILM = 0.05
@@ -78,7 +78,7 @@ def study_text(name: str, tga: Sequence[Measured], gasification: Sequence[Measur
     rates = [run for run in gasification if run.path is None or run.signals[0].quantity == "mlr"]
     fitted = (rates[:-1] or rates) or list(gasification)
     templates = Environment(
-        loader=PackageLoader("pyrofit.start", "."),
+        loader=PackageLoader("pyrofit.new_study", "."),
         undefined=StrictUndefined,
         trim_blocks=True,
         lstrip_blocks=True,

@@ -1,4 +1,4 @@
-"""The reference of all keys of a study, generated from its description."""
+"""The reference page of all keys of a study, generated from its description."""
 
 import re
 from collections.abc import Iterator
@@ -8,8 +8,7 @@ from typing import Annotated, Any, Literal, Union, get_args, get_origin
 from annotated_types import Ge, Gt, Le, Lt, MinLen
 from pydantic.fields import FieldInfo
 
-from pyrofit.config import Study
-from pyrofit.hidden.setting import Setting
+from pyrofit.config.study import Study
 from pyrofit.model.base import ANY, Part, Rule
 from pyrofit.model.parameters import UNITS
 
@@ -26,19 +25,18 @@ Units of parameters: {units}.
 
 This page is generated: `pyrofit reference > config/README.md`.
 """
-_HIDDEN = """\
-# Keys of the blind test
-
-Those of `hidden_effects.yaml`.
-"""
 _WORDS: dict[Any, str] = {float: "number", int: "whole number", str: "text", Any: "anything"}
 
 
 def reference_page() -> str:
-    """Return the page: every key of a study and of the blind test."""
+    """Return the page with every key of a study."""
     head = _HEAD.format(units=", ".join(f"`{unit}`" for unit in UNITS))
-    study, hidden = _sections(Study), _sections(Setting)
-    return "\n".join([head, *study, _HIDDEN, *hidden]).rstrip("\n") + "\n"
+    return with_keys(head, Study)
+
+
+def with_keys(head: str, root: type[Part]) -> str:
+    """Return a heading and, below it, one section per kind of part that a file may have."""
+    return "\n".join([head, *_sections(root)]).rstrip("\n") + "\n"
 
 
 def _sections(root: type[Part]) -> list[str]:

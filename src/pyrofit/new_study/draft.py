@@ -12,7 +12,7 @@ import pandas as pd
 from pyrofit.data.csvfile import Table, read_table
 from pyrofit.data.series import SeriesSpec, read_series
 from pyrofit.errors import DataError, StudyError
-from pyrofit.start.columns import Found, recognise
+from pyrofit.new_study.columns import Found, recognise
 
 RATES_K_MIN = (0.5, 500.0)
 FLUXES_KW_M2 = (5.0, 150.0)

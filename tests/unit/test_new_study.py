@@ -1,4 +1,4 @@
-"""A study for one's own files, and the page of all keys."""
+"""A study for a user's own files."""
 
 import re
 from pathlib import Path
@@ -9,10 +9,8 @@ import pytest
 from pyrofit import cli
 from pyrofit.config import Study, read_study
 from pyrofit.config.read import read_mapping
-from pyrofit.hidden.setting import Setting
+from pyrofit.new_study import draft
 from pyrofit.stages.reading import read_all
-from pyrofit.start import draft
-from pyrofit.start.reference import reference_page
 
 ROOT = Path(__file__).parents[2]
 TEMPERATURE_K = np.arange(400.0, 800.0, 5.0)
@@ -289,45 +287,3 @@ def test_bad_input_is_told_and_nothing_is_written(
     assert shown.out == ""
     assert contents(folder) == before
     assert sorted(folder.rglob("*")) == folders
-
-
-# --- the page of keys -----------------------------------------------------------------------
-
-
-def test_page_of_keys_is_up_to_date() -> None:
-    written = (ROOT / "config" / "README.md").read_text(encoding="utf-8")
-    assert written == reference_page(), "run: pyrofit reference > config/README.md"
-
-
-def test_every_key_of_a_study_is_described() -> None:
-    rows = [line.split(" | ") for line in reference_page().splitlines() if line.startswith("| `")]
-    assert len(rows) > 120
-    assert [row[0] for row in rows if not row[1].strip()] == []
-    assert [row[0] for row in rows if not row[3].strip()] == []
-
-
-def test_page_has_the_keys_that_the_shipped_studies_use() -> None:
-    page = reference_page()
-
-    def keys(part: object) -> set[str]:
-        if isinstance(part, dict):
-            return {str(k) for k in part} | {k for v in part.values() for k in keys(v)}
-        return {k for v in part for k in keys(v)} if isinstance(part, list) else set()
-
-    known = set(re.findall(r"^\| `(\w+)`", page, re.M))
-    for file in ("smoke", "twin", "pmma", "paper"):
-        given = read_mapping(ROOT / "config" / f"{file}.yaml")
-        top = set(given) | {k for k in keys(given["experiments"]) if "_" in k and k[-1] in "sKm"}
-        assert {k for k in top if k not in given["experiments"]} <= known, file
-
-
-def test_page_tells_units_limits_and_usual_values() -> None:
-    page = reference_page()
-    row = "| `heating_rate_K_min` | nominal heating rate | K/min | number; above 0 | *required* |"
-    assert row in page
-    assert (
-        "`wall_temperature_K` | temperature of the radiating surroundings | K | number or" in page
-    )
-    assert "| `repetitions` | repetitions per cost |  | whole number; at least 1 | 25 |" in page
-    for name in (*Study.model_fields, *Setting.model_fields):
-        assert f"| `{name}` |" in page

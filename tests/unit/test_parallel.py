@@ -10,13 +10,13 @@ from pathlib import Path
 
 import pytest
 
-from pyrofit.diagnose.share import shared
+from pyrofit.parallel import parallel_map
 
 
 @pytest.mark.parametrize("processes", [1, 2, 5])
 @pytest.mark.parametrize("count", [0, 1, 2, 3, 300])
 def test_every_piece_is_done_once_and_in_its_place(count: int, processes: int) -> None:
-    assert shared(lambda i: i * i, count, processes) == [i * i for i in range(count)]
+    assert parallel_map(lambda i: i * i, count, processes) == [i * i for i in range(count)]
 
 
 def test_process_that_is_free_takes_the_next_piece(tmp_path: Path) -> None:
@@ -27,7 +27,7 @@ def test_process_that_is_free_takes_the_next_piece(tmp_path: Path) -> None:
         (tmp_path / str(i)).touch()
         return os.getpid()
 
-    first, *others = shared(work, 20, processes=2)
+    first, *others = parallel_map(work, 20, processes=2)
     assert first not in others
 
 
@@ -39,7 +39,7 @@ def test_error_of_a_piece_is_raised_here_at_once(tmp_path: Path) -> None:
         (tmp_path / str(i)).touch()
 
     with pytest.raises(ZeroDivisionError):
-        shared(work, 1000, processes=2)
+        parallel_map(work, 1000, processes=2)
     assert len(list(tmp_path.iterdir())) < 500
 
 
@@ -48,14 +48,14 @@ def test_processes_end_even_if_the_one_that_shares_is_killed(tmp_path: Path) -> 
     code = """
 import os, signal, sys, time
 from pathlib import Path
-from pyrofit.diagnose.share import shared
+from pyrofit.parallel import parallel_map
 def work(i):
     Path(sys.argv[1], str(os.getpid())).touch()
     while os.getppid() == parent:
         time.sleep(0.01)
     return b"x" * 1_000_000
 parent = os.getpid()
-shared(work, 2, processes=2)
+parallel_map(work, 2, processes=2)
 """
     parent = subprocess.Popen([sys.executable, "-c", code, str(tmp_path)])
     _until(lambda: len(list(tmp_path.iterdir())) == 2)
@@ -83,4 +83,4 @@ def test_end_of_a_process_is_an_error() -> None:
         return i
 
     with pytest.raises(RuntimeError, match="run it again"):
-        shared(work, 5, processes=2)
+        parallel_map(work, 5, processes=2)

@@ -1,0 +1,54 @@
+"""The page of all keys of a study and of the blind test."""
+
+import re
+from pathlib import Path
+
+from pyrofit.config import Study
+from pyrofit.config.read import read_mapping
+from pyrofit.config.reference import reference_page
+from pyrofit.hidden.reference import blind_test_keys
+from pyrofit.hidden.setting import Setting
+
+ROOT = Path(__file__).parents[2]
+
+
+def test_page_of_keys_is_up_to_date() -> None:
+    written = (ROOT / "config" / "README.md").read_text(encoding="utf-8")
+    printed = f"{reference_page()}\n{blind_test_keys()}"
+    assert written == printed, "run: pyrofit reference > config/README.md"
+
+
+def test_every_key_of_a_study_is_described() -> None:
+    rows = [line.split(" | ") for line in reference_page().splitlines() if line.startswith("| `")]
+    assert len(rows) > 120
+    assert [row[0] for row in rows if not row[1].strip()] == []
+    assert [row[0] for row in rows if not row[3].strip()] == []
+
+
+def test_page_has_the_keys_that_the_shipped_studies_use() -> None:
+    page = reference_page()
+
+    def keys(part: object) -> set[str]:
+        if isinstance(part, dict):
+            return {str(k) for k in part} | {k for v in part.values() for k in keys(v)}
+        return {k for v in part for k in keys(v)} if isinstance(part, list) else set()
+
+    known = set(re.findall(r"^\| `(\w+)`", page, re.M))
+    for file in ("smoke", "twin", "pmma", "paper"):
+        given = read_mapping(ROOT / "config" / f"{file}.yaml")
+        top = set(given) | {k for k in keys(given["experiments"]) if "_" in k and k[-1] in "sKm"}
+        assert {k for k in top if k not in given["experiments"]} <= known, file
+
+
+def test_page_tells_units_limits_and_usual_values() -> None:
+    page = reference_page()
+    row = "| `heating_rate_K_min` | nominal heating rate | K/min | number; above 0 | *required* |"
+    assert row in page
+    assert (
+        "`wall_temperature_K` | temperature of the radiating surroundings | K | number or" in page
+    )
+    assert "| `repetitions` | repetitions per cost |  | whole number; at least 1 | 25 |" in page
+    for name in Study.model_fields:
+        assert f"| `{name}` |" in page
+    for name in Setting.model_fields:
+        assert f"| `{name}` |" in blind_test_keys()
