@@ -7,6 +7,7 @@ from pathlib import Path
 from typing import Any
 
 PACKAGES = (
+    "cma",
     "jinja2",
     "matplotlib",
     "numba",
@@ -17,7 +18,7 @@ PACKAGES = (
     "snakemake",
     "spotpy",
 )
-NUMERIC = ("numba", "numpy", "pandas", "scipy", "spotpy")
+NUMERIC = ("cma", "numba", "numpy", "pandas", "scipy", "spotpy")
 """Packages whose version may change a number."""
 SHOWING = ("figures", "tables", "report", "new_study", "config/reference.py", "archive.py", "cli")
 """Parts of the source that show results and do not change a number."""
