@@ -9,9 +9,10 @@ from typing import Any, NamedTuple
 import numpy as np
 
 from pyrofit.config import Study, read_study
+from pyrofit.model.accuracy import Accuracy
 from pyrofit.model.experiment import Gasification
 from pyrofit.model.material import Material
-from pyrofit.simulate import Accuracy, simulate_gasifications
+from pyrofit.simulate import simulate_gasifications
 from pyrofit.solver.arrays import FloatArray, Values
 from pyrofit.solver.curves import Curves, Request
 from pyrofit.solver.kernels import slab as kernel

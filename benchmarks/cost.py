@@ -7,7 +7,7 @@ from typing import NamedTuple
 import numpy as np
 from case import DURATION_S, FLUXES, error, relative_error, seconds, setup, study
 
-from pyrofit.simulate import Accuracy
+from pyrofit.model.accuracy import Accuracy
 from pyrofit.solver.run import LANES
 
 WANTED_ERROR = 2e-3

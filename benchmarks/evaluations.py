@@ -11,7 +11,7 @@ import peak
 from case import FLUXES, Rates, error, rates, setup
 from page import table
 
-from pyrofit.simulate import Accuracy
+from pyrofit.model.accuracy import Accuracy
 from pyrofit.solver.run import LANES
 
 HERE = Path(__file__).parent

@@ -136,7 +136,7 @@ def main() -> None:
     replace_intrinsics()
     from case import kernel_arguments, setup
 
-    from pyrofit.simulate import Accuracy
+    from pyrofit.model.accuracy import Accuracy
     from pyrofit.solver.kernels import slab, trace
 
     for module in [m for n, m in sys.modules.items() if n.startswith("pyrofit.solver.kernels.")]:

@@ -7,7 +7,8 @@ import numpy as np
 from boxes import BATCH, DURATION_S, SEED, Case, described
 from page import table
 
-from pyrofit.simulate import Accuracy, simulate_gasification, simulate_gasifications
+from pyrofit.model.accuracy import Accuracy
+from pyrofit.simulate import simulate_gasification, simulate_gasifications
 from pyrofit.solver.curves import Curves, Request
 
 FAILURES = ("unfinished", "not_a_number")

@@ -9,7 +9,7 @@ from page import table
 from pyrofit.effects import known_effects
 from pyrofit.effects.apply import with_effects
 from pyrofit.effects.base import changed
-from pyrofit.simulate import Accuracy
+from pyrofit.model.accuracy import Accuracy
 from pyrofit.solver.run import LANES
 
 LEAST_S = 1.0

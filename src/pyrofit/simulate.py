@@ -3,12 +3,11 @@
 import itertools
 import math
 from collections.abc import Mapping, Sequence
-from typing import Self
 
 import numpy as np
-from pydantic import Field
 
-from pyrofit.model.base import Part, value_of
+from pyrofit.model.accuracy import Accuracy
+from pyrofit.model.base import value_of
 from pyrofit.model.experiment import Gasification, Tga
 from pyrofit.model.material import Material
 from pyrofit.solver.arrays import FloatArray, Numerics, Status, Values
@@ -29,43 +28,6 @@ from pyrofit.solver.run import Case, heat, march
 
 COUPLED_STEP = 0.125
 """Temperature step over that of separate reactions, where one feeds or starves another."""
-
-
-class Accuracy(Part):
-    """How finely the slab and TGA equations are solved."""
-
-    cells: int | None = Field(
-        None, ge=2, le=5000, description="cells of the slab; none = as the reaction zone needs"
-    )
-    cells_factor: float = Field(
-        1.0, ge=0.1, le=100.0, description="multiplies the cells that the reaction zone needs"
-    )
-    tolerance: float = Field(
-        2e-3, gt=0.0, le=0.1, description="bound on the scaled predictor-corrector difference"
-    )
-    first_step_s: float = Field(0.01, gt=0.0, description="first time step [s]")
-    longest_step_s: float = Field(10.0, gt=0.0, description="longest time step [s]")
-    most_steps: int = Field(20000, ge=100, description="steps after which a run is given up")
-    tga_step_K: float = Field(1.0, gt=0.0, description="largest temperature rise of a TGA step [K]")
-
-    @property
-    def numerics(self) -> Numerics:
-        """The same for the kernel."""
-        return Numerics(self.tolerance, self.first_step_s, self.longest_step_s, self.most_steps)
-
-    def refined(self) -> Self:
-        """Return settings with twice the cells and half the steps: a quarter of the error."""
-        return self.model_copy(
-            update={
-                "cells": None if self.cells is None else 2 * self.cells,
-                "cells_factor": 2.0 * self.cells_factor,
-                "tolerance": 0.25 * self.tolerance,
-                "first_step_s": 0.5 * self.first_step_s,
-                "longest_step_s": 0.5 * self.longest_step_s,
-                "most_steps": 4 * self.most_steps,
-                "tga_step_K": 0.5 * self.tga_step_K,
-            }
-        )
 
 
 def simulate_tga(
@@ -195,9 +157,16 @@ def simulate_gasifications(
 
     def run(factor: FloatArray, asked: Mapping[str, Request]) -> Runs:
         exposed = case.exposure._replace(flux=factor * case.exposure.flux)
-        return march(case._replace(exposure=exposed), asked, accuracy.numerics, threads)
+        return march(case._replace(exposure=exposed), asked, _numerics(accuracy), threads)
 
     return observe(experiment, values, requests, run, sets).curves()
+
+
+def _numerics(accuracy: Accuracy) -> Numerics:
+    """Return the settings as the kernel takes them."""
+    return Numerics(
+        accuracy.tolerance, accuracy.first_step_s, accuracy.longest_step_s, accuracy.most_steps
+    )
 
 
 def _lower(

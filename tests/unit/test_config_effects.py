@@ -103,6 +103,12 @@ def test_order_beside_published_kinetics_of_another_order_is_refused() -> None:
         as_study(study, "paper.yaml")
 
 
+def test_unknown_effect_that_a_model_is_said_to_have_is_refused() -> None:
+    study = {**given(), "with_effects": {"back_los": {}}}
+    with pytest.raises(StudyError, match=r"with_effects: unknown effect 'back_los'\. Did you mean"):
+        as_study(study, "smoke.yaml")
+
+
 @pytest.mark.parametrize(
     ("effects", "words"),
     [

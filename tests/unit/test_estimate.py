@@ -12,7 +12,7 @@ import pytest
 from pyrofit.config import Study, TermSpec, read_study
 from pyrofit.errors import CostError
 from pyrofit.estimate import cmaes
-from pyrofit.estimate.history import best_of, convergence, seed_for
+from pyrofit.estimate.history import best_of, convergence
 from pyrofit.estimate.least_squares import multistart
 from pyrofit.estimate.problem import (
     FAILED_COST,
@@ -25,6 +25,7 @@ from pyrofit.estimate.problem import (
 )
 from pyrofit.estimate.sceua import search, search_several
 from pyrofit.model.experiment import Tga
+from pyrofit.seeds import seed_for
 from pyrofit.simulate import simulate_gasification, simulate_tga
 from pyrofit.solver.arrays import FloatArray, Status
 from pyrofit.solver.curves import Request

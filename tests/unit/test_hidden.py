@@ -20,8 +20,8 @@ from pyrofit.hidden.plan import Case, cases_of, chunk_of
 from pyrofit.hidden.run import run_case, run_chunk
 from pyrofit.hidden.setting import Setting, read_setting
 from pyrofit.hidden.twin import describe, make_twin, read_twin, write_twin
+from pyrofit.model.accuracy import Resolution
 from pyrofit.report.hidden_effects import write_hidden_effects
-from pyrofit.solver.reference.resolution import Resolution
 from pyrofit.tables.hidden_effects import row_of
 from pyrofit.tables.hidden_rates import by_detectability, interval, rates
 

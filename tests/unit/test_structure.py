@@ -11,14 +11,14 @@ import pytest
 ROOT = Path(__file__).parents[2]
 SOURCE = ROOT / "src" / "pyrofit"
 ORDER = [
-    {"errors", "constants", "logs", "parallel", "provenance"},
+    {"errors", "constants", "logs", "parallel", "provenance", "seeds"},
     {"data"},
     {"model"},
     {"effects"},
-    {"solver"},
-    {"simulate"},
     {"cost"},
     {"config"},
+    {"solver"},
+    {"simulate"},
     {"estimate"},
     {"diagnose"},
     {"files", "stages"},
@@ -86,6 +86,39 @@ def test_module_imports_only_from_its_left(path: Path) -> None:
     assert part in RANK, f"{part} has no place in the order of the package"
     right = {other for other in own(path) - {part, "__version__"} if RANK[other] > RANK[part]}
     assert not right
+
+
+def modules_imported(path: Path) -> set[str]:
+    """Return the modules of the package that a file imports, by their full names."""
+    known = {module_name(p) for p in modules()}
+    found = set()
+    for name in imported(path):
+        found.add(name if name in known else name.rpartition(".")[0])
+    return found & known - {module_name(path)}
+
+
+def module_name(path: Path) -> str:
+    parts = path.relative_to(SOURCE.parent).with_suffix("").parts
+    return ".".join(parts[:-1] if parts[-1] == "__init__" else parts)
+
+
+def test_no_modules_import_each_other_in_a_circle() -> None:
+    # Imports for type checks alone are counted: they join two files as much as any other.
+    imports = {module_name(p): modules_imported(p) for p in modules()}
+    while free := {m for m, needed in imports.items() if not needed & set(imports)}:
+        imports = {m: needed for m, needed in imports.items() if m not in free}
+    assert not imports
+
+
+def test_no_effect_is_known_by_name_outside_its_file() -> None:
+    effects = {p.stem for p in (SOURCE / "effects").glob("*.py") if "EFFECT = " in p.read_text()}
+    assert len(effects) > 20
+    for path in modules():
+        if part_of(path) not in ("config", "estimate", "diagnose"):
+            continue
+        for node in ast.walk(ast.parse(path.read_text(encoding="utf-8"))):
+            literal = isinstance(node, ast.Constant) and isinstance(node.value, str)
+            assert not (literal and node.value in effects), f"{path}: '{node.value}'"
 
 
 def test_costs_know_nothing_of_models() -> None:

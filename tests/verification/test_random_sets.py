@@ -19,11 +19,11 @@ from test_slab_balances import TABLE_6
 
 from pyrofit.config import Study, as_study
 from pyrofit.estimate.problem import FAILED_COST, Problem, make_problem
+from pyrofit.model.accuracy import Resolution
 from pyrofit.simulate import simulate_gasification
 from pyrofit.solver.arrays import Status
 from pyrofit.solver.curves import Request
 from pyrofit.solver.reference.gasification import reference_gasification
-from pyrofit.solver.reference.resolution import Resolution
 
 PAPER = Path(__file__).parents[2] / "config" / "paper.yaml"
 EXPERIMENTS = {25: ("capa_25", 1700.0), 60: ("capa_60", 420.0)}

@@ -43,13 +43,13 @@ from terms import (
 )
 
 from pyrofit.constants import GAS_CONSTANT
+from pyrofit.model.accuracy import Accuracy, Resolution
 from pyrofit.model.experiment import Gasification, Tga
 from pyrofit.model.material import Material
-from pyrofit.simulate import Accuracy, simulate_gasification, simulate_tga
+from pyrofit.simulate import simulate_gasification, simulate_tga
 from pyrofit.solver.arrays import Status
 from pyrofit.solver.curves import Curves, Request
 from pyrofit.solver.reference.gasification import reference_gasification
-from pyrofit.solver.reference.resolution import Resolution
 from pyrofit.solver.reference.tga import reference_tga
 
 RHO, K, C, T0, DEPTH = 1200.0, 0.2, 1500.0, 293.15, 5.8e-3

@@ -23,7 +23,8 @@ from cases import (
 )
 from evidence import Evidence
 
-from pyrofit.simulate import Accuracy, simulate_gasification
+from pyrofit.model.accuracy import Accuracy
+from pyrofit.simulate import simulate_gasification
 from pyrofit.solver.curves import Request
 
 DURATION = {10: 6000.0, 25: 1700.0, 40: 1500.0, 60: 420.0, 100: 300.0}

@@ -24,7 +24,7 @@ from cases import (
 from evidence import MLR, RMS_K, RMS_OVER_MEAN, TIME, Axis, Evidence, Line
 from exact import slab_with_foil
 
-from pyrofit.simulate import Accuracy
+from pyrofit.model.accuracy import Accuracy
 from pyrofit.solver.curves import Request
 
 ON = {25: 1200.0, 60: 280.0}

@@ -19,7 +19,7 @@ from exact import convective_step, deep_body, deep_translucent_body, slab_with_f
 from scipy.optimize import fsolve
 
 from pyrofit.constants import STEFAN_BOLTZMANN
-from pyrofit.simulate import Accuracy
+from pyrofit.model.accuracy import Accuracy
 from pyrofit.solver.curves import Curves, Request
 
 RHO, K, C, T0, DEPTH = 1200.0, 0.2, 1500.0, 293.15, 5.8e-3

@@ -35,9 +35,9 @@ from evidence import (
     Line,
 )
 
+from pyrofit.model.accuracy import Accuracy
 from pyrofit.model.experiment import Gasification
 from pyrofit.model.material import Material
-from pyrofit.simulate import Accuracy
 from pyrofit.solver.curves import Request
 
 FDS = "FDS 6.7.4"

@@ -14,8 +14,8 @@ from cases import Curve, run, slab_experiment
 from evidence import MASS, TIME, Evidence, Line
 
 from pyrofit.constants import GAS_CONSTANT
+from pyrofit.model.accuracy import Accuracy
 from pyrofit.model.material import Material
-from pyrofit.simulate import Accuracy
 from pyrofit.solver.curves import Request
 
 T = 600.0

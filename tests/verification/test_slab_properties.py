@@ -17,7 +17,7 @@ from evidence import LARGEST_K, TEMPERATURE, TIME, Evidence, Line
 from exact import deep_body, slab_with_foil
 from scipy.optimize import brentq
 
-from pyrofit.simulate import Accuracy
+from pyrofit.model.accuracy import Accuracy
 from pyrofit.solver.curves import Request
 
 RHO, K0, C0, T0, FLUX = 1200.0, 0.2, 1500.0, 293.15, 5e3

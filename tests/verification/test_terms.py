@@ -10,14 +10,14 @@ from scipy.integrate import quad
 from scipy.optimize import brentq
 from terms import BASE, BEHIND, FOIL, TERMS, Term, charring, specimen
 
+from pyrofit.model.accuracy import Accuracy, Resolution
 from pyrofit.model.experiment import Gasification, Tga
 from pyrofit.model.material import Changed, Material
-from pyrofit.simulate import Accuracy, simulate_tga
+from pyrofit.simulate import simulate_tga
 from pyrofit.solver.arrays import TABLE_TEMPERATURES_K, Status
 from pyrofit.solver.curves import Curves, Request
 from pyrofit.solver.lower import property_table
 from pyrofit.solver.reference.gasification import reference_gasification
-from pyrofit.solver.reference.resolution import Resolution
 from pyrofit.solver.reference.tga import reference_tga
 
 BINS = Request(np.arange(2.5, 600.0, 5.0), 5.0)

@@ -1,23 +1,25 @@
 """The study description: the only reader of YAML, and all checks that need no measured data.
 
-`study` says what a study is made of, `terms` the terms of its costs, `diagnosis` the diagnosis and
-what holds where a study says nothing of it, `checks`, `diagnosis_checks` and `numbers` what must
-hold between its parts and for its numbers, `effects` puts effects in, `read` reads it, `words` says
-in plain words what is wrong, `uses` which parameters a part uses.
+`study` says what a study is made of, `stages` its stages, `terms` the terms of its costs and
+`diagnosis` its diagnosis.
+`resolve` says what holds where a study says nothing. `checks`, `stage_checks`, `diagnosis_checks`
+and `numbers` say what must hold between its parts and for its numbers. `effects` puts effects in,
+`read` reads and checks it, `words` says in plain words what is wrong, `uses` which parameters a
+part uses.
 """
 
-from pyrofit.config.diagnosis import (
-    Diagnosis,
-    Known,
+from pyrofit.config.diagnosis import Diagnosis, Known
+from pyrofit.config.effects import true_description
+from pyrofit.config.read import as_study, as_yaml, digest, read_mapping, read_study
+from pyrofit.config.resolve import (
     calibration_channels,
     candidate_effects,
     diagnosed_material,
     diagnosed_parameters,
     held_out_channels,
 )
-from pyrofit.config.effects import true_description
-from pyrofit.config.read import as_study, as_yaml, digest, read_mapping, read_study
-from pyrofit.config.study import Imp, Kinetics, Study
+from pyrofit.config.stages import Imp, Kinetics
+from pyrofit.config.study import Study
 from pyrofit.config.terms import TermSpec
 from pyrofit.config.uses import parameters_in
 

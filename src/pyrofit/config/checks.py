@@ -1,23 +1,20 @@
 """What must hold between the parts of a study."""
 
-from __future__ import annotations
-
-from collections.abc import Iterable, Mapping, Sequence
-from typing import TYPE_CHECKING
+from collections.abc import Mapping
 
 from pyrofit.config.effects import check_true_effects
 from pyrofit.config.numbers import check_numbers, check_parameter, check_parameters, require
+from pyrofit.config.stage_checks import check_stages
+from pyrofit.config.stages import KineticSet
+from pyrofit.config.study import Study
 from pyrofit.config.uses import names_in, parameters_in, parameters_of_tga
+from pyrofit.effects import known_effects
 from pyrofit.effects.base import ADDED
 from pyrofit.effects.substance import main_reaction
 from pyrofit.errors import suggest
 from pyrofit.model.base import FRACTION
 from pyrofit.model.experiment import Gasification, Tga
 from pyrofit.model.material import REST, check_composition
-
-if TYPE_CHECKING:
-    from pyrofit.config.study import Study
-    from pyrofit.config.terms import TermSpec
 
 
 def check_study(study: Study) -> None:
@@ -28,10 +25,11 @@ def check_study(study: Study) -> None:
     ValueError
         With place, rule and way out.
     """
+    _check_with_effects(study)
     check_numbers(study)
     _check_compositions(study)
     _check_signals(study)
-    _check_stages(study)
+    check_stages(study)
     _check_values(study)
     _check_published(study)
     _check_synthetic(study)
@@ -78,14 +76,8 @@ def _check_compositions(study: Study) -> None:
             f"reactions differ from the material's: {sorted(missing)}; give each of them, no other",
         )
         compositions[f"{place}.composition"] = study.material_with(label).composition
-        require(
-            label != study.imp.kinetics
-            or "reaction_order" not in study.with_effects
-            or chosen.reactions[main_reaction(study.material)[0]].order == 1.0,
-            "effects.reaction_order",
-            f"imp.kinetics '{label}' brings an order of its own; leave the effect out, or describe "
-            "or fit the kinetics",
-        )
+        if label == study.imp.kinetics:
+            _check_kept(study, label, chosen)
     for place, composition in compositions.items():
         try:
             check_composition(composition, study.material.components)
@@ -96,6 +88,29 @@ def _check_compositions(study: Study) -> None:
         _check_sum(study, composition, place)
     for name, reaction in study.material.reactions.items():
         _check_sum(study, reaction.products, f"material.reactions.{name}.products")
+
+
+def _check_kept(study: Study, label: str, chosen: KineticSet) -> None:
+    """Refuse published kinetics that give a number which an effect of the model gives, too."""
+    for effect, keys in study.kept_of_kinetics().items():
+        values = chosen.reactions[main_reaction(study.material)[0]]
+        for key in keys:
+            require(
+                getattr(values, key) == type(values).model_fields[key].default,
+                f"effects.{effect}",
+                f"imp.kinetics '{label}' brings an {key} of its own; leave the effect out, or "
+                "describe or fit the kinetics",
+            )
+
+
+def _check_with_effects(study: Study) -> None:
+    catalogue = known_effects()
+    for name in study.with_effects:
+        require(
+            name in catalogue,
+            "with_effects",
+            f"unknown effect '{name}'. {suggest(name, catalogue)}",
+        )
 
 
 def _check_signals(study: Study) -> None:
@@ -129,89 +144,6 @@ def _check_spacing(experiment: Tga | Gasification, every: float, place: str) -> 
         f"{every:g} leaves fewer than 3 points of the {span:g} between them; lower it, or "
         f"change {keys}",
     )
-
-
-def _check_stages(study: Study) -> None:
-    check_estimate(study, "imp", study.imp.estimate)
-    for cost, terms in study.imp.costs.items():
-        _check_terms(study, f"imp.costs.{cost}", terms, Gasification)
-    if study.kinetics is not None:
-        check_estimate(study, "kinetics", study.kinetics.estimate)
-        _check_terms(study, "kinetics.cost", study.kinetics.cost, Tga)
-        _known(study, study.kinetics.compare, "kinetics.compare", Tga)
-    _known(study, study.imp.identification, "imp.identification", Gasification)
-    check_choice(study, "imp.identification", study.imp.identification)
-    _known(study, study.validation.experiments, "validation.experiments", Gasification)
-    choices = {"described", *(("fitted", *study.kinetics.sets) if study.kinetics else ())}
-    require(
-        study.imp.kinetics in choices,
-        "imp.kinetics",
-        f"unknown kinetics '{study.imp.kinetics}'. {suggest(study.imp.kinetics, choices)}",
-    )
-
-
-def check_estimate(study: Study, stage: str, estimate: Sequence[str]) -> None:
-    """Check parameters that a stage estimates: that they are known, have limits and stand once.
-
-    Raises
-    ------
-    ValueError
-        With place, rule and way out.
-    """
-    require(
-        len(set(estimate)) == len(estimate), f"{stage}.estimate", "a name stands twice; delete one"
-    )
-    for name in estimate:
-        require(
-            name in study.parameters,
-            f"{stage}.estimate",
-            f"unknown parameter '{name}'. {suggest(name, study.parameters)}",
-        )
-        require(
-            study.parameters[name].lower is not None,
-            f"parameters.{name}",
-            f"{stage} estimates it: give lower and upper limits",
-        )
-
-
-def _check_terms(
-    study: Study, place: str, terms: Sequence[TermSpec], wanted: type[Tga] | type[Gasification]
-) -> None:
-    require(
-        any(term.weight > 0.0 for term in terms),
-        place,
-        "no term has a weight above 0; give one to at least one of them",
-    )
-    for i, term in enumerate(terms):
-        _known(study, (term.experiment,), f"{place}.{i}.experiment", wanted)
-        signals = study.experiments[term.experiment].signals
-        require(
-            term.signal in signals,
-            f"{place}.{i}.signal",
-            f"experiment '{term.experiment}' has no signal '{term.signal}'. "
-            + suggest(term.signal, signals),
-        )
-
-
-def check_choice(study: Study, place: str, chosen: Mapping[str, Sequence[str]]) -> None:
-    """Check signals chosen by experiment: that they are known, and each stands once.
-
-    Raises
-    ------
-    ValueError
-        With place, rule and way out.
-    """
-    for name, signals in chosen.items():
-        _check_experiment(study, name, place)
-        require(bool(signals), f"{place}.{name}", "name at least one signal, or leave it out")
-        require(len(set(signals)) == len(signals), f"{place}.{name}", "a signal stands twice")
-        known = study.experiments[name].signals
-        for signal in signals:
-            require(
-                signal in known,
-                f"{place}.{name}",
-                f"experiment '{name}' has no signal '{signal}'. {suggest(signal, known)}",
-            )
 
 
 def _check_published(study: Study) -> None:
@@ -266,27 +198,6 @@ def _check_values(study: Study) -> None:
     seen = parameters_of_tga(study.material) | of_records
     for name in sorted(set(study.kinetics.estimate) - seen):
         raise ValueError(f"kinetics.estimate: '{name}' has no effect on TGA")
-
-
-def _check_experiment(study: Study, name: str, place: str) -> None:
-    require(
-        name in study.experiments,
-        place,
-        f"unknown experiment '{name}'. {suggest(name, study.experiments)}",
-    )
-
-
-def _known(
-    study: Study, names: Iterable[str], place: str, wanted: type[Tga] | type[Gasification]
-) -> None:
-    for name in names:
-        _check_experiment(study, name, place)
-        require(
-            isinstance(study.experiments[name], wanted),
-            place,
-            f"'{name}' is no {wanted.__name__.lower()} experiment. "
-            + suggest(name, study.kinds(wanted)),
-        )
 
 
 def _check_synthetic(study: Study) -> None:

@@ -1,26 +1,8 @@
-"""What a study says about its diagnosis, and what holds where it says nothing."""
-
-from __future__ import annotations
-
-from collections.abc import Mapping
-from typing import TYPE_CHECKING
+"""What a study says about its diagnosis."""
 
 from pydantic import Field
 
-from pyrofit.config.terms import TermSpec
-from pyrofit.config.uses import parameters_in
-from pyrofit.effects import known_effects
-from pyrofit.effects.apply import with_effects
 from pyrofit.model.base import Part
-from pyrofit.model.experiment import Gasification, Tga
-from pyrofit.model.material import Material
-
-if TYPE_CHECKING:
-    from pyrofit.config.study import Study
-
-Chosen = Mapping[str, tuple[str, ...]]
-"""Signals by experiment."""
-Experiments = dict[str, Tga | Gasification]
 
 
 class Known(Part):
@@ -58,93 +40,3 @@ class Diagnosis(Part):
         None, description="candidates; none = all of the catalogue that the fitted signals can show"
     )
     most_effects: int = Field(3, ge=1, le=3, description="effects that are added at most")
-
-
-def diagnosed_material(study: Study) -> Material:
-    """Return the material with the kinetics that the diagnosis starts from."""
-    return study.material_with(_kinetics(study))
-
-
-def _kinetics(study: Study) -> str:
-    return study.diagnosis.kinetics or study.imp.kinetics
-
-
-def calibration_channels(study: Study) -> tuple[TermSpec, ...]:
-    """Return the signals that the diagnosis fits, each once, all measured points."""
-    if study.diagnosis.calibrate:
-        return _whole(study.diagnosis.calibrate)
-    kinetics = study.kinetics
-    # Nothing would be fitted to a TGA whose kinetics are published ones.
-    if kinetics is None or _kinetics(study) in kinetics.sets:
-        return study.imp.channels
-    return kinetics.channels + study.imp.channels
-
-
-def held_out_channels(study: Study) -> tuple[TermSpec, ...]:
-    """Return the signals that the diagnosis predicts only, all measured points."""
-    if study.diagnosis.hold_out:
-        return _whole(study.diagnosis.hold_out)
-    fitted = {(c.experiment, c.signal) for c in calibration_channels(study)}
-    return _whole(
-        {
-            name: tuple(s for s in study.experiments[name].signals if (name, s) not in fitted)
-            for name in study.validation.experiments
-        }
-    )
-
-
-def _whole(chosen: Chosen) -> tuple[TermSpec, ...]:
-    pairs = [(e, s) for e, signals in chosen.items() for s in signals]
-    return tuple(TermSpec(experiment=e, signal=s, kind="RMSE") for e, s in pairs)
-
-
-def diagnosed_parameters(study: Study) -> tuple[str, ...]:
-    """Return the names of the parameters that the diagnosis estimates beside the effects."""
-    if study.diagnosis.estimate:
-        return study.diagnosis.estimate
-    kinetics = study.kinetics.estimate if study.kinetics else ()
-    if not any(isinstance(e, Tga) for e in calibrated(study).values()):
-        kinetics = tuple(name for name in kinetics if study.parameters[name].value is None)
-    names = kinetics + study.imp.estimate
-    used = parameters_in(diagnosed_material(study), *diagnosed(study).values())
-    return tuple(name for name in dict.fromkeys(names) if name in used)
-
-
-def candidate_effects(study: Study) -> tuple[str, ...]:
-    """Return the names of the effects that the diagnosis considers."""
-    if study.diagnosis.effects is not None:
-        return study.diagnosis.effects
-    return tuple(name for name in known_effects() if not obstacle(study, name))
-
-
-def obstacle(study: Study, name: str) -> str:
-    """Say why an effect of the catalogue is no candidate; nothing where it is one."""
-    effect = known_effects()[name]
-    if name in study.with_effects:
-        return "the model has it already"
-    if not any(effect.needs(e) for e in calibrated(study).values()):
-        return f"no calibrated signal can show it; it needs {effect.needs.words}"
-    free = {key: f"{name}_{key}" for key in effect.strength}
-    try:
-        with_effects(diagnosed_material(study), diagnosed(study), {name: free})
-    except ValueError as error:
-        return str(error).removeprefix(f"effect '{name}': ")
-    return ""
-
-
-def calibrated(study: Study) -> Experiments:
-    """Return the fitted experiments with those of their signals that are fitted."""
-    signals: dict[str, dict[str, object]] = {}
-    for c in calibration_channels(study):
-        signal = study.experiments[c.experiment].signals[c.signal]
-        signals.setdefault(c.experiment, {})[c.signal] = signal
-    return {
-        name: study.experiments[name].model_copy(update={"signals": of})
-        for name, of in signals.items()
-    }
-
-
-def diagnosed(study: Study) -> Experiments:
-    """Return the experiments that the diagnosis fits or predicts."""
-    channels = calibration_channels(study) + held_out_channels(study)
-    return {c.experiment: study.experiments[c.experiment] for c in channels}

@@ -1,11 +1,7 @@
 """What must hold for the diagnosis of a study."""
 
-from __future__ import annotations
-
-from typing import TYPE_CHECKING
-
-from pyrofit.config.checks import check_choice, check_estimate
-from pyrofit.config.diagnosis import (
+from pyrofit.config.numbers import require
+from pyrofit.config.resolve import (
     calibrated,
     calibration_channels,
     diagnosed,
@@ -14,14 +10,12 @@ from pyrofit.config.diagnosis import (
     held_out_channels,
     obstacle,
 )
-from pyrofit.config.numbers import require
+from pyrofit.config.stage_checks import check_choice, check_estimate
+from pyrofit.config.study import Study
 from pyrofit.config.uses import parameters_in
 from pyrofit.effects import known_effects
 from pyrofit.errors import suggest
 from pyrofit.model.experiment import Gasification
-
-if TYPE_CHECKING:
-    from pyrofit.config.study import Study
 
 
 def check_diagnosis(study: Study) -> None:

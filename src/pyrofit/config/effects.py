@@ -1,22 +1,18 @@
 """Effects of a study, put into its description before it is checked, and those of its truth."""
 
-from __future__ import annotations
-
 from collections.abc import Mapping
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 from pydantic import TypeAdapter, ValidationError
 
 from pyrofit.config.numbers import require
+from pyrofit.config.study import Study
 from pyrofit.effects import known_effects
 from pyrofit.effects.apply import with_effects
 from pyrofit.effects.base import Effect
 from pyrofit.model.base import value_of
 from pyrofit.model.experiment import AnyExperiment, Gasification, Tga
 from pyrofit.model.material import REST, Material
-
-if TYPE_CHECKING:
-    from pyrofit.config.study import Study
 
 _EXPERIMENTS: TypeAdapter[dict[str, Any]] = TypeAdapter(dict[str, AnyExperiment])
 

@@ -1,16 +1,11 @@
 """What must hold for the numbers of a study: signs, limits, units, and that each is used."""
 
-from __future__ import annotations
-
 from collections.abc import Sequence
-from typing import TYPE_CHECKING
 
+from pyrofit.config.study import Study
 from pyrofit.config.uses import names_in, parameters_in
 from pyrofit.errors import suggest
 from pyrofit.model.base import Rule, numbers
-
-if TYPE_CHECKING:
-    from pyrofit.config.study import Study
 
 # By the end of a key, longest first where one end is that of another.
 _UNITS: dict[str, tuple[str, ...]] = {

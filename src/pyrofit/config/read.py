@@ -12,6 +12,8 @@ from pydantic import ValidationError
 from yaml.composer import ComposerError
 from yaml.reader import ReaderError
 
+from pyrofit.config.checks import check_study
+from pyrofit.config.diagnosis_checks import check_diagnosis
 from pyrofit.config.effects import apply_effects
 from pyrofit.config.study import Study, is_own
 from pyrofit.config.words import in_plain_words, refuse_booleans
@@ -33,6 +35,8 @@ def as_study(given: Mapping[str, Any], source: str) -> Study:
     try:
         refuse_booleans(given)
         study = Study.model_validate(apply_effects(given))
+        check_study(study)
+        check_diagnosis(study)
     except ValidationError as error:
         lines = in_plain_words(error, given)
     except ValueError as error:

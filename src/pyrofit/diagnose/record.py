@@ -6,7 +6,7 @@ import numpy as np
 import pandas as pd
 
 from pyrofit.config import Study, candidate_effects
-from pyrofit.config.diagnosis import obstacle
+from pyrofit.config.resolve import obstacle
 from pyrofit.diagnose.gates import HELD_OUT, at_limit
 from pyrofit.diagnose.intervals import interval, strengths, values_of
 from pyrofit.diagnose.model import model_of, strength_of

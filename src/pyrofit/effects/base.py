@@ -109,6 +109,8 @@ class Effect:
     experiment: ExperimentChange = lambda experiment, at: experiment
     needs: Need = has_slab
     """What an experiment must have; others are not changed."""
+    keeps: tuple[str, ...] = ()
+    """Keys of the main reaction that it sets, and that published kinetics do not replace."""
     same_as: str = ""
     """An effect that these data cannot tell from this one."""
     name: str = ""

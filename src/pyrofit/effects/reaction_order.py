@@ -32,4 +32,5 @@ EFFECT = Effect(
     },
     material=_change,
     needs=reacts,
+    keeps=("order",),
 )

@@ -1,6 +1,5 @@
-"""Seeds of searches, and what is read from their histories; needs no optimiser."""
+"""What is read from the histories of searches; needs no optimiser."""
 
-import hashlib
 from collections.abc import Callable
 
 import pandas as pd
@@ -10,16 +9,6 @@ from pyrofit.solver.arrays import FloatArray
 
 Progress = Callable[[int, int, float], None]
 """Told at the start of each generation: generation, calls so far, best cost so far."""
-
-
-def seed_for(study_seed: int, *identity: object) -> int:
-    """Return the seed of one search, a function of the study's seed and its identity alone.
-
-    >>> seed_for(1, "RMSE", 3) == seed_for(1, "RMSE", 3) != seed_for(1, "RMSE", 4)
-    True
-    """
-    text = "/".join(str(part) for part in (study_seed, *identity))
-    return int.from_bytes(hashlib.sha256(text.encode()).digest()[:4], "little") % 2**30
 
 
 def best_of(history: pd.DataFrame, problem: Problem) -> tuple[float, FloatArray]:

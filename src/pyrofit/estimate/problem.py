@@ -10,9 +10,10 @@ from numpy.typing import NDArray
 from pyrofit.config import Study, TermSpec
 from pyrofit.cost import Target, WeightedSum, make_term
 from pyrofit.data.quantities import UNCERTAINTY_COLUMN, VALUE_COLUMN
+from pyrofit.model.accuracy import Accuracy
 from pyrofit.model.experiment import Gasification, Tga
 from pyrofit.model.material import Material
-from pyrofit.simulate import Accuracy, simulate_gasifications, simulate_tgas
+from pyrofit.simulate import simulate_gasifications, simulate_tgas
 from pyrofit.solver.arrays import FloatArray, Status, Values
 from pyrofit.solver.curves import Curves, Request
 

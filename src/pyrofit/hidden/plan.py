@@ -10,9 +10,9 @@ from pyrofit.config import Study, digest, read_study
 from pyrofit.effects import known_effects
 from pyrofit.effects.base import AnyExperiment, Effect
 from pyrofit.errors import StudyError, suggest
-from pyrofit.estimate.history import seed_for
 from pyrofit.hidden.setting import Hidden, Kind, Plan, Setting
 from pyrofit.model.base import Part
+from pyrofit.seeds import seed_for
 
 
 class Case(Part):

@@ -9,9 +9,9 @@ from pyrofit.config import read_mapping
 from pyrofit.config.words import in_plain_words
 from pyrofit.effects import known_effects
 from pyrofit.errors import StudyError, suggest
+from pyrofit.model.accuracy import Resolution
 from pyrofit.model.base import Part
 from pyrofit.model.experiment import Noise
-from pyrofit.solver.reference.resolution import Resolution
 
 Kind = Literal["effect", "null", "form", "pair"]
 Hidden = dict[str, dict[str, float]]

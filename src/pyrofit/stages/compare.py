@@ -10,9 +10,9 @@ from pyrofit.config import Study, TermSpec
 from pyrofit.cost import make_term
 from pyrofit.errors import CostError
 from pyrofit.estimate.family import GOOD, explore, thinned
-from pyrofit.estimate.history import seed_for
 from pyrofit.estimate.problem import Measurements, Problem, make_problem, target_for
 from pyrofit.files import Results, write_csv
+from pyrofit.seeds import seed_for
 from pyrofit.stages import outcomes
 from pyrofit.stages.fit import fixed_for_imp, imp_problem
 from pyrofit.stages.measurements import load

@@ -10,13 +10,14 @@ import pandas as pd
 from pyrofit.config import Study, digest
 from pyrofit.errors import StudyError, suggest
 from pyrofit.estimate import cmaes
-from pyrofit.estimate.history import Progress, best_of, convergence, seed_for
+from pyrofit.estimate.history import Progress, best_of, convergence
 from pyrofit.estimate.least_squares import Start, descend, multistart
 from pyrofit.estimate.problem import Measurements, Problem, make_problem, program
 from pyrofit.files import Results, write_csv, write_json
 from pyrofit.model.base import value_of
 from pyrofit.model.experiment import Tga
 from pyrofit.model.material import Material
+from pyrofit.seeds import seed_for
 from pyrofit.simulate import simulate_tga
 from pyrofit.solver.arrays import FloatArray, Status
 from pyrofit.solver.curves import Request

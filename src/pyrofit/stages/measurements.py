@@ -10,14 +10,14 @@ from pyrofit.data.closure import mass_closure
 from pyrofit.data.noise import draw
 from pyrofit.data.quantities import UNCERTAINTY_COLUMN, VALUE_COLUMN
 from pyrofit.errors import DataError
-from pyrofit.estimate.history import seed_for
 from pyrofit.estimate.problem import Measurements
 from pyrofit.files import Results, write_csv, write_json
+from pyrofit.model.accuracy import Resolution
 from pyrofit.model.experiment import Gasification, Noise, Signal, Tga
 from pyrofit.model.material import Material
+from pyrofit.seeds import seed_for
 from pyrofit.solver.arrays import FloatArray
 from pyrofit.solver.curves import Curves, Request
-from pyrofit.solver.reference.resolution import Resolution
 from pyrofit.stages import outcomes
 from pyrofit.stages.closure import closure_lines
 from pyrofit.stages.reading import SYNTHETIC, check_terms, read_all

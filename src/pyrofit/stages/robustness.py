@@ -15,11 +15,11 @@ import pandas as pd
 from pyrofit.config import Study, TermSpec
 from pyrofit.data.quantities import UNCERTAINTY_COLUMN, VALUE_COLUMN
 from pyrofit.errors import DataError, StudyError
-from pyrofit.estimate.history import seed_for
 from pyrofit.estimate.least_squares import multistart
 from pyrofit.estimate.noise import estimate_noise
 from pyrofit.estimate.problem import Measurements, Problem, make_problem, target_of
 from pyrofit.files import Results, write_csv
+from pyrofit.seeds import seed_for
 from pyrofit.solver.arrays import FloatArray
 from pyrofit.stages import outcomes
 from pyrofit.stages.fit import fixed_for_imp

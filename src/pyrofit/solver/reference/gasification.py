@@ -7,13 +7,13 @@ from collections.abc import Mapping
 import numpy as np
 from scipy.integrate import LSODA
 
+from pyrofit.model.accuracy import Resolution
 from pyrofit.model.base import value_of
 from pyrofit.model.experiment import EmissivityDepth, Gasification, Sample
 from pyrofit.model.material import Material
 from pyrofit.solver.arrays import FloatArray, Status
 from pyrofit.solver.curves import Curves, Request
 from pyrofit.solver.observe import observe_one
-from pyrofit.solver.reference.resolution import Resolution
 from pyrofit.solver.reference.slab import Outside, Slab
 from pyrofit.solver.reference.substance import (
     COLDEST_K,

@@ -5,12 +5,12 @@ from collections.abc import Iterator, Mapping
 import numpy as np
 from scipy.integrate import LSODA
 
+from pyrofit.model.accuracy import Resolution
 from pyrofit.model.base import value_of
 from pyrofit.model.experiment import Tga
 from pyrofit.model.material import Material
 from pyrofit.solver.arrays import FloatArray, Status
 from pyrofit.solver.curves import Curves, Request
-from pyrofit.solver.reference.resolution import Resolution
 from pyrofit.solver.reference.substance import Reactions, mass_fractions, substance
 
 STRAIGHT_K = 1e-9

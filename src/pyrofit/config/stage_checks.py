@@ -1,0 +1,120 @@
+"""What must hold for the stages of a study."""
+
+from collections.abc import Iterable, Mapping, Sequence
+
+from pyrofit.config.numbers import require
+from pyrofit.config.study import Study
+from pyrofit.config.terms import TermSpec
+from pyrofit.errors import suggest
+from pyrofit.model.experiment import Gasification, Tga
+
+
+def check_stages(study: Study) -> None:
+    """Check what each stage estimates, fits and predicts.
+
+    Raises
+    ------
+    ValueError
+        With place, rule and way out.
+    """
+    check_estimate(study, "imp", study.imp.estimate)
+    for cost, terms in study.imp.costs.items():
+        _check_terms(study, f"imp.costs.{cost}", terms, Gasification)
+    if study.kinetics is not None:
+        check_estimate(study, "kinetics", study.kinetics.estimate)
+        _check_terms(study, "kinetics.cost", study.kinetics.cost, Tga)
+        _known(study, study.kinetics.compare, "kinetics.compare", Tga)
+    _known(study, study.imp.identification, "imp.identification", Gasification)
+    check_choice(study, "imp.identification", study.imp.identification)
+    _known(study, study.validation.experiments, "validation.experiments", Gasification)
+    choices = {"described", *(("fitted", *study.kinetics.sets) if study.kinetics else ())}
+    require(
+        study.imp.kinetics in choices,
+        "imp.kinetics",
+        f"unknown kinetics '{study.imp.kinetics}'. {suggest(study.imp.kinetics, choices)}",
+    )
+
+
+def check_estimate(study: Study, stage: str, estimate: Sequence[str]) -> None:
+    """Check parameters that a stage estimates: that they are known, have limits and stand once.
+
+    Raises
+    ------
+    ValueError
+        With place, rule and way out.
+    """
+    require(
+        len(set(estimate)) == len(estimate), f"{stage}.estimate", "a name stands twice; delete one"
+    )
+    for name in estimate:
+        require(
+            name in study.parameters,
+            f"{stage}.estimate",
+            f"unknown parameter '{name}'. {suggest(name, study.parameters)}",
+        )
+        require(
+            study.parameters[name].lower is not None,
+            f"parameters.{name}",
+            f"{stage} estimates it: give lower and upper limits",
+        )
+
+
+def _check_terms(
+    study: Study, place: str, terms: Sequence[TermSpec], wanted: type[Tga] | type[Gasification]
+) -> None:
+    require(
+        any(term.weight > 0.0 for term in terms),
+        place,
+        "no term has a weight above 0; give one to at least one of them",
+    )
+    for i, term in enumerate(terms):
+        _known(study, (term.experiment,), f"{place}.{i}.experiment", wanted)
+        signals = study.experiments[term.experiment].signals
+        require(
+            term.signal in signals,
+            f"{place}.{i}.signal",
+            f"experiment '{term.experiment}' has no signal '{term.signal}'. "
+            + suggest(term.signal, signals),
+        )
+
+
+def check_choice(study: Study, place: str, chosen: Mapping[str, Sequence[str]]) -> None:
+    """Check signals chosen by experiment: that they are known, and each stands once.
+
+    Raises
+    ------
+    ValueError
+        With place, rule and way out.
+    """
+    for name, signals in chosen.items():
+        _check_experiment(study, name, place)
+        require(bool(signals), f"{place}.{name}", "name at least one signal, or leave it out")
+        require(len(set(signals)) == len(signals), f"{place}.{name}", "a signal stands twice")
+        known = study.experiments[name].signals
+        for signal in signals:
+            require(
+                signal in known,
+                f"{place}.{name}",
+                f"experiment '{name}' has no signal '{signal}'. {suggest(signal, known)}",
+            )
+
+
+def _check_experiment(study: Study, name: str, place: str) -> None:
+    require(
+        name in study.experiments,
+        place,
+        f"unknown experiment '{name}'. {suggest(name, study.experiments)}",
+    )
+
+
+def _known(
+    study: Study, names: Iterable[str], place: str, wanted: type[Tga] | type[Gasification]
+) -> None:
+    for name in names:
+        _check_experiment(study, name, place)
+        require(
+            isinstance(study.experiments[name], wanted),
+            place,
+            f"'{name}' is no {wanted.__name__.lower()} experiment. "
+            + suggest(name, study.kinds(wanted)),
+        )

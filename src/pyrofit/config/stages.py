@@ -1,0 +1,119 @@
+"""The stages of a study: fits, prediction, and the comparison of costs on twins."""
+
+from typing import Annotated
+
+from pydantic import Field
+
+from pyrofit.config.terms import Terms, TermSpec, channels_of
+from pyrofit.model.base import Part
+
+Name = Annotated[str, Field(pattern=r"^[A-Za-z][A-Za-z0-9_]*$")]
+
+
+class Sceua(Part):
+    """Budget of SPOTPY's SCE-UA."""
+
+    complexes: int | None = Field(
+        None, ge=1, description="number of complexes; none = number of parameters, as PROPTI"
+    )
+    generations: int = Field(
+        20, ge=3, description="generations, the burn-in counted as the first, as PROPTI counts"
+    )
+
+
+class LeastSquares(Part):
+    """Multistart bounded least squares beside it."""
+
+    starts: int = Field(8, ge=1, description="random starts within the limits")
+
+
+class Cmaes(Part):
+    """CMA-ES beside it."""
+
+    starts: int = Field(2, ge=1, description="random starts within the limits")
+    calls: int = Field(
+        3000, ge=10, description="model calls after which a start begins no further generation"
+    )
+
+
+class KineticValues(Part):
+    """Published kinetics of one reaction."""
+
+    A_1_s: float = Field(gt=0.0, description="pre-exponential factor A [1/s]")
+    E_J_mol: float = Field(ge=0.0, description="activation energy E [J/mol]")
+    order: float = Field(1.0, ge=0.0, description="reaction order n [-]")
+
+
+class KineticSet(Part):
+    """Kinetics to compare with, or to use instead of fitted ones."""
+
+    reactions: dict[str, KineticValues] = Field(description="by reaction of the material")
+    composition: dict[str, float | str] = Field(description="mass fractions of the virgin material")
+
+
+class Kinetics(Part):
+    """Stage 1: fit of the kinetics to TGA."""
+
+    estimate: tuple[str, ...] = Field(min_length=1, description="parameters to estimate")
+    cost: Terms = Field(description="terms of the fitness, Eq. 5")
+    sceua: Sceua = Field(default_factory=Sceua, description="budget of SCE-UA")
+    least_squares: LeastSquares = Field(default_factory=LeastSquares, description="beside it")
+    compare: tuple[str, ...] = Field((), description="further experiments to draw and score")
+    sets: dict[str, KineticSet] = Field(
+        default_factory=dict, description="published kinetics, drawn and scored beside the fit"
+    )
+
+    @property
+    def channels(self) -> tuple[TermSpec, ...]:
+        """Signals from which is found what the data determine, each once, all measured points."""
+        return channels_of(self.cost)
+
+
+class Imp(Part):
+    """Stage 2: inverse modelling, repeated for every cost."""
+
+    estimate: tuple[str, ...] = Field(min_length=1, description="parameters to estimate")
+    kinetics: str = Field("described", description="'described', 'fitted', or one of kinetics.sets")
+    costs: dict[Name, Terms] = Field(min_length=1, description="cost functions by name")
+    repetitions: int = Field(25, ge=1, description="repetitions per cost")
+    sceua: Sceua = Field(default_factory=Sceua, description="budget of SCE-UA")
+    least_squares: LeastSquares = Field(default_factory=LeastSquares, description="beside it")
+    cmaes: Cmaes = Field(default_factory=Cmaes, description="beside both")
+    identification: dict[str, tuple[str, ...]] = Field(
+        default_factory=dict,
+        description="signals by gasification experiment from which is found what the data "
+        "determine; none = those that the costs compare",
+    )
+
+    @property
+    def channels(self) -> tuple[TermSpec, ...]:
+        """Signals from which is found what the data determine, each once, all measured points.
+
+        Signals of costs are taken from the first to the last time that any cost compares.
+        """
+        if self.identification:
+            pairs = [(e, s) for e, signals in self.identification.items() for s in signals]
+            return tuple(TermSpec(experiment=e, signal=s, kind="RMSE") for e, s in pairs)
+        return channels_of([term for terms in self.costs.values() for term in terms])
+
+
+class Robustness(Part):
+    """Twins of known truth on which the cost functions are compared, `snakemake robustness`."""
+
+    noise: tuple[Annotated[float, Field(gt=0.0)], ...] = Field(
+        (1.0, 3.0, 10.0), min_length=1, description="noise, multiples of the measurement's"
+    )
+    outliers: tuple[Annotated[float, Field(gt=0.0, lt=1.0)], ...] = Field(
+        (0.02, 0.1), min_length=1, description="outliers, shares of the points"
+    )
+    outlier_size: float = Field(
+        0.5, gt=0.0, description="size of an outlier, share of the signal's range"
+    )
+    draws: int = Field(10, ge=1, description="twins of each level")
+    starts: int = Field(3, ge=1, description="random starts of least squares for each")
+
+
+class Validation(Part):
+    """Stage 3: prediction of experiments that were not fitted."""
+
+    experiments: tuple[str, ...] = Field(min_length=1, description="gasification experiments")
