@@ -78,9 +78,6 @@ localrules:
     archive,
     diagnosis_page,
     diagnose,
-    hidden_effects_page,
-    hidden_effects,
-    hidden_effects_short,
 
 
 include: "workflow/rules/common.smk"
@@ -93,7 +90,6 @@ include: "workflow/rules/comparison.smk"
 include: "workflow/rules/report.smk"
 include: "workflow/rules/robustness.smk"
 include: "workflow/rules/diagnosis.smk"
-include: "workflow/rules/hidden_effects.smk"
 
 
 # Everything, not the report alone: what is deleted or was removed with a failed run is made again.

@@ -20,7 +20,16 @@ PACKAGES = (
 )
 NUMERIC = ("cma", "numba", "numpy", "pandas", "scipy", "spotpy")
 """Packages whose version may change a number."""
-SHOWING = ("figures", "tables", "report", "new_study", "config/reference.py", "archive.py", "cli")
+SHOWING = (
+    "archive.py",
+    *(f"blind_test/{name}.py" for name in ("figures", "page", "rates", "reference", "table")),
+    "cli",
+    "config/reference.py",
+    "figures",
+    "new_study",
+    "report",
+    "tables",
+)
 """Parts of the source that show results and do not change a number."""
 
 

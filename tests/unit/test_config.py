@@ -16,7 +16,7 @@ from pyrofit.config.uses import parameters_of_tga
 from pyrofit.errors import StudyError
 
 CONFIG = Path(__file__).parents[2] / "config"
-SHIPPED = [p for p in sorted(CONFIG.glob("*.yaml")) if p.stem != "hidden_effects"]
+SHIPPED = [p for p in sorted(CONFIG.glob("*.yaml")) if p.stem != "blind_test"]
 SMOKE = json.dumps(yaml.safe_load((CONFIG / "smoke.yaml").read_text(encoding="utf-8")))
 GONE = object()
 JARGON = re.compile(

@@ -3,11 +3,11 @@
 import re
 from pathlib import Path
 
+from pyrofit.blind_test.reference import blind_test_keys
+from pyrofit.blind_test.setting import Setting
 from pyrofit.config import Study
 from pyrofit.config.read import read_mapping
 from pyrofit.config.reference import reference_page
-from pyrofit.hidden.reference import blind_test_keys
-from pyrofit.hidden.setting import Setting
 
 ROOT = Path(__file__).parents[2]
 

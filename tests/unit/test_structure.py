@@ -23,9 +23,8 @@ ORDER = [
     {"diagnose"},
     {"files", "stages"},
     {"new_study"},
-    {"hidden"},
     {"tables", "figures"},
-    {"report", "archive"},
+    {"report", "archive", "blind_test"},
     {"cli"},
 ]
 RANK = {part: rank for rank, parts in enumerate(ORDER) for part in parts}

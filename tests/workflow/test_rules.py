@@ -12,6 +12,7 @@ import yaml
 from tiny import ROOT, Project, Run
 
 SLURM = ROOT / "profiles" / "slurm" / "config.yaml"
+BLIND_TEST = "workflow/blind_test.smk"
 SMOKE = ("--configfile", "config/smoke.yaml")
 
 
@@ -28,11 +29,42 @@ def snakemake(*arguments: str) -> subprocess.CompletedProcess[str]:
     )
 
 
-def test_snakemake_finds_nothing_in_the_rules_but_that_they_name_no_container() -> None:
+@pytest.mark.parametrize("snakefile", ["Snakefile", BLIND_TEST])
+def test_snakemake_finds_nothing_in_the_rules_but_that_they_name_no_container(
+    snakefile: str,
+) -> None:
     # The software is fixed by requirements.lock.
-    said = snakemake("--lint").stderr
+    said = snakemake("--lint", "--snakefile", snakefile).stderr
     titles = set(re.findall(r"^    \* (.*?):?$", said, re.M))
     assert titles == {"Specify a conda environment or container for each rule."}, said
+
+
+def test_broken_blind_test_stops_no_study(tmp_path: Path) -> None:
+    project = Project.copy(ROOT, tmp_path / "project")
+    setting = project.root / "config" / "blind_test.yaml"
+    whole = project.plan()
+    assert whole
+    for broken, says in (("plans: {full: 3}", "plans.full"), ("plans: [", "not valid")):
+        setting.write_text(broken)
+        assert project.plan() == whole
+        run = project.snakemake("--dry-run", "--snakefile", BLIND_TEST)
+        assert run.code != 0
+        assert "config/blind_test.yaml" in run.said
+        assert says in run.said
+    setting.unlink()
+    assert project.plan() == whole
+
+
+@pytest.mark.parametrize(("target", "plan", "jobs"), [((), "full", 40), (("short",), "short", 2)])
+def test_blind_test_runs_its_full_plan_unless_told_otherwise(
+    target: tuple[str, ...], plan: str, jobs: int
+) -> None:
+    ran = snakemake("--dry-run", "--forceall", "--snakefile", BLIND_TEST, *target)
+    said = ran.stdout + ran.stderr
+    assert ran.returncode == 0, said
+    planned = re.findall(r"Blind test of the diagnosis, plan (\w+), job (\d+)", said)
+    assert set(planned) == {(plan, str(job)) for job in range(jobs)}
+    assert f"plan {plan}: tables, figures, page" in said
 
 
 def test_report_of_snakemake_shows_every_figure_and_table(

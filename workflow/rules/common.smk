@@ -18,21 +18,6 @@ def identification(stage, *more):
     return [results.identification(name, stage) for name in names]
 
 
-def places_of(plan):
-    return Places(FOLDER / plan)
-
-
-def chunks_of(wildcards):
-    """Return what the jobs of a plan leave behind."""
-    chunks = range(blind.plan(wildcards.plan).chunks)
-    return [places_of(wildcards.plan).chunk(chunk) for chunk in chunks]
-
-
-def blind_digest(wildcards):
-    """Return a digest of what the twins of a plan depend on."""
-    return digest([BLIND, blind.plan(wildcards.plan).model_dump()])
-
-
 def title_in(shown, name):
     """Return the title of a table or figure in this study."""
     return titled(study, shown[name].title, shown[name].paper)

@@ -15,12 +15,12 @@ def add(commands: Any) -> None:
     add_step(
         commands, "diagnosis-page", "draw and write the page of the diagnosis", _diagnosis_page
     )
-    hidden = commands.add_parser("hidden-effects", help="run the blind test of the diagnosis")
-    hidden.add_argument("--setting", type=Path, default=Path("config/hidden_effects.yaml"))
-    hidden.add_argument("--plan", required=True, help="plan of the setting")
-    hidden.add_argument("--chunk", type=int, help="job to run; without: gather all jobs")
-    hidden.add_argument("--log", type=Path, help="file that keeps what is printed")
-    hidden.set_defaults(step=_hidden_effects)
+    blind = commands.add_parser("blind-test", help="run the blind test of the diagnosis")
+    blind.add_argument("--setting", type=Path, default=Path("config/blind_test.yaml"))
+    blind.add_argument("--plan", required=True, help="plan of the setting")
+    blind.add_argument("--chunk", type=int, help="job to run; without: gather all jobs")
+    blind.add_argument("--log", type=Path, help="file that keeps what is printed")
+    blind.set_defaults(step=_blind_test)
 
 
 def _cores(text: str) -> int:
@@ -50,17 +50,17 @@ def _diagnosis_page(given: argparse.Namespace) -> None:
     write_page(study, results)
 
 
-def _hidden_effects(given: argparse.Namespace) -> None:
-    from pyrofit.hidden.places import FOLDER, Places
-    from pyrofit.hidden.setting import read_setting
+def _blind_test(given: argparse.Namespace) -> None:
+    from pyrofit.blind_test.places import FOLDER, Places
+    from pyrofit.blind_test.setting import read_setting
 
     setting, places = read_setting(given.setting), Places(FOLDER / given.plan)
     if given.chunk is None:
-        from pyrofit.report.hidden_effects import write_hidden_effects
+        from pyrofit.blind_test.page import write_results
 
-        write_hidden_effects(setting, given.plan, places)
+        write_results(setting, given.plan, places)
     else:
+        from pyrofit.blind_test.run import run_chunk
         from pyrofit.diagnose.diagnosis import diagnose
-        from pyrofit.hidden.run import run_chunk
 
         run_chunk(setting, given.plan, given.chunk, places, diagnose)

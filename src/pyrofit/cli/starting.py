@@ -73,8 +73,8 @@ def _init(given: argparse.Namespace) -> None:
 
 
 def _reference(given: argparse.Namespace) -> None:
+    from pyrofit.blind_test.reference import blind_test_keys
     from pyrofit.config.reference import reference_page
-    from pyrofit.hidden.reference import blind_test_keys
 
     print(reference_page(), blind_test_keys(), sep="\n", end="")
 

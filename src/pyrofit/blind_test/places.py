@@ -1,14 +1,14 @@
-"""Where a plan's results lie."""
+"""The paths of a plan's results."""
 
 from dataclasses import dataclass
 from pathlib import Path
 
-FOLDER = Path("results") / "hidden_effects"
+FOLDER = Path("results") / "blind_test"
 
 
 @dataclass(frozen=True)
 class Places:
-    """Paths below one folder: twins as the diagnosis sees them, their truths apart."""
+    """Paths below one folder; a twin as the diagnosis reads it lies apart from its truth."""
 
     root: Path
 
@@ -28,11 +28,15 @@ class Places:
         """Names of the twins of one job, once all are diagnosed."""
         return self.root / "chunks" / f"{chunk}.json"
 
+    def chunks(self, count: int) -> list[Path]:
+        """Files of all jobs."""
+        return [self.chunk(chunk) for chunk in range(count)]
+
     def table(self, name: str) -> Path:
         """Table over all twins."""
         return self.root / "tables" / f"{name}.csv"
 
     @property
     def page(self) -> Path:
-        """All of it on one page."""
+        """The page with all tables and figures."""
         return self.root / "page.md"

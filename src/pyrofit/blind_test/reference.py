@@ -1,12 +1,12 @@
 """The keys of the blind test, for the reference page."""
 
+from pyrofit.blind_test.setting import Setting
 from pyrofit.config.reference import with_keys
-from pyrofit.hidden.setting import Setting
 
 _HEAD = """\
 # Keys of the blind test
 
-Those of `hidden_effects.yaml`.
+Those of `blind_test.yaml`.
 """
 
 

@@ -6,16 +6,16 @@ from contextlib import contextmanager
 from pathlib import Path
 from typing import Any
 
+from pyrofit.blind_test.detectability import detectability
+from pyrofit.blind_test.places import Places
+from pyrofit.blind_test.plan import Case, cases_of, chunk_of
+from pyrofit.blind_test.setting import Setting
+from pyrofit.blind_test.twin import make_twin, read_twin, without_effects, write_twin
 from pyrofit.config import Study, digest, read_mapping
 from pyrofit.effects import same_as
 from pyrofit.errors import DataError, StudyError
 from pyrofit.estimate.problem import Measurements
 from pyrofit.files import read_json, write_json
-from pyrofit.hidden.detectability import detectability
-from pyrofit.hidden.places import Places
-from pyrofit.hidden.plan import Case, cases_of, chunk_of
-from pyrofit.hidden.setting import Setting
-from pyrofit.hidden.twin import make_twin, read_twin, without_effects, write_twin
 from pyrofit.provenance import source_fingerprint
 
 Found = Mapping[str, Any]

@@ -9,12 +9,12 @@ from matplotlib.axes import Axes
 from matplotlib.figure import Figure as Canvas
 from matplotlib.ticker import FormatStrFormatter, LogLocator, NullFormatter
 
+from pyrofit.blind_test.places import Places
+from pyrofit.blind_test.rates import SHARES, by_detectability, interval
+from pyrofit.blind_test.table import one_name
 from pyrofit.effects import known_effects
 from pyrofit.figures import style
 from pyrofit.files import Results
-from pyrofit.hidden.places import Places
-from pyrofit.tables.hidden_effects import one_name
-from pyrofit.tables.hidden_rates import SHARES, by_detectability, interval
 
 OTHER = ("ambiguous", "multiple", "unknown", "none")
 """Verdicts that do not name one effect, the last columns of the confusion matrix."""
@@ -189,7 +189,7 @@ def sets(twins: pd.DataFrame) -> Canvas:
     return canvas
 
 
-HIDDEN_FIGURES: dict[str, tuple[Callable[[pd.DataFrame], Canvas], str]] = {
+FIGURES: dict[str, tuple[Callable[[pd.DataFrame], Canvas], str]] = {
     "confusion": (
         confusion,
         "Hidden effect against verdict, numbers of twins with one hidden effect. Lines part groups "
@@ -219,8 +219,8 @@ HIDDEN_FIGURES: dict[str, tuple[Callable[[pd.DataFrame], Canvas], str]] = {
 """How each figure is drawn, and what it shows."""
 
 
-def draw_hidden(twins: pd.DataFrame, places: Places) -> None:
+def draw_all(twins: pd.DataFrame, places: Places) -> None:
     """Write all figures to ``figures/<name>.svg`` and ``.png``."""
     with style.style():
-        for name, (make, _) in HIDDEN_FIGURES.items():
+        for name, (make, _) in FIGURES.items():
             style.save(make(twins), Results(places.root), name)

@@ -1,4 +1,4 @@
-"""The blind test of the diagnosis in small: twins from the reference solver, effects hidden."""
+"""The short plan of the blind test: twins from the reference solver, with hidden effects."""
 
 import subprocess
 import sys
@@ -11,15 +11,16 @@ sys.path.insert(0, str(Path(__file__).parents[1] / "workflow"))
 from tiny import Project
 
 ROOT = Path(__file__).parents[2]
-SHORT = "results/hidden_effects/short"
+SNAKEFILE = "workflow/blind_test.smk"
+SHORT = "results/blind_test/short"
 
 
 @pytest.fixture(scope="module")
 def project(tmp_path_factory: pytest.TempPathFactory) -> Project:
     """A copy of the project in which the short plan has been run."""
-    made = Project.copy(ROOT, tmp_path_factory.mktemp("blind") / "project")
+    made = Project.copy(ROOT, tmp_path_factory.mktemp("blind_test") / "project")
     subprocess.run(
-        ["snakemake", "--nocolor", "--cores", "2", "hidden_effects_short"],
+        ["snakemake", "--nocolor", "--snakefile", SNAKEFILE, "--cores", "2", "short"],
         cwd=made.root,
         env=made.environment,
         check=True,

@@ -10,14 +10,14 @@ from typing import Any
 import numpy as np
 import pandas as pd
 
+from pyrofit.blind_test.places import Places
+from pyrofit.blind_test.plan import Case
+from pyrofit.blind_test.setting import Setting
 from pyrofit.config import Study, as_study, candidate_effects, read_mapping, read_study
 from pyrofit.data.quantities import tidy_keys
 from pyrofit.errors import StudyError
 from pyrofit.estimate.problem import Measurements
 from pyrofit.files import write_csv, write_json, write_text
-from pyrofit.hidden.places import Places
-from pyrofit.hidden.plan import Case
-from pyrofit.hidden.setting import Setting
 from pyrofit.stages.measurements import computed
 from pyrofit.stages.reading import read_all
 
@@ -57,8 +57,8 @@ def make_twin(setting: Setting, case: Case) -> Twin:
     DataError
         The reference solver does not finish.
     """
-    blind, truth = describe(setting, case)
-    return Twin(case, blind, truth, computed(truth))
+    study, truth = describe(setting, case)
+    return Twin(case, study, truth, computed(truth))
 
 
 def describe(setting: Setting, case: Case) -> tuple[Given, Study]:
@@ -69,18 +69,18 @@ def describe(setting: Setting, case: Case) -> tuple[Given, Study]:
     StudyError
         The truth breaks a rule, such as a limit.
     """
-    base = _seen(setting, case)
+    base = _with_signals(setting, case)
     truth = _draw(setting, base, case)
     known = {} if _has_tga(base) else _known(setting, base, truth, case)
     for name, prior in known.items():
         base["parameters"][name]["value"] = prior["value"]
-    blind = _blind(case, base, known)
+    study = _without_truth(case, base, known)
     synthetic = {
         "truth": truth,
         "effects": case.hidden,
         "accuracy": setting.accuracy.model_dump(),
     }
-    return blind, as_study({**base, "seed": case.seed, "synthetic": synthetic}, setting.base)
+    return study, as_study({**base, "seed": case.seed, "synthetic": synthetic}, setting.base)
 
 
 def write_twin(places: Places, twin: Twin) -> None:
@@ -124,7 +124,7 @@ def _leave_out(study: Given, without: tuple[str, ...], path: Path) -> None:
         study["diagnosis"]["effects"] = list(candidate_effects(left))
 
 
-def _seen(setting: Setting, case: Case) -> Given:
+def _with_signals(setting: Setting, case: Case) -> Given:
     """Return the keys of the base with the experiments and signals of a case, and its noise."""
     base: Given = json.loads(json.dumps(read_mapping(Path(setting.base))))
     held_out = setting.held_out
@@ -208,7 +208,7 @@ def _known(setting: Setting, base: Given, truth: Mapping[str, float], case: Case
     return known
 
 
-def _blind(case: Case, base: Given, known: Given) -> Given:
+def _without_truth(case: Case, base: Given, known: Given) -> Given:
     """Return the keys of the study that sees a twin: files instead of a truth."""
     study = {key: value for key, value in base.items() if key not in ("synthetic", "seed")}
     study["name"] = case.id

@@ -6,9 +6,9 @@ from typing import Any
 import numpy as np
 import pandas as pd
 
+from pyrofit.blind_test.places import Places
 from pyrofit.effects import known_effects, same_as
 from pyrofit.files import Keys, read_json
-from pyrofit.hidden.places import Places
 
 CLAIMS = ("named", "ambiguous", "multiple")
 """Verdicts that say what is missing."""

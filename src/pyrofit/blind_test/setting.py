@@ -1,11 +1,11 @@
-"""What the blind test is made of: every key of its YAML file."""
+"""The setting of the blind test: every key of its YAML file."""
 
 from pathlib import Path
 from typing import Annotated, Any, Literal, Self
 
 from pydantic import Field, ValidationError, model_validator
 
-from pyrofit.config import read_mapping
+from pyrofit.config import digest, read_mapping
 from pyrofit.config.words import in_plain_words
 from pyrofit.effects import known_effects
 from pyrofit.errors import StudyError, suggest
@@ -148,3 +148,15 @@ def read_setting(path: Path) -> Setting:
     except ValidationError as error:
         raise StudyError(f"{path}: " + "; ".join(in_plain_words(error, given))) from None
     return setting.model_copy(update={"base": (path.parent / setting.base).as_posix()})
+
+
+def plan_digest(setting: Setting, name: str) -> str:
+    """Return a digest of all that the twins of a plan depend on, the source excepted.
+
+    Raises
+    ------
+    StudyError
+        There is no such plan, or the base study is missing or no YAML.
+    """
+    twins = setting.model_dump(exclude={"plans"})
+    return digest([twins, read_mapping(Path(setting.base)), setting.plan(name).model_dump()])

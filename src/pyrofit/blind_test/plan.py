@@ -1,4 +1,4 @@
-"""The cases of a plan: what each twin hides, under which signals and noise, from which seed."""
+"""The cases of a plan: hidden effects, signals, noise and seed of each twin."""
 
 from collections.abc import Iterator, Mapping
 from pathlib import Path
@@ -6,17 +6,20 @@ from typing import Any
 
 from pydantic import Field
 
+from pyrofit.blind_test.setting import Hidden, Kind, Plan, Setting
 from pyrofit.config import Study, digest, read_study
 from pyrofit.effects import known_effects
 from pyrofit.effects.base import AnyExperiment, Effect
 from pyrofit.errors import StudyError, suggest
-from pyrofit.hidden.setting import Hidden, Kind, Plan, Setting
 from pyrofit.model.base import Part
 from pyrofit.seeds import seed_for
 
 
 class Case(Part):
-    """One twin."""
+    """One twin.
+
+    Seeds and names of twins are digests of these fields: a renamed field would draw other twins.
+    """
 
     kind: Kind = Field(description="what it hides")
     hidden: Hidden = Field(description="effects of the truth")

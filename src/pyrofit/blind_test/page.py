@@ -2,18 +2,18 @@
 
 import pandas as pd
 
-from pyrofit.figures.hidden_effects import HIDDEN_FIGURES, draw_hidden
+from pyrofit.blind_test.figures import FIGURES, draw_all
+from pyrofit.blind_test.places import Places
+from pyrofit.blind_test.rates import DETECTABLE, by_detectability, middles, rates
+from pyrofit.blind_test.setting import Setting
+from pyrofit.blind_test.table import diagnosed, twins
 from pyrofit.files import write_csv, write_text
-from pyrofit.hidden.places import Places
-from pyrofit.hidden.setting import Setting
-from pyrofit.tables.hidden_effects import diagnosed, twins
-from pyrofit.tables.hidden_rates import DETECTABLE, by_detectability, middles, rates
 from pyrofit.tables.text import markdown
 
 _WRONG = ["id", "hidden", "named", "verdict", "strength", "signals", "noise", "detectability"]
 
 
-def write_hidden_effects(setting: Setting, plan: str, places: Places) -> None:
+def write_results(setting: Setting, plan: str, places: Places) -> None:
     """Write tables, figures and page of a plan whose jobs are done.
 
     Raises
@@ -32,7 +32,7 @@ def write_hidden_effects(setting: Setting, plan: str, places: Places) -> None:
     }
     for name, frame in tables.items():
         write_csv(places.table(name), frame)
-    draw_hidden(found, places)
+    draw_all(found, places)
     write_text(places.page, page(setting, plan, tables))
 
 
@@ -57,7 +57,7 @@ def page(setting: Setting, plan: str, tables: dict[str, pd.DataFrame]) -> str:
         "## Figures\n",
         *(
             f"![{name}](figures/{name}.svg)\n\n{caption}\n"
-            for name, (_, caption) in HIDDEN_FIGURES.items()
+            for name, (_, caption) in FIGURES.items()
         ),
     ]
     return "\n".join(sections)
