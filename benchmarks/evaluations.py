@@ -21,6 +21,20 @@ NEEDED = {  # On one core at an error of at most 0.2 %, whole evaluations.
     ("capa_25", "lanes"): 20000,
     ("capa_60", "lanes"): 4000,
 }
+WORDS = {
+    "load": "loads",
+    "store": "stores",
+    "mul": "multiplications",
+    "fma": "fused multiply-adds",
+    "add": "additions",
+    "div": "divisions",
+    "root": "roots",
+    "sign": "changes of sign",
+    "choose": "selections",
+    "bits": "operations on the bits",
+    "compare": "comparisons",
+}
+"""Names of the counted operations in the page."""
 MANY = 256
 """Sets in a call, where what is done once for all of them does not count."""
 
@@ -123,7 +137,8 @@ def share_of_peak(found: dict[tuple[str, str], Rates]) -> str:
                     f"{100 * flops / most:.0f} %",
                 )
             )
-    per = {k: round(v) for k, v in counted["per"].items() if v >= 0.5}
+    per = {words: counted["per"].get(name, 0.0) for name, words in WORDS.items()}
+    most_used = ", ".join(f"{count:.0f} {words}" for words, count in per.items() if count >= 0.5)
     head = ("kW/m²", "how", "flops per cell and step", "ns", "Gflop/s", "share of the plain loop")
     return (
         f"{table(head, rows)}\n\nA plain loop of fused multiply-adds in the same registers, twelve "
@@ -131,7 +146,7 @@ def share_of_peak(found: dict[tuple[str, str], Rates]) -> str:
         "counted: the kernels run uncompiled with numbers that note what is done with them "
         "(`benchmarks/operations.py`). Addition, multiplication, division and root are one, a "
         "fused multiply-add two; minimum, maximum, comparison, selection, sign, loads and stores "
-        f"are none, but take time as well. Per cell and step at {FLUXES[name]} kW/m²: {per}."
+        f"are none, but take time as well. Per cell and step at {FLUXES[name]} kW/m²: {most_used}."
     )
 
 

@@ -1,14 +1,19 @@
 """The noise model finds the noise that was drawn."""
 
+from pathlib import Path
+
 import numpy as np
 import pytest
 
+from pyrofit.config import read_study
 from pyrofit.cost import Target
 from pyrofit.data.noise import autoregressive, draw, moving_average
 from pyrofit.errors import DataError
 from pyrofit.estimate.correlation import LOWEST_DENSITY, Correlation, ljung_box, shrunk
 from pyrofit.estimate.noise import DISCREPANCY, NoiseModel, estimate_noise, smoothed
+from pyrofit.estimate.scatter import scatter_of
 from pyrofit.solver.arrays import FloatArray
+from pyrofit.stages.reading import read_all
 
 TIME = np.arange(2.5, 1700.0, 5.0)
 SEEDS = range(8)
@@ -184,3 +189,18 @@ def test_few_points_need_a_stated_uncertainty() -> None:
     stated = estimate_noise(Target(time, value, np.full(6, 3.0)), "mlr")
     assert stated.correlation == Correlation()
     assert np.min(stated.sd) >= 3.0
+
+
+@pytest.mark.measured
+def test_tga_of_the_paper_scatters_as_the_method_page_says() -> None:
+    study = read_study(Path(__file__).parents[2] / "config" / "paper.yaml")
+    scatter = {}
+    for (name, signal), (frame, _) in read_all(study).items():
+        if signal == "mass_fraction":
+            time, mass = frame["time_s"].to_numpy(float), frame[signal].to_numpy(float)
+            scatter[name] = scatter_of(time, mass, np.ones(time.size), known=False).scale
+    assert len(scatter) == 7
+    assert np.median(list(scatter.values())) == pytest.approx(3.5e-4, rel=0.03)
+    slow = [scatter[f"tga_{rate}K"] for rate in (1, 2, 5, 10)]
+    assert 1.5e-4 < min(slow) < max(slow) < 4e-4
+    assert scatter["tga_100K"] == max(scatter.values()) == pytest.approx(2.4e-3, rel=0.1)

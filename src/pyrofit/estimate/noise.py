@@ -17,8 +17,8 @@ SOLVER_ERROR = {"mlr": 1e-3, "back_temperature": 1e-3, "mass_fraction": 1e-5}
 """Error of a simulated curve as a fraction of the largest rise of the series: at default settings
 the mass loss rate is off by 0.02 to 0.2 % of its mean, and a TGA by less than 1e-6."""
 DISCREPANCY = {"mass_fraction": 0.02}
-"""Least noise of a series without a stated uncertainty. TGA scatters by 5e-4 about its curve, but
-models of several heating rates come no nearer than 0.02: it would outweigh all else."""
+"""Least noise of a series without a stated uncertainty. The points of a TGA scatter far less about
+a smooth curve, but models of several heating rates come no nearer: TGA would outweigh all else."""
 LASTING = 0.1
 """Time over which such a discrepancy lasts, as a fraction of the record: it is no noise of points,
 and counts alike however many points are measured."""
