@@ -1,5 +1,6 @@
 # make campaign   everything from nothing: environment, data, the whole study, report
 # make test       everything from nothing: environment, all tests
+# make test-fast  the tests that neither run the solver nor Snakemake, in 90 s
 # STUDY=my.yaml make campaign runs your own study; CORES=n sets the number of cores.
 
 PYTHON ?= python3
@@ -7,7 +8,7 @@ CORES ?= 2
 VENV := .venv
 export PATH := $(CURDIR)/$(VENV)/bin:$(PATH)
 
-.PHONY: campaign test verification data lint bench format lock clean
+.PHONY: campaign test test-fast verification data lint bench format lock clean
 
 $(VENV)/installed: requirements.lock pyproject.toml
 	@echo "Setting up the environment in $(VENV) (about a minute)"
@@ -36,6 +37,9 @@ campaign: $(VENV)/installed
 
 test: $(VENV)/installed
 	pytest
+
+test-fast: $(VENV)/installed
+	pytest -m "not (slow or solver or workflow)"
 
 verification: $(VENV)/installed
 	pytest tests/verification --page docs/verification

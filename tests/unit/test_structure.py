@@ -4,6 +4,7 @@ import ast
 import re
 import subprocess
 import sys
+from functools import cache
 from pathlib import Path
 
 import pytest
@@ -11,11 +12,12 @@ import pytest
 ROOT = Path(__file__).parents[2]
 SOURCE = ROOT / "src" / "pyrofit"
 ORDER = [
-    {"errors", "constants", "logs", "parallel", "provenance", "seeds"},
+    {"errors", "constants", "discovery", "logs", "parallel", "provenance", "seeds"},
     {"data"},
     {"model"},
     {"effects"},
     {"cost"},
+    {"plugins"},
     {"config"},
     {"solver"},
     {"simulate"},
@@ -39,6 +41,7 @@ def part_of(path: Path) -> str:
     return path.relative_to(SOURCE).parts[0].removesuffix(".py")
 
 
+@cache
 def imported(path: Path) -> set[str]:
     """Return the full names of all modules that a file imports, anywhere in it."""
     names = set()

@@ -1,0 +1,56 @@
+"""The speed classes of the tests: which compile the solver, draw for long, or run the workflow.
+
+The rest are the fast ones, `make test-fast`; none of them compiles a kernel.
+"""
+
+from pathlib import Path
+
+import pytest
+
+HERE = Path(__file__).parent
+FOLDERS = {
+    "blind_test": "solver",
+    "diagnose": "solver",
+    "effects": "solver",
+    "recovery": "solver",
+    "verification": "solver",
+    "workflow": "workflow",
+}
+FILES = {
+    "test_bad_input": "solver",
+    "test_comparison": "solver",
+    "test_cost_properties": "slow",
+    "test_diagnose_design": "solver",
+    "test_diagnose_probes": "solver",
+    "test_diagnosis_shown": "slow",
+    "test_estimate": "solver",
+    "test_figures": "slow",
+    "test_grid": "solver",
+    "test_identify_stage": "solver",
+    "test_input_properties": "slow",
+    "test_lanes": "solver",
+    "test_noise": "slow",
+    "test_reaction_order": "solver",
+    "test_robustness": "solver",
+    "test_stages": "solver",
+}
+"""Files of folders whose other tests are fast."""
+
+
+def pytest_collection_modifyitems(items: list[pytest.Item]) -> None:
+    """Mark the tests of a folder or a file with their speed class."""
+    for item in items:
+        if HERE not in item.path.parents:
+            continue  # an example of the source
+        folder = item.path.relative_to(HERE).parts[0]
+        name = FOLDERS.get(folder) or FILES.get(item.path.stem)
+        if name:
+            item.add_marker(name)
+
+
+def pytest_sessionstart() -> None:
+    """Refuse a class of what is not there."""
+    there = {path.stem for path in HERE.rglob("test_*.py")} | {path.name for path in HERE.iterdir()}
+    lacking = sorted({*FOLDERS, *FILES} - there)
+    if lacking:
+        pytest.exit(f"tests/conftest.py: there is no {', '.join(lacking)}; correct it", 1)
