@@ -7,7 +7,7 @@ from typing import NamedTuple
 from pyrofit.config import read_study
 from pyrofit.effects import known_effects
 from pyrofit.effects.apply import with_effects
-from pyrofit.model.experiment import Gasification
+from pyrofit.experiments import Gasification
 from pyrofit.model.material import Material
 
 ROOT = Path(__file__).parents[1]

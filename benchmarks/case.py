@@ -9,8 +9,8 @@ from typing import Any, NamedTuple
 import numpy as np
 
 from pyrofit.config import Study, read_study
+from pyrofit.experiments import Gasification
 from pyrofit.model.accuracy import Accuracy
-from pyrofit.model.experiment import Gasification
 from pyrofit.model.material import Material
 from pyrofit.simulate import simulate_gasifications
 from pyrofit.solver.arrays import FloatArray, Values

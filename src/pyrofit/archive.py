@@ -18,7 +18,7 @@ from pyrofit.config import Study, as_yaml, digest
 from pyrofit.errors import DataError
 from pyrofit.figures import FIGURES
 from pyrofit.files import Results, read_json, write_bytes
-from pyrofit.model.experiment import Signal
+from pyrofit.model.signal import Signal
 from pyrofit.provenance import source_fingerprint
 from pyrofit.stages.reading import MACFP
 from pyrofit.tables import TABLES

@@ -8,8 +8,9 @@ import numpy as np
 
 from pyrofit.model.accuracy import Accuracy
 from pyrofit.model.base import value_of
-from pyrofit.model.experiment import Gasification, Tga
+from pyrofit.model.heated import HeatedExperiment
 from pyrofit.model.material import Material
+from pyrofit.model.slab import SlabExperiment
 from pyrofit.solver.arrays import FloatArray, Numerics, Status, Values
 from pyrofit.solver.curves import Curves, Request, Runs
 from pyrofit.solver.lower import (
@@ -24,6 +25,7 @@ from pyrofit.solver.lower_experiment import (
     lower_share,
 )
 from pyrofit.solver.observe import observe
+from pyrofit.solver.outputs import FRACTION_RATE, MASS_FRACTION
 from pyrofit.solver.run import Case, heat, march
 
 COUPLED_STEP = 0.125
@@ -31,7 +33,7 @@ COUPLED_STEP = 0.125
 
 
 def simulate_tga(
-    experiment: Tga,
+    experiment: HeatedExperiment,
     material: Material,
     values: Mapping[str, float],
     request: Request,
@@ -59,7 +61,7 @@ def simulate_tga(
 
 
 def simulate_tgas(
-    experiments: Sequence[Tga],
+    experiments: Sequence[HeatedExperiment],
     material: Material,
     values: Values,
     requests: Sequence[Request],
@@ -95,7 +97,7 @@ def simulate_tgas(
 
 def _tga_curves(mass: FloatArray, rate: FloatArray) -> Curves:
     status = Status.OK if bool(np.isfinite(mass[-1])) else Status.NON_FINITE
-    return Curves(status, {"mass_fraction": mass, "mass_loss_rate": rate})
+    return Curves(status, {MASS_FRACTION: mass, FRACTION_RATE: rate})
 
 
 def _given(temperature: FloatArray | None) -> FloatArray:
@@ -104,7 +106,7 @@ def _given(temperature: FloatArray | None) -> FloatArray:
 
 
 def simulate_gasification(
-    experiment: Gasification,
+    experiment: SlabExperiment,
     material: Material,
     values: Mapping[str, float],
     requests: Mapping[str, Request],
@@ -138,7 +140,7 @@ def simulate_gasification(
 
 
 def simulate_gasifications(
-    experiment: Gasification,
+    experiment: SlabExperiment,
     material: Material,
     values: Values,
     requests: Mapping[str, Request],
@@ -170,7 +172,7 @@ def _numerics(accuracy: Accuracy) -> Numerics:
 
 
 def _lower(
-    experiment: Gasification,
+    experiment: SlabExperiment,
     material: Material,
     values: Values,
     accuracy: Accuracy,

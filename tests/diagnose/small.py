@@ -9,12 +9,12 @@ import pandas as pd
 
 from pyrofit.config import Study, TermSpec, as_study
 from pyrofit.data.noise import autoregressive, draw, moving_average
-from pyrofit.data.quantities import UNCERTAINTY_COLUMN, VALUE_COLUMN, tidy_keys
 from pyrofit.diagnose.model import Base, Known, extended, model_of, strength_of
 from pyrofit.estimate.correlation import Correlation
 from pyrofit.estimate.likelihood import Likelihood
 from pyrofit.estimate.noise import NoiseModel
 from pyrofit.estimate.problem import Measurements, make_problem
+from pyrofit.quantities import known_quantities
 from pyrofit.solver.arrays import FloatArray
 
 CHANNELS = tuple((s, q) for s in ("slab_25", "slab_60") for q in ("mlr", "back_temperature"))
@@ -49,7 +49,7 @@ def _slab(name: str, flux: float, average_s: float) -> dict[str, Any]:
         "signals": {
             q: {
                 "file": f"{name}_{q}.csv",
-                **tidy_keys(q),
+                **known_quantities()[q].tidy_keys(),
                 **({"average_s": average_s} if q == "mlr" else {}),
             }
             for q in SD
@@ -111,7 +111,7 @@ def base_of(described: Study, curves: list[FloatArray] | None = None) -> Base:
     for i, (name, quantity) in enumerate(CHANNELS):
         value = np.zeros(TIMES[name].size) if curves is None else curves[i]
         frames[name, quantity] = pd.DataFrame(
-            {"time_s": TIMES[name], VALUE_COLUMN[quantity]: value}
+            {"time_s": TIMES[name], known_quantities()[quantity].column: value}
         )
     terms = [TermSpec(experiment=e, signal=q, kind="RMSE") for e, q in CHANNELS]
     problem = make_problem(described, tuple(LIMITS), terms, frames, described.material, {})
@@ -149,8 +149,8 @@ def measured(hidden: Mapping[str, float], seed: int) -> Measurements:
         frames[name, quantity] = pd.DataFrame(
             {
                 "time_s": TIMES[name],
-                VALUE_COLUMN[quantity]: curve + noise,
-                UNCERTAINTY_COLUMN[quantity]: SD[quantity],
+                known_quantities()[quantity].column: curve + noise,
+                known_quantities()[quantity].uncertainty_column: SD[quantity],
             }
         )
     return frames

@@ -12,8 +12,8 @@ from conftest import HIDDEN, SEED
 from small import CHANNELS, SD, given, measured
 
 from pyrofit.cli import main
-from pyrofit.data.quantities import UNCERTAINTY_COLUMN
 from pyrofit.files import read_json, write_csv
+from pyrofit.quantities import known_quantities
 
 FOUND = Path("results/small/diagnosis/diagnosis.json")
 FEW = {"effects": ["k_T", "heater_ramp", "front_convection"]}
@@ -29,7 +29,9 @@ def write(keys: dict[str, Any]) -> None:
 def series(hidden: str, stated: bool = True, every: int = 1) -> None:
     """Write the files of a twin."""
     for (name, quantity), frame in measured(HIDDEN[hidden], SEED).items():
-        kept = frame if stated else frame.drop(columns=UNCERTAINTY_COLUMN[quantity])
+        kept = (
+            frame if stated else frame.drop(columns=known_quantities()[quantity].uncertainty_column)
+        )
         write_csv(Path(f"{name}_{quantity}.csv"), kept.iloc[every // 2 :: every])
 
 

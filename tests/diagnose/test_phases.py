@@ -8,7 +8,10 @@ from conftest import Diagnosed
 from small import TIMES
 
 from pyrofit.diagnose.diagnosis import Diagnosis
-from pyrofit.diagnose.phases import PHASES, _of_slab, _of_tga, course, describe
+from pyrofit.diagnose.phases import course, describe
+from pyrofit.experiments.base import PHASES
+from pyrofit.experiments.heated.course import of_mass
+from pyrofit.experiments.slab.course import of_curves
 
 TIME = np.arange(0.0, 1001.0)
 
@@ -32,7 +35,7 @@ def starts(phase: np.ndarray[Any, Any], time: np.ndarray[Any, Any]) -> dict[str,
 def test_phases_of_a_slab_begin_where_the_documentation_says() -> None:
     # 700 released in all: 0.9 of it after 100 + 50 + 580 = 730 s, 0.99 after 862.6 s:
     # 7 are left of the ramp's 50, (900 - t)^2/200 = 7.
-    found = starts(_of_slab(slab(back_warms_at=400.0)).phase, TIME)
+    found = starts(of_curves(slab(back_warms_at=400.0)).phase, TIME)
     assert found == {
         "heat-up": 0.0,
         "onset": 110.0,
@@ -44,7 +47,7 @@ def test_phases_of_a_slab_begin_where_the_documentation_says() -> None:
 
 
 def test_slab_whose_back_is_warm_early_has_no_plateau() -> None:
-    found = starts(_of_slab(slab(back_warms_at=50.0)).phase, TIME)
+    found = starts(of_curves(slab(back_warms_at=50.0)).phase, TIME)
     assert list(found) == ["heat-up", "onset", "back-effect", "burn-out", "tail"]
     assert found["back-effect"] == 180.0
 
@@ -52,11 +55,11 @@ def test_slab_whose_back_is_warm_early_has_no_plateau() -> None:
 def test_phases_do_not_return_where_the_rate_falls_again() -> None:
     curves = slab(back_warms_at=400.0)
     curves["mlr"][300:320] = 0.05
-    assert starts(_of_slab(curves).phase, TIME)["back-effect"] == 400.0
+    assert starts(of_curves(curves).phase, TIME)["back-effect"] == 400.0
 
 
 def test_conversion_is_the_released_share() -> None:
-    found = _of_slab(slab(back_warms_at=400.0))
+    found = of_curves(slab(back_warms_at=400.0))
     assert found.conversion[0] == 0.0
     assert found.conversion[-1] == pytest.approx(1.0)
     assert found.conversion[500] == pytest.approx((50.0 + 300.0) / 700.0)
@@ -66,7 +69,7 @@ def test_conversion_is_the_released_share() -> None:
 
 def test_phases_of_a_tga_begin_where_the_documentation_says() -> None:
     T = np.arange(1001.0)
-    found = starts(_of_tga(1.0 - 0.9 * T / 1000.0).phase, T)
+    found = starts(of_mass(1.0 - 0.9 * T / 1000.0).phase, T)
     expected = {"heat-up": 0, "onset": 20, "plateau": 200, "burn-out": 900, "tail": 990}
     assert list(found) == list(expected)
     assert all(abs(found[name] - at) <= 1.0 for name, at in expected.items())

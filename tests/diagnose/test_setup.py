@@ -8,7 +8,6 @@ from conftest import HIDDEN, SEED
 from small import CHANNELS, LIMITS, SD, measured, study
 
 from pyrofit.config import candidate_effects
-from pyrofit.data.quantities import UNCERTAINTY_COLUMN
 from pyrofit.diagnose.descent import descend
 from pyrofit.diagnose.model import model_of
 from pyrofit.diagnose.setup import STARTS, _problem, _starts, set_up
@@ -16,6 +15,7 @@ from pyrofit.effects import known_effects
 from pyrofit.errors import DataError
 from pyrofit.estimate.likelihood import FAILED, Likelihood
 from pyrofit.estimate.problem import Measurements
+from pyrofit.quantities import known_quantities
 from pyrofit.solver.arrays import FloatArray
 
 KNOWN = {"cp": {"value": 2.3, "sd": 0.02}, "k": {"value": 0.21, "sd": 0.01}}
@@ -103,7 +103,10 @@ def test_stated_noise_is_found_as_stated(series: Measurements) -> None:
 
 
 def test_noise_that_is_not_stated_is_found_from_the_scatter(series: Measurements) -> None:
-    bare = {key: frame.drop(columns=UNCERTAINTY_COLUMN[key[1]]) for key, frame in series.items()}
+    bare = {
+        key: frame.drop(columns=known_quantities()[key[1]].uncertainty_column)
+        for key, frame in series.items()
+    }
     base = set_up(study(), bare).base.model.base
     for (_, quantity), noise in zip(CHANNELS, base.likelihood.noise, strict=True):
         assert "from the scatter" in noise.describe()

@@ -9,8 +9,9 @@ import numpy as np
 
 from pyrofit.config import read_study
 from pyrofit.effects.apply import with_effects
-from pyrofit.effects.base import AnyExperiment, Effect
-from pyrofit.model.experiment import Gasification, Tga
+from pyrofit.effects.base import Effect
+from pyrofit.experiments import Gasification, Tga
+from pyrofit.model.experiment import Experiment
 from pyrofit.model.material import Material
 from pyrofit.simulate import simulate_gasification, simulate_tga
 from pyrofit.solver.curves import Curves, Request
@@ -40,7 +41,7 @@ class Base:
     """A material, experiments by name, and the values of their parameters."""
 
     material: Material
-    experiments: dict[str, AnyExperiment]
+    experiments: dict[str, Experiment]
     values: dict[str, float]
 
 

@@ -12,8 +12,9 @@ from pyrofit.effects import known_effects
 from pyrofit.effects.apply import with_effects
 from pyrofit.effects.base import changed
 from pyrofit.effects.page import effects_page
-from pyrofit.model.experiment import Back, Gasification
+from pyrofit.experiments import Gasification
 from pyrofit.model.material import Changed
+from pyrofit.model.slab import Back
 
 DOCS = Path(__file__).parents[2] / "docs"
 EFFECTS = known_effects()

@@ -219,7 +219,7 @@ TABLES = rows_of(
         (
             "mass gained",
             edit("data/mlr.csv", "\n155,", "\n155,-9"),
-            ("column 'MLR': given -9", "positive where mass is lost. Change the sign"),
+            ("column 'MLR': given -9", "a mass loss rate is positive. Change"),
         ),
         (
             "mass rate without area",

@@ -612,7 +612,7 @@ STAGES = rows_of(
         (
             "gasification in the kinetics",
             put(kinetics__cost__0__experiment="slab_25"),
-            ("kinetics.cost.0.experiment: 'slab_25' is no tga experiment. Known: tga_10.",),
+            ("kinetics.cost.0.experiment: 'slab_25' is no TGA experiment. Known: tga_10.",),
         ),
         (
             "unknown kind of cost",
@@ -729,7 +729,10 @@ STAGES = rows_of(
         (
             "temperature limit of a record without temperatures",
             put(experiments__slab_25__signals__mlr__until_K=600),
-            (f"{MLR}.until_K: only TGA has a temperature at each point; use until_s",),
+            (
+                f"{MLR}.until_K: only a record against temperature has one at each point; "
+                "use until_s",
+            ),
         ),
         (
             "synthetic signal without synthetic section",

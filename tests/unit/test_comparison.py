@@ -15,6 +15,7 @@ from pyrofit.errors import DataError
 from pyrofit.estimate import family, groups
 from pyrofit.figures.compared import rank_correlation
 from pyrofit.files import Results, read_csv, write_csv
+from pyrofit.quantities import known_quantities
 from pyrofit.report.comparison import costs, good_sets, optimisers
 from pyrofit.solver.arrays import FloatArray
 from pyrofit.stages import compare, fit, measurements, predict
@@ -170,8 +171,10 @@ def test_metric_of_a_best_set_is_the_score_of_its_prediction(
     predicted = read_csv(results.validation("scores.csv"))
     for place in ("slab_25", "slab_60"):
         here = scores(results).query(f"place == '{place}' and best and found_by == 'SCE-UA'")
-        rate = here[here["measure"] == compare.METRICS["mlr"]].set_index("cost_function")["value"]
-        kelvin = here[here["measure"] == compare.METRICS["back_temperature"]]
+        rate = here[here["measure"] == known_quantities()["mlr"].metric].set_index("cost_function")[
+            "value"
+        ]
+        kelvin = here[here["measure"] == known_quantities()["back_temperature"].metric]
         theirs = predicted[(predicted["experiment"] == place) & predicted["set"].isin(list(SETS))]
         by_signal = theirs.set_index(["signal", "set"])
         for cost in SETS:
@@ -186,7 +189,7 @@ def test_costs_are_carried_over_to_what_was_not_fitted_alone(
     study: Study, results: Results
 ) -> None:
     found = compare.places(study, measurements.load(study, results))
-    metrics = {compare.METRICS["mlr"], compare.METRICS["back_temperature"]}
+    metrics = {known_quantities()["mlr"].metric, known_quantities()["back_temperature"].metric}
     assert set(found) == {"fitted", "slab_25", "slab_60"}
     assert set(found["slab_25"]) == metrics
     assert set(found["slab_60"]) == metrics | set(SETS)
@@ -247,7 +250,7 @@ def test_every_best_set_stands_under_every_cost_by_hand(tmp_path: Path) -> None:
     assert ("fitted", "BANDS", "published") not in table.index
     row = table.loc[("Slab 25 kW/m²", "RMSE", "CMA-ES")]
     assert row[["RMSE", "BANDS"]].isna().all()
-    assert row[compare.METRICS["mlr"]] == pytest.approx(0.185)
+    assert row[known_quantities()["mlr"].metric] == pytest.approx(0.185)
 
 
 def test_too_few_repetitions_are_not_tested(tmp_path: Path) -> None:

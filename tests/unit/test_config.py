@@ -473,13 +473,13 @@ BROKEN: list[tuple[str, str, object, list[str]]] = [
         "gasification in the kinetics",
         "kinetics.cost.0",
         {"experiment": "slab_25", "signal": "mlr", "kind": "RMSE"},
-        ["kinetics.cost.0.experiment: 'slab_25' is no tga experiment"],
+        ["kinetics.cost.0.experiment: 'slab_25' is no TGA experiment"],
     ),
     (
         "gasification to compare kinetics with",
         "kinetics.compare",
         ["slab_25"],
-        ["kinetics.compare: 'slab_25' is no tga experiment"],
+        ["kinetics.compare: 'slab_25' is no TGA experiment"],
     ),
     (
         "TGA to predict",

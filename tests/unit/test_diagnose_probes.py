@@ -10,7 +10,6 @@ import pandas as pd
 import pytest
 
 from pyrofit.config import Study, TermSpec, read_study
-from pyrofit.data.quantities import VALUE_COLUMN
 from pyrofit.diagnose.corrections import corrections
 from pyrofit.diagnose.descent import descend
 from pyrofit.diagnose.model import Base, Known, model_of
@@ -22,7 +21,9 @@ from pyrofit.estimate.correlation import Correlation
 from pyrofit.estimate.likelihood import Likelihood
 from pyrofit.estimate.noise import NoiseModel
 from pyrofit.estimate.problem import Problem, make_problem
-from pyrofit.model.experiment import FluxTable, Gasification
+from pyrofit.experiments import Gasification
+from pyrofit.model.slab import FluxTable
+from pyrofit.quantities import known_quantities
 
 Change = Callable[[Problem], Problem]
 MLR = (("capa_25", "mlr"), ("capa_60", "mlr"))
@@ -40,7 +41,7 @@ def posed(study: Study, channels: Sequence[tuple[str, str]], curves: Any = None)
             frame = pd.DataFrame({"time_s": (T - 350.0) * 6.0, "temperature_K": T})
         else:
             frame = pd.DataFrame({"time_s": np.arange(5.0, END_S[name], 5.0)})
-        frame[VALUE_COLUMN[signal]] = 0.0 if curves is None else curves[i]
+        frame[known_quantities()[signal].column] = 0.0 if curves is None else curves[i]
         frames[name, signal] = frame
     known = {n: v * study.parameters[n].factor for n, v in study.synthetic.truth.items()}  # type: ignore[union-attr]
     estimated = [*study.imp.estimate, *(("T_B", "E_B") if len(channels) > len(SLABS) else ())]  # type: ignore[union-attr]

@@ -19,12 +19,12 @@ from pyrofit.estimate.problem import (
     Evaluation,
     Problem,
     make_problem,
-    program,
-    request_for,
     target_of,
 )
 from pyrofit.estimate.sceua import search, search_several
-from pyrofit.model.experiment import Tga
+from pyrofit.experiments import KINDS, Tga
+from pyrofit.experiments.heated.simulate import programme, request
+from pyrofit.quantities import known_quantities
 from pyrofit.seeds import seed_for
 from pyrofit.simulate import simulate_gasification, simulate_tga
 from pyrofit.solver.arrays import FloatArray, Status
@@ -511,9 +511,9 @@ def test_cost_that_does_not_fit_its_target_is_refused(study: Study) -> None:
 
 def test_target_has_the_uncertainty_where_one_is_known() -> None:
     frame = pd.DataFrame({"time_s": [0.0, 1.0], "mlr_kg_m2_s": [1.0, 2.0]})
-    assert target_of(frame, "mlr").uncertainty is None
+    assert target_of(frame, known_quantities()["mlr"]).uncertainty is None
     frame["mlr_uncertainty_kg_m2_s"] = [0.1, 0.2]
-    assert target_of(frame, "mlr").uncertainty.tolist() == [0.1, 0.2]
+    assert target_of(frame, known_quantities()["mlr"]).uncertainty.tolist() == [0.1, 0.2]
 
 
 def tga(study: Study, how: str) -> Tga:
@@ -529,20 +529,20 @@ SLOW_START = pd.DataFrame(
 
 def test_measured_program_follows_the_thermocouple(study: Study) -> None:
     times = np.array([10.0, 40.0, 130.0])
-    assert program(tga(study, "measured"), SLOW_START, times).tolist() == [400.0, 401.0, 409.0]
+    assert programme(tga(study, "measured"), SLOW_START, times).tolist() == [400.0, 401.0, 409.0]
 
 
 def test_nominal_program_rises_at_the_nominal_rate(study: Study) -> None:
     times = np.array([10.0, 40.0, 130.0])
-    assert program(tga(study, "nominal"), SLOW_START, times).tolist() == [400.0, 402.5, 410.0]
+    assert programme(tga(study, "nominal"), SLOW_START, times).tolist() == [400.0, 402.5, 410.0]
 
 
 def test_request_for_tga_has_temperatures_and_for_a_slab_bins(study: Study) -> None:
     times = np.array([10.0, 70.0])
-    asked = request_for(tga(study, "measured"), "mass_fraction", SLOW_START, times)
+    asked = request(tga(study, "measured"), "mass_fraction", SLOW_START, times)
     assert asked.temperature_K is not None
     assert asked.temperature_K.tolist() == [400.0, 402.0]
-    asked = request_for(study.experiments["slab_60"], "mlr", SLOW_START, times)
+    asked = KINDS["gasification"].request(study.experiments["slab_60"], "mlr", SLOW_START, times)
     assert (asked.average_s, asked.temperature_K) == (5.0, None)
 
 

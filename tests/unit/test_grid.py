@@ -8,9 +8,9 @@ import pytest
 import yaml
 
 from pyrofit.config import Study, as_study
+from pyrofit.experiments import Gasification
 from pyrofit.model.accuracy import Accuracy
 from pyrofit.model.base import value_of
-from pyrofit.model.experiment import Gasification
 from pyrofit.model.material import Material
 from pyrofit.simulate import simulate_gasification
 from pyrofit.solver import lower, lower_experiment

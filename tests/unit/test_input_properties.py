@@ -15,9 +15,10 @@ from hypothesis import HealthCheck, given, settings
 from hypothesis import strategies as st
 
 from pyrofit.config import as_study, read_study
-from pyrofit.data.quantities import CELSIUS, HEADERS, ICE_POINT_K, SCALES, VALUE_COLUMN
 from pyrofit.data.series import SeriesSpec, read_series
 from pyrofit.errors import DataError, StudyError
+from pyrofit.quantities import known_quantities
+from pyrofit.quantities.units import CELSIUS, ICE_POINT_K, SCALES
 
 fixed = settings(
     derandomize=True,
@@ -66,7 +67,9 @@ def series(draw: st.DrawFn) -> tuple[str, dict[str, list[float]], str]:
     columns["value"] = ([0.9 * high, *values], kind)
     unit = {role: draw(units(kind)) for role, (_, kind) in columns.items()}
     header = {
-        role: draw(st.sampled_from(SPELLINGS))(draw(st.sampled_from(HEADERS[quantity][role])))
+        role: draw(st.sampled_from(SPELLINGS))(
+            draw(st.sampled_from(known_quantities()[quantity].roles[role]))
+        )
         for role in columns
     }
     order = draw(st.permutations(sorted(columns)))
@@ -99,7 +102,11 @@ def test_series_reads_back_however_it_is_written(
     path = tmp_path / "run.csv"
     path.write_bytes(text.encode("utf-8-sig" if mark else "utf-8"))
     frame = read_series(SeriesSpec(quantity, path)).frame
-    names = {"time": "time_s", "temperature": "temperature_K", "value": VALUE_COLUMN[quantity]}
+    names = {
+        "time": "time_s",
+        "temperature": "temperature_K",
+        "value": known_quantities()[quantity].column,
+    }
     assert sorted(frame) == sorted(names[role] for role in columns)
     for role, column in columns.items():
         # 2e-13 K is the rounding of degrees Celsius.

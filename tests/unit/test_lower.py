@@ -4,7 +4,7 @@ from typing import Any
 import numpy as np
 import pytest
 
-from pyrofit.model.experiment import Gasification
+from pyrofit.experiments import Gasification
 from pyrofit.model.material import Linear, Material, PowerLaw, Reaction, Table
 from pyrofit.solver import lower, lower_experiment
 from pyrofit.solver.arrays import TABLE_TEMPERATURES_K

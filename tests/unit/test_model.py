@@ -3,8 +3,8 @@ from typing import Any
 import pytest
 from pydantic import ValidationError
 
+from pyrofit.experiments import Gasification, Tga
 from pyrofit.model.base import Part, numbers, value_of
-from pyrofit.model.experiment import FluxTable, Gasification, Tga
 from pyrofit.model.material import (
     Changed,
     Component,
@@ -16,6 +16,7 @@ from pyrofit.model.material import (
     check_composition,
 )
 from pyrofit.model.parameters import Parameter
+from pyrofit.model.slab import FluxTable
 
 SOLID: dict[str, Any] = {
     "density_kg_m3": 1000.0,

@@ -10,13 +10,15 @@ from pyrofit.cost import Target
 from pyrofit.data.noise import autoregressive, draw, moving_average
 from pyrofit.errors import DataError
 from pyrofit.estimate.correlation import LOWEST_DENSITY, Correlation, ljung_box, shrunk
-from pyrofit.estimate.noise import DISCREPANCY, NoiseModel, estimate_noise, smoothed
+from pyrofit.estimate.noise import NoiseModel, estimate_noise, smoothed
 from pyrofit.estimate.scatter import scatter_of
+from pyrofit.quantities import known_quantities
 from pyrofit.solver.arrays import FloatArray
 from pyrofit.stages.reading import read_all
 
 TIME = np.arange(2.5, 1700.0, 5.0)
 SEEDS = range(8)
+MLR, MASS_FRACTION = (known_quantities()[name] for name in ("mlr", "mass_fraction"))
 
 
 def rate(time: FloatArray) -> FloatArray:
@@ -47,7 +49,7 @@ def found(kind: str, seed: int, stated: bool) -> tuple[NoiseModel, float]:
         signal, clean, sd = "back_temperature", temperature(TIME), 2.0
     value = clean + sd * draw(KINDS[kind], np.random.default_rng(seed))
     target = Target(TIME, value, np.full(TIME.size, sd) if stated else None)
-    return estimate_noise(target, signal), sd
+    return estimate_noise(target, known_quantities()[signal]), sd
 
 
 # Mean and largest error of the standard deviation, mean and scatter of the first two correlations
@@ -139,14 +141,14 @@ def test_stated_uncertainty_that_jumps_is_smoothed_and_a_constant_one_is_kept() 
 
 def test_scatter_larger_than_stated_enlarges_the_noise() -> None:
     value = rate(TIME) + 6e-4 * np.random.default_rng(2).standard_normal(TIME.size)
-    model = estimate_noise(Target(TIME, value, np.full(TIME.size, 3e-4)), "mlr")
+    model = estimate_noise(Target(TIME, value, np.full(TIME.size, 3e-4)), MLR)
     assert model.excess == pytest.approx(2.0, rel=0.1)
     assert "the scatter is" in model.describe()
 
 
 def test_floors_are_added_in_squares_and_named() -> None:
     clean = rate(TIME)
-    model = estimate_noise(Target(TIME, clean, np.full(TIME.size, 1e-5)), "mlr")
+    model = estimate_noise(Target(TIME, clean, np.full(TIME.size, 1e-5)), MLR)
     steepest = int(np.argmax(np.abs(np.gradient(clean, TIME))))
     timing = 0.5 * abs(np.gradient(clean, TIME)[steepest])
     solver = 1e-3 * np.ptp(clean)
@@ -158,17 +160,17 @@ def test_floors_are_added_in_squares_and_named() -> None:
 def test_tga_without_uncertainty_has_a_discrepancy_floor() -> None:
     mass = 1.0 / (1.0 + np.exp((TIME - 800.0) / 60.0))
     mass += 5e-4 * np.random.default_rng(3).standard_normal(TIME.size)
-    without = estimate_noise(Target(TIME, mass), "mass_fraction")
-    assert np.min(without.sd) > DISCREPANCY["mass_fraction"]
-    stated = estimate_noise(Target(TIME, mass, np.full(TIME.size, 5e-4)), "mass_fraction")
-    assert np.median(stated.sd) < 0.1 * DISCREPANCY["mass_fraction"]
+    without = estimate_noise(Target(TIME, mass), MASS_FRACTION)
+    assert np.min(without.sd) > MASS_FRACTION.discrepancy
+    stated = estimate_noise(Target(TIME, mass, np.full(TIME.size, 5e-4)), MASS_FRACTION)
+    assert np.median(stated.sd) < 0.1 * MASS_FRACTION.discrepancy
 
 
 def test_noise_that_is_not_of_the_known_kinds_is_said_to_be_not_white() -> None:
     # Every third value counts twice: correlated at lag 3 alone.
     white = np.random.default_rng(4).standard_normal(TIME.size + 3)
     value = rate(TIME) + 3e-4 * (white[3:] + white[:-3])
-    assert estimate_noise(Target(TIME, value), "mlr").whiteness < 0.05
+    assert estimate_noise(Target(TIME, value), MLR).whiteness < 0.05
 
 
 def test_ljung_box_by_hand() -> None:
@@ -185,8 +187,8 @@ def test_equal_series_have_equal_noise() -> None:
 def test_few_points_need_a_stated_uncertainty() -> None:
     time, value = np.arange(6.0), np.arange(6.0) ** 2
     with pytest.raises(DataError, match=r"mlr: 6 points tell nothing of their noise.*uncertainty"):
-        estimate_noise(Target(time, value), "mlr")
-    stated = estimate_noise(Target(time, value, np.full(6, 3.0)), "mlr")
+        estimate_noise(Target(time, value), MLR)
+    stated = estimate_noise(Target(time, value, np.full(6, 3.0)), MLR)
     assert stated.correlation == Correlation()
     assert np.min(stated.sd) >= 3.0
 

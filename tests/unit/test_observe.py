@@ -4,7 +4,7 @@ from typing import Any
 import numpy as np
 import pytest
 
-from pyrofit.model.experiment import Gasification
+from pyrofit.experiments import Gasification
 from pyrofit.solver.arrays import FloatArray, Status
 from pyrofit.solver.curves import Curves, Request, Runs
 from pyrofit.solver.observe import observe, observe_one

@@ -8,6 +8,7 @@ import pytest
 from pyrofit.config import Study, as_study
 from pyrofit.errors import StudyError
 from pyrofit.files import Results, read_csv, write_csv, write_json
+from pyrofit.quantities import known_quantities
 from pyrofit.stages import compare, predict
 from pyrofit.tables import TABLES, describe, imp, make_table, parameters
 from pyrofit.tables.determined import flag
@@ -281,7 +282,7 @@ def comparison(study: Study, results: Results) -> None:
             rows.append({**about, "place": compare.FITTED, "measure": cost, "value": judged})
         for name in study.validation.experiments:
             for signal in study.experiments[name].signals:
-                measure = compare.METRICS[signal]
+                measure = known_quantities()[signal].metric
                 rows.append({**about, "place": name, "measure": measure, "value": 0.1 + value})
     write_csv(results.comparison("scores.csv"), pd.DataFrame(rows))
     sets = [{"cost_function": c, "cost": 0.1, "met": 40 + i} for i, c in enumerate(study.imp.costs)]

@@ -8,8 +8,8 @@ import numpy as np
 import pandas as pd
 
 from pyrofit.constants import GAS_CONSTANT
+from pyrofit.experiments import Gasification, Tga
 from pyrofit.model.accuracy import Accuracy
-from pyrofit.model.experiment import Gasification, Tga
 from pyrofit.model.material import Material
 from pyrofit.simulate import simulate_gasification, simulate_tga
 from pyrofit.solver.curves import Curves, Request

@@ -4,7 +4,7 @@ from collections.abc import Mapping
 from dataclasses import dataclass, field
 from typing import Any
 
-from pyrofit.model.experiment import Gasification
+from pyrofit.experiments import Gasification
 from pyrofit.model.material import Material
 
 FOIL = {"thickness_m": 2e-4, "density_kg_m3": 8940.0, "specific_heat_J_kgK": 380.0}

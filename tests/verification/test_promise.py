@@ -17,8 +17,8 @@ from cases import BEST, NAMES, Curve, paper_experiment, paper_material, rms_over
 from evidence import Evidence
 from test_slab_balances import TABLE_6
 
+from pyrofit.experiments import Gasification
 from pyrofit.model.accuracy import Accuracy
-from pyrofit.model.experiment import Gasification
 from pyrofit.simulate import simulate_gasification, solver_errors
 from pyrofit.solver.curves import Request
 

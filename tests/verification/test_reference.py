@@ -43,8 +43,8 @@ from terms import (
 )
 
 from pyrofit.constants import GAS_CONSTANT
+from pyrofit.experiments import Gasification, Tga
 from pyrofit.model.accuracy import Accuracy, Resolution
-from pyrofit.model.experiment import Gasification, Tga
 from pyrofit.model.material import Material
 from pyrofit.simulate import simulate_gasification, simulate_tga
 from pyrofit.solver.arrays import Status

@@ -12,7 +12,7 @@ from cases import inert_material
 from terms import BEHIND, FAST, FOIL, HEATED, SIMPLE, SLOW, TERMS, charring, specimen
 
 from pyrofit.config import as_study
-from pyrofit.model.experiment import Gasification, Tga
+from pyrofit.experiments import Gasification, Tga
 from pyrofit.model.material import Material
 from pyrofit.simulate import (
     Accuracy,

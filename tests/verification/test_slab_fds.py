@@ -35,8 +35,8 @@ from evidence import (
     Line,
 )
 
+from pyrofit.experiments import Gasification
 from pyrofit.model.accuracy import Accuracy
-from pyrofit.model.experiment import Gasification
 from pyrofit.model.material import Material
 from pyrofit.solver.curves import Request
 

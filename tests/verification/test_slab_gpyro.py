@@ -14,7 +14,7 @@ import pytest
 from cases import E_SCALE, KINETICS, reference, run, slab_experiment
 from evidence import MLR, RMS_K, RMS_OVER_MEAN, TIME, Evidence, Line
 
-from pyrofit.model.experiment import Gasification
+from pyrofit.experiments import Gasification
 from pyrofit.model.material import Material
 from pyrofit.solver.curves import Curves, Request
 

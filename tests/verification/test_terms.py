@@ -10,8 +10,8 @@ from scipy.integrate import quad
 from scipy.optimize import brentq
 from terms import BASE, BEHIND, FOIL, TERMS, Term, charring, specimen
 
+from pyrofit.experiments import Gasification, Tga
 from pyrofit.model.accuracy import Accuracy, Resolution
-from pyrofit.model.experiment import Gasification, Tga
 from pyrofit.model.material import Changed, Material
 from pyrofit.simulate import simulate_tga
 from pyrofit.solver.arrays import TABLE_TEMPERATURES_K, Status

@@ -27,7 +27,7 @@ from evidence import LARGEST, MASS, TEMPERATURE, Evidence, Line
 from scipy.integrate import solve_ivp
 
 from pyrofit.constants import GAS_CONSTANT
-from pyrofit.model.experiment import Tga
+from pyrofit.experiments import Tga
 from pyrofit.simulate import simulate_tga
 from pyrofit.solver.curves import Request
 

@@ -12,13 +12,12 @@ from pyrofit.config import (
     true_description,
 )
 from pyrofit.cost import Target
-from pyrofit.data.quantities import VALUE_COLUMN
 from pyrofit.errors import DataError
 from pyrofit.estimate.correlation import Correlation
 from pyrofit.estimate.likelihood import Likelihood
 from pyrofit.estimate.noise import NoiseModel
 from pyrofit.estimate.problem import Measurements, Problem, make_problem
-from pyrofit.model.experiment import Noise
+from pyrofit.model.signal import Noise
 from pyrofit.solver.arrays import FloatArray
 
 INSIDE = 1e-6
@@ -84,7 +83,7 @@ def _noise_free(truth: Study, series: Measurements) -> Problem:
         raise DataError(f"the truth cannot be simulated: {status.explanation}; change its effects")
     clean = {
         (c.experiment, c.signal): series[c.experiment, c.signal].assign(
-            **{VALUE_COLUMN[c.signal]: curve}
+            **{truth.experiments[c.experiment].quantity(c.signal).column: curve}
         )
         for c, curve in zip(channels, curves, strict=True)
     }

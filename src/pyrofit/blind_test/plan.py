@@ -9,9 +9,11 @@ from pydantic import Field
 from pyrofit.blind_test.setting import Hidden, Kind, Plan, Setting
 from pyrofit.config import Study, digest, read_study
 from pyrofit.effects import known_effects
-from pyrofit.effects.base import AnyExperiment, Effect
+from pyrofit.effects.base import Effect
 from pyrofit.errors import StudyError, suggest
+from pyrofit.experiments import kind_of
 from pyrofit.model.base import Part
+from pyrofit.model.experiment import Experiment
 from pyrofit.seeds import seed_for
 
 
@@ -91,14 +93,14 @@ def strength_of(setting: Setting, effect: str, part: float = 1.0) -> dict[str, f
     return {name: quantity.value + part * (nominal - quantity.value)}
 
 
-def experiments_of(setting: Setting, base: Study, signals: str) -> dict[str, AnyExperiment]:
+def experiments_of(setting: Setting, base: Study, signals: str) -> dict[str, Experiment]:
     """Return the experiments of the base that a set of signals is of, the held-out one excepted."""
     wanted = setting.signals[signals]
     return {
         name: experiment
         for name, experiment in base.experiments.items()
         if any(quantity in wanted for quantity in experiment.signals)
-        and (experiment.kind == "tga" or name in setting.calibrate)
+        and (kind_of(experiment).stage == "kinetics" or name in setting.calibrate)
     }
 
 

@@ -11,7 +11,7 @@ from pyrofit.effects import known_effects
 from pyrofit.errors import StudyError, suggest
 from pyrofit.model.accuracy import Resolution
 from pyrofit.model.base import Part
-from pyrofit.model.experiment import Noise
+from pyrofit.model.signal import Noise
 
 Kind = Literal["effect", "null", "form", "pair"]
 Hidden = dict[str, dict[str, float]]

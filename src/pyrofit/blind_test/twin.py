@@ -14,10 +14,10 @@ from pyrofit.blind_test.places import Places
 from pyrofit.blind_test.plan import Case
 from pyrofit.blind_test.setting import Setting
 from pyrofit.config import Study, as_study, candidate_effects, read_mapping, read_study
-from pyrofit.data.quantities import tidy_keys
 from pyrofit.errors import StudyError
 from pyrofit.estimate.problem import Measurements
 from pyrofit.files import write_csv, write_json, write_text
+from pyrofit.quantities import known_quantities
 from pyrofit.stages.measurements import computed
 from pyrofit.stages.reading import read_all
 
@@ -227,7 +227,7 @@ def _without_truth(case: Case, base: Given, known: Given) -> Given:
 def _from_file(experiment: str, quantity: str, signal: Given) -> Given:
     """Return a signal that is read from the file of a twin."""
     kept = {key: signal[key] for key in ("average_s",) if key in signal}
-    return {"file": _file(experiment, quantity), **tidy_keys(quantity), **kept}
+    return {"file": _file(experiment, quantity), **known_quantities()[quantity].tidy_keys(), **kept}
 
 
 def _file(experiment: str, quantity: str) -> str:

@@ -13,7 +13,7 @@ from pyrofit.effects.base import ADDED
 from pyrofit.effects.substance import main_reaction
 from pyrofit.errors import suggest
 from pyrofit.model.base import FRACTION
-from pyrofit.model.experiment import Gasification, Tga
+from pyrofit.model.experiment import Experiment
 from pyrofit.model.material import REST, check_composition
 
 
@@ -56,7 +56,7 @@ def _check_sum(study: Study, shares: Mapping[str, float | str], place: str) -> N
 
 def _check_compositions(study: Study) -> None:
     compositions = {"material.composition": study.material.composition}
-    for name, experiment in study.kinds(Gasification).items():
+    for name, experiment in study.of_stage("imp").items():
         for i, layer in enumerate(experiment.sample.layers):
             if layer.composition is not None:
                 place = f"experiments.{name}.sample.layers.{i}.composition"
@@ -123,21 +123,17 @@ def _check_signals(study: Study) -> None:
         for quantity, signal in experiment.signals.items():
             place = f"experiments.{name}.signals.{quantity}"
             require(
-                signal.until_K is None or isinstance(experiment, Tga),
+                signal.until_K is None or experiment.quantity(quantity).against_temperature,
                 f"{place}.until_K",
-                "only TGA has a temperature at each point; use until_s",
+                "only a record against temperature has one at each point; use until_s",
             )
             if signal.file == "synthetic":
                 _check_spacing(experiment, signal.every, place)
 
 
-def _check_spacing(experiment: Tga | Gasification, every: float, place: str) -> None:
+def _check_spacing(experiment: Experiment, every: float, place: str) -> None:
     """Refuse a synthetic record of fewer than three points."""
-    if isinstance(experiment, Tga):
-        span = experiment.end_temperature_K - experiment.start_temperature_K
-        keys = "start_temperature_K and end_temperature_K"
-    else:
-        span, keys = experiment.duration_s, "duration_s"
+    span, keys = experiment.synthetic_span
     require(
         span > 2.5 * every,
         f"{place}.every",
@@ -177,7 +173,7 @@ def _check_values(study: Study) -> None:
     given = set(study.fixed_values()) | set(study.imp.estimate)
     if study.imp.kinetics == "fitted" and study.kinetics is not None:
         given |= set(study.kinetics.estimate)
-    used = parameters_in(material, *study.kinds(Gasification).values())
+    used = parameters_in(material, *study.of_stage("imp").values())
     for name in sorted(used - given):
         raise ValueError(
             f"parameters.{name}: neither estimated in imp nor given a value; "
@@ -188,7 +184,7 @@ def _check_values(study: Study) -> None:
     if study.kinetics is None:
         return
     given = set(study.fixed_values()) | set(study.kinetics.estimate)
-    of_records = parameters_in(*study.kinds(Tga).values())
+    of_records = parameters_in(*study.of_stage("kinetics").values())
     for label in ("fitted", *study.kinetics.sets):
         of_material = parameters_of_tga(study.material_with(label))
         for name in sorted((of_material | of_records) - given):

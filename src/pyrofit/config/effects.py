@@ -10,8 +10,9 @@ from pyrofit.config.study import Study
 from pyrofit.effects import known_effects
 from pyrofit.effects.apply import with_effects
 from pyrofit.effects.base import Effect
+from pyrofit.experiments import AnyExperiment
 from pyrofit.model.base import value_of
-from pyrofit.model.experiment import AnyExperiment, Gasification, Tga
+from pyrofit.model.experiment import Experiment
 from pyrofit.model.material import REST, Material
 
 _EXPERIMENTS: TypeAdapter[dict[str, Any]] = TypeAdapter(dict[str, AnyExperiment])
@@ -67,7 +68,7 @@ def _free(name: str, effect: Effect, numbers: dict[str, Any]) -> dict[str, Any]:
     return made
 
 
-def true_description(study: Study) -> tuple[Material, dict[str, Tga | Gasification]]:
+def true_description(study: Study) -> tuple[Material, dict[str, Experiment]]:
     """Return material and computed experiments as they truly are, with the effects of the truth.
 
     Raises

@@ -30,7 +30,6 @@ _UNITS: dict[str, tuple[str, ...]] = {
 _SHARES = ("products", "composition")
 _SAME_UNIT = ("value", "of", "step")
 """Keys of a property whose unit is the property's."""
-_OF_SIGNALS: dict[str, tuple[str, ...]] = {"mlr": ("kg/(m2 s)",), "back_temperature": ("K",)}
 
 
 def require(ok: bool, place: str, message: str) -> None:
@@ -85,12 +84,20 @@ def check_parameter(study: Study, name: str, rules: Sequence[Rule], place: str) 
                 where,
                 f"{number} {rule.text} (it is used as {place})",
             )
-    fitting = units_of(place)
+    fitting = _units_of_offset(study, place) or units_of(place)
     require(
         p.unit in fitting,
         f"parameters.{name}.unit",
         f"'{p.unit}' is no unit of {place}, where it is used; give {' or '.join(fitting)}",
     )
+
+
+def _units_of_offset(study: Study, place: str) -> tuple[str, ...]:
+    """Return the units that fit the offset of a signal; none where the place is another."""
+    match place.split("."):
+        case ["experiments", name, "signals", signal, "offset"]:
+            return (study.experiments[name].quantity(signal).unit,)
+    return ()
 
 
 def units_of(place: str) -> tuple[str, ...]:
@@ -100,8 +107,6 @@ def units_of(place: str) -> tuple[str, ...]:
     ('W/(m K)',)
     """
     keys = [key for key in place.split(".") if not key.isdigit() and key not in _SAME_UNIT]
-    if keys[-1] == "offset":
-        return _OF_SIGNALS.get(keys[-2], _UNITS[""])
     if keys[-1] == "peak_area":
         return _UNITS["_J_kg"] if keys[-2].endswith("_J_kgK") else _UNITS[""]
     if keys[-1] in _SHARES or keys[-2] in _SHARES:

@@ -7,12 +7,13 @@ from pyrofit.config.terms import TermSpec
 from pyrofit.config.uses import parameters_in
 from pyrofit.effects import known_effects
 from pyrofit.effects.apply import with_effects
-from pyrofit.model.experiment import Gasification, Tga
+from pyrofit.experiments import kind_of
+from pyrofit.model.experiment import Experiment
 from pyrofit.model.material import Material
 
 Chosen = Mapping[str, tuple[str, ...]]
 """Signals by experiment."""
-Experiments = dict[str, Tga | Gasification]
+Experiments = dict[str, Experiment]
 
 
 def diagnosed_material(study: Study) -> Material:
@@ -58,7 +59,7 @@ def diagnosed_parameters(study: Study) -> tuple[str, ...]:
     if study.diagnosis.estimate:
         return study.diagnosis.estimate
     kinetics = study.kinetics.estimate if study.kinetics else ()
-    if not any(isinstance(e, Tga) for e in calibrated(study).values()):
+    if not any(kind_of(e).stage == "kinetics" for e in calibrated(study).values()):
         kinetics = tuple(name for name in kinetics if study.parameters[name].value is None)
     names = kinetics + study.imp.estimate
     used = parameters_in(diagnosed_material(study), *diagnosed(study).values())

@@ -6,7 +6,8 @@ from pyrofit.config.numbers import require
 from pyrofit.config.study import Study
 from pyrofit.config.terms import TermSpec
 from pyrofit.errors import suggest
-from pyrofit.model.experiment import Gasification, Tga
+from pyrofit.experiments import kind_of, kinds_of
+from pyrofit.experiments.base import Stage
 
 
 def check_stages(study: Study) -> None:
@@ -19,14 +20,14 @@ def check_stages(study: Study) -> None:
     """
     check_estimate(study, "imp", study.imp.estimate)
     for cost, terms in study.imp.costs.items():
-        _check_terms(study, f"imp.costs.{cost}", terms, Gasification)
+        _check_terms(study, f"imp.costs.{cost}", terms, "imp")
     if study.kinetics is not None:
         check_estimate(study, "kinetics", study.kinetics.estimate)
-        _check_terms(study, "kinetics.cost", study.kinetics.cost, Tga)
-        _known(study, study.kinetics.compare, "kinetics.compare", Tga)
-    _known(study, study.imp.identification, "imp.identification", Gasification)
+        _check_terms(study, "kinetics.cost", study.kinetics.cost, "kinetics")
+        _known(study, study.kinetics.compare, "kinetics.compare", "kinetics")
+    _known(study, study.imp.identification, "imp.identification", "imp")
     check_choice(study, "imp.identification", study.imp.identification)
-    _known(study, study.validation.experiments, "validation.experiments", Gasification)
+    _known(study, study.validation.experiments, "validation.experiments", "imp")
     choices = {"described", *(("fitted", *study.kinetics.sets) if study.kinetics else ())}
     require(
         study.imp.kinetics in choices,
@@ -59,9 +60,7 @@ def check_estimate(study: Study, stage: str, estimate: Sequence[str]) -> None:
         )
 
 
-def _check_terms(
-    study: Study, place: str, terms: Sequence[TermSpec], wanted: type[Tga] | type[Gasification]
-) -> None:
+def _check_terms(study: Study, place: str, terms: Sequence[TermSpec], wanted: Stage) -> None:
     require(
         any(term.weight > 0.0 for term in terms),
         place,
@@ -107,14 +106,12 @@ def _check_experiment(study: Study, name: str, place: str) -> None:
     )
 
 
-def _known(
-    study: Study, names: Iterable[str], place: str, wanted: type[Tga] | type[Gasification]
-) -> None:
+def _known(study: Study, names: Iterable[str], place: str, wanted: Stage) -> None:
     for name in names:
         _check_experiment(study, name, place)
         require(
-            isinstance(study.experiments[name], wanted),
+            kind_of(study.experiments[name]).stage == wanted,
             place,
-            f"'{name}' is no {wanted.__name__.lower()} experiment. "
-            + suggest(name, study.kinds(wanted)),
+            f"'{name}' is no {' or '.join(kinds_of(wanted))} experiment. "
+            + suggest(name, study.of_stage(wanted)),
         )

@@ -9,9 +9,10 @@ from pyrofit.config.stages import Imp, Kinetics, Name, Robustness, Validation
 from pyrofit.effects import known_effects
 from pyrofit.effects.base import ADDED
 from pyrofit.effects.substance import main_reaction
+from pyrofit.experiments import AnyExperiment, kind_of
+from pyrofit.experiments.base import Stage
 from pyrofit.model.accuracy import Accuracy, Resolution
 from pyrofit.model.base import Number, Part
-from pyrofit.model.experiment import AnyExperiment, Gasification, Tga
 from pyrofit.model.material import Material
 from pyrofit.model.parameters import Parameter
 
@@ -100,9 +101,9 @@ class Study(Part):
         files = [s.file for e in self.experiments.values() for s in e.signals.values()]
         return tuple(dict.fromkeys(f for f in files if is_own(f)))
 
-    def kinds(self, kind: type[Tga] | type[Gasification]) -> dict[str, Any]:
-        """Return the experiments of one kind by name."""
-        return {n: e for n, e in self.experiments.items() if isinstance(e, kind)}
+    def of_stage(self, stage: Stage) -> dict[str, Any]:
+        """Return the experiments that a stage can fit, by name."""
+        return {n: e for n, e in self.experiments.items() if kind_of(e).stage == stage}
 
     def fixed_values(self) -> dict[str, float]:
         """Return the given parameter values in SI units."""

@@ -3,8 +3,8 @@
 from collections.abc import Mapping
 
 from pyrofit.model.base import numbers
-from pyrofit.model.experiment import Gasification
 from pyrofit.model.material import REST, Material
+from pyrofit.model.slab import SlabExperiment
 
 
 def parameters_in(*parts: object) -> set[str]:
@@ -14,7 +14,7 @@ def parameters_in(*parts: object) -> set[str]:
         found |= {value for _, value, _ in numbers(part) if isinstance(value, str)}
         if isinstance(part, Material):
             found |= names_in(part.composition)
-        if isinstance(part, Gasification):
+        if isinstance(part, SlabExperiment):
             for layer in part.sample.layers:
                 found |= names_in(layer.composition or {})
     return found

@@ -7,19 +7,12 @@ import numpy as np
 import pandas as pd
 
 from pyrofit.data.csvfile import Table
-from pyrofit.data.quantities import UNCERTAINTY_COLUMN, VALUE_COLUMN
 from pyrofit.errors import DataError
+from pyrofit.quantities.base import Quantity
 
-_SIGN_RATIO = 3.0
 _TOO_LARGE = 1e30
-# Values outside betray a wrong unit, not a strange sample. A temperature must lie between the two
-# at all times, the others at their largest: a sample ends without mass and without loss of mass.
-_LIMITS = {
-    "temperature_K": (200.0, 2500.0),
-    "back_temperature_K": (200.0, 2500.0),
-    "mlr_kg_m2_s": (0.0, 2.0),
-    "mass_fraction": (0.5, 1.5),
-}
+TEMPERATURES_K = (200.0, 2500.0)
+"""Limits of a temperature that is recorded beside a quantity."""
 
 
 def check_finite(path: Path, frame: pd.DataFrame) -> None:
@@ -33,7 +26,7 @@ def check_finite(path: Path, frame: pd.DataFrame) -> None:
 
 
 def check_order(
-    quantity: str, table: Table, headers: Mapping[str, str], frame: pd.DataFrame
+    quantity: Quantity, table: Table, headers: Mapping[str, str], frame: pd.DataFrame
 ) -> None:
     """Refuse times that do not increase, negative uncertainties and a loss of the wrong sign."""
     time = frame["time_s"].to_numpy()
@@ -44,30 +37,29 @@ def check_order(
         rule = "time must exceed that of the row before. Sort the rows and delete doubled ones."
         raise _refusal(table, headers["time"], int(stops[0]) + 1, rule)
     if "uncertainty" in headers:
-        uncertainty = frame[UNCERTAINTY_COLUMN[quantity]].to_numpy()
+        uncertainty = frame[quantity.uncertainty_column].to_numpy()
         if uncertainty.min() < 0.0:
             rule = (
                 "an uncertainty is never negative. Correct it, or give `uncertainty` as a number."
             )
             raise _refusal(table, headers["uncertainty"], int(uncertainty.argmin()), rule)
-    value = frame[VALUE_COLUMN[quantity]].to_numpy()
-    if quantity == "mlr" and -value.min() > _SIGN_RATIO * value.max():
-        rule = "a mass loss rate is positive where mass is lost. Change the sign of the column."
+    value = frame[quantity.column].to_numpy()
+    ratio = quantity.sign_ratio
+    if ratio is not None and -value.min() > ratio * value.max():
+        rule = f"a {quantity.title} is positive. Change the sign of the column."
         raise _refusal(table, headers["value"], int(value.argmin()), rule)
 
 
 def check_limits(
-    quantity: str, table: Table, headers: Mapping[str, str], frame: pd.DataFrame
+    quantity: Quantity, table: Table, headers: Mapping[str, str], frame: pd.DataFrame
 ) -> None:
     """Refuse temperatures, rates and mass fractions that only a wrong unit explains."""
-    for role, column in (("temperature", "temperature_K"), ("value", VALUE_COLUMN[quantity])):
-        if column not in frame:
-            continue
+    checked = [("value", quantity.column, quantity.largest, quantity.all_within)]
+    if quantity.against_temperature:
+        checked.insert(0, ("temperature", "temperature_K", TEMPERATURES_K, True))
+    for role, column, (low, high), every in checked:
         numbers = frame[column].to_numpy()
-        low, high = _LIMITS[column]
-        rows = (
-            (numbers.argmin(), numbers.argmax()) if column.endswith("_K") else (numbers.argmax(),)
-        )
+        rows = (numbers.argmin(), numbers.argmax()) if every else (numbers.argmax(),)
         for row in map(int, rows):
             if not low <= numbers[row] <= high:
                 rule = (

@@ -11,18 +11,10 @@ import pandas as pd
 from pyrofit.data.checks import check_finite, check_limits, check_order
 from pyrofit.data.csvfile import FloatArray, Table, read_table
 from pyrofit.data.fetch import sha256
-from pyrofit.data.quantities import (
-    CELSIUS,
-    HEADERS,
-    ICE_POINT_K,
-    SCALES,
-    UNCERTAINTY_COLUMN,
-    VALUE_COLUMN,
-    VALUE_KINDS,
-    header_key,
-    unit_key,
-)
 from pyrofit.errors import DataError, suggest
+from pyrofit.quantities import known_quantities
+from pyrofit.quantities.base import Quantity
+from pyrofit.quantities.units import CELSIUS, ICE_POINT_K, SCALES, header_key, unit_key
 
 _FEWEST_POINTS = 3
 
@@ -34,7 +26,7 @@ class SeriesSpec:
     Parameters
     ----------
     quantity : str
-        `mlr`, `back_temperature` or `mass_fraction`.
+        Name of a quantity, see `pyrofit.quantities`.
     path : Path
         The file.
     columns : mapping of str to str
@@ -67,14 +59,13 @@ class SeriesSpec:
     sample_area_m2: float | None = None
 
     def __post_init__(self) -> None:
-        if self.quantity not in HEADERS:
+        if self.quantity not in (known := known_quantities()):
             raise DataError(
-                f"{self.path}: unknown quantity '{self.quantity}'. "
-                f"{suggest(self.quantity, HEADERS)}"
+                f"{self.path}: unknown quantity '{self.quantity}'. {suggest(self.quantity, known)}"
             )
         for key in ("columns", "units"):
             for role in getattr(self, key):
-                if role not in (roles := HEADERS[self.quantity]):
+                if role not in (roles := self.of.roles):
                     raise DataError(
                         f"{self.path}: `{key}` names an unknown role '{role}' for "
                         f"{self.quantity}. {suggest(role, roles)}"
@@ -92,6 +83,11 @@ class SeriesSpec:
                 "leave one of them out."
             )
 
+    @property
+    def of(self) -> Quantity:
+        """The quantity."""
+        return known_quantities()[self.quantity]
+
 
 @dataclass(frozen=True, eq=False)
 class Measurement:
@@ -99,11 +95,11 @@ class Measurement:
 
     Parameters
     ----------
-    quantity : str
-        `mlr`, `back_temperature` or `mass_fraction`.
+    quantity : Quantity
+        What is measured.
     frame : DataFrame
-        `time_s`, for a mass fraction `temperature_K`, the value (`VALUE_COLUMN`) and, if known,
-        its uncertainty (`UNCERTAINTY_COLUMN`).
+        `time_s`, where the quantity has it `temperature_K`, the value (`quantity.column`) and, if
+        known, its uncertainty (`quantity.uncertainty_column`).
     source : Path
         The file.
     sha256 : str
@@ -114,7 +110,7 @@ class Measurement:
         What the reader left out, computed or noticed.
     """
 
-    quantity: str
+    quantity: Quantity
     frame: pd.DataFrame
     source: Path
     sha256: str
@@ -172,16 +168,14 @@ def read_series(spec: SeriesSpec) -> Measurement:
     with np.errstate(over="ignore", invalid="ignore"):
         frame, notes = _convert_columns(spec, table, headers)
     check_finite(spec.path, frame)
-    check_order(spec.quantity, table, headers, frame)
-    check_limits(spec.quantity, table, headers, frame)
+    check_order(spec.of, table, headers, frame)
+    check_limits(spec.of, table, headers, frame)
     if dummies:
         notes.append(f"left out, zero throughout: {', '.join(dummies)}")
-    if negative := int((frame[VALUE_COLUMN[spec.quantity]] < 0.0).sum()):
+    if negative := int((frame[spec.of.column] < 0.0).sum()):
         notes.append(f"{negative} of {rows} values are negative")
     digest = sha256(spec.path)
-    return Measurement(
-        spec.quantity, frame, spec.path, digest, spec.uncertainty_meaning, tuple(notes)
-    )
+    return Measurement(spec.of, frame, spec.path, digest, spec.uncertainty_meaning, tuple(notes))
 
 
 def _assign_columns(spec: SeriesSpec, table: Table, dummies: Sequence[str]) -> dict[str, str]:
@@ -189,7 +183,7 @@ def _assign_columns(spec: SeriesSpec, table: Table, dummies: Sequence[str]) -> d
     asked = {role: _find_asked(table, role, name) for role, name in spec.columns.items()}
     free = [name for name in table.columns if name not in asked.values()]
     headers: dict[str, str] = {}
-    for role, known in HEADERS[spec.quantity].items():
+    for role, known in spec.of.roles.items():
         usable = free if role == "time" else [name for name in free if name not in dummies]
         keys = {header_key(name) for name in known}
         matches = [asked[role]] if role in asked else [n for n in usable if header_key(n) in keys]
@@ -237,16 +231,16 @@ def _convert_columns(
     data = {"time_s": _to_si(spec, table, headers, "time", ("time",))[0]}
     if "temperature" in headers:
         data["temperature_K"] = _to_si(spec, table, headers, "temperature", ("temperature",))[0]
-    kinds = VALUE_KINDS[spec.quantity]
+    kinds = spec.of.scales
     value, kind = _to_si(spec, table, headers, "value", kinds)
     divisor, notes = _divisor(spec, kind, float(value[0]))
-    data[VALUE_COLUMN[spec.quantity]] = value / divisor
+    data[spec.of.column] = value / divisor
     if spec.uncertainty is not None:
-        data[UNCERTAINTY_COLUMN[spec.quantity]] = np.full(len(value), spec.uncertainty)
+        data[spec.of.uncertainty_column] = np.full(len(value), spec.uncertainty)
         notes.append("one uncertainty is given for all points")
     elif "uncertainty" in headers:
         spread, its = _to_si(spec, table, headers, "uncertainty", (kind, kinds[0]))
-        data[UNCERTAINTY_COLUMN[spec.quantity]] = spread / divisor if its == kind else spread
+        data[spec.of.uncertainty_column] = spread / divisor if its == kind else spread
     else:
         notes.append("no uncertainty is known")
     return pd.DataFrame(data), notes

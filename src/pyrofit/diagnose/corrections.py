@@ -14,12 +14,13 @@ from pyrofit.effects.base import changed
 from pyrofit.effects.substance import properties_changed, shares
 from pyrofit.estimate.problem import Outcome, Problem
 from pyrofit.model.base import value_of
-from pyrofit.model.experiment import FluxTable, Front, Gasification
+from pyrofit.model.slab import FluxTable, Front, SlabExperiment
 from pyrofit.simulate import simulate_gasification
 from pyrofit.solver.arrays import FloatArray
 from pyrofit.solver.arrays import Values as Sets
 from pyrofit.solver.curves import Request
 from pyrofit.solver.lower import property_table
+from pyrofit.solver.outputs import FRONT, MASS
 
 COEFFICIENTS = 6
 """Of a curve over time or temperature."""
@@ -214,9 +215,9 @@ def _names(probe: str, count: int) -> tuple[str, ...]:
     return tuple(f"probe_{probe}_{k}" for k in range(count))
 
 
-def _slabs(problem: Problem) -> dict[str, Gasification]:
+def _slabs(problem: Problem) -> dict[str, SlabExperiment]:
     found = {name: run.experiment for name, run in problem.runs.items()}
-    return {name: e for name, e in found.items() if isinstance(e, Gasification)}
+    return {name: e for name, e in found.items() if isinstance(e, SlabExperiment)}
 
 
 def _times(problem: Problem) -> dict[str, FloatArray]:
@@ -246,9 +247,9 @@ def _temperatures(problem: Problem, values: Values) -> tuple[float, float]:
     low, high = [], []
     for name, slab in _slabs(problem).items():
         at = Request(_times(problem)[name])
-        asked = {"mass": at, "front_temperature": at}
+        asked = {MASS: at, FRONT: at}
         curves = simulate_gasification(slab, problem.material, values, asked, problem.accuracy)
-        mass, front = curves.signals["mass"], curves.signals["front_temperature"]
+        mass, front = curves.signals[MASS], curves.signals[FRONT]
         present = mass >= mass[0] - BURNT * (mass[0] - mass[-1])
         low.append(value_of(slab.sample.initial_temperature_K, values))
         high.append(float(front[present].max()))

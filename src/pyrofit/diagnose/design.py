@@ -12,20 +12,23 @@ Forzatti 1984, Chem. Eng. Sci. 39, 81).
 
 import math
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from itertools import combinations
 
 import numpy as np
 
-from pyrofit.diagnose.ideas import Idea, ideas
+from pyrofit.diagnose.ideas import ideas
 from pyrofit.diagnose.model import STEP, Base, curvature
 from pyrofit.diagnose.refit import Trial
 from pyrofit.estimate.correlation import Correlation
 from pyrofit.estimate.noise import NoiseModel
-from pyrofit.model.experiment import TIMING_S, Gasification
-from pyrofit.simulate import simulate_gasification, simulate_tga
+from pyrofit.experiments import kind_of
+from pyrofit.experiments.base import Idea
+from pyrofit.model.signal import TIMING_S
+from pyrofit.quantities import known_quantities
 from pyrofit.solver.arrays import FloatArray
 from pyrofit.solver.curves import Curves, Request
+from pyrofit.solver.outputs import MASS
 
 FEWEST_TIMES = 20
 LONGEST_S = 3600.0
@@ -34,9 +37,6 @@ BURNT_OUT = 0.995
 """Share of the lost mass at which a record ends, but for a tenth of its length."""
 SPACING_S = 5.0
 """Spacing of the points of a signal that the study does not measure."""
-# ASSUME: the noise of such a signal.
-USUAL_SD = {"mlr": 5e-4, "back_temperature": 2.0, "mass_fraction": 0.02}
-"""SI units."""
 
 
 @dataclass(frozen=True)
@@ -101,7 +101,7 @@ def next_experiments(trials: Sequence[Trial]) -> list[Design]:
 
 def _designs(trials: Sequence[Trial], idea: Idea) -> list[Design]:
     """Return an idea with each choice of its signals; none where a simulation does not finish."""
-    kinds = {s: _kind(trials[0].model.base, s) for s in idea.most_signals}
+    kinds = {s: _kind(trials[0].model.base, s) for s in idea.most_quantities}
     requests = _requests(trials, idea, kinds)
     forecasts = [_forecast(trial, idea, requests) for trial in trials]
     known = [forecast for forecast in forecasts if forecast is not None]
@@ -171,12 +171,8 @@ def _run(trial: Trial, idea: Idea, x: FloatArray, requests: Mapping[str, Request
     problem = likelihood.problem
     values = problem.values(likelihood.values(x))
     experiment = idea.change(problem.runs[idea.like].experiment)
-    if isinstance(experiment, Gasification):
-        return simulate_gasification(
-            experiment, problem.material, values, requests, problem.accuracy
-        )
-    request = requests["mass_fraction"]
-    return simulate_tga(experiment, problem.material, values, request, problem.accuracy)
+    simulate = kind_of(experiment).simulate
+    return simulate([experiment], problem.material, values, [requests], problem.accuracy)[0][0]
 
 
 def _requests(
@@ -184,18 +180,19 @@ def _requests(
 ) -> dict[str, Request]:
     """Return times until all models have burnt out; of a TGA, the measured range of temperature."""
     run = trials[0].model.likelihood.problem.runs[idea.like]
-    if not isinstance(run.experiment, Gasification):
-        (request,) = run.requests.values()
-        assert request.temperature_K is not None
+    request = next(iter(run.requests.values()))
+    if request.temperature_K is not None:
         T = np.linspace(request.temperature_K[0], request.temperature_K[-1], request.time_s.size)
         rate = idea.change(run.experiment).heating_rate_K_min / 60.0
-        return {"mass_fraction": Request((T - T[0]) / rate, temperature_K=T)}
+        heated = Request((T - T[0]) / rate, temperature_K=T)
+        return {name: replace(heated, output=name) for name in kinds}
     end = max(_burnt_out(trial, idea) for trial in trials)
     signals = run.experiment.signals
     return {
         signal: Request(
             _times(kind.spacing_s, end),
             signals[signal].average_s if signal in signals else 0.0,
+            output=signal,
         )
         for signal, kind in kinds.items()
     }
@@ -210,10 +207,10 @@ def _times(spacing: float, end: float) -> FloatArray:
 def _burnt_out(trial: Trial, idea: Idea) -> float:
     """Return the time at which a test may end [s]."""
     time = np.arange(0.0, LONGEST_S + SPACING_S, SPACING_S)
-    curves = _run(trial, idea, trial.fit.x, {"mass": Request(time)})
+    curves = _run(trial, idea, trial.fit.x, {MASS: Request(time)})
     if not curves.status.finished:
         return LONGEST_S
-    lost = curves.signals["mass"][0] - curves.signals["mass"]
+    lost = curves.signals[MASS][0] - curves.signals[MASS]
     if lost[-1] <= 0.0:
         return LONGEST_S
     end = float(time[np.searchsorted(lost, BURNT_OUT * lost[-1])])
@@ -236,7 +233,9 @@ def _kind(base: Base, signal: str) -> _Kind:
         if name == signal
     ]
     if not found:
-        return _Kind(USUAL_SD[signal], Correlation(), SPACING_S, TIMING_S)
+        # ASSUME: the noise of a quantity that the study does not measure is white.
+        sd = known_quantities()[signal].usual_sd
+        return _Kind(sd, Correlation(), SPACING_S, TIMING_S)
     return sorted(found, key=lambda kind: kind.sd)[len(found) // 2]
 
 

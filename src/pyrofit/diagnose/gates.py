@@ -22,6 +22,7 @@ from pyrofit.diagnose.model import Model, curvature, model_of, strength_of
 from pyrofit.diagnose.refit import Trial, up_to_date
 from pyrofit.diagnose.screen import project, projector
 from pyrofit.diagnose.setup import refitted, with_noise_about
+from pyrofit.experiments import kind_of
 from pyrofit.parallel import parallel_map
 from pyrofit.solver.arrays import FloatArray
 
@@ -126,7 +127,8 @@ def slabs(trial: Trial) -> list[str]:
     """Return the calibrated experiments that show the slab: without any of them others remain."""
     base = trial.model.base
     found = [base.channels[i] for i in trial.model.channels]
-    names = dict.fromkeys(name for name, signal in found if signal != "mass_fraction")
+    runs = base.likelihood.problem.runs
+    names = dict.fromkeys(n for n, _ in found if kind_of(runs[n].experiment).stage == "imp")
     return list(names) if len(names) > 1 else []
 
 

@@ -151,8 +151,9 @@ def with_noise_about(
 
 
 def _noise(problem: Problem, channel: int, about: FloatArray) -> NoiseModel:
-    name, quantity, _ = problem.picks[channel]
-    signal = problem.runs[name].experiment.signals[quantity]
+    name, measured, _ = problem.picks[channel]
+    experiment = problem.runs[name].experiment
+    quantity, signal = experiment.quantity(measured), experiment.signals[measured]
     target = problem.cost.terms[channel][1].target
     return estimate_noise(target, quantity, signal.uncertainty_sds, signal.timing_s, about)
 

@@ -21,6 +21,7 @@ from pyrofit.diagnose.refit import Trial, up_to_date
 from pyrofit.diagnose.rounds import Round
 from pyrofit.diagnose.search import AMBIGUOUS, Search, dropped
 from pyrofit.effects import known_effects
+from pyrofit.model.slab import SlabExperiment
 from pyrofit.parallel import parallel_map
 
 MOST_JUDGED = 6
@@ -187,10 +188,11 @@ def _doubts(found: Search, findings: Sequence[Finding]) -> list[str]:
     """Say why a claim is less than sure."""
     doubts = []
     base = found.base.model.base
-    slab = [base.channels[i] for i in base.calibrated if base.channels[i][1] != "mass_fraction"]
-    shown = [base.likelihood.problem.runs[name].experiment for name, _ in slab]
-    fluxes = {str(e.front.flux_W_m2) for e in shown if e.kind == "gasification"}
-    if len(fluxes) == 1 and {signal for _, signal in slab} == {"mlr"}:
+    runs = base.likelihood.problem.runs
+    shown = [(runs[name].experiment, s) for name, s in (base.channels[i] for i in base.calibrated)]
+    slabs = [(e, signal) for e, signal in shown if isinstance(e, SlabExperiment)]
+    fluxes = {str(e.front.flux_W_m2) for e, _ in slabs}
+    if len(fluxes) == 1 and not any(e.quantity(signal).is_temperature for e, signal in slabs):
         doubts.append(ONE_FLUX)
     if not all(finding.explains for finding in findings):
         doubts.append("what is held out is not explained, not even if it is fitted, too")

@@ -6,11 +6,12 @@ from typing import TypeVar
 from pydantic import ValidationError
 
 from pyrofit.effects import known_effects
-from pyrofit.effects.base import AnyExperiment, Effect, Numbers
+from pyrofit.effects.base import Effect, Numbers
 from pyrofit.errors import suggest
+from pyrofit.model.experiment import Experiment
 from pyrofit.model.material import Material
 
-Kind = TypeVar("Kind", bound=AnyExperiment)
+Kind = TypeVar("Kind", bound=Experiment)
 
 
 def with_effects(

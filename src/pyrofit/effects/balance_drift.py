@@ -1,10 +1,11 @@
 """The balance drifts, so that the mass loss rate is wrong by a constant."""
 
-from pyrofit.effects.base import AnyExperiment, Effect, Quantity, need, on
+from pyrofit.effects.base import Effect, Quantity, need, on
+from pyrofit.model.experiment import Experiment
 
 
 @need("a mass loss rate")
-def _has_mlr(experiment: AnyExperiment) -> bool:
+def _has_mlr(experiment: Experiment) -> bool:
     return "mlr" in experiment.signals
 
 

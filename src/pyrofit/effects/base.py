@@ -5,14 +5,15 @@ from dataclasses import dataclass, field
 from typing import Any, Literal, TypeVar
 
 from pyrofit.model.base import Part
-from pyrofit.model.experiment import Gasification, Tga
+from pyrofit.model.experiment import Experiment
+from pyrofit.model.heated import HeatedExperiment
 from pyrofit.model.material import Material
+from pyrofit.model.slab import SlabExperiment
 
 Numbers = Mapping[str, float | str]
 """A number in SI units, or the name of a parameter, by the effect's own names."""
-AnyExperiment = Tga | Gasification
 MaterialChange = Callable[[Material, Numbers], Material]
-ExperimentChange = Callable[[AnyExperiment, Numbers], AnyExperiment]
+ExperimentChange = Callable[[Experiment, Numbers], Experiment]
 Family = Literal["apparatus", "environment", "material"]
 Made = TypeVar("Made", bound=Part)
 
@@ -43,46 +44,46 @@ class Need:
     """What an experiment must have for an effect, and the same in words."""
 
     words: str
-    holds: Callable[[AnyExperiment], bool]
+    holds: Callable[[Experiment], bool]
 
-    def __call__(self, experiment: AnyExperiment) -> bool:
+    def __call__(self, experiment: Experiment) -> bool:
         """Tell whether an experiment has it."""
         return self.holds(experiment)
 
 
-def need(words: str) -> Callable[[Callable[[AnyExperiment], bool]], Need]:
+def need(words: str) -> Callable[[Callable[[Experiment], bool]], Need]:
     """Make a `Need` of the function that follows."""
     return lambda holds: Need(words, holds)
 
 
 @need("a gasification experiment")
-def has_slab(experiment: AnyExperiment) -> bool:
+def has_slab(experiment: Experiment) -> bool:
     """Tell whether an experiment is a gasification."""
-    return isinstance(experiment, Gasification)
+    return isinstance(experiment, SlabExperiment)
 
 
 @need("a TGA experiment")
-def has_programme(experiment: AnyExperiment) -> bool:
+def has_programme(experiment: Experiment) -> bool:
     """Tell whether an experiment is a TGA."""
-    return isinstance(experiment, Tga)
+    return isinstance(experiment, HeatedExperiment)
 
 
 @need("any experiment")
-def reacts(experiment: AnyExperiment) -> bool:
+def reacts(experiment: Experiment) -> bool:
     """Tell whether the sample of an experiment reacts: always."""
     return True
 
 
 @need("a foil on the back")
-def has_foil(experiment: AnyExperiment) -> bool:
+def has_foil(experiment: Experiment) -> bool:
     """Tell whether an experiment has a foil."""
-    return isinstance(experiment, Gasification) and experiment.sample.foil is not None
+    return isinstance(experiment, SlabExperiment) and experiment.sample.foil is not None
 
 
 @need("a back that exchanges heat")
-def has_open_back(experiment: AnyExperiment) -> bool:
+def has_open_back(experiment: Experiment) -> bool:
     """Tell whether the back of an experiment exchanges heat."""
-    if not isinstance(experiment, Gasification):
+    if not isinstance(experiment, SlabExperiment):
         return False
     back = experiment.back
     return any(x != 0.0 for x in (back.h_W_m2K, back.h_cube_root_W_m2K43, back.emissivity))
@@ -134,9 +135,9 @@ def on(place: str, takes: Mapping[str, str], **constant: Any) -> ExperimentChang
     """
     path = place.split(".") if place else []
 
-    def change(experiment: AnyExperiment, at: Numbers) -> AnyExperiment:
+    def change(experiment: Experiment, at: Numbers) -> Experiment:
         update = {key: at[own] for key, own in takes.items()} | constant
-        made: AnyExperiment = _set(experiment, path, update)
+        made: Experiment = _set(experiment, path, update)
         return made
 
     return change

@@ -1,11 +1,12 @@
 """The edge of the sample exchanges heat with the gas beside it."""
 
-from pyrofit.effects.base import AnyExperiment, Effect, Numbers, Quantity, changed
-from pyrofit.model.experiment import Edge, Gasification
+from pyrofit.effects.base import Effect, Numbers, Quantity, changed
+from pyrofit.model.experiment import Experiment
+from pyrofit.model.slab import Edge, SlabExperiment
 
 
-def _change(experiment: AnyExperiment, at: Numbers) -> AnyExperiment:
-    assert isinstance(experiment, Gasification)
+def _change(experiment: Experiment, at: Numbers) -> Experiment:
+    assert isinstance(experiment, SlabExperiment)
     if experiment.sample.edge is not None:
         raise ValueError("the sample has an edge already")
     edge = Edge(

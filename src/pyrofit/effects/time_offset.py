@@ -1,9 +1,10 @@
 """All records of an experiment are late."""
 
-from pyrofit.effects.base import AnyExperiment, Effect, Numbers, Quantity, on
+from pyrofit.effects.base import Effect, Numbers, Quantity, on
+from pyrofit.model.experiment import Experiment
 
 
-def _change(experiment: AnyExperiment, at: Numbers) -> AnyExperiment:
+def _change(experiment: Experiment, at: Numbers) -> Experiment:
     for name in experiment.signals:
         experiment = on(f"signals.{name}", {"delay_s": "delay_s"})(experiment, at)
     return experiment

@@ -1,6 +1,6 @@
 """Moisture or monomer leaves the material before it decomposes."""
 
-from pyrofit.effects.base import ADDED, AnyExperiment, Effect, Numbers, Quantity, changed, need
+from pyrofit.effects.base import ADDED, Effect, Numbers, Quantity, changed, need
 from pyrofit.effects.substance import (
     REFERENCE_RATE_1_S,
     main_reaction,
@@ -8,8 +8,9 @@ from pyrofit.effects.substance import (
     with_component,
     with_reaction,
 )
-from pyrofit.model.experiment import Tga
+from pyrofit.model.experiment import Experiment
 from pyrofit.model.material import REST, Material, Reaction
+from pyrofit.model.slab import SlabExperiment
 
 VOLATILE = f"{ADDED}volatile"
 
@@ -41,9 +42,9 @@ def _change(material: Material, at: Numbers) -> Material:
 
 
 @need("a TGA, or a layer without a composition of its own")
-def _is_of_the_material(experiment: AnyExperiment) -> bool:
+def _is_of_the_material(experiment: Experiment) -> bool:
     """Tell whether a part of the sample has no composition of its own."""
-    if isinstance(experiment, Tga):
+    if not isinstance(experiment, SlabExperiment):
         return True
     return any(layer.composition is None for layer in experiment.sample.layers)
 

@@ -206,10 +206,12 @@ def likelihood_of(problem: Problem) -> Likelihood:
     """
     noise = []
     for (name, signal, _), (_, term) in zip(problem.picks, problem.cost.terms, strict=True):
-        described = problem.runs[name].experiment.signals[signal]
+        experiment = problem.runs[name].experiment
+        described = experiment.signals[signal]
         stated_sds, timing_s = described.uncertainty_sds, described.timing_s
         try:
-            noise.append(estimate_noise(term.target, signal, stated_sds, timing_s))
+            quantity = experiment.quantity(signal)
+            noise.append(estimate_noise(term.target, quantity, stated_sds, timing_s))
         except DataError as error:
             raise DataError(f"{name}: {error}") from None
     return Likelihood(problem, tuple(noise))

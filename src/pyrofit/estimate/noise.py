@@ -10,22 +10,16 @@ from pyrofit.cost import Target
 from pyrofit.errors import DataError
 from pyrofit.estimate.correlation import Correlation, whiteness
 from pyrofit.estimate.scatter import scatter_of
-from pyrofit.model.experiment import TIMING_S
+from pyrofit.model.signal import TIMING_S
+from pyrofit.quantities.base import Quantity
 from pyrofit.solver.arrays import FloatArray
 
-SOLVER_ERROR = {"mlr": 1e-3, "back_temperature": 1e-3, "mass_fraction": 1e-5}
-"""Error of a simulated curve as a fraction of the largest rise of the series: at default settings
-the mass loss rate is off by 0.02 to 0.2 % of its mean, and a TGA by less than 1e-6."""
-DISCREPANCY = {"mass_fraction": 0.02}
-"""Least noise of a series without a stated uncertainty. The points of a TGA scatter far less about
-a smooth curve, but models of several heating rates come no nearer: TGA would outweigh all else."""
 LASTING = 0.1
-"""Time over which such a discrepancy lasts, as a fraction of the record: it is no noise of points,
-and counts alike however many points are measured."""
+"""Time over which a discrepancy of models lasts, as a fraction of the record. It counts alike
+however many points are measured."""
 SMOOTHING = 0.1
 """Window over which a stated uncertainty is smoothed, as a fraction of the record."""
 FEWEST_POINTS = 8
-UNITS = {"mlr": "kg/(m² s)", "back_temperature": "K", "mass_fraction": "-"}
 
 
 @dataclass(frozen=True, eq=False)
@@ -100,7 +94,7 @@ class NoiseModel:
 
 def estimate_noise(
     target: Target,
-    quantity: str,
+    quantity: Quantity,
     stated_sds: float = 1.0,
     timing_s: float = TIMING_S,
     about: FloatArray | None = None,
@@ -113,7 +107,7 @@ def estimate_noise(
         The series. A stated standard deviation counts in full: where points scatter less about a
         smooth curve, the rest is taken to vary slowly.
     quantity
-        ``mlr``, ``back_temperature`` or ``mass_fraction``.
+        The measured quantity, with the floors of its noise.
     stated_sds
         Standard deviations that the stated uncertainty stands for.
     timing_s
@@ -151,20 +145,20 @@ def estimate_noise(
         excess=1.0 if stated is None else scale,
         whiteness=whiteness(fit.scatter, fit.basis),
         origin=origin,
-        unit=UNITS[quantity],
+        unit=quantity.unit_text,
         floors={name: float(np.median(floor)) for name, floor in floors.items()},
         criterion=fit.criterion,
         stated=stated is not None,
     )
 
 
-def _of_few_points(stated: FloatArray | None, count: int, quantity: str) -> NoiseModel:
+def _of_few_points(stated: FloatArray | None, count: int, quantity: Quantity) -> NoiseModel:
     if stated is None:
         raise DataError(
-            f"{quantity}: {count} points tell nothing of their noise, at least {FEWEST_POINTS} do; "
-            "give an uncertainty, or do not fit the signal"
+            f"{quantity.name}: {count} points tell nothing of their noise, at least "
+            f"{FEWEST_POINTS} do; give an uncertainty, or do not fit the signal"
         )
-    return NoiseModel(stated, Correlation(), origin="stated", unit=UNITS[quantity], stated=True)
+    return NoiseModel(stated, Correlation(), origin="stated", unit=quantity.unit_text, stated=True)
 
 
 def smoothed(target: Target) -> FloatArray | None:
@@ -185,14 +179,14 @@ def smoothed(target: Target) -> FloatArray | None:
 
 
 def _floors(
-    target: Target, curve: FloatArray, quantity: str, timing_s: float, stated: bool
+    target: Target, curve: FloatArray, quantity: Quantity, timing_s: float, stated: bool
 ) -> dict[str, FloatArray]:
     """Return what is added to the standard deviation, shape (n,) each."""
     slope = np.abs(np.gradient(curve, target.time_s))
     floors = {
         "timing": timing_s * slope,
-        "solver": np.full(curve.size, SOLVER_ERROR[quantity] * np.ptp(curve)),
+        "solver": np.full(curve.size, quantity.solver_error * np.ptp(curve)),
     }
-    if quantity in DISCREPANCY and not stated:
-        floors["discrepancy"] = np.full(curve.size, DISCREPANCY[quantity])
+    if quantity.discrepancy is not None and not stated:
+        floors["discrepancy"] = np.full(curve.size, quantity.discrepancy)
     return floors

@@ -9,11 +9,12 @@ from numpy.typing import NDArray
 
 from pyrofit.config import Study, TermSpec
 from pyrofit.cost import Target, WeightedSum, make_term
-from pyrofit.data.quantities import UNCERTAINTY_COLUMN, VALUE_COLUMN
+from pyrofit.experiments import kind_of
+from pyrofit.experiments.base import Simulate
 from pyrofit.model.accuracy import Accuracy
-from pyrofit.model.experiment import Gasification, Tga
+from pyrofit.model.experiment import Experiment
 from pyrofit.model.material import Material
-from pyrofit.simulate import simulate_gasifications, simulate_tgas
+from pyrofit.quantities.base import Quantity
 from pyrofit.solver.arrays import FloatArray, Status, Values
 from pyrofit.solver.curves import Curves, Request
 
@@ -39,7 +40,7 @@ class Evaluation:
 class _Run:
     """One simulation and the terms that look at it."""
 
-    experiment: Tga | Gasification
+    experiment: Experiment
     requests: dict[str, Request]
 
 
@@ -84,19 +85,16 @@ class Problem:
         ]
 
     def _simulated(self, values: Values, sets: int) -> dict[str, list[Curves]]:
-        """Return the curves by experiment and set; all TGA in one call."""
-        tgas = [(n, r.experiment) for n, r in self.runs.items() if isinstance(r.experiment, Tga)]
-        curves: dict[str, list[Curves]] = {}
-        if tgas:
-            names, experiments = zip(*tgas, strict=True)
-            requests = [self.runs[name].requests["mass_fraction"] for name in names]
-            found = simulate_tgas(experiments, self.material, values, requests, self.accuracy, sets)
-            curves.update(zip(names, found, strict=True))
+        """Return the curves by experiment and set; kinds with one solver in one call."""
+        names: dict[Simulate, list[str]] = {}
         for name, run in self.runs.items():
-            if isinstance(run.experiment, Gasification):
-                curves[name] = simulate_gasifications(
-                    run.experiment, self.material, values, run.requests, self.accuracy, sets=sets
-                )
+            names.setdefault(kind_of(run.experiment).simulate, []).append(name)
+        curves: dict[str, list[Curves]] = {}
+        for simulate, together in names.items():
+            experiments = [self.runs[name].experiment for name in together]
+            asked = [self.runs[name].requests for name in together]
+            found = simulate(experiments, self.material, values, asked, self.accuracy, sets)
+            curves.update(zip(together, found, strict=True))
         return curves
 
     def _picked(self, curves: Mapping[str, Curves]) -> Outcome:
@@ -144,17 +142,17 @@ class Problem:
         return np.full(self.cost.residuals(met).size, np.sqrt(FAILED_COST))
 
 
-def target_of(frame: pd.DataFrame, signal: str) -> Target:
+def target_of(frame: pd.DataFrame, quantity: Quantity) -> Target:
     """Return the measured series as the target of a cost."""
-    sigma = UNCERTAINTY_COLUMN[signal]
+    sigma = quantity.uncertainty_column
     return Target(
         frame["time_s"].to_numpy(float),
-        frame[VALUE_COLUMN[signal]].to_numpy(float),
+        frame[quantity.column].to_numpy(float),
         frame[sigma].to_numpy(float) if sigma in frame else None,
     )
 
 
-def target_for(spec: TermSpec, measurements: Measurements) -> Target:
+def target_for(study: Study, spec: TermSpec, measurements: Measurements) -> Target:
     """Return the target of a term: its window of the measured series, resampled where wanted.
 
     Raises
@@ -162,29 +160,11 @@ def target_for(spec: TermSpec, measurements: Measurements) -> Target:
     CostError
         The window holds too few points.
     """
-    target = target_of(measurements[spec.experiment, spec.signal], spec.signal)
+    quantity = study.experiments[spec.experiment].quantity(spec.signal)
+    target = target_of(measurements[spec.experiment, spec.signal], quantity)
     if spec.window_s is not None:
         target = target.window(*spec.window_s)
     return target.resampled(spec.points) if spec.points else target
-
-
-def request_for(
-    experiment: Tga | Gasification, signal: str, frame: pd.DataFrame, times: FloatArray
-) -> Request:
-    """Return what a simulation is asked for at the given times of a measured signal."""
-    if isinstance(experiment, Tga):
-        return Request(times, temperature_K=program(experiment, frame, times))
-    return Request(times, experiment.signals[signal].average_s)
-
-
-def program(experiment: Tga, frame: pd.DataFrame, times: FloatArray) -> FloatArray:
-    """Return T [K] at the given times: the measured one, or T0 + rate (t - t0)."""
-    measured = frame["time_s"].to_numpy(float)
-    temperature = frame["temperature_K"].to_numpy(float)
-    if experiment.program == "measured":
-        return np.asarray(np.interp(times, measured, temperature), dtype=np.float64)
-    rise = experiment.heating_rate_K_min / 60.0 * (times - measured[0])
-    return np.asarray(temperature[0] + rise, dtype=np.float64)
 
 
 def make_problem(
@@ -217,7 +197,7 @@ def make_problem(
     CostError
         A cost does not fit its target.
     """
-    targets = [target_for(spec, measurements) for spec in specs]
+    targets = [target_for(study, spec, measurements) for spec in specs]
     times: dict[tuple[str, str], FloatArray] = {}
     for spec, target in zip(specs, targets, strict=True):
         key = spec.experiment, spec.signal
@@ -226,7 +206,8 @@ def make_problem(
     for (name, signal), at in times.items():
         experiment = study.experiments[name]
         run = runs.setdefault(name, _Run(experiment, {}))
-        run.requests[signal] = request_for(experiment, signal, measurements[name, signal], at)
+        frame = measurements[name, signal]
+        run.requests[signal] = kind_of(experiment).request(experiment, signal, frame, at)
     picks = tuple(
         (
             s.experiment,

@@ -8,10 +8,10 @@ from matplotlib.axes import Axes
 from matplotlib.figure import Figure as Canvas
 
 from pyrofit.config import Study
-from pyrofit.data.quantities import UNCERTAINTY_COLUMN, VALUE_COLUMN
 from pyrofit.figures import style
 from pyrofit.figures.determined import draw_matrix
 from pyrofit.files import Results
+from pyrofit.quantities import known_quantities
 from pyrofit.stages import outcomes
 from pyrofit.stages.compare import ends
 from pyrofit.tables.comparison import ALL, band_curves
@@ -129,11 +129,11 @@ def good_sets(study: Study, results: Results) -> Canvas:
     stated = False
     for ax, (name, signal) in zip(axes, channels, strict=True):
         label, factor, shift = _AXES[signal]
-        measured = outcomes.series(results, name, signal)
-        time, value = measured["time_s"], measured[VALUE_COLUMN[signal]]
-        if UNCERTAINTY_COLUMN[signal] in measured:
+        measured = outcomes.series(study, results, name, signal)
+        time, value = measured["time_s"], measured[known_quantities()[signal].column]
+        if known_quantities()[signal].uncertainty_column in measured:
             stated = True
-            sd = measured[UNCERTAINTY_COLUMN[signal]]
+            sd = measured[known_quantities()[signal].uncertainty_column]
             low, high = (factor * (value + side * sd) + shift for side in (-1.0, 1.0))
             ax.fill_between(time, low, high, color=style.BAND, linewidth=0.0)
         here = frame[(frame["experiment"] == name) & (frame["signal"] == signal)]

@@ -11,9 +11,9 @@ from matplotlib.lines import Line2D
 from matplotlib.patches import Patch
 
 from pyrofit.config import Study
-from pyrofit.data.quantities import UNCERTAINTY_COLUMN, VALUE_COLUMN
 from pyrofit.figures import style
 from pyrofit.files import Results
+from pyrofit.quantities import known_quantities
 from pyrofit.stages import outcomes
 from pyrofit.tables.describe import (
     CMAES,
@@ -72,7 +72,7 @@ def residuals(study: Study, results: Results) -> Canvas:
     curves = _predicted_curves(study, results)
     shown = [s for s in predicted_sets(study) if s.origin == SCEUA]
     for ax, name in zip(axes, names, strict=True):
-        _band(ax, outcomes.series(results, name, "mlr"), "mlr", _grams, about_zero=True)
+        _band(ax, outcomes.series(study, results, name, "mlr"), "mlr", _grams, about_zero=True)
         style.zero_line(ax)
         for chosen in shown:
             curve = _curve(curves, name, "mlr", chosen.label)
@@ -107,9 +107,9 @@ def _compare(
     shown = [s for s in predicted_sets(study) if s.origin in origins]
     canvas, axes = _panels(study, names)
     for ax, name in zip(axes, names, strict=True):
-        frame = outcomes.series(results, name, signal)
+        frame = outcomes.series(study, results, name, signal)
         _band(ax, frame, signal, convert)
-        ax.plot(frame["time_s"], convert(frame[VALUE_COLUMN[signal]]), **_MEASURED)
+        ax.plot(frame["time_s"], convert(frame[known_quantities()[signal].column]), **_MEASURED)
         # Published ones last are hidden by nothing; ours come on top of them.
         for chosen in sorted(shown, key=lambda s: s.origin != PUBLISHED):
             curve = _curve(curves, name, signal, chosen.label)
@@ -162,10 +162,14 @@ def _band(
     ax: Axes, frame: pd.DataFrame, signal: str, convert: Convert, about_zero: bool = False
 ) -> None:
     """Shade measured value ± uncertainty, where one is known."""
-    if UNCERTAINTY_COLUMN[signal] not in frame:
+    if known_quantities()[signal].uncertainty_column not in frame:
         return
-    width = frame[UNCERTAINTY_COLUMN[signal]].to_numpy(float)
-    value = np.zeros_like(width) if about_zero else frame[VALUE_COLUMN[signal]].to_numpy(float)
+    width = frame[known_quantities()[signal].uncertainty_column].to_numpy(float)
+    value = (
+        np.zeros_like(width)
+        if about_zero
+        else frame[known_quantities()[signal].column].to_numpy(float)
+    )
     low, high = convert(value - width), convert(value + width)
     ax.fill_between(frame["time_s"], low, high, color=style.BAND, linewidth=0.0)
 
@@ -193,7 +197,10 @@ def _measured_entries(
     study: Study, results: Results, names: Sequence[str], signal: str, with_line: bool
 ) -> list[Line2D | Patch]:
     """Return the legend entries of the measurement, its band only where an uncertainty is known."""
-    known = any(UNCERTAINTY_COLUMN[signal] in outcomes.series(results, n, signal) for n in names)
+    known = any(
+        known_quantities()[signal].uncertainty_column in outcomes.series(study, results, n, signal)
+        for n in names
+    )
     name = data_name(study, [(n, signal) for n in names])
     entries: list[Line2D | Patch] = [style.line(name, **_MEASURED)] if with_line else []
     return entries + ([style.patch("uncertainty", color=style.BAND)] if known else [])

@@ -11,9 +11,9 @@ from matplotlib.patches import Patch
 from scipy.signal import savgol_filter
 
 from pyrofit.config import Study
-from pyrofit.data.quantities import UNCERTAINTY_COLUMN
 from pyrofit.figures import style
 from pyrofit.files import Results
+from pyrofit.quantities import known_quantities
 from pyrofit.solver.arrays import FloatArray
 from pyrofit.stages import outcomes
 from pyrofit.tables.describe import all_rates, data_name, rates_in_fit
@@ -24,7 +24,7 @@ FITTED = "fitted"
 # In an order that keeps the first three far apart in grey, though measured lines are lighter.
 _RATES = ("#000000", "#BB3344", "#56B4E9", "#009E73", "#CC8800", "#CC79A7")
 _NOTICEABLE = 0.01
-_UNCERTAINTY = UNCERTAINTY_COLUMN["mass_fraction"]
+_UNCERTAINTY = known_quantities()["mass_fraction"].uncertainty_column
 
 
 def slope(temperature_K: FloatArray, mass_fraction: FloatArray) -> tuple[FloatArray, FloatArray]:
@@ -51,7 +51,7 @@ def fig2(study: Study, results: Results) -> Canvas:
     names = rates_in_fit(study)
     canvas, (left, right) = style.panels(2, 2, style.TWO_COLUMNS, 82.0)
     for i, name in enumerate(names):
-        measured = outcomes.series(results, name, "mass_fraction")
+        measured = outcomes.series(study, results, name, "mass_fraction")
         _band(left, measured)
         _draw(left, right, measured, _colour(i), "-")
         for k, (_, curve) in enumerate(_sets(study, curves, name)):
@@ -124,7 +124,7 @@ def kinetics_all_rates(study: Study, results: Results) -> Canvas:
     height = 52.0 if len(names) > 3 else 70.0
     canvas, axes = style.panels(len(names), 4, style.TWO_COLUMNS, height, sharex=True, sharey=True)
     for ax, name in zip(axes, names, strict=True):
-        measured = outcomes.series(results, name, "mass_fraction")
+        measured = outcomes.series(study, results, name, "mass_fraction")
         _band(ax, measured)
         ax.plot(
             style.celsius(measured["temperature_K"]),
@@ -164,5 +164,5 @@ def _data_entries(study: Study, results: Results, names: Sequence[str]) -> list[
     """Return the legend entries of the data, their band only where an uncertainty is known."""
     label = data_name(study, [(name, "mass_fraction") for name in names])
     line = style.line(label, color="0.6", linewidth=2.0)
-    known = any(_UNCERTAINTY in outcomes.series(results, n, "mass_fraction") for n in names)
+    known = any(_UNCERTAINTY in outcomes.series(study, results, n, "mass_fraction") for n in names)
     return [line, style.patch("uncertainty", color=style.BAND)] if known else [line]

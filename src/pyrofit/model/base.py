@@ -5,7 +5,14 @@ from collections.abc import Callable, Iterator, Mapping
 from dataclasses import dataclass
 from typing import Annotated, Any, Self, TypeVar, cast
 
-from pydantic import BaseModel, BeforeValidator, ConfigDict, PrivateAttr, model_validator
+from pydantic import (
+    BaseModel,
+    BeforeValidator,
+    ConfigDict,
+    Field,
+    PrivateAttr,
+    model_validator,
+)
 
 from pyrofit.errors import suggest
 
@@ -76,6 +83,8 @@ def _number(given: Any) -> Any:
 
 Number = Annotated[float | str, BeforeValidator(_number), ANY]
 """A number, or the name of a parameter."""
+AboveZero = Annotated[float, Field(gt=0.0)]
+"""A number above zero, which no parameter may stand for."""
 Positive = Annotated[Number, POSITIVE]
 NotNegative = Annotated[Number, NOT_NEGATIVE]
 Fraction = Annotated[Number, FRACTION]

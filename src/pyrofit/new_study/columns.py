@@ -7,7 +7,8 @@ from dataclasses import dataclass
 import numpy as np
 
 from pyrofit.data.csvfile import FloatArray, Table
-from pyrofit.data.quantities import HEADERS, SCALES, VALUE_KINDS, header_key, unit_key
+from pyrofit.quantities import known_quantities
+from pyrofit.quantities.units import SCALES, header_key, unit_key
 
 _UNIT_WORDS = {
     "sec": "s",
@@ -38,9 +39,6 @@ _ERROR = re.compile(r"err(or)?|unc(ertainty)?|sigma|std(ev|dev)?|deviation|sd$")
 _WORDS = {
     "time": r"time.*|(elapsed|test)time|zeit",
     "temperature": r"(sample|program|furnace)?temp.*|ts",
-    "mass_fraction": r"(norm\w*|residual|relative|sample)?(mass|weight)(?!loss|flux).*|m|tga?|w|y",
-    "mlr": r"s?mlr.*|.*masslossrate.*|massflux.*|mdot.*|dmdt.*",
-    "back_temperature": r".*(back|rear|bottom).*|temp.*|tb|tc\d*",
 }
 _STANDARD_RATES = np.array([1, 2, 3, 5, 10, 15, 20, 25, 30, 40, 50, 80, 100.0])
 
@@ -52,7 +50,7 @@ class Found:
     Parameters
     ----------
     quantity
-        `mlr`, `back_temperature` or `mass_fraction`.
+        Name of a quantity.
     columns
         Header by role.
     units
@@ -90,7 +88,7 @@ def recognise(table: Table, quantity: str) -> Found:
     """
     columns: dict[str, str] = {}
     missing = []
-    for role in HEADERS[quantity]:
+    for role in known_quantities()[quantity].roles:
         if role == "uncertainty" and "value" not in columns:
             continue
         matches = _matches(table, quantity, role, columns)
@@ -102,7 +100,7 @@ def recognise(table: Table, quantity: str) -> Found:
     guessed = []
     # Time last: where it has no unit, the heating rate tells it.
     for role in sorted(columns, key=("temperature", "value", "uncertainty", "time").index):
-        kinds = VALUE_KINDS[quantity] if role in ("value", "uncertainty") else (role,)
+        kinds = known_quantities()[quantity].scales if role in ("value", "uncertainty") else (role,)
         if _known(table.units[columns[role]], kinds):
             continue
         unit = _unit(table, columns[role], kinds)
@@ -122,7 +120,7 @@ def _matches(table: Table, quantity: str, role: str, taken: Mapping[str, str]) -
         for name, numbers in table.columns.items()
         if name not in taken.values() and (role == "time" or numbers.any())
     ]
-    usual = {header_key(name) for name in HEADERS[quantity][role]}
+    usual = {header_key(name) for name in known_quantities()[quantity].roles[role]}
     if known := [name for name in free if header_key(name) in usual]:
         return known
     return [name for name in free if _is(name, quantity, role)]
@@ -130,16 +128,17 @@ def _matches(table: Table, quantity: str, role: str, taken: Mapping[str, str]) -
 
 def _is(name: str, quantity: str, role: str) -> bool:
     """Tell whether the words of a header are those of a role."""
-    stem = _stem(name)
+    stem, of = _stem(name), known_quantities()[quantity]
     if role == "uncertainty":
         rest, errors = _ERROR.subn("", stem)
-        return bool(errors) and (not rest or bool(re.fullmatch(_WORDS[quantity], rest)))
+        return bool(errors) and (not rest or bool(re.fullmatch(of.pattern, rest)))
     if _ERROR.search(stem):
         return False
     if stem == "t":  # the symbols: t for time, T for a temperature
         symbol = "time" if name.startswith("t") else "temperature"
-        return role == symbol or (role == "value" and f"back_{symbol}" == quantity)
-    return bool(re.fullmatch(_WORDS[quantity if role == "value" else role], stem))
+        hot = role == "value" and of.is_temperature
+        return role == symbol or (hot and symbol == "temperature")
+    return bool(re.fullmatch(of.pattern if role == "value" else _WORDS[role], stem))
 
 
 def _stem(name: str) -> str:
@@ -180,14 +179,9 @@ def _guess(
     if role == "time":
         heated = columns.get("temperature")
         return "s" if heated is None else _time_unit(numbers, table.columns[heated])
-    if role == "temperature" or quantity == "back_temperature":
+    if role == "temperature":
         return "degC" if numbers[0] < 200.0 else "K"
-    largest = float(numbers.max())
-    if quantity == "mlr":
-        return "g/m2/s" if largest > 0.3 else "kg/m2/s"
-    if largest <= 1.5:
-        return "1"
-    return "%" if 95.0 < numbers[0] < 105.0 else "mg"
+    return known_quantities()[quantity].guess(float(numbers[0]), float(numbers.max()))
 
 
 def _time_unit(time: FloatArray, temperature: FloatArray) -> str:

@@ -7,9 +7,10 @@ import pandas as pd
 
 from pyrofit.config import Study
 from pyrofit.files import Results, read_csv
+from pyrofit.quantities import known_quantities
 from pyrofit.report import remarks
 from pyrofit.report.words import listed, span
-from pyrofit.stages.compare import FITTED, METRICS
+from pyrofit.stages.compare import FITTED
 from pyrofit.tables.comparison import ALL
 from pyrofit.tables.describe import CMAES, LEAST_SQUARES, PUBLISHED, SCEUA
 from pyrofit.tables.differences import SIGNIFICANT
@@ -55,7 +56,7 @@ def _beaten(tables: Frames) -> str:
 
 def _metric(tables: Frames) -> str:
     """Say whether the cost function or the optimiser matters more on the common metric."""
-    metric = METRICS["mlr"]
+    metric = known_quantities()["mlr"].metric
     table = tables["every_cost"]
     parts = []
     for place, rows in table.groupby("place", sort=False):

@@ -6,9 +6,10 @@ from typing import Any
 import pandas as pd
 
 from pyrofit.config import Study
-from pyrofit.data.quantities import ICE_POINT_K, UNCERTAINTY_COLUMN, VALUE_COLUMN
 from pyrofit.files import Results
-from pyrofit.model.experiment import Signal
+from pyrofit.model.signal import Signal
+from pyrofit.quantities import known_quantities
+from pyrofit.quantities.units import ICE_POINT_K
 from pyrofit.stages import outcomes
 from pyrofit.stages.closure import closure_lines
 from pyrofit.tables.describe import (
@@ -33,7 +34,7 @@ def series(study: Study, results: Results, measured: Mapping[str, Any]) -> list[
     rows = []
     for name, signals in measured["signals"].items():
         for signal, about in signals.items():
-            frame = outcomes.series(results, name, signal)
+            frame = outcomes.series(study, results, name, signal)
             rows.append(
                 {
                     "experiment": title_of(study, name),
@@ -98,7 +99,7 @@ def _over(frame: pd.DataFrame) -> str:
 
 def _values(frame: pd.DataFrame, signal: str) -> str:
     _, factor, shift, unit = _SHOWN[signal]
-    low, high = (factor * v + shift for v in _ends(frame[VALUE_COLUMN[signal]]))
+    low, high = (factor * v + shift for v in _ends(frame[known_quantities()[signal].column]))
     return f"{low:.3g} to {high:.3g} {unit}".strip()
 
 
@@ -108,7 +109,7 @@ def _ends(values: pd.Series) -> tuple[float, float]:
 
 def _size(frame: pd.DataFrame, signal: str) -> str:
     """Return the median of the stated uncertainty."""
-    column = UNCERTAINTY_COLUMN[signal]
+    column = known_quantities()[signal].uncertainty_column
     if column not in frame:
         return "not stated"
     _, factor, _, unit = _SHOWN[signal]

@@ -5,10 +5,10 @@ from collections.abc import Callable
 import pandas as pd
 
 from pyrofit.config import Study
+from pyrofit.quantities import known_quantities
 from pyrofit.report.determined import by_verdict
 from pyrofit.report.remarks import costs_of
 from pyrofit.report.words import listed, several, span
-from pyrofit.stages.compare import METRICS
 from pyrofit.tables.describe import FITTED, HELD_OUT, PUBLISHED, fitted_experiments, title_of
 from pyrofit.tables.determined import WORDS
 from pyrofit.tables.differences import SIGNIFICANT
@@ -142,7 +142,7 @@ def _costs(study: Study, tables: Frames) -> str:
 def _changed(tables: Frames) -> str:
     """Say how much a change of cost function and one of optimiser change the common metric."""
     table = tables["every_cost"]
-    metric = METRICS["mlr"]
+    metric = known_quantities()["mlr"].metric
     if metric not in table:
         return ""
     ours = table[(table["found_by"] != PUBLISHED) & table[metric].notna()]

@@ -11,11 +11,19 @@ _STATUSES = tuple(Status)
 
 @dataclass(frozen=True)
 class Request:
-    """What a signal asks of a run: its times [s], bin width [s], for TGA its temperatures [K]."""
+    """What a signal asks of a run: its times [s], bin width [s], for TGA its temperatures [K].
+
+    ``output`` names the curve, see `pyrofit.solver.outputs`; without it the signal's own name does.
+    """
 
     time_s: FloatArray
     average_s: float = 0.0
     temperature_K: FloatArray | None = None
+    output: str = ""
+
+    def of(self, signal: str) -> str:
+        """Return the name of the curve that a signal asks for."""
+        return self.output or signal
 
 
 class Curves(NamedTuple):

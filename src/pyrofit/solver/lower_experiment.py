@@ -6,15 +6,7 @@ import numpy as np
 
 from pyrofit.model import material as words
 from pyrofit.model.base import numbers, value_of
-from pyrofit.model.experiment import (
-    Edge,
-    EmissivityDepth,
-    FluxTable,
-    Foil,
-    Gasification,
-    Sample,
-    Side,
-)
+from pyrofit.model.slab import Edge, EmissivityDepth, FluxTable, Foil, Sample, Side, SlabExperiment
 from pyrofit.solver.arrays import (
     TABLE_TEMPERATURES_K,
     Exposure,
@@ -57,7 +49,7 @@ def _surface(side: Side, values: Values, sets: int, factor: Value = 1.0) -> Surf
 
 
 def lower_exposure(
-    experiment: Gasification, share: FloatArray, arrays: Material, values: Values, sets: int = 1
+    experiment: SlabExperiment, share: FloatArray, arrays: Material, values: Values, sets: int = 1
 ) -> Exposure:
     """Return what acts on the sample, whose front layer has these mass fractions, as arrays.
 
@@ -69,7 +61,7 @@ def lower_exposure(
     return found._replace(mixing_depth=_number(depth, sets))
 
 
-def _fixed_exposure(experiment: Gasification) -> Exposure | None:
+def _fixed_exposure(experiment: SlabExperiment) -> Exposure | None:
     """Return the exposure of one set, none if a parameter changes it."""
     sample = experiment.sample
     parts = experiment.front, experiment.back, sample.foil, sample.edge
@@ -79,7 +71,7 @@ def _fixed_exposure(experiment: Gasification) -> Exposure | None:
     return _exposure(experiment, {}, 1)
 
 
-def _exposure(experiment: Gasification, values: Values, sets: int) -> Exposure:
+def _exposure(experiment: SlabExperiment, values: Values, sets: int) -> Exposure:
     """Return the exposure without its mixing depth."""
     front, back, sample = experiment.front, experiment.back, experiment.sample
     times, fluxes = _flux(front.flux_W_m2, values, sets)
@@ -134,7 +126,7 @@ def _edge(edge: Edge | None, values: Values) -> tuple[Value, Value]:
 
 
 def _mixing_depth(
-    experiment: Gasification, share: FloatArray, arrays: Material, values: Values
+    experiment: SlabExperiment, share: FloatArray, arrays: Material, values: Values
 ) -> Value:
     depth = experiment.sample.emissivity_depth
     if not isinstance(depth, EmissivityDepth):
@@ -166,7 +158,7 @@ def thicknesses(sample: Sample, values: Values) -> list[Value]:
 
 
 def lower_share(
-    experiment: Gasification, material: words.Material, values: Values, sets: int = 1
+    experiment: SlabExperiment, material: words.Material, values: Values, sets: int = 1
 ) -> FloatArray:
     """Return the mass fractions of the front layer, shape (components, sets)."""
     composition = experiment.sample.layers[0].composition or material.composition
@@ -174,7 +166,7 @@ def lower_share(
 
 
 def lower_layers(
-    experiment: Gasification,
+    experiment: SlabExperiment,
     material: words.Material,
     arrays: Material,
     values: Values,

@@ -6,7 +6,7 @@ from dataclasses import replace
 import numpy as np
 
 from pyrofit.model.base import value_of
-from pyrofit.model.experiment import Gasification
+from pyrofit.model.slab import SlabExperiment
 from pyrofit.solver.arrays import FloatArray, Value, Values
 from pyrofit.solver.curves import Curves, Request, Runs
 
@@ -18,7 +18,7 @@ MIDDLE = 2
 
 
 def observe(
-    experiment: Gasification,
+    experiment: SlabExperiment,
     values: Values,
     requests: Mapping[str, Request],
     run: Run,
@@ -43,10 +43,10 @@ def observe(
         Number of parameter sets.
     """
     shifted = {
-        name: Request(
-            np.broadcast_to(r.time_s, (sets, r.time_s.size))
+        name: replace(
+            r,
+            time_s=np.broadcast_to(r.time_s, (sets, r.time_s.size))
             - _of(experiment, name, "delay_s", values),
-            r.average_s,
         )
         for name, r in requests.items()
     }
@@ -60,7 +60,7 @@ def observe(
 
 
 def observe_one(
-    experiment: Gasification,
+    experiment: SlabExperiment,
     values: Mapping[str, float],
     requests: Mapping[str, Request],
     run: Callable[[float, Mapping[str, Request]], Curves],
@@ -83,7 +83,7 @@ def observe_one(
     return observe(experiment, values, requests, runs).curves()[0]
 
 
-def _of(experiment: Gasification, name: str, key: str, values: Values) -> Value:
+def _of(experiment: SlabExperiment, name: str, key: str, values: Values) -> Value:
     """Return a value of a signal, of several sets in a column."""
     signal = experiment.signals.get(name)
     value: Value = 0.0 if signal is None else value_of(getattr(signal, key), values)

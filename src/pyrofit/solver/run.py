@@ -13,12 +13,13 @@ from pyrofit.solver.arrays import FloatArray, IntArray, Numerics, Status
 from pyrofit.solver.curves import Request, Runs
 from pyrofit.solver.lower import total
 from pyrofit.solver.lower_experiment import Layer, cells_of
+from pyrofit.solver.outputs import BACK, FRONT, MASS, RATE, THICKNESS
 
 LANES = 8
 """Parameter sets that run side by side."""
 FEW = 3
 """Sets that are faster one after the other than with empty lanes."""
-EARLY = {"mlr", "mass"}
+EARLY = {RATE, MASS}
 """Signals that do not change any more once the reactant is gone."""
 
 
@@ -113,9 +114,11 @@ def march(case: Case, asked: Mapping[str, Request], numerics: Numerics, threads:
         mass_error=np.empty(sets),
     )
     ends = [r.time_s.max(axis=1) + 0.5 * r.average_s for r in asked.values()]
-    wanted = _asked(tuple((n, r.average_s, r.time_s.shape[1]) for n, r in asked.items()))
+    wanted = _asked(tuple((r.of(n), r.average_s, r.time_s.shape[1]) for n, r in asked.items()))
     at = np.concatenate([r.time_s for r in asked.values()], axis=1)
-    work = _Work(case, numerics, np.max(ends, axis=0), wanted, at, set(asked) <= EARLY)
+    outputs = [r.of(n) for n, r in asked.items()]
+    early = set(outputs) <= EARLY
+    work = _Work(case, numerics, np.max(ends, axis=0), wanted, at, outputs, early)
 
     def fill(index: IntArray) -> None:
         found = _alone(work, index) if index.size == 1 else _together(work, index)
@@ -139,6 +142,7 @@ class _Work(NamedTuple):
     t_end: FloatArray
     asked: arrays.Asked
     at: FloatArray
+    outputs: list[str]
     stop_when_burnt: bool
 
 
@@ -148,11 +152,11 @@ def _asked(signals: tuple[tuple[str, float, int], ...]) -> arrays.Asked:
     from pyrofit.solver.kernels import trace
 
     columns = {
-        "mlr": trace.RATE,
-        "mass": trace.RELEASED,
-        "front_temperature": trace.FRONT,
-        "back_temperature": trace.BACK,
-        "thickness": trace.THICKNESS,
+        RATE: trace.RATE,
+        MASS: trace.RELEASED,
+        FRONT: trace.FRONT,
+        BACK: trace.BACK,
+        THICKNESS: trace.THICKNESS,
     }
     names, widths, points = zip(*signals, strict=True)
     column = [columns[n] if n in columns else trace.PROBES + int(n[6:]) for n in names]
@@ -252,9 +256,9 @@ def _write(
     if failed.any():
         signals[failed] = np.nan
     begin = work.asked.begin.tolist()
-    for k, (name, curve) in enumerate(runs.signals.items()):
+    for k, (output, curve) in enumerate(zip(work.outputs, runs.signals.values(), strict=True)):
         curve[index] = signals[:, begin[k] : begin[k + 1]]
-        if name == "mass":
+        if output == MASS:
             initial = np.asarray(sum(total(layer.mass) for layer in work.case.layers))
             curve[index] = initial[index, None] - curve[index]
 

@@ -7,73 +7,97 @@ from typing import Any
 import numpy as np
 
 from pyrofit.config import Study
-from pyrofit.data.closure import Closure
 from pyrofit.model.base import value_of
-from pyrofit.model.experiment import Gasification
+from pyrofit.model.slab import Layer, SlabExperiment
 from pyrofit.solver.lower import fractions
 from pyrofit.solver.lower_experiment import thicknesses
 
+Record = tuple[str, str]
+"""Experiment and signal."""
+
 
 def closure_lines(study: Study, signals: Mapping[str, Any]) -> list[str]:
-    """Return a line for every measured mass loss rate, and one for every pair of equal samples.
+    """Return a line for every record of released mass, and one for every pair of equal samples.
 
     Parameters
     ----------
     study
         The study.
     signals
-        ``signals`` of the measurements' summary, with ``released_kg_m2`` for each mass loss rate.
+        ``signals`` of the measurements' summary, with ``released_kg_m2`` where mass is released.
     """
     released = {
-        name: float(signals[name]["mlr"]["released_kg_m2"])
-        for name, experiment in study.kinds(Gasification).items()
-        if "mlr" in experiment.signals
+        (name, signal): float(about["released_kg_m2"])
+        for name in study.experiments
+        for signal, about in signals[name].items()
+        if "released_kg_m2" in about
     }
-    lines = [_line(study, name, study.experiments[name], mass) for name, mass in released.items()]
+    lines = [_line(study, *record, mass) for record, mass in released.items()]
     return lines + _spread(study, released)
 
 
-def _line(study: Study, name: str, experiment: Any, released: float) -> str:
+def _line(study: Study, name: str, signal: str, released: float) -> str:
+    experiment = study.experiments[name]
+    assert isinstance(experiment, SlabExperiment)
+    described = experiment.signals[signal]
     values = study.fixed_values()
-    signal = experiment.signals["mlr"]
+    said = f"{name}: released {released:.3f}"
     try:
-        thickness = sum(thicknesses(experiment.sample, values))
+        thickness = sum(size for _, size in _reacting(study, experiment, values))
     except KeyError:
-        return f"{name}: released {released:.3f} kg/m²; thickness to be estimated"
+        return f"{said} kg/m²; thickness to be estimated"
     initial = None
-    if signal.sample_mass_kg is not None and signal.sample_area_m2 is not None:
-        initial = signal.sample_mass_kg / signal.sample_area_m2
+    if described.sample_mass_kg is not None and described.sample_area_m2 is not None:
+        initial = described.sample_mass_kg / described.sample_area_m2
     else:
         with contextlib.suppress(KeyError):
             initial = _described_mass(study, experiment, values)
     if initial is not None:
-        return f"{name}: {Closure(released, initial, released / initial).describe()}"
+        return f"{said} of {initial:.3f} kg/m² ({released / initial:.1%})".replace("%", " %")
     return (
-        f"{name}: released {released:.3f} kg/m², {released / thickness:.0f} kg/m³ over the "
-        f"{thickness * 1e3:g} mm of the sample; initial mass not given, density to be estimated"
+        f"{said} kg/m², {released / thickness:.0f} kg/m³ over the {thickness * 1e3:g} mm of the "
+        "sample; initial mass not given, density to be estimated"
     )
 
 
-def _described_mass(study: Study, experiment: Gasification, values: Mapping[str, float]) -> float:
+def _reacting(
+    study: Study, experiment: SlabExperiment, values: Mapping[str, float]
+) -> list[tuple[Layer, float]]:
+    """Return the layers that can release mass, with their thickness [m]: no inert board.
+
+    KeyError where a parameter has no value.
+    """
+    reactants = {reaction.reactant for reaction in study.material.reactions.values()}
+    sizes = thicknesses(experiment.sample, values)
+    return [
+        (layer, float(size))
+        for layer, size in zip(experiment.sample.layers, sizes, strict=True)
+        if reactants & set(layer.composition or study.material.composition)
+    ]
+
+
+def _described_mass(study: Study, experiment: SlabExperiment, values: Mapping[str, float]) -> float:
     """Return the mass per area [kg/m2]; KeyError where a parameter has no value."""
     components = study.material.components
     volumes = np.array([1.0 / value_of(c.density_kg_m3, values) for c in components.values()])
     total = 0.0
-    sizes = thicknesses(experiment.sample, values)
-    for layer, size in zip(experiment.sample.layers, sizes, strict=True):
+    for layer, size in _reacting(study, experiment, values):
         composition = layer.composition or study.material.composition
         share = fractions(composition, list(components), values)[:, 0]
-        total += float(size) / float(share @ volumes)
+        total += size / float(share @ volumes)
     return total
 
 
-def _spread(study: Study, released: Mapping[str, float]) -> list[str]:
-    """Say how far apart the released masses of equal samples are."""
+def _spread(study: Study, released: Mapping[Record, float]) -> list[str]:
+    """Give the difference between the released masses of equal samples."""
     lines = []
-    names = list(released)
-    for i, a in enumerate(names):
-        for b in names[i + 1 :]:
-            if study.experiments[a].sample.layers == study.experiments[b].sample.layers:  # type: ignore[union-attr]
+    records = list(released)
+    for i, a in enumerate(records):
+        for b in records[i + 1 :]:
+            one, other = (study.experiments[name] for name, _ in (a, b))
+            assert isinstance(one, SlabExperiment)
+            assert isinstance(other, SlabExperiment)
+            if a[0] != b[0] and one.sample.layers == other.sample.layers:
                 apart = abs(released[a] - released[b]) / max(released[a], released[b])
-                lines.append(f"{a} and {b}: equal samples, released masses {apart:.1%} apart")
+                lines.append(f"{a[0]} and {b[0]}: equal samples, released masses {apart:.1%} apart")
     return lines

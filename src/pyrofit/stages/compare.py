@@ -21,11 +21,6 @@ from pyrofit.stages.predict import CMAES, LEAST_SQUARES, published_sets
 FITTED = "fitted"
 """Place of the costs as the study describes them; the other places are experiments."""
 SCEUA, PUBLISHED = "SCE-UA", "published"
-METRICS = {
-    "mlr": "CV(RMSE) of the mass loss rate",
-    "back_temperature": "RMSE of the back temperature",
-}
-"""The common metric by signal, over all measured points; names of costs hold no spaces."""
 
 Judges = dict[str, list[TermSpec]]
 
@@ -93,28 +88,28 @@ def places(study: Study, measurements: Measurements) -> dict[str, Judges]:
     found: dict[str, Judges] = {FITTED: {c: list(t) for c, t in study.imp.costs.items()}}
     fitted = {t.experiment for terms in study.imp.costs.values() for t in terms if t.weight}
     for name in study.validation.experiments:
-        signals = study.experiments[name].signals
-        found[name] = {METRICS[signal]: [_metric(name, signal)] for signal in signals}
+        experiment = study.experiments[name]
+        found[name] = {experiment.metric(s): [_metric(study, name, s)] for s in experiment.signals}
         for cost, terms in study.imp.costs.items() if name not in fitted else ():
             there = [t.model_copy(update={"experiment": name, "window_s": None}) for t in terms]
             # Terms that differ in the experiment alone are one and the same there.
             there = [t for i, t in enumerate(there) if t not in there[:i]]
-            if all(_computable(term, measurements) for term in there):
+            if all(_computable(study, term, measurements) for term in there):
                 found[name][cost] = there
     return found
 
 
-def _metric(name: str, signal: str) -> TermSpec:
-    normalisation = "mean" if signal == "mlr" else None
+def _metric(study: Study, name: str, signal: str) -> TermSpec:
+    normalisation = "mean" if study.experiments[name].quantity(signal).relative else None
     return TermSpec(experiment=name, signal=signal, kind="RMSE", normalisation=normalisation)
 
 
-def _computable(term: TermSpec, measurements: Measurements) -> bool:
+def _computable(study: Study, term: TermSpec, measurements: Measurements) -> bool:
     """Tell whether a term can be computed of what was measured."""
     if (term.experiment, term.signal) not in measurements:
         return False
     try:
-        make_term(term.kind, target_for(term, measurements), **term.all_options())
+        make_term(term.kind, target_for(study, term, measurements), **term.all_options())
     except CostError:
         return False
     return True
@@ -184,7 +179,7 @@ def _bands(
     parts = []
     for name in study.validation.experiments:
         signals = list(study.experiments[name].signals)
-        judges = {signal: [_metric(name, signal)] for signal in signals}
+        judges = {signal: [_metric(study, name, signal)] for signal in signals}
         problem = _problem(study, results, measurements, judges)
         for cost, group in family.groupby("cost_function", sort=False):
             runs = problem.simulate_all(group[list(problem.names)].to_numpy(float))

@@ -7,7 +7,6 @@ from typing import Any
 
 from pyrofit.config import Study, as_yaml
 from pyrofit.config.study import is_own
-from pyrofit.data.quantities import tidy_keys
 from pyrofit.diagnose.diagnosis import examine
 from pyrofit.diagnose.extend import extended_keys
 from pyrofit.diagnose.rounds import Tell
@@ -55,7 +54,7 @@ def _files(
             if study.is_computed(name, quantity):
                 table = results.measurement(name, quantity)
                 has = read_csv(table).columns
-                keys = tidy_keys(quantity)
+                keys = study.experiments[name].quantity(quantity).tidy_keys()
                 columns = {role: c for role, c in keys["columns"].items() if c in has}
                 units = {role: keys["units"][role] for role in columns}
                 file = Path(os.path.relpath(table, folder)).as_posix()

@@ -12,16 +12,18 @@ from pyrofit.errors import StudyError, suggest
 from pyrofit.estimate import cmaes
 from pyrofit.estimate.history import Progress, best_of, convergence
 from pyrofit.estimate.least_squares import Start, descend, multistart
-from pyrofit.estimate.problem import Measurements, Problem, make_problem, program
+from pyrofit.estimate.problem import Measurements, Problem, make_problem
+from pyrofit.experiments.heated.simulate import programme
 from pyrofit.files import Results, write_csv, write_json
 from pyrofit.model.base import value_of
-from pyrofit.model.experiment import Tga
+from pyrofit.model.heated import HeatedExperiment
 from pyrofit.model.material import Material
 from pyrofit.seeds import seed_for
 from pyrofit.simulate import simulate_tga
 from pyrofit.solver.arrays import FloatArray, Status
 from pyrofit.solver.curves import Request
 from pyrofit.solver.lower import fractions, rate_factor
+from pyrofit.solver.outputs import FRACTION_RATE, MASS_FRACTION
 from pyrofit.stages import outcomes, slices
 from pyrofit.stages.measurements import load
 
@@ -106,7 +108,7 @@ def _reactions(material: Material, values: Values) -> dict[str, dict[str, float]
             "A_1_s": float(rate_factor(reactions[name], values)),
             "E_J_mol": value_of(reactions[name].E_J_mol, values),
             "order": value_of(reactions[name].order, values),
-            "mass_fraction": float(share[names.index(reactions[name].reactant)]),
+            MASS_FRACTION: float(share[names.index(reactions[name].reactant)]),
         }
         for name in material.reaction_order()
     }
@@ -118,15 +120,16 @@ def _compare(study: Study, results: Results, measurements: Measurements, fitted:
     used = {term.experiment for term in stage.cost}
     curves = []
     scores = []
-    for name, experiment in study.kinds(Tga).items():
-        if name not in used and name not in stage.compare:
+    for name, experiment in study.of_stage("kinetics").items():
+        masses = [s for s in experiment.signals if experiment.quantity(s).name == MASS_FRACTION]
+        if not masses or (name not in used and name not in stage.compare):
             continue
-        frame = measurements[name, "mass_fraction"]
+        frame = measurements[name, masses[0]]
         for chosen in ("fitted", *stage.sets):
             values = {**study.fixed_values(), **fitted}
             curve = _tga_curve(study, experiment, frame, study.material_with(chosen), values)
             curves.append(curve.assign(experiment=name, set=chosen))
-            difference = curve["mass_fraction"] - frame["mass_fraction"].to_numpy()
+            difference = curve[MASS_FRACTION] - frame[MASS_FRACTION].to_numpy()
             scores.append(
                 {
                     "experiment": name,
@@ -141,18 +144,22 @@ def _compare(study: Study, results: Results, measurements: Measurements, fitted:
 
 
 def _tga_curve(
-    study: Study, experiment: Tga, frame: pd.DataFrame, material: Material, values: Values
+    study: Study,
+    experiment: HeatedExperiment,
+    frame: pd.DataFrame,
+    material: Material,
+    values: Values,
 ) -> pd.DataFrame:
     time = frame["time_s"].to_numpy(float)
-    temperature = program(experiment, frame, time)
+    temperature = programme(experiment, frame, time)
     request = Request(time, temperature_K=temperature)
     signals = simulate_tga(experiment, material, values, request, study.accuracy).signals
     return pd.DataFrame(
         {
             "time_s": time,
             "temperature_K": temperature,
-            "mass_fraction": signals["mass_fraction"],
-            "mass_loss_rate_1_s": signals["mass_loss_rate"],
+            MASS_FRACTION: signals[MASS_FRACTION],
+            "mass_loss_rate_1_s": signals[FRACTION_RATE],
         }
     )
 

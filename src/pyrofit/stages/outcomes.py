@@ -7,20 +7,21 @@ from typing import Any
 import pandas as pd
 
 from pyrofit.config import Study
-from pyrofit.data.quantities import VALUE_COLUMN
 from pyrofit.errors import DataError
 from pyrofit.files import EACH, Keys, Results, read_csv, read_json
+from pyrofit.solver.outputs import MASS_FRACTION
 
 VERDICTS = ("none", "named", "ambiguous", "multiple", "unknown")
 """Kinds of verdict of the diagnosis."""
 
-_SETS_OF_KINETICS = ("A_1_s", "E_J_mol", "order", "mass_fraction")
+_SETS_OF_KINETICS = ("A_1_s", "E_J_mol", "order", MASS_FRACTION)
 
 
-def series(results: Results, experiment: str, signal: str) -> pd.DataFrame:
+def series(study: Study, results: Results, experiment: str, signal: str) -> pd.DataFrame:
     """Return a measured series in SI units."""
-    columns = {"time_s": float, VALUE_COLUMN[signal]: float}
-    if signal == "mass_fraction":
+    quantity = study.experiments[experiment].quantity(signal)
+    columns = {"time_s": float, quantity.column: float}
+    if quantity.against_temperature:
         columns["temperature_K"] = float
     return read_csv(results.measurement(experiment, signal), columns)
 
@@ -32,7 +33,7 @@ def measured(study: Study, results: Results) -> dict[str, Any]:
         for signal in experiment.signals:
             here = ("signals", name, signal)
             needs |= {(*here, "source"): str, (*here, "sha256"): str, (*here, "points"): float}
-            if signal == "mlr":
+            if experiment.quantity(signal).released is not None:
                 needs[*here, "released_kg_m2"] = float
     return read_json(results.measurements_summary, needs)
 
@@ -67,7 +68,7 @@ def kinetic_curves(study: Study, results: Results, experiments: Sequence[str]) -
     """Return the curves of every set at the TGA experiments."""
     return read_csv(
         results.kinetics("curves.csv"),
-        {"temperature_K": float, "mass_fraction": float, "experiment": object, "set": object},
+        {"temperature_K": float, MASS_FRACTION: float, "experiment": object, "set": object},
         {("experiment", "set"): [(name, label) for name in experiments for label in _sets(study)]},
     )
 

@@ -4,13 +4,12 @@ import numpy as np
 import pandas as pd
 
 from pyrofit.config import Study
-from pyrofit.data.quantities import VALUE_COLUMN
 from pyrofit.errors import DataError
+from pyrofit.experiments import kind_of
 from pyrofit.files import Results, write_csv
-from pyrofit.model.experiment import Gasification
-from pyrofit.simulate import simulate_gasifications, solver_errors
-from pyrofit.solver.arrays import FloatArray
-from pyrofit.solver.curves import Request
+from pyrofit.quantities.base import Quantity
+from pyrofit.simulate import solver_errors
+from pyrofit.solver.arrays import FloatArray, Values
 from pyrofit.stages import outcomes
 from pyrofit.stages.fit import best_sets, fixed_for_imp
 from pyrofit.stages.measurements import load
@@ -58,15 +57,15 @@ def predict(study: Study, results: Results) -> None:
     scores = []
     for name in study.validation.experiments:
         experiment = study.experiments[name]
-        assert isinstance(experiment, Gasification)
-        requests = {
-            q: Request(measurements[name, q]["time_s"].to_numpy(float), s.average_s)
-            for q, s in experiment.signals.items()
-        }
+        kind = kind_of(experiment)
+        requests = {}
+        for signal in experiment.signals:
+            frame = measurements[name, signal]
+            time = frame["time_s"].to_numpy(float)
+            requests[signal] = kind.request(experiment, signal, frame, time)
+        values: Values = {**fixed, **columns}
         runs, finer = (
-            simulate_gasifications(
-                experiment, material, {**fixed, **columns}, requests, accuracy, sets=len(chosen)
-            )
+            kind.simulate([experiment], material, values, [requests], accuracy, len(chosen))[0]
             for accuracy in (study.accuracy, study.accuracy.refined())
         )
         for label, run, fine in zip(chosen, runs, finer, strict=True):
@@ -76,24 +75,25 @@ def predict(study: Study, results: Results) -> None:
                     f"{run.status.explanation}; check the limits of the parameters"
                 )
             errors = solver_errors(run, fine, requests)
-            for quantity, request in requests.items():
-                measured = measurements[name, quantity][VALUE_COLUMN[quantity]].to_numpy(float)
-                simulated = run.signals[quantity]
-                curves.append(_curve(name, quantity, label, request.time_s, simulated, measured))
-                score = _score(quantity, simulated, measured, errors[quantity])
-                about = {"experiment": name, "signal": quantity, "set": label}
+            for signal, request in requests.items():
+                quantity = experiment.quantity(signal)
+                measured = measurements[name, signal][quantity.column].to_numpy(float)
+                simulated = run.signals[signal]
+                curves.append(_curve(name, signal, label, request.time_s, simulated, measured))
+                score = _score(quantity, simulated, measured, errors[signal])
+                about = {"experiment": name, "signal": signal, "set": label}
                 scores.append({**about, **score})
     write_csv(results.validation("curves.csv"), pd.concat(curves, ignore_index=True))
     write_csv(results.validation("scores.csv"), pd.DataFrame(scores))
 
 
 def _curve(
-    name: str, quantity: str, label: str, time: FloatArray, value: FloatArray, measured: FloatArray
+    name: str, signal: str, label: str, time: FloatArray, value: FloatArray, measured: FloatArray
 ) -> pd.DataFrame:
     return pd.DataFrame(
         {
             "experiment": name,
-            "signal": quantity,
+            "signal": signal,
             "set": label,
             "time_s": time,
             "simulated": value,
@@ -103,10 +103,10 @@ def _curve(
 
 
 def _score(
-    quantity: str, value: FloatArray, measured: FloatArray, solver_rmse: float
+    quantity: Quantity, value: FloatArray, measured: FloatArray, solver_rmse: float
 ) -> dict[str, object]:
     rmse = float(np.sqrt(np.mean((value - measured) ** 2)))
-    mean = abs(float(np.mean(measured))) if quantity == "mlr" else np.nan
+    mean = abs(float(np.mean(measured))) if quantity.relative else np.nan
     return {
         "points": measured.size,
         "rmse_si": rmse,

@@ -1,6 +1,6 @@
 """Measured files: whether they are there, what they hold, and whether the costs fit them."""
 
-from collections.abc import Iterator, Mapping
+from collections.abc import Iterator
 from pathlib import Path
 from typing import Any
 
@@ -14,7 +14,10 @@ from pyrofit.data.series import Measurement, SeriesSpec, read_series
 from pyrofit.errors import CostError, DataError
 from pyrofit.estimate.problem import Measurements, target_for
 from pyrofit.model.base import value_of
-from pyrofit.model.experiment import Signal, Tga
+from pyrofit.model.heated import HeatedExperiment
+from pyrofit.model.signal import Signal
+from pyrofit.model.slab import SlabExperiment
+from pyrofit.quantities.base import Quantity
 
 OTHER_RATE = 0.2
 """Share by which a measured heating rate may differ from the one given."""
@@ -62,16 +65,16 @@ def read_all(study: Study, macfp: bool = True) -> dict[tuple[str, str], Read]:
     wrong = _missing(study) if macfp else []
     # One line says it of all files of the data base.
     macfp = macfp and not wrong
-    for name, quantity, signal in _signals(study):
+    for name, label, signal in _signals(study):
         if signal.file.startswith(MACFP) and not macfp:
             continue
         try:
-            series[name, quantity] = _read(quantity, signal)
-            _check_experiment(study, name, quantity, *series[name, quantity])
+            series[name, label] = _read(study.experiments[name].quantity(label), signal)
+            _check_experiment(study, name, label, *series[name, label])
         except DataError as error:
             # One file may serve several experiments.
             if not any(line.endswith(str(error)) for line in wrong):
-                wrong.append(f"{_place(name, quantity)}: {error}")
+                wrong.append(f"{_place(name, label)}: {error}")
     if len(wrong) == 1:
         raise DataError(wrong[0])
     if wrong:
@@ -96,34 +99,33 @@ def check_terms(study: Study, measurements: Measurements) -> None:
     for place, specs in terms.items():
         for i, spec in enumerate(specs):
             if (spec.experiment, spec.signal) in measurements:
-                _check_term(f"{place}.{i}", spec, measurements)
+                _check_term(study, f"{place}.{i}", spec, measurements)
 
 
-def _check_term(place: str, spec: TermSpec, measurements: Measurements) -> None:
+def _check_term(study: Study, place: str, spec: TermSpec, measurements: Measurements) -> None:
     try:
-        make_term(spec.kind, target_for(spec, measurements), **spec.all_options())
+        make_term(spec.kind, target_for(study, spec, measurements), **spec.all_options())
     except CostError as error:
         raise CostError(f"{place}, on {_place(spec.experiment, spec.signal)}: {error}") from None
 
 
-def _place(experiment: str, quantity: str) -> str:
-    return f"experiments.{experiment}.signals.{quantity}"
+def _place(experiment: str, signal: str) -> str:
+    return f"experiments.{experiment}.signals.{signal}"
 
 
 def _signals(study: Study) -> Iterator[tuple[str, str, Signal]]:
-    """Yield experiment, quantity and description of each signal that is read from a file."""
+    """Yield experiment, name and description of each signal that is read from a file."""
     for name, experiment in study.experiments.items():
-        signals: Mapping[str, Signal] = experiment.signals
-        for quantity, signal in signals.items():
+        for label, signal in experiment.signals.items():
             if signal.file != SYNTHETIC:
-                yield name, quantity, signal
+                yield name, label, signal
 
 
 def _missing(study: Study) -> list[str]:
     """Say in one line that several files of the MaCFP data base are not there."""
     needed = {
-        signal.file.removeprefix(MACFP): _place(name, quantity)
-        for name, quantity, signal in _signals(study)
+        signal.file.removeprefix(MACFP): _place(name, label)
+        for name, label, signal in _signals(study)
         if signal.file.startswith(MACFP)
     }
     folder = store() if needed else Path()
@@ -136,10 +138,10 @@ def _missing(study: Study) -> list[str]:
     ]
 
 
-def _read(quantity: str, signal: Signal) -> Read:
+def _read(quantity: Quantity, signal: Signal) -> Read:
     found: Measurement = read_series(
         SeriesSpec(
-            quantity=quantity,
+            quantity=quantity.name,
             path=_locate(signal.file),
             columns=signal.columns,
             units=signal.units,
@@ -166,11 +168,11 @@ def _read(quantity: str, signal: Signal) -> Read:
 
 
 def _check_experiment(
-    study: Study, name: str, quantity: str, frame: pd.DataFrame, about: dict[str, Any]
+    study: Study, name: str, signal: str, frame: pd.DataFrame, about: dict[str, Any]
 ) -> None:
     """Compare a series with its experiment: refuse another heating rate, note another start."""
     experiment = study.experiments[name]
-    if isinstance(experiment, Tga):
+    if isinstance(experiment, HeatedExperiment):
         rise = np.gradient(frame["temperature_K"].to_numpy(), frame["time_s"].to_numpy())
         found, given = 60.0 * float(np.median(rise)), experiment.heating_rate_K_min
         if abs(found - given) > OTHER_RATE * given:
@@ -178,8 +180,8 @@ def _check_experiment(
                 f"{about['source']}: the temperature rises by {found:.3g} K/min, the experiment's "
                 f"heating_rate_K_min is {given:g}; correct it, or the unit of the time column"
             )
-    elif quantity == "back_temperature":
-        start = float(frame["back_temperature_K"].iloc[0])
+    elif isinstance(experiment, SlabExperiment) and experiment.quantity(signal).is_temperature:
+        start = float(frame[experiment.quantity(signal).column].iloc[0])
         described = value_of(experiment.sample.initial_temperature_K, study.fixed_values())
         if abs(start - described) > OTHER_START_K:
             about["notes"].append(

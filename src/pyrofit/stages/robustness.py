@@ -13,7 +13,6 @@ import numpy as np
 import pandas as pd
 
 from pyrofit.config import Study, TermSpec
-from pyrofit.data.quantities import UNCERTAINTY_COLUMN, VALUE_COLUMN
 from pyrofit.errors import DataError, StudyError
 from pyrofit.estimate.least_squares import multistart
 from pyrofit.estimate.noise import estimate_noise
@@ -108,11 +107,7 @@ def _twin(study: Study, results: Results) -> Twin:
     measured = load(study, results)
     truth = true_set(study, results)
     channels = {(t.experiment, t.signal) for terms in study.imp.costs.values() for t in terms}
-    channels |= {
-        (name, "mlr")
-        for name in study.validation.experiments
-        if "mlr" in study.experiments[name].signals
-    }
+    channels |= set(_predicted_rates(study))
     clean, sd = {}, {}
     for name, signal in sorted(channels):
         frame = measured[name, signal]
@@ -120,13 +115,24 @@ def _twin(study: Study, results: Results) -> Twin:
         status, curves = _problem(study, results, [spec], measured).simulate(truth)
         if not status.finished:
             raise DataError(f"{name}: no twin can be made: {status.explanation}")
-        clean[name, signal] = frame.assign(**{VALUE_COLUMN[signal]: curves[0]})
+        quantity = study.experiments[name].quantity(signal)
+        clean[name, signal] = frame.assign(**{quantity.column: curves[0]})
         described = study.experiments[name].signals[signal]
         noise = estimate_noise(
-            target_of(frame, signal), signal, described.uncertainty_sds, described.timing_s
+            target_of(frame, quantity), quantity, described.uncertainty_sds, described.timing_s
         )
         sd[name, signal] = noise.sd
     return Twin(truth, clean, sd)
+
+
+def _predicted_rates(study: Study) -> list[tuple[str, str]]:
+    """Return experiment and signal of the predicted rates, which are scored by their mean."""
+    return [
+        (name, signal)
+        for name in study.validation.experiments
+        for signal in study.experiments[name].signals
+        if study.experiments[name].quantity(signal).relative
+    ]
 
 
 def noisy(study: Study, twin: Twin, kind: str, level: float, draw: int) -> Measurements:
@@ -138,15 +144,16 @@ def noisy(study: Study, twin: Twin, kind: str, level: float, draw: int) -> Measu
     for (name, signal), frame in twin.clean.items():
         # The same for every cost function, so that they are compared on the same data.
         rng = np.random.default_rng(seed_for(study.seed, "robustness", level, draw, name, signal))
-        value = frame[VALUE_COLUMN[signal]].to_numpy(float)
+        quantity = study.experiments[name].quantity(signal)
+        value = frame[quantity.column].to_numpy(float)
         multiple = level if kind == NOISE else 1.0
         added = multiple * twin.sd[name, signal] * rng.standard_normal(value.size)
         if kind == OUTLIERS:
             hit = rng.random(value.size) < level
             size = study.robustness.outlier_size * float(np.ptp(value))
             added += np.where(hit, size * rng.choice([-1.0, 1.0], value.size), 0.0)
-        columns: dict[str, Any] = {VALUE_COLUMN[signal]: value + added}
-        stated = UNCERTAINTY_COLUMN[signal]
+        columns: dict[str, Any] = {quantity.column: value + added}
+        stated = quantity.uncertainty_column
         if stated in frame:
             columns[stated] = multiple * frame[stated]
         series[name, signal] = frame.assign(**columns)
@@ -157,9 +164,9 @@ def _held_out(study: Study, results: Results, twin: Twin) -> list[Problem]:
     """Return problems whose cost is the CV(RMSE) against the truth, where nothing is fitted."""
     fitted = {t.experiment for terms in study.imp.costs.values() for t in terms if t.weight}
     specs = [
-        TermSpec(experiment=name, signal="mlr", kind="RMSE", normalisation="mean")
-        for name in study.validation.experiments
-        if name not in fitted and (name, "mlr") in twin.clean
+        TermSpec(experiment=name, signal=signal, kind="RMSE", normalisation="mean")
+        for name, signal in _predicted_rates(study)
+        if name not in fitted and (name, signal) in twin.clean
     ]
     return [_problem(study, results, [spec], twin.clean) for spec in specs]
 

@@ -14,7 +14,6 @@ from pyrofit.config import (
 )
 from pyrofit.config.uses import names_in
 from pyrofit.errors import StudyError
-from pyrofit.model.experiment import Gasification, Tga
 
 
 def _parameters(study: Study, names: set[str]) -> dict[str, Any]:
@@ -70,7 +69,7 @@ def kinetics_of(study: Study) -> Kinetics:
 def kinetics(study: Study) -> dict[str, Any]:
     """Everything of the TGA fit."""
     stage = kinetics_of(study)
-    names = parameters_in(study.material, *study.kinds(Tga).values())
+    names = parameters_in(study.material, *study.of_stage("kinetics").values())
     composed = {n for chosen in stage.sets.values() for n in names_in(chosen.composition)}
     used = {term.experiment for term in stage.cost} | set(stage.compare)
     return {
@@ -150,7 +149,7 @@ def diagnose(study: Study) -> dict[str, Any]:
 
 def validation(study: Study) -> dict[str, Any]:
     """Predicted experiments, and the material they are predicted with."""
-    names = [n for n, e in study.experiments.items() if isinstance(e, Gasification)]
+    names = list(study.of_stage("imp"))
     return {
         "experiments": {n: _experiment(study, n) for n in names},
         "material": study.material_with(study.imp.kinetics).model_dump(),

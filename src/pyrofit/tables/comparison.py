@@ -6,11 +6,11 @@ import numpy as np
 import pandas as pd
 
 from pyrofit.config import Study
-from pyrofit.data.quantities import UNCERTAINTY_COLUMN
 from pyrofit.files import Results, read_csv
+from pyrofit.quantities import known_quantities
 from pyrofit.solver.arrays import FloatArray
 from pyrofit.stages import outcomes
-from pyrofit.stages.compare import FITTED, METRICS
+from pyrofit.stages.compare import FITTED
 from pyrofit.tables.describe import title_of
 
 WORDS = {"mlr": "mass loss rate", "back_temperature": "back temperature"}
@@ -43,7 +43,9 @@ def every_cost(study: Study, results: Results) -> pd.DataFrame:
         about = {"place": place, "fitted_with": row["cost_function"], "found_by": row["found_by"]}
         rows.setdefault(key, about)[row["measure"]] = row["value"]
     frame = pd.DataFrame(list(rows.values()))
-    measures = [*study.imp.costs, *METRICS.values()]
+    predicted = [study.experiments[name] for name in study.validation.experiments]
+    metrics = dict.fromkeys(e.metric(signal) for e in predicted for signal in e.signals)
+    measures = [*study.imp.costs, *metrics]
     return frame[["place", "fitted_with", "found_by", *(m for m in measures if m in frame)]]
 
 
@@ -65,8 +67,8 @@ def bands(study: Study, results: Results) -> pd.DataFrame:
     for (name, signal, cost), part in frame.groupby(
         ["experiment", "signal", "cost_function"], sort=False
     ):
-        measured = outcomes.series(results, str(name), str(signal))
-        margin = measured.get(UNCERTAINTY_COLUMN[str(signal)])
+        measured = outcomes.series(study, results, str(name), str(signal))
+        margin = measured.get(known_quantities()[str(signal)].uncertainty_column)
         rate = signal == "mlr"
         width = float((part["high"] - part["low"]).mean())
         rows.append(

@@ -4,7 +4,6 @@ from collections.abc import Iterable
 from dataclasses import dataclass
 
 from pyrofit.config import Study
-from pyrofit.model.experiment import Tga
 
 SCEUA = "SCE-UA"
 LEAST_SQUARES = "least squares"
@@ -97,5 +96,5 @@ def all_rates(study: Study) -> list[str]:
     if study.kinetics is None:
         return []
     shown = {term.experiment for term in study.kinetics.cost} | set(study.kinetics.compare)
-    tga: dict[str, Tga] = study.kinds(Tga)
-    return sorted(shown, key=lambda name: (tga[name].heating_rate_K_min, name))
+    heated = study.of_stage("kinetics")
+    return sorted(shown, key=lambda name: (heated[name].heating_rate_K_min, name))

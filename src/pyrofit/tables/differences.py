@@ -11,7 +11,7 @@ from pyrofit.estimate import groups
 from pyrofit.files import Results
 from pyrofit.solver.arrays import FloatArray
 from pyrofit.stages import outcomes
-from pyrofit.stages.compare import METRICS, SCEUA
+from pyrofit.stages.compare import SCEUA
 from pyrofit.tables.comparison import scores
 from pyrofit.tables.describe import title_of, use_of
 from pyrofit.tables.determined import estimates
@@ -73,14 +73,16 @@ def _samples(
     found = scores(results)
     found = found[found["found_by"] == SCEUA]
     for name in study.validation.experiments:
-        for signal in study.experiments[name].signals:
-            here = found[(found["place"] == name) & (found["measure"] == METRICS[signal])]
+        experiment = study.experiments[name]
+        for signal in experiment.signals:
+            metric, quantity = experiment.metric(signal), experiment.quantity(signal)
+            here = found[(found["place"] == name) & (found["measure"] == metric)]
             use = {use_of(study, cost, name, signal) for cost in costs}
-            said = f"{METRICS[signal]}, {title_of(study, name)} ({', '.join(sorted(use))})"
+            said = f"{metric}, {title_of(study, name)} ({', '.join(sorted(use))})"
             about = {
                 "kind": "prediction",
                 "quantity": said,
-                "unit": "-" if signal == "mlr" else "K",
+                "unit": "-" if quantity.relative else quantity.unit,
             }
             yield about, _by_cost(costs, here, here["value"].astype(float))
     speed = convergence(study, results)

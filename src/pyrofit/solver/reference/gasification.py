@@ -1,4 +1,4 @@
-"""Gasification of a slab by the reference solver."""
+"""SlabExperiment of a slab by the reference solver."""
 
 import math
 import warnings
@@ -9,11 +9,12 @@ from scipy.integrate import LSODA
 
 from pyrofit.model.accuracy import Resolution
 from pyrofit.model.base import value_of
-from pyrofit.model.experiment import EmissivityDepth, Gasification, Sample
 from pyrofit.model.material import Material
+from pyrofit.model.slab import EmissivityDepth, Sample, SlabExperiment
 from pyrofit.solver.arrays import FloatArray, Status
 from pyrofit.solver.curves import Curves, Request
 from pyrofit.solver.observe import observe_one
+from pyrofit.solver.outputs import BACK, FRONT, MASS, RATE, THICKNESS
 from pyrofit.solver.reference.slab import Outside, Slab
 from pyrofit.solver.reference.substance import (
     COLDEST_K,
@@ -30,7 +31,7 @@ BURNT_FRACTION = 1e-5
 
 
 def reference_gasification(
-    experiment: Gasification,
+    experiment: SlabExperiment,
     material: Material,
     values: Mapping[str, float],
     requests: Mapping[str, Request],
@@ -47,13 +48,15 @@ def reference_gasification(
 
     def solve(factor: float, asked: Mapping[str, Request]) -> Curves:
         time = np.unique(np.concatenate([edge for r in asked.values() for edge in _edges(r)]))
-        run = _Run(slab, resolution, time, may_stop=set(asked) <= {"mlr", "mass"})
+        run = _Run(
+            slab, resolution, time, may_stop={r.of(n) for n, r in asked.items()} <= {RATE, MASS}
+        )
         run.go(list(pieces(experiment.front, values, float(time[-1]), factor)))
         if not run.status.finished:
             return Curves(run.status, {}, resolution.elements, run.steps)
         lines = _lines(slab, run.states, probes_m)
-        lines["mlr"][time > run.ended] = 0.0
-        signals = {name: _sample(name, r, time, lines) for name, r in asked.items()}
+        lines[RATE][time > run.ended] = 0.0
+        signals = {name: _sample(r.of(name), r, time, lines) for name, r in asked.items()}
         energy_error = abs(run.heat_missing) / max(run.heat_crossed, 1e-300)
         return Curves(run.status, signals, resolution.elements, run.steps, energy_error)
 
@@ -69,10 +72,10 @@ def _edges(request: Request) -> tuple[FloatArray, FloatArray]:
 def _sample(
     name: str, request: Request, time: FloatArray, lines: Mapping[str, FloatArray]
 ) -> FloatArray:
-    if name == "mlr" and request.average_s > 0.0:
+    if name == RATE and request.average_s > 0.0:
         start, end = _edges(request)
-        lost = lines["mass"][np.searchsorted(time, start)]
-        lost = lost - lines["mass"][np.searchsorted(time, end)]
+        lost = lines[MASS][np.searchsorted(time, start)]
+        lost = lost - lines[MASS][np.searchsorted(time, end)]
         return np.asarray(lost / np.maximum(end - start, 1e-9))
     return lines[name][np.searchsorted(time, np.maximum(request.time_s, 0.0))]
 
@@ -90,11 +93,11 @@ def _lines(slab: Slab, states: FloatArray, probes_m: tuple[float, ...]) -> dict[
         for a, at in enumerate(probes_m)
     }
     return probes | {
-        "mlr": lost @ slab.mass,
-        "mass": present.sum(axis=(-2, -1)),
-        "thickness": slab.thickness(T, extent).sum(axis=-1),
-        "front_temperature": T[:, 0].copy(),
-        "back_temperature": T[:, -1].copy(),
+        RATE: lost @ slab.mass,
+        MASS: present.sum(axis=(-2, -1)),
+        THICKNESS: slab.thickness(T, extent).sum(axis=-1),
+        FRONT: T[:, 0].copy(),
+        BACK: T[:, -1].copy(),
     }
 
 
@@ -187,7 +190,9 @@ class _Run:
         return Status.OK if burnt or self.status == Status.OK else Status.UNBURNT
 
 
-def make_slab(experiment: Gasification, material: Material, values: Values, elements: int) -> Slab:
+def make_slab(
+    experiment: SlabExperiment, material: Material, values: Values, elements: int
+) -> Slab:
     """Return the slab of an experiment; a layer has elements of one thickness, at least two."""
     sample, back = experiment.sample, experiment.back
     solid = substance(material, values, value_of(sample.absorption_length_m, values))

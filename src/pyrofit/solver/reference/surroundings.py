@@ -8,7 +8,7 @@ import numpy as np
 
 from pyrofit.constants import STEFAN_BOLTZMANN
 from pyrofit.model.base import value_of
-from pyrofit.model.experiment import Edge, FluxTable, Front, Side
+from pyrofit.model.slab import Edge, FluxTable, Front, Side
 from pyrofit.solver.arrays import FloatArray
 from pyrofit.solver.reference.substance import Values
 

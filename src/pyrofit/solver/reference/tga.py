@@ -7,10 +7,11 @@ from scipy.integrate import LSODA
 
 from pyrofit.model.accuracy import Resolution
 from pyrofit.model.base import value_of
-from pyrofit.model.experiment import Tga
+from pyrofit.model.heated import HeatedExperiment
 from pyrofit.model.material import Material
 from pyrofit.solver.arrays import FloatArray, Status
 from pyrofit.solver.curves import Curves, Request
+from pyrofit.solver.outputs import FRACTION_RATE, MASS_FRACTION
 from pyrofit.solver.reference.substance import Reactions, mass_fractions, substance
 
 STRAIGHT_K = 1e-9
@@ -18,7 +19,7 @@ STRAIGHT_K = 1e-9
 
 
 def reference_tga(
-    experiment: Tga,
+    experiment: HeatedExperiment,
     material: Material,
     values: Mapping[str, float],
     request: Request,
@@ -48,7 +49,7 @@ def reference_tga(
         steps += found[1]
     rate = solid.reactions.rate_constants(T) * solid.reactions.amounts(virgin, extent)
     lost = extent @ solid.reactions.gas
-    signals = {"mass_fraction": 1.0 - lost, "mass_loss_rate": rate @ solid.reactions.gas}
+    signals = {MASS_FRACTION: 1.0 - lost, FRACTION_RATE: rate @ solid.reactions.gas}
     return Curves(Status.OK, signals, steps=steps)
 
 

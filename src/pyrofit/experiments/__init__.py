@@ -1,0 +1,36 @@
+"""Kinds of experiment: one folder each, named as in a study.
+
+Each folder defines ``KIND``; this file registers it.
+"""
+
+from typing import Annotated
+
+from pydantic import Field
+
+from pyrofit.experiments import gasification, tga
+from pyrofit.experiments.base import Kind, Stage
+from pyrofit.experiments.gasification import Gasification
+from pyrofit.experiments.tga import Tga
+from pyrofit.model.experiment import Experiment
+
+KINDS: dict[str, Kind] = {"gasification": gasification.KIND, "tga": tga.KIND}
+"""Kinds of experiment by name."""
+AnyExperiment = Annotated[Tga | Gasification, Field(discriminator="kind")]
+
+
+def kind_of(experiment: Experiment) -> Kind:
+    """Return the kind of an experiment.
+
+    >>> KINDS["tga"].stage
+    'kinetics'
+    """
+    return KINDS[experiment.kind]
+
+
+def kinds_of(stage: Stage) -> list[str]:
+    """Return the words for the kinds of experiment that a stage fits.
+
+    >>> kinds_of("imp")
+    ['gasification']
+    """
+    return [kind.words for kind in KINDS.values() if kind.stage == stage]

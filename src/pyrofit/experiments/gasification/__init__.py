@@ -1,0 +1,31 @@
+"""Gasification: mass loss of a slab under radiant heat in an inert atmosphere."""
+
+from typing import ClassVar, Literal
+
+from pydantic import Field
+
+from pyrofit.experiments.base import Kind
+from pyrofit.experiments.slab.course import course
+from pyrofit.experiments.slab.designs import designs
+from pyrofit.experiments.slab.simulate import reference, request, simulate, synthetic
+from pyrofit.model.slab import SlabExperiment
+
+
+class Gasification(SlabExperiment):
+    """Mass loss of a slab under radiant heat in an inert atmosphere."""
+
+    QUANTITIES: ClassVar[tuple[str, ...]] = ("mlr", "back_temperature")
+    kind: Literal["gasification"] = Field(description="a slab under radiant heat")
+
+
+KIND = Kind(
+    description=Gasification,
+    words="gasification",
+    stage="imp",
+    simulate=simulate,
+    reference=reference,
+    request=request,
+    synthetic=synthetic,
+    course=course,
+    designs=designs,
+)

@@ -1,0 +1,1 @@
+"""What all kinds have whose sample follows a temperature programme."""

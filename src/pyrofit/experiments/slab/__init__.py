@@ -1,0 +1,1 @@
+"""What all kinds have whose sample is a slab under radiant heat."""

@@ -1,0 +1,69 @@
+"""How a slab under radiant heat is simulated."""
+
+from collections.abc import Mapping, Sequence
+
+import numpy as np
+import pandas as pd
+
+from pyrofit.experiments.base import Asked
+from pyrofit.model.accuracy import Accuracy, Resolution
+from pyrofit.model.material import Material
+from pyrofit.model.slab import SlabExperiment
+from pyrofit.simulate import simulate_gasifications
+from pyrofit.solver.arrays import FloatArray, Values
+from pyrofit.solver.curves import Curves, Request
+
+
+def simulate(
+    experiments: Sequence[SlabExperiment],
+    material: Material,
+    values: Values,
+    asked: Sequence[Asked],
+    accuracy: Accuracy,
+    sets: int = 1,
+) -> list[list[Curves]]:
+    """Return the curves by experiment and set."""
+    return [
+        simulate_gasifications(e, material, values, requests, accuracy, sets=sets)
+        for e, requests in zip(experiments, asked, strict=True)
+    ]
+
+
+def reference(
+    experiment: SlabExperiment,
+    material: Material,
+    values: Mapping[str, float],
+    asked: Asked,
+    resolution: Resolution,
+) -> Curves:
+    """Return the curves of the reference solver."""
+    # Not above: loading its integrator takes a quarter of the time of a small job.
+    from pyrofit.solver.reference.gasification import reference_gasification
+
+    return reference_gasification(experiment, material, values, asked, resolution)
+
+
+def request(
+    experiment: SlabExperiment, signal: str, frame: pd.DataFrame, times: FloatArray
+) -> Request:
+    """Return what a simulation is asked for at the given times of a signal."""
+    return request_at(experiment, signal, times)
+
+
+def request_at(experiment: SlabExperiment, signal: str, times: FloatArray) -> Request:
+    """Return what a simulation is asked for at the given times of a signal."""
+    return Request(
+        times,
+        experiment.signals[signal].average_s,
+        output=experiment.quantity(signal).name,
+    )
+
+
+def synthetic(experiment: SlabExperiment, signals: Sequence[str]) -> dict[str, Request]:
+    """Return the requests of computed signals: points in the middle of equal bins."""
+    requests = {}
+    for name in signals:
+        every = experiment.signals[name].every
+        times = np.arange(0.5 * every, experiment.duration_s, every)
+        requests[name] = request_at(experiment, name, times)
+    return requests

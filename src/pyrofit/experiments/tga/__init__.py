@@ -1,0 +1,31 @@
+"""Thermogravimetric analysis: mass against temperature."""
+
+from typing import ClassVar, Literal
+
+from pydantic import Field
+
+from pyrofit.experiments.base import Kind
+from pyrofit.experiments.heated.course import course
+from pyrofit.experiments.heated.designs import designs
+from pyrofit.experiments.heated.simulate import reference, request, simulate, synthetic
+from pyrofit.model.heated import HeatedExperiment
+
+
+class Tga(HeatedExperiment):
+    """Thermogravimetric analysis."""
+
+    QUANTITIES: ClassVar[tuple[str, ...]] = ("mass_fraction",)
+    kind: Literal["tga"] = Field(description="mass against temperature")
+
+
+KIND = Kind(
+    description=Tga,
+    words="TGA",
+    stage="kinetics",
+    simulate=simulate,
+    reference=reference,
+    request=request,
+    synthetic=synthetic,
+    course=course,
+    designs=lambda own, measured, recorded: designs("tga", "TGA", Tga.QUANTITIES, own),
+)

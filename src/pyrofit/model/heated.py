@@ -1,0 +1,38 @@
+"""A small sample that follows a temperature programme."""
+
+from typing import Literal, Self
+
+from pydantic import Field, model_validator
+
+from pyrofit.model.base import AboveZero, Number
+from pyrofit.model.experiment import Experiment
+
+
+class HeatedExperiment(Experiment):
+    """A small sample of one temperature that is heated at a constant rate."""
+
+    heating_rate_K_min: AboveZero = Field(description="nominal heating rate [K/min]")
+    program: Literal["nominal", "measured"] = Field(
+        "measured", description="temperature over time: the measured one, or T0 + rate t"
+    )
+    lag_s: Number = Field(
+        0.0, description="time by which the sample's temperature lags behind the program's [s]"
+    )
+    start_temperature_K: AboveZero = Field(300.0, description="synthetic: first temperature [K]")
+    end_temperature_K: AboveZero = Field(850.0, description="synthetic: last temperature [K]")
+
+    @model_validator(mode="after")
+    def _lag_instead_of_delay(self) -> Self:
+        for name, signal in self.signals.items():
+            if signal.delay_s != 0.0 or signal.offset != 0.0:
+                raise ValueError(
+                    f"signal '{name}' of a TGA experiment takes neither delay_s nor offset; "
+                    "a sample behind its program has lag_s"
+                )
+        return self
+
+    @property
+    def synthetic_span(self) -> tuple[float, str]:
+        """Length of a computed record [K], and the keys that set it."""
+        span = self.end_temperature_K - self.start_temperature_K
+        return span, "start_temperature_K and end_temperature_K"

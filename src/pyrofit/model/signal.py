@@ -1,0 +1,94 @@
+"""The record of one quantity: its file, its noise, its clock."""
+
+from typing import Annotated, Any, Self
+
+from pydantic import BeforeValidator, Field, model_validator
+
+from pyrofit.data.noise import FloatArray, autoregressive, lowest_density, moving_average
+from pyrofit.model.base import AboveZero, Number, Part
+
+TIMING_S = 0.5
+"""Error of the clocks [s]: a tenth of the usual 5-s bins."""
+
+
+class Noise(Part):
+    """Noise of a computed measurement, white unless one of the two correlations is given."""
+
+    sd: float = Field(ge=0.0, description="standard deviation, SI unit of the quantity")
+    autocorrelation: tuple[float, ...] = Field(
+        (), description="autocorrelation [-] at lags 1, 2 ... points, none beyond"
+    )
+    ar: float = Field(0.0, description="autocorrelation [-] ar^k at lag k")
+
+    @model_validator(mode="after")
+    def _check(self) -> Self:
+        if self.autocorrelation and self.ar:
+            raise ValueError("autocorrelation and ar describe two kinds of noise; give one")
+        if not -1.0 < self.ar < 1.0:
+            raise ValueError(f"ar {self.ar:g} must lie between -1 and 1")
+        lowest = lowest_density(self.autocorrelation)
+        if lowest < -1e-9:
+            given = ", ".join(f"{r:g}" for r in self.autocorrelation)
+            raise ValueError(
+                f"autocorrelation [{given}] is not positive definite: no noise has it; "
+                f"multiply it by {int(1000 / (1 - lowest)) / 1000:g} or less"
+            )
+        return self
+
+    def correlation(self, points: int) -> FloatArray:
+        """Return the autocorrelation [-] at lags 0 ... points - 1, shape (points,)."""
+        if self.autocorrelation:
+            return moving_average(self.autocorrelation, points)
+        return autoregressive(self.ar, points)
+
+
+def _noise(given: Any) -> Any:
+    if isinstance(given, str):
+        raise ValueError(f"'{given}' is neither a number nor a mapping with the key sd")
+    return {"sd": given} if isinstance(given, int | float) else given
+
+
+class Signal(Part):
+    """One measured quantity of an experiment and where it is found."""
+
+    file: str = Field(
+        description="path relative to the study file; 'macfp:<path>' for the MaCFP data base; "
+        "'synthetic' for a computed measurement"
+    )
+    quantity: str = Field("", description="measured quantity, where the signal has another name")
+    columns: dict[str, str] = Field(
+        default_factory=dict,
+        description="header names of time, value, uncertainty, temperature where not recognised",
+    )
+    units: dict[str, str] = Field(
+        default_factory=dict, description="units of these columns where the file has none"
+    )
+    uncertainty: AboveZero | None = Field(
+        None, description="constant uncertainty, SI unit of the quantity"
+    )
+    uncertainty_meaning: str = Field("", description="what the uncertainty is, in words")
+    uncertainty_sds: AboveZero = Field(
+        1.0,
+        description="standard deviations of a point's noise that the uncertainty is",
+    )
+    timing_s: float = Field(
+        TIMING_S, ge=0.0, description="error of the clock [s]; it counts where the curve is steep"
+    )
+    average_s: float = Field(
+        0.0, ge=0.0, description="width of the bins the values are averages over [s]; 0 = points"
+    )
+    delay_s: Number = Field(0.0, description="time by which the record is late [s]")
+    offset: Number = Field(0.0, description="what the record shows too much, SI unit")
+    sample_mass_kg: AboveZero | None = Field(None, description="initial sample mass [kg]")
+    sample_area_m2: AboveZero | None = Field(None, description="exposed area [m2]")
+    until_K: AboveZero | None = Field(
+        None, description="TGA: use points below this temperature [K]"
+    )
+    until_s: AboveZero | None = Field(None, description="use points before this time [s]")
+    noise: Annotated[Noise, BeforeValidator(_noise)] = Field(
+        Noise(sd=0.0),
+        description="synthetic: noise; a number is the standard deviation of white noise, SI unit",
+    )
+    every: AboveZero = Field(
+        1.0, description="synthetic: spacing of the points [s], or [K] for TGA"
+    )

@@ -1,0 +1,165 @@
+"""A slab under radiant heat: sample, sides, foil, edge."""
+
+from typing import Annotated, Literal, Self
+
+from pydantic import Field, model_validator
+
+from pyrofit.model.base import (
+    NOT_NEGATIVE,
+    POSITIVE,
+    AboveZero,
+    Fraction,
+    NotNegative,
+    Number,
+    Part,
+    Positive,
+    Temperature,
+    Thickness,
+)
+from pyrofit.model.experiment import Experiment
+
+
+class FluxTable(Part):
+    """q_ext(t), linear between given points; two equal times are a step."""
+
+    time_s: tuple[float, ...] = Field(description="times [s], not decreasing, from 0")
+    flux_W_m2: Annotated[tuple[Number, ...], NOT_NEGATIVE] = Field(
+        description="flux at those times [W/m2]"
+    )
+
+    @model_validator(mode="after")
+    def _check(self) -> Self:
+        if len(self.time_s) != len(self.flux_W_m2) or not self.time_s:
+            raise ValueError("time_s and flux_W_m2 need the same length, at least 1")
+        if self.time_s[0] != 0.0:
+            raise ValueError("time_s must start at 0")
+        if any(b < a for a, b in zip(self.time_s, self.time_s[1:], strict=False)):
+            raise ValueError("time_s must not decrease")
+        return self
+
+
+class Side(Part):
+    """Heat exchange of one side with its surroundings."""
+
+    h_W_m2K: NotNegative = Field(0.0, description="heat transfer coefficient [W/(m2 K)]")
+    h_change_W_m2K: Number = Field(
+        0.0,
+        description="added to the heat transfer coefficient; the sum is at least 0 [W/(m2 K)]",
+    )
+    h_cube_root_W_m2K43: NotNegative = Field(
+        0.0, description="C of an additional h = C |T - T_gas|^(1/3) [W/(m2 K^(4/3))]"
+    )
+    gas_temperature_K: Temperature = Field(293.15, description="gas temperature for convection [K]")
+    gas_rise_K: Number = Field(0.0, description="rise of the gas temperature from t = 0 on [K]")
+    gas_rise_time_s: NotNegative = Field(
+        0.0, description="time constant of that rise [s]; 0 = at once"
+    )
+    wall_temperature_K: Temperature = Field(
+        293.15, description="temperature of the radiating surroundings [K]"
+    )
+
+
+class Front(Side):
+    """The irradiated side."""
+
+    flux_W_m2: Annotated[Number | FluxTable, NOT_NEGATIVE] = Field(
+        description="external radiant flux [W/m2]"
+    )
+    rise_time_s: NotNegative = Field(
+        0.0, description="time constant with which the heater comes up from t = 0 on [s]"
+    )
+    spread: Fraction = Field(
+        0.0, description="the flux varies over the surface, evenly within 1 -+ spread times q [-]"
+    )
+    drift_1_s: Number = Field(
+        0.0, description="relative change of the flux per second; it stays at least 0 [1/s]"
+    )
+    drift_time_s: NotNegative = Field(
+        0.0, description="time constant with which the drift comes to an end [s]; 0 = never"
+    )
+
+
+class Back(Side):
+    """The other side."""
+
+    emissivity: Fraction = Field(0.0, description="emissivity of the back face or foil [-]")
+    loss_factor: NotNegative = Field(
+        1.0, description="multiplies convection and radiation of the back [-]"
+    )
+
+
+class Foil(Part):
+    """A thin, well conducting foil on the back: a lumped heat capacity."""
+
+    thickness_m: Thickness = Field(description="thickness [m]")
+    density_kg_m3: Positive = Field(description="density [kg/m3]")
+    specific_heat_J_kgK: Positive = Field(description="specific heat capacity [J/(kg K)]")
+    mass_factor: NotNegative = Field(1.0, description="multiplies the mass [-]")
+    contact_m2K_W: NotNegative = Field(
+        0.0, description="thermal resistance between sample and foil [m2 K/W]"
+    )
+
+
+class Edge(Part):
+    """Heat exchange of the sample's edge with the gas beside it, for every depth alike."""
+
+    h_W_m2K: NotNegative = Field(description="heat transfer coefficient [W/(m2 K)]")
+    perimeter_per_area_1_m: Positive = Field(description="perimeter over area [1/m]")
+    gas_temperature_K: Temperature = Field(293.15, description="gas temperature [K]")
+
+
+class Layer(Part):
+    """A layer of the sample, front first."""
+
+    thickness_m: Thickness = Field(description="initial thickness [m]")
+    composition: dict[str, float | str] | None = Field(
+        None, description="mass fractions, where they differ from the material's"
+    )
+
+
+class EmissivityDepth(Part):
+    """Depth over which residue is averaged for the surface emissivity.
+
+    As FDS's surface cell: delta = cell_size_factor sqrt(k/(rho c) 1 s).
+    """
+
+    cell_size_factor: Positive = Field(description="CELL_SIZE_FACTOR of the FDS run [-]")
+
+
+class Sample(Part):
+    """The specimen of a gasification experiment."""
+
+    layers: tuple[Layer, ...] = Field(min_length=1, description="layers, front first")
+    foil: Foil | None = Field(None, description="foil on the back")
+    emissivity_depth: Annotated[Number | EmissivityDepth, POSITIVE] = Field(
+        1e-5, description="depth [m] over which the surface emissivity is averaged by volume"
+    )
+    initial_temperature_K: Temperature = Field(293.15, description="initial temperature [K]")
+    thickness_factor: Positive = Field(
+        1.0, description="multiplies the thickness of every layer [-]"
+    )
+    emissivity_change: Number = Field(
+        0.0,
+        description="added to the surface emissivity, times the mass released over the initial [-]",
+    )
+    absorption_length_m: NotNegative = Field(
+        0.0, description="1/absorption_1_m of all components, instead of theirs [m]; 0 = theirs"
+    )
+    transmitted: Literal["foil", "lost"] = Field(
+        "foil", description="radiation that passes the sample: the foil absorbs it, or it is lost"
+    )
+    edge: Edge | None = Field(None, description="heat exchange of the edge")
+
+
+class SlabExperiment(Experiment):
+    """A slab under radiant heat."""
+
+    sample: Sample = Field(description="the specimen")
+    front: Front = Field(description="irradiated side")
+    back: Back = Field(default_factory=Back, description="other side; default: insulated")
+    duration_s: AboveZero = Field(1000.0, description="synthetic: length of the record [s]")
+
+    @property
+    def synthetic_span(self) -> tuple[float, str]:
+        """Length of a computed record [s], and the keys that set it."""
+        return self.duration_s, "duration_s"

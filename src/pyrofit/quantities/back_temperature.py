@@ -1,0 +1,11 @@
+"""Temperature of the back face, or of the foil on it."""
+
+from pyrofit.quantities.base import Quantity
+from pyrofit.quantities.temperature import temperature
+
+QUANTITY: Quantity = temperature(
+    "back",
+    headers=("Temp_avg_all4", "Temperature", "Temp", "Back temperature"),
+    uncertainty_headers=("Temperature_Error", "Temp error"),
+    pattern=r".*(back|rear|bottom).*|temp.*|tb|tc\d*",
+)

@@ -1,0 +1,32 @@
+"""Mass over initial mass."""
+
+from pyrofit.quantities.base import Quantity, Shown
+
+
+def _guess(first: float, largest: float) -> str:
+    if largest <= 1.5:
+        return "1"
+    return "%" if 95.0 < first < 105.0 else "mg"
+
+
+QUANTITY = Quantity(
+    title="mass fraction",
+    symbol="m/m0",
+    unit="-",
+    column="mass_fraction",
+    uncertainty_column="mass_fraction_uncertainty",
+    shown=Shown("–"),
+    scales=("fraction", "mass"),
+    headers=("Mass fraction", "Mass", "Normalized mass", "Normalised mass"),
+    uncertainty_headers=("Mass fraction error", "Mass error"),
+    pattern=r"(norm\w*|residual|relative|sample)?(mass|weight)(?!loss|flux).*|m|tga?|w|y",
+    guess=_guess,
+    largest=(0.5, 1.5),
+    against_temperature=True,
+    # The error of a TGA is below 1e-6.
+    solver_error=1e-5,
+    usual_sd=0.02,
+    # Models of several heating rates come no nearer than this, though points scatter far less:
+    # without it TGA would outweigh all else.
+    discrepancy=0.02,
+)

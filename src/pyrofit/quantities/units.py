@@ -1,0 +1,27 @@
+"""Units of measured files, and how their spellings and those of headers are compared."""
+
+import re
+
+SCALES: dict[str, dict[str, float]] = {
+    "time": {"s": 1.0, "min": 60.0, "h": 3600.0},
+    "temperature": {"K": 1.0, "degC": 1.0, "°C": 1.0, "C": 1.0},
+    "mass": {"kg": 1.0, "g": 1e-3, "mg": 1e-6},
+    "mass flux": {"kg/s/m2": 1.0, "g/s/m2": 1e-3, "mg/s/m2": 1e-6},
+    "mass rate": {"kg/s": 1.0, "g/s": 1e-3, "mg/s": 1e-6},
+    "fraction": {"1": 1.0, "-": 1.0, "g/g": 1.0, "kg/kg": 1.0, "mg/mg": 1.0, "%": 0.01},
+}
+CELSIUS = {"degC", "°C", "C"}
+ICE_POINT_K = 273.15
+
+
+def unit_key(unit: str) -> str:
+    """Reduce a unit to one spelling: `kg m-2 s-1`, `kg/(m^2 s)` and `kg/m²/s` to `kg/s/m2`."""
+    key = re.sub(r"[\s^*·⋅()\[\]]", "", unit.casefold()).replace("²", "2").replace("−", "-")
+    key = key.replace("m-2", "/m2").replace("s-1", "/s")
+    return re.sub(r"/m2/?s$|/sm2$", "/s/m2", key)
+
+
+def header_key(header: str) -> str:
+    """Reduce a header to what tells it from others: no case, blanks, dashes, points or unit."""
+    name = re.sub(r"\s*(\[.*\]|\(.*\))$", "", header)
+    return re.sub(r"[\s_.-]", "", name).casefold()
