@@ -334,7 +334,7 @@ def test_interrupted_job_goes_on_and_the_page_shows_all(
     assert read_json(places.case(cases[0].id)) == again
     write_results(little, "tiny", places)
     page = places.page.read_text()
-    assert "| nothing hidden: claimed | 1 | 1 | 1 |" in page
+    assert "| no hidden effect: claimed | 1 | 1 | 1 |" in page
     for name in ("confusion", "accuracy", "false_alarms", "gaps"):
         assert f"figures/{name}.svg" in page
         assert (tmp_path / "figures" / f"{name}.svg").is_file()
@@ -490,9 +490,9 @@ def test_rates_are_counted() -> None:
     assert found["effect of 10 sd or more: largest score right", ""] == (2, 5)
     assert found["effect of 10 sd or more, claimed: largest score right", ""] == (1, 4)
     assert found["effect of part strength, back temperature: name right", ""] == (1, 1)
-    assert found["nothing hidden: claimed", ""] == (1, 2)
+    assert found["no hidden effect: claimed", ""] == (1, 2)
     assert found["pair: both in the sets", ""] == (1, 1)
-    assert found["effect, claimed: truth in set", ""] == (4, 6)
+    assert found["effect, claimed: hidden effect in set", ""] == (4, 6)
     classes = by_detectability(twins).query("share == 'claimed'")
     assert classes["twins"].tolist() == [1, 1, 5, 0, 0]
     assert classes["hits"].tolist() == [1, 1, 4, 0, 0]

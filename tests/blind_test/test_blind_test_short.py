@@ -87,6 +87,6 @@ def test_gap_shrinks_on_what_was_held_out(twins: pd.DataFrame) -> None:
 
 def test_page_shows_rates_and_figures(project: Project) -> None:
     page = (project.root / SHORT / "page.md").read_text()
-    assert "nothing hidden: claimed" in page
+    assert "no hidden effect: claimed" in page
     for name in ("confusion", "accuracy", "false_alarms"):
         assert list((project.root / SHORT / "figures").glob(f"*{name}*.png"))

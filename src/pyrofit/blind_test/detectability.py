@@ -1,4 +1,4 @@
-"""How far what a twin hides stands out of its noise."""
+"""The detectability of a twin's hidden effects, in standard deviations of its noise."""
 
 from collections.abc import Mapping
 
@@ -25,12 +25,12 @@ INSIDE = 1e-6
 
 
 def detectability(truth: Study, series: Measurements, known: Mapping[str, float]) -> float:
-    """Return by how many standard deviations of the noise the base model fails, at its best.
+    """Return by how many standard deviations of the noise the best base model misses the truth.
 
-    sqrt(min over x of |L^-1 (base(x) - y) / sd|^2 + |(x_k - truth) / sd_k|^2): y are the noise-free
-    curves of the truth under the fitted model's own solver, L and sd the correlation and size of
-    the true noise, with the error of the clock, x the base parameters, searched from the truth,
-    x_k those that are known.
+    sqrt(min over x of |L^-1 (base(x) - y) / sd|^2 + |(x_k - truth) / sd_k|^2). y are the noise-free
+    curves of the truth, computed by the solver of the fitted model. L and sd are the correlation
+    and size of the true noise, the error of the clock included. x are the base parameters, searched
+    from the truth; x_k are those with a known value.
 
     Parameters
     ----------
@@ -39,7 +39,7 @@ def detectability(truth: Study, series: Measurements, known: Mapping[str, float]
     series
         Measurements, for their times, by (experiment, signal).
     known
-        Standard deviations of what is known beforehand, in the parameters' units.
+        Standard deviations of the parameters with a known value, in their units.
 
     Raises
     ------
@@ -54,10 +54,7 @@ def detectability(truth: Study, series: Measurements, known: Mapping[str, float]
     )
     likelihood = Likelihood(base, noise)
     start = likelihood.scaled(_true_values(truth, base))
-    index = [base.names.index(name) for name in known]
-    sds = np.array([sd * truth.parameters[name].factor for name, sd in known.items()])
-    sds /= (base.upper - base.lower)[index]
-    rows = np.eye(start.size)[index] / sds[:, None]
+    rows = _known_rows(truth, base, known)
 
     def residuals(x: FloatArray) -> FloatArray:
         return np.concatenate([likelihood.residuals(x), rows @ (x - start)])
@@ -69,6 +66,14 @@ def detectability(truth: Study, series: Measurements, known: Mapping[str, float]
     options = {"x_scale": "jac", "ftol": 1e-4, "max_nfev": 40}
     found = least_squares(residuals, x, jacobian, bounds=(0.0, 1.0), **options)
     return float(np.sqrt(2.0 * found.cost))
+
+
+def _known_rows(truth: Study, base: Problem, known: Mapping[str, float]) -> FloatArray:
+    """Return d((x_k - truth) / sd_k) / dx, shape (known, parameters), x scaled by the limits."""
+    index = [base.names.index(name) for name in known]
+    sds = np.array([sd * truth.parameters[name].factor for name, sd in known.items()])
+    sds /= (base.upper - base.lower)[index]
+    return np.asarray(np.eye(len(base.names))[index] / sds[:, None])
 
 
 def _noise_free(truth: Study, series: Measurements) -> Problem:
@@ -97,7 +102,7 @@ def _true_values(truth: Study, problem: Problem) -> FloatArray:
 
 
 def _noise(truth: Study, experiment: str, signal: str, clean: Target) -> NoiseModel:
-    """Return the true noise, and the error of the clock that is allowed for."""
+    """Return the true noise, the stated error of the clock included."""
     described = truth.experiments[experiment].signals[signal]
     given: Noise = described.noise
     slope = np.gradient(clean.value, clean.time_s)

@@ -1,4 +1,4 @@
-"""The blind test of the diagnosis, drawn: from the tables of all twins and of their rates."""
+"""The figures of the blind test, drawn from the table of all twins."""
 
 from collections.abc import Callable
 from typing import Any
@@ -23,7 +23,7 @@ _FALSE_ALARM_TARGET = 0.02
 
 
 def confusion(twins: pd.DataFrame) -> Canvas:
-    """Draw what was named against what is hidden: numbers of twins, one effect hidden each."""
+    """Draw the verdict against the hidden effect: numbers of twins with one hidden effect."""
     single = twins[twins["kind"] == "effect"]
     names = _sorted_names()
     columns = [*names, *OTHER]
@@ -49,7 +49,7 @@ def confusion(twins: pd.DataFrame) -> Canvas:
 
 
 def _sorted_names() -> list[str]:
-    """Return the effects by group, those that cannot be told apart under one name."""
+    """Return the effects by group; effects that no signal can distinguish share one name."""
     catalogue = known_effects()
     groups = list(dict.fromkeys(e.group for e in catalogue.values()))
     names = dict.fromkeys(one_name(name) for name in catalogue)
@@ -88,7 +88,7 @@ def accuracy(twins: pd.DataFrame) -> Canvas:
 
 
 def false_alarms(twins: pd.DataFrame) -> Canvas:
-    """Draw the share of twins without any effect that are claimed to have one, by noise."""
+    """Draw the rate of false alarms, claims on twins without a hidden effect, by noise."""
     nulls = twins[twins["kind"] == "null"]
     noises, sets = sorted(nulls["noise"].unique()), [*sorted(nulls["signals"].unique()), "all"]
     canvas, (ax,) = style.panels(1, 1, style.ONE_COLUMN + 25.0, 65.0)
@@ -108,7 +108,7 @@ def false_alarms(twins: pd.DataFrame) -> Canvas:
     ax.set_xlim(-0.5, len(noises) - 0.5)
     ax.set_ylim(bottom=-0.01)
     ax.set_xlabel("noise")
-    ax.set_ylabel("share claimed,\nnothing hidden [–]")
+    ax.set_ylabel("share claimed,\nno hidden effect [–]")
     entries = [style.line(signals, **_look(i)) for i, signals in enumerate(sets)]
     entries.append(style.line("2 %", color="black", linewidth=0.7))
     style.legend_below(canvas, entries)
@@ -138,7 +138,7 @@ def gaps(twins: pd.DataFrame) -> Canvas:
     for ax, role in zip(axes, ("calibration", "held_out"), strict=True):
         before, after = claimed[f"{role}_before"], claimed[f"{role}_after"]
         for i, (_, right) in enumerate(looks):
-            # Ones that are wrong are few; on top, none is covered.
+            # Wrong names are few: drawn last, none is covered.
             part = claimed["right"] == right
             ax.plot(before[part], after[part], **_look(i), alpha=0.75, zorder=2 + i)
         both = pd.concat([before, after]).dropna()
@@ -157,13 +157,13 @@ def gaps(twins: pd.DataFrame) -> Canvas:
 
 
 def sets(twins: pd.DataFrame) -> Canvas:
-    """Draw how many effects are left open, and what held-out predictions gain by those claimed."""
+    """Draw the sizes of the sets of claimed effects, and the gain of held-out predictions."""
     claimed = twins[(twins["kind"] == "effect") & twins["claim"]]
     canvas, axes = style.panels(2, 2, style.TWO_COLUMNS, 75.0)
-    style.letter(axes, ["effects not told apart", "held-out prediction"])
+    style.letter(axes, ["effects not distinguished", "held-out prediction"])
     axes[1].set_xscale("log")
     axes[1].set_yscale("symlog", linthresh=2.0)
-    looks = (("truth in the set", True), ("truth not in the set", False))
+    looks = (("hidden effect in the set", True), ("hidden effect not in the set", False))
     sizes = np.arange(1, 1 + int(np.ceil(claimed["set_size"].max())) if len(claimed) else 2)
     below = np.zeros(sizes.size)
     for i, (_, inside) in enumerate(looks):
@@ -192,31 +192,31 @@ def sets(twins: pd.DataFrame) -> Canvas:
 FIGURES: dict[str, tuple[Callable[[pd.DataFrame], Canvas], str]] = {
     "confusion": (
         confusion,
-        "Hidden effect against verdict, numbers of twins with one hidden effect. Lines part groups "
-        "of effects that are forms of one another.",
+        "Verdict against hidden effect: numbers of twins with one hidden effect. Lines separate "
+        "groups of similar effects.",
     ),
     "accuracy": (
         accuracy,
-        "Shares claimed and rightly named against detectability, with 95 % intervals; beside it "
-        "the name of the largest score, which needs no fit and always names one.",
+        "Shares of effects claimed and rightly named against detectability, with 95 % intervals. "
+        "For comparison: the largest score, which needs no fit and always gives a name.",
     ),
     "false_alarms": (
         false_alarms,
-        "Share of twins with nothing hidden that are claimed to lack an effect, by the noise they "
-        "were made with, with 95 % intervals.",
+        "Share of twins without a hidden effect for which one is claimed, by kind of noise, with "
+        "95 % intervals.",
     ),
     "gaps": (
         gaps,
-        "Root mean square of the whitened residuals before and after the named effect was added; "
-        "1 is noise alone. Below the line the model came nearer.",
+        "Root mean square of the whitened residuals before and after the named effect was added. "
+        "Noise alone gives 1. Points below the line are improvements.",
     ),
     "sets": (
         sets,
-        "Numbers of effects that a claim leaves open, and what the log score of the held-out "
-        "prediction gains by the claimed effect, against detectability.",
+        "Number of effects that a claim cannot distinguish, and gain of the log score of the "
+        "held-out prediction by the claimed effect against detectability.",
     ),
 }
-"""How each figure is drawn, and what it shows."""
+"""How each figure is drawn, and its caption."""
 
 
 def draw_all(twins: pd.DataFrame, places: Places) -> None:

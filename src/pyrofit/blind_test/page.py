@@ -1,4 +1,4 @@
-"""The blind test of the diagnosis on one page."""
+"""The page of the blind test, with its tables and figures."""
 
 import pandas as pd
 
@@ -51,9 +51,9 @@ def page(setting: Setting, plan: str, tables: dict[str, pd.DataFrame]) -> str:
         *(_section(title, frame) for title, frame in by.items()),
         _section("By detectability", tables["by_detectability"]),
         _section("Sets and gaps of claimed effects", tables["middles"]),
-        _section("Wrong claims", _wrong(found), "One effect hidden, or none."),
+        _section("Wrong claims", _wrong(found), "Of twins with one hidden effect or none."),
         _section("Pairs", found[found["kind"] == "pair"][_WRONG].sort_values("hidden")),
-        _section("Diagnosed without the hidden effect", _left_out(found)),
+        _section("Hidden effect removed from the candidates", _left_out(found)),
         "## Figures\n",
         *(
             f"![{name}](figures/{name}.svg)\n\n{caption}\n"
@@ -67,12 +67,13 @@ def _summary(found: pd.DataFrame, seeds: str) -> str:
     count = found["kind"].value_counts()
     kinds = ", ".join(f"{count[kind]} {kind}" for kind in count.index)
     return (
-        f"{len(found)} twins ({kinds}), seeds of the range '{seeds}'. The diagnosis saw the "
-        "measurements of each, not its truth. Detectability is by how many standard deviations of "
-        f"the noise the base model fails at its best; {DETECTABLE:g} are held to suffice. A claim "
-        "is a verdict of one effect, of an ambiguous set, or of several effects; its name is the "
-        "best fit of a set, and a second effect that is not there makes it wrong. Effects that "
-        "these data cannot tell apart (a heater's ramp, a clock that is late) count as one.\n"
+        f"{len(found)} twins ({kinds}), seeds of the range '{seeds}'. The diagnosis reads the "
+        "measurements of each twin, not its truth. Detectability is the number of standard "
+        "deviations of the noise by which the best base model misses the truth; an effect of "
+        f"{DETECTABLE:g} or more should be named. A claim is a verdict that names one effect, an "
+        "ambiguous set, or several effects. The best fit gives the name of a set. A second effect "
+        "that is not hidden makes a claim wrong. Effects that these signals cannot distinguish, "
+        "such as a slow heater and a late clock, count as one.\n"
     )
 
 

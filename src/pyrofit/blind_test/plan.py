@@ -23,25 +23,25 @@ class Case(Part):
     Seeds and names of twins are digests of these fields: a renamed field would draw other twins.
     """
 
-    kind: Kind = Field(description="what it hides")
-    hidden: Hidden = Field(description="effects of the truth")
-    without: tuple[str, ...] = Field((), description="effects that are not candidates")
-    strength: float = Field(description="part of the nominal strength")
+    kind: Kind = Field(description="kind of its hidden effects")
+    hidden: Hidden = Field(description="hidden effects")
+    without: tuple[str, ...] = Field((), description="effects removed from the candidates")
+    strength: float = Field(description="fraction of the nominal strength")
     signals: str = Field(description="set of signals")
     noise: str = Field(description="kind of noise")
     seed: int = Field(description="seed of truth and noise")
-    left_out: bool = Field(False, description="diagnosed once more without the hidden effect")
+    left_out: bool = Field(False, description="diagnosed again without the hidden effect")
 
     @property
     def id(self) -> str:
-        """Name of the twin, which does not tell what it hides."""
+        """Name of the twin, which does not reveal its hidden effects."""
         return f"twin_{digest(self)[:10]}"
 
 
 def cases_of(setting: Setting, name: str) -> tuple[Case, ...]:
-    """Return the cases of a plan, sorted by their names: kinds and effects are mixed.
+    """Return the cases of a plan, sorted by their names, so that each job has cases of all kinds.
 
-    A seed is a function of the case alone, so that other cases do not change where a plan grows.
+    A seed depends on the case alone: a larger plan keeps the cases it had.
 
     Raises
     ------
@@ -63,7 +63,7 @@ def cases_of(setting: Setting, name: str) -> tuple[Case, ...]:
 
 
 def _check_ranges(setting: Setting, base: Study) -> None:
-    """Refuse ranges of the truth that pass a parameter's limits."""
+    """Refuse ranges of the truth that exceed a parameter's limits."""
     if base.synthetic is None:
         raise StudyError(f"{setting.base}: has no `synthetic`, so no truth to vary; add it")
     for name, by in setting.vary.items():
@@ -87,14 +87,14 @@ def chunk_of(cases: tuple[Case, ...], chunk: int, chunks: int) -> tuple[Case, ..
 
 
 def strength_of(setting: Setting, effect: str, part: float = 1.0) -> dict[str, float]:
-    """Return null + part (nominal - null) of an effect's strength, by its name, SI units."""
+    """Return the strength null + part (nominal - null) of an effect, by name, in SI units."""
     (name, quantity), *_ = known_effects()[effect].strength.items()
     nominal = setting.nominal.get(effect, quantity.typical)
     return {name: quantity.value + part * (nominal - quantity.value)}
 
 
 def experiments_of(setting: Setting, base: Study, signals: str) -> dict[str, Experiment]:
-    """Return the experiments of the base that a set of signals is of, the held-out one excepted."""
+    """Return the fitted experiments of the base that measure one of a set of signals."""
     wanted = setting.signals[signals]
     return {
         name: experiment
@@ -125,7 +125,7 @@ def _effects(setting: Setting, plan: Plan, base: Study) -> Iterator[Draft]:
                 if not _visible(setting, base, effects, signals, hidden):
                     continue
                 for repeat in range(plan.effects):
-                    # Neighbours differ in noise, whichever of the four goes on.
+                    # Twins that differ in one of the four loops differ in noise as well.
                     noise = noises[(i + j + k + repeat) % len(noises)]
                     full = part == 1.0
                     left_out = full and plan.left_out > 0 and count % plan.left_out == 0
@@ -171,7 +171,7 @@ def _pairs(setting: Setting, plan: Plan, base: Study) -> Iterator[Draft]:
 def _seen(
     setting: Setting, base: Study, more: Draft, sets: list[str], repeats: int, first: int
 ) -> Iterator[Draft]:
-    """Yield drafts under every set of signals that shows their effects, noise in turn."""
+    """Yield drafts for every set of signals that shows their effects, with noise kinds in turn."""
     noises = list(setting.noise)
     for k, signals in enumerate(sets):
         if not _visible(setting, base, known_effects(), signals, more["hidden"]):
@@ -182,7 +182,7 @@ def _seen(
 
 
 def _seeded(setting: Setting, plan: Plan, draft: Draft) -> Case:
-    """Return the case of a draft, whose seed is the number of the repetition until here."""
+    """Return the case of a draft; the seed of a draft is the number of its repetition."""
     start, end = setting.seeds[plan.seeds]
     identity = {key: value for key, value in draft.items() if key != "left_out"}
     return Case(**{**draft, "seed": start + seed_for(start, digest(identity)) % (end - start + 1)})

@@ -1,4 +1,4 @@
-"""The blind test of the diagnosis: rates with their intervals, over the table of all twins."""
+"""Rates of right and wrong claims with their intervals, over the table of all twins."""
 
 from collections.abc import Callable, Iterator
 from dataclasses import dataclass
@@ -9,7 +9,7 @@ import pandas as pd
 from scipy.stats import beta
 
 DETECTABLE = 10.0
-"""Standard deviations from which an effect should be named."""
+"""Detectability from which an effect should be named [standard deviations]."""
 EDGES = (0.0, 3.0, 10.0, 30.0, 100.0, np.inf)
 """Limits of the classes of detectability [standard deviations]."""
 LEVEL = 0.95
@@ -18,7 +18,7 @@ Mask = Callable[[pd.DataFrame], "pd.Series[bool]"]
 
 @dataclass(frozen=True)
 class Rate:
-    """The share of twins for which a column of the table is true."""
+    """The share of twins for which a column of the table is true, among some of them."""
 
     words: str
     among: Mask
@@ -28,7 +28,7 @@ class Rate:
 def interval(hits: int, of: int) -> tuple[float, float]:
     """Return the 95 % interval of a rate (Clopper and Pearson 1934, doi 10.1093/biomet/26.4.404).
 
-    It holds the true rate in at least 95 % of all cases, however few they are.
+    Its coverage is at least 95 %, also for few twins.
 
     Examples
     --------
@@ -76,7 +76,9 @@ RATES = (
     Rate("effect of 10 sd or more: claimed", _plain, "claim"),
     Rate("effect of 10 sd or more, claimed: name right", _claimed(_plain), "right"),
     Rate("effect of 10 sd or more, named: name right", _verdict(_plain, "named"), "right"),
-    Rate("effect of 10 sd or more, left open: best right", _verdict(_plain, "ambiguous"), "right"),
+    Rate(
+        "effect of 10 sd or more, ambiguous: best fit right", _verdict(_plain, "ambiguous"), "right"
+    ),
     Rate("effect of 10 sd or more, claimed: group right", _claimed(_plain), "group_right"),
     Rate("effect of 10 sd or more: largest score right", _plain, "score_only_right"),
     Rate(
@@ -88,22 +90,22 @@ RATES = (
     Rate(
         "effect of part strength, back temperature, claimed: name right", _claimed(_weak), "right"
     ),
-    Rate("effect, claimed: truth in set", _claimed(_of("effect")), "in_set"),
+    Rate("effect, claimed: hidden effect in set", _claimed(_of("effect")), "in_set"),
     Rate("effect, claimed: held-out prediction better", _predicted, "held_out_better"),
-    Rate("nothing hidden: claimed", _of("null"), "claim"),
-    Rate("nothing hidden: verdict unknown", _of("null"), "unknown"),
+    Rate("no hidden effect: claimed", _of("null"), "claim"),
+    Rate("no hidden effect: verdict unknown", _of("null"), "unknown"),
     Rate(
-        "effect no candidate: another group named",
+        "effect removed from candidates: another group named",
         lambda t: t["left_out"] != "",
         "left_out_wrong",
     ),
     Rate("pair: both in the sets", _of("pair"), "in_set"),
     Rate("pair: both lead", _of("pair"), "all_lead"),
-    Rate("pair, claimed: nothing else leads", _claimed(_of("pair")), "right"),
+    Rate("pair, claimed: no other effect leads", _claimed(_of("pair")), "right"),
     Rate("other form: claimed", _of("form"), "claim"),
     Rate("other form, claimed: group right", _claimed(_of("form")), "group_right"),
     Rate(
-        "other form, own effect a candidate, claimed: name right",
+        "other form, hidden effect a candidate, claimed: name right",
         _claimed(_candidate(_of("form"))),
         "right",
     ),
@@ -111,7 +113,7 @@ RATES = (
 
 
 def rates(twins: pd.DataFrame) -> pd.DataFrame:
-    """Return all rates over all twins, by signals, and by noise; without those of no twin."""
+    """Return the rates over all twins, by signals and by noise, without those of no twin."""
     return pd.DataFrame(
         [
             {"quantity": rate.words, "by": by, "of": of, **_rate(part[rate.among(part)], rate.hit)}
@@ -137,7 +139,7 @@ def _rate(part: pd.DataFrame, hit: str) -> dict[str, float]:
 
 
 def by_detectability(twins: pd.DataFrame) -> pd.DataFrame:
-    """Return, by class of detectability, what share of effects is claimed and rightly named."""
+    """Return the shares of effects claimed and rightly named, by class of detectability."""
     effects = twins[twins["kind"] == "effect"]
     rows = []
     for low, high in pairwise(EDGES):
@@ -152,13 +154,13 @@ SHARES = {
     "rightly named": "right",
     "largest score right": "score_only_right",
 }
-"""What is drawn against detectability, by its column."""
+"""Columns of the shares that are drawn against detectability."""
 
 
 def middles(twins: pd.DataFrame) -> pd.DataFrame:
     """Return means and medians over claimed effects, by signals.
 
-    Gaps are root mean squares of whitened residuals, 1 where a model is right.
+    Gaps are root mean squares of whitened residuals; 1 is expected of a right model.
     """
     claimed = twins[(twins["kind"] == "effect") & twins["claim"]]
     gaps = [f"{r}_{w}" for r in ("calibration", "held_out") for w in ("before", "after")]

@@ -1,4 +1,4 @@
-"""Run a plan: make each twin, have it diagnosed, keep what was found beside the truth."""
+"""Run a plan: compute each twin, diagnose it, and keep the verdict beside the truth."""
 
 import time
 from collections.abc import Callable, Iterator, Mapping
@@ -20,13 +20,13 @@ from pyrofit.provenance import source_fingerprint
 
 Found = Mapping[str, Any]
 Diagnose = Callable[[Study, Measurements], Found]
-"""What is on trial: study and measurements in, verdict and what it rests on out."""
+"""The diagnosis under test: study and measurements in, verdict and its evidence out."""
 KEPT = ("verdict", "base", "screen", "candidates", "gap")
-"""What is kept of a diagnosis."""
+"""Parts of a diagnosis that are kept."""
 
 
 def run_chunk(setting: Setting, plan: str, chunk: int, places: Places, diagnose: Diagnose) -> None:
-    """Diagnose the twins of one job, those excepted that have been before, by the same source.
+    """Diagnose the twins of one job, except those already diagnosed by the same source.
 
     Raises
     ------
@@ -52,16 +52,16 @@ def run_chunk(setting: Setting, plan: str, chunk: int, places: Places, diagnose:
 
 
 def case_digest(setting: Setting, case: Case) -> str:
-    """Return a digest of all that the result of a case depends on."""
+    """Return a digest of everything that the result of a case depends on."""
     of_twins = setting.model_dump(exclude={"plans", "seeds", "nominal", "forms", "pairs"})
     base = read_mapping(Path(setting.base))
     return digest([case.model_dump(), of_twins, base, source_fingerprint()])
 
 
 def run_case(setting: Setting, case: Case, places: Places, diagnose: Diagnose) -> dict[str, Any]:
-    """Make and diagnose one twin; return verdict and truth.
+    """Compute and diagnose one twin; return verdict and truth.
 
-    The diagnosis reads the twin's study and measurements from their files, no more.
+    The diagnosis reads only the files of the twin's study and measurements.
     """
     seconds: dict[str, float] = {}
     with _timed(seconds, "twin"):
@@ -84,7 +84,7 @@ def run_case(setting: Setting, case: Case, places: Places, diagnose: Diagnose) -
 
 
 def largest_score(found: Found) -> str:
-    """Return the effect of the largest score, which needs no fit: the name to do better than.
+    """Return the effect with the largest score, a reference that needs no fit.
 
     >>> largest_score({"screen": [{"effect": "k_T", "z": 3.0}, {"effect": "c_T", "z": 4.0}]})
     'c_T'

@@ -15,67 +15,73 @@ from pyrofit.model.signal import Noise
 
 Kind = Literal["effect", "null", "form", "pair"]
 Hidden = dict[str, dict[str, float]]
-"""By effect, numbers of its parameters in SI units."""
+"""Values of the parameters of hidden effects in SI units, by effect and parameter."""
 Count = Annotated[int, Field(ge=0)]
 Size = Annotated[float, Field(gt=0.0)]
 
 
 class HeldOut(Part):
-    """The experiment that is predicted only."""
+    """The held-out experiment: predicted, not fitted."""
 
     name: str = Field(description="its name")
-    like: str = Field(description="experiment of the base that it is a copy of")
+    like: str = Field(description="experiment of the base that it copies")
     changes: dict[str, Any] = Field(description="keys that differ")
 
 
 class Form(Part):
-    """A truth of another form than the candidates'."""
+    """A hidden effect of another form than any candidate."""
 
-    hidden: Hidden = Field(description="effect and its form; strength left out = nominal")
-    without: tuple[str, ...] = Field((), description="effects that are not candidates")
+    hidden: Hidden = Field(description="effect and its form; without a strength, the nominal one")
+    without: tuple[str, ...] = Field((), description="effects removed from the candidates")
 
 
 class Plan(Part):
-    """How many twins of each kind."""
+    """A plan: how many twins of each kind."""
 
-    seeds: str = Field(description="range that the seeds are from")
+    seeds: str = Field(description="range of the seeds, by name")
     strengths: tuple[Size, ...] = Field(
-        (1.0, 1.0 / 3.0), min_length=1, description="parts of the nominal strength"
+        (1.0, 1.0 / 3.0), min_length=1, description="fractions of the nominal strength"
     )
     effects: Count = Field(description="twins per effect, strength and signals")
-    nulls: Count = Field(description="twins without any effect per noise and signals")
+    nulls: Count = Field(description="twins without an effect per noise and signals")
     forms: Count = Field(description="twins per form and signals")
     pairs: Count = Field(description="twins per pair and signals")
     left_out: Count = Field(
         0,
-        description="one in so many effects of full strength is diagnosed once more, without the "
-        "effect among the candidates; 0 = none",
+        description="every n-th effect of full strength is diagnosed again, without the effect "
+        "among the candidates; 0 = none",
     )
-    most: dict[Kind, Count] = Field(default_factory=dict, description="at most so many, by kind")
-    chunks: int = Field(ge=1, description="jobs that share the twins")
+    most: dict[Kind, Count] = Field(
+        default_factory=dict, description="largest number of twins, by kind"
+    )
+    chunks: int = Field(ge=1, description="number of jobs over which the twins are distributed")
 
 
 class Setting(Part):
     """The blind test."""
 
     base: str = Field(description="study of the model and its truth, relative to this file")
-    vary: dict[str, Size] = Field(description="truths lie within -+ this, in a parameter's unit")
+    vary: dict[str, Size] = Field(
+        description="half range of the truths around that of the base, in a parameter's unit"
+    )
     known: dict[str, Size] = Field(
-        description="standard deviations of the kinetics where no TGA tells them, in their units"
+        description="standard deviations of the kinetics of twins without TGA, in their units"
     )
     calibrate: tuple[str, ...] = Field(min_length=1, description="fitted gasification experiments")
-    held_out: HeldOut = Field(description="predicted experiment")
-    signals: dict[str, tuple[str, ...]] = Field(min_length=1, description="quantities, by set")
+    held_out: HeldOut = Field(description="held-out experiment")
+    signals: dict[str, tuple[str, ...]] = Field(
+        min_length=1, description="measured quantities, by set of signals"
+    )
     noise: dict[str, dict[str, dict[str, Any]]] = Field(
         min_length=1, description="correlation of the noise by quantity, by kind of noise"
     )
     accuracy: Resolution = Field(description="numerical settings of the reference solver")
     nominal: dict[str, float] = Field(
-        description="strength of effects, SI units; of the others, the typical one"
+        description="nominal strength of effects, SI units; without one, the typical strength"
     )
-    forms: tuple[Form, ...] = Field(description="truths of another form")
-    pairs: tuple[tuple[str, str], ...] = Field(description="two effects at once")
-    pair_signals: tuple[str, ...] = Field(description="sets of signals that pairs are seen by")
+    forms: tuple[Form, ...] = Field(description="hidden effects of another form")
+    pairs: tuple[tuple[str, str], ...] = Field(description="pairs of hidden effects")
+    pair_signals: tuple[str, ...] = Field(description="sets of signals of twins with pairs")
     seeds: dict[str, tuple[Count, Count]] = Field(description="first and last seed, by name")
     plans: dict[str, Plan] = Field(min_length=1, description="plans by name")
 
@@ -91,7 +97,7 @@ class Setting(Part):
             _require(plan.seeds, self.seeds, f"plans.{name}.seeds", "range of seeds")
         for name, quantities in self.signals.items():
             if "mlr" not in quantities:
-                raise ValueError(f"signals.{name}: without mlr nothing tells of the slab; add it")
+                raise ValueError(f"signals.{name}: without mlr no signal measures the slab; add it")
         for by_quantity in self.noise.values():
             for correlation in by_quantity.values():
                 Noise(sd=1.0, **correlation)
@@ -124,7 +130,7 @@ def _require(name: str, known: Any, place: str, what: str) -> None:
 
 
 def _check_seeds(seeds: dict[str, tuple[int, int]]) -> None:
-    """Refuse ranges that overlap: what was seen while developing is not reported."""
+    """Refuse ranges that overlap: seeds seen while developing must not be reported."""
     last, before = -1, ""
     for name, (start, end) in sorted(seeds.items(), key=lambda item: item[1]):
         if end < start:

@@ -1,4 +1,4 @@
-"""The blind test of the diagnosis: what each twin hides beside what was found."""
+"""The table of the blind test: verdict and hidden effects of every twin."""
 
 from collections.abc import Iterable, Mapping
 from typing import Any
@@ -11,7 +11,7 @@ from pyrofit.effects import known_effects, same_as
 from pyrofit.files import Keys, read_json
 
 CLAIMS = ("named", "ambiguous", "multiple")
-"""Verdicts that say what is missing."""
+"""Verdicts that claim a missing effect."""
 Verdict = Mapping[str, Any]
 _NEEDS: dict[Keys, type] = {
     ("id",): str,
@@ -52,11 +52,11 @@ def diagnosed(places: Places, chunks: int) -> list[str]:
 
 
 def row_of(found: Mapping[str, Any]) -> dict[str, Any]:
-    """Judge what was found of a twin by what it hides.
+    """Compare the verdict on a twin with its hidden effects.
 
-    A claim is right if every effect it leads with is hidden; of a set, the best fit counts.
-    A second effect that is not there makes a claim wrong. Effects that no data of these kinds can
-    tell apart count as one (`same_as`), in sets as well.
+    A claim is right if every leading effect is hidden; the best fit leads an ambiguous set. A
+    second effect that is not hidden makes a claim wrong. Effects that these signals can never
+    distinguish count as one (`same_as`), in sets as well.
     """
     case, verdict = found["case"], found["verdict"]
     hidden = set(case["hidden"])
@@ -90,12 +90,12 @@ def row_of(found: Mapping[str, Any]) -> dict[str, Any]:
 
 
 def leading(verdict: Verdict) -> list[str]:
-    """Return the effects that a verdict leads with, one per finding; none if it claims nothing."""
+    """Return the leading effect of each finding of a verdict, none if it makes no claim."""
     return [str(name) for name in verdict["effects"]] if verdict["kind"] in CLAIMS else []
 
 
 def one_name(effect: str) -> str:
-    """Return one name for effects that cannot be told apart.
+    """Return one name for effects that no signal can distinguish.
 
     >>> one_name("time_offset"), one_name("k_T")
     ('heater_ramp', 'k_T')
@@ -131,16 +131,16 @@ def _gaps(gap: list[Mapping[str, Any]]) -> dict[str, float]:
 
 
 def _held_out_gain(candidates: list[Mapping[str, Any]]) -> dict[str, Any]:
-    """Return what the claimed model gains in the log score of what is held out, if one is."""
+    """Return the gain of the claimed model in the log score of the held-out experiment."""
     gains = (c["predictions"].get("held out") for c in candidates if not c["rejected"])
     gain = next((gain for gain in gains if gain is not None), np.nan)
     return {"held_out_gain": gain, "held_out_better": bool(gain > 0.0)}
 
 
 def _left_out(hidden: set[str], verdict: Verdict | None) -> dict[str, Any]:
-    """Judge the verdict of a diagnosis that cannot name the hidden effect.
+    """Judge the diagnosis whose candidates lack the hidden effect.
 
-    It is wrong if it names, with confidence, an effect of another group.
+    It is wrong if it names an effect of another group with certainty.
     """
     if verdict is None:
         return {"left_out": "", "left_out_named": "", "left_out_wrong": False}

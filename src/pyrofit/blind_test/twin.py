@@ -1,4 +1,4 @@
-"""Twins: synthetic measurements of a drawn truth, and the study that sees them."""
+"""Twins: synthetic measurements of a drawn truth, and the study that the diagnosis reads."""
 
 import copy
 import json
@@ -32,11 +32,11 @@ class Twin:
     Parameters
     ----------
     case
-        What it hides.
+        Its hidden effects, signals, noise and seed.
     study
-        Keys of the study that sees it; they tell nothing of the truth.
+        Keys of the study that the diagnosis reads; they do not contain the truth.
     truth
-        The study that it was computed by, with the truth's values and effects.
+        The study that computed it, with the values and effects of the truth.
     series
         Measurements by (experiment, signal).
     """
@@ -48,7 +48,7 @@ class Twin:
 
 
 def make_twin(setting: Setting, case: Case) -> Twin:
-    """Compute the measurements of a case; the same bits for the same case.
+    """Compute the measurements of a case, bit for bit the same for the same case.
 
     Raises
     ------
@@ -62,7 +62,7 @@ def make_twin(setting: Setting, case: Case) -> Twin:
 
 
 def describe(setting: Setting, case: Case) -> tuple[Given, Study]:
-    """Return the keys of the study that sees a case, and the study of its truth.
+    """Return the keys of the study that the diagnosis reads, and the study of the truth.
 
     Raises
     ------
@@ -100,7 +100,7 @@ def write_twin(places: Places, twin: Twin) -> None:
 
 
 def read_twin(places: Places, case: str) -> tuple[Study, Measurements]:
-    """Read what the diagnosis sees of a twin: its study and its measurements.
+    """Read the input of the diagnosis: study and measurements of a twin.
 
     Raises
     ------
@@ -112,7 +112,7 @@ def read_twin(places: Places, case: str) -> tuple[Study, Measurements]:
 
 
 def without_effects(study: Study, names: set[str]) -> Study:
-    """Return a study whose candidates are what they were but for some effects."""
+    """Return a study with some effects removed from its candidates."""
     left = tuple(name for name in candidate_effects(study) if name not in names)
     diagnosis = study.diagnosis.model_copy(update={"effects": left})
     return study.model_copy(update={"diagnosis": diagnosis})
@@ -125,7 +125,7 @@ def _leave_out(study: Given, without: tuple[str, ...], path: Path) -> None:
 
 
 def _with_signals(setting: Setting, case: Case) -> Given:
-    """Return the keys of the base with the experiments and signals of a case, and its noise."""
+    """Return the keys of the base with the experiments, signals and noise of a case."""
     base: Given = json.loads(json.dumps(read_mapping(Path(setting.base))))
     held_out = setting.held_out
     if held_out.like not in base["experiments"]:
@@ -189,27 +189,27 @@ def _merged(part: Any, changes: Mapping[str, Any]) -> Given:
 
 
 def _draw(setting: Setting, base: Given, case: Case) -> dict[str, float]:
-    """Return the truth of a case, uniform about that of the base, in the parameters' units."""
+    """Draw the truth of a case uniformly around that of the base, in the parameters' units."""
     rng = np.random.default_rng([case.seed, 0])
     truth: dict[str, float] = base["synthetic"]["truth"]
     return {n: at + float(rng.uniform(-1, 1)) * setting.vary.get(n, 0.0) for n, at in truth.items()}
 
 
 def _known(setting: Setting, base: Given, truth: Mapping[str, float], case: Case) -> Given:
-    """Return what is known of the kinetics: drawn about the truth, within the limits."""
+    """Draw known values of the kinetics around the truth, within the limits."""
     rng = np.random.default_rng([case.seed, 1])
     known = {}
     for name, sd in setting.known.items():
         drawn = truth[name] + sd * float(rng.standard_normal())
         parameter = base["parameters"][name]
-        # Half a standard deviation within a limit, so that the fit can start there.
+        # Half a standard deviation inside the limits, so that the fit can start there.
         lower, upper = parameter["lower"] + 0.5 * sd, parameter["upper"] - 0.5 * sd
         known[name] = {"value": min(max(drawn, lower), upper), "sd": sd}
     return known
 
 
 def _without_truth(case: Case, base: Given, known: Given) -> Given:
-    """Return the keys of the study that sees a twin: files instead of a truth."""
+    """Return the keys of the study of a twin, with files instead of the truth."""
     study = {key: value for key, value in base.items() if key not in ("synthetic", "seed")}
     study["name"] = case.id
     study["title"] = study["description"] = "Twin of a blind test."
