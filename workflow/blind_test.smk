@@ -57,7 +57,7 @@ rule chunk:
     params:
         setting=SETTING,
         digest=lambda wildcards: DIGESTS[wildcards.plan],
-        source=source_fingerprint(),
+        source=source_fingerprint(blind_test=True),
     message:
         "Blind test of the diagnosis, plan {wildcards.plan}, job {wildcards.chunk}"
     shell:
@@ -86,7 +86,7 @@ rule page:
     params:
         setting=SETTING,
         digest=lambda wildcards: DIGESTS[wildcards.plan],
-        source=source_fingerprint(showing=True),
+        source=source_fingerprint(showing=True, blind_test=True),
     message:
         "Blind test of the diagnosis, plan {wildcards.plan}: tables, figures, page"
     shell:

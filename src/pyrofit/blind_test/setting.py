@@ -72,6 +72,7 @@ class Setting(Part):
     signals: dict[str, tuple[str, ...]] = Field(
         min_length=1, description="measured quantities, by set of signals"
     )
+    cost_signal: str = Field(description="signal of every set that the cost of a twin compares")
     noise: dict[str, dict[str, dict[str, Any]]] = Field(
         min_length=1, description="correlation of the noise by quantity, by kind of noise"
     )
@@ -96,8 +97,10 @@ class Setting(Part):
         for name, plan in self.plans.items():
             _require(plan.seeds, self.seeds, f"plans.{name}.seeds", "range of seeds")
         for name, quantities in self.signals.items():
-            if "mlr" not in quantities:
-                raise ValueError(f"signals.{name}: without mlr no signal measures the slab; add it")
+            if self.cost_signal not in quantities:
+                raise ValueError(
+                    f"signals.{name}: lacks the cost_signal {self.cost_signal}; add it"
+                )
         for by_quantity in self.noise.values():
             for correlation in by_quantity.values():
                 Noise(sd=1.0, **correlation)

@@ -153,7 +153,7 @@ def _noise(setting: Setting, case: Case, quantity: str, given: Any) -> Given:
 def _stages(setting: Setting, base: Given) -> Given:
     """Return the stages of a study of these experiments."""
     fitted, held_out = list(setting.calibrate), setting.held_out.name
-    costs = [{"experiment": name, "signal": "mlr", "kind": "RMSE"} for name in fitted]
+    costs = [{"experiment": name, "signal": setting.cost_signal, "kind": "RMSE"} for name in fitted]
     imp = {
         "estimate": base["imp"]["estimate"],
         "kinetics": base["imp"]["kinetics"] if _has_tga(base) else "described",
