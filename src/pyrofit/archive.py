@@ -19,6 +19,7 @@ from pyrofit.errors import DataError
 from pyrofit.figures import FIGURES
 from pyrofit.files import Results, read_json, write_bytes
 from pyrofit.model.signal import Signal
+from pyrofit.plugins import folder_names, plugin_files
 from pyrofit.provenance import source_fingerprint
 from pyrofit.stages.reading import MACFP
 from pyrofit.tables import TABLES
@@ -45,13 +46,14 @@ _NO_DATE = (1980, 1, 1, 0, 0, 0)  # the earliest that the format knows
 
 _COMMENT = """\
 The study as it was run, with what the command line had changed. The files of its measurements are
-in data/. It runs in the folder software/; README.txt says how.
+in data/, those of its plugins in plugins/. It runs in the folder software/; README.txt says how.
 """
 _README = """\
 {title}
 
 study.yaml         the study as it was run; as_given/ has the files it came from
 data/              measured files of its own
+plugins/           effects and costs of its own, if it has any
 results/           study.json (every key completed), provenance.json (versions, seed, checksums of
                    all measured files), histories and best sets of all searches, predictions,
                    tables, figures, report.html
@@ -103,6 +105,8 @@ def write_archive(study: Study, results: Results, given: Sequence[Path], project
     entries: Entries = {"study.yaml": _study_file(study, own).encode()}
     entries |= {f"as_given/{path.name}": _bytes(path) for path in given}
     entries |= {inside: _bytes(Path(file)) for file, inside in own.items()}
+    for inside, path in plugin_files([Path(folder) for folder in study.plugins]).items():
+        entries[f"plugins/{inside}"] = _bytes(path)
     for path in _results(study, results):
         name = path.relative_to(results.root).as_posix()
         entries[f"results/{name}"] = _without_macfp(study, path)
@@ -157,6 +161,9 @@ def _study_file(study: Study, own: Mapping[str, str]) -> str:
     for experiment in keys["experiments"].values():
         for signal in experiment["signals"].values():
             signal["file"] = own.get(signal["file"], signal["file"])
+    if study.plugins:
+        folders = [Path(folder) for folder in study.plugins]
+        keys["plugins"] = [f"plugins/{name}" for name in folder_names(folders)]
     return as_yaml(keys, _COMMENT)
 
 

@@ -9,10 +9,11 @@ import pytest
 
 from pyrofit import cli
 from pyrofit.archive import write_archive
-from pyrofit.config import Study, digest, read_study
+from pyrofit.config import Study, as_study, digest, read_mapping, read_study
 from pyrofit.data.fetch import COMMIT
 from pyrofit.errors import DataError
 from pyrofit.files import Results
+from pyrofit.plugins import use_plugins
 from pyrofit.provenance import source_fingerprint
 
 ROOT = Path(__file__).parents[2]
@@ -113,6 +114,24 @@ def test_two_files_of_one_name_have_two_places(tmp_path: Path) -> None:
     }
     assert "file: data/tga.csv" in held["study.yaml"]
     assert "file: data/1_tga.csv" in held["study.yaml"]
+
+
+def test_plugins_are_packed_and_found_again(tmp_path: Path) -> None:
+    effects = tmp_path / "given" / "own" / "effects"
+    effects.mkdir(parents=True)
+    text = (ROOT / "src" / "pyrofit" / "effects" / "k_T.py").read_text()
+    (effects / "k_T_again.py").write_text(text)
+    keys = read_mapping(ROOT / "config" / "smoke.yaml")
+    keys |= {"plugins": ["own"], "effects": {"k_T_again": {"slope_1_K": 1e-4}}}
+    study = as_study(keys, str(tmp_path / "given" / "study.yaml"))
+    archive = write_archive(study, results_of(study, tmp_path / "results"), [], ROOT)
+    with zipfile.ZipFile(archive) as file:
+        file.extractall(tmp_path / "again")
+    assert (tmp_path / "again" / "plugins/0_own/effects/k_T_again.py").read_text() == text
+    again = read_study(tmp_path / "again" / "study.yaml")
+    assert again.material == study.material
+    assert again.plugins == ((tmp_path / "again" / "plugins" / "0_own").as_posix(),)
+    use_plugins([])
 
 
 def test_entries_are_sorted_and_carry_no_date(pmma: tuple[Study, Results]) -> None:

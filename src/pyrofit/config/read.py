@@ -19,21 +19,26 @@ from pyrofit.config.study import Study, is_own
 from pyrofit.config.words import in_plain_words, refuse_booleans
 from pyrofit.errors import StudyError, suggest
 from pyrofit.model.base import Part
+from pyrofit.plugins import use_plugins
 
 
 def as_study(given: Mapping[str, Any], source: str) -> Study:
     """Check a study description.
 
     Files of the user are found relative to the folder of a YAML ``source``. JSON is what the
-    workflow wrote of a study once checked: there they are found already.
+    workflow wrote of a study once checked: there they are found already. The study's plugins
+    are known from then on, those of a study read before are not.
 
     Raises
     ------
     StudyError
         With source, key, rule and way out for everything that is wrong.
     """
+    path = Path(source)
+    folder = None if path.suffix == ".json" else path.parent
     try:
         refuse_booleans(given)
+        use_plugins([(folder or Path()) / name for name in _plugins(given)])
         study = Study.model_validate(apply_effects(given))
         check_study(study)
         check_diagnosis(study)
@@ -44,11 +49,18 @@ def as_study(given: Mapping[str, Any], source: str) -> Study:
     except RecursionError:
         lines = ["an anchor (&) is used inside itself (*); write it out"]
     else:
-        path = Path(source)
-        return study if path.suffix == ".json" else _located(study, path.parent)
+        return study if folder is None else _located(study, folder)
     rules = "a rule" if len(lines) == 1 else f"{len(lines)} rules"
     text = "".join(f"\n  {line}" for line in lines)
     raise StudyError(f"{source}: the study description breaks {rules}:{text}")
+
+
+def _plugins(given: Mapping[str, Any]) -> list[str]:
+    """Return the folders of a study's plugins; none where they are no list of names."""
+    names = given.get("plugins")
+    if not isinstance(names, list | tuple):
+        return []  # the checks of the study say what is wrong
+    return [name for name in names if isinstance(name, str)]
 
 
 def _located(study: Study, folder: Path) -> Study:
@@ -66,7 +78,8 @@ def _located(study: Study, folder: Path) -> Study:
         )
         for name, experiment in study.experiments.items()
     }
-    return study.model_copy(update={"experiments": experiments})
+    plugins = tuple((folder / name).as_posix() for name in study.plugins)
+    return study.model_copy(update={"experiments": experiments, "plugins": plugins})
 
 
 def read_study(path: Path) -> Study:

@@ -53,6 +53,11 @@ class Study(Part):
     title: str = Field("", description="title of the report")
     description: str = Field("", description="what the study is, in a sentence or two")
     seed: int = Field(1, ge=0, description="seed of everything random")
+    plugins: tuple[str, ...] = Field(
+        (),
+        description="folders with effects and costs of your own, relative to the study file: "
+        "effects/*.py and costs/*.py",
+    )
     parameters: dict[Name, Parameter] = Field(description="named numbers")
     material: Material = Field(description="components, reactions, composition")
     experiments: dict[Name, AnyExperiment] = Field(min_length=1, description="experiments by name")

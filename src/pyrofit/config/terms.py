@@ -15,7 +15,7 @@ class TermSpec(Part):
 
     experiment: str = Field(description="name of the experiment")
     signal: str = Field(description="measured quantity: mlr, back_temperature or mass_fraction")
-    kind: str = Field(description="cost: " + ", ".join(KINDS))
+    kind: str = Field(description="cost: " + ", ".join(KINDS) + ", or one of `plugins`")
     weight: float = Field(1.0, ge=0.0, description="weight w of Eq. 5")
     normalisation: str | None = Field(
         None, description="y_N of Table 1: " + ", ".join(NORMALISATIONS) + "; default: the cost's"

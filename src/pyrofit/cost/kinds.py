@@ -1,7 +1,8 @@
-"""The registry of the costs: the only place that names them all."""
+"""The registry of the costs: the only place that names all of the package."""
 
 from collections.abc import Callable
 
+from pyrofit.cost.added import added_costs
 from pyrofit.cost.single_point import (
     nrse,
     thr_above,
@@ -24,4 +25,13 @@ KINDS: dict[str, Callable[..., Residuals]] = {
     "THR_above_literal": thr_above_literal,
     "THR_below_literal": thr_below_literal,
 }
-"""The costs by name; the keyword arguments of each are its options."""
+"""The package's costs by name; the keyword arguments of each are its options."""
+
+
+def known_costs() -> dict[str, Callable[..., Residuals]]:
+    """Return the package's costs and the user's own by name.
+
+    >>> list(known_costs())[:3]
+    ['RMSE', 'RANGE', 'BANDS']
+    """
+    return KINDS | added_costs()

@@ -6,7 +6,7 @@ from dataclasses import dataclass, field
 from inspect import Parameter, signature
 from typing import Any
 
-from pyrofit.cost.kinds import KINDS
+from pyrofit.cost.kinds import known_costs
 from pyrofit.cost.target import FloatArray, Residuals, Target
 from pyrofit.errors import CostError, suggest
 
@@ -18,7 +18,7 @@ class Term:
     Parameters
     ----------
     kind : str
-        Name of the cost in `KINDS`.
+        Name of the cost, of `known_costs`.
     target : Target
         The target; the model is given at its times.
     options : mapping
@@ -84,7 +84,7 @@ def make_term(kind: str, target: Target, **options: Any) -> Term:
     Parameters
     ----------
     kind : str
-        Name of the cost in `KINDS`.
+        Name of the cost, of `known_costs`.
     target : Target
         The target, windowed and resampled as wanted.
     **options
@@ -109,7 +109,7 @@ def make_term(kind: str, target: Target, **options: Any) -> Term:
     0.5
     """
     check_options(kind, options)
-    return Term(kind, target, dict(options), KINDS[kind](target, **options))
+    return Term(kind, target, dict(options), known_costs()[kind](target, **options))
 
 
 def check_options(kind: str, options: Mapping[str, Any]) -> None:
@@ -120,11 +120,12 @@ def check_options(kind: str, options: Mapping[str, Any]) -> None:
     CostError
         The cost or an option is unknown, or a needed option is absent.
     """
-    if kind not in KINDS:
-        raise CostError(f"unknown cost '{kind}'. {suggest(str(kind), KINDS)}")
+    costs = known_costs()
+    if kind not in costs:
+        raise CostError(f"unknown cost '{kind}'. {suggest(str(kind), costs)}")
     known = {
         name: parameter
-        for name, parameter in signature(KINDS[kind]).parameters.items()
+        for name, parameter in signature(costs[kind]).parameters.items()
         if parameter.kind is Parameter.KEYWORD_ONLY
     }
     for name in options:

@@ -3,11 +3,10 @@
 A file defines ``EFFECT``; nothing else needs to know it.
 """
 
-import importlib
-import pkgutil
 from dataclasses import replace
 from functools import cache
 
+from pyrofit.discovery import contents
 from pyrofit.effects.base import Effect
 
 
@@ -18,12 +17,8 @@ def known_effects() -> dict[str, Effect]:
 
 @cache
 def _effects_in(folders: tuple[str, ...]) -> dict[str, Effect]:
-    effects = {}
-    for name in sorted(module.name for module in pkgutil.iter_modules(folders)):
-        content = importlib.import_module(f"{__name__}.{name}")
-        if hasattr(content, "EFFECT"):
-            effects[name] = replace(content.EFFECT, name=name)
-    return effects
+    found = contents(__name__, folders, "EFFECT")
+    return {name: replace(effect, name=name) for name, effect in found.items()}
 
 
 def same_as(effect: str) -> set[str]:

@@ -1,6 +1,8 @@
 """A page that needs nothing else: what was measured, sections, and what all of it rests on."""
 
 from collections.abc import Sequence
+from hashlib import sha256
+from pathlib import Path
 from typing import Any
 
 from jinja2 import Environment, PackageLoader, StrictUndefined, select_autoescape
@@ -8,6 +10,7 @@ from jinja2 import Environment, PackageLoader, StrictUndefined, select_autoescap
 from pyrofit.config import Study, digest
 from pyrofit.data.fetch import COMMIT
 from pyrofit.files import Results
+from pyrofit.plugins import plugin_files
 from pyrofit.provenance import environment
 from pyrofit.report import measured as measurements
 from pyrofit.report.content import Part, Section
@@ -83,6 +86,10 @@ def provenance(study: Study, measured: dict[str, Any]) -> dict[str, Any]:
         "synthetic_data": study.is_synthetic,
         "macfp_commit": COMMIT if study.needs_macfp else "",
         **environment(),
+        "plugins": {
+            name: sha256(path.read_bytes()).hexdigest()
+            for name, path in plugin_files([Path(folder) for folder in study.plugins]).items()
+        },
         "data": {
             f"{name}/{signal}": {"source": about["source"], "sha256": about["sha256"]}
             for name, signals in measured["signals"].items()

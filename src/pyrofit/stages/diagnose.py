@@ -35,7 +35,10 @@ def diagnose(study: Study, results: Results, tell: Tell, processes: int = 1) -> 
     path.unlink(missing_ok=True)  # that of an earlier diagnosis
     if effects:
         signals = dict(_files(study, results, path.parent))
-        write_text(path, as_yaml(extended_keys(study, found.search.end, signals), _COMMENT))
+        keys = extended_keys(study, found.search.end, signals)
+        if study.plugins:
+            keys["plugins"] = [_seen_from(path.parent, folder) for folder in study.plugins]
+        write_text(path, as_yaml(keys, _COMMENT))
     found.content["extended_study"] = EXTENDED if effects else ""
     write_csv(results.diagnosis("curves.csv"), found.curves)
     write_json(results.diagnosis("diagnosis.json"), found.content)
@@ -57,10 +60,11 @@ def _files(
                 keys = study.experiments[name].quantity(quantity).tidy_keys()
                 columns = {role: c for role, c in keys["columns"].items() if c in has}
                 units = {role: keys["units"][role] for role in columns}
-                file = Path(os.path.relpath(table, folder)).as_posix()
+                file = _seen_from(folder, table)
                 yield (name, quantity), {"file": file, "columns": columns, "units": units}
             elif is_own(signal.file):
-                yield (
-                    (name, quantity),
-                    {"file": Path(os.path.relpath(signal.file, folder)).as_posix()},
-                )
+                yield (name, quantity), {"file": _seen_from(folder, signal.file)}
+
+
+def _seen_from(folder: Path, path: str | Path) -> str:
+    return Path(os.path.relpath(path, folder)).as_posix()

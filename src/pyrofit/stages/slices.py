@@ -1,5 +1,6 @@
 """What each step of a study depends on: the workflow reruns a step when its slice changes."""
 
+from collections.abc import Iterable
 from typing import Any
 
 from pyrofit.config import (
@@ -12,8 +13,12 @@ from pyrofit.config import (
     held_out_channels,
     parameters_in,
 )
+from pyrofit.config.terms import TermSpec
 from pyrofit.config.uses import names_in
 from pyrofit.errors import StudyError
+from pyrofit.plugins import code_digest
+
+Digests = dict[str, dict[str, str]]
 
 
 def _parameters(study: Study, names: set[str]) -> dict[str, Any]:
@@ -35,6 +40,21 @@ def _measured(study: Study, name: str) -> dict[str, Any]:
     return study.experiments[name].model_dump(exclude={"title"})
 
 
+def _code(study: Study, terms: Iterable[TermSpec] = (), more: Iterable[str] = ()) -> Digests:
+    """Hashes of the files that no step imports by name: of effects, and of costs of plugins.
+
+    Of effects these are the model's and some more, of costs those of some terms.
+    """
+    return {
+        "effects": {n: code_digest("effects", n) for n in sorted({*study.with_effects, *more})},
+        "costs": {n: code_digest("costs", n) for n in sorted({term.kind for term in terms})},
+    }
+
+
+def _all_terms(study: Study) -> list[TermSpec]:
+    return [term for terms in study.imp.costs.values() for term in terms]
+
+
 def data(study: Study) -> dict[str, Any]:
     """Signals as they are read; with synthetic ones, all that makes them."""
     of_the_model = {"delay_s", "offset", "timing_s"}
@@ -49,6 +69,7 @@ def data(study: Study) -> dict[str, Any]:
         "material": study.material.model_dump(),
         "parameters": _values(study),
         "synthetic": study.synthetic.model_dump() if study.synthetic else None,
+        "code": _code(study, more=study.synthetic.effects if study.synthetic else ()),
         "seed": study.seed,
     }
 
@@ -79,6 +100,7 @@ def kinetics(study: Study) -> dict[str, Any]:
         "parameters": _parameters(
             study, (names | composed) & (set(stage.estimate) | set(study.fixed_values()))
         ),
+        "code": _code(study, stage.cost),
         "stage": stage.model_dump(exclude={"cost"}),
         "accuracy": study.accuracy.tga_step_K,
         "seed": study.seed,
@@ -99,6 +121,7 @@ def imp(study: Study, cost: str, optimiser: str) -> dict[str, Any]:
         "parameters": _parameters(study, names | set(stage.estimate)),
         "estimate": stage.estimate,
         "kinetics": stage.kinetics,
+        "code": _code(study, terms),
         "budget": getattr(stage, optimiser).model_dump(),
         "accuracy": study.accuracy.model_dump(),
         "seed": study.seed,
@@ -119,6 +142,7 @@ def identify(study: Study) -> dict[str, Any]:
         "parameters": _parameters(study, names | set(stage.estimate)),
         "estimate": stage.estimate,
         "kinetics": stage.kinetics,
+        "code": _code(study),
         "costs": list(stage.costs),
         "accuracy": study.accuracy.model_dump(),
     }
@@ -141,6 +165,7 @@ def diagnose(study: Study) -> dict[str, Any]:
         "estimate": estimate,
         "known": {n: known.model_dump() for n, known in stage.known.items()},
         "candidates": candidate_effects(study),
+        "code": _code(study, more=candidate_effects(study)),
         "most_effects": stage.most_effects,
         "accuracy": study.accuracy.model_dump(),
         "seed": study.seed,
@@ -156,6 +181,7 @@ def validation(study: Study) -> dict[str, Any]:
         "estimate": study.imp.estimate,
         "parameters": _values(study),
         "validation": study.validation.model_dump(),
+        "code": _code(study, _all_terms(study)),
         "published": study.published.costs if study.published else {},
         "accuracy": study.accuracy.model_dump(),
     }
@@ -164,7 +190,7 @@ def validation(study: Study) -> dict[str, Any]:
 def robustness(study: Study, cost: str) -> dict[str, Any]:
     """Cost, twins, and all that a prediction rests on."""
     return {
-        "terms": [t.model_dump() for terms in study.imp.costs.values() for t in terms],
+        "terms": [t.model_dump() for t in _all_terms(study)],
         "cost": cost,
         "twins": study.robustness.model_dump(),
         "truth": study.synthetic.truth if study.synthetic else {},
@@ -189,7 +215,10 @@ def compare(study: Study) -> dict[str, Any]:
 
 def presentation(study: Study) -> dict[str, Any]:
     """Whatever tables, figures and the report show: the whole study."""
-    return study.model_dump()
+    return {
+        **study.model_dump(),
+        "code": _code(study, _all_terms(study), candidate_effects(study)),
+    }
 
 
 def collect(study: Study) -> dict[str, Any]:
