@@ -9,10 +9,10 @@ from snakemake.utils import min_version, update_config
 
 from pyrofit.config import as_study, digest, read_mapping
 from pyrofit.errors import PyrofitError
-from pyrofit.files import Results, write_text
+from pyrofit.results.files import Results, write_text
 from pyrofit.figures import FIGURES
 from pyrofit.provenance import source_fingerprint
-from pyrofit.stages import slices
+from pyrofit.results import dependencies
 from pyrofit.stages.reading import check_measurements
 from pyrofit.tables import TABLES
 

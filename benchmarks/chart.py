@@ -18,7 +18,7 @@ from pyrofit.figures.style import (
     save,
     style,
 )
-from pyrofit.files import Results
+from pyrofit.results.files import Results
 
 DOCS = Path(__file__).parents[1] / "docs"
 MARKS = {"default, lanes": "s", "default, scalar": "o", "0.2 %, lanes": "D", "0.2 %, scalar": "^"}

@@ -17,10 +17,10 @@ from pyrofit import __version__
 from pyrofit.config import Study, as_yaml, digest
 from pyrofit.errors import DataError
 from pyrofit.figures import FIGURES
-from pyrofit.files import Results, read_json, write_bytes
 from pyrofit.model.signal import Signal
 from pyrofit.plugins import folder_names, plugin_files
 from pyrofit.provenance import source_fingerprint
+from pyrofit.results.files import Results, read_json, write_bytes
 from pyrofit.stages.reading import MACFP
 from pyrofit.tables import TABLES
 

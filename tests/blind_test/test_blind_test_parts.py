@@ -22,8 +22,8 @@ from pyrofit.config import Study, candidate_effects
 from pyrofit.effects import known_effects, same_as
 from pyrofit.errors import DataError, StudyError
 from pyrofit.estimate.problem import Measurements
-from pyrofit.files import read_json, write_json
 from pyrofit.model.accuracy import Resolution
+from pyrofit.results.files import read_json, write_json
 
 FILE = Path(__file__).parents[2] / "config" / "blind_test.yaml"
 FORM = {"kind": "form", "strength": 1.0, "signals": "mlr", "noise": "white", "seed": 5}

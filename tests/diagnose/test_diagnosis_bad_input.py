@@ -12,8 +12,8 @@ from conftest import HIDDEN, SEED
 from small import CHANNELS, SD, given, measured
 
 from pyrofit.cli import main
-from pyrofit.files import read_json, write_csv
 from pyrofit.quantities import known_quantities
+from pyrofit.results.files import read_json, write_csv
 
 FOUND = Path("results/small/diagnosis/diagnosis.json")
 FEW = {"effects": ["k_T", "heater_ramp", "front_convection"]}

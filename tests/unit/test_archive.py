@@ -12,9 +12,9 @@ from pyrofit.archive import write_archive
 from pyrofit.config import Study, as_study, digest, read_mapping, read_study
 from pyrofit.data.fetch import COMMIT
 from pyrofit.errors import DataError
-from pyrofit.files import Results
 from pyrofit.plugins import use_plugins
 from pyrofit.provenance import source_fingerprint
+from pyrofit.results.files import Results
 
 ROOT = Path(__file__).parents[2]
 PMMA = ROOT / "config" / "pmma.yaml"

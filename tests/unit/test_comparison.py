@@ -14,9 +14,9 @@ from pyrofit.config import Study, as_study
 from pyrofit.errors import DataError
 from pyrofit.estimate import family, groups
 from pyrofit.figures.compared import rank_correlation
-from pyrofit.files import Results, read_csv, write_csv
 from pyrofit.quantities import known_quantities
 from pyrofit.report.comparison import costs, good_sets, optimisers
+from pyrofit.results.files import Results, read_csv, write_csv
 from pyrofit.solver.arrays import FloatArray
 from pyrofit.stages import compare, fit, measurements, predict
 from pyrofit.tables import TABLES

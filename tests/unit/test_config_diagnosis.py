@@ -25,7 +25,7 @@ from pyrofit.effects import known_effects
 from pyrofit.errors import StudyError
 from pyrofit.estimate.likelihood import likelihood_of
 from pyrofit.estimate.problem import Measurements, make_problem
-from pyrofit.stages import slices
+from pyrofit.results import dependencies
 from pyrofit.stages.measurements import computed
 
 CONFIG = Path(__file__).parents[2] / "config"
@@ -197,8 +197,8 @@ def test_effect_of_the_truth_is_hidden_from_the_model() -> None:
     study = study_with(synthetic__effects={"back_loss": {"factor": 0.5}})
     plain = study_with()
     assert (study.material, study.experiments) == (plain.material, plain.experiments)
-    assert digest(slices.diagnose(study)) == digest(slices.diagnose(plain))
-    assert digest(slices.data(study)) != digest(slices.data(plain))
+    assert digest(dependencies.diagnose(study)) == digest(dependencies.diagnose(plain))
+    assert digest(dependencies.data(study)) != digest(dependencies.data(plain))
 
 
 def test_truth_with_shares_above_one_is_refused() -> None:
@@ -261,7 +261,7 @@ CHANGES: dict[str, tuple[dict[str, Any], bool]] = {
 
 @pytest.mark.parametrize(("change", "seen"), CHANGES.values(), ids=CHANGES)
 def test_diagnosis_depends_on_what_matters_to_it(change: dict[str, Any], seen: bool) -> None:
-    before, after = (digest(slices.diagnose(s)) for s in (study_with(), study_with(**change)))
+    before, after = (digest(dependencies.diagnose(s)) for s in (study_with(), study_with(**change)))
     assert (before != after) == seen
 
 
@@ -269,10 +269,10 @@ def test_error_of_a_clock_matters_to_likelihoods_only() -> None:
     of_slab = {"experiments__slab_25__signals__mlr__timing_s": 0}
     before, after = study_with(), study_with(**of_slab)
     steps = {
-        "data": slices.data,
-        "imp": lambda study: slices.imp(study, "RMSE", "sceua"),
-        "validation": slices.validation,
-        "identify": slices.identify,
+        "data": dependencies.data,
+        "imp": lambda study: dependencies.imp(study, "RMSE", "sceua"),
+        "validation": dependencies.validation,
+        "identify": dependencies.identify,
     }
     changed = {n for n, part in steps.items() if digest(part(before)) != digest(part(after))}
     assert changed == {"identify"}

@@ -18,14 +18,15 @@ from pyrofit.effects import known_effects
 from pyrofit.errors import DataError
 from pyrofit.figures import FIGURES, style
 from pyrofit.figures.diagnosis import DIAGNOSIS_FIGURES, draw_all, figures_of
-from pyrofit.files import Results, write_csv, write_json, write_text
 from pyrofit.report import diagnosis as report
 from pyrofit.report import write_report
-from pyrofit.stages import outcomes
+from pyrofit.results.diagnosis import VERDICTS, read
+from pyrofit.results.diagnosis import curves as curves_of
+from pyrofit.results.files import Results, write_csv, write_json, write_text
 from pyrofit.tables import diagnosis, diagnosis_tables, make_diagnosis_tables
 from pyrofit.tables.diagnosed import DIAGNOSIS_TABLES
 
-KINDS = outcomes.VERDICTS
+KINDS = VERDICTS
 CHANNELS = (
     ("slow", "mass_fraction", "calibration"),
     ("slab_25", "mlr", "calibration"),
@@ -652,7 +653,7 @@ def test_broken_diagnosis_is_refused_and_named(
     study, results = diagnosed(tmp_path, "named")
     altered(results, place, value)
     with pytest.raises(DataError, match=message):
-        outcomes.diagnosis(study, results)
+        read(study, results)
 
 
 def test_curves_that_lack_a_channel_are_refused(tmp_path: Path) -> None:
@@ -660,7 +661,7 @@ def test_curves_that_lack_a_channel_are_refused(tmp_path: Path) -> None:
     frame = curves(study, "named")
     write_csv(results.diagnosis("curves.csv"), frame[frame["experiment"] != "slow"])
     with pytest.raises(DataError, match="experiment 'slow', signal 'mass_fraction' is missing"):
-        outcomes.diagnosed_curves(study, results)
+        curves_of(study, results)
 
 
 def test_leading_candidate_is_the_best_that_was_not_rejected(tmp_path: Path) -> None:

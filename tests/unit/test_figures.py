@@ -10,7 +10,7 @@ from test_tables import described, fake, synthetic
 from pyrofit.config import as_study
 from pyrofit.errors import StudyError
 from pyrofit.figures import FIGURES, convergence, curves, kinetics, make_figure, style
-from pyrofit.files import Results, read_csv, write_csv
+from pyrofit.results.files import Results, read_csv, write_csv
 from pyrofit.tables.describe import PUBLISHED, predicted_sets
 
 

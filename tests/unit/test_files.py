@@ -11,7 +11,7 @@ import pandas as pd
 import pytest
 
 from pyrofit.errors import DataError
-from pyrofit.files import (
+from pyrofit.results.files import (
     Results,
     read_csv,
     read_json,

@@ -11,8 +11,9 @@ from test_stages import by_hand, given, study_with
 
 from pyrofit.config import as_study
 from pyrofit.errors import DataError, StudyError
-from pyrofit.files import Results, read_csv, read_json
-from pyrofit.stages import fit, identify, measurements, slices
+from pyrofit.results import dependencies
+from pyrofit.results.files import Results, read_csv, read_json
+from pyrofit.stages import fit, identify, measurements
 
 FILES = ("estimate", "sensitivities", "singular_values", "correlation", "profiles", "sets")
 BOTH = {"slab_60": ["mlr", "back_temperature"]}
@@ -146,10 +147,10 @@ def test_named_channels_replace_those_of_the_costs() -> None:
 
 
 def test_slice_knows_channels_and_limits_and_not_the_repetitions() -> None:
-    base = slices.identify(study_with())
-    assert slices.identify(study_with(imp__repetitions=7)) == base
-    assert slices.identify(study_with(imp__identification=BOTH)) != base
-    assert slices.identify(study_with(parameters__rho__upper=2000)) != base
+    base = dependencies.identify(study_with())
+    assert dependencies.identify(study_with(imp__repetitions=7)) == base
+    assert dependencies.identify(study_with(imp__identification=BOTH)) != base
+    assert dependencies.identify(study_with(parameters__rho__upper=2000)) != base
     json.dumps(base["channels"])
 
 

@@ -10,11 +10,11 @@ from test_tables import described, fake, synthetic
 
 from pyrofit.errors import DataError
 from pyrofit.figures import FIGURES
-from pyrofit.files import read_csv, write_csv, write_text
 from pyrofit.report import write_report
 from pyrofit.report.answer import advice
 from pyrofit.report.content import tables_of
 from pyrofit.report.truth import sentences
+from pyrofit.results.files import read_csv, write_csv, write_text
 from pyrofit.tables import TABLES
 from pyrofit.tables.robustness import write_robustness
 

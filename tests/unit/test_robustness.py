@@ -13,8 +13,8 @@ from pyrofit.cli import main
 from pyrofit.config import Study
 from pyrofit.errors import StudyError
 from pyrofit.figures.robustness import draw_robustness
-from pyrofit.files import Results, read_csv, write_csv
 from pyrofit.report.comparison import robustness as sentences
+from pyrofit.results.files import Results, read_csv, write_csv
 from pyrofit.stages import fit, measurements, robustness
 from pyrofit.tables.robustness import errors, recovered, write_robustness
 

@@ -12,8 +12,9 @@ import yaml
 from pyrofit.config import Study, as_study, digest
 from pyrofit.errors import DataError, StudyError
 from pyrofit.estimate.least_squares import Start
-from pyrofit.files import Results, read_csv, read_json, write_csv, write_json
-from pyrofit.stages import fit, measurements, predict, slices
+from pyrofit.results import dependencies
+from pyrofit.results.files import Results, read_csv, read_json, write_csv, write_json
+from pyrofit.stages import fit, measurements, predict
 
 CONFIG = Path(__file__).parents[2] / "config"
 SMOKE = json.dumps(yaml.safe_load((CONFIG / "smoke.yaml").read_text(encoding="utf-8")))
@@ -77,7 +78,7 @@ def by_hand(study: Study, results: Results) -> None:
                     "cost_function": cost,
                     "repetition": repetition,
                     "seed": 1,
-                    "digest": digest(slices.imp(study, cost, "sceua")),
+                    "digest": digest(dependencies.imp(study, cost, "sceua")),
                     "cost": value,
                     "cost_refined": value,
                     "parameters": parameters(cost, repetition),
@@ -488,15 +489,15 @@ def test_set_that_cannot_be_predicted_is_told(results: Results) -> None:
 # --- what each step depends on --------------------------------------------------------------
 
 SLICES = {
-    "data": slices.data,
-    "kinetics": slices.kinetics,
-    "RMSE": lambda study: slices.imp(study, "RMSE", "sceua"),
-    "RANGE": lambda study: slices.imp(study, "RANGE", "sceua"),
-    "least squares": lambda study: slices.imp(study, "RMSE", "least_squares"),
-    "CMA-ES": lambda study: slices.imp(study, "RMSE", "cmaes"),
-    "collect": slices.collect,
-    "validation": slices.validation,
-    "presentation": slices.presentation,
+    "data": dependencies.data,
+    "kinetics": dependencies.kinetics,
+    "RMSE": lambda study: dependencies.imp(study, "RMSE", "sceua"),
+    "RANGE": lambda study: dependencies.imp(study, "RANGE", "sceua"),
+    "least squares": lambda study: dependencies.imp(study, "RMSE", "least_squares"),
+    "CMA-ES": lambda study: dependencies.imp(study, "RMSE", "cmaes"),
+    "collect": dependencies.collect,
+    "validation": dependencies.validation,
+    "presentation": dependencies.presentation,
 }
 IMP = {"RMSE", "RANGE", "least squares", "CMA-ES"}
 RANGE_TERM = {"experiment": "slab_25", "signal": "mlr", "kind": "RANGE", "options": {"r": 0.1}}
@@ -541,7 +542,7 @@ def test_kinetics_depend_on_the_tga_they_are_compared_with() -> None:
         described["experiments"]["tga_20K"]["program"] = program
         return as_study(described, "smoke.yaml")
 
-    seen = [digest(slices.kinetics(study(program))) for program in ("measured", "nominal")]
+    seen = [digest(dependencies.kinetics(study(program))) for program in ("measured", "nominal")]
     assert seen[0] != seen[1]
 
 
@@ -550,8 +551,8 @@ def test_measured_data_do_not_depend_on_the_material(tmp_path: Path) -> None:
     described["experiments"].pop("tga_20K")
     described["kinetics"]["cost"] = described["kinetics"]["cost"][:1]
     described["synthetic"] = None
-    before = digest(slices.data(as_study(described, "study.json")))
+    before = digest(dependencies.data(as_study(described, "study.json")))
     described["parameters"]["rho"]["upper"] = 1600
-    assert digest(slices.data(as_study(described, "study.json"))) == before
+    assert digest(dependencies.data(as_study(described, "study.json"))) == before
     described["experiments"]["tga_5K"]["signals"]["mass_fraction"]["until_K"] = 600
-    assert digest(slices.data(as_study(described, "study.json"))) != before
+    assert digest(dependencies.data(as_study(described, "study.json"))) != before

@@ -23,9 +23,10 @@ ORDER = [
     {"cost"},
     {"plugins"},
     {"config"},
+    {"results"},
     {"estimate"},
     {"diagnose"},
-    {"files", "stages"},
+    {"stages"},
     {"new_study"},
     {"tables", "figures"},
     {"report", "archive", "blind_test"},
@@ -137,7 +138,9 @@ def test_only_kernels_import_numba() -> None:
 
 
 def test_planning_the_workflow_loads_no_optimiser() -> None:
-    planned = "pyrofit.tables, pyrofit.figures, pyrofit.stages.slices, pyrofit.stages.reading"
+    planned = (
+        "pyrofit.tables, pyrofit.figures, pyrofit.results.dependencies, pyrofit.stages.reading"
+    )
     assert loaded(planned, "cma", "spotpy") == "[]"
 
 

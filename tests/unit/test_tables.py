@@ -7,8 +7,8 @@ import pytest
 
 from pyrofit.config import Study, as_study
 from pyrofit.errors import StudyError
-from pyrofit.files import Results, read_csv, write_csv, write_json
 from pyrofit.quantities import known_quantities
+from pyrofit.results.files import Results, read_csv, write_csv, write_json
 from pyrofit.stages import compare, predict
 from pyrofit.tables import TABLES, describe, imp, make_table, parameters
 from pyrofit.tables.determined import flag

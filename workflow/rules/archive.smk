@@ -10,7 +10,7 @@ rule archive:
         log_of("archive"),
     params:
         study=STUDY,
-        digest=digest(slices.presentation(study)),
+        digest=digest(dependencies.presentation(study)),
         source=SHOWS,
     message:
         "Archive: {output}"

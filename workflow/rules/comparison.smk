@@ -16,7 +16,7 @@ rule compare:
         benchmark_of("compare")
     params:
         study=STUDY,
-        digest=digest(slices.compare(study)),
+        digest=digest(dependencies.compare(study)),
         source=COMPUTES,
     message:
         "All sets of all optimisers under all costs"

@@ -15,7 +15,7 @@ rule prepare:
         log_of("prepare"),
     params:
         study=STUDY,
-        digest=digest(slices.data(study)),
+        digest=digest(dependencies.data(study)),
         files=study.needs_macfp,
         source=COMPUTES,
     message:

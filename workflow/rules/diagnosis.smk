@@ -14,7 +14,7 @@ rule diagnosis:
     threads: 2
     params:
         study=STUDY,
-        digest=digest(slices.diagnose(study)),
+        digest=digest(dependencies.diagnose(study)),
         source=COMPUTES,
     message:
         "Which effect the model lacks"
@@ -34,7 +34,7 @@ rule diagnosis_page:
         log_of("diagnosis_page"),
     params:
         study=STUDY,
-        digest=digest(slices.presentation(study)),
+        digest=digest(dependencies.presentation(study)),
         source=SHOWS,
     message:
         "Diagnosis: {output}"

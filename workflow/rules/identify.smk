@@ -16,7 +16,7 @@ rule identify:
         benchmark_of("identify")
     params:
         study=STUDY,
-        digest=digest(slices.identify(study)),
+        digest=digest(dependencies.identify(study)),
         source=COMPUTES,
     message:
         "What the data determine of the inverse modelling"
@@ -39,7 +39,7 @@ if study.kinetics is not None:
             benchmark_of("identify_kinetics")
         params:
             study=STUDY,
-            digest=digest(slices.kinetics(study)),
+            digest=digest(dependencies.kinetics(study)),
             source=COMPUTES,
         message:
             "What the data determine of the kinetics"

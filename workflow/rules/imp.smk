@@ -25,7 +25,7 @@ for _together in [
             benchmark_of(f"imp_{{cost}}_{_together[0]}")
         params:
             study=STUDY,
-            digest=lambda wildcards: digest(slices.imp(study, wildcards.cost, "sceua")),
+            digest=lambda wildcards: digest(dependencies.imp(study, wildcards.cost, "sceua")),
             generations=study.imp.sceua.generations,
             seed=study.seed,
             source=COMPUTES,
@@ -51,7 +51,7 @@ rule least_squares:
     params:
         study=STUDY,
         digest=lambda wildcards: digest(
-            slices.imp(study, wildcards.cost, "least_squares")
+            dependencies.imp(study, wildcards.cost, "least_squares")
         ),
         starts=study.imp.least_squares.starts,
         seed=study.seed,
@@ -75,7 +75,7 @@ rule cma_es:
         benchmark_of("cmaes_{cost}")
     params:
         study=STUDY,
-        digest=lambda wildcards: digest(slices.imp(study, wildcards.cost, "cmaes")),
+        digest=lambda wildcards: digest(dependencies.imp(study, wildcards.cost, "cmaes")),
         starts=study.imp.cmaes.starts,
         seed=study.seed,
         source=COMPUTES,
@@ -98,7 +98,7 @@ rule descent:
     params:
         study=STUDY,
         digest=lambda wildcards: digest(
-            slices.imp(study, wildcards.cost, "least_squares")
+            dependencies.imp(study, wildcards.cost, "least_squares")
         ),
         source=COMPUTES,
     message:
@@ -125,7 +125,7 @@ rule collect:
         log_of("collect"),
     params:
         study=STUDY,
-        digest=digest(slices.collect(study)),
+        digest=digest(dependencies.collect(study)),
         source=COMPUTES,
     message:
         "All repetitions gathered"

@@ -24,7 +24,7 @@ if study.kinetics is not None:
             benchmark_of("kinetics")
         params:
             study=STUDY,
-            digest=digest(slices.kinetics(study)),
+            digest=digest(dependencies.kinetics(study)),
             generations=study.kinetics.sceua.generations,
             seed=study.seed,
             source=COMPUTES,

@@ -30,7 +30,7 @@ rule table:
         log_of("table_{name}"),
     params:
         study=STUDY,
-        digest=digest(slices.presentation(study)),
+        digest=digest(dependencies.presentation(study)),
         note=lambda wildcards: TABLES[wildcards.name].note,
         source=SHOWS,
     message:
@@ -56,7 +56,7 @@ rule figure:
         log_of("figure_{name}"),
     params:
         study=STUDY,
-        digest=digest(slices.presentation(study)),
+        digest=digest(dependencies.presentation(study)),
         caption=lambda wildcards: FIGURES[wildcards.name].caption,
         source=SHOWS,
     message:
@@ -92,7 +92,7 @@ rule report:
         log_of("report"),
     params:
         study=STUDY,
-        digest=digest(slices.presentation(study)),
+        digest=digest(dependencies.presentation(study)),
         source=SHOWS,
     message:
         "Report: {output.page}"

@@ -12,7 +12,7 @@ rule robustness_of_cost:
         benchmark_of("robustness_{cost}")
     params:
         study=STUDY,
-        digest=lambda wildcards: digest(slices.robustness(study, wildcards.cost)),
+        digest=lambda wildcards: digest(dependencies.robustness(study, wildcards.cost)),
         source=COMPUTES,
     message:
         "Robustness, {wildcards.cost}"
@@ -33,7 +33,7 @@ rule robustness:
         log_of("robustness"),
     params:
         study=STUDY,
-        digest=digest(slices.presentation(study)),
+        digest=digest(dependencies.presentation(study)),
         source=SHOWS,
     message:
         "Robustness of the cost functions: table and figure"

@@ -12,7 +12,7 @@ rule predict:
         log_of("predict"),
     params:
         study=STUDY,
-        digest=digest(slices.validation(study)),
+        digest=digest(dependencies.validation(study)),
         experiments=" ".join(study.validation.experiments),
         source=COMPUTES,
     message:

@@ -14,7 +14,7 @@ from pyrofit.blind_test.rates import SHARES, by_detectability, interval
 from pyrofit.blind_test.table import one_name
 from pyrofit.effects import known_effects
 from pyrofit.figures import style
-from pyrofit.files import Results
+from pyrofit.results.files import Results
 
 OTHER = ("ambiguous", "multiple", "unknown", "none")
 """Verdicts that do not name one effect, the last columns of the confusion matrix."""

@@ -15,8 +15,8 @@ from pyrofit.config import Study, digest, read_mapping
 from pyrofit.effects import same_as
 from pyrofit.errors import DataError, StudyError
 from pyrofit.estimate.problem import Measurements
-from pyrofit.files import read_json, write_json
 from pyrofit.provenance import source_fingerprint
+from pyrofit.results.files import read_json, write_json
 
 Found = Mapping[str, Any]
 Diagnose = Callable[[Study, Measurements], Found]

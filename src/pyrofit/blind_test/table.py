@@ -8,7 +8,7 @@ import pandas as pd
 
 from pyrofit.blind_test.places import Places
 from pyrofit.effects import known_effects, same_as
-from pyrofit.files import Keys, read_json
+from pyrofit.results.files import Keys, read_json
 
 CLAIMS = ("named", "ambiguous", "multiple")
 """Verdicts that claim a missing effect."""

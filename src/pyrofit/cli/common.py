@@ -24,7 +24,7 @@ def add_step(commands: Any, name: str, text: str, step: Step) -> argparse.Argume
 def open_study(given: argparse.Namespace, slice_of: Callable[..., Any], *arguments: Any) -> Any:
     """Return study and results; refuse a study that differs from what the caller described."""
     from pyrofit.config import digest, read_study
-    from pyrofit.files import Results
+    from pyrofit.results.files import Results
 
     study = read_study(given.study)
     cost = getattr(given, "cost", None)

@@ -30,9 +30,10 @@ def _cores(text: str) -> int:
 
 
 def _diagnose(given: argparse.Namespace) -> None:
-    from pyrofit.stages import diagnose, measurements, slices
+    from pyrofit.results import dependencies
+    from pyrofit.stages import diagnose, measurements
 
-    study, results = open_study(given, slices.diagnose)
+    study, results = open_study(given, dependencies.diagnose)
     if given.digest is None:  # by hand, without the workflow that has read the measurements
         measurements.prepare(study, results)
     diagnose.diagnose(study, results, lambda text: print(text, file=sys.stderr), given.cores)
@@ -43,9 +44,9 @@ def _diagnose(given: argparse.Namespace) -> None:
 def _diagnosis_page(given: argparse.Namespace) -> None:
     from pyrofit.figures.diagnosis import draw_all
     from pyrofit.report.diagnosis import write_page
-    from pyrofit.stages import slices
+    from pyrofit.results import dependencies
 
-    study, results = open_study(given, slices.presentation)
+    study, results = open_study(given, dependencies.presentation)
     draw_all(results, study)
     write_page(study, results)
 

@@ -39,22 +39,25 @@ def add(commands: Any) -> None:
 
 
 def _prepare(given: argparse.Namespace) -> None:
-    from pyrofit.stages import measurements, slices
+    from pyrofit.results import dependencies
+    from pyrofit.stages import measurements
 
-    for line in measurements.prepare(*open_study(given, slices.data)):
+    for line in measurements.prepare(*open_study(given, dependencies.data)):
         print(f"mass closure: {line}", file=sys.stderr)
 
 
 def _kinetics(given: argparse.Namespace) -> None:
-    from pyrofit.stages import fit, slices
+    from pyrofit.results import dependencies
+    from pyrofit.stages import fit
 
-    fit.fit_kinetics(*open_study(given, slices.kinetics))
+    fit.fit_kinetics(*open_study(given, dependencies.kinetics))
 
 
 def _imp(given: argparse.Namespace) -> None:
-    from pyrofit.stages import fit, slices
+    from pyrofit.results import dependencies
+    from pyrofit.stages import fit
 
-    study, results = open_study(given, slices.imp, given.cost, "sceua")
+    study, results = open_study(given, dependencies.imp, given.cost, "sceua")
     wrong = [n for n in given.repetition if not 0 <= n < study.imp.repetitions]
     if wrong:
         raise StudyError(
@@ -65,65 +68,73 @@ def _imp(given: argparse.Namespace) -> None:
 
 
 def _least_squares(given: argparse.Namespace) -> None:
-    from pyrofit.stages import fit, slices
+    from pyrofit.results import dependencies
+    from pyrofit.stages import fit
 
-    study, results = open_study(given, slices.imp, given.cost, "least_squares")
+    study, results = open_study(given, dependencies.imp, given.cost, "least_squares")
     fit.least_squares(study, results, given.cost)
 
 
 def _cma_es(given: argparse.Namespace) -> None:
-    from pyrofit.stages import fit, slices
+    from pyrofit.results import dependencies
+    from pyrofit.stages import fit
 
-    study, results = open_study(given, slices.imp, given.cost, "cmaes")
+    study, results = open_study(given, dependencies.imp, given.cost, "cmaes")
     fit.cma_es(study, results, given.cost)
 
 
 def _descent(given: argparse.Namespace) -> None:
-    from pyrofit.stages import fit, slices
+    from pyrofit.results import dependencies
+    from pyrofit.stages import fit
 
-    study, results = open_study(given, slices.imp, given.cost, "least_squares")
+    study, results = open_study(given, dependencies.imp, given.cost, "least_squares")
     fit.descent(study, results, given.cost)
 
 
 def _collect(given: argparse.Namespace) -> None:
-    from pyrofit.stages import fit, slices
+    from pyrofit.results import dependencies
+    from pyrofit.stages import fit
 
-    fit.collect(*open_study(given, slices.collect))
+    fit.collect(*open_study(given, dependencies.collect))
 
 
 def _identify(given: argparse.Namespace) -> None:
-    from pyrofit.stages import identify, slices
+    from pyrofit.results import dependencies
+    from pyrofit.stages import identify
 
     if given.stage == "kinetics":
-        identify.identify_kinetics(*open_study(given, slices.kinetics))
+        identify.identify_kinetics(*open_study(given, dependencies.kinetics))
     else:
-        identify.identify_imp(*open_study(given, slices.identify))
+        identify.identify_imp(*open_study(given, dependencies.identify))
 
 
 def _predict(given: argparse.Namespace) -> None:
-    from pyrofit.stages import predict, slices
+    from pyrofit.results import dependencies
+    from pyrofit.stages import predict
 
-    predict.predict(*open_study(given, slices.validation))
+    predict.predict(*open_study(given, dependencies.validation))
 
 
 def _compare(given: argparse.Namespace) -> None:
-    from pyrofit.stages import compare, slices
+    from pyrofit.results import dependencies
+    from pyrofit.stages import compare
 
-    compare.compare(*open_study(given, slices.compare))
+    compare.compare(*open_study(given, dependencies.compare))
 
 
 def _robustness(given: argparse.Namespace) -> None:
-    from pyrofit.stages import robustness, slices
+    from pyrofit.results import dependencies
+    from pyrofit.stages import robustness
 
     if given.cost is not None:
-        study, results = open_study(given, slices.robustness, given.cost)
+        study, results = open_study(given, dependencies.robustness, given.cost)
         robustness.robustness(study, results, given.cost)
         return
     from pyrofit.figures.robustness import draw_robustness
     from pyrofit.report.comparison import robustness as said
     from pyrofit.tables.robustness import write_robustness
 
-    study, results = open_study(given, slices.presentation)
+    study, results = open_study(given, dependencies.presentation)
     write_robustness(study, results)
     draw_robustness(study, results)
     for line in said(study, results):

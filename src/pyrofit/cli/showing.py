@@ -23,29 +23,29 @@ def add(commands: Any) -> None:
 
 
 def _table(given: argparse.Namespace) -> None:
-    from pyrofit.stages import slices
+    from pyrofit.results import dependencies
     from pyrofit.tables import make_table
 
-    make_table(given.name, *open_study(given, slices.presentation))
+    make_table(given.name, *open_study(given, dependencies.presentation))
 
 
 def _figure(given: argparse.Namespace) -> None:
     from pyrofit.figures import make_figure
-    from pyrofit.stages import slices
+    from pyrofit.results import dependencies
 
-    make_figure(given.name, *open_study(given, slices.presentation))
+    make_figure(given.name, *open_study(given, dependencies.presentation))
 
 
 def _report(given: argparse.Namespace) -> None:
     from pyrofit.report import write_report
-    from pyrofit.stages import slices
+    from pyrofit.results import dependencies
 
-    write_report(*open_study(given, slices.presentation))
+    write_report(*open_study(given, dependencies.presentation))
 
 
 def _archive(given: argparse.Namespace) -> None:
     from pyrofit.archive import write_archive
-    from pyrofit.stages import slices
+    from pyrofit.results import dependencies
 
-    study, results = open_study(given, slices.presentation)
+    study, results = open_study(given, dependencies.presentation)
     print(write_archive(study, results, given.given or [given.study], Path()))

@@ -11,7 +11,7 @@ from pyrofit.figures import compared, curves, determined, style
 from pyrofit.figures.convergence import fig5
 from pyrofit.figures.cost_functions import R, fig1
 from pyrofit.figures.kinetics import fig2, kinetics_all_rates
-from pyrofit.files import Results
+from pyrofit.results.files import Results
 from pyrofit.tables.describe import predicted, rates_in_fit
 
 

@@ -10,9 +10,9 @@ from matplotlib.figure import Figure as Canvas
 from pyrofit.config import Study
 from pyrofit.figures import style
 from pyrofit.figures.determined import draw_matrix
-from pyrofit.files import Results
 from pyrofit.quantities import known_quantities
-from pyrofit.stages import outcomes
+from pyrofit.results import recorded, searches
+from pyrofit.results.files import Results
 from pyrofit.stages.compare import ends
 from pyrofit.tables.comparison import ALL, band_curves
 from pyrofit.tables.describe import (
@@ -111,7 +111,7 @@ def rank_correlation(study: Study, results: Results) -> pd.DataFrame:
     value has none, and stands with 0.
     """
     names = list(study.imp.estimate)
-    summary = outcomes.summary(study, results)
+    summary = searches.summary(study, results)
     ranks = summary.groupby("cost_function")[names].rank()
     ranks = ranks - ranks.groupby(summary["cost_function"]).transform("mean")
     matrix = ranks.corr().fillna(0.0).to_numpy(copy=True)
@@ -129,7 +129,7 @@ def good_sets(study: Study, results: Results) -> Canvas:
     stated = False
     for ax, (name, signal) in zip(axes, channels, strict=True):
         label, factor, shift = _AXES[signal]
-        measured = outcomes.series(study, results, name, signal)
+        measured = recorded.series(study, results, name, signal)
         time, value = measured["time_s"], measured[known_quantities()[signal].column]
         if known_quantities()[signal].uncertainty_column in measured:
             stated = True

@@ -10,9 +10,9 @@ from matplotlib.ticker import LogLocator, MaxNLocator, NullLocator, StrMethodFor
 
 from pyrofit.config import Study
 from pyrofit.figures import style
-from pyrofit.files import Results
+from pyrofit.results import searches
+from pyrofit.results.files import Results
 from pyrofit.solver.arrays import FloatArray
-from pyrofit.stages import outcomes
 
 ACROSS = 3
 """Cost functions side by side."""
@@ -49,7 +49,7 @@ def running_minima(frame: pd.DataFrame, abscissa: str) -> tuple[FloatArray, Floa
 
 def fig5(study: Study, results: Results) -> Canvas:
     """Fig. 5: spread of the repetitions' running minima by generation and by model calls."""
-    convergence = outcomes.running_minima(study, results)
+    convergence = searches.running_minima(study, results)
     names = list(study.imp.costs)
     across = min(ACROSS, len(names))
     blocks = -(-len(names) // across)
@@ -83,7 +83,7 @@ def _draw(
     for edge in (low, high):
         ax.plot(grid, edge, color=look["color"], linewidth=0.4, **_steps(by_calls))
     ax.plot(grid, np.median(found, axis=0), color=look["color"], **_steps(by_calls))
-    best = min(start["cost"] for start in outcomes.starts(study, results, cost))
+    best = min(start["cost"] for start in searches.starts(study, results, cost))
     levels = [best]
     ax.axhline(best, **_LS)
     theirs = published_mean(study, cost)

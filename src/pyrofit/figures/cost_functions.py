@@ -18,7 +18,7 @@ from pyrofit.cost.distances import (
     rmse_differences,
 )
 from pyrofit.figures import style
-from pyrofit.files import Results
+from pyrofit.results.files import Results
 
 MEAN = {"normalisation": "mean"}
 """Option of the costs of Eq. 4 in the figure: y_N is the mean of the target."""

@@ -12,9 +12,9 @@ from matplotlib.patches import Patch
 
 from pyrofit.config import Study
 from pyrofit.figures import style
-from pyrofit.files import Results
 from pyrofit.quantities import known_quantities
-from pyrofit.stages import outcomes
+from pyrofit.results import prediction, recorded
+from pyrofit.results.files import Results
 from pyrofit.tables.describe import (
     CMAES,
     LEAST_SQUARES,
@@ -72,7 +72,7 @@ def residuals(study: Study, results: Results) -> Canvas:
     curves = _predicted_curves(study, results)
     shown = [s for s in predicted_sets(study) if s.origin == SCEUA]
     for ax, name in zip(axes, names, strict=True):
-        _band(ax, outcomes.series(study, results, name, "mlr"), "mlr", _grams, about_zero=True)
+        _band(ax, recorded.series(study, results, name, "mlr"), "mlr", _grams, about_zero=True)
         style.zero_line(ax)
         for chosen in shown:
             curve = _curve(curves, name, "mlr", chosen.label)
@@ -107,7 +107,7 @@ def _compare(
     shown = [s for s in predicted_sets(study) if s.origin in origins]
     canvas, axes = _panels(study, names)
     for ax, name in zip(axes, names, strict=True):
-        frame = outcomes.series(study, results, name, signal)
+        frame = recorded.series(study, results, name, signal)
         _band(ax, frame, signal, convert)
         ax.plot(frame["time_s"], convert(frame[known_quantities()[signal].column]), **_MEASURED)
         # Published ones last are hidden by nothing; ours come on top of them.
@@ -150,7 +150,7 @@ def _grams(kilograms: Any) -> Any:
 
 def _predicted_curves(study: Study, results: Results) -> pd.DataFrame:
     labels = [chosen.label for chosen in predicted_sets(study)]
-    return outcomes.predicted_curves(study, results, labels)
+    return prediction.curves(study, results, labels)
 
 
 def _curve(curves: pd.DataFrame, name: str, signal: str, label: str) -> pd.DataFrame:
@@ -198,7 +198,7 @@ def _measured_entries(
 ) -> list[Line2D | Patch]:
     """Return the legend entries of the measurement, its band only where an uncertainty is known."""
     known = any(
-        known_quantities()[signal].uncertainty_column in outcomes.series(study, results, n, signal)
+        known_quantities()[signal].uncertainty_column in recorded.series(study, results, n, signal)
         for n in names
     )
     name = data_name(study, [(n, signal) for n in names])

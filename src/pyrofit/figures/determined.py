@@ -10,7 +10,7 @@ from matplotlib.ticker import MaxNLocator
 
 from pyrofit.config import Study
 from pyrofit.figures import style
-from pyrofit.files import Results, read_csv
+from pyrofit.results.files import Results, read_csv
 from pyrofit.tables.describe import title_of
 from pyrofit.tables.determined import WITHIN, estimates, matrix_of, noise
 

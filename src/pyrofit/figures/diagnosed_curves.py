@@ -11,8 +11,8 @@ from matplotlib.figure import Figure as Canvas
 from pyrofit.config import Study
 from pyrofit.figures import style
 from pyrofit.figures.curves import running_mean
-from pyrofit.files import Results
-from pyrofit.stages import outcomes
+from pyrofit.results import diagnosis
+from pyrofit.results.files import Results
 from pyrofit.tables.describe import data_name, title_of
 from pyrofit.tables.diagnosis import BASE, HELD_OUT
 
@@ -46,8 +46,8 @@ def has(found: Found, signal: str) -> bool:
 
 
 def _draw(study: Study, results: Results, signal: str) -> Canvas:
-    found = outcomes.diagnosis(study, results)
-    curves = outcomes.diagnosed_curves(study, results)
+    found = diagnosis.read(study, results)
+    curves = diagnosis.curves(study, results)
     channels = [n for n in found["noise"] if n["signal"] == signal]
     canvas, pairs = _pairs(len(channels))
     style.letter([above for above, _ in pairs], [_title(study, n) for n in channels])

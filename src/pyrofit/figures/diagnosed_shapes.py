@@ -10,8 +10,8 @@ from matplotlib.ticker import MaxNLocator
 from pyrofit.config import Study
 from pyrofit.effects import known_effects
 from pyrofit.figures import style
-from pyrofit.files import Results
-from pyrofit.stages import outcomes
+from pyrofit.results import diagnosis
+from pyrofit.results.files import Results
 from pyrofit.tables.diagnosis import shown_unit
 
 _LEVEL: dict[str, Any] = {"color": "black", "linewidth": 0.8, "linestyle": (0, (4, 2))}
@@ -21,7 +21,7 @@ _PROFILE: dict[str, Any] = {"color": style.COLOURS[0], "marker": "o", "markersiz
 
 def profiles(study: Study, results: Results) -> Canvas:
     """Draw the rise of chi-square with the strength of each effect of the verdict's model."""
-    found = outcomes.diagnosis(study, results)["profiles"]
+    found = diagnosis.read(study, results)["profiles"]
     canvas, axes = style.panels(len(found), 3, style.TWO_COLUMNS, 58.0)
     catalogue = known_effects()
     style.letter(axes, [catalogue[profile["effect"]].title for profile in found])
@@ -51,7 +51,7 @@ def profiles(study: Study, results: Results) -> Canvas:
 
 def probes(study: Study, results: Results) -> Canvas:
     """Draw the free corrections that were put into the model."""
-    found = outcomes.diagnosis(study, results)["probes"]
+    found = diagnosis.read(study, results)["probes"]
     canvas, axes = style.panels(len(found), 2, style.TWO_COLUMNS, 55.0)
     titles = [f"{p['what']}: absorbs {100.0 * p['absorbed']:.0f} %" for p in found]
     style.letter(axes, [textwrap.fill(title, 44) for title in titles])

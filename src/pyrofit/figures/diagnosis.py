@@ -13,8 +13,8 @@ from pyrofit.config import Study
 from pyrofit.figures import style
 from pyrofit.figures.diagnosed_curves import has, of_signal
 from pyrofit.figures.diagnosed_shapes import probes, profiles
-from pyrofit.files import Results
-from pyrofit.stages import outcomes
+from pyrofit.results import diagnosis
+from pyrofit.results.files import Results
 from pyrofit.tables.diagnosis import CLAIMS, ranked, remark
 
 Found = Mapping[str, Any]
@@ -35,7 +35,7 @@ _REJECTED: dict[str, Any] = {**_KEPT, "markerfacecolor": "white"}
 
 def _ranking(study: Study, results: Results) -> Canvas:
     """Draw the penalised chi-square of the candidates above that of the best."""
-    found = outcomes.diagnosis(study, results)
+    found = diagnosis.read(study, results)
     shown = ranked(found)[:MOST]
     lowest = float(shown[0]["penalised"])
     labels = [textwrap.fill(_label(candidate), WRAP) for candidate in shown]
@@ -94,7 +94,7 @@ def _label(candidate: Found) -> str:
 
 def _effects(study: Study, results: Results) -> Canvas:
     """Draw how well each effect would show, and which look alike."""
-    found = outcomes.diagnosis(study, results)
+    found = diagnosis.read(study, results)
     names = [str(name) for name in found["confusability"]["effects"]]
     screen = {str(s["effect"]): s for s in found["screen"]}
     order = sorted(range(len(names)), key=lambda i: (_family(screen[names[i]]), names[i]))
@@ -152,7 +152,7 @@ def _bars(ax: Axes, rows: Sequence[Found], critical: float) -> None:
 
 def _next(study: Study, results: Results) -> Canvas:
     """Draw how well each planned experiment would separate what is not told apart."""
-    found = outcomes.diagnosis(study, results)
+    found = diagnosis.read(study, results)
     shown = sorted(found["next_experiment"], key=lambda d: -float(d["separation_sd"]))[
         :MOST_DESIGNS
     ]
@@ -283,5 +283,5 @@ def draw_all(results: Results, study: Study) -> list[str]:
 
 def figures_of(study: Study, results: Results) -> list[str]:
     """Return the names of the figures that a diagnosis has."""
-    found = outcomes.diagnosis(study, results)
+    found = diagnosis.read(study, results)
     return [name for name, figure in DIAGNOSIS_FIGURES.items() if figure.applies(found)]

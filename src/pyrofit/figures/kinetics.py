@@ -12,10 +12,10 @@ from scipy.signal import savgol_filter
 
 from pyrofit.config import Study
 from pyrofit.figures import style
-from pyrofit.files import Results
 from pyrofit.quantities import known_quantities
+from pyrofit.results import kinetics, recorded
+from pyrofit.results.files import Results
 from pyrofit.solver.arrays import FloatArray
-from pyrofit.stages import outcomes
 from pyrofit.tables.describe import all_rates, data_name, rates_in_fit
 
 WINDOW_K = 10.0
@@ -47,11 +47,11 @@ def slope(temperature_K: FloatArray, mass_fraction: FloatArray) -> tuple[FloatAr
 
 def fig2(study: Study, results: Results) -> Canvas:
     """Fig. 2: mass and mass loss rate of the TGA runs that were fitted, measured and simulated."""
-    curves = outcomes.kinetic_curves(study, results, all_rates(study))
+    curves = kinetics.curves(study, results, all_rates(study))
     names = rates_in_fit(study)
     canvas, (left, right) = style.panels(2, 2, style.TWO_COLUMNS, 82.0)
     for i, name in enumerate(names):
-        measured = outcomes.series(study, results, name, "mass_fraction")
+        measured = recorded.series(study, results, name, "mass_fraction")
         _band(left, measured)
         _draw(left, right, measured, _colour(i), "-")
         for k, (_, curve) in enumerate(_sets(study, curves, name)):
@@ -118,13 +118,13 @@ def _span(curves: pd.DataFrame) -> tuple[float, float]:
 
 def kinetics_all_rates(study: Study, results: Results) -> Canvas:
     """Draw mass against temperature at every heating rate, one panel each."""
-    curves = outcomes.kinetic_curves(study, results, all_rates(study))
+    curves = kinetics.curves(study, results, all_rates(study))
     names = all_rates(study)
     used = set(rates_in_fit(study))
     height = 52.0 if len(names) > 3 else 70.0
     canvas, axes = style.panels(len(names), 4, style.TWO_COLUMNS, height, sharex=True, sharey=True)
     for ax, name in zip(axes, names, strict=True):
-        measured = outcomes.series(study, results, name, "mass_fraction")
+        measured = recorded.series(study, results, name, "mass_fraction")
         _band(ax, measured)
         ax.plot(
             style.celsius(measured["temperature_K"]),
@@ -164,5 +164,5 @@ def _data_entries(study: Study, results: Results, names: Sequence[str]) -> list[
     """Return the legend entries of the data, their band only where an uncertainty is known."""
     label = data_name(study, [(name, "mass_fraction") for name in names])
     line = style.line(label, color="0.6", linewidth=2.0)
-    known = any(_UNCERTAINTY in outcomes.series(study, results, n, "mass_fraction") for n in names)
+    known = any(_UNCERTAINTY in recorded.series(study, results, n, "mass_fraction") for n in names)
     return [line, style.patch("uncertainty", color=style.BAND)] if known else [line]

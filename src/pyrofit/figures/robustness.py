@@ -9,7 +9,7 @@ from matplotlib.figure import Figure as Canvas
 
 from pyrofit.config import Study
 from pyrofit.figures import style
-from pyrofit.files import Results
+from pyrofit.results.files import Results
 from pyrofit.stages.robustness import NOISE, OUTLIERS
 from pyrofit.tables.robustness import errors
 

@@ -13,7 +13,7 @@ from matplotlib.lines import Line2D
 from matplotlib.patches import Patch
 
 from pyrofit.config import Study
-from pyrofit.files import Results, write_bytes
+from pyrofit.results.files import Results, write_bytes
 
 MM = 1.0 / 25.4
 ONE_COLUMN = 85.0

@@ -8,10 +8,10 @@ from pathlib import Path
 from jinja2 import Environment, PackageLoader, StrictUndefined
 
 from pyrofit.errors import DataError, StudyError
-from pyrofit.files import write_bytes, write_text
 from pyrofit.new_study import draft
 from pyrofit.new_study.columns import Found
 from pyrofit.new_study.draft import Kinetics, Measured
+from pyrofit.results.files import write_bytes, write_text
 
 _NAME = re.compile(r"[A-Za-z][A-Za-z0-9_]*")
 _FILM = 0.05

@@ -1,13 +1,13 @@
 """The report of a study: one page that needs nothing else, and the provenance beside it."""
 
 from pyrofit.config import Study
-from pyrofit.files import Results, write_json, write_text
 from pyrofit.report import diagnosis
 from pyrofit.report.answer import advice
 from pyrofit.report.content import sections, table_part, tables_of
 from pyrofit.report.page import page_of, provenance
 from pyrofit.report.summary import summary
-from pyrofit.stages import outcomes
+from pyrofit.results import recorded
+from pyrofit.results.files import Results, write_json, write_text
 from pyrofit.tables import TABLES
 
 
@@ -19,7 +19,7 @@ def write_report(study: Study, results: Results) -> None:
     DataError
         A result is missing.
     """
-    origin = provenance(study, outcomes.measured(study, results))
+    origin = provenance(study, recorded.summary(study, results))
     tables = tables_of(study, results)
     said = summary(study, tables)
     answer = table_part(study, TABLES["answer"], tables["answer"], advice(study, tables))

@@ -6,10 +6,10 @@ from typing import Any
 import pandas as pd
 
 from pyrofit.config import Study
-from pyrofit.files import Results, read_csv
 from pyrofit.quantities import known_quantities
 from pyrofit.report import remarks
 from pyrofit.report.words import listed, span
+from pyrofit.results.files import Results, read_csv
 from pyrofit.stages.compare import FITTED
 from pyrofit.tables.comparison import ALL
 from pyrofit.tables.describe import CMAES, LEAST_SQUARES, PUBLISHED, SCEUA

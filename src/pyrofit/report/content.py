@@ -13,8 +13,8 @@ from pyrofit.errors import DataError
 from pyrofit.figures import FIGURES
 from pyrofit.figures.robustness import CAPTION, TITLE
 from pyrofit.figures.style import MM, TWO_COLUMNS
-from pyrofit.files import Results, read_csv
 from pyrofit.report import comparison, determined, remarks, truth
+from pyrofit.results.files import Results, read_csv
 from pyrofit.tables import TABLES, readable
 from pyrofit.tables.describe import titled
 from pyrofit.tables.robustness import ROBUSTNESS

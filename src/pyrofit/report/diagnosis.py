@@ -8,11 +8,11 @@ import pandas as pd
 from pyrofit.config import Study
 from pyrofit.effects import known_effects
 from pyrofit.figures.diagnosis import DIAGNOSIS_FIGURES, figures_of
-from pyrofit.files import Results, write_text
 from pyrofit.report.content import Part, Picture, Section, picture, table_part
 from pyrofit.report.page import page_of
 from pyrofit.report.words import listed
-from pyrofit.stages import outcomes
+from pyrofit.results import diagnosis
+from pyrofit.results.files import Results, write_text
 from pyrofit.tables import diagnosis_tables, make_diagnosis_tables
 from pyrofit.tables.describe import title_of
 from pyrofit.tables.diagnosed import DIAGNOSIS_TABLES
@@ -41,19 +41,19 @@ def write_page(study: Study, results: Results) -> None:
     make_diagnosis_tables(study, results)
     shown = section(study, results)
     title = f"{study.title or study.name}: diagnosis"
-    said = [headline(study, results), *_facts(outcomes.diagnosis(study, results))]
+    said = [headline(study, results), *_facts(diagnosis.read(study, results))]
     write_text(results.diagnosis("report.html"), page_of(study, results, title, said, [shown]))
 
 
 def headline(study: Study, results: Results) -> str:
     """Return the verdict in one sentence or two."""
-    found = outcomes.diagnosis(study, results)
+    found = diagnosis.read(study, results)
     return _SENTENCES[found["verdict"]["kind"]](found)
 
 
 def section(study: Study, results: Results) -> Section:
     """Return all that was found, in the order in which it is read."""
-    found = outcomes.diagnosis(study, results)
+    found = diagnosis.read(study, results)
     tables, drawn = diagnosis_tables(study, results), figures_of(study, results)
 
     def parts(text: str, *names: str) -> list[Part | Picture]:

@@ -6,11 +6,11 @@ from typing import Any
 import pandas as pd
 
 from pyrofit.config import Study
-from pyrofit.files import Results
 from pyrofit.model.signal import Signal
 from pyrofit.quantities import known_quantities
 from pyrofit.quantities.units import ICE_POINT_K
-from pyrofit.stages import outcomes
+from pyrofit.results import recorded
+from pyrofit.results.files import Results
 from pyrofit.stages.closure import closure_lines
 from pyrofit.tables.describe import (
     FITTED,
@@ -34,7 +34,7 @@ def series(study: Study, results: Results, measured: Mapping[str, Any]) -> list[
     rows = []
     for name, signals in measured["signals"].items():
         for signal, about in signals.items():
-            frame = outcomes.series(study, results, name, signal)
+            frame = recorded.series(study, results, name, signal)
             rows.append(
                 {
                     "experiment": title_of(study, name),

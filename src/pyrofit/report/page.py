@@ -9,12 +9,12 @@ from jinja2 import Environment, PackageLoader, StrictUndefined, select_autoescap
 
 from pyrofit.config import Study, digest
 from pyrofit.data.fetch import COMMIT
-from pyrofit.files import Results
 from pyrofit.plugins import plugin_files
 from pyrofit.provenance import environment
 from pyrofit.report import measured as measurements
 from pyrofit.report.content import Part, Section
-from pyrofit.stages import outcomes
+from pyrofit.results import recorded
+from pyrofit.results.files import Results
 
 
 def page_of(
@@ -48,7 +48,7 @@ def page_of(
     DataError
         The measurements have not been read.
     """
-    measured = outcomes.measured(study, results)
+    measured = recorded.summary(study, results)
     template = _templates().get_template("report.html.j2")
     return template.render(
         study=study,

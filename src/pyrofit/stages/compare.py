@@ -11,9 +11,9 @@ from pyrofit.cost import make_term
 from pyrofit.errors import CostError
 from pyrofit.estimate.family import GOOD, explore, thinned
 from pyrofit.estimate.problem import Measurements, Problem, make_problem, target_for
-from pyrofit.files import Results, write_csv
+from pyrofit.results import searches
+from pyrofit.results.files import Results, write_csv
 from pyrofit.seeds import seed_for
-from pyrofit.stages import outcomes
 from pyrofit.stages.fit import fixed_for_imp, imp_problem
 from pyrofit.stages.measurements import load
 from pyrofit.stages.predict import CMAES, LEAST_SQUARES, published_sets
@@ -56,12 +56,12 @@ def ends(study: Study, results: Results) -> pd.DataFrame:
     """
     rows = []
     names = list(study.imp.estimate)
-    summary = outcomes.summary(study, results)
+    summary = searches.summary(study, results)
     for cost in study.imp.costs:
         ours = summary[summary["cost_function"] == cost].to_dict("records")
         starts = {
-            LEAST_SQUARES: outcomes.starts(study, results, cost),
-            CMAES: outcomes.cmaes(study, results, cost),
+            LEAST_SQUARES: searches.starts(study, results, cost),
+            CMAES: searches.cmaes(study, results, cost),
         }
         groups = {
             SCEUA: [(float(row["cost"]), row) for row in ours],

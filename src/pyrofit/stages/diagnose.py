@@ -10,7 +10,7 @@ from pyrofit.config.study import is_own
 from pyrofit.diagnose.diagnosis import examine
 from pyrofit.diagnose.extend import extended_keys
 from pyrofit.diagnose.rounds import Tell
-from pyrofit.files import Results, read_csv, write_csv, write_json, write_text
+from pyrofit.results.files import Results, read_csv, write_csv, write_json, write_text
 from pyrofit.stages.measurements import load
 
 EXTENDED = "extended.yaml"

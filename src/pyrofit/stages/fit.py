@@ -14,17 +14,17 @@ from pyrofit.estimate.history import Progress, best_of, convergence
 from pyrofit.estimate.least_squares import Start, descend, multistart
 from pyrofit.estimate.problem import Measurements, Problem, make_problem
 from pyrofit.experiments.heated.simulate import programme
-from pyrofit.files import Results, write_csv, write_json
 from pyrofit.model.base import value_of
 from pyrofit.model.heated import HeatedExperiment
 from pyrofit.model.material import Material
+from pyrofit.results import dependencies, kinetics, searches
+from pyrofit.results.files import Results, write_csv, write_json
 from pyrofit.seeds import seed_for
 from pyrofit.simulate import simulate_tga
 from pyrofit.solver.arrays import FloatArray, Status
 from pyrofit.solver.curves import Request
 from pyrofit.solver.lower import fractions, rate_factor
 from pyrofit.solver.outputs import FRACTION_RATE, MASS_FRACTION
-from pyrofit.stages import outcomes, slices
 from pyrofit.stages.measurements import load
 
 Values = Mapping[str, float]
@@ -59,7 +59,7 @@ def fit_kinetics(study: Study, results: Results) -> None:
 
     SCE-UA searches and least squares starts beside it; the lower cost of the two is the fit.
     """
-    stage = slices.kinetics_of(study)
+    stage = dependencies.kinetics_of(study)
     measurements = load(study, results)
     problem = make_problem(
         study, stage.estimate, stage.cost, measurements, study.material, study.fixed_values()
@@ -116,7 +116,7 @@ def _reactions(material: Material, values: Values) -> dict[str, dict[str, float]
 
 def _compare(study: Study, results: Results, measurements: Measurements, fitted: Values) -> None:
     """Write curves and scores of the fit and the published kinetics, used and compared TGA."""
-    stage = slices.kinetics_of(study)
+    stage = dependencies.kinetics_of(study)
     used = {term.experiment for term in stage.cost}
     curves = []
     scores = []
@@ -168,7 +168,7 @@ def fixed_for_imp(study: Study, results: Results) -> dict[str, float]:
     """Return the values of all parameters that the inverse modelling does not estimate."""
     values = study.fixed_values()
     if study.imp.kinetics == "fitted":
-        values |= outcomes.fitted_kinetics(study, results)
+        values |= kinetics.parameters(study, results)
     return values
 
 
@@ -207,7 +207,7 @@ def repeat(study: Study, results: Results, cost: str, repetitions: Sequence[int]
                 "cost_function": cost,
                 "repetition": repetition,
                 "seed": seed,
-                "digest": digest(slices.imp(study, cost, "sceua")),
+                "digest": digest(dependencies.imp(study, cost, "sceua")),
                 "cost": best,
                 "cost_refined": problem.refined().evaluate(x).cost,
                 "parameters": _named(problem, x),
@@ -255,15 +255,15 @@ def collect(study: Study, results: Results) -> None:
     running = []
     for cost in study.imp.costs:
         for repetition in range(study.imp.repetitions):
-            found = outcomes.repetition(study, results, cost, repetition)
-            if found.pop("digest") != digest(slices.imp(study, cost, "sceua")):
+            found = searches.repetition(study, results, cost, repetition)
+            if found.pop("digest") != digest(dependencies.imp(study, cost, "sceua")):
                 raise StudyError(
                     f"{results.repetition(cost, repetition, '.json')}: this repetition belongs to "
                     "another description of the study; two runs of it at once? Run it again."
                 )
             parameters = found.pop("parameters")
             rows.append({**found, **parameters})
-            frame = outcomes.running_minimum(results, cost, repetition)
+            frame = searches.running_minimum(results, cost, repetition)
             running.append(frame.assign(cost_function=cost, repetition=repetition))
     write_csv(results.imp("summary.csv"), pd.DataFrame(rows))
     write_csv(results.imp("convergence.csv"), pd.concat(running, ignore_index=True))
@@ -271,7 +271,7 @@ def collect(study: Study, results: Results) -> None:
 
 def best_sets(study: Study, results: Results) -> dict[str, dict[str, float]]:
     """Return the best parameter set of each cost function, SI units."""
-    summary = outcomes.summary(study, results)
+    summary = searches.summary(study, results)
     sets = {}
     for cost in study.imp.costs:
         group = summary[summary["cost_function"] == cost]

@@ -10,9 +10,9 @@ from pyrofit.config import Study
 from pyrofit.estimate.identify import Identification, identify
 from pyrofit.estimate.likelihood import Likelihood, likelihood_of
 from pyrofit.estimate.problem import make_problem
-from pyrofit.files import Results, write_csv, write_json
+from pyrofit.results import dependencies, kinetics, searches
+from pyrofit.results.files import Results, write_csv, write_json
 from pyrofit.solver.arrays import FloatArray
-from pyrofit.stages import outcomes, slices
 from pyrofit.stages.fit import fixed_for_imp
 from pyrofit.stages.measurements import load
 
@@ -30,13 +30,13 @@ def identify_kinetics(study: Study, results: Results) -> None:
     DataError
         A result is missing, or a channel is too short to show its noise.
     """
-    stage = slices.kinetics_of(study)
+    stage = dependencies.kinetics_of(study)
     measurements = load(study, results)
     fixed = study.fixed_values()
     likelihood = likelihood_of(
         make_problem(study, stage.estimate, stage.channels, measurements, study.material, fixed)
     )
-    known = outcomes.kinetic_ends(study, results)
+    known = kinetics.ends(study, results)
     starts = [likelihood.scaled(np.array([end[n] for n in stage.estimate])) for end in known]
     _write(results, "kinetics", likelihood, identify(likelihood, starts))
 
@@ -83,9 +83,9 @@ def _write(results: Results, stage: str, likelihood: Likelihood, found: Identifi
 def _known_sets(study: Study, results: Results) -> Iterator[FloatArray]:
     names = list(study.imp.estimate)
     for cost in study.imp.costs:
-        for start in outcomes.starts(study, results, cost) + outcomes.cmaes(study, results, cost):
+        for start in searches.starts(study, results, cost) + searches.cmaes(study, results, cost):
             yield np.array([start["parameters"][name] for name in names])
-    yield from outcomes.summary(study, results)[names].to_numpy(float)
+    yield from searches.summary(study, results)[names].to_numpy(float)
 
 
 def _estimates(likelihood: Likelihood, found: Identification) -> pd.DataFrame:
@@ -166,15 +166,15 @@ def _sets(
 ) -> pd.DataFrame:
     """Return chi-square of the optimisers' sets, and their distance from the optimum in sd."""
     names = list(study.imp.estimate)
-    summary = outcomes.summary(study, results)
+    summary = searches.summary(study, results)
     rows = []
     for cost in study.imp.costs:
         group = summary[summary["cost_function"] == cost]
         sets = {
             BEST: group.iloc[int(group["cost"].to_numpy().argmin())],
             MEAN: group[names].mean(),
-            LEAST_SQUARES: outcomes.starts(study, results, cost)[0]["parameters"],
-            CMAES: outcomes.cmaes(study, results, cost)[0]["parameters"],
+            LEAST_SQUARES: searches.starts(study, results, cost)[0]["parameters"],
+            CMAES: searches.cmaes(study, results, cost)[0]["parameters"],
         }
         for label, values in sets.items():
             x = likelihood.scaled(np.array([float(values[name]) for name in names]))

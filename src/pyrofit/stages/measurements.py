@@ -10,13 +10,13 @@ from pyrofit.data.noise import draw
 from pyrofit.errors import DataError
 from pyrofit.estimate.problem import Measurements
 from pyrofit.experiments import kind_of
-from pyrofit.files import Results, write_csv, write_json
 from pyrofit.model.signal import Noise
 from pyrofit.quantities.base import Quantity
+from pyrofit.results import recorded
+from pyrofit.results.files import Results, write_csv, write_json
 from pyrofit.seeds import seed_for
 from pyrofit.solver.arrays import FloatArray
 from pyrofit.solver.curves import Request
-from pyrofit.stages import outcomes
 from pyrofit.stages.closure import closure_lines
 from pyrofit.stages.reading import SYNTHETIC, check_terms, read_all
 
@@ -54,7 +54,7 @@ def prepare(study: Study, results: Results) -> list[str]:
 def load(study: Study, results: Results) -> Measurements:
     """Return the series that `prepare` wrote, by (experiment, signal)."""
     return {
-        (name, signal): outcomes.series(study, results, name, signal)
+        (name, signal): recorded.series(study, results, name, signal)
         for name, experiment in study.experiments.items()
         for signal in experiment.signals
     }

@@ -6,11 +6,11 @@ import pandas as pd
 from pyrofit.config import Study
 from pyrofit.errors import DataError
 from pyrofit.experiments import kind_of
-from pyrofit.files import Results, write_csv
 from pyrofit.quantities.base import Quantity
+from pyrofit.results import searches
+from pyrofit.results.files import Results, write_csv
 from pyrofit.simulate import solver_errors
 from pyrofit.solver.arrays import FloatArray, Values
-from pyrofit.stages import outcomes
 from pyrofit.stages.fit import best_sets, fixed_for_imp
 from pyrofit.stages.measurements import load
 
@@ -22,10 +22,10 @@ def sets_of(study: Study, results: Results) -> dict[str, dict[str, float]]:
     """Return the sets to predict: the best of each cost and optimiser, and published ones."""
     sets = dict(best_sets(study, results))
     for cost in study.imp.costs:
-        start = outcomes.starts(study, results, cost)[0]
+        start = searches.starts(study, results, cost)[0]
         sets[f"{cost} {LEAST_SQUARES}"] = start["parameters"]
     for cost in study.imp.costs:
-        sets[f"{cost} {CMAES}"] = outcomes.cmaes(study, results, cost)[0]["parameters"]
+        sets[f"{cost} {CMAES}"] = searches.cmaes(study, results, cost)[0]["parameters"]
     for cost, values in published_sets(study).items():
         sets[f"{cost} published"] = values
     return sets

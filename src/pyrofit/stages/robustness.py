@@ -17,10 +17,10 @@ from pyrofit.errors import DataError, StudyError
 from pyrofit.estimate.least_squares import multistart
 from pyrofit.estimate.noise import estimate_noise
 from pyrofit.estimate.problem import Measurements, Problem, make_problem, target_of
-from pyrofit.files import Results, write_csv
+from pyrofit.results import searches
+from pyrofit.results.files import Results, write_csv
 from pyrofit.seeds import seed_for
 from pyrofit.solver.arrays import FloatArray
-from pyrofit.stages import outcomes
 from pyrofit.stages.fit import fixed_for_imp
 from pyrofit.stages.measurements import load
 
@@ -99,7 +99,7 @@ def true_set(study: Study, results: Results) -> FloatArray:
     if study.synthetic is not None:
         truth = study.true_values()
         return np.array([truth[name] for name in study.imp.estimate])
-    summary = outcomes.summary(study, results)
+    summary = searches.summary(study, results)
     return summary[list(study.imp.estimate)].mean().to_numpy(float)
 
 

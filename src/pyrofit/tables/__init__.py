@@ -6,7 +6,7 @@ import pandas as pd
 
 from pyrofit.config import Study
 from pyrofit.errors import StudyError, suggest
-from pyrofit.files import Results, write_csv, write_text
+from pyrofit.results.files import Results, write_csv, write_text
 from pyrofit.tables.answer import answer
 from pyrofit.tables.compared import COMPARED_TABLES
 from pyrofit.tables.describe import titled

@@ -6,7 +6,7 @@ from typing import Any
 import pandas as pd
 
 from pyrofit.config import Study
-from pyrofit.files import Results
+from pyrofit.results.files import Results
 from pyrofit.stages.compare import ends
 from pyrofit.tables.describe import PUBLISHED
 from pyrofit.tables.determined import WORDS, determined, flag

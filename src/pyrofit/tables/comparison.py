@@ -6,10 +6,10 @@ import numpy as np
 import pandas as pd
 
 from pyrofit.config import Study
-from pyrofit.files import Results, read_csv
 from pyrofit.quantities import known_quantities
+from pyrofit.results import recorded
+from pyrofit.results.files import Results, read_csv
 from pyrofit.solver.arrays import FloatArray
-from pyrofit.stages import outcomes
 from pyrofit.stages.compare import FITTED
 from pyrofit.tables.describe import title_of
 
@@ -67,7 +67,7 @@ def bands(study: Study, results: Results) -> pd.DataFrame:
     for (name, signal, cost), part in frame.groupby(
         ["experiment", "signal", "cost_function"], sort=False
     ):
-        measured = outcomes.series(study, results, str(name), str(signal))
+        measured = recorded.series(study, results, str(name), str(signal))
         margin = measured.get(known_quantities()[str(signal)].uncertainty_column)
         rate = signal == "mlr"
         width = float((part["high"] - part["low"]).mean())

@@ -7,7 +7,7 @@ import numpy as np
 import pandas as pd
 
 from pyrofit.config import Study
-from pyrofit.files import EACH, Results, read_csv, read_json
+from pyrofit.results.files import EACH, Results, read_csv, read_json
 from pyrofit.tables.describe import title_of
 
 DETERMINED = "determined"

@@ -8,8 +8,8 @@ import pandas as pd
 
 from pyrofit.config import Study
 from pyrofit.effects import known_effects
-from pyrofit.files import Results
-from pyrofit.stages import outcomes
+from pyrofit.results import diagnosis
+from pyrofit.results.files import Results
 from pyrofit.tables.describe import title_of
 
 Row = Mapping[str, Any]
@@ -82,7 +82,7 @@ def ranked(found: Row) -> list[dict[str, Any]]:
 
 def windows(study: Study, results: Results) -> pd.DataFrame:
     """List where the simulated curve is off to one side, and what goes on there."""
-    return pd.DataFrame([_window(study, w) for w in outcomes.diagnosis(study, results)["windows"]])
+    return pd.DataFrame([_window(study, w) for w in diagnosis.read(study, results)["windows"]])
 
 
 def _window(study: Study, w: Row) -> dict[str, Any]:
@@ -112,7 +112,7 @@ def between(pair: Sequence[float] | None, digits: str) -> str | None:
 
 def candidates(study: Study, results: Results) -> pd.DataFrame:
     """List the models with effects that were fitted, the best ones, and why each was rejected."""
-    found = outcomes.diagnosis(study, results)
+    found = diagnosis.read(study, results)
     order = ranked(found)
     lowest = order[0]["penalised"] if order else 0.0
     rows = [
@@ -159,7 +159,7 @@ def _predictions(study: Study, gains: Mapping[str, float]) -> str:
 
 def strengths(study: Study, results: Results) -> pd.DataFrame:
     """List the parameters of the effects that the verdict rests on, with their intervals."""
-    chosen = leading(outcomes.diagnosis(study, results))
+    chosen = leading(diagnosis.read(study, results))
     catalogue = known_effects()
     rows = []
     for effect, free in (chosen["free"] if chosen else {}).items():
@@ -183,7 +183,7 @@ def strengths(study: Study, results: Results) -> pd.DataFrame:
 
 def parameters(study: Study, results: Results) -> pd.DataFrame:
     """List the parameters of the base, without and with the effects of the verdict."""
-    found = outcomes.diagnosis(study, results)
+    found = diagnosis.read(study, results)
     after = found["extended"]["parameters"] if leading(found) else {}
     rows = [
         {
@@ -209,7 +209,7 @@ def gap(study: Study, results: Results) -> pd.DataFrame:
     ``before_sd``, ``after_sd``: root of chi-square per point; 1 is noise alone. Without named
     effects there is no after.
     """
-    found = outcomes.diagnosis(study, results)
+    found = diagnosis.read(study, results)
     rows = []
     for g in found["gap"]:
         unit, factor = shown_unit(g["unit"])
@@ -237,7 +237,7 @@ def gap(study: Study, results: Results) -> pd.DataFrame:
 def noise(study: Study, results: Results) -> pd.DataFrame:
     """List the noise of every channel, and how the base fits or predicts it."""
     rows = []
-    for n in outcomes.diagnosis(study, results)["noise"]:
+    for n in diagnosis.read(study, results)["noise"]:
         unit, factor = shown_unit(n["unit"])
         rows.append(
             {
@@ -256,14 +256,14 @@ def noise(study: Study, results: Results) -> pd.DataFrame:
 
 def probes(study: Study, results: Results) -> pd.DataFrame:
     """List which free correction inside the model would absorb the misfit, the best first."""
-    found = outcomes.diagnosis(study, results)["probes"]
+    found = diagnosis.read(study, results)["probes"]
     rows = [{"probe": p["what"], "absorbed_percent": 100.0 * p["absorbed"]} for p in found]
     return pd.DataFrame(rows, columns=["probe", "absorbed_percent"])
 
 
 def next_experiments(study: Study, results: Results) -> pd.DataFrame:
     """List the experiments that would separate competing models best."""
-    found = outcomes.diagnosis(study, results)["next_experiment"]
+    found = diagnosis.read(study, results)["next_experiment"]
     rows = [{"experiment": d["words"], "separation_sd": d["separation_sd"]} for d in found]
     frame = pd.DataFrame(rows, columns=["experiment", "separation_sd"])
     return frame.sort_values("separation_sd", ascending=False, ignore_index=True).head(MOST)

@@ -8,9 +8,9 @@ import pandas as pd
 
 from pyrofit.config import Study
 from pyrofit.estimate import groups
-from pyrofit.files import Results
+from pyrofit.results import searches
+from pyrofit.results.files import Results
 from pyrofit.solver.arrays import FloatArray
-from pyrofit.stages import outcomes
 from pyrofit.stages.compare import SCEUA
 from pyrofit.tables.comparison import scores
 from pyrofit.tables.describe import title_of, use_of
@@ -65,7 +65,7 @@ def _samples(
 ) -> Iterator[tuple[dict[str, Any], dict[str, FloatArray]]]:
     """Yield the quantities, and the values of all repetitions by cost function."""
     costs = list(study.imp.costs)
-    summary = outcomes.summary(study, results)
+    summary = searches.summary(study, results)
     for name in study.imp.estimate:
         parameter = study.parameters[name]
         about = {"kind": "parameters", "quantity": name, "unit": parameter.unit}
@@ -97,7 +97,7 @@ def _by_cost(costs: list[str], frame: pd.DataFrame, values: pd.Series) -> dict[s
 
 def convergence(study: Study, results: Results) -> pd.DataFrame:
     """Return after how many generations and model calls each search was near its final cost."""
-    frame = outcomes.running_minima(study, results)
+    frame = searches.running_minima(study, results)
     rows = []
     for (cost, number), run in frame.groupby(["cost_function", "repetition"], sort=False):
         run = run.sort_values("generation")

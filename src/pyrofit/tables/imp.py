@@ -6,8 +6,8 @@ from typing import Any
 import pandas as pd
 
 from pyrofit.config import Study
-from pyrofit.files import Results
-from pyrofit.stages import outcomes
+from pyrofit.results import searches
+from pyrofit.results.files import Results
 from pyrofit.tables.describe import CMAES, LEAST_SQUARES
 from pyrofit.tables.determined import estimates, flag
 
@@ -38,7 +38,7 @@ def table4(study: Study, results: Results) -> pd.DataFrame:
     pandas.DataFrame
         One row per cost function and quantity ('fit' and each parameter, in its own unit).
     """
-    summary = outcomes.summary(study, results)
+    summary = searches.summary(study, results)
     verdicts = estimates(study, results)["verdict"]
     rows = []
     for cost in study.imp.costs:
@@ -114,14 +114,14 @@ def costs(study: Study, results: Results) -> pd.DataFrame:
     pandas.DataFrame
         One row per cost function; model calls are those of all repetitions and of all starts.
     """
-    summary = outcomes.summary(study, results)
+    summary = searches.summary(study, results)
     rows = []
     for cost in study.imp.costs:
         others = {
-            "least_squares": outcomes.starts(study, results, cost),
-            "cmaes": outcomes.cmaes(study, results, cost),
+            "least_squares": searches.starts(study, results, cost),
+            "cmaes": searches.cmaes(study, results, cost),
         }
-        descent = float(outcomes.end_of_descent(results, cost)["cost"])
+        descent = float(searches.end_of_descent(results, cost)["cost"])
         group = summary[summary["cost_function"] == cost]
         rows.append({"cost_function": cost, **_comparison(group, others, descent)})
     return pd.DataFrame(rows)

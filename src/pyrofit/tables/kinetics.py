@@ -5,8 +5,8 @@ from typing import Any
 import pandas as pd
 
 from pyrofit.config import Study
-from pyrofit.files import Results
-from pyrofit.stages import outcomes
+from pyrofit.results import kinetics
+from pyrofit.results.files import Results
 from pyrofit.tables.describe import all_rates, rates_in_fit
 
 _ROWS = (
@@ -28,7 +28,7 @@ def table3(study: Study, results: Results) -> pd.DataFrame:
         One row per quantity; columns ``quantity``, ``of`` (reaction or experiment), ``unit``,
         ``used_in_fit`` (for the heating rates), ``fitted`` and one per published set.
     """
-    fit = outcomes.kinetic_sets(study, results)
+    fit = kinetics.sets(study, results)
     sets: dict[str, Any] = fit["sets"]
     rows: list[dict[str, Any]] = [
         {
@@ -46,7 +46,7 @@ def table3(study: Study, results: Results) -> pd.DataFrame:
 
 
 def _scores(study: Study, results: Results, sets: list[str]) -> list[dict[str, Any]]:
-    scores = outcomes.kinetic_scores(study, results, all_rates(study))
+    scores = kinetics.scores(study, results, all_rates(study))
     scores = scores.set_index(["experiment", "set"])
     used = set(rates_in_fit(study))
     return [

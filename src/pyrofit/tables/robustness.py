@@ -7,7 +7,7 @@ import pandas as pd
 
 from pyrofit.config import Study
 from pyrofit.estimate import groups
-from pyrofit.files import Results, read_csv
+from pyrofit.results.files import Results, read_csv
 from pyrofit.stages.robustness import NOISE, true_set
 from pyrofit.tables import write_table
 from pyrofit.tables.table import Table

@@ -6,7 +6,7 @@ from dataclasses import dataclass, field
 import pandas as pd
 
 from pyrofit.config import Study
-from pyrofit.files import Results
+from pyrofit.results.files import Results
 
 
 @dataclass(frozen=True)

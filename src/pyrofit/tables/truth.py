@@ -6,8 +6,8 @@ from typing import Any
 import pandas as pd
 
 from pyrofit.config import Kinetics, Study, TermSpec
-from pyrofit.files import EACH, Keys, Results, read_csv, read_json
-from pyrofit.stages import outcomes
+from pyrofit.results import searches
+from pyrofit.results.files import EACH, Keys, Results, read_csv, read_json
 
 KINETICS = "kinetics"
 
@@ -60,11 +60,11 @@ def _kinetics(stage: Kinetics, results: Results) -> dict[str, Any]:
 
 
 def _imp(study: Study, results: Results, cost: str) -> dict[str, Any]:
-    summary = outcomes.summary(study, results)
+    summary = searches.summary(study, results)
     return {
         "sceua": _lowest(summary[summary["cost_function"] == cost]),
-        "least_squares": _best(outcomes.starts(study, results, cost)),
-        "cmaes": _best(outcomes.cmaes(study, results, cost)),
+        "least_squares": _best(searches.starts(study, results, cost)),
+        "cmaes": _best(searches.cmaes(study, results, cost)),
     }
 
 

@@ -6,8 +6,8 @@ import numpy as np
 import pandas as pd
 
 from pyrofit.config import Study
-from pyrofit.files import Results
-from pyrofit.stages import outcomes
+from pyrofit.results import prediction
+from pyrofit.results.files import Results
 from pyrofit.tables.describe import predicted_sets, title_of, use_of
 
 
@@ -22,7 +22,7 @@ def validation(study: Study, results: Results) -> pd.DataFrame:
         refinement, in the same measure.
     """
     sets = {chosen.label: chosen for chosen in predicted_sets(study)}
-    scores = outcomes.predicted_scores(study, results, list(sets))
+    scores = prediction.scores(study, results, list(sets))
     rows: list[dict[str, Any]] = []
     for score in scores.to_dict("records"):
         chosen = sets[score["set"]]

@@ -1,0 +1,67 @@
+"""Results of the searches: repetitions of SCE-UA, and the optimisers beside them."""
+
+from pathlib import Path
+from typing import Any
+
+import pandas as pd
+
+from pyrofit.config import Study
+from pyrofit.results.files import EACH, Keys, Results, read_csv, read_json
+
+
+def repetition(study: Study, results: Results, cost: str, number: int) -> dict[str, Any]:
+    """Return the result of one repetition."""
+    needs: dict[Keys, type] = {("digest",): str, ("cost",): float, ("cost_refined",): float}
+    needs |= {("parameters", name): float for name in study.imp.estimate}
+    return read_json(results.repetition(cost, number, ".json"), needs)
+
+
+def running_minimum(results: Results, cost: str, number: int) -> pd.DataFrame:
+    """Return how the lowest cost of one repetition fell."""
+    path = results.repetition(cost, number, "_convergence.csv")
+    return read_csv(path, dict.fromkeys(("generation", "calls", "best_cost"), float))
+
+
+def summary(study: Study, results: Results) -> pd.DataFrame:
+    """Return the best set of every repetition."""
+    numbers = ("cost", "cost_refined", "calls", "failed_calls", *study.imp.estimate)
+    return read_csv(
+        results.imp("summary.csv"),
+        {"cost_function": object, **dict.fromkeys(numbers, float)},
+        {("cost_function",): [(cost,) for cost in study.imp.costs]},
+    )
+
+
+def running_minima(study: Study, results: Results) -> pd.DataFrame:
+    """Return how the lowest cost of every repetition fell."""
+    numbers = ("repetition", "generation", "calls", "best_cost")
+    return read_csv(
+        results.imp("convergence.csv"),
+        {"cost_function": object, **dict.fromkeys(numbers, float)},
+        {("cost_function",): [(cost,) for cost in study.imp.costs]},
+    )
+
+
+def starts(study: Study, results: Results, cost: str) -> list[dict[str, Any]]:
+    """Return what least squares found from every start, best first."""
+    return _ends(study, results.least_squares(cost))
+
+
+def cmaes(study: Study, results: Results, cost: str) -> list[dict[str, Any]]:
+    """Return what CMA-ES found from every start, best first."""
+    return _ends(study, results.cmaes(cost))
+
+
+def _ends(study: Study, path: Path) -> list[dict[str, Any]]:
+    here = ("starts", EACH)
+    needs: dict[Keys, type] = {(*here, "cost"): float, (*here, "calls"): float}
+    needs[*here, "at_bound"] = list
+    needs |= {(*here, "parameters", name): float for name in study.imp.estimate}
+    found: list[dict[str, Any]] = read_json(path, needs)["starts"]
+    return found
+
+
+def end_of_descent(results: Results, cost: str) -> dict[str, Any]:
+    """Return where least squares got to from SCE-UA's best set."""
+    found: dict[str, Any] = read_json(results.descent(cost), {("end", "cost"): float})["end"]
+    return found
