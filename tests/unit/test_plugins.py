@@ -16,7 +16,7 @@ from pyrofit.cost import KINDS, Target, known_costs, make_term
 from pyrofit.effects import known_effects
 from pyrofit.errors import StudyError
 from pyrofit.plugins import use_plugins
-from pyrofit.stages import slices
+from pyrofit.results import dependencies
 
 ROOT = Path(__file__).parents[2]
 EFFECT, COST = (
@@ -130,7 +130,7 @@ def test_helper_of_own_effects_is_imported_and_counts_as_part_of_them(folder: Pa
         use_plugins([])
         write(folder / "own" / "effects" / "natural_convection.py", text)
         write(folder / "own" / "effects" / "_mine.py", f"MOST = {most}\n")
-        digests.add(digest(slices.diagnose(read(folder, given()))))
+        digests.add(digest(dependencies.diagnose(read(folder, given()))))
     assert len(digests) == 2
 
 
@@ -147,20 +147,20 @@ def test_edit_of_an_own_effect_changes_what_uses_it_and_no_more(folder: Path) ->
 def test_edit_of_an_own_cost_changes_its_own_searches_and_no_others(folder: Path) -> None:
     study = read(folder, with_own_cost())
     (other, *_) = study.imp.costs
-    before = [digest(slices.imp(study, cost, "sceua")) for cost in ("OWN", other)]
+    before = [digest(dependencies.imp(study, cost, "sceua")) for cost in ("OWN", other)]
     write(folder / "own" / "costs" / "huber.py", COST + "# another\n")
-    after = [digest(slices.imp(study, cost, "sceua")) for cost in ("OWN", other)]
+    after = [digest(dependencies.imp(study, cost, "sceua")) for cost in ("OWN", other)]
     assert [a == b for a, b in zip(after, before, strict=True)] == [False, True]
 
 
 def digests_of(study: Study) -> dict[str, str]:
     cost = next(iter(study.imp.costs))
     parts = {
-        "data": slices.data(study),
-        "imp": slices.imp(study, cost, "sceua"),
-        "identify": slices.identify(study),
-        "diagnose": slices.diagnose(study),
-        "collect": slices.collect(study),
+        "data": dependencies.data(study),
+        "imp": dependencies.imp(study, cost, "sceua"),
+        "identify": dependencies.identify(study),
+        "diagnose": dependencies.diagnose(study),
+        "collect": dependencies.collect(study),
     }
     return {name: digest(part) for name, part in parts.items()}
 
