@@ -1,0 +1,60 @@
+"""Results of the fit of the kinetics."""
+
+from collections.abc import Sequence
+from typing import Any
+
+import pandas as pd
+
+from pyrofit.config import Study
+from pyrofit.results.files import EACH, Keys, Results, read_csv, read_json
+from pyrofit.solver.outputs import MASS_FRACTION
+
+_SETS_OF_KINETICS = ("A_1_s", "E_J_mol", "order", MASS_FRACTION)
+
+
+def parameters(study: Study, results: Results) -> dict[str, float]:
+    """Return the parameters fitted to TGA, SI units."""
+    names = study.kinetics.estimate if study.kinetics else ()
+    found = read_json(results.kinetics("fit.json"), {("parameters", n): float for n in names})
+    values: dict[str, float] = found["parameters"]
+    return values
+
+
+def ends(study: Study, results: Results) -> list[dict[str, float]]:
+    """Return the fit to TGA and the ends of least squares beside it, SI units."""
+    names = study.kinetics.estimate if study.kinetics else ()
+    needs: dict[Keys, type] = {("parameters", name): float for name in names}
+    needs |= {("least_squares", EACH, "parameters", name): float for name in names}
+    found = read_json(results.kinetics("fit.json"), needs)
+    return [found["parameters"], *(start["parameters"] for start in found["least_squares"])]
+
+
+def sets(study: Study, results: Results) -> dict[str, Any]:
+    """Return the fit to TGA: ``cost``, and A, E, n and mass fraction by set and reaction."""
+    needs: dict[Keys, type] = {("cost",): float}
+    for label in _labels(study):
+        for reaction in study.material.reactions:
+            needs |= {("sets", label, reaction, key): float for key in _SETS_OF_KINETICS}
+    return read_json(results.kinetics("fit.json"), needs)
+
+
+def curves(study: Study, results: Results, experiments: Sequence[str]) -> pd.DataFrame:
+    """Return the curves of every set at the TGA experiments."""
+    return read_csv(
+        results.kinetics("curves.csv"),
+        {"temperature_K": float, MASS_FRACTION: float, "experiment": object, "set": object},
+        {("experiment", "set"): [(name, label) for name in experiments for label in _labels(study)]},
+    )
+
+
+def scores(study: Study, results: Results, experiments: Sequence[str]) -> pd.DataFrame:
+    """Return the scores of every set at the TGA experiments."""
+    return read_csv(
+        results.kinetics("scores.csv"),
+        {"rmse_mass_fraction": float, "experiment": object, "set": object},
+        {("experiment", "set"): [(name, label) for name in experiments for label in _labels(study)]},
+    )
+
+
+def _labels(study: Study) -> list[str]:
+    return ["fitted", *(study.kinetics.sets if study.kinetics else ())]

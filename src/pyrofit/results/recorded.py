@@ -1,0 +1,29 @@
+"""Measured series as they were read."""
+
+from typing import Any
+
+import pandas as pd
+
+from pyrofit.config import Study
+from pyrofit.results.files import Keys, Results, read_csv, read_json
+
+
+def series(study: Study, results: Results, experiment: str, signal: str) -> pd.DataFrame:
+    """Return a measured series in SI units."""
+    quantity = study.experiments[experiment].quantity(signal)
+    columns = {"time_s": float, quantity.column: float}
+    if quantity.against_temperature:
+        columns["temperature_K"] = float
+    return read_csv(results.measurement(experiment, signal), columns)
+
+
+def summary(study: Study, results: Results) -> dict[str, Any]:
+    """Return what was read, by experiment and signal."""
+    needs: dict[Keys, type] = {}
+    for name, experiment in study.experiments.items():
+        for signal in experiment.signals:
+            here = ("signals", name, signal)
+            needs |= {(*here, "source"): str, (*here, "sha256"): str, (*here, "points"): float}
+            if experiment.quantity(signal).released is not None:
+                needs[*here, "released_kg_m2"] = float
+    return read_json(results.measurements_summary, needs)
