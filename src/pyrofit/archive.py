@@ -53,7 +53,7 @@ _README = """\
 
 study.yaml         the study as it was run; as_given/ has the files it came from
 data/              measured files of its own
-plugins/           effects and costs of its own, if it has any
+plugins/           effects, quantities, costs of its own, if it has any
 results/           study.json (every key completed), provenance.json (versions, seed, checksums of
                    all measured files), histories and best sets of all searches, predictions,
                    tables, figures, report.html

@@ -1,4 +1,4 @@
-"""A user's own effects and costs, from the folders that a study names under ``plugins``."""
+"""A user's own effects, quantities and costs, from the folders under ``plugins`` of a study."""
 
 import hashlib
 import importlib
@@ -13,6 +13,7 @@ from typing import Any
 
 from pyrofit.cost import KINDS
 from pyrofit.effects.base import Effect
+from pyrofit.quantities.base import Quantity
 
 HELPER = "_"
 """Beginning of the names of files that define nothing themselves, but that others import."""
@@ -44,6 +45,12 @@ CATALOGUES = {
     "effects": Catalogue(
         "pyrofit.effects", "EFFECT", "EFFECT = Effect(...)", lambda made: isinstance(made, Effect)
     ),
+    "quantities": Catalogue(
+        "pyrofit.quantities",
+        "QUANTITY",
+        "QUANTITY = Quantity(...)",
+        lambda made: isinstance(made, Quantity),
+    ),
     "costs": Catalogue("pyrofit.cost.added", "cost", "def cost(target, *, option): ...", _is_cost),
 }
 """By subfolder."""
@@ -55,7 +62,7 @@ def use_plugins(folders: Sequence[Path]) -> None:
     Parameters
     ----------
     folders
-        Folders with the subfolders ``effects`` and ``costs``, at least one of them.
+        Folders with the subfolders ``effects``, ``quantities`` and ``costs``, at least one of them.
 
     Raises
     ------
@@ -137,7 +144,7 @@ def _check_folder(folder: Path) -> None:
     if not any((folder / subfolder).is_dir() for subfolder in CATALOGUES):
         raise ValueError(
             f"plugins: {folder}: it has no folder {' or '.join(CATALOGUES)}; put the files of your "
-            "own effects and costs there"
+            "own effects, quantities and costs there"
         )
 
 

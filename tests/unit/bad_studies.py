@@ -719,7 +719,7 @@ STAGES = rows_of(
         (
             "experiment without signals",
             put(experiments__slab_50__signals={}),
-            ("experiments.slab_50.signals: empty; name a measured quantity: mlr, back_temp",),
+            ("experiments.slab_50.signals: empty; name a measured quantity: back_temp",),
         ),
         (
             "unknown signal",

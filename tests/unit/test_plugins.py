@@ -16,10 +16,12 @@ from pyrofit.cost import KINDS, Target, known_costs, make_term
 from pyrofit.effects import known_effects
 from pyrofit.errors import StudyError
 from pyrofit.plugins import use_plugins
+from pyrofit.quantities import known_quantities
 from pyrofit.results import dependencies
+from pyrofit.stages.measurements import computed
 
 ROOT = Path(__file__).parents[2]
-EFFECT, COST = (
+EFFECT, QUANTITY, COST = (
     part.split("```")[0]
     for part in (ROOT / "docs" / "adding.md").read_text(encoding="utf-8").split("```python\n")[1:]
 )
@@ -37,6 +39,7 @@ def _nothing_stays_known() -> Iterator[None]:
 def folder(tmp_path: Path) -> Path:
     """Return a study's folder with an effect and a cost of its own."""
     write(tmp_path / "own" / "effects" / "natural_convection.py", EFFECT)
+    write(tmp_path / "own" / "quantities" / "thickness_of_sample.py", QUANTITY)
     write(tmp_path / "own" / "costs" / "huber.py", COST)
     return tmp_path
 
@@ -69,6 +72,21 @@ def refused(folder: Path) -> str:
     assert "natural_convection" not in known_effects()
     assert "huber" not in known_costs()
     return str(error.value)
+
+
+def test_own_quantity_is_simulated_and_read(folder: Path) -> None:
+    keys = copy.deepcopy(given())
+    (name, *_) = (n for n, e in keys["experiments"].items() if e["kind"] == "gasification")
+    signals = keys["experiments"][name]["signals"]
+    signals["thickness_of_sample"] = {"file": "synthetic", "every": 20, "noise": 1e-5}
+    study = read(folder, keys)
+    frame = computed(study)[name, "thickness_of_sample"]
+    thickness = frame["thickness_m"].to_numpy()
+    layers = sum(layer.thickness_m for layer in study.experiments[name].sample.layers)
+    assert thickness[0] == pytest.approx(layers, rel=0.01)
+    assert thickness[-1] < 0.2 * layers
+    use_plugins([])
+    assert "thickness_of_sample" not in known_quantities()
 
 
 def test_own_effect_is_put_into_the_model_and_is_a_candidate(folder: Path) -> None:
@@ -215,7 +233,7 @@ def test_missing_folder_is_refused(tmp_path: Path) -> None:
 
 def test_folder_without_effects_or_costs_is_refused(tmp_path: Path) -> None:
     write(tmp_path / "own" / "natural_convection.py", EFFECT)
-    assert "own: it has no folder effects or costs; put the files" in refused(tmp_path)
+    assert "own: it has no folder effects or quantities or costs; put" in refused(tmp_path)
 
 
 @pytest.mark.parametrize("plugins", ["own", 3, [3], {"own": 1}])

@@ -15,6 +15,7 @@ from pyrofit.errors import suggest
 from pyrofit.model.base import FRACTION
 from pyrofit.model.experiment import Experiment
 from pyrofit.model.material import REST, check_composition
+from pyrofit.quantities import quantities_of
 
 
 def check_study(study: Study) -> None:
@@ -118,7 +119,7 @@ def _check_signals(study: Study) -> None:
         require(
             bool(experiment.signals),
             f"experiments.{name}.signals",
-            f"empty; name a measured quantity: {', '.join(experiment.QUANTITIES)}",
+            f"empty; name a measured quantity: {', '.join(quantities_of(experiment.kind))}",
         )
         for quantity, signal in experiment.signals.items():
             place = f"experiments.{name}.signals.{quantity}"

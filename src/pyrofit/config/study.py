@@ -55,8 +55,8 @@ class Study(Part):
     seed: int = Field(1, ge=0, description="seed of everything random")
     plugins: tuple[str, ...] = Field(
         (),
-        description="folders with effects and costs of your own, relative to the study file: "
-        "effects/*.py and costs/*.py",
+        description="folders with effects, quantities and costs of your own, relative to the "
+        "study file: effects/*.py, quantities/*.py and costs/*.py",
     )
     parameters: dict[Name, Parameter] = Field(description="named numbers")
     material: Material = Field(description="components, reactions, composition")

@@ -1,34 +1,33 @@
 """What all experiments have: a title and measured signals."""
 
-from typing import ClassVar, Self
+from typing import Self
 
 from pydantic import Field, model_validator
 
 from pyrofit.errors import suggest
 from pyrofit.model.base import Part
 from pyrofit.model.signal import Signal
-from pyrofit.quantities import known_quantities
+from pyrofit.quantities import known_quantities, quantities_of
 from pyrofit.quantities.base import Quantity
 
 
 class Experiment(Part):
     """What all experiments have; a kind of experiment adds what it is made on."""
 
-    QUANTITIES: ClassVar[tuple[str, ...]] = ()
-    """Names of the quantities that are measured in it."""
     kind: str
     title: str = Field("", description="name in figures")
     signals: dict[str, Signal] = Field(description="measured quantities by name")
 
     @model_validator(mode="after")
     def _known_signals(self) -> Self:
+        known = quantities_of(self.kind)
         for name, signal in self.signals.items():
-            if not signal.quantity and name not in self.QUANTITIES:
-                raise ValueError(f"unknown signal '{name}'. {suggest(name, self.QUANTITIES)}")
-            if signal.quantity and signal.quantity not in self.QUANTITIES:
+            if not signal.quantity and name not in known:
+                raise ValueError(f"unknown signal '{name}'. {suggest(name, known)}")
+            if signal.quantity and signal.quantity not in known:
                 raise ValueError(
                     f"signal '{name}': unknown quantity '{signal.quantity}'. "
-                    + suggest(signal.quantity, self.QUANTITIES)
+                    + suggest(signal.quantity, known)
                 )
         return self
 

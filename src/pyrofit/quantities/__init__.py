@@ -1,14 +1,12 @@
 """Quantities that are measured: one file each, named as in a study.
 
-A file defines ``QUANTITY``; nothing else needs to know it but the kinds of experiment that
-measure it.
+A file defines ``QUANTITY``; nothing else needs to know it.
 """
 
-import importlib
-import pkgutil
 from dataclasses import replace
 from functools import cache
 
+from pyrofit.discovery import contents
 from pyrofit.quantities.base import Quantity
 
 
@@ -21,11 +19,16 @@ def known_quantities() -> dict[str, Quantity]:
     return _quantities_in(tuple(__path__))
 
 
+def quantities_of(kind: str) -> dict[str, Quantity]:
+    """Return the quantities that a kind of experiment measures, by name.
+
+    >>> list(quantities_of("tga"))
+    ['mass_fraction']
+    """
+    return {name: q for name, q in known_quantities().items() if kind in q.kinds}
+
+
 @cache
 def _quantities_in(folders: tuple[str, ...]) -> dict[str, Quantity]:
-    quantities = {}
-    for name in sorted(module.name for module in pkgutil.iter_modules(folders)):
-        content = importlib.import_module(f"{__name__}.{name}")
-        if hasattr(content, "QUANTITY"):
-            quantities[name] = replace(content.QUANTITY, name=name)
-    return quantities
+    found = contents(__name__, folders, "QUANTITY")
+    return {name: replace(quantity, name=name) for name, quantity in found.items()}

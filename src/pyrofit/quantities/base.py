@@ -30,6 +30,8 @@ class Shown:
 class Quantity:
     """A measured quantity, in SI units."""
 
+    kinds: tuple[str, ...]
+    """Kinds of experiment that measure it."""
     title: str
     """The words for it, as they stand on axes and in tables."""
     symbol: str
@@ -55,6 +57,8 @@ class Quantity:
     """Error of a simulated curve at default settings, as a fraction of its largest rise."""
     usual_sd: float
     """Standard deviation of a record that does not exist yet."""
+    output: str = ""
+    """Curve of the solver that it is, see `pyrofit.solver.outputs`; by default that of its name."""
     uncertainty_headers: tuple[str, ...] = ()
     """Headers of the uncertainty, besides ``Error`` and ``Uncertainty``."""
     sampling: Sampling = "point"
@@ -74,6 +78,11 @@ class Quantity:
     heats: bool = False
     """Whether the values depend on heats: of reaction, of combustion, heat capacity."""
     name: str = ""
+
+    @property
+    def curve(self) -> str:
+        """Name of the solver's curve."""
+        return self.output or self.name
 
     @property
     def roles(self) -> dict[str, tuple[str, ...]]:

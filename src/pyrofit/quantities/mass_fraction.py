@@ -10,6 +10,7 @@ def _guess(first: float, largest: float) -> str:
 
 
 QUANTITY = Quantity(
+    kinds=("tga",),
     title="mass fraction",
     symbol="m/m0",
     unit="-",

@@ -8,11 +8,13 @@ def temperature(
     place: str,
     headers: tuple[str, ...],
     pattern: str,
+    kinds: tuple[str, ...] = ("gasification",),
     uncertainty_headers: tuple[str, ...] = (),
 ) -> Quantity:
     """Return the temperature of a place in or on the sample."""
     name = f"{place.replace(' ', '_').replace('-', '_')}_temperature"
     return Quantity(
+        kinds=kinds,
         title=f"{place} temperature",
         symbol=f"T_{place.split()[0]}",
         unit="K",

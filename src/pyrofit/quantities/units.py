@@ -5,6 +5,7 @@ import re
 SCALES: dict[str, dict[str, float]] = {
     "time": {"s": 1.0, "min": 60.0, "h": 3600.0},
     "temperature": {"K": 1.0, "degC": 1.0, "°C": 1.0, "C": 1.0},
+    "length": {"m": 1.0, "cm": 1e-2, "mm": 1e-3},
     "mass": {"kg": 1.0, "g": 1e-3, "mg": 1e-6},
     "mass flux": {"kg/s/m2": 1.0, "g/s/m2": 1e-3, "mg/s/m2": 1e-6},
     "mass rate": {"kg/s": 1.0, "g/s": 1e-3, "mg/s": 1e-6},

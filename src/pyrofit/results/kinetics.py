@@ -43,7 +43,11 @@ def curves(study: Study, results: Results, experiments: Sequence[str]) -> pd.Dat
     return read_csv(
         results.kinetics("curves.csv"),
         {"temperature_K": float, MASS_FRACTION: float, "experiment": object, "set": object},
-        {("experiment", "set"): [(name, label) for name in experiments for label in _labels(study)]},
+        {
+            ("experiment", "set"): [
+                (name, label) for name in experiments for label in _labels(study)
+            ]
+        },
     )
 
 
@@ -52,7 +56,11 @@ def scores(study: Study, results: Results, experiments: Sequence[str]) -> pd.Dat
     return read_csv(
         results.kinetics("scores.csv"),
         {"rmse_mass_fraction": float, "experiment": object, "set": object},
-        {("experiment", "set"): [(name, label) for name in experiments for label in _labels(study)]},
+        {
+            ("experiment", "set"): [
+                (name, label) for name in experiments for label in _labels(study)
+            ]
+        },
     )
 
 

@@ -1,6 +1,6 @@
 """Gasification: mass loss of a slab under radiant heat in an inert atmosphere."""
 
-from typing import ClassVar, Literal
+from typing import Literal
 
 from pydantic import Field
 
@@ -14,7 +14,6 @@ from pyrofit.model.slab import SlabExperiment
 class Gasification(SlabExperiment):
     """Mass loss of a slab under radiant heat in an inert atmosphere."""
 
-    QUANTITIES: ClassVar[tuple[str, ...]] = ("mlr", "back_temperature")
     kind: Literal["gasification"] = Field(description="a slab under radiant heat")
 
 

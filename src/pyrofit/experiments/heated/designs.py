@@ -5,15 +5,15 @@ from collections.abc import Callable, Iterator, Mapping
 from pyrofit.effects.base import changed
 from pyrofit.experiments.base import Idea
 from pyrofit.model.heated import HeatedExperiment
+from pyrofit.quantities import quantities_of
 
 RATE_FACTOR = 3.0
 """How much slower and faster than all measured ones a new test is."""
 
 
-def designs(
-    kind: str, words: str, quantities: tuple[str, ...], own: Mapping[str, HeatedExperiment]
-) -> Iterator[Idea]:
+def designs(kind: str, words: str, own: Mapping[str, HeatedExperiment]) -> Iterator[Idea]:
     """Yield a slower and a faster test than those measured."""
+    quantities = tuple(quantities_of(kind))
     rates = {name: e.heating_rate_K_min for name, e in own.items()}
     if not rates:
         return

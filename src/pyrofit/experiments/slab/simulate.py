@@ -55,7 +55,7 @@ def request_at(experiment: SlabExperiment, signal: str, times: FloatArray) -> Re
     return Request(
         times,
         experiment.signals[signal].average_s,
-        output=experiment.quantity(signal).name,
+        output=experiment.quantity(signal).curve,
     )
 
 

@@ -1,6 +1,6 @@
 """Thermogravimetric analysis: mass against temperature."""
 
-from typing import ClassVar, Literal
+from typing import Literal
 
 from pydantic import Field
 
@@ -14,7 +14,6 @@ from pyrofit.model.heated import HeatedExperiment
 class Tga(HeatedExperiment):
     """Thermogravimetric analysis."""
 
-    QUANTITIES: ClassVar[tuple[str, ...]] = ("mass_fraction",)
     kind: Literal["tga"] = Field(description="mass against temperature")
 
 
@@ -27,5 +26,5 @@ KIND = Kind(
     request=request,
     synthetic=synthetic,
     course=course,
-    designs=lambda own, measured, recorded: designs("tga", "TGA", Tga.QUANTITIES, own),
+    designs=lambda own, measured, recorded: designs("tga", "TGA", own),
 )
