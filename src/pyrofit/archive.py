@@ -14,6 +14,7 @@ from pathlib import Path
 from typing import Any
 
 from pyrofit import __version__
+from pyrofit.archive_texts import COMMENT, MACFP_FILES, README
 from pyrofit.config import Study, as_yaml, digest
 from pyrofit.errors import DataError
 from pyrofit.figures import FIGURES
@@ -43,41 +44,6 @@ _SOFTWARE = (
     "workflow/**/*",
 )
 _NO_DATE = (1980, 1, 1, 0, 0, 0)  # the earliest that the format knows
-
-_COMMENT = """\
-The study as it was run, with what the command line had changed. The files of its measurements are
-in data/, those of its plugins in plugins/. It runs in the folder software/; README.txt says how.
-"""
-_README = """\
-{title}
-
-study.yaml         the study as it was run; as_given/ has the files it came from
-data/              measured files of its own
-plugins/           effects, quantities, costs of its own, if it has any
-results/           study.json (every key completed), provenance.json (versions, seed, checksums of
-                   all measured files), histories and best sets of all searches, predictions,
-                   tables, figures, report.html
-software/          pyrofit {version} as it made the results, source fingerprint {fingerprint},
-                   and requirements.lock with the exact versions of all packages
-SHA256SUMS         checksums of all these files: sha256sum --check SHA256SUMS
-
-To run it again you need Python 3.11 or newer and make:
-
-    cd software
-    make .venv/installed
-    export PATH=$PWD/.venv/bin:$PATH
-    pyrofit check ../study.yaml
-    snakemake --cores 2 --configfile ../study.yaml
-    diff -r ../results/tables results/{name}/tables
-
-On the same kind of machine the tables agree in every digit, on another in most.
-"""
-_MACFP = """
-{count} measured files are of the MaCFP data base, commit {commit}. They are not
-in this archive, nor are columns that repeat them: results/provenance.json has their checksums.
-Before the study is run, `make data` fetches them into the user's cache, or PYROFIT_DATA_DIR names a
-folder that has them.
-"""
 
 
 def write_archive(study: Study, results: Results, given: Sequence[Path], project: Path) -> Path:
@@ -133,14 +99,14 @@ def _check_origin(study: Study, results: Results, origin: Mapping[str, Any]) -> 
 
 
 def _readme(study: Study, origin: Mapping[str, Any]) -> str:
-    text = _README.format(
+    text = README.format(
         title=study.title or study.name,
         name=study.name,
         version=__version__,
         fingerprint=origin["source_fingerprint"],
     )
     if study.needs_macfp:
-        text += _MACFP.format(count=len(set(study.needs_macfp)), commit=origin["macfp_commit"])
+        text += MACFP_FILES.format(count=len(set(study.needs_macfp)), commit=origin["macfp_commit"])
     return text
 
 
@@ -164,7 +130,7 @@ def _study_file(study: Study, own: Mapping[str, str]) -> str:
     if study.plugins:
         folders = [Path(folder) for folder in study.plugins]
         keys["plugins"] = [f"plugins/{name}" for name in folder_names(folders)]
-    return as_yaml(keys, _COMMENT)
+    return as_yaml(keys, COMMENT)
 
 
 def _results(study: Study, results: Results) -> Iterator[Path]:

@@ -9,14 +9,13 @@ from linear import POINTS, TOTAL, column_of, fit_with, moved
 
 from pyrofit.diagnose import record
 from pyrofit.diagnose.diagnosis import _undecided
+from pyrofit.diagnose.findings import Judged, Verdict
 from pyrofit.diagnose.gates import HELD_OUT
 from pyrofit.diagnose.model import strength_of
 from pyrofit.diagnose.rounds import Means
 from pyrofit.diagnose.search import Search, search
 from pyrofit.diagnose.verdict import (
     ONE_FLUX,
-    Judged,
-    Verdict,
     _against,
     _doubts,
     _without,

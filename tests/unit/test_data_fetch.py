@@ -12,7 +12,8 @@ import pooch
 import pytest
 
 from pyrofit.data import fetch as module
-from pyrofit.data.fetch import available, fetch, locate, missing, registry, sha256, store
+from pyrofit.data.download import sha256
+from pyrofit.data.fetch import available, fetch, locate, missing, registry, store
 from pyrofit.errors import DataError
 
 FILES = {"LICENSE": b"free\n", "PMMA/a.csv": b"Time\n1\n", "PMMA/deep/b.csv": b"Time\n2\n"}

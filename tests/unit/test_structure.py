@@ -29,7 +29,7 @@ ORDER = [
     {"stages"},
     {"new_study"},
     {"tables", "figures"},
-    {"report", "archive", "blind_test"},
+    {"report", "archive", "archive_texts", "blind_test"},
     {"cli"},
 ]
 RANK = {part: rank for rank, parts in enumerate(ORDER) for part in parts}

@@ -11,13 +11,12 @@ from pathlib import Path
 import numpy as np
 import numpy.typing as npt
 
+from pyrofit.data.csvheading import Line, name_columns, ragged, trim
 from pyrofit.errors import DataError, suggest
 
 FloatArray = npt.NDArray[np.float64]
 
 _DELIMITERS = "\t;,"
-_BRACKETED = re.compile(r"\[(.*)\]|\((.*)\)")
-_NAME_AND_UNIT = re.compile(r"(.+?)\s*(?:\[(.*)\]|\((.*)\))")
 _DECIMAL_COMMA = re.compile(r"[-+]?\d+,\d+([eE][-+]?\d+)?")
 _LISTED_FILES = 12
 
@@ -42,12 +41,6 @@ class Table:
     columns: dict[str, FloatArray]
     units: dict[str, str | None]
     first_row: int
-
-
-@dataclass(frozen=True)
-class _Line:
-    number: int
-    cells: list[str]
 
 
 def read_table(path: Path) -> Table:
@@ -84,7 +77,7 @@ def read_table(path: Path) -> Table:
     """
     lines = _split(path, _read_text(path))
     count = _count_text_lines(path, lines)
-    names, units = _name_columns(path, lines[:count])
+    names, units = name_columns(path, lines[:count])
     rows = _trim_rows(path, lines[count:], len(names))
     values = np.array([_parse_row(path, row, names) for row in rows], dtype=np.float64)
     columns = {name: values[:, i].copy() for i, name in enumerate(names)}
@@ -124,7 +117,7 @@ def _near_files(path: Path) -> str:
     return suggest(path.name, names)
 
 
-def _split(path: Path, text: str) -> list[_Line]:
+def _split(path: Path, text: str) -> list[Line]:
     """Cut the text in lines and cells, without the blank lines around the header and at the end."""
     raw = re.split(r"\r\n|\n|\r", text)
     header = next((line for line in raw if "".join(line.split()).strip(_DELIMITERS + '"')), None)
@@ -135,7 +128,7 @@ def _split(path: Path, text: str) -> list[_Line]:
         cells = [next(csv.reader([line], delimiter=delimiter), []) for line in raw]
     except csv.Error as error:
         raise DataError(f"{path}: this is not a delimited text file ({error}).") from None
-    lines = [_Line(i, [c.strip() for c in row]) for i, row in enumerate(cells, start=1)]
+    lines = [Line(i, [c.strip() for c in row]) for i, row in enumerate(cells, start=1)]
     while not any(lines[-1].cells):
         lines.pop()
     first_number = next((i for i, line in enumerate(lines) if _has_number(line)), len(lines))
@@ -150,11 +143,11 @@ def _is_number(cell: str) -> bool:
     return "_" not in cell
 
 
-def _has_number(line: _Line) -> bool:
+def _has_number(line: Line) -> bool:
     return any(_is_number(cell) for cell in line.cells)
 
 
-def _count_text_lines(path: Path, lines: Sequence[_Line]) -> int:
+def _count_text_lines(path: Path, lines: Sequence[Line]) -> int:
     """Count the rows above the numbers: one of names and at most one of units."""
     count = next((i for i, line in enumerate(lines) if _has_number(line)), len(lines))
     if count == 0:
@@ -176,85 +169,19 @@ def _count_text_lines(path: Path, lines: Sequence[_Line]) -> int:
     return count
 
 
-def _name_columns(path: Path, heading: Sequence[_Line]) -> tuple[list[str], list[str | None]]:
-    """Tell names and units apart, whichever row comes first."""
-    rows = list(heading)
-    if len(rows) == 2 and _all_bracketed(rows[0]) and not _all_bracketed(rows[1]):
-        rows.reverse()
-    names = _trim(rows[0].cells)
-    units: list[str | None] = [None] * len(names)
-    if len(rows) == 2:
-        cells = _trim(rows[1].cells)
-        if len(cells) > len(names):
-            raise _ragged(path, rows[1].number, len(cells), len(names))
-        units[: len(cells)] = [_strip_brackets(cell) for cell in cells]
-    else:
-        names, units = _split_units(names)
-    _check_names(path, rows[0].number, names)
-    return names, units
-
-
-def _trim(cells: Sequence[str], width: int = 0) -> list[str]:
-    """Drop the empty cells that trailing delimiters leave, down to a width."""
-    end = len(cells)
-    while end > width and not cells[end - 1]:
-        end -= 1
-    return list(cells[:end])
-
-
-def _all_bracketed(line: _Line) -> bool:
-    return all(_BRACKETED.fullmatch(cell) for cell in line.cells if cell)
-
-
-def _strip_brackets(cell: str) -> str | None:
-    match = _BRACKETED.fullmatch(cell)
-    inner = (match[1] or match[2] or "") if match else cell
-    return inner.strip() or None
-
-
-def _split_units(headers: Sequence[str]) -> tuple[list[str], list[str | None]]:
-    names: list[str] = []
-    units: list[str | None] = []
-    for header in headers:
-        match = _NAME_AND_UNIT.fullmatch(header)
-        names.append(match[1] if match else header)
-        units.append((match[2] or match[3] or "").strip() or None if match else None)
-    return names, units
-
-
-def _check_names(path: Path, line: int, names: Sequence[str]) -> None:
-    for i, name in enumerate(names):
-        if not name:
-            raise DataError(
-                f"{path}, line {line}: column {i + 1} has no name; name it or delete it."
-            )
-        if name in names[:i]:
-            raise DataError(
-                f"{path}, line {line}: columns {names.index(name) + 1} and {i + 1} are both named "
-                f"'{name}'; each column needs its own name. Rename or delete one."
-            )
-
-
-def _trim_rows(path: Path, lines: Sequence[_Line], width: int) -> list[_Line]:
-    rows = [_Line(line.number, _trim(line.cells, width)) for line in lines]
+def _trim_rows(path: Path, lines: Sequence[Line], width: int) -> list[Line]:
+    rows = [Line(line.number, trim(line.cells, width)) for line in lines]
     for row in rows:
         if not any(row.cells):
             raise DataError(
                 f"{path}, line {row.number}: this row is blank but numbers follow; delete it."
             )
         if len(row.cells) != width:
-            raise _ragged(path, row.number, len(row.cells), width)
+            raise ragged(path, row.number, len(row.cells), width)
     return rows
 
 
-def _ragged(path: Path, line: int, given: int, width: int) -> DataError:
-    return DataError(
-        f"{path}, line {line}: given {given} cells; the header names {width} columns, and each row "
-        "needs as many. Complete the row or delete it; for decimal commas, write points."
-    )
-
-
-def _parse_row(path: Path, row: _Line, names: Sequence[str]) -> list[float]:
+def _parse_row(path: Path, row: Line, names: Sequence[str]) -> list[float]:
     return [
         _parse_cell(path, row.number, name, cell)
         for name, cell in zip(names, row.cells, strict=True)

@@ -1,12 +1,11 @@
 """Find or download the measured files of the MaCFP data base, by commit and SHA-256."""
 
-import errno
-import hashlib
 import os
 from importlib.resources import files
 from pathlib import Path
 from urllib.parse import quote
 
+from pyrofit.data.download import FOLDER_VARIABLE, download, sha256
 from pyrofit.errors import DataError, suggest
 
 COMMIT = "14b73ea959d3e6a74966a044ba5965aef0a38952"
@@ -14,11 +13,6 @@ COMMIT = "14b73ea959d3e6a74966a044ba5965aef0a38952"
 
 BASE_URL = f"https://raw.githubusercontent.com/MaCFP/matl-db/{COMMIT}/"
 """Where the files of that commit lie."""
-
-FOLDER_VARIABLE = "PYROFIT_DATA_DIR"
-"""Environment variable: a folder that already holds the files, laid out as upstream."""
-
-_TIMEOUT_S = 30.0
 
 
 def registry() -> dict[str, str]:
@@ -37,43 +31,6 @@ def registry() -> dict[str, str]:
     text = files("pyrofit.data").joinpath("registry.txt").read_text(encoding="utf-8")
     pairs = (line.rsplit(maxsplit=1) for line in text.splitlines() if line.strip())
     return {name: digest.removeprefix("sha256:") for name, digest in pairs}
-
-
-def sha256(path: Path) -> str:
-    """Compute the SHA-256 of a file.
-
-    Parameters
-    ----------
-    path : Path
-        The file.
-
-    Returns
-    -------
-    str
-        64 hexadecimal digits.
-
-    Raises
-    ------
-    DataError
-        The file cannot be read.
-
-    Examples
-    --------
-    >>> from tempfile import TemporaryDirectory
-    >>> with TemporaryDirectory() as folder:
-    ...     path = Path(folder) / "abc.txt"
-    ...     _ = path.write_bytes(b"abc")
-    ...     sha256(path)[:8]
-    'ba7816bf'
-    """
-    try:
-        with path.open("rb") as stream:
-            return hashlib.file_digest(stream, "sha256").hexdigest()
-    except OSError as error:
-        raise DataError(
-            f"{path}: the file cannot be read ({error.strerror}); "
-            "check its permissions and its disk."
-        ) from None
 
 
 def store() -> Path:
@@ -212,7 +169,7 @@ def fetch(progress: bool = True, base_url: str = BASE_URL) -> list[Path]:
     # `None` leaves the bar out where the standard error is not a terminal.
     hidden = None if progress and wanted else True
     for name, digest in tqdm(wanted.items(), "measured files", unit="file", disable=hidden):
-        _download(base_url + quote(name), folder / name, digest)
+        download(base_url + quote(name), folder / name, digest)
     return [folder / name for name in registry()]
 
 
@@ -224,47 +181,3 @@ def _replacement(relative: str) -> str:
     if _has_mirror():
         return f"put {BASE_URL}{quote(relative)} in its place"
     return "run `pyrofit data fetch`"
-
-
-def _download(url: str, target: Path, digest: str) -> None:
-    """Download beside the target, verify, then rename: the target is whole or absent."""
-    part = target.with_name(f".{target.name}.{os.getpid()}.part")
-    try:
-        target.parent.mkdir(parents=True, exist_ok=True)
-        try:
-            _transfer(url, part)
-            if (given := sha256(part)) != digest:
-                raise DataError(
-                    f"{url}: SHA-256 is {given}, but {digest} is registered; nothing was kept. "
-                    "A proxy or a broken transfer may have altered it: try again, or set "
-                    f"{FOLDER_VARIABLE} to a folder that holds the files."
-                )
-            part.replace(target)
-        finally:
-            part.unlink(missing_ok=True)
-    except OSError as error:
-        raise DataError(_explain(error, target)) from None
-
-
-def _transfer(url: str, part: Path) -> None:
-    import pooch
-    import requests
-
-    try:
-        pooch.HTTPDownloader(timeout=_TIMEOUT_S)(url, str(part), None)
-    except requests.RequestException as error:
-        status = error.response.status_code if error.response is not None else None
-        cause = type(error).__name__ if status is None else f"HTTP status {status}"
-        raise DataError(
-            f"{url}: the download failed ({cause}). Check network and proxy and run "
-            f"`pyrofit data fetch` again, or set {FOLDER_VARIABLE} to a folder with the files."
-        ) from None
-
-
-def _explain(error: OSError, target: Path) -> str:
-    elsewhere = f"set XDG_CACHE_HOME or {FOLDER_VARIABLE} to another folder"
-    if error.errno in (errno.ENOSPC, errno.EDQUOT):
-        return f"{target}: the disk is full. Free some space, or {elsewhere}."
-    if error.errno in (errno.EACCES, errno.EPERM, errno.EROFS):
-        return f"{target}: the folder may not be written. Change its permissions, or {elsewhere}."
-    return f"{target}: the file cannot be written ({error.strerror}). Repair that, or {elsewhere}."

@@ -10,7 +10,7 @@ import pandas as pd
 
 from pyrofit.data.checks import check_finite, check_limits, check_order
 from pyrofit.data.csvfile import FloatArray, Table, read_table
-from pyrofit.data.fetch import sha256
+from pyrofit.data.download import sha256
 from pyrofit.errors import DataError, suggest
 from pyrofit.quantities import known_quantities
 from pyrofit.quantities.base import Quantity

@@ -9,13 +9,14 @@ import pandas as pd
 from pyrofit.config import Study
 from pyrofit.diagnose import record
 from pyrofit.diagnose.design import next_experiments
+from pyrofit.diagnose.findings import Verdict
 from pyrofit.diagnose.probes import Probe, probes
 from pyrofit.diagnose.profiles import profiles
 from pyrofit.diagnose.refit import Trial, up_to_date
 from pyrofit.diagnose.rounds import Means, Tell, in_order
 from pyrofit.diagnose.search import Search, search
 from pyrofit.diagnose.setup import set_up
-from pyrofit.diagnose.verdict import Verdict, judge
+from pyrofit.diagnose.verdict import judge
 from pyrofit.estimate.problem import Measurements
 
 

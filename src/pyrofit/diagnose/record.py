@@ -7,6 +7,7 @@ import pandas as pd
 
 from pyrofit.config import Study, candidate_effects
 from pyrofit.config.resolve import obstacle
+from pyrofit.diagnose.findings import Judged, Verdict
 from pyrofit.diagnose.gates import HELD_OUT, at_limit
 from pyrofit.diagnose.intervals import interval, strengths, values_of
 from pyrofit.diagnose.model import model_of, strength_of
@@ -15,7 +16,6 @@ from pyrofit.diagnose.refit import Trial, up_to_date
 from pyrofit.diagnose.rounds import Round
 from pyrofit.diagnose.screen import confusability
 from pyrofit.diagnose.search import AMBIGUOUS, Search
-from pyrofit.diagnose.verdict import Judged, Verdict
 from pyrofit.diagnose.words import form_of, sentences
 from pyrofit.effects import known_effects
 from pyrofit.errors import DataError

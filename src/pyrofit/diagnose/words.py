@@ -1,6 +1,6 @@
 """The verdict in plain words."""
 
-from pyrofit.diagnose.verdict import Finding, Verdict
+from pyrofit.diagnose.findings import Finding, Verdict
 from pyrofit.effects import known_effects
 
 

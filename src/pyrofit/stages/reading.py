@@ -9,7 +9,8 @@ import pandas as pd
 
 from pyrofit.config import Study, TermSpec
 from pyrofit.cost import make_term
-from pyrofit.data.fetch import FOLDER_VARIABLE, locate, store
+from pyrofit.data.download import FOLDER_VARIABLE
+from pyrofit.data.fetch import locate, store
 from pyrofit.data.series import Measurement, SeriesSpec, read_series
 from pyrofit.errors import CostError, DataError
 from pyrofit.estimate.problem import Measurements, target_for
