@@ -11,6 +11,7 @@ from pyrofit.config import as_study, digest, read_mapping
 from pyrofit.errors import PyrofitError
 from pyrofit.results.files import Results, write_text
 from pyrofit.figures import FIGURES
+from pyrofit.provenance import STUDY as STUDY_MODULES
 from pyrofit.provenance import source_fingerprint
 from pyrofit.results import dependencies
 from pyrofit.stages.reading import check_measurements
@@ -52,8 +53,9 @@ except PyrofitError as error:
     raise WorkflowError(str(error)) from None
 
 results = Results(ROOT)
-COMPUTES = source_fingerprint()
-SHOWS = source_fingerprint(showing=True)
+# What the fits, and what the report, which states this fingerprint, are made by.
+FITS = source_fingerprint("pyrofit.stages.fit")
+SHOWS = source_fingerprint(*STUDY_MODULES)
 COSTS = list(study.imp.costs)
 REPETITIONS = [f"{n:02d}" for n in range(study.imp.repetitions)]
 

@@ -6,6 +6,7 @@ from snakemake.utils import min_version
 
 from pyrofit.blind_test.figures import FIGURES
 from pyrofit.blind_test.places import FOLDER, Places
+from pyrofit.blind_test.run import code_fingerprint
 from pyrofit.blind_test.setting import plan_digest, read_setting
 from pyrofit.errors import PyrofitError
 from pyrofit.provenance import source_fingerprint
@@ -57,7 +58,7 @@ rule chunk:
     params:
         setting=SETTING,
         digest=lambda wildcards: DIGESTS[wildcards.plan],
-        source=source_fingerprint(blind_test=True),
+        source=code_fingerprint(),
     message:
         "Blind test of the diagnosis, plan {wildcards.plan}, job {wildcards.chunk}"
     shell:
@@ -86,7 +87,7 @@ rule page:
     params:
         setting=SETTING,
         digest=lambda wildcards: DIGESTS[wildcards.plan],
-        source=source_fingerprint(showing=True, blind_test=True),
+        source=source_fingerprint("pyrofit.blind_test.page"),
     message:
         "Blind test of the diagnosis, plan {wildcards.plan}: tables, figures, page"
     shell:

@@ -20,7 +20,7 @@ from pyrofit.errors import DataError
 from pyrofit.figures import FIGURES
 from pyrofit.model.signal import Signal
 from pyrofit.plugins import folder_names, plugin_files
-from pyrofit.provenance import source_fingerprint
+from pyrofit.provenance import STUDY, source_fingerprint
 from pyrofit.results.files import Results, read_json, write_bytes
 from pyrofit.stages.reading import MACFP
 from pyrofit.tables import TABLES
@@ -89,7 +89,7 @@ def _check_origin(study: Study, results: Results, origin: Mapping[str, Any]) -> 
     """Refuse results of another study, and of a source that is not the one to be packed."""
     for key, now, what in (
         ("config_digest", digest(study.model_dump(mode="json")), "the study has"),
-        ("source_fingerprint", source_fingerprint(showing=True), "pyrofit or its packages have"),
+        ("source_fingerprint", source_fingerprint(*STUDY), "pyrofit or its packages have"),
     ):
         if origin.get(key) != now:
             raise DataError(

@@ -1,8 +1,11 @@
 """What made a result: fingerprints of the source, versions, checksums."""
 
+import ast
 import hashlib
 import importlib.metadata
 import platform
+from collections.abc import Iterable
+from functools import cache
 from pathlib import Path
 from typing import Any
 
@@ -20,44 +23,110 @@ PACKAGES = (
 )
 NUMERIC = ("cma", "numba", "numpy", "pandas", "scipy", "spotpy")
 """Packages whose version may change a number."""
-SHOWING = (
-    "archive.py",
-    *(f"blind_test/{name}.py" for name in ("figures", "page", "rates", "reference", "table")),
-    "cli",
-    "config/reference.py",
-    "figures",
-    "new_study",
-    "report",
-    "tables",
+STUDY = (
+    *(
+        f"pyrofit.stages.{step}"
+        for step in (
+            "measurements",
+            "fit",
+            "identify",
+            "predict",
+            "compare",
+            "robustness",
+            "diagnose",
+        )
+    ),
+    "pyrofit.tables",
+    "pyrofit.figures",
+    "pyrofit.figures.diagnosis",
+    "pyrofit.report",
 )
-"""Parts of the source that show results and do not change a number."""
-BLIND_TEST = "blind_test"
-"""Part of the source on which no study depends."""
+"""Modules of all steps of a study."""
+CATALOGUES = ("pyrofit.quantities",)
+"""Packages whose files are found without being imported by name, and all count.
+
+The files of effects are counted by the studies that use them.
+"""
 
 
-def source_fingerprint(showing: bool = False, blind_test: bool = False) -> str:
-    """Return a hash of source, data registry and numeric packages.
+def source_fingerprint(*modules: str) -> str:
+    """Return a hash of the source of some modules, of the data registry and numeric packages.
 
-    Snakemake does not notice an edit to an imported package: rules carry this as a parameter.
+    Whatever they import of pyrofit counts as well, at whatever distance, with the files beside it
+    that are no Python. Snakemake does not notice an edit to an imported package: rules carry this
+    as a parameter.
 
     Parameters
     ----------
-    showing
-        Whether the source of tables, figures and pages counts as well.
-    blind_test
-        Whether the source of the blind test counts as well.
+    modules
+        Full names, such as ``pyrofit.stages.fit``.
     """
-    left_out = (() if showing else SHOWING) + (() if blind_test else (BLIND_TEST,))
     root = Path(__file__).parent
-    total = hashlib.sha256((root / "data" / "registry.txt").read_bytes())
+    total = hashlib.sha256()
     for package in NUMERIC:
         total.update(f"{package} {importlib.metadata.version(package)}".encode())
-    for path in sorted((*root.rglob("*.py"), *root.rglob("*.j2"))):
-        name = path.relative_to(root)
-        if not any(name.is_relative_to(part) for part in left_out):
-            total.update(name.as_posix().encode())
-            total.update(path.read_bytes())
+    sources = imported_files(root, modules)
+    beside = {p for path in sources for p in path.parent.iterdir() if p.suffix in (".j2", ".txt")}
+    for path in sorted(sources | beside):
+        total.update(path.relative_to(root).as_posix().encode())
+        total.update(path.read_bytes())
     return total.hexdigest()[:16]
+
+
+def imported_files(root: Path, modules: Iterable[str]) -> set[Path]:
+    """Return the files of the package in ``root`` that modules are made of and import.
+
+    Imports anywhere in a file count, those for type checks alone included; so do the packages
+    around a module, which are imported with it.
+
+    Raises
+    ------
+    ValueError
+        There is no such module.
+    """
+    files = _files_by_module(root)
+    ahead = list(modules)
+    if unknown := [name for name in ahead if name not in files]:
+        raise ValueError(f"there is no module {', '.join(unknown)}")
+    found: set[Path] = set()
+    while ahead:
+        name = ahead.pop()
+        path = files.get(name)
+        if path in found:
+            continue
+        if path is not None:  # else a name in a module
+            found.add(path)
+            ahead += _imports(path.read_bytes())
+            ahead += _catalogue(name, files)
+        ahead += [name.rpartition(".")[0]] if "." in name else []
+    return found
+
+
+def _files_by_module(root: Path) -> dict[str, Path]:
+    files = {}
+    for path in root.rglob("*.py"):
+        parts = (root.name, *path.relative_to(root).with_suffix("").parts)
+        files[".".join(parts[:-1] if parts[-1] == "__init__" else parts)] = path
+    return files
+
+
+def _catalogue(package: str, modules: Iterable[str]) -> list[str]:
+    """Return the modules of a package that finds all of them."""
+    if package not in CATALOGUES:
+        return []
+    return [name for name in modules if name.rpartition(".")[0] == package]
+
+
+@cache
+def _imports(source: bytes) -> frozenset[str]:
+    """Return what a file imports of the package: modules, and names in modules."""
+    names = set()
+    for node in ast.walk(ast.parse(source)):
+        if isinstance(node, ast.Import):
+            names |= {alias.name for alias in node.names}
+        elif isinstance(node, ast.ImportFrom) and node.module:
+            names |= {node.module, *(f"{node.module}.{alias.name}" for alias in node.names)}
+    return frozenset(name for name in names if name.startswith("pyrofit."))
 
 
 def environment() -> dict[str, Any]:
@@ -67,5 +136,5 @@ def environment() -> dict[str, Any]:
         "python": platform.python_version(),
         "machine": platform.machine(),
         "packages": versions,
-        "source_fingerprint": source_fingerprint(showing=True),
+        "source_fingerprint": source_fingerprint(*STUDY),
     }

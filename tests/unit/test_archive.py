@@ -13,7 +13,7 @@ from pyrofit.config import Study, as_study, digest, read_mapping, read_study
 from pyrofit.data.fetch import COMMIT
 from pyrofit.errors import DataError
 from pyrofit.plugins import use_plugins
-from pyrofit.provenance import source_fingerprint
+from pyrofit.provenance import STUDY, source_fingerprint
 from pyrofit.results.files import Results
 
 ROOT = Path(__file__).parents[2]
@@ -37,7 +37,7 @@ def results_of(study: Study, root: Path) -> Results:
     results.measurements_summary.write_text("{}\n")
     origin = {
         "config_digest": digest(study.model_dump(mode="json")),
-        "source_fingerprint": source_fingerprint(showing=True),
+        "source_fingerprint": source_fingerprint(*STUDY),
         "macfp_commit": COMMIT,
         "data": {"capa_25/mlr": {"source": "macfp:a.csv", "sha256": "abc"}},
     }
@@ -158,7 +158,7 @@ def test_results_left_of_an_earlier_study_stay_out(pmma: tuple[Study, Results]) 
 def test_results_of_another_source_are_refused(pmma: tuple[Study, Results]) -> None:
     study, results = pmma
     path = results.root / "provenance.json"
-    path.write_text(path.read_text().replace(source_fingerprint(showing=True), "0" * 16))
+    path.write_text(path.read_text().replace(source_fingerprint(*STUDY), "0" * 16))
     with pytest.raises(DataError, match="pyrofit or its packages have changed since"):
         write_archive(study, results, [PMMA], ROOT)
 

@@ -1,51 +1,169 @@
 """Fingerprints of the source change with an edit of all that a step depends on, and of no more."""
 
 import shutil
+import subprocess
+import sys
+from collections.abc import Iterator
 from pathlib import Path
 
 import pytest
 
 import pyrofit
-from pyrofit.provenance import SHOWING, source_fingerprint
+from pyrofit import effects
+from pyrofit.config import Study, digest, read_study
+from pyrofit.effects import known_effects
+from pyrofit.provenance import imported_files, source_fingerprint
+from pyrofit.results import dependencies
 
 SOURCE = Path(pyrofit.__file__).parent
+SMOKE = SOURCE.parents[1] / "config" / "smoke.yaml"
+STEPS = {
+    "data": "pyrofit.stages.measurements",
+    "fits": "pyrofit.stages.fit",
+    "prediction": "pyrofit.stages.predict",
+    "robustness": "pyrofit.stages.robustness",
+    "diagnosis": "pyrofit.stages.diagnose",
+    "figures": "pyrofit.figures",
+    "report": "pyrofit.report",
+    "blind test": "pyrofit.blind_test.run",
+    "page of the blind test": "pyrofit.blind_test.page",
+}
+EVERYTHING = set(STEPS)
 EDITS = {
-    "solver/run.py": {"study", "study page", "blind test", "blind test page"},
-    "figures/style.py": {"study page", "blind test page"},
-    "config/reference.py": {"study page", "blind test page"},
-    "new_study/write.py": {"study page", "blind test page"},
-    "blind_test/twin.py": {"blind test", "blind test page"},
-    "blind_test/rates.py": {"blind test page"},
+    "data/registry.txt": EVERYTHING,
+    "quantities/mlr.py": EVERYTHING,
+    "cost/__init__.py": EVERYTHING,
+    "solver/kernels/heat.py": EVERYTHING,
+    "estimate/sceua.py": EVERYTHING - {"data", "diagnosis", "blind test"},
+    "stages/robustness.py": {"robustness", "report"},
+    "diagnose/screen.py": {"diagnosis"},
+    "figures/style.py": {"figures", "report", "page of the blind test"},
+    "report/report.html.j2": {"report"},
+    "blind_test/twin.py": {"blind test"},
+    "blind_test/rates.py": {"page of the blind test"},
+    "new_study/write.py": set(),
+    "config/reference.py": set(),
+    "effects/melting.py": set(),
 }
 
 
 def fingerprints() -> dict[str, str]:
-    return {
-        "study": source_fingerprint(),
-        "study page": source_fingerprint(showing=True),
-        "blind test": source_fingerprint(blind_test=True),
-        "blind test page": source_fingerprint(showing=True, blind_test=True),
-    }
+    return {name: source_fingerprint(module) for name, module in STEPS.items()}
 
 
-@pytest.fixture
-def copy(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
+@pytest.fixture(scope="module")
+def copy(tmp_path_factory: pytest.TempPathFactory) -> Iterator[Path]:
     """A copy of the source, of which fingerprints are taken."""
-    root = tmp_path / "pyrofit"
+    root = tmp_path_factory.mktemp("source") / "pyrofit"
     shutil.copytree(SOURCE, root, ignore=shutil.ignore_patterns("__pycache__"))
-    monkeypatch.setattr("pyrofit.provenance.__file__", str(root / "provenance.py"))
-    return root
+    with pytest.MonkeyPatch.context() as patch:
+        patch.setattr("pyrofit.provenance.__file__", str(root / "provenance.py"))
+        yield root
+
+
+@pytest.fixture(scope="module")
+def before(copy: Path) -> dict[str, str]:
+    return fingerprints()
 
 
 @pytest.mark.parametrize("edited", EDITS)
-def test_edit_changes_the_fingerprints_of_what_depends_on_it(edited: str, copy: Path) -> None:
-    before = fingerprints()
-    assert before == fingerprints()
-    with (copy / edited).open("a") as file:
-        file.write("# edited\n")
+def test_edit_changes_the_fingerprints_of_what_depends_on_it(
+    edited: str, copy: Path, before: dict[str, str]
+) -> None:
+    text = (copy / edited).read_text(encoding="utf-8")
+    (copy / edited).write_text(f"{text}# edited\n", encoding="utf-8")
     after = fingerprints()
+    (copy / edited).write_text(text, encoding="utf-8")
     assert {name for name in before if before[name] != after[name]} == EDITS[edited]
 
 
-def test_parts_that_only_show_exist() -> None:
-    assert [part for part in SHOWING if not (SOURCE / part).exists()] == []
+def test_import_inside_a_function_or_for_type_checks_alone_counts(copy: Path) -> None:
+    (copy / "stages" / "late.py").write_text("def f():\n    import pyrofit.logs\n")
+    (copy / "stages" / "typed.py").write_text(
+        "from typing import TYPE_CHECKING\nif TYPE_CHECKING:\n    from pyrofit import logs\n"
+    )
+    for name in ("late", "typed"):
+        found = imported_files(copy, [f"pyrofit.stages.{name}"])
+        assert {p.relative_to(copy).as_posix() for p in found} == {
+            "__init__.py",
+            "logs.py",
+            "stages/__init__.py",
+            f"stages/{name}.py",
+        }
+
+
+def test_fingerprint_of_a_module_that_is_not_there_is_refused() -> None:
+    with pytest.raises(ValueError, match=r"there is no module pyrofit\.stages\.fitt"):
+        source_fingerprint("pyrofit.stages.fitt")
+
+
+@pytest.mark.parametrize(
+    "module", ["pyrofit.stages.fit", "pyrofit.stages.diagnose", "pyrofit.report"]
+)
+def test_step_loads_no_file_that_its_fingerprint_leaves_out(module: str) -> None:
+    code = (
+        f"import sys, {module}; from pathlib import Path; from pyrofit.config import read_study;"
+        f"read_study(Path({str(SMOKE)!r}));"
+        "print(*(m.__file__ for n, m in sys.modules.items() if n.startswith('pyrofit')))"
+    )
+    said = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, check=True)
+    loaded = {Path(file) for file in said.stdout.split()}
+    # What studies use of the catalogue of effects is counted by `dependencies`.
+    by_use = {SOURCE / "effects" / f"{name}.py" for name in known_effects()}
+    beside = {SOURCE / "effects" / "page.py"}
+    assert by_use <= loaded
+    assert loaded - imported_files(SOURCE, [module]) <= by_use | beside
+
+
+def digests(study: Study) -> dict[str, str]:
+    cost = next(iter(study.imp.costs))
+    parts = {
+        "data": dependencies.data(study),
+        "kinetics": dependencies.kinetics(study),
+        "imp": dependencies.imp(study, cost, "sceua"),
+        "identify": dependencies.identify(study),
+        "validation": dependencies.validation(study),
+        "compare": dependencies.compare(study),
+        "robustness": dependencies.robustness(study, cost),
+        "presentation": dependencies.presentation(study),
+        "diagnosis": dependencies.diagnose(study),
+    }
+    return {name: digest(part) for name, part in parts.items()}
+
+
+def test_new_effect_in_the_package_changes_the_digest_of_the_diagnosis_alone(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    before = digests(read_study(SMOKE))
+    text = (SOURCE / "effects" / "k_T.py").read_text(encoding="utf-8")
+    (tmp_path / "k_T_again.py").write_text(text, encoding="utf-8")
+    monkeypatch.setattr(effects, "__path__", [*effects.__path__, str(tmp_path)])
+    # Read before: a study without plugins knows no other folder.
+    study = read_study_with_effects_as_they_are(monkeypatch)
+    after = digests(study)
+    assert {name for name in before if before[name] != after[name]} == {"diagnosis"}
+
+
+def read_study_with_effects_as_they_are(monkeypatch: pytest.MonkeyPatch) -> Study:
+    monkeypatch.setattr("pyrofit.config.read.use_plugins", lambda folders: None)
+    return read_study(SMOKE)
+
+
+def test_edited_effect_changes_the_digests_of_what_a_study_does_with_it(
+    monkeypatch: pytest.MonkeyPatch,
+) -> None:
+    def edited(name: str) -> set[str]:
+        """Return the digests that change when the file of an effect is another."""
+        study = read_study(SMOKE).model_copy(update={"with_effects": {"k_T": {}}})
+        before = digests(study)
+        with monkeypatch.context() as patch:
+            patch.setattr(
+                "pyrofit.results.dependencies.code_digest",
+                lambda kind, other: "edited" if other == name else known(kind, other),
+            )
+            after = digests(study)
+        return {part for part in before if before[part] != after[part]}
+
+    known = dependencies.code_digest
+    assert edited("c_T") == {"diagnosis"}
+    assert edited("k_T") == set(digests(read_study(SMOKE)))

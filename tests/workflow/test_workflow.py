@@ -155,10 +155,31 @@ def test_edited_figure_computes_nothing_again(
     source = project.root / "src" / "pyrofit" / "figures" / "__init__.py"
     before = source.read_text()
     source.write_text(before + "# edited\n")
+    drawn = {job for job in showing(finished[1]) if job.startswith(("Figure", "Report"))}
     try:
-        assert project.plan() == showing(finished[1])
+        assert project.plan() == drawn
     finally:
         source.write_text(before)
+
+
+def test_edited_diagnosis_runs_no_step_of_the_fits_again(project: Project) -> None:
+    source = project.root / "src" / "pyrofit" / "diagnose" / "search.py"
+    before = source.read_text()
+    source.write_text(before.replace('"""', '"""Edited. ', 1))
+    try:
+        assert computing(project.plan()) == set()
+    finally:
+        source.write_text(before)
+
+
+def test_new_effect_in_the_package_runs_nothing_again(project: Project) -> None:
+    effects = project.root / "src" / "pyrofit" / "effects"
+    new = effects / "k_T_again.py"
+    new.write_text((effects / "k_T.py").read_text())
+    try:
+        assert project.plan() == set()
+    finally:
+        new.unlink()
 
 
 @pytest.fixture(scope="module")

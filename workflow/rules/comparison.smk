@@ -17,7 +17,7 @@ rule compare:
     params:
         study=STUDY,
         digest=digest(dependencies.compare(study)),
-        source=COMPUTES,
+        source=source_fingerprint("pyrofit.stages.compare"),
     message:
         "All sets of all optimisers under all costs"
     shell:

@@ -17,7 +17,7 @@ rule prepare:
         study=STUDY,
         digest=digest(dependencies.data(study)),
         files=study.needs_macfp,
-        source=COMPUTES,
+        source=source_fingerprint("pyrofit.stages.measurements"),
     message:
         "Measured series into tidy tables, mass closure checked"
     shell:

@@ -15,7 +15,7 @@ rule diagnosis:
     params:
         study=STUDY,
         digest=digest(dependencies.diagnose(study)),
-        source=COMPUTES,
+        source=source_fingerprint("pyrofit.stages.diagnose"),
     message:
         "Which effect the model lacks"
     shell:
@@ -35,7 +35,9 @@ rule diagnosis_page:
     params:
         study=STUDY,
         digest=digest(dependencies.presentation(study)),
-        source=SHOWS,
+        source=source_fingerprint(
+            "pyrofit.figures.diagnosis", "pyrofit.report.diagnosis"
+        ),
     message:
         "Diagnosis: {output}"
     shell:

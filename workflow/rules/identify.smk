@@ -17,7 +17,7 @@ rule identify:
     params:
         study=STUDY,
         digest=digest(dependencies.identify(study)),
-        source=COMPUTES,
+        source=source_fingerprint("pyrofit.stages.identify"),
     message:
         "What the data determine of the inverse modelling"
     shell:
@@ -40,7 +40,7 @@ if study.kinetics is not None:
         params:
             study=STUDY,
             digest=digest(dependencies.kinetics(study)),
-            source=COMPUTES,
+            source=source_fingerprint("pyrofit.stages.identify"),
         message:
             "What the data determine of the kinetics"
         shell:

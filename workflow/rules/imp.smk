@@ -28,7 +28,7 @@ for _together in [
             digest=lambda wildcards: digest(dependencies.imp(study, wildcards.cost, "sceua")),
             generations=study.imp.sceua.generations,
             seed=study.seed,
-            source=COMPUTES,
+            source=FITS,
             repetitions=_together,
         message:
             "Inverse modelling, {wildcards.cost}, repetition "
@@ -55,7 +55,7 @@ rule least_squares:
         ),
         starts=study.imp.least_squares.starts,
         seed=study.seed,
-        source=COMPUTES,
+        source=FITS,
     message:
         "Multistart least squares, {wildcards.cost}"
     shell:
@@ -78,7 +78,7 @@ rule cma_es:
         digest=lambda wildcards: digest(dependencies.imp(study, wildcards.cost, "cmaes")),
         starts=study.imp.cmaes.starts,
         seed=study.seed,
-        source=COMPUTES,
+        source=FITS,
     message:
         "CMA-ES, {wildcards.cost}"
     shell:
@@ -100,7 +100,7 @@ rule descent:
         digest=lambda wildcards: digest(
             dependencies.imp(study, wildcards.cost, "least_squares")
         ),
-        source=COMPUTES,
+        source=FITS,
     message:
         "Least squares from SCE-UA's best set, {wildcards.cost}"
     shell:
@@ -126,7 +126,7 @@ rule collect:
     params:
         study=STUDY,
         digest=digest(dependencies.collect(study)),
-        source=COMPUTES,
+        source=FITS,
     message:
         "All repetitions gathered"
     shell:

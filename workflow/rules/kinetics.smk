@@ -27,7 +27,7 @@ if study.kinetics is not None:
             digest=digest(dependencies.kinetics(study)),
             generations=study.kinetics.sceua.generations,
             seed=study.seed,
-            source=COMPUTES,
+            source=FITS,
         message:
             "Kinetics fitted to TGA"
         shell:

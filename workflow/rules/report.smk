@@ -32,7 +32,7 @@ rule table:
         study=STUDY,
         digest=digest(dependencies.presentation(study)),
         note=lambda wildcards: TABLES[wildcards.name].note,
-        source=SHOWS,
+        source=source_fingerprint("pyrofit.tables"),
     message:
         "Table {wildcards.name}"
     shell:
@@ -58,7 +58,7 @@ rule figure:
         study=STUDY,
         digest=digest(dependencies.presentation(study)),
         caption=lambda wildcards: FIGURES[wildcards.name].caption,
-        source=SHOWS,
+        source=source_fingerprint("pyrofit.figures"),
     message:
         "Figure {wildcards.name}"
     shell:

@@ -13,7 +13,7 @@ rule robustness_of_cost:
     params:
         study=STUDY,
         digest=lambda wildcards: digest(dependencies.robustness(study, wildcards.cost)),
-        source=COMPUTES,
+        source=source_fingerprint("pyrofit.stages.robustness"),
     message:
         "Robustness, {wildcards.cost}"
     shell:
@@ -34,7 +34,11 @@ rule robustness:
     params:
         study=STUDY,
         digest=digest(dependencies.presentation(study)),
-        source=SHOWS,
+        source=source_fingerprint(
+            "pyrofit.figures.robustness",
+            "pyrofit.report.comparison",
+            "pyrofit.tables.robustness",
+        ),
     message:
         "Robustness of the cost functions: table and figure"
     shell:

@@ -14,7 +14,7 @@ rule predict:
         study=STUDY,
         digest=digest(dependencies.validation(study)),
         experiments=" ".join(study.validation.experiments),
-        source=COMPUTES,
+        source=source_fingerprint("pyrofit.stages.predict"),
     message:
         "Best sets simulated at {params.experiments}"
     shell:

@@ -12,9 +12,10 @@ from pyrofit.blind_test.plan import Case, cases_of, chunk_of
 from pyrofit.blind_test.setting import Setting
 from pyrofit.blind_test.twin import make_twin, read_twin, without_effects, write_twin
 from pyrofit.config import Study, digest, read_mapping
-from pyrofit.effects import same_as
+from pyrofit.effects import known_effects, same_as
 from pyrofit.errors import DataError, StudyError
 from pyrofit.estimate.problem import Measurements
+from pyrofit.plugins import code_digest
 from pyrofit.provenance import source_fingerprint
 from pyrofit.results.files import read_json, write_json
 
@@ -51,11 +52,17 @@ def run_chunk(setting: Setting, plan: str, chunk: int, places: Places, diagnose:
     write_json(places.chunk(chunk), {"cases": [case.id for case in cases]})
 
 
+def code_fingerprint() -> str:
+    """Return a hash of the source that cases are computed by, all effects included."""
+    effects = {name: code_digest("effects", name) for name in known_effects()}
+    return digest([source_fingerprint(__name__, "pyrofit.diagnose.diagnosis"), effects])
+
+
 def case_digest(setting: Setting, case: Case) -> str:
     """Return a digest of everything that the result of a case depends on."""
     of_twins = setting.model_dump(exclude={"plans", "seeds", "nominal", "forms", "pairs"})
     base = read_mapping(Path(setting.base))
-    return digest([case.model_dump(), of_twins, base, source_fingerprint(blind_test=True)])
+    return digest([case.model_dump(), of_twins, base, code_fingerprint()])
 
 
 def run_case(setting: Setting, case: Case, places: Places, diagnose: Diagnose) -> dict[str, Any]:

@@ -215,10 +215,7 @@ def compare(study: Study) -> dict[str, Any]:
 
 def presentation(study: Study) -> dict[str, Any]:
     """Whatever tables, figures and the report show: the whole study."""
-    return {
-        **study.model_dump(),
-        "code": _code(study, _all_terms(study), candidate_effects(study)),
-    }
+    return {**study.model_dump(), "code": _code(study, _all_terms(study))}
 
 
 def collect(study: Study) -> dict[str, Any]:
