@@ -21,7 +21,7 @@ from pyrofit.blind_test.twin import describe, make_twin, read_twin, write_twin
 from pyrofit.config import Study, candidate_effects
 from pyrofit.effects import known_effects, same_as
 from pyrofit.errors import DataError, StudyError
-from pyrofit.estimate.problem import Measurements
+from pyrofit.estimate.targets import Measurements
 from pyrofit.model.accuracy import Resolution
 from pyrofit.results.files import read_json, write_json
 

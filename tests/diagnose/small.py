@@ -13,7 +13,8 @@ from pyrofit.diagnose.model import Base, Known, extended, model_of, strength_of
 from pyrofit.estimate.correlation import Correlation
 from pyrofit.estimate.likelihood import Likelihood
 from pyrofit.estimate.noise import NoiseModel
-from pyrofit.estimate.problem import Measurements, make_problem
+from pyrofit.estimate.problem import make_problem
+from pyrofit.estimate.targets import Measurements
 from pyrofit.quantities import known_quantities
 from pyrofit.solver.arrays import FloatArray
 

@@ -14,7 +14,7 @@ from pyrofit.diagnose.setup import STARTS, _problem, _starts, set_up
 from pyrofit.effects import known_effects
 from pyrofit.errors import DataError
 from pyrofit.estimate.likelihood import FAILED, Likelihood
-from pyrofit.estimate.problem import Measurements
+from pyrofit.estimate.targets import Measurements
 from pyrofit.quantities import known_quantities
 from pyrofit.solver.arrays import FloatArray
 

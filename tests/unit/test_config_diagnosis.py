@@ -24,7 +24,8 @@ from pyrofit.config import (
 from pyrofit.effects import known_effects
 from pyrofit.errors import StudyError
 from pyrofit.estimate.likelihood import likelihood_of
-from pyrofit.estimate.problem import Measurements, make_problem
+from pyrofit.estimate.problem import make_problem
+from pyrofit.estimate.targets import Measurements
 from pyrofit.results import dependencies
 from pyrofit.stages.measurements import computed
 

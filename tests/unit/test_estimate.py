@@ -14,14 +14,9 @@ from pyrofit.errors import CostError
 from pyrofit.estimate import cmaes
 from pyrofit.estimate.history import best_of, convergence
 from pyrofit.estimate.least_squares import multistart
-from pyrofit.estimate.problem import (
-    FAILED_COST,
-    Evaluation,
-    Problem,
-    make_problem,
-    target_of,
-)
+from pyrofit.estimate.problem import FAILED_COST, Evaluation, Problem, make_problem
 from pyrofit.estimate.sceua import search, search_several
+from pyrofit.estimate.targets import target_of
 from pyrofit.experiments import KINDS, Tga
 from pyrofit.experiments.heated.simulate import programme, request
 from pyrofit.quantities import known_quantities

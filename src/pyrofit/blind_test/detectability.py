@@ -16,7 +16,8 @@ from pyrofit.errors import DataError
 from pyrofit.estimate.correlation import Correlation
 from pyrofit.estimate.likelihood import Likelihood
 from pyrofit.estimate.noise import NoiseModel
-from pyrofit.estimate.problem import Measurements, Problem, make_problem
+from pyrofit.estimate.problem import Problem, make_problem
+from pyrofit.estimate.targets import Measurements
 from pyrofit.model.signal import Noise
 from pyrofit.solver.arrays import FloatArray
 

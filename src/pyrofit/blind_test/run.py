@@ -14,7 +14,7 @@ from pyrofit.blind_test.twin import make_twin, read_twin, without_effects, write
 from pyrofit.config import Study, digest, read_mapping
 from pyrofit.effects import known_effects, same_as
 from pyrofit.errors import DataError, StudyError
-from pyrofit.estimate.problem import Measurements
+from pyrofit.estimate.targets import Measurements
 from pyrofit.plugins import code_digest
 from pyrofit.provenance import source_fingerprint
 from pyrofit.results.files import read_json, write_json

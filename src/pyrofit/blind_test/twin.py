@@ -15,7 +15,7 @@ from pyrofit.blind_test.plan import Case
 from pyrofit.blind_test.setting import Setting
 from pyrofit.config import Study, as_study, candidate_effects, read_mapping, read_study
 from pyrofit.errors import StudyError
-from pyrofit.estimate.problem import Measurements
+from pyrofit.estimate.targets import Measurements
 from pyrofit.quantities import known_quantities
 from pyrofit.results.files import write_csv, write_json, write_text
 from pyrofit.stages.measurements import computed

@@ -8,6 +8,7 @@ from pyrofit.config.terms import TermSpec
 from pyrofit.errors import suggest
 from pyrofit.experiments import kind_of, kinds_of
 from pyrofit.experiments.base import Stage
+from pyrofit.quantities.base import LIMITS
 
 
 def check_stages(study: Study) -> None:
@@ -75,6 +76,18 @@ def _check_terms(study: Study, place: str, terms: Sequence[TermSpec], wanted: St
             f"experiment '{term.experiment}' has no signal '{term.signal}'. "
             + suggest(term.signal, signals),
         )
+        if term.limits is not None:
+            of = f"experiments.{term.experiment}.signals.{term.signal}"
+            require(
+                not study.is_computed(term.experiment, term.signal),
+                f"{place}.{i}.limits",
+                f"{of} is computed, and has no columns; leave `limits` out",
+            )
+            require(
+                set(LIMITS) <= set(signals[term.signal].columns),
+                f"{place}.{i}.limits",
+                f"name the columns lower and upper in {of}.columns, or leave `limits` out",
+            )
 
 
 def check_choice(study: Study, place: str, chosen: Mapping[str, Sequence[str]]) -> None:

@@ -1,13 +1,14 @@
 """Terms of a cost, and the signals that they compare."""
 
 from collections.abc import Iterable
-from typing import Annotated, Self
+from typing import Annotated, Literal, Self
 
 from pydantic import Field, model_validator
 
 from pyrofit.cost import KINDS, NORMALISATIONS, check_options
 from pyrofit.errors import CostError, suggest
 from pyrofit.model.base import Part
+from pyrofit.quantities.base import LIMITS
 
 
 class TermSpec(Part):
@@ -24,6 +25,11 @@ class TermSpec(Part):
         None, ge=2, description="points the target is interpolated to; none = measured points"
     )
     window_s: tuple[float, float] | None = Field(None, description="compared time window [s]")
+    limits: Literal["columns"] | None = Field(
+        None,
+        description="BANDS: 'columns' takes its limits from the columns lower and upper of the "
+        "signal; none = value -+ n_sigma times its uncertainty",
+    )
     options: dict[str, float] = Field(default_factory=dict, description="options of the cost")
 
     @model_validator(mode="after")
@@ -37,9 +43,20 @@ class TermSpec(Part):
                 f"unknown normalisation '{self.normalisation}'. "
                 + suggest(self.normalisation, NORMALISATIONS)
             )
+        if self.limits is not None:
+            self._check_limits()
         if self.window_s is not None and self.window_s[0] >= self.window_s[1]:
             raise ValueError("window_s must be [start, end] with start below end")
         return self
+
+    def _check_limits(self) -> None:
+        """Refuse limits of a cost that takes none, or takes them from the uncertainty, too."""
+        try:
+            check_options(self.kind, {**self.all_options(), **dict.fromkeys(LIMITS)})
+        except CostError:
+            raise ValueError(f"{self.kind} takes no limits; leave `limits` out") from None
+        if "n_sigma" in self.options:
+            raise ValueError("give `limits`, or `n_sigma` under options; not both")
 
     def all_options(self) -> dict[str, object]:
         """Return the options of the cost, the normalisation among them where it is given."""

@@ -28,7 +28,7 @@ def check_finite(path: Path, frame: pd.DataFrame) -> None:
 def check_order(
     quantity: Quantity, table: Table, headers: Mapping[str, str], frame: pd.DataFrame
 ) -> None:
-    """Refuse times that do not increase, negative uncertainties and a loss of the wrong sign."""
+    """Refuse unordered times, negative uncertainties, crossed limits, a loss of the wrong sign."""
     time = frame["time_s"].to_numpy()
     if time[0] < 0.0:
         rule = "time starts at 0 or later. Delete the rows before 0."
@@ -43,6 +43,11 @@ def check_order(
                 "an uncertainty is never negative. Correct it, or give `uncertainty` as a number."
             )
             raise _refusal(table, headers["uncertainty"], int(uncertainty.argmin()), rule)
+    if "lower" in headers:
+        lower, upper = (frame[column].to_numpy() for column in quantity.limit_columns.values())
+        if (crossed := np.flatnonzero(lower > upper)).size:
+            rule = "the lower limit lies above the upper one. Exchange the two columns."
+            raise _refusal(table, headers["lower"], int(crossed[0]), rule)
     value = frame[quantity.column].to_numpy()
     ratio = quantity.sign_ratio
     if ratio is not None and -value.min() > ratio * value.max():

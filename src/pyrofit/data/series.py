@@ -13,7 +13,7 @@ from pyrofit.data.csvfile import FloatArray, Table, read_table
 from pyrofit.data.download import sha256
 from pyrofit.errors import DataError, suggest
 from pyrofit.quantities import known_quantities
-from pyrofit.quantities.base import Quantity
+from pyrofit.quantities.base import LIMITS, Quantity
 from pyrofit.quantities.units import CELSIUS, ICE_POINT_K, SCALES, header_key, unit_key
 
 _FEWEST_POINTS = 3
@@ -31,7 +31,8 @@ class SeriesSpec:
         The file.
     columns : mapping of str to str
         Header name by role (`time`, `value`, `uncertainty`, `temperature`); the others are
-        recognised from well-known header names.
+        recognised from well-known header names. The limits of a band, `lower` and `upper`, are
+        read only where they are named.
     units : mapping of str to str
         Unit by role, in place of the one in the file.
     uncertainty : float, optional
@@ -65,7 +66,7 @@ class SeriesSpec:
             )
         for key in ("columns", "units"):
             for role in getattr(self, key):
-                if role not in (roles := self.of.roles):
+                if role not in (roles := [*self.of.roles, *LIMITS]):
                     raise DataError(
                         f"{self.path}: `{key}` names an unknown role '{role}' for "
                         f"{self.quantity}. {suggest(role, roles)}"
@@ -77,6 +78,11 @@ class SeriesSpec:
                     f"{self.path}: {key} = {number}; it must be a number above 0. "
                     "Correct it or leave it out."
                 )
+        if len(given := [role for role in LIMITS if role in self.columns]) == 1:
+            raise DataError(
+                f"{self.path}: `columns` names the {given[0]} limit alone; name both, lower and "
+                "upper, or neither."
+            )
         if self.uncertainty is not None and "uncertainty" in self.columns:
             raise DataError(
                 f"{self.path}: both a number and a column are given for the uncertainty; "
@@ -99,7 +105,8 @@ class Measurement:
         What is measured.
     frame : DataFrame
         `time_s`, where the quantity has it `temperature_K`, the value (`quantity.column`) and, if
-        known, its uncertainty (`quantity.uncertainty_column`).
+        known, its uncertainty (`quantity.uncertainty_column`) and the limits of a band
+        (`quantity.limit_columns`).
     source : Path
         The file.
     sha256 : str
@@ -170,8 +177,8 @@ def read_series(spec: SeriesSpec) -> Measurement:
     check_finite(spec.path, frame)
     check_order(spec.of, table, headers, frame)
     check_limits(spec.of, table, headers, frame)
-    if dummies:
-        notes.append(f"left out, zero throughout: {', '.join(dummies)}")
+    if unread := [name for name in dummies if name not in headers.values()]:
+        notes.append(f"left out, zero throughout: {', '.join(unread)}")
     if negative := int((frame[spec.of.column] < 0.0).sum()):
         notes.append(f"{negative} of {rows} values are negative")
     digest = sha256(spec.path)
@@ -204,7 +211,8 @@ def _assign_columns(spec: SeriesSpec, table: Table, dummies: Sequence[str]) -> d
         if matches[0] in headers.values():
             raise DataError(f"{table.path}: column '{matches[0]}' is given two roles; name two.")
         headers[role] = matches[0]
-    return headers
+    # A limit may be zero throughout, and two roles may share one column.
+    return headers | {role: asked[role] for role in LIMITS if role in asked}
 
 
 def _find_asked(table: Table, role: str, asked: str) -> str:
@@ -243,6 +251,9 @@ def _convert_columns(
         data[spec.of.uncertainty_column] = spread / divisor if its == kind else spread
     else:
         notes.append("no uncertainty is known")
+    for role in (role for role in LIMITS if role in headers):
+        limit, _ = _to_si(spec, table, headers, role, (kind,))
+        data[spec.of.limit_columns[role]] = limit / divisor
     return pd.DataFrame(data), notes
 
 

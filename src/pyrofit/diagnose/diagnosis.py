@@ -17,7 +17,7 @@ from pyrofit.diagnose.rounds import Means, Tell, in_order
 from pyrofit.diagnose.search import Search, search
 from pyrofit.diagnose.setup import set_up
 from pyrofit.diagnose.verdict import judge
-from pyrofit.estimate.problem import Measurements
+from pyrofit.estimate.targets import Measurements
 
 
 @dataclass(frozen=True, eq=False)

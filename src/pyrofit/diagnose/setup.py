@@ -20,7 +20,8 @@ from pyrofit.diagnose.refit import Trial, polished
 from pyrofit.errors import DataError
 from pyrofit.estimate.likelihood import FAILED, Likelihood, likelihood_of
 from pyrofit.estimate.noise import NoiseModel, estimate_noise
-from pyrofit.estimate.problem import Measurements, Problem, make_problem
+from pyrofit.estimate.problem import Problem, make_problem
+from pyrofit.estimate.targets import Measurements
 from pyrofit.parallel import parallel_map
 from pyrofit.solver.arrays import FloatArray
 

@@ -4,25 +4,22 @@ from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, replace
 
 import numpy as np
-import pandas as pd
 from numpy.typing import NDArray
 
 from pyrofit.config import Study, TermSpec
-from pyrofit.cost import Target, WeightedSum, make_term
+from pyrofit.cost import WeightedSum
+from pyrofit.estimate.targets import Measurements, term_for
 from pyrofit.experiments import kind_of
 from pyrofit.experiments.base import Simulate
 from pyrofit.model.accuracy import Accuracy
 from pyrofit.model.experiment import Experiment
 from pyrofit.model.material import Material
-from pyrofit.quantities.base import Quantity
 from pyrofit.solver.arrays import FloatArray, Status, Values
 from pyrofit.solver.curves import Curves, Request
 
 FAILED_COST = 1e12
 """Cost of a run that did not finish: finite, and worse than any run that did."""
 
-Measurements = Mapping[tuple[str, str], pd.DataFrame]
-"""Measured series by (experiment, signal)."""
 Outcome = tuple[Status, list[FloatArray]]
 """How a simulation ended, and the model at each term's target, if it finished."""
 
@@ -142,31 +139,6 @@ class Problem:
         return np.full(self.cost.residuals(met).size, np.sqrt(FAILED_COST))
 
 
-def target_of(frame: pd.DataFrame, quantity: Quantity) -> Target:
-    """Return the measured series as the target of a cost."""
-    sigma = quantity.uncertainty_column
-    return Target(
-        frame["time_s"].to_numpy(float),
-        frame[quantity.column].to_numpy(float),
-        frame[sigma].to_numpy(float) if sigma in frame else None,
-    )
-
-
-def target_for(study: Study, spec: TermSpec, measurements: Measurements) -> Target:
-    """Return the target of a term: its window of the measured series, resampled where wanted.
-
-    Raises
-    ------
-    CostError
-        The window holds too few points.
-    """
-    quantity = study.experiments[spec.experiment].quantity(spec.signal)
-    target = target_of(measurements[spec.experiment, spec.signal], quantity)
-    if spec.window_s is not None:
-        target = target.window(*spec.window_s)
-    return target.resampled(spec.points) if spec.points else target
-
-
 def make_problem(
     study: Study,
     estimate: Sequence[str],
@@ -197,7 +169,8 @@ def make_problem(
     CostError
         A cost does not fit its target.
     """
-    targets = [target_for(study, spec, measurements) for spec in specs]
+    terms = [term_for(study, spec, measurements) for spec in specs]
+    targets = [term.target for term in terms]
     times: dict[tuple[str, str], FloatArray] = {}
     for spec, target in zip(specs, targets, strict=True):
         key = spec.experiment, spec.signal
@@ -216,10 +189,6 @@ def make_problem(
         )
         for s, t in zip(specs, targets, strict=True)
     )
-    terms = [
-        (s.weight, make_term(s.kind, t, **s.all_options()))
-        for s, t in zip(specs, targets, strict=True)
-    ]
     bounds = np.array([study.parameters[name].bounds_si for name in estimate])
     return Problem(
         names=tuple(estimate),
@@ -229,6 +198,6 @@ def make_problem(
         fixed={n: v for n, v in fixed.items() if n not in estimate},
         runs=runs,
         picks=picks,
-        cost=WeightedSum(terms),
+        cost=WeightedSum([(s.weight, term) for s, term in zip(specs, terms, strict=True)]),
         accuracy=study.accuracy,
     )

@@ -17,6 +17,10 @@ Released = Callable[[FloatArray, FloatArray], float]
 """From times and values to the released mass per area."""
 
 
+LIMITS = ("lower", "upper")
+"""Roles of columns with the limits of a band; they are read where a study names them."""
+
+
 @dataclass(frozen=True)
 class Shown:
     """How a quantity is shown: y = factor x + offset, x in SI units."""
@@ -94,6 +98,16 @@ class Quantity:
             "value": self.headers,
             "uncertainty": (*self.uncertainty_headers, "Error", "Uncertainty"),
         }
+
+    @property
+    def limit_columns(self) -> dict[str, str]:
+        """Columns of the lower and the upper limit of a band about the values, by role.
+
+        >>> from pyrofit.quantities import known_quantities
+        >>> known_quantities()["mlr"].limit_columns["lower"]
+        'mlr_lower_kg_m2_s'
+        """
+        return {role: self.uncertainty_column.replace("uncertainty", role) for role in LIMITS}
 
     @property
     def is_temperature(self) -> bool:

@@ -7,10 +7,10 @@ import numpy as np
 import pandas as pd
 
 from pyrofit.config import Study, TermSpec
-from pyrofit.cost import make_term
 from pyrofit.errors import CostError
 from pyrofit.estimate.family import GOOD, explore, thinned
-from pyrofit.estimate.problem import Measurements, Problem, make_problem, target_for
+from pyrofit.estimate.problem import Problem, make_problem
+from pyrofit.estimate.targets import Measurements, term_for
 from pyrofit.results import searches
 from pyrofit.results.files import Results, write_csv
 from pyrofit.seeds import seed_for
@@ -109,7 +109,7 @@ def _computable(study: Study, term: TermSpec, measurements: Measurements) -> boo
     if (term.experiment, term.signal) not in measurements:
         return False
     try:
-        make_term(term.kind, target_for(study, term, measurements), **term.all_options())
+        term_for(study, term, measurements)
     except CostError:
         return False
     return True

@@ -12,7 +12,8 @@ from pyrofit.errors import StudyError, suggest
 from pyrofit.estimate import cmaes
 from pyrofit.estimate.history import Progress, best_of, convergence
 from pyrofit.estimate.least_squares import Start, descend, multistart
-from pyrofit.estimate.problem import Measurements, Problem, make_problem
+from pyrofit.estimate.problem import Problem, make_problem
+from pyrofit.estimate.targets import Measurements
 from pyrofit.experiments.heated.simulate import programme
 from pyrofit.model.base import value_of
 from pyrofit.model.heated import HeatedExperiment

@@ -8,7 +8,7 @@ import pandas as pd
 from pyrofit.config import Study, true_description
 from pyrofit.data.noise import draw
 from pyrofit.errors import DataError
-from pyrofit.estimate.problem import Measurements
+from pyrofit.estimate.targets import Measurements
 from pyrofit.experiments import kind_of
 from pyrofit.model.signal import Noise
 from pyrofit.quantities.base import Quantity

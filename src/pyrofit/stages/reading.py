@@ -8,12 +8,11 @@ import numpy as np
 import pandas as pd
 
 from pyrofit.config import Study, TermSpec
-from pyrofit.cost import make_term
 from pyrofit.data.download import FOLDER_VARIABLE
 from pyrofit.data.fetch import locate, store
 from pyrofit.data.series import Measurement, SeriesSpec, read_series
 from pyrofit.errors import CostError, DataError
-from pyrofit.estimate.problem import Measurements, target_for
+from pyrofit.estimate.targets import Measurements, term_for
 from pyrofit.model.base import value_of
 from pyrofit.model.heated import HeatedExperiment
 from pyrofit.model.signal import Signal
@@ -105,7 +104,7 @@ def check_terms(study: Study, measurements: Measurements) -> None:
 
 def _check_term(study: Study, place: str, spec: TermSpec, measurements: Measurements) -> None:
     try:
-        make_term(spec.kind, target_for(study, spec, measurements), **spec.all_options())
+        term_for(study, spec, measurements)
     except CostError as error:
         raise CostError(f"{place}, on {_place(spec.experiment, spec.signal)}: {error}") from None
 

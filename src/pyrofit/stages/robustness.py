@@ -16,7 +16,9 @@ from pyrofit.config import Study, TermSpec
 from pyrofit.errors import DataError, StudyError
 from pyrofit.estimate.least_squares import multistart
 from pyrofit.estimate.noise import estimate_noise
-from pyrofit.estimate.problem import Measurements, Problem, make_problem, target_of
+from pyrofit.estimate.problem import Problem, make_problem
+from pyrofit.estimate.targets import Measurements, target_of
+from pyrofit.quantities.base import Quantity
 from pyrofit.results import searches
 from pyrofit.results.files import Results, write_csv
 from pyrofit.seeds import seed_for
@@ -116,7 +118,7 @@ def _twin(study: Study, results: Results) -> Twin:
         if not status.finished:
             raise DataError(f"{name}: no twin can be made: {status.explanation}")
         quantity = study.experiments[name].quantity(signal)
-        clean[name, signal] = frame.assign(**{quantity.column: curves[0]})
+        clean[name, signal] = with_values(frame, quantity, curves[0])
         described = study.experiments[name].signals[signal]
         noise = estimate_noise(
             target_of(frame, quantity), quantity, described.uncertainty_sds, described.timing_s
@@ -152,12 +154,33 @@ def noisy(study: Study, twin: Twin, kind: str, level: float, draw: int) -> Measu
             hit = rng.random(value.size) < level
             size = study.robustness.outlier_size * float(np.ptp(value))
             added += np.where(hit, size * rng.choice([-1.0, 1.0], value.size), 0.0)
-        columns: dict[str, Any] = {quantity.column: value + added}
-        stated = quantity.uncertainty_column
-        if stated in frame:
-            columns[stated] = multiple * frame[stated]
-        series[name, signal] = frame.assign(**columns)
+        series[name, signal] = with_values(frame, quantity, value + added, multiple)
     return series
+
+
+def with_values(
+    frame: pd.DataFrame, quantity: Quantity, value: FloatArray, wider: float = 1.0
+) -> pd.DataFrame:
+    """Return a series with other values; what is stated about them moves along.
+
+    Parameters
+    ----------
+    frame
+        The measured series.
+    quantity
+        Its quantity.
+    value
+        New values, shape (n,).
+    wider
+        Factor of the uncertainty and of the distances to the limits.
+    """
+    columns: dict[str, Any] = {quantity.column: value}
+    if quantity.uncertainty_column in frame:
+        columns[quantity.uncertainty_column] = wider * frame[quantity.uncertainty_column]
+    for limit in quantity.limit_columns.values():
+        if limit in frame:
+            columns[limit] = value + wider * (frame[limit] - frame[quantity.column])
+    return frame.assign(**columns)
 
 
 def _held_out(study: Study, results: Results, twin: Twin) -> list[Problem]:
