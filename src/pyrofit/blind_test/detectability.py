@@ -48,12 +48,7 @@ def detectability(truth: Study, series: Measurements, known: Mapping[str, float]
         A simulation of the truth does not finish.
     """
     base = _noise_free(truth, series)
-    terms = [term for _, term in base.cost.terms]
-    noise = tuple(
-        _noise(truth, name, signal, term.target)
-        for (name, signal, _), term in zip(base.picks, terms, strict=True)
-    )
-    likelihood = Likelihood(base, noise)
+    likelihood = Likelihood(base, _noise_models(truth, base))
     start = likelihood.scaled(_true_values(truth, base))
     rows = _known_rows(truth, base, known)
 
@@ -100,6 +95,14 @@ def _true_values(truth: Study, problem: Problem) -> FloatArray:
     assert truth.synthetic is not None
     values = truth.synthetic.truth
     return np.array([values[name] * truth.parameters[name].factor for name in problem.names])
+
+
+def _noise_models(truth: Study, base: Problem) -> tuple[NoiseModel, ...]:
+    terms = [term for _, term in base.cost.terms]
+    return tuple(
+        _noise(truth, name, signal, term.target)
+        for (name, signal, _), term in zip(base.picks, terms, strict=True)
+    )
 
 
 def _noise(truth: Study, experiment: str, signal: str, clean: Target) -> NoiseModel:
