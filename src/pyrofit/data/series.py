@@ -17,6 +17,11 @@ from pyrofit.quantities.base import LIMITS, Quantity
 from pyrofit.quantities.units import CELSIUS, ICE_POINT_K, SCALES, header_key, unit_key
 
 _FEWEST_POINTS = 3
+_PER_AREA = {
+    "mass rate": "mass flux, such as kg/s/m2",
+    "heat rate": "heat flux, such as kW/m2",
+}
+"""Kinds of unit that the exposed area divides, and what they become."""
 
 
 @dataclass(frozen=True)
@@ -42,7 +47,7 @@ class SeriesSpec:
     sample_mass_kg : float, optional
         Initial mass of the sample [kg]: divides a mass to give a mass fraction.
     sample_area_m2 : float, optional
-        Exposed area of the sample [m2]: divides a mass rate to give a mass flux.
+        Exposed area of the sample [m2]: divides a mass rate or a heat rate to give a flux.
 
     Raises
     ------
@@ -278,13 +283,13 @@ def _to_si(
 
 def _divisor(spec: SeriesSpec, kind: str, first: float) -> tuple[float, list[str]]:
     """Give the mass or the area by which a mass or a mass rate is divided."""
-    if kind == "mass rate":
+    if kind in _PER_AREA:
         if spec.sample_area_m2 is None:
             raise DataError(
-                f"{spec.path}: the unit is that of a mass rate; give `sample_area_m2`, or the "
-                "right unit of a mass flux, such as kg/s/m2."
+                f"{spec.path}: the unit is that of a {kind}; give `sample_area_m2`, or the "
+                f"right unit of a {_PER_AREA[kind]}."
             )
-        return spec.sample_area_m2, [f"mass rate divided by {spec.sample_area_m2:g} m2"]
+        return spec.sample_area_m2, [f"{kind} divided by {spec.sample_area_m2:g} m2"]
     if kind != "mass":
         return 1.0, []
     mass = first if spec.sample_mass_kg is None else spec.sample_mass_kg

@@ -7,15 +7,20 @@ from typing import Annotated
 
 from pydantic import Field
 
-from pyrofit.experiments import gasification, tga
+from pyrofit.experiments import cone, gasification, tga
 from pyrofit.experiments.base import Kind, Stage
+from pyrofit.experiments.cone import Cone
 from pyrofit.experiments.gasification import Gasification
 from pyrofit.experiments.tga import Tga
 from pyrofit.model.experiment import Experiment
 
-KINDS: dict[str, Kind] = {"gasification": gasification.KIND, "tga": tga.KIND}
+KINDS: dict[str, Kind] = {
+    "cone": cone.KIND,
+    "gasification": gasification.KIND,
+    "tga": tga.KIND,
+}
 """Kinds of experiment by name."""
-AnyExperiment = Annotated[Tga | Gasification, Field(discriminator="kind")]
+AnyExperiment = Annotated[Cone | Tga | Gasification, Field(discriminator="kind")]
 
 
 def kind_of(experiment: Experiment) -> Kind:
@@ -31,6 +36,6 @@ def kinds_of(stage: Stage) -> list[str]:
     """Return the words for the kinds of experiment that a stage fits.
 
     >>> kinds_of("imp")
-    ['gasification']
+    ['cone calorimeter', 'gasification']
     """
     return [kind.words for kind in KINDS.values() if kind.stage == stage]

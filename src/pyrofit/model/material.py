@@ -138,6 +138,9 @@ class Reaction(Part):
     heat_of_reaction_J_kg: Number = Field(
         0.0, description="heat of reaction per kg of reactant [J/kg], positive = endothermic"
     )
+    heat_of_combustion_J_kg: NotNegative = Field(
+        0.0, description="heat of combustion per kg of the gas it releases [J/kg]"
+    )
 
     @model_validator(mode="after")
     def _check(self) -> Self:

@@ -79,6 +79,28 @@ class Front(Side):
     )
 
 
+class Flame(Part):
+    """The flame of a burning sample, from ignition to flame-out."""
+
+    flux_W_m2: NotNegative = Field(
+        0.0, description="constant heat flux of the flame, added to the external flux [W/m2]"
+    )
+    ignition_s: NotNegative = Field(0.0, description="time of ignition [s]; before, no gas burns")
+    ends_s: NotNegative | None = Field(
+        None, description="time of flame-out [s]; none = burns to the end"
+    )
+
+    @model_validator(mode="after")
+    def _check(self) -> Self:
+        begins, ends = self.ignition_s, self.ends_s
+        if isinstance(begins, float) and isinstance(ends, float) and ends <= begins:
+            raise ValueError(
+                f"ends_s {ends:g} must be later than ignition_s {begins:g}; leave it out where the "
+                "flame lasts to the end"
+            )
+        return self
+
+
 class Back(Side):
     """The other side."""
 
@@ -163,3 +185,7 @@ class SlabExperiment(Experiment):
     def synthetic_span(self) -> tuple[float, str]:
         """Length of a computed record [s], and the keys that set it."""
         return self.duration_s, "duration_s"
+
+    def burning(self) -> Flame | None:
+        """Return the flame; without one, what gas is released burns at once."""
+        return None

@@ -9,6 +9,8 @@ SCALES: dict[str, dict[str, float]] = {
     "mass": {"kg": 1.0, "g": 1e-3, "mg": 1e-6},
     "mass flux": {"kg/s/m2": 1.0, "g/s/m2": 1e-3, "mg/s/m2": 1e-6},
     "mass rate": {"kg/s": 1.0, "g/s": 1e-3, "mg/s": 1e-6},
+    "heat flux": {"W/m2": 1.0, "kW/m2": 1e3, "MW/m2": 1e6},
+    "heat rate": {"W": 1.0, "kW": 1e3, "MW": 1e6},
     "fraction": {"1": 1.0, "-": 1.0, "g/g": 1.0, "kg/kg": 1.0, "mg/mg": 1.0, "%": 0.01},
 }
 CELSIUS = {"degC", "°C", "C"}

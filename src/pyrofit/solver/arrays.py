@@ -92,6 +92,10 @@ class Network(NamedTuple):
     """Solid yields nu_ji [kg/kg], shape (reactions, components)."""
     gas: FloatArray
     """Gas yield 1 - sum_i nu_ji [kg/kg]."""
+    combustion: FloatArray
+    """Heat of combustion of the gas of reaction j [J per kg of gas]."""
+    burns: bool
+    """Whether the heat of combustion released is recorded."""
     first_order: bool
     """Whether every n_j is 1."""
     plain: bool
@@ -128,6 +132,10 @@ class Exposure(NamedTuple):
     """Times of the flux table [s], shape (points,); a step is given by two equal times."""
     flux: FloatArray
     """q_ext at those times [W/m2], linear between them."""
+    flame: FloatArray
+    """Heat flux of the flame from each of these times to the next [W/m2]."""
+    lit: FloatArray
+    """Whether the gas burns from each of these times to the next: 1, else 0."""
     rise_time: Number
     """Time constant with which the heater comes up [s]; 0 = at once."""
     drift: Number

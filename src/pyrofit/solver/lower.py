@@ -220,6 +220,8 @@ def lower_network(
         heat=stack(heat, sets),
         yields=yields,
         gas=1.0 - total(yields.swapaxes(0, 1)),
+        combustion=stack([value_of(r.heat_of_combustion_J_kg, values) for r in order], sets),
+        burns=False,
         first_order=first_order,
         plain=plan.plain,
         residue=plan.residue,

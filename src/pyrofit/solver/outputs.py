@@ -2,6 +2,8 @@
 
 RATE = "mlr"
 """Mass loss rate per area [kg/(m2 s)], averaged over the bin width."""
+HEAT = "heat_release_rate"
+"""Heat of combustion released per time and area [W/m2], averaged over the bin width."""
 MASS = "mass"
 """Mass per area [kg/m2]."""
 FRONT = "front_temperature"

@@ -13,13 +13,13 @@ from pyrofit.solver.arrays import FloatArray, IntArray, Numerics, Status
 from pyrofit.solver.curves import Request, Runs
 from pyrofit.solver.lower import total
 from pyrofit.solver.lower_experiment import Layer, cells_of
-from pyrofit.solver.outputs import BACK, FRONT, MASS, RATE, THICKNESS
+from pyrofit.solver.outputs import BACK, FRONT, HEAT, MASS, RATE, THICKNESS
 
 LANES = 8
 """Parameter sets that run side by side."""
 FEW = 3
 """Sets that are faster one after the other than with empty lanes."""
-EARLY = {RATE, MASS}
+EARLY = {RATE, HEAT, MASS}
 """Signals that do not change any more once the reactant is gone."""
 
 
@@ -118,6 +118,7 @@ def march(case: Case, asked: Mapping[str, Request], numerics: Numerics, threads:
     at = np.concatenate([r.time_s for r in asked.values()], axis=1)
     outputs = [r.of(n) for n, r in asked.items()]
     early = set(outputs) <= EARLY
+    case = case._replace(network=case.network._replace(burns=HEAT in outputs))
     work = _Work(case, numerics, np.max(ends, axis=0), wanted, at, outputs, early)
 
     def fill(index: IntArray) -> None:
@@ -153,6 +154,7 @@ def _asked(signals: tuple[tuple[str, float, int], ...]) -> arrays.Asked:
 
     columns = {
         RATE: trace.RATE,
+        HEAT: trace.POWER,
         MASS: trace.RELEASED,
         FRONT: trace.FRONT,
         BACK: trace.BACK,

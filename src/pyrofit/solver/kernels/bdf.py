@@ -41,6 +41,8 @@ class Balance(NamedTuple):
 
     released: Number
     """Gas [kg/m2]."""
+    burnt: Number
+    """Heat of combustion of what has burnt of it [J/m2]."""
     heat_in: Number
     """Heat through the surfaces [J/m2]."""
     heat_crossed: Number
@@ -123,7 +125,7 @@ def step_ratio(error, tolerance):
 
 
 @inner
-def booked(balance, clock, gas, heat_used, net_flux):
+def booked(balance, clock, gas, burnt, heat_used, net_flux):
     """Return the balance after a step with this net flux at its end [W/m2].
 
     Heat enters as the formula integrates it: net_flux = b1 heat - b3 heat_last.
@@ -132,6 +134,7 @@ def booked(balance, clock, gas, heat_used, net_flux):
     heat = (net_flux + bdf.b3 * balance.heat_last) / bdf.b1
     return Balance(
         balance.released + gas,
+        balance.burnt + burnt,
         balance.heat_in + heat,
         balance.heat_crossed + abs(heat),
         balance.heat_used + heat_used,
@@ -144,6 +147,7 @@ def kept(condition, new, old):
     """Return the new balance where the condition holds, the old one elsewhere."""
     return Balance(
         where(condition, new.released, old.released),
+        where(condition, new.burnt, old.burnt),
         where(condition, new.heat_in, old.heat_in),
         where(condition, new.heat_crossed, old.heat_crossed),
         where(condition, new.heat_used, old.heat_used),

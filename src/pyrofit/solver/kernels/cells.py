@@ -220,8 +220,8 @@ def is_consumed(i, network):
 def book(work, n, j, used, left, growth, network, final):
     """Add to heat used and rate of cell n what reaction j gives.
 
-    If the step is final also to the gas, else to sum_j dh_j E_j/R (d x_j / d ln k_j) m_j, which is
-    T^2 times the slope of that heat in T.
+    If the step is final also to the gas and its heat of combustion, else to
+    sum_j dh_j E_j/R (d x_j / d ln k_j) m_j, which is T^2 times the slope of that heat in T.
     """
     cell = work.cell
     heat, gas = network.heat[j], network.gas[j]
@@ -230,6 +230,9 @@ def book(work, n, j, used, left, growth, network, final):
     add(cell, row.rate, n, gas * k * left, j)
     if final:
         add(cell, row.gas, n, gas * used, j)
+        if network.burns:
+            add(cell, row.burnt, n, network.combustion[j] * gas * used, j)
+            add(cell, row.power, n, network.combustion[j] * gas * k * left, j)
     else:
         add(cell, row.grows, n, heat * network.activation_temperature[j] * growth * left, j)
 

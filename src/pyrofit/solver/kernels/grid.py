@@ -68,7 +68,7 @@ def _reaction_zone(j, eps, share, T_start, material, network, exposure, s):
     wall, gas = exposure.front.wall_temperature[s], exposure.front.gas_temperature[s]
     strongest = 0.0
     for p in range(exposure.flux.shape[0]):
-        strongest = max(strongest, exposure.flux[p, s])
+        strongest = max(strongest, exposure.flux[p, s] + exposure.flame[p, s])
     T, width = FIRST_GUESS_K, math.inf
     for _ in range(4):
         loss = eps * STEFAN_BOLTZMANN * (T * T * T * T - wall * wall * wall * wall)

@@ -55,6 +55,15 @@ def flux_at(t, piece, time, flux):
 
 
 @inner
+def during(piece, values):
+    """Return the value that holds during a piece of the flux table."""
+    value = values[0] + 0.0 * piece
+    for p in range(1, values.size):
+        value = where(piece == 1.0 * p, values[p], value)
+    return value
+
+
+@inner
 def approach(t, time):
     """Return 1 - exp(-t/time), what is reached of a value approached with a time constant."""
     return where(time > 0.0, 1.0 - exp(-t / max(time, TINY)), 1.0)
@@ -62,11 +71,12 @@ def approach(t, time):
 
 @inner
 def irradiation(t, piece, exposure):
-    """Return q_ext(t): the table's, times the heater's coming up and its drift."""
+    """Return q_ext(t) and the flame's: the table's, times the heater's coming up and its drift."""
     flux = flux_at(t, piece, exposure.flux_time, exposure.flux)
     rest = exposure.drift_time
     drifted = where(rest > 0.0, rest * approach(t, rest), t)
-    return flux * approach(t, exposure.rise_time) * max(1.0 + exposure.drift * drifted, 0.0)
+    heater = flux * approach(t, exposure.rise_time) * max(1.0 + exposure.drift * drifted, 0.0)
+    return heater + during(piece, exposure.flame)
 
 
 @inner

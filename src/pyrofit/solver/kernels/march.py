@@ -66,7 +66,7 @@ def scale_of_rate(exposure):
     """Return the mass loss rate to which the error is compared at the onset [kg/(m2 s)]."""
     flux = LEAST_FLUX_SCALE + 0.0 * exposure.flux[0]
     for p in range(exposure.flux.size):
-        flux = max(flux, exposure.flux[p])
+        flux = max(flux, exposure.flux[p] + exposure.flame[p])
     return ONSET_SHARE * flux / GASIFICATION_SCALE
 
 
@@ -107,12 +107,12 @@ def march(
     begin(work, wide, material, network, exposure, T_start)
     none = 0.0 * T_start
     top = Top(T_start, T_start, none + 1.0, none)
-    balance = Balance(none, none, none, none, none)
+    balance = Balance(none, none, none, none, none, none)
     clock = start_clock(none, exposure, numerics, t_end)
     rate_scale = scale_of_rate(exposure)
     mass = total_mass(work)
     depth = thickness(work, edge.first, material, T_start)
-    at_start = none, none, none, T_start, depth
+    at_start = none, none, none, T_start, depth, none, none, clock.dt_old
     for lane in range(firsts.size):
         record(trace[lane, 0], lane, at_start, flat, firsts[lane], empty, probes)
     status, steps, tries = none + UNBURNT, none, none
@@ -140,9 +140,8 @@ def march(
                 firsts[lane], moved = drop_thin(flat, lane, firsts[lane], start, network)
                 heat = with_lane(heat, lane, moved)
         edge = edge_of(T_start, firsts)
-        balance = kept(
-            accepted, booked(balance, clock, step.gas, step.heat + heat, step.net_flux), balance
-        )
+        after = booked(balance, clock, step.gas, step.burnt, step.heat + heat, step.net_flux)
+        balance = kept(accepted, after, balance)
         top = Top(
             where(accepted, step.front, top.front),
             where(accepted, top.front, top.front_old),
@@ -155,7 +154,9 @@ def march(
             tick(clock, ratio, exposure, numerics, t_end),
         )
         clock = either(running, next_clock, clock)
-        now = clock.t, balance.released, step.rate, top.front, depth
+        gone = balance.released, step.rate
+        burnt = balance.burnt, step.power
+        now = clock.t, *gone, top.front, depth, *burnt, clock.dt_old
         for lane in range(firsts.size):
             if in_lane(taken, lane) == 1.0:
                 first = firsts[lane]

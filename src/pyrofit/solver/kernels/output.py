@@ -3,7 +3,7 @@
 from typing import NamedTuple
 
 from pyrofit.solver.kernels.jit import inner, loop
-from pyrofit.solver.kernels.trace import RATE, RELEASED, STEPS, TIME
+from pyrofit.solver.kernels.trace import BURNT, KINK, POWER, RATE, RELEASED, STEPS, TIME
 
 
 class Piece(NamedTuple):
@@ -17,6 +17,27 @@ class Piece(NamedTuple):
     high: float
     slope_low: float
     slope_high: float
+
+
+@inner
+def slope_from(time, value, kink, n, last):
+    """Return dvalue/dt at the beginning of a piece; a kink there hides the step before."""
+    if kink[n] == 1.0:
+        return (value[n + 1] - value[n]) / (time[n + 1] - time[n])
+    return slope_at(time, value, n, last)
+
+
+@inner
+def slope_to(time, value, kink, n, last):
+    """Return dvalue/dt at the end of a piece; a kink there hides the step behind."""
+    if kink[n] == 0.0 or n == last:
+        return slope_at(time, value, n, last)
+    h = time[n] - time[n - 1]
+    rise = (value[n] - value[n - 1]) / h
+    if kink[n - 1] == 1.0:
+        return rise
+    h_before = time[n - 1] - time[n - 2]
+    return rise + h / (h + h_before) * (rise - (value[n - 1] - value[n - 2]) / h_before)
 
 
 @inner
@@ -35,15 +56,19 @@ def slope_at(time, value, n, last):
 def piece_from(rows, last, column, n):
     """Return the piece that begins with step n.
 
-    What was released goes with its rate, everything else with parabolas' slopes.
+    What was released or has burnt goes with its rate, everything else with parabolas' slopes.
     """
     time, value = rows[:, TIME], rows[:, column]
     if n == last:
         return Piece(n, 1.0, value[n], value[n], 0.0, 0.0)
     if column == RELEASED:
         low, high = rows[n, RATE], rows[n + 1, RATE]
+    elif column == BURNT:
+        low, high = rows[n, POWER], rows[n + 1, POWER]
     else:
-        low, high = slope_at(time, value, n, last), slope_at(time, value, n + 1, last)
+        kink = rows[:, KINK]
+        low = slope_from(time, value, kink, n, last)
+        high = slope_to(time, value, kink, n + 1, last)
     return Piece(n, time[n + 1] - time[n], value[n], value[n + 1], low, high)
 
 
@@ -91,30 +116,30 @@ def sampled(rows, last, column, at, out):
 
 
 @loop
-def sampled_rate(rows, last, at, out):
-    """Write the time derivative of what was released; after the end it is zero."""
-    piece = piece_from(rows, last, RELEASED, 0)
+def sampled_rate(rows, last, column, at, out):
+    """Write the time derivative of what was released or has burnt; after the end it is zero."""
+    piece = piece_from(rows, last, column, 0)
     for b in range(at.size):
-        piece = piece_at(rows, last, RELEASED, piece, at[b])
+        piece = piece_at(rows, last, column, piece, at[b])
         out[b] = rate_at(rows, piece, at[b])
 
 
 @loop
-def averaged_rate(rows, last, half, at, out):
-    """Write the mean rate of release from ``half`` [s] before each time to as long after it.
+def averaged_rate(rows, last, column, half, at, out):
+    """Write its mean rate from ``half`` [s] before each time to as long after it.
 
     Nothing is released before 0.
     """
-    piece = ahead = piece_from(rows, last, RELEASED, 0)
+    piece = ahead = piece_from(rows, last, column, 0)
     end, gone = -1.0, 0.0
     for b in range(at.size):
         begin = max(at[b] - half, 0.0)
         before = gone
         if begin != end:
-            piece = piece_at(rows, last, RELEASED, piece, begin)
+            piece = piece_at(rows, last, column, piece, begin)
             before = value_at(rows, piece, begin)
         end = at[b] + half
-        ahead = piece_at(rows, last, RELEASED, ahead, end)
+        ahead = piece_at(rows, last, column, ahead, end)
         gone = value_at(rows, ahead, end)
         out[b] = (gone - before) / max(end - begin, 1e-9)
 
@@ -130,9 +155,12 @@ def sample(trace, outcome, asked, at, out):
         for a in range(asked.column.size):
             begin, end = asked.begin[a], asked.begin[a + 1]
             times, curve = at[lane, begin:end], out[lane, begin:end]
-            if asked.column[a] != RATE:
-                sampled(rows, last, asked.column[a], times, curve)
-            elif asked.half[a] == 0.0:
-                sampled_rate(rows, last, times, curve)
+            column = asked.column[a]
+            if column not in (RATE, POWER):
+                sampled(rows, last, column, times, curve)
+                continue
+            summed = RELEASED if column == RATE else BURNT
+            if asked.half[a] == 0.0:
+                sampled_rate(rows, last, summed, times, curve)
             else:
-                averaged_rate(rows, last, asked.half[a], times, curve)
+                averaged_rate(rows, last, summed, asked.half[a], times, curve)

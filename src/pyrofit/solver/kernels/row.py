@@ -37,5 +37,7 @@ dk = 23
 """Thickness times conductivity [W/K]."""
 grows = 24
 """T^2 times the slope of the reaction heat in T [J K/m2]."""
+burnt, power = 25, 26
+"""Heat of combustion of the gas released in the step [J/m2], and per time at its end [W/m2]."""
 
-COUNT = 25
+COUNT = 27

@@ -18,6 +18,7 @@ from pyrofit.solver.kernels.heat import (
     add_at_edge,
     at_edge,
     conduct,
+    during,
     irradiation,
     lose_at_edge,
     net_flux,
@@ -63,6 +64,10 @@ class Step(NamedTuple):
     """Mass loss rate at the end [kg/(m2 s)]."""
     gas: Number
     """Gas released [kg/m2]."""
+    burnt: Number
+    """Heat of combustion of that where it burns [J/m2]; zero where it is not recorded."""
+    power: Number
+    """The same per time at the end [W/m2]."""
     heat: Number
     """Heat stored and used by reactions [J/m2]."""
     net_flux: Number
@@ -176,6 +181,12 @@ def advance(work, wide, edge, top, clock, mass, rate_scale, room, material, netw
     in_foil = cell[row.C_mean, foil] * (cell[row.T_new, foil] - cell[row.T, foil])
     cell[row.stored, foil] = in_foil
 
+    burnt, power = 0.0 * rate, 0.0 * rate
+    if network.burns:
+        lit = during(clock.piece, exposure.lit)
+        burnt = lit * summed(work, row.burnt, first)
+        power = lit * summed(work, row.power, first)
+
     error = abs(rate - predicted) / rate_scale
     error = max(error, abs(front_new - front_star) / TEMPERATURE_SCALE)
     foil_change = abs(cell[row.T_new, foil] - cell[row.T_star, foil])
@@ -187,6 +198,8 @@ def advance(work, wide, edge, top, clock, mass, rate_scale, room, material, netw
         eps=eps,
         rate=rate,
         gas=summed(work, row.gas, first),
+        burnt=burnt,
+        power=power,
         heat=summed(work, row.stored, first) + in_foil,
         net_flux=net_flux(surface, front_new, work, first, exposure),
     )

@@ -6,7 +6,7 @@ from pyrofit.solver.kernels import row
 from pyrofit.solver.kernels.jit import inner
 from pyrofit.solver.kernels.lanes import in_lane
 
-TIME, RELEASED, RATE, FRONT, BACK, THICKNESS, PROBES = range(7)
+TIME, RELEASED, RATE, FRONT, BACK, THICKNESS, BURNT, POWER, KINK, PROBES = range(10)
 """Columns of the trace; any number of probes."""
 STATUS, STEPS, ENERGY_ERROR, MASS_ERROR = range(4)
 """Columns of what a run came to."""
@@ -36,8 +36,12 @@ def probe_temperature(position, ahead, cell, foil, lane, first, front):
 
 @inner
 def record(trace, lane, numbers, flat, first, ahead, probes):
-    """Write one row of the trace of a lane, from time, mass released, rate, front T, thickness."""
-    t, released, rate, front, depth = numbers
+    """Write one row of the trace of a lane.
+
+    The numbers: time, mass released, rate, front T, thickness, heat of combustion, that per time,
+    and the length of the step that the next one continues, infinite where the flux has a kink.
+    """
+    t, released, rate, front, depth, burnt, power, before = numbers
     foil = flat.m.shape[1]
     trace[TIME] = in_lane(t, lane)
     trace[RELEASED] = in_lane(released, lane)
@@ -45,6 +49,9 @@ def record(trace, lane, numbers, flat, first, ahead, probes):
     trace[FRONT] = in_lane(front, lane)
     trace[BACK] = flat.cell[row.T, foil, lane]
     trace[THICKNESS] = in_lane(depth, lane)
+    trace[BURNT] = in_lane(burnt, lane)
+    trace[POWER] = in_lane(power, lane)
+    trace[KINK] = 1.0 if in_lane(before, lane) == math.inf else 0.0
     for a in range(probes.shape[1]):
         trace[PROBES + a] = probe_temperature(
             probes[lane, a], ahead[lane], flat.cell, foil, lane, first, in_lane(front, lane)

@@ -14,7 +14,7 @@ from pyrofit.model.slab import EmissivityDepth, Sample, SlabExperiment
 from pyrofit.solver.arrays import FloatArray, Status
 from pyrofit.solver.curves import Curves, Request
 from pyrofit.solver.observe import observe_one
-from pyrofit.solver.outputs import BACK, FRONT, MASS, RATE, THICKNESS
+from pyrofit.solver.outputs import BACK, FRONT, HEAT, MASS, RATE, THICKNESS
 from pyrofit.solver.reference.slab import Outside, Slab
 from pyrofit.solver.reference.substance import (
     COLDEST_K,
@@ -24,10 +24,15 @@ from pyrofit.solver.reference.substance import (
     mass_fractions,
     substance,
 )
-from pyrofit.solver.reference.surroundings import Piece, pieces, rim, surface
+from pyrofit.solver.reference.surroundings import Fire, Piece, fire, pieces, rim, surface
 
 BURNT_FRACTION = 1e-5
 """Reactant left in the sample, relative to its initial mass, at which it counts as burnt out."""
+EARLY = {RATE, HEAT, MASS}
+"""Curves that do not change any more once the reactant is gone."""
+_UNBURNT = "unburnt"
+_SUMS = {RATE: MASS, HEAT: _UNBURNT}
+"""What is left of what is released, of which a rate is the loss."""
 
 
 def reference_gasification(
@@ -45,18 +50,19 @@ def reference_gasification(
     """
     resolution = resolution or Resolution()
     slab = make_slab(experiment, material, values, resolution.elements)
+    flame = fire(experiment.burning(), values)
 
     def solve(factor: float, asked: Mapping[str, Request]) -> Curves:
-        time = np.unique(np.concatenate([edge for r in asked.values() for edge in _edges(r)]))
-        run = _Run(
-            slab, resolution, time, may_stop={r.of(n) for n, r in asked.items()} <= {RATE, MASS}
-        )
-        run.go(list(pieces(experiment.front, values, float(time[-1]), factor)))
+        edges = [_clipped(edge, flame) for r in asked.values() for edge in _edges(r)]
+        time = np.unique(np.concatenate([edge for both in edges for edge in both]))
+        run = _Run(slab, resolution, time, {r.of(n) for n, r in asked.items()} <= EARLY)
+        run.go(list(pieces(experiment.front, flame, values, float(time[-1]), factor)))
         if not run.status.finished:
             return Curves(run.status, {}, resolution.elements, run.steps)
         lines = _lines(slab, run.states, probes_m)
         lines[RATE][time > run.ended] = 0.0
-        signals = {name: _sample(r.of(name), r, time, lines) for name, r in asked.items()}
+        lines[HEAT][(time > run.ended) | (time < flame.begins) | (time > flame.ends)] = 0.0
+        signals = {name: _sample(r.of(name), r, time, lines, flame) for name, r in asked.items()}
         energy_error = abs(run.heat_missing) / max(run.heat_crossed, 1e-300)
         return Curves(run.status, signals, resolution.elements, run.steps, energy_error)
 
@@ -69,14 +75,22 @@ def _edges(request: Request) -> tuple[FloatArray, FloatArray]:
     return np.maximum(request.time_s - half, 0.0), np.maximum(request.time_s + half, 0.0)
 
 
+def _clipped(edge: FloatArray, flame: Fire) -> tuple[FloatArray, FloatArray]:
+    """Return times, and the same moved into the time in which the flame burns."""
+    return edge, np.clip(edge, flame.begins, flame.ends)
+
+
 def _sample(
-    name: str, request: Request, time: FloatArray, lines: Mapping[str, FloatArray]
+    name: str, request: Request, time: FloatArray, lines: Mapping[str, FloatArray], flame: Fire
 ) -> FloatArray:
-    if name == RATE and request.average_s > 0.0:
+    if name in _SUMS and request.average_s > 0.0:
         start, end = _edges(request)
-        lost = lines[MASS][np.searchsorted(time, start)]
-        lost = lost - lines[MASS][np.searchsorted(time, end)]
-        return np.asarray(lost / np.maximum(end - start, 1e-9))
+        width = np.maximum(end - start, 1e-9)
+        if name == HEAT:
+            start, end = _clipped(start, flame)[1], _clipped(end, flame)[1]
+        lost = lines[_SUMS[name]][np.searchsorted(time, start)]
+        lost = lost - lines[_SUMS[name]][np.searchsorted(time, end)]
+        return np.asarray(lost / width)
     return lines[name][np.searchsorted(time, np.maximum(request.time_s, 0.0))]
 
 
@@ -85,7 +99,9 @@ def _lines(slab: Slab, states: FloatArray, probes_m: tuple[float, ...]) -> dict[
     T, extent = slab.split(states)
     present = slab.masses(extent)
     rate = slab.derivative(states, Outside(0.0, 0.0, np.zeros(T.shape[-1])))
-    lost = slab.split(rate)[1] @ slab.substance.reactions.gas
+    reactions = slab.substance.reactions
+    reacting = slab.split(rate)[1]
+    burning = reactions.gas * reactions.combustion
     virgin = slab.mass * (slab.virgin / slab.substance.density).sum(axis=-1)
     depth = np.concatenate(([0.0], np.cumsum(virgin)))
     probes = {
@@ -93,7 +109,9 @@ def _lines(slab: Slab, states: FloatArray, probes_m: tuple[float, ...]) -> dict[
         for a, at in enumerate(probes_m)
     }
     return probes | {
-        RATE: lost @ slab.mass,
+        RATE: reacting @ reactions.gas @ slab.mass,
+        HEAT: reacting @ burning @ slab.mass,
+        _UNBURNT: -(extent @ burning @ slab.mass),
         MASS: present.sum(axis=(-2, -1)),
         THICKNESS: slab.thickness(T, extent).sum(axis=-1),
         FRONT: T[:, 0].copy(),

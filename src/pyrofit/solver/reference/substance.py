@@ -84,6 +84,8 @@ class Reactions:
     order: FloatArray
     heat: FloatArray
     """[J per kg of reactant], positive = endothermic."""
+    combustion: FloatArray
+    """[J per kg of gas]."""
     yields: FloatArray
     """nu_ji [kg/kg], shape (reactions, components)."""
     change: FloatArray
@@ -182,6 +184,7 @@ def _reactions(material: words.Material, values: Values) -> Reactions:
         E_R=np.array([value_of(r.E_J_mol, values) / GAS_CONSTANT for r in given]),
         order=np.array([value_of(r.order, values) for r in given]),
         heat=np.array([value_of(r.heat_of_reaction_J_kg, values) for r in given]),
+        combustion=np.array([value_of(r.heat_of_combustion_J_kg, values) for r in given]),
         yields=yields,
         change=yields - consumed,
     )

@@ -1,14 +1,15 @@
 """What acts on the slab from outside: its two sides, its edge and the external flux over time."""
 
+import itertools
 import math
 from collections.abc import Iterator
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 
 from pyrofit.constants import STEFAN_BOLTZMANN
 from pyrofit.model.base import value_of
-from pyrofit.model.slab import Edge, FluxTable, Front, Side
+from pyrofit.model.slab import Edge, Flame, FluxTable, Front, Side
 from pyrofit.solver.arrays import FloatArray
 from pyrofit.solver.reference.substance import Values
 
@@ -102,14 +103,47 @@ class Piece:
     flux: float
     slope: float
     heater: Heater
+    flame: float = 0.0
+    """Heat flux of the flame [W/m2]."""
 
     def at(self, t: float) -> float:
-        """Return q_ext(t) [W/m2], also beyond the end."""
-        return self.heater.share(t) * (self.flux + self.slope * (t - self.start))
+        """Return q_ext(t) and the flame's flux [W/m2], also beyond the end."""
+        return self.heater.share(t) * (self.flux + self.slope * (t - self.start)) + self.flame
 
 
-def pieces(front: Front, values: Values, end: float, factor: float = 1.0) -> Iterator[Piece]:
-    """Yield the pieces of ``factor`` times the external flux up to the end of the run."""
+@dataclass(frozen=True)
+class Fire:
+    """The flame with numbers."""
+
+    flux: float
+    begins: float
+    ends: float
+    """[s], infinite where it lasts to the end."""
+
+
+def fire(flame: Flame | None, values: Values) -> Fire:
+    """Return the flame with numbers; without one, gas burns from the start and heats nothing."""
+    if flame is None:
+        return Fire(0.0, 0.0, math.inf)
+    begins = value_of(flame.ignition_s, values)
+    ends = math.inf if flame.ends_s is None else value_of(flame.ends_s, values)
+    return Fire(value_of(flame.flux_W_m2, values), begins, max(begins, ends))
+
+
+def pieces(
+    front: Front, flame: Fire, values: Values, end: float, factor: float = 1.0
+) -> Iterator[Piece]:
+    """Yield the pieces of ``factor`` times the external flux, and the flame's, up to the end."""
+    for piece in _external(front, values, end, factor):
+        cuts = sorted({t for t in (flame.begins, flame.ends) if piece.start < t < piece.end})
+        for start, until in itertools.pairwise((piece.start, *cuts, piece.end)):
+            lit = flame.begins <= start < flame.ends
+            flux = piece.flux + piece.slope * (start - piece.start)
+            added = flame.flux if lit else 0.0
+            yield replace(piece, start=start, end=until, flux=flux, flame=added)
+
+
+def _external(front: Front, values: Values, end: float, factor: float) -> Iterator[Piece]:
     heater = Heater(
         factor,
         value_of(front.rise_time_s, values),

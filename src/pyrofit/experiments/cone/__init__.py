@@ -1,0 +1,39 @@
+"""Cone calorimeter and fire propagation apparatus: a slab under radiant heat that burns."""
+
+from typing import ClassVar, Literal
+
+from pydantic import Field
+
+from pyrofit.experiments.base import Kind
+from pyrofit.experiments.gasification import Gasification
+from pyrofit.experiments.slab.course import course
+from pyrofit.experiments.slab.designs import designs
+from pyrofit.experiments.slab.simulate import reference, request, simulate, synthetic
+from pyrofit.model.slab import Flame, SlabExperiment
+
+
+class Cone(SlabExperiment):
+    """Heat release and mass loss of a slab under radiant heat in air."""
+
+    QUANTITIES: ClassVar[tuple[str, ...]] = ("heat_release_rate", *Gasification.QUANTITIES)
+    kind: Literal["cone"] = Field(description="a slab that burns under radiant heat")
+    flame: Flame | None = Field(
+        None, description="the flame; none = all gas burns at once and heats nothing"
+    )
+
+    def burning(self) -> Flame | None:
+        """Return the flame; without one, what gas is released burns at once."""
+        return self.flame
+
+
+KIND = Kind(
+    description=Cone,
+    words="cone calorimeter",
+    stage="imp",
+    simulate=simulate,
+    reference=reference,
+    request=request,
+    synthetic=synthetic,
+    course=course,
+    designs=designs,
+)
