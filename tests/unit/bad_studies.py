@@ -607,7 +607,10 @@ STAGES = rows_of(
         (
             "TGA in the inverse modelling",
             put(imp__costs__RMSE__0__experiment="tga_10"),
-            ("imp.costs.RMSE.0.experiment: 'tga_10' is no gasification experiment",),
+            (
+                "imp.costs.RMSE.0.experiment: 'tga_10' is no cone calorimeter or gasification "
+                "experiment",
+            ),
         ),
         (
             "gasification in the kinetics",
@@ -709,7 +712,7 @@ STAGES = rows_of(
         (
             "TGA to predict",
             put(validation__experiments=["tga_10"]),
-            ("validation.experiments: 'tga_10' is no gasification experiment",),
+            ("validation.experiments: 'tga_10' is no cone calorimeter or gasification experiment",),
         ),
         (
             "nothing to predict",

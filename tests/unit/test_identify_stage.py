@@ -161,7 +161,10 @@ def test_slice_knows_channels_and_limits_and_not_the_repetitions() -> None:
         ({"slab_25": ["mrl"]}, "has no signal 'mrl'. Did you mean 'mlr'?"),
         ({"slab_25": []}, "imp.identification.slab_25: name at least one signal"),
         ({"slab_25": ["mlr", "mlr"]}, "imp.identification.slab_25: a signal stands twice"),
-        ({"tga_5K": ["mass_fraction"]}, "'tga_5K' is no gasification experiment"),
+        (
+            {"tga_5K": ["mass_fraction"]},
+            "'tga_5K' is no cone calorimeter or gasification experiment",
+        ),
     ],
 )
 def test_wrong_channels_are_told(value: object, words: str) -> None:
