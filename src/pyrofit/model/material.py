@@ -139,7 +139,7 @@ class Reaction(Part):
         0.0, description="heat of reaction per kg of reactant [J/kg], positive = endothermic"
     )
     heat_of_combustion_J_kg: NotNegative = Field(
-        0.0, description="heat of combustion per kg of the gas it releases [J/kg]"
+        0.0, description="heat of combustion of the gas it forms, per kg of gas [J/kg]"
     )
 
     @model_validator(mode="after")

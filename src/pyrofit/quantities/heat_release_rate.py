@@ -3,6 +3,7 @@
 from pyrofit.quantities.base import Quantity, Shown
 
 QUANTITY = Quantity(
+    kinds=("cone",),
     title="heat release rate",
     symbol="HRR",
     unit="W/m2",
@@ -21,5 +22,4 @@ QUANTITY = Quantity(
     solver_error=1e-3,
     usual_sd=1e4,
     relative=True,
-    heats=True,
 )

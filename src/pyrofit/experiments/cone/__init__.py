@@ -1,11 +1,10 @@
 """Cone calorimeter and fire propagation apparatus: a slab under radiant heat that burns."""
 
-from typing import ClassVar, Literal
+from typing import Literal
 
 from pydantic import Field
 
 from pyrofit.experiments.base import Kind
-from pyrofit.experiments.gasification import Gasification
 from pyrofit.experiments.slab.course import course
 from pyrofit.experiments.slab.designs import designs
 from pyrofit.experiments.slab.simulate import reference, request, simulate, synthetic
@@ -15,7 +14,6 @@ from pyrofit.model.slab import Flame, SlabExperiment
 class Cone(SlabExperiment):
     """Heat release and mass loss of a slab under radiant heat in air."""
 
-    QUANTITIES: ClassVar[tuple[str, ...]] = ("heat_release_rate", *Gasification.QUANTITIES)
     kind: Literal["cone"] = Field(description="a slab that burns under radiant heat")
     flame: Flame | None = Field(
         None, description="the flame; none = all gas burns at once and heats nothing"
