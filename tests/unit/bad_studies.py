@@ -575,8 +575,8 @@ PHYSICS = rows_of(
         ),
         (
             "unknown kind of experiment",
-            put(experiments__tga_10__kind="dsc"),
-            ("experiments.tga_10: unknown 'kind' 'dsc'; known: 'tga', 'gasification'",),
+            put(experiments__tga_10__kind="oven"),
+            ("experiments.tga_10: unknown 'kind' 'oven'; known: 'cone', ",),
         ),
         ("no experiments", put(experiments={}), ("experiments: ", "at least 1")),
     ],

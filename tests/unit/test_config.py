@@ -563,8 +563,8 @@ BROKEN: list[tuple[str, str, object, list[str]]] = [
     (
         "unknown kind",
         "experiments.slab_25.kind",
-        "cone",
-        ["experiments.slab_25: unknown 'kind' 'cone'; known: 'tga', 'gasification'"],
+        "cones",
+        ["experiments.slab_25: unknown 'kind' 'cones'; known: 'cone', "],
     ),
     (
         "unknown temperature program",
