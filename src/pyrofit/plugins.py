@@ -104,7 +104,7 @@ def plugin_files(folders: Sequence[Path]) -> dict[str, Path]:
 
 
 def code_digest(subfolder: str, name: str) -> str:
-    """Return a hash of the file that defines an effect or a cost, of the package or of a plugin.
+    """Return a hash of the file that defines something, of the package or of a plugin.
 
     The helpers beside the file of a plugin count, too. It is empty for a cost of the package.
     """

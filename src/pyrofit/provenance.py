@@ -45,7 +45,7 @@ STUDY = (
 CATALOGUES = ("pyrofit.quantities",)
 """Packages whose files are found without being imported by name, and all count.
 
-The files of effects are counted by the studies that use them.
+What a study uses of effects, and of the files of its plugins, `results.dependencies` counts.
 """
 
 

@@ -162,6 +162,19 @@ def test_edit_of_an_own_effect_changes_what_uses_it_and_no_more(folder: Path) ->
         assert {name for name in before if after[name] != before[name]} == changes
 
 
+def test_edit_of_an_own_quantity_changes_what_measures_it_and_the_diagnosis(folder: Path) -> None:
+    used = given()
+    record = {"file": "synthetic", "every": 10, "noise": 1e-5}
+    used["experiments"]["slab_25"]["signals"]["thickness_of_sample"] = record
+    everything = {"data", "imp", "identify", "diagnose"}
+    for keys, changes in ((given(), {"diagnose"}), (used, everything)):
+        write(folder / "own" / "quantities" / "thickness_of_sample.py", QUANTITY)
+        before = digests_of(read(folder, keys))
+        write(folder / "own" / "quantities" / "thickness_of_sample.py", QUANTITY + "# another\n")
+        after = digests_of(read(folder, keys))
+        assert {name for name in before if after[name] != before[name]} == changes
+
+
 def test_edit_of_an_own_cost_changes_its_own_searches_and_no_others(folder: Path) -> None:
     study = read(folder, with_own_cost())
     (other, *_) = study.imp.costs

@@ -17,6 +17,7 @@ from pyrofit.config.terms import TermSpec
 from pyrofit.config.uses import names_in
 from pyrofit.errors import StudyError
 from pyrofit.plugins import code_digest
+from pyrofit.quantities import known_quantities
 
 Digests = dict[str, dict[str, str]]
 
@@ -41,11 +42,15 @@ def _measured(study: Study, name: str) -> dict[str, Any]:
 
 
 def _code(study: Study, terms: Iterable[TermSpec] = (), more: Iterable[str] = ()) -> Digests:
-    """Hashes of the files that no step imports by name: of effects, and of costs of plugins.
+    """Hashes of the files that no step imports by name: of effects, quantities and own costs.
 
-    Of effects these are the model's and some more, of costs those of some terms.
+    Of effects these are the model's and some more, of costs those of some terms, of quantities
+    those of all signals.
     """
+    signals = [(e, s) for e in study.experiments.values() for s in e.signals]
+    quantities = {experiment.quantity(signal).name for experiment, signal in signals}
     return {
+        "quantities": {n: code_digest("quantities", n) for n in sorted(quantities)},
         "effects": {n: code_digest("effects", n) for n in sorted({*study.with_effects, *more})},
         "costs": {n: code_digest("costs", n) for n in sorted({term.kind for term in terms})},
     }
@@ -63,7 +68,7 @@ def data(study: Study) -> dict[str, Any]:
         for n, e in study.experiments.items()
     }
     if not study.is_synthetic:
-        return {"signals": signals}
+        return {"signals": signals, "code": _code(study)}
     return {
         "experiments": {n: _experiment(study, n) for n in study.experiments},
         "material": study.material.model_dump(),
@@ -166,6 +171,8 @@ def diagnose(study: Study) -> dict[str, Any]:
         "known": {n: known.model_dump() for n, known in stage.known.items()},
         "candidates": candidate_effects(study),
         "code": _code(study, more=candidate_effects(study)),
+        # New tests may record any quantity.
+        "quantities": {n: code_digest("quantities", n) for n in known_quantities()},
         "most_effects": stage.most_effects,
         "accuracy": study.accuracy.model_dump(),
         "seed": study.seed,
