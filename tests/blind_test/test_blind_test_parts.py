@@ -229,7 +229,7 @@ def test_kinetics_are_known_about_the_truth_where_no_tga_tells_them(setting: Set
         if case.kind != "null":
             continue
         study, truth = describe(setting, case)
-        known = study["diagnosis"]["known"]
+        known = study["known"]
         assert set(known) == (set() if "tga" in case.signals else set(setting.known))
         assert truth.synthetic is not None
         scaled += [

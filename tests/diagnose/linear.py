@@ -13,11 +13,12 @@ from small import CHANNELS, base_of, study
 
 from pyrofit.cost import Target, WeightedSum, make_term
 from pyrofit.diagnose.descent import descend, refreshed
-from pyrofit.diagnose.model import Base, Known, Model, model_of, name_of, strength_of
+from pyrofit.diagnose.model import Base, Model, model_of, name_of, strength_of
 from pyrofit.diagnose.refit import Trial
 from pyrofit.estimate.correlation import Correlation
 from pyrofit.estimate.likelihood import Likelihood
 from pyrofit.estimate.noise import NoiseModel
+from pyrofit.estimate.prior import NO_PRIOR, NormalPrior
 from pyrofit.estimate.problem import Outcome, Problem
 from pyrofit.solver.arrays import FloatArray, Status
 
@@ -72,7 +73,7 @@ def base(
     columns: Columns,
     y: FloatArray,
     calibrated: tuple[int, ...] = (0, 1, 2, 3),
-    known: Known | None = None,
+    known: NormalPrior = NO_PRIOR,
 ) -> Base:
     """Return the base of these columns, measured y, shape (TOTAL,)."""
     usual = base_of(study()).likelihood.problem
@@ -91,8 +92,7 @@ def base(
     )
     # Known exactly: no estimate explains more.
     white = NoiseModel(np.ones(POINTS), Correlation(), criterion=-np.inf)
-    none = Known((), np.empty(0), np.empty(0))
-    return Base(Likelihood(problem, (white,) * len(CHANNELS)), known or none, calibrated)
+    return Base(Likelihood(problem, (white,) * len(CHANNELS), known), calibrated)
 
 
 def fitted(model: Model) -> Trial:

@@ -9,7 +9,7 @@ import pandas as pd
 
 from pyrofit.config import Study, TermSpec, as_study
 from pyrofit.data.noise import autoregressive, draw, moving_average
-from pyrofit.diagnose.model import Base, Known, extended, model_of, strength_of
+from pyrofit.diagnose.model import Base, extended, model_of, strength_of
 from pyrofit.estimate.correlation import Correlation
 from pyrofit.estimate.likelihood import Likelihood
 from pyrofit.estimate.noise import NoiseModel
@@ -58,8 +58,8 @@ def _slab(name: str, flux: float, average_s: float) -> dict[str, Any]:
     }
 
 
-def given(**diagnosis: Any) -> dict[str, Any]:
-    """Return the keys of the study: both slabs fitted, kinetics known."""
+def given(known: dict[str, Any] | None = None, **diagnosis: Any) -> dict[str, Any]:
+    """Return the keys of the study: both slabs fitted, kinetics fixed."""
     keys: dict[str, Any] = {
         "name": "small",
         "seed": 5,
@@ -94,6 +94,7 @@ def given(**diagnosis: Any) -> dict[str, Any]:
             "costs": {"RMSE": [{"experiment": "slab_25", "signal": "mlr", "kind": "RMSE"}]},
         },
         "validation": {"experiments": ["slab_25"]},
+        "known": known or {},
         "diagnosis": {
             "calibrate": {"slab_25": list(SD), "slab_60": list(SD)},
             **diagnosis,
@@ -119,8 +120,7 @@ def base_of(described: Study, curves: list[FloatArray] | None = None) -> Base:
     noise = tuple(
         NoiseModel(np.full(TIMES[e].size, SD[q]), Correlation(), unit="SI") for e, q in CHANNELS
     )
-    known = Known((), np.empty(0), np.empty(0))
-    return Base(Likelihood(problem, noise), known, tuple(range(len(CHANNELS))))
+    return Base(Likelihood(problem, noise), tuple(range(len(CHANNELS))))
 
 
 def truth_of(base: Base, hidden: Mapping[str, float]) -> FloatArray:

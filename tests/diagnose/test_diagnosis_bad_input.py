@@ -179,7 +179,7 @@ def text_for_a_number(keys: dict[str, Any]) -> None:
 
 
 def beyond_known(keys: dict[str, Any]) -> None:
-    keys["diagnosis"]["known"] = {"cp": {"value": 9.0, "sd": 0.1}}
+    keys["known"] = {"cp": {"value": 9.0, "sd": 0.1}}
 
 
 WRONG = {
@@ -203,7 +203,7 @@ WRONG = {
     "text for a number": (text_for_a_number, ("slab_60_mlr.csv", "twelve")),
     "knowledge beyond the limits": (
         beyond_known,
-        ("diagnosis.known.cp.value: 9 lies outside the limits 1 to 3",),
+        ("known.cp.value: 9 lies outside the limits 1 to 3",),
     ),
 }
 

@@ -53,7 +53,7 @@ def test_known_parameters_start_at_what_is_known(series: Measurements) -> None:
 
 def test_knowledge_is_in_si_units_and_pulls_its_parameter(series: Measurements) -> None:
     free, bound = set_up(study(), series).base, set_up(study(known=KNOWN), series).base
-    known = bound.model.base.known
+    known = bound.model.likelihood.prior
     names = bound.model.names
     assert [names[i] for i in known.index] == ["cp", "k"]
     assert known.mean.tolist() == [2300.0, 0.21]

@@ -87,22 +87,32 @@ DIAGNOSIS = rows_of(
             ("parameters.k: the diagnosis needs it; add it to diagnosis.estimate or give a value",),
         ),
         (
-            "knowledge of what is not estimated",
-            put(diagnosis={"known": {"eps": {"value": 0.9, "sd": 0.02}}}),
+            "known value at its old place",
+            put(diagnosis={"known": {"k": {"value": 0.2, "sd": 0.02}}}),
+            ("diagnosis: known values hold for the whole study: move `known` to the top level",),
+        ),
+        (
+            "known value of an unknown parameter",
+            put(known={"rhoo": {"value": 1000, "sd": 20}}),
+            ("known.rhoo: unknown parameter 'rhoo'. Did you mean 'rho'?",),
+        ),
+        (
+            "known value of a fixed parameter",
+            put(known={"eps": {"value": 0.9, "sd": 0.02}}),
             (
-                "diagnosis.known.eps: the diagnosis does not estimate it. ",
-                "Known: E_p, T_p, k, rho",
+                "known.eps: no stage estimates it, it has a fixed value; name it under ",
+                "or leave it out here",
             ),
         ),
         (
-            "knowledge outside the limits",
-            put(diagnosis={"known": {"k": {"value": 0.5, "sd": 0.02}}}),
-            ("diagnosis.known.k.value: 0.5 lies outside the limits 0.1 to 0.4", "widen them"),
+            "known value outside the limits",
+            put(known={"k": {"value": 0.5, "sd": 0.02}}),
+            ("known.k.value: 0.5 lies outside the limits 0.1 to 0.4", "widen them"),
         ),
         (
-            "knowledge without an error",
-            put(diagnosis={"known": {"k": {"value": 0.2, "sd": 0}}}),
-            ("diagnosis.known.k.sd: 0 must be above 0",),
+            "known value without an error",
+            put(known={"k": {"value": 0.2, "sd": 0}}),
+            ("known.k.sd: 0 must be above 0",),
         ),
         (
             "unknown candidate",

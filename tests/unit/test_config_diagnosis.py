@@ -126,16 +126,12 @@ def test_parameter_of_both_stages_is_estimated_once() -> None:
 
 
 def test_given_parameters_are_estimated_and_known() -> None:
-    known = {"E_p": {"value": 190, "sd": 9.5}}
     study = study_with(
-        diagnosis={
-            "calibrate": {"slab_25": ["mlr"]},
-            "estimate": [*SLAB, *KINETICS],
-            "known": known,
-        }
+        known={"E_p": {"value": 190, "sd": 9.5, "source": "isoconversional"}},
+        diagnosis={"calibrate": {"slab_25": ["mlr"]}, "estimate": [*SLAB, *KINETICS]},
     )
     assert diagnosed_parameters(study) == (*SLAB, *KINETICS)
-    assert (study.diagnosis.known["E_p"].value, study.diagnosis.known["E_p"].sd) == (190.0, 9.5)
+    assert (study.known["E_p"].value, study.known["E_p"].sd) == (190.0, 9.5)
 
 
 # --- candidates -----------------------------------------------------------------------------
@@ -250,7 +246,7 @@ CHANGES: dict[str, tuple[dict[str, Any], bool]] = {
     "boundary of a held-out experiment": ({"experiments__slab_60__back__h_W_m2K": 5}, True),
     "parameters": ({"diagnosis": {"estimate": ["T_p", "E_p", *SLAB[::-1]]}}, True),
     "limits": ({"parameters__k__upper": 0.5}, True),
-    "knowledge": ({"diagnosis": {"known": {"k": {"value": 0.2, "sd": 0.01}}}}, True),
+    "known value": ({"known": {"k": {"value": 0.2, "sd": 0.01}}}, True),
     "candidates": ({"diagnosis": {"effects": ["k_T"]}}, True),
     "effects at most": ({"diagnosis": {"most_effects": 2}}, True),
     "kinetics": ({"imp__kinetics": "described", "imp__estimate": [*SLAB, *KINETICS]}, False),

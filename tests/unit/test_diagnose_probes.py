@@ -12,7 +12,7 @@ import pytest
 from pyrofit.config import Study, TermSpec, read_study
 from pyrofit.diagnose.corrections import corrections
 from pyrofit.diagnose.descent import descend
-from pyrofit.diagnose.model import Base, Known, model_of
+from pyrofit.diagnose.model import Base, model_of
 from pyrofit.diagnose.probes import Probe, probes, with_coefficients
 from pyrofit.diagnose.refit import Trial, look_at, with_effect
 from pyrofit.effects.base import changed
@@ -69,7 +69,7 @@ def twin(
         for curve, (_, signal) in zip(curves, channels, strict=True)
     )
     likelihood = Likelihood(posed(study, channels, measured), noise)
-    base = Base(likelihood, Known((), np.empty(0), np.empty(0)), tuple(range(len(channels))))
+    base = Base(likelihood, tuple(range(len(channels))))
     model = model_of(base, {})
     return Trial(model, descend(model, likelihood.scaled(truth)))
 

@@ -75,7 +75,7 @@ def run_case(setting: Setting, case: Case, places: Places, diagnose: Diagnose) -
         twin = make_twin(setting, case)
         write_twin(places, twin)
     study, measurements = read_twin(places, case.id)
-    known = {name: prior.sd for name, prior in study.diagnosis.known.items()}
+    known = {name: prior.sd for name, prior in study.known.items()}
     with _timed(seconds, "detectability"):
         stands_out = detectability(twin.truth, twin.series, known)
     with _timed(seconds, "diagnosis"):

@@ -213,7 +213,7 @@ def _without_truth(case: Case, base: Given, known: Given) -> Given:
     study = {key: value for key, value in base.items() if key not in ("synthetic", "seed")}
     study["name"] = case.id
     study["title"] = study["description"] = "Twin of a blind test."
-    study["diagnosis"] = {**base["diagnosis"], "known": known}
+    study["known"] = known
     study["experiments"] = {
         name: {
             **experiment,

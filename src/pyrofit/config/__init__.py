@@ -1,15 +1,16 @@
 """The study description: the only reader of YAML, and all checks that need no measured data.
 
-`study` says what a study is made of, `stages` its stages, `terms` the terms of its costs and
-`diagnosis` its diagnosis.
+`study` says what a study is made of, `known` what is known of its parameters, `stages` its stages,
+`terms` the terms of its costs and `diagnosis` its diagnosis.
 `resolve` says what holds where a study says nothing. `checks`, `stage_checks`, `diagnosis_checks`
 and `numbers` say what must hold between its parts and for its numbers. `effects` puts effects in,
 `read` reads and checks it, `words` says in plain words what is wrong, `uses` which parameters a
 part uses.
 """
 
-from pyrofit.config.diagnosis import Diagnosis, Known
+from pyrofit.config.diagnosis import Diagnosis
 from pyrofit.config.effects import true_description
+from pyrofit.config.known import Known
 from pyrofit.config.read import as_study, as_yaml, digest, read_mapping, read_study
 from pyrofit.config.resolve import (
     calibration_channels,

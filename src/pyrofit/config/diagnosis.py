@@ -1,15 +1,10 @@
 """What a study says about its diagnosis."""
 
-from pydantic import Field
+from typing import Any
+
+from pydantic import Field, model_validator
 
 from pyrofit.model.base import Part
-
-
-class Known(Part):
-    """Normal prior knowledge of an estimated parameter."""
-
-    value: float = Field(description="mean, in the parameter's unit")
-    sd: float = Field(gt=0.0, description="standard deviation, in the parameter's unit")
 
 
 class Diagnosis(Part):
@@ -33,10 +28,16 @@ class Diagnosis(Part):
     kinetics: str = Field(
         "", description="'described', 'fitted', or one of kinetics.sets; none = as imp.kinetics"
     )
-    known: dict[str, Known] = Field(
-        default_factory=dict, description="what is known of estimated parameters beforehand"
-    )
     effects: tuple[str, ...] | None = Field(
         None, description="candidates; none = all of the catalogue that the fitted signals can show"
     )
     most_effects: int = Field(3, ge=1, le=3, description="effects that are added at most")
+
+    @model_validator(mode="before")
+    @classmethod
+    def _known_of_the_study(cls, given: Any) -> Any:
+        if isinstance(given, dict) and "known" in given:
+            raise ValueError(
+                "known values hold for the whole study: move `known` to the top level of the study"
+            )
+        return given

@@ -19,7 +19,7 @@ from pyrofit.experiments import kind_of
 
 
 def check_diagnosis(study: Study) -> None:
-    """Check signals, parameters, prior knowledge and candidates of the diagnosis.
+    """Check signals, parameters and candidates of the diagnosis.
 
     Raises
     ------
@@ -29,7 +29,6 @@ def check_diagnosis(study: Study) -> None:
     _check_kinetics(study)
     _check_channels(study)
     _check_parameters(study)
-    _check_known(study)
     _check_effects(study)
 
 
@@ -77,22 +76,6 @@ def _check_parameters(study: Study) -> None:
         raise ValueError(
             f"parameters.{name}: the diagnosis needs it; add it to diagnosis.estimate or give a "
             "value"
-        )
-
-
-def _check_known(study: Study) -> None:
-    names = diagnosed_parameters(study)
-    for name, known in study.diagnosis.known.items():
-        place = f"diagnosis.known.{name}"
-        require(name in names, place, f"the diagnosis does not estimate it. {suggest(name, names)}")
-        p = study.parameters[name]
-        assert p.lower is not None
-        assert p.upper is not None
-        require(
-            p.lower <= known.value <= p.upper,
-            f"{place}.value",
-            f"{known.value:g} lies outside the limits {p.lower:g} to {p.upper:g}; correct it or "
-            "widen them",
         )
 
 

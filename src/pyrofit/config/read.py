@@ -15,6 +15,7 @@ from yaml.reader import ReaderError
 from pyrofit.config.checks import check_study
 from pyrofit.config.diagnosis_checks import check_diagnosis
 from pyrofit.config.effects import apply_effects
+from pyrofit.config.known_checks import check_known
 from pyrofit.config.study import Study, is_own
 from pyrofit.config.words import in_plain_words, refuse_booleans
 from pyrofit.errors import StudyError, suggest
@@ -42,6 +43,7 @@ def as_study(given: Mapping[str, Any], source: str) -> Study:
         study = Study.model_validate(apply_effects(given))
         check_study(study)
         check_diagnosis(study)
+        check_known(study)
     except ValidationError as error:
         lines = in_plain_words(error, given)
     except ValueError as error:

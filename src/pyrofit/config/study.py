@@ -5,6 +5,7 @@ from typing import Any
 from pydantic import Field
 
 from pyrofit.config.diagnosis import Diagnosis
+from pyrofit.config.known import REACH, Known
 from pyrofit.config.stages import Imp, Kinetics, Name, Robustness, Validation
 from pyrofit.effects import known_effects
 from pyrofit.effects.base import ADDED
@@ -59,6 +60,11 @@ class Study(Part):
         "study file: effects/*.py, quantities/*.py and costs/*.py",
     )
     parameters: dict[Name, Parameter] = Field(description="named numbers")
+    known: dict[str, Known] = Field(
+        default_factory=dict,
+        description="measured values of estimated parameters, with standard deviations, by "
+        "parameter",
+    )
     material: Material = Field(description="components, reactions, composition")
     experiments: dict[Name, AnyExperiment] = Field(min_length=1, description="experiments by name")
     effects: dict[str, dict[str, Number] | None] = Field(
@@ -115,6 +121,19 @@ class Study(Part):
         return {
             name: p.value * p.factor for name, p in self.parameters.items() if p.value is not None
         }
+
+    def search_limits(self, name: str) -> tuple[float, float]:
+        """Return the limits within which optimisers search a parameter, in its unit.
+
+        Its own limits, and value -+ 3 sd where a value is known.
+        """
+        p, known = self.parameters[name], self.known.get(name)
+        if p.lower is None or p.upper is None:
+            raise ValueError("the parameter has no limits")
+        if known is None:
+            return p.lower, p.upper
+        reach = REACH * known.sd
+        return max(p.lower, known.value - reach), min(p.upper, known.value + reach)
 
     def true_values(self) -> dict[str, float]:
         """Return the parameter values of computed measurements in SI units."""

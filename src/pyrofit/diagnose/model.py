@@ -23,30 +23,19 @@ Free = Mapping[str, tuple[str, ...]]
 
 
 @dataclass(frozen=True, eq=False)
-class Known:
-    """Normal prior knowledge: positions of parameters, mean and sd in SI units, shape (known,)."""
-
-    index: tuple[int, ...]
-    mean: FloatArray
-    sd: FloatArray
-
-
-@dataclass(frozen=True, eq=False)
 class Base:
     """What all models on trial share.
 
     Parameters
     ----------
     likelihood
-        All channels, calibrated and held out, under the base model.
-    known
-        Prior knowledge of base parameters.
+        All channels, calibrated and held out, under the base model, and what is known of its
+        parameters.
     calibrated
         Positions of the calibrated channels; the others are held out.
     """
 
     likelihood: Likelihood
-    known: Known
     calibrated: tuple[int, ...]
 
     @property
@@ -91,10 +80,7 @@ class Model:
 
     def residuals_all(self, X: FloatArray) -> list[FloatArray]:
         """Return the same for several sets at once, shape (sets, parameters)."""
-        known = self.base.known
-        apart = (self.likelihood.values(X)[:, list(known.index)] - known.mean) / known.sd
-        channels = self.likelihood.residuals_all(X)
-        return [np.concatenate(both) for both in zip(channels, apart, strict=True)]
+        return self.likelihood.residuals_all(X)
 
     def jacobian(self, x: FloatArray, residuals: FloatArray) -> FloatArray:
         """Return d residuals / d x by differences towards the farther limit.
@@ -122,7 +108,7 @@ class Model:
 
     def by_channel(self, residuals: FloatArray) -> list[FloatArray]:
         """Split whitened residuals by channel; what is known is left out."""
-        return self.likelihood.split(residuals[: self.points])
+        return self.likelihood.split(residuals)
 
 
 def model_of(base: Base, effects: Free, channels: Sequence[int] | None = None) -> Model:
@@ -136,7 +122,8 @@ def model_of(base: Base, effects: Free, channels: Sequence[int] | None = None) -
     channels = base.calibrated if channels is None else tuple(channels)
     problem = _with_effects(base.likelihood.problem, effects)
     noise = tuple(base.likelihood.noise[i] for i in channels)
-    return Model(base, effects, channels, Likelihood(_restricted(problem, channels), noise))
+    likelihood = Likelihood(_restricted(problem, channels), noise, base.likelihood.prior)
+    return Model(base, effects, channels, likelihood)
 
 
 def _with_effects(problem: Problem, effects: Free) -> Problem:

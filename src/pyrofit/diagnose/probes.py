@@ -13,10 +13,11 @@ from scipy.stats import chi2 as chi_squared
 from pyrofit.diagnose.corrections import Correction, Shape, corrections
 from pyrofit.diagnose.descent import Fit, descend
 from pyrofit.diagnose.locate import LEVEL
-from pyrofit.diagnose.model import Known, Model
+from pyrofit.diagnose.model import Model
 from pyrofit.diagnose.refit import Trial
 from pyrofit.diagnose.screen import projector
 from pyrofit.estimate.likelihood import Likelihood
+from pyrofit.estimate.prior import NormalPrior
 from pyrofit.parallel import parallel_map
 
 WIDEST = 3.0
@@ -113,7 +114,7 @@ def _probe(trial: Trial, correction: Correction, fit: Fit) -> Probe:
 
 def with_coefficients(model: Model, correction: Correction) -> Model:
     """Return the model with a correction; its coefficients follow all other parameters."""
-    problem, known = correction.problem, model.base.known
+    problem, known = correction.problem, model.likelihood.prior
     sd = np.array(list(correction.sd.values()))
     count = len(problem.names)
     wider = replace(
@@ -122,13 +123,9 @@ def with_coefficients(model: Model, correction: Correction) -> Model:
         lower=np.append(problem.lower, -WIDEST * sd),
         upper=np.append(problem.upper, WIDEST * sd),
     )
-    prior = Known(
+    prior = NormalPrior(
         index=(*known.index, *range(count, count + sd.size)),
         mean=np.append(known.mean, np.zeros(sd.size)),
         sd=np.append(known.sd, sd),
     )
-    return replace(
-        model,
-        base=replace(model.base, known=prior),
-        likelihood=Likelihood(wider, model.likelihood.noise),
-    )
+    return replace(model, likelihood=Likelihood(wider, model.likelihood.noise, prior))

@@ -15,11 +15,12 @@ from pyrofit.config import (
     held_out_channels,
 )
 from pyrofit.diagnose.descent import descend, refreshed
-from pyrofit.diagnose.model import Base, Known, model_of
+from pyrofit.diagnose.model import Base, model_of
 from pyrofit.diagnose.refit import Trial, polished
 from pyrofit.errors import DataError
-from pyrofit.estimate.likelihood import FAILED, Likelihood, likelihood_of
+from pyrofit.estimate.likelihood import FAILED, likelihood_of
 from pyrofit.estimate.noise import NoiseModel, estimate_noise
+from pyrofit.estimate.prior import prior_of
 from pyrofit.estimate.problem import Problem, make_problem
 from pyrofit.estimate.targets import Measurements
 from pyrofit.parallel import parallel_map
@@ -50,9 +51,10 @@ def set_up(study: Study, measurements: Measurements, processes: int = 1) -> Setu
     DataError
         A channel is too short; no run within the limits finishes, or one that is held out does not.
     """
-    likelihood = likelihood_of(_problem(study, measurements))
+    problem = _problem(study, measurements)
+    likelihood = likelihood_of(problem, prior_of(study, problem))
     calibrated = tuple(range(len(calibration_channels(study))))
-    base = Base(likelihood, _known(study, likelihood.problem), calibrated)
+    base = Base(likelihood, calibrated)
     first = _fitted(base, study.seed, processes)
     _check_held_out(first)
     base = with_noise_about(first, processes=processes)
@@ -82,16 +84,6 @@ def _problem(study: Study, measurements: Measurements) -> Problem:
     )
 
 
-def _known(study: Study, problem: Problem) -> Known:
-    found = study.diagnosis.known
-    factors = {name: study.parameters[name].factor for name in found}
-    return Known(
-        tuple(problem.names.index(name) for name in found),
-        np.array([known.value * factors[name] for name, known in found.items()]),
-        np.array([known.sd * factors[name] for name, known in found.items()]),
-    )
-
-
 def _fitted(base: Base, seed: int, processes: int) -> Trial:
     """Return the fit of the base from the best of several points spread over the limits."""
     model = model_of(base, {})
@@ -113,10 +105,11 @@ def _starts(base: Base, seed: int) -> list[FloatArray]:
     size = len(base.likelihood.problem.names)
     spread = 0.05 + 0.9 * qmc.LatinHypercube(size, seed=np.random.default_rng(seed)).random(STARTS)
     points = [np.full(size, 0.5), *spread]
-    problem, index = base.likelihood.problem, list(base.known.index)
+    problem, known = base.likelihood.problem, base.likelihood.prior
+    index = list(known.index)
     for x in points:
         span = (problem.upper - problem.lower)[index]
-        x[index] = (base.known.mean - problem.lower[index]) / span
+        x[index] = (known.mean - problem.lower[index]) / span
     return points
 
 
@@ -148,7 +141,7 @@ def with_noise_about(
 
     for i, found in zip(wanted, parallel_map(better, len(wanted), processes), strict=True):
         noise[i] = found or noise[i]
-    return replace(base, likelihood=Likelihood(problem, tuple(noise)))
+    return replace(base, likelihood=replace(base.likelihood, noise=tuple(noise)))
 
 
 def _noise(problem: Problem, channel: int, about: FloatArray) -> NoiseModel:

@@ -2,11 +2,12 @@
 
 Near its least value chi-square is a parabola of curvature H = J^T J, J = d whitened curve / d
 parameter; parameters are counted in distances of their limits. Limits are knowledge as well: they
-stand as a uniform distribution of variance 1/12, so that the covariance is (H + 12 I)^-1.
+stand as a uniform distribution of variance 1/12, so that the covariance is (H + 12 I)^-1. Known
+values are rows (x - value) / sd of the residuals, and of J.
 """
 
 from collections.abc import Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 
@@ -21,6 +22,8 @@ AT_BOUND = 0.005
 """An estimate this near to a limit is at it."""
 PARABOLIC = 0.2
 """Departure of chi-square from its parabola that is tolerated at the ends of an interval."""
+WEIGHINGS = 3
+"""How often known values are weighed against a misfit that they change."""
 RESTARTS = 3
 """How often a lower chi-square found by a profile starts the analysis again."""
 
@@ -78,11 +81,13 @@ def verdict(width: float, bound: str) -> str:
 class Identification:
     """The analysis: optimum, derivatives there, estimates, profiles.
 
-    ``slopes`` are d curve / d parameter in the unit of each channel, ``jacobian`` the same
-    whitened, both (points, parameters).
+    ``slopes`` are d curve / d parameter in the unit of each channel, (points, parameters);
+    ``jacobian`` are the same whitened, then the rows of what is known.
     """
 
     optimum: Optimum
+    chi2: float
+    """Of the channels, without what is known."""
     inflation: float
     slopes: FloatArray
     jacobian: FloatArray
@@ -121,7 +126,7 @@ def covariance_of(jacobian: FloatArray, inflation: float) -> FloatArray:
 
 def identify(likelihood: Likelihood, starts: Sequence[FloatArray]) -> Identification:
     """Find the least chi-square from scaled starts, and how far each parameter may be from it."""
-    optimum = fit(likelihood, starts)
+    likelihood, optimum = _weighed(likelihood, fit(likelihood, starts))
     for _ in range(RESTARTS):
         found, lowest = _around(likelihood, optimum)
         if lowest.chi2 >= optimum.chi2 - 10.0 * ENOUGH:
@@ -130,11 +135,37 @@ def identify(likelihood: Likelihood, starts: Sequence[FloatArray]) -> Identifica
     return found
 
 
+def _weighed(likelihood: Likelihood, optimum: Optimum) -> tuple[Likelihood, Optimum]:
+    """Return likelihood and optimum where misfit widens the noise, but not what is known.
+
+    With chi-square counted over s^2, s the inflation, known values keep their standard deviations
+    if their rows are multiplied by s.
+    """
+    weighed = likelihood
+    for _ in range(WEIGHINGS if likelihood.prior.index else 0):
+        s = _inflation(weighed, _of_channels(weighed, optimum))
+        weighed = replace(likelihood, prior=likelihood.prior.over(s))
+        optimum = weighed.descend(optimum.x)
+    return weighed, optimum
+
+
+def _of_channels(likelihood: Likelihood, optimum: Optimum) -> float:
+    """Return chi-square without what is known."""
+    known = likelihood.prior.residuals(likelihood.values(optimum.x)[None])[0]
+    return optimum.chi2 - float(known @ known)
+
+
+def _inflation(likelihood: Likelihood, chi2: float) -> float:
+    """Return the root of chi-square per degree of freedom, 1 at least."""
+    return float(np.sqrt(max(1.0, chi2 / likelihood.freedom)))
+
+
 def _around(likelihood: Likelihood, optimum: Optimum) -> tuple[Identification, Optimum]:
     """Return the analysis about an optimum, and the lowest point met on the way."""
     slopes = likelihood.slopes(optimum.x)
-    jacobian = likelihood.whiten(slopes)
-    inflation = float(np.sqrt(max(1.0, optimum.chi2 / likelihood.freedom)))
+    jacobian = likelihood.with_known(slopes)
+    chi2 = _of_channels(likelihood, optimum)
+    inflation = _inflation(likelihood, chi2)
     # A parameter that rests at a limit may leave it when another moves: no parabola tells that.
     inside = not any(_bound(v) for v in optimum.x)
     lowest = optimum
@@ -160,7 +191,7 @@ def _around(likelihood: Likelihood, optimum: Optimum) -> tuple[Identification, O
             noise, interval = profile.interval(1.0), profile.interval(inflation)
             method = "profile"
         estimates.append(Estimate(name, float(optimum.x[i]), sd, noise, interval, method, bound))
-    found = Identification(optimum, inflation, slopes, jacobian, tuple(estimates), profiles)
+    found = Identification(optimum, chi2, inflation, slopes, jacobian, tuple(estimates), profiles)
     return found, lowest
 
 

@@ -7,6 +7,7 @@ import numpy as np
 
 from pyrofit.errors import DataError
 from pyrofit.estimate.noise import NoiseModel, estimate_noise
+from pyrofit.estimate.prior import NO_PRIOR, NormalPrior
 from pyrofit.estimate.problem import Problem
 from pyrofit.solver.arrays import FloatArray
 
@@ -37,7 +38,9 @@ class Optimum:
 
 @dataclass(frozen=True, eq=False)
 class Likelihood:
-    """chi2(x) = sum over channels of |L^-1 (model(x) - y) / sd|^2: -2 log likelihood + constant.
+    """chi2(x) = sum over channels of |L^-1 (model(x) - y) / sd|^2 + |(x_k - mean) / sd_k|^2.
+
+    This is -2 log likelihood + constant, known parameters x_k included.
 
     Parameters
     ----------
@@ -45,10 +48,13 @@ class Likelihood:
         Its terms are the channels, each once, at their measured points.
     noise
         Noise of each channel.
+    prior
+        What is known of parameters.
     """
 
     problem: Problem
     noise: tuple[NoiseModel, ...]
+    prior: NormalPrior = NO_PRIOR
 
     @property
     def points(self) -> list[int]:
@@ -79,8 +85,12 @@ class Likelihood:
         return [np.concatenate(models) if status.finished else None for status, models in outcomes]
 
     def split(self, stacked: FloatArray) -> list[FloatArray]:
-        """Return what belongs to each channel of (points,) or (points, k)."""
-        return np.split(stacked, np.cumsum(self.points)[:-1])
+        """Return what belongs to each channel of (points,) or (points, k).
+
+        Rows behind the points, of what is known, are left out.
+        """
+        ends = np.cumsum(self.points)
+        return np.split(stacked[: ends[-1]], ends[:-1])
 
     def whiten(self, stacked: FloatArray) -> FloatArray:
         """Whiten each channel of (points,) or (points, k)."""
@@ -88,14 +98,19 @@ class Likelihood:
         return np.concatenate([noise.whiten(part) for noise, part in parts])
 
     def residuals(self, x: FloatArray) -> FloatArray:
-        """Return the whitened residuals of all channels, shape (points,)."""
-        return self._residuals(self.curves(x))
+        """Return the whitened residuals of all channels, then those of what is known.
+
+        The shape is (points + known,).
+        """
+        return self.residuals_all(x[None])[0]
 
     def residuals_all(self, X: FloatArray) -> list[FloatArray]:
         """Return the same for several sets at once, shape (sets, parameters)."""
-        return [self._residuals(curves) for curves in self.curves_all(X)]
+        channels = [self._of_channels(curves) for curves in self.curves_all(X)]
+        known = self.prior.residuals(self.values(X))
+        return [np.concatenate(both) for both in zip(channels, known, strict=True)]
 
-    def _residuals(self, curves: FloatArray | None) -> FloatArray:
+    def _of_channels(self, curves: FloatArray | None) -> FloatArray:
         if curves is None or not np.all(np.isfinite(curves)):
             return np.full(sum(self.points), FAILED)
         measured = np.concatenate([term.target.value for _, term in self.problem.cost.terms])
@@ -131,8 +146,13 @@ class Likelihood:
     def jacobian(
         self, x: FloatArray, index: Sequence[int] | None = None, step: float = STEP
     ) -> FloatArray:
-        """Return d residuals / d x, the whitened `slopes`."""
-        return self.whiten(self.slopes(x, index, step))
+        """Return d residuals / d x: the whitened `slopes`, then those of what is known."""
+        return self.with_known(self.slopes(x, index, step), index)
+
+    def with_known(self, slopes: FloatArray, index: Sequence[int] | None = None) -> FloatArray:
+        """Return d residuals / d x from d curves / d x of some parameters, default all."""
+        known = self.prior.slopes(self.problem.upper - self.problem.lower)
+        return np.vstack([self.whiten(slopes), known if index is None else known[:, list(index)]])
 
     def descend(self, x: FloatArray, fixed: int | None = None) -> Optimum:
         """Minimise chi-square from x by Levenberg and Marquardt's method within the limits.
@@ -196,8 +216,10 @@ def _moved(x: FloatArray, i: int, by: float) -> FloatArray:
     return moved
 
 
-def likelihood_of(problem: Problem) -> Likelihood:
+def likelihood_of(problem: Problem, prior: NormalPrior = NO_PRIOR) -> Likelihood:
     """Return the likelihood of a problem whose terms are channels, with their noise estimated.
+
+    ``prior`` is what is known of its parameters.
 
     Raises
     ------
@@ -214,7 +236,7 @@ def likelihood_of(problem: Problem) -> Likelihood:
             noise.append(estimate_noise(term.target, quantity, stated_sds, timing_s))
         except DataError as error:
             raise DataError(f"{name}: {error}") from None
-    return Likelihood(problem, tuple(noise))
+    return Likelihood(problem, tuple(noise), prior)
 
 
 def fit(likelihood: Likelihood, starts: Sequence[FloatArray]) -> Optimum:

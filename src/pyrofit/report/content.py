@@ -73,7 +73,15 @@ _SECTIONS = (
         "identification",
         "What the data determine",
         "Optimum and curvature of the likelihood, from the noise of the signals.",
-        ("determined", "profiles", "sensitivities", "correlation", "noise", "distances"),
+        (
+            "determined",
+            "known_values",
+            "profiles",
+            "sensitivities",
+            "correlation",
+            "noise",
+            "distances",
+        ),
     ),
     (
         "truth",

@@ -45,7 +45,26 @@ def _named(row: Mapping[Any, Any]) -> str:
 
 def sentences(tables: Frames) -> list[str]:
     """Return the sentences of the section: verdicts, correlation, misfit, optimisers."""
-    return [verdicts(tables), _correlation(tables), _misfit(tables), _optimisers(tables)]
+    said = [verdicts(tables), *_known(tables)]
+    return [*said, _correlation(tables), _misfit(tables), _optimisers(tables)]
+
+
+def _known(tables: Frames) -> list[str]:
+    """Name the estimates that lie far from their known values."""
+    if "known_values" not in tables:
+        return []
+    table = tables["known_values"]
+    far = [
+        f"{row['parameter']} of the {row['fit']} ({row['estimate']:.4g} {row['unit']}, known "
+        f"{row['known']:.4g} ± {row['known_sd']:.2g}, {abs(row['away_sd']):.2g} sd)"
+        for row in table[table["flag"].notna()].to_dict("records")
+    ]
+    if not far:
+        return ["All estimates are within 2 standard deviations of their known values."]
+    return [
+        f"More than 2 standard deviations from the known value: {listed(far)}. Check the known "
+        "value; else the estimate makes up for something that the model lacks."
+    ]
 
 
 def _correlation(tables: Frames) -> str:

@@ -30,6 +30,16 @@ def _values(study: Study) -> dict[str, Any]:
     return {n: p.model_dump(include={"unit", "value"}) for n, p in study.parameters.items()}
 
 
+def _known(study: Study, names: Iterable[str]) -> dict[str, Any]:
+    """Known values of some parameters; no key where there are none."""
+    known = _known_values(study, names)
+    return {"known": known} if known else {}
+
+
+def _known_values(study: Study, names: Iterable[str]) -> dict[str, Any]:
+    return {n: study.known[n].model_dump(exclude={"source"}) for n in names if n in study.known}
+
+
 def _experiment(study: Study, name: str) -> dict[str, Any]:
     """As it is simulated and compared by costs, which know nothing of errors of clocks."""
     clocks = {"signals": {"__all__": {"timing_s"}}}
@@ -109,6 +119,7 @@ def kinetics(study: Study) -> dict[str, Any]:
         "stage": stage.model_dump(exclude={"cost"}),
         "accuracy": study.accuracy.tga_step_K,
         "seed": study.seed,
+        **_known(study, stage.estimate),
     }
 
 
@@ -130,6 +141,7 @@ def imp(study: Study, cost: str, optimiser: str) -> dict[str, Any]:
         "budget": getattr(stage, optimiser).model_dump(),
         "accuracy": study.accuracy.model_dump(),
         "seed": study.seed,
+        **_known(study, stage.estimate),
     }
 
 
@@ -150,6 +162,7 @@ def identify(study: Study) -> dict[str, Any]:
         "code": _code(study),
         "costs": list(stage.costs),
         "accuracy": study.accuracy.model_dump(),
+        **_known(study, stage.estimate),
     }
 
 
@@ -168,7 +181,7 @@ def diagnose(study: Study) -> dict[str, Any]:
         "material": material.model_dump(),
         "parameters": _parameters(study, names | set(estimate)),
         "estimate": estimate,
-        "known": {n: known.model_dump() for n, known in stage.known.items()},
+        "known": _known_values(study, estimate),
         "candidates": candidate_effects(study),
         "code": _code(study, more=candidate_effects(study)),
         # New tests may record any quantity.
@@ -204,6 +217,7 @@ def robustness(study: Study, cost: str) -> dict[str, Any]:
         "measured": {n: _measured(study, n) for n in study.experiments},
         "limits": {n: study.parameters[n].bounds_si for n in study.imp.estimate},
         "seed": study.seed,
+        **_known(study, study.imp.estimate),
         **validation(study),
     }
 
@@ -215,6 +229,7 @@ def compare(study: Study) -> dict[str, Any]:
         "measured": {n: _experiment(study, n) for n in study.experiments},
         "limits": {n: study.parameters[n].bounds_si for n in study.imp.estimate},
         "seed": study.seed,
+        **_known(study, study.imp.estimate),
         **validation(study),
         **collect(study),
     }

@@ -12,6 +12,7 @@ from pyrofit.errors import StudyError, suggest
 from pyrofit.estimate import cmaes
 from pyrofit.estimate.history import Progress, best_of, convergence
 from pyrofit.estimate.least_squares import Start, descend, multistart
+from pyrofit.estimate.prior import within_known
 from pyrofit.estimate.problem import Problem, make_problem
 from pyrofit.estimate.targets import Measurements
 from pyrofit.experiments.heated.simulate import programme
@@ -62,9 +63,10 @@ def fit_kinetics(study: Study, results: Results) -> None:
     """
     stage = dependencies.kinetics_of(study)
     measurements = load(study, results)
-    problem = make_problem(
+    posed = make_problem(
         study, stage.estimate, stage.cost, measurements, study.material, study.fixed_values()
     )
+    problem = within_known(study, posed)
     seed = seed_for(study.seed, "kinetics")
     generations = stage.sceua.generations
     from pyrofit.estimate.sceua import search  # SPOTPY sets up a logger of its own for all
@@ -174,12 +176,12 @@ def fixed_for_imp(study: Study, results: Results) -> dict[str, float]:
 
 
 def imp_problem(study: Study, results: Results, cost: str) -> Problem:
-    """Return the inverse-modelling problem of one cost function."""
+    """Return the inverse-modelling problem of one cost function, as optimisers search it."""
     if cost not in study.imp.costs:
         raise StudyError(
             f"study '{study.name}' has no cost '{cost}'. {suggest(cost, study.imp.costs)}"
         )
-    return make_problem(
+    posed = make_problem(
         study,
         study.imp.estimate,
         study.imp.costs[cost],
@@ -187,6 +189,7 @@ def imp_problem(study: Study, results: Results, cost: str) -> Problem:
         study.material_with(study.imp.kinetics),
         fixed_for_imp(study, results),
     )
+    return within_known(study, posed)
 
 
 def repeat(study: Study, results: Results, cost: str, repetitions: Sequence[int]) -> None:

@@ -9,6 +9,7 @@ import pandas as pd
 from pyrofit.config import Study
 from pyrofit.estimate.identify import Identification, identify
 from pyrofit.estimate.likelihood import Likelihood, likelihood_of
+from pyrofit.estimate.prior import prior_of
 from pyrofit.estimate.problem import make_problem
 from pyrofit.results import dependencies, kinetics, searches
 from pyrofit.results.files import Results, write_csv, write_json
@@ -33,9 +34,10 @@ def identify_kinetics(study: Study, results: Results) -> None:
     stage = dependencies.kinetics_of(study)
     measurements = load(study, results)
     fixed = study.fixed_values()
-    likelihood = likelihood_of(
-        make_problem(study, stage.estimate, stage.channels, measurements, study.material, fixed)
+    problem = make_problem(
+        study, stage.estimate, stage.channels, measurements, study.material, fixed
     )
+    likelihood = likelihood_of(problem, prior_of(study, problem))
     known = kinetics.ends(study, results)
     starts = [likelihood.scaled(np.array([end[n] for n in stage.estimate])) for end in known]
     _write(results, "kinetics", likelihood, identify(likelihood, starts))
@@ -51,16 +53,15 @@ def identify_imp(study: Study, results: Results) -> None:
     DataError
         A result is missing, or a channel is too short to show its noise.
     """
-    likelihood = likelihood_of(
-        make_problem(
-            study,
-            study.imp.estimate,
-            study.imp.channels,
-            load(study, results),
-            study.material_with(study.imp.kinetics),
-            fixed_for_imp(study, results),
-        )
+    problem = make_problem(
+        study,
+        study.imp.estimate,
+        study.imp.channels,
+        load(study, results),
+        study.material_with(study.imp.kinetics),
+        fixed_for_imp(study, results),
     )
+    likelihood = likelihood_of(problem, prior_of(study, problem))
     starts = [likelihood.scaled(values) for values in _known_sets(study, results)]
     found = identify(likelihood, starts)
     _write(results, "imp", likelihood, found)
@@ -207,7 +208,7 @@ def _noise(likelihood: Likelihood, found: Identification) -> dict[str, Any]:
     ]
     return {
         "channels": channels,
-        "chi2": found.optimum.chi2,
+        "chi2": found.chi2,
         "freedom": likelihood.freedom,
         "inflation": found.inflation,
     }

@@ -16,6 +16,7 @@ from pyrofit.config import Study, TermSpec
 from pyrofit.errors import DataError, StudyError
 from pyrofit.estimate.least_squares import multistart
 from pyrofit.estimate.noise import estimate_noise
+from pyrofit.estimate.prior import within_known
 from pyrofit.estimate.problem import Problem, make_problem
 from pyrofit.estimate.targets import Measurements, target_of
 from pyrofit.quantities.base import Quantity
@@ -197,4 +198,5 @@ def _held_out(study: Study, results: Results, twin: Twin) -> list[Problem]:
 def _problem(study: Study, results: Results, specs: Any, series: Measurements) -> Problem:
     material = study.material_with(study.imp.kinetics)
     fixed = fixed_for_imp(study, results)
-    return make_problem(study, study.imp.estimate, specs, series, material, fixed)
+    posed = make_problem(study, study.imp.estimate, specs, series, material, fixed)
+    return within_known(study, posed)

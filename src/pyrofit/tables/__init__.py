@@ -14,6 +14,7 @@ from pyrofit.tables.determined import channels, determined, distances
 from pyrofit.tables.diagnosed import DIAGNOSIS_TABLES
 from pyrofit.tables.imp import costs, table4
 from pyrofit.tables.kinetics import table3
+from pyrofit.tables.known import has_known, known_values
 from pyrofit.tables.parameters import table5, table6
 from pyrofit.tables.table import Table
 from pyrofit.tables.text import groups, markdown, turned
@@ -112,6 +113,22 @@ TABLES: dict[str, Table] = {
             "noise_low": "noise alone, low",
             "noise_high": "noise alone, high",
             "strongest_correlation": "strongest correlation",
+        },
+        group_by="fit",
+    ),
+    "known_values": Table(
+        applies=has_known,
+        make=known_values,
+        title="Known values and estimates",
+        note="Known: mean and standard deviation (sd) given under `known`. They are data of the "
+        "analysis of the likelihood; optimisers of costs search within 3 sd of the known value. "
+        "Distance: estimate minus known value, over its sd.",
+        headings={
+            "known": "known value",
+            "known_sd": "its sd",
+            "low": "95 % low",
+            "high": "95 % high",
+            "away_sd": "distance [sd]",
         },
         group_by="fit",
     ),

@@ -55,7 +55,8 @@ def best_sets(study: Study, results: Results) -> pd.DataFrame:
 
 def _at_limit(study: Study, name: str, best: pd.DataFrame) -> str:
     """Name the cost functions whose best set has a parameter at a limit."""
-    lower, upper = study.parameters[name].bounds_si
+    factor = study.parameters[name].factor
+    lower, upper = (limit * factor for limit in study.search_limits(name))
     names = [
         str(row["cost_function"])
         for row in best.to_dict("records")

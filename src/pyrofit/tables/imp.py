@@ -64,7 +64,7 @@ def _row(study: Study, cost: str, name: str, values: pd.Series, best: float) -> 
     published = {} if study.published is None else study.published.costs.get(cost, {})
     theirs = published.get(name, (None, None, None))
     sigma = float(values.std(ddof=1))
-    lower, upper = (parameter.lower, parameter.upper) if parameter else (None, None)
+    lower, upper = study.search_limits(name) if parameter else (None, None)
     return {
         "cost_function": cost,
         "quantity": name,

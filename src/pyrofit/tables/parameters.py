@@ -6,6 +6,7 @@ from typing import Any
 import pandas as pd
 
 from pyrofit.config import Study
+from pyrofit.config.known import REACH
 from pyrofit.model.base import numbers
 
 # PAPER: Table 5 prints kJ/kg for E and m/K for k; Table 3 has kJ/kmol, and k is in W/(m K).
@@ -100,15 +101,24 @@ def _limits(study: Study, stage: str, name: str) -> dict[str, Any]:
     tables = study.published.costs.values() if study.published else ()
     theirs = study.published.limits.get(name) if study.published else None
     best = [table[name][0] for table in tables if name in table]
+    lower, upper = study.search_limits(name)
     return {
         "stage": stage,
         "parameter": name,
-        "meaning": parameter.label,
+        "meaning": "; ".join(filter(None, [parameter.label, _known(study, name)])),
         "unit": parameter.unit,
-        "lower_limit": parameter.lower,
-        "upper_limit": parameter.upper,
+        "lower_limit": lower,
+        "upper_limit": upper,
         "published_lower": theirs[0] if theirs else None,
         "published_upper": theirs[1] if theirs else None,
         "published_lowest": min(best, default=None),
         "published_highest": max(best, default=None),
     }
+
+
+def _known(study: Study, name: str) -> str:
+    """Say within what a parameter with a known value is searched; nothing for others."""
+    if name not in study.known:
+        return ""
+    known = study.known[name]
+    return f"known: {known.value:g} ± {known.sd:g}, searched within {REACH:g} sd and the limits"
