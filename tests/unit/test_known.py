@@ -17,7 +17,7 @@ from pyrofit.estimate.likelihood import Likelihood
 from pyrofit.estimate.prior import NO_PRIOR, NormalPrior, prior_of
 from pyrofit.report.content import tables_of
 from pyrofit.report.determined import sentences
-from pyrofit.stages import slices
+from pyrofit.results import dependencies
 from pyrofit.tables import known_values
 
 SPAN = np.array([2.0, 4.0])
@@ -134,11 +134,11 @@ def test_problem_is_searched_and_known_in_si_units() -> None:
 @pytest.mark.parametrize(
     "step",
     [
-        lambda study: slices.imp(study, "RMSE", "sceua"),
-        slices.identify,
-        slices.diagnose,
-        slices.compare,
-        lambda study: slices.robustness(study, "RMSE"),
+        lambda study: dependencies.imp(study, "RMSE", "sceua"),
+        dependencies.identify,
+        dependencies.diagnose,
+        dependencies.compare,
+        lambda study: dependencies.robustness(study, "RMSE"),
     ],
     ids=["imp", "identify", "diagnose", "compare", "robustness"],
 )
@@ -154,7 +154,7 @@ def test_steps_depend_on_known_values_but_not_on_their_source(step: Any) -> None
 
 def test_kinetics_do_not_depend_on_known_values_of_the_slab() -> None:
     slab = study_with(known={"k": {"value": 0.15, "sd": 0.02}})
-    assert digest(slices.kinetics(slab)) == digest(slices.kinetics(study_with()))
+    assert digest(dependencies.kinetics(slab)) == digest(dependencies.kinetics(study_with()))
 
 
 def test_estimate_far_from_its_known_value_is_flagged_in_table_and_report(tmp_path: Path) -> None:
