@@ -194,7 +194,11 @@ def test_one_slab_alone_is_not_left_out() -> None:
     assert slabs(trial) == []
     assert list(scores(trial)) == [HELD_OUT]
     channels = [("slab", "mlr"), ("tga", "mass_fraction")]
-    model = SimpleNamespace(base=SimpleNamespace(channels=channels), channels=(0, 1))
+    kinds = {"slab": "gasification", "tga": "tga"}
+    runs = {n: SimpleNamespace(experiment=SimpleNamespace(kind=k)) for n, k in kinds.items()}
+    likelihood = SimpleNamespace(problem=SimpleNamespace(runs=runs))
+    base = SimpleNamespace(channels=channels, likelihood=likelihood)
+    model = SimpleNamespace(base=base, channels=(0, 1))
     fake: Any = SimpleNamespace(model=model)
     assert slabs(fake) == []
 
