@@ -76,8 +76,6 @@ BROKEN = {
     "infinity": ("Time,Mass\n0,1\n-inf,1\n", "line 3, column 'Time': given '-inf'"),
     "overflow": ("Time,Mass\n0,1e999\n", "line 2, column 'Mass': given '1e999'"),
     "underscore": ("Time,Mass\n0,1\n1,1_0\n", "line 3, column 'Mass': given '1_0'"),
-    "empty cell": ("Time,Mass,T\n0,1,2\n1,,3\n", "line 3, column 'Mass': given an empty cell"),
-    "empty last cell": ("Time,Mass\n0,1\n1,\n", "line 3, column 'Mass': given an empty cell"),
     "blank row": ("Time,Mass\n0,1\n\n1,2\n", "line 3: this row is blank"),
     "short row": ("Time,Mass\n0,1\n1\n", "line 3: given 1 cells; the header names 2"),
     "long row": ("Time,Mass\n0,1\n1,2,3\n", "line 3: given 3 cells; the header names 2"),

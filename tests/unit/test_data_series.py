@@ -68,6 +68,47 @@ def test_notes_tell_dropped_columns_and_negative_values(tmp_path: Path) -> None:
     )
 
 
+CONE = """Time,Mass,HRR,Back
+[s],[g],[kW/m2],[K]
+0,70,1.5,
+1,69,,
+2,68,200,
+3,67,,
+4,66,2.5,
+"""
+
+
+def test_rows_without_a_value_are_left_out_with_a_note(tmp_path: Path) -> None:
+    series = read(tmp_path, "heat_release_rate", CONE)
+    assert series.frame["time_s"].tolist() == [0.0, 2.0, 4.0]
+    assert series.frame["heat_release_rate_W_m2"].tolist() == [1500.0, 200e3, 2500.0]
+    assert "left out, without a value: 2 of 5 rows" in series.notes
+
+
+def test_line_of_a_wrong_value_counts_the_rows_left_out(tmp_path: Path) -> None:
+    with pytest.raises(DataError, match=r"line 5, column 'HRR': given -800; a heat release rate"):
+        read(tmp_path, "heat_release_rate", CONE.replace("200", "-800"))
+
+
+def test_empty_cell_of_the_time_is_refused(tmp_path: Path) -> None:
+    with pytest.raises(DataError, match="line 5, column 'Time': given an empty cell; every row"):
+        read(tmp_path, "heat_release_rate", CONE.replace("2,68", ",68"))
+
+
+@pytest.mark.parametrize(("unit", "factor"), [("kW m-2", 1e3), ("W/m^2", 1.0), ("kW", 1e4)])
+def test_heat_release_rate_is_per_area(tmp_path: Path, unit: str, factor: float) -> None:
+    text = CONE.replace("[kW/m2]", f"[{unit}]")
+    series = read(tmp_path, "heat_release_rate", text, sample_area_m2=0.1)
+    assert series.frame["heat_release_rate_W_m2"].tolist() == pytest.approx(
+        [1.5 * factor, 200 * factor, 2.5 * factor]
+    )
+
+
+def test_heat_release_rate_in_kW_needs_the_area(tmp_path: Path) -> None:
+    with pytest.raises(DataError, match="that of a heat rate; give `sample_area_m2`"):
+        read(tmp_path, "heat_release_rate", CONE.replace("[kW/m2]", "[kW]"))
+
+
 def test_temperature_file_gives_time_temperature_and_uncertainty(tmp_path: Path) -> None:
     frame = read(tmp_path, "back_temperature", BACK).frame
     assert list(frame.columns) == ["time_s", "back_temperature_K", "back_temperature_uncertainty_K"]
@@ -355,3 +396,28 @@ def test_every_measured_file_is_read_without_options() -> None:
     assert lengths["UMD_CAPA_25kW_Temp.csv"] == 1805
     assert lengths["UMET_TGA_N2_1K_1.csv"] == 922
     assert len(lengths) == 12
+
+
+FLAWED = {
+    # Its unit is that of a heat rate: it needs the area.
+    "Edinburgh_Cone_65kW_6.csv",
+}
+
+
+@pytest.mark.measured
+@pytest.mark.skipif(not os.environ.get("PYROFIT_DATA_DIR"), reason="PYROFIT_DATA_DIR is not set")
+def test_heat_release_of_every_laboratory_is_read_without_naming_columns() -> None:
+    # 139 of the 140 files of 17 laboratories that have a heat release rate, pine wood and PMMA.
+    root = Path(os.environ["PYROFIT_DATA_DIR"])
+    found = sorted(root.glob("*/Calibration_Data/*/*_Cone_*.[cC][sS][vV]"))
+    read_in = set()
+    for path in found:
+        if path.name in FLAWED or "INSTITUTE-X" in path.name:
+            continue
+        heat = read_series(SeriesSpec("heat_release_rate", path)).frame["heat_release_rate_W_m2"]
+        assert 2e4 < heat.max() < 3e6, path
+        read_in.add(path.parent.name)
+    if not found:
+        pytest.skip("the data base has no files of cone calorimeters")
+    assert len(found) >= 140
+    assert len(read_in) >= 17

@@ -77,6 +77,6 @@ def check_limits(
 
 def _refusal(table: Table, header: str, row: int, rule: str) -> DataError:
     return DataError(
-        f"{table.path}, line {table.first_row + row}, column '{header}': "
+        f"{table.path}, line {table.line(row)}, column '{header}': "
         f"given {table.columns[header][row]:g}; {rule}"
     )

@@ -23,24 +23,32 @@ _LISTED_FILES = 12
 
 @dataclass(frozen=True, eq=False)
 class Table:
-    """Columns of finite numbers, in the file's own units.
+    """Columns of numbers, in the file's own units.
 
     Parameters
     ----------
     path : Path
         The file that was read.
     columns : dict of str to array, shape (n_rows,)
-        The numbers by column name, in the order of the file.
+        The numbers by column name, in the order of the file; NaN where a cell is empty.
     units : dict of str to str or None
         The unit by column name as the file writes it, without brackets; None where there is none.
     first_row : int
-        Line number, from 1, of the first row of numbers; row i stands on line `first_row + i`.
+        Line number, from 1, of the first row of numbers in the file.
+    left_out : tuple of int
+        Rows of the file, from 0, that the columns do not have any more.
     """
 
     path: Path
     columns: dict[str, FloatArray]
     units: dict[str, str | None]
     first_row: int
+    left_out: tuple[int, ...] = ()
+
+    def line(self, row: int) -> int:
+        """Return the line number, from 1, of a row of the columns."""
+        rows = len(next(iter(self.columns.values()))) + len(self.left_out)
+        return self.first_row + int(np.delete(np.arange(rows), self.left_out)[row])
 
 
 def read_table(path: Path) -> Table:
@@ -63,7 +71,7 @@ def read_table(path: Path) -> Table:
     ------
     DataError
         The file cannot be read, has no header or no numbers, a row is longer or shorter than the
-        header, two columns share a name, or a cell is not a finite number.
+        header, two columns share a name, or a cell is neither empty nor a finite number.
 
     Examples
     --------
@@ -189,9 +197,10 @@ def _parse_row(path: Path, row: Line, names: Sequence[str]) -> list[float]:
 
 
 def _parse_cell(path: Path, line: int, name: str, cell: str) -> float:
+    if not cell:
+        return math.nan
     if _is_number(cell) and math.isfinite(value := float(cell)):
         return value
-    given = f"'{cell}'" if cell else "an empty cell"
     if _DECIMAL_COMMA.fullmatch(cell):
         raise DataError(
             f"{path}, line {line}, column '{name}': given '{cell}', a number with a decimal comma; "
@@ -199,7 +208,7 @@ def _parse_cell(path: Path, line: int, name: str, cell: str) -> float:
             "or replace the commas."
         )
     raise DataError(
-        f"{path}, line {line}, column '{name}': given {given}; each cell must be a finite number "
+        f"{path}, line {line}, column '{name}': given '{cell}'; each cell must be a finite number "
         "with a decimal point, and cells are set apart by comma, semicolon or tab. "
         "Correct the cell or delete its row."
     )

@@ -11,17 +11,13 @@ import pandas as pd
 from pyrofit.data.checks import check_finite, check_limits, check_order
 from pyrofit.data.csvfile import FloatArray, Table, read_table
 from pyrofit.data.download import sha256
+from pyrofit.data.gaps import without_gaps
 from pyrofit.errors import DataError, suggest
 from pyrofit.quantities import known_quantities
 from pyrofit.quantities.base import LIMITS, Quantity
-from pyrofit.quantities.units import CELSIUS, ICE_POINT_K, SCALES, header_key, unit_key
+from pyrofit.quantities.units import CELSIUS, ICE_POINT_K, PER_AREA, SCALES, header_key, unit_key
 
 _FEWEST_POINTS = 3
-_PER_AREA = {
-    "mass rate": "mass flux, such as kg/s/m2",
-    "heat rate": "heat flux, such as kW/m2",
-}
-"""Kinds of unit that the exposed area divides, and what they become."""
 
 
 @dataclass(frozen=True)
@@ -168,26 +164,35 @@ def read_series(spec: SeriesSpec) -> Measurement:
       120.0         333.15            0.8
     """
     table = read_table(spec.path)
-    rows = len(next(iter(table.columns.values())))
-    if rows < _FEWEST_POINTS:
-        raise DataError(
-            f"{spec.path}: given {rows} points; a series needs at least {_FEWEST_POINTS}. "
-            "Give a longer file."
-        )
-    dummies = [name for name, column in table.columns.items() if not column.any()]
+    _check_length(table)
+    dummies = [name for name, column in table.columns.items() if not np.nan_to_num(column).any()]
     headers = _assign_columns(spec, table, dummies)
+    table, gaps = without_gaps(table, headers)
+    rows = _check_length(table)
     # What overflows here is found there.
     with np.errstate(over="ignore", invalid="ignore"):
         frame, notes = _convert_columns(spec, table, headers)
     check_finite(spec.path, frame)
     check_order(spec.of, table, headers, frame)
     check_limits(spec.of, table, headers, frame)
+    notes += gaps
     if unread := [name for name in dummies if name not in headers.values()]:
         notes.append(f"left out, zero throughout: {', '.join(unread)}")
     if negative := int((frame[spec.of.column] < 0.0).sum()):
         notes.append(f"{negative} of {rows} values are negative")
     digest = sha256(spec.path)
     return Measurement(spec.of, frame, spec.path, digest, spec.uncertainty_meaning, tuple(notes))
+
+
+def _check_length(table: Table) -> int:
+    """Return the number of points, if these are enough."""
+    rows = len(next(iter(table.columns.values())))
+    if rows < _FEWEST_POINTS:
+        raise DataError(
+            f"{table.path}: given {rows} points; a series needs at least {_FEWEST_POINTS}. "
+            "Give a longer file."
+        )
+    return rows
 
 
 def _assign_columns(spec: SeriesSpec, table: Table, dummies: Sequence[str]) -> dict[str, str]:
@@ -283,11 +288,11 @@ def _to_si(
 
 def _divisor(spec: SeriesSpec, kind: str, first: float) -> tuple[float, list[str]]:
     """Give the mass or the area by which a mass or a mass rate is divided."""
-    if kind in _PER_AREA:
+    if kind in PER_AREA:
         if spec.sample_area_m2 is None:
             raise DataError(
                 f"{spec.path}: the unit is that of a {kind}; give `sample_area_m2`, or the "
-                f"right unit of a {_PER_AREA[kind]}."
+                f"right unit of a {PER_AREA[kind]}, such as {spec.of.unit}."
             )
         return spec.sample_area_m2, [f"{kind} divided by {spec.sample_area_m2:g} m2"]
     if kind != "mass":

@@ -6,7 +6,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from pyrofit.data.csvfile import FloatArray, Table
+from pyrofit.data.csvfile import Table
 from pyrofit.quantities import known_quantities
 from pyrofit.quantities.units import SCALES, header_key, unit_key
 
@@ -118,7 +118,7 @@ def _matches(table: Table, quantity: str, role: str, taken: Mapping[str, str]) -
     free = [
         name
         for name, numbers in table.columns.items()
-        if name not in taken.values() and (role == "time" or numbers.any())
+        if name not in taken.values() and (role == "time" or np.nan_to_num(numbers).any())
     ]
     usual = {header_key(name) for name in known_quantities()[quantity].roles[role]}
     if known := [name for name in free if header_key(name) in usual]:
@@ -174,18 +174,21 @@ def _guess(
 ) -> str:
     """Return the unit that the numbers look like."""
     numbers = table.columns[columns[role]]
+    numbers = numbers[np.isfinite(numbers)]
     if role == "uncertainty":
         return units["value"]
     if role == "time":
         heated = columns.get("temperature")
-        return "s" if heated is None else _time_unit(numbers, table.columns[heated])
+        return "s" if heated is None else _time_unit(table, columns["time"], heated)
     if role == "temperature":
         return "degC" if numbers[0] < 200.0 else "K"
     return known_quantities()[quantity].guess(float(numbers[0]), float(numbers.max()))
 
 
-def _time_unit(time: FloatArray, temperature: FloatArray) -> str:
+def _time_unit(table: Table, time_column: str, heated: str) -> str:
     """Return s or min, whichever makes the heating rate nearer to a usual one."""
+    columns = np.array([table.columns[time_column], table.columns[heated]])
+    time, temperature = columns[:, np.isfinite(columns).all(axis=0)]
     if len(time) < 2 or not (np.diff(time) > 0.0).all():
         return "s"
     with np.errstate(over="ignore", invalid="ignore"):  # what overflows is refused when it is read

@@ -5,7 +5,15 @@ from pyrofit.quantities.temperature import temperature
 
 QUANTITY: Quantity = temperature(
     "back",
-    headers=("Temp_avg_all4", "Temperature", "Temp", "Back temperature"),
+    headers=(
+        "Temp_avg_all4",
+        "Temperature",
+        "Temp",
+        "Back temperature",
+        "Back surface temperature",
+        "Back temp",
+        "TC back 1",
+    ),
     uncertainty_headers=("Temperature_Error", "Temp error"),
     pattern=r".*(back|rear|bottom).*|temp.*|tb|tc\d*",
 )

@@ -13,6 +13,8 @@ SCALES: dict[str, dict[str, float]] = {
     "heat rate": {"W": 1.0, "kW": 1e3, "MW": 1e6},
     "fraction": {"1": 1.0, "-": 1.0, "g/g": 1.0, "kg/kg": 1.0, "mg/mg": 1.0, "%": 0.01},
 }
+PER_AREA = {"mass rate": "mass flux", "heat rate": "heat flux"}
+"""What a kind of unit becomes where it is divided by the area of the sample."""
 CELSIUS = {"degC", "°C", "C"}
 ICE_POINT_K = 273.15
 

@@ -1,0 +1,53 @@
+"""Rows of a file in which a quantity was not recorded."""
+
+from collections.abc import Mapping
+from dataclasses import replace
+
+import numpy as np
+
+from pyrofit.data.csvfile import Table
+from pyrofit.errors import DataError
+
+_ABSCISSAE = ("time", "temperature")
+
+
+def without_gaps(table: Table, headers: Mapping[str, str]) -> tuple[Table, list[str]]:
+    """Leave out the rows in which the value or its uncertainty has an empty cell.
+
+    A file may hold quantities that were recorded at different intervals. Empty cells of columns
+    that are not read do not matter.
+
+    Parameters
+    ----------
+    table : Table
+        The file.
+    headers : mapping of str to str
+        Columns that are read, by role.
+
+    Returns
+    -------
+    Table, list of str
+        The rows that are left, and a note on those that are not.
+
+    Raises
+    ------
+    DataError
+        A cell of the time or the temperature is empty.
+    """
+    empty = {role: np.isnan(table.columns[header]) for role, header in headers.items()}
+    for role in _ABSCISSAE:
+        if role in empty and empty[role].any():
+            raise DataError(
+                f"{table.path}, line {table.line(int(empty[role].argmax()))}, column "
+                f"'{headers[role]}': given an empty cell; every row needs its {role}. Complete "
+                "the row or delete it."
+            )
+    gaps = np.any(list(empty.values()), axis=0)
+    if not gaps.any():
+        return table, []
+    left = replace(
+        table,
+        columns={name: column[~gaps] for name, column in table.columns.items()},
+        left_out=tuple(np.flatnonzero(gaps).tolist()),
+    )
+    return left, [f"left out, without a value: {gaps.sum()} of {gaps.size} rows"]
