@@ -9,13 +9,12 @@ from snakemake.utils import min_version, update_config
 
 from pyrofit.config import as_study, digest, read_mapping
 from pyrofit.errors import PyrofitError
-from pyrofit.results.files import Results, write_text
-from pyrofit.figures import FIGURES
 from pyrofit.provenance import STUDY as STUDY_MODULES
 from pyrofit.provenance import source_fingerprint
 from pyrofit.results import dependencies
+from pyrofit.results.files import Results, write_text
+from pyrofit.show.sections import FIGURES, TABLES, module_of
 from pyrofit.stages.reading import check_measurements
-from pyrofit.tables import TABLES
 
 min_version("9.27")
 

@@ -5,7 +5,8 @@ from pathlib import Path
 from case import FLUXES
 from cost import Point, front
 
-from pyrofit.figures.style import (
+from pyrofit.results.files import Results
+from pyrofit.show.style import (
     MEASURED,
     PUBLISHED,
     TWO_COLUMNS,
@@ -18,7 +19,6 @@ from pyrofit.figures.style import (
     save,
     style,
 )
-from pyrofit.results.files import Results
 
 DOCS = Path(__file__).parents[1] / "docs"
 MARKS = {"default, lanes": "s", "default, scalar": "o", "0.2 %, lanes": "D", "0.2 %, scalar": "^"}

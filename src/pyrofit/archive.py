@@ -17,13 +17,12 @@ from pyrofit import __version__
 from pyrofit.archive_texts import COMMENT, MACFP_FILES, README
 from pyrofit.config import Study, as_yaml, digest
 from pyrofit.errors import DataError
-from pyrofit.figures import FIGURES
 from pyrofit.model.signal import Signal
 from pyrofit.plugins import folder_names, plugin_files
 from pyrofit.provenance import STUDY, source_fingerprint
 from pyrofit.results.files import Results, read_json, write_bytes
+from pyrofit.show.sections import FIGURES, TABLES
 from pyrofit.stages.reading import MACFP
-from pyrofit.tables import TABLES
 
 Entries = dict[str, bytes]
 """Contents by name in the archive."""

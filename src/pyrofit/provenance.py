@@ -36,13 +36,27 @@ STUDY = (
             "diagnose",
         )
     ),
-    "pyrofit.tables",
-    "pyrofit.figures",
-    "pyrofit.figures.diagnosis",
-    "pyrofit.report",
+    "pyrofit.show.report",
 )
 """Modules of all steps of a study."""
-CATALOGUES = ("pyrofit.quantities",)
+CATALOGUES = (
+    "pyrofit.quantities",
+    *(
+        f"pyrofit.show.{subject}"
+        for subject in (
+            "answer",
+            "costs",
+            "diagnosis",
+            "fit",
+            "identification",
+            "kinetics",
+            "optimisers",
+            "robustness",
+            "truth",
+            "validation",
+        )
+    ),
+)
 """Packages whose files are found without being imported by name, and all count.
 
 What a study uses of effects, and of the files of its plugins, `results.dependencies` counts.

@@ -13,17 +13,8 @@ from pyrofit.model.material import Material
 from pyrofit.model.slab import SlabExperiment
 from pyrofit.solver.arrays import FloatArray, Numerics, Status, Values
 from pyrofit.solver.curves import Curves, Request, Runs
-from pyrofit.solver.lower import (
-    fractions,
-    is_separate,
-    lower_material,
-    lower_network,
-)
-from pyrofit.solver.lower_experiment import (
-    lower_exposure,
-    lower_layers,
-    lower_share,
-)
+from pyrofit.solver.lower import fractions, is_separate, lower_material, lower_network
+from pyrofit.solver.lower_experiment import lower_exposure, lower_layers, lower_share
 from pyrofit.solver.observe import observe
 from pyrofit.solver.outputs import FRACTION_RATE, MASS_FRACTION
 from pyrofit.solver.run import Case, heat, march

@@ -10,16 +10,19 @@ from test_estimate import Valley
 from test_stages import SETS, by_hand, study_with
 from test_tables import comparison, described, fake, made
 
+from pyrofit.analysis import good_sets as family
+from pyrofit.analysis import groups
+from pyrofit.analysis.rank_correlation import rank_correlation
 from pyrofit.config import Study, as_study
 from pyrofit.errors import DataError
-from pyrofit.estimate import family, groups
-from pyrofit.figures.compared import rank_correlation
 from pyrofit.quantities import known_quantities
-from pyrofit.report.comparison import costs, good_sets, optimisers
 from pyrofit.results.files import Results, read_csv, write_csv
+from pyrofit.show.costs.sentences import sentences as costs
+from pyrofit.show.optimisers.sentences import sentences as optimisers
+from pyrofit.show.sections import TABLES
+from pyrofit.show.validation.sentences import reach_of_good_sets as good_sets
 from pyrofit.solver.arrays import FloatArray
 from pyrofit.stages import compare, fit, measurements, predict
-from pyrofit.tables import TABLES
 
 # --- the family of good sets ----------------------------------------------------------------
 
@@ -338,7 +341,9 @@ def test_rank_correlation_knows_nothing_of_what_the_costs_differ_in(tmp_path: Pa
 def said(study: Study, results: Results) -> str:
     names = ("costs", "every_cost", "cost_tests", "bands")
     tables = {n: TABLES[n].make(study, results) for n in names}
-    return " ".join([*optimisers(study, results, tables), *costs(tables), good_sets(tables)])
+    return " ".join(
+        [*optimisers(study, results, tables), *costs(study, results, tables), good_sets(tables)]
+    )
 
 
 def test_sentences_say_the_numbers(tmp_path: Path) -> None:

@@ -6,8 +6,8 @@ from matplotlib.axes import Axes
 from matplotlib.colors import to_rgba
 from test_tables import fake, synthetic
 
-from pyrofit.figures import cost_functions as fig
-from pyrofit.figures import style
+from pyrofit.show import style
+from pyrofit.show.costs import fig1 as fig
 
 
 @pytest.fixture(scope="module")

@@ -16,15 +16,21 @@ from pyrofit.config import Study
 from pyrofit.diagnose.model import strength_of
 from pyrofit.effects import known_effects
 from pyrofit.errors import DataError
-from pyrofit.figures import FIGURES, style
-from pyrofit.figures.diagnosis import DIAGNOSIS_FIGURES, draw_all, figures_of
-from pyrofit.report import diagnosis as report
-from pyrofit.report import write_report
 from pyrofit.results.diagnosis import VERDICTS, read
 from pyrofit.results.diagnosis import curves as curves_of
 from pyrofit.results.files import Results, write_csv, write_json, write_text
-from pyrofit.tables import diagnosis, diagnosis_tables, make_diagnosis_tables
-from pyrofit.tables.diagnosed import DIAGNOSIS_TABLES
+from pyrofit.show import diagnosis_page as report
+from pyrofit.show import style
+from pyrofit.show.diagnosis.sentences import headline
+from pyrofit.show.diagnosis.words import leading
+from pyrofit.show.diagnosis_page import (
+    diagnosis_tables,
+    draw_all,
+    figures_of,
+    make_diagnosis_tables,
+)
+from pyrofit.show.report import write_report
+from pyrofit.show.sections import FIGURES
 
 KINDS = VERDICTS
 CHANNELS = (
@@ -413,7 +419,7 @@ def test_tables_are_written_and_those_of_an_earlier_diagnosis_removed(tmp_path: 
     folder = tmp_path / "diagnosis" / "tables"
     assert (folder / "probes.md").exists()
     make_diagnosis_tables(*diagnosed(tmp_path, "named"))
-    assert {p.stem for p in folder.glob("*.csv")} == set(DIAGNOSIS_TABLES) - {
+    assert {p.stem for p in folder.glob("*.csv")} == set(report.TABLES) - {
         "probes",
         "next_experiments",
     }
@@ -457,7 +463,7 @@ def test_candidates_of_three_effects_stay_on_the_canvas(tmp_path: Path) -> None:
         candidate["rejected"] = "emissivity_conversion: predictions do not improve, " * 4
     write_json(path, found)
     with style.style():
-        canvas = DIAGNOSIS_FIGURES["ranking"].make(study, results)
+        canvas = report.FIGURES["ranking"].make(study, results)
         canvas.draw_without_rendering()
         (ax,) = canvas.axes
         extents = [text.get_window_extent() for text in (*ax.get_yticklabels(), *ax.texts)]
@@ -574,7 +580,7 @@ def test_headline_says_what_is_left_open(
 ) -> None:
     study, results = diagnosed(tmp_path, kind)
     altered(results, place, value)
-    assert said in report.headline(study, results)
+    assert said in headline(study, results)
 
 
 def test_page_says_the_numbers(tmp_path: Path) -> None:
@@ -666,12 +672,12 @@ def test_curves_that_lack_a_channel_are_refused(tmp_path: Path) -> None:
 
 def test_leading_candidate_is_the_best_that_was_not_rejected(tmp_path: Path) -> None:
     study, _ = diagnosed(tmp_path, "named", described())
-    chosen = diagnosis.leading(found(study, "named"))
+    chosen = leading(found(study, "named"))
     assert chosen is not None
     assert (chosen["effects"], chosen["rejected"]) == (["k_T"], "")
-    assert diagnosis.leading(found(study, "unknown")) is None
+    assert leading(found(study, "unknown")) is None
 
 
 def test_every_figure_belongs_to_some_verdict(tmp_path: Path) -> None:
     shown = {n for kind in KINDS for n in figures_of(*diagnosed(tmp_path / kind, kind))}
-    assert shown == set(DIAGNOSIS_FIGURES)
+    assert shown == set(report.FIGURES)

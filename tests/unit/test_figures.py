@@ -7,11 +7,15 @@ import pytest
 from matplotlib.colors import to_rgb
 from test_tables import described, fake, synthetic
 
+from pyrofit.analysis import running
+from pyrofit.analysis.uses import PUBLISHED, predicted_sets
 from pyrofit.config import as_study
 from pyrofit.errors import StudyError
-from pyrofit.figures import FIGURES, convergence, curves, kinetics, make_figure, style
 from pyrofit.results.files import Results, read_csv, write_csv
-from pyrofit.tables.describe import PUBLISHED, predicted_sets
+from pyrofit.show import style
+from pyrofit.show.fit.fig3 import fig3
+from pyrofit.show.kinetics.drawing import slope
+from pyrofit.show.sections import FIGURES, make_figure
 
 
 @pytest.mark.parametrize("name", FIGURES)
@@ -86,17 +90,17 @@ def test_unknown_figure_names_the_nearest(tmp_path: Path) -> None:
 
 def test_slope_of_a_parabola_is_exact_on_uneven_temperatures_too() -> None:
     temperature = np.linspace(300.0, 400.0, 201)
-    grid, rate = kinetics.slope(temperature, 1.0 - 1e-4 * (temperature - 300.0) ** 2)
+    grid, rate = slope(temperature, 1.0 - 1e-4 * (temperature - 300.0) ** 2)
     assert np.allclose(rate, 2e-4 * (grid - 300.0), atol=1e-12)
     uneven = np.sort(np.concatenate([temperature, temperature[::3] + 0.1]))
-    _, rate = kinetics.slope(uneven, 2.0 - 0.005 * uneven)
+    _, rate = slope(uneven, 2.0 - 0.005 * uneven)
     assert np.allclose(rate, 0.005, atol=1e-12)
 
 
 @pytest.mark.parametrize("points", [3, 4, 7])
 def test_slope_of_few_points_is_taken_over_all_of_them(points: int) -> None:
     temperature = np.linspace(300.0, 400.0, points)
-    _, rate = kinetics.slope(temperature, 2.0 - 0.005 * temperature)
+    _, rate = slope(temperature, 2.0 - 0.005 * temperature)
     assert np.allclose(rate, 0.005)
 
 
@@ -110,10 +114,10 @@ def test_running_minima_by_hand() -> None:
         }
     )
     # From call 12, where both finished a generation; the first keeps 3 after it ended.
-    calls, found = convergence.running_minima(frame, "calls")
+    calls, found = running.running_minima(frame, "calls")
     assert calls.tolist() == [12, 20, 25, 30]
     assert found.tolist() == [[5, 3, 3, 3], [4, 4, 2, 1]]
-    generations, found = convergence.running_minima(frame, "generation")
+    generations, found = running.running_minima(frame, "generation")
     assert generations.tolist() == [1, 2, 3]
     assert found.tolist() == [[5, 3, 3], [4, 2, 1]]
 
@@ -121,9 +125,9 @@ def test_running_minima_by_hand() -> None:
 def test_running_mean_is_centred_and_leaves_short_records_alone() -> None:
     series = pd.Series(np.arange(100.0) ** 2)
     # 3 % of 100 points are 3: ((n - 1)^2 + n^2 + (n + 1)^2)/3 = n^2 + 2/3.
-    assert curves.running_mean(series)[50] == pytest.approx(2500.0 + 2.0 / 3.0)
+    assert running.running_mean(series)[50] == pytest.approx(2500.0 + 2.0 / 3.0)
     short = pd.Series([1.0, 5.0, 2.0])
-    assert curves.running_mean(short).tolist() == [1.0, 5.0, 2.0]
+    assert running.running_mean(short).tolist() == [1.0, 5.0, 2.0]
 
 
 def lightness(colour: str) -> float:
@@ -144,7 +148,7 @@ def test_published_sets_are_told_apart_from_ours_without_colour(tmp_path: Path) 
     study, results = fake(tmp_path, given)
     published = [s for s in predicted_sets(study) if s.origin == PUBLISHED]
     with style.style():
-        axes = curves.fig3(study, results).axes[0]
+        axes = fig3(study, results).axes[0]
     drawn = [line.get_marker() for line in axes.lines if line.get_marker() != "None"]
     assert len(set(drawn)) == len(published) == 2
 

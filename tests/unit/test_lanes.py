@@ -9,23 +9,8 @@ import pytest
 from numba import njit
 
 from pyrofit.solver.arrays import TABLE_SIZE, TABLE_TEMPERATURES_K
-from pyrofit.solver.kernels.functions import (
-    exp,
-    fma,
-    inverse,
-    log,
-    nearly_inverse,
-    power,
-    root,
-)
-from pyrofit.solver.kernels.lanes import (
-    in_lane,
-    in_lanes,
-    opposite,
-    somewhere,
-    where,
-    with_lane,
-)
+from pyrofit.solver.kernels.functions import exp, fma, inverse, log, nearly_inverse, power, root
+from pyrofit.solver.kernels.lanes import in_lane, in_lanes, opposite, somewhere, where, with_lane
 from pyrofit.solver.kernels.tables import at_temperature
 
 WIDTHS = (8, 16)

@@ -23,8 +23,8 @@ STEPS = {
     "prediction": "pyrofit.stages.predict",
     "robustness": "pyrofit.stages.robustness",
     "diagnosis": "pyrofit.stages.diagnose",
-    "figures": "pyrofit.figures",
-    "report": "pyrofit.report",
+    "figures": "pyrofit.show.fit.fig3",
+    "report": "pyrofit.show.report",
     "blind test": "pyrofit.blind_test.run",
     "page of the blind test": "pyrofit.blind_test.page",
 }
@@ -35,10 +35,12 @@ EDITS = {
     "cost/__init__.py": EVERYTHING,
     "solver/kernels/heat.py": EVERYTHING,
     "estimate/sceua.py": EVERYTHING - {"data", "diagnosis", "blind test"},
-    "stages/robustness.py": {"robustness", "report"},
+    "stages/robustness.py": {"robustness"},
+    "show/fit/table4.py": {"figures", "report"},
+    "show/costs/spread.py": {"report"},
     "diagnose/screen.py": {"diagnosis"},
-    "figures/style.py": {"figures", "report", "page of the blind test"},
-    "report/report.html.j2": {"report"},
+    "show/style.py": {"figures", "report", "page of the blind test"},
+    "show/report.html.j2": {"report"},
     "blind_test/twin.py": {"blind test"},
     "blind_test/rates.py": {"page of the blind test"},
     "new_study/write.py": set(),
@@ -98,7 +100,7 @@ def test_fingerprint_of_a_module_that_is_not_there_is_refused() -> None:
 
 
 @pytest.mark.parametrize(
-    "module", ["pyrofit.stages.fit", "pyrofit.stages.diagnose", "pyrofit.report"]
+    "module", ["pyrofit.stages.fit", "pyrofit.stages.diagnose", "pyrofit.show.report"]
 )
 def test_step_loads_no_file_that_its_fingerprint_leaves_out(module: str) -> None:
     code = (

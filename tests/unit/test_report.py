@@ -6,17 +6,16 @@ from typing import Any
 
 import pandas as pd
 import pytest
-from test_tables import described, fake, synthetic
+from test_tables import described, fake, made, synthetic
 
+from pyrofit.config import Study
 from pyrofit.errors import DataError
-from pyrofit.figures import FIGURES
-from pyrofit.report import write_report
-from pyrofit.report.answer import advice
-from pyrofit.report.content import tables_of
-from pyrofit.report.truth import sentences
-from pyrofit.results.files import read_csv, write_csv, write_text
-from pyrofit.tables import TABLES
-from pyrofit.tables.robustness import write_robustness
+from pyrofit.results.files import Results, read_csv, write_csv, write_text
+from pyrofit.show.answer.advice import advice
+from pyrofit.show.report import tables_of, write_report
+from pyrofit.show.robustness.table import write_robustness
+from pyrofit.show.sections import FIGURES, TABLES, make_table
+from pyrofit.show.truth.sentences import errors as sentences
 
 LOADS = {"src", "href", "srcset", "data", "poster", "action"}
 
@@ -44,12 +43,20 @@ class Page(HTMLParser):
         self.words += data
 
 
+def write_tables(study: Study, results: Results) -> None:
+    """Write all tables of a study, as the workflow does before the report."""
+    for name, table in TABLES.items():
+        if table.applies(study):
+            make_table(name, study, results)
+
+
 def written(root: Path, given: dict[str, Any] | None = None) -> tuple[Page, str]:
     """Write a report with a rectangle for each figure."""
     study, results = fake(root, given)
     for name, figure in FIGURES.items():
         if figure.applies(study):
             write_text(root / "figures" / f"{name}.svg", '<svg width="240.95pt"><rect/></svg>')
+    write_tables(study, results)
     write_report(study, results)
     text = (root / "report.html").read_text()
     return Page(text), text
@@ -132,7 +139,7 @@ def test_answer_stands_in_the_summary_with_advice_which_set_to_use(tmp_path: Pat
 
 
 def test_answer_by_hand(tmp_path: Path) -> None:
-    table = tables_of(*fake(tmp_path))["answer"].set_index("parameter")
+    table = made("answer", *fake(tmp_path)).set_index("parameter")
     k, cp = table.loc["k"], table.loc["cp"]
     assert k[["fit", "unit"]].tolist() == ["inverse modelling", "W/(m K)"]
     assert k[["estimate", "low", "high"]].tolist() == [0.3, 0.28, 0.32]
@@ -152,12 +159,16 @@ def test_advice_warns_of_a_set_that_predicts_worse_than_it_fits(tmp_path: Path) 
     scores = read_csv(results.validation("scores.csv"))
     scores.loc[scores["experiment"] == "slab_60", "cv_rmse"] *= 2.1
     write_csv(results.validation("scores.csv"), scores)
+    write_tables(study, results)
     tables = tables_of(study, results)
     assert "2.25, so that predictions are not to be trusted before it is known" in advice(
-        study, tables
+        study, results, tables
     )
-    tables["determined"]["verdict"] = "at its upper bound"
-    assert advice(study, tables).endswith(" k and cp rest at a limit that the data press on.")
+    path = results.identification("estimate.csv")
+    bound = read_csv(path).assign(verdict="at its upper bound", bound="upper")
+    write_csv(path, bound)
+    said = " k and cp are at a limit; the data would push them beyond it."
+    assert advice(study, results, tables).endswith(said)
 
 
 def test_sections_say_the_numbers(tmp_path: Path) -> None:

@@ -9,14 +9,15 @@ import pytest
 from test_identify_stage import TRUTH as TRUTH_OF_IMP
 from test_stages import by_hand, study_with
 
+from pyrofit.analysis.twins import errors, recovered
 from pyrofit.cli import main
 from pyrofit.config import Study
 from pyrofit.errors import StudyError
-from pyrofit.figures.robustness import draw_robustness
-from pyrofit.report.comparison import robustness as sentences
 from pyrofit.results.files import Results, read_csv, write_csv
+from pyrofit.show.robustness.figure import draw_robustness
+from pyrofit.show.robustness.sentences import sentences
+from pyrofit.show.robustness.table import write_robustness
 from pyrofit.stages import fit, measurements, robustness
-from pyrofit.tables.robustness import errors, recovered, write_robustness
 
 SMALL = {"noise": [0.001, 2.0], "outliers": [0.2], "draws": 1, "starts": 1}
 NAMES = ("rho", "k", "cp", "eps", "dh")

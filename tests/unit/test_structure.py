@@ -26,10 +26,11 @@ ORDER = [
     {"results"},
     {"estimate"},
     {"diagnose"},
+    {"analysis"},
     {"stages"},
     {"new_study"},
-    {"tables", "figures"},
-    {"report", "archive", "archive_texts", "blind_test"},
+    {"show"},
+    {"archive", "archive_texts", "blind_test"},
     {"cli"},
 ]
 RANK = {part: rank for rank, parts in enumerate(ORDER) for part in parts}
@@ -138,9 +139,7 @@ def test_only_kernels_import_numba() -> None:
 
 
 def test_planning_the_workflow_loads_no_optimiser() -> None:
-    planned = (
-        "pyrofit.tables, pyrofit.figures, pyrofit.results.dependencies, pyrofit.stages.reading"
-    )
+    planned = "pyrofit.show.sections, pyrofit.results.dependencies, pyrofit.stages.reading"
     assert loaded(planned, "cma", "spotpy") == "[]"
 
 

@@ -5,15 +5,19 @@ import numpy as np
 import pandas as pd
 import pytest
 
+from pyrofit.analysis import optimisers, uses
+from pyrofit.analysis.estimates import Estimated
+from pyrofit.analysis.recovery import compared
 from pyrofit.config import Study, as_study
 from pyrofit.errors import StudyError
 from pyrofit.quantities import known_quantities
 from pyrofit.results.files import Results, read_csv, write_csv, write_json
+from pyrofit.show.costs.table5 import table5
+from pyrofit.show.fit.table4 import flags
+from pyrofit.show.names import data_name, flag
+from pyrofit.show.sections import TABLES, make_table
+from pyrofit.show.text import number
 from pyrofit.stages import compare, predict
-from pyrofit.tables import TABLES, describe, imp, make_table, parameters
-from pyrofit.tables.determined import flag
-from pyrofit.tables.text import number
-from pyrofit.tables.truth import compared
 
 SETS = ("SCE-UA best", "SCE-UA mean", "least squares best", "CMA-ES best")
 TGA_K = np.linspace(500.0, 700.0, 41)
@@ -254,7 +258,7 @@ def _identification(study: Study, results: Results) -> None:
 def _validation(study: Study, results: Results) -> None:
     curves, scores = [], []
     for name in study.validation.experiments:
-        for i, chosen in enumerate(describe.predicted_sets(study)):
+        for i, chosen in enumerate(uses.predicted_sets(study)):
             for signal in study.experiments[name].signals:
                 frame = read_csv(results.measurement(name, signal))
                 column = "mlr_kg_m2_s" if signal == "mlr" else "back_temperature_K"
@@ -383,7 +387,7 @@ def test_table5_gives_parameters_that_are_none_of_its_symbols_a_row_of_their_own
     polymer = given["material"]["components"]["polymer"]
     polymer["conductivity_W_mK"] = {"value": "k", "slope_1_K": "slope"}
     given["experiments"]["slab_25"]["sample"] = {"layers": [{"thickness_m": "d"}]}
-    table = parameters.table5(as_study(given, "fake.json"), None).set_index("symbol")
+    table = table5(as_study(given, "fake.json"), None).set_index("symbol")
     assert table.loc["k", "parameters"] == "k [W/(m K)]"
     assert table.index[12:].tolist() == ["slope", "d"]
     assert table.loc["slope", ["quantity", "parameters"]].tolist() == ["slope of k", "slope [1/K]"]
@@ -453,14 +457,19 @@ def test_verdicts_are_flags_of_table4(tmp_path: Path) -> None:
 
 
 def test_flag_of_a_parameter_at_its_bound() -> None:
-    assert flag("at its lower bound") == "pushed to its lower bound by the data"
+    words = {"unit": "-", "method": "linear", "partner": "", "verdict": "at its lower bound"}
+    numbers = dict.fromkeys(("value", "low", "high", "width"), 0.1)
+    none = dict.fromkeys(("cut_off", "noise_low", "noise_high", "correlation"))
+    low = Estimated(stage="imp", name="k", bound="lower", **words, **numbers, **none)
+    assert low.grade == "at a bound"
+    assert flag(low) == "pushed to its lower bound by the data"
 
 
 def test_flags_at_their_limits() -> None:
-    assert imp.flags(0.009, 0.0, 0.0, 2.0) == "at bound (lower)"
-    assert imp.flags(0.011, 0.0, 0.0, 2.0) == ""
-    assert imp.flags(1.0, 0.41, 0.0, 2.0) == "spread > 20 % of limits"
-    assert imp.flags(1.0, float("nan"), 0.0, 2.0) == ""
+    assert flags(0.009, 0.0, 0.0, 2.0) == "at bound (lower)"
+    assert flags(0.011, 0.0, 0.0, 2.0) == ""
+    assert flags(1.0, 0.41, 0.0, 2.0) == "spread > 20 % of limits"
+    assert flags(1.0, float("nan"), 0.0, 2.0) == ""
 
 
 def test_table4_of_synthetic_data_shows_nothing_published(tmp_path: Path) -> None:
@@ -513,10 +522,10 @@ def test_data_are_called_what_they_are() -> None:
     given = synthetic()
     given["experiments"]["slab_60"]["signals"]["mlr"]["file"] = "slab.csv"
     study = as_study(given, "fake.json")
-    assert describe.data_name(study, [("slab_25", "mlr")]) == "synthetic data"
-    assert describe.data_name(study, [("slab_60", "mlr")]) == "measured"
+    assert data_name(study, [("slab_25", "mlr")]) == "synthetic data"
+    assert data_name(study, [("slab_60", "mlr")]) == "measured"
     both = [("slab_25", "mlr"), ("slab_60", "mlr")]
-    assert describe.data_name(study, both) == "measured or synthetic data"
+    assert data_name(study, both) == "measured or synthetic data"
 
 
 def test_one_repetition_has_no_sigma(tmp_path: Path) -> None:
@@ -540,7 +549,7 @@ def test_costs_by_hand(tmp_path: Path) -> None:
     assert [row["cmaes_best"], row["cmaes_calls"], row["cmaes_starts_at_best"]] == [0.085, 1000, 1]
     assert row["lowest_by"] == "least squares"
     assert row["sceua_at_lowest"] == 0
-    assert table["remark"].tolist() == [imp.LOCAL_OPTIMUM, imp.NOT_A_MINIMUM]
+    assert table["remark"].tolist() == [optimisers.LOCAL_OPTIMUM, optimisers.NOT_A_MINIMUM]
 
 
 def test_lowest_cost_may_be_that_of_cmaes(tmp_path: Path) -> None:
@@ -553,11 +562,11 @@ def test_lowest_cost_may_be_that_of_cmaes(tmp_path: Path) -> None:
 
 
 def test_optimisers_within_one_percent_agree() -> None:
-    assert imp.remark(1.0, 0.991, 1.0) == imp.AGREE
-    assert imp.remark(1.0, 0.989, 1.0) == imp.LOCAL_OPTIMUM
-    assert imp.remark(1.0, 0.9, 0.989) == imp.NOT_A_MINIMUM
-    assert imp.remark(0.989, 1.0, 0.989) == imp.SCEUA_AHEAD
-    assert imp.remark(0.0, 0.0, 0.0) == imp.AGREE
+    assert optimisers.remark(1.0, 0.991, 1.0) == optimisers.AGREE
+    assert optimisers.remark(1.0, 0.989, 1.0) == optimisers.LOCAL_OPTIMUM
+    assert optimisers.remark(1.0, 0.9, 0.989) == optimisers.NOT_A_MINIMUM
+    assert optimisers.remark(0.989, 1.0, 0.989) == optimisers.SCEUA_AHEAD
+    assert optimisers.remark(0.0, 0.0, 0.0) == optimisers.AGREE
 
 
 def test_validation_marks_fitted_and_held_out_data(tmp_path: Path) -> None:
@@ -572,16 +581,14 @@ def test_validation_marks_fitted_and_held_out_data(tmp_path: Path) -> None:
 
 def test_other_signal_of_a_fitted_experiment_is_a_held_out_signal(tmp_path: Path) -> None:
     study = as_study(described(), "fake.json")
-    assert describe.use_of(study, "RMSE", "slab_25", "back_temperature") == "held-out signal"
-    assert describe.use_of(study, "unknown", "slab_25", "mlr") == "not known"
+    assert uses.use_of(study, "RMSE", "slab_25", "back_temperature") == "held-out signal"
+    assert uses.use_of(study, "unknown", "slab_25", "mlr") == "not known"
 
 
 def test_labels_are_those_of_the_prediction() -> None:
-    assert describe.LEAST_SQUARES == predict.LEAST_SQUARES
-    assert describe.CMAES == predict.CMAES
-    labels = [
-        chosen.label for chosen in describe.predicted_sets(as_study(described(), "fake.json"))
-    ]
+    assert uses.LEAST_SQUARES == predict.LEAST_SQUARES
+    assert uses.CMAES == predict.CMAES
+    labels = [chosen.label for chosen in uses.predicted_sets(as_study(described(), "fake.json"))]
     assert labels == [
         "RMSE",
         "BANDS",

@@ -9,7 +9,7 @@ from matplotlib.axes import Axes
 from matplotlib.ticker import NullLocator
 from PIL import Image
 
-from pyrofit.figures.style import colour, dashes, legend_below, line, panels, style, zero_line
+from pyrofit.show.style import colour, dashes, legend_below, line, panels, style, zero_line
 
 WIDTH, ROW, SINGLE = 140.0, 42.0, 84.0
 """Sizes [mm]: a figure's width, a row's height of two, the height of a single panel."""

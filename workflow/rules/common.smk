@@ -1,6 +1,6 @@
 """What several files of rules share."""
 
-from pyrofit.tables.describe import titled
+from pyrofit.show.names import titled
 
 
 def log_of(name):

@@ -35,9 +35,7 @@ rule diagnosis_page:
     params:
         study=STUDY,
         digest=digest(dependencies.presentation(study)),
-        source=source_fingerprint(
-            "pyrofit.figures.diagnosis", "pyrofit.report.diagnosis"
-        ),
+        source=source_fingerprint("pyrofit.show.diagnosis_page"),
     message:
         "Diagnosis: {output}"
     shell:

@@ -32,7 +32,7 @@ rule table:
         study=STUDY,
         digest=digest(dependencies.presentation(study)),
         note=lambda wildcards: TABLES[wildcards.name].note,
-        source=source_fingerprint("pyrofit.tables"),
+        source=lambda wildcards: source_fingerprint(module_of(wildcards.name)),
     message:
         "Table {wildcards.name}"
     shell:
@@ -58,7 +58,7 @@ rule figure:
         study=STUDY,
         digest=digest(dependencies.presentation(study)),
         caption=lambda wildcards: FIGURES[wildcards.name].caption,
-        source=source_fingerprint("pyrofit.figures"),
+        source=lambda wildcards: source_fingerprint(module_of(wildcards.name)),
     message:
         "Figure {wildcards.name}"
     shell:

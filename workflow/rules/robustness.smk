@@ -34,11 +34,7 @@ rule robustness:
     params:
         study=STUDY,
         digest=digest(dependencies.presentation(study)),
-        source=source_fingerprint(
-            "pyrofit.figures.robustness",
-            "pyrofit.report.comparison",
-            "pyrofit.tables.robustness",
-        ),
+        source=source_fingerprint("pyrofit.show.robustness"),
     message:
         "Robustness of the cost functions: table and figure"
     shell:

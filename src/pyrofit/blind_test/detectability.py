@@ -5,12 +5,7 @@ from collections.abc import Mapping
 import numpy as np
 from scipy.optimize import least_squares
 
-from pyrofit.config import (
-    Study,
-    calibration_channels,
-    diagnosed_parameters,
-    true_description,
-)
+from pyrofit.config import Study, calibration_channels, diagnosed_parameters, true_description
 from pyrofit.cost import Target
 from pyrofit.errors import DataError
 from pyrofit.estimate.correlation import Correlation

@@ -13,8 +13,8 @@ from pyrofit.blind_test.places import Places
 from pyrofit.blind_test.rates import SHARES, by_detectability, interval
 from pyrofit.blind_test.table import one_name
 from pyrofit.effects import known_effects
-from pyrofit.figures import style
 from pyrofit.results.files import Results
+from pyrofit.show import style
 
 OTHER = ("ambiguous", "multiple", "unknown", "none")
 """Verdicts that do not name one effect, the last columns of the confusion matrix."""

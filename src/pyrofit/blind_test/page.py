@@ -8,7 +8,7 @@ from pyrofit.blind_test.rates import DETECTABLE, by_detectability, middles, rate
 from pyrofit.blind_test.setting import Setting
 from pyrofit.blind_test.table import diagnosed, twins
 from pyrofit.results.files import write_csv, write_text
-from pyrofit.tables.text import markdown
+from pyrofit.show.text import markdown
 
 _WRONG = ["id", "hidden", "named", "verdict", "strength", "signals", "noise", "detectability"]
 

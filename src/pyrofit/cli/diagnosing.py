@@ -42,9 +42,8 @@ def _diagnose(given: argparse.Namespace) -> None:
 
 
 def _diagnosis_page(given: argparse.Namespace) -> None:
-    from pyrofit.figures.diagnosis import draw_all
-    from pyrofit.report.diagnosis import write_page
     from pyrofit.results import dependencies
+    from pyrofit.show.diagnosis_page import draw_all, write_page
 
     study, results = open_study(given, dependencies.presentation)
     draw_all(results, study)

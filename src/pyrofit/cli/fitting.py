@@ -130,9 +130,9 @@ def _robustness(given: argparse.Namespace) -> None:
         study, results = open_study(given, dependencies.robustness, given.cost)
         robustness.robustness(study, results, given.cost)
         return
-    from pyrofit.figures.robustness import draw_robustness
-    from pyrofit.report.comparison import robustness as said
-    from pyrofit.tables.robustness import write_robustness
+    from pyrofit.show.robustness.figure import draw_robustness
+    from pyrofit.show.robustness.sentences import sentences as said
+    from pyrofit.show.robustness.table import write_robustness
 
     study, results = open_study(given, dependencies.presentation)
     write_robustness(study, results)

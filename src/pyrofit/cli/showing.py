@@ -24,21 +24,21 @@ def add(commands: Any) -> None:
 
 def _table(given: argparse.Namespace) -> None:
     from pyrofit.results import dependencies
-    from pyrofit.tables import make_table
+    from pyrofit.show.sections import make_table
 
     make_table(given.name, *open_study(given, dependencies.presentation))
 
 
 def _figure(given: argparse.Namespace) -> None:
-    from pyrofit.figures import make_figure
     from pyrofit.results import dependencies
+    from pyrofit.show.sections import make_figure
 
     make_figure(given.name, *open_study(given, dependencies.presentation))
 
 
 def _report(given: argparse.Namespace) -> None:
-    from pyrofit.report import write_report
     from pyrofit.results import dependencies
+    from pyrofit.show.report import write_report
 
     write_report(*open_study(given, dependencies.presentation))
 

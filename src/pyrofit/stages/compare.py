@@ -6,21 +6,17 @@ from typing import Any
 import numpy as np
 import pandas as pd
 
+from pyrofit.analysis.best_sets import ends
+from pyrofit.analysis.good_sets import GOOD, explore, thinned
+from pyrofit.analysis.uses import FITTED
 from pyrofit.config import Study, TermSpec
 from pyrofit.errors import CostError
-from pyrofit.estimate.family import GOOD, explore, thinned
 from pyrofit.estimate.problem import Problem, make_problem
 from pyrofit.estimate.targets import Measurements, term_for
-from pyrofit.results import searches
 from pyrofit.results.files import Results, write_csv
 from pyrofit.seeds import seed_for
 from pyrofit.stages.fit import fixed_for_imp, imp_problem
 from pyrofit.stages.measurements import load
-from pyrofit.stages.predict import CMAES, LEAST_SQUARES, published_sets
-
-FITTED = "fitted"
-"""Place of the costs as the study describes them; the other places are experiments."""
-SCEUA, PUBLISHED = "SCE-UA", "published"
 
 Judges = dict[str, list[TermSpec]]
 
@@ -46,36 +42,6 @@ def compare(study: Study, results: Results) -> None:
     family = good(study, results, found, scores)
     write_csv(results.comparison("family.csv"), family)
     write_csv(results.comparison("bands.csv"), _bands(study, results, measurements, family))
-
-
-def ends(study: Study, results: Results) -> pd.DataFrame:
-    """Return where every repetition and every start ended, and published sets, SI units.
-
-    Columns: ``cost_function``, ``found_by``, ``number``, ``best`` (whether it has the lowest cost
-    of those that an optimiser found for a cost function), ``cost``, and the parameters.
-    """
-    rows = []
-    names = list(study.imp.estimate)
-    summary = searches.summary(study, results)
-    for cost in study.imp.costs:
-        ours = summary[summary["cost_function"] == cost].to_dict("records")
-        starts = {
-            LEAST_SQUARES: searches.starts(study, results, cost),
-            CMAES: searches.cmaes(study, results, cost),
-        }
-        groups = {
-            SCEUA: [(float(row["cost"]), row) for row in ours],
-            **{by: [(float(s["cost"]), s["parameters"]) for s in e] for by, e in starts.items()},
-        }
-        if cost in (theirs := published_sets(study)):
-            groups[PUBLISHED] = [(np.nan, theirs[cost])]
-        for by, group in groups.items():
-            best = min(range(len(group)), key=lambda i: group[i][0])
-            for i, (value, values) in enumerate(group):
-                about = {"cost_function": cost, "found_by": by, "number": i, "best": i == best}
-                parameters = {name: float(values[name]) for name in names}
-                rows.append({**about, "cost": value, **parameters})
-    return pd.DataFrame(rows)
 
 
 def places(study: Study, measurements: Measurements) -> dict[str, Judges]:

@@ -5,6 +5,7 @@ from typing import Any
 import numpy as np
 import pandas as pd
 
+from pyrofit.analysis.closure import closure_lines
 from pyrofit.config import Study, true_description
 from pyrofit.data.noise import draw
 from pyrofit.errors import DataError
@@ -17,7 +18,6 @@ from pyrofit.results.files import Results, write_csv, write_json
 from pyrofit.seeds import seed_for
 from pyrofit.solver.arrays import FloatArray
 from pyrofit.solver.curves import Request
-from pyrofit.stages.closure import closure_lines
 from pyrofit.stages.reading import SYNTHETIC, check_terms, read_all
 
 

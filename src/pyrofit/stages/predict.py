@@ -3,6 +3,8 @@
 import numpy as np
 import pandas as pd
 
+from pyrofit.analysis.best_sets import published_sets
+from pyrofit.analysis.uses import CMAES, LEAST_SQUARES
 from pyrofit.config import Study
 from pyrofit.errors import DataError
 from pyrofit.experiments import kind_of
@@ -13,9 +15,6 @@ from pyrofit.simulate import solver_errors
 from pyrofit.solver.arrays import FloatArray, Values
 from pyrofit.stages.fit import best_sets, fixed_for_imp
 from pyrofit.stages.measurements import load
-
-LEAST_SQUARES, CMAES = "least squares", "CMA-ES"
-"""Suffixes of the sets that these optimisers found on a cost."""
 
 
 def sets_of(study: Study, results: Results) -> dict[str, dict[str, float]]:
@@ -29,16 +28,6 @@ def sets_of(study: Study, results: Results) -> dict[str, dict[str, float]]:
     for cost, values in published_sets(study).items():
         sets[f"{cost} published"] = values
     return sets
-
-
-def published_sets(study: Study) -> dict[str, dict[str, float]]:
-    """Return the published best set of every cost that has a complete one, SI units."""
-    costs = study.published.costs if study.published else {}
-    return {
-        cost: {n: table[n][0] * study.parameters[n].factor for n in study.imp.estimate}
-        for cost, table in costs.items()
-        if set(study.imp.estimate) <= set(table)
-    }
 
 
 def predict(study: Study, results: Results) -> None:

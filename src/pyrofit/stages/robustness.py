@@ -12,6 +12,7 @@ from typing import Any
 import numpy as np
 import pandas as pd
 
+from pyrofit.analysis.twins import NOISE, OUTLIERS, true_set
 from pyrofit.config import Study, TermSpec
 from pyrofit.errors import DataError, StudyError
 from pyrofit.estimate.least_squares import multistart
@@ -20,15 +21,11 @@ from pyrofit.estimate.prior import within_known
 from pyrofit.estimate.problem import Problem, make_problem
 from pyrofit.estimate.targets import Measurements, target_of
 from pyrofit.quantities.base import Quantity
-from pyrofit.results import searches
 from pyrofit.results.files import Results, write_csv
 from pyrofit.seeds import seed_for
 from pyrofit.solver.arrays import FloatArray
 from pyrofit.stages.fit import fixed_for_imp
 from pyrofit.stages.measurements import load
-
-NOISE, OUTLIERS = "noise", "outliers"
-"""What is added: noise of a multiple of the measurement's, or outliers to a share of the points."""
 
 Channel = tuple[str, str]
 
@@ -91,19 +88,6 @@ def plan(study: Study) -> Iterator[tuple[str, float, int]]:
         for level in values:
             for draw in range(study.robustness.draws):
                 yield kind, level, draw
-
-
-def true_set(study: Study, results: Results) -> FloatArray:
-    """Return the parameters of the twins, SI units.
-
-    The truth of synthetic measurements where there is one, else the mean over all repetitions,
-    which lies inside the limits.
-    """
-    if study.synthetic is not None:
-        truth = study.true_values()
-        return np.array([truth[name] for name in study.imp.estimate])
-    summary = searches.summary(study, results)
-    return summary[list(study.imp.estimate)].mean().to_numpy(float)
 
 
 def _twin(study: Study, results: Results) -> Twin:

@@ -39,13 +39,7 @@ from pyrofit.solver.kernels.state import (
     total_mass,
 )
 from pyrofit.solver.kernels.step import Top, advance
-from pyrofit.solver.kernels.trace import (
-    ENERGY_ERROR,
-    MASS_ERROR,
-    STATUS,
-    STEPS,
-    record,
-)
+from pyrofit.solver.kernels.trace import ENERGY_ERROR, MASS_ERROR, STATUS, STEPS, record
 
 GASIFICATION_SCALE = 2.0e6
 """Heat of gasification [J/kg] that turns the flux into the mass loss rate it could sustain."""

@@ -1,0 +1,1 @@
+"""Facts about results, computed once: best sets, tests, errors, recovery of a known truth."""

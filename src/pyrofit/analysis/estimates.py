@@ -1,0 +1,129 @@
+"""The estimates of a study: value, 95 % interval, and whether the data determine it."""
+
+from collections.abc import Mapping
+from dataclasses import dataclass
+from typing import Any, Literal
+
+import pandas as pd
+
+from pyrofit.config import Study
+from pyrofit.results.files import Results
+from pyrofit.results.identification import estimates, matrix_of, stages_of
+
+Grade = Literal["determined", "weakly determined", "at a bound", "undetermined"]
+GRADES: tuple[Grade, ...] = ("determined", "weakly determined", "at a bound", "undetermined")
+"""How well the data determine a parameter, the best first."""
+
+_CUT_OFF = {
+    (True, True): "both",
+    (True, False): "lower",
+    (False, True): "upper",
+    (False, False): None,
+}
+
+
+@dataclass(frozen=True)
+class Estimated:
+    """What the data say of one parameter, in its own unit.
+
+    Parameters
+    ----------
+    stage
+        'kinetics' or 'imp'.
+    name, unit, value, low, high
+        The parameter, its estimate, and the 95 % interval.
+    width
+        Width of the interval as a fraction of the limits' distance.
+    cut_off
+        Which ends a limit cuts off: 'lower', 'upper', 'both', or none.
+    noise_low, noise_high
+        Ends of the interval if noise alone kept model and data apart, where they differ.
+    method
+        'linear' or 'profile'.
+    bound
+        'lower' or 'upper' where the estimate is at a limit, else empty.
+    verdict
+        The analysis's verdict in words.
+    partner, correlation
+        Parameter of the strongest correlation, and its size; none where there is none.
+    """
+
+    stage: str
+    name: str
+    unit: str
+    value: float
+    low: float
+    high: float
+    width: float
+    cut_off: str | None
+    noise_low: float | None
+    noise_high: float | None
+    method: str
+    bound: str
+    verdict: str
+    partner: str
+    correlation: float | None
+
+    @property
+    def grade(self) -> Grade:
+        """How well the data determine it; at a bound, only whether it is undetermined."""
+        if self.verdict.startswith("undetermined"):
+            return "undetermined"
+        if self.bound:
+            return "at a bound"
+        return "determined" if self.verdict == "determined" else "weakly determined"
+
+
+def estimated(study: Study, results: Results) -> list[Estimated]:
+    """Return the estimates of all stages, in the study's order."""
+    found = []
+    for stage in stages_of(study):
+        related = matrix_of(study, results, stage)
+        rows = estimates(study, results, stage).to_dict("records")
+        found += [_estimated(study, stage, row, related) for row in rows]
+    return found
+
+
+def _estimated(
+    study: Study, stage: str, row: Mapping[Any, Any], related: pd.DataFrame
+) -> Estimated:
+    name = str(row["parameter"])
+    factor = study.parameters[name].factor
+    partner, size = _strongest(related, name)
+    return Estimated(
+        stage=stage,
+        name=name,
+        unit=study.parameters[name].unit,
+        value=float(row["estimate"]) / factor,
+        low=float(row["low"]) / factor,
+        high=float(row["high"]) / factor,
+        width=float(row["width"]),
+        cut_off=_CUT_OFF[bool(row["low_open"]), bool(row["high_open"])],
+        noise_low=_another(row, "low", factor),
+        noise_high=_another(row, "high", factor),
+        method=str(row["method"]),
+        bound=str(row["bound"]),
+        verdict=str(row["verdict"]),
+        partner=partner,
+        correlation=size,
+    )
+
+
+def _another(row: Mapping[Any, Any], end: str, factor: float) -> float | None:
+    """Return an end of the interval of noise alone where it is not that of the interval."""
+    noise = float(row[f"noise_{end}"])
+    return None if noise == float(row[end]) else noise / factor
+
+
+def _strongest(related: pd.DataFrame, name: str) -> tuple[str, float | None]:
+    others = related[name].drop(name)
+    if others.empty or not others.any():
+        return "", None
+    partner = str(others.abs().idxmax())
+    return partner, float(others[partner])
+
+
+def by_grade(found: list[Estimated]) -> dict[Grade, list[Estimated]]:
+    """Return estimates by how well the data determine them, the best first, no grade empty."""
+    groups = {grade: [e for e in found if e.grade == grade] for grade in GRADES}
+    return {grade: members for grade, members in groups.items() if members}

@@ -1,0 +1,49 @@
+"""How the optimum of the likelihood fits each signal."""
+
+from dataclasses import dataclass
+
+from pyrofit.config import Study
+from pyrofit.results.files import Results
+from pyrofit.results.identification import noise, stages_of
+
+FITS = 1.2
+"""Chi-square per point up to which the model is said to fit within the noise."""
+
+
+@dataclass(frozen=True)
+class Misfit:
+    """The noise of one fitted signal, and chi-square of the optimum.
+
+    Parameters
+    ----------
+    stage
+        'kinetics' or 'imp'.
+    experiment, signal, points
+        The signal and how many points it has.
+    words
+        Its noise in words.
+    chi2
+        Chi-square of the optimum.
+    """
+
+    stage: str
+    experiment: str
+    signal: str
+    points: int
+    words: str
+    chi2: float
+
+    @property
+    def per_point(self) -> float:
+        """Chi-square per point, near 1 where the model fits within the noise."""
+        return self.chi2 / self.points
+
+
+def misfits(study: Study, results: Results) -> list[Misfit]:
+    """Return the misfit of every fitted signal, by stage."""
+    keys = ("experiment", "signal", "points", "words", "chi2")
+    return [
+        Misfit(stage, **{key: channel[key] for key in keys})
+        for stage in stages_of(study)
+        for channel in noise(results, stage)["channels"]
+    ]

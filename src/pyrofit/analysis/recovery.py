@@ -1,0 +1,94 @@
+"""How far estimates are from a known truth."""
+
+from collections.abc import Iterable, Mapping
+from typing import Any
+
+import pandas as pd
+
+from pyrofit.config import Kinetics, Study, TermSpec
+from pyrofit.results import searches
+from pyrofit.results.files import EACH, Keys, Results, read_csv, read_json
+
+KINETICS = "kinetics"
+
+
+def known(study: Study) -> list[str]:
+    """Return what was fitted to computed signals alone: 'kinetics' and names of cost functions."""
+    stages: dict[str, Iterable[TermSpec]] = dict(study.imp.costs)
+    if study.kinetics is not None:
+        stages = {KINETICS: study.kinetics.cost, **stages}
+    return [
+        name
+        for name, terms in stages.items()
+        if all(study.is_computed(term.experiment, term.signal) for term in terms)
+    ]
+
+
+def truth(study: Study, results: Results) -> pd.DataFrame:
+    """Set the true value of every parameter beside the best ones that the optimisers found.
+
+    error_truth = (x - x_true)/x_true, error_limits = (x - x_true)/(x_upper - x_lower).
+
+    Returns
+    -------
+    pandas.DataFrame
+        One row per fit ('kinetics' and each cost function) and parameter, in its own unit; errors
+        in per cent, none of a truth that is 0.
+    """
+    rows = []
+    for fit in known(study):
+        if fit == KINETICS:
+            assert study.kinetics is not None
+            estimate, found = study.kinetics.estimate, _kinetics(study.kinetics, results)
+        else:
+            estimate, found = study.imp.estimate, _imp(study, results, fit)
+        rows += [
+            compared(study, fit, name, {by: float(best[name]) for by, best in found.items()})
+            for name in estimate
+        ]
+    return pd.DataFrame(rows)
+
+
+def _kinetics(stage: Kinetics, results: Results) -> dict[str, Any]:
+    history = read_csv(
+        results.kinetics("history.csv.gz"), dict.fromkeys(("cost", *stage.estimate), float)
+    )
+    here = ("least_squares", EACH)
+    needs: dict[Keys, type] = {(*here, "parameters", name): float for name in stage.estimate}
+    fit = read_json(results.kinetics("fit.json"), {**needs, (*here, "cost"): float})
+    return {"sceua": _lowest(history), "least_squares": _best(fit["least_squares"])}
+
+
+def _imp(study: Study, results: Results, cost: str) -> dict[str, Any]:
+    summary = searches.summary(study, results)
+    return {
+        "sceua": _lowest(summary[summary["cost_function"] == cost]),
+        "least_squares": _best(searches.starts(study, results, cost)),
+        "cmaes": _best(searches.cmaes(study, results, cost)),
+    }
+
+
+def _lowest(sets: pd.DataFrame) -> pd.Series:
+    return sets.iloc[int(sets["cost"].argmin())]
+
+
+def _best(starts: list[dict[str, Any]]) -> dict[str, float]:
+    best: dict[str, float] = min(starts, key=lambda start: float(start["cost"]))["parameters"]
+    return best
+
+
+def compared(study: Study, fit: str, name: str, found: Mapping[str, float]) -> dict[str, Any]:
+    """Return one row: the truth of a parameter beside what was found by optimiser, SI units."""
+    assert study.synthetic is not None
+    parameter = study.parameters[name]
+    assert parameter.lower is not None
+    assert parameter.upper is not None
+    true = study.synthetic.truth[name]
+    row: dict[str, Any] = {"fit": fit, "parameter": name, "unit": parameter.unit, "truth": true}
+    for optimiser, value in found.items():
+        estimate = value / parameter.factor
+        row[f"{optimiser}_best"] = estimate
+        error = 100.0 * (estimate - true)
+        row[f"{optimiser}_error_truth_percent"] = error / true if true else None
+        row[f"{optimiser}_error_limits_percent"] = error / (parameter.upper - parameter.lower)
+    return row

@@ -1,0 +1,99 @@
+"""Which data each part of a study uses, and which sets it predicts."""
+
+from dataclasses import dataclass
+
+from pyrofit.config import Study
+
+SCEUA = "SCE-UA"
+
+
+LEAST_SQUARES = "least squares"
+
+
+CMAES = "CMA-ES"
+
+
+PUBLISHED = "published"
+
+
+FITTED = "fitted"
+
+
+HELD_OUT_SIGNAL = "held-out signal"
+
+
+HELD_OUT = "held out"
+
+
+UNKNOWN = "not known"
+
+
+@dataclass(frozen=True)
+class PredictedSet:
+    """A parameter set of ``validation/curves.csv``: its label, its cost, and who found it."""
+
+    label: str
+    cost: str
+    origin: str
+
+
+def fitted_by(study: Study, cost: str) -> set[tuple[str, str]]:
+    """Return the (experiment, signal) pairs that one cost of the inverse modelling compares."""
+    return {(t.experiment, t.signal) for t in study.imp.costs[cost] if t.weight > 0.0}
+
+
+def fitted_experiments(study: Study) -> set[str]:
+    """Return the experiments that any cost of the inverse modelling uses."""
+    return {name for cost in study.imp.costs for name, _ in fitted_by(study, cost)}
+
+
+def predicted(study: Study, signal: str) -> list[str]:
+    """Return the predicted experiments that measured a signal, in the study's order."""
+    wanted = set(study.validation.experiments)
+    return [n for n, e in study.experiments.items() if n in wanted and signal in e.signals]
+
+
+def predicted_sets(study: Study) -> list[PredictedSet]:
+    """Return the sets that the validation simulates, in its order and under its labels."""
+    sets = [PredictedSet(cost, cost, SCEUA) for cost in study.imp.costs]
+    sets += [PredictedSet(f"{c} {LEAST_SQUARES}", c, LEAST_SQUARES) for c in study.imp.costs]
+    sets += [PredictedSet(f"{c} {CMAES}", c, CMAES) for c in study.imp.costs]
+    if study.published is not None:
+        sets += [
+            PredictedSet(f"{cost} {PUBLISHED}", cost, PUBLISHED)
+            for cost, table in study.published.costs.items()
+            if set(study.imp.estimate) <= set(table)
+        ]
+    return sets
+
+
+def use_of(study: Study, cost: str, experiment: str, signal: str) -> str:
+    """Say whether a cost's sets were fitted to a signal, or predict it."""
+    if cost not in study.imp.costs:
+        return UNKNOWN
+    pairs = fitted_by(study, cost)
+    if (experiment, signal) in pairs:
+        return FITTED
+    return HELD_OUT_SIGNAL if experiment in {name for name, _ in pairs} else HELD_OUT
+
+
+def rates_in_fit(study: Study) -> list[str]:
+    """Return the TGA experiments that the kinetics were fitted to, slowest heating first."""
+    if study.kinetics is None:
+        return []
+    used = {term.experiment for term in study.kinetics.cost if term.weight > 0.0}
+    return [name for name in all_rates(study) if name in used]
+
+
+def all_rates(study: Study) -> list[str]:
+    """Return the TGA experiments that are fitted or compared, slowest heating first."""
+    if study.kinetics is None:
+        return []
+    shown = {term.experiment for term in study.kinetics.cost} | set(study.kinetics.compare)
+    heated = study.of_stage("kinetics")
+    return sorted(shown, key=lambda name: (heated[name].heating_rate_K_min, name))
+
+
+def title_of(study: Study, experiment: str) -> str:
+    """Return the name of an experiment in figures."""
+    return study.experiments[experiment].title or experiment

@@ -1,0 +1,86 @@
+"""Which set to predict with, in sentences."""
+
+import pandas as pd
+
+from pyrofit.analysis.best_sets import best_sets
+from pyrofit.analysis.distances import distances
+from pyrofit.analysis.estimates import estimated
+from pyrofit.analysis.uses import FITTED, HELD_OUT
+from pyrofit.config import Study
+from pyrofit.results.files import Results
+from pyrofit.show.table import Frames
+from pyrofit.show.text import listed, span
+
+_WORSE = 2.0
+"""Ratio of the errors held out and fitted from which a prediction is not to be trusted."""
+
+
+def sentences(study: Study, results: Results, tables: Frames) -> list[str]:
+    """Return the advice as a list of one."""
+    return [advice(study, results, tables)]
+
+
+def advice(study: Study, results: Results, tables: Frames) -> str:
+    """Name the best set that fits best, each point weighed by its noise.
+
+    It is chosen by the fit: chosen by its prediction, the held-out data would test it no more.
+    """
+    best = best_sets(study, results)
+    sets = list(zip(best["cost_function"], best["found_by"], strict=True))
+    chi2 = {(d.cost_function, d.set): d.chi2_per_freedom for d in distances(study, results)}
+    misfit = {(cost, by): chi2[cost, f"{by} best"] for cost, by in sets}
+    cost, by = min(misfit, key=lambda one: misfit[one])
+    least = f"chi-square per degree of freedom {span([misfit[cost, by]])}"
+    others = [value for one, value in misfit.items() if one != (cost, by)]
+    beside = f", of the others {span(others)}" if others else ""
+    text = (
+        f"To predict, use the set of {cost} ({by}) as a whole: with each point weighed by its "
+        f"noise it fits best of these sets ({least}{beside})"
+    )
+    return f"{text}{_tested(tables, cost, by)}.{_together(study, results)}"
+
+
+def _tested(tables: Frames, cost: str, by: str) -> str:
+    """Say how well it predicts, and what to think of that."""
+    if "validation" not in tables:
+        return ""
+    held, fitted = (_rates(tables, use, cost, by) for use in (HELD_OUT, FITTED))
+    if not len(held):
+        return "; no mass loss rate was held out to test it"
+    text = (
+        "; the held-out mass loss rate, by which it was not chosen, it predicts with CV(RMSE) "
+        f"{span(held)}"
+    )
+    if not len(fitted):
+        return text
+    text += f" and the fitted one with {span(fitted)}"
+    if held.max() > _WORSE * fitted.max():
+        text += (
+            ", so that predictions are not to be trusted before it is known what model or given "
+            "values lack (snakemake diagnose)"
+        )
+    return text
+
+
+def _rates(tables: Frames, use: str, cost: str, by: str) -> pd.Series:
+    """Return CV(RMSE) of a set at the series of a use."""
+    table = tables["validation"]
+    chosen = (table["cost_function"] == cost) & (table["found_by"] == by) & (table["data"] == use)
+    return table[chosen]["cv_rmse"].dropna()
+
+
+def _together(study: Study, results: Results) -> str:
+    """Warn of values that make up for one another, and of those at a limit."""
+    known = [e for e in estimated(study, results) if e.stage == "imp"]
+    bound = [e.name for e in known if e.grade == "at a bound"]
+    loose = [e.name for e in known if e.grade in ("weakly determined", "undetermined")]
+    said = ""
+    if loose:
+        said += (
+            f" Do not quote {listed(loose)} alone: other values fit as well, together with other "
+            "values of the rest."
+        )
+    if bound:
+        are, them = ("is", "it") if len(bound) == 1 else ("are", "them")
+        said += f" {listed(bound)} {are} at a limit; the data would push {them} beyond it."
+    return said

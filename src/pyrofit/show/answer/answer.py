@@ -1,0 +1,72 @@
+"""The answer: one estimate of each parameter, and the best set of each cost function."""
+
+from collections.abc import Mapping
+from typing import Any
+
+import pandas as pd
+
+from pyrofit.analysis.best_sets import at_bound, best_sets
+from pyrofit.analysis.estimates import Estimated, estimated
+from pyrofit.config import Study
+from pyrofit.results.files import Results
+from pyrofit.show.names import STAGES, flag
+from pyrofit.show.table import Table
+
+
+def answer(study: Study, results: Results) -> pd.DataFrame:
+    """List estimate, 95 % interval, best sets and what speaks against a value, by parameter.
+
+    Returns
+    -------
+    pandas.DataFrame
+        One row per parameter, in its own unit. A column for each cost function holds the set of
+        the lowest cost that any optimiser found, and names the optimiser.
+    """
+    known = estimated(study, results)
+    best = best_sets(study, results)
+    frame = pd.DataFrame([_row(study, estimate) for estimate in known])
+    for row in best.to_dict("records"):
+        frame[column_of(row)] = [
+            float(row[e.name]) / study.parameters[e.name].factor if e.stage == "imp" else None
+            for e in known
+        ]
+    flags = [(flag(e), _at_limit(study, e.name, best) if e.stage == "imp" else "") for e in known]
+    # None where there is nothing: a column without any is not shown.
+    frame["flags"] = ["; ".join(filter(None, said)) or None for said in flags]
+    return frame
+
+
+def _row(study: Study, e: Estimated) -> dict[str, Any]:
+    row: dict[str, Any] = {"fit": STAGES[e.stage], "parameter": e.name, "unit": e.unit}
+    row |= {"estimate": e.value, "low": e.low, "high": e.high}
+    return row if study.synthetic is None else {**row, "truth": study.synthetic.truth.get(e.name)}
+
+
+def column_of(row: Mapping[Any, Any]) -> str:
+    """Return the heading of a best set."""
+    return f"{row['cost_function']} ({row['found_by']})"
+
+
+def _at_limit(study: Study, name: str, best: pd.DataFrame) -> str:
+    """Name the cost functions whose best set has a parameter at a limit."""
+    factor = study.parameters[name].factor
+    lower, upper = (limit * factor for limit in study.search_limits(name))
+    names = [
+        str(row["cost_function"])
+        for row in best.to_dict("records")
+        if at_bound(float(row[name]), lower, upper)
+    ]
+    return f"at a limit: {', '.join(names)}" if names else ""
+
+
+TABLE = Table(
+    place=10,
+    applies=lambda study: True,
+    make=answer,
+    title="The answer: estimate, 95 % interval, and the best set of each cost function",
+    note="Estimate: the optimum of the likelihood, which weighs each point by its noise; the "
+    "interval says how far other values fit as well, the model taken as right. Best sets: of "
+    "the lowest cost, by whichever optimiser found it. Values of one column belong together.",
+    headings={"low": "95 % low", "high": "95 % high"},
+    group_by="fit",
+)

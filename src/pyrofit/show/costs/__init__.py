@@ -1,0 +1,13 @@
+"""Cost functions compared."""
+
+from pyrofit.show.costs.sentences import sentences
+from pyrofit.show.section import section_of
+
+COSTS = section_of(
+    __name__,
+    __path__,
+    anchor="costs",
+    heading="Cost functions",
+    text="All sets of all optimisers, under all cost functions and on one metric.",
+    sentences=sentences,
+)

@@ -1,0 +1,80 @@
+"""Cost functions compared, in sentences."""
+
+from collections.abc import Mapping
+from typing import Any
+
+import pandas as pd
+
+from pyrofit.analysis.cost_tests import SIGNIFICANT
+from pyrofit.analysis.uses import PUBLISHED
+from pyrofit.config import Study
+from pyrofit.quantities import known_quantities
+from pyrofit.results.files import Results
+from pyrofit.show.table import Frames
+from pyrofit.show.text import listed, number, span
+
+
+def sentences(study: Study, results: Results, tables: Frames) -> list[str]:
+    """Return the sentences on the cost functions: on one metric, and by tests."""
+    return [text for text in (_metric(tables), *_tests(tables)) if text]
+
+
+def _metric(tables: Frames) -> str:
+    """Say whether the cost function or the optimiser matters more on the common metric."""
+    metric = known_quantities()["mlr"].metric
+    table = tables["every_cost"]
+    parts = []
+    for place, rows in table.groupby("place", sort=False):
+        ours = rows[rows["found_by"] != PUBLISHED]
+        if metric not in ours or ours[metric].isna().all():
+            continue
+        by_cost = ours.groupby("found_by")[metric].agg(lambda v: v.max() / v.min())
+        by_optimiser = ours.groupby("fitted_with")[metric].agg(lambda v: v.max() / v.min())
+        parts.append(
+            f"at {place} {span(ours[metric])}: highest over lowest is {span(by_cost)} among the "
+            f"cost functions of one optimiser, {span(by_optimiser)} among the optimisers of one "
+            "cost function"
+        )
+    return f"CV(RMSE) of the mass loss rate of the best sets {'; '.join(parts)}." if parts else ""
+
+
+def _tests(tables: Frames) -> list[str]:
+    """Say in what the repetitions of the cost functions differ, and by how much."""
+    table = tables.get("cost_tests")
+    if table is None:
+        return []
+    if "p_place" not in table:
+        return [f"Whether the cost functions differ was {table['verdict'].iloc[0]}."]
+    return [_places(table), _scatter(table)]
+
+
+def _places(table: pd.DataFrame) -> str:
+    apart = table[table["p_place"] <= SIGNIFICANT]
+    if apart.empty:
+        return (
+            "Over the repetitions the cost functions show no difference in where the searches end, "
+            "what their sets predict, and how long they take (Kruskal and Wallis's test)."
+        )
+    parts = [_difference(row) for row in apart.to_dict("records")]
+    rest = len(table) - len(apart)
+    return (
+        f"Over the repetitions the cost functions differ in {listed(parts)}; in the other {rest} "
+        "quantities no difference is shown (Kruskal and Wallis's test, Holm-corrected)."
+    )
+
+
+def _difference(row: Mapping[Any, Any]) -> str:
+    size = f"{number(float(row['difference']))} {row['unit'] if row['unit'] != '-' else ''}".strip()
+    text = f"{row['quantity']} (medians {size} apart"
+    if pd.notna(row["of_limits"]):
+        text += f", {span([row['of_limits']])} % of the limits"
+    if pd.notna(row["of_interval"]):
+        text += f", {span([row['of_interval']])} % of the 95 % interval"
+    return text + ")"
+
+
+def _scatter(table: pd.DataFrame) -> str:
+    apart = list(table.loc[table["p_scatter"] <= SIGNIFICANT, "quantity"])
+    if not apart:
+        return "No difference in scatter is shown (Brown and Forsythe's test)."
+    return f"They scatter differently in {listed(apart)} (Brown and Forsythe's test)."

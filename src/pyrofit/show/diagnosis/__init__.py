@@ -1,0 +1,1 @@
+"""What the diagnosis found, a step of its own."""

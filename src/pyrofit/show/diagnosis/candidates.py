@@ -1,0 +1,77 @@
+"""Candidates, the best first."""
+
+from collections.abc import Mapping
+
+import pandas as pd
+
+from pyrofit.config import Study
+from pyrofit.effects import known_effects
+from pyrofit.results import diagnosis
+from pyrofit.results.files import Results
+from pyrofit.show.diagnosis.words import HELD_OUT, MOST, Found, model_name, ranked, remark
+from pyrofit.show.table import Table, always
+
+
+def candidates(study: Study, results: Results) -> pd.DataFrame:
+    """List the models with effects that were fitted, the best ones, and why each was rejected."""
+    found = diagnosis.read(study, results)
+    order = ranked(found)
+    lowest = order[0]["penalised"] if order else 0.0
+    rows = [
+        {
+            "model": model_name(c["effects"]),
+            "chi2": c["chi2"],
+            "gain": c["gain"],
+            "above_best": c["penalised"] - lowest,
+            "fitted": "; ".join(_fitted(c)),
+            "predictions": _predictions(study, c["predictions"]),
+            "remark": remark(found, c),
+        }
+        for c in order[:MOST]
+    ]
+    columns = ("chi2", "gain", "above_best", "fitted", "predictions", "remark")
+    return pd.DataFrame(rows, columns=["model", *columns])
+
+
+def _fitted(candidate: Found) -> list[str]:
+    """Write value and interval of each parameter of a candidate's effects."""
+    catalogue, free = known_effects(), candidate["free"]
+    said = []
+    for effect, names in free.items():
+        for name in names:
+            strength = name in catalogue[effect].strength
+            label = effect if strength else catalogue[effect].quantities[name].label
+            p = candidate["parameters"][f"{effect}_{name}"]
+            low, high = _widest(p)
+            text = f"{p['value']:.3g} ({low:.3g} to {high:.3g}) {p['unit']}".rstrip(" -")
+            said.append(text if strength and len(free) == 1 else f"{label} {text}")
+    return said
+
+
+def _widest(p: Found) -> tuple[float, float]:
+    """Return the interval, with the uncertainty of the form where it is known."""
+    low, high = p.get("low_form"), p.get("high_form")
+    return (p["low"] if low is None else low, p["high"] if high is None else high)
+
+
+def _predictions(study: Study, gains: Mapping[str, float]) -> str:
+    names = {name: study.experiments[name].title or name for name in gains if name != HELD_OUT}
+    return "; ".join(f"{names.get(name, name)} {gain:+.1f}" for name, gain in gains.items())
+
+
+TABLE = Table(
+    place=32,
+    applies=always,
+    make=candidates,
+    title="Candidates, the best first",
+    note="Each is the base model with one effect more, or several, all parameters fitted "
+    "anew. Gain: fall of chi-square below that of the model with one effect less. Above best: "
+    "penalised chi-square, log(points) for each parameter of an effect. Predictions: gain of "
+    "the log score where an experiment is left out or held out; above 0 is better than "
+    "without the effect, 2 counts.",
+    headings={
+        "chi2": "chi-square",
+        "above_best": "above best",
+        "fitted": "fitted (95 % interval)",
+    },
+)

@@ -1,0 +1,92 @@
+"""How well each effect would show, and which look alike."""
+
+from collections.abc import Sequence
+from typing import Any
+
+import numpy as np
+from matplotlib.axes import Axes
+from matplotlib.figure import Figure as Canvas
+
+from pyrofit.config import Study
+from pyrofit.results import diagnosis
+from pyrofit.results.files import Results
+from pyrofit.show import style
+from pyrofit.show.diagnosis.words import Found
+from pyrofit.show.figure import Figure
+
+FAMILIES = {"apparatus": "xxxx", "environment": "////", "material": ""}
+"""Hatching of each family, so that they stay apart in grey."""
+
+
+LIMIT: dict[str, Any] = {"color": "black", "linewidth": 0.8, "linestyle": (0, (4, 2))}
+
+
+def effects(study: Study, results: Results) -> Canvas:
+    """Draw how well each effect would show, and which look alike."""
+    found = diagnosis.read(study, results)
+    names = [str(name) for name in found["confusability"]["effects"]]
+    screen = {str(s["effect"]): s for s in found["screen"]}
+    order = sorted(range(len(names)), key=lambda i: (_family(screen[names[i]]), names[i]))
+    names = [names[i] for i in order]
+    cosine = np.asarray(found["confusability"]["cosine"], dtype=float)[np.ix_(order, order)]
+    canvas, (bars, image) = style.panels(
+        2, 2, style.TWO_COLUMNS, max(75.0, 34.0 + 3.5 * len(names)), width_ratios=[1.0, 1.55]
+    )
+    style.letter([bars, image], ["how well each would show", "which look alike"])
+    _bars(bars, [screen[name] for name in names], float(found["base"]["score_critical"]))
+    # Both signs of a cosine mean alike: a strength of the other sign.
+    drawn = image.imshow(np.abs(cosine), cmap="Greys", vmin=0.0, vmax=1.0, aspect="auto")
+    for i, k in zip(*np.nonzero(np.abs(cosine) >= 0.9), strict=True):
+        if i != k:
+            image.text(k, i, "×", ha="center", va="center", color="white", fontsize=7)
+    image.set_xticks(range(len(names)), names, rotation=90, fontsize=6)
+    image.set_yticks(range(len(names)), [])
+    image.tick_params(length=0)
+    canvas.colorbar(drawn, ax=image, label="|cosine| [–]", shrink=0.7)
+    entries = [
+        style.patch(family, facecolor=style.colour(i), hatch=hatch, edgecolor="white")
+        for i, (family, hatch) in enumerate(FAMILIES.items())
+    ]
+    score = style.line(
+        "score z of the residuals", marker="D", markersize=3, color="black", linestyle="none"
+    )
+    level = style.line("its critical value", **LIMIT)
+    style.legend_below(canvas, [*entries, score, level])
+    return canvas
+
+
+def _family(row: Found) -> int:
+    return list(FAMILIES).index(str(row["family"])) if row["family"] in FAMILIES else len(FAMILIES)
+
+
+def _bars(ax: Axes, rows: Sequence[Found], critical: float) -> None:
+    """Draw detectability, and the score that was found."""
+    sizes = [float(row["detectability"]) for row in rows]
+    scores = [float(row["z"]) for row in rows]
+    for i, (row, size) in enumerate(zip(rows, sizes, strict=True)):
+        family = _family(row)
+        hatch = [*FAMILIES.values(), ""][family]
+        look: dict[str, Any] = {"color": style.colour(family), "hatch": hatch, "edgecolor": "white"}
+        ax.barh(i, size, height=0.75, **look, linewidth=0.0)
+    ax.plot(scores, range(len(rows)), "D", color="white", markersize=4.6)
+    ax.plot(scores, range(len(rows)), "D", color="black", markersize=3)
+    ax.axvline(critical, **LIMIT)
+    ax.set_xscale("log")
+    ax.set_xlim(0.3, 2.0 * max([*sizes, *scores, 10.0]))
+    ax.set_yticks(range(len(rows)), [str(row["effect"]) for row in rows], fontsize=6)
+    ax.set_ylim(len(rows) - 0.5, -0.5)
+    ax.tick_params(axis="y", length=0)
+    ax.set_xlabel("standard deviations [–]")
+
+
+FIGURE = Figure(
+    place=62,
+    applies=lambda found: bool(found["screen"]) and bool(found["confusability"]["effects"]),
+    make=effects,
+    title="What these measurements can show",
+    caption="a) Bars: by how many standard deviations each effect of typical strength would "
+    "show after all parameters were fitted anew; short bars cannot be found with these "
+    "measurements. Diamonds: how far the residuals of the base model point its way. b) Cosine "
+    "between what two effects leave after such a refit; dark ones look alike, crosses mark "
+    "0.9 and more.",
+)

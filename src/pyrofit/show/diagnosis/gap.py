@@ -1,0 +1,62 @@
+"""How much the gap shrank."""
+
+import numpy as np
+import pandas as pd
+
+from pyrofit.analysis.uses import title_of
+from pyrofit.config import Study
+from pyrofit.results import diagnosis
+from pyrofit.results.files import Results
+from pyrofit.show.diagnosis.words import ROLES, shown_unit, signal_name
+from pyrofit.show.table import Table, always
+
+
+def gap(study: Study, results: Results) -> pd.DataFrame:
+    """List how far model and measurement are apart, before and after, fitted and held out.
+
+    ``before_sd``, ``after_sd``: root of chi-square per point; 1 is noise alone. Without named
+    effects there is no after.
+    """
+    found = diagnosis.read(study, results)
+    rows = []
+    for g in found["gap"]:
+        unit, factor = shown_unit(g["unit"])
+        before, after = factor * g["rms_before"], factor * g["rms_after"]
+        rows.append(
+            {
+                "role": ROLES.get(g["role"], g["role"]),
+                "experiment": title_of(study, g["experiment"]),
+                "signal": signal_name(g["signal"]),
+                "points": int(g["points"]),
+                "rms_before": before,
+                "rms_after": after,
+                "noise_sd": factor * g["noise_sd"],
+                "unit": unit,
+                "closed_percent": 100.0 * (1.0 - after / before) if before > 0.0 else np.nan,
+                "before_sd": float(np.sqrt(g["chi2_before"] / g["points"])),
+                "after_sd": float(np.sqrt(g["chi2_after"] / g["points"])),
+            }
+        )
+    frame = pd.DataFrame(rows)
+    added = bool(found["verdict"]["effects"])
+    return frame if added else frame.drop(columns=["rms_after", "closed_percent", "after_sd"])
+
+
+TABLE = Table(
+    place=50,
+    applies=always,
+    make=gap,
+    title="How much the gap shrank",
+    note="Root mean square of simulated minus measured, before and after the effects of the "
+    "verdict were added, and the same in standard deviations of the noise, allowing for its "
+    "correlation: 1 is noise alone. Held-out signals were not fitted.",
+    headings={
+        "rms_before": "rms before",
+        "rms_after": "rms after",
+        "noise_sd": "sd of the noise",
+        "closed_percent": "closed [%]",
+        "before_sd": "before [sd]",
+        "after_sd": "after [sd]",
+    },
+    group_by="role",
+)

@@ -1,0 +1,42 @@
+"""Noise of the signals, and how the base fits them."""
+
+import pandas as pd
+
+from pyrofit.analysis.uses import title_of
+from pyrofit.config import Study
+from pyrofit.results import diagnosis
+from pyrofit.results.files import Results
+from pyrofit.show.diagnosis.words import ROLES, shown_unit, signal_name
+from pyrofit.show.table import Table, always
+
+
+def noise(study: Study, results: Results) -> pd.DataFrame:
+    """List the noise of every channel, and how the base fits or predicts it."""
+    rows = []
+    for n in diagnosis.read(study, results)["noise"]:
+        unit, factor = shown_unit(n["unit"])
+        rows.append(
+            {
+                "role": ROLES.get(n["role"], n["role"]),
+                "experiment": title_of(study, n["experiment"]),
+                "signal": signal_name(n["signal"]),
+                "points": int(n["points"]),
+                "sd_median": factor * n["sd_median"],
+                "unit": unit,
+                "noise": n["words"],
+                "chi2_per_point": n["chi2_base"] / n["points"],
+            }
+        )
+    return pd.DataFrame(rows)
+
+
+TABLE = Table(
+    place=61,
+    applies=always,
+    make=noise,
+    title="Noise of the signals, and how the base fits them",
+    note="Estimated from the scatter of the series; sd is the median standard deviation. "
+    "Chi-square per point is near 1 where the base model is off by noise only.",
+    headings={"sd_median": "sd", "chi2_per_point": "chi-square per point"},
+    group_by="role",
+)

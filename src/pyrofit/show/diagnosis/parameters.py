@@ -1,0 +1,50 @@
+"""Parameters of the model, without and with the effects found."""
+
+import numpy as np
+import pandas as pd
+
+from pyrofit.config import Study
+from pyrofit.results import diagnosis
+from pyrofit.results.files import Results
+from pyrofit.show.diagnosis.words import leading
+from pyrofit.show.table import Table, always
+
+
+def parameters(study: Study, results: Results) -> pd.DataFrame:
+    """List the parameters of the base, without and with the effects of the verdict."""
+    found = diagnosis.read(study, results)
+    after = found["extended"]["parameters"] if leading(found) else {}
+    rows = [
+        {
+            "parameter": name,
+            "unit": p["unit"],
+            "base": p["value"],
+            "base_low": p["low"],
+            "base_high": p["high"],
+            "at_limit": "yes" if p["at_limit"] else "",
+            **{key: after[name][of] if name in after else np.nan for key, of in _AFTER.items()},
+        }
+        for name, p in found["base"]["parameters"].items()
+    ]
+    return pd.DataFrame(rows).dropna(axis="columns", how="all")
+
+
+_AFTER = {"extended": "value", "extended_low": "low", "extended_high": "high"}
+
+
+TABLE = Table(
+    place=60,
+    applies=always,
+    make=parameters,
+    title="Parameters of the model",
+    note="95 % intervals, each model taken as right. A parameter at a limit is a symptom: it "
+    "may stand in for what is missing.",
+    headings={
+        "base_low": "95 % low",
+        "base_high": "95 % high",
+        "at_limit": "at a limit",
+        "extended": "with effects",
+        "extended_low": "95 % low ",
+        "extended_high": "95 % high ",
+    },
+)

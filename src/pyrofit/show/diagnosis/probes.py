@@ -1,0 +1,61 @@
+"""Free corrections that would absorb the misfit."""
+
+import textwrap
+
+import numpy as np
+import pandas as pd
+from matplotlib.figure import Figure as Canvas
+
+from pyrofit.config import Study
+from pyrofit.results import diagnosis
+from pyrofit.results.files import Results
+from pyrofit.show import style
+from pyrofit.show.diagnosis.words import shown_unit
+from pyrofit.show.figure import Figure
+from pyrofit.show.table import Table, always
+
+
+def probes(study: Study, results: Results) -> pd.DataFrame:
+    """List which free correction inside the model would absorb the misfit, the best first."""
+    found = diagnosis.read(study, results)["probes"]
+    rows = [{"probe": p["what"], "absorbed_percent": 100.0 * p["absorbed"]} for p in found]
+    return pd.DataFrame(rows, columns=["probe", "absorbed_percent"])
+
+
+def draw_probes(study: Study, results: Results) -> Canvas:
+    """Draw the free corrections that were put into the model."""
+    found = diagnosis.read(study, results)["probes"]
+    canvas, axes = style.panels(len(found), 2, style.TWO_COLUMNS, 55.0)
+    titles = [f"{p['what']}: absorbs {100.0 * p['absorbed']:.0f} %" for p in found]
+    style.letter(axes, [textwrap.fill(title, 44) for title in titles])
+    for ax, probe in zip(axes, found, strict=True):
+        x, y = np.array(probe["shape"], dtype=float).reshape(-1, 2).T
+        unit, factor = shown_unit(probe["unit"])
+        # Without a unit it is a factor, else a change.
+        ax.axhline(1.0 if probe["unit"] == "-" else 0.0, color="0.3", linewidth=0.5)
+        ax.plot(x, factor * y, color=style.COLOURS[0])
+        ax.set_xlabel("time [s]" if probe["probe"] == "flux" else "temperature [K]")
+        what = "factor on the" if probe["unit"] == "-" else "change of the"
+        ax.set_ylabel(f"{what} {probe['probe'].replace('_', ' ')}\n[{unit}]")
+    return canvas
+
+
+TABLE = Table(
+    place=40,
+    applies=always,
+    make=probes,
+    title="What would absorb the misfit",
+    note="A free curve in one place of the model; absorbed: share of the chi-square above that "
+    "of noise which it removes. It tells where the missing effect acts, not its name.",
+    headings={"absorbed_percent": "absorbed [%]"},
+)
+
+
+FIGURE = Figure(
+    place=40,
+    applies=lambda found: any(p["shape"] for p in found["probes"]),
+    make=draw_probes,
+    title="What would absorb the misfit",
+    caption="Free curves, each put into the model in one place and fitted with all parameters, "
+    "and the share of the excess of chi-square that they absorb; grey lines: no correction.",
+)

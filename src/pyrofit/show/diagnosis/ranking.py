@@ -1,0 +1,103 @@
+"""Candidates, drawn."""
+
+import textwrap
+from typing import Any
+
+import numpy as np
+from matplotlib.figure import Figure as Canvas
+
+from pyrofit.config import Study
+from pyrofit.results import diagnosis
+from pyrofit.results.files import Results
+from pyrofit.show import style
+from pyrofit.show.diagnosis.effects import LIMIT
+from pyrofit.show.diagnosis.words import CLAIMS, Found, ranked, remark
+from pyrofit.show.figure import Figure
+
+MOST = 20
+"""Candidates that a figure shows."""
+
+
+WRAP = 42
+"""Letters of a line beside the candidates."""
+
+
+_BASE: dict[str, Any] = {"color": style.COLOURS[1], "linewidth": 1.2}
+
+
+_KEPT: dict[str, Any] = {"marker": "o", "linestyle": "none", "color": style.COLOURS[0]}
+
+
+_REJECTED: dict[str, Any] = {**_KEPT, "markerfacecolor": "white"}
+
+
+def ranking(study: Study, results: Results) -> Canvas:
+    """Draw the penalised chi-square of the candidates above that of the best."""
+    found = diagnosis.read(study, results)
+    shown = ranked(found)[:MOST]
+    lowest = float(shown[0]["penalised"])
+    labels = [textwrap.fill(_label(candidate), WRAP) for candidate in shown]
+    reasons = [_reason(found, candidate) for candidate in shown]
+    lines = max(text.count("\n") + 1 for text in (*labels, *reasons))
+    height = max(5.2, 0.8 + 2.6 * lines)
+    canvas, (ax,) = style.panels(1, 1, style.TWO_COLUMNS, 26.0 + height * len(shown))
+    limit = float(found["ambiguity"])
+    base, points = float(found["base"]["chi2"]) - lowest, float(found["base"]["points"])
+    needed = base - (float(found["needed"]) - np.log(points))
+    ax.set_xscale("symlog", linthresh=1.0, linscale=0.5)
+    right = 1.8 * max(base, *(float(c["penalised"]) - lowest for c in shown), limit)
+    ax.axvspan(needed, right, color=style.BAND, linewidth=0.0)
+    ax.axvline(limit, **LIMIT)
+    ax.axvline(base, **_BASE)
+    for i, candidate in enumerate(shown):
+        look = _REJECTED if candidate["rejected"] else _KEPT
+        ax.plot([candidate["penalised"] - lowest], [i], **look, markersize=4.5)
+        place: dict[str, Any] = {
+            "va": "center",
+            "ha": "left",
+            "transform": ax.get_yaxis_transform(),
+        }
+        ax.text(1.015, i, reasons[i], fontsize=6.5, **place)
+    ax.set_yticks(range(len(shown)), labels, fontsize=6.5)
+    ax.set_ylim(len(shown) - 0.4, -0.6)
+    ax.set_xlim(min(-0.3, 1.3 * needed), right)
+    ax.tick_params(axis="y", length=0)
+    ax.set_xlabel("penalised χ² above that of the best candidate [–]")
+    kept = "in the verdict" if found["verdict"]["kind"] in CLAIMS else "not rejected"
+    entries: list[Any] = [
+        style.line(kept, **_KEPT, markersize=4.5),
+        style.line("rejected", **_REJECTED, markersize=4.5),
+        style.line(f"not told apart below {limit:g}", **LIMIT),
+        style.line("base model", **_BASE),
+        style.patch("an effect gains too little", color=style.BAND),
+    ]
+    style.legend_below(canvas, entries)
+    return canvas
+
+
+def _reason(found: Found, candidate: Found) -> str:
+    """Say what speaks against a candidate, in two lines at most."""
+    said = textwrap.shorten(remark(found, candidate), 2 * WRAP - 6, placeholder=" …")
+    return textwrap.fill(said, WRAP, break_on_hyphens=False)
+
+
+def _label(candidate: Found) -> str:
+    """Name a candidate: its effects, and the form parameters that were free."""
+    parts = []
+    for effect in candidate["effects"]:
+        forms = candidate["free"].get(effect, ())[1:]
+        parts.append(f"{effect} ({', '.join(forms)})" if forms else str(effect))
+    return " + ".join(parts)
+
+
+FIGURE = Figure(
+    place=33,
+    applies=lambda found: bool(found["candidates"]),
+    make=ranking,
+    title="Candidates, the best first",
+    caption="Chi-square with log(points) for each parameter of an effect, above that of the "
+    "best candidate; linear below 1, logarithmic beyond. What lies left of the dashed line is "
+    "not told apart from the best by the fit alone; in the grey area one effect gains too "
+    "little to be claimed. In brackets: parameters of the form that were fitted, too. "
+    f"At most {MOST} are shown.",
+)

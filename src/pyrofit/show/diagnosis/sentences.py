@@ -1,0 +1,201 @@
+"""What the diagnosis found, in sentences."""
+
+from collections.abc import Callable
+
+from pyrofit.analysis.uses import title_of
+from pyrofit.config import Study
+from pyrofit.effects import known_effects
+from pyrofit.results import diagnosis
+from pyrofit.results.files import Results
+from pyrofit.show.diagnosis.words import HELD_OUT, ROLES, Found, effect_name, leading, signal_name
+from pyrofit.show.text import listed, number
+
+_TOO_FEW = ", too few to tell them apart"
+
+
+def headline(study: Study, results: Results) -> str:
+    """Return the verdict in one sentence or two."""
+    found = diagnosis.read(study, results)
+    return _SENTENCES[found["verdict"]["kind"]](found)
+
+
+def _none(found: Found) -> str:
+    if found["base"]["score"] > found["base"]["score_critical"]:
+        return "The misfit points towards some effect, but none gains enough to be claimed."
+    return "What the model leaves is noise: nothing is missing that these measurements show."
+
+
+def _named(found: Found) -> str:
+    verdict = found["verdict"]
+    of = f" ({verdict['groups'][0]})" if len(verdict["sets"][0]) > 1 else ""
+    return f"One effect is missing{of}: {_sets(verdict)}. {_confirmed(verdict, 'it')}"
+
+
+def _ambiguous(found: Found) -> str:
+    verdict = found["verdict"]
+    if len(verdict["sets"]) > 1:
+        return _several(verdict, "seem to be")
+    if len(verdict["sets"][0]) == 1:
+        return f"One effect is missing, probably {_sets(verdict)}. {_confirmed(verdict, 'it')}"
+    return f"One effect is missing, and these measurements cannot tell which: {_sets(verdict)}."
+
+
+def _multiple(found: Found) -> str:
+    return _several(found["verdict"], "are")
+
+
+def _several(verdict: Found, are: str) -> str:
+    count = {2: "Two", 3: "Three"}.get(len(verdict["effects"]), "Several")
+    return f"{count} effects {are} missing: {_sets(verdict)}. {_confirmed(verdict, 'them')}"
+
+
+def _unknown(found: Found) -> str:
+    best = listed([effect_name(name) for name in found["verdict"]["effects"]])
+    text = "Model and measurement disagree, and no effect of the catalogue explains it"
+    return f"{text}; a part is explained by {best}." if best else f"{text}."
+
+
+def _confirmed(verdict: Found, what: str) -> str:
+    return (
+        f"Predictions confirm {what}."
+        if verdict["confirmed"]
+        else (f"Predictions do not confirm {what}.")
+    )
+
+
+_SENTENCES: dict[str, Callable[[Found], str]] = {
+    "none": _none,
+    "named": _named,
+    "ambiguous": _ambiguous,
+    "multiple": _multiple,
+    "unknown": _unknown,
+}
+
+
+def _sets(verdict: Found) -> str:
+    """Name the effects, each with those that cannot be told from it."""
+    return ", and ".join(
+        " or ".join(effect_name(name) for name in names) for names in verdict["sets"]
+    )
+
+
+def facts(found: Found) -> list[str]:
+    """Return the sentences of a summary: where, the gap, the next experiment."""
+    said = [where_off(found), gap_closed(found)]
+    return said + ([next_measured(found)] if found["next_experiment"] else [])
+
+
+def where_off(found: Found) -> str:
+    """Say how large the misfit of the base model is, and where."""
+    here = [w for w in found["windows"] if w["model"] == "base"]
+    base = found["base"]
+    text = (
+        f"The base model leaves chi-square {number(base['chi2'])} on {int(base['points'])} points; "
+        f"noise leaves more than {number(base['chi2_critical'])} in 1 % of studies."
+    )
+    if not here:
+        return f"{text} No stretch of a curve is off by more than noise would be."
+    phases = list(dict.fromkeys(str(w["phase"]) for w in here))
+    stretches = "one stretch" if len(here) == 1 else f"{len(here)} stretches"
+    return f"{text} Curves are off by more than noise in {stretches}: {listed(phases)}."
+
+
+def missing(found: Found) -> str:
+    """Say what was found, and what was not looked for."""
+    reasons: dict[str, list[str]] = {}
+    for one in found["not_tried"]:
+        reasons.setdefault(one["reason"], []).append(effect_name(one["effect"]))
+    left = [f"{listed(names)} ({reason})" for reason, names in reasons.items()]
+    return " ".join([_found(found), *([f"Not tried: {'; '.join(left)}."] if left else [])])
+
+
+def _found(found: Found) -> str:
+    chosen = leading(found)
+    if not found["candidates"]:
+        return "No effect was tried: there is nothing to explain."
+    if chosen is None:
+        return f"A claim needs a gain of {number(found['needed'])}."
+    names = [f"{effect_name(n)}, {known_effects()[n].equation}" for n in chosen["effects"]]
+    return (
+        f"Chi-square falls from {number(found['base']['chi2'])} to {number(chosen['chi2'])} with "
+        f"{'; and '.join(names)}. The last effect gains {number(chosen['gain'])}; a claim needs "
+        f"{number(found['needed'])}."
+    )
+
+
+def gap_closed(found: Found) -> str:
+    """Say how far curves are apart in standard deviations, fitted and held out."""
+    parts = []
+    for role in dict.fromkeys(g["role"] for g in found["gap"]):
+        rows = [g for g in found["gap"] if g["role"] == role]
+        points = sum(g["points"] for g in rows)
+        before, after = (
+            (sum(g[f"chi2_{when}"] for g in rows) / points) ** 0.5 for when in ("before", "after")
+        )
+        change = f" to {after:.3g}" if found["verdict"]["effects"] else ""
+        start = "from " if change else ""
+        parts.append(f"{start}{before:.3g}{change} ({ROLES.get(role, role)})")
+    verb = "goes" if found["verdict"]["effects"] else "is"
+    return (
+        f"The gap, root mean square in standard deviations of the noise, {verb} {listed(parts)}; "
+        "1 is noise alone."
+    )
+
+
+def certainty(study: Study, found: Found) -> str:
+    """Say what speaks for the verdict besides the fit, and what against it."""
+    chosen = leading(found)
+    bound = [name for name, p in found["base"]["parameters"].items() if p["at_limit"]]
+    said = [f"Of the base model, {listed(bound)} rest at a limit."] if len(bound) > 1 else []
+    said += [f"Of the base model, {bound[0]} rests at a limit."] if len(bound) == 1 else []
+    said += [] if bound else ["No parameter of the base model rests at a limit."]
+    said += _of_noise(study, found)
+    if chosen is None:
+        return " ".join(said)
+    if chosen.get("adequate") is not None:
+        left = "noise" if chosen["adequate"] else "more than noise"
+        said.append(f"With the effects found the model leaves {left}.")
+    if chosen.get("disagree") is not None:
+        said.append(
+            "That the strength differs from one experiment to another as much as it does has the "
+            f"probability {number(chosen['disagree'])} if it is the same in all."
+        )
+    gains = [
+        f"{gain:+.1f} ({_predicted(study, name)})" for name, gain in chosen["predictions"].items()
+    ]
+    said += [f"The log score of predictions changes by {listed(gains)}; 2 counts."] * bool(gains)
+    return " ".join(said)
+
+
+def _of_noise(study: Study, found: Found) -> list[str]:
+    """Say of which fitted series the noise is not well known: all rests on it."""
+
+    def those(key: str) -> str:
+        series = [n for n in found["noise"] if n["role"] == "calibration" and not n[key]]
+        words = [f"{title_of(study, n['experiment'])}, {signal_name(n['signal'])}" for n in series]
+        return listed(words)
+
+    estimated, lasting = those("stated"), those("white")
+    said = [f"No uncertainty is given, so that the noise is estimated: {estimated}."]
+    return said * bool(estimated) + [
+        "What is left of the noise is not white where the estimated correlation is taken out, so "
+        f"that the levels of the gates hold less surely: {lasting}."
+    ] * bool(lasting)
+
+
+def _predicted(study: Study, name: str) -> str:
+    if name == HELD_OUT:
+        return "what is held out"
+    return f"{study.experiments[name].title or name} from the others"
+
+
+def next_measured(found: Found) -> str:
+    """Say which experiment would separate competing models best."""
+    if not found["next_experiment"]:
+        return "No experiment is proposed: there are no two models to tell apart."
+    best = max(found["next_experiment"], key=lambda d: float(d["separation_sd"]))
+    short = best["separation_sd"] ** 2 < found["ambiguity"]
+    return (
+        f"Of new experiments, this would separate competing models best: {best['words']}; by "
+        f"{best['separation_sd']:.1f} standard deviations{_TOO_FEW if short else ''}."
+    )

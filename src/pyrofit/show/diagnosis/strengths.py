@@ -1,0 +1,51 @@
+"""What is missing, and how much of it."""
+
+import pandas as pd
+
+from pyrofit.config import Study
+from pyrofit.effects import known_effects
+from pyrofit.results import diagnosis
+from pyrofit.results.files import Results
+from pyrofit.show.diagnosis.words import effect_name, leading
+from pyrofit.show.table import Table, always
+
+
+def strengths(study: Study, results: Results) -> pd.DataFrame:
+    """List the parameters of the effects that the verdict rests on, with their intervals."""
+    chosen = leading(diagnosis.read(study, results))
+    catalogue = known_effects()
+    rows = []
+    for effect, free in (chosen["free"] if chosen else {}).items():
+        for name in free:
+            p = chosen["parameters"][f"{effect}_{name}"] if chosen else {}
+            rows.append(
+                {
+                    "effect": effect_name(effect),
+                    "parameter": catalogue[effect].quantities[name].label,
+                    "value": p["value"],
+                    "low": p["low"],
+                    "high": p["high"],
+                    "low_form": p["low_form"],
+                    "high_form": p["high_form"],
+                    "unit": p["unit"],
+                    "without": catalogue[effect].quantities[name].value,
+                }
+            )
+    return pd.DataFrame(rows).dropna(axis="columns", how="all")
+
+
+TABLE = Table(
+    place=30,
+    applies=always,
+    make=strengths,
+    title="What is missing, and how much of it",
+    note="95 % intervals; with form: including that the effect may look otherwise than its "
+    "equation says. Without: the value at which the effect is absent, or the usual value of a "
+    "parameter that says how it looks.",
+    headings={
+        "low": "95 % low",
+        "high": "95 % high",
+        "low_form": "low, with form",
+        "high_form": "high, with form",
+    },
+)

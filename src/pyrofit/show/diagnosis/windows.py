@@ -1,0 +1,63 @@
+"""Where model and measurement disagree."""
+
+from collections.abc import Sequence
+from typing import Any
+
+import numpy as np
+import pandas as pd
+
+from pyrofit.analysis.uses import title_of
+from pyrofit.config import Study
+from pyrofit.results import diagnosis
+from pyrofit.results.files import Results
+from pyrofit.show.diagnosis.words import MODELS, Found, shown_unit, signal_name
+from pyrofit.show.table import Table, always
+
+
+def windows(study: Study, results: Results) -> pd.DataFrame:
+    """List where the simulated curve is off to one side, and what goes on there."""
+    return pd.DataFrame([_window(study, w) for w in diagnosis.read(study, results)["windows"]])
+
+
+def _window(study: Study, w: Found) -> dict[str, Any]:
+    unit, factor = shown_unit(w["unit"])
+    programme = None if w["start_K"] is None else (w["start_K"], w["end_K"])
+    return {
+        "model": MODELS.get(w["model"], w["model"]),
+        "experiment": title_of(study, w["experiment"]),
+        "signal": signal_name(w["signal"]),
+        "phase": w["phase"],
+        "time_s": between((w["start_s"], w["end_s"]), ".0f"),
+        "temperature_K": between(programme or w["surface_temperature_K"], ".0f"),
+        "conversion": between(w["conversion"], ".2f"),
+        "difference": f"{factor * w['mean']:+.3g} {unit.replace('–', '')}".strip(),
+        "relative_percent": np.nan if w["relative"] is None else 100.0 * w["relative"],
+    }
+
+
+def between(pair: Sequence[float] | None, digits: str) -> str | None:
+    """Write a range of values, nothing where there is none.
+
+    >>> between([0.1, 0.25], ".2f")
+    '0.10 to 0.25'
+    """
+    return None if pair is None else f"{pair[0]:{digits}} to {pair[1]:{digits}}"
+
+
+TABLE = Table(
+    place=10,
+    applies=always,
+    make=windows,
+    title="Where model and measurement disagree",
+    note="Stretches of a curve that are to one side by more than noise would put any, in 99 of "
+    "100 studies. Temperature: of the surface, in TGA of the programme. Conversion: share of "
+    "all that is released in the record. Difference: mean of simulated minus measured, also in "
+    "per cent of the measured mean; the simulation lies above where it is positive.",
+    headings={
+        "time_s": "time [s]",
+        "temperature_K": "temperature [K]",
+        "conversion": "conversion [-]",
+        "relative_percent": "difference [%]",
+    },
+    group_by="model",
+)

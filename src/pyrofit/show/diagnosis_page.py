@@ -1,0 +1,142 @@
+"""The diagnosis as a section of a report and as a page of its own."""
+
+import pandas as pd
+
+from pyrofit.config import Study
+from pyrofit.discovery import contents
+from pyrofit.results import diagnosis
+from pyrofit.results.files import Results, write_text
+from pyrofit.show import diagnosis as items
+from pyrofit.show.diagnosis.sentences import (
+    certainty,
+    facts,
+    gap_closed,
+    headline,
+    missing,
+    next_measured,
+    where_off,
+)
+from pyrofit.show.diagnosis.words import Found
+from pyrofit.show.figure import Figure, draw_figure
+from pyrofit.show.page import page_of
+from pyrofit.show.parts import Part, Picture, Shown, picture, table_part
+from pyrofit.show.table import Table, write_table
+
+FOLDER = "diagnosis"
+TABLES: dict[str, Table] = contents(items.__name__, items.__path__, "TABLE")
+FIGURES: dict[str, Figure] = contents(items.__name__, items.__path__, "FIGURE")
+
+
+def exists(results: Results) -> bool:
+    """Tell whether a study has been diagnosed and that is drawn: its page is written last."""
+    return results.diagnosis("report.html").is_file()
+
+
+def write_page(study: Study, results: Results) -> None:
+    """Write ``diagnosis/report.html`` and the tables, from what was found and the drawn figures.
+
+    Raises
+    ------
+    DataError
+        A result or a figure is missing.
+    """
+    make_diagnosis_tables(study, results)
+    shown = section(study, results)
+    title = f"{study.title or study.name}: diagnosis"
+    said = [headline(study, results), *facts(diagnosis.read(study, results))]
+    write_text(results.diagnosis("report.html"), page_of(study, results, title, said, [shown]))
+
+
+def section(study: Study, results: Results) -> Shown:
+    """Return all that was found, in the order in which it is read."""
+    found = diagnosis.read(study, results)
+    tables, drawn = diagnosis_tables(study, results), figures_of(study, results)
+    curves = ("mass_loss_rate", "back_temperature", "mass_fraction")
+
+    def parts(text: str, *names: str) -> list[Part | Picture]:
+        """Return the tables and figures that there are, sentences before them."""
+        made: list[Part | Picture] = []
+        for name in names:
+            if name in tables:
+                made.append(table_part(study, TABLES[name], tables[name], text))
+                text = ""
+        if text:
+            made.insert(0, Part(TABLES[names[0]].title, text=text))
+        for name in names:
+            if name in drawn:
+                figure, path = FIGURES[name], results.diagnosis(f"{name}.svg")
+                made.append(picture(path, f"diagnosis_{name}", figure.title, figure.caption))
+        return made
+
+    return Shown(
+        "diagnosis",
+        "What the model lacks",
+        found["verdict"]["words"],
+        (
+            *parts(where_off(found), "windows", *curves),
+            *parts(missing(found), "strengths", "profiles", "candidates", "ranking"),
+            *parts("", "probes"),
+            *parts(gap_closed(found), "gap"),
+            Part("How sure that is", text=certainty(study, found)),
+            *parts("", "parameters", "noise", "effects"),
+            *parts(next_measured(found), "next_experiments"),
+            *_extended(study, results, found),
+        ),
+    )
+
+
+def _extended(study: Study, results: Results, found: Found) -> list[Part]:
+    """Say how the study with the named effects is run."""
+    if not found["extended_study"]:
+        return []
+    path = results.diagnosis(found["extended_study"]).as_posix()
+    return [
+        Part(
+            "The study with the effects",
+            text=f"{path} is this study with the effects that were found, at their fitted "
+            "strengths. It is a study like any other:",
+            command=f"snakemake --cores 2 --configfile {path}",
+        )
+    ]
+
+
+def draw_all(results: Results, study: Study) -> list[str]:
+    """Write ``diagnosis/<name>.svg`` and ``.png`` of all figures there are; return their names.
+
+    Raises
+    ------
+    DataError
+        A result is missing or broken.
+    """
+    names = figures_of(study, results)
+    for name in names:
+        draw_figure(FIGURES[name], name, study, results, FOLDER)
+    for name in set(FIGURES) - set(names):  # of an earlier diagnosis
+        for kind in ("svg", "png"):
+            results.diagnosis(f"{name}.{kind}").unlink(missing_ok=True)
+    return names
+
+
+def figures_of(study: Study, results: Results) -> list[str]:
+    """Return the names of the figures that a diagnosis has."""
+    found = diagnosis.read(study, results)
+    return [name for name, figure in FIGURES.items() if figure.applies(found)]
+
+
+def make_diagnosis_tables(study: Study, results: Results) -> dict[str, pd.DataFrame]:
+    """Write the tables of the diagnosis to ``diagnosis/tables``; return them, none without rows."""
+    folder = results.diagnosis("tables")
+    frames = diagnosis_tables(study, results)
+    for name, table in TABLES.items():
+        if name in frames:
+            write_table(folder, name, table, frames[name], study)
+        else:  # of an earlier diagnosis
+            for kind in ("csv", "md"):
+                (folder / f"{name}.{kind}").unlink(missing_ok=True)
+    return frames
+
+
+def diagnosis_tables(study: Study, results: Results) -> dict[str, pd.DataFrame]:
+    """Return the tables of the diagnosis that have rows."""
+    frames = {name: table.make(study, results) for name, table in TABLES.items()}
+    return {name: frame for name, frame in frames.items() if len(frame)}

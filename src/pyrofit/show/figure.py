@@ -1,0 +1,37 @@
+"""What a figure is, apart from the results in it."""
+
+from collections.abc import Callable
+from dataclasses import dataclass
+from typing import Any
+
+from matplotlib.figure import Figure as Canvas
+
+from pyrofit.config import Study
+from pyrofit.results.files import Results
+from pyrofit.show import style
+
+
+@dataclass(frozen=True)
+class Figure:
+    """A figure: when a study has it, how it is drawn, and what it shows."""
+
+    place: int
+    """Place in its section, in ascending order."""
+    applies: Callable[[Any], bool]
+    """Whether a study has it; in the diagnosis, whether its result has something to draw."""
+    make: Callable[[Study, Results], Canvas]
+    title: str
+    caption: str
+    paper: str = ""
+    """Figure of the paper that it reproduces, such as 'Figure 3'."""
+
+
+def draw_figure(
+    figure: Figure, name: str, study: Study, results: Results, folder: str = "figures"
+) -> None:
+    """Write a figure to ``<folder>/<name>.svg`` and ``.png``."""
+    with style.style():
+        canvas = figure.make(study, results)
+        if study.is_synthetic:
+            canvas.suptitle(f"{figure.title} (synthetic data)")
+        style.save(canvas, results, name, folder)

@@ -1,0 +1,52 @@
+"""Known values of parameters beside their estimates."""
+
+from typing import Any
+
+import pandas as pd
+
+from pyrofit.analysis.known_values import Known, has_known, known_values
+from pyrofit.config import Study
+from pyrofit.results.files import Results
+from pyrofit.show.names import STAGES
+from pyrofit.show.table import Table
+
+
+def table(study: Study, results: Results) -> pd.DataFrame:
+    """List known value, estimate and their distance of each parameter with a known value."""
+    return pd.DataFrame([_row(known) for known in known_values(study, results)])
+
+
+def _row(known: Known) -> dict[str, Any]:
+    estimate = known.estimate
+    return {
+        "fit": STAGES[estimate.stage],
+        "parameter": estimate.name,
+        "unit": estimate.unit,
+        "known": known.value,
+        "known_sd": known.sd,
+        "source": known.source or None,
+        "estimate": estimate.value,
+        "low": estimate.low,
+        "high": estimate.high,
+        "away_sd": known.away_sd,
+        "flag": "more than 2 sd away" if known.is_far else None,
+    }
+
+
+TABLE = Table(
+    place=15,
+    applies=has_known,
+    make=table,
+    title="Known values and estimates",
+    note="Known: mean and standard deviation (sd) given under `known`. They are data of the "
+    "analysis of the likelihood; optimisers of costs search within 3 sd of the known value. "
+    "Distance: estimate minus known value, over its sd.",
+    headings={
+        "known": "known value",
+        "known_sd": "its sd",
+        "low": "95 % low",
+        "high": "95 % high",
+        "away_sd": "distance [sd]",
+    },
+    group_by="fit",
+)

@@ -1,0 +1,41 @@
+"""Noise of the signals, and how the optimum fits them."""
+
+import pandas as pd
+
+from pyrofit.analysis.misfit import misfits
+from pyrofit.analysis.uses import title_of
+from pyrofit.config import Study
+from pyrofit.results.files import Results
+from pyrofit.show.names import STAGES, signal_words
+from pyrofit.show.table import Table
+
+
+def noise_of_signals(study: Study, results: Results) -> pd.DataFrame:
+    """List the noise of every signal in words, and how the optimum fits it."""
+    rows = [
+        {
+            "fit": STAGES[found.stage],
+            "experiment": title_of(study, found.experiment),
+            "signal": signal_words(study, found.experiment, found.signal),
+            "points": found.points,
+            "noise": found.words,
+            "chi2_per_point": found.per_point,
+        }
+        for found in misfits(study, results)
+    ]
+    return pd.DataFrame(rows)
+
+
+TABLE = Table(
+    place=50,
+    applies=lambda study: True,
+    make=noise_of_signals,
+    title="Noise of the signals, and how the optimum fits them",
+    note="Estimated from the measured series alone; sd is the standard deviation. Floors are "
+    "added to it in squares: 0.5 s of timing and the solver's error; for TGA without a stated "
+    "uncertainty it is what no model comes nearer than. p: probability that white noise looks "
+    "as correlated as the whitened scatter. Chi-square per point is near 1 where the model "
+    "fits within the noise.",
+    headings={"chi2_per_point": "chi-square per point"},
+    group_by="fit",
+)

@@ -1,0 +1,102 @@
+"""Profiles of the likelihood."""
+
+from typing import Any
+
+import numpy as np
+import pandas as pd
+from matplotlib.axes import Axes
+from matplotlib.figure import Figure as Canvas
+from matplotlib.ticker import MaxNLocator
+
+from pyrofit.config import Study
+from pyrofit.results.files import Results, read_csv
+from pyrofit.results.identification import WITHIN, estimates, noise
+from pyrofit.show import style
+from pyrofit.show.figure import Figure
+
+_PARABOLA: dict[str, Any] = {"color": "0.45", "linestyle": (0, (4, 2)), "linewidth": 1.0}
+
+
+_PROFILE: dict[str, Any] = {"color": style.COLOURS[0], "marker": "o", "markersize": 2.4}
+
+
+_LEVEL: dict[str, Any] = {"color": "black", "linewidth": 0.7}
+
+
+_NOISE_LEVEL: dict[str, Any] = {"color": "black", "linewidth": 0.9, "linestyle": (0, (1, 1.5))}
+
+
+_LIMIT: dict[str, Any] = {"color": style.COLOURS[1], "linewidth": 1.6}
+
+
+def profiles(study: Study, results: Results) -> Canvas:
+    """Draw the rise of chi-square against each parameter: parabola, profile, and 95 % levels."""
+    found = estimates(study, results)
+    inflation = float(noise(results)["inflation"])
+    curves = read_csv(results.identification("profiles.csv"))
+    canvas, axes = style.panels(len(found), 3, style.TWO_COLUMNS, 50.0)
+    style.letter(axes, list(found.index))
+    for i, (ax, name) in enumerate(zip(axes, found.index, strict=True)):
+        curve = curves[curves["parameter"] == name]
+        _draw_profile(ax, study, found.loc[name], curve, inflation)
+        if i % 3 == 0:
+            ax.set_ylabel("rise of χ² [–]")
+    style.legend_below(canvas, _entries(inflation))
+    return canvas
+
+
+def _draw_profile(
+    ax: Axes, study: Study, row: pd.Series, curve: pd.DataFrame, inflation: float
+) -> None:
+    parameter = study.parameters[str(row["parameter"])]
+    lower, upper = (bound / parameter.factor for bound in parameter.bounds_si)
+    factor = parameter.factor
+    top = (WITHIN * inflation) ** 2
+    low, high, at, sd = (float(row[c]) / factor for c in ("low", "high", "estimate", "sd"))
+    margin = 0.25 * (high - low)
+    x = np.linspace(max(lower, low - margin), min(upper, high + margin), 200)
+    if not row["bound"]:  # at a limit chi-square has a slope, and no parabola
+        ax.plot(x, ((x - at) / sd * inflation) ** 2, **_PARABOLA)
+    if len(curve):
+        # Between the points the root of the rise is a straight line, at a limit the rise itself.
+        power = 1.0 if row["bound"] else 2.0
+        points = curve["value"].to_numpy(float) / factor
+        root = np.maximum(curve["rise"].to_numpy(float), 0.0) ** (1.0 / power)
+        fine = np.linspace(points[0], points[-1], 300)
+        ax.plot(fine, np.interp(fine, points, root) ** power, color=_PROFILE["color"])
+        ax.plot(points, root**power, **{**_PROFILE, "linestyle": "none"})
+    ax.axhline(top, **_LEVEL)
+    if inflation > 1.0:
+        ax.axhline(WITHIN**2, **_NOISE_LEVEL)
+    ax.set_xlim(x[0], x[-1])
+    ax.set_ylim(0.0, 1.6 * top)
+    for bound in (lower, upper):
+        if x[0] <= bound <= x[-1]:
+            ax.axvline(bound, **_LIMIT, clip_on=False)
+    ax.xaxis.set_major_locator(MaxNLocator(4))
+    ax.set_xlabel(f"{row['parameter']} [{parameter.unit}]")
+
+
+def _entries(inflation: float) -> list[Any]:
+    size = f"3.84 × {inflation**2:.3g}" if inflation > 1.0 else "3.84"
+    entries = [
+        style.line("profile", **_PROFILE),
+        style.line("parabola", **_PARABOLA),
+        style.line(f"95 %: {size}", **_LEVEL),
+        style.line("limit", **_LIMIT),
+    ]
+    if inflation > 1.0:
+        entries.insert(3, style.line("noise alone: 3.84", **_NOISE_LEVEL))
+    return entries
+
+
+FIGURE = Figure(
+    place=20,
+    applies=lambda study: True,
+    make=profiles,
+    title="Profiles of the likelihood",
+    caption="Rise of χ² over its least value against each parameter. Where it follows its "
+    "parabola to the 95 % level, the linear interval is quoted; else the profile, all other "
+    "parameters fitted anew at each point. Where a profile meets a limit (vertical line) below "
+    "the level, the limit cuts the interval off.",
+)

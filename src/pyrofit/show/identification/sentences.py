@@ -1,0 +1,95 @@
+"""What the data determine, in sentences."""
+
+from collections.abc import Sequence
+from itertools import groupby
+
+from pyrofit.analysis.distances import distances
+from pyrofit.analysis.estimates import Estimated, by_grade, estimated
+from pyrofit.analysis.known_values import known_values
+from pyrofit.analysis.misfit import FITS, Misfit, misfits
+from pyrofit.analysis.uses import title_of
+from pyrofit.config import Study
+from pyrofit.results.files import Results
+from pyrofit.show.names import STAGES, named, signal_words
+from pyrofit.show.table import Frames
+from pyrofit.show.text import listed, signed, span
+
+
+def sentences(study: Study, results: Results, tables: Frames) -> list[str]:
+    """Return the sentences of the section: verdicts, correlation, misfit, optimisers."""
+    known = estimated(study, results)
+    stages = groupby(misfits(study, results), key=lambda found: found.stage)
+    fits = [_misfit(study, STAGES[stage], list(found)) for stage, found in stages]
+    said = [verdicts(known), *_known(study, results), _correlation(known)]
+    return [*said, " ".join(fits), _optimisers(study, results)]
+
+
+def _known(study: Study, results: Results) -> list[str]:
+    """Name the estimates that lie far from their known values."""
+    found = known_values(study, results)
+    if not found:
+        return []
+    far = [
+        f"{k.estimate.name} of the {STAGES[k.estimate.stage]} ({k.estimate.value:.4g} "
+        f"{k.estimate.unit}, known {k.value:.4g} ± {k.sd:.2g}, {abs(k.away_sd):.2g} sd)"
+        for k in found
+        if k.is_far
+    ]
+    if not far:
+        return ["All estimates are within 2 standard deviations of their known values."]
+    return [
+        f"More than 2 standard deviations from the known value: {listed(far)}. Check the known "
+        "value; else the estimate makes up for something that the model lacks."
+    ]
+
+
+def verdicts(known: Sequence[Estimated]) -> str:
+    """Say which parameters the data determine, which weakly, which not."""
+    parts = []
+    for stage, members in groupby(known, key=lambda e: e.stage):
+        grades = by_grade(list(members)).items()
+        said = ", ".join(f"{grade} {listed([named(e) for e in found])}" for grade, found in grades)
+        parts.append(f"of the {STAGES[stage]} {said}")
+    return f"By the data (width of the 95 % interval, % of the limits): {'; '.join(parts)}."
+
+
+def _correlation(known: Sequence[Estimated]) -> str:
+    sizes = {e: e.correlation for e in known if e.correlation is not None}
+    if not sizes:
+        return "There is one parameter, hence no correlation."
+    first = max(sizes, key=lambda e: abs(round(sizes[e], 2)))
+    return (
+        f"The strongest correlation is that of {first.name} and {first.partner}, "
+        f"{signed(sizes[first])}."
+    )
+
+
+def _misfit(study: Study, fit: str, found: Sequence[Misfit]) -> str:
+    fits = max(one.per_point for one in found) <= FITS
+    said = listed(
+        [
+            f"{one.per_point:#.2g} ({title_of(study, one.experiment)}, "
+            f"{signal_words(study, one.experiment, one.signal)})"
+            for one in found
+            if fits or one.per_point > FITS
+        ]
+    )
+    if fits:
+        return f"The optimum of the {fit} fits within the noise: chi-square per point is {said}."
+    text = f"The optimum of the {fit} does not fit within the noise: chi-square per point is {said}"
+    if sum(one.chi2 for one in found) > sum(one.points for one in found):
+        text += "; the intervals are widened by the root of chi-square per degree of freedom"
+    return f"{text}. The misfit exceeds the noise: the intervals may not contain the true values."
+
+
+def _optimisers(study: Study, results: Results) -> str:
+    found = distances(study, results)
+    parts = []
+    for label in dict.fromkeys(one.set for one in found):
+        here = [one for one in found if one.set == label]
+        chi2 = span([one.chi2_per_freedom for one in here])
+        parts.append(f"{label} {span([one.distance_sd for one in here])} sd (chi-square {chi2})")
+    return (
+        "Distance of the cost functions' sets from this optimum in their farthest parameter, and "
+        f"chi-square per degree of freedom: {'; '.join(parts)}."
+    )

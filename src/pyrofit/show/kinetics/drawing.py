@@ -1,0 +1,108 @@
+"""Mass against temperature, shared by the figures of the kinetics."""
+
+from collections.abc import Sequence
+
+import numpy as np
+import pandas as pd
+from matplotlib.axes import Axes
+from matplotlib.lines import Line2D
+from matplotlib.patches import Patch
+from scipy.signal import savgol_filter
+
+from pyrofit.config import Study
+from pyrofit.quantities import known_quantities
+from pyrofit.results import recorded
+from pyrofit.results.files import Results
+from pyrofit.show import style
+from pyrofit.show.names import data_name
+from pyrofit.solver.arrays import FloatArray
+
+WINDOW_K = 10.0
+"""Width of the window over which a slope is taken [K]."""
+
+
+FITTED = "fitted"
+
+
+# In an order that keeps the first three far apart in grey, though measured lines are lighter.
+_RATES = ("#000000", "#BB3344", "#56B4E9", "#009E73", "#CC8800", "#CC79A7")
+
+
+_NOTICEABLE = 0.01
+
+
+_UNCERTAINTY = known_quantities()["mass_fraction"].uncertainty_column
+
+
+def slope(temperature_K: FloatArray, mass_fraction: FloatArray) -> tuple[FloatArray, FloatArray]:
+    """Return -d(m/m0)/dT [1/K], the slope of a parabola fitted to each 10 K of a curve.
+
+    Savitzky and Golay (1964, doi 10.1021/ac60214a047) on an even grid of temperature. Divided by
+    the heating rate like this, curves of all heating rates are of similar height.
+
+    >>> T, rate = slope(np.arange(300.0, 340.0, 2.0), 1.0 - 0.01 * np.arange(0.0, 40.0, 2.0))
+    >>> bool(np.allclose(rate, 0.01))
+    True
+    """
+    rising, first = np.unique(temperature_K, return_index=True)
+    grid = np.linspace(rising[0], rising[-1], rising.size)
+    step = float(grid[1] - grid[0])
+    window = min(max(5, 2 * int(0.5 * WINDOW_K / step) + 1), (rising.size - 1) // 2 * 2 + 1)
+    even = np.interp(grid, rising, mass_fraction[first])
+    return grid, -savgol_filter(even, window, min(2, window - 1), deriv=1, delta=step)
+
+
+def rate_colour(i: int) -> str:
+    """Return the colour of the i-th heating rate."""
+    return _RATES[i % len(_RATES)]
+
+
+def dash_of(k: int) -> object:
+    """Return the line style of the k-th set."""
+    return ((0, (4, 1.5)), (0, (1, 1.2)), *style.DASHES[2:])[k % 6]
+
+
+def labels_of(study: Study) -> list[str]:
+    """Return the labels of the sets: ours and those of the literature."""
+    assert study.kinetics is not None
+    return [FITTED, *study.kinetics.sets]
+
+
+def sets_of(study: Study, curves: pd.DataFrame, name: str) -> list[tuple[str, pd.DataFrame]]:
+    """Return label and curve of every set at an experiment."""
+    here = curves[curves["experiment"] == name]
+    return [(label, here[here["set"] == label]) for label in labels_of(study)]
+
+
+def rate_of(study: Study, name: str) -> str:
+    """Return the heating rate of an experiment in words."""
+    return f"{study.experiments[name].heating_rate_K_min:g} K/min"  # type: ignore[union-attr]
+
+
+def busy_span(curves: pd.DataFrame) -> tuple[float, float]:
+    """Return the temperatures [degrees C] between which the simulated masses change."""
+    mass = curves["mass_fraction"]
+    start = mass.groupby([curves["experiment"], curves["set"]]).transform("first")
+    end = mass.groupby([curves["experiment"], curves["set"]]).transform("last")
+    busy = (mass < start - _NOTICEABLE) & (mass > end + _NOTICEABLE)
+    temperature = style.celsius(curves["temperature_K"])
+    where = temperature[busy] if busy.any() else temperature
+    low = max(float(temperature.min()), float(where.min()) - 30.0)
+    return low, min(float(temperature.max()), float(where.max()) + 30.0)
+
+
+def draw_band(ax: Axes, measured: pd.DataFrame) -> None:
+    """Shade measured mass ± uncertainty, where one is known."""
+    if _UNCERTAINTY in measured:
+        mass, width = (measured[c].to_numpy(float) for c in ("mass_fraction", _UNCERTAINTY))
+        temperature = style.celsius(measured["temperature_K"])
+        low, high = mass - width, mass + width
+        ax.fill_between(temperature, low, high, color=style.BAND, linewidth=0.0)
+
+
+def data_entries(study: Study, results: Results, names: Sequence[str]) -> list[Line2D | Patch]:
+    """Return the legend entries of the data, their band only where an uncertainty is known."""
+    label = data_name(study, [(name, "mass_fraction") for name in names])
+    line = style.line(label, color="0.6", linewidth=2.0)
+    known = any(_UNCERTAINTY in recorded.series(study, results, n, "mass_fraction") for n in names)
+    return [line, style.patch("uncertainty", color=style.BAND)] if known else [line]

@@ -1,0 +1,77 @@
+"""Fig. 2: the kinetics beside TGA."""
+
+import pandas as pd
+from matplotlib.axes import Axes
+from matplotlib.figure import Figure as Canvas
+
+from pyrofit.analysis.uses import all_rates, rates_in_fit
+from pyrofit.config import Study
+from pyrofit.results import kinetics, recorded
+from pyrofit.results.files import Results
+from pyrofit.show import style
+from pyrofit.show.figure import Figure
+from pyrofit.show.kinetics.drawing import (
+    busy_span,
+    dash_of,
+    data_entries,
+    draw_band,
+    labels_of,
+    rate_colour,
+    rate_of,
+    sets_of,
+    slope,
+)
+
+
+def fig2(study: Study, results: Results) -> Canvas:
+    """Fig. 2: mass and mass loss rate of the TGA runs that were fitted, measured and simulated."""
+    curves = kinetics.curves(study, results, all_rates(study))
+    names = rates_in_fit(study)
+    canvas, (left, right) = style.panels(2, 2, style.TWO_COLUMNS, 82.0)
+    for i, name in enumerate(names):
+        measured = recorded.series(study, results, name, "mass_fraction")
+        draw_band(left, measured)
+        _draw(left, right, measured, rate_colour(i), "-")
+        for k, (_, curve) in enumerate(sets_of(study, curves, name)):
+            _draw(left, right, curve, rate_colour(i), dash_of(k))
+    left.set_ylabel("normalised mass $m/m_0$ [–]")
+    right.set_ylabel("mass loss rate / heating rate\n$-\\mathrm{d}(m/m_0)/\\mathrm{d}T$ [1/K]")
+    style.letter((left, right), ("mass", "mass loss rate"))
+    for ax in (left, right):
+        ax.set_xlim(*busy_span(curves[curves["experiment"].isin(names)]))
+        ax.set_xlabel("temperature [°C]")
+    rates = [
+        style.patch(rate_of(study, name), color=rate_colour(i)) for i, name in enumerate(names)
+    ]
+    lines = [
+        style.line(label, color="black", linestyle=dash_of(k))
+        for k, label in enumerate(labels_of(study))
+    ]
+    style.legend_below(canvas, [*rates, *data_entries(study, results, names), *lines])
+    return canvas
+
+
+def _draw(left: Axes, right: Axes, curve: pd.DataFrame, colour: str, dash: object) -> None:
+    temperature = curve["temperature_K"].to_numpy(float)
+    mass = curve["mass_fraction"].to_numpy(float)
+    # Measured lines are light, so that dashes on top of them are seen.
+    look = {"color": colour, "linestyle": dash}
+    look |= {"alpha": 0.45, "linewidth": 1.8} if dash == "-" else {"linewidth": 1.1}
+    left.plot(style.celsius(temperature), mass, **look)  # type: ignore[arg-type]
+    grid, rate = slope(temperature, mass)
+    right.plot(style.celsius(grid), rate, **look)  # type: ignore[arg-type]
+
+
+FIGURE = Figure(
+    place=10,
+    applies=lambda study: bool(rates_in_fit(study)),
+    make=fig2,
+    title="Kinetics at the fitted heating rates",
+    paper="Figure 2",
+    caption="Normalised mass (left) and mass loss rate (right) against temperature at the "
+    "heating rates used in the fit, the slowest to the left: data (wide, light), fitted "
+    "(dashed), sets of the literature, if any (dotted). The rate is divided by the heating "
+    "rate, so that all are of similar height; it is the slope of a parabola fitted to each "
+    "10 K of the mass, of data and simulations alike. Good kinetics shift with the heating "
+    "rate as the data do.",
+)

@@ -1,0 +1,66 @@
+"""The kinetics at all heating rates."""
+
+from matplotlib.figure import Figure as Canvas
+
+from pyrofit.analysis.uses import all_rates, rates_in_fit
+from pyrofit.config import Study
+from pyrofit.results import kinetics, recorded
+from pyrofit.results.files import Results
+from pyrofit.show import style
+from pyrofit.show.figure import Figure
+from pyrofit.show.kinetics.drawing import (
+    busy_span,
+    dash_of,
+    data_entries,
+    draw_band,
+    labels_of,
+    rate_of,
+    sets_of,
+)
+
+
+def kinetics_all_rates(study: Study, results: Results) -> Canvas:
+    """Draw mass against temperature at every heating rate, one panel each."""
+    curves = kinetics.curves(study, results, all_rates(study))
+    names = all_rates(study)
+    used = set(rates_in_fit(study))
+    height = 52.0 if len(names) > 3 else 70.0
+    canvas, axes = style.panels(len(names), 4, style.TWO_COLUMNS, height, sharex=True, sharey=True)
+    for ax, name in zip(axes, names, strict=True):
+        measured = recorded.series(study, results, name, "mass_fraction")
+        draw_band(ax, measured)
+        ax.plot(
+            style.celsius(measured["temperature_K"]),
+            measured["mass_fraction"],
+            color="0.6",
+            linewidth=2.0,
+        )
+        for k, (_, curve) in enumerate(sets_of(study, curves, name)):
+            temperature = style.celsius(curve["temperature_K"])
+            ax.plot(
+                temperature, curve["mass_fraction"], color=style.colour(k), linestyle=dash_of(k)
+            )
+        ax.set_xlim(*busy_span(curves))
+    style.letter(axes, [rate_of(study, n) + (", in fit" if n in used else "") for n in names])
+    for i, ax in enumerate(axes):
+        if i % 4 == 0:
+            ax.set_ylabel("normalised mass $m/m_0$ [–]")
+        if i + 4 >= len(axes):  # the last of its column
+            ax.tick_params(labelbottom=True)
+            ax.set_xlabel("temperature [°C]")
+    lines = [
+        style.line(label, color=style.colour(k), linestyle=dash_of(k))
+        for k, label in enumerate(labels_of(study))
+    ]
+    style.legend_below(canvas, [*data_entries(study, results, names), *lines])
+    return canvas
+
+
+FIGURE = Figure(
+    place=30,
+    applies=lambda study: study.kinetics is not None,
+    make=kinetics_all_rates,
+    title="Kinetics at all heating rates",
+    caption="Mass against temperature at the fitted and compared heating rates. Panels without "
+    "'in fit' are predictions: a set that only fits where it was fitted fails there.",
+)

@@ -1,0 +1,28 @@
+"""How well the kinetics reproduce the mass, in sentences."""
+
+from pyrofit.analysis.uses import all_rates, rates_in_fit
+from pyrofit.config import Study
+from pyrofit.results.files import Results
+from pyrofit.show.table import Frames
+from pyrofit.show.text import span
+
+
+def sentences(study: Study, results: Results, tables: Frames) -> list[str]:
+    """Say how well the kinetics reproduce the mass."""
+    assert study.kinetics is not None
+    rows = tables["table3"][tables["table3"]["quantity"] == "RMSE of mass fraction"]
+    used = rows[rows["used_in_fit"] == "yes"]
+    other = rows[rows["used_in_fit"] == "no"]
+    fitted, every = len(rates_in_fit(study)), len(all_rates(study))
+    text = (
+        f"The kinetics, fitted to {fitted} of {every} heating rates, miss the mass fraction there "
+        f"by {span(used['fitted'])} (RMSE)"
+    )
+    if len(other):
+        text += f", and by {span(other['fitted'])} at the others"
+    said = [f"{text}."]
+    said += [
+        f"The published set '{label}' misses it by {span(rows[label])} at all rates."
+        for label in study.kinetics.sets
+    ]
+    return said

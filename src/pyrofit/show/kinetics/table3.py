@@ -1,0 +1,75 @@
+"""Table 3: the kinetics, ours beside the published ones."""
+
+from typing import Any
+
+import pandas as pd
+
+from pyrofit.analysis.uses import all_rates, rates_in_fit
+from pyrofit.config import Study
+from pyrofit.results import kinetics
+from pyrofit.results.files import Results
+from pyrofit.show.table import Table
+
+_ROWS = (
+    ("A", "1/s", "A_1_s", 1.0),
+    ("E", "kJ/mol", "E_J_mol", 1e-3),
+    # PAPER: Table 3 prints E in kJ/kmol, which is the same number as J/mol.
+    ("E", "kJ/kmol", "E_J_mol", 1.0),
+    ("order n", "-", "order", 1.0),
+    ("mass fraction", "-", "mass_fraction", 1.0),
+)
+
+
+def table3(study: Study, results: Results) -> pd.DataFrame:
+    """Table 3: A, E, n and mass fraction of each reaction, cost of the fit, RMSE at every rate.
+
+    Returns
+    -------
+    pandas.DataFrame
+        One row per quantity; columns ``quantity``, ``of`` (reaction or experiment), ``unit``,
+        ``used_in_fit`` (for the heating rates), ``fitted`` and one per published set.
+    """
+    fit = kinetics.sets(study, results)
+    sets: dict[str, Any] = fit["sets"]
+    rows: list[dict[str, Any]] = [
+        {
+            "quantity": quantity,
+            "of": f"reaction {reaction}",
+            "unit": unit,
+            **{label: chosen[reaction][key] * factor for label, chosen in sets.items()},
+        }
+        for reaction in sets["fitted"]
+        for quantity, unit, key, factor in _ROWS
+    ]
+    rows.append({"quantity": "cost", "of": "fit", "unit": "-", "fitted": fit["cost"]})
+    rows += _scores(study, results, list(sets))
+    return pd.DataFrame(rows, columns=["quantity", "of", "unit", "used_in_fit", *sets])
+
+
+def _scores(study: Study, results: Results, sets: list[str]) -> list[dict[str, Any]]:
+    scores = kinetics.scores(study, results, all_rates(study))
+    scores = scores.set_index(["experiment", "set"])
+    used = set(rates_in_fit(study))
+    return [
+        {
+            "quantity": "RMSE of mass fraction",
+            "of": f"{study.experiments[name].heating_rate_K_min:g} K/min",  # type: ignore[union-attr]
+            "unit": "-",
+            "used_in_fit": "yes" if name in used else "no",
+            **{label: scores.loc[(name, label), "rmse_mass_fraction"] for label in sets},
+        }
+        for name in all_rates(study)
+    ]
+
+
+TABLE = Table(
+    place=20,
+    applies=lambda study: study.kinetics is not None,
+    make=table3,
+    title="Kinetic parameters, and how well they reproduce the mass",
+    paper="Table 3",
+    note="E in kJ/kmol is the same number as in J/mol. The cost is the fitness of our fit; it "
+    "is not computed for published sets. The RMSE of the mass fraction is over all "
+    "measured points of a heating rate; 'used in fit' is about our fit.",
+    headings={"used_in_fit": "used in fit"},
+)

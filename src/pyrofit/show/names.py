@@ -1,0 +1,48 @@
+"""Names and titles as they are shown."""
+
+from collections.abc import Iterable, Mapping, Sequence
+from typing import Any
+
+from pyrofit.analysis.estimates import Estimated
+from pyrofit.config import Study
+from pyrofit.show.text import listed, span
+
+
+def titled(study: Study, title: str, place: str) -> str:
+    """Return a title; where a study has published values, with the place of their like."""
+    return f"{title} ({place} of Lauer et al., 2020)" if place and study.published else title
+
+
+def data_name(study: Study, series: Iterable[tuple[str, str]]) -> str:
+    """Return what (experiment, signal) pairs hold: 'measured', or 'synthetic data'."""
+    computed = {study.is_computed(*pair) for pair in series}
+    if computed == {True, False}:
+        return "measured or synthetic data"
+    return "synthetic data" if True in computed else "measured"
+
+
+STAGES = {"kinetics": "kinetics", "imp": "inverse modelling"}
+"""The stages in words."""
+
+
+def flag(estimate: Estimated) -> str:
+    """Return the flag of a parameter that the data do not determine, empty for one they do."""
+    words: list[str] = [] if estimate.grade in ("determined", "at a bound") else [estimate.grade]
+    words += [f"pushed to its {estimate.bound} bound"] if estimate.bound else []
+    return "; ".join(f"{word} by the data" for word in words)
+
+
+def named(estimate: Estimated) -> str:
+    """Return a parameter with the width of its interval and the bound that it is at."""
+    bound = f", {estimate.bound} bound" if estimate.bound else ""
+    return f"{estimate.name} ({span([100.0 * estimate.width])} %{bound})"
+
+
+def signal_words(study: Study, experiment: str, signal: str) -> str:
+    """Return a signal in words."""
+    return study.experiments[experiment].words(signal)
+
+
+def costs_of(rows: Sequence[Mapping[Any, Any]]) -> str:
+    """List the cost functions of some rows."""
+    return listed([str(row["cost_function"]) for row in rows])

@@ -1,0 +1,27 @@
+"""Mass loss rate of the optimisers."""
+
+from matplotlib.figure import Figure as Canvas
+
+from pyrofit.analysis.uses import CMAES, LEAST_SQUARES, SCEUA, predicted
+from pyrofit.config import Study
+from pyrofit.results.files import Results
+from pyrofit.show.curves import compare_curves
+from pyrofit.show.figure import Figure
+
+
+def optimisers(study: Study, results: Results) -> Canvas:
+    """Draw the best sets of all optimisers at all predicted experiments."""
+    names = predicted(study, "mlr")
+    return compare_curves(study, results, names, (SCEUA, LEAST_SQUARES, CMAES))
+
+
+FIGURE = Figure(
+    place=30,
+    applies=lambda study: bool(predicted(study, "mlr")),
+    make=optimisers,
+    title="Mass loss rate of the optimisers",
+    caption="The best sets of least squares (dots) and CMA-ES (squares) beside those of "
+    "SCE-UA. Where a lower cost at the fitted experiment comes with a worse prediction "
+    "elsewhere, the fitted data do not determine the parameters, or these make up for "
+    "something that the model lacks.",
+)

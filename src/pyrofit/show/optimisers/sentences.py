@@ -1,0 +1,77 @@
+"""Optimisers compared, in sentences."""
+
+from pyrofit.analysis.optimisers import LOCAL_OPTIMUM, NOT_A_MINIMUM, WORDS
+from pyrofit.analysis.uses import CMAES, FITTED, LEAST_SQUARES, PUBLISHED, SCEUA
+from pyrofit.config import Study
+from pyrofit.results.files import Results
+from pyrofit.show.names import costs_of
+from pyrofit.show.table import Frames
+from pyrofit.show.text import number
+
+
+def ahead(tables: Frames) -> str:
+    """Say for which cost functions another optimiser gets lower than SCE-UA, and how surely."""
+    rows = tables["costs"].to_dict("records")
+    stuck = [r for r in rows if r["remark"] == LOCAL_OPTIMUM]
+    short = [r for r in rows if r["remark"] == NOT_A_MINIMUM]
+    if not stuck and not short:
+        return "Least squares and CMA-ES from random starts found no cost lower by more than 1 %."
+    parts = []
+    for r in stuck + short:
+        name = r["lowest_by"]
+        by = next(key for key, word in WORDS.items() if word == name)
+        bound = f" ({r[f'{by}_at_bound']} at a limit)" if r[f"{by}_at_bound"] else ""
+        agree = f"{r[f'{by}_starts_at_best']} of {r[f'{by}_starts']} starts of {name} agree"
+        parts.append(f"{r['cost_function']} by {100 * (1 - r['ratio']):.0f} %, {agree}{bound}")
+    text = f"On the same costs other optimisers go lower: {'; '.join(parts)}"
+    if stuck:
+        text += f". SCE-UA stopped at a local optimum for {costs_of(stuck)}"
+    if short:
+        text += f". SCE-UA had not converged for {costs_of(short)}: least squares goes on there"
+    return text + "."
+
+
+_BENCHMARKS = {SCEUA: "imp_{}_??", LEAST_SQUARES: "least_squares_{}", CMAES: "cmaes_{}"}
+
+
+def sentences(study: Study, results: Results, tables: Frames) -> list[str]:
+    """Return the sentences on the optimisers: who is ahead, and times."""
+    said = [ahead(tables), _beaten(tables), _times(study, results)]
+    return [text for text in said if text]
+
+
+def _beaten(tables: Frames) -> str:
+    """Say where a set fitted with another cost function is the best under a cost function."""
+    table = tables["every_cost"]
+    fitted = table[table["place"] == FITTED]
+    parts = []
+    for cost in dict.fromkeys(fitted["fitted_with"]):
+        own = fitted[(fitted["fitted_with"] == cost) & (fitted["found_by"] != PUBLISHED)][
+            cost
+        ].min()
+        lowest = fitted.loc[fitted[cost].idxmin()]
+        if lowest[cost] < 0.99 * own:
+            parts.append(
+                f"under {cost} the set fitted with {lowest['fitted_with']} by "
+                f"{lowest['found_by']} has {number(float(lowest[cost]))}, those fitted with {cost} "
+                f"{number(float(own))} at best"
+            )
+    if not parts:
+        return "Under no cost function is a set lower by 1 % than those that were fitted with it."
+    return f"A search may miss what another one finds: {'; '.join(parts)}."
+
+
+def _times(study: Study, results: Results) -> str:
+    """Say the wall times, where the workflow has measured them all."""
+    parts = []
+    for by, pattern in _BENCHMARKS.items():
+        files = [
+            path
+            for cost in study.imp.costs
+            for path in sorted((results.root / "benchmarks").glob(f"{pattern.format(cost)}.tsv"))
+        ]
+        if not files:
+            return ""
+        seconds = sum(float(path.read_text().splitlines()[-1].split("\t")[0]) for path in files)
+        parts.append(f"{by} {seconds:.0f} s in {len(files)} job{'s' if len(files) > 1 else ''}")
+    return f"Wall times of this run, all cost functions: {', '.join(parts)}."

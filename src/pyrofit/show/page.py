@@ -1,0 +1,98 @@
+"""A page that needs nothing else: measurements, sections, provenance."""
+
+from collections.abc import Sequence
+from hashlib import sha256
+from pathlib import Path
+from typing import Any
+
+from jinja2 import Environment, PackageLoader, StrictUndefined, select_autoescape
+
+from pyrofit.config import Study, digest
+from pyrofit.data.fetch import COMMIT
+from pyrofit.plugins import plugin_files
+from pyrofit.provenance import environment
+from pyrofit.results import recorded
+from pyrofit.results.files import Results
+from pyrofit.show import measured as measurements
+from pyrofit.show.parts import Part, Shown
+
+
+def page_of(
+    study: Study,
+    results: Results,
+    title: str,
+    summary: Sequence[str],
+    sections: Sequence[Shown],
+    answer: Part | None = None,
+    lacks: str = "",
+) -> str:
+    """Return a page as HTML: sentences of the summary, the data, sections, provenance.
+
+    Parameters
+    ----------
+    study, results
+        The study, and where its measurements lie.
+    title
+        Heading of the page.
+    summary
+        Sentences that come first.
+    sections
+        What follows the measurements.
+    answer
+        Table that ends the summary, if any.
+    lacks
+        What the model lacks, in a sentence, if that is known and not the summary itself.
+
+    Raises
+    ------
+    DataError
+        The measurements have not been read.
+    """
+    measured = recorded.summary(study, results)
+    template = _templates().get_template("report.html.j2")
+    return template.render(
+        study=study,
+        title=title,
+        summary=summary,
+        series=measurements.series(study, results, measured),
+        notes=measurements.notes(study, measured),
+        answer=answer,
+        lacks=lacks,
+        costs=list(study.imp.costs),
+        closure=measurements.closure(study, measured),
+        sources=len({a["source"] for s in measured["signals"].values() for a in s.values()}),
+        sections=sections,
+        origin=provenance(study, measured),
+        description=study.model_dump_json(indent=1, exclude_defaults=True),
+    )
+
+
+def _templates() -> Environment:
+    return Environment(
+        loader=PackageLoader("pyrofit.show", "."),
+        autoescape=select_autoescape(("html", "html.j2")),
+        undefined=StrictUndefined,
+        trim_blocks=True,
+        lstrip_blocks=True,
+    )
+
+
+def provenance(study: Study, measured: dict[str, Any]) -> dict[str, Any]:
+    """Return what the results rest on; the same for the same study, data and environment."""
+    return {
+        "study": study.name,
+        "config_digest": digest(study.model_dump(mode="json")),
+        "seed": study.seed,
+        "synthetic_data": study.is_synthetic,
+        "macfp_commit": COMMIT if study.needs_macfp else "",
+        **environment(),
+        "plugins": {
+            name: sha256(path.read_bytes()).hexdigest()
+            for name, path in plugin_files([Path(folder) for folder in study.plugins]).items()
+        },
+        "data": {
+            f"{name}/{signal}": {"source": about["source"], "sha256": about["sha256"]}
+            for name, signals in measured["signals"].items()
+            for signal, about in signals.items()
+        },
+    }

@@ -1,0 +1,75 @@
+"""The report of a study: one page that needs nothing else, and the provenance beside it."""
+
+from pyrofit.config import Study
+from pyrofit.results import recorded
+from pyrofit.results.files import Results, write_json, write_text
+from pyrofit.show import diagnosis_page
+from pyrofit.show.answer.advice import advice
+from pyrofit.show.answer.summary import summary
+from pyrofit.show.diagnosis.sentences import headline
+from pyrofit.show.names import titled
+from pyrofit.show.page import page_of, provenance
+from pyrofit.show.parts import Part, Picture, Shown, picture, table_part
+from pyrofit.show.robustness.figure import CAPTION, TITLE
+from pyrofit.show.robustness.sentences import sentences as of_robustness
+from pyrofit.show.robustness.table import TABLE as ROBUSTNESS
+from pyrofit.show.section import Section
+from pyrofit.show.sections import SECTIONS, TABLES
+from pyrofit.show.table import Frames, read_table
+
+
+def write_report(study: Study, results: Results) -> None:
+    """Write ``report.html``, from the written tables and drawn figures, and ``provenance.json``.
+
+    Raises
+    ------
+    DataError
+        A result is missing.
+    """
+    origin = provenance(study, recorded.summary(study, results))
+    tables = tables_of(study, results)
+    said = summary(study, results, tables)
+    answer = table_part(study, TABLES["answer"], tables["answer"], advice(study, results, tables))
+    shown = [made for part in SECTIONS if (made := _shown(part, study, results, tables))]
+    # The diagnosis is a step of its own, which a study may go without.
+    lacks = ""
+    if diagnosis_page.exists(results):
+        lacks = headline(study, results)
+        shown.append(diagnosis_page.section(study, results))
+    text = page_of(study, results, study.title or study.name, said, shown, answer, lacks)
+    write_json(results.root / "provenance.json", origin)
+    write_text(results.root / "report.html", text)
+
+
+def tables_of(study: Study, results: Results) -> Frames:
+    """Return all tables that the study has, by name, as they were written."""
+    return {n: read_table(results, n) for n, table in TABLES.items() if table.applies(study)}
+
+
+def _shown(section: Section, study: Study, results: Results, tables: Frames) -> Shown | None:
+    """Return a section with what the study has of it, none where it has nothing."""
+    parts: list[Part | Picture] = []
+    for name in section.items:
+        if name in tables:
+            parts.append(table_part(study, section.tables[name], tables[name]))
+        elif name in section.figures and section.figures[name].applies(study):
+            figure, path = section.figures[name], results.root / "figures" / f"{name}.svg"
+            title = titled(study, figure.title, figure.paper)
+            parts.append(picture(path, name, title, figure.caption))
+    if not parts:
+        return None
+    said = section.sentences(study, results, tables)
+    # Robustness is a step of its own, which a study may go without.
+    if section.anchor == "costs" and results.robustness("table.csv").is_file():
+        parts += _robustness(study, results)
+    return Shown(section.anchor, section.heading, section.text, tuple(parts), tuple(said))
+
+
+def _robustness(study: Study, results: Results) -> list[Part | Picture]:
+    """Return table and figure of the twins, with their sentences."""
+    frame = read_table(results, "table", "robustness")
+    text = " ".join(of_robustness(study, results))
+    return [
+        table_part(study, ROBUSTNESS, frame, text),
+        picture(results.robustness("robustness.svg"), "robustness", TITLE, CAPTION),
+    ]

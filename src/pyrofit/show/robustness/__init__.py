@@ -1,0 +1,1 @@
+"""Cost functions on twins of known truth, a step of its own."""

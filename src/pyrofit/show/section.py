@@ -1,0 +1,56 @@
+"""A subject of the report: its tables and figures, found in its folder, and its sentences."""
+
+from collections.abc import Callable, Mapping, Sequence
+from dataclasses import dataclass
+
+from pyrofit.config import Study
+from pyrofit.discovery import contents
+from pyrofit.results.files import Results
+from pyrofit.show.figure import Figure
+from pyrofit.show.table import Frames, Table
+
+Sentences = Callable[[Study, Results, Frames], list[str]]
+
+
+@dataclass(frozen=True)
+class Section:
+    """A subject: where it stands on the page, what it is about, its tables and figures.
+
+    Parameters
+    ----------
+    package
+        Full name of its package.
+    anchor, heading, text
+        Identifier on the page, heading, and what the section is about in a sentence.
+    tables, figures
+        By name; see `section_of`.
+    sentences
+        What to say beside them.
+    """
+
+    package: str
+    anchor: str
+    heading: str
+    text: str
+    tables: Mapping[str, Table]
+    figures: Mapping[str, Figure]
+    sentences: Sentences
+
+    @property
+    def items(self) -> list[str]:
+        """Names of tables and figures in the order of the page."""
+        places = {name: table.place for name, table in self.tables.items()}
+        places |= {name: figure.place for name, figure in self.figures.items()}
+        return sorted(places, key=lambda name: places[name])
+
+
+def section_of(
+    package: str, folders: Sequence[str], anchor: str, heading: str, text: str, sentences: Sentences
+) -> Section:
+    """Return a section with all that the files of its folder define.
+
+    A file ``name.py`` may define ``TABLE`` or ``FIGURE``; ``name`` is that of its results.
+    """
+    tables = contents(package, folders, "TABLE")
+    figures = contents(package, folders, "FIGURE")
+    return Section(package, anchor, heading, text, tables, figures, sentences)

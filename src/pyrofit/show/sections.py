@@ -1,0 +1,76 @@
+"""All tables and figures of a study, in the sections of the report.
+
+A file in the folder of a subject that defines ``TABLE`` or ``FIGURE`` is made by the workflow and
+stands in the report; nothing else needs to know it.
+"""
+
+from pyrofit.config import Study
+from pyrofit.errors import StudyError, suggest
+from pyrofit.results.files import Results
+from pyrofit.show.answer import ANSWER
+from pyrofit.show.costs import COSTS
+from pyrofit.show.figure import Figure, draw_figure
+from pyrofit.show.fit import FIT
+from pyrofit.show.identification import IDENTIFICATION
+from pyrofit.show.kinetics import KINETICS
+from pyrofit.show.optimisers import OPTIMISERS
+from pyrofit.show.section import Section
+from pyrofit.show.table import Table, write_table
+from pyrofit.show.truth import TRUTH
+from pyrofit.show.validation import VALIDATION
+
+SECTIONS: tuple[Section, ...] = (
+    KINETICS,
+    FIT,
+    IDENTIFICATION,
+    TRUTH,
+    VALIDATION,
+    OPTIMISERS,
+    COSTS,
+)
+"""The sections of the report, in its order."""
+TABLES: dict[str, Table] = {
+    name: table for part in (ANSWER, *SECTIONS) for name, table in part.tables.items()
+}
+FIGURES: dict[str, Figure] = {
+    name: figure for part in SECTIONS for name, figure in part.figures.items()
+}
+
+
+def module_of(name: str) -> str:
+    """Return the module that a table or figure is made by."""
+    (part,) = (part for part in (ANSWER, *SECTIONS) if name in part.items)
+    return f"{part.package}.{name}"
+
+
+def make_table(name: str, study: Study, results: Results) -> None:
+    """Write one table to ``tables/<name>.csv`` and ``.md``.
+
+    Raises
+    ------
+    StudyError
+        There is no such table, or the study does not have it.
+    """
+    if name not in TABLES:
+        raise StudyError(f"unknown table '{name}'. {suggest(name, TABLES)}")
+    table = TABLES[name]
+    if not table.applies(study):
+        raise StudyError(f"study '{study.name}' has no {name}: it lacks what the table shows")
+    frame = table.make(study, results)
+    write_table(results.root / "tables", name, table, frame, study)
+
+
+def make_figure(name: str, study: Study, results: Results) -> None:
+    """Write one figure to ``figures/<name>.svg`` and ``.png``.
+
+    Raises
+    ------
+    StudyError
+        There is no such figure, or the study does not have it.
+    """
+    if name not in FIGURES:
+        raise StudyError(f"unknown figure '{name}'. {suggest(name, FIGURES)}")
+    figure = FIGURES[name]
+    if not figure.applies(study):
+        raise StudyError(f"study '{study.name}' has no {name}: it lacks what the figure shows")
+    draw_figure(figure, name, study, results)

@@ -1,0 +1,176 @@
+"""How figures look: one style, colours and line styles that differ in grey, widths."""
+
+import io
+from collections.abc import Sequence
+from typing import Any
+
+import matplotlib as mpl
+import numpy as np
+from matplotlib.axes import Axes
+from matplotlib.backends.backend_agg import FigureCanvasAgg
+from matplotlib.figure import Figure as Canvas
+from matplotlib.lines import Line2D
+from matplotlib.patches import Patch
+
+from pyrofit.config import Study
+from pyrofit.results.files import Results, write_bytes
+
+MM = 1.0 / 25.4
+
+
+ONE_COLUMN = 85.0
+
+
+TWO_COLUMNS = 170.0
+
+
+DPI = 200
+"""Resolution of the PNG files [1/inch]."""
+
+
+MEASURED = "black"
+
+
+BAND = "0.82"
+
+
+PUBLISHED = "0.5"
+
+
+# Blue, red and ochre as in Tol's scheme of high contrast, darkened: apart in grey and for
+# colour-blind readers, darker than the band. Then colours of Okabe and Ito, apart by dashes.
+COLOURS = ("#004488", "#BB3344", "#CC8800", "#009E73", "#CC79A7", "#56B4E9")
+
+
+DASHES: tuple[Any, ...] = (
+    "-",
+    (0, (5, 1.5)),
+    (0, (5, 1.5, 1, 1.5)),
+    (0, (1, 1)),
+    (0, (9, 2)),
+    (0, (3, 1, 1, 1, 1, 1)),
+)
+
+
+STYLE: dict[str, Any] = {
+    # DejaVu Sans comes with Matplotlib: the same figure on every machine.
+    "font.family": "DejaVu Sans",
+    "font.size": 8,
+    "mathtext.default": "regular",
+    "axes.titlesize": 8,
+    "axes.labelsize": 8,
+    "figure.titlesize": 9,
+    "xtick.labelsize": 7.5,
+    "ytick.labelsize": 7.5,
+    "legend.fontsize": 7.5,
+    "legend.frameon": False,
+    "legend.handlelength": 2.8,
+    "legend.borderaxespad": 0.2,
+    "lines.linewidth": 1.2,
+    "lines.dash_capstyle": "butt",
+    "hatch.linewidth": 0.4,
+    "axes.linewidth": 0.5,
+    "axes.axisbelow": True,
+    "axes.xmargin": 0.0,
+    "xtick.major.width": 0.5,
+    "ytick.major.width": 0.5,
+    "xtick.minor.width": 0.4,
+    "ytick.minor.width": 0.4,
+    "xtick.major.size": 2.5,
+    "ytick.major.size": 2.5,
+    "xtick.minor.size": 1.5,
+    "ytick.minor.size": 1.5,
+    "xtick.direction": "in",
+    "ytick.direction": "in",
+    "xtick.top": True,
+    "ytick.right": True,
+    "figure.constrained_layout.use": True,
+    "figure.constrained_layout.h_pad": 0.03,
+    "figure.constrained_layout.w_pad": 0.03,
+    "savefig.dpi": DPI,
+    "svg.fonttype": "path",
+    "svg.hashsalt": "pyrofit",
+}
+
+
+def colour(i: int) -> str:
+    """Return the colour of the i-th curve."""
+    return COLOURS[i % len(COLOURS)]
+
+
+def dashes(i: int) -> Any:
+    """Return the line style of the i-th curve."""
+    return DASHES[i % len(DASHES)]
+
+
+def cost_styles(study: Study) -> dict[str, dict[str, Any]]:
+    """Return colour and line style of each cost function."""
+    return {
+        cost: {"color": colour(i), "linestyle": dashes(i)} for i, cost in enumerate(study.imp.costs)
+    }
+
+
+def panels(
+    count: int, columns: int, width: float, height: float, **options: Any
+) -> tuple[Canvas, list[Axes]]:
+    """Return a canvas with ``count`` panels in rows; sizes in mm, the height is a row's."""
+    columns = min(columns, count)
+    rows = -(-count // columns)
+    canvas = Canvas(figsize=(width * MM, rows * height * MM))
+    FigureCanvasAgg(canvas)
+    grid = canvas.subplots(rows, columns, squeeze=False, **options)
+    axes: list[Axes] = list(grid.flat)
+    for unused in axes[count:]:
+        unused.set_axis_off()
+    return canvas, axes[:count]
+
+
+def letter(axes: Sequence[Axes], titles: Sequence[str]) -> None:
+    """Title the panels; with a letter in front where there are several."""
+    for i, (ax, title) in enumerate(zip(axes, titles, strict=True)):
+        ax.set_title(f"{chr(97 + i)}) {title}" if len(axes) > 1 else title, loc="left")
+
+
+def line(label: str, **style: Any) -> Line2D:
+    """Return a legend entry for a line."""
+    return Line2D([], [], label=label, **style)
+
+
+def patch(label: str, **style: Any) -> Patch:
+    """Return a legend entry for an area."""
+    return Patch(label=label, linewidth=0.0, **style)
+
+
+def legend_below(canvas: Canvas, entries: Sequence[Line2D | Patch]) -> None:
+    """Put one legend under all panels, where it covers no data; entries run down its columns."""
+    longest = max(len(str(entry.get_label())) for entry in entries)
+    width = canvas.get_figwidth() / MM
+    # An entry takes 14 mm, and 1.4 mm for each letter.
+    columns = max(1, min(len(entries), int(width / (14.0 + 1.4 * longest))))
+    rows = -(-len(entries) // columns)
+    even = -(-len(entries) // rows)
+    canvas.legend(handles=list(entries), loc="outside lower center", ncols=even)
+
+
+def zero_line(ax: Axes) -> None:
+    """Mark zero."""
+    ax.axhline(0.0, color="0.3", linewidth=0.5, zorder=1.5)
+
+
+def save(canvas: Canvas, results: Results, name: str, folder: str = "figures") -> None:
+    """Write ``<folder>/<name>.svg`` and ``.png``; equal results give equal SVG bytes."""
+    for kind, metadata in (("svg", {"Date": None, "Creator": None}), ("png", {"Software": None})):
+        buffer = io.BytesIO()
+        canvas.savefig(buffer, format=kind, metadata=metadata)
+        write_bytes(results.root / folder / f"{name}.{kind}", buffer.getvalue())
+
+
+def style() -> Any:
+    """Return a context in which the style holds, and Matplotlib's own settings else."""
+    settings: dict[Any, Any] = {**mpl.rcParamsDefault, **STYLE, "backend": "agg"}
+    return mpl.rc_context(settings)
+
+
+def celsius(kelvin: Any) -> Any:
+    """Convert K to degrees Celsius, for an axis."""
+    return np.asarray(kelvin, dtype=float) - 273.15
