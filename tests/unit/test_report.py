@@ -322,5 +322,6 @@ def test_provenance_names_what_the_results_rest_on(tmp_path: Path) -> None:
 
 def test_missing_figure_is_named(tmp_path: Path) -> None:
     study, results = fake(tmp_path)
+    write_tables(study, results)
     with pytest.raises(DataError, match=r"fig2\.svg: cannot be read"):
         write_report(study, results)

@@ -69,7 +69,7 @@ def page_of(
 
 def _templates() -> Environment:
     return Environment(
-        loader=PackageLoader("pyrofit.show", "."),
+        loader=PackageLoader("pyrofit.show.page", "."),
         autoescape=select_autoescape(("html", "html.j2")),
         undefined=StrictUndefined,
         trim_blocks=True,
