@@ -15,10 +15,9 @@ from pyrofit.config import digest
 from pyrofit.estimate.identify import identify
 from pyrofit.estimate.likelihood import Likelihood
 from pyrofit.estimate.prior import NO_PRIOR, NormalPrior, prior_of
-from pyrofit.report.content import tables_of
-from pyrofit.report.determined import sentences
 from pyrofit.results import dependencies
-from pyrofit.tables import known_values
+from pyrofit.show.identification.known_values import table as known_values
+from pyrofit.show.identification.sentences import sentences
 
 SPAN = np.array([2.0, 4.0])
 START = [np.array([0.4, 0.6])]
@@ -164,13 +163,11 @@ def test_estimate_far_from_its_known_value_is_flagged_in_table_and_report(tmp_pa
     assert (row["known"], row["known_sd"], row["source"]) == (0.2, 0.5, "hot disk")
     assert row["away_sd"] == pytest.approx((row["estimate"] - 0.2) / 0.5)
     assert row["flag"] is None
-    said = sentences(tables_of(study, results))
+    said = sentences(study, results, {})
     assert "All estimates are within 2 standard deviations of their known values." in said
     far = {"value": float(row["estimate"]) + 0.025, "sd": 0.01}
     study, results = fake(tmp_path, described(known={"k": far}))
     row = known_values(study, results).iloc[0]
     assert row["away_sd"] == pytest.approx(-2.5)
     assert row["flag"] == "more than 2 sd away"
-    assert any(
-        "k of the inverse modelling" in text for text in sentences(tables_of(study, results))
-    )
+    assert any("k of the inverse modelling" in text for text in sentences(study, results, {}))

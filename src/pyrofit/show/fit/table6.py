@@ -48,7 +48,6 @@ def _limits(study: Study, stage: str, name: str) -> dict[str, Any]:
     }
 
 
-
 def _known(study: Study, name: str) -> str:
     """Say within what a parameter with a known value is searched; nothing for others."""
     if name not in study.known:
