@@ -20,6 +20,7 @@ from pyrofit.errors import DataError
 from pyrofit.model.signal import Signal
 from pyrofit.plugins import folder_names, plugin_files
 from pyrofit.provenance import STUDY, source_fingerprint
+from pyrofit.results.dependencies import code
 from pyrofit.results.files import Results, read_json, write_bytes
 from pyrofit.show.sections import FIGURES, TABLES
 from pyrofit.stages.reading import MACFP
@@ -89,6 +90,7 @@ def _check_origin(study: Study, results: Results, origin: Mapping[str, Any]) -> 
     for key, now, what in (
         ("config_digest", digest(study.model_dump(mode="json")), "the study has"),
         ("source_fingerprint", source_fingerprint(*STUDY), "pyrofit or its packages have"),
+        ("code", code(study), "an effect, a quantity or a cost has"),
     ):
         if origin.get(key) != now:
             raise DataError(

@@ -1,5 +1,6 @@
 """The study with what was found: it is read again and simulates what was fitted."""
 
+from dataclasses import replace
 from pathlib import Path
 from typing import Any
 
@@ -8,14 +9,24 @@ import pytest
 from conftest import HIDDEN, SEED, Diagnosed
 from small import CHANNELS, LIMITS, given, measured, study, truth_of
 
-from pyrofit.config import Study, TermSpec, as_study, as_yaml, candidate_effects, read_study
+from pyrofit.config import (
+    Study,
+    TermSpec,
+    as_study,
+    as_yaml,
+    candidate_effects,
+    read_mapping,
+    read_study,
+)
 from pyrofit.diagnose.descent import Fit
 from pyrofit.diagnose.extend import extended_keys
 from pyrofit.diagnose.model import extended, model_of
 from pyrofit.diagnose.refit import Trial
 from pyrofit.effects import known_effects
 from pyrofit.estimate.problem import make_problem
+from pyrofit.results.files import Results
 from pyrofit.solver.arrays import FloatArray
+from pyrofit.stages.diagnose import diagnose
 
 
 def reread(described: Study, trial: Trial, folder: Path, **signals: Any) -> Study:
@@ -116,6 +127,22 @@ def test_files_of_signals_are_replaced(diagnosed: Diagnosed, tmp_path: Path) -> 
     assert file.name == "slab_25_mlr.csv"
     assert "measurements" in file.parts
     assert Path(described.experiments["slab_60"].signals["mlr"].file).name == "slab_60_mlr.csv"
+
+
+def test_extended_study_finds_its_plugins(
+    diagnosed: Diagnosed, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    found = diagnosed("k_T")
+    monkeypatch.chdir(tmp_path)
+    monkeypatch.setattr(
+        "pyrofit.stages.diagnose.examine", lambda *_: replace(found, content=dict(found.content))
+    )
+    monkeypatch.setattr("pyrofit.stages.diagnose.load", lambda *_: {})
+    results = Results(Path("results/small"))
+    diagnose(study().model_copy(update={"plugins": ("mine/own",)}), results, lambda *_: None)
+    path = results.diagnosis("extended.yaml")
+    (folder,) = read_mapping(path)["plugins"]
+    assert (path.parent / folder).resolve() == tmp_path / "mine" / "own"
 
 
 def test_truth_goes_when_nothing_is_computed_any_more(diagnosed: Diagnosed, tmp_path: Path) -> None:

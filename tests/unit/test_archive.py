@@ -14,6 +14,7 @@ from pyrofit.data.fetch import COMMIT
 from pyrofit.errors import DataError
 from pyrofit.plugins import use_plugins
 from pyrofit.provenance import STUDY, source_fingerprint
+from pyrofit.results.dependencies import code
 from pyrofit.results.files import Results
 
 ROOT = Path(__file__).parents[2]
@@ -38,6 +39,7 @@ def results_of(study: Study, root: Path) -> Results:
     origin = {
         "config_digest": digest(study.model_dump(mode="json")),
         "source_fingerprint": source_fingerprint(*STUDY),
+        "code": code(study),
         "macfp_commit": COMMIT,
         "data": {"capa_25/mlr": {"source": "macfp:a.csv", "sha256": "abc"}},
     }
@@ -160,6 +162,16 @@ def test_results_of_another_source_are_refused(pmma: tuple[Study, Results]) -> N
     path = results.root / "provenance.json"
     path.write_text(path.read_text().replace(source_fingerprint(*STUDY), "0" * 16))
     with pytest.raises(DataError, match="pyrofit or its packages have changed since"):
+        write_archive(study, results, [PMMA], ROOT)
+
+
+def test_results_of_another_effect_are_refused(tmp_path: Path) -> None:
+    keys = read_mapping(ROOT / "config" / "smoke.yaml") | {"effects": {"k_T": {"slope_1_K": 1e-4}}}
+    study = as_study(keys, "smoke.yaml")
+    results = results_of(study, tmp_path)
+    path = results.root / "provenance.json"
+    path.write_text(path.read_text().replace(code(study)["effects"]["k_T"], "0" * 16))
+    with pytest.raises(DataError, match="an effect, a quantity or a cost has changed since"):
         write_archive(study, results, [PMMA], ROOT)
 
 

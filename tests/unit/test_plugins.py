@@ -15,6 +15,7 @@ from pyrofit.config import Study, as_study, candidate_effects, digest, read_mapp
 from pyrofit.cost import KINDS, Target, known_costs, make_term
 from pyrofit.effects import known_effects
 from pyrofit.errors import StudyError
+from pyrofit.parallel import parallel_map
 from pyrofit.plugins import use_plugins
 from pyrofit.quantities import known_quantities
 from pyrofit.results import dependencies
@@ -95,6 +96,12 @@ def test_own_effect_is_put_into_the_model_and_is_a_candidate(folder: Path) -> No
     (slab, *_) = (e for e in study.experiments.values() if e.kind == "gasification")
     assert slab.front.h_cube_root_W_m2K43 == 1.31
     assert "natural_convection" not in candidate_effects(study)
+
+
+def test_processes_of_a_diagnosis_know_own_names(folder: Path) -> None:
+    read(folder, given())
+    known = parallel_map(lambda i: "natural_convection" in known_effects(), 2, processes=2)
+    assert known == [True, True]
 
 
 def test_own_cost_is_checked_and_computed_like_any_other(folder: Path) -> None:

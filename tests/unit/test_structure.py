@@ -127,6 +127,11 @@ def test_no_effect_is_known_by_name_outside_its_file() -> None:
             assert not (literal and node.value in effects), f"{path}: '{node.value}'"
 
 
+def test_config_knows_no_solver() -> None:
+    for path in (SOURCE / "config").glob("*.py"):
+        assert not own(path) & {"solver", "simulate", "estimate"}, path.name
+
+
 def test_costs_know_nothing_of_models() -> None:
     for path in (SOURCE / "cost").glob("*.py"):
         assert not own(path) & NOT_FOR_COST, path.name

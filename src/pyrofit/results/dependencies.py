@@ -70,6 +70,16 @@ def _all_terms(study: Study) -> list[TermSpec]:
     return [term for terms in study.imp.costs.values() for term in terms]
 
 
+def code(study: Study) -> Digests:
+    """Return what `pyrofit.provenance` does not count: effects, quantities and own costs.
+
+    Candidates of the diagnosis are left out: the other results do not depend on them.
+    """
+    stage = study.kinetics.cost if study.kinetics else ()
+    truth = study.synthetic.effects if study.synthetic else ()
+    return _code(study, [*_all_terms(study), *stage], truth)
+
+
 def data(study: Study) -> dict[str, Any]:
     """Signals as they are read; with synthetic ones, all that makes them."""
     of_the_model = {"delay_s", "offset", "timing_s"}
@@ -237,7 +247,7 @@ def compare(study: Study) -> dict[str, Any]:
 
 def presentation(study: Study) -> dict[str, Any]:
     """Whatever tables, figures and the report show: the whole study."""
-    return {**study.model_dump(), "code": _code(study, _all_terms(study))}
+    return {**study.model_dump(), "code": code(study)}
 
 
 def collect(study: Study) -> dict[str, Any]:

@@ -12,6 +12,7 @@ from pyrofit.data.fetch import COMMIT
 from pyrofit.plugins import plugin_files
 from pyrofit.provenance import environment
 from pyrofit.results import recorded
+from pyrofit.results.dependencies import code
 from pyrofit.results.files import Results
 from pyrofit.show import measured as measurements
 from pyrofit.show.parts import Part, Shown
@@ -86,6 +87,7 @@ def provenance(study: Study, measured: dict[str, Any]) -> dict[str, Any]:
         "synthetic_data": study.is_synthetic,
         "macfp_commit": COMMIT if study.needs_macfp else "",
         **environment(),
+        "code": code(study),
         "plugins": {
             name: sha256(path.read_bytes()).hexdigest()
             for name, path in plugin_files([Path(folder) for folder in study.plugins]).items()
