@@ -1,6 +1,6 @@
 """A slab under radiant heat: sample, sides, foil, edge."""
 
-from typing import Annotated, Literal, Self
+from typing import Annotated, ClassVar, Literal, Self
 
 from pydantic import Field, model_validator
 
@@ -176,6 +176,8 @@ class Sample(Part):
 class SlabExperiment(Experiment):
     """A slab under radiant heat."""
 
+    APPARATUS: ClassVar[str] = "slab"
+    """Its name in words."""
     sample: Sample = Field(description="the specimen")
     front: Front = Field(description="irradiated side")
     back: Back = Field(default_factory=Back, description="other side; default: insulated")

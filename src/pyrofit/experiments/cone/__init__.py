@@ -1,12 +1,12 @@
 """Cone calorimeter and fire propagation apparatus: a slab under radiant heat that burns."""
 
-from typing import Literal
+from typing import ClassVar, Literal
 
 from pydantic import Field
 
 from pyrofit.experiments.base import Kind
+from pyrofit.experiments.cone.designs import designs
 from pyrofit.experiments.slab.course import course
-from pyrofit.experiments.slab.designs import designs
 from pyrofit.experiments.slab.simulate import reference, request, simulate, synthetic
 from pyrofit.model.slab import Flame, SlabExperiment
 
@@ -14,6 +14,7 @@ from pyrofit.model.slab import Flame, SlabExperiment
 class Cone(SlabExperiment):
     """Heat release and mass loss of a slab under radiant heat in air."""
 
+    APPARATUS: ClassVar[str] = "cone calorimeter"
     kind: Literal["cone"] = Field(description="a slab that burns under radiant heat")
     flame: Flame | None = Field(
         None, description="the flame; none = all gas burns at once and heats nothing"
@@ -26,7 +27,7 @@ class Cone(SlabExperiment):
 
 KIND = Kind(
     description=Cone,
-    words="cone calorimeter",
+    words=Cone.APPARATUS,
     stage="imp",
     simulate=simulate,
     reference=reference,

@@ -1,6 +1,6 @@
 """Gasification: mass loss of a slab under radiant heat in an inert atmosphere."""
 
-from typing import Literal
+from typing import ClassVar, Literal
 
 from pydantic import Field
 
@@ -14,12 +14,13 @@ from pyrofit.model.slab import SlabExperiment
 class Gasification(SlabExperiment):
     """Mass loss of a slab under radiant heat in an inert atmosphere."""
 
+    APPARATUS: ClassVar[str] = "gasification"
     kind: Literal["gasification"] = Field(description="a slab under radiant heat")
 
 
 KIND = Kind(
     description=Gasification,
-    words="gasification",
+    words=Gasification.APPARATUS,
     stage="imp",
     simulate=simulate,
     reference=reference,

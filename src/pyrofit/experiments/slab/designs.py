@@ -45,7 +45,7 @@ def designs(
 
 def _words(name: str, slab: SlabExperiment) -> str:
     flux = slab.front.flux_W_m2
-    return f"gasification at {flux / 1e3:g} kW/m²" if isinstance(flux, float) else f"'{name}'"
+    return f"{slab.APPARATUS} at {flux / 1e3:g} kW/m²" if isinstance(flux, float) else f"'{name}'"
 
 
 def _choices(design: str, words: str) -> tuple[tuple[str, str, tuple[str, ...]], ...]:
@@ -67,7 +67,8 @@ def _other_fluxes(
             continue
         taken.append(q)
         like = min(measured, key=lambda name: abs(measured[name] - q))
-        choices = _choices(f"flux_{q / 1e3:g}_kW_m2", f"gasification at {q / 1e3:g} kW/m²")
+        words = f"{slabs[like].APPARATUS} at {q / 1e3:g} kW/m²"
+        choices = _choices(f"flux_{q / 1e3:g}_kW_m2", words)
         yield Idea(like, _at_flux(q), choices)
 
 
