@@ -11,7 +11,7 @@ from pyrofit.model.base import value_of
 from pyrofit.model.heated import HeatedExperiment
 from pyrofit.model.material import Material
 from pyrofit.model.slab import SlabExperiment
-from pyrofit.solver.arrays import FloatArray, Numerics, Status, Values
+from pyrofit.solver.arrays import FLUX, FloatArray, Numerics, Status, Values
 from pyrofit.solver.curves import Curves, Request, Runs
 from pyrofit.solver.lower import fractions, is_separate, lower_material, lower_network
 from pyrofit.solver.lower_experiment import lower_exposure, lower_layers, lower_share
@@ -149,7 +149,9 @@ def simulate_gasifications(
     case = _lower(experiment, material, values, accuracy, probes_m, sets)
 
     def run(factor: FloatArray, asked: Mapping[str, Request]) -> Runs:
-        exposed = case.exposure._replace(flux=factor * case.exposure.flux)
+        schedule = case.exposure.schedule.copy()
+        schedule[FLUX] *= factor
+        exposed = case.exposure._replace(schedule=schedule)
         return march(case._replace(exposure=exposed), asked, _numerics(accuracy), threads)
 
     return observe(experiment, values, requests, run, sets).curves()

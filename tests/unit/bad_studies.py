@@ -538,25 +538,23 @@ PHYSICS = rows_of(
         ),
         (
             "flux table decreasing",
-            put(
-                experiments__slab_25__front__flux_W_m2={"time_s": [0, 9, 3], "flux_W_m2": [1, 1, 1]}
-            ),
+            put(experiments__slab_25__front__flux_W_m2={"time_s": [0, 9, 3], "value": [1, 1, 1]}),
             ("front.flux_W_m2: time_s must not decrease",),
         ),
         (
             "flux table that starts late",
-            put(experiments__slab_25__front__flux_W_m2={"time_s": [5, 9], "flux_W_m2": [1, 1]}),
+            put(experiments__slab_25__front__flux_W_m2={"time_s": [5, 9], "value": [1, 1]}),
             ("front.flux_W_m2: time_s must start at 0",),
         ),
         (
             "flux table of two lengths",
-            put(experiments__slab_25__front__flux_W_m2={"time_s": [0, 9], "flux_W_m2": [1]}),
-            ("front.flux_W_m2: time_s and flux_W_m2 need the same length",),
+            put(experiments__slab_25__front__flux_W_m2={"time_s": [0, 9], "value": [1]}),
+            ("front.flux_W_m2: time_s and value need the same length",),
         ),
         (
             "negative flux in a table",
-            put(experiments__slab_25__front__flux_W_m2={"time_s": [0, 9], "flux_W_m2": [1, -1]}),
-            ("front.flux_W_m2.flux_W_m2.1: -1 must not be negative",),
+            put(experiments__slab_25__front__flux_W_m2={"time_s": [0, 9], "value": [1, -1]}),
+            ("front.flux_W_m2.value.1: -1 must not be negative",),
         ),
         (
             "property table decreasing",

@@ -22,7 +22,7 @@ from pyrofit.estimate.likelihood import Likelihood
 from pyrofit.estimate.noise import NoiseModel
 from pyrofit.estimate.problem import Problem, make_problem
 from pyrofit.experiments import Gasification
-from pyrofit.model.slab import FluxTable
+from pyrofit.model.time_table import TimeTable
 from pyrofit.quantities import known_quantities
 
 Change = Callable[[Problem], Problem]
@@ -99,9 +99,9 @@ def substance(key: str, **numbers: float) -> Change:
     return lambda problem: replace(problem, material=put(problem.material, numbers))
 
 
-def fading(flux: float) -> FluxTable:
+def fading(flux: float) -> TimeTable:
     """A tenth less flux within 300 s."""
-    return FluxTable(time_s=(0.0, 300.0), flux_W_m2=(flux, 0.9 * flux))
+    return TimeTable(time_s=(0.0, 300.0), value=(flux, 0.9 * flux))
 
 
 STEP = substance("conductivity_W_mK", step=-0.06, step_temperature_K=450.0, step_width_K=4.0)
@@ -208,7 +208,7 @@ def test_zero_coefficients_are_the_base_and_each_other_value_is_not(number: int)
 
 
 def test_described_flux_with_a_step_and_a_parameter_is_multiplied() -> None:
-    steps = FluxTable(time_s=(0.0, 100.0, 100.0), flux_W_m2=("q", 2e4, 3e4))
+    steps = TimeTable(time_s=(0.0, 100.0, 100.0), value=("q", 2e4, 3e4))
     fitted = twin(nothing, MLR)
     problem = fronts(flux_W_m2=steps)(fitted.model.likelihood.problem)
     problem = replace(problem, fixed={**problem.fixed, "q": 1e4})
@@ -216,7 +216,7 @@ def test_described_flux_with_a_step_and_a_parameter_is_multiplied() -> None:
     derived: Any = correction.problem
     found = derived.derive({**problem.fixed, **dict.fromkeys(correction.sd, 0.1)})
     table = derived.runs["capa_60"].experiment.front.flux_W_m2
-    time, flux = np.array(table.time_s), np.array([found[name] for name in table.flux_W_m2])
+    time, flux = np.array(table.time_s), np.array([found[name] for name in table.value])
     assert time[time == 100.0].size == 2
     before = time.searchsorted(100.0, side="left") + 1
     assert flux[:before] == pytest.approx(1.1 * (1e4 + 100.0 * time[:before]))

@@ -7,7 +7,7 @@ import pytest
 from pyrofit.experiments import Gasification
 from pyrofit.model.material import Linear, Material, PowerLaw, Reaction, Table
 from pyrofit.solver import lower, lower_experiment
-from pyrofit.solver.arrays import TABLE_TEMPERATURES_K
+from pyrofit.solver.arrays import BACK_GAS, FLUX, FRONT_H, TABLE_TEMPERATURES_K, TIME
 
 VIRGIN: dict[str, Any] = {
     "density_kg_m3": 1000.0,
@@ -190,9 +190,10 @@ def test_exposure_by_hand() -> None:
         back={"h_cube_root_W_m2K43": 1.31, "emissivity": 0.9, "wall_temperature_K": 280.0},
     )
     exposure = exposed(given, material())
-    assert [n.tolist() for n in exposure.front] == [[12.0], [0.0], [330.0], [0.0], [0.0], [293.15]]
-    assert [n.tolist() for n in exposure.back] == [[0.0], [1.31], [293.15], [0.0], [0.0], [280.0]]
-    assert (exposure.flux_time.tolist(), exposure.flux.tolist()) == ([[0.0]], [[3e4]])
+    assert [n.tolist() for n in exposure.front] == [[0.0], [0.0], [0.0]]
+    assert [n.tolist() for n in exposure.back] == [[1.31], [0.0], [0.0]]
+    given_over_time = [0.0, 3e4, 12.0, 330.0, 293.15, 0.0, 293.15, 280.0, 0.0, 1.0]
+    assert exposure.schedule.tolist() == [[[x]] for x in given_over_time]
     assert exposure.back_emissivity == 0.9
     assert exposure.foil_capacity == pytest.approx(679.44)
     assert exposure.foil_opaque
@@ -206,10 +207,28 @@ def test_sample_without_foil_has_no_foil_capacity() -> None:
 
 
 def test_flux_table_keeps_its_points() -> None:
-    table = {"time_s": [0.0, 30.0, 30.0], "flux_W_m2": [0.0, 0.0, "q"]}
+    table = {"time_s": [0.0, 30.0, 30.0], "value": [0.0, 0.0, "q"]}
     exposure = exposed(experiment(front={"flux_W_m2": table}), material())
-    assert exposure.flux_time.tolist() == [[0.0], [30.0], [30.0]]
-    assert exposure.flux.tolist() == [[0.0], [0.0], [3e4]]
+    assert exposure.schedule[TIME].tolist() == [[0.0], [30.0], [30.0]]
+    assert exposure.schedule[FLUX].tolist() == [[0.0], [0.0], [3e4]]
+
+
+def test_tables_of_different_times_meet_at_all_of_them() -> None:
+    # h falls from 12 to 6 within 40 s, the flux steps at 20 s, where h is 9.
+    front = {
+        "flux_W_m2": {"time_s": [0.0, 20.0, 20.0], "value": [0.0, 1e4, "q"]},
+        "h_W_m2K": {"time_s": [0.0, 40.0], "value": ["h", 6.0]},
+        "h_change_W_m2K": -7.0,
+    }
+    back = {"gas_temperature_K": {"time_s": [0.0, 10.0], "value": [300.0, 310.0]}}
+    exposure = exposed(experiment(front=front, back=back), material())
+    rows = {row: exposure.schedule[row, :, 0].tolist() for row in (TIME, FLUX, FRONT_H, BACK_GAS)}
+    assert rows == {
+        TIME: [0.0, 10.0, 20.0, 20.0, 40.0],
+        FLUX: [0.0, 5e3, 1e4, 3e4, 3e4],
+        FRONT_H: [5.0, 3.5, 2.0, 2.0, 0.0],
+        BACK_GAS: [300.0, 310.0, 310.0, 310.0, 310.0],
+    }
 
 
 @pytest.mark.parametrize(
@@ -237,7 +256,7 @@ def test_whole_numbers_are_taken_as_floats(sets: int) -> None:
     arrays = lower.lower_material(matter, values, sets)
     share = lower_experiment.lower_share(given, matter, values, sets)
     exposure = lower_experiment.lower_exposure(given, share, arrays, values, sets)
-    for found, exact in ((exposure.front.h, 12.0), (exposure.flux[0], 3e4)):
+    for found, exact in ((exposure.schedule[FRONT_H, 0], 12.0), (exposure.schedule[FLUX, 0], 3e4)):
         assert found.dtype == np.float64
         assert found.tolist() == [exact] * sets
 
@@ -246,7 +265,8 @@ def test_exposure_of_numbers_is_lowered_once() -> None:
     given = experiment(front={"flux_W_m2": 3e4, "h_W_m2K": 12.0})
     first, second = exposed(given, material()), exposed(given, material())
     assert first.front is second.front
-    assert exposed(experiment(front={"flux_W_m2": "q"}), material()).flux.tolist() == [[3e4]]
+    named = exposed(experiment(front={"flux_W_m2": "q"}), material())
+    assert named.schedule[FLUX].tolist() == [[3e4]]
 
 
 def test_mixing_depth_follows_the_front_layer() -> None:
@@ -361,7 +381,7 @@ REACTIONS = {
 def everything(values: Any, sets: int) -> list[Any]:
     """Return all that is lowered of a case in which every number differs from set to set."""
     matter = material(REACTIONS, {"A": "rest", "char": "share"}, VARIED)
-    front = {"flux_W_m2": {"time_s": [0.0, 9.0], "flux_W_m2": ["q", 0.0]}, "drift_1_s": "x"}
+    front = {"flux_W_m2": {"time_s": [0.0, 9.0], "value": ["q", 0.0]}, "drift_1_s": "x"}
     layers = [{"thickness_m": "size"}, {"thickness_m": 1e-3, "composition": {"char": 1.0}}]
     sample = {"layers": layers, "absorption_length_m": "length", "initial_temperature_K": "T0"}
     given = experiment(
@@ -396,7 +416,7 @@ def flat(parts: Any) -> list[Any]:
 def test_sets_lowered_at_once_have_the_bits_of_each_alone(s: int) -> None:
     at_once = flat(everything(PER_SET, 3))
     alone = flat(everything({name: float(value[s]) for name, value in PER_SET.items()}, 1))
-    assert len(at_once) == len(alone) >= 40
+    assert len(at_once) == len(alone) >= 36
     for many, one in zip(at_once, alone, strict=True):
         assert many.shape == (*one.shape[:-1], 3)
         assert np.array_equal(many[..., s], one[..., 0])

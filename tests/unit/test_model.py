@@ -16,7 +16,7 @@ from pyrofit.model.material import (
     check_composition,
 )
 from pyrofit.model.parameters import Parameter
-from pyrofit.model.slab import FluxTable
+from pyrofit.model.time_table import TimeTable
 
 SOLID: dict[str, Any] = {
     "density_kg_m3": 1000.0,
@@ -282,18 +282,19 @@ def test_absorption_is_given_for_every_component_or_for_none() -> None:
         ((), (), "at least 1"),
         ((0.0, 1.0), (1.0,), "same length"),
         ((1.0, 2.0), (1.0, 2.0), "start at 0"),
-        ((0.0, 2.0, 1.0), (1.0, 2.0, 3.0), "must not decrease"),
+        ((0.0, 2.0, 1.0), (1.0, 2.0, 3.0), "must not decrease; sort"),
+        ((0.0, 2.0, 2.0, 2.0), (1.0, 2.0, 3.0, 4.0), "more than twice"),
     ],
 )
 def test_flux_table_runs_forward_from_zero(
     time: tuple[float, ...], flux: tuple[float, ...], message: str
 ) -> None:
     with pytest.raises(ValidationError, match=message):
-        FluxTable(time_s=time, flux_W_m2=flux)
+        TimeTable(time_s=time, value=flux)
 
 
 def test_flux_may_step() -> None:
-    assert FluxTable(time_s=(0.0, 5.0, 5.0), flux_W_m2=(0.0, 0.0, 1e4)).time_s[1:] == (5.0, 5.0)
+    assert TimeTable(time_s=(0.0, 5.0, 5.0), value=(0.0, 0.0, 1e4)).time_s[1:] == (5.0, 5.0)
 
 
 def test_sample_without_layers_is_refused() -> None:

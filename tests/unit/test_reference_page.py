@@ -44,9 +44,10 @@ def test_page_tells_units_limits_and_usual_values() -> None:
     page = reference_page()
     row = "| `heating_rate_K_min` | nominal heating rate | K/min | number; above 0 | *required* |"
     assert row in page
-    assert (
-        "`wall_temperature_K` | temperature of the radiating surroundings | K | number or" in page
+    row = (
+        "`wall_temperature_K` | temperature of the radiating surroundings, may follow a table over "
     )
+    assert f"{row}time | K | number or" in page
     assert "| `repetitions` | repetitions per cost |  | whole number; at least 1 | 25 |" in page
     for name in Study.model_fields:
         assert f"| `{name}` |" in page

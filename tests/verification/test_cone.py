@@ -132,7 +132,7 @@ def test_flame_without_heat_and_gas_that_burns_change_nothing_else_bit_for_bit()
         assert np.array_equal(inert.signals[name], with_heat.signals[name])
 
 
-TABLE = {"time_s": [0.0, 50.0, 50.0, 300.0], "flux_W_m2": [1e4, 2e4, 3e4, 4e4]}
+TABLE = {"time_s": [0.0, 50.0, 50.0, 300.0], "value": [1e4, 2e4, 3e4, 4e4]}
 
 
 def test_set_has_the_same_curves_alone_and_beside_others_that_ignite_at_other_times() -> None:

@@ -331,7 +331,7 @@ def with_term(name: str, mlr: float = 2e-5, K: float = 0.015) -> Case:
     return Case(term.material, term.experiment, mlr, K, x=term.away)
 
 
-RAMP = {"time_s": [0.0, 60.0, 200.0, 200.0], "flux_W_m2": [1e4, 4e4, 4e4, 6e4]}
+RAMP = {"time_s": [0.0, 60.0, 200.0, 200.0], "value": [1e4, 4e4, 4e4, 6e4]}
 CUBE = {"h_cube_root_W_m2K43": 1.31}
 # 3.8e-5, 0.040 K; thickness 2.1e-5
 SEVERAL = Case(

@@ -209,7 +209,7 @@ def test_sets_of_several_layers_have_their_own_number_of_cells() -> None:
 
 def test_cells_leave_the_grid_in_their_own_lane() -> None:
     values = THICK | {"q": np.array([0.0, 90e3, 60e3, 30e3, 70e3, 80e3, 90e3, 50e3])}
-    experiment = specimen({"time_s": [0.0], "flux_W_m2": ["q"]}, layers=SIZED, foil=FOIL)
+    experiment = specimen({"time_s": [0.0], "value": ["q"]}, layers=SIZED, foil=FOIL)
     found = checked(experiment, BURNING, values, LANES, requests(900.0))
     assert {c.status for c in found} == {Status.OK, Status.UNBURNT}
     left = [c.signals["thickness"][-1] / size for c, size in zip(found, THICK["size"], strict=True)]
@@ -220,7 +220,7 @@ def test_cells_leave_the_grid_in_their_own_lane() -> None:
 @pytest.mark.parametrize("names", [("mlr",), ("mlr", "back_temperature")])
 def test_burnt_out_and_unburnt_sets_run_side_by_side(names: tuple[str, ...]) -> None:
     # A run that is asked for its mass loss rate alone ends when it has burnt out.
-    experiment = specimen({"time_s": [0.0], "flux_W_m2": ["q"]})
+    experiment = specimen({"time_s": [0.0], "value": ["q"]})
     values = {"q": np.array([10e3, 80e3, 30e3, 100e3, 0.0, 50e3, 60e3, 20e3])}
     asked = {name: requests(500.0)[name] for name in names}
     found = checked(experiment, BURNING, values, LANES, asked)
@@ -229,7 +229,7 @@ def test_burnt_out_and_unburnt_sets_run_side_by_side(names: tuple[str, ...]) -> 
 
 
 def test_set_that_diverges_leaves_its_neighbours_alone() -> None:
-    experiment = specimen({"time_s": [0.0, 40.0, 40.0], "flux_W_m2": [2e4, 2e4, "q"]})
+    experiment = specimen({"time_s": [0.0, 40.0, 40.0], "value": [2e4, 2e4, "q"]})
     values = {"q": np.array([4e4, 1e10, 6e4, 2e4, 1e12, 5e4, 3e4, 1e9])}
     found = checked(experiment, charring(), values, LANES)
     failed = [c.status is Status.DIVERGED for c in found]
@@ -247,7 +247,7 @@ def test_set_without_a_number_leaves_its_neighbours_alone() -> None:
 
 
 def test_set_that_takes_too_many_steps_leaves_its_neighbours_alone() -> None:
-    experiment = specimen({"time_s": [0.0], "flux_W_m2": ["q"]})
+    experiment = specimen({"time_s": [0.0], "value": ["q"]})
     values = {"q": np.array([5e3, 80e3, 0.0, 100e3, 7e3, 50e3, 60e3, 2e3])}
     found = checked(experiment, charring(), values, LANES, accuracy=Accuracy(most_steps=100))
     assert {c.status for c in found} >= {Status.TOO_MANY_STEPS, Status.UNBURNT}
@@ -279,7 +279,7 @@ def test_probes_measure_the_same_beside_sets_of_more_cells() -> None:
 def test_flux_table_with_a_step_has_its_own_fluxes_in_each_lane() -> None:
     table = {
         "time_s": [0.0, 20.0, 50.0, 50.0, 120.0, 200.0],
-        "flux_W_m2": [0.0, "q", "q", "p", 6e4, 0.0],
+        "value": [0.0, "q", "q", "p", 6e4, 0.0],
     }
     values = {
         "q": np.array([0.0, 1e4, 2e4, 0.0, 4e4, 5e4, 6e4, 7e4]),

@@ -150,7 +150,7 @@ def test_temperature_error_falls_with_the_square_of_the_cell_size(evidence: Evid
 
 
 def test_temperature_error_falls_with_the_square_of_the_step(evidence: Evidence) -> None:
-    rising = {"time_s": [0.0, 400.0], "flux_W_m2": [0.0, 1e4 / FAINT]}
+    rising = {"time_s": [0.0, 400.0], "value": [0.0, 1e4 / FAINT]}
     steps = np.array([4.0, 2.0, 1.0, 0.5])
     right = inert(rising, Accuracy(cells=50, **equal(0.02)))
     errors = [np.abs(inert(rising, Accuracy(cells=50, **equal(h))) - right).max() for h in steps]

@@ -178,7 +178,7 @@ def evened_out(solve: Solver, experiment: Gasification, material: Material) -> f
     return float(curves.signals["back_temperature"][0])
 
 
-PULSE = {"time_s": [0.0, 60.0, 60.0], "flux_W_m2": [2e4 / FAINT, 2e4 / FAINT, 0.0]}
+PULSE = {"time_s": [0.0, 60.0, 60.0], "value": [2e4 / FAINT, 2e4 / FAINT, 0.0]}
 HEAT = 2e4 * 60.0
 CHANGES = {
     "slope": {"slope_1_K": 2e-3, "reference_temperature_K": 300.0},

@@ -14,7 +14,8 @@ from pyrofit.effects.base import changed
 from pyrofit.effects.substance import properties_changed, shares
 from pyrofit.estimate.problem import Outcome, Problem
 from pyrofit.model.base import value_of
-from pyrofit.model.slab import FluxTable, Front, SlabExperiment
+from pyrofit.model.slab import Front, SlabExperiment
+from pyrofit.model.time_table import OverTime, TimeTable, at_start
 from pyrofit.simulate import simulate_gasification
 from pyrofit.solver.arrays import FloatArray
 from pyrofit.solver.arrays import Values as Sets
@@ -101,7 +102,7 @@ def _flux(problem: Problem) -> Correction:
     time = {name: _merged(table.time_s, knots) for name, table in described.items()}
     own = {name: _names(f"flux_{i}_at", len(time[name])) for i, name in enumerate(described)}
     fronts = {
-        name: {"flux_W_m2": FluxTable(time_s=time[name], flux_W_m2=own[name])} for name in described
+        name: {"flux_W_m2": TimeTable(time_s=time[name], value=own[name])} for name in described
     }
 
     def derive(values: Values) -> dict[str, float]:
@@ -125,8 +126,8 @@ def _flux(problem: Problem) -> Correction:
     )
 
 
-def _table(flux: float | str | FluxTable) -> FluxTable:
-    return flux if isinstance(flux, FluxTable) else FluxTable(time_s=(0.0,), flux_W_m2=(flux,))
+def _table(given: OverTime) -> TimeTable:
+    return given if isinstance(given, TimeTable) else TimeTable(time_s=(0.0,), value=(given,))
 
 
 def _merged(time: tuple[float, ...], knots: FloatArray) -> tuple[float, ...]:
@@ -134,9 +135,9 @@ def _merged(time: tuple[float, ...], knots: FloatArray) -> tuple[float, ...]:
     return tuple(sorted([*time, *(t for t in knots.tolist() if t not in time)]))
 
 
-def _at(table: FluxTable, time: tuple[float, ...], values: Values) -> FloatArray:
+def _at(table: TimeTable, time: tuple[float, ...], values: Values) -> FloatArray:
     """Return the described flux at its own times and at others between them [W/m2]."""
-    own = np.array([value_of(q, values) for q in table.flux_W_m2])
+    own = np.array([value_of(q, values) for q in table.value])
     flux = np.interp(time, table.time_s, own)
     flux[np.isin(time, table.time_s)] = own
     return np.asarray(flux)
@@ -177,13 +178,19 @@ def _front_loss(problem: Problem, T: tuple[float, float]) -> Correction:
     """Make q = (h_0 + c_1)(T_s - T_g) + (C_0 + c_2)(T_s - T_g)^(4/3), with T_g = T_gas + c_0."""
     names = dict(zip(LOSS_SD, _names("front_loss", len(LOSS_SD)), strict=True))
     described = {name: slab.front for name, slab in _slabs(problem).items()}
-    own = {name: {key: f"probe_{key}_{i}" for key in LOSS_SD} for i, name in enumerate(described)}
+    own = {
+        name: {key: _named(getattr(front, key), f"probe_{key}_{i}") for key in LOSS_SD}
+        for i, (name, front) in enumerate(described.items())
+    }
 
     def derive(values: Values) -> dict[str, float]:
         return {
-            own[name][key]: value_of(getattr(front, key), values) + values[coefficient]
+            str(new): value_of(old, values) + values[coefficient]
             for name, front in described.items()
             for key, coefficient in names.items()
+            for new, old in zip(
+                _table(own[name][key]).value, _table(getattr(front, key)).value, strict=True
+            )
         }
 
     def shape(values: Values) -> Shape:
@@ -203,10 +210,18 @@ def _front_loss(problem: Problem, T: tuple[float, float]) -> Correction:
     )
 
 
+def _named(given: OverTime, name: str) -> OverTime:
+    """Return a name in place of a number, or one in place of each of a table."""
+    if not isinstance(given, TimeTable):
+        return name
+    names = tuple(f"{name}_at_{k}" for k in range(len(given.value)))
+    return TimeTable(time_s=given.time_s, value=names)
+
+
 def _convection(front: Front, values: Values, T: FloatArray) -> FloatArray:
-    """Return what the front loses by convection, its gas as warm as it gets [W/m2]."""
-    h = max(value_of(front.h_W_m2K, values) + value_of(front.h_change_W_m2K, values), 0.0)
-    above = T - value_of(front.gas_temperature_K, values) - value_of(front.gas_rise_K, values)
+    """Return the loss of the front by convection [W/m2], of tables at the start, the gas risen."""
+    h = max(at_start(front.h_W_m2K, values) + value_of(front.h_change_W_m2K, values), 0.0)
+    above = T - at_start(front.gas_temperature_K, values) - value_of(front.gas_rise_K, values)
     root = value_of(front.h_cube_root_W_m2K43, values) * np.cbrt(np.abs(above))
     return np.asarray((h + root) * above)
 

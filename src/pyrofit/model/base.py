@@ -3,7 +3,7 @@
 import math
 from collections.abc import Callable, Iterator, Mapping
 from dataclasses import dataclass
-from typing import Annotated, Any, Self, TypeVar, cast
+from typing import Annotated, Any, ClassVar, Self, TypeVar, cast
 
 from pydantic import (
     BaseModel,
@@ -23,6 +23,8 @@ class Part(BaseModel):
     """A frozen piece of a description; unknown keys are errors that name the nearest one."""
 
     model_config = ConfigDict(frozen=True, extra="forbid", allow_inf_nan=False)
+    INHERITS: ClassVar[frozenset[str]] = frozenset()
+    """Fields whose numbers obey the rules of the place at which the part stands, too."""
     _derived: dict[str, Any] = PrivateAttr(default_factory=dict)
 
     def __eq__(self, other: object) -> bool:
@@ -97,16 +99,23 @@ def value_of(number: float | str, values: Mapping[str, Made]) -> float | Made:
     return values[number] if isinstance(number, str) else number
 
 
-def numbers(part: object, path: str = "") -> Iterator[tuple[str, float | str, tuple[Rule, ...]]]:
-    """Yield place, number or parameter name, and rules of every `Number` of a description."""
+def numbers(
+    part: object, path: str = "", of_place: tuple[Rule, ...] = ()
+) -> Iterator[tuple[str, float | str, tuple[Rule, ...]]]:
+    """Yield place, number or parameter name, and rules of every `Number` of a description.
+
+    ``of_place`` are the rules of the place at which the part itself stands.
+    """
     if isinstance(part, Part):
         for name, field in type(part).model_fields.items():
             place = f"{path}.{name}" if path else name
             value = getattr(part, name)
             rules = tuple(m for m in field.metadata if isinstance(m, Rule))
+            if name in part.INHERITS:
+                rules += of_place
             for where, leaf in _leaves(value, place):
                 if isinstance(leaf, Part):
-                    yield from numbers(leaf, where)
+                    yield from numbers(leaf, where, rules)
                 elif rules and isinstance(leaf, float | str):
                     yield where, leaf, rules
     elif isinstance(part, Mapping):

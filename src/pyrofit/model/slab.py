@@ -5,7 +5,6 @@ from typing import Annotated, ClassVar, Literal, Self
 from pydantic import Field, model_validator
 
 from pyrofit.model.base import (
-    NOT_NEGATIVE,
     POSITIVE,
     AboveZero,
     Fraction,
@@ -17,53 +16,41 @@ from pyrofit.model.base import (
     Thickness,
 )
 from pyrofit.model.experiment import Experiment
-
-
-class FluxTable(Part):
-    """q_ext(t), linear between given points; two equal times are a step."""
-
-    time_s: tuple[float, ...] = Field(description="times [s], not decreasing, from 0")
-    flux_W_m2: Annotated[tuple[Number, ...], NOT_NEGATIVE] = Field(
-        description="flux at those times [W/m2]"
-    )
-
-    @model_validator(mode="after")
-    def _check(self) -> Self:
-        if len(self.time_s) != len(self.flux_W_m2) or not self.time_s:
-            raise ValueError("time_s and flux_W_m2 need the same length, at least 1")
-        if self.time_s[0] != 0.0:
-            raise ValueError("time_s must start at 0")
-        if any(b < a for a, b in zip(self.time_s, self.time_s[1:], strict=False)):
-            raise ValueError("time_s must not decrease")
-        return self
+from pyrofit.model.time_table import CoefficientOverTime, FluxOverTime, TemperatureOverTime
 
 
 class Side(Part):
     """Heat exchange of one side with its surroundings."""
 
-    h_W_m2K: NotNegative = Field(0.0, description="heat transfer coefficient [W/(m2 K)]")
+    h_W_m2K: CoefficientOverTime = Field(
+        0.0, description="heat transfer coefficient, may follow a table over time [W/(m2 K)]"
+    )
     h_change_W_m2K: Number = Field(
         0.0,
-        description="added to the heat transfer coefficient; the sum is at least 0 [W/(m2 K)]",
+        description="added to the heat transfer coefficient, at every time of its table; the sum "
+        "is at least 0 [W/(m2 K)]",
     )
     h_cube_root_W_m2K43: NotNegative = Field(
         0.0, description="C of an additional h = C |T - T_gas|^(1/3) [W/(m2 K^(4/3))]"
     )
-    gas_temperature_K: Temperature = Field(293.15, description="gas temperature for convection [K]")
+    gas_temperature_K: TemperatureOverTime = Field(
+        293.15, description="gas temperature for convection, may follow a table over time [K]"
+    )
     gas_rise_K: Number = Field(0.0, description="rise of the gas temperature from t = 0 on [K]")
     gas_rise_time_s: NotNegative = Field(
         0.0, description="time constant of that rise [s]; 0 = at once"
     )
-    wall_temperature_K: Temperature = Field(
-        293.15, description="temperature of the radiating surroundings [K]"
+    wall_temperature_K: TemperatureOverTime = Field(
+        293.15,
+        description="temperature of the radiating surroundings, may follow a table over time [K]",
     )
 
 
 class Front(Side):
     """The irradiated side."""
 
-    flux_W_m2: Annotated[Number | FluxTable, NOT_NEGATIVE] = Field(
-        description="external radiant flux [W/m2]"
+    flux_W_m2: FluxOverTime = Field(
+        description="external radiant flux, may follow a table over time [W/m2]"
     )
     rise_time_s: NotNegative = Field(
         0.0, description="time constant with which the heater comes up from t = 0 on [s]"

@@ -11,6 +11,7 @@ SCALES: dict[str, dict[str, float]] = {
     "mass rate": {"kg/s": 1.0, "g/s": 1e-3, "mg/s": 1e-6},
     "heat flux": {"W/m2": 1.0, "kW/m2": 1e3, "MW/m2": 1e6},
     "heat rate": {"W": 1.0, "kW": 1e3, "MW": 1e6},
+    "heat transfer coefficient": {"W/(m2 K)": 1.0, "W/m2/K": 1.0, "kW/(m2 K)": 1e3},
     "fraction": {"1": 1.0, "-": 1.0, "g/g": 1.0, "kg/kg": 1.0, "mg/mg": 1.0, "%": 0.01},
 }
 PER_AREA = {"mass rate": "mass flux", "heat rate": "heat flux"}

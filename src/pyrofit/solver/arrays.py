@@ -106,21 +106,21 @@ class Network(NamedTuple):
     """Its yield nu_j [kg/kg], zero without a product."""
 
 
-class Surface(NamedTuple):
-    """Heat exchange of one side, SI units."""
+TIME, FLUX, FRONT_H, FRONT_GAS, FRONT_WALL, BACK_H, BACK_GAS, BACK_WALL, FLAME, LIT = range(10)
+"""Rows of the schedule: time [s], external flux [W/m2], and of each side the constant part of the
+heat transfer coefficient [W/(m2 K)], gas and wall temperature [K]. The last two hold from one point
+to the next: heat flux of the flame [W/m2], and whether the gas burns, 1 or 0."""
 
-    h: Number
-    """Constant part of the heat transfer coefficient [W/(m2 K)]."""
+
+class Surface(NamedTuple):
+    """What does not follow a table in the heat exchange of one side, SI units."""
+
     h_cube_root: Number
     """C of the part C |T - T_gas|^(1/3) [W/(m2 K^(4/3))]."""
-    gas_temperature: Number
-    """At the start [K]."""
     gas_rise: Number
-    """Its rise in the long run [K]."""
+    """Rise of the gas temperature in the long run [K]."""
     gas_rise_time: Number
     """Time constant of that [s]; 0 = at once."""
-    wall_temperature: Number
-    """Temperature of the radiating surroundings [K]."""
 
 
 class Exposure(NamedTuple):
@@ -128,14 +128,9 @@ class Exposure(NamedTuple):
 
     front: Surface
     back: Surface
-    flux_time: FloatArray
-    """Times of the flux table [s], shape (points,); a step is given by two equal times."""
-    flux: FloatArray
-    """q_ext at those times [W/m2], linear between them."""
-    flame: FloatArray
-    """Heat flux of the flame from each of these times to the next [W/m2]."""
-    lit: FloatArray
-    """Whether the gas burns from each of these times to the next: 1, else 0."""
+    schedule: FloatArray
+    """What is given over time, linear between its points, shape (rows, points), see `TIME`; a step
+    is given by two equal times, a constant by one point."""
     rise_time: Number
     """Time constant with which the heater comes up [s]; 0 = at once."""
     drift: Number

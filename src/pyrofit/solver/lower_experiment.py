@@ -6,16 +6,7 @@ import numpy as np
 
 from pyrofit.model import material as words
 from pyrofit.model.base import numbers, value_of
-from pyrofit.model.slab import (
-    Edge,
-    EmissivityDepth,
-    Flame,
-    FluxTable,
-    Foil,
-    Sample,
-    Side,
-    SlabExperiment,
-)
+from pyrofit.model.slab import Edge, EmissivityDepth, Foil, Sample, Side, SlabExperiment
 from pyrofit.solver.arrays import (
     TABLE_TEMPERATURES_K,
     Exposure,
@@ -27,7 +18,8 @@ from pyrofit.solver.arrays import (
     Value,
     Values,
 )
-from pyrofit.solver.lower import fractions, stack, total
+from pyrofit.solver.lower import fractions, total
+from pyrofit.solver.schedule import lower_schedule
 
 
 class Layer(NamedTuple):
@@ -46,14 +38,10 @@ def _number(value: Value, sets: int) -> Number:
 
 
 def _surface(side: Side, values: Values, sets: int, factor: Value = 1.0) -> Surface:
-    h = value_of(side.h_W_m2K, values) + value_of(side.h_change_W_m2K, values)
     return Surface(
-        h=_number(factor * np.maximum(h, 0.0), sets),
         h_cube_root=_number(factor * value_of(side.h_cube_root_W_m2K43, values), sets),
-        gas_temperature=_number(value_of(side.gas_temperature_K, values), sets),
         gas_rise=_number(value_of(side.gas_rise_K, values), sets),
         gas_rise_time=_number(value_of(side.gas_rise_time_s, values), sets),
-        wall_temperature=_number(value_of(side.wall_temperature_K, values), sets),
     )
 
 
@@ -83,19 +71,13 @@ def _fixed_exposure(experiment: SlabExperiment) -> Exposure | None:
 def _exposure(experiment: SlabExperiment, values: Values, sets: int) -> Exposure:
     """Return the exposure without its mixing depth."""
     front, back, sample = experiment.front, experiment.back, experiment.sample
-    times, fluxes, flame, lit = _lit(
-        *_flux(front.flux_W_m2, values, sets), experiment.burning(), values
-    )
     losses = value_of(back.loss_factor, values)
     capacity, contact = _foil(sample.foil, values)
     exchange, edge_gas = _edge(sample.edge, values)
     return Exposure(
         front=_surface(front, values, sets),
         back=_surface(back, values, sets, losses),
-        flux_time=times,
-        flux=fluxes,
-        flame=flame,
-        lit=lit,
+        schedule=lower_schedule(experiment, values, sets),
         rise_time=_number(value_of(front.rise_time_s, values), sets),
         drift=_number(value_of(front.drift_1_s, values), sets),
         drift_time=_number(value_of(front.drift_time_s, values), sets),
@@ -108,44 +90,6 @@ def _exposure(experiment: SlabExperiment, values: Values, sets: int) -> Exposure
         edge_exchange=_number(exchange, sets),
         edge_temperature=_number(edge_gas, sets),
     )
-
-
-def _flux(
-    flux: float | str | FluxTable, values: Values, sets: int
-) -> tuple[FloatArray, FloatArray]:
-    """Return times [s] and fluxes [W/m2], shape (points, sets) both."""
-    if isinstance(flux, FluxTable):
-        fluxes = [value_of(q, values) for q in flux.flux_W_m2]
-        return stack(list(flux.time_s), sets), stack(fluxes, sets)
-    return np.zeros((1, sets)), stack([value_of(flux, values)], sets)
-
-
-def _lit(
-    times: FloatArray, fluxes: FloatArray, flame: Flame | None, values: Values
-) -> tuple[FloatArray, FloatArray, FloatArray, FloatArray]:
-    """Return the flux table with points at ignition and flame-out, and what the flame adds.
-
-    All have shape (points, sets). The flame's flux [W/m2], and whether the gas burns, hold from
-    their point to the next.
-    """
-    if flame is None:
-        return times, fluxes, np.zeros(times.shape), np.ones(times.shape)
-    sets = times.shape[-1]
-    ends = [] if flame.ends_s is None else [flame.ends_s]
-    changes = stack([value_of(t, values) for t in (flame.ignition_s, *ends)], sets)
-    # A flame that would end before it begins does not burn.
-    changes = np.maximum.accumulate(changes)
-    kept = [np.interp(*of) for of in zip(changes.T, times.T, fluxes.T, strict=True)]
-    turns = np.concatenate((np.zeros(times.shape), np.ones(changes.shape)))
-    turns[times.shape[0] + 1 :] = -1.0
-    all_times = np.concatenate((times, changes))
-    order = np.argsort(all_times, axis=0, kind="stable")
-    all_times, all_fluxes, turns = (
-        np.take_along_axis(of, order, axis=0)
-        for of in (all_times, np.concatenate((fluxes, np.transpose(kept))), turns)
-    )
-    lit = np.cumsum(turns, axis=0)
-    return all_times, all_fluxes, lit * value_of(flame.flux_W_m2, values), lit
 
 
 def _foil(foil: Foil | None, values: Values) -> tuple[Value, Value]:

@@ -4,13 +4,15 @@ import math
 from typing import NamedTuple
 
 from pyrofit.solver.arrays import Number
-from pyrofit.solver.kernels.functions import root
-from pyrofit.solver.kernels.heat import flux_piece
+from pyrofit.solver.kernels.functions import root, whole
 from pyrofit.solver.kernels.jit import inner
 from pyrofit.solver.kernels.lanes import where
+from pyrofit.solver.kernels.schedule import end_of, jumps, piece_of
 
 SAFETY = 0.9
 SHRINK, GROW, REJECT = 0.3, 1.6, 0.5
+NEAR = 20.0
+"""Steps before a point of the schedule from which on they are made equal."""
 
 
 class Bdf(NamedTuple):
@@ -31,7 +33,7 @@ class Clock(NamedTuple):
     dt_old: Number
     """Infinite at a start."""
     piece: Number
-    """Piece of the flux table."""
+    """Piece of the schedule."""
     landing: Number
     """Time that a step must hit: the end of the piece, or of the run [s]."""
 
@@ -55,13 +57,11 @@ class Balance(NamedTuple):
 
 @inner
 def start_clock(t, exposure, numerics, t_end):
-    """Return the clock of a start at t, where a run begins or the flux changes."""
-    time = exposure.flux_time
-    piece = flux_piece(t, time)
-    landing = t_end
-    for p in range(1, time.size):
-        landing = where(piece == p - 1.0, min(landing, time[p]), landing)
-    return hit(t, numerics.first_step + 0.0 * t, math.inf + 0.0 * t, piece, landing)
+    """Return the clock of a start at t, where a run begins or something given jumps."""
+    piece = piece_of(t, exposure.schedule)
+    landing = end_of(piece, exposure.schedule, t_end)
+    dt = numerics.first_step + 0.0 * t
+    return hit(t, dt, math.inf + 0.0 * t, piece, landing, exposure.schedule)
 
 
 @inner
@@ -71,8 +71,18 @@ def reaches(t, dt, landing):
 
 
 @inner
-def hit(t, dt, dt_old, piece, landing):
-    """Return the clock, its step shortened if it would pass the landing."""
+def hit(t, dt, dt_old, piece, landing, schedule):
+    """Return the clock, its step shortened if it would pass the landing.
+
+    On the way to a point of the schedule steps are equal: a short last one would be followed by
+    others.
+    """
+    if schedule.shape[1] > 1:
+        left = max(landing - t, 0.0) / dt
+        count = whole(min(left, NEAR))
+        count = max(count + where(left > count + 1e-9, 1.0, 0.0), 1.0)
+        ahead = (piece < schedule.shape[1] - 1.0) & (left > 0.0) & (left < NEAR)
+        dt = where(ahead, (landing - t) / count, dt)
     return Clock(t, where(reaches(t, dt, landing), landing - t, dt), dt_old, piece, landing)
 
 
@@ -97,10 +107,10 @@ def formula(clock):
 
 
 @inner
-def retry(clock, ratio, first_step):
+def retry(clock, ratio, first_step, schedule):
     """Return the clock with a shorter step."""
     dt = max(clock.dt * max(ratio, SHRINK), first_step)
-    return hit(clock.t, dt, clock.dt_old, clock.piece, clock.landing)
+    return hit(clock.t, dt, clock.dt_old, clock.piece, clock.landing, schedule)
 
 
 @inner
@@ -111,11 +121,17 @@ def rejected(clock, ratio, first_step):
 
 @inner
 def tick(clock, ratio, exposure, numerics, t_end):
-    """Return the clock after the step."""
+    """Return the clock after the step.
+
+    Where something given only bends, the steps go on: two measured points may be closer than them.
+    """
     dt = min(clock.dt * min(ratio, GROW), numerics.longest_step)
-    on = hit(clock.t + clock.dt, dt, clock.dt, clock.piece, clock.landing)
+    on = hit(clock.t + clock.dt, dt, clock.dt, clock.piece, clock.landing, exposure.schedule)
     landed = reaches(clock.t, clock.dt, clock.landing)
-    return either(landed, start_clock(clock.landing, exposure, numerics, t_end), on)
+    fresh = start_clock(clock.landing, exposure, numerics, t_end)
+    bent = hit(clock.landing, dt, clock.dt, fresh.piece, fresh.landing, exposure.schedule)
+    after = either(jumps(clock.landing, exposure.schedule), fresh, bent)
+    return either(landed, after, on)
 
 
 @inner

@@ -10,6 +10,7 @@ import math
 import numpy as np
 
 from pyrofit.constants import STEFAN_BOLTZMANN
+from pyrofit.solver.arrays import FLAME, FLUX, FRONT_GAS, FRONT_H, FRONT_WALL
 from pyrofit.solver.kernels.functions import log
 from pyrofit.solver.kernels.jit import entry, inner
 from pyrofit.solver.kernels.tables import at_temperature
@@ -65,14 +66,18 @@ def _reaction_zone(j, eps, share, T_start, material, network, exposure, s):
     """
     E = network.activation_temperature[j, s]
     A = network.root_factor[j, s] * network.root_factor[j, s]
-    wall, gas = exposure.front.wall_temperature[s], exposure.front.gas_temperature[s]
+    schedule = exposure.schedule
+    wall, gas, h = schedule[FRONT_WALL, 0, s], schedule[FRONT_GAS, 0, s], schedule[FRONT_H, 0, s]
     strongest = 0.0
-    for p in range(exposure.flux.shape[0]):
-        strongest = max(strongest, exposure.flux[p, s] + exposure.flame[p, s])
+    for p in range(schedule.shape[1]):
+        strongest = max(strongest, schedule[FLUX, p, s] + schedule[FLAME, p, s])
+        wall = max(wall, schedule[FRONT_WALL, p, s])
+        gas = max(gas, schedule[FRONT_GAS, p, s])
+        h = min(h, schedule[FRONT_H, p, s])
     T, width = FIRST_GUESS_K, math.inf
     for _ in range(4):
         loss = eps * STEFAN_BOLTZMANN * (T * T * T * T - wall * wall * wall * wall)
-        loss += exposure.front.h[s] * (T - gas)
+        loss += h * (T - gas)
         q = max(eps * strongest - loss, LEAST_NET_SHARE * eps * strongest, 1.0)
         volume = k = c = 0.0
         for i in range(share.shape[0]):

@@ -35,60 +35,30 @@ class Edge(NamedTuple):
 
 
 @inner
-def flux_piece(t, time):
-    """Return the piece of the flux table in which the time after t lies."""
-    piece = 0.0 * t
-    for p in range(1, time.size):
-        piece = where(time[p] <= t, 1.0 * p, piece)
-    return piece
-
-
-@inner
-def flux_at(t, piece, time, flux):
-    """Return q_ext(t) on a piece of the flux table."""
-    q = flux[time.size - 1] + 0.0 * t
-    for p in range(time.size - 1):
-        span = max(time[p + 1] - time[p], TINY)
-        part = min(max(t - time[p], 0.0) / span, 1.0)
-        q = where(piece == 1.0 * p, flux[p] + (flux[p + 1] - flux[p]) * part, q)
-    return q
-
-
-@inner
-def during(piece, values):
-    """Return the value that holds during a piece of the flux table."""
-    value = values[0] + 0.0 * piece
-    for p in range(1, values.size):
-        value = where(piece == 1.0 * p, values[p], value)
-    return value
-
-
-@inner
 def approach(t, time):
     """Return 1 - exp(-t/time), what is reached of a value approached with a time constant."""
     return where(time > 0.0, 1.0 - exp(-t / max(time, TINY)), 1.0)
 
 
 @inner
-def irradiation(t, piece, exposure):
-    """Return q_ext(t) and the flame's: the table's, times the heater's coming up and its drift."""
-    flux = flux_at(t, piece, exposure.flux_time, exposure.flux)
+def irradiation(given, t, exposure):
+    """Return q_ext(t), what is given with the heater's coming up and drift, and the flame's."""
     rest = exposure.drift_time
     drifted = where(rest > 0.0, rest * approach(t, rest), t)
-    heater = flux * approach(t, exposure.rise_time) * max(1.0 + exposure.drift * drifted, 0.0)
-    return heater + during(piece, exposure.flame)
+    heater = given.flux * approach(t, exposure.rise_time) * max(1.0 + exposure.drift * drifted, 0.0)
+    return heater + given.flame
 
 
 @inner
-def exchange(surface, emissivity, T, t):
+def exchange(surface, air, emissivity, T, t):
     """Linearise the loss of a surface about T: net gain = gain - slope * T_new [W/m2]."""
-    dT = T - surface.gas_temperature - surface.gas_rise * approach(t, surface.gas_rise_time)
-    h = surface.h
+    dT = T - air.gas - surface.gas_rise * approach(t, surface.gas_rise_time)
+    h = air.h
     if somewhere(surface.h_cube_root != 0.0):
         h = h + surface.h_cube_root * exp((1.0 / 3.0) * log(max(abs(dT), 1e-150)))
     cube = T * T * T
     slope = 4.0 * emissivity * SIGMA * cube + h
-    wall = surface.wall_temperature
+    wall = air.wall
     gain = emissivity * SIGMA * (wall * wall * wall * wall - cube * T) - h * dT + slope * T
     return gain, slope
 
@@ -160,13 +130,13 @@ def lose_at_edge(work, first, exposure):
 
 
 @inner
-def surface_heat(radiation, eps, front_star, t, r_skin, work, edge, material, exposure):
+def surface_heat(radiation, eps, front_star, t, given, r_skin, work, edge, material, exposure):
     """Fill the heat source of the foil and return that of the front, about T*."""
     cell = work.cell
     foil = work.m.shape[1]
-    gain, slope = exchange(exposure.front, eps, front_star, t)
+    gain, slope = exchange(exposure.front, given.front, eps, front_star, t)
     gain_back, slope_back = exchange(
-        exposure.back, exposure.back_emissivity, cell[row.T_star, foil], t
+        exposure.back, given.back, exposure.back_emissivity, cell[row.T_star, foil], t
     )
     inside = 0.0 * gain
     opaque = is_opaque(material)

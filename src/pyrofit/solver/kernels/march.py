@@ -14,7 +14,7 @@ Several parameter sets run side by side, each in a lane of its own (`lanes`), wi
 flux, burn-out and failure. A lane that has ended, or whose step was refused, keeps its state.
 """
 
-from pyrofit.solver.arrays import Status
+from pyrofit.solver.arrays import FLAME, FLUX, Status
 from pyrofit.solver.kernels.bdf import (
     Balance,
     booked,
@@ -58,9 +58,10 @@ TOO_MANY_STEPS = float(Status.TOO_MANY_STEPS)
 @inner
 def scale_of_rate(exposure):
     """Return the mass loss rate to which the error is compared at the onset [kg/(m2 s)]."""
-    flux = LEAST_FLUX_SCALE + 0.0 * exposure.flux[0]
-    for p in range(exposure.flux.size):
-        flux = max(flux, exposure.flux[p] + exposure.flame[p])
+    schedule = exposure.schedule
+    flux = LEAST_FLUX_SCALE + 0.0 * schedule[FLUX, 0]
+    for p in range(schedule.shape[1]):
+        flux = max(flux, schedule[FLUX, p] + schedule[FLAME, p])
     return ONSET_SHARE * flux / GASIFICATION_SCALE
 
 
@@ -144,7 +145,7 @@ def march(
         )
         next_clock = either(
             again,
-            retry(clock, ratio, numerics.first_step),
+            retry(clock, ratio, numerics.first_step, exposure.schedule),
             tick(clock, ratio, exposure, numerics, t_end),
         )
         clock = either(running, next_clock, clock)

@@ -2,7 +2,7 @@
 
 from typing import NamedTuple
 
-from pyrofit.solver.arrays import Number, Status
+from pyrofit.solver.arrays import LIT, Number, Status
 from pyrofit.solver.kernels import row
 from pyrofit.solver.kernels.bdf import formula
 from pyrofit.solver.kernels.cells import (
@@ -18,7 +18,6 @@ from pyrofit.solver.kernels.heat import (
     add_at_edge,
     at_edge,
     conduct,
-    during,
     irradiation,
     lose_at_edge,
     net_flux,
@@ -28,6 +27,7 @@ from pyrofit.solver.kernels.heat import (
 from pyrofit.solver.kernels.jit import between, inner, live, loop
 from pyrofit.solver.kernels.lanes import somewhere, where
 from pyrofit.solver.kernels.reactions import TINY
+from pyrofit.solver.kernels.schedule import during, given_at
 
 TEMPERATURE_SCALE = 400.0
 """Surface temperature error [K] that counts as much as an error of the whole rate scale."""
@@ -164,10 +164,11 @@ def advance(work, wide, edge, top, clock, mass, rate_scale, room, material, netw
     seen = eps
     if somewhere(exposure.emissivity_change != 0.0):
         seen = changed_emissivity(eps, top, released(work, first, network), mass, exposure)
-    q = seen * irradiation(t, clock.piece, exposure)
+    given = given_at(t, clock.piece, exposure.schedule)
+    q = seen * irradiation(given, t, exposure)
     T_skin = 0.5 * (front_star + at_edge(cell, row.T_star, edge))
     _, r_skin, C_skin = layer(work.skin, 0, material, T_skin)
-    surface = surface_heat(q, seen, front_star, t, r_skin, work, edge, material, exposure)
+    surface = surface_heat(q, seen, front_star, t, given, r_skin, work, edge, material, exposure)
     if somewhere(exposure.edge_exchange != 0.0):
         lose_at_edge(work, first, exposure)
     add_at_edge(cell, row.C_new, edge, C_skin)
@@ -183,7 +184,7 @@ def advance(work, wide, edge, top, clock, mass, rate_scale, room, material, netw
 
     burnt, power = 0.0 * rate, 0.0 * rate
     if network.burns:
-        lit = during(clock.piece, exposure.lit)
+        lit = during(clock.piece, LIT, exposure.schedule)
         burnt = lit * summed(work, row.burnt, first)
         power = lit * summed(work, row.power, first)
 

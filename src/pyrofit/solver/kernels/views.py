@@ -28,12 +28,9 @@ def _lanes(width, g, array):
 @making
 def _surface(width, g, side):
     return Surface(
-        h=_lanes(width, g, side.h),
         h_cube_root=_lanes(width, g, side.h_cube_root),
-        gas_temperature=_lanes(width, g, side.gas_temperature),
         gas_rise=_lanes(width, g, side.gas_rise),
         gas_rise_time=_lanes(width, g, side.gas_rise_time),
-        wall_temperature=_lanes(width, g, side.wall_temperature),
     )
 
 
@@ -43,10 +40,7 @@ def exposure_in_lanes(width, g, exposure):
     return Exposure(
         front=_surface(width, g, exposure.front),
         back=_surface(width, g, exposure.back),
-        flux_time=_lanes(width, g, exposure.flux_time),
-        flux=_lanes(width, g, exposure.flux),
-        flame=_lanes(width, g, exposure.flame),
-        lit=_lanes(width, g, exposure.lit),
+        schedule=_lanes(width, g, exposure.schedule),
         rise_time=_lanes(width, g, exposure.rise_time),
         drift=_lanes(width, g, exposure.drift),
         drift_time=_lanes(width, g, exposure.drift_time),

@@ -56,7 +56,7 @@ def reference_gasification(
         edges = [_clipped(edge, flame) for r in asked.values() for edge in _edges(r)]
         time = np.unique(np.concatenate([edge for both in edges for edge in both]))
         run = _Run(slab, resolution, time, {r.of(n) for n, r in asked.items()} <= EARLY)
-        run.go(list(pieces(experiment.front, flame, values, float(time[-1]), factor)))
+        run.go(list(pieces(experiment, flame, values, float(time[-1]), factor)))
         if not run.status.finished:
             return Curves(run.status, {}, resolution.elements, run.steps)
         lines = _lines(slab, run.states, probes_m)
@@ -98,7 +98,7 @@ def _lines(slab: Slab, states: FloatArray, probes_m: tuple[float, ...]) -> dict[
     """Return all signals at the times of the states."""
     T, extent = slab.split(states)
     present = slab.masses(extent)
-    rate = slab.derivative(states, Outside(0.0, 0.0, np.zeros(T.shape[-1])))
+    rate = slab.derivative(states, Outside(0.0, 0.0, np.zeros(T.shape[-1]), (0.0, 0.0)))
     reactions = slab.substance.reactions
     reacting = slab.split(rate)[1]
     burning = reactions.gas * reactions.combustion
@@ -149,15 +149,15 @@ class _Run:
         slab = self.slab
         tolerance = np.full(y.size, self.resolution.tolerance)
         tolerance[:: slab.stride] *= 100.0
-        heat = slab.heat_in(y, slab.outside(part.start, part.at(part.start), y))
+        heat = slab.heat_in(y, slab.outside(part.start, part, y))
         solver = LSODA(
-            lambda t, y: slab.derivative(y, slab.outside(t, part.at(t), y)),
+            lambda t, y: slab.derivative(y, slab.outside(t, part, y)),
             part.start,
             y,
             part.end,
             rtol=self.resolution.tolerance,
             atol=tolerance,
-            jac=lambda t, y: slab.jacobian(y, slab.outside(t, part.at(t), y)),
+            jac=lambda t, y: slab.jacobian(y, slab.outside(t, part, y)),
             lband=slab.stride,
             uband=slab.stride,
         )
@@ -188,7 +188,7 @@ class _Run:
     ) -> float:
         """Add a step to the heat balance, by the trapezoidal rule; return the heat flux after."""
         t, y = before
-        outside = self.slab.outside(solver.t, part.at(solver.t), solver.y)
+        outside = self.slab.outside(solver.t, part, solver.y)
         after = self.slab.heat_in(solver.y, outside)
         half = 0.5 * (solver.t - t)
         self.heat_crossed += half * abs(heat + after)

@@ -21,7 +21,7 @@ import numpy as np
 
 from pyrofit.solver.arrays import FloatArray
 from pyrofit.solver.reference.substance import COLDEST_K, HOTTEST_K, Substance
-from pyrofit.solver.reference.surroundings import Rim, Surface
+from pyrofit.solver.reference.surroundings import Piece, Rim, Surface
 
 GAUSS = 0.5 - 0.5 / np.sqrt(3.0), 0.5 + 0.5 / np.sqrt(3.0)
 """Points of the rule of two points on (0, 1); both weigh 1/2."""
@@ -46,6 +46,8 @@ class Outside(NamedTuple):
     """Emissivity of the front."""
     absorbed: FloatArray
     """External radiation that the nodes absorb [W/m2], shape (nodes,)."""
+    span: tuple[float, float]
+    """Start and end of the time around t in which everything given is linear [s]."""
 
 
 @dataclass(frozen=True)
@@ -167,12 +169,12 @@ class Slab:
             out[-1] += reaching[-1]
         return out
 
-    def outside(self, t: float, flux: float, y: FloatArray) -> Outside:
-        """Return what depends on time, or on the whole state at once, under the flux [W/m2]."""
+    def outside(self, t: float, piece: Piece, y: FloatArray) -> Outside:
+        """Return what depends on time, or on the whole state at once."""
         extent = self.split(y)[1]
         volume = np.maximum(self.masses(extent), 0.0) / self.substance.density
         eps = self.radiating(volume, extent)
-        return Outside(t, eps, self.irradiated(eps * flux, volume))
+        return Outside(t, eps, self.irradiated(eps * piece.at(t), volume), piece.span)
 
     def derivative(self, y: FloatArray, outside: Outside) -> FloatArray:
         """Return dy/dt of states of shape (..., size)."""
@@ -187,8 +189,8 @@ class Slab:
         gain = outside.absorbed + self.rim.gain(T, volume.sum(axis=-1))
         gain[..., :-1] -= conducted + upper
         gain[..., 1:] += conducted - lower
-        gain[..., 0] += self.front.gain(outside.eps, T[..., 0], outside.t)
-        gain[..., -1] += self.back.gain(self.back_emissivity, T[..., -1], outside.t)
+        gain[..., 0] += self._front_gain(T[..., 0], outside)
+        gain[..., -1] += self._back_gain(T[..., -1], outside)
         out = np.empty(y.shape)
         out[..., :: self.stride] = gain / self._capacity(T, present)
         self.split(out)[1][...] = reacting
@@ -198,9 +200,15 @@ class Slab:
         """Return the heat [W/m2] that a state takes from its surroundings."""
         T, extent = self.split(y)
         gain = outside.absorbed + self.rim.gain(T, self.thickness(T, extent))
-        gain[0] += self.front.gain(outside.eps, T[0], outside.t)
-        gain[-1] += self.back.gain(self.back_emissivity, T[-1], outside.t)
+        gain[0] += self._front_gain(T[0], outside)
+        gain[-1] += self._back_gain(T[-1], outside)
         return float(gain.sum())
+
+    def _front_gain(self, T: FloatArray, outside: Outside) -> FloatArray:
+        return self.front.gain(outside.eps, T, outside.t, outside.span)
+
+    def _back_gain(self, T: FloatArray, outside: Outside) -> FloatArray:
+        return self.back.gain(self.back_emissivity, T, outside.t, outside.span)
 
     def heat_taken(self, y_old: FloatArray, y: FloatArray) -> float:
         """Return the heat [J/m2] stored and used by reactions from one state to the next."""

@@ -1,15 +1,16 @@
 """What acts on the slab from outside: its two sides, its edge and the external flux over time."""
 
-import itertools
 import math
 from collections.abc import Iterator
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
+from itertools import pairwise
 
 import numpy as np
 
 from pyrofit.constants import STEFAN_BOLTZMANN
 from pyrofit.model.base import value_of
-from pyrofit.model.slab import Edge, Flame, FluxTable, Front, Side
+from pyrofit.model.slab import Edge, Flame, Side, SlabExperiment
+from pyrofit.model.time_table import OverTime, TimeTable
 from pyrofit.solver.arrays import FloatArray
 from pyrofit.solver.reference.substance import Values
 
@@ -20,34 +21,62 @@ def approached(t: float, time: float) -> float:
 
 
 @dataclass(frozen=True)
+class Line:
+    """A value that is given over time, between two points of its table."""
+
+    times: tuple[float, ...]
+    values: tuple[float, ...]
+
+    def at(self, t: float, piece: tuple[float, float]) -> float:
+        """Return the value at t within a piece of time [s] in which the table does not bend."""
+        middle = 0.5 * (piece[0] + piece[1])
+        n = sum(time <= middle for time in self.times)
+        if n == len(self.times):
+            return self.values[-1]
+        part = (t - self.times[n - 1]) / (self.times[n] - self.times[n - 1])
+        return self.values[n - 1] + part * (self.values[n] - self.values[n - 1])
+
+
+def line(given: OverTime, values: Values) -> Line:
+    """Return a table with numbers; a number is a table of one point."""
+    if isinstance(given, TimeTable):
+        return Line(given.time_s, tuple(value_of(v, values) for v in given.value))
+    return Line((0.0,), (value_of(given, values),))
+
+
+@dataclass(frozen=True)
 class Surface:
     """Exchange of a side with its surroundings."""
 
-    h: float
+    h: Line
     h_cube_root: float
-    gas: float
-    """Gas temperature at the start [K]."""
+    gas: Line
+    """Gas temperature without its rise [K]."""
     gas_rise: float
     gas_rise_time: float
-    wall: float
+    wall: Line
 
-    def gain(self, emissivity: float, T: FloatArray, t: float) -> FloatArray:
-        """Return eps sigma (T_wall^4 - T^4) - h (T - T_gas(t)) [W/m2]."""
-        above = T - (self.gas + self.gas_rise * approached(t, self.gas_rise_time))
-        h = self.h + self.h_cube_root * np.cbrt(np.abs(above))
-        return np.asarray(emissivity * STEFAN_BOLTZMANN * (self.wall**4 - T**4) - h * above)
+    def gain(
+        self, emissivity: float, T: FloatArray, t: float, piece: tuple[float, float]
+    ) -> FloatArray:
+        """Return eps sigma (T_wall^4 - T^4) - h (T - T_gas) [W/m2], all of time t."""
+        gas = self.gas.at(t, piece) + self.gas_rise * approached(t, self.gas_rise_time)
+        above = T - gas
+        h = self.h.at(t, piece) + self.h_cube_root * np.cbrt(np.abs(above))
+        wall = self.wall.at(t, piece)
+        return np.asarray(emissivity * STEFAN_BOLTZMANN * (wall**4 - T**4) - h * above)
 
 
 def surface(side: Side, values: Values, factor: float = 1.0) -> Surface:
     """Return one side with numbers, its convection multiplied by the factor."""
-    h = value_of(side.h_W_m2K, values) + value_of(side.h_change_W_m2K, values)
+    h, change = line(side.h_W_m2K, values), value_of(side.h_change_W_m2K, values)
     return Surface(
-        h=factor * max(h, 0.0),
+        h=Line(h.times, tuple(factor * max(at + change, 0.0) for at in h.values)),
         h_cube_root=factor * value_of(side.h_cube_root_W_m2K43, values),
-        gas=value_of(side.gas_temperature_K, values),
+        gas=line(side.gas_temperature_K, values),
         gas_rise=value_of(side.gas_rise_K, values),
         gas_rise_time=value_of(side.gas_rise_time_s, values),
-        wall=value_of(side.wall_temperature_K, values),
+        wall=line(side.wall_temperature_K, values),
     )
 
 
@@ -96,19 +125,23 @@ class Heater:
 
 @dataclass(frozen=True)
 class Piece:
-    """A time in which the flux that is set is linear: flux + slope (t - start)."""
+    """A time in which everything given is linear."""
 
     start: float
     end: float
-    flux: float
-    slope: float
+    flux: Line
     heater: Heater
     flame: float = 0.0
     """Heat flux of the flame [W/m2]."""
 
+    @property
+    def span(self) -> tuple[float, float]:
+        """Start and end [s]."""
+        return self.start, self.end
+
     def at(self, t: float) -> float:
         """Return q_ext(t) and the flame's flux [W/m2], also beyond the end."""
-        return self.heater.share(t) * (self.flux + self.slope * (t - self.start)) + self.flame
+        return self.heater.share(t) * self.flux.at(t, self.span) + self.flame
 
 
 @dataclass(frozen=True)
@@ -131,33 +164,22 @@ def fire(flame: Flame | None, values: Values) -> Fire:
 
 
 def pieces(
-    front: Front, flame: Fire, values: Values, end: float, factor: float = 1.0
+    experiment: SlabExperiment, flame: Fire, values: Values, end: float, factor: float = 1.0
 ) -> Iterator[Piece]:
-    """Yield the pieces of ``factor`` times the external flux, and the flame's, up to the end."""
-    for piece in _external(front, values, end, factor):
-        cuts = sorted({t for t in (flame.begins, flame.ends) if piece.start < t < piece.end})
-        for start, until in itertools.pairwise((piece.start, *cuts, piece.end)):
-            lit = flame.begins <= start < flame.ends
-            flux = piece.flux + piece.slope * (start - piece.start)
-            added = flame.flux if lit else 0.0
-            yield replace(piece, start=start, end=until, flux=flux, flame=added)
-
-
-def _external(front: Front, values: Values, end: float, factor: float) -> Iterator[Piece]:
+    """Yield the pieces between all given times up to the end, of ``factor`` times the flux."""
+    front = experiment.front
     heater = Heater(
         factor,
         value_of(front.rise_time_s, values),
         value_of(front.drift_1_s, values),
         value_of(front.drift_time_s, values),
     )
-    given = front.flux_W_m2
-    if not isinstance(given, FluxTable):
-        yield Piece(0.0, end, value_of(given, values), 0.0, heater)
-        return
-    flux = [value_of(q, values) for q in given.flux_W_m2]
-    for n, start in enumerate(given.time_s):
-        last = n + 1 == len(flux)
-        until = math.inf if last else given.time_s[n + 1]
-        if start < min(until, end):
-            slope = 0.0 if last else (flux[n + 1] - flux[n]) / (until - start)
-            yield Piece(start, min(until, end), flux[n], slope, heater)
+    flux = line(front.flux_W_m2, values)
+    given = [flux]
+    for side in (front, experiment.back):
+        of_side = (side.h_W_m2K, side.gas_temperature_K, side.wall_temperature_K)
+        given += [line(one, values) for one in of_side]
+    times = {t for one in given for t in one.times} | {flame.begins, flame.ends}
+    for start, until in pairwise(sorted({t for t in times if t < end} | {end})):
+        lit = flame.begins <= start < flame.ends
+        yield Piece(start, until, flux, heater, flame.flux if lit else 0.0)

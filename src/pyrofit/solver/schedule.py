@@ -1,0 +1,101 @@
+"""What the description gives over time as one table: all its quantities at all their times."""
+
+from collections.abc import Sequence
+
+import numpy as np
+
+from pyrofit.model.base import value_of
+from pyrofit.model.slab import Flame, Side, SlabExperiment
+from pyrofit.model.time_table import OverTime, TimeTable
+from pyrofit.solver.arrays import FLAME, FLUX, LIT, TIME, FloatArray, Value, Values
+from pyrofit.solver.lower import stack
+
+Point = tuple[float, bool]
+"""A time [s], and whether what holds just before it is meant."""
+
+
+def lower_schedule(experiment: SlabExperiment, values: Values, sets: int) -> FloatArray:
+    """Return flux, h and temperatures over time, shape (rows, points, sets).
+
+    The points are the times of all tables; where one of them jumps, the time stands twice. The rows
+    are those of `pyrofit.solver.arrays`, `TIME` first.
+    """
+    front, back = experiment.front, experiment.back
+    losses = value_of(back.loss_factor, values)
+    rows = [front.flux_W_m2, *_temperatures_and_h(front), *_temperatures_and_h(back)]
+    points = _points([row for row in rows if isinstance(row, TimeTable)])
+    q, h, gas, wall, h_back, gas_back, wall_back = (_row(row, points, values, sets) for row in rows)
+    schedule = np.stack(
+        [
+            stack([t for t, _ in points], sets),
+            q,
+            np.maximum(h + value_of(front.h_change_W_m2K, values), 0.0),
+            gas,
+            wall,
+            losses * np.maximum(h_back + value_of(back.h_change_W_m2K, values), 0.0),
+            gas_back,
+            wall_back,
+            np.zeros(q.shape),
+            np.ones(q.shape),
+        ]
+    )
+    flame = experiment.burning()
+    return schedule if flame is None else _with_flame(schedule, flame, values)
+
+
+def _with_flame(schedule: FloatArray, flame: Flame, values: Values) -> FloatArray:
+    """Return the schedule with two points at ignition and at flame-out, and what the flame adds."""
+    ends = [] if flame.ends_s is None else [flame.ends_s]
+    changes = [value_of(t, values) for t in (flame.ignition_s, *ends)]
+    # A flame that would end before it begins does not burn.
+    changed = np.maximum.accumulate(stack(changes, schedule.shape[-1]))
+    times = np.repeat(changed, 2, axis=0)
+    added = np.zeros((schedule.shape[0], *times.shape))
+    added[TIME] = times
+    for row in range(FLUX, FLAME):
+        of = zip(times.T, schedule[TIME].T, schedule[row].T, strict=True)
+        added[row] = np.transpose([np.interp(*one) for one in of])
+    turns = np.zeros((schedule.shape[1] + times.shape[0], schedule.shape[2]))
+    for n, turn in enumerate((1.0, -1.0)[: len(changes)]):
+        turns[schedule.shape[1] + 2 * n + 1] = turn
+    both = np.concatenate((schedule, added), axis=1)
+    order = np.argsort(both[TIME], axis=0, kind="stable")
+    both = np.take_along_axis(both, order[None], axis=1)
+    both[LIT] = np.cumsum(np.take_along_axis(turns, order, axis=0), axis=0)
+    both[FLAME] = both[LIT] * value_of(flame.flux_W_m2, values)
+    return both
+
+
+def _temperatures_and_h(side: Side) -> tuple[OverTime, OverTime, OverTime]:
+    return side.h_W_m2K, side.gas_temperature_K, side.wall_temperature_K
+
+
+def _points(tables: Sequence[TimeTable]) -> list[Point]:
+    """Return the times of all tables, those at which one jumps before and after the jump."""
+    times = sorted({t for table in tables for t in table.time_s} | {0.0})
+    steps = {t for table in tables for t in table.time_s if table.time_s.count(t) > 1}
+    return [(t, before) for t in times for before in ((True, False) if t in steps else (False,))]
+
+
+def _row(given: OverTime, points: Sequence[Point], values: Values, sets: int) -> FloatArray:
+    """Return a quantity at the points, shape (points, sets)."""
+    if not isinstance(given, TimeTable):
+        return stack([value_of(given, values)] * len(points), sets)
+    own = [value_of(value, values) for value in given.value]
+    return stack([_at(point, given.time_s, own) for point in points], sets)
+
+
+def _at(point: Point, times: Sequence[float], own: Sequence[Value]) -> Value:
+    """Return the value of a table at a point: linear between two of its own, constant behind."""
+    t, before = point
+    if before:
+        after = int(np.searchsorted(times, t, side="left"))
+    else:
+        after = int(np.searchsorted(times, t, side="right")) - 1
+        after += times[after] < t
+    if after == len(times):
+        return own[-1]
+    if times[after] == t:
+        return own[after]
+    part = (t - times[after - 1]) / (times[after] - times[after - 1])
+    return own[after - 1] + (own[after] - own[after - 1]) * part
