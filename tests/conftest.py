@@ -3,7 +3,9 @@
 The rest are the fast ones, `make test-fast`; none of them compiles a kernel.
 """
 
+import sys
 from pathlib import Path
+from types import ModuleType
 
 import pytest
 
@@ -37,6 +39,10 @@ FILES = {
 """Files of folders whose other tests are fast."""
 
 
+KERNELS = [f"pyrofit.solver.kernels.{name}" for name in ("grid", "slab", "tga", "trace")]
+"""Compiled modules that the solver imports when it runs."""
+
+
 def pytest_collection_modifyitems(items: list[pytest.Item]) -> None:
     """Mark the tests of a folder or a file with their speed class."""
     for item in items:
@@ -54,3 +60,23 @@ def pytest_sessionstart() -> None:
     lacking = sorted({*FOLDERS, *FILES} - there)
     if lacking:
         pytest.exit(f"tests/conftest.py: there is no {', '.join(lacking)}; correct it", 1)
+
+
+class Refused(ModuleType):
+    """Stands for a compiled module in a fast test."""
+
+    def __getattr__(self, name: str) -> object:
+        if name.startswith("__"):
+            raise AttributeError(name)
+        raise AssertionError(
+            "a fast test runs the solver; give its file the class `solver` in tests/conftest.py"
+        )
+
+
+@pytest.fixture(autouse=True)
+def _fast_tests_run_no_solver(
+    request: pytest.FixtureRequest, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    if not {mark.name for mark in request.node.iter_markers()} & {"slow", "solver", "workflow"}:
+        for name in KERNELS:
+            monkeypatch.setitem(sys.modules, name, Refused(name))

@@ -80,7 +80,8 @@ def source_fingerprint(*modules: str) -> str:
     for package in NUMERIC:
         total.update(f"{package} {importlib.metadata.version(package)}".encode())
     sources = imported_files(root, modules)
-    beside = {p for path in sources for p in path.parent.iterdir() if p.suffix in (".j2", ".txt")}
+    folders = {path.parent for path in sources}
+    beside = {p for folder in folders for p in folder.iterdir() if p.suffix in (".j2", ".txt")}
     for path in sorted(sources | beside):
         total.update(path.relative_to(root).as_posix().encode())
         total.update(path.read_bytes())

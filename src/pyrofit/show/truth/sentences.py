@@ -25,8 +25,8 @@ def errors(table: pd.DataFrame) -> list[str]:
 
     Examples
     --------
-    >>> errors = {f"{by}_error_limits_percent": [-12.0, 0.5] for by in _FOUND_BY}
-    >>> frame = pd.DataFrame({"fit": "RMSE", "parameter": ["k", "rho"], **errors})
+    >>> columns = {f"{by}_error_limits_percent": [-12.0, 0.5] for by in _FOUND_BY}
+    >>> frame = pd.DataFrame({"fit": "RMSE", "parameter": ["k", "rho"], **columns})
     >>> errors(frame)[1].split(": ")[1]
     '12 % in k, at most 0.5 % in the others (RMSE).'
     """
