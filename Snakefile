@@ -13,6 +13,7 @@ from pyrofit.provenance import STUDY as STUDY_MODULES
 from pyrofit.provenance import source_fingerprint
 from pyrofit.results import dependencies
 from pyrofit.results.files import Results, write_text
+from pyrofit.results.kinetics import heats_shown
 from pyrofit.show.sections import FIGURES, TABLES, module_of
 from pyrofit.stages.reading import check_measurements
 

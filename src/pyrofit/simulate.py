@@ -1,6 +1,5 @@
 """Curves of an experiment for given parameter values, for one set of them or for many at once."""
 
-import itertools
 import math
 from collections.abc import Mapping, Sequence
 
@@ -11,16 +10,13 @@ from pyrofit.model.base import value_of
 from pyrofit.model.heated import HeatedExperiment
 from pyrofit.model.material import Material
 from pyrofit.model.slab import SlabExperiment
-from pyrofit.solver.arrays import FLUX, FloatArray, Numerics, Status, Values
+from pyrofit.solver.arrays import FLUX, FloatArray, Numerics, Values
 from pyrofit.solver.curves import Curves, Request, Runs
-from pyrofit.solver.lower import fractions, is_separate, lower_material, lower_network
+from pyrofit.solver.heated import heated_samples
+from pyrofit.solver.lower import lower_material, lower_network
 from pyrofit.solver.lower_experiment import lower_exposure, lower_layers, lower_share
 from pyrofit.solver.observe import observe
-from pyrofit.solver.outputs import FRACTION_RATE, MASS_FRACTION
-from pyrofit.solver.run import Case, heat, march
-
-COUPLED_STEP = 0.125
-"""Temperature step over that of separate reactions, where one feeds or starves another."""
+from pyrofit.solver.run import Case, march
 
 
 def simulate_tga(
@@ -30,7 +26,7 @@ def simulate_tga(
     request: Request,
     accuracy: Accuracy | None = None,
 ) -> Curves:
-    """Simulate a TGA experiment.
+    """Simulate an experiment whose sample follows a temperature programme.
 
     Parameters
     ----------
@@ -46,7 +42,8 @@ def simulate_tga(
     Returns
     -------
     Curves
-        Signals ``mass_fraction`` [-] and ``mass_loss_rate`` [1/s] at the times.
+        Signals ``mass_fraction`` [-] and ``mass_loss_rate`` [1/s] at the times; ``heat_flow`` or
+        ``specific_heat_release_rate`` [W/kg] where it is the output of the request.
     """
     return simulate_tgas([experiment], material, values, [request], accuracy)[0][0]
 
@@ -59,41 +56,15 @@ def simulate_tgas(
     accuracy: Accuracy | None = None,
     sets: int = 1,
 ) -> list[list[Curves]]:
-    """Simulate TGA experiments for many parameter sets, all in one call of the solver.
+    """Simulate such experiments for many parameter sets, all in one call of the solver.
 
     As `simulate_tga`, with a request for each experiment; each value is a number or has the shape
     (sets,). The curves are listed by experiment, then by set.
     """
     accuracy = accuracy or Accuracy()
-    if any(request.temperature_K is None for request in requests):
-        raise ValueError("a TGA request needs temperatures")
-    network = lower_network(material, values, sets, heats=False)
-    start = fractions(material.composition, list(material.components), values, sets)
-    lags = [
-        np.full(sets, value_of(e.lag_s, values)) * e.heating_rate_K_min / 60.0 for e in experiments
-    ]
-    step = accuracy.tga_step_K * np.where(is_separate(network), 1.0, COUPLED_STEP)
-    begins = np.cumsum([0, *(request.time_s.size for request in requests)])
-    programs = (
-        np.concatenate([request.time_s for request in requests]),
-        np.concatenate([_given(request.temperature_K) for request in requests]),
-        begins,
-    )
-    mass, rate = heat(programs, np.array(lags), start, network, step)
-    return [
-        [_tga_curves(mass[s, a:b], rate[s, a:b]) for s in range(sets)]
-        for a, b in itertools.pairwise(begins)
-    ]
-
-
-def _tga_curves(mass: FloatArray, rate: FloatArray) -> Curves:
-    status = Status.OK if bool(np.isfinite(mass[-1])) else Status.NON_FINITE
-    return Curves(status, {MASS_FRACTION: mass, FRACTION_RATE: rate})
-
-
-def _given(temperature: FloatArray | None) -> FloatArray:
-    assert temperature is not None
-    return temperature
+    wanted = [{request.output} for request in requests]
+    step = accuracy.tga_step_K
+    return heated_samples(experiments, material, values, requests, wanted, step, sets)
 
 
 def simulate_gasification(

@@ -613,7 +613,7 @@ STAGES = rows_of(
         (
             "gasification in the kinetics",
             put(kinetics__cost__0__experiment="slab_25"),
-            ("kinetics.cost.0.experiment: 'slab_25' is no TGA experiment. Known: tga_10.",),
+            ("kinetics.cost.0.experiment: 'slab_25' is no TGA, DSC or MCC experiment.",),
         ),
         (
             "unknown kind of cost",

@@ -12,7 +12,7 @@ import yaml
 
 from pyrofit.cli import main
 from pyrofit.config import Study, as_study, digest, read_study
-from pyrofit.config.uses import parameters_of_tga
+from pyrofit.config.uses import parameters_of_heated
 from pyrofit.errors import StudyError
 
 CONFIG = Path(__file__).parents[2] / "config"
@@ -156,8 +156,8 @@ def test_published_kinetics_replace_rate_order_and_composition_only() -> None:
 
 def test_heat_of_reaction_is_no_parameter_of_tga() -> None:
     study = read_study(CONFIG / "paper.yaml")
-    assert parameters_of_tga(study.material) == {"T_A", "E_A", "T_B", "E_B", "w_A"}
-    assert parameters_of_tga(study.material_with("Table 3")) == set()
+    assert parameters_of_heated(study.material) == {"T_A", "E_A", "T_B", "E_B", "w_A"}
+    assert parameters_of_heated(study.material_with("Table 3")) == set()
 
 
 def test_digest_ignores_order_of_keys_and_sees_every_value() -> None:
@@ -473,13 +473,13 @@ BROKEN: list[tuple[str, str, object, list[str]]] = [
         "gasification in the kinetics",
         "kinetics.cost.0",
         {"experiment": "slab_25", "signal": "mlr", "kind": "RMSE"},
-        ["kinetics.cost.0.experiment: 'slab_25' is no TGA experiment"],
+        ["kinetics.cost.0.experiment: 'slab_25' is no TGA, DSC or MCC experiment"],
     ),
     (
         "gasification to compare kinetics with",
         "kinetics.compare",
         ["slab_25"],
-        ["kinetics.compare: 'slab_25' is no TGA experiment"],
+        ["kinetics.compare: 'slab_25' is no TGA, DSC or MCC experiment"],
     ),
     (
         "TGA to predict",

@@ -14,7 +14,7 @@ from tiny import COSTS, FIT, OWN_FILE, SCORES, TINY, Project, Run
 from pyrofit.config import as_study
 
 PREPARE = "Measured series into tidy tables, mass closure checked"
-KINETICS = "Kinetics fitted to TGA"
+KINETICS = "Kinetics fitted to heated samples"
 COLLECT = "All repetitions gathered"
 IDENTIFY = "What the data determine of the inverse modelling"
 IDENTIFY_KINETICS = "What the data determine of the kinetics"

@@ -1,6 +1,9 @@
 _FILES = ("fit.json", "history.csv.gz", "convergence.csv", "curves.csv", "scores.csv")
+_HEAT_FILES = ("heats.csv", "heat_scores.csv") if heats_shown(study) else ()
 FITTED_KINETICS = (
-    [] if study.kinetics is None else [results.kinetics(name) for name in _FILES]
+    []
+    if study.kinetics is None
+    else [results.kinetics(name) for name in (*_FILES, *_HEAT_FILES)]
 )
 KINETICS = FITTED_KINETICS[:1]
 # The inverse modelling waits for the fit only where it uses it.
@@ -18,6 +21,7 @@ if study.kinetics is not None:
             convergence=results.kinetics("convergence.csv"),
             curves=results.kinetics("curves.csv"),
             scores=results.kinetics("scores.csv"),
+            heats=[results.kinetics(name) for name in _HEAT_FILES],
         log:
             log_of("kinetics"),
         benchmark:
@@ -29,6 +33,6 @@ if study.kinetics is not None:
             seed=study.seed,
             source=FITS,
         message:
-            "Kinetics fitted to TGA"
+            "Kinetics fitted to heated samples"
         shell:
             "pyrofit kinetics --study {params.study} --digest {params.digest} --log {log}"

@@ -3,6 +3,7 @@
 from dataclasses import dataclass
 
 from pyrofit.config import Study
+from pyrofit.results.kinetics import masses_shown
 
 SCEUA = "SCE-UA"
 
@@ -78,20 +79,18 @@ def use_of(study: Study, cost: str, experiment: str, signal: str) -> str:
 
 
 def rates_in_fit(study: Study) -> list[str]:
-    """Return the TGA experiments that the kinetics were fitted to, slowest heating first."""
+    """Return the experiments whose mass the kinetics were fitted to, slowest heating first."""
     if study.kinetics is None:
         return []
-    used = {term.experiment for term in study.kinetics.cost if term.weight > 0.0}
-    return [name for name in all_rates(study) if name in used]
+    used = {(t.experiment, t.signal) for t in study.kinetics.cost if t.weight > 0.0}
+    masses = masses_shown(study)
+    return [name for name in all_rates(study) if (name, masses[name]) in used]
 
 
 def all_rates(study: Study) -> list[str]:
-    """Return the TGA experiments that are fitted or compared, slowest heating first."""
-    if study.kinetics is None:
-        return []
-    shown = {term.experiment for term in study.kinetics.cost} | set(study.kinetics.compare)
+    """Return the experiments whose mass is fitted or compared, slowest heating first."""
     heated = study.of_stage("kinetics")
-    return sorted(shown, key=lambda name: (heated[name].heating_rate_K_min, name))
+    return sorted(masses_shown(study), key=lambda name: (heated[name].heating_rate_K_min, name))
 
 
 def title_of(study: Study, experiment: str) -> str:

@@ -7,11 +7,17 @@ from pyrofit.config.numbers import check_numbers, check_parameter, check_paramet
 from pyrofit.config.stage_checks import check_stages
 from pyrofit.config.stages import KineticSet
 from pyrofit.config.study import Study
-from pyrofit.config.uses import names_in, parameters_in, parameters_of_tga
+from pyrofit.config.uses import (
+    names_in,
+    numbers_of,
+    parameters_in,
+    parameters_of_heated,
+)
 from pyrofit.effects import known_effects
 from pyrofit.effects.base import ADDED
 from pyrofit.effects.substance import main_reaction
 from pyrofit.errors import suggest
+from pyrofit.experiments import kind_of
 from pyrofit.model.base import FRACTION
 from pyrofit.model.experiment import Experiment
 from pyrofit.model.material import REST, check_composition
@@ -128,6 +134,17 @@ def _check_signals(study: Study) -> None:
                 f"{place}.until_K",
                 "only a record against temperature has one at each point; use until_s",
             )
+            require(
+                signal.endothermic == "positive" or experiment.quantity(quantity).has_sign,
+                f"{place}.endothermic",
+                "only a heat flow has a sign that files choose; leave it out",
+            )
+            rests_on = experiment.quantity(quantity).rests_on
+            require(
+                not rests_on or any(x != 0.0 for x in numbers_of(study.material, rests_on)),
+                place,
+                f"every {' and '.join(rests_on)} of the material is 0; give at least one",
+            )
             if signal.file == "synthetic":
                 _check_spacing(experiment, signal.every, place)
 
@@ -182,19 +199,31 @@ def _check_values(study: Study) -> None:
         )
     for name in sorted(set(study.imp.estimate) - used):
         raise ValueError(f"imp.estimate: '{name}' has no effect on any gasification experiment")
-    if study.kinetics is None:
+    _check_kinetics_values(study)
+
+
+def _check_kinetics_values(study: Study) -> None:
+    """Refuse parameters that the kinetics lack, and those that their signals do not show."""
+    stage, heated = study.kinetics, study.of_stage("kinetics")
+    if stage is None:
         return
-    given = set(study.fixed_values()) | set(study.kinetics.estimate)
-    of_records = parameters_in(*study.of_stage("kinetics").values())
-    for label in ("fitted", *study.kinetics.sets):
-        of_material = parameters_of_tga(study.material_with(label))
+    given = set(study.fixed_values()) | set(stage.estimate)
+    fitted = {(term.experiment, term.signal) for term in stage.cost}
+    names = {n for n, _ in fitted} | set(stage.compare)
+    shown = {n: e for n, e in heated.items() if n in names}
+    words = " or ".join(dict.fromkeys(kind_of(e).words for e in shown.values()))
+    quantities = [e.quantity(s) for e in shown.values() for s in e.signals]
+    of_records = parameters_in(*heated.values())
+    for label in ("fitted", *stage.sets):
+        of_material = parameters_of_heated(study.material_with(label), quantities)
         for name in sorted((of_material | of_records) - given):
             raise ValueError(
-                f"parameters.{name}: TGA needs it; add it to kinetics.estimate or give a value"
+                f"parameters.{name}: {words} needs it; add it to kinetics.estimate or give a value"
             )
-    seen = parameters_of_tga(study.material) | of_records
-    for name in sorted(set(study.kinetics.estimate) - seen):
-        raise ValueError(f"kinetics.estimate: '{name}' has no effect on TGA")
+    in_fit = [heated[n].quantity(s) for n, s in fitted]
+    seen = parameters_of_heated(study.material, in_fit) | of_records
+    for name in sorted(set(stage.estimate) - seen):
+        raise ValueError(f"kinetics.estimate: '{name}' has no effect on {words}")
 
 
 def _check_synthetic(study: Study) -> None:

@@ -13,6 +13,8 @@ _UNITS: dict[str, tuple[str, ...]] = {
     "_W_mK": ("W/(m K)",),
     "_J_kgK": ("J/(kg K)", "kJ/(kg K)"),
     "_J_kg": ("J/kg", "kJ/kg"),
+    "_W_kgK": ("W/(kg K)",),
+    "_W_kg": ("W/kg", "W/g"),
     "_J_mol": ("J/mol", "kJ/mol", "kJ/kmol"),
     "_W_m2K43": ("W/(m2 K^(4/3))",),
     "_W_m2K": ("W/(m2 K)",),

@@ -125,6 +125,11 @@ def _known(study: Study, names: Iterable[str], place: str, wanted: Stage) -> Non
         require(
             kind_of(study.experiments[name]).stage == wanted,
             place,
-            f"'{name}' is no {' or '.join(kinds_of(wanted))} experiment. "
+            f"'{name}' is no {_either(kinds_of(wanted))} experiment. "
             + suggest(name, study.of_stage(wanted)),
         )
+
+
+def _either(words: Sequence[str]) -> str:
+    """Return 'a, b or c'."""
+    return " or ".join([", ".join(words[:-1]), words[-1]]) if len(words) > 1 else words[0]

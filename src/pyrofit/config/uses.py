@@ -1,10 +1,14 @@
 """Which parameters parts of a description use."""
 
-from collections.abc import Mapping
+from collections.abc import Collection, Iterable, Mapping
 
 from pyrofit.model.base import numbers
 from pyrofit.model.material import REST, Material
 from pyrofit.model.slab import SlabExperiment
+from pyrofit.quantities.base import Quantity
+
+HEATS = ("heat_of_reaction_J_kg", "heat_of_combustion_J_kg")
+"""Keys of a reaction on which its rate does not depend."""
 
 
 def parameters_in(*parts: object) -> set[str]:
@@ -20,11 +24,23 @@ def parameters_in(*parts: object) -> set[str]:
     return found
 
 
-def parameters_of_tga(material: Material) -> set[str]:
-    """Return the names of the parameters that the kinetics and the composition use."""
-    cold = {"heat_of_reaction_J_kg": 0.0}
+def parameters_of_heated(material: Material, quantities: Iterable[Quantity] = ()) -> set[str]:
+    """Return the names of the parameters that heated samples show.
+
+    Those are the parameters of the kinetics and the composition, and of the heats on which the
+    measured quantities rest.
+    """
+    keys = {key for quantity in quantities for key in quantity.rests_on}
+    cold = {key: 0.0 for key in HEATS if key not in keys}
     kinetics = [reaction.model_copy(update=cold) for reaction in material.reactions.values()]
-    return parameters_in(*kinetics) | names_in(material.composition)
+    used = parameters_in(*kinetics) | names_in(material.composition)
+    return used | {leaf for leaf in numbers_of(material, keys) if isinstance(leaf, str)}
+
+
+def numbers_of(material: Material, keys: Collection[str]) -> list[float | str]:
+    """Return the numbers that keys of components and reactions hold."""
+    parts = [*material.components.values(), *material.reactions.values()]
+    return [leaf for p in parts for at, leaf, _ in numbers(p) if at.split(".")[0] in keys]
 
 
 def names_in(composition: Mapping[str, float | str]) -> set[str]:

@@ -41,9 +41,12 @@ class SeriesSpec:
     uncertainty_meaning : str
         What the uncertainty is, such as "two standard deviations of the mean".
     sample_mass_kg : float, optional
-        Initial mass of the sample [kg]: divides a mass to give a mass fraction.
+        Initial mass of the sample [kg]: divides a mass to give a mass fraction, and a power to give
+        one per mass.
     sample_area_m2 : float, optional
         Exposed area of the sample [m2]: divides a mass rate or a heat rate to give a flux.
+    sign : int
+        Sign of the file's values, 1 or -1.
 
     Raises
     ------
@@ -59,6 +62,7 @@ class SeriesSpec:
     uncertainty_meaning: str = ""
     sample_mass_kg: float | None = None
     sample_area_m2: float | None = None
+    sign: int = 1
 
     def __post_init__(self) -> None:
         if self.quantity not in (known := known_quantities()):
@@ -130,8 +134,8 @@ def read_series(spec: SeriesSpec) -> Measurement:
     """Read a measured series, convert it to SI units and check it.
 
     A mass `m` becomes the mass fraction `m / m_0`, with `m_0` the given mass of the sample, else
-    the first value; a mass rate becomes the mass loss rate per area, `rate / area`. Columns that
-    are zero throughout are placeholders and are left out.
+    the first value; a mass rate becomes the mass loss rate per area, `rate / area`; a power becomes
+    that per initial mass. Columns that are zero throughout are placeholders and are left out.
 
     Parameters
     ----------
@@ -180,6 +184,7 @@ def read_series(spec: SeriesSpec) -> Measurement:
         notes.append(f"left out, zero throughout: {', '.join(unread)}")
     if negative := int((frame[spec.of.column] < 0.0).sum()):
         notes.append(f"{negative} of {rows} values are negative")
+    notes += _remarks(spec.of, frame)
     digest = sha256(spec.path)
     return Measurement(spec.of, frame, spec.path, digest, spec.uncertainty_meaning, tuple(notes))
 
@@ -193,6 +198,15 @@ def _check_length(table: Table) -> int:
             "Give a longer file."
         )
     return rows
+
+
+def _remarks(quantity: Quantity, frame: pd.DataFrame) -> list[str]:
+    """Return what looks wrong with the values of a record against temperature."""
+    if quantity.remark is None:
+        return []
+    columns = (frame[c].to_numpy(float) for c in ("temperature_K", quantity.column))
+    said = quantity.remark(*columns)
+    return [said] if said else []
 
 
 def _assign_columns(spec: SeriesSpec, table: Table, dummies: Sequence[str]) -> dict[str, str]:
@@ -252,7 +266,9 @@ def _convert_columns(
     kinds = spec.of.scales
     value, kind = _to_si(spec, table, headers, "value", kinds)
     divisor, notes = _divisor(spec, kind, float(value[0]))
-    data[spec.of.column] = value / divisor
+    data[spec.of.column] = spec.sign * value / divisor
+    if spec.sign < 0:
+        notes.append("the sign is changed")
     if spec.uncertainty is not None:
         data[spec.of.uncertainty_column] = np.full(len(value), spec.uncertainty)
         notes.append("one uncertainty is given for all points")
@@ -295,6 +311,13 @@ def _divisor(spec: SeriesSpec, kind: str, first: float) -> tuple[float, list[str
                 f"right unit of a {PER_AREA[kind]}, such as {spec.of.unit}."
             )
         return spec.sample_area_m2, [f"{kind} divided by {spec.sample_area_m2:g} m2"]
+    if kind == "power":
+        if spec.sample_mass_kg is None:
+            raise DataError(
+                f"{spec.path}: the unit is that of a power; give `sample_mass_kg`, the initial "
+                "mass of the sample, or the right unit of a power per mass, such as W/g."
+            )
+        return spec.sample_mass_kg, [f"power divided by {spec.sample_mass_kg:g} kg"]
     if kind != "mass":
         return 1.0, []
     mass = first if spec.sample_mass_kg is None else spec.sample_mass_kg

@@ -187,6 +187,7 @@ def _floors(
         "timing": timing_s * slope,
         "solver": np.full(curve.size, quantity.solver_error * np.ptp(curve)),
     }
-    if quantity.discrepancy is not None and not stated:
-        floors["discrepancy"] = np.full(curve.size, quantity.discrepancy)
+    discrepancy = quantity.discrepancy or quantity.discrepancy_share * float(np.ptp(curve))
+    if discrepancy and not stated:
+        floors["discrepancy"] = np.full(curve.size, discrepancy)
     return floors

@@ -7,10 +7,12 @@ from typing import Annotated
 
 from pydantic import Field
 
-from pyrofit.experiments import cone, gasification, tga
+from pyrofit.experiments import cone, dsc, gasification, mcc, tga
 from pyrofit.experiments.base import Kind, Stage
 from pyrofit.experiments.cone import Cone
+from pyrofit.experiments.dsc import Dsc
 from pyrofit.experiments.gasification import Gasification
+from pyrofit.experiments.mcc import Mcc
 from pyrofit.experiments.tga import Tga
 from pyrofit.model.experiment import Experiment
 
@@ -18,9 +20,11 @@ KINDS: dict[str, Kind] = {
     "cone": cone.KIND,
     "gasification": gasification.KIND,
     "tga": tga.KIND,
+    "dsc": dsc.KIND,
+    "mcc": mcc.KIND,
 }
 """Kinds of experiment by name."""
-AnyExperiment = Annotated[Cone | Tga | Gasification, Field(discriminator="kind")]
+AnyExperiment = Annotated[Cone | Tga | Dsc | Mcc | Gasification, Field(discriminator="kind")]
 
 
 def kind_of(experiment: Experiment) -> Kind:

@@ -4,8 +4,20 @@ from typing import Literal, Self
 
 from pydantic import Field, model_validator
 
-from pyrofit.model.base import AboveZero, Number
+from pyrofit.model.base import AboveZero, Number, Part, Temperature
 from pyrofit.model.experiment import Experiment
+
+
+class Baseline(Part):
+    """Straight line that a calorimeter shows besides the heat flow of the sample."""
+
+    level_W_kg: Number = Field(
+        0.0, description="baseline at the reference temperature, per initial mass [W/kg]"
+    )
+    slope_W_kgK: Number = Field(0.0, description="slope of the baseline [W/(kg K)]")
+    reference_temperature_K: Temperature = Field(
+        500.0, description="temperature at which the baseline has its level [K]"
+    )
 
 
 class HeatedExperiment(Experiment):
@@ -26,13 +38,30 @@ class HeatedExperiment(Experiment):
         for name, signal in self.signals.items():
             if signal.delay_s != 0.0 or signal.offset != 0.0:
                 raise ValueError(
-                    f"signal '{name}' of a TGA experiment takes neither delay_s nor offset; "
-                    "a sample behind its program has lag_s"
+                    f"signal '{name}' of a {self.kind.upper()} experiment takes neither delay_s "
+                    f"nor offset; a sample behind its program has lag_s{self._other_way_out}"
                 )
         return self
+
+    @property
+    def _other_way_out(self) -> str:
+        return ""
+
+    @property
+    def line(self) -> Baseline:
+        """Baseline of its heat flow."""
+        return NO_BASELINE
+
+    @property
+    def response(self) -> float | str:
+        """Time constant [s] of the response to its heat release, or its parameter."""
+        return 0.0
 
     @property
     def synthetic_span(self) -> tuple[float, str]:
         """Length of a computed record [K], and the keys that set it."""
         span = self.end_temperature_K - self.start_temperature_K
         return span, "start_temperature_K and end_temperature_K"
+
+
+NO_BASELINE = Baseline()

@@ -1,6 +1,6 @@
 """The record of one quantity: its file, its noise, its clock."""
 
-from typing import Annotated, Any, Self
+from typing import Annotated, Any, Literal, Self
 
 from pydantic import BeforeValidator, Field, model_validator
 
@@ -82,8 +82,11 @@ class Signal(Part):
     offset: Number = Field(0.0, description="what the record shows too much, SI unit")
     sample_mass_kg: AboveZero | None = Field(None, description="initial sample mass [kg]")
     sample_area_m2: AboveZero | None = Field(None, description="exposed area [m2]")
+    endothermic: Literal["positive", "negative"] = Field(
+        "positive", description="heat flow: sign that heat taken up has in the file"
+    )
     until_K: AboveZero | None = Field(
-        None, description="TGA: use points below this temperature [K]"
+        None, description="heated samples: use points below this temperature [K]"
     )
     until_s: AboveZero | None = Field(None, description="use points before this time [s]")
     noise: Annotated[Noise, BeforeValidator(_noise)] = Field(
@@ -91,5 +94,5 @@ class Signal(Part):
         description="synthetic: noise; a number is the standard deviation of white noise, SI unit",
     )
     every: AboveZero = Field(
-        1.0, description="synthetic: spacing of the points [s], or [K] for TGA"
+        1.0, description="synthetic: spacing of the points [s], or [K] of a heated sample"
     )

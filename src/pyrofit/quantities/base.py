@@ -16,6 +16,9 @@ Guess = Callable[[float, float], str]
 Released = Callable[[FloatArray, FloatArray], float]
 """From times and values to the released mass per area."""
 
+Remark = Callable[[FloatArray, FloatArray], str]
+"""From temperatures [K] and values to a remark."""
+
 
 LIMITS = ("lower", "upper")
 """Roles of columns with the limits of a band; they are read where a study names them."""
@@ -79,8 +82,15 @@ class Quantity:
     """Whether a prediction is scored relative to the mean measured value."""
     released: Released | None = None
     """Mass per area that a record shows to be released [kg/m2]; none = it does not show that."""
-    heats: bool = False
-    """Whether the values depend on heats: of reaction, of combustion, heat capacity."""
+    discrepancy_share: float = 0.0
+    """The same as a fraction of the record's range."""
+    has_sign: bool = False
+    """Whether files differ in their sign: heat taken up is positive, or negative."""
+    remark: Remark | None = None
+    """What looks wrong with a record against temperature; nothing where it looks right."""
+    rests_on: tuple[str, ...] = ()
+    """Keys of components and reactions, besides the kinetics, on which a heated sample's values
+    depend."""
     name: str = ""
 
     @property

@@ -22,4 +22,5 @@ QUANTITY = Quantity(
     solver_error=1e-3,
     usual_sd=1e4,
     relative=True,
+    rests_on=("heat_of_combustion_J_kg",),
 )

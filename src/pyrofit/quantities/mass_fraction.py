@@ -10,7 +10,7 @@ def _guess(first: float, largest: float) -> str:
 
 
 QUANTITY = Quantity(
-    kinds=("tga",),
+    kinds=("tga", "dsc"),
     title="mass fraction",
     symbol="m/m0",
     unit="-",

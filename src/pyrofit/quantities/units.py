@@ -12,6 +12,8 @@ SCALES: dict[str, dict[str, float]] = {
     "heat flux": {"W/m2": 1.0, "kW/m2": 1e3, "MW/m2": 1e6},
     "heat rate": {"W": 1.0, "kW": 1e3, "MW": 1e6},
     "heat transfer coefficient": {"W/(m2 K)": 1.0, "W/m2/K": 1.0, "kW/(m2 K)": 1e3},
+    "specific power": {"W/kg": 1.0, "kW/kg": 1e3, "W/g": 1e3, "mW/mg": 1e3, "mW/g": 1.0},
+    "power": {"W": 1.0, "mW": 1e-3, "uW": 1e-6, "µW": 1e-6, "kW": 1e3},
     "fraction": {"1": 1.0, "-": 1.0, "g/g": 1.0, "kg/kg": 1.0, "mg/mg": 1.0, "%": 0.01},
 }
 PER_AREA = {"mass rate": "mass flux", "heat rate": "heat flux"}
@@ -24,6 +26,7 @@ def unit_key(unit: str) -> str:
     """Reduce a unit to one spelling: `kg m-2 s-1`, `kg/(m^2 s)` and `kg/m²/s` to `kg/s/m2`."""
     key = re.sub(r"[\s^*·⋅()\[\]]", "", unit.casefold()).replace("²", "2").replace("−", "-")
     key = key.replace("m-2", "/m2").replace("s-1", "/s")
+    key = re.sub(r"(kg|mg|g)-1$", r"/\1", key)
     return re.sub(r"/m2/?s$|/sm2$", "/s/m2", key)
 
 

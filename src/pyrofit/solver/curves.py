@@ -4,6 +4,8 @@ from collections.abc import Mapping
 from dataclasses import dataclass
 from typing import NamedTuple
 
+import numpy as np
+
 from pyrofit.solver.arrays import FloatArray, IntArray, Status
 
 _STATUSES = tuple(Status)
@@ -11,19 +13,37 @@ _STATUSES = tuple(Status)
 
 @dataclass(frozen=True)
 class Request:
-    """What a signal asks of a run: its times [s], bin width [s], for TGA its temperatures [K].
+    """What a signal asks of a run: its times [s] and bin width [s].
 
-    ``output`` names the curve, see `pyrofit.solver.outputs`; without it the signal's own name does.
+    A heated sample has the programme's temperatures [K] and their rates of change [K/s], by default
+    the differences of those. ``output`` names the curve, see `pyrofit.solver.outputs`; without it
+    the signal's own name does.
     """
 
     time_s: FloatArray
     average_s: float = 0.0
     temperature_K: FloatArray | None = None
     output: str = ""
+    heating_rate_K_s: FloatArray | None = None
 
     def of(self, signal: str) -> str:
         """Return the name of the curve that a signal asks for."""
         return self.output or signal
+
+    def programme(self) -> tuple[FloatArray, FloatArray]:
+        """Return the temperatures [K] and their rates of change [K/s].
+
+        Raises
+        ------
+        ValueError
+            The request has no temperatures.
+        """
+        T = self.temperature_K
+        if T is None:
+            raise ValueError("the request for a heated sample needs temperatures")
+        if self.heating_rate_K_s is not None:
+            return T, self.heating_rate_K_s
+        return T, np.gradient(T, self.time_s) if T.size > 1 else np.zeros(T.size)
 
 
 class Curves(NamedTuple):

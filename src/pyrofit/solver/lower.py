@@ -63,39 +63,46 @@ def total(rows: FloatArray) -> FloatArray:
 
 
 def property_table(prop: object, values: Values, sets: int = 1) -> FloatArray:
-    """Return p at the nodes of `TABLE_TEMPERATURES_K`, shape (nodes, sets); constant: (1, sets).
+    """Return p at the nodes of `TABLE_TEMPERATURES_K`, shape (nodes, sets); constant: (1, sets)."""
+    return property_at(prop, values, NODES_K, sets)
 
-    A linear property ends at 1 % of its reference value: it must not become negative.
+
+def property_at(prop: object, values: Values, T: FloatArray, sets: int = 1) -> FloatArray:
+    """Return p at temperatures [K], shape (points, sets); constant: (1, sets).
+
+    The temperatures have the shape (points, 1), or (points, sets). A linear property ends at 1 %
+    of its reference value: it must not become negative.
     """
     if isinstance(prop, float | str):
         return stack([value_of(prop, values)], sets)
+    shape = len(T), sets
     if isinstance(prop, words.Table):
         points = stack([value_of(v, values) for v in prop.value], sets)
-        columns = [np.interp(TABLE_TEMPERATURES_K, prop.temperature_K, p) for p in points.T]
+        at = np.broadcast_to(T, shape).T
+        columns = [np.interp(t, prop.temperature_K, p) for t, p in zip(at, points.T, strict=True)]
         return np.stack(columns, axis=1)
     if isinstance(prop, words.Changed):
-        return _changed(prop, values, sets)
+        return _changed(prop, values, T, sets)
     assert isinstance(prop, words.Linear | words.PowerLaw)
     value = value_of(prop.value, values)
     reference = value_of(prop.reference_temperature_K, values)
     if isinstance(prop, words.Linear):
-        rise = value_of(prop.slope_1_K, values) * (NODES_K - reference)
+        rise = value_of(prop.slope_1_K, values) * (T - reference)
         table = value * np.maximum(LEAST_SHARE, 1.0 + rise)
     else:
         # Not a power: of some exponents numpy makes a root or a square, which rounds otherwise.
-        table = value * np.exp(value_of(prop.exponent, values) * np.log(NODES_K / reference))
-    return np.broadcast_to(table, (TABLE_SIZE, sets))
+        table = value * np.exp(value_of(prop.exponent, values) * np.log(T / reference))
+    return np.broadcast_to(table, shape)
 
 
-def _changed(prop: words.Changed, values: Values, sets: int) -> FloatArray:
+def _changed(prop: words.Changed, values: Values, T: FloatArray, sets: int) -> FloatArray:
     """Return of(T) with slope, step and peak; nothing but of(T) where these are zero."""
     at = {
         name: value_of(getattr(prop, name), values)
         for name in words.Changed.model_fields
         if name != "of"
     }
-    T = NODES_K
-    of = property_table(prop.of, values, sets)
+    of = property_at(prop.of, values, T, sets)
     slope = 1.0 + at["slope_1_K"] * (T - at["reference_temperature_K"])
     # 1 / (1 + exp(-x)), which would overflow.
     passed = 0.5 + 0.5 * np.tanh(0.5 * (T - at["step_temperature_K"]) / at["step_width_K"])
@@ -197,11 +204,16 @@ def is_separate(network: Network) -> NDArray[np.bool_]:
 
 
 def lower_network(
-    material: words.Material, values: Values, sets: int = 1, heats: bool = True
+    material: words.Material,
+    values: Values,
+    sets: int = 1,
+    heats: bool = True,
+    burning: bool = True,
 ) -> Network:
     """Return the reactions as arrays, sorted so that products react after their formation.
 
-    Without ``heats`` the heats of reaction are left out (TGA prescribes the temperature).
+    Without ``heats`` the heats of reaction are left out, without ``burning`` those of combustion:
+    the mass of a sample whose temperature is prescribed depends on neither.
     """
     plan = material.derived("network", _plan)
     order = [material.reactions[name] for name in plan.reactions]
@@ -212,6 +224,7 @@ def lower_network(
     first_order = bool(np.all(orders == 1.0))
     energies = [value_of(r.E_J_mol, values) for r in order]
     heat = [value_of(r.heat_of_reaction_J_kg, values) if heats else 0.0 for r in order]
+    burnt = [value_of(r.heat_of_combustion_J_kg, values) if burning else 0.0 for r in order]
     return Network(
         reactant=plan.reactant,
         root_factor=np.sqrt(stack([rate_factor(r, values) for r in order], sets)),
@@ -220,7 +233,7 @@ def lower_network(
         heat=stack(heat, sets),
         yields=yields,
         gas=1.0 - total(yields.swapaxes(0, 1)),
-        combustion=stack([value_of(r.heat_of_combustion_J_kg, values) for r in order], sets),
+        combustion=stack(burnt, sets),
         burns=False,
         first_order=first_order,
         plain=plan.plain,

@@ -2,8 +2,7 @@
 
 from collections.abc import Callable, Mapping
 from concurrent.futures import ThreadPoolExecutor
-from functools import cache, partial
-from operator import itemgetter
+from functools import cache
 from typing import Any, NamedTuple
 
 import numpy as np
@@ -36,68 +35,19 @@ class Case(NamedTuple):
     probes_m: tuple[float, ...]
 
 
-def heat(
-    programs: tuple[FloatArray, FloatArray, IntArray],
-    lags: FloatArray,
-    start: FloatArray,
-    network: arrays.Network,
-    step: FloatArray,
-) -> tuple[FloatArray, FloatArray]:
-    """Return mass fraction and rate, shape (sets, points); side by side run sets of one step."""
-    from pyrofit.solver.kernels.tga import tga
-
-    sets = start.shape[-1]
-    mass = np.empty((sets, programs[0].size))
-    rate = np.empty_like(mass)
-    for longest_rise in np.unique(step):
-        order = np.flatnonzero(step == longest_rise)
-        for group in _groups((lags, start, network), order, sets):
-            in_lanes = tga((0,) * group.width, *programs, *group.parts, longest_rise)
-            mass[group.sets], rate[group.sets] = (c.T[: group.sets.size] for c in in_lanes)
-    return mass, rate
-
-
-class _Group(NamedTuple):
-    """Sets that run side by side, in how many lanes, and the arrays of these lanes."""
-
-    sets: IntArray
-    width: int
-    parts: Any
-
-
-def _groups(parts: Any, order: IntArray, sets: int) -> list[_Group]:
-    """Share out sets in the order given, of as many as the last axis of the arrays has."""
-    if sets == 1:
-        return [_Group(order, 1, parts)]
-    rest = order.size % LANES
-    size = order.size - rest if rest <= FEW else order.size
-    groups = []
-    if size:
-        # In the lanes left over the last one runs again.
-        filled = np.append(order[:size], np.repeat(order[size - 1 : size], -size % LANES))
-        together = _mapped(lambda a: _split(a, filled), parts)
-        for g in range(filled.size // LANES):
-            index = order[:size][g * LANES : (g + 1) * LANES]
-            groups.append(_Group(index, LANES, _mapped(itemgetter(g), together)))
-    return groups + [
-        _Group(i, 1, _mapped(partial(np.take, indices=i, axis=-1), parts))
-        for i in order[size:, None]
-    ]
-
-
-def _split(array: FloatArray, order: IntArray) -> FloatArray:
+def split(array: FloatArray, order: IntArray) -> FloatArray:
     """Return an array with one more axis in front, the groups; the last axis is a group's sets."""
     rows, groups = array.size // array.shape[-1], order.size // LANES
     taken = array.take(order, axis=-1).reshape(rows, groups, LANES).swapaxes(0, 1)
     return np.ascontiguousarray(taken).reshape(groups, *array.shape[:-1], LANES)
 
 
-def _mapped(change: Callable[[FloatArray], FloatArray], part: Any) -> Any:
+def mapped(change: Callable[[FloatArray], FloatArray], part: Any) -> Any:
     """Return arrays of numbers changed, whatever tuples they are held in; all else as it is."""
     if isinstance(part, np.ndarray) and part.dtype == np.float64:
         return change(part)
     if isinstance(part, tuple):
-        changed = [_mapped(change, p) for p in part]
+        changed = [mapped(change, p) for p in part]
         return type(part)(*changed) if hasattr(part, "_fields") else tuple(changed)
     return part
 
@@ -185,7 +135,7 @@ def _alone(work: _Work, index: IntArray) -> Found:
 
     case, t_end = work.case, work.t_end
     if case.cells.size > 1:
-        case, t_end = _mapped(lambda a: a.take(index, axis=-1), (case, t_end))
+        case, t_end = mapped(lambda a: a.take(index, axis=-1), (case, t_end))
     start, empty = cells_of(case.layers, work.case.cells[index], LANES)
     signals, outcome = slab(
         (0,),
@@ -212,19 +162,19 @@ def _together(work: _Work, index: IntArray) -> Found:
 
     case = work.case
     filled = np.append(index, np.repeat(index[-1:], -index.size % LANES))
-    layers, volumes = _mapped(
+    layers, volumes = mapped(
         lambda a: a.take(filled, axis=-1), (case.layers, case.properties.specific_volume)
     )
     start, empty = cells_of(layers, case.cells[filled])
     probes = _in_cells(case.probes_m, start, empty, volumes)
-    T_start, properties, network, exposure, t_end = _mapped(
-        lambda a: _split(a, filled),
+    T_start, properties, network, exposure, t_end = mapped(
+        lambda a: split(a, filled),
         (case.T_start, case.properties, case.network, case.exposure, work.t_end),
     )
     per_lane = (filled.size // LANES, LANES)
     signals, outcome = slabs(
         (0,) * LANES,
-        _split(start, np.arange(filled.size)),
+        split(start, np.arange(filled.size)),
         empty.reshape(per_lane),
         T_start,
         properties,

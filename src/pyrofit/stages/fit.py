@@ -14,19 +14,15 @@ from pyrofit.estimate.history import Progress, best_of, convergence
 from pyrofit.estimate.least_squares import Start, descend, multistart
 from pyrofit.estimate.prior import within_known
 from pyrofit.estimate.problem import Problem, make_problem
-from pyrofit.estimate.targets import Measurements
-from pyrofit.experiments.heated.simulate import programme
 from pyrofit.model.base import value_of
-from pyrofit.model.heated import HeatedExperiment
 from pyrofit.model.material import Material
 from pyrofit.results import dependencies, kinetics, searches
 from pyrofit.results.files import Results, write_csv, write_json
 from pyrofit.seeds import seed_for
-from pyrofit.simulate import simulate_tga
 from pyrofit.solver.arrays import FloatArray, Status
-from pyrofit.solver.curves import Request
 from pyrofit.solver.lower import fractions, rate_factor
-from pyrofit.solver.outputs import FRACTION_RATE, MASS_FRACTION
+from pyrofit.solver.outputs import MASS_FRACTION
+from pyrofit.stages.kinetic_curves import write_curves
 from pyrofit.stages.measurements import load
 
 Values = Mapping[str, float]
@@ -57,7 +53,7 @@ def _start(problem: Problem, start: Start) -> dict[str, Any]:
 
 
 def fit_kinetics(study: Study, results: Results) -> None:
-    """Fit the kinetics to TGA, and score the fit and the published sets.
+    """Fit the kinetics to heated samples, and score the fit and the published sets.
 
     SCE-UA searches and least squares starts beside it; the lower cost of the two is the fit.
     """
@@ -98,7 +94,7 @@ def fit_kinetics(study: Study, results: Results) -> None:
             },
         },
     )
-    _compare(study, results, measurements, fitted)
+    write_curves(study, results, measurements, fitted)
 
 
 def _reactions(material: Material, values: Values) -> dict[str, dict[str, float]]:
@@ -115,56 +111,6 @@ def _reactions(material: Material, values: Values) -> dict[str, dict[str, float]
         }
         for name in material.reaction_order()
     }
-
-
-def _compare(study: Study, results: Results, measurements: Measurements, fitted: Values) -> None:
-    """Write curves and scores of the fit and the published kinetics, used and compared TGA."""
-    stage = dependencies.kinetics_of(study)
-    used = {term.experiment for term in stage.cost}
-    curves = []
-    scores = []
-    for name, experiment in study.of_stage("kinetics").items():
-        masses = [s for s in experiment.signals if experiment.quantity(s).name == MASS_FRACTION]
-        if not masses or (name not in used and name not in stage.compare):
-            continue
-        frame = measurements[name, masses[0]]
-        for chosen in ("fitted", *stage.sets):
-            values = {**study.fixed_values(), **fitted}
-            curve = _tga_curve(study, experiment, frame, study.material_with(chosen), values)
-            curves.append(curve.assign(experiment=name, set=chosen))
-            difference = curve[MASS_FRACTION] - frame[MASS_FRACTION].to_numpy()
-            scores.append(
-                {
-                    "experiment": name,
-                    "heating_rate_K_min": experiment.heating_rate_K_min,
-                    "used_in_fit": name in used,
-                    "set": chosen,
-                    "rmse_mass_fraction": float(np.sqrt(np.mean(difference**2))),
-                }
-            )
-    write_csv(results.kinetics("curves.csv"), pd.concat(curves, ignore_index=True))
-    write_csv(results.kinetics("scores.csv"), pd.DataFrame(scores))
-
-
-def _tga_curve(
-    study: Study,
-    experiment: HeatedExperiment,
-    frame: pd.DataFrame,
-    material: Material,
-    values: Values,
-) -> pd.DataFrame:
-    time = frame["time_s"].to_numpy(float)
-    temperature = programme(experiment, frame, time)
-    request = Request(time, temperature_K=temperature)
-    signals = simulate_tga(experiment, material, values, request, study.accuracy).signals
-    return pd.DataFrame(
-        {
-            "time_s": time,
-            "temperature_K": temperature,
-            MASS_FRACTION: signals[MASS_FRACTION],
-            "mass_loss_rate_1_s": signals[FRACTION_RATE],
-        }
-    )
 
 
 def fixed_for_imp(study: Study, results: Results) -> dict[str, float]:

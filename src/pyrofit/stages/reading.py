@@ -149,6 +149,7 @@ def _read(quantity: Quantity, signal: Signal) -> Read:
             uncertainty_meaning=signal.uncertainty_meaning,
             sample_mass_kg=signal.sample_mass_kg,
             sample_area_m2=signal.sample_area_m2,
+            sign=1 if signal.endothermic == "positive" else -1,
         )
     )
     frame = found.frame

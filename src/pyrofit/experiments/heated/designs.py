@@ -1,6 +1,6 @@
 """New tests of a sample that follows a temperature programme: slower and faster."""
 
-from collections.abc import Callable, Iterator, Mapping
+from collections.abc import Callable, Collection, Iterator, Mapping
 
 from pyrofit.effects.base import changed
 from pyrofit.experiments.base import Idea
@@ -11,15 +11,20 @@ RATE_FACTOR = 3.0
 """How much slower and faster than all measured ones a new test is."""
 
 
-def designs(kind: str, words: str, own: Mapping[str, HeatedExperiment]) -> Iterator[Idea]:
-    """Yield a slower and a faster test than those measured."""
-    quantities = tuple(quantities_of(kind))
+def designs(
+    kind: str,
+    words: str,
+    own: Mapping[str, HeatedExperiment],
+    recorded: Mapping[str, Collection[str]],
+) -> Iterator[Idea]:
+    """Yield a slower and a faster test than those measured, which record the same."""
     rates = {name: e.heating_rate_K_min for name, e in own.items()}
     if not rates:
         return
     slowest, fastest = min(rates, key=lambda n: rates[n]), max(rates, key=lambda n: rates[n])
     for like, factor in ((slowest, 1.0 / RATE_FACTOR), (fastest, RATE_FACTOR)):
         rate = factor * rates[like]
+        quantities = tuple(q for q in quantities_of(kind) if q in recorded[like])
         choice = f"{kind}_{rate:.3g}_K_min", f"{words} at {rate:.3g} K/min", quantities
         yield Idea(like, _at_rate(rate), (choice,))
 

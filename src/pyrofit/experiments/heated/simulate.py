@@ -13,6 +13,9 @@ from pyrofit.simulate import simulate_tgas
 from pyrofit.solver.arrays import FloatArray, Values
 from pyrofit.solver.curves import Curves, Request
 
+WINDOW_K = 5.0
+"""Temperature rise over which a measured heating rate is taken [K]."""
+
 
 def simulate(
     experiments: Sequence[HeatedExperiment],
@@ -23,8 +26,29 @@ def simulate(
     sets: int = 1,
 ) -> list[list[Curves]]:
     """Return the curves by experiment and set; all in one call of the solver."""
-    requests = [request for (request,) in (of.values() for of in asked)]
-    return simulate_tgas(experiments, material, values, requests, accuracy, sets)
+    runs = [(e, r) for e, of in zip(experiments, asked, strict=True) for r in of.values()]
+    found = simulate_tgas(
+        [e for e, _ in runs], material, values, [r for _, r in runs], accuracy, sets
+    )
+    curves = []
+    first = 0
+    for of in asked:
+        own = found[first : first + len(of)]
+        first += len(of)
+        curves.append([_together(of, [each[s] for each in own]) for s in range(sets)])
+    return curves
+
+
+def _together(asked: Asked, found: Sequence[Curves]) -> Curves:
+    """Return the signals of one experiment, each of a run of its own, as those of one run."""
+    failed = next((c.status for c in found if not c.status.finished), None)
+    if failed is not None:
+        return Curves(failed, {})
+    signals = {
+        name: curves.signals[request.of(name)]
+        for (name, request), curves in zip(asked.items(), found, strict=True)
+    }
+    return Curves(found[0].status, signals, steps=sum(curves.steps for curves in found))
 
 
 def reference(
@@ -38,15 +62,20 @@ def reference(
     # Not above: loading its integrator takes a quarter of the time of a small job.
     from pyrofit.solver.reference.tga import reference_tga
 
-    (request,) = asked.values()
-    return reference_tga(experiment, material, values, request, resolution)
+    found = [reference_tga(experiment, material, values, r, resolution) for r in asked.values()]
+    return _together(asked, found)
 
 
 def request(
     experiment: HeatedExperiment, signal: str, frame: pd.DataFrame, times: FloatArray
 ) -> Request:
     """Return what a simulation is asked for at the given times of a measured signal."""
-    return Request(times, temperature_K=programme(experiment, frame, times))
+    return Request(
+        times,
+        temperature_K=programme(experiment, frame, times),
+        output=experiment.quantity(signal).curve,
+        heating_rate_K_s=heating_rate(experiment, frame, times),
+    )
 
 
 def programme(experiment: HeatedExperiment, frame: pd.DataFrame, times: FloatArray) -> FloatArray:
@@ -59,12 +88,38 @@ def programme(experiment: HeatedExperiment, frame: pd.DataFrame, times: FloatArr
     return np.asarray(temperature[0] + rise, dtype=np.float64)
 
 
+def heating_rate(
+    experiment: HeatedExperiment, frame: pd.DataFrame, times: FloatArray
+) -> FloatArray:
+    """Return dT/dt [K/s] at the given times: the nominal one, or that of the measured programme.
+
+    The latter is the slope between the temperatures half a window before and after, cut at the
+    ends of the record; a window is the time in which the nominal rate rises by `WINDOW_K`. The
+    differences of neighbouring readings would be mostly their rounding.
+    """
+    nominal = experiment.heating_rate_K_min / 60.0
+    if experiment.program != "measured":
+        return np.full(times.size, nominal)
+    measured = frame["time_s"].to_numpy(float)
+    half = 0.5 * WINDOW_K / nominal
+    ends = [np.clip(times + by, measured[0], measured[-1]) for by in (-half, half)]
+    below, above = (
+        np.interp(end, measured, frame["temperature_K"].to_numpy(float)) for end in ends
+    )
+    return np.asarray((above - below) / (ends[1] - ends[0]))
+
+
 def synthetic(experiment: HeatedExperiment, signals: Sequence[str]) -> dict[str, Request]:
     """Return the requests of computed signals: from the first to the last temperature."""
     first, last = experiment.start_temperature_K, experiment.end_temperature_K
+    rate = experiment.heating_rate_K_min / 60.0
     requests = {}
     for name in signals:
         temperature = np.arange(first, last, experiment.signals[name].every)
-        time = (temperature - first) / (experiment.heating_rate_K_min / 60.0)
-        requests[name] = Request(time, temperature_K=temperature)
+        requests[name] = Request(
+            (temperature - first) / rate,
+            temperature_K=temperature,
+            output=experiment.quantity(name).curve,
+            heating_rate_K_s=np.full(temperature.size, rate),
+        )
     return requests

@@ -26,5 +26,5 @@ KIND = Kind(
     request=request,
     synthetic=synthetic,
     course=course,
-    designs=lambda own, measured, recorded: designs("tga", "TGA", own),
+    designs=lambda own, measured, recorded: designs("tga", "TGA", own, recorded),
 )

@@ -1,6 +1,7 @@
 """Thermogravimetric analysis by the reference solver."""
 
 from collections.abc import Iterator, Mapping
+from dataclasses import dataclass
 
 import numpy as np
 from scipy.integrate import LSODA
@@ -11,8 +12,8 @@ from pyrofit.model.heated import HeatedExperiment
 from pyrofit.model.material import Material
 from pyrofit.solver.arrays import FloatArray, Status
 from pyrofit.solver.curves import Curves, Request
-from pyrofit.solver.outputs import FRACTION_RATE, MASS_FRACTION
-from pyrofit.solver.reference.substance import Reactions, mass_fractions, substance
+from pyrofit.solver.outputs import FRACTION_RATE, HEAT_FLOW, HEAT_RELEASE, MASS_FRACTION
+from pyrofit.solver.reference.substance import Reactions, Substance, mass_fractions, substance
 
 STRAIGHT_K = 1e-9
 """Deviation from a line up to which temperatures belong to one heating rate [K]."""
@@ -25,32 +26,81 @@ def reference_tga(
     request: Request,
     resolution: Resolution | None = None,
 ) -> Curves:
-    """Simulate a TGA experiment, as `pyrofit.simulate.simulate_tga` does.
+    """Simulate a sample that follows a programme, as `pyrofit.simulate.simulate_tga` does.
 
     Arguments and result are the same; ``resolution`` holds the numerical settings.
     """
     resolution = resolution or Resolution()
-    if request.temperature_K is None:
-        raise ValueError("a TGA request needs temperatures")
+    programme, rise = request.programme()
     lag_min = value_of(experiment.lag_s, values) / 60.0
-    time, T = request.time_s, request.temperature_K - lag_min * experiment.heating_rate_K_min
+    time, T = request.time_s, programme - lag_min * experiment.heating_rate_K_min
     solid = substance(material, values)
+    reactions = solid.reactions
     virgin = mass_fractions(material.composition, solid.names, values)
-    extent = np.zeros((time.size, solid.reactions.A.size))
+    burning = reactions.gas * reactions.combustion
+    tau = value_of(experiment.response, values) if request.output == HEAT_RELEASE else 0.0
+    sample = _Sample(reactions, virgin, burning, tau)
+    state = np.zeros((time.size, reactions.A.size + (1 if tau > 0.0 else 0)))
+    if tau > 0.0:
+        state[0, -1] = burning @ sample.rates(T[0], state[0, :-1])
     steps = 0
     for first, last in straight(time, T):
         part = slice(first, last + 1)
-        found = _heat(
-            solid.reactions, virgin, extent[first], time[part], T[part], resolution.tga_tolerance
-        )
+        found = _heat(sample, state[first], time[part], T[part], resolution.tga_tolerance)
         if found is None:
             return Curves(Status.NON_FINITE, {}, steps=steps)
-        extent[part] = found[0]
+        state[part] = found[0]
         steps += found[1]
-    rate = solid.reactions.rate_constants(T) * solid.reactions.amounts(virgin, extent)
-    lost = extent @ solid.reactions.gas
-    signals = {MASS_FRACTION: 1.0 - lost, FRACTION_RATE: rate @ solid.reactions.gas}
+    extent = state[:, : reactions.A.size]
+    rate = sample.rates(T, extent)
+    signals = {
+        MASS_FRACTION: 1.0 - extent @ reactions.gas,
+        FRACTION_RATE: rate @ reactions.gas,
+        HEAT_FLOW: _heat_flow(solid, virgin + extent @ reactions.change, rate, T, rise)
+        + _baseline(experiment, T, values),
+        HEAT_RELEASE: state[:, -1] if tau > 0.0 else rate @ burning,
+    }
     return Curves(Status.OK, signals, steps=steps)
+
+
+@dataclass(frozen=True)
+class _Sample:
+    """What reacts, and what records the heat of its burning gas with the time constant tau."""
+
+    reactions: Reactions
+    virgin: FloatArray
+    burning: FloatArray
+    """[J per kg of reactant]."""
+    tau: float
+    """[s]; zero = the record has no inertia, and is no part of the state."""
+
+    def rates(self, T: FloatArray | float, extent: FloatArray) -> FloatArray:
+        """Return what each reaction consumes per kg of virgin sample [1/s]."""
+        k = self.reactions.rate_constants(T)
+        return np.asarray(k * self.reactions.amounts(self.virgin, extent))
+
+    def derivative(self, T: float, state: FloatArray) -> FloatArray:
+        """Return d state / dt: extents, then tau dy/dt = sum of burning rates - y."""
+        if self.tau == 0.0:
+            return self.rates(T, state)
+        rates = self.rates(T, state[:-1])
+        return np.append(rates, (self.burning @ rates - state[-1]) / self.tau)
+
+
+def _heat_flow(
+    solid: Substance, mass: FloatArray, rate: FloatArray, T: FloatArray, rise: FloatArray
+) -> FloatArray:
+    """Return sum_i m_i c_i(T) dT/dt + sum_j dh_j r_j [W/kg], shape (points,)."""
+    sensible = np.sum(mass * solid.specific_heat.of(T), axis=1) * rise
+    return np.asarray(sensible + rate @ solid.reactions.heat)
+
+
+def _baseline(
+    experiment: HeatedExperiment, T: FloatArray, values: Mapping[str, float]
+) -> FloatArray:
+    line = experiment.line
+    above = T - value_of(line.reference_temperature_K, values)
+    return value_of(line.level_W_kg, values) + value_of(line.slope_W_kgK, values) * above
 
 
 def straight(time: FloatArray, T: FloatArray) -> Iterator[tuple[int, int]]:
@@ -66,23 +116,17 @@ def straight(time: FloatArray, T: FloatArray) -> Iterator[tuple[int, int]]:
 
 
 def _heat(
-    reactions: Reactions,
-    virgin: FloatArray,
-    start: FloatArray,
-    time: FloatArray,
-    T: FloatArray,
-    tolerance: float,
+    sample: _Sample, start: FloatArray, time: FloatArray, T: FloatArray, tolerance: float
 ) -> tuple[FloatArray, int] | None:
-    """Return the extents at the times of a straight part and the steps taken, None if it failed."""
+    """Return the states at the times of a straight part and the steps taken, None if it failed."""
     rate = (T[-1] - T[0]) / (time[-1] - time[0])
 
-    def derivative(t: float, extent: FloatArray) -> FloatArray:
-        k = reactions.rate_constants(T[0] + rate * (t - time[0]))
-        return np.asarray(k * reactions.amounts(virgin, extent))
+    def derivative(t: float, state: FloatArray) -> FloatArray:
+        return sample.derivative(T[0] + rate * (t - time[0]), state)
 
     solver = LSODA(derivative, time[0], start, time[-1], rtol=tolerance, atol=tolerance)
-    extent = np.empty((time.size, start.size))
-    extent[0] = start
+    states = np.empty((time.size, start.size))
+    states[0] = start
     filled, steps = 1, 0
     while solver.status == "running":
         solver.step()
@@ -91,6 +135,6 @@ def _heat(
         steps += 1
         to = int(np.searchsorted(time, solver.t, side="right"))
         if to > filled:
-            extent[filled:to] = solver.dense_output()(time[filled:to]).T
+            states[filled:to] = solver.dense_output()(time[filled:to]).T
             filled = to
-    return extent, steps
+    return states, steps

@@ -1,0 +1,42 @@
+"""Differential scanning calorimetry: heat flow against temperature, alone or with mass (STA)."""
+
+from typing import Literal
+
+from pydantic import Field
+
+from pyrofit.experiments.base import Kind
+from pyrofit.experiments.heated.course import course
+from pyrofit.experiments.heated.designs import designs
+from pyrofit.experiments.heated.simulate import reference, request, simulate, synthetic
+from pyrofit.model.heated import Baseline, HeatedExperiment
+
+
+class Dsc(HeatedExperiment):
+    """Differential scanning calorimetry, or simultaneous thermal analysis."""
+
+    kind: Literal["dsc"] = Field(description="heat flow, and mass, against temperature")
+    baseline: Baseline = Field(
+        default_factory=Baseline, description="what the heat flow has besides the sample's"
+    )
+
+    @property
+    def _other_way_out(self) -> str:
+        return ", and a heat flow has the baseline of its experiment"
+
+    @property
+    def line(self) -> Baseline:
+        """Baseline of its heat flow."""
+        return self.baseline
+
+
+KIND = Kind(
+    description=Dsc,
+    words="DSC",
+    stage="kinetics",
+    simulate=simulate,
+    reference=reference,
+    request=request,
+    synthetic=synthetic,
+    course=course,
+    designs=lambda own, measured, recorded: designs("dsc", "DSC", own, recorded),
+)

@@ -1,0 +1,39 @@
+"""Microscale combustion calorimetry: heat release of the burning gas against temperature."""
+
+from typing import Literal
+
+from pydantic import Field
+
+from pyrofit.experiments.base import Kind
+from pyrofit.experiments.heated.course import course
+from pyrofit.experiments.heated.designs import designs
+from pyrofit.experiments.heated.simulate import reference, request, simulate, synthetic
+from pyrofit.model.base import NotNegative
+from pyrofit.model.heated import HeatedExperiment
+
+
+class Mcc(HeatedExperiment):
+    """Microscale combustion calorimetry."""
+
+    kind: Literal["mcc"] = Field(description="heat release against temperature")
+    response_s: NotNegative = Field(
+        0.0, description="time constant with which the record follows the heat release [s]"
+    )
+
+    @property
+    def response(self) -> float | str:
+        """Time constant [s] of the response to its heat release, or its parameter."""
+        return self.response_s
+
+
+KIND = Kind(
+    description=Mcc,
+    words="MCC",
+    stage="kinetics",
+    simulate=simulate,
+    reference=reference,
+    request=request,
+    synthetic=synthetic,
+    course=course,
+    designs=lambda own, measured, recorded: designs("mcc", "MCC", own, recorded),
+)
