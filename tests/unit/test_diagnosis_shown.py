@@ -9,7 +9,7 @@ from typing import Any
 import numpy as np
 import pandas as pd
 import pytest
-from test_report import Page
+from test_report import Page, write_tables
 from test_tables import described, fake, synthetic
 
 from pyrofit.config import Study
@@ -375,8 +375,8 @@ def test_windows_say_where_and_how_far(tmp_path: Path) -> None:
     assert (first["phase"], first["time_s"]) == ("heat-up", "5 to 60")
     assert first["difference"] == "-0.6 g/(m² s)"
     assert first["relative_percent"] == pytest.approx(-12.0)
-    assert first["temperature_K"] == "400 to 500"
-    assert frame.iloc[-1]["temperature_K"] == "620 to 680"
+    assert first["temperature_C"] == "127 to 227"
+    assert frame.iloc[-1]["temperature_C"] == "347 to 407"
 
 
 def test_candidates_are_ranked_and_say_why_they_were_rejected(tmp_path: Path) -> None:
@@ -610,6 +610,7 @@ def test_report_shows_the_diagnosis_where_there_is_one(tmp_path: Path) -> None:
     for name, figure in FIGURES.items():
         if figure.applies(study):
             write_text(tmp_path / "figures" / f"{name}.svg", '<svg width="240.95pt"><rect/></svg>')
+    write_tables(study, results)
     write_report(study, results)
     assert "diagnosis" not in Page((tmp_path / "report.html").read_text()).ids
     report.write_page(study, results)
@@ -680,4 +681,5 @@ def test_leading_candidate_is_the_best_that_was_not_rejected(tmp_path: Path) -> 
 
 def test_every_figure_belongs_to_some_verdict(tmp_path: Path) -> None:
     shown = {n for kind in KINDS for n in figures_of(*diagnosed(tmp_path / kind, kind))}
-    assert shown == set(report.FIGURES)
+    curves = {"mass_loss_rate", "back_temperature", "mass_fraction"}
+    assert shown == set(report.FIGURES) | curves

@@ -36,7 +36,7 @@ def test_every_figure_is_written_twice_and_its_svg_alike_each_time(
 @pytest.mark.parametrize("name", FIGURES)
 def test_synthetic_data_are_named_in_every_title(name: str, tmp_path: Path) -> None:
     study, results = fake(tmp_path, synthetic())
-    if name == "back_temperature":
+    if name == "other_signals":
         assert not FIGURES[name].applies(study)
         return
     make_figure(name, study, results)
@@ -59,7 +59,7 @@ def test_any_number_of_costs_and_experiments_is_drawn(number: int, tmp_path: Pat
         if figure.applies(study):
             make_figure(name, study, results)
     drawn = {path.stem for path in (tmp_path / "figures").glob("*.svg")}
-    missing = {"fig4", "back_temperature"} if number == 1 else set()
+    missing = {"fig4", "other_signals"} if number == 1 else set()
     assert drawn == set(FIGURES) - missing
 
 

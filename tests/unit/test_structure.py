@@ -9,6 +9,9 @@ from pathlib import Path
 
 import pytest
 
+from pyrofit.experiments import KINDS
+from pyrofit.quantities import known_quantities
+
 ROOT = Path(__file__).parents[2]
 SOURCE = ROOT / "src" / "pyrofit"
 ORDER = [
@@ -130,6 +133,44 @@ def test_no_effect_is_known_by_name_outside_its_file() -> None:
 def test_config_knows_no_solver() -> None:
     for path in (SOURCE / "config").glob("*.py"):
         assert not own(path) & {"solver", "simulate", "estimate"}, path.name
+
+
+QUANTITIES_BY_NAME = {
+    "effects/balance_drift.py": "acts on the record of a mass loss rate",
+    "new_study/draft.py": "drafts one TGA and one slab",
+    "new_study/write.py": "drafts one TGA and one slab",
+}
+"""Files that name a quantity, and why."""
+
+
+def test_no_quantity_is_known_by_name_outside_its_home() -> None:
+    quantities = set(known_quantities())
+    assert len(quantities) > 2
+    home = ("quantities/", "experiments/", "solver/outputs.py", *QUANTITIES_BY_NAME)
+    for path in modules():
+        name = path.relative_to(SOURCE).as_posix()
+        if name.startswith(home):
+            continue
+        for node in ast.walk(ast.parse(path.read_text(encoding="utf-8"))):
+            literal = isinstance(node, ast.Constant) and isinstance(node.value, str)
+            assert not (literal and node.value in quantities), f"{name}: '{node.value}'"
+
+
+def test_no_kind_of_experiment_is_asked_for_outside_its_home() -> None:
+    classes = {kind.description.__name__ for kind in KINDS.values()}
+    for path in modules():
+        name = path.relative_to(SOURCE).as_posix()
+        if name.startswith("experiments/"):
+            continue
+        for node in ast.walk(ast.parse(path.read_text(encoding="utf-8"))):
+            if isinstance(node, ast.Call) and ast.unparse(node.func) == "isinstance":
+                asked = {n.id for n in ast.walk(node.args[1]) if isinstance(n, ast.Name)}
+                assert not asked & classes, f"{name}: {ast.unparse(node)}"
+            if isinstance(node, ast.Compare):
+                sides = [node.left, *node.comparators]
+                of_kind = any(isinstance(s, ast.Attribute) and s.attr == "kind" for s in sides)
+                given = {s.value for s in sides if isinstance(s, ast.Constant)}
+                assert not (of_kind and given & set(KINDS)), f"{name}: {ast.unparse(node)}"
 
 
 def test_costs_know_nothing_of_models() -> None:

@@ -4,6 +4,7 @@ from dataclasses import dataclass
 
 from pyrofit.config import Study
 from pyrofit.results.kinetics import masses_shown
+from pyrofit.solver.outputs import MASS_FRACTION
 
 SCEUA = "SCE-UA"
 
@@ -48,10 +49,30 @@ def fitted_experiments(study: Study) -> set[str]:
     return {name for cost in study.imp.costs for name, _ in fitted_by(study, cost)}
 
 
-def predicted(study: Study, signal: str) -> list[str]:
-    """Return the predicted experiments that measured a signal, in the study's order."""
+def predicted_signals(study: Study, relative: bool) -> list[tuple[str, str]]:
+    """Return the predicted (experiment, signal) pairs, in the study's order.
+
+    Parameters
+    ----------
+    study
+        The study.
+    relative
+        Whether to return rates, which are scored relative to their mean, or the others.
+    """
     wanted = set(study.validation.experiments)
-    return [n for n, e in study.experiments.items() if n in wanted and signal in e.signals]
+    return [
+        (name, signal)
+        for name, experiment in study.experiments.items()
+        if name in wanted
+        for signal in experiment.signals
+        if experiment.quantity(signal).relative == relative
+    ]
+
+
+def rate_metrics(study: Study) -> list[str]:
+    """Return the names of the scores of the predicted rates, each once."""
+    pairs = predicted_signals(study, relative=True)
+    return list(dict.fromkeys(study.experiments[name].metric(signal) for name, signal in pairs))
 
 
 def predicted_sets(study: Study) -> list[PredictedSet]:
@@ -96,3 +117,9 @@ def all_rates(study: Study) -> list[str]:
 def title_of(study: Study, experiment: str) -> str:
     """Return the name of an experiment in figures."""
     return study.experiments[experiment].title or experiment
+
+
+def mass_signal(study: Study, experiment: str) -> str:
+    """Return the signal of an experiment that is its mass over its initial mass."""
+    described = study.experiments[experiment]
+    return next(s for s in described.signals if described.quantity(s).name == MASS_FRACTION)

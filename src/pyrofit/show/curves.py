@@ -1,9 +1,8 @@
 """Predicted and measured curves over time."""
 
-from collections.abc import Callable, Sequence
+from collections.abc import Sequence
 from typing import Any
 
-import numpy as np
 import pandas as pd
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure as Canvas
@@ -16,61 +15,50 @@ from pyrofit.analysis.uses import (
     PUBLISHED,
     SCEUA,
     PredictedSet,
-    fitted_experiments,
-    predicted,
     predicted_sets,
     title_of,
 )
 from pyrofit.config import Study
-from pyrofit.quantities import known_quantities
+from pyrofit.quantities.base import Quantity
 from pyrofit.results import prediction, recorded
 from pyrofit.results.files import Results
 from pyrofit.show import style
 from pyrofit.show.names import data_name
-
-Convert = Callable[[Any], Any]
-
+from pyrofit.show.units import difference, shown
 
 Look = dict[str, Any]
 
 
-MLR_LABEL = "mass loss rate [g/(m² s)]"
-
-
-def fitted_rates(study: Study) -> list[str]:
-    """Return the fitted experiments whose mass loss rate is predicted."""
-    return [n for n in predicted(study, "mlr") if n in fitted_experiments(study)]
-
-
-def held_out_rates(study: Study) -> list[str]:
-    """Return the held-out experiments whose mass loss rate is predicted."""
-    return [n for n in predicted(study, "mlr") if n not in fitted_experiments(study)]
+Pair = tuple[str, str]
+"""Names of an experiment and a signal."""
 
 
 def compare_curves(
-    study: Study,
-    results: Results,
-    names: Sequence[str],
-    origins: tuple[str, ...],
-    signal: str = "mlr",
+    study: Study, results: Results, pairs: Sequence[Pair], origins: tuple[str, ...]
 ) -> Canvas:
-    """Draw measured and predicted curves, one panel per experiment."""
-    convert = grams if signal == "mlr" else style.celsius
+    """Draw measured and predicted curves, one panel per signal."""
     curves = predicted_curves(study, results)
-    shown = [s for s in predicted_sets(study) if s.origin in origins]
-    canvas, axes = panels_of(study, names)
-    for ax, name in zip(axes, names, strict=True):
+    shown_sets = [s for s in predicted_sets(study) if s.origin in origins]
+    canvas, axes = panels_of(study, pairs)
+    for ax, (name, signal) in zip(axes, pairs, strict=True):
+        quantity = study.experiments[name].quantity(signal)
         frame = recorded.series(study, results, name, signal)
-        draw_band(ax, frame, signal, convert)
-        ax.plot(frame["time_s"], convert(frame[known_quantities()[signal].column]), **_MEASURED)
+        draw_band(ax, frame, quantity)
+        ax.plot(frame["time_s"], shown(quantity, frame[quantity.column]), **_MEASURED)
         # Published ones last are hidden by nothing; ours come on top of them.
-        for chosen in sorted(shown, key=lambda s: s.origin != PUBLISHED):
+        for chosen in sorted(shown_sets, key=lambda s: s.origin != PUBLISHED):
             curve = curve_of(curves, name, signal, chosen.label)
-            ax.plot(curve["time_s"], convert(curve["simulated"]), **look_of(study, chosen))
-    label_axes(axes, MLR_LABEL if signal == "mlr" else "back temperature [°C]")
-    entries = measured_entries(study, results, names, signal, with_line=True)
-    style.legend_below(canvas, [*entries, *set_entries(study, shown)])
+            ax.plot(curve["time_s"], shown(quantity, curve["simulated"]), **look_of(study, chosen))
+    label_axes(axes, [label_of(study, *pair) for pair in pairs])
+    entries = measured_entries(study, results, pairs, with_line=True)
+    style.legend_below(canvas, [*entries, *set_entries(study, shown_sets)])
     return canvas
+
+
+def label_of(study: Study, name: str, signal: str) -> str:
+    """Return the label of an axis: the signal in words and the unit shown."""
+    experiment = study.experiments[name]
+    return f"{experiment.words(signal)} [{experiment.quantity(signal).shown.unit}]"
 
 
 _MEASURED: Look = {"color": style.MEASURED, "linewidth": 0.7}
@@ -87,27 +75,23 @@ _MARK_EVERY = 0.09
 """Distance of markers, in diagonals of the panel."""
 
 
-def panels_of(study: Study, names: Sequence[str]) -> tuple[Canvas, list[Axes]]:
-    """Return a canvas with a panel for each experiment."""
-    one = len(names) == 1
+def panels_of(study: Study, pairs: Sequence[Pair]) -> tuple[Canvas, list[Axes]]:
+    """Return a canvas with a panel for each signal."""
+    one = len(pairs) == 1
     width, height = (140.0, 82.0) if one else (style.TWO_COLUMNS, 72.0)
-    canvas, axes = style.panels(len(names), 2, width, height)
-    style.letter(axes, [title_of(study, name) for name in names])
+    canvas, axes = style.panels(len(pairs), 2, width, height)
+    style.letter(axes, [title_of(study, name) for name, _ in pairs])
     return canvas, axes
 
 
-def label_axes(axes: Sequence[Axes], text: str) -> None:
-    """Label the axes of panels whose abscissa is time."""
-    for ax in axes:
+def label_axes(axes: Sequence[Axes], texts: Sequence[str]) -> None:
+    """Label panels whose abscissa is time, each ordinate once where neighbours share it."""
+    for i, (ax, text) in enumerate(zip(axes, texts, strict=True)):
         ax.set_xlabel("time [s]")
         ax.set_xlim(left=0.0)
-        if ax.get_subplotspec().is_first_col():  # type: ignore[union-attr]
+        first = ax.get_subplotspec().is_first_col()  # type: ignore[union-attr]
+        if first or text != texts[i - 1]:
             ax.set_ylabel(text)
-
-
-def grams(kilograms: Any) -> Any:
-    """Convert kg to g, for an axis."""
-    return np.asarray(kilograms, dtype=float) * 1e3
 
 
 def predicted_curves(study: Study, results: Results) -> pd.DataFrame:
@@ -122,19 +106,16 @@ def curve_of(curves: pd.DataFrame, name: str, signal: str, label: str) -> pd.Dat
     return curves[here & (curves["set"] == label)]
 
 
-def draw_band(
-    ax: Axes, frame: pd.DataFrame, signal: str, convert: Convert, about_zero: bool = False
-) -> None:
+def draw_band(ax: Axes, frame: pd.DataFrame, quantity: Quantity, about_zero: bool = False) -> None:
     """Shade measured value ± uncertainty, where one is known."""
-    if known_quantities()[signal].uncertainty_column not in frame:
+    if quantity.uncertainty_column not in frame:
         return
-    width = frame[known_quantities()[signal].uncertainty_column].to_numpy(float)
-    value = (
-        np.zeros_like(width)
-        if about_zero
-        else frame[known_quantities()[signal].column].to_numpy(float)
+    width = frame[quantity.uncertainty_column].to_numpy(float)
+    value = frame[quantity.column].to_numpy(float)
+    low, high = (
+        difference(quantity, side * width) if about_zero else shown(quantity, value + side * width)
+        for side in (-1.0, 1.0)
     )
-    low, high = convert(value - width), convert(value + width)
     ax.fill_between(frame["time_s"], low, high, color=style.BAND, linewidth=0.0)
 
 
@@ -159,15 +140,16 @@ def _marks(study: Study, cost: str) -> Look:
 
 
 def measured_entries(
-    study: Study, results: Results, names: Sequence[str], signal: str, with_line: bool
+    study: Study, results: Results, pairs: Sequence[Pair], with_line: bool
 ) -> list[Line2D | Patch]:
     """Return the legend entries of the measurement, its band only where an uncertainty is known."""
     known = any(
-        known_quantities()[signal].uncertainty_column in recorded.series(study, results, n, signal)
-        for n in names
+        study.experiments[name].quantity(signal).uncertainty_column
+        in recorded.series(study, results, name, signal)
+        for name, signal in pairs
     )
-    name = data_name(study, [(n, signal) for n in names])
-    entries: list[Line2D | Patch] = [style.line(name, **_MEASURED)] if with_line else []
+    entries: list[Line2D | Patch] = []
+    entries += [style.line(data_name(study, pairs), **_MEASURED)] if with_line else []
     return entries + ([style.patch("uncertainty", color=style.BAND)] if known else [])
 
 

@@ -7,6 +7,7 @@ from pyrofit.discovery import contents
 from pyrofit.results import diagnosis
 from pyrofit.results.files import Results, write_text
 from pyrofit.show import diagnosis as items
+from pyrofit.show.diagnosis.curves import curve_figures
 from pyrofit.show.diagnosis.sentences import (
     certainty,
     facts,
@@ -51,7 +52,6 @@ def section(study: Study, results: Results) -> Shown:
     """Return all that was found, in the order in which it is read."""
     found = diagnosis.read(study, results)
     tables, drawn = diagnosis_tables(study, results), figures_of(study, results)
-    curves = ("mass_loss_rate", "back_temperature", "mass_fraction")
 
     def parts(text: str, *names: str) -> list[Part | Picture]:
         """Return the tables and figures that there are, sentences before them."""
@@ -64,7 +64,7 @@ def section(study: Study, results: Results) -> Shown:
             made.insert(0, Part(TABLES[names[0]].title, text=text))
         for name in names:
             if name in drawn:
-                figure, path = FIGURES[name], results.diagnosis(f"{name}.svg")
+                figure, path = drawn[name], results.diagnosis(f"{name}.svg")
                 made.append(picture(path, f"diagnosis_{name}", figure.title, figure.caption))
         return made
 
@@ -73,7 +73,7 @@ def section(study: Study, results: Results) -> Shown:
         "What the model lacks",
         found["verdict"]["words"],
         (
-            *parts(where_off(found), "windows", *curves),
+            *parts(where_off(found), "windows", *(n for n in drawn if n not in FIGURES)),
             *parts(missing(found), "strengths", "profiles", "candidates", "ranking"),
             *parts("", "probes"),
             *parts(gap_closed(found), "gap"),
@@ -108,19 +108,20 @@ def draw_all(results: Results, study: Study) -> list[str]:
     DataError
         A result is missing or broken.
     """
-    names = figures_of(study, results)
-    for name in names:
-        draw_figure(FIGURES[name], name, study, results, FOLDER)
-    for name in set(FIGURES) - set(names):  # of an earlier diagnosis
-        for kind in ("svg", "png"):
-            results.diagnosis(f"{name}.{kind}").unlink(missing_ok=True)
-    return names
+    figures = figures_of(study, results)
+    for name, figure in figures.items():
+        draw_figure(figure, name, study, results, FOLDER)
+    for path in results.diagnosis("").iterdir():
+        if path.suffix in (".svg", ".png") and path.stem not in figures:  # of an earlier diagnosis
+            path.unlink()
+    return list(figures)
 
 
-def figures_of(study: Study, results: Results) -> list[str]:
-    """Return the names of the figures that a diagnosis has."""
+def figures_of(study: Study, results: Results) -> dict[str, Figure]:
+    """Return the figures that a diagnosis has: the curves of each quantity, and all others."""
     found = diagnosis.read(study, results)
-    return [name for name, figure in FIGURES.items() if figure.applies(found)]
+    others = {name: figure for name, figure in FIGURES.items() if figure.applies(found)}
+    return {**curve_figures(study, found), **others}
 
 
 def make_diagnosis_tables(study: Study, results: Results) -> dict[str, pd.DataFrame]:

@@ -9,17 +9,12 @@ from pyrofit.analysis.closure import closure_lines
 from pyrofit.analysis.uses import FITTED, HELD_OUT, all_rates, rates_in_fit, title_of, use_of
 from pyrofit.config import Study
 from pyrofit.model.signal import Signal
-from pyrofit.quantities import known_quantities
+from pyrofit.quantities.base import Quantity
 from pyrofit.quantities.units import ICE_POINT_K
 from pyrofit.results import recorded
 from pyrofit.results.files import Results
-
-_SHOWN = {
-    "mlr": ("mass loss rate", 1e3, 0.0, "g/(m² s)"),
-    "back_temperature": ("back temperature", 1.0, -ICE_POINT_K, "°C"),
-    "mass_fraction": ("mass fraction", 1.0, 0.0, ""),
-}
-"""Name, factor, shift and unit that a signal is shown with."""
+from pyrofit.show.names import signal_words
+from pyrofit.show.units import difference, difference_unit, shown
 
 
 def series(study: Study, results: Results, measured: Mapping[str, Any]) -> list[dict[str, Any]]:
@@ -31,12 +26,12 @@ def series(study: Study, results: Results, measured: Mapping[str, Any]) -> list[
             rows.append(
                 {
                     "experiment": title_of(study, name),
-                    "signal": _SHOWN[signal][0],
+                    "signal": signal_words(study, name, signal),
                     "use": _use(study, name, signal),
                     "points": about["points"],
                     "over": _over(frame),
-                    "values": _values(frame, signal),
-                    "uncertainty": _size(frame, signal),
+                    "values": _values(frame, study.experiments[name].quantity(signal)),
+                    "uncertainty": _size(frame, study.experiments[name].quantity(signal)),
                 }
             )
     return rows
@@ -50,7 +45,8 @@ def notes(study: Study, measured: Mapping[str, Any]) -> list[tuple[str, str]]:
             stated = about.get("uncertainty") or _noise(study, name, signal)
             said = [f"uncertainty: {stated}"] if stated else []
             for note in [*said, *about.get("notes", [])]:
-                found.setdefault(note, []).append(f"{title_of(study, name)}, {_SHOWN[signal][0]}")
+                words = f"{title_of(study, name)}, {signal_words(study, name, signal)}"
+                found.setdefault(note, []).append(words)
     count = sum(len(signals) for signals in measured["signals"].values())
     return [
         (note, "; ".join(names) if len(names) < count else "all series")
@@ -90,24 +86,26 @@ def _over(frame: pd.DataFrame) -> str:
     return f"{low:.0f} to {high:.0f} s"
 
 
-def _values(frame: pd.DataFrame, signal: str) -> str:
-    _, factor, shift, unit = _SHOWN[signal]
-    low, high = (factor * v + shift for v in _ends(frame[known_quantities()[signal].column]))
-    return f"{low:.3g} to {high:.3g} {unit}".strip()
+def _values(frame: pd.DataFrame, quantity: Quantity) -> str:
+    low, high = shown(quantity, _ends(frame[quantity.column]))
+    return f"{low:.3g} to {high:.3g} {_unit(quantity.shown.unit)}".strip()
+
+
+def _unit(unit: str) -> str:
+    return unit.replace("–", "")
 
 
 def _ends(values: pd.Series) -> tuple[float, float]:
     return float(values.min()), float(values.max())
 
 
-def _size(frame: pd.DataFrame, signal: str) -> str:
+def _size(frame: pd.DataFrame, quantity: Quantity) -> str:
     """Return the median of the stated uncertainty."""
-    column = known_quantities()[signal].uncertainty_column
+    column = quantity.uncertainty_column
     if column not in frame:
         return "not stated"
-    _, factor, _, unit = _SHOWN[signal]
-    unit = "K" if unit == "°C" else unit
-    return f"± {factor * float(frame[column].median()):.2g} {unit}".strip()
+    size = float(difference(quantity, frame[column].median()))
+    return f"± {size:.2g} {_unit(difference_unit(quantity))}".strip()
 
 
 def _noise(study: Study, experiment: str, signal: str) -> str:

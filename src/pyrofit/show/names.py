@@ -4,8 +4,10 @@ from collections.abc import Iterable, Mapping, Sequence
 from typing import Any
 
 from pyrofit.analysis.estimates import Estimated
+from pyrofit.analysis.scores import Score, by_signal
 from pyrofit.config import Study
 from pyrofit.show.text import listed, span
+from pyrofit.show.units import difference, difference_unit
 
 
 def titled(study: Study, title: str, place: str) -> str:
@@ -46,3 +48,23 @@ def signal_words(study: Study, experiment: str, signal: str) -> str:
 def costs_of(rows: Sequence[Mapping[Any, Any]]) -> str:
     """List the cost functions of some rows."""
     return listed([str(row["cost_function"]) for row in rows])
+
+
+def scored(found: Sequence[Score]) -> str:
+    """Write the range of scores of one signal, with their measure."""
+    quantity = found[0].quantity
+    if quantity.relative:
+        return f"CV(RMSE) {span([score.value for score in found])}"
+    values = [float(difference(quantity, score.value)) for score in found]
+    return f"RMSE {span(values)} {difference_unit(quantity)}"
+
+
+def all_scored(found: Iterable[Score]) -> str:
+    """Write the range of scores of each signal."""
+    groups = by_signal(found).items()
+    return listed([f"the {signal} with {scored(scores)}" for signal, scores in groups])
+
+
+def places_of(found: Iterable[Score]) -> str:
+    """List the experiments of some scores."""
+    return listed(list(dict.fromkeys(score.experiment for score in found)))

@@ -29,7 +29,7 @@ def write_report(study: Study, results: Results) -> None:
     origin = provenance(study, recorded.summary(study, results))
     tables = tables_of(study, results)
     said = summary(study, results, tables)
-    answer = table_part(study, TABLES["answer"], tables["answer"], advice(study, results, tables))
+    answer = table_part(study, TABLES["answer"], tables["answer"], advice(study, results))
     shown = [made for part in SECTIONS if (made := _shown(part, study, results, tables))]
     # The diagnosis is a step of its own, which a study may go without.
     lacks = ""

@@ -1,13 +1,13 @@
 """Which set to predict with, in sentences."""
 
-import pandas as pd
-
 from pyrofit.analysis.best_sets import best_sets
 from pyrofit.analysis.distances import distances
 from pyrofit.analysis.estimates import estimated
+from pyrofit.analysis.scores import scores
 from pyrofit.analysis.uses import FITTED, HELD_OUT
 from pyrofit.config import Study
 from pyrofit.results.files import Results
+from pyrofit.show.names import all_scored
 from pyrofit.show.table import Frames
 from pyrofit.show.text import listed, span
 
@@ -17,10 +17,10 @@ _WORSE = 2.0
 
 def sentences(study: Study, results: Results, tables: Frames) -> list[str]:
     """Return the advice as a list of one."""
-    return [advice(study, results, tables)]
+    return [advice(study, results)]
 
 
-def advice(study: Study, results: Results, tables: Frames) -> str:
+def advice(study: Study, results: Results) -> str:
     """Name the best set that fits best, each point weighed by its noise.
 
     It is chosen by the fit: chosen by its prediction, the held-out data would test it no more.
@@ -37,36 +37,29 @@ def advice(study: Study, results: Results, tables: Frames) -> str:
         f"To predict, use the set of {cost} ({by}) as a whole: with each point weighed by its "
         f"noise it fits best of these sets ({least}{beside})"
     )
-    return f"{text}{_tested(tables, cost, by)}.{_together(study, results)}"
+    return f"{text}{_tested(study, results, cost, by)}.{_together(study, results)}"
 
 
-def _tested(tables: Frames, cost: str, by: str) -> str:
-    """Say how well it predicts, and what to think of that."""
-    if "validation" not in tables:
+def _tested(study: Study, results: Results, cost: str, by: str) -> str:
+    """Say how well a set predicts, and whether to trust that."""
+    if not study.validation.experiments:
         return ""
-    held, fitted = (_rates(tables, use, cost, by) for use in (HELD_OUT, FITTED))
-    if not len(held):
-        return "; no mass loss rate was held out to test it"
-    text = (
-        "; the held-out mass loss rate, by which it was not chosen, it predicts with CV(RMSE) "
-        f"{span(held)}"
-    )
-    if not len(fitted):
+    mine = [s for s in scores(study, results) if (s.cost_function, s.found_by) == (cost, by)]
+    rates = [score for score in mine if score.quantity.relative]
+    held = [score for score in rates if score.use == HELD_OUT]
+    if not held:
+        return "; no rate was held out to test it"
+    text = f"; of the held-out data, by which it was not chosen, it predicts {all_scored(held)}"
+    fitted = [score for score in rates if score.use == FITTED]
+    if not fitted:
         return text
-    text += f" and the fitted one with {span(fitted)}"
-    if held.max() > _WORSE * fitted.max():
+    text += f", of the fitted data {all_scored(fitted)}"
+    if max(s.value for s in held) > _WORSE * max(s.value for s in fitted):
         text += (
             ", so that predictions are not to be trusted before it is known what model or given "
             "values lack (snakemake diagnose)"
         )
     return text
-
-
-def _rates(tables: Frames, use: str, cost: str, by: str) -> pd.Series:
-    """Return CV(RMSE) of a set at the series of a use."""
-    table = tables["validation"]
-    chosen = (table["cost_function"] == cost) & (table["found_by"] == by) & (table["data"] == use)
-    return table[chosen]["cv_rmse"].dropna()
 
 
 def _together(study: Study, results: Results) -> str:

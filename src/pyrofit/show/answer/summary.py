@@ -6,11 +6,19 @@ from pyrofit.analysis.cost_tests import SIGNIFICANT
 from pyrofit.analysis.estimates import by_grade, estimated
 from pyrofit.analysis.misfit import misfits
 from pyrofit.analysis.optimisers import LOCAL_OPTIMUM, NOT_A_MINIMUM, SCEUA_AHEAD
-from pyrofit.analysis.uses import FITTED, HELD_OUT, PUBLISHED, fitted_experiments, title_of
+from pyrofit.analysis.scores import Score, scores
+from pyrofit.analysis.uses import (
+    FITTED,
+    HELD_OUT,
+    HELD_OUT_SIGNAL,
+    PUBLISHED,
+    fitted_experiments,
+    rate_metrics,
+    title_of,
+)
 from pyrofit.config import Study
-from pyrofit.quantities import known_quantities
 from pyrofit.results.files import Results
-from pyrofit.show.names import costs_of, named
+from pyrofit.show.names import all_scored, costs_of, named, places_of
 from pyrofit.show.table import Frames
 from pyrofit.show.text import listed, several, span
 
@@ -21,23 +29,23 @@ _MOST = 3
 def summary(study: Study, results: Results, tables: Frames) -> list[str]:
     """Return five sentences: fit, what is determined, validation, optimisers, cost functions."""
     return [
-        _fit(study, results, tables),
+        _fit(study, results),
         _determined(study, results),
-        _validation(study, tables),
+        _validation(study, results),
         _optimisers(study, tables),
         _costs(study, tables),
     ]
 
 
-def _fit(study: Study, results: Results, tables: Frames) -> str:
+def _fit(study: Study, results: Results) -> str:
     used = fitted_experiments(study)
     where = listed([title_of(study, name) for name in study.experiments if name in used])
-    rates = _rates(tables, "fitted")
+    fitted = [score for score in _ours(study, results) if score.use == FITTED]
     text = (
         f"With {several(len(study.imp.estimate), 'parameter')} fitted to {where} by "
         f"{several(len(study.imp.costs), 'cost function')}, the best sets reproduce "
     )
-    text += f"the mass loss rate with CV(RMSE) {span(rates)}" if len(rates) else "the fitted data"
+    text += all_scored(fitted) if fitted else "the fitted data"
     chi2 = [found.per_point for found in misfits(study, results) if found.stage == "imp"]
     return (
         f"{text}; weighed by the noise, the best fit of all leaves chi-square {span(chi2)} per "
@@ -45,12 +53,11 @@ def _fit(study: Study, results: Results, tables: Frames) -> str:
     )
 
 
-def _rates(tables: Frames, use: str) -> pd.Series:
-    """Return CV(RMSE) of our sets at the series of a use; empty without validation."""
-    if "validation" not in tables:
-        return pd.Series(dtype=float)
-    table = tables["validation"]
-    return table[(table["data"] == use) & (table["found_by"] != PUBLISHED)]["cv_rmse"].dropna()
+def _ours(study: Study, results: Results) -> list[Score]:
+    """Return the scores of our sets; none without validation."""
+    if not study.validation.experiments:
+        return []
+    return [score for score in scores(study, results) if score.found_by != PUBLISHED]
 
 
 def _determined(study: Study, results: Results) -> str:
@@ -63,20 +70,15 @@ def _determined(study: Study, results: Results) -> str:
     return f"{text}; {'; '.join(parts)}." if parts else f"{text}."
 
 
-def _validation(study: Study, tables: Frames) -> str:
-    rates = _rates(tables, HELD_OUT)
-    if not len(rates):
-        return "No mass loss rate was held out, so the prediction of other experiments is untested."
-    table = tables["validation"]
-    held = table[table["data"] == HELD_OUT]
-    text = (
-        f"The mass loss rate of {listed(list(dict.fromkeys(held['experiment'])))}, held out, is "
-        f"predicted with CV(RMSE) {span(rates)}"
-    )
-    kelvin = table[(table["data"] != FITTED) & (table["found_by"] != PUBLISHED)]["rmse_K"].dropna()
-    if len(kelvin):
-        text += f", and back temperatures that were not fitted are missed by {span(kelvin)} K"
-    return f"{text}."
+def _validation(study: Study, results: Results) -> str:
+    free = [score for score in _ours(study, results) if score.use != FITTED]
+    held_out = [score for score in free if score.use == HELD_OUT]
+    if not held_out:
+        return "No experiment was held out, so the prediction of other experiments is untested."
+    text = f"Of {places_of(held_out)}, held out, the best sets predict {all_scored(held_out)}"
+    beside = [score for score in free if score.use == HELD_OUT_SIGNAL]
+    more = f"; of the fitted experiments {all_scored(beside)}, not fitted there" if beside else ""
+    return f"{text}{more}."
 
 
 def _optimisers(study: Study, tables: Frames) -> str:
@@ -109,7 +111,7 @@ def _costs(study: Study, tables: Frames) -> str:
     if len(study.imp.costs) == 1:
         return "There is one cost function, so nothing is said of its choice."
     table = tables["cost_tests"]
-    changed = _changed(tables)
+    changed = _changed(study, tables)
     if "p_place" not in table:
         text = f"Whether the cost functions differ was {table['verdict'].iloc[0]}"
         return f"{text}; {changed}." if changed else f"{text}."
@@ -127,11 +129,11 @@ def _costs(study: Study, tables: Frames) -> str:
     return f"{text}; {changed}." if changed else f"{text}."
 
 
-def _changed(tables: Frames) -> str:
+def _changed(study: Study, tables: Frames) -> str:
     """Say how much a change of cost function and one of optimiser change the common metric."""
     table = tables["every_cost"]
-    metric = known_quantities()["mlr"].metric
-    if metric not in table:
+    metric = next((m for m in rate_metrics(study) if m in table), None)
+    if metric is None:
         return ""
     ours = table[(table["found_by"] != PUBLISHED) & table[metric].notna()]
     if ours.empty:
@@ -142,6 +144,6 @@ def _changed(tables: Frames) -> str:
         for by in ("found_by", "fitted_with")
     ]
     return (
-        f"among best sets, another cost function changes CV(RMSE) at {place} by a factor of up to "
+        f"among best sets, another cost function changes {metric} at {place} by a factor of up to "
         f"{span(factors[:1])}, another optimiser by up to {span(factors[1:])}"
     )

@@ -6,9 +6,8 @@ from typing import Any
 import pandas as pd
 
 from pyrofit.analysis.cost_tests import SIGNIFICANT
-from pyrofit.analysis.uses import PUBLISHED
+from pyrofit.analysis.uses import PUBLISHED, rate_metrics
 from pyrofit.config import Study
-from pyrofit.quantities import known_quantities
 from pyrofit.results.files import Results
 from pyrofit.show.table import Frames
 from pyrofit.show.text import listed, number, span
@@ -16,13 +15,15 @@ from pyrofit.show.text import listed, number, span
 
 def sentences(study: Study, results: Results, tables: Frames) -> list[str]:
     """Return the sentences on the cost functions: on one metric, and by tests."""
-    return [text for text in (_metric(tables), *_tests(tables)) if text]
+    return [text for text in (*_metrics(study, tables), *_tests(tables)) if text]
 
 
-def _metric(tables: Frames) -> str:
-    """Say whether the cost function or the optimiser matters more on the common metric."""
-    metric = known_quantities()["mlr"].metric
-    table = tables["every_cost"]
+def _metrics(study: Study, tables: Frames) -> list[str]:
+    return [_metric(metric, tables["every_cost"]) for metric in rate_metrics(study)]
+
+
+def _metric(metric: str, table: pd.DataFrame) -> str:
+    """Say whether the cost function or the optimiser matters more on a common metric."""
     parts = []
     for place, rows in table.groupby("place", sort=False):
         ours = rows[rows["found_by"] != PUBLISHED]
@@ -35,7 +36,7 @@ def _metric(tables: Frames) -> str:
             f"cost functions of one optimiser, {span(by_optimiser)} among the optimisers of one "
             "cost function"
         )
-    return f"CV(RMSE) of the mass loss rate of the best sets {'; '.join(parts)}." if parts else ""
+    return f"{metric} of the best sets {'; '.join(parts)}." if parts else ""
 
 
 def _tests(tables: Frames) -> list[str]:

@@ -1,6 +1,7 @@
 """Measured and simulated curves before and after, with their residuals."""
 
-from collections.abc import Callable, Sequence
+from collections.abc import Sequence
+from functools import partial
 from typing import Any
 
 import numpy as np
@@ -11,12 +12,16 @@ from matplotlib.figure import Figure as Canvas
 from pyrofit.analysis.running import running_mean
 from pyrofit.analysis.uses import title_of
 from pyrofit.config import Study
+from pyrofit.quantities.base import FloatArray, Quantity
+from pyrofit.quantities.units import ICE_POINT_K
 from pyrofit.results import diagnosis
 from pyrofit.results.files import Results
 from pyrofit.show import style
 from pyrofit.show.curves import Look
-from pyrofit.show.diagnosis.words import BASE, HELD_OUT, Found
+from pyrofit.show.diagnosis.words import BASE, HELD_OUT, Found, quantity_of, words_of
+from pyrofit.show.figure import Figure
 from pyrofit.show.names import data_name
+from pyrofit.show.units import celsius, shown
 
 BEFORE: Look = {"color": style.COLOURS[1], "linestyle": style.DASHES[1], "linewidth": 1.1}
 
@@ -33,13 +38,6 @@ _WINDOW: Look = {"facecolor": style.COLOURS[5], "alpha": 0.3, "linewidth": 0.0}
 _EDGE: Look = {"color": "0.5", "linewidth": 0.4}
 
 
-_LABELS = {
-    "mlr": ("mass loss rate [g/(m² s)]", 1e3),
-    "back_temperature": ("back temperature [K]", 1.0),
-    "mass_fraction": ("mass fraction [–]", 1.0),
-}
-
-
 _LETTER = 0.019
 """Width of a letter of a window's label, as a fraction of a panel's."""
 
@@ -48,44 +46,69 @@ _ROWS = 3
 """Rows that labels of windows are put on, one after the other, where they would overlap."""
 
 
-def of_signal(signal: str) -> Callable[[Study, Results], Canvas]:
-    """Return the figure of a signal: curves above, residuals below, one pair per experiment."""
-    return lambda study, results: _draw(study, results, signal)
+CAPTION = (
+    "Above: measured with twice the standard deviation of its noise, the base model, and the model "
+    "with the effects found, if any. Below: simulated minus measured in standard deviations, every "
+    "point (thin) and the running mean over 3 % of the points (bold). Shaded stretches are those "
+    "where the base model is off to one side by more than noise would be, with their phase."
+)
 
 
-def has(found: Found, signal: str) -> bool:
-    """Tell whether the diagnosis looked at a signal."""
-    return any(n["signal"] == signal for n in found["noise"])
+def curve_figures(study: Study, found: Found) -> dict[str, Figure]:
+    """Return a figure for each quantity that the diagnosis looked at, rates first, TGA last."""
+    measured = {(q := quantity_of(study, n)).name: q for n in found["noise"]}
+    order = sorted(measured.values(), key=lambda q: (q.against_temperature, not q.relative))
+    return {
+        quantity.title.replace(" ", "_"): Figure(
+            place=20 + i,
+            applies=bool,
+            make=partial(_draw, quantity=quantity),
+            title=f"{quantity.title.capitalize()}, before and after",
+            caption=CAPTION,
+        )
+        for i, quantity in enumerate(order)
+    }
 
 
-def _draw(study: Study, results: Results, signal: str) -> Canvas:
+def _draw(study: Study, results: Results, quantity: Quantity) -> Canvas:
+    """Draw curves above, residuals below, one pair of panels for each signal of a quantity."""
     found = diagnosis.read(study, results)
     curves = diagnosis.curves(study, results)
-    channels = [n for n in found["noise"] if n["signal"] == signal]
-    canvas, pairs = _pairs(len(channels))
-    style.letter([above for above, _ in pairs], [_title(study, n) for n in channels])
-    for (above, below), channel in zip(pairs, channels, strict=True):
-        here = (curves["experiment"] == channel["experiment"]) & (curves["signal"] == signal)
-        curve = curves[here]
-        windows = [
-            w
-            for w in found["windows"]
-            if (w["model"], w["experiment"], w["signal"]) == (BASE, channel["experiment"], signal)
+    signals = [n for n in found["noise"] if quantity_of(study, n).name == quantity.name]
+    canvas, pairs = _pairs(len(signals))
+    style.letter([above for above, _ in pairs], [_title(study, n) for n in signals])
+    x = "temperature_K" if quantity.against_temperature else "time_s"
+    after = windows = False
+    for axes, signal in zip(pairs, signals, strict=True):
+        curve = curves[
+            (curves["experiment"] == signal["experiment"]) & (curves["signal"] == signal["signal"])
         ]
-        x = "temperature_K" if signal == "mass_fraction" else "time_s"
-        _draw_curves(above, curve, x, _LABELS[signal][1])
-        _draw_residuals(below, curve, x)
-        _draw_windows(below, windows, x)
-        below.set_xlabel("temperature [K]" if x == "temperature_K" else "time [s]")
-        if above.get_subplotspec().is_first_col():  # type: ignore[union-attr]
-            above.set_ylabel(_LABELS[signal][0])
-            below.set_ylabel("simulated −\nmeasured [sd]")
-    data = data_name(study, [(n["experiment"], signal) for n in channels])
-    after = any(_has_after(curves[curves["signal"] == signal]))
-    style.legend_below(
-        canvas, _entries(data, after, any(w["signal"] == signal for w in found["windows"]))
-    )
+        off = [w for w in found["windows"] if w["model"] == BASE and _same(w, signal)]
+        _draw_pair(axes, curve, off, quantity, x)
+        after = after or bool(_has_after(curve).any())
+        windows = windows or any(_same(w, signal) for w in found["windows"])
+    data = data_name(study, [(n["experiment"], n["signal"]) for n in signals])
+    style.legend_below(canvas, _entries(data, after, windows))
     return canvas
+
+
+def _same(one: Found, other: Found) -> bool:
+    """Tell whether two rows are of the same signal."""
+    return (one["experiment"], one["signal"]) == (other["experiment"], other["signal"])
+
+
+def _draw_pair(
+    axes: tuple[Axes, Axes], curve: pd.DataFrame, off: Sequence[Found], quantity: Quantity, x: str
+) -> None:
+    above, below = axes
+    at = celsius(curve[x]) if quantity.against_temperature else curve[x].to_numpy(float)
+    _draw_curves(above, at, curve, quantity)
+    _draw_residuals(below, at, curve)
+    _draw_windows(below, off, x)
+    below.set_xlabel("temperature [°C]" if quantity.against_temperature else "time [s]")
+    if above.get_subplotspec().is_first_col():  # type: ignore[union-attr]
+        above.set_ylabel(quantity.label)
+        below.set_ylabel("simulated −\nmeasured [sd]")
 
 
 def _pairs(count: int) -> tuple[Canvas, list[tuple[Axes, Axes]]]:
@@ -109,9 +132,11 @@ def _pairs(count: int) -> tuple[Canvas, list[tuple[Axes, Axes]]]:
     return canvas, pairs
 
 
-def _title(study: Study, channel: Found) -> str:
-    held = ", held out" if channel["role"] == HELD_OUT else ""
-    return f"{title_of(study, channel['experiment'])}{held}"
+def _title(study: Study, row: Found) -> str:
+    held = ", held out" if row["role"] == HELD_OUT else ""
+    words = words_of(study, row)
+    named = "" if words == quantity_of(study, row).title else f", {words}"
+    return f"{title_of(study, row['experiment'])}{named}{held}"
 
 
 def _has_after(curve: pd.DataFrame) -> pd.Series:
@@ -120,19 +145,18 @@ def _has_after(curve: pd.DataFrame) -> pd.Series:
     return after.notna() & (after != curve["before"])
 
 
-def _draw_curves(ax: Axes, curve: pd.DataFrame, x: str, factor: float) -> None:
-    at = curve[x].to_numpy(float)
-    y, sd = (factor * curve[c].to_numpy(float) for c in ("measured", "sd"))
-    ax.fill_between(at, y - 2.0 * sd, y + 2.0 * sd, color=style.BAND, linewidth=0.0)
-    ax.plot(at, y, **_MEASURED)
-    ax.plot(at, factor * curve["before"], **BEFORE)
+def _draw_curves(ax: Axes, at: FloatArray, curve: pd.DataFrame, quantity: Quantity) -> None:
+    measured, sd = (curve[c].to_numpy(float) for c in ("measured", "sd"))
+    low, high = (shown(quantity, measured + side * 2.0 * sd) for side in (-1.0, 1.0))
+    ax.fill_between(at, low, high, color=style.BAND, linewidth=0.0)
+    ax.plot(at, shown(quantity, measured), **_MEASURED)
+    ax.plot(at, shown(quantity, curve["before"]), **BEFORE)
     if _has_after(curve).any():
-        ax.plot(at, factor * curve["after"].astype(float), **AFTER)
+        ax.plot(at, shown(quantity, curve["after"]), **AFTER)
 
 
-def _draw_residuals(ax: Axes, curve: pd.DataFrame, x: str) -> None:
+def _draw_residuals(ax: Axes, at: FloatArray, curve: pd.DataFrame) -> None:
     """Draw residuals in standard deviations: every point thin, their running mean bold."""
-    at = curve[x].to_numpy(float)
     ax.axhspan(-2.0, 2.0, color=style.BAND, linewidth=0.0)
     style.zero_line(ax)
     looks = [("before", BEFORE)] + ([("after", AFTER)] if _has_after(curve).any() else [])
@@ -145,11 +169,11 @@ def _draw_residuals(ax: Axes, curve: pd.DataFrame, x: str) -> None:
 def _draw_windows(ax: Axes, windows: Sequence[Found], x: str) -> None:
     """Shade the windows, and label them with their phase, neighbours of one phase once."""
     low, high = ax.get_xlim()
-    ends = "K" if x == "temperature_K" else "s"
+    ends, zero = ("K", ICE_POINT_K) if x == "temperature_K" else ("s", 0.0)
     taken = np.full(_ROWS, -np.inf)
     last = ""
     for w in windows:
-        start, end = float(w[f"start_{ends}"]), float(w[f"end_{ends}"])
+        start, end = (float(w[f"{end}_{ends}"]) - zero for end in ("start", "end"))
         ax.axvspan(start, end, **_WINDOW)
         for edge in (start, end):
             ax.axvline(edge, **_EDGE)
@@ -180,11 +204,3 @@ def _entries(data: str, after: bool, windows: bool) -> list[Any]:
         look = {"facecolor": _WINDOW["facecolor"], "alpha": _WINDOW["alpha"]}
         entries.append(style.patch("the base model is off", **look))
     return entries
-
-
-CAPTION = (
-    "Above: measured with twice the standard deviation of its noise, the base model, and the model "
-    "with the effects found, if any. Below: simulated minus measured in standard deviations, every "
-    "point (thin) and the running mean over 3 % of the points (bold). Shaded stretches are those "
-    "where the base model is off to one side by more than noise would be, with their phase."
-)

@@ -7,8 +7,9 @@ from pyrofit.analysis.uses import title_of
 from pyrofit.config import Study
 from pyrofit.results import diagnosis
 from pyrofit.results.files import Results
-from pyrofit.show.diagnosis.words import ROLES, shown_unit, signal_name
+from pyrofit.show.diagnosis.words import ROLES, quantity_of, words_of
 from pyrofit.show.table import Table, always
+from pyrofit.show.units import difference, difference_unit
 
 
 def gap(study: Study, results: Results) -> pd.DataFrame:
@@ -20,18 +21,18 @@ def gap(study: Study, results: Results) -> pd.DataFrame:
     found = diagnosis.read(study, results)
     rows = []
     for g in found["gap"]:
-        unit, factor = shown_unit(g["unit"])
-        before, after = factor * g["rms_before"], factor * g["rms_after"]
+        quantity = quantity_of(study, g)
+        before, after = (float(difference(quantity, g[f"rms_{w}"])) for w in ("before", "after"))
         rows.append(
             {
                 "role": ROLES.get(g["role"], g["role"]),
                 "experiment": title_of(study, g["experiment"]),
-                "signal": signal_name(g["signal"]),
+                "signal": words_of(study, g),
                 "points": int(g["points"]),
                 "rms_before": before,
                 "rms_after": after,
-                "noise_sd": factor * g["noise_sd"],
-                "unit": unit,
+                "noise_sd": float(difference(quantity, g["noise_sd"])),
+                "unit": difference_unit(quantity),
                 "closed_percent": 100.0 * (1.0 - after / before) if before > 0.0 else np.nan,
                 "before_sd": float(np.sqrt(g["chi2_before"] / g["points"])),
                 "after_sd": float(np.sqrt(g["chi2_after"] / g["points"])),

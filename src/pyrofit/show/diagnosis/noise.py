@@ -6,23 +6,24 @@ from pyrofit.analysis.uses import title_of
 from pyrofit.config import Study
 from pyrofit.results import diagnosis
 from pyrofit.results.files import Results
-from pyrofit.show.diagnosis.words import ROLES, shown_unit, signal_name
+from pyrofit.show.diagnosis.words import ROLES, quantity_of, words_of
 from pyrofit.show.table import Table, always
+from pyrofit.show.units import difference, difference_unit
 
 
 def noise(study: Study, results: Results) -> pd.DataFrame:
     """List the noise of every channel, and how the base fits or predicts it."""
     rows = []
     for n in diagnosis.read(study, results)["noise"]:
-        unit, factor = shown_unit(n["unit"])
+        quantity = quantity_of(study, n)
         rows.append(
             {
                 "role": ROLES.get(n["role"], n["role"]),
                 "experiment": title_of(study, n["experiment"]),
-                "signal": signal_name(n["signal"]),
+                "signal": words_of(study, n),
                 "points": int(n["points"]),
-                "sd_median": factor * n["sd_median"],
-                "unit": unit,
+                "sd_median": float(difference(quantity, n["sd_median"])),
+                "unit": difference_unit(quantity),
                 "noise": n["words"],
                 "chi2_per_point": n["chi2_base"] / n["points"],
             }

@@ -10,9 +10,9 @@ from pyrofit.config import Study
 from pyrofit.results import diagnosis
 from pyrofit.results.files import Results
 from pyrofit.show import style
-from pyrofit.show.diagnosis.words import shown_unit
 from pyrofit.show.figure import Figure
 from pyrofit.show.table import Table, always
+from pyrofit.show.units import celsius
 
 
 def probes(study: Study, results: Results) -> pd.DataFrame:
@@ -20,6 +20,10 @@ def probes(study: Study, results: Results) -> pd.DataFrame:
     found = diagnosis.read(study, results)["probes"]
     rows = [{"probe": p["what"], "absorbed_percent": 100.0 * p["absorbed"]} for p in found]
     return pd.DataFrame(rows, columns=["probe", "absorbed_percent"])
+
+
+_SHOWN = {"W/m2": ("kW/m²", 1e-3), "-": ("–", 1.0)}
+"""Unit that is shown, and the factor to it, where another one is shown."""
 
 
 def draw_probes(study: Study, results: Results) -> Canvas:
@@ -30,11 +34,12 @@ def draw_probes(study: Study, results: Results) -> Canvas:
     style.letter(axes, [textwrap.fill(title, 44) for title in titles])
     for ax, probe in zip(axes, found, strict=True):
         x, y = np.array(probe["shape"], dtype=float).reshape(-1, 2).T
-        unit, factor = shown_unit(probe["unit"])
+        unit, factor = _SHOWN.get(probe["unit"], (probe["unit"], 1.0))
         # Without a unit it is a factor, else a change.
         ax.axhline(1.0 if probe["unit"] == "-" else 0.0, color="0.3", linewidth=0.5)
-        ax.plot(x, factor * y, color=style.COLOURS[0])
-        ax.set_xlabel("time [s]" if probe["probe"] == "flux" else "temperature [K]")
+        over_time = probe["probe"] == "flux"
+        ax.plot(x if over_time else celsius(x), factor * y, color=style.COLOURS[0])
+        ax.set_xlabel("time [s]" if over_time else "temperature [°C]")
         what = "factor on the" if probe["unit"] == "-" else "change of the"
         ax.set_ylabel(f"{what} {probe['probe'].replace('_', ' ')}\n[{unit}]")
     return canvas

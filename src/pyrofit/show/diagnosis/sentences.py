@@ -7,7 +7,7 @@ from pyrofit.config import Study
 from pyrofit.effects import known_effects
 from pyrofit.results import diagnosis
 from pyrofit.results.files import Results
-from pyrofit.show.diagnosis.words import HELD_OUT, ROLES, Found, effect_name, leading, signal_name
+from pyrofit.show.diagnosis.words import HELD_OUT, ROLES, Found, effect_name, leading, words_of
 from pyrofit.show.text import listed, number
 
 _TOO_FEW = ", too few to tell them apart"
@@ -172,7 +172,7 @@ def _of_noise(study: Study, found: Found) -> list[str]:
 
     def those(key: str) -> str:
         series = [n for n in found["noise"] if n["role"] == "calibration" and not n[key]]
-        words = [f"{title_of(study, n['experiment'])}, {signal_name(n['signal'])}" for n in series]
+        words = [f"{title_of(study, n['experiment'])}, {words_of(study, n)}" for n in series]
         return listed(words)
 
     estimated, lasting = those("stated"), those("white")

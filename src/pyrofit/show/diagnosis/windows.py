@@ -10,8 +10,9 @@ from pyrofit.analysis.uses import title_of
 from pyrofit.config import Study
 from pyrofit.results import diagnosis
 from pyrofit.results.files import Results
-from pyrofit.show.diagnosis.words import MODELS, Found, shown_unit, signal_name
+from pyrofit.show.diagnosis.words import MODELS, Found, quantity_of, words_of
 from pyrofit.show.table import Table, always
+from pyrofit.show.units import celsius, difference, difference_unit
 
 
 def windows(study: Study, results: Results) -> pd.DataFrame:
@@ -20,17 +21,20 @@ def windows(study: Study, results: Results) -> pd.DataFrame:
 
 
 def _window(study: Study, w: Found) -> dict[str, Any]:
-    unit, factor = shown_unit(w["unit"])
+    quantity = quantity_of(study, w)
+    unit = difference_unit(quantity).replace("–", "")
+    off = float(difference(quantity, w["mean"]))
     programme = None if w["start_K"] is None else (w["start_K"], w["end_K"])
+    kelvin = programme or w["surface_temperature_K"]
     return {
         "model": MODELS.get(w["model"], w["model"]),
         "experiment": title_of(study, w["experiment"]),
-        "signal": signal_name(w["signal"]),
+        "signal": words_of(study, w),
         "phase": w["phase"],
         "time_s": between((w["start_s"], w["end_s"]), ".0f"),
-        "temperature_K": between(programme or w["surface_temperature_K"], ".0f"),
+        "temperature_C": None if kelvin is None else between(celsius(kelvin), ".0f"),
         "conversion": between(w["conversion"], ".2f"),
-        "difference": f"{factor * w['mean']:+.3g} {unit.replace('–', '')}".strip(),
+        "difference": f"{off:+.3g} {unit}".strip(),
         "relative_percent": np.nan if w["relative"] is None else 100.0 * w["relative"],
     }
 
@@ -55,7 +59,7 @@ TABLE = Table(
     "per cent of the measured mean; the simulation lies above where it is positive.",
     headings={
         "time_s": "time [s]",
-        "temperature_K": "temperature [K]",
+        "temperature_C": "temperature [°C]",
         "conversion": "conversion [-]",
         "relative_percent": "difference [%]",
     },

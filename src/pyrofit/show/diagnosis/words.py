@@ -3,7 +3,9 @@
 from collections.abc import Mapping, Sequence
 from typing import Any
 
+from pyrofit.config import Study
 from pyrofit.effects import known_effects
+from pyrofit.quantities.base import Quantity
 
 Found = Mapping[str, Any]
 
@@ -28,17 +30,14 @@ MODELS = {BASE: "base model", "extended": "with the effects found"}
 ROLES = {"calibration": "fitted", HELD_OUT: "held out"}
 
 
-_SHOWN = {"kg/(m² s)": ("g/(m² s)", 1e3), "W/m²": ("kW/m²", 1e-3), "-": ("–", 1.0)}
-"""Unit that is shown and what a value is multiplied by, where a unit is shown otherwise."""
+def quantity_of(study: Study, row: Found) -> Quantity:
+    """Return the quantity of a row that names experiment and signal."""
+    return study.experiments[row["experiment"]].quantity(row["signal"])
 
 
-def signal_name(signal: str) -> str:
-    """Return a signal in words.
-
-    >>> signal_name("mlr"), signal_name("back_temperature")
-    ('mass loss rate', 'back temperature')
-    """
-    return signal.replace("_", " ").replace("mlr", "mass loss rate")
+def words_of(study: Study, row: Found) -> str:
+    """Return the signal of a row in words."""
+    return study.experiments[row["experiment"]].words(row["signal"])
 
 
 def effect_name(name: str) -> str:
@@ -55,16 +54,6 @@ def effect_name(name: str) -> str:
 def model_name(effects: Sequence[str]) -> str:
     """Return the effects of a model, titles and names."""
     return " + ".join(effect_name(name) for name in effects)
-
-
-def shown_unit(unit: str) -> tuple[str, float]:
-    """Return the unit that is shown for one of the results, and the factor to it.
-
-    >>> shown_unit("kg/(m2 s)"), shown_unit("K")
-    (('g/(m² s)', 1000.0), ('K', 1.0))
-    """
-    written = unit.replace("m2", "m²")
-    return _SHOWN.get(written, (written, 1.0))
 
 
 def leading(found: Found) -> dict[str, Any] | None:

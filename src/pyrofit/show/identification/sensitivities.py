@@ -8,38 +8,37 @@ from pyrofit.results.files import Results, read_csv
 from pyrofit.results.identification import noise
 from pyrofit.show import style
 from pyrofit.show.figure import Figure
-
-_UNITS: dict[str, tuple[str, str, float]] = {
-    "mlr": ("mass loss rate", "g/(m² s)", 1e3),
-    "back_temperature": ("back temperature", "K", 1.0),
-}
+from pyrofit.show.units import difference, difference_unit
 
 
 def sensitivities(study: Study, results: Results) -> Canvas:
-    """Draw d curve / d parameter times the distance of its limits against time, by channel."""
+    """Draw d curve / d parameter times the distance of its limits against time, by signal."""
     words = dict.fromkeys(("experiment", "signal", "parameter"), object)
     columns = {**words, **dict.fromkeys(("time_s", "si"), float)}
     frame = read_csv(results.identification("sensitivities.csv"), columns)
-    channels = noise(results)["channels"]
-    canvas, axes = style.panels(len(channels), 2, style.TWO_COLUMNS, 72.0)
-    style.letter(axes, [title_of(study, c["experiment"]) for c in channels])
+    signals = noise(results)["signals"]
+    canvas, axes = style.panels(len(signals), 2, style.TWO_COLUMNS, 72.0)
+    style.letter(axes, [title_of(study, c["experiment"]) for c in signals])
     looks = {
         name: {"color": style.colour(i), "linestyle": style.dashes(i + i // len(style.COLOURS))}
         for i, name in enumerate(study.imp.estimate)
     }
-    for ax, channel in zip(axes, channels, strict=True):
-        label, unit, factor = _UNITS[channel["signal"]]
+    for ax, signal in zip(axes, signals, strict=True):
+        experiment = study.experiments[signal["experiment"]]
+        quantity = experiment.quantity(signal["signal"])
         here = frame[
-            (frame["experiment"] == channel["experiment"]) & (frame["signal"] == channel["signal"])
+            (frame["experiment"] == signal["experiment"]) & (frame["signal"] == signal["signal"])
         ]
-        sd = factor * channel["sd_median"]
+        sd = float(difference(quantity, signal["sd_median"]))
         ax.axhspan(-sd, sd, color=style.BAND, linewidth=0.0)
         for name, look in looks.items():
             curve = here[here["parameter"] == name]
-            ax.plot(curve["time_s"], factor * curve["si"], **look)
+            ax.plot(curve["time_s"], difference(quantity, curve["si"]), **look)
         style.zero_line(ax)
         ax.set_xlabel("time [s]")
-        ax.set_ylabel(f"change of {label}\nper limits' distance [{unit}]")
+        title = experiment.words(signal["signal"])
+        unit = difference_unit(quantity)
+        ax.set_ylabel(f"change of {title}\nper limits' distance [{unit}]")
     style.legend_below(
         canvas,
         [

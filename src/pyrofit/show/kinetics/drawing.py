@@ -9,6 +9,7 @@ from matplotlib.lines import Line2D
 from matplotlib.patches import Patch
 from scipy.signal import savgol_filter
 
+from pyrofit.analysis.uses import mass_signal
 from pyrofit.config import Study
 from pyrofit.quantities import known_quantities
 from pyrofit.results import recorded
@@ -16,6 +17,7 @@ from pyrofit.results.files import Results
 from pyrofit.show import style
 from pyrofit.show.names import data_name
 from pyrofit.solver.arrays import FloatArray
+from pyrofit.solver.outputs import MASS_FRACTION
 
 WINDOW_K = 10.0
 """Width of the window over which a slope is taken [K]."""
@@ -31,7 +33,12 @@ _RATES = ("#000000", "#BB3344", "#56B4E9", "#009E73", "#CC8800", "#CC79A7")
 _NOTICEABLE = 0.01
 
 
-_UNCERTAINTY = known_quantities()["mass_fraction"].uncertainty_column
+_UNCERTAINTY = known_quantities()[MASS_FRACTION].uncertainty_column
+
+
+def mass_series(study: Study, results: Results, name: str) -> pd.DataFrame:
+    """Return the measured mass of an experiment."""
+    return recorded.series(study, results, name, mass_signal(study, name))
 
 
 def slope(temperature_K: FloatArray, mass_fraction: FloatArray) -> tuple[FloatArray, FloatArray]:
@@ -81,7 +88,7 @@ def rate_of(study: Study, name: str) -> str:
 
 def busy_span(curves: pd.DataFrame) -> tuple[float, float]:
     """Return the temperatures [degrees C] between which the simulated masses change."""
-    mass = curves["mass_fraction"]
+    mass = curves[MASS_FRACTION]
     start = mass.groupby([curves["experiment"], curves["set"]]).transform("first")
     end = mass.groupby([curves["experiment"], curves["set"]]).transform("last")
     busy = (mass < start - _NOTICEABLE) & (mass > end + _NOTICEABLE)
@@ -94,7 +101,7 @@ def busy_span(curves: pd.DataFrame) -> tuple[float, float]:
 def draw_band(ax: Axes, measured: pd.DataFrame) -> None:
     """Shade measured mass ± uncertainty, where one is known."""
     if _UNCERTAINTY in measured:
-        mass, width = (measured[c].to_numpy(float) for c in ("mass_fraction", _UNCERTAINTY))
+        mass, width = (measured[c].to_numpy(float) for c in (MASS_FRACTION, _UNCERTAINTY))
         temperature = style.celsius(measured["temperature_K"])
         low, high = mass - width, mass + width
         ax.fill_between(temperature, low, high, color=style.BAND, linewidth=0.0)
@@ -102,7 +109,7 @@ def draw_band(ax: Axes, measured: pd.DataFrame) -> None:
 
 def data_entries(study: Study, results: Results, names: Sequence[str]) -> list[Line2D | Patch]:
     """Return the legend entries of the data, their band only where an uncertainty is known."""
-    label = data_name(study, [(name, "mass_fraction") for name in names])
+    label = data_name(study, [(name, mass_signal(study, name)) for name in names])
     line = style.line(label, color="0.6", linewidth=2.0)
-    known = any(_UNCERTAINTY in recorded.series(study, results, n, "mass_fraction") for n in names)
+    known = any(_UNCERTAINTY in mass_series(study, results, n) for n in names)
     return [line, style.patch("uncertainty", color=style.BAND)] if known else [line]

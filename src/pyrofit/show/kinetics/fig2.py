@@ -6,7 +6,7 @@ from matplotlib.figure import Figure as Canvas
 
 from pyrofit.analysis.uses import all_rates, rates_in_fit
 from pyrofit.config import Study
-from pyrofit.results import kinetics, recorded
+from pyrofit.results import kinetics
 from pyrofit.results.files import Results
 from pyrofit.show import style
 from pyrofit.show.figure import Figure
@@ -16,11 +16,13 @@ from pyrofit.show.kinetics.drawing import (
     data_entries,
     draw_band,
     labels_of,
+    mass_series,
     rate_colour,
     rate_of,
     sets_of,
     slope,
 )
+from pyrofit.solver.outputs import MASS_FRACTION
 
 
 def fig2(study: Study, results: Results) -> Canvas:
@@ -29,7 +31,7 @@ def fig2(study: Study, results: Results) -> Canvas:
     names = rates_in_fit(study)
     canvas, (left, right) = style.panels(2, 2, style.TWO_COLUMNS, 82.0)
     for i, name in enumerate(names):
-        measured = recorded.series(study, results, name, "mass_fraction")
+        measured = mass_series(study, results, name)
         draw_band(left, measured)
         _draw(left, right, measured, rate_colour(i), "-")
         for k, (_, curve) in enumerate(sets_of(study, curves, name)):
@@ -53,7 +55,7 @@ def fig2(study: Study, results: Results) -> Canvas:
 
 def _draw(left: Axes, right: Axes, curve: pd.DataFrame, colour: str, dash: object) -> None:
     temperature = curve["temperature_K"].to_numpy(float)
-    mass = curve["mass_fraction"].to_numpy(float)
+    mass = curve[MASS_FRACTION].to_numpy(float)
     # Measured lines are light, so that dashes on top of them are seen.
     look = {"color": colour, "linestyle": dash}
     look |= {"alpha": 0.45, "linewidth": 1.8} if dash == "-" else {"linewidth": 1.1}

@@ -4,7 +4,7 @@ from matplotlib.figure import Figure as Canvas
 
 from pyrofit.analysis.uses import all_rates, rates_in_fit
 from pyrofit.config import Study
-from pyrofit.results import kinetics, recorded
+from pyrofit.results import kinetics
 from pyrofit.results.files import Results
 from pyrofit.show import style
 from pyrofit.show.figure import Figure
@@ -14,9 +14,11 @@ from pyrofit.show.kinetics.drawing import (
     data_entries,
     draw_band,
     labels_of,
+    mass_series,
     rate_of,
     sets_of,
 )
+from pyrofit.solver.outputs import MASS_FRACTION
 
 
 def kinetics_all_rates(study: Study, results: Results) -> Canvas:
@@ -27,19 +29,17 @@ def kinetics_all_rates(study: Study, results: Results) -> Canvas:
     height = 52.0 if len(names) > 3 else 70.0
     canvas, axes = style.panels(len(names), 4, style.TWO_COLUMNS, height, sharex=True, sharey=True)
     for ax, name in zip(axes, names, strict=True):
-        measured = recorded.series(study, results, name, "mass_fraction")
+        measured = mass_series(study, results, name)
         draw_band(ax, measured)
         ax.plot(
             style.celsius(measured["temperature_K"]),
-            measured["mass_fraction"],
+            measured[MASS_FRACTION],
             color="0.6",
             linewidth=2.0,
         )
         for k, (_, curve) in enumerate(sets_of(study, curves, name)):
             temperature = style.celsius(curve["temperature_K"])
-            ax.plot(
-                temperature, curve["mass_fraction"], color=style.colour(k), linestyle=dash_of(k)
-            )
+            ax.plot(temperature, curve[MASS_FRACTION], color=style.colour(k), linestyle=dash_of(k))
         ax.set_xlim(*busy_span(curves))
     style.letter(axes, [rate_of(study, n) + (", in fit" if n in used else "") for n in names])
     for i, ax in enumerate(axes):

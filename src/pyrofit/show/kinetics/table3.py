@@ -9,6 +9,7 @@ from pyrofit.config import Study
 from pyrofit.results import kinetics
 from pyrofit.results.files import Results
 from pyrofit.show.table import Table
+from pyrofit.solver.outputs import MASS_FRACTION
 
 _ROWS = (
     ("A", "1/s", "A_1_s", 1.0),
@@ -16,7 +17,7 @@ _ROWS = (
     # PAPER: Table 3 prints E in kJ/kmol, which is the same number as J/mol.
     ("E", "kJ/kmol", "E_J_mol", 1.0),
     ("order n", "-", "order", 1.0),
-    ("mass fraction", "-", "mass_fraction", 1.0),
+    ("mass fraction", "-", MASS_FRACTION, 1.0),
 )
 
 

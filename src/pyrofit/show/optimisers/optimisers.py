@@ -1,8 +1,8 @@
-"""Mass loss rate of the optimisers."""
+"""Release rates of the optimisers."""
 
 from matplotlib.figure import Figure as Canvas
 
-from pyrofit.analysis.uses import CMAES, LEAST_SQUARES, SCEUA, predicted
+from pyrofit.analysis.uses import CMAES, LEAST_SQUARES, SCEUA, predicted_signals
 from pyrofit.config import Study
 from pyrofit.results.files import Results
 from pyrofit.show.curves import compare_curves
@@ -11,15 +11,15 @@ from pyrofit.show.figure import Figure
 
 def optimisers(study: Study, results: Results) -> Canvas:
     """Draw the best sets of all optimisers at all predicted experiments."""
-    names = predicted(study, "mlr")
-    return compare_curves(study, results, names, (SCEUA, LEAST_SQUARES, CMAES))
+    pairs = predicted_signals(study, relative=True)
+    return compare_curves(study, results, pairs, (SCEUA, LEAST_SQUARES, CMAES))
 
 
 FIGURE = Figure(
     place=30,
-    applies=lambda study: bool(predicted(study, "mlr")),
+    applies=lambda study: bool(predicted_signals(study, relative=True)),
     make=optimisers,
-    title="Mass loss rate of the optimisers",
+    title="Release rates of the optimisers",
     caption="The best sets of least squares (dots) and CMA-ES (squares) beside those of "
     "SCE-UA. Where a lower cost at the fitted experiment comes with a worse prediction "
     "elsewhere, the fitted data do not determine the parameters, or these make up for "

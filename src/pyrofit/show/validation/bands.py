@@ -5,14 +5,12 @@ import pandas as pd
 from pyrofit.analysis.good_sets import GOOD, MOST
 from pyrofit.analysis.uses import title_of
 from pyrofit.config import Study
-from pyrofit.quantities import known_quantities
 from pyrofit.results import recorded
 from pyrofit.results.comparison import bands
 from pyrofit.results.files import Results, read_csv
 from pyrofit.show.table import Table
+from pyrofit.show.units import unit_cells
 from pyrofit.solver.arrays import FloatArray
-
-WORDS = {"mlr": "mass loss rate", "back_temperature": "back temperature"}
 
 
 def width_of_bands(study: Study, results: Results) -> pd.DataFrame:
@@ -22,30 +20,34 @@ def width_of_bands(study: Study, results: Results) -> pd.DataFrame:
     -------
     pandas.DataFrame
         One row per experiment, signal and cost function, and one for all of these together. Width:
-        mean over time, in per cent of the mean of the measured mass loss rate, or in K. Within: per
-        cent of the measured points inside the band, and inside the band widened by their stated
-        uncertainty.
+        mean over time, of rates in per cent of their measured mean. Within: per cent of the
+        measured points inside the band, and inside the band widened by their stated uncertainty.
     """
     frame = bands(study, results)
     met = read_csv(results.comparison("family.csv"), {"met": float}).groupby("cost_function")["met"]
     tried = met.first().astype(int).to_dict()
     rows = []
+    pairs = frame[["experiment", "signal"]].drop_duplicates().itertuples(index=False)
+    among = [study.experiments[name].quantity(signal) for name, signal in pairs]
     for (name, signal, cost), part in frame.groupby(
         ["experiment", "signal", "cost_function"], sort=False
     ):
         measured = recorded.series(study, results, str(name), str(signal))
-        margin = measured.get(known_quantities()[str(signal)].uncertainty_column)
-        rate = signal == "mlr"
+        experiment = study.experiments[str(name)]
+        quantity = experiment.quantity(str(signal))
+        margin = measured.get(quantity.uncertainty_column)
         width = float((part["high"] - part["low"]).mean())
         rows.append(
             {
                 "experiment": title_of(study, str(name)),
-                "signal": WORDS[str(signal)],
+                "signal": experiment.words(str(signal)),
                 "cost_function": cost,
                 "good_sets": tried.get(str(cost), sum(tried.values())),
                 "simulated": int(part["sets"].iloc[0]),
-                "width_percent": 100.0 * width / abs(part["measured"].mean()) if rate else None,
-                "width_K": None if rate else width,
+                "width_percent": (
+                    100.0 * width / abs(part["measured"].mean()) if quantity.relative else None
+                ),
+                **unit_cells("width", quantity, width, among),
                 "within_percent": _within(part, 0.0),
                 "within_with_uncertainty_percent": (
                     None if margin is None else _within(part, margin.to_numpy(float))

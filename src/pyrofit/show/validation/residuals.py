@@ -1,19 +1,18 @@
-"""Residuals of the mass loss rate."""
+"""Residuals of the predicted rates."""
 
 from matplotlib.figure import Figure as Canvas
 
 from pyrofit.analysis.running import running_mean
-from pyrofit.analysis.uses import SCEUA, predicted, predicted_sets
+from pyrofit.analysis.uses import SCEUA, predicted_sets, predicted_signals
 from pyrofit.config import Study
 from pyrofit.results import recorded
 from pyrofit.results.files import Results
 from pyrofit.show import style
 from pyrofit.show.curves import (
-    MLR_LABEL,
     curve_of,
     draw_band,
-    grams,
     label_axes,
+    label_of,
     look_of,
     measured_entries,
     panels_of,
@@ -22,38 +21,40 @@ from pyrofit.show.curves import (
 )
 from pyrofit.show.figure import Figure
 from pyrofit.show.names import data_name
+from pyrofit.show.units import difference
 
 
 def residuals(study: Study, results: Results) -> Canvas:
-    """Draw simulated minus measured mass loss rate over time, with the uncertainty about zero."""
-    names = predicted(study, "mlr")
-    canvas, axes = panels_of(study, names)
+    """Draw simulated minus measured rates over time, with the uncertainty about zero."""
+    pairs = predicted_signals(study, relative=True)
+    canvas, axes = panels_of(study, pairs)
     curves = predicted_curves(study, results)
-    shown = [s for s in predicted_sets(study) if s.origin == SCEUA]
-    for ax, name in zip(axes, names, strict=True):
-        draw_band(ax, recorded.series(study, results, name, "mlr"), "mlr", grams, about_zero=True)
+    sets = [s for s in predicted_sets(study) if s.origin == SCEUA]
+    for ax, (name, signal) in zip(axes, pairs, strict=True):
+        quantity = study.experiments[name].quantity(signal)
+        draw_band(ax, recorded.series(study, results, name, signal), quantity, about_zero=True)
         style.zero_line(ax)
-        for chosen in shown:
-            curve = curve_of(curves, name, "mlr", chosen.label)
-            difference = curve["simulated"] - curve["measured"]
+        for chosen in sets:
+            curve = curve_of(curves, name, signal, chosen.label)
+            off = curve["simulated"] - curve["measured"]
             look = look_of(study, chosen)
             points = {"color": look["color"], "linewidth": 0.4, "alpha": 0.4}
-            ax.plot(curve["time_s"], grams(difference), **points)
-            ax.plot(curve["time_s"], grams(running_mean(difference)), **look)
-    data = data_name(study, [(name, "mlr") for name in names])
-    label_axes(axes, f"simulated − {data}\n{MLR_LABEL}")
-    entries = measured_entries(study, results, names, "mlr", with_line=False)
-    style.legend_below(canvas, [*entries, *set_entries(study, shown)])
+            ax.plot(curve["time_s"], difference(quantity, off), **points)
+            ax.plot(curve["time_s"], difference(quantity, running_mean(off)), **look)
+    data = data_name(study, pairs)
+    label_axes(axes, [f"simulated − {data}\n{label_of(study, *pair)}" for pair in pairs])
+    entries = measured_entries(study, results, pairs, with_line=False)
+    style.legend_below(canvas, [*entries, *set_entries(study, sets)])
     return canvas
 
 
 FIGURE = Figure(
     place=20,
-    applies=lambda study: bool(predicted(study, "mlr")),
+    applies=lambda study: bool(predicted_signals(study, relative=True)),
     make=residuals,
-    title="Residuals of the mass loss rate",
-    caption="Mass loss rate of the best sets minus that of the data: every point (thin) and "
-    "the running mean over 3 % of the points (bold), and the uncertainty of the data "
-    "about zero (grey area). Noise scatters about zero; long stretches on one side are "
+    title="Residuals of the release rates",
+    caption="Mass loss rate or heat release rate of the best sets minus that of the data: every "
+    "point (thin) and the running mean over 3 % of the points (bold), and the uncertainty of the "
+    "data about zero (grey area). Noise scatters about zero; long stretches on one side are "
     "systematic.",
 )

@@ -1,71 +1,76 @@
 """How well sets predict unfitted data, in sentences."""
 
+from collections.abc import Sequence
+
 import pandas as pd
 
-from pyrofit.analysis.uses import HELD_OUT, LEAST_SQUARES, SCEUA, predicted
+from pyrofit.analysis.scores import Score, by_signal, scores
+from pyrofit.analysis.uses import FITTED, LEAST_SQUARES, SCEUA, UNKNOWN
 from pyrofit.config import Study
 from pyrofit.results.comparison import ALL
 from pyrofit.results.files import Results
+from pyrofit.show.names import places_of, scored
 from pyrofit.show.table import Frames
-from pyrofit.show.text import listed, span
+from pyrofit.show.text import listed
+from pyrofit.show.units import difference, difference_unit
 
 
 def sentences(study: Study, results: Results, tables: Frames) -> list[str]:
     """Say how well the sets predict what they were not fitted to, and how exact the solver is."""
-    if "validation" not in tables:
+    if not study.validation.experiments:
         return []
-    said = [_rates(tables["validation"]), _back_temperature(study, tables), _solver(tables)]
-    said.append(reach_of_good_sets(tables))
-    return [text for text in said if text]
+    found = scores(study, results)
+    return [*_predicted(found), _solver(found), reach_of_good_sets(tables)]
 
 
-def _rates(table: pd.DataFrame) -> str:
-    scores = table.dropna(subset=["cv_rmse"])
-    held = scores[scores["data"] == HELD_OUT]
-    ours, squares = (held[held["found_by"] == who]["cv_rmse"] for who in (SCEUA, LEAST_SQUARES))
-    if not len(ours):
-        return ""
-    fitted = scores[(scores["data"] == "fitted") & (scores["found_by"] == SCEUA)]["cv_rmse"]
-    where = listed(list(dict.fromkeys(held["experiment"])))
-    text = f"SCE-UA's sets predict the mass loss rate of {where} with CV(RMSE) {span(ours)}"
-    text += f" (fitted data: {span(fitted)})" if len(fitted) else ""
-    return f"{text}, those of least squares with {span(squares)}."
+def _predicted(found: Sequence[Score]) -> list[str]:
+    """Say how well each signal is predicted where it was not fitted."""
+    said = []
+    for signal, group in by_signal(found).items():
+        ours = [score for score in group if score.found_by == SCEUA]
+        free = [score for score in ours if score.use not in (FITTED, UNKNOWN)]
+        if not free:
+            continue
+        text = f"SCE-UA's sets predict the {signal} of {places_of(free)} with {scored(free)}"
+        fitted = [score for score in ours if score.use == FITTED]
+        text += f" (fitted data: {scored(fitted)})" if fitted else ""
+        squares = [s for s in group if s.found_by == LEAST_SQUARES and s.use != FITTED]
+        said.append(f"{text}, those of least squares with {scored(squares)}.")
+    return said
 
 
-def _back_temperature(study: Study, tables: Frames) -> str:
-    if not predicted(study, "back_temperature"):
-        return ""
-    scores = tables["validation"].dropna(subset=["rmse_K"])
-    scores = scores[(scores["found_by"] == SCEUA) & (scores["data"] != "fitted")]
-    parts = [
-        f"{span(part['rmse_K'])} K at {name}"
-        for name, part in scores.groupby("experiment", sort=False)
-    ]
-    return f"They miss back temperatures, not fitted, by {listed(parts)} (RMSE)." if parts else ""
-
-
-def _solver(tables: Frames) -> str:
-    scores = tables["validation"]
-    rate, kelvin = scores["solver_cv_rmse"].max(), scores["solver_rmse_K"].max()
-    parts = [f"{100 * rate:.2g} % of the mean mass loss rate"] if pd.notna(rate) else []
-    parts += [f"{kelvin:.2g} K"] if pd.notna(kelvin) else []
+def _solver(found: Sequence[Score]) -> str:
+    parts = []
+    for signal, group in by_signal(found).items():
+        quantity, most = group[0].quantity, max(score.solver for score in group)
+        if quantity.relative:
+            parts.append(f"{100 * most:.2g} % of the mean {signal}")
+        else:
+            size = float(difference(quantity, most))
+            parts.append(f"{size:.2g} {difference_unit(quantity)} of the {signal}")
     return f"The solver's own error, estimated for every curve, is at most {listed(parts)}."
 
 
 def reach_of_good_sets(tables: Frames) -> str:
-    """Say how far the good sets reach, and what of the data they reach."""
+    """Say how far the good sets reach, and which share of the data lies within."""
     table = tables["bands"]
     names = table["cost_function"]
     table = table[names == (ALL if ALL in set(names) else names.iloc[0])]
-    parts = []
-    for row in table.to_dict("records"):
-        wide = (
-            f"{row['width_percent']:.2g} % of the mean"
-            if pd.notna(row["width_percent"])
-            else f"{row['width_K']:.2g} K"
-        )
-        parts.append(
-            f"{row['signal']} at {row['experiment']} {wide}, {row['within_percent']:.0f} % of the "
-            "measured points inside"
-        )
-    return f"Mean width of what the good sets predict: {'; '.join(parts)}."
+    parts = [
+        f"{row['signal']} at {row['experiment']} {_width(row)}, {row['within_percent']:.0f} % of "
+        "the measured points inside"
+        for _, row in table.iterrows()
+    ]
+    return f"Mean width of the predictions of the good sets: {'; '.join(parts)}."
+
+
+def _width(row: pd.Series) -> str:
+    if pd.notna(row["width_percent"]):
+        return f"{row['width_percent']:.2g} % of the mean"
+    (column,) = (
+        str(name)
+        for name in row.index
+        if str(name).startswith("width") and name != "width_percent" and pd.notna(row[name])
+    )
+    unit = "K" if column == "width_K" else column.partition("[")[2].rstrip("]")
+    return f"{row[column]:.2g} {unit}"

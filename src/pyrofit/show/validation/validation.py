@@ -1,19 +1,20 @@
 """Scores of all sets at all predicted experiments."""
 
+from collections.abc import Sequence
 from typing import Any
 
-import numpy as np
 import pandas as pd
 
-from pyrofit.analysis.uses import predicted_sets, title_of, use_of
+from pyrofit.analysis.scores import Score, scores
 from pyrofit.config import Study
-from pyrofit.results import prediction
+from pyrofit.quantities.base import Quantity
 from pyrofit.results.files import Results
 from pyrofit.show.table import Table
+from pyrofit.show.units import unit_cells
 
 
 def validation(study: Study, results: Results) -> pd.DataFrame:
-    """Gather the scores of every set: CV(RMSE) of mass loss rates, RMSE [K] of temperatures.
+    """Gather the scores of every set: CV(RMSE) of rates, RMSE of all else.
 
     Returns
     -------
@@ -22,30 +23,25 @@ def validation(study: Study, results: Results) -> pd.DataFrame:
         the signal or predicts it; ``solver_...`` is the solver's own error, estimated by
         refinement, in the same measure.
     """
-    sets = {chosen.label: chosen for chosen in predicted_sets(study)}
-    scores = prediction.scores(study, results, list(sets))
-    rows: list[dict[str, Any]] = []
-    for score in scores.to_dict("records"):
-        chosen = sets[score["set"]]
-        rate = score["signal"] == "mlr"
-        rows.append(
-            {
-                "experiment": title_of(study, score["experiment"]),
-                "signal": score["signal"].replace("_", " ").replace("mlr", "mass loss rate"),
-                "cost_function": chosen.cost,
-                "found_by": chosen.origin,
-                "data": use_of(study, chosen.cost, score["experiment"], score["signal"]),
-                "points": score["points"],
-                "cv_rmse": score["cv_rmse"] if rate else None,
-                "solver_cv_rmse": score["solver_cv_rmse"] if rate else None,
-                "rmse_K": None if rate else score["rmse_si"],
-                "solver_rmse_K": None if rate else score["solver_rmse_si"],
-            }
-        )
-    frame = pd.DataFrame(rows)
-    order = [list(dict.fromkeys(frame[c])).index for c in ("experiment", "signal")]
-    key = frame["experiment"].map(order[0]), frame["signal"].map(order[1])
-    return frame.iloc[np.lexsort(key[::-1])].reset_index(drop=True)
+    found = scores(study, results)
+    among = [score.quantity for score in found]
+    return pd.DataFrame([_row(score, among) for score in found])
+
+
+def _row(score: Score, among: Sequence[Quantity]) -> dict[str, Any]:
+    rate = score.quantity.relative
+    return {
+        "experiment": score.experiment,
+        "signal": score.signal,
+        "cost_function": score.cost_function,
+        "found_by": score.found_by,
+        "data": score.use,
+        "points": score.points,
+        "cv_rmse": score.value if rate else None,
+        "solver_cv_rmse": score.solver if rate else None,
+        **unit_cells("rmse", score.quantity, score.value, among),
+        **unit_cells("solver_rmse", score.quantity, score.solver, among),
+    }
 
 
 TABLE = Table(

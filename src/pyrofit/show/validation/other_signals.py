@@ -1,0 +1,26 @@
+"""Predicted signals that are no rates: temperatures, masses."""
+
+from matplotlib.figure import Figure as Canvas
+
+from pyrofit.analysis.uses import PUBLISHED, SCEUA, predicted_signals
+from pyrofit.config import Study
+from pyrofit.results.files import Results
+from pyrofit.show.curves import compare_curves
+from pyrofit.show.figure import Figure
+
+
+def other_signals(study: Study, results: Results) -> Canvas:
+    """Draw temperatures and other signals over time at all predicted experiments."""
+    pairs = predicted_signals(study, relative=False)
+    return compare_curves(study, results, pairs, (SCEUA, PUBLISHED))
+
+
+FIGURE = Figure(
+    place=30,
+    applies=lambda study: bool(predicted_signals(study, relative=False)),
+    make=other_signals,
+    title="Temperatures and other signals",
+    caption="Signals of the predicted experiments that are no rates, such as the back temperature: "
+    "the data with their uncertainty and the predictions of the same sets. A signal that was not "
+    "fitted tests whether the parameters have a physical meaning.",
+)
