@@ -108,8 +108,8 @@ def test_summary_says_the_numbers_in_five_sentences(tmp_path: Path) -> None:
         "SCE-UA stopped at a local optimum for RMSE and had not converged for BANDS, where others "
         "find a cost lower by 20 %.",
         "Whether the cost functions differ was not tested: fewer than 5 repetitions; among best "
-        "sets, another cost function changes CV(RMSE) at slab_60 by a factor of up to 1.00, "
-        "another optimiser by up to 1.11.",
+        "sets, another cost function changes CV(RMSE) of the mass loss rate at slab_60 by a "
+        "factor of up to 1.00, another optimiser by up to 1.11.",
     ]
 
 
