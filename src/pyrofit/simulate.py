@@ -14,7 +14,12 @@ from pyrofit.solver.arrays import FLUX, FloatArray, Numerics, Values
 from pyrofit.solver.curves import Curves, Request, Runs
 from pyrofit.solver.heated import heated_samples
 from pyrofit.solver.lower import lower_material, lower_network
-from pyrofit.solver.lower_experiment import lower_exposure, lower_layers, lower_share
+from pyrofit.solver.lower_experiment import (
+    lower_exposure,
+    lower_layers,
+    lower_places,
+    lower_share,
+)
 from pyrofit.solver.observe import observe
 from pyrofit.solver.run import Case, march
 
@@ -73,7 +78,6 @@ def simulate_gasification(
     values: Mapping[str, float],
     requests: Mapping[str, Request],
     accuracy: Accuracy | None = None,
-    probes_m: tuple[float, ...] = (),
 ) -> Curves:
     """Simulate a gasification experiment.
 
@@ -86,11 +90,9 @@ def simulate_gasification(
     requests
         By signal: ``mlr`` [kg/(m2 s)], averaged over the bin width; ``mass`` [kg/m2],
         ``back_temperature``, ``front_temperature`` [K], ``thickness`` [m], and
-        ``probe_0`` ... [K] for the probes.
+        ``inside_temperature`` [K] at the place of the request.
     accuracy
         Numerical settings.
-    probes_m
-        Depths of temperature probes in the virgin sample [m].
 
     Returns
     -------
@@ -98,7 +100,7 @@ def simulate_gasification(
         The signals at their times, empty unless the run finished. MLR over a bin is the
         difference of the released mass, so that mass closes to round-off.
     """
-    return simulate_gasifications(experiment, material, values, requests, accuracy, probes_m)[0]
+    return simulate_gasifications(experiment, material, values, requests, accuracy)[0]
 
 
 def simulate_gasifications(
@@ -107,7 +109,6 @@ def simulate_gasifications(
     values: Values,
     requests: Mapping[str, Request],
     accuracy: Accuracy | None = None,
-    probes_m: tuple[float, ...] = (),
     sets: int = 1,
     threads: int = 1,
 ) -> list[Curves]:
@@ -117,7 +118,8 @@ def simulate_gasifications(
     curves to the last bit alone and among others, with one thread and with several.
     """
     accuracy = accuracy or Accuracy()
-    case = _lower(experiment, material, values, accuracy, probes_m, sets)
+    case = _lower(experiment, material, values, accuracy, sets)
+    located = lower_places(experiment.sample, requests, values, sets)
 
     def run(factor: FloatArray, asked: Mapping[str, Request]) -> Runs:
         schedule = case.exposure.schedule.copy()
@@ -125,7 +127,7 @@ def simulate_gasifications(
         exposed = case.exposure._replace(schedule=schedule)
         return march(case._replace(exposure=exposed), asked, _numerics(accuracy), threads)
 
-    return observe(experiment, values, requests, run, sets).curves()
+    return observe(experiment, values, located, run, sets).curves()
 
 
 def _numerics(accuracy: Accuracy) -> Numerics:
@@ -140,7 +142,6 @@ def _lower(
     material: Material,
     values: Values,
     accuracy: Accuracy,
-    probes_m: tuple[float, ...],
     sets: int,
 ) -> Case:
     length = value_of(experiment.sample.absorption_length_m, values)
@@ -157,7 +158,7 @@ def _lower(
         thickness = np.asarray(sum(layer.thickness for layer in layers))
         needed = cells_needed(share, thickness, T_start, properties, network, exposure)
         cells = np.ceil(accuracy.cells_factor * needed).astype(np.int64)
-    return Case(layers, cells, T_start, properties, network, exposure, probes_m)
+    return Case(layers, cells, T_start, properties, network, exposure)
 
 
 def solver_errors(

@@ -1,6 +1,7 @@
 """Materials, specimens and curves the verification tests share."""
 
 from collections.abc import Mapping
+from dataclasses import replace
 from pathlib import Path
 from typing import Any
 
@@ -12,7 +13,8 @@ from pyrofit.experiments import Gasification, Tga
 from pyrofit.model.accuracy import Accuracy
 from pyrofit.model.material import Material
 from pyrofit.simulate import simulate_gasification, simulate_tga
-from pyrofit.solver.curves import Curves, Request
+from pyrofit.solver.curves import Curves, Place, Request
+from pyrofit.solver.outputs import INSIDE
 
 DATA = Path(__file__).parents[1] / "data"
 
@@ -141,6 +143,15 @@ def slab_experiment(
     )
 
 
+def placed(requests: Mapping[str, Request], probes_m: tuple[float, ...]) -> dict[str, Request]:
+    """Requests with those for ``probe_0`` ... at the depths given."""
+    probes = {f"probe_{n}": Place(depth) for n, depth in enumerate(probes_m)}
+    return {
+        name: replace(r, output=INSIDE, place=probes[name]) if name in probes else r
+        for name, r in requests.items()
+    }
+
+
 def run(
     experiment: Gasification,
     material: Material,
@@ -150,7 +161,8 @@ def run(
     probes_m: tuple[float, ...] = (),
 ) -> Curves:
     """Simulate and demand a finished run whose mass closes."""
-    curves = simulate_gasification(experiment, material, values, requests, accuracy, probes_m)
+    asked = placed(requests, probes_m)
+    curves = simulate_gasification(experiment, material, values, asked, accuracy)
     assert curves.status.finished, curves.status.explanation
     assert curves.mass_error <= 1e-12
     return curves

@@ -21,6 +21,7 @@ from cases import (
     inert_material,
     paper_experiment,
     paper_material,
+    placed,
     powder,
     rms_over_mean,
     run,
@@ -66,7 +67,8 @@ def refer(
     values: Mapping[str, float] = BEST,
     probes_m: tuple[float, ...] = (),
 ) -> Curves:
-    curves = reference_gasification(experiment, material, values, requests, resolution, probes_m)
+    asked = placed(requests, probes_m)
+    curves = reference_gasification(experiment, material, values, asked, resolution)
     assert curves.status.finished, curves.status.explanation
     return curves
 
@@ -523,7 +525,7 @@ def test_probe_lies_at_its_depth_where_layers_have_cells_of_their_own() -> None:
     # Two cells for 0.05 mm, 48 for the rest. Measured: 0.43 K; taken for equal cells 12 K.
     layers = ({"thickness_m": 5e-5}, {"thickness_m": 4.95e-3})
     request = {"probe_0": Request(np.array([60.0, 120.0, 180.0]))}
-    case = charring(), {}, request
-    exact = refer(specimen(), *case[::2], probes_m=(1e-3,)).signals["probe_0"]
-    found = simulate_gasification(specimen(layers=layers), *case, Accuracy(cells=50), (1e-3,))
+    exact = refer(specimen(), charring(), request, probes_m=(1e-3,)).signals["probe_0"]
+    fifty = Accuracy(cells=50)
+    found = run(specimen(layers=layers), charring(), request, fifty, {}, (1e-3,))
     assert found.signals["probe_0"] == pytest.approx(exact, abs=0.6)

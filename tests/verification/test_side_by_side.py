@@ -8,7 +8,7 @@ from typing import Any
 import numpy as np
 import pytest
 import yaml
-from cases import inert_material
+from cases import inert_material, placed
 from terms import BEHIND, FAST, FOIL, HEATED, SIMPLE, SLOW, TERMS, charring, specimen
 
 from pyrofit.config import as_study
@@ -73,7 +73,7 @@ def checked(
     probes_m: tuple[float, ...] = (),
 ) -> list[Curves]:
     """Return the curves of sets side by side, which are those of each alone, bit for bit."""
-    case = asked or requests(), accuracy, probes_m
+    case = placed(asked or requests(), probes_m), accuracy
     found = simulate_gasifications(experiment, material, values, *case, sets)
     alone = [
         simulate_gasification(experiment, material, of_set(values, s), *case) for s in range(sets)

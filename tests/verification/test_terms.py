@@ -5,7 +5,7 @@ from typing import Any
 
 import numpy as np
 import pytest
-from cases import FAINT, Curve, inert_material, powder, rms_over_mean, run, slab_experiment
+from cases import FAINT, Curve, inert_material, placed, powder, rms_over_mean, run, slab_experiment
 from scipy.integrate import quad
 from scipy.optimize import brentq
 from terms import BASE, BEHIND, FOIL, TERMS, Term, charring, specimen
@@ -78,7 +78,8 @@ def _reference(
     probes_m: tuple[float, ...] = (),
 ) -> Curves:
     fine = Resolution(elements=200)
-    curves = reference_gasification(experiment, material, {}, requests, fine, probes_m)
+    asked = placed(requests, probes_m)
+    curves = reference_gasification(experiment, material, {}, asked, fine)
     assert curves.status.finished
     return curves
 

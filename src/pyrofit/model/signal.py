@@ -5,10 +5,11 @@ from typing import Annotated, Any, Literal, Self
 from pydantic import BeforeValidator, Field, model_validator
 
 from pyrofit.data.noise import FloatArray, autoregressive, lowest_density, moving_average
-from pyrofit.model.base import AboveZero, Number, Part
+from pyrofit.model.base import NOT_NEGATIVE, AboveZero, Number, Part
 
 TIMING_S = 0.5
 """Error of the clocks [s]: a tenth of the usual 5-s bins."""
+Follows = Literal["material", "fixture"]
 
 
 class Noise(Part):
@@ -80,6 +81,17 @@ class Signal(Part):
     )
     delay_s: Number = Field(0.0, description="time by which the record is late [s]")
     offset: Number = Field(0.0, description="what the record shows too much, SI unit")
+    depth_m: Annotated[Number | None, NOT_NEGATIVE] = Field(
+        None, description="in-depth temperature: depth below the initial front [m]"
+    )
+    follows: Follows | None = Field(
+        None,
+        description="in-depth temperature: what the thermocouple moves with; `material` (default) "
+        "or `fixture`, which keeps its distance from the back face of the sample",
+    )
+    layer: int | None = Field(
+        None, ge=1, description="interface temperature: behind which layer; the front one is 1"
+    )
     sample_mass_kg: AboveZero | None = Field(None, description="initial sample mass [kg]")
     sample_area_m2: AboveZero | None = Field(None, description="exposed area [m2]")
     endothermic: Literal["positive", "negative"] = Field(

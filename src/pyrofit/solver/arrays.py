@@ -166,6 +166,16 @@ class Numerics(NamedTuple):
     most_steps: int
 
 
+class Probes(NamedTuple):
+    """Where temperatures inside the sample are asked for."""
+
+    material: FloatArray
+    """Places that follow the material: cells of the virgin sample in front of them, shape
+    (lanes, probes)."""
+    fixture: FloatArray
+    """Places that stay where they are: heights above the back face [m], shape (lanes, probes)."""
+
+
 class Asked(NamedTuple):
     """The signals that are asked of a run, one behind the other."""
 

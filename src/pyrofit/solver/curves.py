@@ -6,9 +6,30 @@ from typing import NamedTuple
 
 import numpy as np
 
-from pyrofit.solver.arrays import FloatArray, IntArray, Status
+from pyrofit.model.signal import Follows
+from pyrofit.solver.arrays import FloatArray, IntArray, Status, Value
 
 _STATUSES = tuple(Status)
+
+
+@dataclass(frozen=True)
+class Place:
+    """A place inside the sample.
+
+    Parameters
+    ----------
+    depth_m
+        Depth in the virgin sample [m], the name of a parameter, or one depth for each set, shape
+        (sets,).
+    layer
+        The place is behind this layer instead; the first one is 1.
+    follows
+        The material at that depth, or the fixture: the height above the back face stays.
+    """
+
+    depth_m: Value | str = 0.0
+    layer: int | None = None
+    follows: Follows = "material"
 
 
 @dataclass(frozen=True)
@@ -17,7 +38,7 @@ class Request:
 
     A heated sample has the programme's temperatures [K] and their rates of change [K/s], by default
     the differences of those. ``output`` names the curve, see `pyrofit.solver.outputs`; without it
-    the signal's own name does.
+    the signal's own name does. ``place`` tells where a temperature in a slab is asked for.
     """
 
     time_s: FloatArray
@@ -25,6 +46,7 @@ class Request:
     temperature_K: FloatArray | None = None
     output: str = ""
     heating_rate_K_s: FloatArray | None = None
+    place: Place | None = None
 
     def of(self, signal: str) -> str:
         """Return the name of the curve that a signal asks for."""

@@ -1,5 +1,7 @@
 """From an experiment in words to the arrays of the kernels, for all sets at once as in `lower`."""
 
+from collections.abc import Mapping
+from dataclasses import replace
 from typing import NamedTuple
 
 import numpy as np
@@ -18,6 +20,7 @@ from pyrofit.solver.arrays import (
     Value,
     Values,
 )
+from pyrofit.solver.curves import Place, Request
 from pyrofit.solver.lower import fractions, total
 from pyrofit.solver.schedule import lower_schedule
 
@@ -140,6 +143,27 @@ def thicknesses(sample: Sample, values: Values) -> list[Value]:
     """Return the thickness of each layer [m]."""
     factor = value_of(sample.thickness_factor, values)
     return [factor * value_of(layer.thickness_m, values) for layer in sample.layers]
+
+
+def lower_places(
+    sample: Sample, requests: Mapping[str, Request], values: Values, sets: int = 1
+) -> dict[str, Request]:
+    """Return the requests with the depths of their places as numbers [m], shape (sets,)."""
+    return {
+        name: r if r.place is None else replace(r, place=_located(r.place, sample, values, sets))
+        for name, r in requests.items()
+    }
+
+
+def _located(place: Place, sample: Sample, values: Values, sets: int) -> Place:
+    depth: Value
+    if place.layer is not None:
+        depth = sum(thicknesses(sample, values)[: place.layer])
+    elif isinstance(place.depth_m, str):
+        depth = values[place.depth_m]
+    else:
+        depth = place.depth_m
+    return replace(place, depth_m=np.full(sets, depth, np.float64))
 
 
 def lower_share(

@@ -12,7 +12,7 @@ from pyrofit.solver.arrays import FloatArray, IntArray, Numerics, Status
 from pyrofit.solver.curves import Request, Runs
 from pyrofit.solver.lower import total
 from pyrofit.solver.lower_experiment import Layer, cells_of
-from pyrofit.solver.outputs import BACK, FRONT, HEAT, MASS, RATE, THICKNESS
+from pyrofit.solver.outputs import BACK, FRONT, HEAT, INSIDE, MASS, RATE, THICKNESS
 
 LANES = 8
 """Parameter sets that run side by side."""
@@ -32,7 +32,6 @@ class Case(NamedTuple):
     properties: arrays.Material
     network: arrays.Network
     exposure: arrays.Exposure
-    probes_m: tuple[float, ...]
 
 
 def split(array: FloatArray, order: IntArray) -> FloatArray:
@@ -64,12 +63,14 @@ def march(case: Case, asked: Mapping[str, Request], numerics: Numerics, threads:
         mass_error=np.empty(sets),
     )
     ends = [r.time_s.max(axis=1) + 0.5 * r.average_s for r in asked.values()]
-    wanted = _asked(tuple((r.of(n), r.average_s, r.time_s.shape[1]) for n, r in asked.items()))
+    signals = tuple((r.of(n), _follows(r), r.average_s, r.time_s.shape[1]) for n, r in asked.items())
+    wanted = _asked(signals)
     at = np.concatenate([r.time_s for r in asked.values()], axis=1)
     outputs = [r.of(n) for n, r in asked.items()]
     early = set(outputs) <= EARLY
     case = case._replace(network=case.network._replace(burns=HEAT in outputs))
-    work = _Work(case, numerics, np.max(ends, axis=0), wanted, at, outputs, early)
+    depths = arrays.Probes(*(_depths(asked, follows, sets) for follows in arrays.Probes._fields))
+    work = _Work(case, numerics, np.max(ends, axis=0), wanted, at, depths, outputs, early)
 
     def fill(index: IntArray) -> None:
         found = _alone(work, index) if index.size == 1 else _together(work, index)
@@ -86,20 +87,36 @@ def march(case: Case, asked: Mapping[str, Request], numerics: Numerics, threads:
 
 
 class _Work(NamedTuple):
-    """What the kernel needs, of all sets; ``at`` are the times asked for, shape (sets, points)."""
+    """What the kernel needs, of all sets.
+
+    ``at`` are the times asked for, shape (sets, points), ``depths`` those of the probes in the
+    virgin sample [m], shape (sets, probes).
+    """
 
     case: Case
     numerics: Numerics
     t_end: FloatArray
     asked: arrays.Asked
     at: FloatArray
+    depths: arrays.Probes
     outputs: list[str]
     stop_when_burnt: bool
 
 
+def _follows(request: Request) -> str:
+    return "" if request.place is None else request.place.follows
+
+
+def _depths(asked: Mapping[str, Request], follows: str, sets: int) -> FloatArray:
+    """Return the depths [m] of the probes that follow one thing, shape (sets, probes)."""
+    places = [r.place for r in asked.values() if r.place is not None]
+    found = [place.depth_m for place in places if place.follows == follows]
+    return np.reshape(np.array(found, np.float64), (-1, sets)).T
+
+
 @cache
-def _asked(signals: tuple[tuple[str, float, int], ...]) -> arrays.Asked:
-    """Return as the kernel takes them: names, bin widths [s] and numbers of points."""
+def _asked(signals: tuple[tuple[str, str, float, int], ...]) -> arrays.Asked:
+    """Return as the kernel takes them: names, what probes follow, bin widths [s], points."""
     from pyrofit.solver.kernels import trace
 
     columns = {
@@ -110,8 +127,12 @@ def _asked(signals: tuple[tuple[str, float, int], ...]) -> arrays.Asked:
         BACK: trace.BACK,
         THICKNESS: trace.THICKNESS,
     }
-    names, widths, points = zip(*signals, strict=True)
-    column = [columns[n] if n in columns else trace.PROBES + int(n[6:]) for n in names]
+    names, follow, widths, points = zip(*signals, strict=True)
+    order = [k for to in arrays.Probes._fields for k, follows in enumerate(follow) if follows == to]
+    column = [
+        trace.PROBES + order.index(k) if name == INSIDE else columns[name]
+        for k, name in enumerate(names)
+    ]
     return arrays.Asked(np.array(column), 0.5 * np.array(widths), np.cumsum([0, *points]))
 
 
@@ -149,7 +170,7 @@ def _alone(work: _Work, index: IntArray) -> Found:
         work.numerics,
         t_end,
         work.stop_when_burnt,
-        _in_cells(case.probes_m, start, empty, case.properties.specific_volume),
+        _probes(work.depths, index, start, empty, case.properties.specific_volume),
         work.asked,
         work.at[index],
     )
@@ -166,7 +187,7 @@ def _together(work: _Work, index: IntArray) -> Found:
         lambda a: a.take(filled, axis=-1), (case.layers, case.properties.specific_volume)
     )
     start, empty = cells_of(layers, case.cells[filled])
-    probes = _in_cells(case.probes_m, start, empty, volumes)
+    probes = _probes(work.depths, filled, start, empty, volumes)
     T_start, properties, network, exposure, t_end = mapped(
         lambda a: split(a, filled),
         (case.T_start, case.properties, case.network, case.exposure, work.t_end),
@@ -183,7 +204,7 @@ def _together(work: _Work, index: IntArray) -> Found:
         work.numerics,
         t_end,
         work.stop_when_burnt,
-        probes.reshape(*per_lane, probes.shape[1]),
+        arrays.Probes(*(places.reshape(*per_lane, places.shape[1]) for places in probes)),
         work.asked,
         work.at[filled].reshape(*per_lane, work.at.shape[1]),
     )
@@ -215,14 +236,21 @@ def _write(
             curve[index] = initial[index, None] - curve[index]
 
 
-def _in_cells(
-    depths_m: tuple[float, ...], start: FloatArray, empty: IntArray, volumes: FloatArray
-) -> FloatArray:
-    """Return depths in the virgin sample counted in its cells, shape (lanes, probes)."""
-    out = np.empty((empty.size, len(depths_m)))
-    if depths_m:
-        thickness = total((start * volumes).swapaxes(0, 1))
-        for lane, ahead in enumerate(empty):
-            edges = np.concatenate(([0.0], np.cumsum(thickness[ahead:, lane])))
-            out[lane] = np.interp(depths_m, edges, np.arange(edges.size))
-    return out
+def _probes(
+    depths: arrays.Probes,
+    index: IntArray,
+    start: FloatArray,
+    empty: IntArray,
+    volumes: FloatArray,
+) -> arrays.Probes:
+    """Return the probes of some sets as the kernel takes them; outside the sample lies none."""
+    probes = arrays.Probes(*(np.ascontiguousarray(depth[index]) for depth in depths))
+    if not any(depth.size for depth in probes):
+        return probes
+    thickness = total((start * volumes).swapaxes(0, 1))
+    for lane, ahead in enumerate(empty):
+        edges = np.concatenate(([0.0], np.cumsum(thickness[ahead:, lane])))
+        cells = np.arange(edges.size)
+        probes.material[lane] = np.interp(probes.material[lane], edges, cells)
+        probes.fixture[lane] = np.clip(edges[-1] - probes.fixture[lane], 0.0, edges[-1])
+    return probes

@@ -106,8 +106,8 @@ def march(
     clock = start_clock(none, exposure, numerics, t_end)
     rate_scale = scale_of_rate(exposure)
     mass = total_mass(work)
-    depth = thickness(work, edge.first, material, T_start)
-    at_start = none, none, none, T_start, depth, none, none, clock.dt_old
+    depth, d_skin, r_skin = thickness(work, edge.first, material, T_start)
+    at_start = none, none, none, T_start, depth, none, none, clock.dt_old, d_skin, r_skin
     for lane in range(firsts.size):
         record(trace[lane, 0], lane, at_start, flat, firsts[lane], empty, probes)
     status, steps, tries = none + UNBURNT, none, none
@@ -125,7 +125,7 @@ def march(
         accepted = running & opposite(again)
         block = edge.first * wide.m.shape[1] // work.m.shape[1]
         accept(wide, block, network, accepted)
-        depth = thickness(work, edge.first, material, step.front)
+        depth, d_skin, r_skin = thickness(work, edge.first, material, step.front)
         rate_scale = where(accepted, max(rate_scale, PEAK_MULTIPLE * step.rate), rate_scale)
         taken = where(accepted, 1.0, none)
         steps += taken
@@ -151,7 +151,7 @@ def march(
         clock = either(running, next_clock, clock)
         gone = balance.released, step.rate
         burnt = balance.burnt, step.power
-        now = clock.t, *gone, top.front, depth, *burnt, clock.dt_old
+        now = clock.t, *gone, top.front, depth, *burnt, clock.dt_old, d_skin, r_skin
         for lane in range(firsts.size):
             if in_lane(taken, lane) == 1.0:
                 first = firsts[lane]

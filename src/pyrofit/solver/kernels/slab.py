@@ -2,7 +2,8 @@
 
 import numpy as np
 
-from pyrofit.solver.kernels.jit import entry, making
+from pyrofit.solver.arrays import Probes
+from pyrofit.solver.kernels.jit import entry, inner, making
 from pyrofit.solver.kernels.lanes import in_lanes
 from pyrofit.solver.kernels.march import march
 from pyrofit.solver.kernels.output import sample
@@ -10,6 +11,12 @@ from pyrofit.solver.kernels.state import fill
 from pyrofit.solver.kernels.trace import PROBES
 from pyrofit.solver.kernels.views import exposure_in_lanes, material_in_lanes, network_in_lanes
 from pyrofit.solver.kernels.work import allocate, in_width, make_room
+
+
+@inner
+def columns(probes):
+    """Return how many columns a trace has."""
+    return PROBES + probes.material.shape[-1] + probes.fixture.shape[-1]
 
 
 @making
@@ -89,8 +96,7 @@ def slab(
     material, network, exposure, numerics : see `pyrofit.solver.arrays`.
     t_end : end of the run [s], shape (lanes,).
     stop_when_burnt : end as soon as the reactant is gone.
-    probes : Lagrangian positions of temperature probes, in cells that are not empty, shape
-        (lanes, probes).
+    probes : see `pyrofit.solver.arrays.Probes`.
     asked : see `pyrofit.solver.arrays.Asked`.
     at : times of all signals [s], shape (lanes, points).
 
@@ -100,7 +106,7 @@ def slab(
     (imbalance relative to the heat that crossed the surfaces), mass error (relative).
     """
     lanes = len(width)
-    trace = np.empty((lanes, numerics.most_steps + 1, PROBES + probes.shape[1]))
+    trace = np.empty((lanes, numerics.most_steps + 1, columns(probes)))
     outcome = np.empty((lanes, 4))
     signals = np.empty(at.shape)
     run(
@@ -142,7 +148,7 @@ def slabs(
 ):
     """Run groups of samples one after the other: as `slab`, with an axis more ahead, the groups."""
     groups, lanes = t_end.shape
-    trace = np.empty((lanes, numerics.most_steps + 1, PROBES + probes.shape[2]))
+    trace = np.empty((lanes, numerics.most_steps + 1, columns(probes)))
     outcome = np.empty((groups, lanes, 4))
     signals = np.empty(at.shape)
     for g in range(groups):
@@ -160,7 +166,7 @@ def slabs(
             numerics,
             t_end[g],
             stop_when_burnt,
-            probes[g],
+            Probes(probes.material[g], probes.fixture[g]),
             trace,
             outcome[g],
         )

@@ -124,6 +124,6 @@ def total_mass(work):
 
 @inner
 def thickness(work, first, material, T):
-    """Return the thickness of all cells and of the skin [m]."""
-    skin, _, _ = layer(work.skin, 0, material, T)
-    return skin + summed(work, row.d, first)
+    """Return the thickness of all cells and of the skin [m], that of the skin, its resistance."""
+    skin, r_skin, _ = layer(work.skin, 0, material, T)
+    return skin + summed(work, row.d, first), skin, r_skin

@@ -5,33 +5,63 @@ import math
 from pyrofit.solver.kernels import row
 from pyrofit.solver.kernels.jit import inner
 from pyrofit.solver.kernels.lanes import in_lane
+from pyrofit.solver.kernels.reactions import TINY
 
 TIME, RELEASED, RATE, FRONT, BACK, THICKNESS, BURNT, POWER, KINK, PROBES = range(10)
-"""Columns of the trace; any number of probes."""
+"""Columns of the trace; any number of probes, those that follow the material first."""
 STATUS, STEPS, ENERGY_ERROR, MASS_ERROR = range(4)
 """Columns of what a run came to."""
 
 
 @inner
-def probe_temperature(position, ahead, cell, foil, lane, first, front):
-    """Return T at a Lagrangian position, linear between centres.
+def between_cells(upper, lower, r_upper, r_lower):
+    """Return T where two parts meet whose T is known behind the resistances r: one heat flux."""
+    return upper + r_upper / (r_upper + r_lower) * (lower - upper)
+
+
+@inner
+def in_cell(n, part, cell, lane, first, front, r_skin):
+    """Return T in cell n, ``part`` of which lies above; linear in each of its halves."""
+    here, half_r = cell[row.T, n, lane], cell[row.half_r, n, lane]
+    if part >= 0.5:
+        below, r_below = cell[row.T, n + 1, lane], cell[row.half_r, n + 1, lane]
+        end = between_cells(here, below, half_r, r_below)
+        return here + (2.0 * part - 1.0) * (end - here)
+    if n == first:
+        end = between_cells(front, here, r_skin, half_r)
+    else:
+        above, r_above = cell[row.T, n - 1, lane], cell[row.half_r, n - 1, lane]
+        end = between_cells(above, here, r_above, half_r)
+    return end + 2.0 * part * (here - end)
+
+
+@inner
+def of_material(position, ahead, cell, foil, lane, first, front, r_skin):
+    """Return T at a Lagrangian place; that of the front once its cell has left the grid.
 
     It is counted in cells from the front of the virgin sample, ``ahead`` of which are empty ones.
     """
-    below = math.floor(position - 0.5)
-    part = position - 0.5 - below
-    low = below + ahead
-    gone = first - ahead
-    if position <= gone:
+    above = min(math.floor(position), foil - 1 - ahead)
+    if above + ahead < first:
         return front
-    if low < first:
-        return front + (cell[row.T, first, lane] - front) * (position - gone) / 0.5
-    if low >= foil - 1:
-        half, contact = cell[row.half_r, foil - 1, lane], cell[row.half_r, foil, lane]
-        part = (position - (foil - ahead) + 0.5) / 0.5 * (half / (half + contact))
-        low = foil - 1
-    here = cell[row.T, low, lane]
-    return here + part * (cell[row.T, low + 1, lane] - here)
+    return in_cell(above + ahead, position - above, cell, lane, first, front, r_skin)
+
+
+@inner
+def of_fixture(height, cell, foil, lane, first, front, d_skin, r_skin):
+    """Return T at a height above the back face; that of the front where the sample is thinner."""
+    n, behind = foil - 1, 0.0
+    while n > first and behind + cell[row.d, n, lane] < height:
+        behind += cell[row.d, n, lane]
+        n -= 1
+    d = cell[row.d, n, lane]
+    above = height - behind - d
+    if above <= 0.0:
+        return in_cell(n, min(-above / max(d, TINY), 1.0), cell, lane, first, front, r_skin)
+    if above >= d_skin:
+        return front
+    top = between_cells(front, cell[row.T, first, lane], r_skin, cell[row.half_r, first, lane])
+    return top + above / d_skin * (front - top)
 
 
 @inner
@@ -39,20 +69,26 @@ def record(trace, lane, numbers, flat, first, ahead, probes):
     """Write one row of the trace of a lane.
 
     The numbers: time, mass released, rate, front T, thickness, heat of combustion, that per time,
-    and the length of the step that the next one continues, infinite where the flux has a kink.
+    the length of the step that the next one continues, infinite where the flux has a kink, and
+    thickness and resistance of the skin.
     """
-    t, released, rate, front, depth, burnt, power, before = numbers
-    foil = flat.m.shape[1]
+    t, released, rate, front, depth, burnt, power, before, d_skin, r_skin = numbers
+    cell, foil = flat.cell, flat.m.shape[1]
     trace[TIME] = in_lane(t, lane)
     trace[RELEASED] = in_lane(released, lane)
     trace[RATE] = in_lane(rate, lane)
     trace[FRONT] = in_lane(front, lane)
-    trace[BACK] = flat.cell[row.T, foil, lane]
+    trace[BACK] = cell[row.T, foil, lane]
     trace[THICKNESS] = in_lane(depth, lane)
     trace[BURNT] = in_lane(burnt, lane)
     trace[POWER] = in_lane(power, lane)
     trace[KINK] = 1.0 if in_lane(before, lane) == math.inf else 0.0
-    for a in range(probes.shape[1]):
-        trace[PROBES + a] = probe_temperature(
-            probes[lane, a], ahead[lane], flat.cell, foil, lane, first, in_lane(front, lane)
-        )
+    T, d, r = in_lane(front, lane), in_lane(d_skin, lane), in_lane(r_skin, lane)
+    to = PROBES
+    for a in range(probes.material.shape[1]):
+        place = probes.material[lane, a]
+        trace[to] = of_material(place, ahead[lane], cell, foil, lane, first, T, r)
+        to += 1
+    for a in range(probes.fixture.shape[1]):
+        trace[to] = of_fixture(probes.fixture[lane, a], cell, foil, lane, first, T, d, r)
+        to += 1

@@ -11,8 +11,8 @@ from pyrofit.model.accuracy import Resolution
 from pyrofit.model.base import value_of
 from pyrofit.model.material import Material
 from pyrofit.model.slab import EmissivityDepth, Sample, SlabExperiment
-from pyrofit.solver.arrays import FloatArray, Status
-from pyrofit.solver.curves import Curves, Request
+from pyrofit.solver.arrays import FloatArray, IntArray, Status
+from pyrofit.solver.curves import Curves, Place, Request
 from pyrofit.solver.observe import observe_one
 from pyrofit.solver.outputs import BACK, FRONT, HEAT, MASS, RATE, THICKNESS
 from pyrofit.solver.reference.slab import Outside, Slab
@@ -41,7 +41,6 @@ def reference_gasification(
     values: Mapping[str, float],
     requests: Mapping[str, Request],
     resolution: Resolution | None = None,
-    probes_m: tuple[float, ...] = (),
 ) -> Curves:
     """Simulate a gasification experiment, as `pyrofit.simulate.simulate_gasification` does.
 
@@ -59,10 +58,15 @@ def reference_gasification(
         run.go(list(pieces(experiment, flame, values, float(time[-1]), factor)))
         if not run.status.finished:
             return Curves(run.status, {}, resolution.elements, run.steps)
-        lines = _lines(slab, run.states, probes_m)
+        lines = _lines(slab, run.states)
         lines[RATE][time > run.ended] = 0.0
         lines[HEAT][(time > run.ended) | (time < flame.begins) | (time > flame.ends)] = 0.0
-        signals = {name: _sample(r.of(name), r, time, lines, flame) for name, r in asked.items()}
+        signals = {
+            name: _sample(r.of(name), r, time, lines, flame)
+            if r.place is None
+            else _inside(slab, run.states[_at(r, time)], r.place, experiment.sample, values)
+            for name, r in asked.items()
+        }
         energy_error = abs(run.heat_missing) / max(run.heat_crossed, 1e-300)
         return Curves(run.status, signals, resolution.elements, run.steps, energy_error)
 
@@ -91,10 +95,45 @@ def _sample(
         lost = lines[_SUMS[name]][np.searchsorted(time, start)]
         lost = lost - lines[_SUMS[name]][np.searchsorted(time, end)]
         return np.asarray(lost / width)
-    return lines[name][np.searchsorted(time, np.maximum(request.time_s, 0.0))]
+    return lines[name][_at(request, time)]
 
 
-def _lines(slab: Slab, states: FloatArray, probes_m: tuple[float, ...]) -> dict[str, FloatArray]:
+def _at(request: Request, time: FloatArray) -> IntArray:
+    """Return the positions of the times asked for among those of the states."""
+    return np.searchsorted(time, np.maximum(request.time_s, 0.0))
+
+
+def _inside(
+    slab: Slab, states: FloatArray, place: Place, sample: Sample, values: Values
+) -> FloatArray:
+    """Return T at a place in the sample, linear between nodes, shape (states,)."""
+    T, extent = slab.split(states)
+    # The contact to a foil, which has no mass, is not of the sample.
+    own = slab.mass > 0.0
+    T, count = T[:, : own.sum() + 1], own.sum()
+    virgin = slab.mass[own] * (slab.virgin[own] / slab.substance.density).sum(axis=-1)
+    depth = np.concatenate(([0.0], np.cumsum(virgin)))
+    at = _depth(place, sample, values)
+    if place.follows == "material":
+        return np.array([np.interp(at, depth, row) for row in T])
+    now = slab.thickness(slab.split(states)[0], extent)[:, :count]
+    heights = np.cumsum(now[:, ::-1], axis=1)
+    heights = np.concatenate((np.zeros((len(now), 1)), heights), axis=1)
+    rows = zip(heights, T[:, ::-1], strict=True)
+    return np.array([np.interp(depth[-1] - at, height, row) for height, row in rows])
+
+
+def _depth(place: Place, sample: Sample, values: Values) -> float:
+    """Return the depth of a place in the virgin sample [m]."""
+    if place.layer is None:
+        assert not isinstance(place.depth_m, np.ndarray)
+        return value_of(place.depth_m, values)
+    factor = value_of(sample.thickness_factor, values)
+    layers = sample.layers[: place.layer]
+    return factor * sum(value_of(layer.thickness_m, values) for layer in layers)
+
+
+def _lines(slab: Slab, states: FloatArray) -> dict[str, FloatArray]:
     """Return all signals at the times of the states."""
     T, extent = slab.split(states)
     present = slab.masses(extent)
@@ -102,13 +141,7 @@ def _lines(slab: Slab, states: FloatArray, probes_m: tuple[float, ...]) -> dict[
     reactions = slab.substance.reactions
     reacting = slab.split(rate)[1]
     burning = reactions.gas * reactions.combustion
-    virgin = slab.mass * (slab.virgin / slab.substance.density).sum(axis=-1)
-    depth = np.concatenate(([0.0], np.cumsum(virgin)))
-    probes = {
-        f"probe_{a}": np.array([np.interp(at, depth, row) for row in T])
-        for a, at in enumerate(probes_m)
-    }
-    return probes | {
+    return {
         RATE: reacting @ reactions.gas @ slab.mass,
         HEAT: reacting @ burning @ slab.mass,
         _UNBURNT: -(extent @ burning @ slab.mass),
