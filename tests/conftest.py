@@ -34,6 +34,7 @@ FILES = {
     "test_noise": "slow",
     "test_reaction_order": "solver",
     "test_robustness": "solver",
+    "test_slab_quantities": "solver",
     "test_stages": "solver",
 }
 """Files of folders whose other tests are fast."""

@@ -724,8 +724,11 @@ STAGES = rows_of(
         ),
         (
             "unknown signal",
-            put(experiments__slab_50__signals={"mass": {"file": "data/mlr.csv"}}),
-            ("experiments.slab_50: unknown signal 'mass'.", "Known: back_temperature, mlr."),
+            put(experiments__slab_50__signals={"heat": {"file": "data/mlr.csv"}}),
+            (
+                "experiments.slab_50: unknown signal 'heat'.",
+                "Known: back_temperature, front_temperature,",
+            ),
         ),
         (
             "temperature limit of a record without temperatures",

@@ -391,8 +391,8 @@ BROKEN: list[tuple[str, str, object, list[str]]] = [
     (
         "unknown signal of an experiment",
         "experiments.slab_25.signals",
-        {"front_temperature": {"file": "synthetic"}},
-        ["experiments.slab_25: unknown signal 'front_temperature'", "'back_temperature'?"],
+        {"bak_temperature": {"file": "synthetic"}},
+        ["experiments.slab_25: unknown signal 'bak_temperature'", "'back_temperature'?"],
     ),
     ("unknown cost", "imp.costs.RMSE.0.kind", "RMS", ["unknown cost 'RMS'", "'RMSE'?"]),
     (

@@ -143,9 +143,15 @@ def slab_experiment(
     )
 
 
-def placed(requests: Mapping[str, Request], probes_m: tuple[float, ...]) -> dict[str, Request]:
-    """Requests with those for ``probe_0`` ... at the depths given."""
-    probes = {f"probe_{n}": Place(depth) for n, depth in enumerate(probes_m)}
+Probes = tuple[float | Place, ...]
+"""Depths [m] of temperatures that follow the material, or places."""
+
+
+def placed(requests: Mapping[str, Request], probes_m: Probes) -> dict[str, Request]:
+    """Requests with those for ``probe_0`` ... at the places given."""
+    probes = {
+        f"probe_{n}": at if isinstance(at, Place) else Place(at) for n, at in enumerate(probes_m)
+    }
     return {
         name: replace(r, output=INSIDE, place=probes[name]) if name in probes else r
         for name, r in requests.items()
@@ -158,7 +164,7 @@ def run(
     requests: Mapping[str, Request],
     accuracy: Accuracy | None = None,
     values: Mapping[str, float] = BEST,
-    probes_m: tuple[float, ...] = (),
+    probes_m: Probes = (),
 ) -> Curves:
     """Simulate and demand a finished run whose mass closes."""
     asked = placed(requests, probes_m)

@@ -47,7 +47,7 @@ from pyrofit.constants import GAS_CONSTANT
 from pyrofit.experiments import Gasification, Tga
 from pyrofit.model.accuracy import Accuracy, Resolution
 from pyrofit.model.material import Material
-from pyrofit.simulate import simulate_gasification, simulate_tga
+from pyrofit.simulate import simulate_tga
 from pyrofit.solver.arrays import Status
 from pyrofit.solver.curves import Curves, Request
 from pyrofit.solver.reference.gasification import reference_gasification

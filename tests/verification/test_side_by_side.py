@@ -3,17 +3,18 @@
 from collections.abc import Mapping
 from functools import cache
 from pathlib import Path
-from typing import Any
+from typing import Any, get_args
 
 import numpy as np
 import pytest
 import yaml
-from cases import inert_material, placed
+from cases import Probes, inert_material, placed
 from terms import BEHIND, FAST, FOIL, HEATED, SIMPLE, SLOW, TERMS, charring, specimen
 
 from pyrofit.config import as_study
 from pyrofit.experiments import Gasification, Tga
 from pyrofit.model.material import Material
+from pyrofit.model.signal import Follows
 from pyrofit.simulate import (
     Accuracy,
     simulate_gasification,
@@ -22,7 +23,7 @@ from pyrofit.simulate import (
     simulate_tgas,
 )
 from pyrofit.solver.arrays import FloatArray, Status
-from pyrofit.solver.curves import Curves, Request
+from pyrofit.solver.curves import Curves, Place, Request
 from pyrofit.solver.run import FEW, LANES
 
 PAPER = Path(__file__).parents[2] / "config" / "paper.yaml"
@@ -70,7 +71,7 @@ def checked(
     sets: int,
     asked: Mapping[str, Request] | None = None,
     accuracy: Accuracy | None = None,
-    probes_m: tuple[float, ...] = (),
+    probes_m: Probes = (),
 ) -> list[Curves]:
     """Return the curves of sets side by side, which are those of each alone, bit for bit."""
     case = placed(asked or requests(), probes_m), accuracy
@@ -255,8 +256,15 @@ def test_set_that_takes_too_many_steps_leaves_its_neighbours_alone() -> None:
 
 # Surroundings and substance
 
-PROBES_M = (0.0, 0.3e-3, 1.1e-3, 2.7e-3, 5e-3)
-PROBED = SHORT | {f"probe_{p}": SHORT["back_temperature"] for p in range(len(PROBES_M))}
+DEPTHS_M = (0.0, 0.3e-3, 1.1e-3, 2.7e-3, 5e-3)
+PROBES_M = tuple(Place(depth, follows=f) for f in get_args(Follows) for depth in DEPTHS_M)
+
+
+def probed(probes_m: Probes) -> dict[str, Request]:
+    return SHORT | {f"probe_{p}": SHORT["back_temperature"] for p in range(len(probes_m))}
+
+
+PROBED = probed(PROBES_M)
 
 
 def test_probes_measure_the_same_where_the_cells_are_as_many() -> None:
@@ -274,6 +282,22 @@ def test_probes_measure_the_same_beside_sets_of_more_cells() -> None:
     values = {"size": np.linspace(5e-3, 30e-3, LANES)}
     found = checked(experiment, charring(), values, LANES, PROBED, probes_m=PROBES_M)
     assert len({c.cells for c in found}) >= 4
+
+
+def test_places_differ_between_sets() -> None:
+    layers = ({"thickness_m": "size"}, {"thickness_m": 3e-3})
+    values = {
+        "size": np.linspace(1e-3, 4e-3, LANES + 3),
+        "depth": np.linspace(3e-3, 1e-3, LANES + 3),
+    }
+    places = (Place("depth"), Place("depth", follows="fixture"), Place(layer=1), Place(layer=2))
+    experiment = specimen(60.0, layers=layers, back={})
+    asked = probed(places)
+    found = checked(experiment, charring(), values, LANES + 3, asked, probes_m=places)
+    assert all_differ(found)
+    for curves in found:
+        back = curves.signals["back_temperature"]
+        np.testing.assert_allclose(curves.signals["probe_3"], back, rtol=1e-12)
 
 
 def test_flux_table_with_a_step_has_its_own_fluxes_in_each_lane() -> None:

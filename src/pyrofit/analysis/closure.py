@@ -1,7 +1,8 @@
 """Whether a sample released the mass it had, in words."""
 
 import contextlib
-from collections.abc import Mapping
+from collections import Counter
+from collections.abc import Mapping, Sequence
 from typing import Any
 
 import numpy as np
@@ -32,16 +33,20 @@ def closure_lines(study: Study, signals: Mapping[str, Any]) -> list[str]:
         for signal, about in signals[name].items()
         if "released_kg_m2" in about
     }
-    lines = [_line(study, *record, mass) for record, mass in released.items()]
+    records = Counter(name for name, _ in released)
+    lines = [
+        _line(study, *record, mass, several=records[record[0]] > 1)
+        for record, mass in released.items()
+    ]
     return lines + _spread(study, released)
 
 
-def _line(study: Study, name: str, signal: str, released: float) -> str:
+def _line(study: Study, name: str, signal: str, released: float, several: bool) -> str:
     experiment = study.experiments[name]
     assert isinstance(experiment, SlabExperiment)
     described = experiment.signals[signal]
     values = study.fixed_values()
-    said = f"{name}: released {released:.3f}"
+    said = f"{name}{f', {signal}' if several else ''}: released {released:.3f}"
     try:
         thickness = sum(size for _, size in _reacting(study, experiment, values))
     except KeyError:
@@ -51,7 +56,7 @@ def _line(study: Study, name: str, signal: str, released: float) -> str:
         initial = described.sample_mass_kg / described.sample_area_m2
     else:
         with contextlib.suppress(KeyError):
-            initial = _described_mass(study, experiment, values)
+            initial = described_mass(study, _reacting(study, experiment, values), values)
     if initial is not None:
         return f"{said} of {initial:.3f} kg/m² ({released / initial:.1%})".replace("%", " %")
     return (
@@ -68,20 +73,27 @@ def _reacting(
     KeyError where a parameter has no value.
     """
     reactants = {reaction.reactant for reaction in study.material.reactions.values()}
-    sizes = thicknesses(experiment.sample, values)
     return [
-        (layer, float(size))
-        for layer, size in zip(experiment.sample.layers, sizes, strict=True)
+        (layer, size)
+        for layer, size in layers_of(experiment, values)
         if reactants & set(layer.composition or study.material.composition)
     ]
 
 
-def _described_mass(study: Study, experiment: SlabExperiment, values: Mapping[str, float]) -> float:
-    """Return the mass per area [kg/m2]; KeyError where a parameter has no value."""
+def layers_of(experiment: SlabExperiment, values: Mapping[str, float]) -> list[tuple[Layer, float]]:
+    """Return all layers with their thickness [m]; KeyError where a parameter has no value."""
+    sizes = map(float, thicknesses(experiment.sample, values))
+    return list(zip(experiment.sample.layers, sizes, strict=True))
+
+
+def described_mass(
+    study: Study, layers: Sequence[tuple[Layer, float]], values: Mapping[str, float]
+) -> float:
+    """Return the mass of layers per area [kg/m2]; KeyError where a parameter has no value."""
     components = study.material.components
     volumes = np.array([1.0 / value_of(c.density_kg_m3, values) for c in components.values()])
     total = 0.0
-    for layer, size in _reacting(study, experiment, values):
+    for layer, size in layers:
         composition = layer.composition or study.material.composition
         share = fractions(composition, list(components), values)[:, 0]
         total += size / float(share @ volumes)
@@ -97,7 +109,8 @@ def _spread(study: Study, released: Mapping[Record, float]) -> list[str]:
             one, other = (study.experiments[name] for name, _ in (a, b))
             assert isinstance(one, SlabExperiment)
             assert isinstance(other, SlabExperiment)
-            if a[0] != b[0] and one.sample.layers == other.sample.layers:
+            alike = one.quantity(a[1]).name == other.quantity(b[1]).name
+            if a[0] != b[0] and alike and one.sample.layers == other.sample.layers:
                 apart = abs(released[a] - released[b]) / max(released[a], released[b])
                 lines.append(f"{a[0]} and {b[0]}: equal samples, released masses {apart:.1%} apart")
     return lines

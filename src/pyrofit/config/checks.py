@@ -4,6 +4,7 @@ from collections.abc import Mapping
 
 from pyrofit.config.effects import check_true_effects
 from pyrofit.config.numbers import check_numbers, check_parameter, check_parameters, require
+from pyrofit.config.places import check_places
 from pyrofit.config.stage_checks import check_stages
 from pyrofit.config.stages import KineticSet
 from pyrofit.config.study import Study
@@ -36,6 +37,7 @@ def check_study(study: Study) -> None:
     check_numbers(study)
     _check_compositions(study)
     _check_signals(study)
+    check_places(study)
     check_stages(study)
     _check_values(study)
     _check_published(study)

@@ -15,7 +15,7 @@ class TermSpec(Part):
     """One cost of one signal, a term of Eq. 5."""
 
     experiment: str = Field(description="name of the experiment")
-    signal: str = Field(description="measured quantity: mlr, back_temperature or mass_fraction")
+    signal: str = Field(description="signal of the experiment")
     kind: str = Field(description="cost: " + ", ".join(KINDS) + ", or one of `plugins`")
     weight: float = Field(1.0, ge=0.0, description="weight w of Eq. 5")
     normalisation: str | None = Field(

@@ -44,7 +44,8 @@ class SeriesSpec:
         Initial mass of the sample [kg]: divides a mass to give a mass fraction, and a power to give
         one per mass.
     sample_area_m2 : float, optional
-        Exposed area of the sample [m2]: divides a mass rate or a heat rate to give a flux.
+        Exposed area of the sample [m2]: divides a mass rate or a heat rate to give a flux, and a
+        mass to give a mass per area.
     sign : int
         Sign of the file's values, 1 or -1.
 
@@ -134,8 +135,9 @@ def read_series(spec: SeriesSpec) -> Measurement:
     """Read a measured series, convert it to SI units and check it.
 
     A mass `m` becomes the mass fraction `m / m_0`, with `m_0` the given mass of the sample, else
-    the first value; a mass rate becomes the mass loss rate per area, `rate / area`; a power becomes
-    that per initial mass. Columns that are zero throughout are placeholders and are left out.
+    the first value; a mass rate becomes the mass loss rate per area, `rate / area`, and a mass the
+    mass per area where that is the quantity; a power becomes that per initial mass. Columns that
+    are zero throughout are placeholders and are left out.
 
     Parameters
     ----------
@@ -304,11 +306,12 @@ def _to_si(
 
 def _divisor(spec: SeriesSpec, kind: str, first: float) -> tuple[float, list[str]]:
     """Give the mass or the area by which a mass or a mass rate is divided."""
-    if kind in PER_AREA:
+    wanted = spec.of.scales[0]
+    if PER_AREA.get(kind) == wanted:
         if spec.sample_area_m2 is None:
             raise DataError(
                 f"{spec.path}: the unit is that of a {kind}; give `sample_area_m2`, or the "
-                f"right unit of a {PER_AREA[kind]}, such as {spec.of.unit}."
+                f"right unit of a {wanted}, such as {spec.of.unit}."
             )
         return spec.sample_area_m2, [f"{kind} divided by {spec.sample_area_m2:g} m2"]
     if kind == "power":

@@ -185,16 +185,19 @@ def _requests(
         T = np.linspace(request.temperature_K[0], request.temperature_K[-1], request.time_s.size)
         rate = idea.change(run.experiment).heating_rate_K_min / 60.0
         heated = Request((T - T[0]) / rate, temperature_K=T)
-        return {name: replace(heated, output=name) for name in kinds}
+        return {name: replace(heated, output=known_quantities()[name].curve) for name in kinds}
     end = max(_burnt_out(trial, idea) for trial in trials)
-    signals = run.experiment.signals
+    widths = {
+        run.experiment.quantity(name).name: signal.average_s
+        for name, signal in run.experiment.signals.items()
+    }
     return {
-        signal: Request(
+        name: Request(
             _times(kind.spacing_s, end),
-            signals[signal].average_s if signal in signals else 0.0,
-            output=signal,
+            widths.get(name, 0.0),
+            output=known_quantities()[name].curve,
         )
-        for signal, kind in kinds.items()
+        for name, kind in kinds.items()
     }
 
 
@@ -217,8 +220,8 @@ def _burnt_out(trial: Trial, idea: Idea) -> float:
     return min(1.1 * end, LONGEST_S)
 
 
-def _kind(base: Base, signal: str) -> _Kind:
-    """Return the noise of a signal's channel that is neither the quietest nor the noisiest."""
+def _kind(base: Base, quantity: str) -> _Kind:
+    """Return the noise of a quantity's channel that is neither the quietest nor the noisiest."""
     terms, runs = base.likelihood.problem.cost.terms, base.likelihood.problem.runs
     found = [
         _Kind(
@@ -230,11 +233,11 @@ def _kind(base: Base, signal: str) -> _Kind:
         for (experiment, name), noise, (_, term) in zip(
             base.channels, base.likelihood.noise, terms, strict=True
         )
-        if name == signal
+        if runs[experiment].experiment.quantity(name).name == quantity
     ]
     if not found:
         # ASSUME: the noise of a quantity that the study does not measure is white.
-        sd = known_quantities()[signal].usual_sd
+        sd = known_quantities()[quantity].usual_sd
         return _Kind(sd, Correlation(), SPACING_S, TIMING_S)
     return sorted(found, key=lambda kind: kind.sd)[len(found) // 2]
 

@@ -1,12 +1,24 @@
 """The balance drifts, so that the mass loss rate is wrong by a constant."""
 
-from pyrofit.effects.base import Effect, Quantity, need, on
+from pyrofit.effects.base import Effect, Numbers, Quantity, need, on
 from pyrofit.model.experiment import Experiment
 
 
+def _rates(experiment: Experiment) -> list[str]:
+    """Return the signals that are mass loss rates."""
+    of = experiment.quantity
+    return [s for s in experiment.signals if of(s).released and of(s).sampling == "bin mean"]
+
+
 @need("a mass loss rate")
-def _has_mlr(experiment: Experiment) -> bool:
-    return "mlr" in experiment.signals
+def _has_rate(experiment: Experiment) -> bool:
+    return bool(_rates(experiment))
+
+
+def _change(experiment: Experiment, at: Numbers) -> Experiment:
+    for name in _rates(experiment):
+        experiment = on(f"signals.{name}", {"offset": "offset_kg_m2s"})(experiment, at)
+    return experiment
 
 
 EFFECT = Effect(
@@ -25,6 +37,6 @@ EFFECT = Effect(
             typical=1e-4,
         )
     },
-    experiment=on("signals.mlr", {"offset": "offset_kg_m2s"}),
-    needs=_has_mlr,
+    experiment=_change,
+    needs=_has_rate,
 )

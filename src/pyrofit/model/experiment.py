@@ -29,6 +29,7 @@ class Experiment(Part):
                     f"signal '{name}': unknown quantity '{signal.quantity}'. "
                     + suggest(signal.quantity, known)
                 )
+            _check_place(name, signal, known[signal.quantity or name])
         return self
 
     def quantity(self, signal: str) -> Quantity:
@@ -49,3 +50,25 @@ class Experiment(Part):
         """Return the name of the score of a prediction of a signal."""
         quantity = self.quantity(signal)
         return quantity.metric.replace(quantity.title, self.words(signal))
+
+
+_KEYS = {"depth_m": ("depth",), "follows": ("depth",), "layer": ("interface",)}
+"""Keys of a signal that tell where it is measured, and the places that have them."""
+_NEEDED = {
+    "depth": ("depth_m", "the depth below the initial front [m], such as `depth_m: 0.003`"),
+    "interface": ("layer", "behind which layer it is, such as `layer: 1` for the front one"),
+}
+
+
+def _check_place(name: str, signal: Signal, quantity: Quantity) -> None:
+    """Refuse a signal that does not tell where it is measured, or tells it of another quantity."""
+    key, way = _NEEDED.get(quantity.place, ("", ""))
+    if key and getattr(signal, key) is None:
+        raise ValueError(f"signal '{name}': {key} is missing; give {way}")
+    for key, places in _KEYS.items():
+        if getattr(signal, key) is not None and quantity.place not in places:
+            having = [q.name for q in known_quantities().values() if q.place in places]
+            raise ValueError(
+                f"signal '{name}': {key} has no meaning for the {quantity.title}; leave it out, or "
+                f"give `quantity: {' or '.join(having)}`"
+            )

@@ -9,6 +9,7 @@ from pyrofit.model.base import Part
 UNITS: dict[str, float] = {
     "-": 1.0,
     "kg/m3": 1.0,
+    "kg/m2": 1.0,
     "W/(m K)": 1.0,
     "J/(kg K)": 1.0,
     "kJ/(kg K)": 1e3,

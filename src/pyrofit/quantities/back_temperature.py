@@ -12,6 +12,7 @@ QUANTITY: Quantity = temperature(
         "Back temperature",
         "Back surface temperature",
         "Back temp",
+        "TC back",
         "TC back 1",
     ),
     uncertainty_headers=("Temperature_Error", "Temp error"),

@@ -10,6 +10,7 @@ from numpy.typing import NDArray
 FloatArray = NDArray[np.float64]
 
 Sampling = Literal["point", "bin mean", "cumulative"]
+Place = Literal["fixed", "depth", "interface"]
 Guess = Callable[[float, float], str]
 """From the first and the largest number of a column to the unit that they look like."""
 
@@ -80,6 +81,8 @@ class Quantity:
     """Least standard deviation of a record without an uncertainty: models come no nearer."""
     relative: bool = False
     """Whether a prediction is scored relative to the mean measured value."""
+    place: Place = "fixed"
+    """Where in the sample it is measured: where its name tells, or where a signal tells."""
     released: Released | None = None
     """Mass per area that a record shows to be released [kg/m2]; none = it does not show that."""
     discrepancy_share: float = 0.0

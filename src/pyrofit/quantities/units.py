@@ -6,6 +6,7 @@ SCALES: dict[str, dict[str, float]] = {
     "time": {"s": 1.0, "min": 60.0, "h": 3600.0},
     "temperature": {"K": 1.0, "degC": 1.0, "°C": 1.0, "C": 1.0},
     "length": {"m": 1.0, "cm": 1e-2, "mm": 1e-3},
+    "mass per area": {"kg/m2": 1.0, "g/m2": 1e-3, "g/cm2": 10.0, "mg/cm2": 1e-2},
     "mass": {"kg": 1.0, "g": 1e-3, "mg": 1e-6},
     "mass flux": {"kg/s/m2": 1.0, "g/s/m2": 1e-3, "mg/s/m2": 1e-6},
     "mass rate": {"kg/s": 1.0, "g/s": 1e-3, "mg/s": 1e-6},
@@ -16,7 +17,7 @@ SCALES: dict[str, dict[str, float]] = {
     "power": {"W": 1.0, "mW": 1e-3, "uW": 1e-6, "µW": 1e-6, "kW": 1e3},
     "fraction": {"1": 1.0, "-": 1.0, "g/g": 1.0, "kg/kg": 1.0, "mg/mg": 1.0, "%": 0.01},
 }
-PER_AREA = {"mass rate": "mass flux", "heat rate": "heat flux"}
+PER_AREA = {"mass rate": "mass flux", "mass": "mass per area", "heat rate": "heat flux"}
 """What a kind of unit becomes where it is divided by the area of the sample."""
 CELSIUS = {"degC", "°C", "C"}
 ICE_POINT_K = 273.15
@@ -25,7 +26,7 @@ ICE_POINT_K = 273.15
 def unit_key(unit: str) -> str:
     """Reduce a unit to one spelling: `kg m-2 s-1`, `kg/(m^2 s)` and `kg/m²/s` to `kg/s/m2`."""
     key = re.sub(r"[\s^*·⋅()\[\]]", "", unit.casefold()).replace("²", "2").replace("−", "-")
-    key = key.replace("m-2", "/m2").replace("s-1", "/s")
+    key = key.replace("cm-2", "/cm2").replace("m-2", "/m2").replace("s-1", "/s")
     key = re.sub(r"(kg|mg|g)-1$", r"/\1", key)
     return re.sub(r"/m2/?s$|/sm2$", "/s/m2", key)
 

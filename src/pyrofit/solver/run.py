@@ -63,7 +63,9 @@ def march(case: Case, asked: Mapping[str, Request], numerics: Numerics, threads:
         mass_error=np.empty(sets),
     )
     ends = [r.time_s.max(axis=1) + 0.5 * r.average_s for r in asked.values()]
-    signals = tuple((r.of(n), _follows(r), r.average_s, r.time_s.shape[1]) for n, r in asked.items())
+    signals = tuple(
+        (r.of(n), _follows(r), r.average_s, r.time_s.shape[1]) for n, r in asked.items()
+    )
     wanted = _asked(signals)
     at = np.concatenate([r.time_s for r in asked.values()], axis=1)
     outputs = [r.of(n) for n, r in asked.items()]

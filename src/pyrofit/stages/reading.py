@@ -1,5 +1,6 @@
 """Measured files: whether they are there, what they hold, and whether the costs fit them."""
 
+import contextlib
 from collections.abc import Iterator
 from pathlib import Path
 from typing import Any
@@ -7,6 +8,7 @@ from typing import Any
 import numpy as np
 import pandas as pd
 
+from pyrofit.analysis.closure import described_mass, layers_of
 from pyrofit.config import Study, TermSpec
 from pyrofit.data.download import FOLDER_VARIABLE
 from pyrofit.data.fetch import locate, store
@@ -18,11 +20,14 @@ from pyrofit.model.heated import HeatedExperiment
 from pyrofit.model.signal import Signal
 from pyrofit.model.slab import SlabExperiment
 from pyrofit.quantities.base import Quantity
+from pyrofit.solver.outputs import MASS
 
 OTHER_RATE = 0.2
 """Share by which a measured heating rate may differ from the one given."""
 OTHER_START_K = 3.0
 """Difference from the described initial temperature from which it is noted."""
+OTHER_MASS, FIRST = 0.05, 5
+"""Share by which the median of the first points of a mass may differ from what is described."""
 SYNTHETIC = "synthetic"
 MACFP = "macfp:"
 
@@ -181,13 +186,34 @@ def _check_experiment(
                 f"{about['source']}: the temperature rises by {found:.3g} K/min, the experiment's "
                 f"heating_rate_K_min is {given:g}; correct it, or the unit of the time column"
             )
-    elif isinstance(experiment, SlabExperiment) and experiment.quantity(signal).is_temperature:
-        start = float(frame[experiment.quantity(signal).column].iloc[0])
-        described = value_of(experiment.sample.initial_temperature_K, study.fixed_values())
+    elif isinstance(experiment, SlabExperiment):
+        about["notes"] += _start_notes(study, experiment, signal, frame)
+
+
+def _start_notes(
+    study: Study, experiment: SlabExperiment, signal: str, frame: pd.DataFrame
+) -> list[str]:
+    """Note where a temperature or a mass starts elsewhere than the description says."""
+    quantity, values = experiment.quantity(signal), study.fixed_values()
+    record = frame[quantity.column].to_numpy()
+    if quantity.is_temperature:
+        start = float(record[0])
+        described = value_of(experiment.sample.initial_temperature_K, values)
         if abs(start - described) > OTHER_START_K:
-            about["notes"].append(
+            return [
                 f"starts at {start:.1f} K, initial_temperature_K of the sample is {described:.1f}"
-            )
+            ]
+    if quantity.curve == MASS:
+        with contextlib.suppress(KeyError):
+            described = described_mass(study, layers_of(experiment, values), values)
+            offset = value_of(experiment.signals[signal].offset, values)
+            start = float(np.median(record[:FIRST])) - offset
+            if abs(start - described) > OTHER_MASS * described:
+                return [
+                    f"starts at {start:.3f} kg/m2, the sample as described has {described:.3f}; "
+                    "where the load cell does not show the sample alone, give `offset`"
+                ]
+    return []
 
 
 def _locate(file: str) -> Path:

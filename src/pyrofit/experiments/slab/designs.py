@@ -20,8 +20,8 @@ INSULATED: dict[str, float] = {
     "emissivity": 0.0,
 }
 """What a back that loses no heat has."""
-RATE, BACK = "mlr", "back_temperature"
-"""Quantities that a new test records, without and with the back temperature."""
+RATE, LEVEL, BACK = "mlr", "mass", "back_temperature"
+"""Quantities that a new test records: rate, or mass where no rate is, and the back temperature."""
 
 
 def designs(
@@ -30,17 +30,19 @@ def designs(
     recorded: Mapping[str, set[str]],
 ) -> Iterator[Idea]:
     """Yield new tests, and the measured ones with the back temperature where that is missing."""
-    yield from _other_fluxes(own, measured)
+    masses = [quantities for quantities in recorded.values() if LEVEL in quantities]
+    loss = LEVEL if masses and not any(RATE in q for q in recorded.values()) else RATE
+    yield from _other_fluxes(own, measured, loss)
     for name, slab in own.items():
         if BACK not in recorded[name]:
-            yield Idea(name, lambda e: e, (_with_back(name, f"{_words(name, slab)} again"),))
+            yield Idea(name, lambda e: e, (_with_back(name, f"{_words(name, slab)} again", loss),))
         known = all(isinstance(layer.thickness_m, float) for layer in slab.sample.layers)
         for word, factor in THICKNESSES.items() if known else ():
             words = f"{_words(name, slab)}, {word} the thickness"
-            yield Idea(name, _thicker(factor), _choices(f"{name}_{word}_thickness", words))
+            yield Idea(name, _thicker(factor), _choices(f"{name}_{word}_thickness", words, loss))
         if has_open_back(slab):
             words = f"{_words(name, slab)}, the back insulated"
-            yield Idea(name, _insulated, _choices(f"{name}_insulated_back", words))
+            yield Idea(name, _insulated, _choices(f"{name}_insulated_back", words, loss))
 
 
 def _words(name: str, slab: SlabExperiment) -> str:
@@ -48,16 +50,16 @@ def _words(name: str, slab: SlabExperiment) -> str:
     return f"{slab.APPARATUS} at {flux / 1e3:g} kW/m²" if isinstance(flux, float) else f"'{name}'"
 
 
-def _choices(design: str, words: str) -> tuple[tuple[str, str, tuple[str, ...]], ...]:
-    return (design, words, (RATE,)), _with_back(design, words)
+def _choices(design: str, words: str, loss: str) -> tuple[tuple[str, str, tuple[str, ...]], ...]:
+    return (design, words, (loss,)), _with_back(design, words, loss)
 
 
-def _with_back(design: str, words: str) -> tuple[str, str, tuple[str, ...]]:
-    return f"{design}+{BACK}", f"{words}, with the back temperature", (RATE, BACK)
+def _with_back(design: str, words: str, loss: str) -> tuple[str, str, tuple[str, ...]]:
+    return f"{design}+{BACK}", f"{words}, with the back temperature", (loss, BACK)
 
 
 def _other_fluxes(
-    slabs: Mapping[str, SlabExperiment], others: Mapping[str, SlabExperiment]
+    slabs: Mapping[str, SlabExperiment], others: Mapping[str, SlabExperiment], loss: str
 ) -> Iterator[Idea]:
     """Yield tests at fluxes that were not measured, each like the one at the nearest flux."""
     measured, taken = _fluxes(slabs), list(_fluxes(others).values())
@@ -68,7 +70,7 @@ def _other_fluxes(
         taken.append(q)
         like = min(measured, key=lambda name: abs(measured[name] - q))
         words = f"{slabs[like].APPARATUS} at {q / 1e3:g} kW/m²"
-        choices = _choices(f"flux_{q / 1e3:g}_kW_m2", words)
+        choices = _choices(f"flux_{q / 1e3:g}_kW_m2", words, loss)
         yield Idea(like, _at_flux(q), choices)
 
 

@@ -8,10 +8,11 @@ import pandas as pd
 from pyrofit.experiments.base import Asked
 from pyrofit.model.accuracy import Accuracy, Resolution
 from pyrofit.model.material import Material
+from pyrofit.model.signal import Signal
 from pyrofit.model.slab import SlabExperiment
 from pyrofit.simulate import simulate_gasifications
 from pyrofit.solver.arrays import FloatArray, Values
-from pyrofit.solver.curves import Curves, Request
+from pyrofit.solver.curves import Curves, Place, Request
 
 
 def simulate(
@@ -52,11 +53,19 @@ def request(
 
 def request_at(experiment: SlabExperiment, signal: str, times: FloatArray) -> Request:
     """Return what a simulation is asked for at the given times of a signal."""
+    described, quantity = experiment.signals[signal], experiment.quantity(signal)
     return Request(
         times,
-        experiment.signals[signal].average_s,
-        output=experiment.quantity(signal).curve,
+        described.average_s,
+        output=quantity.curve,
+        place=None if quantity.place == "fixed" else _place(described),
     )
+
+
+def _place(signal: Signal) -> Place:
+    """Return where in the sample a temperature is measured."""
+    depth = 0.0 if signal.depth_m is None else signal.depth_m
+    return Place(depth, signal.layer, signal.follows or "material")
 
 
 def synthetic(experiment: SlabExperiment, signals: Sequence[str]) -> dict[str, Request]:

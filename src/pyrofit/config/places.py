@@ -1,0 +1,52 @@
+"""Whether the places at which temperatures are measured lie in the sample."""
+
+from pyrofit.config.numbers import require
+from pyrofit.config.study import Study
+from pyrofit.model.slab import SlabExperiment
+
+
+def check_places(study: Study) -> None:
+    """Refuse a depth outside the sample, and a layer that it has not.
+
+    Raises
+    ------
+    ValueError
+        With place, rule and way out.
+    """
+    for name, experiment in study.experiments.items():
+        if not isinstance(experiment, SlabExperiment):
+            continue
+        for label, signal in experiment.signals.items():
+            place = f"experiments.{name}.signals.{label}"
+            if signal.depth_m is not None:
+                _check_depth(study, experiment, signal.depth_m, f"{place}.depth_m")
+            count = len(experiment.sample.layers)
+            require(
+                signal.layer is None or signal.layer <= count,
+                f"{place}.layer",
+                f"there is no layer {signal.layer}; the sample has {count}, and behind layer "
+                f"{count} lies its back face",
+            )
+
+
+def _check_depth(study: Study, experiment: SlabExperiment, depth: float | str, place: str) -> None:
+    """Refuse a depth that may exceed the thickness, within the limits of both."""
+    sample = experiment.sample
+    thinnest = min(_limits(study, sample.thickness_factor)) * sum(
+        min(_limits(study, layer.thickness_m)) for layer in sample.layers
+    )
+    deepest = max(_limits(study, depth))
+    require(
+        deepest <= thinnest * (1.0 + 1e-9),
+        place,
+        f"{deepest:g} m lies outside the sample, whose layers are {thinnest:g} m thick together; "
+        "depths count from the initial front. Give one within the sample",
+    )
+
+
+def _limits(study: Study, number: float | str) -> list[float]:
+    """Return a number, or the values that a parameter can have at least and at most, SI units."""
+    if not isinstance(number, str):
+        return [number]
+    p = study.parameters[number]
+    return [x * p.factor for x in (p.value, p.lower, p.upper) if x is not None]
