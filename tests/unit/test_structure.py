@@ -136,9 +136,9 @@ def test_config_knows_no_solver() -> None:
 
 
 QUANTITIES_BY_NAME = {
-    "effects/balance_drift.py": "acts on the record of a mass loss rate",
     "new_study/draft.py": "drafts one TGA and one slab",
     "new_study/write.py": "drafts one TGA and one slab",
+    "show/kinetics/fig2.py": "letters its panels",
 }
 """Files that name a quantity, and why."""
 

@@ -15,7 +15,15 @@ from pyrofit.data.gaps import without_gaps
 from pyrofit.errors import DataError, suggest
 from pyrofit.quantities import known_quantities
 from pyrofit.quantities.base import LIMITS, Quantity
-from pyrofit.quantities.units import CELSIUS, ICE_POINT_K, PER_AREA, SCALES, header_key, unit_key
+from pyrofit.quantities.units import (
+    CELSIUS,
+    ICE_POINT_K,
+    PER_AREA,
+    PER_START,
+    SCALES,
+    header_key,
+    unit_key,
+)
 
 _FEWEST_POINTS = 3
 
@@ -321,7 +329,7 @@ def _divisor(spec: SeriesSpec, kind: str, first: float) -> tuple[float, list[str
                 "mass of the sample, or the right unit of a power per mass, such as W/g."
             )
         return spec.sample_mass_kg, [f"power divided by {spec.sample_mass_kg:g} kg"]
-    if kind != "mass":
+    if PER_START.get(kind) != wanted:
         return 1.0, []
     mass = first if spec.sample_mass_kg is None else spec.sample_mass_kg
     if mass <= 0.0:

@@ -19,6 +19,8 @@ SCALES: dict[str, dict[str, float]] = {
 }
 PER_AREA = {"mass rate": "mass flux", "mass": "mass per area", "heat rate": "heat flux"}
 """What a kind of unit becomes where it is divided by the area of the sample."""
+PER_START = {"mass": "fraction"}
+"""What a kind of unit becomes where it is divided by the initial value."""
 CELSIUS = {"degC", "°C", "C"}
 ICE_POINT_K = 273.15
 

@@ -13,6 +13,7 @@ from pyrofit.solver.curves import Request, Runs
 from pyrofit.solver.lower import total
 from pyrofit.solver.lower_experiment import Layer, cells_of
 from pyrofit.solver.outputs import BACK, FRONT, HEAT, INSIDE, MASS, RATE, THICKNESS
+from pyrofit.solver.probes import depths_of, follows_of, probes_of
 
 LANES = 8
 """Parameter sets that run side by side."""
@@ -64,14 +65,14 @@ def march(case: Case, asked: Mapping[str, Request], numerics: Numerics, threads:
     )
     ends = [r.time_s.max(axis=1) + 0.5 * r.average_s for r in asked.values()]
     signals = tuple(
-        (r.of(n), _follows(r), r.average_s, r.time_s.shape[1]) for n, r in asked.items()
+        (r.of(n), follows_of(r), r.average_s, r.time_s.shape[1]) for n, r in asked.items()
     )
     wanted = _asked(signals)
     at = np.concatenate([r.time_s for r in asked.values()], axis=1)
     outputs = [r.of(n) for n, r in asked.items()]
     early = set(outputs) <= EARLY
     case = case._replace(network=case.network._replace(burns=HEAT in outputs))
-    depths = arrays.Probes(*(_depths(asked, follows, sets) for follows in arrays.Probes._fields))
+    depths = arrays.Probes(*(depths_of(asked, follows, sets) for follows in arrays.Probes._fields))
     work = _Work(case, numerics, np.max(ends, axis=0), wanted, at, depths, outputs, early)
 
     def fill(index: IntArray) -> None:
@@ -103,17 +104,6 @@ class _Work(NamedTuple):
     depths: arrays.Probes
     outputs: list[str]
     stop_when_burnt: bool
-
-
-def _follows(request: Request) -> str:
-    return "" if request.place is None else request.place.follows
-
-
-def _depths(asked: Mapping[str, Request], follows: str, sets: int) -> FloatArray:
-    """Return the depths [m] of the probes that follow one thing, shape (sets, probes)."""
-    places = [r.place for r in asked.values() if r.place is not None]
-    found = [place.depth_m for place in places if place.follows == follows]
-    return np.reshape(np.array(found, np.float64), (-1, sets)).T
 
 
 @cache
@@ -172,7 +162,7 @@ def _alone(work: _Work, index: IntArray) -> Found:
         work.numerics,
         t_end,
         work.stop_when_burnt,
-        _probes(work.depths, index, start, empty, case.properties.specific_volume),
+        probes_of(work.depths, index, start, empty, case.properties.specific_volume),
         work.asked,
         work.at[index],
     )
@@ -189,7 +179,7 @@ def _together(work: _Work, index: IntArray) -> Found:
         lambda a: a.take(filled, axis=-1), (case.layers, case.properties.specific_volume)
     )
     start, empty = cells_of(layers, case.cells[filled])
-    probes = _probes(work.depths, filled, start, empty, volumes)
+    probes = probes_of(work.depths, filled, start, empty, volumes)
     T_start, properties, network, exposure, t_end = mapped(
         lambda a: split(a, filled),
         (case.T_start, case.properties, case.network, case.exposure, work.t_end),
@@ -236,23 +226,3 @@ def _write(
         if output == MASS:
             initial = np.asarray(sum(total(layer.mass) for layer in work.case.layers))
             curve[index] = initial[index, None] - curve[index]
-
-
-def _probes(
-    depths: arrays.Probes,
-    index: IntArray,
-    start: FloatArray,
-    empty: IntArray,
-    volumes: FloatArray,
-) -> arrays.Probes:
-    """Return the probes of some sets as the kernel takes them; outside the sample lies none."""
-    probes = arrays.Probes(*(np.ascontiguousarray(depth[index]) for depth in depths))
-    if not any(depth.size for depth in probes):
-        return probes
-    thickness = total((start * volumes).swapaxes(0, 1))
-    for lane, ahead in enumerate(empty):
-        edges = np.concatenate(([0.0], np.cumsum(thickness[ahead:, lane])))
-        cells = np.arange(edges.size)
-        probes.material[lane] = np.interp(probes.material[lane], edges, cells)
-        probes.fixture[lane] = np.clip(edges[-1] - probes.fixture[lane], 0.0, edges[-1])
-    return probes

@@ -12,9 +12,10 @@ from pyrofit.model.base import value_of
 from pyrofit.model.material import Material
 from pyrofit.model.slab import EmissivityDepth, Sample, SlabExperiment
 from pyrofit.solver.arrays import FloatArray, IntArray, Status
-from pyrofit.solver.curves import Curves, Place, Request
+from pyrofit.solver.curves import Curves, Request
 from pyrofit.solver.observe import observe_one
 from pyrofit.solver.outputs import BACK, FRONT, HEAT, MASS, RATE, THICKNESS
+from pyrofit.solver.reference.places import inside
 from pyrofit.solver.reference.slab import Outside, Slab
 from pyrofit.solver.reference.substance import (
     COLDEST_K,
@@ -64,7 +65,7 @@ def reference_gasification(
         signals = {
             name: _sample(r.of(name), r, time, lines, flame)
             if r.place is None
-            else _inside(slab, run.states[_at(r, time)], r.place, experiment.sample, values)
+            else inside(slab, run.states[_at(r, time)], r.place, experiment.sample, values)
             for name, r in asked.items()
         }
         energy_error = abs(run.heat_missing) / max(run.heat_crossed, 1e-300)
@@ -101,36 +102,6 @@ def _sample(
 def _at(request: Request, time: FloatArray) -> IntArray:
     """Return the positions of the times asked for among those of the states."""
     return np.searchsorted(time, np.maximum(request.time_s, 0.0))
-
-
-def _inside(
-    slab: Slab, states: FloatArray, place: Place, sample: Sample, values: Values
-) -> FloatArray:
-    """Return T at a place in the sample, linear between nodes, shape (states,)."""
-    T, extent = slab.split(states)
-    # The contact to a foil, which has no mass, is not of the sample.
-    own = slab.mass > 0.0
-    T, count = T[:, : own.sum() + 1], own.sum()
-    virgin = slab.mass[own] * (slab.virgin[own] / slab.substance.density).sum(axis=-1)
-    depth = np.concatenate(([0.0], np.cumsum(virgin)))
-    at = _depth(place, sample, values)
-    if place.follows == "material":
-        return np.array([np.interp(at, depth, row) for row in T])
-    now = slab.thickness(slab.split(states)[0], extent)[:, :count]
-    heights = np.cumsum(now[:, ::-1], axis=1)
-    heights = np.concatenate((np.zeros((len(now), 1)), heights), axis=1)
-    rows = zip(heights, T[:, ::-1], strict=True)
-    return np.array([np.interp(depth[-1] - at, height, row) for height, row in rows])
-
-
-def _depth(place: Place, sample: Sample, values: Values) -> float:
-    """Return the depth of a place in the virgin sample [m]."""
-    if place.layer is None:
-        assert not isinstance(place.depth_m, np.ndarray)
-        return value_of(place.depth_m, values)
-    factor = value_of(sample.thickness_factor, values)
-    layers = sample.layers[: place.layer]
-    return factor * sum(value_of(layer.thickness_m, values) for layer in layers)
 
 
 def _lines(slab: Slab, states: FloatArray) -> dict[str, FloatArray]:
