@@ -21,7 +21,6 @@ from pyrofit.results.diagnosis import curves as curves_of
 from pyrofit.results.files import Results, write_csv, write_json, write_text
 from pyrofit.show import diagnosis_page as report
 from pyrofit.show import style
-from pyrofit.show.diagnosis.sentences import headline
 from pyrofit.show.diagnosis.words import leading
 from pyrofit.show.diagnosis_page import (
     diagnosis_tables,
@@ -50,14 +49,6 @@ EFFECTS_OF = {
     "unknown": [],
 }
 SETS = {"ambiguous": [["heater_ramp", "time_offset"]], "multiple": [["k_T", "c_T"], ["melting"]]}
-HEADLINES = {
-    "none": "What the model leaves is noise",
-    "named": "One effect is missing: slope of the conductivity (k_T). Predictions confirm it.",
-    "ambiguous": "cannot tell which: heater coming up (heater_ramp) or time offset (time_offset).",
-    "multiple": "Two effects are missing: slope of the conductivity (k_T) or slope of the "
-    "specific heat (c_T), and melting. Predictions do not confirm them.",
-    "unknown": "no effect of the catalogue explains it.",
-}
 
 
 def diagnosed(root: Path, kind: str, given: dict[str, Any] | None = None) -> tuple[Study, Results]:
@@ -545,8 +536,7 @@ def page_of(root: Path, kind: str) -> tuple[Page, str]:
 @pytest.mark.parametrize("kind", KINDS)
 def test_page_of_every_verdict_says_it_and_loads_nothing(kind: str, tmp_path: Path) -> None:
     page, text = page_of(tmp_path, kind)
-    assert HEADLINES[kind] in page.words
-    assert f"These are the words of {kind}." in page.words
+    assert page.words.count(f"These are the words of {kind}.") == 1
     assert page.loads
     assert all(load.startswith(("data:image/svg+xml;base64,", "#")) for load in page.loads)
     assert "http" not in re.sub(r"base64,[A-Za-z0-9+/=]+", "", text)
@@ -563,24 +553,6 @@ def test_page_says_what_was_not_tried_and_whose_noise_is_uncertain(tmp_path: Pat
         "No uncertainty is given, so that the noise is estimated: slow, mass fraction" in page.words
     )
     assert "hold less surely: Slab 25 kW/m², mass loss rate" in page.words
-
-
-@pytest.mark.parametrize(
-    ("kind", "place", "value", "said"),
-    [
-        ("none", "base.score", 9.0, "none gains enough to be claimed."),
-        ("ambiguous", "verdict.sets", [["heater_ramp"]], "missing, probably heater coming up ("),
-        ("ambiguous", "verdict.sets", [["heater_ramp"], ["k_T"]], "effects seem to be missing: "),
-        ("named", "verdict.sets", [["k_T", "c_T"]], "missing (conductivity with temperature): sl"),
-        ("unknown", "verdict.effects", ["melting"], "explains it; a part is explained by melting."),
-    ],
-)
-def test_headline_says_what_is_left_open(
-    kind: str, place: str, value: Any, said: str, tmp_path: Path
-) -> None:
-    study, results = diagnosed(tmp_path, kind)
-    altered(results, place, value)
-    assert said in headline(study, results)
 
 
 def test_page_says_the_numbers(tmp_path: Path) -> None:
@@ -618,8 +590,7 @@ def test_report_shows_the_diagnosis_where_there_is_one(tmp_path: Path) -> None:
     page = Page((tmp_path / "report.html").read_text())
     assert "diagnosis" in page.ids
     assert len(set(page.ids)) == len(page.ids)
-    assert page.words.count(HEADLINES["named"]) == 1
-    assert "These are the words of named." in page.words
+    assert page.words.count("These are the words of named.") == 1
 
 
 def test_page_without_drawn_figures_says_to_draw_them(tmp_path: Path) -> None:

@@ -8,6 +8,7 @@ import pytest
 from pyrofit.analysis import optimisers, uses
 from pyrofit.analysis.estimates import Estimated
 from pyrofit.analysis.recovery import compared
+from pyrofit.analysis.repetitions import Repeated
 from pyrofit.config import Study, as_study
 from pyrofit.errors import StudyError
 from pyrofit.quantities import known_quantities
@@ -466,10 +467,14 @@ def test_flag_of_a_parameter_at_its_bound() -> None:
 
 
 def test_flags_at_their_limits() -> None:
-    assert flags(0.009, 0.0, 0.0, 2.0) == "at bound (lower)"
-    assert flags(0.011, 0.0, 0.0, 2.0) == ""
-    assert flags(1.0, 0.41, 0.0, 2.0) == "spread > 20 % of limits"
-    assert flags(1.0, float("nan"), 0.0, 2.0) == ""
+    def said(best: float, sigma: float) -> str:
+        return flags(Repeated("RMSE", "k", best, best, sigma, 0.0, 2.0))
+
+    assert said(0.009, 0.0) == "at bound (lower)"
+    assert said(0.011, 0.0) == ""
+    assert said(1.0, 0.41) == "spread > 20 % of limits"
+    assert said(1.0, float("nan")) == ""
+    assert said(1.999, 0.5) == "at bound (upper); spread > 20 % of limits"
 
 
 def test_table4_of_synthetic_data_shows_nothing_published(tmp_path: Path) -> None:

@@ -12,7 +12,6 @@ from pyrofit.show.diagnosis.sentences import (
     certainty,
     facts,
     gap_closed,
-    headline,
     missing,
     next_measured,
     where_off,
@@ -44,7 +43,7 @@ def write_page(study: Study, results: Results) -> None:
     make_diagnosis_tables(study, results)
     shown = section(study, results)
     title = f"{study.title or study.name}: diagnosis"
-    said = [headline(study, results), *facts(diagnosis.read(study, results))]
+    said = facts(diagnosis.read(study, results))
     write_text(results.diagnosis("report.html"), page_of(study, results, title, said, [shown]))
 
 
@@ -71,7 +70,7 @@ def section(study: Study, results: Results) -> Shown:
     return Shown(
         "diagnosis",
         "What the model lacks",
-        found["verdict"]["words"],
+        "The misfit of the model, the effects that explain it, and how certain that is.",
         (
             *parts(where_off(found), "windows", *(n for n in drawn if n not in FIGURES)),
             *parts(missing(found), "strengths", "profiles", "candidates", "ranking"),

@@ -1,12 +1,11 @@
 """The report of a study: one page that needs nothing else, and the provenance beside it."""
 
 from pyrofit.config import Study
-from pyrofit.results import recorded
+from pyrofit.results import diagnosis, recorded
 from pyrofit.results.files import Results, write_json, write_text
 from pyrofit.show import diagnosis_page
 from pyrofit.show.answer.advice import advice
 from pyrofit.show.answer.summary import summary
-from pyrofit.show.diagnosis.sentences import headline
 from pyrofit.show.names import titled
 from pyrofit.show.page import page_of, provenance
 from pyrofit.show.parts import Part, Picture, Shown, picture, table_part
@@ -34,7 +33,7 @@ def write_report(study: Study, results: Results) -> None:
     # The diagnosis is a step of its own, which a study may go without.
     lacks = ""
     if diagnosis_page.exists(results):
-        lacks = headline(study, results)
+        lacks = diagnosis.read(study, results)["verdict"]["words"]
         shown.append(diagnosis_page.section(study, results))
     text = page_of(study, results, study.title or study.name, said, shown, answer, lacks)
     write_json(results.root / "provenance.json", origin)

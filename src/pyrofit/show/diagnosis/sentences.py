@@ -1,87 +1,17 @@
 """What the diagnosis found, in sentences."""
 
-from collections.abc import Callable
-
 from pyrofit.analysis.uses import title_of
 from pyrofit.config import Study
 from pyrofit.effects import known_effects
-from pyrofit.results import diagnosis
-from pyrofit.results.files import Results
 from pyrofit.show.diagnosis.words import HELD_OUT, ROLES, Found, effect_name, leading, words_of
 from pyrofit.show.text import listed, number
 
 _TOO_FEW = ", too few to tell them apart"
 
 
-def headline(study: Study, results: Results) -> str:
-    """Return the verdict in one sentence or two."""
-    found = diagnosis.read(study, results)
-    return _SENTENCES[found["verdict"]["kind"]](found)
-
-
-def _none(found: Found) -> str:
-    if found["base"]["score"] > found["base"]["score_critical"]:
-        return "The misfit points towards some effect, but none gains enough to be claimed."
-    return "What the model leaves is noise: nothing is missing that these measurements show."
-
-
-def _named(found: Found) -> str:
-    verdict = found["verdict"]
-    of = f" ({verdict['groups'][0]})" if len(verdict["sets"][0]) > 1 else ""
-    return f"One effect is missing{of}: {_sets(verdict)}. {_confirmed(verdict, 'it')}"
-
-
-def _ambiguous(found: Found) -> str:
-    verdict = found["verdict"]
-    if len(verdict["sets"]) > 1:
-        return _several(verdict, "seem to be")
-    if len(verdict["sets"][0]) == 1:
-        return f"One effect is missing, probably {_sets(verdict)}. {_confirmed(verdict, 'it')}"
-    return f"One effect is missing, and these measurements cannot tell which: {_sets(verdict)}."
-
-
-def _multiple(found: Found) -> str:
-    return _several(found["verdict"], "are")
-
-
-def _several(verdict: Found, are: str) -> str:
-    count = {2: "Two", 3: "Three"}.get(len(verdict["effects"]), "Several")
-    return f"{count} effects {are} missing: {_sets(verdict)}. {_confirmed(verdict, 'them')}"
-
-
-def _unknown(found: Found) -> str:
-    best = listed([effect_name(name) for name in found["verdict"]["effects"]])
-    text = "Model and measurement disagree, and no effect of the catalogue explains it"
-    return f"{text}; a part is explained by {best}." if best else f"{text}."
-
-
-def _confirmed(verdict: Found, what: str) -> str:
-    return (
-        f"Predictions confirm {what}."
-        if verdict["confirmed"]
-        else (f"Predictions do not confirm {what}.")
-    )
-
-
-_SENTENCES: dict[str, Callable[[Found], str]] = {
-    "none": _none,
-    "named": _named,
-    "ambiguous": _ambiguous,
-    "multiple": _multiple,
-    "unknown": _unknown,
-}
-
-
-def _sets(verdict: Found) -> str:
-    """Name the effects, each with those that cannot be told from it."""
-    return ", and ".join(
-        " or ".join(effect_name(name) for name in names) for names in verdict["sets"]
-    )
-
-
 def facts(found: Found) -> list[str]:
-    """Return the sentences of a summary: where, the gap, the next experiment."""
-    said = [where_off(found), gap_closed(found)]
+    """Return the sentences of a summary: verdict, where, the gap, the next experiment."""
+    said = [found["verdict"]["words"], where_off(found), gap_closed(found)]
     return said + ([next_measured(found)] if found["next_experiment"] else [])
 
 

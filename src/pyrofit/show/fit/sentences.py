@@ -1,7 +1,9 @@
 """What was fitted to which data, and which values are unreliable, in sentences."""
 
-import pandas as pd
+import math
+from collections.abc import Sequence
 
+from pyrofit.analysis.repetitions import FIT, Repeated, repeated
 from pyrofit.analysis.uses import fitted_experiments, title_of
 from pyrofit.config import Study
 from pyrofit.results.files import Results
@@ -10,8 +12,9 @@ from pyrofit.show.text import listed, number, several
 
 
 def sentences(study: Study, results: Results, tables: Frames) -> list[str]:
-    """Say what was fitted to what, how low the costs are, and which values not to rely on."""
-    return [_data(study), _lowest(tables), _parameters(tables)]
+    """Say what was fitted to what, how low the costs are, and which values are unreliable."""
+    found = repeated(study, results)
+    return [_data(study), _lowest(study, found), _parameters(found)]
 
 
 def _data(study: Study) -> str:
@@ -26,29 +29,28 @@ def _data(study: Study) -> str:
     return f"{text}; held out: {held}." if held else f"{text}."
 
 
-def _lowest(tables: Frames) -> str:
-    fits = tables["table4"][tables["table4"]["quantity"] == "fit"]
+def _lowest(study: Study, found: Sequence[Repeated]) -> str:
     parts = []
-    for row in fits.to_dict("records"):
-        theirs = row.get("published_best")
-        beside = "" if theirs is None or pd.isna(theirs) else f" (published {number(theirs)})"
-        parts.append(f"{number(row['best'])} for {row['cost_function']}{beside}")
+    for one in (one for one in found if one.name == FIT):
+        published = study.published.costs.get(one.cost_function, {}) if study.published else {}
+        beside = f" (published {number(published[FIT][0])})" if FIT in published else ""
+        parts.append(f"{number(one.best)} for {one.cost_function}{beside}")
     return f"The lowest costs that SCE-UA found are {listed(parts)}."
 
 
-def _parameters(tables: Frames) -> str:
-    table = tables["table4"]
-    bound = _flagged(table, "at bound")
-    wide = _flagged(table, "spread")
+def _parameters(found: Sequence[Repeated]) -> str:
+    bound = _costs_by_name([one for one in found if one.bound])
+    wide = _costs_by_name([one for one in found if one.is_wide])
     if not bound and not wide:
-        once = "" if table["sigma"].notna().any() else " (no spread from one repetition)"
+        once = " (no spread from one repetition)" if math.isnan(found[0].sigma) else ""
         return f"No best set is at a limit, no spread above 20 % of the limits{once}."
     parts = [f"at a limit: {bound}"] if bound else []
     parts += [f"scattered (spread above 20 % of the limits): {wide}"] if wide else []
-    return f"Of SCE-UA's sets not to rely on: {'; '.join(parts)}."
+    return f"Unreliable values in SCE-UA's best sets: {'; '.join(parts)}."
 
 
-def _flagged(table: pd.DataFrame, word: str) -> str:
-    found = table[table["flags"].str.contains(word, regex=False)]
-    names = found.groupby("quantity", sort=False)["cost_function"].agg(", ".join)
-    return ", ".join(f"{name} ({costs})" for name, costs in names.items())
+def _costs_by_name(found: Sequence[Repeated]) -> str:
+    costs: dict[str, list[str]] = {}
+    for one in found:
+        costs.setdefault(one.name, []).append(one.cost_function)
+    return ", ".join(f"{name} ({', '.join(of)})" for name, of in costs.items())

@@ -4,17 +4,12 @@ from typing import Any
 
 import pandas as pd
 
-from pyrofit.analysis.best_sets import at_bound
 from pyrofit.analysis.estimates import estimated
-from pyrofit.analysis.optimisers import lowest_of
+from pyrofit.analysis.repetitions import FIT, Repeated, repeated
 from pyrofit.config import Study
-from pyrofit.results import searches
 from pyrofit.results.files import Results
 from pyrofit.show.names import flag
 from pyrofit.show.table import Table
-
-WIDE_SPREAD = 0.20
-"""A sigma above this fraction of the limits' distance says that the data do not determine it."""
 
 
 def table4(study: Study, results: Results) -> pd.DataFrame:
@@ -28,58 +23,36 @@ def table4(study: Study, results: Results) -> pd.DataFrame:
     pandas.DataFrame
         One row per cost function and quantity ('fit' and each parameter, in its own unit).
     """
-    summary = searches.summary(study, results)
-    known = {e.name: e for e in estimated(study, results) if e.stage == "imp"}
-    rows = []
-    for cost in study.imp.costs:
-        group = summary[summary["cost_function"] == cost]
-        best = lowest_of(group)
-        rows.append(_row(study, cost, "fit", group["cost"], float(best["cost"])))
-        for name in study.imp.estimate:
-            factor = study.parameters[name].factor
-            row = _row(study, cost, name, group[name] / factor, float(best[name]) / factor)
-            row["flags"] = "; ".join(filter(None, [row["flags"], flag(known[name])]))
-            rows.append(row)
-    frame = pd.DataFrame(rows)
+    by_data = {e.name: flag(e) for e in estimated(study, results) if e.stage == "imp"}
+    rows = [_row(study, found, by_data.get(found.name, "")) for found in repeated(study, results)]
     absent = [] if study.published else [f"published_{what}" for what in ("best", "mean", "sigma")]
-    return frame.drop(columns=absent)
+    return pd.DataFrame(rows).drop(columns=absent)
 
 
-def _row(study: Study, cost: str, name: str, values: pd.Series, best: float) -> dict[str, Any]:
-    parameter = study.parameters[name] if name != "fit" else None
-    published = {} if study.published is None else study.published.costs.get(cost, {})
-    theirs = published.get(name, (None, None, None))
-    sigma = float(values.std(ddof=1))
-    lower, upper = study.search_limits(name) if parameter else (None, None)
+def _row(study: Study, found: Repeated, by_data: str) -> dict[str, Any]:
+    published = {} if study.published is None else study.published.costs
+    theirs = published.get(found.cost_function, {}).get(found.name, (None, None, None))
     return {
-        "cost_function": cost,
-        "quantity": name,
-        "unit": parameter.unit if parameter else "-",
-        "best": best,
-        "mean": float(values.mean()),
-        "sigma": sigma,
+        "cost_function": found.cost_function,
+        "quantity": found.name,
+        "unit": "-" if found.name == FIT else study.parameters[found.name].unit,
+        "best": found.best,
+        "mean": found.mean,
+        "sigma": found.sigma,
         "published_best": theirs[0],
         "published_mean": theirs[1],
         "published_sigma": theirs[2],
-        "lower_limit": lower,
-        "upper_limit": upper,
-        "flags": flags(best, sigma, lower, upper),
+        "lower_limit": found.lower,
+        "upper_limit": found.upper,
+        "flags": "; ".join(filter(None, [flags(found), by_data])),
     }
 
 
-def flags(best: float, sigma: float, lower: float | None, upper: float | None) -> str:
-    """Say in words what is wrong with an estimate.
-
-    >>> flags(0.989, 0.25, 0.01, 0.99)
-    'at bound (upper); spread > 20 % of limits'
-    """
-    if lower is None or upper is None:
-        return ""
-    span = upper - lower
-    found = [f"at bound ({end})"] if (end := at_bound(best, lower, upper)) else []
-    if sigma > WIDE_SPREAD * span:
-        found.append("spread > 20 % of limits")
-    return "; ".join(found)
+def flags(found: Repeated) -> str:
+    """Say in words why an estimate is unreliable."""
+    said = [f"at bound ({found.bound})"] if found.bound else []
+    said += ["spread > 20 % of limits"] if found.is_wide else []
+    return "; ".join(said)
 
 
 TABLE = Table(
