@@ -235,7 +235,7 @@ def test_missing_results_of_cmaes_are_told(study: Study, tmp_path: Path) -> None
     results = Results(tmp_path)
     by_hand(study, results)
     fit.collect(study, results)
-    results.cmaes("RANGE").unlink()
+    results.starts("RANGE", "cmaes").unlink()
     with pytest.raises(DataError, match=r"RANGE/cmaes\.json: this result is missing"):
         compare.ends(study, results)
 

@@ -134,7 +134,7 @@ def test_results_of_a_study_have_one_place_each() -> None:
         results.kinetics("fit.json"),
         results.repetition("RMSE", 3, ".json"),
         results.repetition("RMSE", 103, "_convergence.csv"),
-        results.least_squares("RMSE"),
+        results.starts("RMSE", "least_squares"),
         results.imp("summary.csv"),
         results.validation("scores.csv"),
     ]

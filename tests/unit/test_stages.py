@@ -91,11 +91,13 @@ def by_hand(study: Study, results: Results) -> None:
             write_csv(results.repetition(cost, repetition, "_convergence.csv"), pd.DataFrame(frame))
         start = {"cost": 0.05, "calls": 9, "at_bound": [], "parameters": parameters(cost, 5)}
         write_json(
-            results.least_squares(cost),
+            results.starts(cost, "least_squares"),
             {"cost_function": cost, "seed": 1, "starts": [start, {**start, "cost": 0.07}]},
         )
         end = {**start, "cost": 0.06, "parameters": parameters(cost, 7)}
-        write_json(results.cmaes(cost), {"cost_function": cost, "seed": 1, "starts": [end]})
+        write_json(
+            results.starts(cost, "cmaes"), {"cost_function": cost, "seed": 1, "starts": [end]}
+        )
 
 
 # --- prepare --------------------------------------------------------------------------------

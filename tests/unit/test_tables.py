@@ -18,7 +18,7 @@ from pyrofit.show.fit.table4 import flags
 from pyrofit.show.names import data_name, flag
 from pyrofit.show.sections import TABLES, make_table
 from pyrofit.show.text import number
-from pyrofit.stages import compare, predict
+from pyrofit.stages import compare
 
 SETS = ("SCE-UA best", "SCE-UA mean", "least squares best", "CMA-ES best")
 TGA_K = np.linspace(500.0, 700.0, 41)
@@ -202,9 +202,9 @@ def _imp(study: Study, results: Results) -> None:
             {"cost": 0.08, "calls": 30, "at_bound": ["k"], "parameters": {"k": 0.5, "cp": 1500.0}},
             {"cost": 0.09, "calls": 20, "at_bound": [], "parameters": {"k": 0.3, "cp": 1500.0}},
         ]
-        write_json(results.least_squares(cost), {"cost_function": cost, "starts": starts})
+        write_json(results.starts(cost, "least_squares"), {"cost_function": cost, "starts": starts})
         ends = [{**start, "cost": start["cost"] + 0.005, "calls": 500} for start in starts]
-        write_json(results.cmaes(cost), {"cost_function": cost, "starts": ends})
+        write_json(results.starts(cost, "cmaes"), {"cost_function": cost, "starts": ends})
         # From SCE-UA's best, least squares gets nowhere for RMSE and further for BANDS.
         end = {"cost": 0.0995 if cost == "RMSE" else 0.08}
         write_json(results.descent(cost), {"cost_function": cost, "end": end})
@@ -560,7 +560,7 @@ def test_costs_by_hand(tmp_path: Path) -> None:
 def test_lowest_cost_may_be_that_of_cmaes(tmp_path: Path) -> None:
     study, results = fake(tmp_path)
     end = {"cost": 0.05, "calls": 7, "at_bound": [], "parameters": {"k": 0.2, "cp": 1500.0}}
-    write_json(results.cmaes("RMSE"), {"cost_function": "RMSE", "starts": [end]})
+    write_json(results.starts("RMSE", "cmaes"), {"cost_function": "RMSE", "starts": [end]})
     row = made("costs", study, results).set_index("cost_function").loc["RMSE"]
     assert row["lowest_by"] == "CMA-ES"
     assert row["ratio"] == pytest.approx(0.5, rel=1e-14)
@@ -591,8 +591,6 @@ def test_other_signal_of_a_fitted_experiment_is_a_held_out_signal(tmp_path: Path
 
 
 def test_labels_are_those_of_the_prediction() -> None:
-    assert uses.LEAST_SQUARES == predict.LEAST_SQUARES
-    assert uses.CMAES == predict.CMAES
     labels = [chosen.label for chosen in uses.predicted_sets(as_study(described(), "fake.json"))]
     assert labels == [
         "RMSE",

@@ -1,5 +1,6 @@
 """What several files of rules share."""
 
+from pyrofit.estimate.optimisers import OPTIMISERS
 from pyrofit.show.names import titled
 
 
@@ -21,3 +22,9 @@ def identification(stage, *more):
 def title_in(shown, name):
     """Return the title of a table or figure in this study."""
     return titled(study, shown[name].title, shown[name].paper)
+
+
+# The ends of the optimisers beside SCE-UA.
+STARTED = expand(
+    ROOT / "imp/{cost}/{optimiser}.json", cost=COSTS, optimiser=list(OPTIMISERS)
+)

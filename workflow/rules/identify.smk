@@ -6,8 +6,7 @@ rule identify:
         MEASUREMENTS,
         KINETICS_FOR_IMP,
         results.imp("summary.csv"),
-        expand(ROOT / "imp/{cost}/least_squares.json", cost=COSTS),
-        expand(ROOT / "imp/{cost}/cmaes.json", cost=COSTS),
+        STARTED,
     output:
         identification("imp", "sets"),
     log:

@@ -38,51 +38,31 @@ for _together in [
             " --cost {wildcards.cost} --repetition {params.repetitions}"
 
 
-rule least_squares:
+rule optimise:
     input:
         MEASUREMENTS,
         KINETICS_FOR_IMP,
     output:
-        ROOT / "imp/{cost}/least_squares.json",
+        ROOT / "imp/{cost}/{optimiser}.json",
+    wildcard_constraints:
+        optimiser="|".join(OPTIMISERS),
     log:
-        log_of("least_squares_{cost}"),
+        log_of("{optimiser}_{cost}"),
     benchmark:
-        benchmark_of("least_squares_{cost}")
+        benchmark_of("{optimiser}_{cost}")
     params:
         study=STUDY,
         digest=lambda wildcards: digest(
-            dependencies.imp(study, wildcards.cost, "least_squares")
+            dependencies.imp(study, wildcards.cost, wildcards.optimiser)
         ),
-        starts=study.imp.least_squares.starts,
+        starts=lambda wildcards: getattr(study.imp, wildcards.optimiser).starts,
         seed=study.seed,
         source=FITS,
+        command=lambda wildcards: OPTIMISERS[wildcards.optimiser].command,
     message:
-        "Multistart least squares, {wildcards.cost}"
+        "{params.command}, {wildcards.cost}"
     shell:
-        "pyrofit least-squares --study {params.study} --digest {params.digest} --log {log}"
-        " --cost {wildcards.cost}"
-
-
-rule cma_es:
-    input:
-        MEASUREMENTS,
-        KINETICS_FOR_IMP,
-    output:
-        ROOT / "imp/{cost}/cmaes.json",
-    log:
-        log_of("cmaes_{cost}"),
-    benchmark:
-        benchmark_of("cmaes_{cost}")
-    params:
-        study=STUDY,
-        digest=lambda wildcards: digest(dependencies.imp(study, wildcards.cost, "cmaes")),
-        starts=study.imp.cmaes.starts,
-        seed=study.seed,
-        source=FITS,
-    message:
-        "CMA-ES, {wildcards.cost}"
-    shell:
-        "pyrofit cma-es --study {params.study} --digest {params.digest} --log {log}"
+        "pyrofit {params.command} --study {params.study} --digest {params.digest} --log {log}"
         " --cost {wildcards.cost}"
 
 

@@ -3,8 +3,9 @@
 import numpy as np
 import pandas as pd
 
-from pyrofit.analysis.uses import CMAES, LEAST_SQUARES, PUBLISHED, SCEUA
+from pyrofit.analysis.uses import PUBLISHED, SCEUA
 from pyrofit.config import Study
+from pyrofit.estimate.optimisers import OPTIMISERS
 from pyrofit.results import searches
 from pyrofit.results.files import Results
 
@@ -42,8 +43,8 @@ def ends(study: Study, results: Results) -> pd.DataFrame:
     for cost in study.imp.costs:
         ours = summary[summary["cost_function"] == cost].to_dict("records")
         starts = {
-            LEAST_SQUARES: searches.starts(study, results, cost),
-            CMAES: searches.cmaes(study, results, cost),
+            optimiser.words: searches.starts(study, results, cost, key)
+            for key, optimiser in OPTIMISERS.items()
         }
         groups = {
             SCEUA: [(float(row["cost"]), row) for row in ours],

@@ -5,10 +5,7 @@ from typing import Any
 
 import pandas as pd
 
-from pyrofit.analysis.uses import CMAES, LEAST_SQUARES
-
-WORDS = {"least_squares": LEAST_SQUARES, "cmaes": CMAES}
-"""Optimisers in words, by the beginning of their columns."""
+from pyrofit.estimate.optimisers import OPTIMISERS
 
 LOWER = 0.01
 """Relative difference of two costs from which one optimiser is said to be ahead."""
@@ -48,7 +45,7 @@ def comparison(
         row |= _starts(name, starts)
     return {
         **row,
-        "lowest_by": WORDS[min(lowest, key=lambda name: lowest[name])],
+        "lowest_by": OPTIMISERS[min(lowest, key=lambda name: lowest[name])].words,
         "ratio": theirs / ours if ours > 0.0 else None,
         "remark": remark(ours, theirs, descent),
     }

@@ -6,6 +6,7 @@ from typing import Any
 import pandas as pd
 
 from pyrofit.config import Kinetics, Study, TermSpec
+from pyrofit.estimate.optimisers import OPTIMISERS
 from pyrofit.results import searches
 from pyrofit.results.files import EACH, Keys, Results, read_csv, read_json
 
@@ -63,8 +64,7 @@ def _imp(study: Study, results: Results, cost: str) -> dict[str, Any]:
     summary = searches.summary(study, results)
     return {
         "sceua": _lowest(summary[summary["cost_function"] == cost]),
-        "least_squares": _best(searches.starts(study, results, cost)),
-        "cmaes": _best(searches.cmaes(study, results, cost)),
+        **{key: _best(searches.starts(study, results, cost, key)) for key in OPTIMISERS},
     }
 
 

@@ -3,16 +3,15 @@
 from dataclasses import dataclass
 
 from pyrofit.config import Study
+from pyrofit.estimate.optimisers import OPTIMISERS
 from pyrofit.results.kinetics import masses_shown
 from pyrofit.solver.outputs import MASS_FRACTION
 
 SCEUA = "SCE-UA"
 
 
-LEAST_SQUARES = "least squares"
-
-
-CMAES = "CMA-ES"
+STARTED = tuple(optimiser.words for optimiser in OPTIMISERS.values())
+"""Optimisers beside SCE-UA, in words."""
 
 
 PUBLISHED = "published"
@@ -78,8 +77,7 @@ def rate_metrics(study: Study) -> list[str]:
 def predicted_sets(study: Study) -> list[PredictedSet]:
     """Return the sets that the validation simulates, in its order and under its labels."""
     sets = [PredictedSet(cost, cost, SCEUA) for cost in study.imp.costs]
-    sets += [PredictedSet(f"{c} {LEAST_SQUARES}", c, LEAST_SQUARES) for c in study.imp.costs]
-    sets += [PredictedSet(f"{c} {CMAES}", c, CMAES) for c in study.imp.costs]
+    sets += [PredictedSet(f"{c} {by}", c, by) for by in STARTED for c in study.imp.costs]
     if study.published is not None:
         sets += [
             PredictedSet(f"{cost} {PUBLISHED}", cost, PUBLISHED)

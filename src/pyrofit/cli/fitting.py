@@ -2,10 +2,12 @@
 
 import argparse
 import sys
+from functools import partial
 from typing import Any
 
 from pyrofit.cli.common import add_step, open_study
 from pyrofit.errors import StudyError
+from pyrofit.estimate.optimisers import OPTIMISERS
 
 
 def add(commands: Any) -> None:
@@ -21,10 +23,11 @@ def add(commands: Any) -> None:
         nargs="+",
         help="their numbers; several run side by side",
     )
-    squares = add_step(commands, "least-squares", "run least squares on one cost", _least_squares)
-    squares.add_argument("--cost", required=True, help="cost function of the study")
-    cma_es = add_step(commands, "cma-es", "run CMA-ES on one cost", _cma_es)
-    cma_es.add_argument("--cost", required=True, help="cost function of the study")
+    for name, optimiser in OPTIMISERS.items():
+        step = partial(_optimise, name)
+        text = f"run {optimiser.words} on one cost"
+        starts = add_step(commands, optimiser.command, text, step)
+        starts.add_argument("--cost", required=True, help="cost function of the study")
     descent = add_step(commands, "descent", "run least squares from SCE-UA's best set", _descent)
     descent.add_argument("--cost", required=True, help="cost function of the study")
     add_step(commands, "collect", "gather all repetitions", _collect)
@@ -67,20 +70,12 @@ def _imp(given: argparse.Namespace) -> None:
     fit.repeat(study, results, given.cost, given.repetition)
 
 
-def _least_squares(given: argparse.Namespace) -> None:
+def _optimise(optimiser: str, given: argparse.Namespace) -> None:
     from pyrofit.results import dependencies
     from pyrofit.stages import fit
 
-    study, results = open_study(given, dependencies.imp, given.cost, "least_squares")
-    fit.least_squares(study, results, given.cost)
-
-
-def _cma_es(given: argparse.Namespace) -> None:
-    from pyrofit.results import dependencies
-    from pyrofit.stages import fit
-
-    study, results = open_study(given, dependencies.imp, given.cost, "cmaes")
-    fit.cma_es(study, results, given.cost)
+    study, results = open_study(given, dependencies.imp, given.cost, optimiser)
+    fit.optimise(study, results, given.cost, optimiser)
 
 
 def _descent(given: argparse.Namespace) -> None:

@@ -191,13 +191,9 @@ class Results:
         """History or result of one repetition."""
         return self.root / "imp" / cost / f"{repetition:02d}{suffix}"
 
-    def least_squares(self, cost: str) -> Path:
-        """Multistart least squares on one cost."""
-        return self.root / "imp" / cost / "least_squares.json"
-
-    def cmaes(self, cost: str) -> Path:
-        """CMA-ES from several starts on one cost."""
-        return self.root / "imp" / cost / "cmaes.json"
+    def starts(self, cost: str, optimiser: str) -> Path:
+        """All ends of an optimiser that goes from several starts on one cost."""
+        return self.root / "imp" / cost / f"{optimiser}.json"
 
     def descent(self, cost: str) -> Path:
         """Least squares from SCE-UA's best set on one cost."""

@@ -1,6 +1,5 @@
 """Results of the searches: repetitions of SCE-UA, and the optimisers beside them."""
 
-from pathlib import Path
 from typing import Any
 
 import pandas as pd
@@ -42,22 +41,13 @@ def running_minima(study: Study, results: Results) -> pd.DataFrame:
     )
 
 
-def starts(study: Study, results: Results, cost: str) -> list[dict[str, Any]]:
-    """Return what least squares found from every start, best first."""
-    return _ends(study, results.least_squares(cost))
-
-
-def cmaes(study: Study, results: Results, cost: str) -> list[dict[str, Any]]:
-    """Return what CMA-ES found from every start, best first."""
-    return _ends(study, results.cmaes(cost))
-
-
-def _ends(study: Study, path: Path) -> list[dict[str, Any]]:
+def starts(study: Study, results: Results, cost: str, optimiser: str) -> list[dict[str, Any]]:
+    """Return the ends that an optimiser reached from every start on one cost, best first."""
     here = ("starts", EACH)
     needs: dict[Keys, type] = {(*here, "cost"): float, (*here, "calls"): float}
     needs[*here, "at_bound"] = list
     needs |= {(*here, "parameters", name): float for name in study.imp.estimate}
-    found: list[dict[str, Any]] = read_json(path, needs)["starts"]
+    found: list[dict[str, Any]] = read_json(results.starts(cost, optimiser), needs)["starts"]
     return found
 
 

@@ -10,15 +10,15 @@ from matplotlib.lines import Line2D
 from matplotlib.patches import Patch
 
 from pyrofit.analysis.uses import (
-    CMAES,
-    LEAST_SQUARES,
     PUBLISHED,
     SCEUA,
+    STARTED,
     PredictedSet,
     predicted_sets,
     title_of,
 )
 from pyrofit.config import Study
+from pyrofit.estimate.optimisers import OPTIMISERS
 from pyrofit.quantities.base import Quantity
 from pyrofit.results import prediction, recorded
 from pyrofit.results.files import Results
@@ -124,8 +124,9 @@ def look_of(study: Study, chosen: PredictedSet) -> Look:
     look = dict(style.cost_styles(study)[chosen.cost])
     if chosen.origin == PUBLISHED:
         return {**_THEIRS, **_marks(study, chosen.cost)}
-    if chosen.origin in (LEAST_SQUARES, CMAES):
-        first, marker = (0.0, "o") if chosen.origin == LEAST_SQUARES else (0.03, "s")
+    if chosen.origin in STARTED:
+        (marker,) = (by.marker for by in OPTIMISERS.values() if by.words == chosen.origin)
+        first = 0.03 * STARTED.index(chosen.origin)
         marks = {"marker": marker, "markersize": 2.2, "markevery": (first, 0.06)}
         return {**look, "linewidth": 0.7, **marks}
     return look

@@ -9,9 +9,9 @@ import pandas as pd
 
 from pyrofit.config import Study, digest
 from pyrofit.errors import StudyError, suggest
-from pyrofit.estimate import cmaes
 from pyrofit.estimate.history import Progress, best_of, convergence
 from pyrofit.estimate.least_squares import Start, descend, multistart
+from pyrofit.estimate.optimisers import OPTIMISERS
 from pyrofit.estimate.prior import within_known
 from pyrofit.estimate.problem import Problem, make_problem
 from pyrofit.model.base import value_of
@@ -168,25 +168,13 @@ def repeat(study: Study, results: Results, cost: str, repetitions: Sequence[int]
         )
 
 
-def least_squares(study: Study, results: Results, cost: str) -> None:
-    """Run multistart least squares on the same cost and write every start, best first."""
+def optimise(study: Study, results: Results, cost: str, optimiser: str) -> None:
+    """Run an optimiser from several starts on the same cost; write every end, best first."""
     problem = imp_problem(study, results, cost)
-    seed = seed_for(study.seed, cost, "least_squares")
-    starts = multistart(problem, study.imp.least_squares.starts, seed)
+    seed = seed_for(study.seed, cost, optimiser)
+    starts = OPTIMISERS[optimiser].run(problem, getattr(study.imp, optimiser), seed)
     write_json(
-        results.least_squares(cost),
-        {"cost_function": cost, "seed": seed, "starts": [_start(problem, s) for s in starts]},
-    )
-
-
-def cma_es(study: Study, results: Results, cost: str) -> None:
-    """Run CMA-ES on the same cost and write the end of every start, best first."""
-    problem = imp_problem(study, results, cost)
-    seed = seed_for(study.seed, cost, "cmaes")
-    budget = study.imp.cmaes
-    starts = cmaes.minimise(problem, budget.starts, seed, budget.calls)
-    write_json(
-        results.cmaes(cost),
+        results.starts(cost, optimiser),
         {"cost_function": cost, "seed": seed, "starts": [_start(problem, s) for s in starts]},
     )
 

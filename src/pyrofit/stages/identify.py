@@ -9,6 +9,7 @@ import pandas as pd
 from pyrofit.config import Study
 from pyrofit.estimate.identify import Identification, identify
 from pyrofit.estimate.likelihood import Likelihood, likelihood_of
+from pyrofit.estimate.optimisers import OPTIMISERS
 from pyrofit.estimate.prior import prior_of
 from pyrofit.estimate.problem import make_problem
 from pyrofit.results import dependencies, kinetics, searches
@@ -18,7 +19,6 @@ from pyrofit.stages.fit import fixed_for_imp
 from pyrofit.stages.measurements import load
 
 BEST, MEAN = "SCE-UA best", "SCE-UA mean"
-LEAST_SQUARES, CMAES = "least squares best", "CMA-ES best"
 
 
 def identify_kinetics(study: Study, results: Results) -> None:
@@ -84,8 +84,9 @@ def _write(results: Results, stage: str, likelihood: Likelihood, found: Identifi
 def _known_sets(study: Study, results: Results) -> Iterator[FloatArray]:
     names = list(study.imp.estimate)
     for cost in study.imp.costs:
-        for start in searches.starts(study, results, cost) + searches.cmaes(study, results, cost):
-            yield np.array([start["parameters"][name] for name in names])
+        for optimiser in OPTIMISERS:
+            for start in searches.starts(study, results, cost, optimiser):
+                yield np.array([start["parameters"][name] for name in names])
     yield from searches.summary(study, results)[names].to_numpy(float)
 
 
@@ -174,8 +175,12 @@ def _sets(
         sets = {
             BEST: group.iloc[int(group["cost"].to_numpy().argmin())],
             MEAN: group[names].mean(),
-            LEAST_SQUARES: searches.starts(study, results, cost)[0]["parameters"],
-            CMAES: searches.cmaes(study, results, cost)[0]["parameters"],
+            **{
+                f"{optimiser.words} best": searches.starts(study, results, cost, key)[0][
+                    "parameters"
+                ]
+                for key, optimiser in OPTIMISERS.items()
+            },
         }
         for label, values in sets.items():
             x = likelihood.scaled(np.array([float(values[name]) for name in names]))

@@ -4,9 +4,9 @@ import numpy as np
 import pandas as pd
 
 from pyrofit.analysis.best_sets import published_sets
-from pyrofit.analysis.uses import CMAES, LEAST_SQUARES
 from pyrofit.config import Study
 from pyrofit.errors import DataError
+from pyrofit.estimate.optimisers import OPTIMISERS
 from pyrofit.experiments import kind_of
 from pyrofit.quantities.base import Quantity
 from pyrofit.results import searches
@@ -20,11 +20,10 @@ from pyrofit.stages.measurements import load
 def sets_of(study: Study, results: Results) -> dict[str, dict[str, float]]:
     """Return the sets to predict: the best of each cost and optimiser, and published ones."""
     sets = dict(best_sets(study, results))
-    for cost in study.imp.costs:
-        start = searches.starts(study, results, cost)[0]
-        sets[f"{cost} {LEAST_SQUARES}"] = start["parameters"]
-    for cost in study.imp.costs:
-        sets[f"{cost} {CMAES}"] = searches.cmaes(study, results, cost)[0]["parameters"]
+    for key, optimiser in OPTIMISERS.items():
+        for cost in study.imp.costs:
+            start = searches.starts(study, results, cost, key)[0]
+            sets[f"{cost} {optimiser.words}"] = start["parameters"]
     for cost, values in published_sets(study).items():
         sets[f"{cost} published"] = values
     return sets

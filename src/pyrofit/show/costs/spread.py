@@ -8,8 +8,9 @@ from matplotlib.axes import Axes
 from matplotlib.figure import Figure as Canvas
 
 from pyrofit.analysis.best_sets import ends
-from pyrofit.analysis.uses import CMAES, LEAST_SQUARES, SCEUA
+from pyrofit.analysis.uses import SCEUA, STARTED
 from pyrofit.config import Study
+from pyrofit.estimate.optimisers import OPTIMISERS
 from pyrofit.results.files import Results
 from pyrofit.results.identification import estimates
 from pyrofit.show import style
@@ -23,12 +24,17 @@ _POINTS: dict[str, Any] = {"linestyle": "none", "marker": ".", "markersize": 4.0
 
 
 _BEST: dict[str, dict[str, Any]] = {
-    by: {"linestyle": "none", "marker": marker, "markersize": 4.0, "markerfacecolor": "white"}
-    for by, marker in ((LEAST_SQUARES, "D"), (CMAES, "s"))
+    by.words: {
+        "linestyle": "none",
+        "marker": by.marker,
+        "markersize": 4.0,
+        "markerfacecolor": "white",
+    }
+    for by in OPTIMISERS.values()
 }
 
 
-_BESIDE = {LEAST_SQUARES: 0.33, CMAES: 0.42}
+_BESIDE = {by: 0.33 + 0.09 * i for i, by in enumerate(STARTED)}
 """Places of the best sets beside the repetitions, in columns."""
 
 

@@ -4,13 +4,14 @@ import pandas as pd
 
 from pyrofit.analysis.optimisers import comparison
 from pyrofit.config import Study
+from pyrofit.estimate.optimisers import OPTIMISERS
 from pyrofit.results import searches
 from pyrofit.results.files import Results
 from pyrofit.show.table import Table
 
 
 def costs(study: Study, results: Results) -> pd.DataFrame:
-    """Compare SCE-UA with multistart least squares and CMA-ES on the same costs.
+    """Compare SCE-UA with the optimisers that go from several starts on the same costs.
 
     Returns
     -------
@@ -20,14 +21,24 @@ def costs(study: Study, results: Results) -> pd.DataFrame:
     summary = searches.summary(study, results)
     rows = []
     for cost in study.imp.costs:
-        others = {
-            "least_squares": searches.starts(study, results, cost),
-            "cmaes": searches.cmaes(study, results, cost),
-        }
+        others = {key: searches.starts(study, results, cost, key) for key in OPTIMISERS}
         descent = float(searches.end_of_descent(results, cost)["cost"])
         group = summary[summary["cost_function"] == cost]
         rows.append({"cost_function": cost, **comparison(group, others, descent)})
     return pd.DataFrame(rows)
+
+
+_HEADINGS = {
+    f"{key}_{column}": words.format(optimiser.words)
+    for key, optimiser in OPTIMISERS.items()
+    for column, words in {
+        "starts": "random starts of {}",
+        "starts_at_best": "of these within 1 % of its best",
+        "best": "{} best",
+        "calls": "{} model calls",
+        "at_bound": "{} at bound",
+    }.items()
+}
 
 
 TABLE = Table(
@@ -49,16 +60,7 @@ TABLE = Table(
         "sceua_calls": "SCE-UA model calls",
         "sceua_failed_calls": "failed calls",
         "least_squares_from_sceua": "least squares from SCE-UA's best",
-        "least_squares_starts": "random starts of least squares",
-        "least_squares_starts_at_best": "of these within 1 % of its best",
-        "least_squares_best": "least squares best",
-        "least_squares_calls": "least squares model calls",
-        "least_squares_at_bound": "least squares at bound",
-        "cmaes_starts": "random starts of CMA-ES",
-        "cmaes_starts_at_best": "of these within 1 % of its best",
-        "cmaes_best": "CMA-ES best",
-        "cmaes_calls": "CMA-ES model calls",
-        "cmaes_at_bound": "CMA-ES at bound",
+        **_HEADINGS,
         "lowest_by": "the lower of the two",
     },
     upright="cost_function",

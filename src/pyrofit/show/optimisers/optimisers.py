@@ -2,7 +2,7 @@
 
 from matplotlib.figure import Figure as Canvas
 
-from pyrofit.analysis.uses import CMAES, LEAST_SQUARES, SCEUA, predicted_signals
+from pyrofit.analysis.uses import SCEUA, STARTED, predicted_signals
 from pyrofit.config import Study
 from pyrofit.results.files import Results
 from pyrofit.show.curves import compare_curves
@@ -12,7 +12,7 @@ from pyrofit.show.figure import Figure
 def optimisers(study: Study, results: Results) -> Canvas:
     """Draw the best sets of all optimisers at all predicted experiments."""
     pairs = predicted_signals(study, relative=True)
-    return compare_curves(study, results, pairs, (SCEUA, LEAST_SQUARES, CMAES))
+    return compare_curves(study, results, pairs, (SCEUA, *STARTED))
 
 
 FIGURE = Figure(
@@ -20,7 +20,7 @@ FIGURE = Figure(
     applies=lambda study: bool(predicted_signals(study, relative=True)),
     make=optimisers,
     title="Release rates of the optimisers",
-    caption="The best sets of least squares (dots) and CMA-ES (squares) beside those of "
+    caption="The best sets of least squares (diamonds) and CMA-ES (squares) beside those of "
     "SCE-UA. Where a lower cost at the fitted experiment comes with a worse prediction "
     "elsewhere, the fitted data do not determine the parameters, or these make up for "
     "something that the model lacks.",

@@ -1,8 +1,9 @@
 """Optimisers compared, in sentences."""
 
-from pyrofit.analysis.optimisers import LOCAL_OPTIMUM, NOT_A_MINIMUM, WORDS
-from pyrofit.analysis.uses import CMAES, FITTED, LEAST_SQUARES, PUBLISHED, SCEUA
+from pyrofit.analysis.optimisers import LOCAL_OPTIMUM, NOT_A_MINIMUM
+from pyrofit.analysis.uses import FITTED, PUBLISHED, SCEUA
 from pyrofit.config import Study
+from pyrofit.estimate.optimisers import OPTIMISERS
 from pyrofit.results.files import Results
 from pyrofit.show.names import costs_of
 from pyrofit.show.table import Frames
@@ -19,7 +20,7 @@ def ahead(tables: Frames) -> str:
     parts = []
     for r in stuck + short:
         name = r["lowest_by"]
-        by = next(key for key, word in WORDS.items() if word == name)
+        by = next(key for key, one in OPTIMISERS.items() if one.words == name)
         bound = f" ({r[f'{by}_at_bound']} at a limit)" if r[f"{by}_at_bound"] else ""
         agree = f"{r[f'{by}_starts_at_best']} of {r[f'{by}_starts']} starts of {name} agree"
         parts.append(f"{r['cost_function']} by {100 * (1 - r['ratio']):.0f} %, {agree}{bound}")
@@ -31,7 +32,10 @@ def ahead(tables: Frames) -> str:
     return text + "."
 
 
-_BENCHMARKS = {SCEUA: "imp_{}_??", LEAST_SQUARES: "least_squares_{}", CMAES: "cmaes_{}"}
+_BENCHMARKS = {
+    SCEUA: "imp_{}_??",
+    **{by.words: f"{key}_{{}}" for key, by in OPTIMISERS.items()},
+}
 
 
 def sentences(study: Study, results: Results, tables: Frames) -> list[str]:

@@ -3,11 +3,14 @@
 import pandas as pd
 
 from pyrofit.analysis.recovery import KINETICS
+from pyrofit.analysis.uses import SCEUA
 from pyrofit.config import Study
+from pyrofit.estimate.optimisers import OPTIMISERS
 from pyrofit.results.files import Results
 from pyrofit.show.table import Frames
 
-_FOUND_BY = {"sceua": "SCE-UA", "least_squares": "least squares", "cmaes": "CMA-ES"}
+FOUND_BY = {"sceua": SCEUA, **{key: by.words for key, by in OPTIMISERS.items()}}
+"""Optimisers in words, by the beginning of their columns."""
 
 
 def sentences(study: Study, results: Results, tables: Frames) -> list[str]:
@@ -25,7 +28,7 @@ def errors(table: pd.DataFrame) -> list[str]:
 
     Examples
     --------
-    >>> columns = {f"{by}_error_limits_percent": [-12.0, 0.5] for by in _FOUND_BY}
+    >>> columns = {f"{by}_error_limits_percent": [-12.0, 0.5] for by in FOUND_BY}
     >>> frame = pd.DataFrame({"fit": "RMSE", "parameter": ["k", "rho"], **columns})
     >>> errors(frame)[1].split(": ")[1]
     '12 % in k, at most 0.5 % in the others (RMSE).'
@@ -47,10 +50,10 @@ def errors(table: pd.DataFrame) -> list[str]:
 
 def _found_by(part: pd.DataFrame) -> dict[str, str]:
     """Return the optimisers that some fits have errors of."""
-    errors = {by: part.get(f"{by}_error_limits_percent") for by in _FOUND_BY}
+    errors = {by: part.get(f"{by}_error_limits_percent") for by in FOUND_BY}
     return {
         by: name
-        for by, name in _FOUND_BY.items()
+        for by, name in FOUND_BY.items()
         if (column := errors[by]) is not None and column.notna().any()
     }
 

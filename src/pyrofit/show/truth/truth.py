@@ -2,6 +2,17 @@
 
 from pyrofit.analysis.recovery import known, truth
 from pyrofit.show.table import Table
+from pyrofit.show.truth.sentences import FOUND_BY
+
+_HEADINGS = {
+    f"{key}_{column}": f"{words} {text}"
+    for key, words in FOUND_BY.items()
+    for column, text in {
+        "best": "best",
+        "error_truth_percent": "error [% of truth]",
+        "error_limits_percent": "error [% of limits]",
+    }.items()
+}
 
 TABLE = Table(
     place=10,
@@ -12,15 +23,7 @@ TABLE = Table(
     "between the limits. An inverse modelling with fitted kinetics takes those of the "
     "optimiser with the lower cost.",
     headings={
-        "sceua_best": "SCE-UA best",
-        "sceua_error_truth_percent": "SCE-UA error [% of truth]",
-        "sceua_error_limits_percent": "SCE-UA error [% of limits]",
-        "least_squares_best": "least squares best",
-        "least_squares_error_truth_percent": "least squares error [% of truth]",
-        "least_squares_error_limits_percent": "least squares error [% of limits]",
-        "cmaes_best": "CMA-ES best",
-        "cmaes_error_truth_percent": "CMA-ES error [% of truth]",
-        "cmaes_error_limits_percent": "CMA-ES error [% of limits]",
+        **_HEADINGS,
     },
     group_by="fit",
 )

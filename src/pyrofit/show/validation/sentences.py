@@ -5,7 +5,7 @@ from collections.abc import Sequence
 import pandas as pd
 
 from pyrofit.analysis.scores import Score, by_signal, scores
-from pyrofit.analysis.uses import FITTED, LEAST_SQUARES, SCEUA, UNKNOWN
+from pyrofit.analysis.uses import FITTED, SCEUA, STARTED, UNKNOWN
 from pyrofit.config import Study
 from pyrofit.results.comparison import ALL
 from pyrofit.results.files import Results
@@ -34,8 +34,12 @@ def _predicted(found: Sequence[Score]) -> list[str]:
         text = f"SCE-UA's sets predict the {signal} of {places_of(free)} with {scored(free)}"
         fitted = [score for score in ours if score.use == FITTED]
         text += f" (fitted data: {scored(fitted)})" if fitted else ""
-        squares = [s for s in group if s.found_by == LEAST_SQUARES and s.use != FITTED]
-        said.append(f"{text}, those of least squares with {scored(squares)}.")
+        others = [
+            f"those of {by} with {scored(theirs)}"
+            for by in STARTED
+            if (theirs := [s for s in group if s.found_by == by and s.use != FITTED])
+        ]
+        said.append(f"{', '.join([text, *others])}.")
     return said
 
 
