@@ -144,7 +144,7 @@ QUANTITIES_BY_NAME = {
 
 
 def test_no_quantity_is_known_by_name_outside_its_home() -> None:
-    quantities = set(known_quantities())
+    quantities = set(known_quantities()) - {"mass"}  # which is a word and a kind of unit, too
     assert len(quantities) > 2
     home = ("quantities/", "experiments/", "solver/outputs.py", *QUANTITIES_BY_NAME)
     for path in modules():
