@@ -11,6 +11,7 @@ from pyrofit.model.heated import HeatedExperiment
 from pyrofit.model.material import Material
 from pyrofit.model.slab import SlabExperiment
 from pyrofit.solver.arrays import FLUX, FloatArray, Numerics, Values
+from pyrofit.solver.backing import lower_backing, with_backing
 from pyrofit.solver.curves import Curves, Request, Runs
 from pyrofit.solver.heated import heated_samples
 from pyrofit.solver.lower import lower_material, lower_network
@@ -150,6 +151,9 @@ def _lower(
     share = lower_share(experiment, material, values, sets)
     exposure = lower_exposure(experiment, share, properties, values, sets)
     layers = lower_layers(experiment, material, properties, values, sets)
+    factor = accuracy.cells_factor
+    backing = lower_backing(experiment, material, properties, values, sets, factor)
+    exposure = with_backing(exposure, backing)
     T_start = np.full(sets, value_of(experiment.sample.initial_temperature_K, values), np.float64)
     cells = np.full(sets, accuracy.cells or 0)
     if accuracy.cells is None:
@@ -158,7 +162,7 @@ def _lower(
         thickness = np.asarray(sum(layer.thickness for layer in layers))
         needed = cells_needed(share, thickness, T_start, properties, network, exposure)
         cells = np.ceil(accuracy.cells_factor * needed).astype(np.int64)
-    return Case(layers, cells, T_start, properties, network, exposure)
+    return Case(layers + backing, cells, T_start, properties, network, exposure)
 
 
 def solver_errors(

@@ -273,7 +273,12 @@ def test_rate_is_given_in_exactly_one_way(given: dict[str, float], message: str)
 
 def test_absorption_is_given_for_every_component_or_for_none() -> None:
     with pytest.raises(ValidationError, match="absorption_1_m for every component or for none"):
-        material(A=SOLID | {"absorption_1_m": 1e3}, B=SOLID)
+        material(None, {"A": 0.5, "B": "rest"}, A=SOLID | {"absorption_1_m": 1e3}, B=SOLID)
+
+
+def test_board_behind_a_translucent_material_may_be_opaque() -> None:
+    with_board = material(A=SOLID | {"absorption_1_m": 1e3}, board=SOLID)
+    assert with_board.own == {"A"}
 
 
 @pytest.mark.parametrize(

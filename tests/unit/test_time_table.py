@@ -87,6 +87,29 @@ def test_bad_file_of_a_table_is_told_with_its_place(
     assert FLUX in message
 
 
+BACKING = "experiments.slab_25.sample.backing"
+
+
+@pytest.mark.parametrize(
+    ("layer", "changes", "said"),
+    [
+        ({"component": "boar"}, {}, f"{BACKING}.0.component: unknown component 'boar'. Did you"),
+        ({"component": "polymer"}, {}, f"{BACKING}.0.component: 'polymer' reacts; a layer behind"),
+        ({"component": "board"}, {"expansion": 2.0}, "components.board.expansion: a layer behind"),
+        ({"component": "board", "thickness_m": 25.0}, {}, "0.thickness_m: 25 must be at most 0.5"),
+    ],
+)
+def test_bad_layer_behind_the_sample_is_told(
+    layer: dict[str, Any], changes: dict[str, Any], said: str
+) -> None:
+    body = {"density_kg_m3": 300, "conductivity_W_mK": 0.1, "specific_heat_J_kgK": 900, **changes}
+    study = changed("material.components.board", body)
+    study = changed(BACKING, [{"thickness_m": 0.02, **layer}], study)
+    with pytest.raises(StudyError) as caught:
+        as_study(study, "mine.yaml")
+    assert said in str(caught.value)
+
+
 def test_missing_file_of_a_table_is_told(tmp_path: Path) -> None:
     assert f"{FLUX}: " in complaint(FLUX, {"file": "q.csv"}, tmp_path)
     assert "there is no such file" in complaint(FLUX, {"file": "q.csv"}, tmp_path)

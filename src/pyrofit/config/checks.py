@@ -22,6 +22,7 @@ from pyrofit.experiments import kind_of
 from pyrofit.model.base import FRACTION
 from pyrofit.model.experiment import Experiment
 from pyrofit.model.material import REST, check_composition
+from pyrofit.model.slab import SlabExperiment
 from pyrofit.quantities import quantities_of
 
 
@@ -70,6 +71,7 @@ def _check_compositions(study: Study) -> None:
             if layer.composition is not None:
                 place = f"experiments.{name}.sample.layers.{i}.composition"
                 compositions[place] = layer.composition
+        _check_backing(study, name, experiment)
     for label, chosen in (study.kinetics.sets if study.kinetics else {}).items():
         place = f"kinetics.sets.{label}"
         require(
@@ -97,6 +99,31 @@ def _check_compositions(study: Study) -> None:
         _check_sum(study, composition, place)
     for name, reaction in study.material.reactions.items():
         _check_sum(study, reaction.products, f"material.reactions.{name}.products")
+
+
+def _check_backing(study: Study, name: str, experiment: SlabExperiment) -> None:
+    """Refuse layers behind the sample that are unknown, react or swell."""
+    material = study.material
+    reactants = {reaction.reactant for reaction in material.reactions.values()}
+    for i, layer in enumerate(experiment.sample.backing):
+        place = f"experiments.{name}.sample.backing.{i}.component"
+        known = set(material.components) - reactants
+        require(
+            layer.component in material.components,
+            place,
+            f"unknown component '{layer.component}'. {suggest(layer.component, known)}",
+        )
+        require(
+            layer.component not in reactants,
+            place,
+            f"'{layer.component}' reacts; a layer behind the sample is inert: describe it as a "
+            "layer of the sample",
+        )
+        require(
+            material.components[layer.component].expansion == 1.0,
+            f"material.components.{layer.component}.expansion",
+            f"a layer behind the sample keeps its volume ({place}); leave it out",
+        )
 
 
 def _check_kept(study: Study, label: str, chosen: KineticSet) -> None:

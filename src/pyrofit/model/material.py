@@ -178,11 +178,22 @@ class Material(Part):
                 raise ValueError(
                     f"reaction '{name}' forms its own reactant '{reaction.reactant}'; take it out"
                 )
-        opaque = {c.absorption_1_m is None for c in self.components.values()}
+        opaque = {self.components[name].absorption_1_m is None for name in self.own}
         if len(opaque) == 2:
-            raise ValueError("give absorption_1_m for every component or for none")
+            raise ValueError(
+                "give absorption_1_m for every component or for none; boards and plates excepted"
+            )
         self.reaction_order()
         return self
+
+    @property
+    def own(self) -> frozenset[str]:
+        """Components that the virgin material has, or that react or are formed.
+
+        What is left are inert bodies of experiments: boards, plates, gaps.
+        """
+        of_reactions = {n for r in self.reactions.values() for n in (r.reactant, *r.products)}
+        return frozenset({*self.composition, *of_reactions})
 
     def reaction_order(self) -> tuple[str, ...]:
         """Return the reactions sorted so that what one forms reacts after it.

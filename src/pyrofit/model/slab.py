@@ -126,6 +126,13 @@ class Layer(Part):
     )
 
 
+class Backing(Part):
+    """An inert layer behind the sample: board, plate or gap."""
+
+    thickness_m: Thickness = Field(description="thickness [m]")
+    component: str = Field(description="component that it consists of; it must not react")
+
+
 class EmissivityDepth(Part):
     """Depth over which residue is averaged for the surface emissivity.
 
@@ -139,20 +146,26 @@ class Sample(Part):
     """The specimen of a gasification experiment."""
 
     layers: tuple[Layer, ...] = Field(min_length=1, description="layers, front first")
-    foil: Foil | None = Field(None, description="foil on the back")
+    backing: tuple[Backing, ...] = Field(
+        (),
+        description="inert layers behind the sample, front first; keys of the sample spare them",
+    )
+    foil: Foil | None = Field(None, description="foil on the back, behind the backing")
     emissivity_depth: Annotated[Number | EmissivityDepth, POSITIVE] = Field(
         1e-5, description="depth [m] over which the surface emissivity is averaged by volume"
     )
     initial_temperature_K: Temperature = Field(293.15, description="initial temperature [K]")
     thickness_factor: Positive = Field(
-        1.0, description="multiplies the thickness of every layer [-]"
+        1.0, description="multiplies the thickness of every layer, not of the backing [-]"
     )
     emissivity_change: Number = Field(
         0.0,
         description="added to the surface emissivity, times the mass released over the initial [-]",
     )
     absorption_length_m: NotNegative = Field(
-        0.0, description="1/absorption_1_m of all components, instead of theirs [m]; 0 = theirs"
+        0.0,
+        description="1/absorption_1_m of all components of the material, instead of theirs [m]; "
+        "0 = theirs",
     )
     transmitted: Literal["foil", "lost"] = Field(
         "foil", description="radiation that passes the sample: the foil absorbs it, or it is lost"

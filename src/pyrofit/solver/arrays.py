@@ -148,6 +148,12 @@ class Exposure(NamedTuple):
     """delta [m]: depth over which the surface emissivity is averaged by volume."""
     emissivity_change: Number
     """Change of the surface emissivity from virgin to burnt out, with the mass released."""
+    backing_mass: Number
+    """Of the inert layers behind the sample [kg/m2]."""
+    backing_thickness: Number
+    """[m]."""
+    backing_cells: Number
+    """Number of their cells."""
     edge_exchange: Number
     """Heat transfer coefficient of the edge times perimeter over area [W/(m3 K)]."""
     edge_temperature: Number

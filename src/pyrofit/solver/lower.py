@@ -28,6 +28,8 @@ from pyrofit.solver.arrays import (
 
 LEAST_SHARE = 0.01
 """Least value of a linear property, relative to its reference value, and of a changed one."""
+OPAQUE_1_M = 1e6
+"""Absorption coefficient of an opaque body behind or beside a translucent material."""
 NODES_K: FloatArray = TABLE_TEMPERATURES_K[:, None]
 
 
@@ -126,14 +128,19 @@ def lower_material(
 ) -> Material:
     """Return the component properties as arrays, in the order of ``material.components``.
 
-    An ``absorption_length`` [m] above zero holds for all components.
+    An ``absorption_length`` [m] above zero holds for all components of the material itself.
     """
     parts = list(material.components.values())
+    own = material.derived("own", lambda m: np.array([n in m.own for n in m.components]))[:, None]
     density = stack([value_of(c.density_kg_m3, values) for c in parts], sets)
     absorption = stack([value_of(c.absorption_1_m or 0.0, values) for c in parts], sets)
     if np.any(np.asarray(absorption_length) > 0.0):
         length = np.asarray(absorption_length)
-        absorption = np.where(length > 0.0, 1.0 / np.where(length > 0.0, length, 1.0), absorption)
+        given = np.where(length > 0.0, 1.0 / np.where(length > 0.0, length, 1.0), absorption)
+        absorption = np.where(own, given, absorption)
+    if not own.all():
+        opaque = ~own & (absorption == 0.0) & (absorption > 0.0).any(axis=0)
+        absorption = np.where(opaque, OPAQUE_1_M, absorption)
     return Material(
         specific_volume=1.0 / density,
         expansion=_tables([c.expansion for c in parts], values, sets),

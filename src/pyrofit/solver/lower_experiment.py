@@ -26,15 +26,18 @@ from pyrofit.solver.schedule import lower_schedule
 
 
 class Layer(NamedTuple):
-    """A layer of the virgin sample."""
+    """A layer of the virgin sample, or behind it."""
 
     mass: FloatArray
     """Mass per area of its components [kg/m2], shape (components, sets)."""
     thickness: Number
     """[m], shape (sets,)."""
+    cells: Number | None = None
+    """How many it has, shape (sets,); none = its share of the sample's."""
 
 
-def _number(value: Value, sets: int) -> Number:
+def number(value: Value, sets: int) -> Number:
+    """Return a value for every set, shape (sets,)."""
     if sets == 1 and isinstance(value, float):
         return np.array([value])
     return np.full(sets, value, np.float64)
@@ -42,9 +45,9 @@ def _number(value: Value, sets: int) -> Number:
 
 def _surface(side: Side, values: Values, sets: int, factor: Value = 1.0) -> Surface:
     return Surface(
-        h_cube_root=_number(factor * value_of(side.h_cube_root_W_m2K43, values), sets),
-        gas_rise=_number(value_of(side.gas_rise_K, values), sets),
-        gas_rise_time=_number(value_of(side.gas_rise_time_s, values), sets),
+        h_cube_root=number(factor * value_of(side.h_cube_root_W_m2K43, values), sets),
+        gas_rise=number(value_of(side.gas_rise_K, values), sets),
+        gas_rise_time=number(value_of(side.gas_rise_time_s, values), sets),
     )
 
 
@@ -58,7 +61,7 @@ def lower_exposure(
     depth = _mixing_depth(experiment, share, arrays, values)
     fixed = experiment.derived("exposure", _fixed_exposure) if sets == 1 else None
     found = fixed or _exposure(experiment, values, sets)
-    return found._replace(mixing_depth=_number(depth, sets))
+    return found._replace(mixing_depth=number(depth, sets))
 
 
 def _fixed_exposure(experiment: SlabExperiment) -> Exposure | None:
@@ -81,17 +84,20 @@ def _exposure(experiment: SlabExperiment, values: Values, sets: int) -> Exposure
         front=_surface(front, values, sets),
         back=_surface(back, values, sets, losses),
         schedule=lower_schedule(experiment, values, sets),
-        rise_time=_number(value_of(front.rise_time_s, values), sets),
-        drift=_number(value_of(front.drift_1_s, values), sets),
-        drift_time=_number(value_of(front.drift_time_s, values), sets),
-        back_emissivity=_number(losses * value_of(back.emissivity, values), sets),
-        foil_capacity=_number(capacity, sets),
-        contact_resistance=_number(contact, sets),
+        rise_time=number(value_of(front.rise_time_s, values), sets),
+        drift=number(value_of(front.drift_1_s, values), sets),
+        drift_time=number(value_of(front.drift_time_s, values), sets),
+        back_emissivity=number(losses * value_of(back.emissivity, values), sets),
+        foil_capacity=number(capacity, sets),
+        contact_resistance=number(contact, sets),
         foil_opaque=sample.foil is not None and sample.transmitted == "foil",
-        mixing_depth=_number(0.0, sets),
-        emissivity_change=_number(value_of(sample.emissivity_change, values), sets),
-        edge_exchange=_number(exchange, sets),
-        edge_temperature=_number(edge_gas, sets),
+        mixing_depth=number(0.0, sets),
+        emissivity_change=number(value_of(sample.emissivity_change, values), sets),
+        backing_mass=number(0.0, sets),
+        backing_thickness=number(0.0, sets),
+        backing_cells=number(0.0, sets),
+        edge_exchange=number(exchange, sets),
+        edge_temperature=number(edge_gas, sets),
     )
 
 
@@ -121,12 +127,12 @@ def _mixing_depth(
         return value_of(depth, values)
     volume = share * arrays.specific_volume
     T = value_of(experiment.sample.initial_temperature_K, values)
-    k = total(volume * _at(arrays.conductivity, T)) / total(volume)
-    rho_c = total(share * _at(arrays.specific_heat, T)) / total(volume)
+    k = total(volume * at_temperature(arrays.conductivity, T)) / total(volume)
+    rho_c = total(share * at_temperature(arrays.specific_heat, T)) / total(volume)
     return value_of(depth.cell_size_factor, values) * np.sqrt(k / rho_c)
 
 
-def _at(tables: FloatArray, T: Value) -> FloatArray:
+def at_temperature(tables: FloatArray, T: Value) -> FloatArray:
     """Return the properties of all components at T, shape (components, sets)."""
     if tables.shape[1] == 1:
         return tables[:, 0]
@@ -188,7 +194,7 @@ def lower_layers(
     for layer, size in zip(sample.layers, thicknesses(sample, values), strict=True):
         share = fractions(layer.composition or material.composition, names, values, sets)
         mass = size / total(share * arrays.specific_volume)
-        layers.append(Layer(share * mass, _number(size, sets)))
+        layers.append(Layer(share * mass, number(size, sets)))
     return tuple(layers)
 
 
@@ -197,19 +203,22 @@ def cells_of(
 ) -> tuple[FloatArray, IntArray]:
     """Share out the cells by thickness, at least two to a layer, equally thick in a layer.
 
-    Their number is made a multiple by empty ones ahead of the others.
+    Layers that have a number of cells of their own keep it. The number of all cells is made a
+    multiple by empty ones ahead of the others.
 
     Returns
     -------
     masses [kg/m2], shape (cells, components, sets), front first, and how many of these cells are
     empty, shape (sets,).
     """
-    if len(layers) == 1:
+    sample = [layer for layer in layers if layer.cells is None]
+    if len(sample) == 1:
         counts = [cells]
     else:
-        size = sum(layer.thickness for layer in layers)
-        shares = [np.rint(cells * layer.thickness / size) for layer in layers]
+        size = sum(layer.thickness for layer in sample)
+        shares = [np.rint(cells * layer.thickness / size) for layer in sample]
         counts = [np.maximum(2, share).astype(np.int64) for share in shares]
+    counts += [layer.cells.astype(np.int64) for layer in layers if layer.cells is not None]
     needed = np.asarray(sum(counts))
     most = -(-int(needed.max()) // multiple) * multiple
     empty = most - needed

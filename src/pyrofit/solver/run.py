@@ -224,5 +224,6 @@ def _write(
     for k, (output, curve) in enumerate(zip(work.outputs, runs.signals.values(), strict=True)):
         curve[index] = signals[:, begin[k] : begin[k + 1]]
         if output == MASS:
-            initial = np.asarray(sum(total(layer.mass) for layer in work.case.layers))
+            sample = (layer for layer in work.case.layers if layer.cells is None)
+            initial = np.asarray(sum(total(layer.mass) for layer in sample))
             curve[index] = initial[index, None] - curve[index]

@@ -120,11 +120,18 @@ def absorb(radiation, r_skin, work, edge, material):
 
 
 @inner
+def edge_of_cell(work, n, exposure):
+    """Return the conductance of a cell's edge [W/(m2 K)]; the backing has none."""
+    behind = 1.0 * n >= work.m.shape[1] - exposure.backing_cells
+    return where(behind, 0.0, exposure.edge_exchange * work.cell[row.d, n])
+
+
+@inner
 def lose_at_edge(work, first, exposure):
-    """Add to every cell what its edge exchanges with the gas beside it."""
+    """Add to every cell of the sample what its edge exchanges with the gas beside it."""
     cell = work.cell
     for n in live(work.m, first):
-        loss = exposure.edge_exchange * cell[row.d, n]
+        loss = edge_of_cell(work, n, exposure)
         cell[row.slope, n] += loss
         cell[row.source, n] += loss * exposure.edge_temperature
 
@@ -161,7 +168,7 @@ def net_flux(surface, front, work, first, exposure):
     flux = cell[row.source, foil] - cell[row.slope, foil] * cell[row.T_new, foil]
     if somewhere(exposure.edge_exchange != 0.0):
         for n in live(work.m, first):
-            loss = exposure.edge_exchange * cell[row.d, n]
+            loss = edge_of_cell(work, n, exposure)
             flux += loss * (exposure.edge_temperature - cell[row.T_new, n])
     return surface.gain - surface.slope * front + surface.inside + flux
 

@@ -105,8 +105,9 @@ def march(
     balance = Balance(none, none, none, none, none, none)
     clock = start_clock(none, exposure, numerics, t_end)
     rate_scale = scale_of_rate(exposure)
-    mass = total_mass(work)
+    mass = total_mass(work) - exposure.backing_mass
     depth, d_skin, r_skin = thickness(work, edge.first, material, T_start)
+    depth = depth - exposure.backing_thickness
     at_start = none, none, none, T_start, depth, none, none, clock.dt_old, d_skin, r_skin
     for lane in range(firsts.size):
         record(trace[lane, 0], lane, at_start, flat, firsts[lane], empty, probes)
@@ -126,6 +127,7 @@ def march(
         block = edge.first * wide.m.shape[1] // work.m.shape[1]
         accept(wide, block, network, accepted)
         depth, d_skin, r_skin = thickness(work, edge.first, material, step.front)
+        depth = depth - exposure.backing_thickness
         rate_scale = where(accepted, max(rate_scale, PEAK_MULTIPLE * step.rate), rate_scale)
         taken = where(accepted, 1.0, none)
         steps += taken
@@ -168,7 +170,8 @@ def march(
         many = running & ((steps >= most) | (tries >= 2.0 * most))
         status = where(many, TOO_MANY_STEPS, status)
         running = running & opposite(many)
-    mass_error = abs(total_mass(work) + balance.released - mass) / mass
+    left = total_mass(work) - exposure.backing_mass
+    mass_error = abs(left + balance.released - mass) / mass
     off = energy_error(balance)
     for lane in range(firsts.size):
         outcome[lane, STATUS] = in_lane(status, lane)

@@ -50,6 +50,9 @@ def exposure_in_lanes(width, g, exposure):
         foil_opaque=exposure.foil_opaque,
         mixing_depth=_lanes(width, g, exposure.mixing_depth),
         emissivity_change=_lanes(width, g, exposure.emissivity_change),
+        backing_mass=_lanes(width, g, exposure.backing_mass),
+        backing_thickness=_lanes(width, g, exposure.backing_thickness),
+        backing_cells=_lanes(width, g, exposure.backing_cells),
         edge_exchange=_lanes(width, g, exposure.edge_exchange),
         edge_temperature=_lanes(width, g, exposure.edge_temperature),
     )

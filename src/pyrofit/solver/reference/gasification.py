@@ -8,24 +8,17 @@ import numpy as np
 from scipy.integrate import LSODA
 
 from pyrofit.model.accuracy import Resolution
-from pyrofit.model.base import value_of
 from pyrofit.model.material import Material
-from pyrofit.model.slab import EmissivityDepth, Sample, SlabExperiment
+from pyrofit.model.slab import SlabExperiment
 from pyrofit.solver.arrays import FloatArray, IntArray, Status
 from pyrofit.solver.curves import Curves, Request
 from pyrofit.solver.observe import observe_one
 from pyrofit.solver.outputs import BACK, FRONT, HEAT, MASS, RATE, THICKNESS
 from pyrofit.solver.reference.places import inside
 from pyrofit.solver.reference.slab import Outside, Slab
-from pyrofit.solver.reference.substance import (
-    COLDEST_K,
-    HOTTEST_K,
-    Substance,
-    Values,
-    mass_fractions,
-    substance,
-)
-from pyrofit.solver.reference.surroundings import Fire, Piece, fire, pieces, rim, surface
+from pyrofit.solver.reference.specimen import make_slab
+from pyrofit.solver.reference.substance import COLDEST_K, HOTTEST_K
+from pyrofit.solver.reference.surroundings import Fire, Piece, fire, pieces
 
 BURNT_FRACTION = 1e-5
 """Reactant left in the sample, relative to its initial mass, at which it counts as burnt out."""
@@ -116,8 +109,8 @@ def _lines(slab: Slab, states: FloatArray) -> dict[str, FloatArray]:
         RATE: reacting @ reactions.gas @ slab.mass,
         HEAT: reacting @ burning @ slab.mass,
         _UNBURNT: -(extent @ burning @ slab.mass),
-        MASS: present.sum(axis=(-2, -1)),
-        THICKNESS: slab.thickness(T, extent).sum(axis=-1),
+        MASS: present[..., : slab.sample, :].sum(axis=(-2, -1)),
+        THICKNESS: slab.thickness(T, extent)[..., : slab.sample].sum(axis=-1),
         FRONT: T[:, 0].copy(),
         BACK: T[:, -1].copy(),
     }
@@ -208,78 +201,5 @@ class _Run:
         if solver.status == "failed" or self.steps >= self.resolution.most_steps:
             return Status.TOO_MANY_STEPS
         left = self.slab.masses(extent)[:, self.reactants].sum()
-        burnt = left < BURNT_FRACTION * self.slab.mass.sum()
+        burnt = left < BURNT_FRACTION * self.slab.sample_mass
         return Status.OK if burnt or self.status == Status.OK else Status.UNBURNT
-
-
-def make_slab(
-    experiment: SlabExperiment, material: Material, values: Values, elements: int
-) -> Slab:
-    """Return the slab of an experiment; a layer has elements of one thickness, at least two."""
-    sample, back = experiment.sample, experiment.back
-    solid = substance(material, values, value_of(sample.absorption_length_m, values))
-    virgin, mass = _elements(sample, material, solid, values, elements)
-    T_start = value_of(sample.initial_temperature_K, values)
-    losses = value_of(back.loss_factor, values)
-    capacity, contact = _foil(sample, values)
-    depth = _mixing_depth(sample.emissivity_depth, solid, virgin[0], T_start, values)
-    if contact > 0.0:
-        virgin = np.concatenate((virgin, np.zeros((1, virgin.shape[1]))))
-        mass = np.append(mass, 0.0)
-    return Slab(
-        substance=solid,
-        virgin=virgin,
-        mass=mass,
-        T_start=T_start,
-        front=surface(experiment.front, values),
-        back=surface(back, values, losses),
-        back_emissivity=losses * value_of(back.emissivity, values),
-        foil_capacity=capacity,
-        contact_resistance=contact,
-        foil_opaque=sample.foil is not None and sample.transmitted == "foil",
-        mixing_depth=depth,
-        emissivity_change=value_of(sample.emissivity_change, values),
-        rim=rim(sample.edge, values),
-    )
-
-
-def _elements(
-    sample: Sample, material: Material, solid: Substance, values: Values, elements: int
-) -> tuple[FloatArray, FloatArray]:
-    """Return the mass fractions and masses [kg/m2] of the elements before they react."""
-    factor = value_of(sample.thickness_factor, values)
-    sizes = [factor * value_of(layer.thickness_m, values) for layer in sample.layers]
-    virgin, mass = [], []
-    for layer, size in zip(sample.layers, sizes, strict=True):
-        count = max(2, round(elements * size / sum(sizes)))
-        share = mass_fractions(layer.composition or material.composition, solid.names, values)
-        virgin.append(np.tile(share, (count, 1)))
-        mass.append(np.full(count, size / count / (share / solid.density).sum()))
-    return np.concatenate(virgin), np.concatenate(mass)
-
-
-def _foil(sample: Sample, values: Values) -> tuple[float, float]:
-    """Return the foil's heat capacity [J/(m2 K)] and its resistance to the sample [m2 K/W]."""
-    foil = sample.foil
-    if foil is None:
-        return 0.0, 0.0
-    mass = value_of(foil.thickness_m, values) * value_of(foil.density_kg_m3, values)
-    mass *= value_of(foil.mass_factor, values)
-    capacity = mass * value_of(foil.specific_heat_J_kgK, values)
-    return capacity, value_of(foil.contact_m2K_W, values)
-
-
-def _mixing_depth(
-    given: float | str | EmissivityDepth,
-    solid: Substance,
-    share: FloatArray,
-    T: float,
-    values: Values,
-) -> float:
-    """Return the depth of the surface emissivity [m], for FDS's of the first layer's material."""
-    if not isinstance(given, EmissivityDepth):
-        return value_of(given, values)
-    volume = share / solid.density
-    k = volume @ solid.conductivity.of(np.array(T)) / volume.sum()
-    rho_c = share @ solid.specific_heat.of(np.array(T)) / volume.sum()
-    return float(value_of(given.cell_size_factor, values) * np.sqrt(k / rho_c))

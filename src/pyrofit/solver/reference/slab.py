@@ -59,6 +59,8 @@ class Slab:
     """Initial mass fractions, shape (elements, components)."""
     mass: FloatArray
     """Initial masses [kg/m2], shape (elements,)."""
+    sample: int
+    """Number of elements of the sample; inert layers are behind it."""
     T_start: float
     front: Surface
     back: Surface
@@ -77,6 +79,11 @@ class Slab:
     def stride(self) -> int:
         """Unknowns of a node and the element behind it; also the half width of the Jacobian."""
         return 1 + self.substance.reactions.A.size
+
+    @cached_property
+    def sample_mass(self) -> float:
+        """Initial mass of the sample [kg/m2]."""
+        return float(self.mass[: self.sample].sum())
 
     @cached_property
     def start(self) -> FloatArray:
@@ -133,7 +140,7 @@ class Slab:
 
         It changes with the mass released over all. ``volume`` [m], shape (elements, components).
         """
-        released = self.mass @ (extent @ self.substance.reactions.gas) / self.mass.sum()
+        released = self.mass @ (extent @ self.substance.reactions.gas) / self.sample_mass
         changed = self._topmost(volume) + self.emissivity_change * released
         return float(np.clip(changed, 0.0, 1.0))
 
@@ -186,7 +193,7 @@ class Slab:
         between = 0.5 * (hot + cold)
         volume = self._volume(between, present)
         conducted = (hot - cold) / (self._d_k(between, volume) + self.least_resistance)
-        gain = outside.absorbed + self.rim.gain(T, volume.sum(axis=-1))
+        gain = outside.absorbed + self._rim_gain(T, volume.sum(axis=-1))
         gain[..., :-1] -= conducted + upper
         gain[..., 1:] += conducted - lower
         gain[..., 0] += self._front_gain(T[..., 0], outside)
@@ -199,10 +206,14 @@ class Slab:
     def heat_in(self, y: FloatArray, outside: Outside) -> float:
         """Return the heat [W/m2] that a state takes from its surroundings."""
         T, extent = self.split(y)
-        gain = outside.absorbed + self.rim.gain(T, self.thickness(T, extent))
+        gain = outside.absorbed + self._rim_gain(T, self.thickness(T, extent))
         gain[0] += self._front_gain(T[0], outside)
         gain[-1] += self._back_gain(T[-1], outside)
         return float(gain.sum())
+
+    def _rim_gain(self, T: FloatArray, d: FloatArray) -> FloatArray:
+        """Return what the edge gives to the nodes [W/m2]; the inert layers behind have none."""
+        return self.rim.gain(T, np.where(np.arange(self.mass.size) < self.sample, d, 0.0))
 
     def _front_gain(self, T: FloatArray, outside: Outside) -> FloatArray:
         return self.front.gain(outside.eps, T, outside.t, outside.span)

@@ -26,6 +26,8 @@ LEAST_REMAINDER = 1e-6
 
 The slope of u^n is infinite at u = 0, where no implicit method finds its way.
 """
+OPAQUE_1_M = 1e6
+"""Absorption coefficient of an opaque body beside a translucent material."""
 LEAST_FORMED = 1e-12
 """Mass ever present, relative to the sample's, from which m/m_formed can be told."""
 
@@ -136,9 +138,17 @@ def substance(
 ) -> Substance:
     """Return the material with the numbers of the given parameter values.
 
-    An ``absorption_length`` [m] above zero replaces that of every component.
+    An ``absorption_length`` [m] above zero replaces that of every component of the material itself;
+    other bodies are opaque unless described otherwise.
     """
     parts = list(material.components.values())
+    kappa = {
+        name: _absorption(c, values, absorption_length if name in material.own else 0.0)
+        for name, c in material.components.items()
+    }
+    if any(kappa.values()):
+        opaque = {n: OPAQUE_1_M for n, of in kappa.items() if not of and n not in material.own}
+        kappa |= opaque
     return Substance(
         names=list(material.components),
         density=np.array([value_of(c.density_kg_m3, values) for c in parts]),
@@ -146,7 +156,7 @@ def substance(
         conductivity=Property(tuple(c.conductivity_W_mK for c in parts), values),
         specific_heat=Property(tuple(c.specific_heat_J_kgK for c in parts), values),
         emissivity=np.array([value_of(c.emissivity, values) for c in parts]),
-        absorption=np.array([_absorption(c, values, absorption_length) for c in parts]),
+        absorption=np.array(list(kappa.values())),
         reactions=_reactions(material, values),
     )
 
