@@ -1,5 +1,9 @@
 """Heats, a baseline and a response time are recovered from data of the independent solver."""
 
+import copy
+from pathlib import Path
+
+import numpy as np
 import pandas as pd
 import pytest
 from calorimetry_study import STUDY
@@ -7,9 +11,12 @@ from calorimetry_study import STUDY
 from pyrofit.config import Study, as_study
 from pyrofit.results import kinetics
 from pyrofit.results.files import Results
+from pyrofit.show.figure import draw_figure
+from pyrofit.show.kinetics import KINETICS
 from pyrofit.stages.fit import fit_kinetics
 from pyrofit.stages.identify import identify_kinetics
-from pyrofit.stages.measurements import prepare
+from pyrofit.stages.kinetic_curves import write_curves
+from pyrofit.stages.measurements import load, prepare
 
 
 @pytest.fixture(scope="module")
@@ -38,3 +45,33 @@ def test_heats_are_recovered(fitted: tuple[Study, Results], name: str, share: fl
     study, results = fitted
     found = kinetics.parameters(study, results)[name]
     assert found == pytest.approx(study.true_values()[name], rel=share)
+
+
+def test_heats_are_drawn_and_scored_beside_the_data(fitted: tuple[Study, Results]) -> None:
+    study, results = fitted
+    for name in ("fig2", "kinetics_all_rates", "heats"):
+        assert KINETICS.figures[name].applies(study)
+        draw_figure(KINETICS.figures[name], name, study, results)
+        assert (results.root / "figures" / f"{name}.svg").stat().st_size > 5000
+    scores = KINETICS.tables["heat_scores"].make(study, results)
+    assert scores["quantity"].tolist() == [
+        "RMSE of heat flow",
+        "RMSE of specific heat release rate",
+    ]
+    # The noise, in W/g.
+    np.testing.assert_allclose(scores["fitted"], [0.015, 2.0], rtol=0.15)
+    assert set(scores["used_in_fit"]) == {"yes"}
+
+
+def test_study_without_mass_has_scores_of_its_heats_alone(tmp_path: Path) -> None:
+    given = copy.deepcopy(STUDY)
+    del given["experiments"]["sta_10"]["signals"]["mass_fraction"]
+    del given["kinetics"]["cost"][0]
+    study, results = as_study(given, "calorimetry.yaml"), Results(tmp_path)
+    prepare(study, results)
+    write_curves(study, results, load(study, results), study.true_values())
+    assert pd.read_csv(results.kinetics("curves.csv")).empty
+    assert pd.read_csv(results.kinetics("scores.csv")).empty
+    assert len(pd.read_csv(results.kinetics("heat_scores.csv"))) == 4
+    applies = {name for name, figure in KINETICS.figures.items() if figure.applies(study)}
+    assert applies == {"heats"}

@@ -182,7 +182,7 @@ DIAGNOSIS = rows_of(
         (
             "effect of the truth that is not computed",
             truth(tga_lag={"time_s": 5}),
-            ("synthetic.effects: effect 'tga_lag': no experiment can have it; it needs a TGA",),
+            ("synthetic.effects: effect 'tga_lag': no experiment can have it; it needs",),
         ),
         (
             "effect of the truth and of the model",

@@ -62,10 +62,17 @@ def has_slab(experiment: Experiment) -> bool:
     return isinstance(experiment, SlabExperiment)
 
 
-@need("a TGA experiment")
+@need("an experiment with a temperature programme")
 def has_programme(experiment: Experiment) -> bool:
-    """Tell whether an experiment is a TGA."""
+    """Tell whether the sample of an experiment follows a temperature programme."""
     return isinstance(experiment, HeatedExperiment)
+
+
+@need("a slab or a heat flow")
+def takes_up_heat(experiment: Experiment) -> bool:
+    """Tell whether an experiment shows the heat that its sample takes up."""
+    quantities = map(experiment.quantity, experiment.signals)
+    return has_slab(experiment) or any("specific_heat_J_kgK" in q.rests_on for q in quantities)
 
 
 @need("any experiment")

@@ -1,6 +1,6 @@
 """The specific heat of all components changes with temperature."""
 
-from pyrofit.effects.base import Effect, Quantity
+from pyrofit.effects.base import Effect, Quantity, takes_up_heat
 from pyrofit.effects.substance import properties_changed
 
 EFFECT = Effect(
@@ -22,4 +22,5 @@ EFFECT = Effect(
         )
     },
     material=properties_changed("specific_heat_J_kgK", slope_1_K="slope_1_K"),
+    needs=takes_up_heat,
 )

@@ -22,6 +22,7 @@ def _change(material: Material, at: Numbers) -> Material:
         E_J_mol=at["E_J_mol"],
         reference_temperature_K=at["temperature_K"],
         reference_rate_1_s=REFERENCE_RATE_1_S,
+        heat_of_combustion_J_kg=reaction.heat_of_combustion_J_kg,
     )
     return with_reaction(more, INTERMEDIATE, second)
 

@@ -1,6 +1,6 @@
 """The specific heat of all components rises by a step at the glass transition."""
 
-from pyrofit.effects.base import Effect, Quantity
+from pyrofit.effects.base import Effect, Quantity, takes_up_heat
 from pyrofit.effects.substance import properties_changed
 
 EFFECT = Effect(
@@ -46,4 +46,5 @@ EFFECT = Effect(
         step_temperature_K="temperature_K",
         step_width_K="width_K",
     ),
+    needs=takes_up_heat,
 )

@@ -1,6 +1,6 @@
 """All components take up a heat of melting."""
 
-from pyrofit.effects.base import Effect, Quantity
+from pyrofit.effects.base import Effect, Quantity, takes_up_heat
 from pyrofit.effects.substance import properties_changed
 
 EFFECT = Effect(
@@ -46,4 +46,5 @@ EFFECT = Effect(
         peak_temperature_K="temperature_K",
         peak_width_K="width_K",
     ),
+    needs=takes_up_heat,
 )

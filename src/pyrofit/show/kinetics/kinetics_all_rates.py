@@ -58,7 +58,7 @@ def kinetics_all_rates(study: Study, results: Results) -> Canvas:
 
 FIGURE = Figure(
     place=30,
-    applies=lambda study: study.kinetics is not None,
+    applies=lambda study: bool(all_rates(study)),
     make=kinetics_all_rates,
     title="Kinetics at all heating rates",
     caption="Mass against temperature at the fitted and compared heating rates. Panels without "

@@ -10,6 +10,8 @@ from pyrofit.show.text import span
 def sentences(study: Study, results: Results, tables: Frames) -> list[str]:
     """Say how well the kinetics reproduce the mass."""
     assert study.kinetics is not None
+    if not rates_in_fit(study):
+        return []
     rows = tables["table3"][tables["table3"]["quantity"] == "RMSE of mass fraction"]
     used = rows[rows["used_in_fit"] == "yes"]
     other = rows[rows["used_in_fit"] == "no"]
