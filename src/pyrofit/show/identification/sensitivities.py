@@ -16,7 +16,7 @@ def sensitivities(study: Study, results: Results) -> Canvas:
     words = dict.fromkeys(("experiment", "signal", "parameter"), object)
     columns = {**words, **dict.fromkeys(("time_s", "si"), float)}
     frame = read_csv(results.identification("sensitivities.csv"), columns)
-    signals = noise(results)["signals"]
+    signals = noise(results)["channels"]
     canvas, axes = style.panels(len(signals), 2, style.TWO_COLUMNS, 72.0)
     style.letter(axes, [title_of(study, c["experiment"]) for c in signals])
     looks = {
