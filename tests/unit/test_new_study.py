@@ -159,20 +159,83 @@ def test_limits_of_the_kinetics_hold_the_truth_of_a_record(folder: Path) -> None
     assert study.material.reactions["pyrolysis"].products == {"residue": 0.05}
 
 
-def test_last_of_several_gasification_files_is_held_out(folder: Path) -> None:
-    for flux in (25, 40, 60):
-        write(f"slab_{flux}.csv", "Time [s],MLR [g/m2/s]", SECONDS, 1e3 * MLR)
-    study = made("--gasification", "slab_25.csv", "slab_40.csv", "slab_60.csv")
-    assert [term.experiment for term in study.imp.costs["RMSE"]] == ["slab_25", "slab_40"]
-    assert study.validation.experiments == ("slab_25", "slab_40", "slab_60")
+def not_in_costs(study: Study) -> set[str]:
+    """Return the experiments that are predicted and that no cost uses."""
+    fitted = {term.experiment for terms in study.imp.costs.values() for term in terms}
+    return set(study.validation.experiments) - fitted - set(study.imp.identification)
+
+
+FLUXES = {
+    "in order": ("slab_25.csv", "slab_40.csv", "slab_60.csv"),
+    "largest first": ("slab_60.csv", "slab_25.csv", "slab_40.csv"),
+    "unit in the name": ("Lab_60kW_7.csv", "Lab_25kW_8.csv"),
+}
+
+
+@pytest.mark.parametrize("files", FLUXES.values(), ids=FLUXES)
+@pytest.mark.parametrize("kind", ["gasification", "cone"])
+def test_largest_of_several_fluxes_is_held_out(
+    kind: str, files: tuple[str, ...], folder: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    for name in files:
+        write(name, "Time [s],MLR [g/m2/s]", SECONDS, 1e3 * MLR)
+    study = made(f"--{kind}", *files)
+    (held,) = not_in_costs(study)
+    assert "60" in held
+    assert held in study.validation.experiments
+    assert len(study.imp.costs["RMSE"]) == len(files) - 1
+    assert f"Held out: {held}." in capsys.readouterr().out
     assert study.kinetics is None
     assert {"T_p", "E_p"} <= set(study.imp.estimate)
+
+
+def test_all_files_of_the_largest_flux_are_held_out(folder: Path) -> None:
+    names = ("a_25kW_1.csv", "a_50kW_1.csv", "a_50kW_2.csv")
+    for name in names:
+        write(name, "Time [s],MLR [g/m2/s]", SECONDS, 1e3 * MLR)
+    assert not_in_costs(made("--gasification", *names)) == {"a_50kW_1", "a_50kW_2"}
+
+
+@pytest.mark.parametrize("files", [("slab_25.csv",), ("a_25kW_1.csv", "a_25kW_2.csv")])
+def test_one_flux_leaves_nothing_to_hold_out_and_that_is_told(
+    files: tuple[str, ...], folder: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    for name in files:
+        write(name, "Time [s],MLR [g/m2/s]", SECONDS, 1e3 * MLR)
+    study = made("--gasification", *files)
+    assert not not_in_costs(study)
+    for text in (capsys.readouterr().out, Path("wood/wood.yaml").read_text("utf-8")):
+        assert "Nothing is held out" in text
+        assert "Measure at a second radiant flux" in text
+
+
+def test_middle_of_three_heating_rates_is_held_out_of_the_kinetics(folder: Path) -> None:
+    lab()
+    names = [f"tga_{rate}K.csv" for rate in (20, 5, 10)]
+    for name, rate in zip(names, (20.0, 5.0, 10.0), strict=True):
+        columns = (MINUTES * RATE_K_MIN / rate, TEMPERATURE_K, 5.0 * MASS)
+        write(name, "Time (min),Temperature (K),Mass (mg)", *columns)
+    study = made("--tga", *names, "--gasification", "cone_25.csv")
+    assert study.kinetics is not None
+    assert study.kinetics.compare == ("tga_10K",)
+    assert [term.experiment for term in study.kinetics.cost] == ["tga_20K", "tga_5K"]
+
+
+def test_two_heating_rates_are_both_fitted(folder: Path) -> None:
+    lab()
+    write("tga_20K.csv", "t (min),T (K),m (mg)", MINUTES / 2.0, TEMPERATURE_K, MASS)
+    study = made("--tga", "tga_10K.csv", "tga_20K.csv", "--gasification", "cone_25.csv")
+    assert study.kinetics is not None
+    assert study.kinetics.compare == ()
+    assert len(study.kinetics.cost) == 2
 
 
 def test_without_files_the_study_computes_its_measurements(folder: Path) -> None:
     study = made()
     assert study.is_synthetic
     assert study.own_files == ()
+    assert not_in_costs(study) == {"gasification_50"}
+    assert {e.front.flux_W_m2 for e in study.of_stage("imp").values()} == {25e3, 50e3}
     assert Path("wood/data").is_dir()
 
 
@@ -212,6 +275,68 @@ def test_guessed_unit_is_told_and_marked(folder: Path, capsys: pytest.CaptureFix
     assert "# CHANGE where wrong: guessed from the numbers: value and time" in text
 
 
+def test_stated_unit_per_square_centimetre_is_kept(folder: Path) -> None:
+    # The numbers look like g/m2/s, which would be ten times less.
+    for name, header in {
+        "a": "MLR [mg/cm2/s]",
+        "b": "mlr_mg_cm2_s",
+        "c": "MLR (mg cm-2 s-1)",
+    }.items():
+        write("slab_25.csv", f"time_s,{header}", SECONDS, 100.0 * MLR)
+        study = made("--gasification", "slab_25.csv", name=name)
+        frame, _ = read_all(study)["slab_25", "mlr"]
+        np.testing.assert_allclose(frame["mlr_kg_m2_s"], MLR, rtol=1e-8)
+
+
+@pytest.mark.parametrize("header", ["MLR [lb/ft2/s]", "mlr_lb_ft2_s", "MLR (g/plate/s)"])
+def test_stated_unit_that_is_unknown_is_asked_for_and_not_guessed(
+    header: str, folder: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    write("slab_25.csv", f"time_s,{header}", SECONDS, 1e3 * MLR)
+    assert cli.main(["init", "wood", "--gasification", "slab_25.csv"]) == 0
+    said = capsys.readouterr().out
+    assert "an unknown unit: convert it, or give another" in said
+    assert "guessed" not in said
+    assert "which is not known" in Path("wood/wood.yaml").read_text("utf-8")
+    assert cli.main(["check", "wood/wood.yaml"]) == 2
+    assert "unit" in capsys.readouterr().err
+
+
+def test_rate_of_the_whole_sample_is_divided_by_an_area_to_be_changed(folder: Path) -> None:
+    write("slab_25.csv", "time_s,MLR [g/s]", SECONDS, 1e3 * MLR * 0.01)
+    study = made("--gasification", "slab_25.csv")
+    frame, _ = read_all(study)["slab_25", "mlr"]
+    np.testing.assert_allclose(frame["mlr_kg_m2_s"], MLR, rtol=1e-8)
+    assert "sample_area_m2: 0.01 # CHANGE" in Path("wood/wood.yaml").read_text("utf-8")
+
+
+def test_numbered_temperatures_are_a_signal_each(folder: Path) -> None:
+    header = "Time [s],MLR [g/m2/s],Back temp 1 [K],Back temp 2 [K]"
+    write("slab_25.csv", header, SECONDS, 1e3 * MLR, BACK_K, BACK_K + 5.0)
+    study = made("--gasification", "slab_25.csv")
+    wanted = ("mlr", "back_temperature_1", "back_temperature_2")
+    assert study.imp.identification == {"slab_25": wanted}
+    frame, _ = read_all(study)["slab_25", "back_temperature_2"]
+    np.testing.assert_allclose(frame["back_temperature_K"], BACK_K + 5.0, rtol=1e-8)
+
+
+def test_every_column_that_is_not_used_is_told_with_the_reason(
+    folder: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    header = "Time [s],MLR [g/m2/s],Smoothed mass loss rate [g/m2/s],Oxygen [%],TC back 1 [K]"
+    columns = (SECONDS, 1e3 * MLR, 1e3 * MLR, 20.0 + 0.0 * MLR, 0.0 * MLR)
+    write("slab_25.csv", header, *columns)
+    made("--gasification", "slab_25.csv")
+    said, text = capsys.readouterr().out, Path("wood/wood.yaml").read_text("utf-8")
+    for name, why in {
+        "Smoothed mass loss rate": "may be mlr as well",
+        "Oxygen": "not recognised",
+        "TC back 1": "zero throughout",
+    }.items():
+        assert f"'{name}' is not used: {why}" in said
+        assert f'# Not used: column "{name}": {why}' in text
+
+
 def test_flux_that_no_name_tells_is_marked(folder: Path) -> None:
     write("slab.csv", "Time [s],MLR [g/m2/s]", SECONDS, 1e3 * MLR)
     made("--gasification", "slab.csv")
@@ -243,7 +368,7 @@ def test_files_that_the_reader_refuses_are_still_to_do(
 
 def test_heating_rate_is_that_of_the_record_where_the_name_says_another(folder: Path) -> None:
     lab(tga="tga_20K.csv")
-    assert draft.tga(Path("tga_20K.csv")).number == pytest.approx(RATE_K_MIN)
+    assert draft.measured("tga", Path("tga_20K.csv")).number == pytest.approx(RATE_K_MIN)
 
 
 BAD = {

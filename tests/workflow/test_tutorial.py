@@ -69,10 +69,19 @@ def unpacked(followed: Followed, tmp_path_factory: pytest.TempPathFactory) -> Pa
     return folder
 
 
-def test_tutorial_recognises_its_two_files_and_its_study_is_valid(followed: Followed) -> None:
+def test_tutorial_recognises_its_files_and_its_study_is_valid(followed: Followed) -> None:
     assert "tga_20K.csv: mass_fraction: time 'time_s' in s, temperature" in followed.said
     assert "slab_25kW.csv: mlr: time 'time_s' in s, value" in followed.said
-    assert followed.said.count("study 'mypolymer' is valid; 2 measured series read") == 2
+    assert followed.said.count("study 'mypolymer' is valid; 3 measured series read") == 2
+
+
+def test_slab_that_is_held_out_is_predicted_and_the_report_says_so(followed: Followed) -> None:
+    assert "Held out: slab_60kW." in followed.said
+    page = (followed.results / "report.html").read_text(encoding="utf-8")
+    assert "The mass loss rate of slab_60kW, held out, is predicted with CV(RMSE)" in page
+    study = (followed.root / "mypolymer" / "mypolymer.yaml").read_text(encoding="utf-8")
+    assert "{experiment: slab_25kW, signal: mlr" in study
+    assert "{experiment: slab_60kW, signal: mlr" not in study
 
 
 def test_tutorial_ends_in_a_report_and_a_table_of_what_the_data_determine(
@@ -111,7 +120,7 @@ def test_archive_holds_study_files_results_and_software(followed: Followed, unpa
     for name in ("mypolymer/mypolymer.yaml", "quick.yaml"):
         given = (followed.root / name).read_bytes()
         assert (unpacked / "as_given" / Path(name).name).read_bytes() == given
-    for name in ("tga_20K.csv", "slab_25kW.csv"):
+    for name in ("tga_20K.csv", "slab_25kW.csv", "slab_60kW.csv"):
         assert (unpacked / "data" / name).read_bytes() == (followed.root / name).read_bytes()
     left_out = {"logs", "benchmarks", "mypolymer.zip"}
     for path in followed.results.rglob("*"):
@@ -128,7 +137,7 @@ def test_unpacked_study_passes_check_with_the_software_of_the_archive(unpacked: 
     software = unpacked / "software"
     ran = run(software, "pyrofit", "check", "../study.yaml", source=software / "src")
     assert ran.returncode == 0, ran.stderr
-    assert "study 'mypolymer' is valid; 2 measured series read; 1 repetitions" in ran.stdout
+    assert "study 'mypolymer' is valid; 3 measured series read; 1 repetitions" in ran.stdout
 
 
 def test_unpacked_study_gives_the_same_sets_again(unpacked: Path) -> None:

@@ -4,11 +4,26 @@ import argparse
 import contextlib
 import os
 import sys
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
+from typing import Any
 
 from pyrofit.cli import diagnosing, fitting, showing, starting
 from pyrofit.errors import PyrofitError
 from pyrofit.logs import Tee, open_log
+
+
+class Parser(argparse.ArgumentParser):
+    """A parser that may take options which are known only after slow imports."""
+
+    late: Callable[["Parser"], None] | None = None
+    """Adds them; it is called when the command is given."""
+
+    def parse_known_args(self, *given: Any, **named: Any) -> Any:
+        """Parse arguments as usual."""
+        if self.late is not None:
+            add, self.late = self.late, None
+            add(self)
+        return super().parse_known_args(*given, **named)
 
 
 def main(arguments: Sequence[str] | None = None) -> int:
@@ -52,7 +67,7 @@ def _run(given: argparse.Namespace) -> int:
 
 
 def _parser() -> argparse.ArgumentParser:
-    parser = argparse.ArgumentParser(prog="pyrofit", description=__doc__)
+    parser = Parser(prog="pyrofit", description=__doc__)
     commands = parser.add_subparsers(dest="command", required=True, metavar="COMMAND")
     for group in (starting, fitting, diagnosing, showing):
         group.add(commands)

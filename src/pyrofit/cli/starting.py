@@ -18,16 +18,7 @@ def add(commands: Any) -> None:
 
     init = commands.add_parser("init", help="write a study and a folder for your own material")
     init.add_argument("name", help="name of study and folder: letters, digits and _")
-    init.add_argument("--tga", type=Path, nargs="+", default=[], metavar="CSV", help="TGA files")
-    init.add_argument(
-        "--gasification",
-        type=Path,
-        nargs="+",
-        default=[],
-        metavar="CSV",
-        help="files with a mass loss rate, a back temperature or both; without any file the "
-        "measurements are computed",
-    )
+    init.late = _add_kinds
     init.set_defaults(step=_init)
 
     reference = commands.add_parser("reference", help="print the reference of all keys of a study")
@@ -59,10 +50,21 @@ def _where(given: argparse.Namespace) -> None:
     print(folder)
 
 
+def _add_kinds(init: argparse.ArgumentParser) -> None:
+    """Add an option for the files of each kind of experiment."""
+    from pyrofit.experiments import KINDS
+
+    for name, kind in KINDS.items():
+        init.add_argument(
+            f"--{name}", type=Path, nargs="+", default=[], metavar="CSV", help=kind.files.help
+        )
+
+
 def _init(given: argparse.Namespace) -> None:
+    from pyrofit.experiments import KINDS
     from pyrofit.new_study.write import init
 
-    study, lines = init(given.name, given.tga, given.gasification, Path())
+    study, lines = init(given.name, {kind: getattr(given, kind) for kind in KINDS}, Path())
     for line in lines:
         print(line)
     print(f"{study}: written. Change what is marked CHANGE.")

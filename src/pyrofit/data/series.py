@@ -19,6 +19,7 @@ from pyrofit.quantities.units import (
     CELSIUS,
     ICE_POINT_K,
     PER_AREA,
+    PER_MASS,
     PER_START,
     SCALES,
     header_key,
@@ -322,13 +323,13 @@ def _divisor(spec: SeriesSpec, kind: str, first: float) -> tuple[float, list[str
                 f"right unit of a {wanted}, such as {spec.of.unit}."
             )
         return spec.sample_area_m2, [f"{kind} divided by {spec.sample_area_m2:g} m2"]
-    if kind == "power":
+    if kind in PER_MASS:
         if spec.sample_mass_kg is None:
             raise DataError(
-                f"{spec.path}: the unit is that of a power; give `sample_mass_kg`, the initial "
-                "mass of the sample, or the right unit of a power per mass, such as W/g."
+                f"{spec.path}: the unit is that of a {kind}; give `sample_mass_kg`, the initial "
+                f"mass of the sample, or the right unit of a {PER_MASS[kind]}, such as W/g."
             )
-        return spec.sample_mass_kg, [f"power divided by {spec.sample_mass_kg:g} kg"]
+        return spec.sample_mass_kg, [f"{kind} divided by {spec.sample_mass_kg:g} kg"]
     if PER_START.get(kind) != wanted:
         return 1.0, []
     mass = first if spec.sample_mass_kg is None else spec.sample_mass_kg

@@ -1,4 +1,4 @@
-"""What every kind of experiment brings: description, simulation, phases, new designs."""
+"""What every kind of experiment brings: description, simulation, phases, designs, files."""
 
 from collections.abc import Callable, Iterator, Mapping, Sequence
 from dataclasses import dataclass
@@ -7,6 +7,7 @@ from typing import Any, Literal, Protocol
 import pandas as pd
 from numpy.typing import NDArray
 
+from pyrofit.experiments.from_files import FromFiles
 from pyrofit.model.accuracy import Accuracy, Resolution
 from pyrofit.model.experiment import Experiment
 from pyrofit.model.material import Material
@@ -93,6 +94,8 @@ class Kind:
         Phases: description, material, values, a request at the wanted times, accuracy.
     designs
         New tests: those fitted by name, those fitted or predicted, quantities recorded in these.
+    files
+        What a new study needs that is written from files.
     """
 
     description: type[Experiment]
@@ -106,3 +109,4 @@ class Kind:
     designs: Callable[
         [Mapping[str, Any], Mapping[str, Any], Mapping[str, set[str]]], Iterator[Idea]
     ]
+    files: FromFiles

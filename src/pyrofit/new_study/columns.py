@@ -1,46 +1,24 @@
 """Recognise the columns of a measured file, more widely than its reader does by itself."""
 
-import re
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 
 import numpy as np
 
 from pyrofit.data.csvfile import Table
-from pyrofit.quantities import known_quantities
-from pyrofit.quantities.units import SCALES, header_key, unit_key
-
-_UNIT_WORDS = {
-    "sec": "s",
-    "secs": "s",
-    "seconds": "s",
-    "mins": "min",
-    "minutes": "min",
-    "hours": "h",
-    "kelvin": "K",
-    "celsius": "degC",
-    "°c": "degC",
-    "c": "degC",
-    "k": "K",
-    "percent": "%",
-    "pct": "%",
-    "wt%": "%",
-    "wt.%": "%",
-    "gm2s": "g/m2/s",
-    "kgm2s": "kg/m2/s",
-}
-"""Spellings of units that the reader does not know."""
-_SUFFIX = re.compile(
-    r"[_ ]((?:k|m)?g[_ ./]*m-?2[_ ./]*s(?:-?1)?|(?:s|sec|secs|seconds|min|mins|minutes|h"
-    r"|hours|k|kelvin|deg_?c|c|celsius|mg|kg|g|pct|percent))$",
-    re.IGNORECASE,
+from pyrofit.new_study.headers import is_abscissa, is_error, is_usual, may_be, root_of
+from pyrofit.new_study.units import (
+    guessed_unit,
+    kind_of,
+    kinds_of,
+    stated_unit,
 )
-_ERROR = re.compile(r"err(or)?|unc(ertainty)?|sigma|std(ev|dev)?|deviation|sd$")
-_WORDS = {
-    "time": r"time.*|(elapsed|test)time|zeit",
-    "temperature": r"(sample|program|furnace)?temp.*|ts",
-}
-_STANDARD_RATES = np.array([1, 2, 3, 5, 10, 15, 20, 25, 30, 40, 50, 80, 100.0])
+from pyrofit.quantities import known_quantities, quantities_of
+from pyrofit.quantities.base import Quantity
+from pyrofit.quantities.units import header_key
+
+_OWN = ("value", "uncertainty")
+"""Roles that belong to one signal; the others are shared by all signals of a file."""
 
 
 @dataclass(frozen=True)
@@ -49,6 +27,8 @@ class Found:
 
     Parameters
     ----------
+    signal
+        Name of the signal: that of the quantity, numbered where a file has several.
     quantity
         Name of a quantity.
     columns
@@ -59,20 +39,56 @@ class Found:
         Roles whose unit is inferred from the numbers.
     missing
         Roles that no column, or more than one, may have.
+    unread
+        Unit by role that the file states and that is not known.
+    scale
+        Kind of unit of the value, see `pyrofit.quantities.units`; nothing where it is unknown.
     """
 
+    signal: str
     quantity: str
     columns: Mapping[str, str]
     units: Mapping[str, str]
     guessed: tuple[str, ...]
     missing: tuple[str, ...]
+    unread: Mapping[str, str]
+    scale: str
+
+    @property
+    def of(self) -> Quantity:
+        """The quantity."""
+        return known_quantities()[self.quantity]
 
 
-def recognise(table: Table, quantity: str) -> Found:
+@dataclass(frozen=True)
+class Recognised:
+    """The signals of a file, what leads to the mass loss first, and columns without a use.
+
+    Parameters
+    ----------
+    signals
+        What is taken.
+    left
+        Why a column is not taken, by header.
+    """
+
+    signals: tuple[Found, ...]
+    left: Mapping[str, str]
+
+
+def recognise(table: Table, kind: str) -> Recognised:
     """Tell which column of a table is what, and in which unit.
 
-    Names that the reader knows come first, then words that hold them. A unit is that of the
-    file, else the end of a name as in `time_min`, else guessed from the numbers.
+    Names that the reader knows come before words that hold them. A unit is that of the file, else
+    the end of a name as in `time_min`, else guessed from the numbers. Several columns of one
+    temperature, told apart by a number, are a signal each.
+
+    Parameters
+    ----------
+    table
+        The file.
+    kind
+        The kind of experiment, whose quantities are looked for.
 
     Examples
     --------
@@ -80,121 +96,127 @@ def recognise(table: Table, quantity: str) -> Found:
     >>> columns = {"t": np.arange(3.0), "T_degC": np.array([20.0, 30.0, 40.0])}
     >>> columns["weight"] = np.array([100.0, 100.0, 99.0])
     >>> table = Table(Path("tga.csv"), columns, dict.fromkeys(columns), 2)
-    >>> found = recognise(table, "mass_fraction")
+    >>> (found,) = recognise(table, "tga").signals
     >>> found.columns
     {'time': 't', 'temperature': 'T_degC', 'value': 'weight'}
     >>> found.units
     {'time': 'min', 'temperature': 'degC', 'value': '%'}
     """
-    columns: dict[str, str] = {}
-    missing = []
-    for role in known_quantities()[quantity].roles:
-        if role == "uncertainty" and "value" not in columns:
-            continue
-        matches = _matches(table, quantity, role, columns)
-        if len(matches) == 1:
-            columns[role] = matches[0]
-        elif role != "uncertainty":
-            missing.append(role)
+    quantities = sorted(quantities_of(kind).values(), key=_rank)
+    empty = [n for n, numbers in table.columns.items() if not np.nan_to_num(numbers).any()]
+    left = dict.fromkeys(empty, "zero throughout, a placeholder")
+    shared = {
+        role: _shared(table, quantities, role, empty)
+        for role in dict.fromkeys(r for q in quantities for r in q.roles)
+        if role not in _OWN
+    }
+    taken = {*empty, *shared.values()}
+    signals, unclear = _signals([n for n in table.columns if n not in taken], quantities)
+    left |= unclear
+    if not signals:
+        signals = {quantities[0].name: (quantities[0], "")}
+    values = [header for _, header in signals.values()]
+    found = [
+        _found(table, signal, quantity, _columns(table, quantity, header, shared, values))
+        for signal, (quantity, header) in signals.items()
+    ]
+    used = {header for one in found for header in one.columns.values()}
+    reasons = {n: left.get(n, "not recognised") for n in table.columns if n not in used}
+    return Recognised(tuple(found), reasons)
+
+
+def _rank(quantity: Quantity) -> tuple[bool, bool, bool, str]:
+    """Order quantities: rates, then what shows a released mass, temperatures last."""
+    return not quantity.relative, quantity.released is None, quantity.is_temperature, quantity.name
+
+
+def _shared(table: Table, quantities: Sequence[Quantity], role: str, empty: Sequence[str]) -> str:
+    """Return the column of time or temperature; nothing where none, or more than one, may be it."""
+    free = [n for n in table.columns if role == "time" or n not in empty]
+    usual = {header_key(name) for q in quantities for name in q.roles.get(role, ())}
+    matches = [n for n in free if header_key(n) in usual] or [
+        n for n in free if is_abscissa(n, role)
+    ]
+    return matches[0] if len(matches) == 1 else ""
+
+
+def _signals(
+    free: Sequence[str], quantities: Sequence[Quantity]
+) -> tuple[dict[str, tuple[Quantity, str]], dict[str, str]]:
+    """Return quantity and column of each signal, and why other columns are none."""
+    claims: dict[str, list[str]] = {}
+    left = {}
+    for name in free:
+        usual = [q.name for q in quantities if is_usual(name, q)]
+        owners = usual or [q.name for q in quantities if may_be(name, q)]
+        if len(owners) == 1:
+            claims.setdefault(owners[0], []).append(name)
+        elif owners:
+            left[name] = f"may be {' or '.join(owners)}; name it in the study where it is needed"
+    signals = {}
+    for quantity in quantities:
+        names = claims.get(quantity.name, [])
+        chosen = _chosen(names, quantity)
+        for i, name in enumerate(chosen, start=1):
+            label = quantity.name if len(chosen) == 1 else f"{quantity.name}_{i}"
+            signals[label] = (quantity, name)
+        other = f"may be {quantity.name} as well; name it in the study where it is needed"
+        left |= {name: other for name in names if name not in chosen}
+    return signals, left
+
+
+def _chosen(names: Sequence[str], quantity: Quantity) -> list[str]:
+    """Return the columns that are signals of a quantity; none where it is not clear which are."""
+    first = [name for name in names if is_usual(name, quantity)] or list(names)
+    if not quantity.is_temperature:
+        return first if len(first) == 1 else []
+    roots = {root_of(name) for name in first}
+    return [n for n in names if root_of(n) in roots] if len(roots) == 1 else []
+
+
+def _columns(
+    table: Table,
+    quantity: Quantity,
+    header: str,
+    shared: Mapping[str, str],
+    values: Sequence[str],
+) -> dict[str, str]:
+    """Return the columns of a signal by role; nothing where none, or more than one, may be it."""
+    columns = {role: shared[role] for role in quantity.roles if role in shared}
+    columns["value"] = header
+    if header:
+        free = [n for n in table.columns if n not in {*values, *shared.values()}]
+        free = [n for n in free if np.nan_to_num(table.columns[n]).any()]
+        usual = {header_key(name) for name in quantity.uncertainty_headers}
+        errors, order = [n for n in free if header_key(n) in usual], list(table.columns)
+        errors = errors or [n for n in free if is_error(n, quantity, header, order, values)]
+        if len(errors) == 1:
+            columns["uncertainty"] = errors[0]
+    return columns
+
+
+def _found(table: Table, signal: str, quantity: Quantity, headers: Mapping[str, str]) -> Found:
+    """Return what is known of a signal once its columns are."""
+    columns = {role: header for role, header in headers.items() if header}
+    missing = tuple(role for role, header in headers.items() if not header)
     units: dict[str, str] = {}
-    guessed = []
+    unread, guessed = {}, []
     # Time last: where it has no unit, the heating rate tells it.
     for role in sorted(columns, key=("temperature", "value", "uncertainty", "time").index):
-        kinds = known_quantities()[quantity].scales if role in ("value", "uncertainty") else (role,)
-        if _known(table.units[columns[role]], kinds):
-            continue
-        unit = _unit(table, columns[role], kinds)
+        kinds = kinds_of(quantity, role)
+        unit, read = stated_unit(table, columns[role], kinds)
         if role == "uncertainty" and not unit:
-            unit = _unit(table, columns["value"], kinds)
-        units[role] = unit or _guess(table, quantity, role, columns, units)
+            unit, read = stated_unit(table, columns["value"], kinds)
+        if unit and not read:
+            unread[role] = unit
+            continue
+        units[role] = unit or guessed_unit(table, quantity, role, columns, units)
         if not unit:
             guessed.append(role)
-    ordered = {role: units[role] for role in columns if role in units}
-    return Found(quantity, columns, ordered, tuple(guessed), tuple(missing))
-
-
-def _matches(table: Table, quantity: str, role: str, taken: Mapping[str, str]) -> list[str]:
-    """Return the columns that may have a role, those with a usual name before others."""
-    free = [
-        name
-        for name, numbers in table.columns.items()
-        if name not in taken.values() and (role == "time" or np.nan_to_num(numbers).any())
-    ]
-    usual = {header_key(name) for name in known_quantities()[quantity].roles[role]}
-    if known := [name for name in free if header_key(name) in usual]:
-        return known
-    return [name for name in free if _is(name, quantity, role)]
-
-
-def _is(name: str, quantity: str, role: str) -> bool:
-    """Tell whether the words of a header are those of a role."""
-    stem, of = _stem(name), known_quantities()[quantity]
-    if role == "uncertainty":
-        rest, errors = _ERROR.subn("", stem)
-        return bool(errors) and (not rest or bool(re.fullmatch(of.pattern, rest)))
-    if _ERROR.search(stem):
-        return False
-    if stem == "t":  # the symbols: t for time, T for a temperature
-        symbol = "time" if name.startswith("t") else "temperature"
-        hot = role == "value" and of.is_temperature
-        return role == symbol or (hot and symbol == "temperature")
-    return bool(re.fullmatch(of.pattern if role == "value" else _WORDS[role], stem))
-
-
-def _stem(name: str) -> str:
-    return header_key(_SUFFIX.sub("", name))
-
-
-def _known(unit: str | None, kinds: tuple[str, ...]) -> bool:
-    """Tell whether the reader knows a unit."""
-    known = {unit_key(word) for kind in kinds for word in SCALES[kind]}
-    return unit is not None and unit_key(unit) in known
-
-
-def _unit(table: Table, name: str, kinds: tuple[str, ...]) -> str:
-    """Return the unit of a column in a spelling that the reader knows; nothing where none is."""
-    suffix = _SUFFIX.search(name)
-    for given in (table.units[name], suffix and suffix[1]):
-        if given:
-            plain = re.sub(r"deg_?c", "degC", given, flags=re.IGNORECASE)
-            word = plain.casefold().strip()
-            spelled = re.sub(r"[_ ./-]|1$", "", word)
-            for unit in (plain, word, _UNIT_WORDS.get(word), _UNIT_WORDS.get(spelled)):
-                if unit and _known(unit, kinds):
-                    return unit
-    return "1" if "fraction" in kinds and "fraction" in _stem(name) else ""
-
-
-def _guess(
-    table: Table,
-    quantity: str,
-    role: str,
-    columns: Mapping[str, str],
-    units: Mapping[str, str],
-) -> str:
-    """Return the unit that the numbers look like."""
-    numbers = table.columns[columns[role]]
-    numbers = numbers[np.isfinite(numbers)]
-    if role == "uncertainty":
-        return units["value"]
-    if role == "time":
-        heated = columns.get("temperature")
-        return "s" if heated is None else _time_unit(table, columns["time"], heated)
-    if role == "temperature":
-        return "degC" if numbers[0] < 200.0 else "K"
-    return known_quantities()[quantity].guess(float(numbers[0]), float(numbers.max()))
-
-
-def _time_unit(table: Table, time_column: str, heated: str) -> str:
-    """Return s or min, whichever makes the heating rate nearer to a usual one."""
-    columns = np.array([table.columns[time_column], table.columns[heated]])
-    time, temperature = columns[:, np.isfinite(columns).all(axis=0)]
-    if len(time) < 2 or not (np.diff(time) > 0.0).all():
-        return "s"
-    with np.errstate(over="ignore", invalid="ignore"):  # what overflows is refused when it is read
-        rate = max(float(np.median(np.gradient(temperature, time))), 1e-6)
-    off = {
-        unit: float(np.abs(np.log(factor * rate / _STANDARD_RATES)).min())
-        for unit, factor in (("s", 60.0), ("min", 1.0))
+    scale = kind_of(units.get("value", ""), quantity.scales)
+    written = {
+        role: units[role]
+        for role in columns
+        if role in units and not kind_of(table.units[columns[role]] or "", kinds_of(quantity, role))
     }
-    return min(off, key=lambda unit: off[unit])
+    return Found(signal, quantity.name, columns, written, tuple(guessed), missing, unread, scale)

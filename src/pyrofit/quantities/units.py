@@ -8,9 +8,15 @@ SCALES: dict[str, dict[str, float]] = {
     "length": {"m": 1.0, "cm": 1e-2, "mm": 1e-3},
     "mass per area": {"kg/m2": 1.0, "g/m2": 1e-3, "g/cm2": 10.0, "mg/cm2": 1e-2},
     "mass": {"kg": 1.0, "g": 1e-3, "mg": 1e-6},
-    "mass flux": {"kg/s/m2": 1.0, "g/s/m2": 1e-3, "mg/s/m2": 1e-6},
+    "mass flux": {
+        "kg/s/m2": 1.0,
+        "g/s/m2": 1e-3,
+        "mg/s/m2": 1e-6,
+        "g/s/cm2": 10.0,
+        "mg/s/cm2": 0.01,
+    },
     "mass rate": {"kg/s": 1.0, "g/s": 1e-3, "mg/s": 1e-6},
-    "heat flux": {"W/m2": 1.0, "kW/m2": 1e3, "MW/m2": 1e6},
+    "heat flux": {"W/m2": 1.0, "kW/m2": 1e3, "MW/m2": 1e6, "W/cm2": 1e4},
     "heat rate": {"W": 1.0, "kW": 1e3, "MW": 1e6},
     "heat transfer coefficient": {"W/(m2 K)": 1.0, "W/m2/K": 1.0, "kW/(m2 K)": 1e3},
     "specific power": {"W/kg": 1.0, "kW/kg": 1e3, "W/g": 1e3, "mW/mg": 1e3, "mW/g": 1.0},
@@ -21,6 +27,8 @@ PER_AREA = {"mass rate": "mass flux", "mass": "mass per area", "heat rate": "hea
 """What a kind of unit becomes where it is divided by the area of the sample."""
 PER_START = {"mass": "fraction"}
 """What a kind of unit becomes where it is divided by the initial value."""
+PER_MASS = {"power": "specific power"}
+"""What a kind of unit becomes where it is divided by the mass of the sample."""
 CELSIUS = {"degC", "°C", "C"}
 ICE_POINT_K = 273.15
 
@@ -28,9 +36,9 @@ ICE_POINT_K = 273.15
 def unit_key(unit: str) -> str:
     """Reduce a unit to one spelling: `kg m-2 s-1`, `kg/(m^2 s)` and `kg/m²/s` to `kg/s/m2`."""
     key = re.sub(r"[\s^*·⋅()\[\]]", "", unit.casefold()).replace("²", "2").replace("−", "-")
-    key = key.replace("cm-2", "/cm2").replace("m-2", "/m2").replace("s-1", "/s")
-    key = re.sub(r"(kg|mg|g)-1$", r"/\1", key)
-    return re.sub(r"/m2/?s$|/sm2$", "/s/m2", key)
+    key = re.sub(r"(c?m)-2", r"/\g<1>2", key)
+    key = re.sub(r"([km]?g|s)-1", r"/\1", key)
+    return re.sub(r"/(c?m2)/?s$|/s(c?m2)$", r"/s/\1\2", key)
 
 
 def header_key(header: str) -> str:

@@ -7,6 +7,7 @@ from pydantic import Field
 from pyrofit.experiments.base import Kind
 from pyrofit.experiments.heated.course import course
 from pyrofit.experiments.heated.designs import designs
+from pyrofit.experiments.heated.from_files import from_files
 from pyrofit.experiments.heated.simulate import reference, request, simulate, synthetic
 from pyrofit.model.base import NotNegative
 from pyrofit.model.heated import HeatedExperiment
@@ -36,4 +37,5 @@ KIND = Kind(
     synthetic=synthetic,
     course=course,
     designs=lambda own, measured, recorded: designs("mcc", "MCC", own, recorded),
+    files=from_files(help="files of a microscale combustion calorimeter"),
 )

@@ -7,6 +7,7 @@ from pydantic import Field
 from pyrofit.experiments.base import Kind
 from pyrofit.experiments.heated.course import course
 from pyrofit.experiments.heated.designs import designs
+from pyrofit.experiments.heated.from_files import from_files
 from pyrofit.experiments.heated.simulate import reference, request, simulate, synthetic
 from pyrofit.model.heated import HeatedExperiment
 
@@ -27,4 +28,5 @@ KIND = Kind(
     synthetic=synthetic,
     course=course,
     designs=lambda own, measured, recorded: designs("tga", "TGA", own, recorded),
+    files=from_files(help="TGA files", computed=(10.0,), signal="mass_fraction"),
 )

@@ -1,0 +1,124 @@
+"""Which experiments and signals a new study fits, and which test the model."""
+
+from collections.abc import Iterable, Sequence
+from dataclasses import dataclass
+
+from pyrofit.experiments.base import Stage
+from pyrofit.new_study.draft import Measured
+
+
+@dataclass(frozen=True)
+class Term:
+    """A term of a cost of a new study."""
+
+    experiment: str
+    signal: str
+    normalisation: str
+
+
+@dataclass(frozen=True)
+class Part:
+    """Experiments of one stage.
+
+    Parameters
+    ----------
+    runs
+        All of them.
+    held_out
+        Names of those that no cost uses.
+    terms
+        Terms of the cost.
+    """
+
+    runs: tuple[Measured, ...]
+    held_out: tuple[str, ...]
+    terms: tuple[Term, ...]
+
+    @property
+    def fitted(self) -> tuple[Measured, ...]:
+        """Experiments that the cost uses."""
+        used = {term.experiment for term in self.terms}
+        return tuple(run for run in self.runs if run.name in used)
+
+
+def part_of(stage: Stage, records: Iterable[Measured]) -> Part:
+    """Return what a stage fits, and what it holds out.
+
+    Of each kind the experiments with the largest flux are held out where there are two or more
+    fluxes, and those with the middle heating rate where there are three or more rates: a rate
+    between others is predicted by any kinetics that can be right.
+    """
+    runs = tuple(run for run in records if run.of.stage == stage)
+    rate = any(_shows_loss(run) for run in runs)
+    held: list[str] = []
+    for kind in dict.fromkeys(run.kind for run in runs):
+        own = [run for run in runs if run.kind == kind and (_shows_loss(run) or not rate)]
+        held += _last(own) if stage == "imp" else _middle(own)
+    terms = [
+        Term(run.name, signal, normalisation)
+        for run in runs
+        if run.name not in held and (_shows_loss(run) or not rate)
+        for signal, normalisation in _terms(run)
+    ]
+    if len({term.signal for term in terms}) == 1 and stage == "kinetics":
+        terms = [Term(term.experiment, term.signal, "") for term in terms]
+    return Part(runs, tuple(held), tuple(terms))
+
+
+def _numbers(runs: Sequence[Measured]) -> dict[str, float | str]:
+    """Return the number of each experiment by name; the name where the number is not known."""
+    return {run.name: run.number if run.sure else run.name for run in runs}
+
+
+def _last(runs: Sequence[Measured]) -> list[str]:
+    """Return the experiments with the largest of two or more numbers."""
+    numbers = _numbers(runs)
+    if len(set(numbers.values())) < 2:
+        return []
+    if all(isinstance(number, float) for number in numbers.values()):
+        last: float | str = max(n for n in numbers.values() if isinstance(n, float))
+    else:
+        last = list(numbers.values())[-1]
+    return [name for name, number in numbers.items() if number == last]
+
+
+def _middle(runs: Sequence[Measured]) -> list[str]:
+    """Return the experiments with the middle of three or more numbers."""
+    numbers = {run.name: run.number for run in runs}
+    different = sorted(set(numbers.values()))
+    if len(different) < 3:
+        return []
+    middle = different[len(different) // 2]
+    return [name for name, number in numbers.items() if number == middle]
+
+
+def _shows_loss(run: Measured) -> bool:
+    """Tell whether the cost can use more of an experiment than temperatures."""
+    return run.path is None or not all(found.of.is_temperature for found in run.signals)
+
+
+def _terms(run: Measured) -> list[tuple[str, str]]:
+    """Return the signals of a cost, and by what each is divided.
+
+    Those are all rates, and what shows the released mass where no rate of it is recorded; a
+    temperature only where there is nothing else.
+    """
+    if run.path is None:
+        return [(run.of.files.computed_signal, "mean")]
+    rates = [f for f in run.signals if f.of.relative]
+    losses = [f for f in run.signals if f.of.released is not None]
+    others = [f for f in run.signals if not f.of.relative and not f.of.is_temperature]
+    chosen = [*rates, *([] if any(f.of.relative for f in losses) else others)] or run.signals[:1]
+    return [(f.signal, "mean" if f.of.relative else "range") for f in chosen]
+
+
+def titles(runs: Sequence[Measured]) -> dict[str, str]:
+    """Return what is added to the title of each experiment where others have the same.
+
+    >>> titles([Measured("tga", "a", None, 10.0), Measured("tga", "b", None, 10.0)])
+    {'a': ' (a)', 'b': ' (b)'}
+    """
+    same = [(run.kind, run.number) for run in runs]
+    return {
+        run.name: f" ({run.name})" if same.count((run.kind, run.number)) > 1 else "" for run in runs
+    }

@@ -1,0 +1,92 @@
+"""What a new study says: the lines of a signal, and what was taken for what."""
+
+import json
+from collections.abc import Mapping
+
+from pyrofit.new_study.columns import Found
+from pyrofit.new_study.draft import Measured, area_of
+from pyrofit.new_study.plan import Part
+from pyrofit.quantities.units import SCALES
+
+
+def signal_lines(run: Measured) -> list[str]:
+    """Return the lines of the study file on the signals of an experiment, and on what is left."""
+    lines = []
+    for found in run.signals:
+        lines += _signal(run, found)
+    lines += [f"# Not used: column {_quoted(name)}: {why}." for name, why in run.left.items()]
+    return [f"      {line}" for line in lines]
+
+
+def _signal(run: Measured, found: Found) -> list[str]:
+    lines = [f"{found.signal}:", f"  file: data/{run.name}.csv"]
+    if found.signal != found.quantity:
+        lines.append(f"  quantity: {found.quantity}")
+    if found.missing:
+        lines += [
+            f"  # CHANGE: no one column is recognised as {' or as '.join(found.missing)}.",
+            f"  # The file has: {', '.join(map(_quoted, run.headers))}. Name them, and their",
+            "  # units where the file does not: columns: {time: ..., value: ...},",
+            "  # units: {time: min, value: ...}; docs/adding.md has an example.",
+        ]
+    if found.columns:
+        lines.append(f"  columns: {_mapping(found.columns)}")
+    for role, unit in found.unread.items():
+        lines += [
+            f"  # CHANGE: the file gives the {role} in {_quoted(unit)}, which is not known.",
+            f"  # Convert it in the file, or give under `units` one of {_known(found, role)}.",
+        ]
+    if found.units:
+        guess = " and ".join(found.guessed)
+        note = f" # CHANGE where wrong: guessed from the numbers: {guess}" if guess else ""
+        lines.append(f"  units: {_mapping(found.units)}{note}")
+    if (area := area_of(found)) is not None:
+        lines.append(
+            f"  sample_area_m2: {area:g} # CHANGE: the exposed area, by which it is divided"
+        )
+    if "uncertainty" not in found.columns:
+        lines.append("  # uncertainty: ... # in SI units, if you know it: the file has none")
+    return lines
+
+
+def said(run: Measured) -> list[str]:
+    """Say of each signal what was recognised, and of other columns why they are not used."""
+    lines = []
+    for found in run.signals:
+        parts = []
+        for role, header in found.columns.items():
+            how = f" in {found.units[role]}" if role in found.units else ""
+            how += " (guessed)" if role in found.guessed else ""
+            if role in found.unread:
+                how = f" in {found.unread[role]}, an unknown unit: convert it, or give another"
+            parts.append(f"{role} '{header}'{how}")
+        parts += [f"{role} not recognised: name it in the study" for role in found.missing]
+        if (area := area_of(found)) is not None:
+            parts.append(f"divided by an area of {area:g} m2, to be changed in the study")
+        lines.append(f"{run.path}: {found.signal}: {', '.join(parts)}")
+    return lines + [f"{run.path}: '{n}' is not used: {why}" for n, why in run.left.items()]
+
+
+def held_out(part: Part) -> list[str]:
+    """Say which slabs test the model, or how to get one that does."""
+    if part.held_out:
+        names = ", ".join(part.held_out)
+        return [f"Held out: {names}. No cost uses this: its prediction tests the model."]
+    return [
+        "Nothing is held out: all that is predicted here was fitted, so nothing tests the model.",
+        "Measure at a second radiant flux, add it under `experiments`, and name it here alone.",
+    ]
+
+
+def _known(found: Found, role: str) -> str:
+    kinds = found.of.scales if role in ("value", "uncertainty") else (role,)
+    return ", ".join(unit for kind in kinds for unit in SCALES[kind])
+
+
+def _mapping(words: Mapping[str, str]) -> str:
+    return "{" + ", ".join(f"{key}: {_quoted(word)}" for key, word in words.items()) + "}"
+
+
+def _quoted(word: str) -> str:
+    # Text in JSON's quotes is text in YAML, whatever it holds.
+    return json.dumps(word, ensure_ascii=False)
