@@ -310,6 +310,72 @@ def test_rate_of_the_whole_sample_is_divided_by_an_area_to_be_changed(folder: Pa
     assert "sample_area_m2: 0.01 # CHANGE" in Path("wood/wood.yaml").read_text("utf-8")
 
 
+HEAT = 500.0 + 3e3 * np.exp(-(((TEMPERATURE_K - 640.0) / 12.0) ** 2))
+"""Heat flow of a DSC, or heat release of an MCC [W/kg]."""
+
+
+@pytest.mark.parametrize(
+    ("kind", "header", "quantity"),
+    [
+        ("dsc", "Heat Flow [W/g]", "heat_flow"),
+        ("dsc", "heat flow (mW/mg)", "heat_flow"),
+        ("mcc", "HRR [W/g]", "specific_heat_release_rate"),
+    ],
+)
+def test_calorimeter_file_joins_the_kinetics(
+    kind: str, header: str, quantity: str, folder: Path
+) -> None:
+    lab()
+    write("a_10K.csv", f"Time [min],Temperature [K],{header}", MINUTES, TEMPERATURE_K, HEAT / 1e3)
+    files = ["--tga", "tga_10K.csv", f"--{kind}", "a_10K.csv", "--gasification", "cone_25.csv"]
+    study = made(*files)
+    frame, _ = read_all(study)["a_10K", quantity]
+    np.testing.assert_allclose(frame[f"{quantity}_W_kg"], HEAT, rtol=1e-8)
+    assert study.kinetics is not None
+    assert {(t.experiment, t.signal) for t in study.kinetics.cost} == {
+        ("tga_10K", "mass_fraction"),
+        ("a_10K", quantity),
+    }
+    heats = {"dsc": {"dh", "cp"}, "mcc": {"dhc"}}[kind]
+    assert set(study.kinetics.estimate) == {"T_p", "E_p"} | heats
+    assert not (heats - {"cp"}) & set(study.imp.estimate)
+
+
+def test_power_of_a_calorimeter_is_divided_by_a_mass_to_be_changed(folder: Path) -> None:
+    lab()
+    write("a_10K.csv", "t [min],T [K],DSC [mW]", MINUTES, TEMPERATURE_K, HEAT * 5e-6 * 1e3)
+    study = made("--dsc", "a_10K.csv", "--gasification", "cone_25.csv")
+    np.testing.assert_allclose(
+        read_all(study)["a_10K", "heat_flow"][0]["heat_flow_W_kg"], HEAT, rtol=1e-8
+    )
+    text = Path("wood/wood.yaml").read_text("utf-8")
+    assert "sample_mass_kg: 5e-06 # CHANGE" in text
+    assert "endothermic: positive # CHANGE" in text
+
+
+def test_heat_that_a_file_shows_with_the_other_sign_is_told(
+    folder: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    lab()
+    write("a_10K.csv", "t [min],T [K],DSC [W/g]", MINUTES, TEMPERATURE_K, -HEAT / 1e3)
+    made("--dsc", "a_10K.csv", "--gasification", "cone_25.csv")
+    assert "releases heat" in capsys.readouterr().out
+
+
+def test_cone_calorimeter_file_brings_a_flame_and_a_heat_of_combustion(folder: Path) -> None:
+    rate = 25e3 * MLR
+    header = "Time [s],HRR [kW/m2],Back temp [K]"
+    for flux in (25, 50):
+        write(f"run_{flux}kW.csv", header, SECONDS, rate, BACK_K)
+    study = made("--cone", "run_25kW.csv", "run_50kW.csv")
+    assert not_in_costs(study) == {"run_50kW"}
+    assert [t.signal for t in study.imp.costs["RMSE"]] == ["heat_release_rate"]
+    assert "dhc" in study.imp.estimate
+    # 10 % of the largest rate are reached 1.517 widths before the peak.
+    ignition = SECONDS[300.0 - 90.0 * np.sqrt(np.log(10.0)) <= SECONDS][0]
+    assert study.experiments["run_25kW"].flame.ignition_s == ignition
+
+
 def test_numbered_temperatures_are_a_signal_each(folder: Path) -> None:
     header = "Time [s],MLR [g/m2/s],Back temp 1 [K],Back temp 2 [K]"
     write("slab_25.csv", header, SECONDS, 1e3 * MLR, BACK_K, BACK_K + 5.0)

@@ -15,10 +15,12 @@ from pyrofit.errors import DataError, StudyError
 from pyrofit.experiments import KINDS
 from pyrofit.experiments.base import Kind
 from pyrofit.new_study.columns import Found, recognise
-from pyrofit.quantities.units import PER_AREA
+from pyrofit.quantities.units import PER_AREA, PER_MASS
 
 USUAL_AREA_M2 = 0.01
 """Exposed area of a slab of 100 mm by 100 mm."""
+USUAL_MASS_KG = 5e-6
+"""Mass of a sample in a crucible."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -98,9 +100,14 @@ def measured(kind: str, path: Path) -> Measured:
     )
 
 
-def area_of(found: Found) -> float | None:
-    """Return a usual exposed area [m2] where the unit of a signal asks for one."""
-    return USUAL_AREA_M2 if PER_AREA.get(found.scale) == found.of.scales[0] else None
+def divisor_of(found: Found) -> tuple[str, float] | None:
+    """Return key and usual value of what a signal is divided by, where its unit asks for that."""
+    wanted = found.of.scales[0]
+    if PER_AREA.get(found.scale) == wanted:
+        return "sample_area_m2", USUAL_AREA_M2
+    if PER_MASS.get(found.scale) == wanted:
+        return "sample_mass_kg", USUAL_MASS_KG
+    return None
 
 
 def kinetics_of(records: Iterable[Measured]) -> Kinetics:
@@ -145,8 +152,14 @@ def _frames(path: Path, signals: Iterable[Found]) -> dict[str, pd.DataFrame]:
     for found in signals:
         if found.missing or found.unread or found.quantity in frames:
             continue
+        divisor = dict([given]) if (given := divisor_of(found)) else {}
         spec = SeriesSpec(
-            found.quantity, path, found.columns, found.units, sample_area_m2=area_of(found)
+            found.quantity,
+            path,
+            found.columns,
+            found.units,
+            sample_area_m2=divisor.get("sample_area_m2"),
+            sample_mass_kg=divisor.get("sample_mass_kg"),
         )
         try:
             frames[found.quantity] = read_series(spec).frame

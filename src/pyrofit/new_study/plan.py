@@ -112,6 +112,12 @@ def _terms(run: Measured) -> list[tuple[str, str]]:
     return [(f.signal, "mean" if f.of.relative else "range") for f in chosen]
 
 
+def heats(runs: Iterable[Measured]) -> tuple[str, ...]:
+    """Return the keys of material and reactions on which signals rest, besides the kinetics."""
+    found = (f.of.rests_on for run in runs for f in run.signals)
+    return tuple(dict.fromkeys(key for keys in found for key in keys))
+
+
 def titles(runs: Sequence[Measured]) -> dict[str, str]:
     """Return what is added to the title of each experiment where others have the same.
 

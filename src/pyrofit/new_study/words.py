@@ -4,7 +4,7 @@ import json
 from collections.abc import Mapping
 
 from pyrofit.new_study.columns import Found
-from pyrofit.new_study.draft import Measured, area_of
+from pyrofit.new_study.draft import Measured, divisor_of
 from pyrofit.new_study.plan import Part
 from pyrofit.quantities.units import SCALES
 
@@ -40,10 +40,10 @@ def _signal(run: Measured, found: Found) -> list[str]:
         guess = " and ".join(found.guessed)
         note = f" # CHANGE where wrong: guessed from the numbers: {guess}" if guess else ""
         lines.append(f"  units: {_mapping(found.units)}{note}")
-    if (area := area_of(found)) is not None:
-        lines.append(
-            f"  sample_area_m2: {area:g} # CHANGE: the exposed area, by which it is divided"
-        )
+    if (divisor := divisor_of(found)) is not None:
+        lines.append(f"  {divisor[0]}: {divisor[1]:g} # CHANGE: the values are divided by it")
+    if found.of.has_sign:
+        lines.append("  endothermic: positive # CHANGE to negative where heat released points up")
     if "uncertainty" not in found.columns:
         lines.append("  # uncertainty: ... # in SI units, if you know it: the file has none")
     return lines
@@ -61,17 +61,27 @@ def said(run: Measured) -> list[str]:
                 how = f" in {found.unread[role]}, an unknown unit: convert it, or give another"
             parts.append(f"{role} '{header}'{how}")
         parts += [f"{role} not recognised: name it in the study" for role in found.missing]
-        if (area := area_of(found)) is not None:
-            parts.append(f"divided by an area of {area:g} m2, to be changed in the study")
+        if (divisor := divisor_of(found)) is not None:
+            parts.append(f"divided by {divisor[0]} {divisor[1]:g}, to be changed in the study")
         lines.append(f"{run.path}: {found.signal}: {', '.join(parts)}")
+        if (remark := _remark(run, found)) != "":
+            lines.append(f"{run.path}: {found.signal}: {remark}")
     return lines + [f"{run.path}: '{n}' is not used: {why}" for n, why in run.left.items()]
 
 
+def _remark(run: Measured, found: Found) -> str:
+    """Return what looks wrong with a record against temperature."""
+    frame, look = run.frames.get(found.quantity), found.of.remark
+    if frame is None or look is None:
+        return ""
+    return look(frame["temperature_K"].to_numpy(), frame[found.of.column].to_numpy())
+
+
 def held_out(part: Part) -> list[str]:
-    """Say which slabs test the model, or how to get one that does."""
+    """Say which experiments test the model, or how to get one that does."""
     if part.held_out:
-        names = ", ".join(part.held_out)
-        return [f"Held out: {names}. No cost uses this: its prediction tests the model."]
+        use = "them, so they test" if len(part.held_out) > 1 else "it, so it tests"
+        return [f"Held out: {', '.join(part.held_out)}. No cost uses {use} the model."]
     return [
         "Nothing is held out: all that is predicted here was fitted, so nothing tests the model.",
         "Measure at a second radiant flux, add it under `experiments`, and name it here alone.",

@@ -9,15 +9,20 @@ from jinja2.loaders import ChoiceLoader
 
 from pyrofit.errors import DataError, StudyError
 from pyrofit.experiments import KINDS
+from pyrofit.experiments.base import Stage
 from pyrofit.new_study import draft
 from pyrofit.new_study.draft import Kinetics, Measured
-from pyrofit.new_study.plan import Part, part_of, titles
+from pyrofit.new_study.plan import Part, heats, part_of, titles
 from pyrofit.new_study.words import held_out, said, signal_lines
 from pyrofit.results.files import write_bytes, write_text
 
 _NAME = re.compile(r"[A-Za-z][A-Za-z0-9_]*")
+STAGES: tuple[Stage, Stage] = "kinetics", "imp"
 _FILM = 0.05
 """Residue up to which what is left is a film, and not a char."""
+_COMBUSTION = "heat_of_combustion_J_kg"
+_HEATS = {"heat_of_reaction_J_kg": "dh", "specific_heat_J_kgK": "cp", _COMBUSTION: "dhc"}
+"""Parameters of a new study by the key of the material."""
 Files = Mapping[str, Sequence[Path]]
 """Measured files by kind of experiment."""
 
@@ -66,8 +71,10 @@ def init(name: str, files: Files, parent: Path) -> tuple[Path, list[str]]:
         write_bytes(folder / "data" / f"{record}.csv", content)
     study = folder / f"{name}.yaml"
     write_text(study, text)
+    heated, slabs = (part_of(stage, records or computed()) for stage in STAGES)
     lines = [line for run in records for line in said(run)]
-    return study, [*lines, *held_out(part_of("imp", records or computed()))]
+    lines += held_out(heated) if heated.held_out else []
+    return study, [*lines, *held_out(slabs)]
 
 
 def computed() -> list[Measured]:
@@ -84,8 +91,9 @@ def study_text(name: str, records: Sequence[Measured]) -> str:
     synthetic = not records
     records = records or computed()
     kinetics = Kinetics(550.0, 680.0, 0.02) if synthetic else draft.kinetics_of(records)
-    heated, slabs = part_of("kinetics", records), part_of("imp", records)
-    of_kinetics = ["T_p", "E_p"]
+    heated, slabs = (part_of(stage, records) for stage in STAGES)
+    shown = [_HEATS[key] for key in heats(heated.fitted)]
+    burns = _COMBUSTION in heats(records)
     return (
         _environment()
         .get_template("study.yaml.j2")
@@ -97,10 +105,11 @@ def study_text(name: str, records: Sequence[Measured]) -> str:
             experiments=_experiments([*heated.runs, *slabs.runs]),
             kinetics_part=heated,
             kinetics_words=_words(heated),
-            kinetics_estimate=of_kinetics,
+            kinetics_estimate=["T_p", "E_p", *shown],
+            burns=burns,
             imp_part=slabs,
             imp_words=_words(slabs),
-            imp_estimate=[*([] if heated.terms else of_kinetics), "rho", "k", "cp", "eps", "dh"],
+            imp_estimate=_of_slabs(heated, slabs, shown),
             identified=[run for run in slabs.fitted if len(run.signals) > 1],
             tested=held_out(slabs),
         )
@@ -134,6 +143,18 @@ def _experiments(runs: Sequence[Measured]) -> list[str]:
         .rstrip("\n")
         for run in runs
     ]
+
+
+def _of_slabs(heated: Part, slabs: Part, shown: Sequence[str]) -> list[str]:
+    """Return the parameters that slabs are fitted by.
+
+    Heats that heated samples show are taken from these. The specific heat is estimated again: the
+    baseline of a calorimeter is easily mistaken for it.
+    """
+    first = [] if heated.terms else ["T_p", "E_p"]
+    burns = [_HEATS[_COMBUSTION]] if _COMBUSTION in heats(slabs.runs) else []
+    rest = [name for name in ("dh", *burns) if name not in shown]
+    return [*first, "rho", "k", "cp", "eps", *rest]
 
 
 def _words(part: Part) -> str:

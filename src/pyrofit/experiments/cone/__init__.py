@@ -6,6 +6,7 @@ from pydantic import Field
 
 from pyrofit.experiments.base import Kind
 from pyrofit.experiments.cone.designs import designs
+from pyrofit.experiments.cone.facts import facts
 from pyrofit.experiments.slab.course import course
 from pyrofit.experiments.slab.from_files import from_files
 from pyrofit.experiments.slab.simulate import reference, request, simulate, synthetic
@@ -36,5 +37,5 @@ KIND = Kind(
     synthetic=synthetic,
     course=course,
     designs=designs,
-    files=from_files(help="files of a cone calorimeter or FPA, in which the slab burns"),
+    files=from_files("files of a cone calorimeter or FPA, in which the slab burns", facts),
 )
