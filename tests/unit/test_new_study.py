@@ -386,6 +386,47 @@ def test_numbered_temperatures_are_a_signal_each(folder: Path) -> None:
     np.testing.assert_allclose(frame["back_temperature_K"], BACK_K + 5.0, rtol=1e-8)
 
 
+MASS_FILES = {
+    "whole sample in g": ("Time [s],Mass [g]", 1e3 * 0.01),
+    "per area": ("Time [s],Mass per area [kg/m2]", 1.0),
+    "with a temperature": ("Time [s],Mass [g],Temperature [K]", 1e3 * 0.01),
+}
+
+
+@pytest.mark.parametrize(("header", "factor"), MASS_FILES.values(), ids=MASS_FILES)
+@pytest.mark.parametrize("kind", ["gasification", "cone"])
+def test_file_with_mass_alone_is_fitted_by_the_mass(
+    kind: str, header: str, factor: float, folder: Path
+) -> None:
+    mass = 7.0 - np.cumsum(MLR) * 10.0
+    columns = [SECONDS, factor * mass, BACK_K][: header.count(",") + 1]
+    write("slab_25kW.csv", header, *columns)
+    study = made(f"--{kind}", "slab_25kW.csv")
+    frame, _ = read_all(study)["slab_25kW", "mass"]
+    np.testing.assert_allclose(frame["mass_kg_m2"], mass, rtol=1e-8)
+    assert [t.signal for t in study.imp.costs["RMSE"]] == ["mass"]
+    text = Path("wood/wood.yaml").read_text("utf-8")
+    assert ("sample_area_m2: 0.01 # CHANGE" in text) == (factor > 1.0)
+
+
+def test_rate_is_fitted_where_the_file_has_the_mass_as_well(folder: Path) -> None:
+    mass = 7.0 - np.cumsum(MLR) * 10.0
+    write("slab_25kW.csv", "Time [s],Mass [g],MLR [g/m2/s]", SECONDS, 10.0 * mass, 1e3 * MLR)
+    study = made("--gasification", "slab_25kW.csv")
+    assert [t.signal for t in study.imp.costs["RMSE"]] == ["mlr"]
+    assert study.imp.identification == {"slab_25kW": ("mlr",)}
+    assert set(study.experiments["slab_25kW"].signals) == {"mlr", "mass"}
+
+
+def test_thermocouple_at_a_depth_is_told_as_no_file_tells_where(
+    folder: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    write("slab_25kW.csv", "Time [s],MLR [g/m2/s],T_3 [K]", SECONDS, 1e3 * MLR, BACK_K)
+    study = made("--gasification", "slab_25kW.csv")
+    assert list(study.experiments["slab_25kW"].signals) == ["mlr"]
+    assert "'T_3' is not used: may be in_depth_temperature, whose place" in capsys.readouterr().out
+
+
 def test_every_column_that_is_not_used_is_told_with_the_reason(
     folder: Path, capsys: pytest.CaptureFixture[str]
 ) -> None:

@@ -11,7 +11,7 @@ from pyrofit.errors import DataError
 from pyrofit.quantities.base import Quantity
 
 _TOO_LARGE = 1e30
-TEMPERATURES_K = (200.0, 2500.0)
+TEMPERATURES_K = (150.0, 2500.0)
 """Limits of a temperature that is recorded beside a quantity."""
 
 

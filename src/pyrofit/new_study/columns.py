@@ -156,6 +156,10 @@ def _signals(
     signals = {}
     for quantity in quantities:
         names = claims.get(quantity.name, [])
+        if quantity.place != "fixed":
+            where = f"may be {quantity.name}, whose place no file tells; name it in the study"
+            left |= dict.fromkeys(names, where)
+            continue
         chosen = _chosen(names, quantity)
         for i, name in enumerate(chosen, start=1):
             label = quantity.name if len(chosen) == 1 else f"{quantity.name}_{i}"

@@ -112,6 +112,15 @@ def _terms(run: Measured) -> list[tuple[str, str]]:
     return [(f.signal, "mean" if f.of.relative else "range") for f in chosen]
 
 
+def identified(run: Measured) -> list[str]:
+    """Return the signals from which is found what an experiment determines.
+
+    A mass is left out beside its own rate: both are the record of one load cell.
+    """
+    twice = any(f.of.relative and f.of.released is not None for f in run.signals)
+    return [f.signal for f in run.signals if f.of.relative or f.of.released is None or not twice]
+
+
 def heats(runs: Iterable[Measured]) -> tuple[str, ...]:
     """Return the keys of material and reactions on which signals rest, besides the kinetics."""
     found = (f.of.rests_on for run in runs for f in run.signals)

@@ -12,7 +12,7 @@ from pyrofit.experiments import KINDS
 from pyrofit.experiments.base import Stage
 from pyrofit.new_study import draft
 from pyrofit.new_study.draft import Kinetics, Measured
-from pyrofit.new_study.plan import Part, heats, part_of, titles
+from pyrofit.new_study.plan import Part, heats, identified, part_of, titles
 from pyrofit.new_study.words import held_out, said, signal_lines
 from pyrofit.results.files import write_bytes, write_text
 
@@ -110,7 +110,7 @@ def study_text(name: str, records: Sequence[Measured]) -> str:
             imp_part=slabs,
             imp_words=_words(slabs),
             imp_estimate=_of_slabs(heated, slabs, shown),
-            identified=[run for run in slabs.fitted if len(run.signals) > 1],
+            identified={run.name: identified(run) for run in slabs.fitted if len(run.signals) > 1},
             tested=held_out(slabs),
         )
     )
