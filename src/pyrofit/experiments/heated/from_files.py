@@ -18,10 +18,15 @@ def from_files(help: str, computed: tuple[float, ...] = (), signal: str = "") ->
 
 
 def recorded_rate(named: float, frames: Frames) -> float | None:
-    """Return the heating rate [K/min]: the named one where the record agrees within 10 %."""
+    """Return the heating rate [K/min]: the named one where the record agrees within 10 %.
+
+    Where the temperature does not rise, as in a record of several ramps, there is none.
+    """
     for frame in frames.values():
         rise = np.gradient(frame["temperature_K"].to_numpy(), frame["time_s"].to_numpy())
         rate = 60.0 * float(np.median(rise))
+        if rate <= 0.0:
+            return None
         return named if abs(rate - named) <= AGREES * abs(named) else float(f"{rate:.3g}")
     return None
 
