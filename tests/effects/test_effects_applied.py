@@ -1,5 +1,6 @@
 """Effects put into a description: what they make of it, what is refused, what is documented."""
 
+import re
 from dataclasses import replace
 from pathlib import Path
 
@@ -13,8 +14,9 @@ from pyrofit.effects.apply import with_effects
 from pyrofit.effects.base import changed
 from pyrofit.effects.page import effects_page
 from pyrofit.experiments import Gasification
-from pyrofit.model.material import Changed
-from pyrofit.model.slab import Back
+from pyrofit.model.experiment import Experiment
+from pyrofit.model.material import Changed, Material
+from pyrofit.model.slab import Back, Backing, Layer
 
 DOCS = Path(__file__).parents[2] / "docs"
 EFFECTS = known_effects()
@@ -171,3 +173,57 @@ def test_documented_effect_needs_nothing_but_its_file(
     assert_same(curves_of(null), base_curves["pmma"])
     more = curves_of(having(base, {"natural_convection": {"C": 1.31}}))
     assert changes(more, base_curves["pmma"])["MLR 60"] > 0.1
+
+
+def backed() -> tuple[Material, dict[str, Experiment]]:
+    """Wood on a board, and a run on the board alone."""
+    base = BASES["wood"]
+    board = {"density_kg_m3": 300.0, "conductivity_W_mK": 0.1, "specific_heat_J_kgK": 900.0}
+    given = base.material.model_dump()
+    given["components"]["board"] = board
+    name, slab = next((n, e) for n, e in base.experiments.items() if isinstance(e, Gasification))
+    behind = (Backing(thickness_m=0.02, component="board"),)
+    alone = (Layer(thickness_m=0.02, composition={"board": 1.0}),)
+    experiments: dict[str, Experiment] = {
+        name: changed(slab, sample=changed(slab.sample, backing=behind)),
+        "inert": changed(slab, sample=changed(slab.sample, layers=alone)),
+    }
+    return Material.model_validate(given), experiments
+
+
+@pytest.mark.parametrize("name", ["c_T", "k_T", "swelling", "glass_transition", "melting"])
+def test_effect_on_properties_leaves_boards_as_they_are_unless_it_names_them(name: str) -> None:
+    material, experiments = backed()
+    at = {strength(EFFECTS[name]): EFFECTS[name].strength[strength(EFFECTS[name])].typical}
+    plain, _ = with_effects(material, experiments, {name: at})
+    assert plain.components["board"] == material.components["board"]
+    assert all(plain.components[n] != c for n, c in material.components.items() if n != "board")
+    named, _ = with_effects(material, experiments, {name: {**at, "of": ("board",)}})
+    assert named.components["board"] != material.components["board"]
+    assert all(named.components[n] == c for n, c in material.components.items() if n != "board")
+
+
+@pytest.mark.parametrize(
+    "name", ["thickness", "emissivity_conversion", "in_depth", "in_depth_lost"]
+)
+def test_effect_on_the_sample_leaves_inert_runs_as_they_are(name: str) -> None:
+    material, experiments = backed()
+    at = {strength(EFFECTS[name]): EFFECTS[name].strength[strength(EFFECTS[name])].typical}
+    _, made = with_effects(material, experiments, {name: at})
+    assert made["inert"] == experiments["inert"]
+    assert all(made[n] != e for n, e in experiments.items() if n != "inert")
+
+
+@pytest.mark.parametrize(
+    ("name", "of", "said"),
+    [
+        ("c_T", ("boar",), "unknown component 'boar'. Did you mean 'board'?"),
+        ("c_T", (), "'of' must be a list of components"),
+        ("back_loss", ("board",), "changes no property of components; leave out 'of'"),
+    ],
+)
+def test_bad_choice_of_components_is_told(name: str, of: tuple[str, ...], said: str) -> None:
+    material, experiments = backed()
+    given = {strength(EFFECTS[name]): 0.9, "of": of}
+    with pytest.raises(ValueError, match=re.escape(said)):
+        with_effects(material, experiments, {name: given})

@@ -14,6 +14,7 @@ from pyrofit.model.accuracy import Accuracy, Resolution
 from pyrofit.model.material import Material
 from pyrofit.simulate import simulate_gasifications
 from pyrofit.solver.curves import Curves, Place, Request
+from pyrofit.solver.outputs import INSIDE
 from pyrofit.solver.reference.gasification import reference_gasification
 
 BOARD = {"density_kg_m3": 300.0, "conductivity_W_mK": 0.08, "specific_heat_J_kgK": 1000.0}
@@ -99,7 +100,7 @@ def test_steady_heat_passes_sample_gap_board_and_copper_in_series(solve: Solver)
     names = ("front_temperature", "probe_0", "probe_1", "probe_2", "back_temperature")
     requests = {name: Request(np.array([6e4])) for name in names}
     for n, depth in enumerate(edges[:3]):
-        requests[f"probe_{n}"] = Request(np.array([6e4]), place=Place(float(depth)))
+        requests[f"probe_{n}"] = Request(np.array([6e4]), output=INSIDE, place=Place(float(depth)))
     matter = material({"emissivity": 0.0})
     found = solve(experiment, matter, requests).signals
     r = [1.0 / h] + [
@@ -149,8 +150,8 @@ def test_constant_flux_heats_a_sample_on_a_deep_body(
     inside = 5e-3 + (3e-3 if behind == "board" else 0.05)
     requests = {
         "front_temperature": Request(time),
-        "probe_0": Request(time, place=Place(2.5e-3)),
-        "probe_1": Request(time, place=Place(inside)),
+        "probe_0": Request(time, output=INSIDE, place=Place(2.5e-3)),
+        "probe_1": Request(time, output=INSIDE, place=Place(inside)),
     }
     found = solve(experiment, material(), requests).signals
     body = {"board": BOARD, "copper": COPPER}[behind]

@@ -67,13 +67,14 @@ class Study(Part):
     )
     material: Material = Field(description="components, reactions, composition")
     experiments: dict[Name, AnyExperiment] = Field(min_length=1, description="experiments by name")
-    effects: dict[str, dict[str, Number] | None] = Field(
+    effects: dict[str, dict[str, Number | tuple[str, ...]] | None] = Field(
         default_factory=dict,
         description="effects of the catalogue that material and experiments have, with their "
         "parameters: a number in SI units or the name of a parameter; a strength left out is "
-        "a parameter <effect>_<strength> to be estimated",
+        "a parameter <effect>_<strength> to be estimated; `of` lists the components whose "
+        "property changes, by default those of the material, no boards and plates",
     )
-    with_effects: dict[str, dict[str, Number]] = Field(
+    with_effects: dict[str, dict[str, Number | tuple[str, ...]]] = Field(
         default_factory=dict,
         description="effects that material and experiments already have, as the workflow notes "
         "them; list yours under `effects`",

@@ -153,7 +153,7 @@ def _property(problem: Problem, values: Values, T: tuple[float, float], probe: s
     peak = properties_changed(key, peak_area="c", peak_temperature_K="T", peak_width_K="w")
     material = problem.material
     for name, centre in zip(names, centres.tolist(), strict=True):
-        material = peak(material, {"c": name, "T": centre, "w": width})
+        material = peak(material, {"c": name, "T": centre, "w": width}, material.own)
     share = shares(problem.material)
     main = problem.material.components[max(share, key=lambda name: share[name])]
     size = float(np.median(property_table(getattr(main, key), values)))

@@ -1,15 +1,16 @@
 """Effects put into a description."""
 
-from collections.abc import Iterable, Mapping
+from collections.abc import Collection, Iterable, Mapping
 from typing import TypeVar
 
 from pydantic import ValidationError
 
 from pyrofit.effects import known_effects
-from pyrofit.effects.base import Effect, Numbers
+from pyrofit.effects.base import Chosen, Effect, Numbers
 from pyrofit.errors import suggest
 from pyrofit.model.experiment import Experiment
 from pyrofit.model.material import Material
+from pyrofit.model.slab import SlabExperiment
 
 Kind = TypeVar("Kind", bound=Experiment)
 
@@ -17,7 +18,7 @@ Kind = TypeVar("Kind", bound=Experiment)
 def with_effects(
     material: Material,
     experiments: Mapping[str, Kind],
-    chosen: Mapping[str, Numbers],
+    chosen: Mapping[str, Chosen],
 ) -> tuple[Material, dict[str, Kind]]:
     """Return material and experiments with effects, applied in the order of their names.
 
@@ -27,7 +28,8 @@ def with_effects(
         The base description.
     chosen
         By effect, its parameters: a number in SI units, or the name of a parameter of the study. A
-        strength must be given; a form parameter left out takes its usual value.
+        strength must be given; a form parameter left out takes its usual value. ``of`` names the
+        components that change, by default all of the material itself, see `Material.own`.
 
     Raises
     ------
@@ -50,16 +52,43 @@ def with_effects(
 
 
 def _with(
-    effect: Effect, material: Material, experiments: dict[str, Kind], given: Numbers
+    effect: Effect, material: Material, experiments: dict[str, Kind], given: Chosen
 ) -> tuple[Material, dict[str, Kind]]:
-    at = _numbers(effect, given)
-    if not any(effect.needs(e) for e in experiments.values()):
+    of = _components(effect, material, given)
+    at = _numbers(effect, {key: x for key, x in given.items() if not isinstance(x, tuple | list)})
+    able = {n for n, e in experiments.items() if effect.needs(e)}
+    if effect.of_sample:
+        able -= {n for n, e in experiments.items() if _is_inert(e, material)}
+    if not able:
         raise ValueError(f"no experiment can have it; it needs {effect.needs.words}")
     changed = {
-        name: effect.experiment(experiment, at) if effect.needs(experiment) else experiment
+        name: effect.experiment(experiment, at) if name in able else experiment
         for name, experiment in experiments.items()
     }
+    if effect.components is not None:
+        material = effect.components(material, at, of)
     return effect.material(material, at), changed  # type: ignore[return-value]
+
+
+def _components(effect: Effect, material: Material, given: Chosen) -> Collection[str]:
+    """Return the components that an effect changes: those named, or those of the material."""
+    of = given.get("of")
+    if of is None:
+        return material.own
+    if effect.components is None:
+        raise ValueError("it changes no property of components; leave out 'of'")
+    if isinstance(of, float | str) or not of:
+        raise ValueError("'of' must be a list of components, as [board]")
+    _refuse_unknown("component", of, material.components)
+    return of
+
+
+def _is_inert(experiment: Experiment, material: Material) -> bool:
+    """Tell whether an experiment is made on a body that has no component of the material."""
+    if not isinstance(experiment, SlabExperiment):
+        return False
+    layers = [layer.composition for layer in experiment.sample.layers]
+    return all(of is not None and not material.own & of.keys() for of in layers)
 
 
 def _numbers(effect: Effect, given: Numbers) -> Numbers:

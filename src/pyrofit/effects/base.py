@@ -1,6 +1,6 @@
 """What every effect states: its parameters, and the change it makes to the description."""
 
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Collection, Mapping
 from dataclasses import dataclass, field
 from typing import Any, Literal, TypeVar
 
@@ -12,7 +12,10 @@ from pyrofit.model.slab import SlabExperiment
 
 Numbers = Mapping[str, float | str]
 """A number in SI units, or the name of a parameter, by the effect's own names."""
+Chosen = Mapping[str, float | str | tuple[str, ...]]
+"""The same as a study gives it, with ``of``: the names of the components that change."""
 MaterialChange = Callable[[Material, Numbers], Material]
+ComponentsChange = Callable[[Material, Numbers, Collection[str]], Material]
 ExperimentChange = Callable[[Experiment, Numbers], Experiment]
 Family = Literal["apparatus", "environment", "material"]
 Made = TypeVar("Made", bound=Part)
@@ -114,9 +117,13 @@ class Effect:
     """The one parameter that measures it."""
     form: dict[str, Quantity] = field(default_factory=dict)
     material: MaterialChange = lambda material, at: material
+    components: ComponentsChange | None = None
+    """Change of the named components; by default those of the material, no boards and plates."""
     experiment: ExperimentChange = lambda experiment, at: experiment
     needs: Need = has_slab
     """What an experiment must have; others are not changed."""
+    of_sample: bool = False
+    """Whether it changes the sample: experiments on inert bodies are left as they are."""
     keeps: tuple[str, ...] = ()
     """Keys of the main reaction that it sets, and that published kinetics do not replace."""
     same_as: str = ""

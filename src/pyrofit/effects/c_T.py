@@ -1,4 +1,4 @@
-"""The specific heat of all components changes with temperature."""
+"""The specific heat of the material's components changes with temperature."""
 
 from pyrofit.effects.base import Effect, Quantity, takes_up_heat
 from pyrofit.effects.substance import properties_changed
@@ -21,6 +21,6 @@ EFFECT = Effect(
             "Stoliarov et al. 2009, doi:10.1016/j.combustflame.2008.11.010",
         )
     },
-    material=properties_changed("specific_heat_J_kgK", slope_1_K="slope_1_K"),
+    components=properties_changed("specific_heat_J_kgK", slope_1_K="slope_1_K"),
     needs=takes_up_heat,
 )

@@ -20,4 +20,5 @@ EFFECT = Effect(
         )
     },
     experiment=on("sample", {"emissivity_change": "change"}),
+    of_sample=True,
 )

@@ -1,4 +1,4 @@
-"""The specific heat of all components rises by a step at the glass transition."""
+"""The specific heat of the material's components rises by a step at the glass transition."""
 
 from pyrofit.effects.base import Effect, Quantity, takes_up_heat
 from pyrofit.effects.substance import properties_changed
@@ -40,7 +40,7 @@ EFFECT = Effect(
             typical=16.0,
         ),
     },
-    material=properties_changed(
+    components=properties_changed(
         "specific_heat_J_kgK",
         step="step_J_kgK",
         step_temperature_K="temperature_K",

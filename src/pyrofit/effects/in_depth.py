@@ -22,4 +22,5 @@ EFFECT = Effect(
     strength={"length_m": LENGTH},
     material=refuse_translucent,
     experiment=on("sample", {"absorption_length_m": "length_m"}),
+    of_sample=True,
 )

@@ -12,4 +12,5 @@ EFFECT = Effect(
     strength={"length_m": LENGTH},
     material=refuse_translucent,
     experiment=on("sample", {"absorption_length_m": "length_m"}, transmitted="lost"),
+    of_sample=True,
 )

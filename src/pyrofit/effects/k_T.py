@@ -1,4 +1,4 @@
-"""The conductivity of all components changes with temperature."""
+"""The conductivity of the material's components changes with temperature."""
 
 from pyrofit.effects.base import Effect, Quantity
 from pyrofit.effects.substance import properties_changed
@@ -20,5 +20,5 @@ EFFECT = Effect(
             source="MaCFP PMMA: UMD's has -3e-3 1/K above 395 K",
         )
     },
-    material=properties_changed("conductivity_W_mK", slope_1_K="slope_1_K"),
+    components=properties_changed("conductivity_W_mK", slope_1_K="slope_1_K"),
 )

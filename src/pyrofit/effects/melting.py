@@ -1,4 +1,4 @@
-"""All components take up a heat of melting."""
+"""All components of the material take up a heat of melting."""
 
 from pyrofit.effects.base import Effect, Quantity, takes_up_heat
 from pyrofit.effects.substance import properties_changed
@@ -40,7 +40,7 @@ EFFECT = Effect(
             typical=25.0,
         ),
     },
-    material=properties_changed(
+    components=properties_changed(
         "specific_heat_J_kgK",
         peak_area="heat_J_kg",
         peak_temperature_K="temperature_K",

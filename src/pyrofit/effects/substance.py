@@ -1,25 +1,27 @@
 """Changes of the material that several effects make."""
 
-from collections.abc import Mapping
+from collections.abc import Collection, Mapping
 from typing import Any
 
-from pyrofit.effects.base import MaterialChange, Numbers, changed
+from pyrofit.effects.base import ComponentsChange, Numbers, changed
 from pyrofit.model.material import REST, Changed, Component, Material, Reaction
 
 REFERENCE_RATE_1_S = 1e-3
 """At the reference temperature of a reaction that an effect adds."""
 
 
-def properties_changed(key: str, **takes: str) -> MaterialChange:
-    """Return a change of one property of all components.
+def properties_changed(key: str, **takes: str) -> ComponentsChange:
+    """Return a change of one property of some components.
 
     ``takes`` maps a key of `Changed` to the parameter of the effect that it takes.
     """
 
-    def change(material: Material, at: Numbers) -> Material:
+    def change(material: Material, at: Numbers, of: Collection[str]) -> Material:
         numbers = {name: at[own] for name, own in takes.items()}
         components = {
             name: changed(component, **{key: Changed(of=getattr(component, key), **numbers)})
+            if name in of
+            else component
             for name, component in material.components.items()
         }
         return changed(material, components=components)

@@ -1,4 +1,4 @@
-"""All components swell."""
+"""All components of the material swell."""
 
 from pyrofit.effects.base import Effect, Quantity
 from pyrofit.effects.substance import properties_changed
@@ -39,7 +39,7 @@ EFFECT = Effect(
             typical=40.0,
         ),
     },
-    material=properties_changed(
+    components=properties_changed(
         "expansion",
         step="step",
         step_temperature_K="temperature_K",

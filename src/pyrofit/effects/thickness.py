@@ -20,4 +20,5 @@ EFFECT = Effect(
         )
     },
     experiment=on("sample", {"thickness_factor": "factor"}),
+    of_sample=True,
 )
