@@ -9,6 +9,7 @@ from typing import Any
 import numpy as np
 import pandas as pd
 import pytest
+from pydantic import ValidationError
 from test_report import Page, write_tables
 from test_tables import described, fake, synthetic
 
@@ -16,9 +17,11 @@ from pyrofit.config import Study
 from pyrofit.diagnose.model import strength_of
 from pyrofit.effects import known_effects
 from pyrofit.errors import DataError
-from pyrofit.results.diagnosis import VERDICTS, read
 from pyrofit.results.diagnosis import curves as curves_of
+from pyrofit.results.diagnosis import read, write
+from pyrofit.results.diagnosis_schema import VERDICTS
 from pyrofit.results.files import Results, write_csv, write_json, write_text
+from pyrofit.results.schema_page import schema_page
 from pyrofit.show import diagnosis_page as report
 from pyrofit.show import style
 from pyrofit.show.diagnosis.words import leading
@@ -65,6 +68,7 @@ def channels(study: Study) -> list[tuple[str, str, str]]:
 
 def found(study: Study, kind: str) -> dict[str, Any]:
     quiet, effects = kind == "none", EFFECTS_OF[kind]
+    extended = {**parameter(0.31, "W/(m K)"), "at_limit": False}
     return {
         "schema": 1,
         "study": study.name,
@@ -80,7 +84,7 @@ def found(study: Study, kind: str) -> dict[str, Any]:
         },
         "noise": [noise_of(c) for c in channels(study)],
         "not_tried": [{"effect": "tga_lag", "reason": "no calibrated signal can show it"}],
-        "extended": {"parameters": {} if quiet else {"k": parameter(0.31, "W/(m K)")}},
+        "extended": {"parameters": {} if quiet else {"k": extended}},
         "base": {
             "chi2": 330.0 if quiet else 2000.0,
             "points": 320,
@@ -254,6 +258,7 @@ def candidates(kind: str) -> list[dict[str, Any]]:
                 "adequate": best,
                 "disagree": 0.25 if best else None,
                 "predictions": {"slab_60": 12.0, "held out": -1.5} if best else {},
+                "explains": True if best else None,
                 "rejected": "" if best else "chi-square is 1500 above that of the best",
             }
         )
@@ -632,6 +637,21 @@ def test_broken_diagnosis_is_refused_and_named(
     altered(results, place, value)
     with pytest.raises(DataError, match=message):
         read(study, results)
+
+
+def test_diagnosis_with_a_key_that_the_schema_lacks_is_refused(tmp_path: Path) -> None:
+    study, results = diagnosed(tmp_path, "named")
+    altered(results, "base.more", 1.0)
+    with pytest.raises(DataError, match=r"'base\.more' is not a key of this result"):
+        read(study, results)
+    content = json.loads(results.diagnosis("diagnosis.json").read_text())
+    with pytest.raises(ValidationError, match="base"):
+        write(results, content)
+
+
+def test_page_of_the_schema_is_up_to_date() -> None:
+    page = (Path(__file__).parents[2] / "docs" / "diagnosis_json.md").read_text(encoding="utf-8")
+    assert page == schema_page(), "run: pyrofit reference --of diagnosis > docs/diagnosis_json.md"
 
 
 def test_curves_that_lack_a_channel_are_refused(tmp_path: Path) -> None:

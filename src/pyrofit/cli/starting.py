@@ -21,7 +21,10 @@ def add(commands: Any) -> None:
     init.late = _add_kinds
     init.set_defaults(step=_init)
 
-    reference = commands.add_parser("reference", help="print the reference of all keys of a study")
+    reference = commands.add_parser("reference", help="print the reference of all keys")
+    reference.add_argument(
+        "--of", choices=("study", "diagnosis"), default="study", help="default: study"
+    )
     reference.set_defaults(step=_reference)
 
     check = commands.add_parser("check", help="check a study and its files, run nothing")
@@ -77,7 +80,11 @@ def _init(given: argparse.Namespace) -> None:
 def _reference(given: argparse.Namespace) -> None:
     from pyrofit.blind_test.reference import blind_test_keys
     from pyrofit.config.reference import reference_page
+    from pyrofit.results.schema_page import schema_page
 
+    if given.of == "diagnosis":
+        print(schema_page(), end="")
+        return
     print(reference_page(), blind_test_keys(), sep="\n", end="")
 
 

@@ -10,7 +10,8 @@ from pyrofit.config.study import is_own
 from pyrofit.diagnose.diagnosis import examine
 from pyrofit.diagnose.extend import extended_keys
 from pyrofit.diagnose.rounds import Tell
-from pyrofit.results.files import Results, read_csv, write_csv, write_json, write_text
+from pyrofit.results import diagnosis
+from pyrofit.results.files import Results, read_csv, write_csv, write_text
 from pyrofit.stages.measurements import load
 
 EXTENDED = "extended.yaml"
@@ -41,7 +42,7 @@ def diagnose(study: Study, results: Results, tell: Tell, processes: int = 1) -> 
         write_text(path, as_yaml(keys, _COMMENT))
     found.content["extended_study"] = EXTENDED if effects else ""
     write_csv(results.diagnosis("curves.csv"), found.curves)
-    write_json(results.diagnosis("diagnosis.json"), found.content)
+    diagnosis.write(results, found.content)
     return found.content
 
 

@@ -1,0 +1,237 @@
+"""Schema of ``diagnosis.json``: written, read and documented from these records."""
+
+from typing import Literal, get_args
+
+from pydantic import BaseModel, ConfigDict, Field
+
+Kind = Literal["none", "named", "ambiguous", "multiple", "unknown"]
+
+
+class Record(BaseModel):
+    """A part of the result; its keys are exactly these."""
+
+    model_config = ConfigDict(strict=True, frozen=True, extra="forbid", allow_inf_nan=False)
+
+
+class OfVerdict(Record):
+    """The verdict."""
+
+    kind: Kind = Field(description="kind of verdict")
+    effects: list[str] = Field(description="the leading effect of each set")
+    groups: list[str] = Field(description="what is missing, by effect")
+    forms: list[str] = Field(description="in which form each is found, in words")
+    sets: list[list[str]] = Field(description="per effect, those that cannot be told from it")
+    confirmed: bool = Field(
+        description="effects are named, and predictions improve with each, held-out ones included"
+    )
+    words: str = Field(description="the verdict in sentences")
+    reasons: list[str] = Field(description="reasons against a firmer verdict")
+
+
+class OfNoise(Record):
+    """The noise of a signal."""
+
+    experiment: str = Field(description="experiment")
+    signal: str = Field(description="signal")
+    role: str = Field(description="`calibration` or `held out`")
+    points: int = Field(description="number of points")
+    unit: str = Field(description="SI unit of the signal")
+    sd_median: float = Field(description="median standard deviation [`unit`]")
+    words: str = Field(description="the noise in words")
+    stated: bool = Field(description="an uncertainty is given")
+    white: bool = Field(description="the whitened scatter may be white")
+    chi2_base: float = Field(description="chi-square of the base")
+
+
+class OfParameter(Record):
+    """A parameter of a model with its 95 % interval."""
+
+    value: float = Field(description="estimate")
+    low: float = Field(description="lower end of the 95 % interval")
+    high: float = Field(description="upper end of the 95 % interval")
+    unit: str = Field(description="unit")
+    at_limit: bool = Field(description="the estimate is at a limit")
+
+
+class OfStrength(Record):
+    """A parameter of an effect with its 95 % interval."""
+
+    value: float = Field(description="estimate")
+    low: float = Field(description="lower end of the 95 % interval")
+    high: float = Field(description="upper end of the 95 % interval")
+    unit: str = Field(description="unit")
+    low_form: float | None = Field(description="lower end, the form as uncertain as its limits")
+    high_form: float | None = Field(description="upper end, the form as uncertain as its limits")
+
+
+class OfBase(Record):
+    """The base model, and tests for lack of fit; critical values hold for 1 % of studies."""
+
+    chi2: float = Field(description="chi-square")
+    points: int = Field(description="number of points")
+    chi2_critical: float = Field(description="critical chi-square")
+    scan: float = Field(description="largest bias of an interval of a curve")
+    scan_critical: float = Field(description="its critical value")
+    score: float = Field(description="largest score of an effect")
+    score_critical: float = Field(description="its critical value")
+    adequate: bool = Field(description="scan and chi-square are below their critical values")
+    parameters: dict[str, OfParameter] = Field(description="parameters by name")
+
+
+class OfExtended(Record):
+    """The model with the effects that the search ended with."""
+
+    parameters: dict[str, OfParameter] = Field(
+        description="parameters of the base beside the effects; empty without effects"
+    )
+
+
+class OfWindow(Record):
+    """An interval of a curve in which the residuals are biased."""
+
+    model: str = Field(description="`base` or `extended`")
+    experiment: str = Field(description="experiment")
+    signal: str = Field(description="signal")
+    start_s: float = Field(description="start [s]")
+    end_s: float = Field(description="end [s]")
+    start_K: float | None = Field(description="temperature at the start [K], TGA")
+    end_K: float | None = Field(description="temperature at the end [K], TGA")
+    conversion: list[float] | None = Field(description="conversion at both ends [-]")
+    surface_temperature_K: list[float] | None = Field(description="at both ends [K]")
+    phase: str = Field(description="phase of the test")
+    sign: int = Field(description="1: the simulation is above the measurement, else -1")
+    mean: float = Field(description="mean of simulated minus measured [`unit`]")
+    relative: float | None = Field(description="the same over the measured mean [-]")
+    unit: str = Field(description="SI unit of the signal")
+    statistic: float = Field(description="test statistic")
+    critical: float = Field(description="its critical value")
+
+
+class OfScreen(Record):
+    """Score test of an effect."""
+
+    effect: str = Field(description="effect")
+    group: str = Field(description="group of effects")
+    family: str = Field(description="family of effects")
+    detectability: float = Field(description="size at typical strength [sd]")
+    typical: float = Field(description="typical strength [`unit`]")
+    unit: str = Field(description="unit of the strength")
+    z: float = Field(description="score of the residuals [sd]")
+    ahead: float = Field(description="fall of chi-square predicted by a linear refit")
+
+
+class OfConfusability(Record):
+    """How alike effects are after a refit."""
+
+    effects: list[str] = Field(description="effects")
+    cosine: list[list[float]] = Field(description="matrix of cosines, in the order of `effects`")
+
+
+class OfNotTried(Record):
+    """An effect that is no candidate."""
+
+    effect: str = Field(description="effect")
+    reason: str = Field(description="why it is no candidate")
+
+
+class OfCandidate(Record):
+    """A model with effects that was fitted."""
+
+    effects: list[str] = Field(description="its effects")
+    free: dict[str, list[str]] = Field(
+        description="fitted parameters of each effect, the strength first"
+    )
+    chi2: float = Field(description="chi-square")
+    gain: float = Field(description="fall of chi-square below that with one effect less")
+    penalised: float = Field(description="penalised chi-square")
+    parameters: dict[str, OfStrength] = Field(description="parameters by effect and name")
+    adequate: bool | None = Field(description="no lack of fit; null where not tested")
+    disagree: float | None = Field(
+        description="p of one strength for all experiments; null where not tested"
+    )
+    predictions: dict[str, float] = Field(
+        description="gain of the log score by experiment left out, and `held out`"
+    )
+    explains: bool | None = Field(description="it fits the held-out signals once they are fitted")
+    rejected: str = Field(description="why it was rejected; empty where it was not")
+
+
+class OfGap(Record):
+    """Misfit of a signal before and after the effects were added."""
+
+    experiment: str = Field(description="experiment")
+    signal: str = Field(description="signal")
+    role: str = Field(description="`calibration` or `held out`")
+    points: int = Field(description="number of points")
+    unit: str = Field(description="SI unit of the signal")
+    noise_sd: float = Field(description="median standard deviation of the noise [`unit`]")
+    rms_before: float = Field(description="root mean square before [`unit`]")
+    rms_after: float = Field(description="root mean square after [`unit`]")
+    chi2_before: float = Field(description="chi-square before")
+    chi2_after: float = Field(description="chi-square after")
+
+
+class OfProfile(Record):
+    """Profile of chi-square over a strength of the search's end."""
+
+    effect: str = Field(description="effect")
+    parameter: str = Field(description="strength")
+    unit: str = Field(description="unit of the strength")
+    value: list[float] = Field(description="values of the strength [`unit`]")
+    rise: list[float] = Field(description="rise of chi-square, all else fitted anew")
+    level: float = Field(description="rise at the ends of the 95 % interval")
+    low: float = Field(description="lower end of the 95 % interval")
+    high: float = Field(description="upper end of the 95 % interval")
+    low_open: bool = Field(description="a limit cuts the interval off below")
+    high_open: bool = Field(description="a limit cuts the interval off above")
+
+
+class OfProbe(Record):
+    """A free correction that was put into the model, for verdict `unknown`."""
+
+    probe: str = Field(description="where it acts")
+    what: str = Field(description="the same in words")
+    unit: str = Field(description="unit; `-`: a factor, else a change")
+    chi2: float = Field(description="chi-square with it")
+    absorbed: float = Field(description="share of the excess of chi-square that it absorbs [-]")
+    shape: list[list[float]] = Field(
+        description="pairs of time [s] (`flux`) or temperature [K] and correction [`unit`]"
+    )
+
+
+class OfExperiment(Record):
+    """A new experiment that would separate competing models."""
+
+    design: str = Field(description="its name")
+    words: str = Field(description="the same in words")
+    separation_sd: float = Field(description="separation of the two models separated least [sd]")
+    pairs: dict[str, float] = Field(description="separation of each two models [sd]")
+
+
+class Diagnosis(Record):
+    """What a diagnosis found."""
+
+    schema_: int = Field(alias="schema", description="1")
+    study: str = Field(description="name of the study")
+    verdict: OfVerdict = Field(description="the verdict")
+    noise: list[OfNoise] = Field(description="the noise, by signal")
+    base: OfBase = Field(description="the base model")
+    windows: list[OfWindow] = Field(description="intervals in which residuals are biased")
+    screen: list[OfScreen] = Field(description="score tests, by effect")
+    confusability: OfConfusability = Field(description="how alike effects are")
+    needed: float = Field(description="gain of chi-square that a claim needs")
+    ambiguity: float = Field(description="difference of penalised chi-square that decides nothing")
+    not_tried: list[OfNotTried] = Field(description="effects that are no candidates")
+    candidates: list[OfCandidate] = Field(description="models with effects, the best first")
+    extended: OfExtended = Field(description="the model that the search ended with")
+    gap: list[OfGap] = Field(description="misfit before and after, by signal")
+    profiles: list[OfProfile] = Field(description="profiles, by strength")
+    probes: list[OfProbe] = Field(description="free corrections")
+    next_experiment: list[OfExperiment] = Field(description="new experiments")
+    extended_study: str = Field(
+        description="file of the study with the effects, in the same folder; empty without effects"
+    )
+
+
+VERDICTS: tuple[str, ...] = get_args(Kind)
+"""Kinds of verdict of the diagnosis."""

@@ -1,0 +1,63 @@
+"""The keys of ``diagnosis.json`` as a page of the documentation."""
+
+from collections.abc import Iterator
+from typing import Literal, get_args, get_origin
+
+from pyrofit.results.diagnosis_schema import Diagnosis, Record
+
+_TYPES = {
+    "str": "text",
+    "int": "whole number",
+    "float": "number",
+    "bool": "true or false",
+    "NoneType": "null",
+}
+
+
+def schema_page() -> str:
+    """Return the keys of ``diagnosis.json`` as Markdown."""
+    parts = ["# Keys of `diagnosis.json`", "", "Written by `pyrofit reference --of diagnosis`.", ""]
+    for record in _records():
+        parts += [f"## {_title(record)}", "", f"{record.__doc__}", ""]
+        parts += ["| key | type | meaning |", "|---|---|---|"]
+        for name, field in record.model_fields.items():
+            words = _words(field.annotation)
+            parts.append(f"| `{field.alias or name}` | {words} | {field.description} |")
+        parts.append("")
+    return "\n".join(parts)
+
+
+def _title(record: type[Record]) -> str:
+    return record.__name__.removeprefix("Of")
+
+
+def _records() -> list[type[Record]]:
+    """Return the result and all records in it, each once."""
+    found: list[type[Record]] = [Diagnosis]
+    for one in found:
+        held = [part for f in one.model_fields.values() for part in _held(f.annotation)]
+        found += [part for part in dict.fromkeys(held) if part not in found]
+    return found
+
+
+def _held(annotation: object) -> Iterator[type[Record]]:
+    if isinstance(annotation, type) and issubclass(annotation, Record):
+        yield annotation
+    for inner in get_args(annotation):
+        yield from _held(inner)
+
+
+def _words(annotation: object) -> str:
+    """Return a type in words, linked to the record that it holds."""
+    if isinstance(annotation, type) and issubclass(annotation, Record):
+        return f"[{_title(annotation)}](#{_title(annotation).lower()})"
+    origin, inner = get_origin(annotation), get_args(annotation)
+    if origin is Literal:
+        return ", ".join(f"`{value}`" for value in inner)
+    if origin is list:
+        return f"list of {_words(inner[0])}"
+    if origin is dict:
+        return f"{_words(inner[1])} by name"
+    if inner:
+        return " or ".join(_words(part) for part in inner)
+    return _TYPES[getattr(annotation, "__name__", "")]
