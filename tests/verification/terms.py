@@ -105,6 +105,7 @@ TERMS = {
     "back_h_change": Term(0.0, -3.0, back={"h_change_W_m2K": "x"}),
     "front_gas_rise": Term(0.0, 150.0, front={"gas_rise_K": "x", "gas_rise_time_s": 60.0}),
     "back_gas_rise": Term(0.0, 80.0, back={"gas_rise_K": "x"}),
+    "flux_factor": Term(1.0, 1.1, front={"flux_factor": "x"}),
     "rise_time": Term(0.0, 20.0, front={"rise_time_s": "x"}),
     "spread": Term(0.0, 0.2, front={"spread": "x"}),
     "drift": Term(0.0, -5e-4, front={"drift_1_s": "x"}),

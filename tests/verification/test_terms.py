@@ -149,6 +149,7 @@ def test_thin_slab_follows_gas_that_warms_up(solve: Solver) -> None:
 
 TAU, DRIFT = 30.0, 2e-3
 HEATERS: dict[str, tuple[dict[str, float], Callable[[float], float]]] = {
+    "is_multiplied": ({"flux_factor": 1.1}, lambda t: 1.1),
     "rises": ({"rise_time_s": TAU}, lambda t: 1.0 - np.exp(-t / TAU)),
     "drifts": ({"drift_1_s": DRIFT}, lambda t: 1.0 + DRIFT * t),
     "drifts_to_zero": ({"drift_1_s": -0.01}, lambda t: max(1.0 - 0.01 * t, 0.0)),

@@ -2,6 +2,7 @@
 
 `study` says what a study is made of, `known` what is known of its parameters, `stages` its stages,
 `terms` the terms of its costs and `diagnosis` its diagnosis.
+`repeats` makes experiments of repeats, with `repeated_names` and `nuisances`.
 `resolve` says what holds where a study says nothing. `checks`, `stage_checks`, `diagnosis_checks`
 and `numbers` say what must hold between its parts and for its numbers. `effects` puts effects in,
 `read` reads and checks it, `words` says in plain words what is wrong, `uses` which parameters a

@@ -16,6 +16,7 @@ from pyrofit.config.checks import check_study
 from pyrofit.config.diagnosis_checks import check_diagnosis
 from pyrofit.config.effects import apply_effects
 from pyrofit.config.known_checks import check_known
+from pyrofit.config.repeats import expand_repeats
 from pyrofit.config.study import Study, is_own
 from pyrofit.config.tables import with_tables
 from pyrofit.config.words import in_plain_words, refuse_booleans
@@ -41,6 +42,7 @@ def as_study(given: Mapping[str, Any], source: str) -> Study:
     try:
         refuse_booleans(given)
         use_plugins([(folder or Path()) / name for name in _plugins(given)])
+        given = expand_repeats(given)
         given = with_tables(given, folder or Path())
         study = Study.model_validate(apply_effects(given))
         check_study(study)

@@ -56,12 +56,15 @@ def _whole(chosen: Chosen) -> tuple[TermSpec, ...]:
 
 def diagnosed_parameters(study: Study) -> tuple[str, ...]:
     """Return the names of the parameters that the diagnosis estimates beside the effects."""
+    differing = tuple(
+        name for e in calibrated(study).values() if e.repeat for name in e.repeat.nuisances.values()
+    )
     if study.diagnosis.estimate:
-        return study.diagnosis.estimate
+        return tuple(dict.fromkeys(study.diagnosis.estimate + differing))
     kinetics = study.kinetics.estimate if study.kinetics else ()
     if not any(kind_of(e).stage == "kinetics" for e in calibrated(study).values()):
         kinetics = tuple(name for name in kinetics if study.parameters[name].value is None)
-    names = kinetics + study.imp.estimate
+    names = kinetics + study.imp.estimate + differing
     used = parameters_in(diagnosed_material(study), *diagnosed(study).values())
     return tuple(name for name in dict.fromkeys(names) if name in used)
 

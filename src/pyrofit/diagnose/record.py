@@ -69,7 +69,7 @@ def _noise(found: Search) -> list[dict[str, Any]]:
             "role": _role(found, i),
             "points": noise.sd.size,
             "unit": noise.unit,
-            "sd_median": float(np.median(noise.sd)),
+            "sd_median": float(np.median(noise.total_sd)),
             "words": noise.describe(),
             "stated": noise.stated,
             "white": noise.white,
@@ -264,7 +264,7 @@ def _gap(found: Search) -> list[dict[str, Any]]:
             "role": _role(found, i),
             "points": noise.sd.size,
             "unit": noise.unit,
-            "noise_sd": float(np.median(noise.sd)),
+            "noise_sd": float(np.median(noise.total_sd)),
         }
         for key in ("rms", "chi2"):
             row |= {f"{key}_before": before[key], f"{key}_after": after[key]}
@@ -288,7 +288,7 @@ def curves(found: Search) -> pd.DataFrame:
             "time_s": target.time_s,
             "temperature_K": np.nan if T is None else T[index],
             "measured": target.value,
-            "sd": base.likelihood.noise[i].sd,
+            "sd": base.likelihood.noise[i].total_sd,
             "before": before[i]["curve"],
             "after": after[i]["curve"],
         }

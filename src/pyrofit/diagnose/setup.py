@@ -18,6 +18,7 @@ from pyrofit.diagnose.descent import descend, refreshed
 from pyrofit.diagnose.model import Base, model_of
 from pyrofit.diagnose.refit import Trial, polished
 from pyrofit.errors import DataError
+from pyrofit.estimate.between_repeats import with_repeats
 from pyrofit.estimate.likelihood import FAILED, likelihood_of
 from pyrofit.estimate.noise import NoiseModel, estimate_noise
 from pyrofit.estimate.prior import prior_of
@@ -141,7 +142,8 @@ def with_noise_about(
 
     for i, found in zip(wanted, parallel_map(better, len(wanted), processes), strict=True):
         noise[i] = found or noise[i]
-    return replace(base, likelihood=replace(base.likelihood, noise=tuple(noise)))
+    scattered = with_repeats(problem, noise, parts)
+    return replace(base, likelihood=replace(base.likelihood, noise=scattered))
 
 
 def _noise(problem: Problem, channel: int, about: FloatArray) -> NoiseModel:

@@ -6,6 +6,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from pyrofit.errors import DataError
+from pyrofit.estimate.between_repeats import with_repeats
 from pyrofit.estimate.noise import NoiseModel, estimate_noise
 from pyrofit.estimate.prior import NO_PRIOR, NormalPrior
 from pyrofit.estimate.problem import Problem
@@ -236,7 +237,7 @@ def likelihood_of(problem: Problem, prior: NormalPrior = NO_PRIOR) -> Likelihood
             noise.append(estimate_noise(term.target, quantity, stated_sds, timing_s))
         except DataError as error:
             raise DataError(f"{name}: {error}") from None
-    return Likelihood(problem, tuple(noise), prior)
+    return Likelihood(problem, with_repeats(problem, noise), prior)
 
 
 def fit(likelihood: Likelihood, starts: Sequence[FloatArray]) -> Optimum:

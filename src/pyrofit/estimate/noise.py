@@ -3,6 +3,7 @@
 import math
 from collections.abc import Mapping
 from dataclasses import dataclass, field
+from functools import cached_property
 
 import numpy as np
 
@@ -58,24 +59,52 @@ class NoiseModel:
     """BIC of curve and scatter, the lower the better."""
     stated: bool = False
     """Whether the series has an uncertainty of its own."""
+    modes: FloatArray | None = None
+    """Lasting scatter between repeats U, which adds U U^T to the covariance, shape (n, modes)."""
+
+    @property
+    def total_sd(self) -> FloatArray:
+        """Standard deviation with the scatter between repeats, shape (n,)."""
+        if self.modes is None:
+            return self.sd
+        return np.asarray(np.sqrt(self.sd**2 + np.sum(self.modes**2, axis=1)))
 
     def whiten(self, residual: FloatArray) -> FloatArray:
         """Return w = L^-1 (r / sd): white and of unit variance if the residual is this noise.
+
+        With scatter between repeats, w = (I + V V^T)^(-1/2) L^-1 (r / sd), V = L^-1 (U / sd).
 
         Parameters
         ----------
         residual
             r, shape (n,) or (n, k), in the unit of the series.
         """
+        white = self._white_alone(residual)
+        if self.modes is None:
+            return white
+        directions, shares = self._lasting
+        inside = directions.T @ white
+        shares = shares if white.ndim == 1 else shares[:, None]
+        return np.asarray(white - directions @ (shares * inside))
+
+    def _white_alone(self, residual: FloatArray) -> FloatArray:
         sd = self.sd if residual.ndim == 1 else self.sd[:, None]
         return self.correlation.whiten(residual / sd)[0]
+
+    @cached_property
+    def _lasting(self) -> tuple[FloatArray, FloatArray]:
+        """Directions Q of V = Q S W^T, and what whitening takes of each: 1 - (1 + S^2)^(-1/2)."""
+        assert self.modes is not None
+        directions, sizes, _ = np.linalg.svd(self._white_alone(self.modes), full_matrices=False)
+        return directions, 1.0 - 1.0 / np.sqrt(1.0 + sizes**2)
 
     def describe(self) -> str:
         """Say its size, where that comes from, its correlation, and whether it whitens."""
         more = f"; the scatter is {self.excess:.2g} times that" if self.excess > 1.0 else ""
         floors = ", ".join(f"{name} {size:.2g}" for name, size in self.floors.items())
+        sd = np.median(self.total_sd)
         return (
-            f"sd {np.median(self.sd):.2g} {self.unit} ({self.origin}{more}; with {floors}; medians)"
+            f"sd {sd:.2g} {self.unit} ({self.origin}{more}; with {floors}; medians)"
             f", {self.correlation.describe()}{self._tested()}"
         )
 

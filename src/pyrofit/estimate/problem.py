@@ -2,6 +2,7 @@
 
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, replace
+from functools import cached_property
 
 import numpy as np
 from numpy.typing import NDArray
@@ -39,6 +40,26 @@ class _Run:
 
     experiment: Experiment
     requests: dict[str, Request]
+
+
+def _is_alike(one: _Run, other: _Run) -> bool:
+    """Tell whether two runs are repeats of one test with the same curves at the same times."""
+    repeats = one.experiment.repeat, other.experiment.repeat
+    return (
+        repeats[0] is not None
+        and repeats[1] is not None
+        and repeats[0].test == repeats[1].test
+        and one.requests.keys() == other.requests.keys()
+        and all(_is_same(one.requests[s], other.requests[s]) for s in one.requests)
+        and one.experiment.as_simulated(one.requests) == other.experiment.as_simulated(one.requests)
+    )
+
+
+def _is_same(one: Request, other: Request) -> bool:
+    pairs = ((one.time_s, other.time_s), (one.temperature_K, other.temperature_K))
+    return (one.average_s, one.output) == (other.average_s, other.output) and all(
+        a is b or (a is not None and b is not None and np.array_equal(a, b)) for a, b in pairs
+    )
 
 
 @dataclass(frozen=True)
@@ -82,17 +103,29 @@ class Problem:
         ]
 
     def _simulated(self, values: Values, sets: int) -> dict[str, list[Curves]]:
-        """Return the curves by experiment and set; kinds with one solver in one call."""
+        """Return the curves by experiment and set; kinds with one solver in one call.
+
+        Repeats that are described alike and recorded at the same times are simulated once.
+        """
         names: dict[Simulate, list[str]] = {}
-        for name, run in self.runs.items():
-            names.setdefault(kind_of(run.experiment).simulate, []).append(name)
+        for name in dict.fromkeys(self._alike.values()):
+            names.setdefault(kind_of(self.runs[name].experiment).simulate, []).append(name)
         curves: dict[str, list[Curves]] = {}
         for simulate, together in names.items():
             experiments = [self.runs[name].experiment for name in together]
             asked = [self.runs[name].requests for name in together]
             found = simulate(experiments, self.material, values, asked, self.accuracy, sets)
             curves.update(zip(together, found, strict=True))
-        return curves
+        return {name: curves[first] for name, first in self._alike.items()}
+
+    @cached_property
+    def _alike(self) -> dict[str, str]:
+        """The first experiment that is simulated as each one is."""
+        found: dict[str, str] = {}
+        for name, run in self.runs.items():
+            same = (n for n in dict.fromkeys(found.values()) if _is_alike(self.runs[n], run))
+            found[name] = next(same, name)
+        return found
 
     def _picked(self, curves: Mapping[str, Curves]) -> Outcome:
         for name in self.runs:

@@ -1,11 +1,13 @@
 """What all experiments have: a title and measured signals."""
 
+from collections.abc import Iterable
 from typing import Self
 
 from pydantic import Field, model_validator
 
 from pyrofit.errors import suggest
 from pyrofit.model.base import Part
+from pyrofit.model.repeats import AnyRepeats, RepeatOf
 from pyrofit.model.signal import Signal
 from pyrofit.quantities import known_quantities, quantities_of
 from pyrofit.quantities.base import Quantity
@@ -17,6 +19,12 @@ class Experiment(Part):
     kind: str
     title: str = Field("", description="name in figures")
     signals: dict[str, Signal] = Field(description="measured quantities by name")
+    repeats: AnyRepeats | None = Field(
+        None, description="records of equal tests, each an experiment of its own"
+    )
+    repeat: RepeatOf | None = Field(
+        None, description="what it repeats, as noted when a study is read; list yours in `repeats`"
+    )
 
     @model_validator(mode="after")
     def _known_signals(self) -> Self:
@@ -40,6 +48,11 @@ class Experiment(Part):
     def synthetic_span(self) -> tuple[float, str]:
         """Length of a computed record [s] or [K], and the keys that set it."""
         raise NotImplementedError
+
+    def as_simulated(self, signals: Iterable[str]) -> Self:
+        """Return what its curves depend on, with some signals: not how it was recorded."""
+        shown = {s: self.signals[s].as_simulated() for s in signals}
+        return self.model_copy(update={"title": "", "repeat": None, "signals": shown})
 
     def words(self, signal: str) -> str:
         """Return a signal's name in words: its quantity's, and its own where that is another."""

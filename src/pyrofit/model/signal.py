@@ -12,6 +12,21 @@ TIMING_S = 0.5
 Follows = Literal["material", "fixture"]
 
 
+RECORD = (
+    "uncertainty",
+    "uncertainty_meaning",
+    "uncertainty_sds",
+    "timing_s",
+    "sample_mass_kg",
+    "sample_area_m2",
+    "until_K",
+    "until_s",
+    "noise",
+    "every",
+)
+"""Keys of a signal that tell of its record, besides its file: no simulation depends on them."""
+
+
 class Noise(Part):
     """Noise of a computed measurement, white unless one of the two correlations is given."""
 
@@ -108,3 +123,8 @@ class Signal(Part):
     every: AboveZero = Field(
         1.0, description="synthetic: spacing of the points [s], or [K] of a heated sample"
     )
+
+    def as_simulated(self) -> Self:
+        """Return what its curve depends on: not its file, its units, its noise."""
+        update = {name: type(self).model_fields[name].default for name in RECORD}
+        return self.model_copy(update={**update, "file": "", "columns": {}, "units": {}})

@@ -52,6 +52,7 @@ class Front(Side):
     flux_W_m2: FluxOverTime = Field(
         description="external radiant flux, may follow a table over time [W/m2]"
     )
+    flux_factor: NotNegative = Field(1.0, description="multiplies the external radiant flux [-]")
     rise_time_s: NotNegative = Field(
         0.0, description="time constant with which the heater comes up from t = 0 on [s]"
     )

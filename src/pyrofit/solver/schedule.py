@@ -28,7 +28,7 @@ def lower_schedule(experiment: SlabExperiment, values: Values, sets: int) -> Flo
     schedule = np.stack(
         [
             stack([t for t, _ in points], sets),
-            q,
+            value_of(front.flux_factor, values) * q,
             np.maximum(h + value_of(front.h_change_W_m2K, values), 0.0),
             gas,
             wall,

@@ -197,7 +197,7 @@ def _noise(likelihood: Likelihood, found: Identification) -> dict[str, Any]:
             "experiment": experiment,
             "signal": signal,
             "points": part.size,
-            "sd_median": float(np.median(noise.sd)),
+            "sd_median": float(np.median(noise.total_sd)),
             "lags": list(noise.correlation.lags),
             "ar": noise.correlation.ar,
             "splines": noise.splines,

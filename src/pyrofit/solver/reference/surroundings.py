@@ -169,7 +169,7 @@ def pieces(
     """Yield the pieces between all given times up to the end, of ``factor`` times the flux."""
     front = experiment.front
     heater = Heater(
-        factor,
+        factor * value_of(front.flux_factor, values),
         value_of(front.rise_time_s, values),
         value_of(front.drift_1_s, values),
         value_of(front.drift_time_s, values),

@@ -1,0 +1,159 @@
+"""Repeats of a test: each becomes an experiment of its own when a study is read."""
+
+from collections.abc import Mapping
+from dataclasses import dataclass
+from typing import Any
+
+from pydantic import TypeAdapter, ValidationError
+
+from pyrofit.config.nuisances import NUISANCES, free, scattered
+from pyrofit.config.repeated_names import at_costs, at_names, at_signals
+from pyrofit.config.words import in_plain_words
+from pyrofit.experiments import KINDS
+from pyrofit.model.repeats import AnyRepeats, Repeat, Repeats
+
+Keys = dict[str, Any]
+_REPEATS: TypeAdapter[Repeats] = TypeAdapter(AnyRepeats)
+SYNTHETIC = "synthetic"
+
+
+@dataclass(frozen=True)
+class _Test:
+    """A repeated test: its repeats as experiments, and the standard deviations of each."""
+
+    experiments: dict[str, Keys]
+    sds: dict[str, dict[str, float]]
+
+
+def expand_repeats(given: Mapping[str, Any]) -> Mapping[str, Any]:
+    """Return a study's keys with each repeat as an experiment of its own.
+
+    What names the test names all repeats that have the signal: costs share the weight of the term
+    equally. What differs between repeats becomes parameters with known values, which every stage
+    estimates that fits the repeat.
+
+    Raises
+    ------
+    ValueError
+        With place, rule and way out.
+    """
+    experiments = given.get("experiments")
+    if not isinstance(experiments, Mapping):
+        return given  # the checks of the study say what is wrong
+    tests = {
+        name: _test(name, experiment, experiments)
+        for name, experiment in experiments.items()
+        if isinstance(experiment, Mapping) and experiment.get("repeats") is not None
+    }
+    if not tests:
+        return given
+    keys = _expanded(given, tests)
+    sds = {own: given for test in tests.values() for own, given in test.sds.items()}
+    try:
+        for own, of in sds.items():
+            keys = free(keys, own, of)
+        return scattered(keys, sds)
+    except (AttributeError, KeyError, TypeError):
+        return keys  # as above
+
+
+def _expanded(given: Mapping[str, Any], tests: Mapping[str, _Test]) -> Keys:
+    """Return the keys with repeats in place of tests wherever these are named."""
+    keys = dict(given)
+    keys["experiments"] = {}
+    for name, experiment in given["experiments"].items():
+        new = tests[name].experiments if name in tests else {name: experiment}
+        for own in new:
+            _require(
+                own not in keys["experiments"] and (own == name or own not in given["experiments"]),
+                f"experiments.{name}.repeats",
+                f"another experiment is named '{own}'; give the repeats other names",
+            )
+        keys["experiments"] |= new
+    repeats = {
+        name: {own: set(keys["signals"]) for own, keys in test.experiments.items()}
+        for name, test in tests.items()
+    }
+    return at_names(at_signals(at_costs(keys, repeats), repeats), repeats)
+
+
+def _test(name: str, experiment: Mapping[str, Any], others: Mapping[str, Any]) -> _Test:
+    place = f"experiments.{name}.repeats"
+    try:
+        repeats = _REPEATS.validate_python(experiment["repeats"])
+    except ValidationError as error:
+        lines = in_plain_words(error, experiment["repeats"])
+        raise ValueError("; ".join(f"{place}.{line}" for line in lines)) from None
+    listed = repeats.tests
+    if not isinstance(listed, Mapping):
+        listed = {f"{name}_{i}": repeat for i, repeat in enumerate(listed, 1)}
+    _require(len(listed) > 1, place, "give at least two repeats, or leave the key out")
+    found, sds = {}, {}
+    for own, repeat in listed.items():
+        found[own] = _experiment(name, own, experiment, repeat)
+        sds[own] = repeats.given | repeat.given
+        for key in sds[own]:
+            _check_family(f"{place}.{own}.{key}", key, experiment.get("kind"))
+    _check_files(place, found)
+    return _Test(found, sds)
+
+
+def _experiment(name: str, own: str, experiment: Mapping[str, Any], repeat: Repeat) -> Keys:
+    """Return the keys of one repeat: those of the test, its own files and values instead."""
+    place = f"experiments.{name}.repeats.{own}"
+    shared = experiment.get("signals") or {}
+    given: dict[str, Keys] = {key: {} for key, keys in shared.items() if _is_synthetic(keys)} | {
+        signal: {"file": keys} if isinstance(keys, str) else keys
+        for signal, keys in repeat.signals.items()
+    }
+    _require(bool(given), place, "it has no file; give under signals the file of each signal")
+    of_sample = repeat.model_dump(include={"sample_mass_kg", "sample_area_m2"}, exclude_none=True)
+    signals = {}
+    for signal, keys in given.items():
+        here = shared.get(signal)
+        here = dict(here) if isinstance(here, Mapping) else {}
+        signals[signal] = {**here, **of_sample, **keys}
+        _require(
+            "file" in keys or _is_synthetic(here),
+            f"{place}.signals.{signal}",
+            "give the file of this repeat",
+        )
+    title = repeat.title or f"{experiment.get('title') or name}, {own.removeprefix(f'{name}_')}"
+    kept = {key: value for key, value in experiment.items() if key != "repeats"}
+    return {**kept, "title": title, "signals": signals, "repeat": {"test": name}}
+
+
+def _is_synthetic(keys: Any) -> bool:
+    return isinstance(keys, Mapping) and keys.get("file") == SYNTHETIC
+
+
+def _check_files(place: str, experiments: Mapping[str, Keys]) -> None:
+    """Refuse one file for the same signal of two repeats."""
+    seen: dict[tuple[str, Any], str] = {}
+    for own, keys in experiments.items():
+        for signal, described in keys["signals"].items():
+            file = described["file"]
+            _require(
+                file == SYNTHETIC or (signal, file) not in seen,
+                f"{place}.{own}.signals.{signal}",
+                f"'{file}' is the file of {seen.get((signal, file))}, too; give its own file",
+            )
+            seen[signal, file] = own
+
+
+def _check_family(place: str, key: str, kind: Any) -> None:
+    """Refuse a standard deviation that the kind of the test has not."""
+    known = KINDS.get(kind) if isinstance(kind, str) else None
+    if known is not None:
+        family = NUISANCES[key].family
+        fitting = [k for k, n in NUISANCES.items() if issubclass(known.description, n.family)]
+        _require(
+            issubclass(known.description, family),
+            place,
+            f"a {known.words} experiment has none; it may have {', '.join(fitting)}",
+        )
+
+
+def _require(ok: bool, place: str, message: str) -> None:
+    if not ok:
+        raise ValueError(f"{place}: {message}")
