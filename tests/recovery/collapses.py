@@ -9,6 +9,7 @@ first two are as uncertain as the repeats themselves, however many points are me
 """
 
 import sys
+from collections.abc import Sequence
 from dataclasses import dataclass
 from types import SimpleNamespace
 from typing import Any
@@ -49,25 +50,28 @@ def records(repeats: int, rng: np.random.Generator) -> FloatArray:
     return clean + NOISE * rng.standard_normal(clean.shape)
 
 
-def noise_of(measured: FloatArray, free: bool) -> tuple[NoiseModel, ...]:
+def noise_of(
+    measured: Sequence[FloatArray] | FloatArray, free: bool, times: Sequence[FloatArray] = ()
+) -> tuple[NoiseModel, ...]:
     """Return the noise of repeats; ``free``: parameters stand for what differs."""
     runs, picks, terms = {}, [], []
     for i, value in enumerate(measured):
+        time = times[i] if times else TIME
         repeat = SimpleNamespace(test="slab", nuisances=NUISANCES if free else {})
         request = SimpleNamespace(temperature_K=None)
         runs[str(i)] = SimpleNamespace(
             experiment=SimpleNamespace(repeat=repeat), requests={"mlr": request}
         )
-        picks.append((str(i), "mlr", np.arange(TIME.size)))
-        terms.append((1.0, SimpleNamespace(target=Target(TIME, value))))
+        picks.append((str(i), "mlr", np.arange(time.size)))
+        terms.append((1.0, SimpleNamespace(target=Target(time, value))))
     problem: Any = SimpleNamespace(
         names=tuple(NUISANCES.values()),
         runs=runs,
         picks=picks,
         cost=SimpleNamespace(terms=terms),
     )
-    white = NoiseModel(np.full(TIME.size, NOISE), Correlation())
-    return with_repeats(problem, (white,) * len(measured))
+    white = [NoiseModel(np.full(value.size, NOISE), Correlation()) for value in measured]
+    return with_repeats(problem, white)
 
 
 @dataclass(frozen=True)

@@ -246,8 +246,8 @@ def test_synthetic_data_are_said_so(tmp_path: Path) -> None:
     page, _ = written(tmp_path, synthetic())
     assert "Synthetic data." in page.words
     assert "Measured data from" not in page.words
-    # All but the table of known values, of which there are none.
-    assert page.words.count("(synthetic data)") == len(FIGURES) - 1 + len(TABLES) - 1
+    # All but the tables of known values and of repeats, of which there are none.
+    assert page.words.count("(synthetic data)") == len(FIGURES) - 1 + len(TABLES) - 2
 
 
 def test_truth_stands_beside_the_estimates_where_it_is_known(tmp_path: Path) -> None:

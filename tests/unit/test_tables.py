@@ -96,6 +96,17 @@ def described(**changes: Any) -> dict[str, Any]:
     return {**study, **changes}
 
 
+def repeats(**changes: Any) -> dict[str, Any]:
+    """The same with two repeats of a test; the second lacks the back temperature."""
+    study = described(**changes)
+    del study["experiments"]["slab_60"]["signals"]["mlr"]["file"]
+    study["experiments"]["slab_60"]["repeats"] = [
+        {"signals": {"mlr": "a.csv", "back_temperature": "a_T.csv"}},
+        {"signals": {"mlr": "b.csv"}},
+    ]
+    return study
+
+
 def tga(rate: float) -> dict[str, Any]:
     signals = {"mass_fraction": {"file": "tga.csv"}}
     return {"kind": "tga", "heating_rate_K_min": rate, "signals": signals}
@@ -317,6 +328,7 @@ def test_every_table_is_written_twice_and_alike_each_time(name: str, tmp_path: P
     needs = {
         "truth": synthetic,
         "known_values": lambda: described(known={"k": {"value": 0.2, "sd": 0.01}}),
+        "repeats": repeats,
     }
     study, results = fake(tmp_path, needs.get(name, described)())
     make_table(name, study, results)

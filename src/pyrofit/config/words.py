@@ -90,6 +90,7 @@ WORDS = {
     "string_pattern_mismatch": "{given} is no name; letters, digits and _ make one, a letter first",
     "greater_than": "{given} must be above {gt:g}",
     "greater_than_equal": "{given} must be at least {ge:g}",
+    "less_than": "{given} must be below {lt:g}",
     "less_than_equal": "{given} must be at most {le:g}",
     "model_type": "{given} is not a mapping of keys",
     "model_attributes_type": "{given} is not a mapping of keys",

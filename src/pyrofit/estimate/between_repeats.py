@@ -1,10 +1,10 @@
 """The scatter between repeats of a test, as a lasting part of their noise.
 
 Repeat r of R records y_r = f + u_r + e_r: a curve f that all share, a random effect u_r that lasts
-over the record, and noise e_r of its points. With d_r = y_r - mean and W the window that smooths a
-stated uncertainty, tau^2 = W (sum_r d_r^2 / (R - 1) - variance of e) is the variance between
-repeats over time. The covariance of u_r is
+over the record, and noise e_r of its points. With d_r = y_r - mean and W a window that smooths over
+time as that of a stated uncertainty does, variance between repeats and covariance of u_r are
 
+    tau^2 = W (sum_r d_r^2 / (R - 1) - variance of e)
     K = q (S S^T / (R - 1) + tau tau^T * exp(-|t - t'| / l)),    S = W (d_1 ... d_R).
 
 The first term is what the repeats show; it lasts over the whole record, so that a parameter that
@@ -20,10 +20,14 @@ import numpy as np
 from scipy.optimize import least_squares
 from scipy.special import stdtrit
 
-from pyrofit.estimate.noise import FEWEST_POINTS, SMOOTHING, NoiseModel
+from pyrofit.estimate.correlation import Correlation
+from pyrofit.estimate.noise import FEWEST_POINTS, NoiseModel
 from pyrofit.estimate.problem import Problem
 from pyrofit.solver.arrays import FloatArray
 
+WINDOW = 0.2
+"""Window of the smoothing, as a fraction of the record: twice that of a stated uncertainty, as a
+further repeat may be steep a little before or after those that are there."""
 KNOTS = 81
 """Knots of a record."""
 LASTING = 0.05
@@ -43,6 +47,17 @@ class _Record:
     at: FloatArray
     value: FloatArray
     noise: NoiseModel
+
+    @property
+    def points(self) -> tuple[FloatArray, Correlation]:
+        """Standard deviation and correlation of the noise of its points.
+
+        The discrepancy of models is none: all repeats share it.
+        """
+        shared = self.noise.floors.get("discrepancy")
+        if shared is None:
+            return self.noise.sd, self.noise.correlation
+        return np.sqrt(np.maximum(self.noise.sd**2 - shared**2, 0.0)), Correlation()
 
 
 def with_repeats(
@@ -106,10 +121,10 @@ def _of_group(records: Sequence[_Record], align: bool) -> list[NoiseModel]:
     values = np.array([np.interp(grid, r.at, r.value) for r in records])
     deviations = _aligned(grid, values, window, knots) if align else values - values.mean(axis=0)
     freedom = len(records) - 1
-    of_points = np.mean([np.interp(grid, r.at, r.noise.sd**2) for r in records], axis=0)
+    of_points = np.mean([np.interp(grid, r.at, r.points[0] ** 2) for r in records], axis=0)
     variance = np.sum(deviations**2, axis=0) / freedom
     shown = deviations @ window.T
-    left = np.mean([_left(_window(r.at, knots), r.noise) for r in records], axis=0)
+    left = np.mean([_left(_window(r.at, knots), *r.points) for r in records], axis=0)
     if not _significant(np.sum(shown**2, axis=0) / freedom, left, freedom):
         return [r.noise for r in records]
     tau = np.sqrt(np.maximum(window @ (variance - of_points), 0.0))
@@ -119,15 +134,15 @@ def _of_group(records: Sequence[_Record], align: bool) -> list[NoiseModel]:
 
 def _window(at: FloatArray, knots: FloatArray) -> FloatArray:
     """Return the weights of a Gaussian window about each knot, shape (knots, n)."""
-    width = 0.25 * SMOOTHING * (knots[-1] - knots[0])
+    width = 0.25 * WINDOW * (knots[-1] - knots[0])
     weights = np.exp(-0.5 * (np.subtract.outer(knots, at) / width) ** 2)
     return np.asarray(weights / weights.sum(axis=1, keepdims=True))
 
 
-def _left(window: FloatArray, noise: NoiseModel) -> FloatArray:
+def _left(window: FloatArray, sd: FloatArray, correlation: Correlation) -> FloatArray:
     """Return the variance that the noise of the points leaves at the knots, shape (knots,)."""
-    weighted = window * noise.sd
-    r = noise.correlation.sequence(window.shape[1])
+    weighted = window * sd
+    r = correlation.sequence(window.shape[1])
     total = np.sum(weighted**2, axis=1)
     for lag in range(1, window.shape[1]):
         if abs(r[lag]) < 1e-3:
@@ -139,7 +154,7 @@ def _left(window: FloatArray, noise: NoiseModel) -> FloatArray:
 def _significant(variance: FloatArray, left: FloatArray, freedom: int) -> bool:
     """Tell whether the scatter is more than the noise of the points makes of itself."""
     ratio = float(np.mean(variance / np.maximum(left, 1e-300)))
-    return ratio > 1.0 + SIGNIFICANT * float(np.sqrt(2.0 * SMOOTHING / freedom))
+    return ratio > 1.0 + SIGNIFICANT * float(np.sqrt(2.0 * WINDOW / freedom))
 
 
 def _modes(knots: FloatArray, shown: FloatArray, tau: FloatArray) -> FloatArray:

@@ -1,0 +1,72 @@
+"""Repeats of tests, and what differs between them beside its stated scatter."""
+
+from typing import Any
+
+import pandas as pd
+
+from pyrofit.analysis.repeats import Differing, Repeated, has_repeats, repeated
+from pyrofit.config import Study
+from pyrofit.config.nuisances import NUISANCES
+from pyrofit.results.files import Results
+from pyrofit.show.names import STAGES
+from pyrofit.show.table import Table
+
+
+def table(study: Study, results: Results) -> pd.DataFrame:
+    """List the repeats of every test with their signals and what differs between them.
+
+    Returns
+    -------
+    pandas.DataFrame
+        One row per repeat and value that differs; one row for a repeat without any.
+    """
+    rows = [
+        _row(study, repeat, one)
+        for repeat in repeated(study, results)
+        for one in repeat.differing or (None,)
+    ]
+    return pd.DataFrame(rows).dropna(axis="columns", how="all")
+
+
+def _row(study: Study, repeat: Repeated, one: Differing | None) -> dict[str, Any]:
+    words = study.experiments[repeat.name].words
+    about: dict[str, Any] = {
+        "test": repeat.test,
+        "repeat": repeat.name,
+        "signals": ", ".join(words(signal) for signal in repeat.signals),
+        "missing": ", ".join(repeat.missing) or None,
+    }
+    if one is None:
+        return about
+    estimate = one.estimate
+    return {
+        **about,
+        "fit": STAGES[estimate.stage],
+        "differs": NUISANCES[one.key].label,
+        "unit": estimate.unit,
+        "stated_sd": one.sd,
+        "estimate": estimate.value,
+        "low": estimate.low,
+        "high": estimate.high,
+        "away_sd": one.away_sd,
+    }
+
+
+TABLE = Table(
+    place=16,
+    applies=has_repeats,
+    make=table,
+    title="Repeats and what differs between them",
+    note="Repeats are fitted together and never averaged. Stated sd: standard deviation between "
+    "repeats, given under `repeats`. Distance: estimate minus the value of no difference, over "
+    "the stated sd; beyond 2 the repeats differ by more than is stated.",
+    headings={
+        "missing": "signals that it lacks",
+        "differs": "what differs",
+        "stated_sd": "stated sd",
+        "low": "95 % low",
+        "high": "95 % high",
+        "away_sd": "distance [sd]",
+    },
+    group_by="test",
+)
