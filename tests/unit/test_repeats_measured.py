@@ -74,10 +74,17 @@ def test_gasification_repeats_of_a_laboratory_are_read_as_repeats() -> None:
     study = given()
     slab = study["experiments"]["slab_60"]
     column = {"value": "Back Surface Temperature 1"}
-    slab["signals"] = {"back_temperature": {"columns": column}}
+    slab["signals"] = {
+        "back_temperature": {"columns": column},
+        "mass": {"sample_area_m2": 0.01},
+    }
     names = [folder() / "Aalto" / f"Aalto_Gasification_65kW_{i}.csv" for i in (1, 2, 3)]
-    slab["repeats"] = [{"signals": {"back_temperature": str(name)}} for name in names]
+    slab["repeats"] = [
+        {"signals": {"back_temperature": str(name), "mass": str(name)}} for name in names
+    ]
     read = as_study(study, str(Path.cwd() / "smoke.yaml"))
     series = read_all(read)
     points = [len(series[f"slab_60_{i}", "back_temperature"][0]) for i in (1, 2, 3)]
     assert points == [507, 552, 554]
+    masses = [series[f"slab_60_{i}", "mass"][0]["mass_kg_m2"].iloc[0] for i in (1, 2, 3)]
+    assert masses == pytest.approx([6.702, 7.389, 6.976])

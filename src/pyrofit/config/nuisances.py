@@ -25,8 +25,6 @@ class Nuisance:
 
     Parameters
     ----------
-    word
-        End of the parameter's name.
     null
         Value of no difference.
     unit, label
@@ -37,7 +35,6 @@ class Nuisance:
         Where it stands in the description: the part of the experiment, or every signal, or itself.
     """
 
-    word: str
     null: float
     unit: str
     label: str
@@ -48,28 +45,16 @@ class Nuisance:
 
 NUISANCES = {
     "thickness_sd": Nuisance(
-        "thickness",
-        1.0,
-        "-",
-        "thickness over that described",
-        SlabExperiment,
-        "sample",
-        "thickness_factor",
+        1.0, "-", "thickness over that described", SlabExperiment, "sample", "thickness_factor"
     ),
     "flux_sd": Nuisance(
-        "flux", 1.0, "-", "flux over that described", SlabExperiment, "front", "flux_factor"
+        1.0, "-", "flux over that described", SlabExperiment, "front", "flux_factor"
     ),
     "clock_sd_s": Nuisance(
-        "clock",
-        0.0,
-        "s",
-        "time by which the records are late",
-        SlabExperiment,
-        SIGNALS,
-        "delay_s",
+        0.0, "s", "time by which the records are late", SlabExperiment, SIGNALS, "delay_s"
     ),
     "lag_sd_s": Nuisance(
-        "lag", 0.0, "s", "lag of the sample's temperature", HeatedExperiment, "", "lag_s"
+        0.0, "s", "lag of the sample's temperature", HeatedExperiment, "", "lag_s"
     ),
 }
 """By the key of the standard deviation."""
@@ -88,7 +73,7 @@ def free(keys: Keys, name: str, sds: Mapping[str, float]) -> Keys:
     stages = [stage for stage, fitted in _fitted(keys).items() if name in fitted]
     if not sds or not stages:
         return keys
-    made = {key: f"{name}_{NUISANCES[key].word}" for key in sds}
+    made = {key: f"{name}_{key.partition('_sd')[0]}" for key in sds}
     experiment = keys["experiments"][name]
     for key, parameter in made.items():
         if parameter in keys.get("parameters", {}):
