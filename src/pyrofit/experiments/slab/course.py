@@ -45,6 +45,8 @@ def of_curves(curves: Mapping[str, FloatArray]) -> Course:
     X = conversion(curves[MASS])
     middle = (X > 0.2) & (X < 0.8)
     level = float(np.median(rate[middle])) if middle.any() else float(rate.max())
+    if rate.max() <= 0.0:  # an inert body is heated up throughout
+        return Course(X, front, np.zeros(X.size))
     started = _since(rate >= _STARTED * rate.max())
     risen = started & _since(rate >= _RISEN * level)
     warmed = _since((front > front[0]) & (back - back[0] > _WARMED * (front - front[0])))
