@@ -35,14 +35,12 @@ def explore(
 
     Parameters
     ----------
-    problem
-        The problem.
+    problem, rng
+        The problem, and the generator of all that is random.
     best
         The set to start from, SI units, shape (parameters,).
     top
         Highest cost of a good set.
-    rng
-        Generator of all that is random.
 
     Returns
     -------

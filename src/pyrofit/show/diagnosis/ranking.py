@@ -63,16 +63,20 @@ def ranking(study: Study, results: Results) -> Canvas:
     ax.set_xlim(min(-0.3, 1.3 * needed), right)
     ax.tick_params(axis="y", length=0)
     ax.set_xlabel("penalised χ² above that of the best candidate [–]")
+    style.legend_below(canvas, _entries(found))
+    return canvas
+
+
+def _entries(found: Found) -> list[Any]:
+    limit = float(found["ambiguity"])
     kept = "in the verdict" if found["verdict"]["kind"] in CLAIMS else "not rejected"
-    entries: list[Any] = [
+    return [
         style.line(kept, **_KEPT, markersize=4.5),
         style.line("rejected", **_REJECTED, markersize=4.5),
         style.line(f"not told apart below {limit:g}", **LIMIT),
         style.line("base model", **_BASE),
         style.patch("an effect gains too little", color=style.BAND),
     ]
-    style.legend_below(canvas, entries)
-    return canvas
 
 
 def _reason(found: Found, candidate: Found) -> str:

@@ -29,20 +29,8 @@ def page_of(
 ) -> str:
     """Return a page as HTML: sentences of the summary, the data, sections, provenance.
 
-    Parameters
-    ----------
-    study, results
-        The study, and where its measurements lie.
-    title
-        Heading of the page.
-    summary
-        Sentences that come first.
-    sections
-        What follows the measurements.
-    answer
-        Table that ends the summary, if any.
-    lacks
-        What the model lacks, in a sentence, if that is known and not the summary itself.
+    ``answer`` is a table that ends the summary, ``lacks`` says what the model lacks; either is left
+    out where there is none.
 
     Raises
     ------

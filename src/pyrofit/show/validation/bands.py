@@ -1,10 +1,13 @@
 """Width of the predictions of the good sets."""
 
+from collections.abc import Sequence
+
 import pandas as pd
 
 from pyrofit.analysis.good_sets import GOOD, MOST
 from pyrofit.analysis.uses import title_of
 from pyrofit.config import Study
+from pyrofit.quantities.base import Quantity
 from pyrofit.results import recorded
 from pyrofit.results.comparison import bands
 from pyrofit.results.files import Results, read_csv
@@ -26,35 +29,39 @@ def width_of_bands(study: Study, results: Results) -> pd.DataFrame:
     frame = bands(study, results)
     met = read_csv(results.comparison("family.csv"), {"met": float}).groupby("cost_function")["met"]
     tried = met.first().astype(int).to_dict()
-    rows = []
     pairs = frame[["experiment", "signal"]].drop_duplicates().itertuples(index=False)
     among = [study.experiments[name].quantity(signal) for name, signal in pairs]
+    rows = []
     for (name, signal, cost), part in frame.groupby(
         ["experiment", "signal", "cost_function"], sort=False
     ):
+        about = {
+            "experiment": title_of(study, str(name)),
+            "signal": study.experiments[str(name)].words(str(signal)),
+            "cost_function": cost,
+            "good_sets": tried.get(str(cost), sum(tried.values())),
+            "simulated": int(part["sets"].iloc[0]),
+        }
         measured = recorded.series(study, results, str(name), str(signal))
-        experiment = study.experiments[str(name)]
-        quantity = experiment.quantity(str(signal))
-        margin = measured.get(quantity.uncertainty_column)
-        width = float((part["high"] - part["low"]).mean())
-        rows.append(
-            {
-                "experiment": title_of(study, str(name)),
-                "signal": experiment.words(str(signal)),
-                "cost_function": cost,
-                "good_sets": tried.get(str(cost), sum(tried.values())),
-                "simulated": int(part["sets"].iloc[0]),
-                "width_percent": (
-                    100.0 * width / abs(part["measured"].mean()) if quantity.relative else None
-                ),
-                **unit_cells("width", quantity, width, among),
-                "within_percent": _within(part, 0.0),
-                "within_with_uncertainty_percent": (
-                    None if margin is None else _within(part, margin.to_numpy(float))
-                ),
-            }
-        )
+        quantity = study.experiments[str(name)].quantity(str(signal))
+        rows.append({**about, **_width(part, measured, quantity, among)})
     return pd.DataFrame(rows)
+
+
+def _width(
+    part: pd.DataFrame, measured: pd.DataFrame, quantity: Quantity, among: Sequence[Quantity]
+) -> dict[str, float | None]:
+    """Return the mean width of a band, and the shares of the measured points inside."""
+    margin = measured.get(quantity.uncertainty_column)
+    width = float((part["high"] - part["low"]).mean())
+    relative = 100.0 * width / abs(part["measured"].mean()) if quantity.relative else None
+    wider = None if margin is None else _within(part, margin.to_numpy(float))
+    return {
+        "width_percent": relative,
+        **unit_cells("width", quantity, width, among),
+        "within_percent": _within(part, 0.0),
+        "within_with_uncertainty_percent": wider,
+    }
 
 
 def _within(part: pd.DataFrame, margin: FloatArray | float) -> float:
