@@ -23,7 +23,6 @@ from pyrofit.model.base import FRACTION
 from pyrofit.model.experiment import Experiment
 from pyrofit.model.material import REST, check_composition
 from pyrofit.model.slab import SlabExperiment
-from pyrofit.quantities import quantities_of
 
 
 def check_study(study: Study) -> None:
@@ -154,7 +153,7 @@ def _check_signals(study: Study) -> None:
         require(
             bool(experiment.signals),
             f"experiments.{name}.signals",
-            f"empty; name a measured quantity: {', '.join(quantities_of(experiment.kind))}",
+            f"empty; name a measured quantity: {', '.join(experiment.measurable)}",
         )
         for quantity, signal in experiment.signals.items():
             place = f"experiments.{name}.signals.{quantity}"

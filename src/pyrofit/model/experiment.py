@@ -1,7 +1,7 @@
 """What all experiments have: a title and measured signals."""
 
 from collections.abc import Iterable
-from typing import Self
+from typing import ClassVar, Self
 
 from pydantic import Field, model_validator
 
@@ -16,6 +16,8 @@ from pyrofit.quantities.base import Quantity
 class Experiment(Part):
     """What all experiments have; a kind of experiment adds what it is made on."""
 
+    LIKE: ClassVar[str] = ""
+    """Another kind of experiment; its quantities are measured in this one, too."""
     kind: str
     title: str = Field("", description="name in figures")
     signals: dict[str, Signal] = Field(description="measured quantities by name")
@@ -28,7 +30,7 @@ class Experiment(Part):
 
     @model_validator(mode="after")
     def _known_signals(self) -> Self:
-        known = quantities_of(self.kind)
+        known = self.measurable
         for name, signal in self.signals.items():
             if not signal.quantity and name not in known:
                 raise ValueError(f"unknown signal '{name}'. {suggest(name, known)}")
@@ -39,6 +41,11 @@ class Experiment(Part):
                 )
             _check_place(name, signal, known[signal.quantity or name])
         return self
+
+    @property
+    def measurable(self) -> dict[str, Quantity]:
+        """The quantities that may be measured in it, by name."""
+        return quantities_of(self.LIKE) | quantities_of(self.kind)
 
     def quantity(self, signal: str) -> Quantity:
         """Return the quantity of a signal: the one it names, else the one of its own name."""

@@ -29,7 +29,7 @@ def released(time: FloatArray, mass: FloatArray) -> float:
 
 
 QUANTITY = Quantity(
-    kinds=("cone", "gasification"),
+    kinds=("gasification",),
     title="mass per area",
     symbol="m",
     unit="kg/m2",

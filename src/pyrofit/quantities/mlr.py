@@ -31,7 +31,7 @@ def released(time: FloatArray, rate: FloatArray) -> float:
 
 
 QUANTITY = Quantity(
-    kinds=("cone", "gasification"),
+    kinds=("gasification",),
     title="mass loss rate",
     symbol="MLR",
     unit="kg/(m2 s)",

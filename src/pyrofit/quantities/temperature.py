@@ -8,7 +8,7 @@ def temperature(
     place: str,
     headers: tuple[str, ...],
     pattern: str,
-    kinds: tuple[str, ...] = ("cone", "gasification"),
+    kinds: tuple[str, ...] = ("gasification",),
     uncertainty_headers: tuple[str, ...] = (),
 ) -> Quantity:
     """Return the temperature of a place in or on the sample."""

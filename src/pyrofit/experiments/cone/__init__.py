@@ -17,6 +17,7 @@ class Cone(SlabExperiment):
     """Heat release and mass loss of a slab under radiant heat in air."""
 
     APPARATUS: ClassVar[str] = "cone calorimeter"
+    LIKE: ClassVar[str] = "gasification"
     kind: Literal["cone"] = Field(description="a slab that burns under radiant heat")
     flame: Flame | None = Field(
         None, description="the flame; none = all gas burns at once and heats nothing"
