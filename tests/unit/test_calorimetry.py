@@ -11,7 +11,8 @@ import pytest
 
 from pyrofit.config import as_study
 from pyrofit.data.fetch import store
-from pyrofit.data.series import Measurement, SeriesSpec, read_series
+from pyrofit.data.series import Measurement, read_series
+from pyrofit.data.spec import SeriesSpec
 from pyrofit.errors import DataError, PyrofitError
 from pyrofit.experiments import Dsc
 from pyrofit.experiments.heated.simulate import heating_rate, request

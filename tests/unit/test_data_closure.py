@@ -29,7 +29,8 @@ def test_series_from_zero_is_the_trapezoidal_rule() -> None:
 @pytest.mark.parametrize(("flux", "mass", "negative"), [(25, 6.95, 8), (60, 6.82, 4)])
 def test_measured_runs_release_the_known_mass(flux: int, mass: float, negative: int) -> None:
     from pyrofit.data.fetch import locate
-    from pyrofit.data.series import SeriesSpec, read_series
+    from pyrofit.data.series import read_series
+    from pyrofit.data.spec import SeriesSpec
 
     path = locate(f"PMMA/Calibration_Data/UMD/UMD_CAPA_{flux}kW_Mass.csv")
     series = read_series(SeriesSpec("mlr", path))

@@ -5,7 +5,8 @@ from typing import Any
 
 import pytest
 
-from pyrofit.data.series import Measurement, SeriesSpec, read_series
+from pyrofit.data.series import Measurement, read_series
+from pyrofit.data.spec import SeriesSpec
 from pyrofit.errors import DataError
 from pyrofit.quantities import known_quantities
 

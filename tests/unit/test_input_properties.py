@@ -15,7 +15,8 @@ from hypothesis import HealthCheck, given, settings
 from hypothesis import strategies as st
 
 from pyrofit.config import as_study, read_study
-from pyrofit.data.series import SeriesSpec, read_series
+from pyrofit.data.series import read_series
+from pyrofit.data.spec import SeriesSpec
 from pyrofit.errors import DataError, StudyError
 from pyrofit.quantities import known_quantities
 from pyrofit.quantities.units import CELSIUS, ICE_POINT_K, SCALES

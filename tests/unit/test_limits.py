@@ -7,7 +7,8 @@ import numpy as np
 import pytest
 
 from pyrofit.config import TermSpec, as_study, read_mapping
-from pyrofit.data.series import Measurement, SeriesSpec, read_series
+from pyrofit.data.series import Measurement, read_series
+from pyrofit.data.spec import SeriesSpec
 from pyrofit.errors import DataError, StudyError
 from pyrofit.estimate.targets import term_for
 from pyrofit.quantities import known_quantities

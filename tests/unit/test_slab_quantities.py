@@ -11,7 +11,8 @@ import yaml
 from bad_input import STUDY
 
 from pyrofit.config import Study, as_study
-from pyrofit.data.series import Measurement, SeriesSpec, read_series
+from pyrofit.data.series import Measurement, read_series
+from pyrofit.data.spec import SeriesSpec
 from pyrofit.effects import known_effects
 from pyrofit.errors import DataError, StudyError
 from pyrofit.experiments import KINDS, Gasification, kind_of

@@ -10,7 +10,8 @@ import numpy as np
 import pandas as pd
 
 from pyrofit.data.csvfile import read_table
-from pyrofit.data.series import SeriesSpec, read_series
+from pyrofit.data.series import read_series
+from pyrofit.data.spec import SeriesSpec
 from pyrofit.errors import DataError, StudyError
 from pyrofit.experiments import KINDS
 from pyrofit.experiments.base import Kind

@@ -12,7 +12,8 @@ from pyrofit.analysis.closure import described_mass, layers_of
 from pyrofit.config import Study, TermSpec
 from pyrofit.data.download import FOLDER_VARIABLE
 from pyrofit.data.fetch import locate, store
-from pyrofit.data.series import Measurement, SeriesSpec, read_series
+from pyrofit.data.series import Measurement, read_series
+from pyrofit.data.spec import SeriesSpec
 from pyrofit.errors import CostError, DataError
 from pyrofit.estimate.targets import Measurements, term_for
 from pyrofit.model.base import value_of

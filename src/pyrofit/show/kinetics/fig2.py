@@ -38,7 +38,7 @@ def fig2(study: Study, results: Results) -> Canvas:
             _draw(left, right, curve, rate_colour(i), dash_of(k))
     left.set_ylabel("normalised mass $m/m_0$ [–]")
     right.set_ylabel("mass loss rate / heating rate\n$-\\mathrm{d}(m/m_0)/\\mathrm{d}T$ [1/K]")
-    style.letter((left, right), ("mass", "mass loss rate"))
+    style.letter((left, right), ("normalised mass", "mass loss rate"))
     for ax in (left, right):
         ax.set_xlim(*busy_span(curves[curves["experiment"].isin(names)]))
         ax.set_xlabel("temperature [°C]")

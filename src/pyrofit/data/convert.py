@@ -1,0 +1,107 @@
+"""Columns of a measured file in SI units."""
+
+from collections.abc import Mapping, Sequence
+
+import numpy as np
+import pandas as pd
+
+from pyrofit.data.csvfile import FloatArray, Table
+from pyrofit.data.spec import SeriesSpec
+from pyrofit.errors import DataError, suggest
+from pyrofit.quantities.base import LIMITS
+from pyrofit.quantities.units import (
+    CELSIUS,
+    ICE_POINT_K,
+    PER_AREA,
+    PER_MASS,
+    PER_START,
+    SCALES,
+    unit_key,
+)
+
+
+def convert_columns(
+    spec: SeriesSpec, table: Table, headers: Mapping[str, str]
+) -> tuple[pd.DataFrame, list[str]]:
+    """Return the columns of a series in SI units, and notes on what was computed.
+
+    Raises
+    ------
+    DataError
+        A unit is absent or unknown, or a mass or area to divide by is missing.
+    """
+    for role in spec.units:
+        if role not in headers:
+            raise DataError(
+                f"{table.path}: a unit is given for the {role}, but no column is read for it; "
+                "leave the unit out or name the column."
+            )
+    data = {"time_s": _to_si(spec, table, headers, "time", ("time",))[0]}
+    if "temperature" in headers:
+        data["temperature_K"] = _to_si(spec, table, headers, "temperature", ("temperature",))[0]
+    kinds = spec.of.scales
+    value, kind = _to_si(spec, table, headers, "value", kinds)
+    divisor, notes = _divisor(spec, kind, float(value[0]))
+    data[spec.of.column] = spec.sign * value / divisor
+    if spec.sign < 0:
+        notes.append("the sign is changed")
+    if spec.uncertainty is not None:
+        data[spec.of.uncertainty_column] = np.full(len(value), spec.uncertainty)
+        notes.append("one uncertainty is given for all points")
+    elif "uncertainty" in headers:
+        spread, its = _to_si(spec, table, headers, "uncertainty", (kind, kinds[0]))
+        data[spec.of.uncertainty_column] = spread / divisor if its == kind else spread
+    else:
+        notes.append("no uncertainty is known")
+    for role in (role for role in LIMITS if role in headers):
+        limit, _ = _to_si(spec, table, headers, role, (kind,))
+        data[spec.of.limit_columns[role]] = limit / divisor
+    return pd.DataFrame(data), notes
+
+
+def _to_si(
+    spec: SeriesSpec, table: Table, headers: Mapping[str, str], role: str, kinds: Sequence[str]
+) -> tuple[FloatArray, str]:
+    """Convert one column to SI units; give also which of the kinds of quantity its unit is."""
+    header = headers[role]
+    unit = spec.units.get(role, table.units[header])
+    scales = {unit_key(word): (kind, word) for kind in kinds for word in SCALES[kind]}
+    known = [word for _, word in scales.values()]
+    if not unit or (key := unit_key(unit)) not in scales:
+        given = f"unknown unit '{unit}' of the {role}. " if unit else f"no unit of the {role}; "
+        raise DataError(
+            f"{table.path}, column '{header}': {given}{suggest(unit or '', known)} "
+            f"Give it in the study: `units: {{{role}: ...}}`."
+        )
+    kind, word = scales[key]
+    offset = ICE_POINT_K if word in CELSIUS and role != "uncertainty" else 0.0
+    return table.columns[header] * SCALES[kind][word] + offset, kind
+
+
+def _divisor(spec: SeriesSpec, kind: str, first: float) -> tuple[float, list[str]]:
+    """Give the mass or the area by which a mass or a mass rate is divided."""
+    wanted = spec.of.scales[0]
+    if PER_AREA.get(kind) == wanted:
+        if spec.sample_area_m2 is None:
+            raise DataError(
+                f"{spec.path}: the unit is that of a {kind}; give `sample_area_m2`, or the "
+                f"right unit of a {wanted}, such as {spec.of.unit}."
+            )
+        return spec.sample_area_m2, [f"{kind} divided by {spec.sample_area_m2:g} m2"]
+    if kind in PER_MASS:
+        if spec.sample_mass_kg is None:
+            raise DataError(
+                f"{spec.path}: the unit is that of a {kind}; give `sample_mass_kg`, the initial "
+                f"mass of the sample, or the right unit of a {PER_MASS[kind]}, such as W/g."
+            )
+        return spec.sample_mass_kg, [f"{kind} divided by {spec.sample_mass_kg:g} kg"]
+    if PER_START.get(kind) != wanted:
+        return 1.0, []
+    mass = first if spec.sample_mass_kg is None else spec.sample_mass_kg
+    if mass <= 0.0:
+        raise DataError(
+            f"{spec.path}: the first mass is {mass:g} kg; it must be above 0 to divide the others. "
+            "Give `sample_mass_kg`."
+        )
+    which = "its first value" if spec.sample_mass_kg is None else "the mass of the sample"
+    return mass, [f"mass divided by {which}, {mass:g} kg"]
