@@ -9,6 +9,8 @@ import pytest
 from pyrofit import cli
 from pyrofit.config import Study, read_study
 from pyrofit.config.read import read_mapping
+from pyrofit.data.fetch import store
+from pyrofit.experiments import KINDS
 from pyrofit.new_study import draft
 from pyrofit.stages.reading import read_all
 
@@ -425,6 +427,39 @@ def test_thermocouple_at_a_depth_is_told_as_no_file_tells_where(
     study = made("--gasification", "slab_25kW.csv")
     assert list(study.experiments["slab_25kW"].signals) == ["mlr"]
     assert "'T_3' is not used: may be in_depth_temperature, whose place" in capsys.readouterr().out
+
+
+MACFP_FILES = {
+    "UQ/UQ_Cone_25kW_1.csv": ("cone", ["heat_release_rate", "mass"], 25.0),
+    "TIFP/TIFP_Cone_65kW_1.csv": ("cone", ["heat_release_rate", "mass"], 65.0),
+    "DBI_Lund/DBI_Lund_Gasification_50kW_1.csv": ("gasification", ["mass"], 50.0),
+    "FM/FM_FPA_25kW_1.csv": ("gasification", ["mass"], 25.0),
+    "Aalto/Aalto_Gasification_65kW_1.csv": ("gasification", ["mass"], 65.0),
+    "LCPP/LCPP_TGA_N2_2-5K_1.csv": ("tga", ["mass_fraction"], 2.5),
+    "TIFP/TIFP_DSC_O2-21_10K_1.csv": ("dsc", ["heat_flow"], 10.0),
+    "UMD/UMD_MCC_N2_60K.csv": ("mcc", ["specific_heat_release_rate"], 60.0),
+}
+
+
+@pytest.mark.measured
+@pytest.mark.parametrize("file", MACFP_FILES)
+def test_file_of_a_real_laboratory_gives_a_study_that_is_valid(file: str, folder: Path) -> None:
+    kind, signals, number = MACFP_FILES[file]
+    path = store() / "PMMA" / "Calibration_Data" / file
+    if not path.exists():
+        pytest.skip(f"{file} is not among the downloaded files")
+    write("slab_25.csv", "Time [s],MLR [g/m2/s]", SECONDS, 1e3 * MLR)
+    files = {kind: [path]}
+    if KINDS[kind].stage == "kinetics":
+        files["gasification"] = [Path("slab_25.csv")]
+    given = [word for k, paths in files.items() for word in (f"--{k}", *map(str, paths))]
+    study = made(*given)
+    run = draft.measured(kind, path)
+    assert (run.number, run.sure) == (number, True)
+    imp = [term for terms in study.imp.costs.values() for term in terms]
+    fitted = imp if KINDS[kind].stage == "imp" else study.kinetics.cost
+    assert [term.signal for term in fitted] == signals
+    assert read_all(study)[run.name, signals[0]][0]["time_s"].size > 20
 
 
 def test_every_column_that_is_not_used_is_told_with_the_reason(
