@@ -198,6 +198,48 @@ def test_all_files_of_the_largest_flux_are_held_out(folder: Path) -> None:
     assert not_in_costs(made("--gasification", *names)) == {"a_50kW_1", "a_50kW_2"}
 
 
+REPEATS = {
+    "numbers": ("a_25kW_1.csv", "a_25kW_2.csv", "a_25kW_3.csv"),
+    "letter and number": ("a_25kW_R1.csv", "a_25kW_R2.csv"),
+}
+
+
+@pytest.mark.parametrize("files", REPEATS.values(), ids=REPEATS)
+def test_files_that_differ_in_a_number_at_the_end_are_repeats(
+    files: tuple[str, ...], folder: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    for i, name in enumerate(files):
+        # Each repeat has a header of its own.
+        write(name, f"Time [s],{['MLR', 'Mass loss rate'][i % 2]} [g/m2/s]", SECONDS, 1e3 * MLR)
+    study = made("--gasification", *files)
+    assert "taken as repeats of a_25kW" in capsys.readouterr().out
+    names = [Path(name).stem for name in files]
+    assert list(study.experiments) == names
+    assert {e.repeat.test for e in study.experiments.values()} == {"a_25kW"}
+    assert [term.experiment for term in study.imp.costs["RMSE"]] == names
+    for name in names:
+        np.testing.assert_allclose(read_all(study)[name, "mlr"][0]["mlr_kg_m2_s"], MLR, rtol=1e-8)
+
+
+NO_REPEATS = {
+    "other fluxes": ("slab_25.csv", "slab_40.csv"),
+    "flux not known": ("slab_1.csv", "slab_2.csv"),
+    "other atmosphere": ("a_N2_25kW_1.csv", "a_O2_25kW_1.csv"),
+    "other experiment of that name": ("a_25kW.csv", "a_25kW_1.csv", "a_25kW_2.csv"),
+}
+
+
+@pytest.mark.parametrize("files", NO_REPEATS.values(), ids=NO_REPEATS)
+def test_files_that_differ_in_more_are_experiments_of_their_own(
+    files: tuple[str, ...], folder: Path
+) -> None:
+    for name in files:
+        write(name, "Time [s],MLR [g/m2/s]", SECONDS, 1e3 * MLR)
+    study = made("--gasification", *files)
+    assert list(study.experiments) == [Path(name).stem for name in files]
+    assert all(e.repeat is None for e in study.experiments.values())
+
+
 @pytest.mark.parametrize("files", [("slab_25.csv",), ("a_25kW_1.csv", "a_25kW_2.csv")])
 def test_one_flux_leaves_nothing_to_hold_out_and_that_is_told(
     files: tuple[str, ...], folder: Path, capsys: pytest.CaptureFixture[str]

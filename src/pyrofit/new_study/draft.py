@@ -48,6 +48,8 @@ class Measured:
         Why a column is not used, by header.
     frames
         The series that can be read, in SI units, by quantity.
+    repeats
+        Its repeats, where it stands for several.
     """
 
     kind: str
@@ -59,6 +61,7 @@ class Measured:
     signals: tuple[Found, ...] = ()
     left: Mapping[str, str] = field(default_factory=dict)
     frames: Mapping[str, pd.DataFrame] = field(default_factory=dict)
+    repeats: tuple["Measured", ...] = ()
 
     @property
     def of(self) -> Kind:

@@ -1,7 +1,7 @@
 """What a new study says: the lines of a signal, and what was taken for what."""
 
 import json
-from collections.abc import Mapping
+from collections.abc import Iterable, Mapping
 
 from pyrofit.new_study.columns import Found
 from pyrofit.new_study.draft import Measured, divisor_of
@@ -12,6 +12,11 @@ from pyrofit.quantities.units import SCALES
 def signal_lines(run: Measured) -> list[str]:
     """Return the lines of the study file on the signals of an experiment, and on what is left."""
     lines = []
+    for repeat in run.repeats:
+        lines += [f"        {repeat.name}:", "          signals:"]
+        lines += [f"      {line}" for line in signal_lines(repeat)]
+    if run.repeats:
+        return lines
     for found in run.signals:
         lines += _signal(run, found)
     lines += [f"# Not used: column {_quoted(name)}: {why}." for name, why in run.left.items()]
@@ -67,6 +72,16 @@ def said(run: Measured) -> list[str]:
         if (remark := _remark(run, found)) != "":
             lines.append(f"{run.path}: {found.signal}: {remark}")
     return lines + [f"{run.path}: '{n}' is not used: {why}" for n, why in run.left.items()]
+
+
+def said_of_repeats(tests: Iterable[Measured]) -> list[str]:
+    """Say which files are taken as repeats of one test."""
+    return [
+        f"{', '.join(run.name for run in test.repeats)}: taken as repeats of {test.name}; "
+        "change that in the study where they are not"
+        for test in tests
+        if test.repeats
+    ]
 
 
 def _remark(run: Measured, found: Found) -> str:

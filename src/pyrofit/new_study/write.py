@@ -13,7 +13,8 @@ from pyrofit.experiments.base import Stage
 from pyrofit.new_study import draft
 from pyrofit.new_study.draft import Kinetics, Measured
 from pyrofit.new_study.plan import Part, heats, identified, part_of, titles
-from pyrofit.new_study.words import held_out, said, signal_lines
+from pyrofit.new_study.repeats import grouped
+from pyrofit.new_study.words import held_out, said, said_of_repeats, signal_lines
 from pyrofit.results.files import write_bytes, write_text
 
 _NAME = re.compile(r"[A-Za-z][A-Za-z0-9_]*")
@@ -59,7 +60,8 @@ def init(name: str, files: Files, parent: Path) -> tuple[Path, list[str]]:
     records = [draft.measured(kind, path) for kind, paths in files.items() for path in paths]
     draft.check_names(records)
     copies = {record.name: _content(record.path) for record in records if record.path}
-    text = study_text(name, records)
+    tests = grouped(records) or computed()
+    text = study_text(name, tests)
     try:
         folder.mkdir(parents=True)
         (folder / "data").mkdir()
@@ -71,8 +73,8 @@ def init(name: str, files: Files, parent: Path) -> tuple[Path, list[str]]:
         write_bytes(folder / "data" / f"{record}.csv", content)
     study = folder / f"{name}.yaml"
     write_text(study, text)
-    heated, slabs = (part_of(stage, records or computed()) for stage in STAGES)
-    lines = [line for run in records for line in said(run)]
+    heated, slabs = (part_of(stage, tests) for stage in STAGES)
+    lines = [line for run in records for line in said(run)] + said_of_repeats(tests)
     lines += held_out(heated) if heated.held_out else []
     return study, [*lines, *held_out(slabs)]
 
@@ -86,12 +88,12 @@ def computed() -> list[Measured]:
     ]
 
 
-def study_text(name: str, records: Sequence[Measured]) -> str:
-    """Return the study file; without any experiment, one whose measurements are computed."""
-    synthetic = not records
-    records = records or computed()
+def study_text(name: str, tests: Sequence[Measured]) -> str:
+    """Return the study file."""
+    synthetic = any(test.path is None for test in tests)
+    records = [run for test in tests for run in test.repeats or (test,)]
     kinetics = Kinetics(550.0, 680.0, 0.02) if synthetic else draft.kinetics_of(records)
-    heated, slabs = (part_of(stage, records) for stage in STAGES)
+    heated, slabs = (part_of(stage, tests) for stage in STAGES)
     shown = [_HEATS[key] for key in heats(heated.fitted)]
     burns = _COMBUSTION in heats(records)
     return (
