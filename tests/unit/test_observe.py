@@ -3,11 +3,14 @@ from typing import Any
 
 import numpy as np
 import pytest
+from pydantic import ValidationError
 
+from pyrofit.effects.base import changed
 from pyrofit.experiments import Gasification
+from pyrofit.model.slab import FluxProfile
 from pyrofit.solver.arrays import FloatArray, Status
 from pyrofit.solver.curves import Curves, Request, Runs
-from pyrofit.solver.observe import observe, observe_one
+from pyrofit.solver.observe import observe, observe_one, rings
 
 TIME = np.array([0.0, 10.0, 20.0])
 
@@ -21,6 +24,13 @@ def experiment(spread: float | str = 0.0, **signal: Any) -> Gasification:
             "signals": {"mlr": {"file": "synthetic", **signal}},
         }
     )
+
+
+def profiled(*relative: float, spread: float = 0.0) -> Gasification:
+    radii = np.linspace(0.0, 0.035, len(relative)).tolist()
+    given = experiment(spread)
+    profile = FluxProfile(radius_m=tuple(radii), relative_flux=relative)
+    return given.model_copy(update={"front": changed(given.front, profile=profile)})
 
 
 def to_the_fourth(factor: float, asked: Mapping[str, Request]) -> Curves:
@@ -48,6 +58,44 @@ def test_without_spread_there_is_one_run() -> None:
     curves = seen(experiment())
     assert curves.signals["mlr"].tolist() == TIME.tolist()
     assert curves.energy_error == 1.0
+
+
+def test_profile_is_weighted_by_the_area() -> None:
+    # f = 1 - a r/R: the mean of f^4 over u = (r/R)^2 is 1 - 8a/3 + 3 a^2 - 8 a^3/5 + a^4/3.
+    a = 0.4
+    exact = 1.0 - 8.0 * a / 3.0 + 3.0 * a**2 - 1.6 * a**3 + a**4 / 3.0
+    assert seen(profiled(1.0, 0.8, 0.6)).signals["mlr"] == pytest.approx(TIME * exact, rel=3e-6)
+    # With a spread on top the mean of (1 + s x)^4, 1.5125 for s = 0.5, is a factor.
+    both = seen(profiled(1.0, 0.6, spread=0.5)).signals["mlr"]
+    assert both == pytest.approx(TIME * exact * 1.5125, rel=3e-6)
+
+
+def test_flat_profile_is_one_run_bit_for_bit() -> None:
+    flat = seen(profiled(1.0, 1.0, 1.0))
+    assert flat.signals["mlr"].tolist() == TIME.tolist()
+    assert flat.energy_error == 1.0
+    assert seen(profiled(0.5, 0.5)).signals["mlr"].tolist() == (0.0625 * TIME).tolist()
+
+
+def test_profile_of_two_fluxes_needs_two_runs() -> None:
+    profile = FluxProfile(radius_m=(0.0, 0.03, 0.0300001, 0.06), relative_flux=(1.0, 1.0, 0.5, 0.5))
+    factors, weights = rings(profile)
+    assert factors[weights > 1e-3] == pytest.approx([0.5, 1.0], abs=1e-3)
+    assert weights[weights > 1e-3] == pytest.approx([0.75, 0.25], abs=1e-3)
+
+
+@pytest.mark.parametrize(
+    ("radius", "flux", "said"),
+    [
+        ((0.0, 0.02, 0.01), (1.0, 1.0, 1.0), "must increase; sort the points by radius"),
+        ((0.0, 0.02), (1.0,), "same length, at least 2; they have 2 and 1"),
+        ((0.01, 0.02), (1.0, 1.0), "must start at 0, the middle"),
+        ((0.0, 0.02), (1.0, -1.0), "must not be negative"),
+    ],
+)
+def test_bad_profile_is_told(radius: Any, flux: Any, said: str) -> None:
+    with pytest.raises(ValidationError, match=said):
+        FluxProfile(radius_m=radius, relative_flux=flux)
 
 
 def test_delay_and_offset_belong_to_their_signal() -> None:

@@ -46,6 +46,29 @@ class Side(Part):
     )
 
 
+class FluxProfile(Part):
+    """The flux over the radius of a round sample, linear between given points."""
+
+    radius_m: tuple[float, ...] = Field(description="increasing radii [m], from 0 to the edge")
+    relative_flux: tuple[float, ...] = Field(description="flux there over the one of the front [-]")
+
+    @model_validator(mode="after")
+    def _check(self) -> Self:
+        given = len(self.radius_m), len(self.relative_flux)
+        if given[0] != given[1] or given[0] < 2:
+            raise ValueError(
+                "radius_m and relative_flux need the same length, at least 2; they have "
+                f"{given[0]} and {given[1]}: add or delete points"
+            )
+        if self.radius_m[0] != 0.0:
+            raise ValueError("radius_m must start at 0, the middle; add a point there")
+        if any(b <= a for a, b in zip(self.radius_m, self.radius_m[1:], strict=False)):
+            raise ValueError("radius_m must increase; sort the points by radius")
+        if min(self.relative_flux) < 0.0:
+            raise ValueError("relative_flux must not be negative; correct it")
+        return self
+
+
 class Front(Side):
     """The irradiated side."""
 
@@ -58,6 +81,9 @@ class Front(Side):
     )
     spread: Fraction = Field(
         0.0, description="the flux varies over the surface, evenly within 1 -+ spread times q [-]"
+    )
+    profile: FluxProfile | None = Field(
+        None, description="flux over the radius of a round sample; none = the same everywhere"
     )
     drift_1_s: Number = Field(
         0.0, description="relative change of the flux per second; it stays at least 0 [1/s]"
