@@ -19,8 +19,9 @@ from pyrofit.diagnose.model import Base, model_of
 from pyrofit.diagnose.refit import Trial, polished
 from pyrofit.errors import DataError
 from pyrofit.estimate.between_repeats import with_repeats
+from pyrofit.estimate.channel_noise import noise_of
 from pyrofit.estimate.likelihood import FAILED, likelihood_of
-from pyrofit.estimate.noise import NoiseModel, estimate_noise
+from pyrofit.estimate.noise import NoiseModel
 from pyrofit.estimate.prior import prior_of
 from pyrofit.estimate.problem import Problem, make_problem
 from pyrofit.estimate.targets import Measurements
@@ -137,21 +138,13 @@ def with_noise_about(
 
     def better(k: int) -> NoiseModel | None:
         i = wanted[k]
-        found = _noise(problem, i, parts[i])
+        found = noise_of(problem, i, parts[i])
         return found if found.criterion < noise[i].criterion else None
 
     for i, found in zip(wanted, parallel_map(better, len(wanted), processes), strict=True):
         noise[i] = found or noise[i]
     scattered = with_repeats(problem, noise, parts)
     return replace(base, likelihood=replace(base.likelihood, noise=scattered))
-
-
-def _noise(problem: Problem, channel: int, about: FloatArray) -> NoiseModel:
-    name, measured, _ = problem.picks[channel]
-    experiment = problem.runs[name].experiment
-    quantity, signal = experiment.quantity(measured), experiment.signals[measured]
-    target = problem.cost.terms[channel][1].target
-    return estimate_noise(target, quantity, signal.uncertainty_sds, signal.timing_s, about)
 
 
 def refitted(trial: Trial, base: Base) -> Trial:

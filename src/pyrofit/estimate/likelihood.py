@@ -5,9 +5,9 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from pyrofit.errors import DataError
 from pyrofit.estimate.between_repeats import with_repeats
-from pyrofit.estimate.noise import NoiseModel, estimate_noise
+from pyrofit.estimate.channel_noise import noise_of
+from pyrofit.estimate.noise import NoiseModel
 from pyrofit.estimate.prior import NO_PRIOR, NormalPrior
 from pyrofit.estimate.problem import Problem
 from pyrofit.solver.arrays import FloatArray
@@ -227,16 +227,7 @@ def likelihood_of(problem: Problem, prior: NormalPrior = NO_PRIOR) -> Likelihood
     DataError
         A channel is too short.
     """
-    noise = []
-    for (name, signal, _), (_, term) in zip(problem.picks, problem.cost.terms, strict=True):
-        experiment = problem.runs[name].experiment
-        described = experiment.signals[signal]
-        stated_sds, timing_s = described.uncertainty_sds, described.timing_s
-        try:
-            quantity = experiment.quantity(signal)
-            noise.append(estimate_noise(term.target, quantity, stated_sds, timing_s))
-        except DataError as error:
-            raise DataError(f"{name}: {error}") from None
+    noise = [noise_of(problem, channel) for channel in range(len(problem.picks))]
     return Likelihood(problem, with_repeats(problem, noise), prior)
 
 

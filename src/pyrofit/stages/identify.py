@@ -8,6 +8,7 @@ import pandas as pd
 
 from pyrofit.config import Study
 from pyrofit.estimate.identify import Identification, identify
+from pyrofit.estimate.jumps import with_noise_of_jumps
 from pyrofit.estimate.likelihood import Likelihood, likelihood_of
 from pyrofit.estimate.optimisers import OPTIMISERS
 from pyrofit.estimate.prior import prior_of
@@ -63,6 +64,7 @@ def identify_imp(study: Study, results: Results) -> None:
     )
     likelihood = likelihood_of(problem, prior_of(study, problem))
     starts = [likelihood.scaled(values) for values in _known_sets(study, results)]
+    likelihood = with_noise_of_jumps(likelihood, starts)
     found = identify(likelihood, starts)
     _write(results, "imp", likelihood, found)
     write_csv(results.identification("sets.csv"), _sets(study, results, likelihood, found))

@@ -1,0 +1,24 @@
+"""Noise of a channel: a signal of an experiment that is fitted."""
+
+from pyrofit.errors import DataError
+from pyrofit.estimate.noise import NoiseModel, estimate_noise
+from pyrofit.estimate.problem import Problem
+from pyrofit.solver.arrays import FloatArray
+
+
+def noise_of(problem: Problem, channel: int, about: FloatArray | None = None) -> NoiseModel:
+    """Return the noise of a channel, about a simulated curve where one is given.
+
+    Raises
+    ------
+    DataError
+        The channel is too short.
+    """
+    name, measured, _ = problem.picks[channel]
+    experiment = problem.runs[name].experiment
+    quantity, signal = experiment.quantity(measured), experiment.signals[measured]
+    target = problem.cost.terms[channel][1].target
+    try:
+        return estimate_noise(target, quantity, signal.uncertainty_sds, signal.timing_s, about)
+    except DataError as error:
+        raise DataError(f"{name}: {error}") from None

@@ -1,0 +1,149 @@
+"""A twin of two cone calorimeter tests: heat of combustion, flame and ignition are found again.
+
+A polymer like PMMA under 35 and 60 kW/m2, 20 W/(m2 K) before it ignites. Heat release rate and mass
+are those of the reference solver with noise of 6 kW/m2 and 0.1 g on a square of 100 mm.
+"""
+
+from typing import Any
+
+import numpy as np
+import pytest
+
+from pyrofit.config import Study, as_study
+from pyrofit.estimate.identify import Identification, identify
+from pyrofit.estimate.jumps import with_noise_of_jumps
+from pyrofit.estimate.likelihood import Likelihood, fit, likelihood_of
+from pyrofit.estimate.problem import make_problem
+from pyrofit.stages.measurements import computed
+
+LIMITS = {
+    "rho": ("kg/m3", 900, 1500),
+    "k": ("W/(m K)", 0.1, 0.4),
+    "dh": ("kJ/kg", 300, 1500),
+    "dhc": ("kJ/kg", 15e3, 35e3),
+    "q_flame": ("kW/m2", 0, 40),
+    "ignition_35": ("s", 20, 150),
+    "ignition_60": ("s", 10, 80),
+}
+TRUTH = {
+    "rho": 1190.0,
+    "k": 0.2,
+    "dh": 800.0,
+    "dhc": 24500.0,
+    "q_flame": 16.0,
+    "ignition_35": 71.0,
+    "ignition_60": 28.0,
+}
+SIGNALS = {
+    "heat_release_rate": {"file": "synthetic", "every": 5, "average_s": 5, "noise": 6e3},
+    "mass": {"file": "synthetic", "every": 5, "noise": 0.01},
+}
+
+
+def cone(flux_kW_m2: float, duration_s: float) -> dict[str, Any]:
+    return {
+        "kind": "cone",
+        "duration_s": duration_s,
+        "sample": {"layers": [{"thickness_m": 0.004}]},
+        "front": {"flux_W_m2": 1e3 * flux_kW_m2, "h_W_m2K": 10},
+        "flame": {"flux_W_m2": "q_flame", "ignition_s": f"ignition_{flux_kW_m2}"},
+        "signals": SIGNALS,
+    }
+
+
+def study() -> Study:
+    names = ("cone_35", "cone_60")
+    given = {
+        "name": "burning",
+        "seed": 4,
+        "parameters": {n: {"unit": u, "lower": a, "upper": b} for n, (u, a, b) in LIMITS.items()},
+        "material": {
+            "components": {
+                "polymer": {
+                    "density_kg_m3": "rho",
+                    "conductivity_W_mK": "k",
+                    "specific_heat_J_kgK": 2100,
+                }
+            },
+            "reactions": {
+                "pyrolysis": {
+                    "reactant": "polymer",
+                    "reference_temperature_K": 605,
+                    "reference_rate_1_s": 0.001,
+                    "E_J_mol": 190e3,
+                    "heat_of_reaction_J_kg": "dh",
+                    "heat_of_combustion_J_kg": "dhc",
+                }
+            },
+            "composition": {"polymer": 1.0},
+        },
+        "experiments": {"cone_35": cone(35, 600), "cone_60": cone(60, 400)},
+        "accuracy": {"cells": 30},
+        "synthetic": {"truth": TRUTH, "accuracy": {"elements": 100}},
+        "imp": {
+            "estimate": list(LIMITS),
+            "costs": {
+                "RMSE": [{"experiment": "cone_60", "signal": "heat_release_rate", "kind": "RMSE"}]
+            },
+            "identification": {name: list(SIGNALS) for name in names},
+        },
+        "validation": {"experiments": ["cone_35"]},
+    }
+    return as_study(given, "burning.yaml")
+
+
+def smooth() -> Likelihood:
+    """The likelihood with its noise about smooth curves."""
+    described = study()
+    return likelihood_of(
+        make_problem(
+            described,
+            tuple(LIMITS),
+            described.imp.channels,
+            computed(described),
+            described.material,
+            described.fixed_values(),
+        )
+    )
+
+
+@pytest.fixture(scope="module")
+def likelihood() -> Likelihood:
+    first = smooth()
+    starts = np.random.default_rng(2).uniform(0.05, 0.95, (8, len(LIMITS)))
+    return with_noise_of_jumps(first, [fit(first, list(starts)).x])
+
+
+@pytest.fixture(scope="module")
+def found(likelihood: Likelihood) -> Identification:
+    starts = np.random.default_rng(3).uniform(0.05, 0.95, (8, len(LIMITS)))
+    return identify(likelihood, list(starts))
+
+
+def truth_of(name: str) -> float:
+    """The truth in distances of the limits."""
+    _, lower, upper = LIMITS[name]
+    return (TRUTH[name] - lower) / (upper - lower)
+
+
+@pytest.mark.parametrize("name", LIMITS)
+def test_heat_release_and_mass_determine_every_parameter(found: Identification, name: str) -> None:
+    # MEASURED
+    estimate = found.estimates[list(LIMITS).index(name)]
+    assert estimate.verdict == "determined"
+    assert estimate.noise.low <= truth_of(name) <= estimate.noise.high
+    assert estimate.noise.width <= 0.2
+
+
+def test_fit_leaves_noise_only(likelihood: Likelihood, found: Identification) -> None:
+    assert 0.8 < found.optimum.chi2 / likelihood.freedom < 1.15
+
+
+def test_noise_of_a_rate_that_jumps_at_ignition_is_that_drawn(likelihood: Likelihood) -> None:
+    # About a smooth curve it is MEASURED.
+    smooth_sd = [float(np.median(noise.sd)) for noise in smooth().noise]
+    sd = [float(np.median(noise.sd)) for noise in likelihood.noise]
+    for k, name in enumerate(likelihood.problem.picks):
+        if name[1] == "heat_release_rate":
+            assert sd[k] == pytest.approx(6e3, rel=0.25)
+            assert smooth_sd[k] > 1.5 * sd[k]
