@@ -1,6 +1,6 @@
 """A twin of two cone calorimeter tests: heat of combustion, flame and ignition are found again.
 
-A polymer like PMMA under 35 and 60 kW/m2, 20 W/(m2 K) before it ignites. Heat release rate and mass
+A polymer like PMMA under 35 and 60 kW/m2, in air. Heat release rate and mass
 are those of the reference solver with noise of 6 kW/m2 and 0.1 g on a square of 100 mm.
 """
 
@@ -34,7 +34,7 @@ TRUTH = {
     "ignition_35": 71.0,
     "ignition_60": 28.0,
 }
-SIGNALS = {
+SIGNALS: dict[str, dict[str, Any]] = {
     "heat_release_rate": {"file": "synthetic", "every": 5, "average_s": 5, "noise": 6e3},
     "mass": {"file": "synthetic", "every": 5, "noise": 0.01},
 }
@@ -78,8 +78,8 @@ def study() -> Study:
             "composition": {"polymer": 1.0},
         },
         "experiments": {"cone_35": cone(35, 600), "cone_60": cone(60, 400)},
-        "accuracy": {"cells": 30},
-        "synthetic": {"truth": TRUTH, "accuracy": {"elements": 100}},
+        "accuracy": {"cells": 25},
+        "synthetic": {"truth": TRUTH, "accuracy": {"elements": 60}},
         "imp": {
             "estimate": list(LIMITS),
             "costs": {
@@ -139,11 +139,9 @@ def test_fit_leaves_noise_only(likelihood: Likelihood, found: Identification) ->
     assert 0.8 < found.optimum.chi2 / likelihood.freedom < 1.15
 
 
-def test_noise_of_a_rate_that_jumps_at_ignition_is_that_drawn(likelihood: Likelihood) -> None:
-    # About a smooth curve it is MEASURED.
-    smooth_sd = [float(np.median(noise.sd)) for noise in smooth().noise]
-    sd = [float(np.median(noise.sd)) for noise in likelihood.noise]
-    for k, name in enumerate(likelihood.problem.picks):
-        if name[1] == "heat_release_rate":
-            assert sd[k] == pytest.approx(6e3, rel=0.25)
-            assert smooth_sd[k] > 1.5 * sd[k]
+def test_noise_of_what_jumps_at_ignition_is_that_drawn(likelihood: Likelihood) -> None:
+    # About smooth curves the heat release rate seems to have a noise of 42 and 71 kW/m2.
+    for k, (_, signal, _) in enumerate(likelihood.problem.picks):
+        drawn = SIGNALS[signal]["noise"]
+        assert np.median(likelihood.noise[k].sd) == pytest.approx(drawn, rel=0.3), signal
+    assert all(noise.excess > 3.0 for noise in smooth().noise[::2])

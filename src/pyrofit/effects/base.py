@@ -59,9 +59,9 @@ def need(words: str) -> Callable[[Callable[[Experiment], bool]], Need]:
     return lambda holds: Need(words, holds)
 
 
-@need("a gasification experiment")
+@need("a slab under radiant heat")
 def has_slab(experiment: Experiment) -> bool:
-    """Tell whether an experiment is a gasification."""
+    """Tell whether the sample of an experiment is a slab."""
     return isinstance(experiment, SlabExperiment)
 
 

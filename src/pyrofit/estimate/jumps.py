@@ -1,4 +1,4 @@
-"""Noise of quantities that jump, as a heat release rate does at ignition."""
+"""Noise of signals that jump, as a heat release rate does at ignition."""
 
 from collections.abc import Sequence
 from dataclasses import replace
@@ -11,7 +11,7 @@ from pyrofit.solver.arrays import FloatArray
 
 
 def with_noise_of_jumps(likelihood: Likelihood, sets: Sequence[FloatArray]) -> Likelihood:
-    """Return the likelihood with the noise of quantities that jump about a simulated curve.
+    """Return the likelihood with the noise of signals that jump about a simulated curve.
 
     A smooth curve does not follow a jump: its noise then looks larger than it is. The curve is that
     of the set with the lowest chi-square. What explains the record less is not taken.
@@ -24,15 +24,15 @@ def with_noise_of_jumps(likelihood: Likelihood, sets: Sequence[FloatArray]) -> L
         Known sets that fit well, as fractions of the limits' distance, shape (parameters,) each.
     """
     problem = likelihood.problem
-    quantities = [problem.runs[n].experiment.quantity(signal) for n, signal, _ in problem.picks]
-    if not sets or not any(quantity.jumps for quantity in quantities):
+    jumps = [problem.runs[name].experiment.jumps for name, _, _ in problem.picks]
+    if not sets or not any(jumps):
         return likelihood
     best = min(sets, key=likelihood.chi2)
     curves = likelihood.curves(np.asarray(best))
     if curves is None:
         return likelihood
     noise = list(likelihood.noise)
-    for k, (quantity, curve) in enumerate(zip(quantities, likelihood.split(curves), strict=True)):
-        if quantity.jumps:
+    for k, curve in enumerate(likelihood.split(curves)):
+        if jumps[k]:
             noise[k] = min(noise[k], noise_of(problem, k, curve), key=lambda n: n.criterion)
     return replace(likelihood, noise=tuple(noise))

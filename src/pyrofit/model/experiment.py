@@ -47,6 +47,11 @@ class Experiment(Part):
         """The quantities that may be measured in it, by name."""
         return quantities_of(self.LIKE) | quantities_of(self.kind)
 
+    @property
+    def jumps(self) -> bool:
+        """Whether signals jump or bend sharply, which no smooth curve follows."""
+        return False
+
     def quantity(self, signal: str) -> Quantity:
         """Return the quantity of a signal: the one it names, else the one of its own name."""
         return known_quantities()[self.signals[signal].quantity or signal]

@@ -170,7 +170,7 @@ class EmissivityDepth(Part):
 
 
 class Sample(Part):
-    """The specimen of a gasification experiment."""
+    """The specimen: layers, foil, edge."""
 
     layers: tuple[Layer, ...] = Field(min_length=1, description="layers, front first")
     backing: tuple[Backing, ...] = Field(

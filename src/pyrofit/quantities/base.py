@@ -79,8 +79,6 @@ class Quantity:
     """The lowest value may be this multiple of the largest below zero; none = no rule."""
     discrepancy: float | None = None
     """Least standard deviation of a record without an uncertainty: models come no nearer."""
-    jumps: bool = False
-    """Whether it may jump, which no smooth curve follows: its noise is about a simulated one."""
     relative: bool = False
     """Whether a prediction is scored relative to the mean measured value."""
     place: Place = "fixed"

@@ -22,7 +22,5 @@ QUANTITY = Quantity(
     solver_error=1e-3,
     usual_sd=1e4,
     relative=True,
-    # At ignition and flame-out.
-    jumps=True,
     rests_on=("heat_of_combustion_J_kg",),
 )

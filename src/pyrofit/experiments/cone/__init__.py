@@ -23,6 +23,11 @@ class Cone(SlabExperiment):
         None, description="the flame; none = all gas burns at once and heats nothing"
     )
 
+    @property
+    def jumps(self) -> bool:
+        """Whether there is an ignition."""
+        return self.flame is not None
+
     def burning(self) -> Flame | None:
         """Return the flame; without one, what gas is released burns at once."""
         return self.flame
