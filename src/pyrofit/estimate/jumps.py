@@ -5,6 +5,7 @@ from dataclasses import replace
 
 import numpy as np
 
+from pyrofit.estimate.between_repeats import with_repeats
 from pyrofit.estimate.channel_noise import noise_of
 from pyrofit.estimate.likelihood import Likelihood
 from pyrofit.solver.arrays import FloatArray
@@ -32,7 +33,8 @@ def with_noise_of_jumps(likelihood: Likelihood, sets: Sequence[FloatArray]) -> L
     if curves is None:
         return likelihood
     noise = list(likelihood.noise)
-    for k, curve in enumerate(likelihood.split(curves)):
+    parts = likelihood.split(curves)
+    for k, curve in enumerate(parts):
         if jumps[k]:
             noise[k] = min(noise[k], noise_of(problem, k, curve), key=lambda n: n.criterion)
-    return replace(likelihood, noise=tuple(noise))
+    return replace(likelihood, noise=with_repeats(problem, noise, parts))
