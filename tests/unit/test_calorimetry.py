@@ -13,6 +13,7 @@ from pyrofit.config import as_study
 from pyrofit.data.fetch import store
 from pyrofit.data.series import Measurement, read_series
 from pyrofit.data.spec import SeriesSpec
+from pyrofit.effects import known_effects
 from pyrofit.errors import DataError, PyrofitError
 from pyrofit.experiments import Dsc
 from pyrofit.experiments.heated.simulate import heating_rate, request
@@ -158,6 +159,16 @@ REFUSED = {
 def test_study_is_refused_with_place_rule_and_way_out(name: str) -> None:
     changes, words = REFUSED[name]
     assert words in refused(**changes)
+
+
+@pytest.mark.parametrize("name", ["c_T", "glass_transition", "melting"])
+def test_effect_on_the_specific_heat_is_seen_by_a_heat_flow_but_not_by_a_mass(name: str) -> None:
+    study = as_study(STUDY, "mine.yaml")
+    sta, mcc = study.experiments["sta_10"], study.experiments["mcc_60"]
+    mass = sta.model_copy(update={"signals": {"mass_fraction": sta.signals["mass_fraction"]}})
+    needs = known_effects()[name].needs
+    seen = [needs(e) for e in (sta, study.experiments["slab_60"], mass, mcc)]
+    assert seen == [True, True, False, False]
 
 
 # Heating rate
