@@ -6,13 +6,14 @@ from typing import Any
 import pandas as pd
 
 from pyrofit.analysis.closure import closure_lines
-from pyrofit.analysis.uses import FITTED, HELD_OUT, all_rates, rates_in_fit, title_of, use_of
+from pyrofit.analysis.uses import FITTED, HELD_OUT, title_of, use_of
 from pyrofit.config import Study
 from pyrofit.model.signal import Signal
 from pyrofit.quantities.base import Quantity
 from pyrofit.quantities.units import ICE_POINT_K
 from pyrofit.results import recorded
 from pyrofit.results.files import Results
+from pyrofit.results.kinetics import heats_shown, masses_shown
 from pyrofit.show.names import signal_words
 from pyrofit.show.units import difference, difference_unit, shown
 
@@ -66,9 +67,10 @@ def closure(study: Study, measured: Mapping[str, Any]) -> list[str]:
 
 def _use(study: Study, name: str, signal: str) -> str:
     """Say what a series is for."""
-    if name in rates_in_fit(study):
+    cost = study.kinetics.cost if study.kinetics else ()
+    if any((t.experiment, t.signal) == (name, signal) and t.weight > 0.0 for t in cost):
         return "kinetics, fitted"
-    if name in all_rates(study):
+    if name in masses_shown(study) or (name, signal) in heats_shown(study):
         return "kinetics, compared"
     uses = [use_of(study, cost, name, signal) for cost in study.imp.costs]
     if FITTED in uses:
