@@ -36,7 +36,7 @@ def sensitivities(study: Study, results: Results) -> Canvas:
             ax.plot(curve["time_s"], difference(quantity, curve["si"]), **look)
         style.zero_line(ax)
         ax.set_xlabel("time [s]")
-        title = experiment.words(signal["signal"])
+        title = experiment.words(signal["signal"]).replace(" (", "\n(")
         unit = difference_unit(quantity)
         ax.set_ylabel(f"change of {title}\nper limits' distance [{unit}]")
     style.legend_below(
