@@ -251,6 +251,7 @@ def test_one_flux_leaves_nothing_to_hold_out_and_that_is_told(
     for text in (capsys.readouterr().out, Path("wood/wood.yaml").read_text("utf-8")):
         assert "Nothing is held out" in text
         assert "Measure at a second radiant flux" in text
+        assert "name it in `validation`" in text
 
 
 def test_middle_of_three_heating_rates_is_held_out_of_the_kinetics(folder: Path) -> None:

@@ -165,6 +165,20 @@ def test_no_kind_of_experiment_is_asked_for_outside_its_home() -> None:
                 assert not (of_kind and given & set(KINDS)), f"{name}: {ast.unparse(node)}"
 
 
+def test_a_new_study_names_no_kind_and_no_quantity() -> None:
+    # The kinds bring their options, numbers and lines of the study themselves.
+    names = {*KINDS, *known_quantities()} - {"mass"}
+    folder = SOURCE / "new_study"
+    for path in folder.glob("*.py"):
+        for node in ast.walk(ast.parse(path.read_text(encoding="utf-8"))):
+            literal = isinstance(node, ast.Constant) and isinstance(node.value, str)
+            assert not (literal and node.value in names), f"{path.name}: '{node.value}'"
+    words = set(re.findall(r"\w+", (folder / "study.yaml.j2").read_text(encoding="utf-8")))
+    assert not words & names
+    for name in KINDS:
+        assert (SOURCE / "experiments" / name / "new.yaml.j2").is_file(), name
+
+
 def test_costs_know_nothing_of_models() -> None:
     for path in (SOURCE / "cost").glob("*.py"):
         assert not own(path) & NOT_FOR_COST, path.name

@@ -15,6 +15,8 @@ from pyrofit.experiments.gasification import Gasification
 from pyrofit.experiments.mcc import Mcc
 from pyrofit.experiments.tga import Tga
 from pyrofit.model.experiment import Experiment
+from pyrofit.quantities import quantities_of
+from pyrofit.quantities.base import Quantity
 
 KINDS: dict[str, Kind] = {
     "cone": cone.KIND,
@@ -43,3 +45,12 @@ def kinds_of(stage: Stage) -> list[str]:
     ['cone calorimeter', 'gasification']
     """
     return [kind.words for kind in KINDS.values() if kind.stage == stage]
+
+
+def measurable(kind: str) -> dict[str, Quantity]:
+    """Return the quantities that may be measured in a kind of experiment, by name.
+
+    >>> [name for name in measurable("cone") if name not in measurable("gasification")]
+    ['heat_release_rate']
+    """
+    return quantities_of(KINDS[kind].description.LIKE) | quantities_of(kind)

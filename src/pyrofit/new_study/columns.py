@@ -6,6 +6,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from pyrofit.data.csvfile import Table
+from pyrofit.experiments import measurable
 from pyrofit.new_study.headers import is_abscissa, is_error, is_usual, may_be, root_of
 from pyrofit.new_study.units import (
     guessed_unit,
@@ -13,7 +14,7 @@ from pyrofit.new_study.units import (
     kinds_of,
     stated_unit,
 )
-from pyrofit.quantities import known_quantities, quantities_of
+from pyrofit.quantities import known_quantities
 from pyrofit.quantities.base import Quantity
 from pyrofit.quantities.units import header_key
 
@@ -77,18 +78,11 @@ class Recognised:
 
 
 def recognise(table: Table, kind: str) -> Recognised:
-    """Tell which column of a table is what, and in which unit.
+    """Tell which column is what, and in which unit, of the quantities of a kind of experiment.
 
     Names that the reader knows come before words that hold them. A unit is that of the file, else
     the end of a name as in `time_min`, else guessed from the numbers. Several columns of one
     temperature, told apart by a number, are a signal each.
-
-    Parameters
-    ----------
-    table
-        The file.
-    kind
-        The kind of experiment, whose quantities are looked for.
 
     Examples
     --------
@@ -102,7 +96,7 @@ def recognise(table: Table, kind: str) -> Recognised:
     >>> found.units
     {'time': 'min', 'temperature': 'degC', 'value': '%'}
     """
-    quantities = sorted(quantities_of(kind).values(), key=_rank)
+    quantities = sorted(measurable(kind).values(), key=_rank)
     empty = [n for n, numbers in table.columns.items() if not np.nan_to_num(numbers).any()]
     left = dict.fromkeys(empty, "zero throughout, a placeholder")
     shared = {
@@ -113,16 +107,11 @@ def recognise(table: Table, kind: str) -> Recognised:
     taken = {*empty, *shared.values()}
     signals, unclear = _signals([n for n in table.columns if n not in taken], quantities)
     left |= unclear
-    if not signals:
-        signals = {quantities[0].name: (quantities[0], "")}
-    values = [header for _, header in signals.values()]
-    found = [
-        _found(table, signal, quantity, _columns(table, quantity, header, shared, values))
-        for signal, (quantity, header) in signals.items()
-    ]
+    signals = signals or {quantities[0].name: (quantities[0], "")}
+    found = _all_found(table, signals, shared)
     used = {header for one in found for header in one.columns.values()}
     reasons = {n: left.get(n, "not recognised") for n in table.columns if n not in used}
-    return Recognised(tuple(found), reasons)
+    return Recognised(found, reasons)
 
 
 def _rank(quantity: Quantity) -> tuple[bool, bool, bool, str]:
@@ -197,6 +186,17 @@ def _columns(
         if len(errors) == 1:
             columns["uncertainty"] = errors[0]
     return columns
+
+
+def _all_found(
+    table: Table, signals: Mapping[str, tuple[Quantity, str]], shared: Mapping[str, str]
+) -> tuple[Found, ...]:
+    """Return what is known of all signals."""
+    values = [header for _, header in signals.values()]
+    return tuple(
+        _found(table, signal, quantity, _columns(table, quantity, header, shared, values))
+        for signal, (quantity, header) in signals.items()
+    )
 
 
 def _found(table: Table, signal: str, quantity: Quantity, headers: Mapping[str, str]) -> Found:

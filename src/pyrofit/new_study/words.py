@@ -99,7 +99,7 @@ def held_out(part: Part) -> list[str]:
         return [f"Held out: {', '.join(part.held_out)}. No cost uses {use} the model."]
     return [
         "Nothing is held out: all that is predicted here was fitted, so nothing tests the model.",
-        "Measure at a second radiant flux, add it under `experiments`, and name it here alone.",
+        "Measure at a second radiant flux, add it under `experiments` and name it in `validation`.",
     ]
 
 

@@ -59,9 +59,17 @@ def init(name: str, files: Files, parent: Path) -> tuple[Path, list[str]]:
     _check(name, folder, files)
     records = [draft.measured(kind, path) for kind, paths in files.items() for path in paths]
     draft.check_names(records)
-    copies = {record.name: _content(record.path) for record in records if record.path}
     tests = grouped(records) or computed()
-    text = study_text(name, tests)
+    study = _write(folder, study_text(name, tests), records)
+    heated, slabs = (part_of(stage, tests) for stage in STAGES)
+    lines = [line for run in records for line in said(run)] + said_of_repeats(tests)
+    lines += held_out(heated) if heated.held_out else []
+    return study, [*lines, *held_out(slabs)]
+
+
+def _write(folder: Path, text: str, records: Sequence[Measured]) -> Path:
+    """Make the folder of a study with copies of the measured files, and return the study file."""
+    copies = {record.name: _content(record.path) for record in records if record.path}
     try:
         folder.mkdir(parents=True)
         (folder / "data").mkdir()
@@ -71,12 +79,9 @@ def init(name: str, files: Files, parent: Path) -> tuple[Path, list[str]]:
         ) from None
     for record, content in copies.items():
         write_bytes(folder / "data" / f"{record}.csv", content)
-    study = folder / f"{name}.yaml"
+    study = folder / f"{folder.name}.yaml"
     write_text(study, text)
-    heated, slabs = (part_of(stage, tests) for stage in STAGES)
-    lines = [line for run in records for line in said(run)] + said_of_repeats(tests)
-    lines += held_out(heated) if heated.held_out else []
-    return study, [*lines, *held_out(slabs)]
+    return study
 
 
 def computed() -> list[Measured]:
