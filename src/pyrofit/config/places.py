@@ -30,11 +30,12 @@ def check_places(study: Study) -> None:
 
 
 def _check_depth(study: Study, experiment: SlabExperiment, depth: float | str, place: str) -> None:
-    """Refuse a depth that may exceed the thickness, within the limits of both."""
+    """Refuse a depth that may exceed that of sample and backing, within the limits of all."""
     sample = experiment.sample
     thinnest = min(_limits(study, sample.thickness_factor)) * sum(
         min(_limits(study, layer.thickness_m)) for layer in sample.layers
     )
+    thinnest += sum(min(_limits(study, layer.thickness_m)) for layer in sample.backing)
     deepest = max(_limits(study, depth))
     require(
         deepest <= thinnest * (1.0 + 1e-9),
