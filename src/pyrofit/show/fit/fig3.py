@@ -24,7 +24,7 @@ FIGURE = Figure(
     place=10,
     applies=lambda study: bool(_pairs(study)),
     make=fig3,
-    title="Release rates, fitted",
+    title="Fitted rates",
     paper="Figure 3",
     caption="Mass loss rate or heat release rate of the fitted experiments: the data with their "
     "uncertainty (grey area), and the best set that SCE-UA found for each cost function; thin grey "

@@ -1,4 +1,4 @@
-"""Release rates of the optimisers."""
+"""Rates of the optimisers."""
 
 from matplotlib.figure import Figure as Canvas
 
@@ -19,7 +19,7 @@ FIGURE = Figure(
     place=30,
     applies=lambda study: bool(predicted_signals(study, relative=True)),
     make=optimisers,
-    title="Release rates of the optimisers",
+    title="Rates of the optimisers",
     caption="The best sets of least squares (diamonds) and CMA-ES (squares) beside those of "
     "SCE-UA. Where a lower cost at the fitted experiment comes with a worse prediction "
     "elsewhere, the fitted data do not determine the parameters, or these make up for "

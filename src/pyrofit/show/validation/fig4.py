@@ -24,7 +24,7 @@ FIGURE = Figure(
     place=10,
     applies=lambda study: bool(_pairs(study)),
     make=fig4,
-    title="Release rates, predicted",
+    title="Predicted rates",
     paper="Figure 4",
     caption="The same sets at an experiment that was not fitted. Agreement among the simulated "
     "curves is not agreement with the data: compare them with the grey area.",
