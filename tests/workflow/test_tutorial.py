@@ -78,7 +78,12 @@ def test_tutorial_recognises_its_files_and_its_study_is_valid(followed: Followed
 def test_slab_that_is_held_out_is_predicted_and_the_report_says_so(followed: Followed) -> None:
     assert "Held out: slab_60kW." in followed.said
     page = (followed.results / "report.html").read_text(encoding="utf-8")
-    assert "The mass loss rate of slab_60kW, held out, is predicted with CV(RMSE)" in page
+    assert "held out: 60 kW/m²." in page
+    table = (followed.results / "tables" / "validation.md").read_text(encoding="utf-8")
+    fitted, predicted = table.split("## 60 kW/m²")
+    assert "| held out |" in predicted
+    assert "| fitted |" not in predicted
+    assert "| held out |" not in fitted
     study = (followed.root / "mypolymer" / "mypolymer.yaml").read_text(encoding="utf-8")
     assert "{experiment: slab_25kW, signal: mlr" in study
     assert "{experiment: slab_60kW, signal: mlr" not in study
