@@ -22,7 +22,7 @@ from scipy.special import expn
 from pyrofit.constants import GAS_CONSTANT
 from pyrofit.model.accuracy import Accuracy
 from pyrofit.model.material import Material
-from pyrofit.simulate import COUPLED_STEP
+from pyrofit.solver.heated import COUPLED_STEP
 
 T = np.linspace(300.0, 850.0, 551)
 RATES = (1.0, 10.0, 50.0)
