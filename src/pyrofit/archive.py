@@ -20,7 +20,7 @@ from pyrofit.errors import DataError
 from pyrofit.model.signal import Signal
 from pyrofit.plugins import folder_names, plugin_files
 from pyrofit.provenance import STUDY, source_fingerprint
-from pyrofit.results.dependencies import code
+from pyrofit.results.code_digests import code
 from pyrofit.results.files import Results, read_json, write_bytes
 from pyrofit.show.sections import FIGURES, TABLES
 from pyrofit.stages.reading import MACFP

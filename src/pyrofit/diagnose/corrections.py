@@ -10,12 +10,13 @@ from typing import Any
 
 import numpy as np
 
+from pyrofit.diagnose.flux_tables import described_at, merged, named, table_of
 from pyrofit.effects.base import changed
 from pyrofit.effects.substance import properties_changed, shares
 from pyrofit.estimate.problem import Outcome, Problem
 from pyrofit.model.base import value_of
 from pyrofit.model.slab import Front, SlabExperiment
-from pyrofit.model.time_table import OverTime, TimeTable, at_start
+from pyrofit.model.time_table import TimeTable, at_start
 from pyrofit.simulate import simulate_gasification
 from pyrofit.solver.arrays import FloatArray
 from pyrofit.solver.arrays import Values as Sets
@@ -98,8 +99,8 @@ def _flux(problem: Problem) -> Correction:
     end = max(float(times[-1]) for times in _times(problem).values())
     knots = end * np.linspace(0.0, 1.0, COEFFICIENTS) ** 2
     names = _names("flux", COEFFICIENTS)
-    described = {name: _table(slab.front.flux_W_m2) for name, slab in _slabs(problem).items()}
-    time = {name: _merged(table.time_s, knots) for name, table in described.items()}
+    described = {name: table_of(slab.front.flux_W_m2) for name, slab in _slabs(problem).items()}
+    time = {name: merged(table.time_s, knots) for name, table in described.items()}
     own = {name: _names(f"flux_{i}_at", len(time[name])) for i, name in enumerate(described)}
     fronts = {
         name: {"flux_W_m2": TimeTable(time_s=time[name], value=own[name])} for name in described
@@ -109,7 +110,7 @@ def _flux(problem: Problem) -> Correction:
         c = [values[name] for name in names]
         found: dict[str, float] = {}
         for name, table in described.items():
-            q = _at(table, time[name], values) * (1.0 + np.interp(time[name], knots, c))
+            q = described_at(table, time[name], values) * (1.0 + np.interp(time[name], knots, c))
             found |= zip(own[name], q.tolist(), strict=True)
         return found
 
@@ -124,23 +125,6 @@ def _flux(problem: Problem) -> Correction:
         problem=_derived(problem, fronts, derive),
         shape=shape,
     )
-
-
-def _table(given: OverTime) -> TimeTable:
-    return given if isinstance(given, TimeTable) else TimeTable(time_s=(0.0,), value=(given,))
-
-
-def _merged(time: tuple[float, ...], knots: FloatArray) -> tuple[float, ...]:
-    """Return the times and those knots that are none of them; two equal times remain a step."""
-    return tuple(sorted([*time, *(t for t in knots.tolist() if t not in time)]))
-
-
-def _at(table: TimeTable, time: tuple[float, ...], values: Values) -> FloatArray:
-    """Return the described flux at its own times and at others between them [W/m2]."""
-    own = np.array([value_of(q, values) for q in table.value])
-    flux = np.interp(time, table.time_s, own)
-    flux[np.isin(time, table.time_s)] = own
-    return np.asarray(flux)
 
 
 def _property(problem: Problem, values: Values, T: tuple[float, float], probe: str) -> Correction:
@@ -179,7 +163,7 @@ def _front_loss(problem: Problem, T: tuple[float, float]) -> Correction:
     names = dict(zip(LOSS_SD, _names("front_loss", len(LOSS_SD)), strict=True))
     described = {name: slab.front for name, slab in _slabs(problem).items()}
     own = {
-        name: {key: _named(getattr(front, key), f"probe_{key}_{i}") for key in LOSS_SD}
+        name: {key: named(getattr(front, key), f"probe_{key}_{i}") for key in LOSS_SD}
         for i, (name, front) in enumerate(described.items())
     }
 
@@ -189,7 +173,7 @@ def _front_loss(problem: Problem, T: tuple[float, float]) -> Correction:
             for name, front in described.items()
             for key, coefficient in names.items()
             for new, old in zip(
-                _table(own[name][key]).value, _table(getattr(front, key)).value, strict=True
+                table_of(own[name][key]).value, table_of(getattr(front, key)).value, strict=True
             )
         }
 
@@ -208,14 +192,6 @@ def _front_loss(problem: Problem, T: tuple[float, float]) -> Correction:
         problem=_derived(problem, own, derive),
         shape=shape,
     )
-
-
-def _named(given: OverTime, name: str) -> OverTime:
-    """Return a name in place of a number, or one in place of each of a table."""
-    if not isinstance(given, TimeTable):
-        return name
-    names = tuple(f"{name}_at_{k}" for k in range(len(given.value)))
-    return TimeTable(time_s=given.time_s, value=names)
 
 
 def _convection(front: Front, values: Values, T: FloatArray) -> FloatArray:

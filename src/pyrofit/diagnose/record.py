@@ -7,14 +7,13 @@ import pandas as pd
 
 from pyrofit.config import Study, candidate_effects
 from pyrofit.config.resolve import obstacle
-from pyrofit.diagnose.findings import Judged, Verdict
-from pyrofit.diagnose.gates import HELD_OUT, at_limit
-from pyrofit.diagnose.intervals import interval, strengths, values_of
-from pyrofit.diagnose.model import model_of, strength_of
+from pyrofit.diagnose.findings import Verdict
+from pyrofit.diagnose.gates import HELD_OUT
+from pyrofit.diagnose.intervals import interval, values_of
+from pyrofit.diagnose.model import model_of
 from pyrofit.diagnose.phases import describe
+from pyrofit.diagnose.record_candidates import candidates, confusability_of, screened
 from pyrofit.diagnose.refit import Trial, up_to_date
-from pyrofit.diagnose.rounds import Round
-from pyrofit.diagnose.screen import confusability
 from pyrofit.diagnose.search import AMBIGUOUS, Search
 from pyrofit.diagnose.words import form_of, sentences
 from pyrofit.effects import known_effects
@@ -33,12 +32,12 @@ def content(study: Study, found: Search, verdict: Verdict) -> dict[str, Any]:
         "noise": _noise(found),
         "base": _base(study, found),
         "windows": _windows(found),
-        "screen": _screen(found),
-        "confusability": _confusability(found),
+        "screen": screened(found),
+        "confusability": confusability_of(found),
         "needed": found.spare + float(np.log(found.base.model.points)),
         "ambiguity": AMBIGUOUS,
         "not_tried": _not_tried(study),
-        "candidates": _candidates(found, verdict),
+        "candidates": candidates(found, verdict),
         "extended": {"parameters": _extended(study, found)},
         "gap": _gap(found),
     }
@@ -138,98 +137,6 @@ def _windows(found: Search) -> list[dict[str, Any]]:
         for name, (trial, alarm) in alarms.items()
         for window in describe(trial, alarm.windows, alarm.scan_critical)
     ]
-
-
-def _screen(found: Search) -> list[dict[str, Any]]:
-    catalogue = known_effects()
-    rows = []
-    for look in found.rounds[0].looks:
-        effect = catalogue[look.effect]
-        _, quantity = strength_of(look.effect)
-        row = {
-            "effect": look.effect,
-            "group": effect.group,
-            "family": effect.family,
-            "detectability": look.detectability,
-            "typical": quantity.typical,
-            "unit": quantity.unit,
-            "z": look.score(found.base.fit.residuals),
-            "ahead": max(0.0, found.base.fit.chi2 - float(look.ahead.min())),
-        }
-        rows.append(row)
-    return sorted(rows, key=lambda row: -float(row["z"]))
-
-
-def _confusability(found: Search) -> dict[str, Any]:
-    looks = list(found.rounds[0].looks)
-    cosine = confusability(looks) if looks else np.zeros((0, 0))
-    return {"effects": [look.effect for look in looks], "cosine": cosine.tolist()}
-
-
-def _candidates(found: Search, verdict: Verdict) -> list[dict[str, Any]]:
-    judged: dict[Any, list[Judged]] = {}
-    for finding in verdict.findings:
-        for one in finding.judged:
-            judged.setdefault(_key(one.trial), []).append(one)
-    best = found.end.penalised
-    rows = []
-    for step, trial in _models(found):
-        here = judged.get(_key(trial), [])
-        trial = here[0].trial if here else trial
-        row = {
-            "effects": list(trial.effects),
-            "free": {name: list(free) for name, free in trial.model.effects.items()},
-            "chi2": trial.fit.chi2,
-            "gain": step.start.fit.chi2 - trial.fit.chi2,
-            "penalised": trial.penalised,
-            "parameters": strengths(trial, bool(here)),
-            "adequate": found.end_alarm.adequate if _key(trial) == _key(found.end) else None,
-            **_judgement(here),
-        }
-        if not here:
-            row["rejected"] = _why_not(found, step.start, trial, best)
-        rows.append(row)
-    return rows
-
-
-def _models(found: Search) -> list[tuple[Round, Trial]]:
-    """Return all fits, the best penalised chi-square first, each model once.
-
-    Two effects are fitted twice, where each of them was carried on.
-    """
-    fits = [(step, trial) for step in found.rounds for trial in step.trials]
-    models: dict[Any, tuple[Round, Trial]] = {}
-    for step, trial in sorted(fits, key=lambda fit: fit[1].penalised):
-        models.setdefault(_key(trial), (step, trial))
-    return list(models.values())
-
-
-def _key(trial: Trial) -> frozenset[tuple[str, tuple[str, ...]]]:
-    """Return what tells a model from others: its effects and what of them is fitted."""
-    return frozenset(trial.model.effects.items())
-
-
-def _judgement(judged: list[Judged]) -> dict[str, Any]:
-    """Return what was found of a model, in all its effects' places."""
-    if not judged:
-        return {"disagree": None, "predictions": {}, "explains": None, "rejected": ""}
-    against = dict.fromkeys(f"{j.effect}: {j.rejected}" for j in judged if j.rejected)
-    return {
-        "disagree": min(j.trust.disagree for j in judged),
-        "predictions": min((j.trust.gains for j in judged), key=lambda g: sum(g.values())),
-        "explains": all(j.trust.explains for j in judged),
-        "rejected": "; ".join(against),
-    }
-
-
-def _why_not(found: Search, start: Trial, trial: Trial, best: float) -> str:
-    gain = start.penalised - trial.penalised
-    if gain < found.spare:
-        return f"gains {gain:.1f} of penalised chi-square, {found.spare:.1f} are asked for"
-    limits = [name for name in (at_limit(trial, effect) for effect in trial.effects) if name]
-    if limits:
-        return f"{limits[0]} rests at a limit"
-    return f"{trial.penalised - best:.1f} above the best in penalised chi-square"
 
 
 def _misfits(trial: Trial) -> list[dict[str, Any]]:

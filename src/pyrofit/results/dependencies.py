@@ -13,13 +13,11 @@ from pyrofit.config import (
     held_out_channels,
     parameters_in,
 )
-from pyrofit.config.terms import TermSpec
 from pyrofit.config.uses import names_in
 from pyrofit.errors import StudyError
 from pyrofit.plugins import code_digest
 from pyrofit.quantities import known_quantities
-
-Digests = dict[str, dict[str, str]]
+from pyrofit.results.code_digests import all_terms, code, code_of
 
 
 def _parameters(study: Study, names: set[str]) -> dict[str, Any]:
@@ -51,35 +49,6 @@ def _measured(study: Study, name: str) -> dict[str, Any]:
     return study.experiments[name].model_dump(exclude={"title"})
 
 
-def _code(study: Study, terms: Iterable[TermSpec] = (), more: Iterable[str] = ()) -> Digests:
-    """Hashes of the files that no step imports by name: of effects, quantities and own costs.
-
-    Of effects these are the model's and some more, of costs those of some terms, of quantities
-    those of all signals.
-    """
-    signals = [(e, s) for e in study.experiments.values() for s in e.signals]
-    quantities = {experiment.quantity(signal).name for experiment, signal in signals}
-    return {
-        "quantities": {n: code_digest("quantities", n) for n in sorted(quantities)},
-        "effects": {n: code_digest("effects", n) for n in sorted({*study.with_effects, *more})},
-        "costs": {n: code_digest("costs", n) for n in sorted({term.kind for term in terms})},
-    }
-
-
-def _all_terms(study: Study) -> list[TermSpec]:
-    return [term for terms in study.imp.costs.values() for term in terms]
-
-
-def code(study: Study) -> Digests:
-    """Return what `pyrofit.provenance` does not count: effects, quantities and own costs.
-
-    Candidates of the diagnosis are left out: the other results do not depend on them.
-    """
-    stage = study.kinetics.cost if study.kinetics else ()
-    truth = study.synthetic.effects if study.synthetic else ()
-    return _code(study, [*_all_terms(study), *stage], truth)
-
-
 def data(study: Study) -> dict[str, Any]:
     """Signals as they are read; with synthetic ones, all that makes them."""
     of_the_model = {"delay_s", "offset", "timing_s"}
@@ -88,13 +57,13 @@ def data(study: Study) -> dict[str, Any]:
         for n, e in study.experiments.items()
     }
     if not study.is_synthetic:
-        return {"signals": signals, "code": _code(study)}
+        return {"signals": signals, "code": code_of(study)}
     return {
         "experiments": {n: _experiment(study, n) for n in study.experiments},
         "material": study.material.model_dump(),
         "parameters": _values(study),
         "synthetic": study.synthetic.model_dump() if study.synthetic else None,
-        "code": _code(study, more=study.synthetic.effects if study.synthetic else ()),
+        "code": code_of(study, more=study.synthetic.effects if study.synthetic else ()),
         "seed": study.seed,
     }
 
@@ -125,7 +94,7 @@ def kinetics(study: Study) -> dict[str, Any]:
         "parameters": _parameters(
             study, (names | composed) & (set(stage.estimate) | set(study.fixed_values()))
         ),
-        "code": _code(study, stage.cost),
+        "code": code_of(study, stage.cost),
         "stage": stage.model_dump(exclude={"cost"}),
         "accuracy": study.accuracy.tga_step_K,
         "seed": study.seed,
@@ -147,7 +116,7 @@ def imp(study: Study, cost: str, optimiser: str) -> dict[str, Any]:
         "parameters": _parameters(study, names | set(stage.estimate)),
         "estimate": stage.estimate,
         "kinetics": stage.kinetics,
-        "code": _code(study, terms),
+        "code": code_of(study, terms),
         "budget": getattr(stage, optimiser).model_dump(),
         "accuracy": study.accuracy.model_dump(),
         "seed": study.seed,
@@ -169,7 +138,7 @@ def identify(study: Study) -> dict[str, Any]:
         "parameters": _parameters(study, names | set(stage.estimate)),
         "estimate": stage.estimate,
         "kinetics": stage.kinetics,
-        "code": _code(study),
+        "code": code_of(study),
         "costs": list(stage.costs),
         "accuracy": study.accuracy.model_dump(),
         **_known(study, stage.estimate),
@@ -193,7 +162,7 @@ def diagnose(study: Study) -> dict[str, Any]:
         "estimate": estimate,
         "known": _known_values(study, estimate),
         "candidates": candidate_effects(study),
-        "code": _code(study, more=candidate_effects(study)),
+        "code": code_of(study, more=candidate_effects(study)),
         # New tests may record any quantity.
         "quantities": {n: code_digest("quantities", n) for n in known_quantities()},
         "most_effects": stage.most_effects,
@@ -211,7 +180,7 @@ def validation(study: Study) -> dict[str, Any]:
         "estimate": study.imp.estimate,
         "parameters": _values(study),
         "validation": study.validation.model_dump(),
-        "code": _code(study, _all_terms(study)),
+        "code": code_of(study, all_terms(study)),
         "published": study.published.costs if study.published else {},
         "accuracy": study.accuracy.model_dump(),
     }
@@ -220,7 +189,7 @@ def validation(study: Study) -> dict[str, Any]:
 def robustness(study: Study, cost: str) -> dict[str, Any]:
     """Cost, twins, and all that a prediction rests on."""
     return {
-        "terms": [t.model_dump() for t in _all_terms(study)],
+        "terms": [t.model_dump() for t in all_terms(study)],
         "cost": cost,
         "twins": study.robustness.model_dump(),
         "truth": study.synthetic.truth if study.synthetic else {},

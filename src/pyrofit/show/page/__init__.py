@@ -12,7 +12,7 @@ from pyrofit.data.fetch import COMMIT
 from pyrofit.plugins import plugin_files
 from pyrofit.provenance import environment
 from pyrofit.results import recorded
-from pyrofit.results.dependencies import code
+from pyrofit.results.code_digests import code
 from pyrofit.results.files import Results
 from pyrofit.show import measured as measurements
 from pyrofit.show.parts import Part, Shown

@@ -1,0 +1,116 @@
+"""What must hold for compositions: sums, shares, layers, published kinetics."""
+
+from collections.abc import Mapping
+
+from pyrofit.config.numbers import check_parameter, require
+from pyrofit.config.stages import KineticSet
+from pyrofit.config.study import Study
+from pyrofit.config.uses import (
+    names_in,
+)
+from pyrofit.effects.base import ADDED
+from pyrofit.effects.substance import main_reaction
+from pyrofit.errors import suggest
+from pyrofit.model.base import FRACTION
+from pyrofit.model.material import REST, check_composition
+from pyrofit.model.slab import SlabExperiment
+
+
+def _largest(study: Study, number: float | str) -> float:
+    """Return a number, or the most that a parameter can be, in SI units."""
+    if not isinstance(number, str):
+        return number
+    p = study.parameters[number]
+    return max(x for x in (p.value, p.upper) if x is not None) * p.factor
+
+
+def _check_sum(study: Study, shares: Mapping[str, float | str], place: str) -> None:
+    """Refuse mass fractions or yields that may add up to more than one."""
+    total = sum(_largest(study, share) for share in shares.values() if share != REST)
+    require(
+        total <= 1.0 + 1e-9,
+        place,
+        f"with the upper limits of parameters these add up to {total:g}, above 1; lower a limit",
+    )
+
+
+def check_compositions(study: Study) -> None:
+    """Refuse compositions and yields that cannot add up, of the material and of layers.
+
+    Raises
+    ------
+    ValueError
+        With place, rule and way out.
+    """
+    compositions = {"material.composition": study.material.composition}
+    for name, experiment in study.of_stage("imp").items():
+        for i, layer in enumerate(experiment.sample.layers):
+            if layer.composition is not None:
+                place = f"experiments.{name}.sample.layers.{i}.composition"
+                compositions[place] = layer.composition
+        _check_backing(study, name, experiment)
+    for label, chosen in (study.kinetics.sets if study.kinetics else {}).items():
+        place = f"kinetics.sets.{label}"
+        require(
+            label not in ("described", "fitted"),
+            place,
+            f"'{label}' is a reserved name; choose another",
+        )
+        described = {n for n in study.material.reactions if not n.startswith(ADDED)}
+        missing = described ^ set(chosen.reactions)
+        require(
+            not missing,
+            place,
+            f"reactions differ from the material's: {sorted(missing)}; give each of them, no other",
+        )
+        compositions[f"{place}.composition"] = study.material_with(label).composition
+        if label == study.imp.kinetics:
+            _check_kept(study, label, chosen)
+    for place, composition in compositions.items():
+        try:
+            check_composition(composition, study.material.components)
+        except ValueError as error:
+            raise ValueError(f"{place}: {error}") from None
+        for name in sorted(names_in(composition)):
+            check_parameter(study, name, (FRACTION,), place)
+        _check_sum(study, composition, place)
+    for name, reaction in study.material.reactions.items():
+        _check_sum(study, reaction.products, f"material.reactions.{name}.products")
+
+
+def _check_backing(study: Study, name: str, experiment: SlabExperiment) -> None:
+    """Refuse layers behind the sample that are unknown, react or swell."""
+    material = study.material
+    reactants = {reaction.reactant for reaction in material.reactions.values()}
+    for i, layer in enumerate(experiment.sample.backing):
+        place = f"experiments.{name}.sample.backing.{i}.component"
+        known = set(material.components) - reactants
+        require(
+            layer.component in material.components,
+            place,
+            f"unknown component '{layer.component}'. {suggest(layer.component, known)}",
+        )
+        require(
+            layer.component not in reactants,
+            place,
+            f"'{layer.component}' reacts; a layer behind the sample is inert: describe it as a "
+            "layer of the sample",
+        )
+        require(
+            material.components[layer.component].expansion == 1.0,
+            f"material.components.{layer.component}.expansion",
+            f"a layer behind the sample keeps its volume ({place}); leave it out",
+        )
+
+
+def _check_kept(study: Study, label: str, chosen: KineticSet) -> None:
+    """Refuse published kinetics that give a number which an effect of the model gives, too."""
+    for effect, keys in study.kept_of_kinetics().items():
+        values = chosen.reactions[main_reaction(study.material)[0]]
+        for key in keys:
+            require(
+                getattr(values, key) == type(values).model_fields[key].default,
+                f"effects.{effect}",
+                f"imp.kinetics '{label}' brings an {key} of its own; leave the effect out, or "
+                "describe or fit the kinetics",
+            )
