@@ -8,6 +8,7 @@ from pathlib import Path
 from snakemake.utils import min_version, update_config
 
 from pyrofit.config import as_study, digest, read_mapping
+from pyrofit.config.unmeasured import unmeasured
 from pyrofit.errors import PyrofitError
 from pyrofit.provenance import STUDY as STUDY_MODULES
 from pyrofit.provenance import source_fingerprint

@@ -36,6 +36,7 @@ FILES = {
     "test_robustness": "solver",
     "test_slab_quantities": "solver",
     "test_stages": "solver",
+    "test_unmeasured": "solver",
 }
 """Files of folders whose other tests are fast."""
 

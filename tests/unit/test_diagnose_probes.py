@@ -96,7 +96,12 @@ def fronts(**update: Any) -> Change:
 
 def substance(key: str, **numbers: float) -> Change:
     put = properties_changed(key, **{name: name for name in numbers})
-    return lambda problem: replace(problem, material=put(problem.material, numbers))
+
+    def change(problem: Problem) -> Problem:
+        material = put(problem.material, numbers, problem.material.own)
+        return replace(problem, material=material)
+
+    return change
 
 
 def fading(flux: float) -> TimeTable:

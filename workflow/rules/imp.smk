@@ -25,7 +25,9 @@ for _together in [
             benchmark_of(f"imp_{{cost}}_{_together[0]}")
         params:
             study=STUDY,
-            digest=lambda wildcards: digest(dependencies.imp(study, wildcards.cost, "sceua")),
+            digest=lambda wildcards: digest(
+                dependencies.imp(study, wildcards.cost, "sceua")
+            ),
             generations=study.imp.sceua.generations,
             seed=study.seed,
             source=FITS,
@@ -44,12 +46,12 @@ rule optimise:
         KINETICS_FOR_IMP,
     output:
         ROOT / "imp/{cost}/{optimiser}.json",
-    wildcard_constraints:
-        optimiser="|".join(OPTIMISERS),
     log:
         log_of("{optimiser}_{cost}"),
     benchmark:
         benchmark_of("{optimiser}_{cost}")
+    wildcard_constraints:
+        optimiser="|".join(OPTIMISERS),
     params:
         study=STUDY,
         digest=lambda wildcards: digest(

@@ -6,8 +6,7 @@ CALCULATED = [
     STARTED,
     expand(ROOT / "imp/{cost}/descent.json", cost=COSTS),
     IDENTIFICATION,
-    results.validation("curves.csv"),
-    results.validation("scores.csv"),
+    PREDICTED,
     COMPARED,
 ]
 SHOWN_TABLES = [name for name, table in TABLES.items() if table.applies(study)]

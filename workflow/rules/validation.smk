@@ -1,3 +1,13 @@
+PREDICTED = [
+    results.validation(name)
+    for name in (
+        "curves.csv",
+        "scores.csv",
+        *(["unmeasured.csv"] if unmeasured(study) else []),
+    )
+]
+
+
 rule predict:
     input:
         MEASUREMENTS,
@@ -5,8 +15,7 @@ rule predict:
         results.imp("summary.csv"),
         STARTED,
     output:
-        curves=results.validation("curves.csv"),
-        scores=results.validation("scores.csv"),
+        PREDICTED,
     log:
         log_of("predict"),
     params:

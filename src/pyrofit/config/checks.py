@@ -6,6 +6,7 @@ from pyrofit.config.numbers import check_numbers, check_parameters, require
 from pyrofit.config.places import check_places
 from pyrofit.config.stage_checks import check_stages
 from pyrofit.config.study import Study
+from pyrofit.config.unmeasured import unmeasured
 from pyrofit.config.uses import (
     numbers_of,
     parameters_in,
@@ -50,7 +51,7 @@ def _check_with_effects(study: Study) -> None:
 def _check_signals(study: Study) -> None:
     for name, experiment in study.experiments.items():
         require(
-            bool(experiment.signals),
+            bool(experiment.signals) or name in unmeasured(study),
             f"experiments.{name}.signals",
             f"empty; name a measured quantity: {', '.join(experiment.measurable)}",
         )

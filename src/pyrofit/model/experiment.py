@@ -20,7 +20,9 @@ class Experiment(Part):
     """Another kind of experiment; its quantities are measured in this one, too."""
     kind: str
     title: str = Field("", description="name in figures")
-    signals: dict[str, Signal] = Field(description="measured quantities by name")
+    signals: dict[str, Signal] = Field(
+        default_factory=dict, description="measured quantities by name"
+    )
     repeats: AnyRepeats | None = Field(
         None, description="records of equal tests, each an experiment of its own"
     )

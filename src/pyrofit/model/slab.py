@@ -4,6 +4,7 @@ from typing import Annotated, ClassVar, Literal, Self
 
 from pydantic import Field, model_validator
 
+from pyrofit.errors import suggest
 from pyrofit.model.base import (
     POSITIVE,
     AboveZero,
@@ -208,7 +209,20 @@ class SlabExperiment(Experiment):
     sample: Sample = Field(description="the specimen")
     front: Front = Field(description="irradiated side")
     back: Back = Field(default_factory=Back, description="other side; default: insulated")
-    duration_s: AboveZero = Field(1000.0, description="synthetic: length of the record [s]")
+    duration_s: AboveZero = Field(
+        1000.0, description="synthetic or predicted: length of the record [s]"
+    )
+    predicts: tuple[str, ...] = Field(
+        (), description="quantities that are predicted for it without a measurement"
+    )
+
+    @model_validator(mode="after")
+    def _known_predictions(self) -> Self:
+        known = {name: q for name, q in self.measurable.items() if q.place == "fixed"}
+        for name in self.predicts:
+            if name not in known:
+                raise ValueError(f"predicts: unknown quantity '{name}'. {suggest(name, known)}")
+        return self
 
     @property
     def synthetic_span(self) -> tuple[float, str]:

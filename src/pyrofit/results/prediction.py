@@ -5,6 +5,7 @@ from collections.abc import Sequence
 import pandas as pd
 
 from pyrofit.config import Study
+from pyrofit.config.unmeasured import unmeasured
 from pyrofit.results.files import Keys, Results, read_csv
 
 
@@ -26,6 +27,20 @@ def scores(study: Study, results: Results, labels: Sequence[str]) -> pd.DataFram
             **dict.fromkeys(("cv_rmse", "solver_cv_rmse"), object),
         },
         _rows(study, labels),
+    )
+
+
+def unmeasured_curves(study: Study, results: Results, labels: Sequence[str]) -> pd.DataFrame:
+    """Return the curves of the labelled sets of what nobody measured."""
+    rows: list[Keys] = [
+        (name, quantity, label)
+        for name, quantities in unmeasured(study).items()
+        for quantity in quantities
+        for label in labels
+    ]
+    numbers = dict.fromkeys(("time_s", "simulated"), float)
+    return read_csv(
+        results.validation("unmeasured.csv"), numbers, {("experiment", "signal", "set"): rows}
     )
 
 

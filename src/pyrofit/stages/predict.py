@@ -5,6 +5,7 @@ import pandas as pd
 
 from pyrofit.analysis.best_sets import published_sets
 from pyrofit.config import Study
+from pyrofit.config.unmeasured import unmeasured
 from pyrofit.errors import DataError
 from pyrofit.estimate.optimisers import OPTIMISERS
 from pyrofit.experiments import kind_of
@@ -15,6 +16,7 @@ from pyrofit.simulate import solver_errors
 from pyrofit.solver.arrays import FloatArray, Values
 from pyrofit.stages.fit import best_sets, fixed_for_imp
 from pyrofit.stages.measurements import load
+from pyrofit.stages.unmeasured import predict_unmeasured
 
 
 def sets_of(study: Study, results: Results) -> dict[str, dict[str, float]]:
@@ -32,6 +34,8 @@ def sets_of(study: Study, results: Results) -> dict[str, dict[str, float]]:
 def predict(study: Study, results: Results) -> None:
     """Simulate every set at every experiment to predict; write ``curves.csv``, ``scores.csv``.
 
+    What nobody measured goes to ``unmeasured.csv``.
+
     Curves are given at the measured times, as averages over the bins of the measurement; the score
     is the CV(RMSE) of mass loss rates, and the RMSE in K of temperatures. Beside it stands the
     solver's own error, estimated by refinement.
@@ -41,6 +45,10 @@ def predict(study: Study, results: Results) -> None:
     measurements = load(study, results)
     chosen = sets_of(study, results)
     columns = {n: np.array([values[n] for values in chosen.values()]) for n in study.imp.estimate}
+    values: Values = {**fixed, **columns}
+    if unmeasured(study):
+        predicted = predict_unmeasured(study, material, values, chosen)
+        write_csv(results.validation("unmeasured.csv"), predicted)
     curves = []
     scores = []
     for name in study.validation.experiments:
@@ -51,7 +59,6 @@ def predict(study: Study, results: Results) -> None:
             frame = measurements[name, signal]
             time = frame["time_s"].to_numpy(float)
             requests[signal] = kind.request(experiment, signal, frame, time)
-        values: Values = {**fixed, **columns}
         runs, finer = (
             kind.simulate([experiment], material, values, [requests], accuracy, len(chosen))[0]
             for accuracy in (study.accuracy, study.accuracy.refined())

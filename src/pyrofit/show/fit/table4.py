@@ -23,8 +23,9 @@ def table4(study: Study, results: Results) -> pd.DataFrame:
     pandas.DataFrame
         One row per cost function and quantity ('fit' and each parameter, in its own unit).
     """
+    repetitions = list(repeated(study, results))
     by_data = {e.name: flag(e) for e in estimated(study, results) if e.stage == "imp"}
-    rows = [_row(study, found, by_data.get(found.name, "")) for found in repeated(study, results)]
+    rows = [_row(study, found, by_data.get(found.name, "")) for found in repetitions]
     absent = [] if study.published else [f"published_{what}" for what in ("best", "mean", "sigma")]
     return pd.DataFrame(rows).drop(columns=absent)
 
