@@ -61,8 +61,9 @@ rule optimise:
         seed=study.seed,
         source=FITS,
         command=lambda wildcards: OPTIMISERS[wildcards.optimiser].command,
+        title=lambda wildcards: OPTIMISERS[wildcards.optimiser].title,
     message:
-        "{params.command}, {wildcards.cost}"
+        "{params.title}, {wildcards.cost}"
     shell:
         "pyrofit {params.command} --study {params.study} --digest {params.digest} --log {log}"
         " --cost {wildcards.cost}"

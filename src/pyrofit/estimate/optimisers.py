@@ -30,6 +30,15 @@ class Optimiser:
     marker: str
 
     @property
+    def title(self) -> str:
+        """What its step of the workflow is called.
+
+        >>> OPTIMISERS["least_squares"].title
+        'Multistart least squares'
+        """
+        return self.words if self.words[0].isupper() else f"Multistart {self.words}"
+
+    @property
     def command(self) -> str:
         """Name of its command.
 
