@@ -69,8 +69,8 @@ def test_report_has_all_sections_and_figures(tmp_path: Path) -> None:
     assert [i for i in page.ids if i not in FIGURES] == sections
     study, _ = fake(tmp_path)
     shown = {name for name, figure in FIGURES.items() if figure.applies(study)}
-    # The faked study has no heat flow and no heat release.
-    assert set(FIGURES) - shown == {"heats"}
+    # The faked study has no heat flow, no heat release, and nothing without a measurement.
+    assert set(FIGURES) - shown == {"heats", "unmeasured"}
     assert shown <= set(page.ids)
     assert page.tags.count("figcaption") == len(shown)
     assert len(set(page.ids)) == len(page.ids)
