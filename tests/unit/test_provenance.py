@@ -12,6 +12,7 @@ import pyrofit
 from pyrofit import effects
 from pyrofit.config import Study, digest, read_study
 from pyrofit.effects import known_effects
+from pyrofit.plugins import code_digest
 from pyrofit.provenance import imported_files, source_fingerprint
 from pyrofit.results import dependencies
 
@@ -159,13 +160,14 @@ def test_edited_effect_changes_the_digests_of_what_a_study_does_with_it(
         study = read_study(SMOKE).model_copy(update={"with_effects": {"k_T": {}}})
         before = digests(study)
         with monkeypatch.context() as patch:
-            patch.setattr(
-                "pyrofit.results.dependencies.code_digest",
-                lambda kind, other: "edited" if other == name else known(kind, other),
-            )
+            for module in ("code_digests", "dependencies"):
+                patch.setattr(
+                    f"pyrofit.results.{module}.code_digest",
+                    lambda kind, other: "edited" if other == name else known(kind, other),
+                )
             after = digests(study)
         return {part for part in before if before[part] != after[part]}
 
-    known = dependencies.code_digest
+    known = code_digest
     assert edited("c_T") == {"diagnosis"}
     assert edited("k_T") == set(digests(read_study(SMOKE)))
