@@ -4,11 +4,8 @@ from typing import Literal
 
 from pydantic import Field
 
-from pyrofit.experiments.base import Kind
-from pyrofit.experiments.heated.course import course
-from pyrofit.experiments.heated.designs import designs
 from pyrofit.experiments.heated.from_files import from_files
-from pyrofit.experiments.heated.simulate import reference, request, simulate, synthetic
+from pyrofit.experiments.heated.kind import heated_kind
 from pyrofit.model.heated import Baseline, HeatedExperiment
 
 
@@ -30,15 +27,9 @@ class Dsc(HeatedExperiment):
         return self.baseline
 
 
-KIND = Kind(
-    description=Dsc,
-    words="DSC",
-    stage="kinetics",
-    simulate=simulate,
-    reference=reference,
-    request=request,
-    synthetic=synthetic,
-    course=course,
-    designs=lambda own, measured, recorded: designs("dsc", "DSC", own, recorded),
-    files=from_files(help="files of a DSC, or of an STA with mass"),
+KIND = heated_kind(
+    "dsc",
+    "DSC",
+    Dsc,
+    from_files(help="files of a DSC, or of an STA with mass"),
 )

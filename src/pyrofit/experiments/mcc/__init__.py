@@ -4,11 +4,8 @@ from typing import Literal
 
 from pydantic import Field
 
-from pyrofit.experiments.base import Kind
-from pyrofit.experiments.heated.course import course
-from pyrofit.experiments.heated.designs import designs
 from pyrofit.experiments.heated.from_files import from_files
-from pyrofit.experiments.heated.simulate import reference, request, simulate, synthetic
+from pyrofit.experiments.heated.kind import heated_kind
 from pyrofit.model.base import NotNegative
 from pyrofit.model.heated import HeatedExperiment
 
@@ -27,15 +24,9 @@ class Mcc(HeatedExperiment):
         return self.response_s
 
 
-KIND = Kind(
-    description=Mcc,
-    words="MCC",
-    stage="kinetics",
-    simulate=simulate,
-    reference=reference,
-    request=request,
-    synthetic=synthetic,
-    course=course,
-    designs=lambda own, measured, recorded: designs("mcc", "MCC", own, recorded),
-    files=from_files(help="files of a microscale combustion calorimeter"),
+KIND = heated_kind(
+    "mcc",
+    "MCC",
+    Mcc,
+    from_files(help="files of a microscale combustion calorimeter"),
 )
