@@ -7,11 +7,11 @@ import numpy as np
 import pytest
 from linear import POINTS, TOTAL, column_of, fit_with, moved
 
-from pyrofit.diagnose import record
 from pyrofit.diagnose.diagnosis import _undecided
 from pyrofit.diagnose.findings import Judged, Verdict
 from pyrofit.diagnose.gates import HELD_OUT
 from pyrofit.diagnose.model import strength_of
+from pyrofit.diagnose.record_candidates import candidates
 from pyrofit.diagnose.rounds import Means
 from pyrofit.diagnose.search import Search, search
 from pyrofit.diagnose.verdict import (
@@ -204,7 +204,7 @@ def test_effect_that_another_makes_superfluous_is_dropped() -> None:
     verdict = verdict_on(replace(found, end=both))
     assert verdict.kind == "named", verdict.reasons
     assert verdict.search.end.effects == ("k_T",)
-    rows = record._candidates(verdict.search, verdict)
+    rows = candidates(verdict.search, verdict)
     (row,) = [row for row in rows if row["free"] == {"k_T": ["slope_1_K"]}]
     assert row["rejected"] == ""
 
@@ -349,7 +349,7 @@ def test_no_fit_with_an_effect_ends_above_the_one_without() -> None:
 
 def test_claims_gain_as_much_as_is_asked_for() -> None:
     found = searched(planted(k_T=0.8, c_T=-0.7))
-    rows = record._candidates(found, verdict_on(found))
+    rows = candidates(found, verdict_on(found))
     assert found.spare == pytest.approx(2.0 * np.log(3.0))
     best = min(rows, key=lambda row: row["penalised"])
     assert set(best["effects"]) == {"k_T", "c_T"}
@@ -359,7 +359,7 @@ def test_claims_gain_as_much_as_is_asked_for() -> None:
 
 def test_every_candidate_that_is_not_claimed_says_why() -> None:
     found = searched(planted(k_T=0.8), effects=EFFECTS)
-    rows = record._candidates(found, verdict_on(found))
+    rows = candidates(found, verdict_on(found))
     reasons = {tuple(row["effects"]): row["rejected"] for row in rows}
     assert reasons.pop(("k_T",)) == ""
     assert reasons
@@ -368,7 +368,7 @@ def test_every_candidate_that_is_not_claimed_says_why() -> None:
 
 def test_every_model_is_listed_once() -> None:
     found = searched(planted(k_T=0.8, c_T=-0.7), effects=EFFECTS)
-    rows = record._candidates(found, verdict_on(found))
+    rows = candidates(found, verdict_on(found))
     models = [sorted((e, *p) for e, p in row["free"].items()) for row in rows]
     assert len(rows) > 10
     assert [m for i, m in enumerate(models) if m in models[:i]] == []

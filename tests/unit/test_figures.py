@@ -17,8 +17,11 @@ from pyrofit.show.fit.fig3 import fig3
 from pyrofit.show.kinetics.drawing import slope
 from pyrofit.show.sections import FIGURES, make_figure
 
+OF_OTHER_STUDIES = {"heats", "unmeasured"}
+"""Figures of quantities and experiments that the faked study lacks."""
 
-@pytest.mark.parametrize("name", [name for name in FIGURES if name != "heats"])
+
+@pytest.mark.parametrize("name", sorted(set(FIGURES) - OF_OTHER_STUDIES))
 def test_every_figure_is_written_twice_and_its_svg_alike_each_time(
     name: str, tmp_path: Path
 ) -> None:
@@ -36,7 +39,7 @@ def test_every_figure_is_written_twice_and_its_svg_alike_each_time(
 @pytest.mark.parametrize("name", FIGURES)
 def test_synthetic_data_are_named_in_every_title(name: str, tmp_path: Path) -> None:
     study, results = fake(tmp_path, synthetic())
-    if name in ("other_signals", "heats"):
+    if name in {"other_signals", *OF_OTHER_STUDIES}:
         assert not FIGURES[name].applies(study)
         return
     make_figure(name, study, results)
@@ -60,7 +63,7 @@ def test_any_number_of_costs_and_experiments_is_drawn(number: int, tmp_path: Pat
             make_figure(name, study, results)
     drawn = {path.stem for path in (tmp_path / "figures").glob("*.svg")}
     missing = {"fig4", "other_signals"} if number == 1 else set()
-    assert drawn == set(FIGURES) - missing - {"heats"}
+    assert drawn == set(FIGURES) - missing - OF_OTHER_STUDIES
 
 
 def test_figures_of_what_a_study_lacks_do_not_apply() -> None:
@@ -71,8 +74,8 @@ def test_figures_of_what_a_study_lacks_do_not_apply() -> None:
     assert {name for name, figure in FIGURES.items() if not figure.applies(study)} == {
         "fig2",
         "kinetics_all_rates",
-        "heats",
         "fig3",
+        *OF_OTHER_STUDIES,
     }
 
 
