@@ -22,8 +22,6 @@ FILES = {
     "test_bad_input": "solver",
     "test_comparison": "solver",
     "test_cost_properties": "slow",
-    "test_diagnose_design": "solver",
-    "test_diagnose_probes": "solver",
     "test_diagnosis_shown": "slow",
     "test_estimate": "solver",
     "test_figures": "slow",

@@ -12,9 +12,9 @@ import numpy as np
 from small import CHANNELS, base_of, study
 
 from pyrofit.cost import Target, WeightedSum, make_term
-from pyrofit.diagnose.descent import descend, refreshed
-from pyrofit.diagnose.model import Base, Model, model_of, name_of, strength_of
-from pyrofit.diagnose.refit import Trial
+from pyrofit.diagnose.base.descent import descend, refreshed
+from pyrofit.diagnose.base.fitted import FittedModel
+from pyrofit.diagnose.base.model import Base, Model, model_of, name_of, strength_of
 from pyrofit.estimate.correlation import Correlation
 from pyrofit.estimate.likelihood import Likelihood
 from pyrofit.estimate.noise import NoiseModel
@@ -95,16 +95,16 @@ def base(
     return Base(Likelihood(problem, (white,) * len(CHANNELS), known), calibrated)
 
 
-def fitted(model: Model) -> Trial:
-    return Trial(model, refreshed(model, descend(model, np.full(len(model.names), 0.45))))
+def fitted(model: Model) -> FittedModel:
+    return FittedModel(model, refreshed(model, descend(model, np.full(len(model.names), 0.45))))
 
 
-def fit(columns: Columns, y: FloatArray, **options: object) -> Trial:
+def fit(columns: Columns, y: FloatArray, **options: object) -> FittedModel:
     """Return the fit of the base."""
     return fitted(model_of(base(columns, y, **options), {}))  # type: ignore[arg-type]
 
 
-def fit_with(trial: Trial, *effects: str) -> Trial:
+def fit_with(trial: FittedModel, *effects: str) -> FittedModel:
     """Return the fit of a base with effects."""
     free = {effect: (strength_of(effect)[0],) for effect in effects}
     return fitted(model_of(trial.model.base, free, trial.model.channels))
@@ -119,7 +119,7 @@ def fraction_columns(columns: Columns, model: Model) -> FloatArray:
     return every[rows]
 
 
-def moved(trial: Trial, **changes: object) -> Trial:
+def moved(trial: FittedModel, **changes: object) -> FittedModel:
     return replace(trial, fit=replace(trial.fit, **changes))  # type: ignore[arg-type]
 
 

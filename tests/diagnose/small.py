@@ -9,7 +9,7 @@ import pandas as pd
 
 from pyrofit.config import Study, TermSpec, as_study
 from pyrofit.data.noise import autoregressive, draw, moving_average
-from pyrofit.diagnose.model import Base, extended, model_of, strength_of
+from pyrofit.diagnose.base.model import Base, extended, model_of, strength_of
 from pyrofit.estimate.correlation import Correlation
 from pyrofit.estimate.likelihood import Likelihood
 from pyrofit.estimate.noise import NoiseModel

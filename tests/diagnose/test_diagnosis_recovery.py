@@ -7,12 +7,12 @@ import pytest
 from conftest import HIDDEN, SEED, Diagnosed
 from small import measured, study, truth_of
 
-from pyrofit.diagnose.descent import descend
+from pyrofit.diagnose.base.descent import descend
+from pyrofit.diagnose.base.fit import set_up
+from pyrofit.diagnose.base.model import model_of, strength_of
 from pyrofit.diagnose.diagnosis import Diagnosis, examine
-from pyrofit.diagnose.model import model_of, strength_of
-from pyrofit.diagnose.rounds import Means
-from pyrofit.diagnose.search import search
-from pyrofit.diagnose.setup import set_up
+from pyrofit.diagnose.search.step import SearchContext
+from pyrofit.diagnose.search.stepwise import search
 from pyrofit.effects import known_effects
 
 NAMED = ("k_T", "in_depth", "heater_ramp")
@@ -48,7 +48,7 @@ def test_fit_of_the_true_effect_is_as_good_as_a_descent_from_the_truth(
     # The first seed leaves each of them remarkable enough to be searched.
     series, described = measured({effect: strength}, 1), study(effects=[effect])
     setup = set_up(described, series)
-    means = Means(np.random.default_rng(described.seed), lambda text: None)
+    means = SearchContext(np.random.default_rng(described.seed), lambda text: None)
     found = search(setup.base, [effect], 1, means)
     free = {effect: (strength_of(effect)[0],)}
     (trial,) = [trial for trial in found.trials if dict(trial.model.effects) == free]

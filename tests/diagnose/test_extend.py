@@ -18,10 +18,10 @@ from pyrofit.config import (
     read_mapping,
     read_study,
 )
-from pyrofit.diagnose.descent import Fit
-from pyrofit.diagnose.extend import extended_keys
-from pyrofit.diagnose.model import extended, model_of
-from pyrofit.diagnose.refit import Trial
+from pyrofit.diagnose.base.descent import Fit
+from pyrofit.diagnose.base.fitted import FittedModel
+from pyrofit.diagnose.base.model import extended, model_of
+from pyrofit.diagnose.result.extended_study import extended_keys
 from pyrofit.effects import known_effects
 from pyrofit.estimate.problem import make_problem
 from pyrofit.results.files import Results
@@ -29,7 +29,7 @@ from pyrofit.solver.arrays import FloatArray
 from pyrofit.stages.diagnose import diagnose
 
 
-def reread(described: Study, trial: Trial, folder: Path, **signals: Any) -> Study:
+def reread(described: Study, trial: FittedModel, folder: Path, **signals: Any) -> Study:
     path = folder / "extended.yaml"
     path.write_text(
         as_yaml(extended_keys(described, trial, signals.get("signals", {})), "Found.\n")
@@ -49,7 +49,7 @@ def simulated(described: Study, hidden: str, values: FloatArray) -> FloatArray:
     return np.concatenate(curves)
 
 
-def check(described: Study, hidden: str, trial: Trial) -> None:
+def check(described: Study, hidden: str, trial: FittedModel) -> None:
     values = trial.model.likelihood.values(trial.fit.x)[: len(LIMITS)]
     fitted = trial.model.likelihood.curves(trial.fit.x)
     assert fitted is not None
@@ -77,7 +77,7 @@ def test_fitted_form_is_kept(diagnosed: Diagnosed, tmp_path: Path) -> None:
     x = extended(truth_of(base, {}), "glass_transition", of.typical, (form,))
     x[-1] = 0.3
     r = model.residuals(x)
-    trial = Trial(model, Fit(float(r @ r), x, r, np.zeros((r.size, x.size))))
+    trial = FittedModel(model, Fit(float(r @ r), x, r, np.zeros((r.size, x.size))))
     described = reread(study(), trial, tmp_path)
     kept = described.with_effects["glass_transition"]
     assert kept == {

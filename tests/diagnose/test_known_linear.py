@@ -5,9 +5,9 @@ import numpy as np
 import pytest
 from small import study
 
-from pyrofit.diagnose.descent import descend, refreshed
-from pyrofit.diagnose.intervals import values_of
-from pyrofit.diagnose.refit import Trial
+from pyrofit.diagnose.base.descent import descend, refreshed
+from pyrofit.diagnose.base.fitted import FittedModel
+from pyrofit.diagnose.judge.intervals import values_of
 from pyrofit.estimate.prior import NO_PRIOR, NormalPrior, within_known
 from pyrofit.solver.arrays import FloatArray
 
@@ -29,7 +29,7 @@ def fitted(known: NormalPrior) -> tuple[FloatArray, FloatArray]:
     """Return values and standard deviations of a fit that is followed to its very end."""
     model = linear.fit(columns(), MEASURED, known=known).model
     end = descend(model, np.full(2, 0.5), enough=1e-12)
-    return values_of(Trial(model, refreshed(model, end)))
+    return values_of(FittedModel(model, refreshed(model, end)))
 
 
 @pytest.mark.parametrize("sd", [1.0, 0.1, 0.01])

@@ -6,15 +6,15 @@ import pytest
 from conftest import HIDDEN, Diagnosed
 from linear import TOTAL, column_of
 
-from pyrofit.diagnose.intervals import inflation
-from pyrofit.diagnose.model import strength_of
-from pyrofit.diagnose.profiles import profiles
-from pyrofit.diagnose.refit import Trial
+from pyrofit.diagnose.base.fitted import FittedModel
+from pyrofit.diagnose.base.model import strength_of
+from pyrofit.diagnose.judge.intervals import inflation
+from pyrofit.diagnose.judge.profiles import profiles
 
 COLUMNS = linear.random_columns(4, "k_T", "c_T", size=60.0)
 
 
-def trial(k_T: float, *effects: str) -> Trial:
+def trial(k_T: float, *effects: str) -> FittedModel:
     """Fit effects to a truth with a slope of the conductivity, in typical ones."""
     y = np.random.default_rng(1).standard_normal(TOTAL) + 2.0 * COLUMNS["rho"]
     y = y + k_T * strength_of("k_T")[1].typical * column_of(COLUMNS, "k_T")

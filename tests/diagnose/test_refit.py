@@ -7,11 +7,14 @@ import linear
 import numpy as np
 import pytest
 
-from pyrofit.diagnose import refit
-from pyrofit.diagnose.descent import ENOUGH, Fit
-from pyrofit.diagnose.model import extended, strength_of
-from pyrofit.diagnose.refit import SAME, from_best_start, from_elsewhere, look_at, polished
-from pyrofit.diagnose.screen import Look, tried
+from pyrofit.diagnose.base import fitted
+from pyrofit.diagnose.base.descent import Fit
+from pyrofit.diagnose.base.fitted import polished
+from pyrofit.diagnose.base.model import extended, strength_of
+from pyrofit.diagnose.search import refit
+from pyrofit.diagnose.search.refit import from_best_start, from_elsewhere, look_at
+from pyrofit.diagnose.search.score_test import Screening, tried
+from pyrofit.diagnose.settings import SETTINGS
 from pyrofit.solver.arrays import FloatArray
 
 # The data say nothing of k, so that it is wide.
@@ -27,18 +30,19 @@ def ends(monkeypatch: pytest.MonkeyPatch) -> Callable[[Iterable[float]], list[Fl
         waiting: Iterator[float] = iter(chi2)
         begun: list[FloatArray] = []
 
-        def descend(model: object, x: FloatArray, enough: float = ENOUGH) -> Fit:
+        def descend(model: object, x: FloatArray, enough: float = SETTINGS.converged_gain) -> Fit:
             begun.append(x)
             return replace(trial().fit, x=x, chi2=next(waiting))
 
-        monkeypatch.setattr(refit, "descend", descend)
-        monkeypatch.setattr(refit, "followed", lambda trial: trial)
+        for module in (fitted, refit):
+            monkeypatch.setattr(module, "descend", descend)
+        monkeypatch.setattr(fitted, "followed", lambda trial: trial)
         return begun
 
     return planned
 
 
-def trial() -> linear.Trial:
+def trial() -> linear.FittedModel:
     return linear.fit(COLUMNS, Y)
 
 
@@ -46,9 +50,14 @@ def test_search_from_elsewhere_goes_on_while_it_lowers_but_not_for_ever(
     ends: Callable[[Iterable[float]], list[FloatArray]],
 ) -> None:
     given = trial()
-    wide = len(list(refit._elsewhere(given)))
+    wide = len(list(fitted._elsewhere(given)))
     assert wide >= 2
-    for falls, rounds in (([0.0], 1), ([0.5 * SAME], 1), ([2.0, 0.0], 2), ([2.0] * 9, 3)):
+    for falls, rounds in (
+        ([0.0], 1),
+        ([0.5 * SETTINGS.same_valley], 1),
+        ([2.0, 0.0], 2),
+        ([2.0] * 9, 3),
+    ):
         lowest = given.fit.chi2
         planned = []
         for fall in falls:
@@ -72,7 +81,7 @@ def test_starts_are_the_most_promising_strength_a_strong_one_and_the_other_side(
 
 
 def test_starts_of_an_effect_with_one_sign_hold_the_typical_strength() -> None:
-    seen = Look(
+    seen = Screening(
         "in_depth", tried("in_depth"), *np.zeros((2, 3, 4)), np.array([1.0, 2.0, 3.0, 4.0]), 2
     )
     _, quantity = strength_of("in_depth")

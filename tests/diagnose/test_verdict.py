@@ -7,14 +7,11 @@ import numpy as np
 import pytest
 from linear import POINTS, TOTAL, column_of, fit_with, moved
 
+from pyrofit.diagnose.base.model import strength_of
 from pyrofit.diagnose.diagnosis import _undecided
-from pyrofit.diagnose.findings import Judged, Verdict
-from pyrofit.diagnose.gates import HELD_OUT
-from pyrofit.diagnose.model import strength_of
-from pyrofit.diagnose.record_candidates import candidates
-from pyrofit.diagnose.rounds import Means
-from pyrofit.diagnose.search import Search, search
-from pyrofit.diagnose.verdict import (
+from pyrofit.diagnose.judge.claim_tests import HELD_OUT
+from pyrofit.diagnose.judge.findings import Judged, Verdict
+from pyrofit.diagnose.judge.verdict import (
     ONE_FLUX,
     _against,
     _doubts,
@@ -22,7 +19,10 @@ from pyrofit.diagnose.verdict import (
     alternatives,
     judge,
 )
-from pyrofit.diagnose.words import form_of, sentences
+from pyrofit.diagnose.result.candidates import candidates
+from pyrofit.diagnose.result.verdict_text import form_of, sentences
+from pyrofit.diagnose.search.step import SearchContext
+from pyrofit.diagnose.search.stepwise import Search, search
 from pyrofit.effects import known_effects
 from pyrofit.solver.arrays import FloatArray
 
@@ -49,7 +49,7 @@ def searched(
     most: int = 3,
 ) -> Search:
     trial = linear.fit(columns, y, calibrated=calibrated)
-    return search(trial, effects, most, Means(np.random.default_rng(1), lambda text: None))
+    return search(trial, effects, most, SearchContext(np.random.default_rng(1), lambda text: None))
 
 
 def verdict_on(found: Search) -> Verdict:
@@ -79,8 +79,8 @@ def test_nothing_planted_is_none() -> None:
 
 def test_remarkable_score_without_enough_gain_is_none_and_says_so() -> None:
     found = searched(planted())
-    alarm = replace(found.end_alarm, score=found.end_alarm.score_critical + 1.0)
-    verdict = verdict_on(replace(found, end_alarm=alarm))
+    alarm = replace(found.end_lack, score=found.end_lack.score_critical + 1.0)
+    verdict = verdict_on(replace(found, end_lack=alarm))
     assert verdict.kind == "none"
     assert "none gains enough to be claimed" in sentences(verdict)
 
@@ -243,8 +243,8 @@ def test_misfit_that_no_effect_explains_is_unknown() -> None:
     assert verdict.kind == "unknown"
     assert verdict.findings == ()
     assert "no effect of the catalogue explains it" in sentences(verdict)
-    assert [(w.channel, w.sign) for w in found.end_alarm.windows] == [(0, -1)]
-    assert abs(found.end_alarm.windows[0].start - 20) <= 1
+    assert [(w.channel, w.sign) for w in found.end_lack.windows] == [(0, -1)]
+    assert abs(found.end_lack.windows[0].start - 20) <= 1
 
 
 def test_effect_that_leaves_a_misfit_is_unknown_and_comes_nearest() -> None:

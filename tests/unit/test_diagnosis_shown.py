@@ -14,7 +14,7 @@ from test_report import Page, write_tables
 from test_tables import described, fake, synthetic
 
 from pyrofit.config import Study
-from pyrofit.diagnose.model import strength_of
+from pyrofit.diagnose.base.model import strength_of
 from pyrofit.effects import known_effects
 from pyrofit.errors import DataError
 from pyrofit.results.diagnosis import curves as curves_of
@@ -71,6 +71,7 @@ def found(study: Study, kind: str) -> dict[str, Any]:
     extended = {**parameter(0.31, "W/(m K)"), "at_limit": False}
     return {
         "schema": 1,
+        "settings": {},
         "study": study.name,
         "verdict": {
             "kind": kind,

@@ -39,7 +39,7 @@ EDITS = {
     "stages/robustness.py": {"robustness"},
     "show/fit/table4.py": {"figures", "report"},
     "show/costs/spread.py": {"report"},
-    "diagnose/screen.py": {"diagnosis"},
+    "diagnose/search/score_test.py": {"diagnosis"},
     "show/style.py": {"figures", "report", "page of the blind test"},
     "show/page/report.html.j2": {"report"},
     "blind_test/twin.py": {"blind test"},

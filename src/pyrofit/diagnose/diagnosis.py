@@ -7,16 +7,16 @@ import numpy as np
 import pandas as pd
 
 from pyrofit.config import Study
-from pyrofit.diagnose import record
-from pyrofit.diagnose.design import next_experiments
-from pyrofit.diagnose.findings import Verdict
-from pyrofit.diagnose.probes import Probe, probes
-from pyrofit.diagnose.profiles import profiles
-from pyrofit.diagnose.refit import Trial, up_to_date
-from pyrofit.diagnose.rounds import Means, Tell, in_order
-from pyrofit.diagnose.search import Search, search
-from pyrofit.diagnose.setup import set_up
-from pyrofit.diagnose.verdict import judge
+from pyrofit.diagnose.advise.free_corrections import Probe, probes
+from pyrofit.diagnose.advise.separation import next_experiments
+from pyrofit.diagnose.base.fit import set_up
+from pyrofit.diagnose.base.fitted import FittedModel, up_to_date
+from pyrofit.diagnose.judge.findings import Verdict
+from pyrofit.diagnose.judge.profiles import profiles
+from pyrofit.diagnose.judge.verdict import judge
+from pyrofit.diagnose.result import record
+from pyrofit.diagnose.search.step import SearchContext, Tell, in_order
+from pyrofit.diagnose.search.stepwise import Search, search
 from pyrofit.estimate.targets import Measurements
 
 
@@ -59,7 +59,7 @@ def examine(
     """
     setup = set_up(study, measurements, processes)
     tell(f"base model: chi-square {setup.base.fit.chi2:.1f} of {setup.base.model.points} points")
-    means = Means(np.random.default_rng(study.seed), tell, processes)
+    means = SearchContext(np.random.default_rng(study.seed), tell, processes)
     found = search(setup.base, setup.candidates, study.diagnosis.most_effects, means)
     verdict = judge(found, means.rng, processes)
     found = verdict.search
@@ -86,12 +86,12 @@ def _shown(probe: Probe) -> dict[str, Any]:
     return {key: value for key, value in asdict(probe).items() if key != "coefficients"}
 
 
-def _undecided(found: Search, verdict: Verdict) -> list[Trial]:
+def _undecided(found: Search, verdict: Verdict) -> list[FittedModel]:
     """Return the models that are not told apart, or else the two best of different effects."""
     for finding in verdict.findings:
         if len(finding.kept) > 1:
             return [judged.trial for judged in finding.kept]
-    best: dict[frozenset[str], Trial] = {}
+    best: dict[frozenset[str], FittedModel] = {}
     for trial in in_order(found.trials):
         best.setdefault(frozenset(trial.effects), trial)
     return [up_to_date(trial) for trial in list(best.values())[:2]]

@@ -212,6 +212,9 @@ class Diagnosis(Record):
     """What a diagnosis found."""
 
     schema_: int = Field(alias="schema", description="1")
+    settings: dict[str, float | list[float]] = Field(
+        description="numbers that steered the diagnosis, by name"
+    )
     study: str = Field(description="name of the study")
     verdict: OfVerdict = Field(description="the verdict")
     noise: list[OfNoise] = Field(description="the noise, by signal")

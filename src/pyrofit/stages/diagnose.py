@@ -8,8 +8,8 @@ from typing import Any
 from pyrofit.config import Study, as_yaml
 from pyrofit.config.study import is_own
 from pyrofit.diagnose.diagnosis import examine
-from pyrofit.diagnose.extend import extended_keys
-from pyrofit.diagnose.rounds import Tell
+from pyrofit.diagnose.result.extended_study import extended_keys
+from pyrofit.diagnose.search.step import Tell
 from pyrofit.results import diagnosis
 from pyrofit.results.files import Results, read_csv, write_csv, write_text
 from pyrofit.stages.measurements import load

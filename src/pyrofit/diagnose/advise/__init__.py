@@ -1,0 +1,1 @@
+"""Advice where the data leave something open."""

@@ -1,0 +1,125 @@
+"""Which free correction, put into the model, would absorb what no effect of the catalogue explains.
+
+Each correction (`pyrofit.diagnose.advise.correction_forms`) is fitted jointly with all other
+parameters. Its coefficients have a normal prior about zero, where the model is unchanged. A probe
+shows the kind and the shape of a missing term; it is not an effect and claims none.
+"""
+
+from dataclasses import dataclass, replace
+
+import numpy as np
+from scipy.stats import chi2 as chi_squared
+
+from pyrofit.diagnose.advise.correction_forms import Correction, Shape, corrections
+from pyrofit.diagnose.base.descent import Fit, descend
+from pyrofit.diagnose.base.fitted import FittedModel
+from pyrofit.diagnose.base.model import Model
+from pyrofit.diagnose.base.projection import projector
+from pyrofit.diagnose.settings import SETTINGS
+from pyrofit.estimate.likelihood import Likelihood
+from pyrofit.estimate.prior import NormalPrior
+from pyrofit.parallel import parallel_map
+
+
+@dataclass(frozen=True)
+class Probe:
+    """A free correction that was fitted.
+
+    Parameters
+    ----------
+    probe
+        ``flux``, ``conductivity``, ``heat_capacity`` or ``front_loss``.
+    what
+        The same in words.
+    coefficients
+        By name, SI units.
+    chi2
+        Of the data and of what is known, without the coefficients' priors.
+    absorbed
+        Share of the excess of chi-square that it takes away, at most 1.
+    shape
+        Abscissa (time [s] or temperature [K]) and correction, for drawing.
+    unit
+        Of the correction.
+    """
+
+    probe: str
+    what: str
+    coefficients: dict[str, float]
+    chi2: float
+    absorbed: float
+    shape: Shape
+    unit: str
+
+
+def probes(trial: FittedModel, processes: int = 1) -> list[Probe]:
+    """Fit all probes to what a fitted model leaves.
+
+    The excess is what chi-square has above the noise's: above the degrees of freedom, or above
+    the best probe where that is lower, since the noise is rather over- than underestimated. A
+    probe absorbs nothing where as many useless coefficients would gain as much by chance, with a
+    probability above 1 %.
+
+    Returns
+    -------
+    list of Probe
+        The lowest chi-square first, 2 added per coefficient; none without a gasification.
+    """
+    likelihood = trial.model.likelihood
+    wanted = corrections(likelihood.problem, likelihood.values(trial.fit.x))
+    fits = parallel_map(lambda i: _fit(trial, wanted[i]), len(wanted), processes)
+    found = [_probe(trial, *pair) for pair in zip(wanted, fits, strict=True)]
+    freedom = trial.fit.residuals.size - float(np.sum(projector(trial.fit) ** 2))
+    noise = min([freedom, *(probe.chi2 for probe in found)])
+    judged = [replace(probe, absorbed=_absorbed(trial.fit.chi2, probe, noise)) for probe in found]
+    return sorted(
+        judged, key=lambda probe: probe.chi2 + SETTINGS.correction_price * len(probe.coefficients)
+    )
+
+
+def _absorbed(before: float, probe: Probe, noise: float) -> float:
+    gain = before - probe.chi2
+    if chi_squared.sf(gain, len(probe.coefficients)) > SETTINGS.false_alarm_level:
+        return 0.0
+    return min(gain / (before - noise), 1.0)
+
+
+def _fit(trial: FittedModel, correction: Correction) -> Fit:
+    """Fit all parameters and the coefficients from the model's fit, where these are zero."""
+    none = np.full(len(correction.sd), 0.5)
+    return descend(with_coefficients(trial.model, correction), np.append(trial.fit.x, none))
+
+
+def _probe(trial: FittedModel, correction: Correction, fit: Fit) -> Probe:
+    model = with_coefficients(trial.model, correction)
+    sd = np.array(list(correction.sd.values()))
+    values = model.likelihood.values(fit.x)
+    c = values[-sd.size :]
+    return Probe(
+        probe=correction.probe,
+        what=correction.what,
+        coefficients=dict(zip(correction.sd, c.tolist(), strict=True)),
+        chi2=fit.chi2 - float(np.sum((c / sd) ** 2)),
+        absorbed=0.0,
+        shape=correction.shape(model.likelihood.problem.values(values)),
+        unit=correction.unit,
+    )
+
+
+def with_coefficients(model: Model, correction: Correction) -> Model:
+    """Return the model with a correction; its coefficients follow all other parameters."""
+    problem, known = correction.problem, model.likelihood.prior
+    sd = np.array(list(correction.sd.values()))
+    count = len(problem.names)
+    wider = replace(
+        problem,
+        names=(*problem.names, *correction.sd),
+        lower=np.append(problem.lower, -SETTINGS.widest_correction * sd),
+        upper=np.append(problem.upper, SETTINGS.widest_correction * sd),
+    )
+    prior = NormalPrior(
+        index=(*known.index, *range(count, count + sd.size)),
+        mean=np.append(known.mean, np.zeros(sd.size)),
+        sd=np.append(known.sd, sd),
+    )
+    return replace(model, likelihood=Likelihood(wider, model.likelihood.noise, prior))

@@ -1,0 +1,1 @@
+"""The base model, its fit, and whether it is adequate."""

@@ -1,0 +1,162 @@
+"""From a study and its measurements to the base model's fit, noise and all."""
+
+from collections.abc import Sequence
+from dataclasses import dataclass, replace
+
+import numpy as np
+from scipy.stats import qmc
+
+from pyrofit.config import (
+    Study,
+    calibration_channels,
+    candidate_effects,
+    diagnosed_material,
+    diagnosed_parameters,
+    held_out_channels,
+)
+from pyrofit.diagnose.base.descent import descend, refreshed
+from pyrofit.diagnose.base.fitted import FittedModel, polished
+from pyrofit.diagnose.base.model import Base, model_of
+from pyrofit.diagnose.settings import SETTINGS
+from pyrofit.errors import DataError
+from pyrofit.estimate.between_repeats import with_repeats
+from pyrofit.estimate.channel_noise import noise_of
+from pyrofit.estimate.likelihood import FAILED, likelihood_of
+from pyrofit.estimate.noise import NoiseModel
+from pyrofit.estimate.prior import prior_of
+from pyrofit.estimate.problem import Problem, make_problem
+from pyrofit.estimate.targets import Measurements
+from pyrofit.parallel import parallel_map
+from pyrofit.solver.arrays import FloatArray
+
+
+@dataclass(frozen=True, eq=False)
+class Setup:
+    """What a diagnosis starts from: the fitted base and the names of the candidates."""
+
+    base: FittedModel
+    candidates: tuple[str, ...]
+
+
+def set_up(study: Study, measurements: Measurements, processes: int = 1) -> Setup:
+    """Fit the base model, with the noise of every channel estimated twice.
+
+    First from the series alone; then, as what is steep in a series looks like noise to a smooth
+    curve, about the fitted curve.
+
+    Raises
+    ------
+    DataError
+        A channel is too short; no run within the limits finishes, or one that is held out does not.
+    """
+    problem = _problem(study, measurements)
+    likelihood = likelihood_of(problem, prior_of(study, problem))
+    calibrated = tuple(range(len(calibration_channels(study))))
+    base = Base(likelihood, calibrated)
+    first = _fitted(base, study.seed, processes)
+    _check_held_out(first)
+    base = with_noise_about(first, processes=processes)
+    return Setup(refitted(first, base), candidate_effects(study))
+
+
+def _check_held_out(trial: FittedModel) -> None:
+    """Refuse held-out runs that do not finish with the fitted parameters."""
+    base = trial.model.base
+    for i in base.held_out:
+        if model_of(base, {}, (i,)).likelihood.curves(trial.fit.x) is None:
+            raise DataError(
+                f"diagnosis.hold_out: {base.channels[i][0]} does not finish with the parameters "
+                "that are fitted to the calibrated signals; leave it out"
+            )
+
+
+def _problem(study: Study, measurements: Measurements) -> Problem:
+    channels = (*calibration_channels(study), *held_out_channels(study))
+    return make_problem(
+        study,
+        diagnosed_parameters(study),
+        channels,
+        measurements,
+        diagnosed_material(study),
+        study.fixed_values(),
+    )
+
+
+def _fitted(base: Base, seed: int, processes: int) -> FittedModel:
+    """Return the fit of the base from the best of several points spread over the limits."""
+    model = model_of(base, {})
+    starts = _starts(base, seed)
+    ahead = [_chi2(residuals) for residuals in model.residuals_all(np.array(starts))]
+    order = np.argsort(ahead, kind="stable")[: SETTINGS.base_descents]
+    ends = parallel_map(lambda k: descend(model, starts[order[k]]), len(order), processes)
+    best = min(ends, key=lambda end: end.chi2)
+    if np.any(best.residuals[: model.points] == FAILED):
+        raise DataError(
+            "diagnosis: no run within the limits of the parameters finishes; check the limits and "
+            "the description of the experiments"
+        )
+    return polished([FittedModel(model, best)], processes)[0]
+
+
+def _starts(base: Base, seed: int) -> list[FloatArray]:
+    """Return the centre and points spread over the limits, known parameters at their means."""
+    size = len(base.likelihood.problem.names)
+    spread = 0.05 + 0.9 * qmc.LatinHypercube(size, seed=np.random.default_rng(seed)).random(
+        SETTINGS.base_starts
+    )
+    points = [np.full(size, 0.5), *spread]
+    problem, known = base.likelihood.problem, base.likelihood.prior
+    index = list(known.index)
+    for x in points:
+        span = (problem.upper - problem.lower)[index]
+        x[index] = (known.mean - problem.lower[index]) / span
+    return points
+
+
+def _chi2(residuals: FloatArray) -> float:
+    return float(residuals @ residuals)
+
+
+def with_noise_about(
+    trial: FittedModel, channels: Sequence[int] | None = None, processes: int = 1
+) -> Base:
+    """Return the base with channels' noise about a fitted curve, where that explains more.
+
+    By default of all channels.
+    """
+    base = trial.model.base
+    problem = base.likelihood.problem
+    every = range(len(problem.picks))
+    curves = model_of(base, trial.model.effects, every).likelihood.curves(trial.fit.x)
+    if curves is None:
+        return base
+    noise = list(base.likelihood.noise)
+    parts = base.likelihood.split(curves)
+    wanted = list(every if channels is None else channels)
+
+    def better(k: int) -> NoiseModel | None:
+        i = wanted[k]
+        found = noise_of(problem, i, parts[i])
+        return found if found.criterion < noise[i].criterion else None
+
+    for i, found in zip(wanted, parallel_map(better, len(wanted), processes), strict=True):
+        noise[i] = found or noise[i]
+    scattered = with_repeats(problem, noise, parts)
+    return replace(base, likelihood=replace(base.likelihood, noise=scattered))
+
+
+def refitted(trial: FittedModel, base: Base) -> FittedModel:
+    """Return the same effects fitted with another noise."""
+    model = model_of(base, trial.model.effects, trial.model.channels)
+    return FittedModel(model, refreshed(model, descend(model, trial.fit.x)))
+
+
+def clearer(base: Base, other: Base) -> float:
+    """Return by how much the noise of the calibrated channels explains more, in BIC."""
+    pairs = ((base.likelihood.noise[i], other.likelihood.noise[i]) for i in base.calibrated)
+    return sum(b.criterion - o.criterion for b, o in pairs if b is not o)
+
+
+def blurred(base: Base) -> bool:
+    """Tell whether a calibrated channel scatters more than is stated: that may be misfit."""
+    return any(base.likelihood.noise[i].excess > 1.0 for i in base.calibrated)

@@ -1,0 +1,110 @@
+"""Models that were fitted, and fits that are followed further."""
+
+from collections.abc import Iterator, Sequence
+from dataclasses import dataclass, replace
+
+import numpy as np
+
+from pyrofit.diagnose.base.descent import Fit, descend, refreshed
+from pyrofit.diagnose.base.model import Model, curvature, strength_of
+from pyrofit.diagnose.settings import SETTINGS
+from pyrofit.parallel import parallel_map
+from pyrofit.solver.arrays import FloatArray
+
+
+@dataclass(frozen=True, eq=False)
+class FittedModel:
+    """A model that was fitted."""
+
+    model: Model
+    fit: Fit
+
+    @property
+    def effects(self) -> tuple[str, ...]:
+        """Names of its effects."""
+        return tuple(self.model.effects)
+
+    @property
+    def numbers(self) -> int:
+        """How many parameters its effects have."""
+        return sum(len(free) for free in self.model.effects.values())
+
+    @property
+    def penalised(self) -> float:
+        """chi2 + log(n) per parameter of an effect (Schwarz 1978, doi 10.1214/aos/1176344136)."""
+        return self.fit.chi2 + self.numbers * float(np.log(self.model.points))
+
+    def strength(self, effect: str) -> float:
+        """Return the fitted strength of an effect in SI units."""
+        values = self.model.likelihood.values(self.fit.x)
+        return float(values[self.model.position(effect)])
+
+
+def followed(trial: FittedModel) -> FittedModel:
+    """Return a rough fit followed to its end."""
+    return lower_of(trial, descend(trial.model, trial.fit.x, trial.fit.jacobian))
+
+
+def lower_of(trial: FittedModel, end: Fit) -> FittedModel:
+    """Return a trial with another end where that is lower."""
+    return replace(trial, fit=end) if end.chi2 < trial.fit.chi2 else trial
+
+
+def up_to_date(trial: FittedModel) -> FittedModel:
+    """Return a trial with derivatives made at its end."""
+    return replace(trial, fit=refreshed(trial.model, trial.fit))
+
+
+def polished(trials: Sequence[FittedModel], processes: int = 1) -> list[FittedModel]:
+    """Search from elsewhere for what the data hardly determine; never worse than before.
+
+    A parameter at a limit, or one of wide uncertainty, may be in the wrong of several valleys.
+    """
+    found = [up_to_date(trial) for trial in trials]
+    lowered = list(range(len(found)))
+    for _ in range(SETTINGS.most_polishing_rounds):
+        begins = [(k, x) for k in lowered for x in _elsewhere(found[k])]
+        before = [trial.fit.chi2 for trial in found]
+        ends = _ends([(found[k], x) for k, x in begins], processes)
+        for (k, _), end in zip(begins, ends, strict=True):
+            found[k] = lower_of(found[k], end)
+        found = [up_to_date(trial) for trial in found]
+        lowered = [k for k in lowered if found[k].fit.chi2 < before[k] - SETTINGS.same_valley]
+    return found
+
+
+def _ends(begins: Sequence[tuple[FittedModel, FloatArray]], processes: int) -> list[Fit]:
+    return parallel_map(lambda i: _from(*begins[i]), len(begins), processes)
+
+
+def _from(trial: FittedModel, x: FloatArray) -> Fit:
+    """Return where a rough descent from x ends, followed to its end if it ends lower."""
+    end = descend(trial.model, x, enough=SETTINGS.rough_gain)
+    return followed(replace(trial, fit=end)).fit if end.chi2 < trial.fit.chi2 else end
+
+
+def _elsewhere(trial: FittedModel) -> Iterator[FloatArray]:
+    """Yield the fit with a parameter moved that is hardly determined or rests at a limit."""
+    best = trial.fit
+    wide = np.sqrt(np.diag(np.linalg.inv(curvature(best.jacobian)))) > SETTINGS.wide_sd
+    resting = (best.x <= 0.0) | (best.x >= 1.0)
+    base = len(trial.model.names) - trial.numbers
+    for i in np.flatnonzero((wide | resting)[:base]):
+        for value in SETTINGS.elsewhere:
+            if abs(value - best.x[i]) > SETTINGS.apart:
+                x = best.x.copy()
+                x[i] = value
+                yield x
+
+
+def at_limit(trial: FittedModel, effect: str) -> str:
+    """Return the name of an effect's strength if it rests at a limit, else nothing.
+
+    Nothing left of what is usually there is no limit but a state, as an insulated back is. A form
+    may be as extreme as its limits allow: a step that is sharper than the data can show.
+    """
+    x = trial.fit.x[trial.model.position(effect)]
+    _, quantity = strength_of(effect)
+    lowest = -1.0 if quantity.lower == 0.0 < quantity.value else SETTINGS.at_limit
+    name = trial.model.names[trial.model.position(effect)]
+    return "" if lowest < x < 1.0 - SETTINGS.at_limit else name

@@ -1,0 +1,188 @@
+"""A model on trial: the base with some effects of the catalogue, against some channels."""
+
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass, replace
+
+import numpy as np
+
+from pyrofit.cost import WeightedSum
+from pyrofit.diagnose.settings import SETTINGS
+from pyrofit.effects import known_effects
+from pyrofit.effects.apply import with_effects
+from pyrofit.effects.base import Quantity
+from pyrofit.estimate.likelihood import FAILED, Likelihood
+from pyrofit.estimate.problem import Problem
+from pyrofit.solver.arrays import FloatArray
+
+UNIFORM = 12.0
+"""Inverse variance of a value that is anywhere between its limits."""
+
+Free = Mapping[str, tuple[str, ...]]
+"""By effect, those of its parameters that are fitted, the strength first."""
+
+
+@dataclass(frozen=True, eq=False)
+class Base:
+    """What all models on trial share.
+
+    Parameters
+    ----------
+    likelihood
+        All channels, calibrated and held out, under the base model, and what is known of its
+        parameters.
+    calibrated
+        Positions of the calibrated channels; the others are held out.
+    """
+
+    likelihood: Likelihood
+    calibrated: tuple[int, ...]
+
+    @property
+    def held_out(self) -> tuple[int, ...]:
+        """Positions of the channels that are predicted only."""
+        count = len(self.likelihood.noise)
+        return tuple(i for i in range(count) if i not in self.calibrated)
+
+    @property
+    def channels(self) -> list[tuple[str, str]]:
+        """Experiment and signal of every channel."""
+        return [(name, signal) for name, signal, _ in self.likelihood.problem.picks]
+
+
+@dataclass(frozen=True, eq=False)
+class Model:
+    """Base and effects against some channels; x are fractions of the limits' distance."""
+
+    base: Base
+    effects: Free
+    channels: tuple[int, ...]
+    likelihood: Likelihood
+    """Of these channels; the effects' parameters follow those of the base."""
+
+    @property
+    def names(self) -> tuple[str, ...]:
+        """Names of all fitted parameters."""
+        return self.likelihood.problem.names
+
+    @property
+    def points(self) -> int:
+        """Number of measured points."""
+        return sum(self.likelihood.points)
+
+    def position(self, effect: str) -> int:
+        """Return the position of an effect's strength among the parameters."""
+        return self.names.index(name_of(effect, strength_of(effect)[0]))
+
+    def residuals(self, x: FloatArray) -> FloatArray:
+        """Return the whitened residuals of the channels, then those of what is known."""
+        return self.residuals_all(x[None])[0]
+
+    def residuals_all(self, X: FloatArray) -> list[FloatArray]:
+        """Return the same for several sets at once, shape (sets, parameters)."""
+        return self.likelihood.residuals_all(X)
+
+    def jacobian(self, x: FloatArray, residuals: FloatArray) -> FloatArray:
+        """Return d residuals / d x by differences towards the farther limit.
+
+        Towards the nearer one where no run finishes there, and zero where none does.
+        """
+        J = np.zeros((residuals.size, x.size))
+        missing = np.arange(x.size)
+        for step in (
+            np.where(x < 0.5, SETTINGS.difference_step, -SETTINGS.difference_step),
+            np.where(x < 0.5, -SETTINGS.difference_step, SETTINGS.difference_step),
+        ):
+            moved = np.clip(x[missing] + step[missing], 0.0, 1.0)
+            sets = np.tile(x, (missing.size, 1))
+            sets[np.arange(missing.size), missing] = moved
+            found = np.zeros(missing.size, bool)
+            for a, there in enumerate(self.residuals_all(sets)):
+                i = missing[a]
+                found[a] = moved[a] != x[i] and self.finished(there)
+                if found[a]:
+                    J[:, i] = (there - residuals) / (moved[a] - x[i])
+            missing = missing[~found]
+        return J
+
+    def finished(self, residuals: FloatArray) -> bool:
+        """Tell whether all runs finished that some residuals come from."""
+        return not bool(np.all(residuals[: self.points] == FAILED))
+
+    def by_channel(self, residuals: FloatArray) -> list[FloatArray]:
+        """Split whitened residuals by channel; what is known is left out."""
+        return self.likelihood.split(residuals)
+
+
+def model_of(base: Base, effects: Free, channels: Sequence[int] | None = None) -> Model:
+    """Return the base with effects against channels, by default the calibrated ones.
+
+    Raises
+    ------
+    ValueError
+        The description cannot have an effect.
+    """
+    channels = base.calibrated if channels is None else tuple(channels)
+    problem = _with_effects(base.likelihood.problem, effects)
+    noise = tuple(base.likelihood.noise[i] for i in channels)
+    likelihood = Likelihood(_restricted(problem, channels), noise, base.likelihood.prior)
+    return Model(base, effects, channels, likelihood)
+
+
+def _with_effects(problem: Problem, effects: Free) -> Problem:
+    catalogue = known_effects()
+    chosen = {name: {p: name_of(name, p) for p in free} for name, free in effects.items()}
+    experiments = {name: run.experiment for name, run in problem.runs.items()}
+    material, changed = with_effects(problem.material, experiments, chosen)
+    added = [(name, p) for name, free in effects.items() for p in free]
+    limits = [catalogue[name].quantities[p] for name, p in added]
+    return replace(
+        problem,
+        names=(*problem.names, *(name_of(name, p) for name, p in added)),
+        lower=np.append(problem.lower, [q.lower for q in limits]),
+        upper=np.append(problem.upper, [q.upper for q in limits]),
+        material=material,
+        runs={n: replace(run, experiment=changed[n]) for n, run in problem.runs.items()},
+    )
+
+
+def _restricted(problem: Problem, channels: Sequence[int]) -> Problem:
+    """Return the problem with some of its terms, in that order, and what they need."""
+    picks = tuple(problem.picks[i] for i in channels)
+    wanted = {(name, signal) for name, signal, _ in picks}
+    runs = {}
+    for name, run in problem.runs.items():
+        requests = {s: r for s, r in run.requests.items() if (name, s) in wanted}
+        if requests:
+            runs[name] = replace(run, requests=requests)
+    cost = WeightedSum([problem.cost.terms[i] for i in channels])
+    return replace(problem, picks=picks, runs=runs, cost=cost)
+
+
+def curvature(jacobian: FloatArray, inflation: float = 1.0) -> FloatArray:
+    """Return J^T J / inflation + 12 I: the inverse covariance, the limits as uniform prior."""
+    return np.asarray(jacobian.T @ jacobian / inflation + UNIFORM * np.eye(jacobian.shape[1]))
+
+
+def name_of(effect: str, parameter: str) -> str:
+    """Return the name that an effect's parameter has in a study."""
+    return f"{effect}_{parameter}"
+
+
+def strength_of(effect: str) -> tuple[str, Quantity]:
+    """Return name and limits of the parameter that measures an effect."""
+    ((name, quantity),) = known_effects()[effect].strength.items()
+    return name, quantity
+
+
+def fraction(quantity: Quantity, value: float) -> float:
+    """Return a value as a fraction of the limits' distance, within them."""
+    share = (value - quantity.lower) / (quantity.upper - quantity.lower)
+    return float(np.clip(share, 0.0, 1.0))
+
+
+def extended(x: FloatArray, effect: str, strength: float, form: Sequence[str] = ()) -> FloatArray:
+    """Return x with an effect's parameters behind it: its strength [SI], forms as usual."""
+    quantities = known_effects()[effect].quantities
+    added = [fraction(strength_of(effect)[1], strength)]
+    added += [fraction(quantities[name], quantities[name].value) for name in form]
+    return np.concatenate([x, added])

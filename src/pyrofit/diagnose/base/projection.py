@@ -1,0 +1,25 @@
+"""What the fitted parameters cannot make up for of a change of the residuals."""
+
+import numpy as np
+
+from pyrofit.diagnose.base.descent import Fit
+from pyrofit.diagnose.base.model import UNIFORM
+from pyrofit.solver.arrays import FloatArray
+
+
+def projector(fit: Fit) -> FloatArray:
+    """Return Q with P w = w - Q Q^T w, up to the limits: what the fitted parameters span.
+
+    A parameter that rests at a limit does not move.
+    """
+    slope = fit.jacobian.T @ fit.residuals
+    free = ~((fit.x <= 0.0) & (slope > 0.0)) & ~((fit.x >= 1.0) & (slope < 0.0))
+    J = fit.jacobian[:, free]
+    U, s, _ = np.linalg.svd(J, full_matrices=False)
+    # w - J (J^T J + Pi)^-1 J^T w = w - U (s^2/(s^2 + Pi)) U^T w
+    return np.asarray(U * np.sqrt(s**2 / (s**2 + UNIFORM)))
+
+
+def project(spanned: FloatArray, w: FloatArray) -> FloatArray:
+    """Return P w."""
+    return np.asarray(w - spanned @ (spanned.T @ w))

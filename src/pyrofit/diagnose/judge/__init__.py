@@ -1,0 +1,1 @@
+"""Which findings of the search may be claimed."""

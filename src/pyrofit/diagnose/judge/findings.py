@@ -1,0 +1,89 @@
+"""What a verdict consists of: effects, those they cannot be told from, and the reasons."""
+
+from dataclasses import dataclass
+from typing import Literal
+
+from pyrofit.diagnose.base.fitted import FittedModel
+from pyrofit.diagnose.judge.claim_tests import Trust
+from pyrofit.diagnose.search.stepwise import Search
+from pyrofit.effects import known_effects
+
+ORDER = ("apparatus", "environment", "material")
+"""What an experimenter can check comes first."""
+
+Kind = Literal["none", "named", "ambiguous", "multiple", "unknown"]
+
+
+@dataclass(frozen=True, eq=False)
+class Judged:
+    """A model with an effect in the leading one's place, and what speaks against it."""
+
+    effect: str
+    trial: FittedModel
+    trust: Trust
+    rejected: str
+
+
+@dataclass(frozen=True, eq=False)
+class Finding:
+    """One effect of the model that the search ended with, and those it cannot be told from."""
+
+    effect: str
+    judged: tuple[Judged, ...]
+    """The best of each effect, the leading one first."""
+
+    @property
+    def kept(self) -> list[Judged]:
+        """Those that nothing speaks against, the best first."""
+        return [judged for judged in self.judged if not judged.rejected]
+
+    @property
+    def leading(self) -> str:
+        """Name of the best one that nothing speaks against, or of the best one."""
+        return (self.kept or list(self.judged))[0].effect
+
+    @property
+    def effects(self) -> list[str]:
+        """Names of those that nothing speaks against, apparatus before environment and material."""
+        catalogue = known_effects()
+        return sorted(
+            (judged.effect for judged in self.kept),
+            key=lambda name: ORDER.index(catalogue[name].family),
+        )
+
+    @property
+    def group(self) -> str:
+        """What is missing, where all agree on it, else nothing."""
+        groups = {known_effects()[name].group for name in self.effects}
+        return groups.pop() if len(groups) == 1 else ""
+
+    @property
+    def predicted(self) -> bool:
+        """Whether predictions improve with each one that is kept, also of what is held out."""
+        return bool(self.kept) and all(judged.trust.confirmed for judged in self.kept)
+
+    @property
+    def explains(self) -> bool:
+        """Whether the leading one fits what is held out, too."""
+        return bool(self.kept) and self.kept[0].trust.explains
+
+    @property
+    def sure(self) -> bool:
+        """Whether all agree on what is missing, and it explains and predicts what is not fitted."""
+        return bool(self.group) and self.predicted and self.explains
+
+
+@dataclass(frozen=True, eq=False)
+class Verdict:
+    """What is claimed, with the findings it rests on and the reasons, in words."""
+
+    kind: Kind
+    search: Search
+    """The search, ended with the model that the verdict is about."""
+    findings: tuple[Finding, ...]
+    reasons: tuple[str, ...]
+
+    @property
+    def confirmed(self) -> bool:
+        """Whether effects are claimed that explain and predict what was not fitted."""
+        return self.kind in ("named", "multiple") and all(f.sure for f in self.findings)

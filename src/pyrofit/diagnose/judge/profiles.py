@@ -1,0 +1,65 @@
+"""How chi-square rises with the strength of each effect of a model, all else at its best."""
+
+from dataclasses import dataclass
+from typing import Any
+
+import numpy as np
+
+from pyrofit.diagnose.base.descent import descend
+from pyrofit.diagnose.base.fitted import FittedModel, up_to_date
+from pyrofit.diagnose.base.model import Model, strength_of
+from pyrofit.diagnose.judge.intervals import covariance, inflation
+from pyrofit.estimate.likelihood import Optimum
+from pyrofit.estimate.profile import QUANTILE, profile_of
+from pyrofit.parallel import parallel_map
+from pyrofit.solver.arrays import FloatArray
+
+
+@dataclass(frozen=True, eq=False)
+class _Fits:
+    """The fits of a model with one parameter kept."""
+
+    model: Model
+
+    def descend(self, x: FloatArray, fixed: int) -> Optimum:
+        end = descend(self.model, x, fixed=fixed)
+        return Optimum(end.chi2, end.x)
+
+
+def profiles(trial: FittedModel, processes: int = 1) -> list[dict[str, Any]]:
+    """Return the profile of each effect's strength, SI units, and its 95 % interval.
+
+    ``rise`` is that of chi-square over its least value, negative where a profile met a lower one;
+    the interval ends where it is 3.84 times chi-square per degree of freedom (``level``). It is
+    open where the limit comes before.
+    """
+    trial = up_to_date(trial)
+    effects = trial.effects
+    return parallel_map(lambda k: _profile(trial, effects[k]), len(effects), processes)
+
+
+def _profile(trial: FittedModel, effect: str) -> dict[str, Any]:
+    model, fit = trial.model, trial.fit
+    i, (parameter, quantity) = model.position(effect), strength_of(effect)
+    C, factor = covariance(fit), float(np.sqrt(inflation(fit)))
+    optimum = Optimum(fit.chi2, fit.x)
+    found, _ = profile_of(
+        _Fits(model), optimum, i, C[:, i] / C[i, i], float(np.sqrt(C[i, i])), factor
+    )
+    within = found.interval(factor)
+
+    def value(x: float) -> float:
+        return float(quantity.lower + x * (quantity.upper - quantity.lower))
+
+    return {
+        "effect": effect,
+        "parameter": parameter,
+        "unit": quantity.unit,
+        "value": [value(x) for x in found.x],
+        "rise": [float(rise) for rise in found.rise],
+        "level": (QUANTILE * factor) ** 2,
+        "low": value(within.low),
+        "high": value(within.high),
+        "low_open": within.low_open,
+        "high_open": within.high_open,
+    }

@@ -1,0 +1,1 @@
+"""The diagnosis as files and words."""

@@ -1,0 +1,109 @@
+"""Candidates of a diagnosis as `diagnosis.json` holds them."""
+
+from typing import Any
+
+import numpy as np
+
+from pyrofit.diagnose.base.fitted import FittedModel, at_limit
+from pyrofit.diagnose.base.model import strength_of
+from pyrofit.diagnose.judge.findings import Judged, Verdict
+from pyrofit.diagnose.judge.intervals import strengths
+from pyrofit.diagnose.search.score_test import confusability
+from pyrofit.diagnose.search.step import SearchStep
+from pyrofit.diagnose.search.stepwise import Search
+from pyrofit.effects import known_effects
+
+
+def screened(found: Search) -> list[dict[str, Any]]:
+    """Return the score test of every candidate on the base model, the strongest first."""
+    catalogue = known_effects()
+    rows = []
+    for look in found.rounds[0].looks:
+        effect = catalogue[look.effect]
+        _, quantity = strength_of(look.effect)
+        row = {
+            "effect": look.effect,
+            "group": effect.group,
+            "family": effect.family,
+            "detectability": look.detectability,
+            "typical": quantity.typical,
+            "unit": quantity.unit,
+            "z": look.score(found.base.fit.residuals),
+            "ahead": max(0.0, found.base.fit.chi2 - float(look.ahead.min())),
+        }
+        rows.append(row)
+    return sorted(rows, key=lambda row: -float(row["z"]))
+
+
+def confusability_of(found: Search) -> dict[str, Any]:
+    """Return how alike the signatures of the candidates are."""
+    looks = list(found.rounds[0].looks)
+    cosine = confusability(looks) if looks else np.zeros((0, 0))
+    return {"effects": [look.effect for look in looks], "cosine": cosine.tolist()}
+
+
+def candidates(found: Search, verdict: Verdict) -> list[dict[str, Any]]:
+    """Return every fitted model with its effects, and why it is not the verdict's."""
+    judged: dict[Any, list[Judged]] = {}
+    for finding in verdict.findings:
+        for one in finding.judged:
+            judged.setdefault(_key(one.trial), []).append(one)
+    best = found.end.penalised
+    rows = []
+    for step, trial in models(found):
+        here = judged.get(_key(trial), [])
+        trial = here[0].trial if here else trial
+        row = {
+            "effects": list(trial.effects),
+            "free": {name: list(free) for name, free in trial.model.effects.items()},
+            "chi2": trial.fit.chi2,
+            "gain": step.start.fit.chi2 - trial.fit.chi2,
+            "penalised": trial.penalised,
+            "parameters": strengths(trial, bool(here)),
+            "adequate": found.end_lack.adequate if _key(trial) == _key(found.end) else None,
+            **_judgement(here),
+        }
+        if not here:
+            row["rejected"] = _why_not(found, step.start, trial, best)
+        rows.append(row)
+    return rows
+
+
+def models(found: Search) -> list[tuple[SearchStep, FittedModel]]:
+    """Return all fits, the best penalised chi-square first, each model once.
+
+    Two effects are fitted twice, where each of them was carried on.
+    """
+    fits = [(step, trial) for step in found.rounds for trial in step.trials]
+    models: dict[Any, tuple[SearchStep, FittedModel]] = {}
+    for step, trial in sorted(fits, key=lambda fit: fit[1].penalised):
+        models.setdefault(_key(trial), (step, trial))
+    return list(models.values())
+
+
+def _key(trial: FittedModel) -> frozenset[tuple[str, tuple[str, ...]]]:
+    """Return what tells a model from others: its effects and what of them is fitted."""
+    return frozenset(trial.model.effects.items())
+
+
+def _judgement(judged: list[Judged]) -> dict[str, Any]:
+    """Return what was found of a model, in all its effects' places."""
+    if not judged:
+        return {"disagree": None, "predictions": {}, "explains": None, "rejected": ""}
+    against = dict.fromkeys(f"{j.effect}: {j.rejected}" for j in judged if j.rejected)
+    return {
+        "disagree": min(j.trust.disagree for j in judged),
+        "predictions": min((j.trust.gains for j in judged), key=lambda g: sum(g.values())),
+        "explains": all(j.trust.explains for j in judged),
+        "rejected": "; ".join(against),
+    }
+
+
+def _why_not(found: Search, start: FittedModel, trial: FittedModel, best: float) -> str:
+    gain = start.penalised - trial.penalised
+    if gain < found.spare:
+        return f"gains {gain:.1f} of penalised chi-square, {found.spare:.1f} are asked for"
+    limits = [name for name in (at_limit(trial, effect) for effect in trial.effects) if name]
+    if limits:
+        return f"{limits[0]} rests at a limit"
+    return f"{trial.penalised - best:.1f} above the best in penalised chi-square"

@@ -1,0 +1,206 @@
+"""The results of a diagnosis as plain numbers and words, keys as in docs/diagnosis.md."""
+
+from dataclasses import asdict
+from typing import Any
+
+import numpy as np
+import pandas as pd
+
+from pyrofit.config import Study, candidate_effects
+from pyrofit.config.resolve import obstacle
+from pyrofit.diagnose.base.fitted import FittedModel, up_to_date
+from pyrofit.diagnose.base.model import model_of
+from pyrofit.diagnose.judge.claim_tests import HELD_OUT
+from pyrofit.diagnose.judge.findings import Verdict
+from pyrofit.diagnose.judge.intervals import interval, values_of
+from pyrofit.diagnose.result.candidates import candidates, confusability_of, screened
+from pyrofit.diagnose.result.phases import describe
+from pyrofit.diagnose.result.verdict_text import form_of, sentences
+from pyrofit.diagnose.search.stepwise import Search
+from pyrofit.diagnose.settings import SETTINGS
+from pyrofit.effects import known_effects
+from pyrofit.errors import DataError
+
+SCHEMA = 1
+CALIBRATION = "calibration"
+
+
+def content(study: Study, found: Search, verdict: Verdict) -> dict[str, Any]:
+    """Return all but the probes and the next experiment."""
+    return {
+        "schema": SCHEMA,
+        "settings": asdict(SETTINGS),
+        "study": study.name,
+        "verdict": _verdict(verdict),
+        "noise": _noise(found),
+        "base": _base(study, found),
+        "windows": _windows(found),
+        "screen": screened(found),
+        "confusability": confusability_of(found),
+        "needed": found.spare + float(np.log(found.base.model.points)),
+        "ambiguity": SETTINGS.ambiguous_chi2,
+        "not_tried": _not_tried(study),
+        "candidates": candidates(found, verdict),
+        "extended": {"parameters": _extended(study, found)},
+        "gap": _gap(found),
+    }
+
+
+def _verdict(verdict: Verdict) -> dict[str, Any]:
+    catalogue = known_effects()
+    leading = [finding.leading for finding in verdict.findings]
+    return {
+        "kind": verdict.kind,
+        "effects": leading,
+        "groups": [catalogue[name].group for name in leading],
+        "forms": [form_of(finding) for finding in verdict.findings],
+        "sets": [finding.effects for finding in verdict.findings],
+        "confirmed": verdict.confirmed,
+        "words": sentences(verdict),
+        "reasons": list(verdict.reasons),
+    }
+
+
+def _noise(found: Search) -> list[dict[str, Any]]:
+    base = found.base.model.base
+    misfit = _misfits(found.base)
+    return [
+        {
+            "experiment": name,
+            "signal": signal,
+            "role": _role(found, i),
+            "points": noise.sd.size,
+            "unit": noise.unit,
+            "sd_median": float(np.median(noise.total_sd)),
+            "words": noise.describe(),
+            "stated": noise.stated,
+            "white": noise.white,
+            "chi2_base": misfit[i]["chi2"],
+        }
+        for i, ((name, signal), noise) in enumerate(
+            zip(base.channels, base.likelihood.noise, strict=True)
+        )
+    ]
+
+
+def _role(found: Search, channel: int) -> str:
+    return CALIBRATION if channel in found.base.model.base.calibrated else HELD_OUT
+
+
+def _not_tried(study: Study) -> list[dict[str, str]]:
+    """Return the effects of the catalogue that are no candidates, and why."""
+    others = [name for name in known_effects() if name not in candidate_effects(study)]
+    unlisted = "diagnosis.effects does not list it"
+    return [{"effect": name, "reason": obstacle(study, name) or unlisted} for name in others]
+
+
+def _base(study: Study, found: Search) -> dict[str, Any]:
+    first = found.rounds[0].lack
+    trial = found.base
+    return {
+        "chi2": trial.fit.chi2,
+        "points": trial.model.points,
+        "chi2_critical": first.chi2_critical,
+        "scan": first.scan,
+        "scan_critical": first.scan_critical,
+        "score": first.score,
+        "score_critical": first.score_critical,
+        "adequate": first.adequate,
+        "parameters": _parameters(study, trial),
+    }
+
+
+def _parameters(study: Study, trial: FittedModel) -> dict[str, Any]:
+    """Return the base's parameters with 95 % intervals, each in the unit that the study gives."""
+    values, sd = values_of(trial)
+    size = len(trial.model.names) - trial.numbers
+    found = {}
+    for i, name in enumerate(trial.model.names[:size]):
+        given = study.parameters[name]
+        x = trial.fit.x[i]
+        found[name] = {
+            **interval(trial, i, values, sd, given.factor),
+            "unit": given.unit,
+            "at_limit": bool(x <= 0.0 or x >= 1.0),
+        }
+    return found
+
+
+def _extended(study: Study, found: Search) -> dict[str, Any]:
+    """Return the base's parameters beside the effects that the search ended with, if any."""
+    return _parameters(study, up_to_date(found.end)) if found.end.effects else {}
+
+
+def _windows(found: Search) -> list[dict[str, Any]]:
+    models = {"base": (found.base, found.rounds[0].lack)}
+    if found.end is not found.base:
+        models["extended"] = (found.end, found.end_lack)
+    return [
+        {"model": name, **window}
+        for name, (trial, lack) in models.items()
+        for window in describe(trial, lack.windows, lack.scan_critical)
+    ]
+
+
+def _misfits(trial: FittedModel) -> list[dict[str, Any]]:
+    """Return misfit, in the signal's unit and in the noise, of every channel."""
+    base = trial.model.base
+    model = model_of(base, trial.model.effects, range(len(base.channels)))
+    curves = model.likelihood.curves(trial.fit.x)
+    if curves is None:
+        raise DataError(
+            "diagnosis: not every held-out run finishes with the fitted parameters; leave out, by "
+            "diagnosis.hold_out, those that are furthest from what is fitted"
+        )
+    white = model.by_channel(model.residuals(trial.fit.x))
+    targets = [term.target for _, term in model.likelihood.problem.cost.terms]
+    parts = model.likelihood.split(curves)
+    return [
+        {"curve": c, "chi2": float(w @ w), "rms": float(np.sqrt(np.mean((c - t.value) ** 2)))}
+        for c, t, w in zip(parts, targets, white, strict=True)
+    ]
+
+
+def _gap(found: Search) -> list[dict[str, Any]]:
+    base = found.base.model.base
+    rows = []
+    pairs = zip(_misfits(found.base), _misfits(found.end), strict=True)
+    for i, (before, after) in enumerate(pairs):
+        noise = base.likelihood.noise[i]
+        name, signal = base.channels[i]
+        row = {
+            "experiment": name,
+            "signal": signal,
+            "role": _role(found, i),
+            "points": noise.sd.size,
+            "unit": noise.unit,
+            "noise_sd": float(np.median(noise.total_sd)),
+        }
+        for key in ("rms", "chi2"):
+            row |= {f"{key}_before": before[key], f"{key}_after": after[key]}
+        rows.append(row)
+    return rows
+
+
+def curves(found: Search) -> pd.DataFrame:
+    """Return measured and simulated curves of all channels before and after, SI units."""
+    base = found.base.model.base
+    problem = base.likelihood.problem
+    parts = []
+    before, after = _misfits(found.base), _misfits(found.end)
+    for i, (name, signal, index) in enumerate(problem.picks):
+        target = problem.cost.terms[i][1].target
+        T = problem.runs[name].requests[signal].temperature_K
+        columns = {
+            "experiment": name,
+            "signal": signal,
+            "role": _role(found, i),
+            "time_s": target.time_s,
+            "temperature_K": np.nan if T is None else T[index],
+            "measured": target.value,
+            "sd": base.likelihood.noise[i].total_sd,
+            "before": before[i]["curve"],
+            "after": after[i]["curve"],
+        }
+        parts.append(pd.DataFrame(columns))
+    return pd.concat(parts, ignore_index=True)

@@ -1,0 +1,98 @@
+"""The verdict in plain words."""
+
+from pyrofit.diagnose.judge.findings import Finding, Verdict
+from pyrofit.effects import known_effects
+
+
+def form_of(finding: Finding) -> str:
+    """Say in which form an effect is found.
+
+    The forms of one group that cannot be told apart are all named; a fitted form parameter is said.
+    """
+    catalogue = known_effects()
+    titles = " or ".join(catalogue[name].title for name in finding.effects)
+    trial = (finding.kept or list(finding.judged))[0].trial
+    fitted = trial.model.effects[finding.leading][1:]
+    labels = [catalogue[finding.leading].form[name].label for name in fitted]
+    return (titles or catalogue[finding.leading].title) + "".join(f", {x} fitted" for x in labels)
+
+
+def sentences(verdict: Verdict) -> str:
+    """Say in a few sentences what is found and how surely."""
+    said = {
+        "none": _none,
+        "named": _named,
+        "ambiguous": _ambiguous,
+        "multiple": _multiple,
+        "unknown": _unknown,
+    }[verdict.kind](verdict)
+    return " ".join(filter(None, said))
+
+
+def _none(verdict: Verdict) -> list[str]:
+    return [
+        "Model and measurements agree within the noise: nothing is missing that these data show.",
+        _because(verdict),
+    ]
+
+
+def _named(verdict: Verdict) -> list[str]:
+    (finding,) = verdict.findings
+    return [
+        f"The model lacks: {finding.group} ({form_of(finding)}).",
+        "With it, what is left is noise, and predictions improve.",
+        _because(verdict),
+    ]
+
+
+def _ambiguous(verdict: Verdict) -> list[str]:
+    if len(verdict.findings) > 1:
+        several = f"The model seems to lack {_several(verdict)}, but that is not confirmed."
+        return [several, _because(verdict)]
+    (finding,) = verdict.findings
+    said = [f"The model lacks an effect; these data leave open which: {_listed(finding)}."]
+    if len(finding.effects) == 1:
+        said = [f"The model seems to lack {_listed(finding)}, but that is not confirmed."]
+    families = {known_effects()[name].family for name in finding.effects}
+    if len(families) > 1 and "apparatus" in families:
+        said.append("Check the apparatus first.")
+    return [*said, _because(verdict)]
+
+
+def _multiple(verdict: Verdict) -> list[str]:
+    return [
+        f"The model lacks {_several(verdict)}.",
+        "Each of them is needed with the others there.",
+        _because(verdict),
+    ]
+
+
+def _unknown(verdict: Verdict) -> list[str]:
+    said = ["Model and measurements disagree, and no effect of the catalogue explains it."]
+    if verdict.findings:
+        names = " with ".join(form_of(finding) for finding in verdict.findings)
+        said = [
+            "Model and measurements disagree, and what is missing is not known.",
+            f"Nearest comes {names}, which is not confirmed.",
+        ]
+    return [*said, _because(verdict)]
+
+
+def _several(verdict: Verdict) -> str:
+    found = "; and ".join(_listed(finding) for finding in verdict.findings)
+    return f"{len(verdict.findings)} effects: {found}"
+
+
+def _because(verdict: Verdict) -> str:
+    return " ".join(f"{_begun(reason)}." for reason in verdict.reasons)
+
+
+def _begun(reason: str) -> str:
+    """Return a reason with its first letter large, unless it begins with an effect's name."""
+    named = reason.partition(":")[0] in known_effects()
+    return reason if named else f"{reason[0].upper()}{reason[1:]}"
+
+
+def _listed(finding: Finding) -> str:
+    catalogue = known_effects()
+    return " or ".join(f"{catalogue[n].title} ({catalogue[n].family})" for n in finding.effects)

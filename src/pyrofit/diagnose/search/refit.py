@@ -1,0 +1,133 @@
+"""Fits of the base with an effect more, jointly with all other parameters, from several starts."""
+
+from collections.abc import Sequence
+
+import numpy as np
+
+from pyrofit.diagnose.base.descent import descend
+from pyrofit.diagnose.base.fitted import FittedModel, lower_of
+from pyrofit.diagnose.base.model import (
+    Model,
+    curvature,
+    extended,
+    fraction,
+    model_of,
+    name_of,
+    strength_of,
+)
+from pyrofit.diagnose.base.projection import project, projector
+from pyrofit.diagnose.search.score_test import Screening, look
+from pyrofit.diagnose.settings import SETTINGS
+from pyrofit.effects import known_effects
+from pyrofit.effects.base import Quantity
+from pyrofit.parallel import parallel_map
+from pyrofit.solver.arrays import FloatArray
+
+
+def model_with(trial: FittedModel, effect: str) -> Model:
+    """Return the model with an effect in addition, its strength free."""
+    name, _ = strength_of(effect)
+    return model_of(
+        trial.model.base, {**trial.model.effects, effect: (name,)}, trial.model.channels
+    )
+
+
+def with_effect(trial: FittedModel, seen: Screening) -> FittedModel:
+    """Fit an effect in addition, from several starts; never worse than without it."""
+    return from_elsewhere(trial, seen, from_best_start(trial, seen), starts(seen)[1:])
+
+
+def from_best_start(
+    trial: FittedModel, seen: Screening, enough: float = SETTINGS.converged_gain
+) -> FittedModel:
+    """Fit an effect in addition from the most promising strength; never worse than without it.
+
+    Where that ends higher, from no effect at all.
+    """
+    model = model_with(trial, seen.effect)
+    end = descend(model, _start(trial, seen, starts(seen)[0]), enough=enough)
+    if end.chi2 >= trial.fit.chi2:
+        _, quantity = strength_of(seen.effect)
+        end = descend(model, extended(trial.fit.x, seen.effect, quantity.value), enough=enough)
+    return FittedModel(model, end)
+
+
+def from_elsewhere(
+    trial: FittedModel,
+    seen: Screening,
+    best: FittedModel,
+    others: Sequence[int],
+    enough: float = SETTINGS.converged_gain,
+) -> FittedModel:
+    """Fit an effect from other starts, too, until two end alike."""
+    ends = [best.fit.chi2]
+    for at in others:
+        end = descend(best.model, _start(trial, seen, at), enough=enough)
+        best = lower_of(best, end)
+        if any(abs(end.chi2 - other) < SETTINGS.same_valley for other in ends):
+            break
+        ends.append(end.chi2)
+    return best
+
+
+def starts(seen: Screening) -> list[int]:
+    """Return the positions of the strengths to start from.
+
+    The most promising one; the strongest one of the typical side; the typical one turned round, or
+    itself where the other side has none. On 170 twins with one effect these lead within 1 of where
+    a descent from the truth ends in 166, the most promising one alone in 147.
+    """
+    _, quantity = strength_of(seen.effect)
+    share = (seen.strengths - quantity.value) / (quantity.typical - quantity.value)
+    first = int(np.argmin(seen.ahead))
+    turned = -1.0 if np.any(share < 0.0) else 1.0
+    others = [int(np.argmax(share)), int(np.argmin(np.abs(share - turned)))]
+    return list(dict.fromkeys([first, *others]))
+
+
+def _start(trial: FittedModel, seen: Screening, at: int) -> FloatArray:
+    """Return x with the effect at a strength, and the others where a linear refit moves them."""
+    x = extended(trial.fit.x, seen.effect, float(seen.strengths[at]))
+    J = trial.fit.jacobian
+    x[:-1] -= np.linalg.solve(curvature(J), J.T @ (trial.fit.residuals + seen.raw[:, at]))
+    return x
+
+
+def model_with_form(trial: FittedModel, parameter: str) -> Model:
+    """Return the model with a form parameter of its last effect free in addition."""
+    last = trial.effects[-1]
+    free = {n: (*f, parameter) if n == last else f for n, f in trial.model.effects.items()}
+    return model_of(trial.model.base, free, trial.model.channels)
+
+
+def with_form(trial: FittedModel, parameter: str) -> FittedModel:
+    """Fit a form parameter of the last effect, too: from its usual value and the best of others.
+
+    Never worse than without it.
+    """
+    effect = trial.effects[-1]
+    quantity = known_effects()[effect].quantities[parameter]
+    model = model_with_form(trial, parameter)
+    at = model.names.index(name_of(effect, parameter))
+    usual, *others = (
+        np.insert(trial.fit.x, at, fraction(quantity, value)) for value in _forms_of(quantity)
+    )
+    spanned = projector(trial.fit)
+    there = model.residuals_all(np.array(others))
+    ahead = [float(np.sum(project(spanned, residuals) ** 2)) for residuals in there]
+    ends = [descend(model, usual), descend(model, others[int(np.argmin(ahead))])]
+    return FittedModel(model, min(ends, key=lambda end: end.chi2))
+
+
+def _forms_of(quantity: Quantity) -> Sequence[float]:
+    """Return the usual value of a form parameter, another one, and two towards the limits."""
+    lower, usual, upper = quantity.lower, quantity.value, quantity.upper
+    return (usual, quantity.typical, 0.5 * (lower + usual), 0.5 * (usual + upper))
+
+
+def look_at(trial: FittedModel, effects: Sequence[str], processes: int = 1) -> list[Screening]:
+    """Return what each effect would change of a fitted model that can have it."""
+    found = parallel_map(
+        lambda i: look(trial.model, trial.fit, effects[i]), len(effects), processes
+    )
+    return [seen for seen in found if seen is not None]

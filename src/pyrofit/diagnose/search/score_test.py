@@ -1,0 +1,105 @@
+"""What each effect would change, after all that the fitted parameters could make up for.
+
+d(s) = w(theta, s) - w(theta, null) is what strength s of an effect changes in the whitened
+residuals w. With J = dw/dtheta and Pi the inverse variance of a value anywhere within its limits,
+the part that no other parameter can imitate is P d, P = I - J (J^T J + Pi)^-1 J^T.
+
+- |P d| is the detectability: by how many standard deviations the effect shows.
+- cos(P d_i, P d_j) tells which effects look alike.
+- z = -(P d)^T w/|P d| is the score: how far the residual points the effect's way. It orders the
+  work and sounds the alarm; it does not name.
+"""
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from pyrofit.diagnose.base.adequacy import score
+from pyrofit.diagnose.base.descent import Fit
+from pyrofit.diagnose.base.model import Model, extended, model_of, strength_of
+from pyrofit.diagnose.base.projection import project, projector
+from pyrofit.diagnose.settings import SETTINGS
+from pyrofit.solver.arrays import FloatArray
+
+
+@dataclass(frozen=True, eq=False)
+class Screening:
+    """What one effect changes at the strengths that were tried.
+
+    ``strengths`` in SI units, shape (tried,); ``raw`` d and ``changes`` P d, both of shape
+    (points + known, tried); ``ahead``, shape (tried,), the chi-square that a linear refit of the
+    other parameters would leave.
+    """
+
+    effect: str
+    strengths: FloatArray
+    raw: FloatArray
+    changes: FloatArray
+    ahead: FloatArray
+    typical: int
+    """Position of the strength nearest to the typical one."""
+
+    @property
+    def sizes(self) -> FloatArray:
+        """|P d| in standard deviations, by strength."""
+        return np.asarray(np.linalg.norm(self.changes, axis=0))
+
+    @property
+    def directions(self) -> FloatArray:
+        """P d / |P d|, of the strengths that change anything, shape (points + known, changing)."""
+        seen = self.sizes > 1e-9
+        return np.asarray(self.changes[:, seen] / self.sizes[seen])
+
+    @property
+    def detectability(self) -> float:
+        """|P d| at the typical strength."""
+        return float(self.sizes[self.typical])
+
+    def score(self, residuals: FloatArray) -> float:
+        """Return the largest score of the strengths."""
+        return score(residuals, self.directions)
+
+
+def look(model: Model, fit: Fit, effect: str) -> Screening | None:
+    """Return what an effect would change of a fitted model; nothing where it cannot have it."""
+    name, _ = strength_of(effect)
+    try:
+        more = model_of(model.base, {**model.effects, effect: (name,)}, model.channels)
+    except ValueError:  # another effect sets the same number of the description
+        return None
+    spanned = projector(fit)
+    sets = np.array([extended(fit.x, effect, s) for s in tried(effect)])
+    runs = list(zip(tried(effect), more.residuals_all(sets), strict=True))
+    runs = [(s, residuals) for s, residuals in runs if more.finished(residuals)]
+    if not runs:
+        return None
+    strengths = np.array([s for s, _ in runs])
+    d = np.column_stack([residuals for _, residuals in runs]) - fit.residuals[:, None]
+    ahead = np.sum(project(spanned, fit.residuals[:, None] + d) ** 2, axis=0)
+    return Screening(effect, strengths, d, project(spanned, d), ahead, _typical(effect, strengths))
+
+
+def tried(effect: str) -> FloatArray:
+    """Return the strengths that are tried, weak ones first, both sides where limits allow."""
+    _, quantity = strength_of(effect)
+    distance = abs(quantity.typical - quantity.value)
+    margin = SETTINGS.near_limit * (quantity.upper - quantity.lower)
+    found: list[float] = []
+    for size in SETTINGS.tried_strengths:
+        for side in (1.0, -1.0):
+            value = quantity.value + side * size * distance
+            value = float(np.clip(value, quantity.lower + margin, quantity.upper - margin))
+            if side * (value - quantity.value) > 0.0 and value not in found:
+                found.append(value)
+    return np.array(found)
+
+
+def _typical(effect: str, strengths: FloatArray) -> int:
+    return int(np.argmin(np.abs(strengths - strength_of(effect)[1].typical)))
+
+
+def confusability(looks: list[Screening]) -> FloatArray:
+    """Return cos(P d_i, P d_j) at typical strengths, shape (effects, effects)."""
+    columns = [look.changes[:, look.typical] for look in looks]
+    unit = np.column_stack([c / max(float(np.linalg.norm(c)), 1e-12) for c in columns])
+    return np.asarray(unit.T @ unit)

@@ -1,0 +1,120 @@
+"""All numbers that steer a diagnosis, in one record that `diagnosis.json` holds."""
+
+from dataclasses import dataclass
+
+
+@dataclass(frozen=True)
+class Settings:
+    """Numbers of the fits, the search, the tests of a claim, and the advice.
+
+    Chi-square counts misfit in units of the noise. x is a fraction of the limits' distance.
+    """
+
+    # Least squares
+    difference_step: float = 3e-3
+    """Step in x of a one-sided difference."""
+    most_steps: int = 80
+    """Steps of a descent at most."""
+    most_refused: int = 8
+    """Refused steps in a row, each with ten times the damping, before a descent ends."""
+    converged_gain: float = 0.05
+    """A descent ends where the next step promises less of chi-square."""
+    ridge: float = 1e-6
+    """Added to the curvature, so that a parameter without influence does not move."""
+    rough_gain: float = 1.0
+    """A rough descent ends where fresh derivatives promise less of chi-square."""
+    same_valley: float = 0.5
+    """Two descents that end within this chi-square have found the same minimum."""
+    at_limit: float = 0.005
+    """A parameter rests at a limit if x is within this distance of it."""
+
+    # Base model
+    base_starts: int = 15
+    """Points within the limits at which chi-square is evaluated, beside their centre."""
+    base_descents: int = 3
+    """Descents, from the best of these points."""
+    wide_sd: float = 0.1
+    """A parameter whose standard deviation in x is larger is hardly determined."""
+    elsewhere: tuple[float, ...] = (0.15, 0.5, 0.85)
+    """Values in x from which such a parameter is searched again."""
+    apart: float = 0.2
+    """A value nearer than this to the fitted one is no new start."""
+    most_polishing_rounds: int = 3
+    """Rounds of such searches at most, as long as they lower chi-square."""
+
+    # Adequacy
+    false_alarm_level: float = 0.01
+    """Probability of a false alarm, for each of the scan, the scores, and chi-square."""
+    draw_blocks: int = 10
+    """Blocks of noise draws, each with its own random generator."""
+    draws_per_block: int = 100
+    """Draws of a block."""
+    most_windows: int = 8
+    """Windows of misfit of one signal at most."""
+
+    # Search
+    tried_strengths: tuple[float, ...] = (0.1, 0.3, 1.0, 3.0)
+    """Tried strengths as fractions of the typical distance from the null value, on both sides."""
+    near_limit: float = 0.02
+    """Tried strengths stay this fraction of the limits' distance inside."""
+    most_formed: int = 5
+    """Effects whose form parameters are tried after the first step."""
+    hopeless_chi2: float = 50.0
+    """A fit that ends this far above the best one is not refined."""
+    little_gain_share: float = 0.005
+    """An effect that lowers chi-square by a smaller share is fitted from a second start."""
+    most_polished: int = 5
+    """Models of a step that are searched again from other values of uncertain parameters."""
+    noise_leaders: int = 3
+    """Effects with which the noise is estimated again."""
+    ambiguous_chi2: float = 9.0
+    """Models within this penalised chi-square of the best one cannot be told apart."""
+    branches: int = 2
+    """Models that a step carries on."""
+    far_chi2_ratio: float = 10.0
+    """A model is not carried on if its chi-square exceeds the best one's by this factor."""
+    candidates_of_second_branch: int = 8
+    """Effects that are added to the second best model of a step."""
+    clearer_bic: float = 6.0
+    """Gain in BIC that a new estimate of the noise must bring to be used."""
+    misfit_chi2_per_point: float = 2.0
+    """Above this chi-square per point, misfit was not mistaken for noise."""
+
+    # Tests of a claim
+    agreement_level: float = 1e-3
+    """Strengths of different experiments disagree if chance is less probable than this."""
+    informative_gain: float = 2.0
+    """Smallest difference of log scores that counts: odds of 7 to 1."""
+    most_judged: int = 6
+    """Models that are judged in the place of one effect, at most."""
+
+    # Free corrections
+    correction_coefficients: int = 6
+    """Coefficients of a curve over time or temperature."""
+    correction_flux_sd: float = 0.15
+    """Prior standard deviation of the relative change of the flux."""
+    correction_property_sd: float = 0.2
+    """The same for a property, relative to its median over temperature."""
+    correction_points_drawn: int = 60
+    """Points of a correction over temperature that are recorded."""
+    widest_correction: float = 3.0
+    """Limits of a coefficient, in standard deviations of its prior."""
+    correction_price: float = 2.0
+    """Penalty per coefficient in the order of corrections (Akaike 1974,
+    doi 10.1109/TAC.1974.1100705)."""
+    burnt_share: float = 0.9
+    """Share of the lost mass after which the front's temperature does not count."""
+
+    # Next experiment
+    design_fewest_times: int = 20
+    """Points of a signal at least."""
+    design_longest_s: float = 3600.0
+    """Longest record."""
+    design_burnt_out: float = 0.995
+    """Share of the lost mass at which a record ends, but for a tenth of its length."""
+    design_spacing_s: float = 5.0
+    """Spacing of the points of a signal that the study does not measure."""
+
+
+SETTINGS = Settings()
+"""The settings of every diagnosis."""

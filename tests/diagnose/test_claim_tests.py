@@ -1,0 +1,215 @@
+"""The gates of a claim, against densities of linear Gaussian models worked out by hand."""
+
+from types import SimpleNamespace
+from typing import Any
+
+import linear
+import numpy as np
+import pytest
+from linear import POINTS, TOTAL, column_of
+from scipy.stats import kstest, multivariate_normal
+
+from pyrofit.diagnose.base.fitted import at_limit
+from pyrofit.diagnose.base.model import UNIFORM, strength_of
+from pyrofit.diagnose.judge.claim_tests import (
+    HELD_OUT,
+    Trust,
+    disagreement,
+    explains,
+    predictions,
+    slabs,
+    trust,
+)
+from pyrofit.diagnose.settings import SETTINGS
+from pyrofit.solver.arrays import FloatArray
+
+COLUMNS = linear.random_columns(4, "k_T", size=400.0)
+SLAB_25, SLAB_60 = np.arange(TOTAL) < 2 * POINTS, np.arange(TOTAL) >= 2 * POINTS
+
+
+def truth(k_T: float = 0.0, seed: int = 1) -> FloatArray:
+    noise = np.random.default_rng(seed).standard_normal(TOTAL)
+    return noise + 2.0 * COLUMNS["rho"] - 3.0 * COLUMNS["k"] + k_T * column_of(COLUMNS, "k_T")
+
+
+def scores(trial: linear.FittedModel) -> dict[str, float]:
+    return predictions([trial])[0].scores
+
+
+def trusted(trial: linear.FittedModel, without: linear.FittedModel) -> Trust:
+    own, before = predictions([trial, without])
+    return trust(trial, "k_T", own, before, explains(own, np.random.default_rng(1)))
+
+
+def log_density(J: FloatArray, y: FloatArray, seen: Any, out: Any) -> float:
+    """Return ln p(y_out | y_seen), but for the constant, prior N(0.5, 1/12) of each fraction."""
+    mean, precision = np.full(J.shape[1], 0.5), UNIFORM * np.eye(J.shape[1])
+    after = np.linalg.inv(precision + J[seen].T @ J[seen])
+    centre = after @ (precision @ mean + J[seen].T @ y[seen])
+    covariance = np.eye(int(np.sum(out))) + J[out] @ after @ J[out].T
+    found = multivariate_normal(J[out] @ centre, covariance).logpdf(y[out])
+    return float(found + 0.5 * np.sum(out) * np.log(2.0 * np.pi))
+
+
+def at_zero(J: FloatArray, y: FloatArray, trial: linear.FittedModel) -> FloatArray:
+    """Return y as J x describes it, x in fractions: less the curves at the lower limits."""
+    lower = trial.model.likelihood.problem.lower
+    span = trial.model.likelihood.problem.upper - lower
+    return np.asarray(y - J @ (lower / span))
+
+
+@pytest.mark.parametrize("effects", [(), ("k_T",)], ids=["base", "with an effect"])
+@pytest.mark.parametrize(
+    ("experiment", "out"), [("slab_25", SLAB_25), ("slab_60", SLAB_60)], ids=["slab_25", "slab_60"]
+)
+def test_log_score_of_an_experiment_left_out_is_the_exact_log_density(
+    effects: tuple[str, ...], experiment: str, out: FloatArray
+) -> None:
+    y = truth(k_T=0.0)
+    trial = linear.fit_with(linear.fit(COLUMNS, y), *effects)
+    J = linear.fraction_columns(COLUMNS, trial.model)
+    exact = log_density(J, at_zero(J, y, trial), ~out, out)
+    # The fit is that without the prior; descents end within 0.05 of the least chi-square.
+    assert scores(trial)[experiment] == pytest.approx(exact, abs=0.05)
+
+
+def test_log_score_of_what_is_held_out_is_the_exact_log_density() -> None:
+    y = truth()
+    trial = linear.fit(COLUMNS, y, calibrated=(0, 1, 2))
+    whole = linear.fit(COLUMNS, y)
+    J = linear.fraction_columns(COLUMNS, whole.model)
+    out = np.arange(TOTAL) >= 3 * POINTS
+    exact = log_density(J, at_zero(J, y, whole), ~out, out)
+    assert scores(trial)[HELD_OUT] == pytest.approx(exact, abs=0.05)
+
+
+def test_prediction_by_a_model_that_knows_little_is_uncertain_not_wrong() -> None:
+    """What is left of a wide prior pays by its determinant, not by a misfit of the mean."""
+    only_60 = dict(COLUMNS)
+    only_60["k"] = COLUMNS["k"] * SLAB_60  # the other experiment says nothing of k
+    y = truth() - 2.0 * COLUMNS["rho"] + 3.0 * COLUMNS["k"] + 4.0 * only_60["k"]
+    trial = linear.fit(only_60, y)
+    J = linear.fraction_columns(only_60, trial.model)
+    room = 0.5 * np.log1p(np.sum(J[SLAB_60, 1] ** 2) / UNIFORM)
+    assert scores(trial)["slab_60"] == pytest.approx(-0.5 * 2 * POINTS - room, abs=20.0)
+    # As a prediction of its lower limit without any room it would be hopeless.
+    assert -0.5 * float(np.sum((0.5 * J[SLAB_60, 1]) ** 2)) < -1000.0
+
+
+def test_right_effect_gains_and_useless_one_does_not() -> None:
+    typical = strength_of("k_T")[1].typical
+    for hidden, gains in ((0.5 * typical, True), (0.0, False)):
+        base = linear.fit(COLUMNS, truth(hidden))
+        more = linear.fit_with(base, "k_T")
+        found = trusted(more, base)
+        assert found.predicts == gains
+        assert set(found.gains) == {"slab_25", "slab_60"}
+        assert found.gains["slab_25"] == pytest.approx(
+            scores(more)["slab_25"] - scores(base)["slab_25"]
+        )
+
+
+def test_strengths_that_differ_between_experiments_disagree() -> None:
+    typical = strength_of("k_T")[1].typical
+    column = column_of(COLUMNS, "k_T")
+    twice = truth(0.2 * typical) + 0.2 * typical * column * SLAB_60
+    assert (
+        disagreement(linear.fit_with(linear.fit(COLUMNS, twice), "k_T"), "k_T")
+        < SETTINGS.agreement_level
+    )
+    once = linear.fit_with(linear.fit(COLUMNS, truth(0.2 * typical)), "k_T")
+    assert disagreement(once, "k_T") > 0.01
+
+
+def test_disagreement_of_equal_strengths_is_a_probability() -> None:
+    typical = strength_of("k_T")[1].typical
+    values = []
+    for seed in range(100):
+        trial = linear.fit_with(linear.fit(COLUMNS, truth(0.2 * typical, seed)), "k_T")
+        values.append(disagreement(trial, "k_T"))
+    assert kstest(values, "uniform").pvalue > 0.01, sorted(values)
+
+
+def test_effect_that_shows_in_one_experiment_only_cannot_disagree() -> None:
+    columns = {**COLUMNS, linear.strength_name("k_T"): column_of(COLUMNS, "k_T") * SLAB_25}
+    trial = linear.fit_with(linear.fit(columns, truth()), "k_T")
+    assert disagreement(trial, "k_T") == 1.0
+
+
+@pytest.mark.parametrize(
+    ("x", "found"),
+    [(0.0, True), (0.004, True), (0.006, False), (0.5, False), (0.994, False), (0.996, True)],
+)
+def test_effect_within_half_a_percent_of_a_limit_rests_there(x: float, found: bool) -> None:
+    trial = linear.fit_with(linear.fit(COLUMNS, truth()), "k_T")
+    resting = linear.moved(trial, x=np.array([0.0, 1.0, x]))  # those of the base do not count
+    assert at_limit(resting, "k_T") == ("k_T_slope_1_K" if found else "")
+
+
+@pytest.mark.parametrize(("x", "found"), [(0.0, False), (0.004, False), (0.5, False), (1.0, True)])
+def test_nothing_left_of_what_is_usually_there_is_a_state_and_no_limit(
+    x: float, found: bool
+) -> None:
+    """A factor of 0 on the loss of the back is an insulated back."""
+    trial = linear.fit_with(linear.fit(COLUMNS, truth()), "back_loss")
+    resting = linear.moved(trial, x=np.array([0.5, 0.5, x]))
+    assert at_limit(resting, "back_loss") == ("back_loss_factor" if found else "")
+
+
+@pytest.mark.parametrize(
+    ("gains", "informative", "predicts"),
+    [
+        ({}, False, False),
+        ({"a": 1.9, "b": -1.9}, False, False),
+        ({"a": 1.5, "b": 1.0}, False, True),
+        ({"a": 30.0, "b": -2.5}, True, False),
+        ({"a": 30.0, "b": -1.5}, True, True),
+        ({"a": -3.0}, True, False),
+    ],
+)
+def test_prediction_improves_on_the_whole_and_gets_clearly_worse_nowhere(
+    gains: dict[str, float], informative: bool, predicts: bool
+) -> None:
+    found = Trust("", 1.0, gains, True)
+    assert found.informative == informative
+    assert found.predicts == predicts
+
+
+@pytest.mark.parametrize(
+    ("gains", "confirmed"),
+    [
+        ({"a": 30.0}, True),
+        ({"a": 30.0, HELD_OUT: 2.0}, True),
+        ({"a": 30.0, HELD_OUT: 1.9}, False),
+        ({"a": 1.0, HELD_OUT: 30.0}, True),
+        ({"a": -2.5, HELD_OUT: 30.0}, False),
+        ({}, False),
+    ],
+)
+def test_what_is_held_out_must_be_predicted_better_for_an_effect_to_be_sure(
+    gains: dict[str, float], confirmed: bool
+) -> None:
+    assert Trust("", 1.0, gains, True).confirmed == confirmed
+
+
+def test_one_slab_alone_is_not_left_out() -> None:
+    trial = linear.fit(COLUMNS, truth(), calibrated=(0, 1))
+    assert slabs(trial) == []
+    assert list(scores(trial)) == [HELD_OUT]
+    channels = [("slab", "mlr"), ("tga", "mass_fraction")]
+    kinds = {"slab": "gasification", "tga": "tga"}
+    runs = {n: SimpleNamespace(experiment=SimpleNamespace(kind=k)) for n, k in kinds.items()}
+    likelihood = SimpleNamespace(problem=SimpleNamespace(runs=runs))
+    base = SimpleNamespace(channels=channels, likelihood=likelihood)
+    model = SimpleNamespace(base=base, channels=(0, 1))
+    fake: Any = SimpleNamespace(model=model)
+    assert slabs(fake) == []
+
+
+def test_misfit_of_what_is_held_out_is_noticed() -> None:
+    wrong = truth()
+    wrong[3 * POINTS + 10 : 3 * POINTS + 30] += 6.0
+    for y, explained in ((truth(), True), (wrong, False)):
+        trial = linear.fit_with(linear.fit(COLUMNS, y, calibrated=(0, 1, 2)), "k_T")
+        found = trusted(trial, trial)
+        assert found.explains == explained

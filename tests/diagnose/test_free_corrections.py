@@ -1,0 +1,249 @@
+"""Free corrections find the kind of term that a twin's truth has and its model lacks."""
+
+from collections.abc import Callable, Sequence
+from dataclasses import replace
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+import pandas as pd
+import pytest
+
+from pyrofit.config import Study, TermSpec, read_study
+from pyrofit.diagnose.advise.correction_forms import corrections
+from pyrofit.diagnose.advise.free_corrections import Probe, probes, with_coefficients
+from pyrofit.diagnose.base.descent import descend
+from pyrofit.diagnose.base.fitted import FittedModel
+from pyrofit.diagnose.base.model import Base, model_of
+from pyrofit.diagnose.search.refit import look_at, with_effect
+from pyrofit.effects.base import changed
+from pyrofit.effects.substance import properties_changed
+from pyrofit.estimate.correlation import Correlation
+from pyrofit.estimate.likelihood import Likelihood
+from pyrofit.estimate.noise import NoiseModel
+from pyrofit.estimate.problem import Problem, make_problem
+from pyrofit.experiments import Gasification
+from pyrofit.model.time_table import TimeTable
+from pyrofit.quantities import known_quantities
+
+Change = Callable[[Problem], Problem]
+MLR = (("capa_25", "mlr"), ("capa_60", "mlr"))
+SLABS = (*MLR, ("capa_25", "back_temperature"), ("capa_60", "back_temperature"))
+SD = {"mlr": 5e-4, "back_temperature": 2.0, "mass_fraction": 5e-3}
+END_S = {"capa_25": 1800.0, "capa_60": 400.0}
+
+
+def posed(study: Study, channels: Sequence[tuple[str, str]], curves: Any = None) -> Problem:
+    """The study's problem, measured at zero where no curves are given."""
+    frames = {}
+    for i, (name, signal) in enumerate(channels):
+        if signal == "mass_fraction":
+            T = np.arange(350.0, 720.0, 2.0)
+            frame = pd.DataFrame({"time_s": (T - 350.0) * 6.0, "temperature_K": T})
+        else:
+            frame = pd.DataFrame({"time_s": np.arange(5.0, END_S[name], 5.0)})
+        frame[known_quantities()[signal].column] = 0.0 if curves is None else curves[i]
+        frames[name, signal] = frame
+    known = {n: v * study.parameters[n].factor for n, v in study.synthetic.truth.items()}  # type: ignore[union-attr]
+    estimated = [*study.imp.estimate, *(("T_B", "E_B") if len(channels) > len(SLABS) else ())]  # type: ignore[union-attr]
+    specs = [TermSpec(experiment=e, signal=s, kind="RMSE") for e, s in channels]
+    return make_problem(study, estimated, specs, frames, study.material, known)
+
+
+def twin(
+    hidden: Change, channels: Sequence[tuple[str, str]] = SLABS, seed: int = 1, noisy: bool = True
+) -> FittedModel:
+    """The fit of the study's model to a truth that hides something, with white noise."""
+    study = read_study(Path(__file__).parents[2] / "config" / "twin.yaml")
+    assert study.synthetic is not None
+    problem = posed(study, channels)
+    factors = {n: study.parameters[n].factor for n in problem.names}
+    truth = np.array([study.synthetic.truth[n] * factors[n] for n in problem.names])
+    _, curves = hidden(problem).simulate(truth)
+    rng = np.random.default_rng(seed)
+    measured = [
+        curve + noisy * SD[signal] * rng.standard_normal(curve.size)
+        for curve, (_, signal) in zip(curves, channels, strict=True)
+    ]
+    noise = tuple(
+        NoiseModel(np.full(curve.size, SD[signal]), Correlation())
+        for curve, (_, signal) in zip(curves, channels, strict=True)
+    )
+    likelihood = Likelihood(posed(study, channels, measured), noise)
+    base = Base(likelihood, tuple(range(len(channels))))
+    model = model_of(base, {})
+    return FittedModel(model, descend(model, likelihood.scaled(truth)))
+
+
+def nothing(problem: Problem) -> Problem:
+    return problem
+
+
+def fronts(**update: Any) -> Change:
+    """Change all fronts; a function of a front's flux gives the new one."""
+
+    def change(problem: Problem) -> Problem:
+        runs = dict(problem.runs)
+        for name, run in runs.items():
+            if isinstance(run.experiment, Gasification):
+                front = run.experiment.front
+                own = {k: v(front.flux_W_m2) if callable(v) else v for k, v in update.items()}
+                slab = changed(run.experiment, front=changed(front, **own))
+                runs[name] = replace(run, experiment=slab)
+        return replace(problem, runs=runs)
+
+    return change
+
+
+def substance(key: str, **numbers: float) -> Change:
+    put = properties_changed(key, **{name: name for name in numbers})
+
+    def change(problem: Problem) -> Problem:
+        material = put(problem.material, numbers, problem.material.own)
+        return replace(problem, material=material)
+
+    return change
+
+
+def fading(flux: float) -> TimeTable:
+    """A tenth less flux within 300 s."""
+    return TimeTable(time_s=(0.0, 300.0), value=(flux, 0.9 * flux))
+
+
+STEP = substance("conductivity_W_mK", step=-0.06, step_temperature_K=450.0, step_width_K=4.0)
+MELTING = substance("specific_heat_J_kgK", peak_area=6e4, peak_temperature_K=450.0)
+
+
+@pytest.fixture(scope="module")
+def faded() -> list[Probe]:
+    return probes(twin(fronts(flux_W_m2=fading)))
+
+
+@pytest.fixture(scope="module")
+def stepped() -> list[Probe]:
+    return probes(twin(STEP))
+
+
+@pytest.fixture(scope="module")
+def molten() -> list[Probe]:
+    return probes(twin(MELTING))
+
+
+@pytest.fixture(scope="module")
+def convected() -> list[Probe]:
+    return probes(twin(fronts(h_cube_root_W_m2K43=0.8)))
+
+
+@pytest.mark.parametrize(
+    ("found", "expected"),
+    [
+        ("faded", "flux"),
+        ("stepped", "conductivity"),
+        ("molten", "heat_capacity"),
+        ("convected", "front_loss"),
+    ],
+)
+def test_probe_of_the_hidden_kind_absorbs_most(
+    found: str, expected: str, request: pytest.FixtureRequest
+) -> None:
+    first, *rest = request.getfixturevalue(found)
+    assert first.probe == expected
+    assert first.absorbed > 0.9
+    assert all(other.absorbed < first.absorbed for other in rest)
+    assert {p.probe for p in rest} | {expected} == {
+        "flux",
+        "conductivity",
+        "heat_capacity",
+        "front_loss",
+    }
+
+
+def shape_at(probe: Probe, *where: float) -> list[float]:
+    at, value = np.array(probe.shape).T
+    return [float(v) for v in np.interp(where, at, value)]
+
+
+def test_shape_of_the_flux_fades_as_hidden(faded: list[Probe]) -> None:
+    early, later, end = shape_at(faded[0], 72.0, 300.0, 1200.0)
+    # Only ratios are determined, a constant factor may be emissivity.
+    assert early / later == pytest.approx(0.976 / 0.9, abs=0.02)
+    assert end / later == pytest.approx(1.0, abs=0.03)
+    assert faded[0].unit == "-"
+
+
+def test_shape_of_the_conductivity_falls_where_the_step_is(stepped: list[Probe]) -> None:
+    cold, warm, hot = shape_at(stepped[0], 370.0, 530.0, 650.0)
+    assert cold - warm == pytest.approx(0.06, abs=0.02)
+    assert hot - warm == pytest.approx(0.0, abs=0.02)
+
+
+def test_shape_of_the_heat_capacity_peaks_at_the_melting_temperature(molten: list[Probe]) -> None:
+    at, change = np.array(molten[0].shape).T
+    assert at[change.argmax()] == pytest.approx(450.0, abs=25.0)
+
+
+def test_shape_of_the_loss_rises_with_temperature(convected: list[Probe]) -> None:
+    cool, warm = shape_at(convected[0], 400.0, 600.0)
+    # 0.8 (600 - 330)^(4/3) - 0.8 (400 - 330)^(4/3), the gas at 330 K
+    assert warm - cool == pytest.approx(1396.0 - 230.0, rel=0.4)
+
+
+def test_nothing_is_absorbed_where_nothing_is_hidden() -> None:
+    trial = twin(nothing)
+    assert [probe.absorbed for probe in probes(trial)] == [0.0] * 4
+
+
+@pytest.mark.parametrize("number", range(4))
+def test_zero_coefficients_are_the_base_and_each_other_value_is_not(number: int) -> None:
+    trial = twin(nothing, MLR)
+    likelihood = trial.model.likelihood
+    correction = corrections(likelihood.problem, likelihood.values(trial.fit.x))[number]
+    model = with_coefficients(trial.model, correction)
+    count = len(correction.sd)
+    zero = np.append(trial.fit.x, np.full(count, 0.5))
+    at_zero = model.residuals(zero)
+    assert not at_zero[trial.fit.residuals.size :].any()
+    # A kink of the flux is a time that the solver steps to: its own error changes.
+    within = 0.1 if correction.probe == "flux" else 0.0
+    assert np.abs(at_zero[: trial.fit.residuals.size] - trial.fit.residuals).max() <= within
+    for i in range(count):
+        moved = zero.copy()
+        moved[trial.fit.x.size + i] += 0.1
+        change = np.abs(model.residuals(moved) - at_zero)[: trial.model.points]
+        assert change.max() > 3.0 * within, correction.sd
+
+
+def test_described_flux_with_a_step_and_a_parameter_is_multiplied() -> None:
+    steps = TimeTable(time_s=(0.0, 100.0, 100.0), value=("q", 2e4, 3e4))
+    fitted = twin(nothing, MLR)
+    problem = fronts(flux_W_m2=steps)(fitted.model.likelihood.problem)
+    problem = replace(problem, fixed={**problem.fixed, "q": 1e4})
+    (correction, *_) = corrections(problem, fitted.model.likelihood.values(fitted.fit.x))
+    derived: Any = correction.problem
+    found = derived.derive({**problem.fixed, **dict.fromkeys(correction.sd, 0.1)})
+    table = derived.runs["capa_60"].experiment.front.flux_W_m2
+    time, flux = np.array(table.time_s), np.array([found[name] for name in table.value])
+    assert time[time == 100.0].size == 2
+    before = time.searchsorted(100.0, side="left") + 1
+    assert flux[:before] == pytest.approx(1.1 * (1e4 + 100.0 * time[:before]))
+    assert flux[before:] == pytest.approx(3.3e4)
+
+
+def test_probes_follow_an_effect_that_sets_the_same_numbers() -> None:
+    trial = twin(fronts(h_cube_root_W_m2K43=0.8, gas_rise_K=40.0))
+    (seen,) = look_at(trial, ["front_convection"])
+    before = with_effect(trial, seen)
+    found = {probe.probe: probe for probe in probes(before)}
+    assert all(probe.chi2 < before.fit.chi2 + 0.1 for probe in found.values())
+    assert before.effects == ("front_convection",)
+
+
+def test_probe_of_a_calibration_with_tga_is_that_of_the_hidden_kind() -> None:
+    trial = twin(STEP, (*SLABS, ("tga_10K", "mass_fraction")))
+    assert probes(trial)[0].probe == "conductivity"
+
+
+def test_tga_alone_has_no_probe() -> None:
+    trial = twin(nothing, (*SLABS, ("tga_10K", "mass_fraction")))
+    model = model_of(trial.model.base, {}, [len(SLABS)])
+    assert probes(FittedModel(model, descend(model, trial.fit.x))) == []
