@@ -112,6 +112,15 @@ def test_back_without_loss_is_an_insulated_back() -> None:
     assert_same(none, curves_of(replace(base, experiments=bare)))
 
 
+def test_absorption_in_depth_and_its_lost_form_differ_without_a_foil() -> None:
+    # With 2 mm, exp(-2) of the radiation passes 4 mm of wood.
+    found = [
+        curves_of(having(BASES["wood"], {name: {"length_m": 2e-3}}))
+        for name in ("in_depth", "in_depth_lost")
+    ]
+    assert changes(*found)["T_back 25"] > 0.02
+
+
 def test_lag_moves_tga_by_rate_times_time() -> None:
     curves = curves_of(having(BASES["pmma"], {"tga_lag": {"time_s": 12.0}}))
     base = curves_of(BASES["pmma"])

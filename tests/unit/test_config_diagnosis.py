@@ -21,6 +21,7 @@ from pyrofit.config import (
     read_study,
     true_description,
 )
+from pyrofit.config.resolve import obstacle
 from pyrofit.effects import known_effects
 from pyrofit.errors import StudyError
 from pyrofit.estimate.likelihood import likelihood_of
@@ -141,13 +142,29 @@ def test_by_default_every_effect_is_a_candidate_that_the_signals_can_show() -> N
     assert candidate_effects(study_with()) == tuple(known_effects())
     back = {"calibrate": {"slab_25": ["back_temperature"]}}
     left_out = set(known_effects()) - set(candidate_effects(study_with(diagnosis=back)))
-    assert left_out == {"balance_drift", "tga_lag"}
+    assert left_out == {"balance_drift", "tga_lag", "tga_offset"}
 
 
 def test_effects_of_the_model_and_what_excludes_them_are_no_candidates() -> None:
     study = study_with(effects={"in_depth": {"length_m": 3e-4}, "k_T": {"slope_1_K": -1e-3}})
     left_out = set(known_effects()) - set(candidate_effects(study))
     assert left_out == {"in_depth", "in_depth_lost", "k_T"}
+
+
+def test_forms_that_are_one_model_here_are_offered_once() -> None:
+    # Behind a board nothing passes the sample that could be lost.
+    given = study_with().model_dump(mode="json", exclude_defaults=True)
+    board = {"density_kg_m3": 300.0, "conductivity_W_mK": 0.1, "specific_heat_J_kgK": 900.0}
+    given["material"]["components"]["board"] = board
+    for name in ("slab_25", "slab_60"):
+        behind = [{"component": "board", "thickness_m": 0.02}]
+        given["experiments"][name]["sample"]["backing"] = behind
+    backed = as_study(given, "smoke.yaml")
+    assert set(candidate_effects(study_with())) - set(candidate_effects(backed)) >= {
+        "in_depth_lost"
+    }
+    assert "in_depth" in candidate_effects(backed)
+    assert "the same model as another" in obstacle(backed, "in_depth_lost")
 
 
 def test_what_the_description_sets_is_no_candidate() -> None:

@@ -56,7 +56,15 @@ def test_study_in_json_has_its_effects() -> None:
     assert study.experiments["slab_25"].back.loss_factor == 0.5
 
 
-KINETIC = {"char_layer", "consecutive", "reaction_order", "tga_lag", "third_reaction", "volatile"}
+KINETIC = {
+    "char_layer",
+    "consecutive",
+    "reaction_order",
+    "tga_lag",
+    "tga_offset",
+    "third_reaction",
+    "volatile",
+}
 """Effects that TGA sees: they are estimated with the kinetics."""
 
 

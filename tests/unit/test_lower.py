@@ -196,14 +196,14 @@ def test_exposure_by_hand() -> None:
     assert exposure.schedule.tolist() == [[[x]] for x in given_over_time]
     assert exposure.back_emissivity == 0.9
     assert exposure.foil_capacity == pytest.approx(679.44)
-    assert exposure.foil_opaque
+    assert exposure.back_absorbs
     assert exposure.mixing_depth == 3e-5
 
 
 def test_sample_without_foil_has_no_foil_capacity() -> None:
     exposure = exposed(experiment(), material())
     assert exposure.foil_capacity == 0.0
-    assert not exposure.foil_opaque
+    assert not exposure.back_absorbs
 
 
 def test_flux_table_keeps_its_points() -> None:

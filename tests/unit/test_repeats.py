@@ -168,6 +168,13 @@ def test_tga_repeats_differ_in_their_lag_and_the_kinetics_estimate_it() -> None:
     assert study.imp.estimate == ("rho", "k", "cp", "eps", "dh")
 
 
+def test_tga_repeats_may_differ_by_an_offset_of_the_temperature() -> None:
+    study = study_of(keys("tga_5K", temperature_sd_K=3.0))
+    assert study.experiments["tga_5K_1"].temperature_offset_K == "tga_5K_1_temperature"
+    assert study.known["tga_5K_1_temperature"].sd == 3.0
+    assert study.parameters["tga_5K_1_temperature"].bounds_si == (-12.0, 12.0)
+
+
 def test_test_that_only_the_diagnosis_fits_differs_there() -> None:
     described = keys("slab_60", **SDS)
     described["diagnosis"] = {"calibrate": {"slab_25": ["mlr"], "slab_60": ["mlr"]}}

@@ -205,13 +205,16 @@ def test_slope_step_and_peak_of_the_specific_heat_take_their_heat(name: str, sol
 
 
 @both
-@pytest.mark.parametrize("to", ["foil", "lost"])
-def test_radiation_that_passes_heats_the_foil_or_is_lost(to: str, solve: Solver) -> None:
+@pytest.mark.parametrize("foil", [FOIL, None], ids=["foil", "no foil"])
+@pytest.mark.parametrize("to", ["foil", "back", "lost"])
+def test_radiation_that_passes_heats_the_back_or_is_lost(
+    to: str, foil: dict[str, float] | None, solve: Solver
+) -> None:
     # kappa d = 0.5. Measured: 4e-4 K of 124 K and 1.1e-4 K of 49 K, both solvers.
-    absorbed = 1.0 - np.exp(-0.5) if to == "lost" else 1.0
-    experiment = slab_experiment(DEPTH, {"flux_W_m2": PULSE}, foil=FOIL, transmitted=to)
+    absorbed = 1.0 if to == "back" or (to == "foil" and foil) else 1.0 - np.exp(-0.5)
+    experiment = slab_experiment(DEPTH, {"flux_W_m2": PULSE}, foil=foil, transmitted=to)
     matter = inert_material(emissivity=FAINT, absorption=100.0)
-    exact = T0 + HEAT * absorbed / (RHO * C * DEPTH + FOIL_CAPACITY)
+    exact = T0 + HEAT * absorbed / (RHO * C * DEPTH + (FOIL_CAPACITY if foil else 0.0))
     assert evened_out(solve, experiment, matter) == pytest.approx(exact, abs=6e-4)
 
 
@@ -306,17 +309,19 @@ POWDER = powder("B", {"B": 1.0}, {"reactant": "B", "A_1_s": 1e11, "E_J_mol": 1.6
 
 
 @pytest.mark.parametrize("solve", [simulate_tga, reference_tga])
-def test_sample_that_lags_is_colder_by_rate_times_lag(solve: Callable[..., Curves]) -> None:
+def test_sample_is_colder_by_rate_times_lag_and_hotter_by_the_offset(
+    solve: Callable[..., Curves],
+) -> None:
     # 12 s at 10 K/min are 2 K; then k changes by the factor of 2 K.
     time = np.linspace(0.0, 3300.0, 300)
     program = 300.0 + time / 6.0
 
-    def heated(lag_s: float, temperature: Curve) -> Curve:
+    def heated(temperature: Curve, **off: float) -> Curve:
         experiment = Tga.model_validate(
             {
                 "kind": "tga",
                 "heating_rate_K_min": 10.0,
-                "lag_s": lag_s,
+                **off,
                 "signals": {"mass_fraction": {"file": "synthetic"}},
             }
         )
@@ -324,9 +329,12 @@ def test_sample_that_lags_is_colder_by_rate_times_lag(solve: Callable[..., Curve
         assert curves.status is Status.OK
         return curves.signals["mass_fraction"]
 
-    lagging = heated(12.0, program)
-    assert np.array_equal(lagging, heated(0.0, program - 2.0))
-    assert np.abs(lagging - heated(0.0, program)).max() >= 0.02
+    lagging = heated(program, lag_s=12.0)
+    assert np.array_equal(lagging, heated(program - 2.0))
+    assert np.abs(lagging - heated(program)).max() >= 0.02
+    assert np.array_equal(heated(program, temperature_offset_K=2.0), heated(program + 2.0))
+    both = heated(program, temperature_offset_K=2.0, lag_s=12.0)
+    assert np.array_equal(both, heated(program))
 
 
 def test_changed_property_keeps_a_hundredth() -> None:

@@ -56,6 +56,14 @@ NUISANCES = {
     "lag_sd_s": Nuisance(
         0.0, "s", "lag of the sample's temperature", HeatedExperiment, "", "lag_s"
     ),
+    "temperature_sd_K": Nuisance(
+        0.0,
+        "K",
+        "sample's temperature over that recorded",
+        HeatedExperiment,
+        "",
+        "temperature_offset_K",
+    ),
 }
 """By the key of the standard deviation."""
 

@@ -83,6 +83,9 @@ def obstacle(study: Study, name: str) -> str:
         return "the model has it already"
     if not any(effect.needs(e) for e in calibrated(study).values()):
         return f"no calibrated signal can show it; it needs {effect.needs.words}"
+    distinct = effect.distinct_in
+    if distinct and not any(distinct(e) for e in calibrated(study).values()):
+        return f"it is the same model as another of its group; it needs {distinct.words}"
     free = {key: f"{name}_{key}" for key in effect.strength}
     try:
         with_effects(diagnosed_material(study), diagnosed(study), {name: free})

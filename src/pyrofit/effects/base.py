@@ -18,6 +18,12 @@ MaterialChange = Callable[[Material, Numbers], Material]
 ComponentsChange = Callable[[Material, Numbers, Collection[str]], Material]
 ExperimentChange = Callable[[Experiment, Numbers], Experiment]
 Family = Literal["apparatus", "environment", "material"]
+FAMILIES: dict[Family, str] = {
+    "material": "the material: the same for all experiments on it, in every laboratory",
+    "apparatus": "the apparatus or the record: one laboratory's",
+    "environment": "the surroundings of the sample: one laboratory's",
+}
+"""What an effect belongs to, in words."""
 Made = TypeVar("Made", bound=Part)
 
 ASSUMED = "assumed range"
@@ -90,6 +96,12 @@ def has_foil(experiment: Experiment) -> bool:
     return isinstance(experiment, SlabExperiment) and experiment.sample.foil is not None
 
 
+@need("a slab without a board or plate behind it")
+def has_no_backing(experiment: Experiment) -> bool:
+    """Tell whether nothing opaque but a foil stands behind the sample."""
+    return isinstance(experiment, SlabExperiment) and not experiment.sample.backing
+
+
 @need("a back that exchanges heat")
 def has_open_back(experiment: Experiment) -> bool:
     """Tell whether the back of an experiment exchanges heat."""
@@ -110,6 +122,7 @@ class Effect:
 
     title: str
     family: Family
+    """What it belongs to, see `FAMILIES`."""
     group: str
     """What is missing; effects of one group are forms of one another."""
     equation: str
@@ -128,7 +141,15 @@ class Effect:
     """Keys of the main reaction that it sets, and that published kinetics do not replace."""
     same_as: str = ""
     """An effect that these data cannot tell from this one."""
+    distinct_in: Need | None = None
+    """What an experiment must have for it to be another model than a form of its group; where none
+    has it, the effect is no candidate. None = it is always a model of its own."""
     name: str = ""
+
+    @property
+    def is_shared(self) -> bool:
+        """Whether all laboratories share it: it belongs to the material."""
+        return self.family == "material"
 
     @property
     def quantities(self) -> dict[str, Quantity]:

@@ -1,6 +1,6 @@
 """Radiation is absorbed in depth instead of at the surface; what passes through is lost."""
 
-from pyrofit.effects.base import Effect, on
+from pyrofit.effects.base import Effect, has_no_backing, on
 from pyrofit.effects.in_depth import LENGTH
 from pyrofit.effects.substance import refuse_translucent
 
@@ -13,4 +13,5 @@ EFFECT = Effect(
     material=refuse_translucent,
     experiment=on("sample", {"absorption_length_m": "length_m"}, transmitted="lost"),
     of_sample=True,
+    distinct_in=has_no_backing,
 )

@@ -1,7 +1,9 @@
 """The catalogue of effects as a page of the documentation."""
 
+from collections.abc import Collection
+
 from pyrofit.effects import known_effects
-from pyrofit.effects.base import Effect, Quantity
+from pyrofit.effects.base import FAMILIES, Effect, Quantity
 
 _HEAD = """\
 # Effects
@@ -11,9 +13,11 @@ leaves the base model exactly as it is. Form parameters say how the effect looks
 take their usual value. Effects that set the same number of the description exclude each other.
 Those of one group are forms of one another.
 
+{belongs}
 | group | effects |
 |---|---|
 """
+_BELONGS = "| family | belongs to | effects |\n|---|---|---|\n"
 _COLUMNS = (
     "| parameter | symbol | what it is | unit | from | to | {} | source |\n"
     "|---|---|---|---|---|---|---|---|"
@@ -27,13 +31,26 @@ def effects_page() -> str:
     for effect in effects:
         groups.setdefault(effect.group, []).append(f"`{effect.name}`")
     rows = [f"| {group} | {', '.join(names)} |\n" for group, names in sorted(groups.items())]
-    return "\n".join(["".join([_HEAD, *rows]), *(_section(effect) for effect in effects)])
+    head = _HEAD.format(belongs=_belongs(effects))
+    return "\n".join(["".join([head, *rows]), *(_section(effect) for effect in effects)])
+
+
+def _belongs(effects: Collection[Effect]) -> str:
+    """Return the table of what the effects belong to."""
+    rows = []
+    for family, words in FAMILIES.items():
+        names = ", ".join(f"`{e.name}`" for e in effects if e.family == family)
+        rows.append(f"| {family} | {words} | {names} |\n")
+    return "".join([_BELONGS, *rows])
 
 
 def _section(effect: Effect) -> str:
-    lines = [f"## `{effect.name}`", "", f"{effect.title}, {effect.family}:", ""]
+    lines = [f"## `{effect.name}`", "", f"{effect.title[0].upper()}{effect.title[1:]}:", ""]
     lines += [f"    {effect.equation}", ""]
     lines += [f"Group: {effect.group}. Needs {effect.needs.words}.", ""]
+    lines += [f"Belongs to {FAMILIES[effect.family]}.", ""]
+    if effect.distinct_in:
+        lines += [f"A candidate only where there is {effect.distinct_in.words}.", ""]
     if effect.same_as:
         lines += [f"Measurements hardly tell it from `{effect.same_as}`.", ""]
     lines += [_COLUMNS.format("null, typical"), *_rows(effect.strength)]

@@ -14,9 +14,11 @@ EFFECT = Effect(
             label="relative rise of the volume",
             unit="-",
             lower=0.0,
-            upper=2.0,
+            upper=9.0,
             value=0.0,
             typical=0.3,
+            source="assumed range; polymers foam to 3 to 10 times their volume, "
+            "MaCFP PMMA is fitted best by 1.3 to 2.5 times",
         )
     },
     form={

@@ -61,10 +61,11 @@ EFFECT = Effect(
             label="mass fraction of the volatile",
             unit="-",
             lower=0.0,
-            upper=0.08,
+            upper=0.2,
             value=0.0,
             typical=0.015,
-            source="assumed range; 0.003 to 0.02 is usual",
+            source="assumed range; 0.003 to 0.02 is usual of dry polymers, "
+            "wood in moist air holds up to 0.2 of water",
         )
     },
     form={
@@ -72,7 +73,7 @@ EFFECT = Effect(
             symbol="T_v",
             label="temperature at which the volatile leaves at 0.001 1/s",
             unit="K",
-            lower=350.0,
+            lower=310.0,
             upper=550.0,
             value=430.0,
             typical=470.0,

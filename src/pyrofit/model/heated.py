@@ -30,6 +30,9 @@ class HeatedExperiment(Experiment):
     lag_s: Number = Field(
         0.0, description="time by which the sample's temperature lags behind the program's [s]"
     )
+    temperature_offset_K: Number = Field(
+        0.0, description="sample's temperature minus the recorded one, besides the lag [K]"
+    )
     start_temperature_K: AboveZero = Field(300.0, description="synthetic: first temperature [K]")
     end_temperature_K: AboveZero = Field(850.0, description="synthetic: last temperature [K]")
 
@@ -39,7 +42,8 @@ class HeatedExperiment(Experiment):
             if signal.delay_s != 0.0 or signal.offset != 0.0:
                 raise ValueError(
                     f"signal '{name}' of a {self.kind.upper()} experiment takes neither delay_s "
-                    f"nor offset; a sample behind its program has lag_s{self._other_way_out}"
+                    "nor offset; a sample behind its program has lag_s, one whose recorded "
+                    f"temperature is wrong has temperature_offset_K{self._other_way_out}"
                 )
         return self
 

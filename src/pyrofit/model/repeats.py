@@ -27,6 +27,11 @@ class Nuisances(Part):
         None, description="TGA: standard deviation of the temperature's lag [s]"
     )
 
+    temperature_sd_K: AboveZero | None = Field(
+        None,
+        description="TGA: standard deviation of the sample's temperature over that recorded [K]",
+    )
+
     @property
     def given(self) -> dict[str, float]:
         """Return the standard deviations that are given, by key."""

@@ -195,10 +195,17 @@ class Sample(Part):
         description="1/absorption_1_m of all components of the material, instead of theirs [m]; "
         "0 = theirs",
     )
-    transmitted: Literal["foil", "lost"] = Field(
-        "foil", description="radiation that passes the sample: the foil absorbs it, or it is lost"
+    transmitted: Literal["foil", "back", "lost"] = Field(
+        "foil",
+        description="radiation that passes the sample: the foil absorbs it; the back face, with or "
+        "without a foil; or it is lost",
     )
     edge: Edge | None = Field(None, description="heat exchange of the edge")
+
+    @property
+    def back_absorbs(self) -> bool:
+        """Whether radiation that passes the sample heats its back, or the foil there."""
+        return self.transmitted == "back" or (self.transmitted == "foil" and self.foil is not None)
 
 
 class SlabExperiment(Experiment):

@@ -142,8 +142,8 @@ class Exposure(NamedTuple):
     """Heat capacity per area of the foil on the back [J/(m2 K)]."""
     contact_resistance: Number
     """Between sample and foil [m2 K/W]."""
-    foil_opaque: bool
-    """Whether the foil absorbs radiation transmitted through the sample."""
+    back_absorbs: bool
+    """Whether the foil, or the back face without one, absorbs what passes the sample."""
     mixing_depth: Number
     """delta [m]: depth over which the surface emissivity is averaged by volume."""
     emissivity_change: Number

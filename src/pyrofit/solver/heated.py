@@ -92,6 +92,7 @@ def _lags(experiments: Sequence[HeatedExperiment], values: Values, sets: int) ->
     return np.array(
         [
             np.full(sets, value_of(e.lag_s, values)) * e.heating_rate_K_min / 60.0
+            - value_of(e.temperature_offset_K, values)
             for e in experiments
         ]
     )

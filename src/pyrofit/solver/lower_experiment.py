@@ -90,7 +90,7 @@ def _exposure(experiment: SlabExperiment, values: Values, sets: int) -> Exposure
         back_emissivity=number(losses * value_of(back.emissivity, values), sets),
         foil_capacity=number(capacity, sets),
         contact_resistance=number(contact, sets),
-        foil_opaque=sample.foil is not None and sample.transmitted == "foil",
+        back_absorbs=sample.back_absorbs,
         mixing_depth=number(0.0, sets),
         emissivity_change=number(value_of(sample.emissivity_change, values), sets),
         backing_mass=number(0.0, sets),

@@ -153,7 +153,7 @@ def surface_heat(radiation, eps, front_star, t, given, r_skin, work, edge, mater
         transmitted, at_front = absorb(entering, r_skin, work, edge, material)
         inside = entering - at_front - transmitted
         at_front = where(opaque, radiation, at_front)
-        if exposure.foil_opaque:
+        if exposure.back_absorbs:
             gain_back += transmitted
     cell[row.source, foil] = gain_back
     cell[row.slope, foil] = slope_back

@@ -47,7 +47,7 @@ def exposure_in_lanes(width, g, exposure):
         back_emissivity=_lanes(width, g, exposure.back_emissivity),
         foil_capacity=_lanes(width, g, exposure.foil_capacity),
         contact_resistance=_lanes(width, g, exposure.contact_resistance),
-        foil_opaque=exposure.foil_opaque,
+        back_absorbs=exposure.back_absorbs,
         mixing_depth=_lanes(width, g, exposure.mixing_depth),
         emissivity_change=_lanes(width, g, exposure.emissivity_change),
         backing_mass=_lanes(width, g, exposure.backing_mass),

@@ -69,7 +69,7 @@ class Slab:
     """[J/(m2 K)]."""
     contact_resistance: float
     """Of the last element, if that has no mass [m2 K/W]."""
-    foil_opaque: bool
+    back_absorbs: bool
     mixing_depth: float
     """[m]."""
     emissivity_change: float
@@ -172,7 +172,7 @@ class Slab:
         )
         out[:-1] = (1.0 - lower) * absorbed
         out[1:] += lower * absorbed
-        if self.foil_opaque:
+        if self.back_absorbs:
             out[-1] += reaching[-1]
         return out
 

@@ -38,7 +38,7 @@ def make_slab(
         back_emissivity=losses * value_of(back.emissivity, values),
         foil_capacity=capacity,
         contact_resistance=contact,
-        foil_opaque=sample.foil is not None and sample.transmitted == "foil",
+        back_absorbs=sample.back_absorbs,
         mixing_depth=depth,
         emissivity_change=value_of(sample.emissivity_change, values),
         rim=rim(sample.edge, values),

@@ -33,7 +33,8 @@ def reference_tga(
     resolution = resolution or Resolution()
     programme, rise = request.programme()
     lag_min = value_of(experiment.lag_s, values) / 60.0
-    time, T = request.time_s, programme - lag_min * experiment.heating_rate_K_min
+    off = value_of(experiment.temperature_offset_K, values)
+    time, T = request.time_s, programme - lag_min * experiment.heating_rate_K_min + off
     solid = substance(material, values)
     reactions = solid.reactions
     virgin = mass_fractions(material.composition, solid.names, values)
