@@ -6,7 +6,8 @@ from typing import Any
 
 from pydantic import Field
 
-from pyrofit.blind_test.setting import Hidden, Kind, Plan, Setting
+from pyrofit.blind_test import foreign
+from pyrofit.blind_test.setting import Draft, Hidden, Kind, Plan, Setting
 from pyrofit.config import Study, digest, read_study
 from pyrofit.effects import known_effects
 from pyrofit.effects.base import Effect
@@ -31,11 +32,14 @@ class Case(Part):
     noise: str = Field(description="kind of noise")
     seed: int = Field(description="seed of truth and noise")
     left_out: bool = Field(False, description="diagnosed again without the hidden effect")
+    curves: str = Field("", description="case of another code whose curves it has")
 
     @property
     def id(self) -> str:
         """Name of the twin, which does not reveal its hidden effects."""
-        return f"twin_{digest(self)[:10]}"
+        # Twins that are computed here keep the names they had before there were others.
+        identity = self.model_dump(mode="json", exclude=None if self.curves else {"curves"})
+        return f"twin_{digest(identity)[:10]}"
 
 
 def cases_of(setting: Setting, name: str) -> tuple[Case, ...]:
@@ -50,9 +54,12 @@ def cases_of(setting: Setting, name: str) -> tuple[Case, ...]:
     """
     plan = setting.plan(name)
     base = read_study(Path(setting.base))
-    _check_ranges(setting, base)
-    makers = (_effects, _nulls, _forms, _pairs)
-    drafts = [draft for make in makers for draft in make(setting, plan, base)]
+    if setting.curves:
+        drafts = list(foreign.drafts(setting, plan))
+    else:
+        _check_ranges(setting, base)
+        makers = (_effects, _nulls, _forms, _pairs)
+        drafts = [draft for make in makers for draft in make(setting, plan, base)]
     cases = sorted((_seeded(setting, plan, draft) for draft in drafts), key=lambda c: c.id)
     taken: list[Case] = []
     for case in cases:
@@ -110,9 +117,6 @@ def _visible(
     """Tell whether some calibrated experiment can have each of the effects."""
     experiments = experiments_of(setting, base, signals).values()
     return all(any(effects[name].needs(e) for e in experiments) for name in names)
-
-
-Draft = dict[str, Any]
 
 
 def _effects(setting: Setting, plan: Plan, base: Study) -> Iterator[Draft]:

@@ -3,15 +3,14 @@
 import time
 from collections.abc import Callable, Iterator, Mapping
 from contextlib import contextmanager
-from pathlib import Path
 from typing import Any
 
 from pyrofit.blind_test.detectability import detectability
 from pyrofit.blind_test.places import Places
 from pyrofit.blind_test.plan import Case, cases_of, chunk_of
-from pyrofit.blind_test.setting import Setting
+from pyrofit.blind_test.setting import Setting, files_digest
 from pyrofit.blind_test.twin import make_twin, read_twin, without_effects, write_twin
-from pyrofit.config import Study, digest, read_mapping
+from pyrofit.config import Study, digest
 from pyrofit.effects import known_effects, same_as
 from pyrofit.errors import DataError, StudyError
 from pyrofit.estimate.targets import Measurements
@@ -61,8 +60,7 @@ def code_fingerprint() -> str:
 def case_digest(setting: Setting, case: Case) -> str:
     """Return a digest of everything that the result of a case depends on."""
     of_twins = setting.model_dump(exclude={"plans", "seeds", "nominal", "forms", "pairs"})
-    base = read_mapping(Path(setting.base))
-    return digest([case.model_dump(), of_twins, base, code_fingerprint()])
+    return digest([case.model_dump(), of_twins, files_digest(setting), code_fingerprint()])
 
 
 def run_case(setting: Setting, case: Case, places: Places, diagnose: Diagnose) -> dict[str, Any]:

@@ -1,5 +1,6 @@
 """The setting of the blind test: every key of its YAML file."""
 
+from hashlib import sha256
 from pathlib import Path
 from typing import Annotated, Any, Literal, Self
 
@@ -16,6 +17,8 @@ from pyrofit.model.signal import Noise
 Kind = Literal["effect", "null", "form", "pair"]
 Hidden = dict[str, dict[str, float]]
 """Values of the parameters of hidden effects in SI units, by effect and parameter."""
+Draft = dict[str, Any]
+"""Fields of a case, the number of its repetition instead of its seed."""
 Count = Annotated[int, Field(ge=0)]
 Size = Annotated[float, Field(gt=0.0)]
 
@@ -25,7 +28,7 @@ class HeldOut(Part):
 
     name: str = Field(description="its name")
     like: str = Field(description="experiment of the base that it copies")
-    changes: dict[str, Any] = Field(description="keys that differ")
+    changes: dict[str, Any] = Field(default_factory=dict, description="keys that differ")
 
 
 class Form(Part):
@@ -61,8 +64,14 @@ class Setting(Part):
     """The blind test."""
 
     base: str = Field(description="study of the model and its truth, relative to this file")
+    curves: str = Field(
+        "",
+        description="folder of curves of another code, relative to this file; they then replace "
+        "computed twins",
+    )
     vary: dict[str, Size] = Field(
-        description="half range of the truths around that of the base, in a parameter's unit"
+        default_factory=dict,
+        description="half range of the truths around that of the base, in a parameter's unit",
     )
     known: dict[str, Size] = Field(
         description="standard deviations of the kinetics of twins without TGA, in their units"
@@ -76,13 +85,16 @@ class Setting(Part):
     noise: dict[str, dict[str, dict[str, Any]]] = Field(
         min_length=1, description="correlation of the noise by quantity, by kind of noise"
     )
-    accuracy: Resolution = Field(description="numerical settings of the reference solver")
-    nominal: dict[str, float] = Field(
-        description="nominal strength of effects, SI units; without one, the typical strength"
+    accuracy: Resolution = Field(
+        default_factory=Resolution, description="numerical settings of the reference solver"
     )
-    forms: tuple[Form, ...] = Field(description="hidden effects of another form")
-    pairs: tuple[tuple[str, str], ...] = Field(description="pairs of hidden effects")
-    pair_signals: tuple[str, ...] = Field(description="sets of signals of twins with pairs")
+    nominal: dict[str, float] = Field(
+        default_factory=dict,
+        description="nominal strength of effects, SI units; without one, the typical strength",
+    )
+    forms: tuple[Form, ...] = Field((), description="hidden effects of another form")
+    pairs: tuple[tuple[str, str], ...] = Field((), description="pairs of hidden effects")
+    pair_signals: tuple[str, ...] = Field((), description="sets of signals of twins with pairs")
     seeds: dict[str, tuple[Count, Count]] = Field(description="first and last seed, by name")
     plans: dict[str, Plan] = Field(min_length=1, description="plans by name")
 
@@ -144,7 +156,7 @@ def _check_seeds(seeds: dict[str, tuple[int, int]]) -> None:
 
 
 def read_setting(path: Path) -> Setting:
-    """Read the blind test's YAML file; ``base`` is returned as seen from the working folder.
+    """Read the blind test's YAML file; its paths are returned as seen from the working folder.
 
     Raises
     ------
@@ -156,7 +168,9 @@ def read_setting(path: Path) -> Setting:
         setting = Setting.model_validate(given)
     except ValidationError as error:
         raise StudyError(f"{path}: " + "; ".join(in_plain_words(error, given))) from None
-    return setting.model_copy(update={"base": (path.parent / setting.base).as_posix()})
+    places = {key: getattr(setting, key) for key in ("base", "curves")}
+    found = {key: (path.parent / place).as_posix() for key, place in places.items() if place}
+    return setting.model_copy(update=found)
 
 
 def plan_digest(setting: Setting, name: str) -> str:
@@ -168,4 +182,17 @@ def plan_digest(setting: Setting, name: str) -> str:
         There is no such plan, or the base study is missing or no YAML.
     """
     twins = setting.model_dump(exclude={"plans"})
-    return digest([twins, read_mapping(Path(setting.base)), setting.plan(name).model_dump()])
+    return digest([twins, files_digest(setting), setting.plan(name).model_dump()])
+
+
+def files_digest(setting: Setting) -> str:
+    """Return a digest of the files that a setting refers to.
+
+    Raises
+    ------
+    StudyError
+        The base study is missing or no YAML.
+    """
+    curves = sorted(Path(setting.curves).glob("*.*")) if setting.curves else []
+    hashes = {path.name: sha256(path.read_bytes()).hexdigest() for path in curves}
+    return digest([read_mapping(Path(setting.base)), hashes])

@@ -10,11 +10,12 @@ from typing import Any
 import numpy as np
 import pandas as pd
 
+from pyrofit.blind_test import foreign
 from pyrofit.blind_test.places import Places
 from pyrofit.blind_test.plan import Case
 from pyrofit.blind_test.setting import Setting
 from pyrofit.config import Study, as_study, candidate_effects, read_mapping, read_study
-from pyrofit.errors import StudyError
+from pyrofit.errors import StudyError, suggest
 from pyrofit.estimate.targets import Measurements
 from pyrofit.quantities import known_quantities
 from pyrofit.results.files import write_csv, write_json, write_text
@@ -55,9 +56,11 @@ def make_twin(setting: Setting, case: Case) -> Twin:
     StudyError
         The truth breaks a rule, such as a limit.
     DataError
-        The reference solver does not finish.
+        The reference solver does not finish, or a curve of another code is missing.
     """
     study, truth = describe(setting, case)
+    if case.curves:
+        return Twin(case, study, truth, foreign.series(Path(setting.curves), case.curves, truth))
     return Twin(case, study, truth, computed(truth))
 
 
@@ -70,7 +73,7 @@ def describe(setting: Setting, case: Case) -> tuple[Given, Study]:
         The truth breaks a rule, such as a limit.
     """
     base = _with_signals(setting, case)
-    truth = _draw(setting, base, case)
+    truth = _stored(setting, case) if case.curves else _draw(setting, base, case)
     known = {} if _has_tga(base) else _known(setting, base, truth, case)
     for name, prior in known.items():
         base["parameters"][name]["value"] = prior["value"]
@@ -160,9 +163,11 @@ def _stages(setting: Setting, base: Given) -> Given:
         "costs": {"RMSE": costs},
         "identification": {name: list(base["experiments"][name]["signals"]) for name in fitted},
     }
-    kinetics = {key: base["kinetics"][key] for key in ("estimate", "cost")}
+    given = base["kinetics"]
+    kinetics = {key: given[key] for key in ("estimate", "cost")} if _has_tga(base) else None
+    unknown = given["estimate"] if given else list(setting.known)
     return {
-        "kinetics": kinetics if _has_tga(base) else None,
+        "kinetics": kinetics,
         "imp": imp,
         "validation": {"experiments": [*fitted, held_out]},
         "diagnosis": {
@@ -172,7 +177,7 @@ def _stages(setting: Setting, base: Given) -> Given:
                 if name != held_out
             },
             "hold_out": {held_out: list(base["experiments"][held_out]["signals"])},
-            "estimate": [*base["kinetics"]["estimate"], *base["imp"]["estimate"]],
+            "estimate": [*unknown, *base["imp"]["estimate"]],
         },
     }
 
@@ -193,6 +198,16 @@ def _draw(setting: Setting, base: Given, case: Case) -> dict[str, float]:
     rng = np.random.default_rng([case.seed, 0])
     truth: dict[str, float] = base["synthetic"]["truth"]
     return {n: at + float(rng.uniform(-1, 1)) * setting.vary.get(n, 0.0) for n, at in truth.items()}
+
+
+def _stored(setting: Setting, case: Case) -> dict[str, float]:
+    """Return the truth of curves of another code, in the parameters' units."""
+    values = foreign.read_manifest(Path(setting.curves)).truth(case.curves).values
+    parameters = read_study(Path(setting.base)).parameters
+    if unknown := [name for name in values if name not in parameters]:
+        known = suggest(unknown[0], parameters)
+        raise StudyError(f"{setting.curves}: unknown parameter '{unknown[0]}'. {known}")
+    return {name: value / parameters[name].factor for name, value in values.items()}
 
 
 def _known(setting: Setting, base: Given, truth: Mapping[str, float], case: Case) -> Given:

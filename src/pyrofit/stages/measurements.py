@@ -89,13 +89,14 @@ def computed(study: Study) -> dict[tuple[str, str], pd.DataFrame]:
         for signal, request in requests.items():
             rng = np.random.default_rng(seed_for(study.seed, SYNTHETIC, name, signal))
             quantity, noise = experiment.quantity(signal), experiment.signals[signal].noise
-            series[name, signal] = _noisy(quantity, request, curves.signals[signal], noise, rng)
+            series[name, signal] = with_noise(quantity, request, curves.signals[signal], noise, rng)
     return series
 
 
-def _noisy(
+def with_noise(
     quantity: Quantity, request: Request, clean: FloatArray, noise: Noise, rng: np.random.Generator
 ) -> pd.DataFrame:
+    """Return a tidy series: a curve with drawn noise, and the noise's size as uncertainty."""
     columns = {"time_s": request.time_s}
     if request.temperature_K is not None:
         columns["temperature_K"] = request.temperature_K

@@ -1,0 +1,86 @@
+"""Make the files of `pyrofit.blind_test.foreign` from curves of FDS in full."""
+
+from pathlib import Path
+
+import numpy as np
+import pandas as pd
+
+from pyrofit.blind_test.foreign import EXPERIMENT, MANIFEST, Manifest, Truth
+from pyrofit.errors import DataError
+from pyrofit.results.files import read_csv, read_json, write_csv, write_json
+from pyrofit.solver.arrays import FloatArray
+
+SPACING_S = 5.0
+"""Distance of the points kept [s]."""
+KEPT = {
+    "mlr_kg_m2s": ("mlr_kg_m2_s", 5.0, "%.5g"),
+    "T_back_K": ("back_temperature_K", 1.0, "%.2f"),
+}
+"""Column, width of the mean [s] and digits kept, by column of the originals."""
+_CASES = {("fds_version",): str, ("cases",): dict}
+
+
+def thin(source: Path, target: Path) -> list[Path]:
+    """Write manifest and thinned curves of all cases; return the files.
+
+    Raises
+    ------
+    DataError
+        A file of the originals is missing or broken, or a file cannot be written.
+    """
+    given = read_json(source / MANIFEST, _CASES)
+    written = []
+    truths = {}
+    for name, case in given["cases"].items():
+        parts = [_curves(source, name, flux) for flux in case["experiments"]]
+        path = target / f"{name}.csv"
+        write_csv(path, pd.concat(parts, ignore_index=True))
+        truths[name] = Truth(values=case["base_values_SI"], effects=case["effects"])
+        written.append(path)
+    manifest = Manifest(code=f"FDS {given['fds_version']}", cases=truths)
+    write_json(target / MANIFEST, manifest.model_dump(mode="json"))
+    return [*written, target / MANIFEST]
+
+
+def _curves(source: Path, case: str, flux: str) -> pd.DataFrame:
+    path = source / f"{case}_{flux}.csv"
+    frame = read_csv(path, {name: float for name in ("time_s", *KEPT)})
+    time = frame["time_s"].to_numpy(float)
+    last = np.floor(time[-1] / SPACING_S) * SPACING_S
+    if last < SPACING_S:
+        raise DataError(f"{path}: ends before {SPACING_S:g} s; give the whole curve")
+    middles = np.arange(0.5 * SPACING_S, last, SPACING_S)
+    columns: dict[str, object] = {EXPERIMENT: f"slab_{flux}", "time_s": middles}
+    for name, (column, width, digits) in KEPT.items():
+        means = bin_means(time, frame[name].to_numpy(float), middles, width)
+        columns[column] = [float(digits % mean) for mean in means]
+    return pd.DataFrame(columns)
+
+
+def bin_means(time: FloatArray, values: FloatArray, middles: FloatArray, width: float) -> FloatArray:
+    """Return means of a series of bin means over other bins.
+
+    m = (I(t + w/2) - I(t - w/2)) / w, I the integral of the series; a value holds between the
+    middles of its time and its neighbours' times.
+
+    Parameters
+    ----------
+    time, values
+        Middle [s] and mean of each given bin, shape (n,).
+    middles
+        Middle of each wanted bin [s], shape (m,).
+    width
+        Width w of the wanted bins [s].
+
+    Examples
+    --------
+    >>> time, values = np.array([0.5, 1.5, 2.5, 3.5]), np.array([1.0, 3.0, 5.0, 7.0])
+    >>> bin_means(time, values, np.array([1.0, 3.0]), 2.0).tolist()
+    [2.0, 6.0]
+    """
+    inner = 0.5 * (time[1:] + time[:-1])
+    edges = np.concatenate([[2.0 * time[0] - inner[0]], inner, [2.0 * time[-1] - inner[-1]]])
+    integral = np.concatenate([[0.0], np.cumsum(values * np.diff(edges))])
+    ends = (np.interp(middles + sign * 0.5 * width, edges, integral) for sign in (1.0, -1.0))
+    above, below = ends
+    return np.asarray((above - below) / width)
