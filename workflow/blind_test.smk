@@ -1,11 +1,16 @@
-"""The blind test of the diagnosis, apart from all studies: plan full, or `short` for a few twins."""
+"""The blind tests of the diagnosis, apart from all studies.
+
+Targets: full (the plan full of blind_test.yaml), short (a few of its twins), foreign (the plan full
+of foreign_truth.yaml), foreign_part (a part of it).
+"""
 
 from pathlib import Path
 
 from snakemake.utils import min_version
 
 from pyrofit.blind_test.figures import FIGURES
-from pyrofit.blind_test.places import FOLDER, Places
+from pyrofit.blind_test.page import TABLES
+from pyrofit.blind_test.places import RESULTS, Places, folder_of
 from pyrofit.blind_test.run import code_fingerprint
 from pyrofit.blind_test.setting import plan_digest, read_setting
 from pyrofit.errors import PyrofitError
@@ -14,53 +19,73 @@ from pyrofit.provenance import source_fingerprint
 min_version("9.27")
 
 
-SETTING = "config/blind_test.yaml"
+TESTS = {
+    name: Path("config") / f"{name}.yaml" for name in ("blind_test", "foreign_truth")
+}
 try:
-    setting = read_setting(Path(SETTING))
-    DIGESTS = {plan: plan_digest(setting, plan) for plan in setting.plans}
+    SETTINGS = {name: read_setting(path) for name, path in TESTS.items()}
+    DIGESTS = {
+        (name, plan): plan_digest(setting, plan)
+        for name, setting in SETTINGS.items()
+        for plan in setting.plans
+    }
 except PyrofitError as error:
     raise WorkflowError(str(error)) from None
 
 
 wildcard_constraints:
-    plan="|".join(setting.plans),
+    test="|".join(TESTS),
+    plan=r"\w+",
 
 
 # Short steps, which on a cluster run where Snakemake was started.
 localrules:
     full,
     short,
+    foreign,
+    foreign_part,
     page,
 
 
 rule full:
     default_target: True
     input:
-        FOLDER / "full/page.md",
+        folder_of(TESTS["blind_test"], "full") / "page.md",
 
 
 rule short:
     input:
-        FOLDER / "short/page.md",
+        folder_of(TESTS["blind_test"], "short") / "page.md",
+
+
+rule foreign:
+    input:
+        folder_of(TESTS["foreign_truth"], "full") / "page.md",
+
+
+rule foreign_part:
+    input:
+        folder_of(TESTS["foreign_truth"], "part") / "page.md",
 
 
 # Each diagnosed twin is a file of its own, which no rule removes: after a stop, a job goes on with
 # its next twin.
 rule chunk:
     output:
-        FOLDER / "{plan}/chunks/{chunk}.json",
+        RESULTS / "{test}/{plan}/chunks/{chunk}.json",
     log:
-        FOLDER / "{plan}/logs/{chunk}.log",
+        RESULTS / "{test}/{plan}/logs/{chunk}.log",
     benchmark:
-        FOLDER / "{plan}/benchmarks/{chunk}.tsv"
+        RESULTS / "{test}/{plan}/benchmarks/{chunk}.tsv"
     wildcard_constraints:
         chunk=r"\d+",
     params:
-        setting=SETTING,
-        digest=lambda wildcards: DIGESTS[wildcards.plan],
+        setting=lambda wildcards: TESTS[wildcards.test],
+        digest=lambda wildcards: DIGESTS[wildcards.test, wildcards.plan],
         source=code_fingerprint(),
     message:
-        "Blind test of the diagnosis, plan {wildcards.plan}, job {wildcards.chunk}"
+        "Blind test of the diagnosis, {wildcards.test}, plan {wildcards.plan},"
+        " job {wildcards.chunk}"
     shell:
         "pyrofit blind-test --setting {params.setting} --plan {wildcards.plan}"
         " --chunk {wildcards.chunk} --log {log}"
@@ -68,27 +93,24 @@ rule chunk:
 
 rule page:
     input:
-        lambda wildcards: Places(FOLDER / wildcards.plan).chunks(
-            setting.plan(wildcards.plan).chunks
-        ),
+        lambda wildcards: Places(
+            folder_of(TESTS[wildcards.test], wildcards.plan)
+        ).chunks(SETTINGS[wildcards.test].plan(wildcards.plan).chunks),
     output:
-        page=FOLDER / "{plan}/page.md",
-        tables=[
-            FOLDER / f"{{plan}}/tables/{name}.csv"
-            for name in ("twins", "rates", "by_detectability", "middles")
-        ],
+        page=RESULTS / "{test}/{plan}/page.md",
+        tables=[RESULTS / f"{{test}}/{{plan}}/tables/{name}.csv" for name in TABLES],
         figures=[
-            FOLDER / f"{{plan}}/figures/{name}.{kind}"
+            RESULTS / f"{{test}}/{{plan}}/figures/{name}.{kind}"
             for name in FIGURES
             for kind in ("svg", "png")
         ],
     log:
-        FOLDER / "{plan}/logs/page.log",
+        RESULTS / "{test}/{plan}/logs/page.log",
     params:
-        setting=SETTING,
-        digest=lambda wildcards: DIGESTS[wildcards.plan],
+        setting=lambda wildcards: TESTS[wildcards.test],
+        digest=lambda wildcards: DIGESTS[wildcards.test, wildcards.plan],
         source=source_fingerprint("pyrofit.blind_test.page"),
     message:
-        "Blind test of the diagnosis, plan {wildcards.plan}: tables, figures, page"
+        "Blind test of the diagnosis, {wildcards.test}, plan {wildcards.plan}: tables, figures, page"
     shell:
         "pyrofit blind-test --setting {params.setting} --plan {wildcards.plan} --log {log}"

@@ -16,7 +16,8 @@ from pyrofit.config.uses import parameters_of_heated
 from pyrofit.errors import StudyError
 
 CONFIG = Path(__file__).parents[2] / "config"
-SHIPPED = [p for p in sorted(CONFIG.glob("*.yaml")) if p.stem != "blind_test"]
+BLIND_TESTS = ("blind_test", "foreign_truth")
+SHIPPED = [p for p in sorted(CONFIG.glob("*.yaml")) if p.stem not in BLIND_TESTS]
 SMOKE = json.dumps(yaml.safe_load((CONFIG / "smoke.yaml").read_text(encoding="utf-8")))
 GONE = object()
 JARGON = re.compile(

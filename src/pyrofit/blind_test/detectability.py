@@ -1,6 +1,8 @@
 """The detectability of a twin's hidden effects, in standard deviations of its noise."""
 
-from collections.abc import Mapping
+from collections.abc import Iterable, Mapping
+from dataclasses import dataclass
+from typing import Any
 
 import numpy as np
 from scipy.optimize import least_squares
@@ -18,9 +20,35 @@ from pyrofit.solver.arrays import FloatArray
 
 INSIDE = 1e-6
 """Least distance of the start from a limit, as a fraction of the limits' distance."""
+ACTS = 0.5
+"""An effect acts where the best base model misses the truth by more [standard deviations]. A window
+of 50 points that are off by as much is just found."""
+Channel = tuple[str, str]
 
 
-def detectability(truth: Study, series: Measurements, known: Mapping[str, float]) -> float:
+@dataclass(frozen=True, eq=False)
+class Misfit:
+    """How far the best model of some kind stays from the truth.
+
+    Parameters
+    ----------
+    size
+        Root of the least sum of squared whitened differences [standard deviations].
+    start
+        The same with the true parameters.
+    points
+        Number of points.
+    differences
+        Times [s] and differences over the noise's standard deviation, by (experiment, signal).
+    """
+
+    size: float
+    start: float
+    points: int
+    differences: Mapping[Channel, tuple[FloatArray, FloatArray]]
+
+
+def detectability(truth: Study, series: Measurements, known: Mapping[str, float]) -> Misfit:
     """Return by how many standard deviations of the noise the best base model misses the truth.
 
     sqrt(min over x of |L^-1 (base(x) - y) / sd|^2 + |(x_k - truth) / sd_k|^2). y are the noise-free
@@ -42,10 +70,47 @@ def detectability(truth: Study, series: Measurements, known: Mapping[str, float]
     DataError
         A simulation of the truth does not finish.
     """
-    base = _noise_free(truth, series)
-    likelihood = Likelihood(base, _noise_models(truth, base))
-    start = likelihood.scaled(_true_values(truth, base))
-    rows = _known_rows(truth, base, known)
+    return _least(truth, _base(truth, _noise_free(truth, series)), known)
+
+
+def unexplained(truth: Study, curves: Measurements, known: Mapping[str, float]) -> Misfit:
+    """Return by how many standard deviations the true model misses noise-free curves.
+
+    As `detectability`, but the model has the effects of the truth, and y are the given curves. For
+    curves of another code it is the difference of the two codes that no parameter takes up.
+
+    Raises
+    ------
+    DataError
+        A simulation of the truth does not finish.
+    """
+    return _least(truth, _true(truth, curves), known)
+
+
+def located(windows: Iterable[Mapping[str, Any]], misfit: Misfit) -> dict[str, int]:
+    """Return how many points lie in windows of the base, how many are off, and how many are both.
+
+    A point is off where the base misses the truth by more than `ACTS`. With these counts the F1 of
+    the windows is 2 both / (in_windows + off).
+    """
+    counts = dict.fromkeys(("in_windows", "off", "both"), 0)
+    of_base = [window for window in windows if window["model"] == "base"]
+    for (experiment, signal), (time, difference) in misfit.differences.items():
+        inside = np.zeros(time.size, dtype=bool)
+        for window in of_base:
+            if (window["experiment"], window["signal"]) == (experiment, signal):
+                inside |= (time >= window["start_s"]) & (time <= window["end_s"])
+        off = np.abs(difference) > ACTS
+        for name, mask in (("in_windows", inside), ("off", off), ("both", inside & off)):
+            counts[name] += int(mask.sum())
+    return counts
+
+
+def _least(truth: Study, problem: Problem, known: Mapping[str, float]) -> Misfit:
+    """Return the least misfit of a problem with noise-free targets, searched from the truth."""
+    likelihood = Likelihood(problem, _noise_models(truth, problem))
+    start = likelihood.scaled(_true_values(truth, problem))
+    rows = _known_rows(truth, problem, known)
 
     def residuals(x: FloatArray) -> FloatArray:
         return np.concatenate([likelihood.residuals(x), rows @ (x - start)])
@@ -56,7 +121,24 @@ def detectability(truth: Study, series: Measurements, known: Mapping[str, float]
     x = np.clip(start, INSIDE, 1.0 - INSIDE)
     options = {"x_scale": "jac", "ftol": 1e-4, "max_nfev": 40}
     found = least_squares(residuals, x, jacobian, bounds=(0.0, 1.0), **options)
-    return float(np.sqrt(2.0 * found.cost))
+    first = float(np.linalg.norm(residuals(x)))
+    size, points = float(np.sqrt(2.0 * found.cost)), sum(likelihood.points)
+    return Misfit(size, first, points, _differences(likelihood, found.x))
+
+
+def _differences(
+    likelihood: Likelihood, x: FloatArray
+) -> dict[Channel, tuple[FloatArray, FloatArray]]:
+    problem = likelihood.problem
+    curves = likelihood.curves(x)
+    assert curves is not None
+    targets = [term.target for _, term in problem.cost.terms]
+    return {
+        (name, signal): (target.time_s, (curve - target.value) / noise.sd)
+        for (name, signal, _), target, curve, noise in zip(
+            problem.picks, targets, likelihood.split(curves), likelihood.noise, strict=True
+        )
+    }
 
 
 def _known_rows(truth: Study, base: Problem, known: Mapping[str, float]) -> FloatArray:
@@ -67,23 +149,31 @@ def _known_rows(truth: Study, base: Problem, known: Mapping[str, float]) -> Floa
     return np.asarray(np.eye(len(base.names))[index] / sds[:, None])
 
 
-def _noise_free(truth: Study, series: Measurements) -> Problem:
-    """Return the problem of the base model with noise-free curves of the truth as its targets."""
+def _true(truth: Study, series: Measurements) -> Problem:
+    """Return the problem of the model with the effects of the truth."""
     material, experiments = true_description(truth)
     described = truth.model_copy(update={"experiments": experiments})
     names, channels = diagnosed_parameters(truth), calibration_channels(truth)
-    fixed = truth.fixed_values()
-    true = make_problem(described, names, channels, series, material, fixed)
+    return make_problem(described, names, channels, series, material, truth.fixed_values())
+
+
+def _base(truth: Study, series: Measurements) -> Problem:
+    names, channels = diagnosed_parameters(truth), calibration_channels(truth)
+    return make_problem(truth, names, channels, series, truth.material, truth.fixed_values())
+
+
+def _noise_free(truth: Study, series: Measurements) -> Measurements:
+    """Return the calibrated series with noise-free curves of the truth instead of their values."""
+    true = _true(truth, series)
     status, curves = true.simulate(_true_values(truth, true))
     if not status.finished:
         raise DataError(f"the truth cannot be simulated: {status.explanation}; change its effects")
-    clean = {
+    return {
         (c.experiment, c.signal): series[c.experiment, c.signal].assign(
             **{truth.experiments[c.experiment].quantity(c.signal).column: curve}
         )
-        for c, curve in zip(channels, curves, strict=True)
+        for c, curve in zip(calibration_channels(truth), curves, strict=True)
     }
-    return make_problem(truth, names, channels, clean, truth.material, fixed)
 
 
 def _true_values(truth: Study, problem: Problem) -> FloatArray:

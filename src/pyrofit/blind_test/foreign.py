@@ -123,6 +123,21 @@ def drafts(setting: Setting, plan: Plan) -> Iterator[Draft]:
                 }
 
 
+def clean(folder: Path, case: str, truth: Study) -> dict[tuple[str, str], pd.DataFrame]:
+    """Return the noise-free curves of a case, by (experiment, signal) of a study.
+
+    Raises
+    ------
+    DataError
+        A curve is missing or broken.
+    """
+    return {
+        (name, signal): read_curve(folder, case, name, experiment.quantity(signal).column)
+        for name, experiment in truth.experiments.items()
+        for signal in experiment.signals
+    }
+
+
 def series(folder: Path, case: str, truth: Study) -> dict[tuple[str, str], pd.DataFrame]:
     """Return the measurements of a case: its curves, with the noise that a study describes.
 
@@ -134,12 +149,11 @@ def series(folder: Path, case: str, truth: Study) -> dict[tuple[str, str], pd.Da
         A curve is missing or broken.
     """
     measured = {}
-    for name, experiment in truth.experiments.items():
-        for signal, described in experiment.signals.items():
-            quantity = experiment.quantity(signal)
-            clean = read_curve(folder, case, name, quantity.column)
-            rng = np.random.default_rng(seed_for(truth.seed, SYNTHETIC, name, signal))
-            request = Request(clean["time_s"].to_numpy(float), described.average_s)
-            curve = clean[quantity.column].to_numpy(float)
-            measured[name, signal] = with_noise(quantity, request, curve, described.noise, rng)
+    for (name, signal), curve in clean(folder, case, truth).items():
+        experiment = truth.experiments[name]
+        quantity, described = experiment.quantity(signal), experiment.signals[signal]
+        rng = np.random.default_rng(seed_for(truth.seed, SYNTHETIC, name, signal))
+        request = Request(curve["time_s"].to_numpy(float), described.average_s)
+        values = curve[quantity.column].to_numpy(float)
+        measured[name, signal] = with_noise(quantity, request, values, described.noise, rng)
     return measured

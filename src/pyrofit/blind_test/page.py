@@ -1,15 +1,47 @@
 """The page of the blind test, with its tables and figures."""
 
+from pathlib import Path
+
 import pandas as pd
 
+from pyrofit.blind_test import foreign
 from pyrofit.blind_test.figures import FIGURES, draw_all
 from pyrofit.blind_test.places import Places
-from pyrofit.blind_test.rates import DETECTABLE, by_detectability, middles, rates
+from pyrofit.blind_test.power import power
+from pyrofit.blind_test.rates import (
+    DETECTABLE,
+    bias,
+    by_detectability,
+    coverage,
+    middles,
+    rates,
+    windows,
+)
+from pyrofit.blind_test.recovery import parameters, strengths
 from pyrofit.blind_test.setting import Setting
 from pyrofit.blind_test.table import diagnosed, twins
 from pyrofit.results.files import write_csv, write_text
 from pyrofit.show.text import markdown
 
+TABLES = (
+    *("twins", "rates", "by_detectability", "power", "middles", "strengths", "coverage"),
+    *("parameters", "bias", "windows"),
+)
+_POWER = (
+    "Detectability from which half and nine tenths of the effects are rightly named, with 95 % "
+    "intervals. A smooth rise from 0 to 1 is fitted; limits of 0.5 and 500 come from its prior."
+)
+_COVERAGE = "Strengths of named effects that are hidden. Right intervals hold 95 % of them."
+_BIAS = (
+    "Errors (fitted - truth) / truth of right claims, without and with the claimed effects, and "
+    "how often the 95 % interval holds the truth. The truth of a conductivity or specific heat "
+    "that depends on temperature is its value at 475 K."
+)
+_WINDOWS = (
+    "Points in windows of the base, against points where the base misses the noise-free truth by "
+    "more than half a standard deviation of the noise. Means over effects of 10 standard "
+    "deviations or more. A window is the interval that stands out most, not all that is off."
+)
 _WRONG = ["id", "hidden", "named", "verdict", "strength", "signals", "noise", "detectability"]
 
 
@@ -23,12 +55,20 @@ def write_results(setting: Setting, plan: str, places: Places) -> None:
     DataError
         A job has not been run, or a result is broken.
     """
-    found = twins(places, diagnosed(places, setting.plan(plan).chunks))
+    cases = diagnosed(places, setting.plan(plan).chunks)
+    found, of_strengths = twins(places, cases), strengths(places, cases)
+    of_parameters = parameters(places, cases)
     tables = {
         "twins": found,
         "rates": rates(found),
         "by_detectability": by_detectability(found),
+        "power": power(found),
         "middles": middles(found),
+        "strengths": of_strengths,
+        "coverage": coverage(of_strengths),
+        "parameters": of_parameters,
+        "bias": bias(of_parameters),
+        "windows": windows(found),
     }
     for name, frame in tables.items():
         write_csv(places.table(name), frame)
@@ -46,10 +86,14 @@ def page(setting: Setting, plan: str, tables: dict[str, pd.DataFrame]) -> str:
         for what in ("signals", "noise")
     }
     sections = [
-        f"# Blind test of the diagnosis, plan {plan}\n\n{_summary(found, seeds)}",
+        f"# {_title(setting, plan)}\n\n{_summary(found, seeds)}",
         _section("Rates", overall, "With 95 % intervals of Clopper and Pearson."),
         *(_section(title, frame) for title, frame in by.items()),
         _section("By detectability", tables["by_detectability"]),
+        _section("Power", tables["power"], _POWER),
+        _section("Strengths: 95 % intervals that hold the truth", tables["coverage"], _COVERAGE),
+        _section("Base parameters before and after the repair", tables["bias"], _BIAS),
+        _section("Windows of the base", tables["windows"], _WINDOWS),
         _section("Sets and gaps of claimed effects", tables["middles"]),
         _section("Wrong claims", _wrong(found), "Of twins with one hidden effect or none."),
         _section("Pairs", found[found["kind"] == "pair"][_WRONG].sort_values("hidden")),
@@ -61,6 +105,13 @@ def page(setting: Setting, plan: str, tables: dict[str, pd.DataFrame]) -> str:
         ),
     ]
     return "\n".join(sections)
+
+
+def _title(setting: Setting, plan: str) -> str:
+    if not setting.curves:
+        return f"Blind test of the diagnosis, plan {plan}"
+    code = foreign.read_manifest(Path(setting.curves)).code
+    return f"Blind test of the diagnosis on curves of {code}, plan {plan}"
 
 
 def _summary(found: pd.DataFrame, seeds: str) -> str:

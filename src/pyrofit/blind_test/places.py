@@ -3,7 +3,16 @@
 from dataclasses import dataclass
 from pathlib import Path
 
-FOLDER = Path("results") / "blind_test"
+RESULTS = Path("results")
+
+
+def folder_of(setting: Path, plan: str) -> Path:
+    """Return the folder of a plan's results, below one with the name of the setting's file.
+
+    >>> folder_of(Path("config/blind_test.yaml"), "full").as_posix()
+    'results/blind_test/full'
+    """
+    return RESULTS / setting.stem / plan
 
 
 @dataclass(frozen=True)

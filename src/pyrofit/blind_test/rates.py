@@ -56,6 +56,10 @@ def _weak(t: pd.DataFrame) -> "pd.Series[bool]":
     return (t["kind"] == "effect") & (t["strength"] < 1.0) & back
 
 
+def _everything(t: pd.DataFrame) -> "pd.Series[bool]":
+    return t["kind"].notna()
+
+
 def _claimed(among: Mask) -> Mask:
     return lambda t: among(t) & t["claim"]
 
@@ -66,6 +70,10 @@ def _verdict(among: Mask, kind: str) -> Mask:
 
 def _candidate(among: Mask) -> Mask:
     return lambda t: among(t) & t["is_candidate"]
+
+
+def _confirmed(t: pd.DataFrame) -> "pd.Series[bool]":
+    return t["confirmed"].astype(bool)
 
 
 def _predicted(t: pd.DataFrame) -> "pd.Series[bool]":
@@ -92,6 +100,8 @@ RATES = (
     ),
     Rate("effect, claimed: hidden effect in set", _claimed(_of("effect")), "in_set"),
     Rate("effect, claimed: held-out prediction better", _predicted, "held_out_better"),
+    Rate("any claim: a wrong name (false discovery)", _claimed(_everything), "wrong"),
+    Rate("confirmed claim: a wrong name (false discovery)", _confirmed, "wrong"),
     Rate("no hidden effect: claimed", _of("null"), "claim"),
     Rate("no hidden effect: verdict unknown", _of("null"), "unknown"),
     Rate(
@@ -169,5 +179,52 @@ def middles(twins: pd.DataFrame) -> pd.DataFrame:
         row: dict[str, object] = {"of": of or "all", "twins": len(part)}
         row["set_size_mean"] = part["set_size"].mean()
         row |= {f"{name}_median": part[name].median() for name in (*gaps, "held_out_gain")}
+        rows.append(row)
+    return pd.DataFrame(rows)
+
+
+def windows(twins: pd.DataFrame) -> pd.DataFrame:
+    """Return means of precision, recall and F1 of the windows, over effects of 10 sd or more."""
+    seen = twins[_plain(twins)]
+    names = ("window_precision", "window_recall", "window_f1")
+    return pd.DataFrame(
+        [
+            {"of": of or "all", "twins": len(part), **{name: part[name].mean() for name in names}}
+            for _, of, part in _parts(seen)
+        ]
+    )
+
+
+def coverage(strengths: pd.DataFrame) -> pd.DataFrame:
+    """Return how often the 95 % intervals of the strengths hold the truth.
+
+    ``fitted form`` is the interval in the form that was fitted, ``uncertain form`` the wider one
+    where the verdict states it.
+    """
+    rows = []
+    for what, hit in (("fitted form", "covered"), ("uncertain form", "covered_form")):
+        for by in ("all", "signals", "noise", "effect"):
+            for of, part in [("", strengths)] if by == "all" else strengths.groupby(by):
+                if len(part):
+                    rows.append({"interval": what, "by": by, "of": str(of), **_rate(part, hit)})
+    return pd.DataFrame(rows)
+
+
+def bias(parameters: pd.DataFrame) -> pd.DataFrame:
+    """Return errors of the base parameters without and with the effects of right claims.
+
+    Mean and root mean square of (fitted - truth) / truth in per cent, and how often the 95 %
+    interval holds the truth.
+    """
+    repaired = parameters[parameters["right"].astype(bool) & parameters["after"].notna()]
+    rows = []
+    for name, part in repaired.groupby("parameter", sort=False):
+        row: dict[str, object] = {"parameter": name, "twins": len(part)}
+        for when in ("before", "after"):
+            off = 100.0 * part[f"{when}_off"].to_numpy(float)
+            covered = _rate(part, f"{when}_covered")
+            row |= {f"{when}_mean_%": off.mean(), f"{when}_rms_%": np.sqrt(np.mean(off**2))}
+            row |= {f"{when}_covered": covered["rate"]}
+            row |= {f"{when}_covered_{end}": covered[end] for end in ("low", "high")}
         rows.append(row)
     return pd.DataFrame(rows)

@@ -5,7 +5,7 @@ from collections.abc import Callable, Iterator, Mapping
 from contextlib import contextmanager
 from typing import Any
 
-from pyrofit.blind_test.detectability import detectability
+from pyrofit.blind_test.detectability import detectability, located
 from pyrofit.blind_test.places import Places
 from pyrofit.blind_test.plan import Case, cases_of, chunk_of
 from pyrofit.blind_test.setting import Setting, files_digest
@@ -21,7 +21,7 @@ from pyrofit.results.files import read_json, write_json
 Found = Mapping[str, Any]
 Diagnose = Callable[[Study, Measurements], Found]
 """The diagnosis under test: study and measurements in, verdict and its evidence out."""
-KEPT = ("verdict", "base", "screen", "candidates", "gap")
+KEPT = ("verdict", "base", "screen", "candidates", "extended", "gap")
 """Parts of a diagnosis that are kept."""
 
 
@@ -75,10 +75,13 @@ def run_case(setting: Setting, case: Case, places: Places, diagnose: Diagnose) -
     study, measurements = read_twin(places, case.id)
     known = {name: prior.sd for name, prior in study.known.items()}
     with _timed(seconds, "detectability"):
-        stands_out = detectability(twin.truth, twin.series, known)
+        misfit = detectability(twin.truth, twin.series, known)
     with _timed(seconds, "diagnosis"):
         found = diagnose(study, measurements)
-    result = {"case": case.model_dump(mode="json"), "detectability": stands_out}
+    assert twin.truth.synthetic is not None
+    result: dict[str, Any] = {"case": case.model_dump(mode="json")}
+    result |= {"truth": twin.truth.synthetic.truth}
+    result |= {"detectability": misfit.size, "location": located(found["windows"], misfit)}
     result |= {key: found[key] for key in KEPT} | {"score_only": largest_score(found)}
     result["left_out"] = None
     if case.left_out:

@@ -17,6 +17,8 @@ _NEEDS: dict[Keys, type] = {
     ("id",): str,
     ("case",): dict,
     ("detectability",): float,
+    ("location",): dict,
+    ("seconds", "diagnosis"): float,
     ("score_only",): str,
     ("verdict", "kind"): str,
     ("verdict", "confirmed"): bool,
@@ -61,7 +63,7 @@ def row_of(found: Mapping[str, Any]) -> dict[str, Any]:
     case, verdict = found["case"], found["verdict"]
     hidden = set(case["hidden"])
     named = leading(verdict)
-    claim = bool(named)
+    claim, right = bool(named), right_claim(found)
     listed = _one_name({*verdict["effects"], *(n for names in verdict["sets"] for n in names)})
     score_only = {found["score_only"]} - {""}
     return {
@@ -76,7 +78,9 @@ def row_of(found: Mapping[str, Any]) -> dict[str, Any]:
         "named_group": " + ".join(sorted(_groups(named))),
         "claim": claim,
         "unknown": verdict["kind"] == "unknown",
-        "right": claim and _one_name(named) <= _one_name(hidden),
+        "confirmed": claim and bool(verdict["confirmed"]),
+        "right": right,
+        "wrong": claim and not right,
         "group_right": claim and _groups(named) <= _groups(hidden),
         "all_lead": claim and _one_name(named) == _one_name(hidden),
         "in_set": claim and bool(hidden) and _one_name(hidden) <= listed,
@@ -86,7 +90,15 @@ def row_of(found: Mapping[str, Any]) -> dict[str, Any]:
         **_gaps(found["gap"]),
         **_held_out_gain(found["candidates"]),
         **_left_out(hidden, found.get("left_out")),
+        **_location(found["location"]),
+        "seconds": found["seconds"]["diagnosis"],
     }
+
+
+def right_claim(found: Mapping[str, Any]) -> bool:
+    """Tell whether a verdict names effects, and every one of them is hidden."""
+    named = leading(found["verdict"])
+    return bool(named) and _one_name(named) <= _one_name(found["case"]["hidden"])
 
 
 def leading(verdict: Verdict) -> list[str]:
@@ -135,6 +147,16 @@ def _held_out_gain(candidates: list[Mapping[str, Any]]) -> dict[str, Any]:
     gains = (c["predictions"].get("held out") for c in candidates if not c["rejected"])
     gain = next((gain for gain in gains if gain is not None), np.nan)
     return {"held_out_gain": gain, "held_out_better": bool(gain > 0.0)}
+
+
+def _location(counts: Mapping[str, int]) -> dict[str, float]:
+    """Return precision, recall and F1 of the windows, none where the base misses nothing."""
+    found, off, both = (counts[name] for name in ("in_windows", "off", "both"))
+    return {
+        "window_precision": both / found if off and found else np.nan,
+        "window_recall": both / off if off else np.nan,
+        "window_f1": 2 * both / (found + off) if off else np.nan,
+    }
 
 
 def _left_out(hidden: set[str], verdict: Verdict | None) -> dict[str, Any]:

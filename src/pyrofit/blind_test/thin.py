@@ -7,7 +7,7 @@ import pandas as pd
 
 from pyrofit.blind_test.foreign import EXPERIMENT, MANIFEST, Manifest, Truth
 from pyrofit.errors import DataError
-from pyrofit.results.files import read_csv, read_json, write_csv, write_json
+from pyrofit.results.files import Keys, read_csv, read_json, write_csv, write_json
 from pyrofit.solver.arrays import FloatArray
 
 SPACING_S = 5.0
@@ -17,7 +17,7 @@ KEPT = {
     "T_back_K": ("back_temperature_K", 1.0, "%.2f"),
 }
 """Column, width of the mean [s] and digits kept, by column of the originals."""
-_CASES = {("fds_version",): str, ("cases",): dict}
+_NEEDS: dict[Keys, type] = {("fds_version",): str, ("cases",): dict}
 
 
 def thin(source: Path, target: Path) -> list[Path]:
@@ -28,7 +28,7 @@ def thin(source: Path, target: Path) -> list[Path]:
     DataError
         A file of the originals is missing or broken, or a file cannot be written.
     """
-    given = read_json(source / MANIFEST, _CASES)
+    given = read_json(source / MANIFEST, _NEEDS)
     written = []
     truths = {}
     for name, case in given["cases"].items():
@@ -44,7 +44,7 @@ def thin(source: Path, target: Path) -> list[Path]:
 
 def _curves(source: Path, case: str, flux: str) -> pd.DataFrame:
     path = source / f"{case}_{flux}.csv"
-    frame = read_csv(path, {name: float for name in ("time_s", *KEPT)})
+    frame = read_csv(path, dict.fromkeys(("time_s", *KEPT), float))
     time = frame["time_s"].to_numpy(float)
     last = np.floor(time[-1] / SPACING_S) * SPACING_S
     if last < SPACING_S:
@@ -57,7 +57,9 @@ def _curves(source: Path, case: str, flux: str) -> pd.DataFrame:
     return pd.DataFrame(columns)
 
 
-def bin_means(time: FloatArray, values: FloatArray, middles: FloatArray, width: float) -> FloatArray:
+def bin_means(
+    time: FloatArray, values: FloatArray, middles: FloatArray, width: float
+) -> FloatArray:
     """Return means of a series of bin means over other bins.
 
     m = (I(t + w/2) - I(t - w/2)) / w, I the integral of the series; a value holds between the

@@ -21,6 +21,20 @@ def add(commands: Any) -> None:
     blind.add_argument("--chunk", type=int, help="job to run; without: gather all jobs")
     blind.add_argument("--log", type=Path, help="file that keeps what is printed")
     blind.set_defaults(step=_blind_test)
+    _add_foreign(commands)
+
+
+def _add_foreign(commands: Any) -> None:
+    """Add the commands of the blind test on curves of another code."""
+    words = "make the files of the foreign blind test from curves of FDS"
+    thin = commands.add_parser("foreign-curves", help=words)
+    thin.add_argument("source", type=Path, help="folder of the curves in full and their manifest")
+    thin.add_argument("target", type=Path, help="folder of the files that are made")
+    thin.set_defaults(step=_thin)
+    words = "tell how far the curves are from those of pyrofit with the same effects"
+    agree = commands.add_parser("foreign-agreement", help=words)
+    agree.add_argument("--setting", type=Path, default=Path("config/foreign_truth.yaml"))
+    agree.set_defaults(step=_agreement)
 
 
 def _cores(text: str) -> int:
@@ -50,11 +64,27 @@ def _diagnosis_page(given: argparse.Namespace) -> None:
     write_page(study, results)
 
 
+def _thin(given: argparse.Namespace) -> None:
+    from pyrofit.blind_test.thin import thin
+
+    for path in thin(given.source, given.target):
+        print(path)
+
+
+def _agreement(given: argparse.Namespace) -> None:
+    from pyrofit.blind_test.agreement import agreement
+    from pyrofit.blind_test.setting import read_setting
+    from pyrofit.show.text import markdown
+
+    print(markdown(agreement(read_setting(given.setting))), end="")
+
+
 def _blind_test(given: argparse.Namespace) -> None:
-    from pyrofit.blind_test.places import FOLDER, Places
+    from pyrofit.blind_test.places import Places, folder_of
     from pyrofit.blind_test.setting import read_setting
 
-    setting, places = read_setting(given.setting), Places(FOLDER / given.plan)
+    setting = read_setting(given.setting)
+    places = Places(folder_of(given.setting, given.plan))
     if given.chunk is None:
         from pyrofit.blind_test.page import write_results
 

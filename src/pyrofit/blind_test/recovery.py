@@ -1,0 +1,140 @@
+"""How near the diagnosis of each twin comes to its truth: strengths, base parameters, windows."""
+
+from collections.abc import Iterable, Iterator, Mapping
+from typing import Any
+
+import numpy as np
+import pandas as pd
+
+from pyrofit.blind_test.places import Places
+from pyrofit.blind_test.table import leading, right_claim
+from pyrofit.effects import known_effects
+from pyrofit.results.files import Keys, read_json
+
+Found = Mapping[str, Any]
+STRENGTHS = (
+    *("id", "kind", "signals", "noise", "effect", "parameter", "right", "truth", "value"),
+    *("low", "high", "covered", "low_form", "high_form", "covered_form"),
+)
+PARAMETERS = (
+    *("id", "kind", "signals", "right", "parameter", "unit", "truth"),
+    *("before", "before_off", "before_covered", "after", "after_off", "after_covered"),
+)
+_NEEDS: dict[Keys, type] = {
+    ("case",): dict,
+    ("truth",): dict,
+    ("base", "parameters"): dict,
+    ("extended", "parameters"): dict,
+    ("candidates",): list,
+    ("verdict", "kind"): str,
+    ("verdict", "effects"): list,
+}
+
+
+def strengths(places: Places, cases: Iterable[str]) -> pd.DataFrame:
+    """Return one row for each hidden effect that is named, see `strength_rows`.
+
+    Raises
+    ------
+    DataError
+        A result is missing or broken.
+    """
+    return _table(
+        STRENGTHS, (row for found in _read(places, cases) for row in strength_rows(found))
+    )
+
+
+def parameters(places: Places, cases: Iterable[str]) -> pd.DataFrame:
+    """Return one row for each parameter of each twin with hidden effects, see `parameter_rows`.
+
+    Raises
+    ------
+    DataError
+        A result is missing or broken.
+    """
+    found = _read(places, cases)
+    return _table(PARAMETERS, (row for one in found for row in parameter_rows(one)))
+
+
+def _read(places: Places, cases: Iterable[str]) -> Iterator[Found]:
+    return (read_json(places.case(case), _NEEDS) for case in sorted(cases))
+
+
+def _table(columns: tuple[str, ...], rows: Iterator[dict[str, Any]]) -> pd.DataFrame:
+    return pd.DataFrame(list(rows), columns=list(columns))
+
+
+def strength_rows(found: Found) -> Iterator[dict[str, Any]]:
+    """Compare the strengths of named effects with the truth, SI units.
+
+    ``low`` to ``high`` is the 95 % interval of the strength in the form that was fitted,
+    ``low_form`` to ``high_form`` that with an uncertain form, where there is one. An effect of the
+    same signature under another name has no true strength.
+    """
+    case = found["case"]
+    for effect in leading(found["verdict"]):
+        if effect not in case["hidden"]:
+            continue
+        (parameter,) = known_effects()[effect].strength
+        truth = float(case["hidden"][effect][parameter])
+        given = _fitted(found).get(f"{effect}_{parameter}")
+        if given is None:
+            continue
+        with_form = given.get("low_form") is not None
+        low, high = (given[key + ("_form" if with_form else "")] for key in ("low", "high"))
+        yield {
+            "id": found["id"],
+            **{key: case[key] for key in ("kind", "signals", "noise")},
+            "effect": effect,
+            "parameter": parameter,
+            "right": right_claim(found),
+            "truth": truth,
+            **{key: given[key] for key in ("value", "low", "high")},
+            "covered": given["low"] <= truth <= given["high"],
+            "low_form": low if with_form else np.nan,
+            "high_form": high if with_form else np.nan,
+            "covered_form": low <= truth <= high,
+        }
+
+
+def _fitted(found: Found) -> Mapping[str, Any]:
+    """Return the parameters of the effects of the model that a verdict claims."""
+    named = set(found["verdict"]["effects"])
+    same = [c for c in found["candidates"] if set(c["effects"]) == named]
+    kept = [c for c in same if not c["rejected"]]
+    chosen: list[Mapping[str, Any]] = [*kept, *same, {"parameters": {}}]
+    parameters: Mapping[str, Any] = chosen[0]["parameters"]
+    return parameters
+
+
+def parameter_rows(found: Found) -> Iterator[dict[str, Any]]:
+    """Compare base parameters without and with the effects that were found with the truth.
+
+    The error ``off`` is (fitted - truth) / truth. Nothing is compared where nothing is hidden.
+    """
+    case = found["case"]
+    if not case["hidden"]:
+        return
+    for name, before in found["base"]["parameters"].items():
+        truth = float(found["truth"][name])
+        after = found["extended"]["parameters"].get(name)
+        yield {
+            "id": found["id"],
+            **{key: case[key] for key in ("kind", "signals")},
+            "right": right_claim(found),
+            "parameter": name,
+            "unit": before["unit"],
+            "truth": truth,
+            **_compared("before", before, truth),
+            **_compared("after", after, truth),
+        }
+
+
+def _compared(when: str, given: Mapping[str, Any] | None, truth: float) -> dict[str, Any]:
+    if given is None:
+        return {when: np.nan, f"{when}_off": np.nan, f"{when}_covered": False}
+    return {
+        when: given["value"],
+        f"{when}_off": given["value"] / truth - 1.0,
+        f"{when}_covered": given["low"] <= truth <= given["high"],
+    }
