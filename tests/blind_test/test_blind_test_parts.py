@@ -10,7 +10,7 @@ import pandas as pd
 import pytest
 
 from pyrofit.blind_test.detectability import detectability
-from pyrofit.blind_test.page import write_results
+from pyrofit.blind_test.page import TABLES, write_results
 from pyrofit.blind_test.places import Places
 from pyrofit.blind_test.plan import Case, cases_of, chunk_of
 from pyrofit.blind_test.rates import by_detectability, interval, rates
@@ -275,7 +275,7 @@ class Fake:
 
     def __call__(self, study: Study, measurements: Measurements) -> Mapping[str, Any]:
         self.candidates.append(candidate_effects(study))
-        return verdict("named", ["k_T"]) | {"base": {}, "next_experiment": []}
+        return verdict("named", ["k_T"]) | {"next_experiment": []}
 
 
 def verdict(kind: str, effects: list[str], sets: list[list[str]] | None = None) -> dict[str, Any]:
@@ -289,9 +289,17 @@ def verdict(kind: str, effects: list[str], sets: list[list[str]] | None = None) 
             "confirmed": kind in ("named", "multiple"),
         },
         "candidates": [
-            {"rejected": "gains too little", "predictions": {}},
-            {"rejected": "", "predictions": {"capa_25": 1.0, "held out": 3.0}},
+            {"effects": [], "rejected": "gains too little", "predictions": {}, "parameters": {}},
+            {
+                "effects": effects,
+                "rejected": "",
+                "predictions": {"capa_25": 1.0, "held out": 3.0},
+                "parameters": {},
+            },
         ],
+        "base": {"parameters": {}},
+        "extended": {"parameters": {}},
+        "windows": [],
         "screen": [{"effect": "c_T", "z": -9.0}, {"effect": "k_T", "z": 3.0}],
         "gap": [
             {**gap, **before_after, "role": "calibration"},
@@ -335,6 +343,8 @@ def test_interrupted_job_goes_on_and_the_page_shows_all(
     write_results(little, "tiny", places)
     page = places.page.read_text()
     assert "| no hidden effect: claimed | 1 | 1 | 1 |" in page
+    for name in TABLES:
+        assert (tmp_path / "tables" / f"{name}.csv").is_file()
     for name in ("confusion", "accuracy", "false_alarms", "gaps"):
         assert f"figures/{name}.svg" in page
         assert (tmp_path / "figures" / f"{name}.svg").is_file()
@@ -375,7 +385,7 @@ def test_detectability_is_nil_without_effect_and_grows_with_its_strength(
     def of(hidden: dict[str, dict[str, float]]) -> float:
         case = Case(**{**FORM, "hidden": hidden, "signals": "mlr+back"})
         twin = make_twin(setting, case)
-        return detectability(twin.truth, twin.series, setting.known)
+        return detectability(twin.truth, twin.series, setting.known).size
 
     assert of({}) < 1e-6
     weak, strong = (of({"edge_loss": {"h_W_m2K": h}}) for h in (1.0, 2.0))
@@ -400,6 +410,7 @@ def judged(hidden: list[str], found: dict[str, Any], **more: Any) -> dict[str, A
         "seed": 1,
     }
     result = {"id": "twin", "case": case, "detectability": 20.0, "score_only": "c_T", **found}
+    result |= {"location": {"in_windows": 30, "off": 50, "both": 20}, "seconds": {"diagnosis": 9.0}}
     case |= {key: more.pop(key) for key in list(more) if key in case}
     return row_of({**result, **more})
 
@@ -492,6 +503,8 @@ def test_rates_are_counted() -> None:
     assert found["effect of 10 sd or more, claimed: largest score right", ""] == (1, 4)
     assert found["effect of part strength, back temperature: name right", ""] == (1, 1)
     assert found["no hidden effect: claimed", ""] == (1, 2)
+    assert found["any claim: a wrong name (false discovery)", ""] == (3, 8)
+    assert found["confirmed claim: a wrong name (false discovery)", "measured"] == (0, 1)
     assert found["pair: both in the sets", ""] == (1, 1)
     assert found["effect, claimed: hidden effect in set", ""] == (4, 6)
     classes = by_detectability(twins).query("share == 'claimed'")

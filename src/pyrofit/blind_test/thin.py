@@ -46,9 +46,10 @@ def _curves(source: Path, case: str, flux: str) -> pd.DataFrame:
     path = source / f"{case}_{flux}.csv"
     frame = read_csv(path, dict.fromkeys(("time_s", *KEPT), float))
     time = frame["time_s"].to_numpy(float)
-    last = np.floor(time[-1] / SPACING_S) * SPACING_S
-    if last < SPACING_S:
+    if time.size < 2 or time[-1] < SPACING_S:
         raise DataError(f"{path}: ends before {SPACING_S:g} s; give the whole curve")
+    end = 1.5 * time[-1] - 0.5 * time[-2]
+    last = np.floor(end / SPACING_S) * SPACING_S
     middles = np.arange(0.5 * SPACING_S, last, SPACING_S)
     columns: dict[str, object] = {EXPERIMENT: f"slab_{flux}", "time_s": middles}
     for name, (column, width, digits) in KEPT.items():

@@ -1,0 +1,202 @@
+"""The blind test on curves of another code: their files, their noise, one case from end to end."""
+
+import json
+import shutil
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+import pandas as pd
+import pytest
+
+from pyrofit.blind_test import foreign
+from pyrofit.blind_test.agreement import agreement
+from pyrofit.blind_test.places import Places
+from pyrofit.blind_test.plan import Case, cases_of
+from pyrofit.blind_test.recovery import strength_rows
+from pyrofit.blind_test.run import run_case
+from pyrofit.blind_test.setting import Setting, read_setting
+from pyrofit.blind_test.table import row_of
+from pyrofit.blind_test.thin import KEPT, SPACING_S, thin
+from pyrofit.blind_test.twin import describe, make_twin, without_effects
+from pyrofit.config import Study, candidate_effects, read_study
+from pyrofit.diagnose.diagnosis import diagnose
+from pyrofit.effects import known_effects
+from pyrofit.errors import DataError, StudyError
+from pyrofit.estimate.targets import Measurements
+
+FILE = Path(__file__).parents[2] / "config" / "foreign_truth.yaml"
+MLR = "mlr_kg_m2_s"
+
+
+@pytest.fixture(scope="module")
+def setting() -> Setting:
+    return read_setting(FILE)
+
+
+@pytest.fixture(scope="module")
+def cases(setting: Setting) -> tuple[Case, ...]:
+    return cases_of(setting, "full")
+
+
+def case_of(cases: tuple[Case, ...], curves: str, signals: str, noise: str = "white") -> Case:
+    wanted = (curves, signals, noise)
+    return next(c for c in cases if (c.curves, c.signals, c.noise) == wanted)
+
+
+# Files
+
+
+def test_manifest_names_effects_of_the_catalogue_and_parameters_of_the_study(
+    setting: Setting,
+) -> None:
+    manifest = foreign.read_manifest(Path(setting.curves))
+    study, catalogue = read_study(Path(setting.base)), known_effects()
+    assert len(manifest.cases) == 14
+    assert [t.kind for t in manifest.cases.values()].count("null") == 1
+    for truth in manifest.cases.values():
+        assert set(truth.values) == set(study.parameters)
+        for effect, values in truth.effects.items():
+            assert set(values) <= set(catalogue[effect].quantities)
+            assert set(catalogue[effect].strength) <= set(values)
+
+
+def test_every_case_has_the_curves_of_the_study(setting: Setting) -> None:
+    folder, study = Path(setting.curves), read_study(Path(setting.base))
+    for name in foreign.read_manifest(folder).cases:
+        for (experiment, _), curve in foreign.clean(folder, name, study).items():
+            time = curve["time_s"].to_numpy()
+            assert np.array_equal(np.diff(time), np.full(time.size - 1, SPACING_S))
+            assert time[-1] < study.experiments[experiment].duration_s
+            assert curve.notna().all(axis=None)
+
+
+def test_study_describes_the_bins_that_the_files_have(setting: Setting) -> None:
+    widths = {column: width for column, width, _ in KEPT.values()}
+    for experiment in read_study(Path(setting.base)).experiments.values():
+        for name, signal in experiment.signals.items():
+            assert signal.every == SPACING_S
+            assert signal.average_s == widths[experiment.quantity(name).column]
+
+
+def test_thinned_curves_keep_mass_and_mean(tmp_path: Path) -> None:
+    source, target = tmp_path / "source", tmp_path / "target"
+    source.mkdir()
+    case = {"base_values_SI": {"rho_a": 1100.0}, "effects": {}, "experiments": {"25": {}}}
+    given = {"fds_version": "6.7.4", "cases": {"d01": case}}
+    (source / "manifest.json").write_text(json.dumps(given))
+    time = np.arange(0.5, 100.0)
+    rate = 0.01 * np.sin(np.pi * time / 100.0) ** 2
+    full = {"time_s": time, "mlr_kg_m2s": rate, "T_back_K": 300.0 + time}
+    pd.DataFrame(full).to_csv(source / "d01_25.csv", index=False)
+    assert len(thin(source, target)) == 2
+    assert foreign.read_manifest(target).code == "FDS 6.7.4"
+    mlr = foreign.read_curve(target, "d01", "slab_25", MLR)
+    assert mlr["time_s"].tolist() == np.arange(2.5, 100.0, 5.0).tolist()
+    assert mlr[MLR].sum() * SPACING_S == pytest.approx(rate.sum(), rel=1e-4)
+    back = foreign.read_curve(target, "d01", "slab_25", "back_temperature_K")
+    assert back["back_temperature_K"].tolist() == pytest.approx(300.0 + mlr["time_s"])
+
+
+def test_what_is_missing_in_the_files_is_named(setting: Setting, tmp_path: Path) -> None:
+    folder = Path(setting.curves)
+    with pytest.raises(DataError, match=r"d01.csv: there is no experiment 'slab_26'. Did you mean"):
+        foreign.read_curve(folder, "d01", "slab_26", MLR)
+    with pytest.raises(DataError, match=r"d99.csv: this result is missing"):
+        foreign.read_curve(folder, "d99", "slab_25", MLR)
+    with pytest.raises(StudyError, match=r"unknown case 'd99' of FDS 6.7.4"):
+        foreign.read_manifest(folder).truth("d99")
+    (tmp_path / "manifest.json").write_text('{"code": "FDS", "case": {}}')
+    with pytest.raises(StudyError, match=r"manifest.json.*unknown key 'case'"):
+        foreign.read_manifest(tmp_path)
+
+
+def test_parameter_that_the_study_lacks_is_named(
+    setting: Setting, cases: tuple[Case, ...], tmp_path: Path
+) -> None:
+    folder = shutil.copytree(setting.curves, tmp_path / "curves")
+    manifest = (folder / "manifest.json").read_text().replace('"rho_a"', '"rho_b"')
+    (folder / "manifest.json").write_text(manifest)
+    other = setting.model_copy(update={"curves": str(folder)})
+    with pytest.raises(StudyError, match=r"unknown parameter 'rho_b'. Did you mean 'rho_a'"):
+        describe(other, cases[0])
+
+
+# Cases
+
+
+def test_plan_has_every_case_with_every_noise_and_both_sets_of_signals(
+    cases: tuple[Case, ...],
+) -> None:
+    cells = [(c.curves, c.signals, c.noise) for c in cases]
+    assert len(set(cells)) == 14 * 2 * 3
+    assert {cells.count(cell) for cell in cells if cell[0] != "d13"} == {1}
+    assert {cells.count(cell) for cell in cells if cell[0] == "d13"} == {12}
+    assert len({c.id for c in cases}) == len({c.seed for c in cases}) == len(cases)
+    assert {c.left_out for c in cases if c.kind == "effect"} == {True}
+    assert {c.kind for c in cases if len(c.hidden) == 2} == {"pair"}
+
+
+@pytest.mark.parametrize("noise", ["white", "measured", "ar0.5"])
+def test_noise_has_the_size_and_the_correlation_of_its_kind(
+    setting: Setting, cases: tuple[Case, ...], noise: str
+) -> None:
+    lag_one = {"white": 0.0, "measured": -0.25, "ar0.5": 0.5}[noise]
+    nulls = [c for c in cases if (c.curves, c.signals, c.noise) == ("d13", "mlr", noise)]
+    curve = foreign.read_curve(Path(setting.curves), "d13", "slab_25", MLR)[MLR].to_numpy()
+    draws = [make_twin(setting, c).series["slab_25", "mlr"][MLR].to_numpy() - curve for c in nulls]
+    e = np.array(draws) / 2.9e-4
+    # 12 series of 280 points; correlated points count less.
+    assert np.mean(e**2) == pytest.approx(1.0, abs=0.1)
+    assert np.mean(e[:, 1:] * e[:, :-1]) == pytest.approx(lag_one, abs=0.08)
+
+
+def test_study_that_is_diagnosed_holds_no_truth(setting: Setting, cases: tuple[Case, ...]) -> None:
+    case = case_of(cases, "d02", "mlr+back")
+    study, truth = describe(setting, case)
+    text = json.dumps(study)
+    assert "foil_mass" not in text
+    assert "d02" not in text
+    assert truth.synthetic is not None
+    assert truth.synthetic.effects == {"foil_mass": {"factor": 11.3}}
+    for name, value in truth.synthetic.truth.items():
+        assert study["parameters"][name].get("value") != value
+    calibrated = study["diagnosis"]["calibrate"]
+    assert set(calibrated) == {"slab_25", "slab_60"}
+    assert set(study["diagnosis"]["hold_out"]) == {"slab_40"}
+    unknown = {"T_A", "E_A", "T_B", "E_B", "w_A", "rho_a", "k_a", "cp_a", "eps_a", "dh"}
+    assert set(study["diagnosis"]["estimate"]) == unknown
+
+
+# The exam is fair, and an easy case is passed
+
+
+def test_true_model_explains_the_curves_of_the_other_code(setting: Setting, tmp_path: Path) -> None:
+    folder = shutil.copytree(setting.curves, tmp_path / "curves")
+    given = json.loads((folder / "manifest.json").read_text())
+    given["cases"] = {name: given["cases"][name] for name in ("d06", "d07", "d13")}
+    (folder / "manifest.json").write_text(json.dumps(given))
+    table = agreement(setting.model_copy(update={"curves": str(folder)})).set_index("case")
+    assert table.loc["d13", "effects"] == ""
+    # In standard deviations of the noise, over 470 to 850 points; a claim needs about 3.5.
+    assert (table["fitted_sd"] < 1.0).all()
+    assert (table["fitted_sd"] <= table["at_truth_sd"]).all()
+
+
+def quick(study: Study, measurements: Measurements) -> dict[str, Any]:
+    """Diagnose with five candidates."""
+    few = {"foil_mass", "k_T", "edge_loss", "thickness", "heater_ramp"}
+    return diagnose(without_effects(study, set(candidate_effects(study)) - few), measurements)
+
+
+def test_effect_in_curves_of_another_code_is_named_with_its_strength(
+    setting: Setting, cases: tuple[Case, ...], tmp_path: Path
+) -> None:
+    case = case_of(cases, "d02", "mlr+back").model_copy(update={"left_out": False})
+    found = run_case(setting, case, Places(tmp_path), quick)
+    row = row_of({"id": "twin", **found})
+    assert (row["verdict"], row["named"]) == ("named", "foil_mass")
+    assert row["detectability"] > 10.0
+    (strength,) = strength_rows({"id": "twin", **found})
+    assert strength["value"] == pytest.approx(11.3, rel=0.2)
+    assert 0.0 < row["window_recall"] <= 1.0
