@@ -55,16 +55,24 @@ def test_broken_blind_test_stops_no_study(tmp_path: Path) -> None:
     assert project.plan() == whole
 
 
-@pytest.mark.parametrize(("target", "plan", "jobs"), [((), "full", 40), (("short",), "short", 2)])
+@pytest.mark.parametrize(
+    ("target", "test", "plan", "jobs"),
+    [
+        ((), "blind_test", "full", 40),
+        (("short",), "blind_test", "short", 2),
+        (("foreign",), "foreign_truth", "full", 20),
+        (("foreign_part",), "foreign_truth", "part", 4),
+    ],
+)
 def test_blind_test_runs_its_full_plan_unless_told_otherwise(
-    target: tuple[str, ...], plan: str, jobs: int
+    target: tuple[str, ...], test: str, plan: str, jobs: int
 ) -> None:
     ran = snakemake("--dry-run", "--forceall", "--snakefile", BLIND_TEST, *target)
     said = ran.stdout + ran.stderr
     assert ran.returncode == 0, said
-    planned = re.findall(r"Blind test of the diagnosis, plan (\w+), job (\d+)", said)
-    assert set(planned) == {(plan, str(job)) for job in range(jobs)}
-    assert f"plan {plan}: tables, figures, page" in said
+    planned = re.findall(r"Blind test of the diagnosis, (\w+), plan (\w+), job (\d+)", said)
+    assert set(planned) == {(test, plan, str(job)) for job in range(jobs)}
+    assert f"{test}, plan {plan}: tables, figures, page" in said
 
 
 def test_report_of_snakemake_shows_every_figure_and_table(
