@@ -10,7 +10,7 @@ from linear import POINTS, TOTAL, column_of
 from scipy.stats import kstest, multivariate_normal
 
 from pyrofit.diagnose.base.fitted import at_limit
-from pyrofit.diagnose.base.model import UNIFORM, strength_of
+from pyrofit.diagnose.base.model import strength_of
 from pyrofit.diagnose.judge.claim_tests import (
     HELD_OUT,
     Trust,
@@ -21,6 +21,7 @@ from pyrofit.diagnose.judge.claim_tests import (
     trust,
 )
 from pyrofit.diagnose.settings import SETTINGS
+from pyrofit.estimate.posterior import UNIFORM
 from pyrofit.solver.arrays import FloatArray
 
 COLUMNS = linear.random_columns(4, "k_T", size=400.0)

@@ -8,7 +8,6 @@ from linear import TOTAL, column_of
 
 from pyrofit.diagnose.base.fitted import FittedModel
 from pyrofit.diagnose.base.model import strength_of
-from pyrofit.diagnose.judge.intervals import inflation
 from pyrofit.diagnose.judge.profiles import profiles
 
 COLUMNS = linear.random_columns(4, "k_T", "c_T", size=60.0)
@@ -34,12 +33,12 @@ def test_profile_of_a_linear_model_is_its_parabola() -> None:
         away = (np.array(profile["value"]) - best) / step
         # A fit ends where a step promises 0.05 of chi-square.
         assert np.array(profile["rise"]) == pytest.approx(away**2, abs=0.1)
-        reach = 1.96 * np.sqrt(inflation(fitted.fit)) * step
+        reach = 1.96 * np.sqrt(fitted.posterior.dispersion) * step
         assert profile["low"] == pytest.approx(best - reach, abs=0.05 * step)
         assert profile["high"] == pytest.approx(best + reach, abs=0.05 * step)
         assert not profile["low_open"]
         assert not profile["high_open"]
-        assert profile["level"] == pytest.approx(1.96**2 * inflation(fitted.fit))
+        assert profile["level"] == pytest.approx(1.96**2 * fitted.posterior.dispersion)
 
 
 def test_interval_is_open_where_the_limit_comes_first() -> None:

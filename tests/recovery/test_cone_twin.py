@@ -137,7 +137,7 @@ def test_heat_release_and_mass_determine_every_parameter(found: Identification, 
 
 def test_fit_leaves_noise_only(likelihood: Likelihood, found: Identification) -> None:
     # Measured 0.70: a simulated curve that is a little off makes the noise look larger.
-    assert 0.5 < found.optimum.chi2 / likelihood.freedom < 1.15
+    assert 0.5 < found.posterior.chi2 / found.posterior.freedom < 1.15
 
 
 def test_noise_of_what_jumps_at_ignition_is_found_about_a_simulated_curve(

@@ -142,7 +142,7 @@ def test_optimum_is_no_worse_than_a_descent_from_the_truth(twins: list[Twin]) ->
 
 def test_chi_square_is_that_of_noise(twins: list[Twin]) -> None:
     # Measured 0.93 on average: the floors make the noise a little larger than it is.
-    ratios = [twin.found.optimum.chi2 / twin.likelihood.freedom for twin in twins]
+    ratios = [t.found.posterior.chi2 / t.found.posterior.freedom for t in twins]
     assert 0.9 < np.mean(ratios) < 1.0
     assert max(ratios) < 1.1
 

@@ -88,7 +88,9 @@ def test_no_set_of_the_optimisers_is_below_the_optimum(results: Results) -> None
     assert len(sets) == 3 * 4
     assert sets["chi2"].min() >= noise["chi2"] - 1e-6
     assert noise["chi2"] == pytest.approx(sum(c["chi2"] for c in noise["channels"]))
-    assert noise["freedom"] == sum(c["points"] for c in noise["channels"]) - len(TRUTH)
+    # Good data use up a degree of freedom for each parameter, less next to nothing for its limits.
+    points = sum(c["points"] for c in noise["channels"])
+    assert noise["freedom"] == pytest.approx(points - len(TRUTH), abs=0.05)
 
 
 def test_profiles_start_from_the_estimate(results: Results) -> None:

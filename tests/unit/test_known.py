@@ -47,7 +47,7 @@ def posterior(sd: float, prior: NormalPrior, best: Any = (1.0, 2.0)) -> tuple[An
 def test_interval_with_a_known_value_is_that_of_the_normal_posterior(sd: float) -> None:
     prior = known(2.02, sd)
     found = identify(with_prior(line(), prior), START)
-    mean, covariance = posterior(0.1 * found.inflation, prior)
+    mean, covariance = posterior(0.1 * np.sqrt(found.posterior.dispersion), prior)
     for i, estimate in enumerate(found.estimates):
         assert estimate.x * SPAN[i] == pytest.approx(mean[i], abs=2e-5)
         assert estimate.sd * SPAN[i] == pytest.approx(np.sqrt(covariance[i, i]), rel=1e-6)
@@ -69,8 +69,8 @@ def test_misfit_widens_the_noise_but_not_what_is_known() -> None:
     half = likelihood(lambda x: LINE @ x, value, 0.05, ((0.0, 2.0), (0.0, 4.0)))
     prior = known(2.01, 0.01)
     found = identify(with_prior(half, prior), START)
-    assert found.inflation == pytest.approx(2.0, rel=0.01)
-    mean, covariance = posterior(0.05 * found.inflation, prior)
+    assert found.posterior.dispersion == pytest.approx(4.0, rel=0.02)
+    mean, covariance = posterior(0.05 * np.sqrt(found.posterior.dispersion), prior)
     for i, estimate in enumerate(found.estimates):
         assert estimate.x * SPAN[i] == pytest.approx(mean[i], abs=1e-4)
         assert estimate.sd * SPAN[i] == pytest.approx(np.sqrt(covariance[i, i]), rel=1e-3)
@@ -80,11 +80,11 @@ def test_misfit_widens_the_noise_but_not_what_is_known() -> None:
 def test_chi_square_per_degree_of_freedom_counts_channels_alone() -> None:
     free = identify(line(), START)
     bound = identify(with_prior(line(), known(3.0, 0.05)), START)
-    assert bound.chi2 > free.chi2
-    assert bound.optimum.chi2 > bound.chi2 + 10.0
+    assert bound.posterior.chi2 > free.posterior.chi2
+    assert bound.optimum.chi2 > bound.posterior.chi2 + 10.0
     posed = line()
     residuals = posed.residuals(bound.optimum.x)
-    assert bound.chi2 == pytest.approx(float(residuals @ residuals))
+    assert bound.posterior.chi2 == pytest.approx(float(residuals @ residuals))
 
 
 def test_nothing_known_leaves_residuals_and_derivatives_to_the_bit() -> None:

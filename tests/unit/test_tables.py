@@ -241,7 +241,7 @@ def _identification(study: Study, results: Results) -> None:
     channel |= {"whiteness": 0.5, "words": "sd 2e-4, uncorrelated", "chi2": 72.0}
     write_json(
         results.identification("noise.json"),
-        {"channels": [channel], "chi2": 72.0, "freedom": 18, "inflation": 2.0},
+        {"channels": [channel], "chi2": 72.0, "freedom": 18, "dispersion": 4.0},
     )
     time = np.arange(5.0, 105.0, 5.0)
     curves = [
@@ -257,7 +257,7 @@ def _identification(study: Study, results: Results) -> None:
         alone = pd.DataFrame({"parameter": ["T_p"], "T_p": [1.0]})
         write_csv(results.identification("correlation.csv", "kinetics"), alone)
         channel |= {"experiment": "slow", "signal": "mass_fraction", "chi2": 20.0}
-        content = {"channels": [channel], "chi2": 20.0, "freedom": 19, "inflation": 1.0}
+        content = {"channels": [channel], "chi2": 20.0, "freedom": 19, "dispersion": 1.0}
         write_json(results.identification("noise.json", "kinetics"), content)
     sets = [
         {"cost_function": cost, "set": label, "chi2": 90.0 * n, "k": -0.5 * n, "cp": 1.0 * n}

@@ -6,11 +6,9 @@ import pandas as pd
 from pyrofit.analysis.uses import PUBLISHED, SCEUA
 from pyrofit.config import Study
 from pyrofit.estimate.optimisers import OPTIMISERS
+from pyrofit.estimate.posterior import limit_of
 from pyrofit.results import searches
 from pyrofit.results.files import Results
-
-AT_BOUND = 0.005
-"""A best value this close to a limit, as a fraction of the limits' distance, is at the bound."""
 
 
 def at_bound(value: float, lower: float, upper: float) -> str:
@@ -19,8 +17,7 @@ def at_bound(value: float, lower: float, upper: float) -> str:
     >>> at_bound(0.989, 0.01, 0.99), at_bound(0.5, 0.01, 0.99)
     ('upper', '')
     """
-    near = AT_BOUND * (upper - lower)
-    return "lower" if value - lower <= near else "upper" if upper - value <= near else ""
+    return limit_of((value - lower) / (upper - lower))
 
 
 def best_sets(study: Study, results: Results) -> pd.DataFrame:

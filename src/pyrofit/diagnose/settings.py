@@ -2,6 +2,8 @@
 
 from dataclasses import dataclass
 
+from pyrofit.estimate.posterior import AT_LIMIT
+
 
 @dataclass(frozen=True)
 class Settings:
@@ -25,7 +27,7 @@ class Settings:
     """A rough descent ends where fresh derivatives promise less of chi-square."""
     same_valley: float = 0.5
     """Two descents that end within this chi-square have found the same minimum."""
-    at_limit: float = 0.005
+    at_limit: float = AT_LIMIT
     """A parameter rests at a limit if x is within this distance of it."""
 
     # Base model

@@ -4,6 +4,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from pyrofit.estimate.posterior import limit_of
 from pyrofit.estimate.problem import Problem
 from pyrofit.solver.arrays import FloatArray
 
@@ -89,4 +90,4 @@ def descend(problem: Problem, values: FloatArray) -> Start:
 
 def at_limits(problem: Problem, u: FloatArray) -> tuple[str, ...]:
     """Return the names of the parameters at a limit, values scaled to [0, 1] by the limits."""
-    return tuple(n for n, x in zip(problem.names, u, strict=True) if not STEP <= x <= 1.0 - STEP)
+    return tuple(n for n, x in zip(problem.names, u, strict=True) if limit_of(x))

@@ -62,11 +62,6 @@ class Likelihood:
         """Number of points of each channel."""
         return [noise.sd.size for noise in self.noise]
 
-    @property
-    def freedom(self) -> int:
-        """Degrees of freedom: points less parameters."""
-        return max(1, sum(self.points) - len(self.problem.names))
-
     def values(self, x: FloatArray) -> FloatArray:
         """Return the parameters in SI units."""
         return self.problem.lower + x * (self.problem.upper - self.problem.lower)

@@ -1,15 +1,15 @@
 """Profiles of chi-square, and the intervals read from them."""
 
+import math
 from dataclasses import dataclass
 from typing import Protocol
 
 import numpy as np
 
 from pyrofit.estimate.likelihood import Optimum
+from pyrofit.estimate.posterior import QUANTILE
 from pyrofit.solver.arrays import FloatArray
 
-QUANTILE = 1.96
-"""Half of a 95 % interval in standard deviations; chi-square rises by its square, 3.84."""
 MOST_POINTS = 12
 """Most points of a side of a profile."""
 MOST_REFINED = 8
@@ -42,9 +42,9 @@ class Profile:
     x: FloatArray
     rise: FloatArray
 
-    def interval(self, factor: float) -> Interval:
-        """Return where the rise is below 3.84 factor^2."""
-        top = QUANTILE * factor
+    def interval(self, dispersion: float) -> Interval:
+        """Return where the rise is below 3.84 times the dispersion, s^2."""
+        top = QUANTILE * math.sqrt(dispersion)
         root = np.sqrt(np.maximum(self.rise, 0.0))
         least = int(np.argmin(root))
         # The root of a parabola is a straight line, which interpolates well.
@@ -76,14 +76,15 @@ def profile_of(
     i: int,
     follow: FloatArray,
     sd: float,
-    inflation: float,
+    dispersion: float,
 ) -> tuple[Profile, Optimum]:
     """Return the profile of a parameter as far as the interval reaches, and its lowest point."""
     line = _Line(likelihood, optimum, i, follow)
+    top = QUANTILE * math.sqrt(dispersion)
     ends = [optimum]
     for sign in (-1.0, 1.0):
-        side = _outwards(line, sign * sd, QUANTILE * inflation)
-        for level in {QUANTILE, QUANTILE * inflation}:
+        side = _outwards(line, sign * sd, top)
+        for level in {QUANTILE, top}:
             side = _refined(line, side, level)
         ends += side[1:]
     ends.sort(key=lambda end: float(end.x[i]))

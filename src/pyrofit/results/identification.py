@@ -47,6 +47,6 @@ def noise(results: Results, stage: str = "imp") -> dict[str, Any]:
         {
             **{(*here, key): str for key in ("experiment", "signal", "words")},
             **{(*here, key): kind for key, kind in numbers.items()},
-            **{(key,): float for key in ("chi2", "freedom", "inflation")},
+            **{(key,): float for key in ("chi2", "freedom", "dispersion")},
         },
     )

@@ -127,7 +127,7 @@ def _sensitivities(likelihood: Likelihood, found: Identification) -> pd.DataFram
         problem.picks,
         problem.cost.terms,
         likelihood.split(found.slopes),
-        likelihood.split(found.jacobian),
+        likelihood.split(found.posterior.jacobian),
         strict=True,
     ):
         for i, name in enumerate(problem.names):
@@ -215,7 +215,7 @@ def _noise(likelihood: Likelihood, found: Identification) -> dict[str, Any]:
     ]
     return {
         "channels": channels,
-        "chi2": found.chi2,
-        "freedom": likelihood.freedom,
-        "inflation": found.inflation,
+        "chi2": found.posterior.chi2,
+        "freedom": found.posterior.freedom,
+        "dispersion": found.posterior.dispersion,
     }

@@ -14,9 +14,9 @@ from pyrofit.diagnose.advise.correction_forms import Correction, Shape, correcti
 from pyrofit.diagnose.base.descent import Fit, descend
 from pyrofit.diagnose.base.fitted import FittedModel
 from pyrofit.diagnose.base.model import Model
-from pyrofit.diagnose.base.projection import projector
 from pyrofit.diagnose.settings import SETTINGS
 from pyrofit.estimate.likelihood import Likelihood
+from pyrofit.estimate.posterior import freedom
 from pyrofit.estimate.prior import NormalPrior
 from pyrofit.parallel import parallel_map
 
@@ -69,8 +69,7 @@ def probes(trial: FittedModel, processes: int = 1) -> list[Probe]:
     wanted = corrections(likelihood.problem, likelihood.values(trial.fit.x))
     fits = parallel_map(lambda i: _fit(trial, wanted[i]), len(wanted), processes)
     found = [_probe(trial, *pair) for pair in zip(wanted, fits, strict=True)]
-    freedom = trial.fit.residuals.size - float(np.sum(projector(trial.fit) ** 2))
-    noise = min([freedom, *(probe.chi2 for probe in found)])
+    noise = min([freedom(trial.fit.jacobian, trial.fit.x), *(probe.chi2 for probe in found)])
     judged = [replace(probe, absorbed=_absorbed(trial.fit.chi2, probe, noise)) for probe in found]
     return sorted(
         judged, key=lambda probe: probe.chi2 + SETTINGS.correction_price * len(probe.coefficients)

@@ -19,10 +19,11 @@ import numpy as np
 
 from pyrofit.diagnose.advise.candidate_experiments import ideas
 from pyrofit.diagnose.base.fitted import FittedModel
-from pyrofit.diagnose.base.model import Base, curvature
+from pyrofit.diagnose.base.model import Base
 from pyrofit.diagnose.settings import SETTINGS
 from pyrofit.estimate.correlation import Correlation
 from pyrofit.estimate.noise import NoiseModel
+from pyrofit.estimate.posterior import curvature
 from pyrofit.experiments import kind_of
 from pyrofit.experiments.base import Idea
 from pyrofit.model.signal import TIMING_S

@@ -6,8 +6,9 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from pyrofit.diagnose.base.descent import Fit, descend, refreshed
-from pyrofit.diagnose.base.model import Model, curvature, strength_of
+from pyrofit.diagnose.base.model import Model, strength_of
 from pyrofit.diagnose.settings import SETTINGS
+from pyrofit.estimate.posterior import Posterior, covariance, limit_of
 from pyrofit.parallel import parallel_map
 from pyrofit.solver.arrays import FloatArray
 
@@ -33,6 +34,12 @@ class FittedModel:
     def penalised(self) -> float:
         """chi2 + log(n) per parameter of an effect (Schwarz 1978, doi 10.1214/aos/1176344136)."""
         return self.fit.chi2 + self.numbers * float(np.log(self.model.points))
+
+    @property
+    def posterior(self) -> Posterior:
+        """The parameters about the fit."""
+        residuals = self.fit.residuals[: self.model.points]
+        return Posterior(self.fit.x, residuals, self.fit.jacobian)
 
     def strength(self, effect: str) -> float:
         """Return the fitted strength of an effect in SI units."""
@@ -86,7 +93,7 @@ def _from(trial: FittedModel, x: FloatArray) -> Fit:
 def _elsewhere(trial: FittedModel) -> Iterator[FloatArray]:
     """Yield the fit with a parameter moved that is hardly determined or rests at a limit."""
     best = trial.fit
-    wide = np.sqrt(np.diag(np.linalg.inv(curvature(best.jacobian)))) > SETTINGS.wide_sd
+    wide = np.sqrt(np.diag(covariance(best.jacobian))) > SETTINGS.wide_sd
     resting = (best.x <= 0.0) | (best.x >= 1.0)
     base = len(trial.model.names) - trial.numbers
     for i in np.flatnonzero((wide | resting)[:base]):
@@ -105,6 +112,6 @@ def at_limit(trial: FittedModel, effect: str) -> str:
     """
     x = trial.fit.x[trial.model.position(effect)]
     _, quantity = strength_of(effect)
-    lowest = -1.0 if quantity.lower == 0.0 < quantity.value else SETTINGS.at_limit
-    name = trial.model.names[trial.model.position(effect)]
-    return "" if lowest < x < 1.0 - SETTINGS.at_limit else name
+    side = limit_of(x)
+    absent = side == "lower" and quantity.lower == 0.0 < quantity.value
+    return trial.model.names[trial.model.position(effect)] if side and not absent else ""

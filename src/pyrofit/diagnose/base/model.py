@@ -14,9 +14,6 @@ from pyrofit.estimate.likelihood import FAILED, Likelihood
 from pyrofit.estimate.problem import Problem
 from pyrofit.solver.arrays import FloatArray
 
-UNIFORM = 12.0
-"""Inverse variance of a value that is anywhere between its limits."""
-
 Free = Mapping[str, tuple[str, ...]]
 """By effect, those of its parameters that are fitted, the strength first."""
 
@@ -156,11 +153,6 @@ def _restricted(problem: Problem, channels: Sequence[int]) -> Problem:
             runs[name] = replace(run, requests=requests)
     cost = WeightedSum([problem.cost.terms[i] for i in channels])
     return replace(problem, picks=picks, runs=runs, cost=cost)
-
-
-def curvature(jacobian: FloatArray, inflation: float = 1.0) -> FloatArray:
-    """Return J^T J / inflation + 12 I: the inverse covariance, the limits as uniform prior."""
-    return np.asarray(jacobian.T @ jacobian / inflation + UNIFORM * np.eye(jacobian.shape[1]))
 
 
 def name_of(effect: str, parameter: str) -> str:

@@ -3,7 +3,7 @@
 import numpy as np
 
 from pyrofit.diagnose.base.descent import Fit
-from pyrofit.diagnose.base.model import UNIFORM
+from pyrofit.estimate.posterior import UNIFORM
 from pyrofit.solver.arrays import FloatArray
 
 

@@ -20,9 +20,10 @@ from pyrofit.diagnose.base.adequacy import lack_of_fit
 from pyrofit.diagnose.base.descent import Fit, descend
 from pyrofit.diagnose.base.fit import refitted, with_noise_about
 from pyrofit.diagnose.base.fitted import FittedModel, at_limit, up_to_date
-from pyrofit.diagnose.base.model import Model, curvature, model_of
+from pyrofit.diagnose.base.model import Model, model_of
 from pyrofit.diagnose.base.projection import project, projector
 from pyrofit.diagnose.settings import SETTINGS
+from pyrofit.estimate.posterior import curvature
 from pyrofit.experiments import kind_of
 from pyrofit.parallel import parallel_map
 from pyrofit.solver.arrays import FloatArray

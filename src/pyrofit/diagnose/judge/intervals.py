@@ -5,31 +5,18 @@ from typing import Any
 
 import numpy as np
 
-from pyrofit.diagnose.base.descent import Fit
 from pyrofit.diagnose.base.fitted import FittedModel
-from pyrofit.diagnose.base.model import curvature, fraction, model_of, name_of
-from pyrofit.diagnose.base.projection import projector
+from pyrofit.diagnose.base.model import fraction, model_of, name_of
 from pyrofit.effects import known_effects
-from pyrofit.estimate.profile import QUANTILE
+from pyrofit.estimate.posterior import interval as interval_of
 from pyrofit.solver.arrays import FloatArray
 
 
 def values_of(trial: FittedModel) -> tuple[FloatArray, FloatArray]:
     """Return values and standard deviations in SI units; misfit beyond the noise widens these."""
     problem, fit = trial.model.likelihood.problem, trial.fit
-    sd = np.sqrt(np.diag(covariance(fit))) * (problem.upper - problem.lower)
+    sd = np.sqrt(np.diag(trial.posterior.covariance())) * (problem.upper - problem.lower)
     return trial.model.likelihood.values(fit.x), sd
-
-
-def inflation(fit: Fit) -> float:
-    """Return chi-square per degree of freedom, 1 at least."""
-    freedom = fit.residuals.size - float(np.sum(projector(fit) ** 2))
-    return max(1.0, fit.chi2 / freedom)
-
-
-def covariance(fit: Fit) -> FloatArray:
-    """Return (J^T J / inflation + 12 I)^-1, of fractions of the limits' distances."""
-    return np.asarray(np.linalg.inv(curvature(fit.jacobian, inflation(fit))))
 
 
 def interval(
@@ -37,8 +24,7 @@ def interval(
 ) -> dict[str, float]:
     """Return value and 95 % interval of a parameter, within its limits, over ``factor``."""
     problem = trial.model.likelihood.problem
-    low = max(values[i] - QUANTILE * sd[i], problem.lower[i])
-    high = min(values[i] + QUANTILE * sd[i], problem.upper[i])
+    low, high = interval_of(values[i], sd[i], problem.lower[i], problem.upper[i])
     return {
         "value": float(values[i] / factor),
         "low": float(low / factor),

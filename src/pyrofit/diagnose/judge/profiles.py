@@ -8,9 +8,9 @@ import numpy as np
 from pyrofit.diagnose.base.descent import descend
 from pyrofit.diagnose.base.fitted import FittedModel, up_to_date
 from pyrofit.diagnose.base.model import Model, strength_of
-from pyrofit.diagnose.judge.intervals import covariance, inflation
 from pyrofit.estimate.likelihood import Optimum
-from pyrofit.estimate.profile import QUANTILE, profile_of
+from pyrofit.estimate.posterior import QUANTILE
+from pyrofit.estimate.profile import profile_of
 from pyrofit.parallel import parallel_map
 from pyrofit.solver.arrays import FloatArray
 
@@ -41,12 +41,13 @@ def profiles(trial: FittedModel, processes: int = 1) -> list[dict[str, Any]]:
 def _profile(trial: FittedModel, effect: str) -> dict[str, Any]:
     model, fit = trial.model, trial.fit
     i, (parameter, quantity) = model.position(effect), strength_of(effect)
-    C, factor = covariance(fit), float(np.sqrt(inflation(fit)))
+    posterior = trial.posterior
+    C, dispersion = posterior.covariance(), posterior.dispersion
     optimum = Optimum(fit.chi2, fit.x)
     found, _ = profile_of(
-        _Fits(model), optimum, i, C[:, i] / C[i, i], float(np.sqrt(C[i, i])), factor
+        _Fits(model), optimum, i, C[:, i] / C[i, i], float(np.sqrt(C[i, i])), dispersion
     )
-    within = found.interval(factor)
+    within = found.interval(dispersion)
 
     def value(x: float) -> float:
         return float(quantity.lower + x * (quantity.upper - quantity.lower))
@@ -57,7 +58,7 @@ def _profile(trial: FittedModel, effect: str) -> dict[str, Any]:
         "unit": quantity.unit,
         "value": [value(x) for x in found.x],
         "rise": [float(rise) for rise in found.rise],
-        "level": (QUANTILE * factor) ** 2,
+        "level": QUANTILE**2 * dispersion,
         "low": value(within.low),
         "high": value(within.high),
         "low_open": within.low_open,

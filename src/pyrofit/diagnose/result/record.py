@@ -20,6 +20,7 @@ from pyrofit.diagnose.search.stepwise import Search
 from pyrofit.diagnose.settings import SETTINGS
 from pyrofit.effects import known_effects
 from pyrofit.errors import DataError
+from pyrofit.estimate.posterior import limit_of
 
 SCHEMA = 1
 CALIBRATION = "calibration"
@@ -121,7 +122,7 @@ def _parameters(study: Study, trial: FittedModel) -> dict[str, Any]:
         found[name] = {
             **interval(trial, i, values, sd, given.factor),
             "unit": given.unit,
-            "at_limit": bool(x <= 0.0 or x >= 1.0),
+            "at_limit": bool(limit_of(x)),
         }
     return found
 

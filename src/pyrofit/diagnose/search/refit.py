@@ -8,7 +8,6 @@ from pyrofit.diagnose.base.descent import descend
 from pyrofit.diagnose.base.fitted import FittedModel, lower_of
 from pyrofit.diagnose.base.model import (
     Model,
-    curvature,
     extended,
     fraction,
     model_of,
@@ -20,6 +19,7 @@ from pyrofit.diagnose.search.score_test import Screening, look
 from pyrofit.diagnose.settings import SETTINGS
 from pyrofit.effects import known_effects
 from pyrofit.effects.base import Quantity
+from pyrofit.estimate.posterior import curvature
 from pyrofit.parallel import parallel_map
 from pyrofit.solver.arrays import FloatArray
 

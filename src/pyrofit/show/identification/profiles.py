@@ -32,31 +32,31 @@ _LIMIT: dict[str, Any] = {"color": style.COLOURS[1], "linewidth": 1.6}
 def profiles(study: Study, results: Results) -> Canvas:
     """Draw the rise of chi-square against each parameter: parabola, profile, and 95 % levels."""
     found = estimates(study, results)
-    inflation = float(noise(results)["inflation"])
+    dispersion = float(noise(results)["dispersion"])
     curves = read_csv(results.identification("profiles.csv"))
     canvas, axes = style.panels(len(found), 3, style.TWO_COLUMNS, 50.0)
     style.letter(axes, list(found.index))
     for i, (ax, name) in enumerate(zip(axes, found.index, strict=True)):
         curve = curves[curves["parameter"] == name]
-        _draw_profile(ax, study, found.loc[name], curve, inflation)
+        _draw_profile(ax, study, found.loc[name], curve, dispersion)
         if i % 3 == 0:
             ax.set_ylabel("rise of χ² [–]")
-    style.legend_below(canvas, _entries(inflation))
+    style.legend_below(canvas, _entries(dispersion))
     return canvas
 
 
 def _draw_profile(
-    ax: Axes, study: Study, row: pd.Series, curve: pd.DataFrame, inflation: float
+    ax: Axes, study: Study, row: pd.Series, curve: pd.DataFrame, dispersion: float
 ) -> None:
     parameter = study.parameters[str(row["parameter"])]
     lower, upper = (bound / parameter.factor for bound in parameter.bounds_si)
     factor = parameter.factor
-    top = (WITHIN * inflation) ** 2
+    top = WITHIN**2 * dispersion
     low, high, at, sd = (float(row[c]) / factor for c in ("low", "high", "estimate", "sd"))
     margin = 0.25 * (high - low)
     x = np.linspace(max(lower, low - margin), min(upper, high + margin), 200)
     if not row["bound"]:  # at a limit chi-square has a slope, and no parabola
-        ax.plot(x, ((x - at) / sd * inflation) ** 2, **_PARABOLA)
+        ax.plot(x, ((x - at) / sd) ** 2 * dispersion, **_PARABOLA)
     if len(curve):
         # Between the points the root of the rise is a straight line, at a limit the rise itself.
         power = 1.0 if row["bound"] else 2.0
@@ -66,7 +66,7 @@ def _draw_profile(
         ax.plot(fine, np.interp(fine, points, root) ** power, color=_PROFILE["color"])
         ax.plot(points, root**power, **{**_PROFILE, "linestyle": "none"})
     ax.axhline(top, **_LEVEL)
-    if inflation > 1.0:
+    if dispersion > 1.0:
         ax.axhline(WITHIN**2, **_NOISE_LEVEL)
     ax.set_xlim(x[0], x[-1])
     ax.set_ylim(0.0, 1.6 * top)
@@ -77,15 +77,15 @@ def _draw_profile(
     ax.set_xlabel(f"{row['parameter']} [{parameter.unit}]")
 
 
-def _entries(inflation: float) -> list[Any]:
-    size = f"3.84 × {inflation**2:.3g}" if inflation > 1.0 else "3.84"
+def _entries(dispersion: float) -> list[Any]:
+    size = f"3.84 × {dispersion:.3g}" if dispersion > 1.0 else "3.84"
     entries = [
         style.line("profile", **_PROFILE),
         style.line("parabola", **_PARABOLA),
         style.line(f"95 %: {size}", **_LEVEL),
         style.line("limit", **_LIMIT),
     ]
-    if inflation > 1.0:
+    if dispersion > 1.0:
         entries.insert(3, style.line("noise alone: 3.84", **_NOISE_LEVEL))
     return entries
 

@@ -49,7 +49,7 @@ TABLE = Table(
     note="Model calls are those of all repetitions, and of all starts. The ratio is the lowest "
     "cost of the others over the best of SCE-UA. 'From SCE-UA's best': where least squares "
     "gets from there; a set that it lowers is no minimum. The solver's error is 4/3 of what "
-    "twice the cells and half the steps change. 'At bound': within 0.1 % of the limits' "
+    "twice the cells and half the steps change. 'At bound': within 0.5 % of the limits' "
     "distance.",
     headings={
         "cost_function": "cost function",
