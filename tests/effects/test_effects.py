@@ -29,6 +29,7 @@ LEAST_CHANGE = {
     "back_convection": ("MLR 60", 0.1),
     "back_loss": ("MLR 25", 0.4),
     "balance_drift": ("MLR 25", 0.02),
+    "bubbling": ("MLR 60", 0.16),
     "c_T": ("MLR 60", 0.08),
     "char_layer": ("MLR 60", 0.35),
     "consecutive": ("MLR 60", 0.25),
@@ -41,11 +42,13 @@ LEAST_CHANGE = {
     "foil_contact": ("MLR 60", 0.02),
     "foil_mass": ("MLR 60", 0.11),
     "front_convection": ("MLR 60", 0.18),
+    "gas_enthalpy": ("MLR 60", 0.19),
     "gas_heating": ("MLR 25", 0.04),
     "gas_temperature": ("MLR 60", 0.07),
     "glass_transition": ("MLR 60", 0.3),
     "heater_ramp": ("MLR 60", 0.18),
     "in_depth": ("MLR 60", 0.35),
+    "in_depth_bands": ("MLR 60", 0.24),
     "in_depth_lost": ("T_back 60", 0.17),
     "k_T": ("MLR 60", 0.09),
     "melting": ("MLR 60", 0.17),
@@ -203,6 +206,7 @@ def test_effects_that_set_the_same_number_are_of_one_group() -> None:
     assert excluded >= {
         ("flux_decay", "flux_drift"),
         ("gas_heating", "gas_temperature"),
+        ("in_depth", "in_depth_bands"),
         ("in_depth", "in_depth_lost"),
     }
     assert all(EFFECTS[one].group == EFFECTS[other].group for one, other in excluded)

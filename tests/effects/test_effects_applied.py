@@ -32,7 +32,7 @@ def test_order_of_choice_does_not_matter() -> None:
     chosen = {
         name: {strength(effect): effect.strength[strength(effect)].typical}
         for name, effect in EFFECTS.items()
-        if name not in {"in_depth_lost", "gas_heating", "flux_decay"}
+        if name not in {"in_depth_bands", "in_depth_lost", "gas_heating", "flux_decay"}
     }
     base = BASES["pmma"]
     one = with_effects(base.material, base.experiments, chosen)
@@ -200,7 +200,9 @@ def backed() -> tuple[Material, dict[str, Experiment]]:
     return Material.model_validate(given), experiments
 
 
-@pytest.mark.parametrize("name", ["c_T", "k_T", "swelling", "glass_transition", "melting"])
+@pytest.mark.parametrize(
+    "name", ["bubbling", "c_T", "k_T", "swelling", "glass_transition", "melting"]
+)
 def test_effect_on_properties_leaves_boards_as_they_are_unless_it_names_them(name: str) -> None:
     material, experiments = backed()
     at = {strength(EFFECTS[name]): EFFECTS[name].strength[strength(EFFECTS[name])].typical}
@@ -213,7 +215,15 @@ def test_effect_on_properties_leaves_boards_as_they_are_unless_it_names_them(nam
 
 
 @pytest.mark.parametrize(
-    "name", ["thickness", "emissivity_conversion", "in_depth", "in_depth_lost"]
+    "name",
+    [
+        "thickness",
+        "emissivity_conversion",
+        "gas_enthalpy",
+        "in_depth",
+        "in_depth_bands",
+        "in_depth_lost",
+    ],
 )
 def test_effect_on_the_sample_leaves_inert_runs_as_they_are(name: str) -> None:
     material, experiments = backed()

@@ -118,7 +118,7 @@ def test_properties_are_in_the_order_of_the_components() -> None:
     arrays = lower.lower_material(material(), VALUES)
     assert arrays.specific_volume.tolist() == [[1e-3], [1e-3], [2e-3]]
     assert arrays.emissivity.tolist() == [[0.8], [0.8], [0.95]]
-    assert arrays.absorption.tolist() == [[0.0], [0.0], [0.0]]
+    assert arrays.absorption.tolist() == [[[0.0]], [[0.0]], [[0.0]]]
 
 
 def test_rate_given_at_a_temperature_is_that_rate_there() -> None:

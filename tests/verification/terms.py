@@ -115,6 +115,7 @@ TERMS = {
     "thickness_factor": Term(1.0, 1.05, sample={"thickness_factor": "x"}),
     "emissivity_change": Term(0.0, -0.3, sample={"emissivity_change": "x"}),
     "absorption_length": Term(0.0, 5e-4, sample={"absorption_length_m": "x"}),
+    "gas_heat": Term(0.0, 2000.0, sample={"gas_specific_heat_J_kgK": "x"}),
     "edge": Term(0.0, 20.0, sample={"edge": {"h_W_m2K": "x", "perimeter_per_area_1_m": 40.0}}),
     "delay": Term(0.0, 7.0, signal={"delay_s": "x"}),
     "offset": Term(0.0, 1e-3, signal={"offset": "x"}),
@@ -127,6 +128,17 @@ TERMS = {
         },
     ),
     "slope": Term(0.0, -1e-3, virgin={"conductivity_W_mK": {"of": 0.2, "slope_1_K": "x"}}),
+    "bend": Term(
+        0.0,
+        -3e-3,
+        virgin={"conductivity_W_mK": {"of": 0.2, "bend": "x", "step_temperature_K": 400.0}},
+    ),
+    "thinning": Term(0.0, 1.0, virgin={"conductivity_W_mK": {"of": 0.2, "thinning": "x"}}),
+    "scale": Term(
+        0.0,
+        2.0,
+        virgin={"conductivity_W_mK": {"of": 0.2, "slope_1_K": -4e-4, "bend": 1e-3, "scale": "x"}},
+    ),
     "step": Term(0.0, 600.0, virgin=_heat(step="x")),
     "peak": Term(0.0, 6e4, virgin=_heat(peak_area="x")),
 }

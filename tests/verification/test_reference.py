@@ -374,6 +374,12 @@ SEVERAL = Case(
     0.06,
 )
 """All general terms at once."""
+_AT = {"step_temperature_K": 500.0, "step_width_K": 20.0}
+BUBBLES = {
+    "expansion": {"of": 1.0, "step": 0.8, **_AT},
+    "conductivity_W_mK": {"of": 0.2, "thinning": 0.8, **_AT},
+    "absorption_factor": {"of": 1.0, "step": 0.8, **_AT},
+}
 CASES = {
     # 1.8e-5, 0.32 K
     "paper_25": Case(paper_material(), paper_experiment(25.0), 4e-5, 0.5, 1685.0),
@@ -482,6 +488,19 @@ CASES = {
     "thickness_factor": with_term("thickness_factor"),  # 1.0e-5, 0.011 K
     "emissivity_change": with_term("emissivity_change"),  # 1.0e-5, 0.010 K
     "absorption_length": with_term("absorption_length", 4e-5),  # 2.8e-5, 0.007 K
+    "gas_heat": with_term("gas_heat"),  # 1.4e-5, 0.010 K
+    # Where properties bend sharply, the kernel's table of them every 5 K.
+    "bend": with_term("bend", 5e-5, 0.05),  # 3.0e-5, 0.028 K
+    "thinning": with_term("thinning", 5e-5, 0.07),  # 3.1e-5, 0.046 K
+    "scale": with_term("scale"),  # 1.5e-5, 0.007 K
+    # 2.2e-5, 0.007 K
+    "surface_share": Case(
+        charring(kappa=800.0), specimen(foil=FOIL, surface_share=0.4, transmitted="back")
+    ),
+    # 8.5e-5, 0.053 K
+    "absorption_that_changes": Case(
+        charring(kappa=800.0, virgin=BUBBLES), specimen(absorption_length_m=1e-3), 1.5e-4, 0.1
+    ),
     "edge": with_term("edge"),  # 1.0e-5, 0.010 K
     "delay": with_term("delay"),  # 1.0e-5, 0.010 K
     "offset": with_term("offset"),  # 0.9e-5, 0.010 K

@@ -218,6 +218,92 @@ def test_radiation_that_passes_heats_the_back_or_is_lost(
     assert evened_out(solve, experiment, matter) == pytest.approx(exact, abs=6e-4)
 
 
+@both
+def test_surface_share_adds_up_surface_and_depth(solve: Solver) -> None:
+    # Without losses the rise is linear in what is absorbed. Measured: 5e-10 K of 45 K.
+    matter = inert_material(emissivity=FAINT, absorption=1000.0)
+    opaque = inert_material(emissivity=FAINT)
+    front = {"flux_W_m2": 1e4 / FAINT}
+    found = temperatures(solve, slab_experiment(DEPTH, front, surface_share=0.3), matter, 40.0)
+    surface = temperatures(solve, slab_experiment(DEPTH, front), opaque, 40.0)
+    depth = temperatures(solve, slab_experiment(DEPTH, front), matter, 40.0)
+    assert found == pytest.approx(0.3 * surface + 0.7 * depth, abs=1e-4)
+
+
+@both
+def test_absorption_factor_makes_a_hot_slab_absorb_more(solve: Solver) -> None:
+    # kappa d = 0.5 below 250 K, twice of that above; the slab begins at 293 K. Measured: 4e-4 K.
+    factor = {"of": 1.0, "step": 1.0, "step_temperature_K": 250.0, "step_width_K": 0.5}
+    matter = inert_material(emissivity=FAINT, absorption=100.0)
+    component = matter.components["solid"]
+    given = component.model_dump() | {"absorption_factor": factor}
+    matter = Material.model_validate(matter.model_dump() | {"components": {"solid": given}})
+    experiment = slab_experiment(DEPTH, {"flux_W_m2": PULSE}, transmitted="lost")
+    exact = T0 + HEAT * (1.0 - np.exp(-1.0)) / (RHO * C * DEPTH)
+    assert evened_out(solve, experiment, matter) == pytest.approx(exact, abs=1e-3)
+
+
+CONDUCTIVITIES: dict[str, tuple[dict[str, float], Callable[[float], float]]] = {
+    "bend": (
+        {"scale": 2.0, "bend": -1e-3, "step_temperature_K": 400.0, "step_width_K": 10.0},
+        lambda T: 1.0 - 2e-3 * 10.0 * np.logaddexp(0.0, (T - 400.0) / 10.0),
+    ),
+    "thinning": (
+        {"scale": 2.0, "thinning": 0.5, "step_temperature_K": 400.0, "step_width_K": 10.0},
+        lambda T: 1.0 / (1.0 + 1.0 / (1.0 + np.exp(-(T - 400.0) / 10.0))),
+    ),
+}
+
+
+@both
+@pytest.mark.parametrize("name", CONDUCTIVITIES)
+def test_bend_and_thinning_of_the_conductivity_set_the_steady_temperatures(
+    name: str, solve: Solver
+) -> None:
+    # Kirchhoff: d q = int k dT between the faces, and h q = rise to the gas on both sides.
+    change, relative = CONDUCTIVITIES[name]
+    hot, cold, h = 700.0, 300.0, 200.0
+    matter = inert_material(emissivity=0.0, conductivity={"of": K, **change})
+    sides = ({"h_W_m2K": h, "gas_temperature_K": T} for T in (hot, cold))
+    found = temperatures(solve, slab_experiment(DEPTH, *sides), matter, 2e4)
+
+    def across(T_from: float, T_to: float) -> float:
+        return K * quad(relative, T_from, T_to, points=[400.0], limit=200)[0]
+
+    q = brentq(lambda q: across(cold + q / h, hot - q / h) - q * DEPTH, 0.0, 2e4)
+    front, back = hot - q / h, cold + q / h
+    middle = brentq(lambda T: across(T, front) - 0.5 * q * DEPTH, back, front)
+    assert found == pytest.approx([front, middle, back, back], abs=0.05)
+
+
+@both
+def test_gas_takes_heat_from_the_layers_that_it_passes(solve: Solver) -> None:
+    # A rate that no temperature changes and that leaves the mass: G = g (1 - z/L). Steady,
+    # k T'' + c_g G T' = 0, so that T' = B exp(-P (z/L - (z/L)^2/2)), P = c_g g L/k.
+    A, P, hot, cold, h = 1e-10, 1.5, 700.0, 300.0, 60.0
+    solid = {"density_kg_m3": RHO, "conductivity_W_mK": K, "specific_heat_J_kgK": C}
+    matter = Material.model_validate(
+        {
+            "components": {"solid": {**solid, "emissivity": 0.0}},
+            "reactions": {"0": {"reactant": "solid", "A_1_s": A, "E_J_mol": 0.0}},
+            "composition": {"solid": 1.0},
+        }
+    )
+    c_g = P * K / (A * RHO * DEPTH**2)
+    sides = ({"h_W_m2K": h, "gas_temperature_K": T} for T in (hot, cold))
+    experiment = slab_experiment(DEPTH, *sides, gas_specific_heat_J_kgK=c_g)
+    found = temperatures(solve, experiment, matter, 2e4)
+
+    def fall(s: float) -> float:
+        return quad(lambda u: np.exp(-P * (u - 0.5 * u * u)), 0.0, s)[0]
+
+    # K B/L = flux at the front, times exp(-P/2) = that at the back.
+    B = (hot - cold) / (fall(1.0) + K / (DEPTH * h) * (1.0 + np.exp(-0.5 * P)))
+    front = hot - B * K / (DEPTH * h)
+    exact = [front, front - B * fall(0.5), front - B * fall(1.0), front - B * fall(1.0)]
+    assert found == pytest.approx(exact, abs=5e-3)
+
+
 # Terms that another description says as well
 
 

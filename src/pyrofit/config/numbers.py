@@ -6,6 +6,7 @@ from pyrofit.config.study import Study
 from pyrofit.config.uses import names_in, parameters_in
 from pyrofit.errors import suggest
 from pyrofit.model.base import Rule, numbers
+from pyrofit.model.parameters import UNITS
 
 # By the end of a key, longest first where one end is that of another.
 _UNITS: dict[str, tuple[str, ...]] = {
@@ -27,6 +28,8 @@ _UNITS: dict[str, tuple[str, ...]] = {
     "_K": ("K",),
     "_m": ("m", "mm"),
     "emissivity_depth": ("m", "mm"),
+    "scale": tuple(UNITS),
+    "bend": ("1/K", "kg/J"),
     "": ("-",),
 }
 _SHARES = ("products", "composition")

@@ -29,6 +29,17 @@ def properties_changed(key: str, **takes: str) -> ComponentsChange:
     return change
 
 
+def together(*changes: ComponentsChange) -> ComponentsChange:
+    """Return several changes as one."""
+
+    def change(material: Material, at: Numbers, of: Collection[str]) -> Material:
+        for part in changes:
+            material = part(material, at, of)
+        return material
+
+    return change
+
+
 def shares(material: Material) -> dict[str, float]:
     """Return the mass fractions of the virgin material as far as they are known.
 

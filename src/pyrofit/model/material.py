@@ -58,15 +58,29 @@ class Table(Part):
 
 
 class Changed(Part):
-    """p(T) = of(T) (1 + slope (T - T_ref)) + step(T) + peak(T), at least 1 % of of(T).
+    """p(T) = (of(T) (1 + slope (T - T_ref) + bend w L) + step S + peak)/(1 + thinning S).
 
-    The step is smooth, step / (1 + exp(-(T - T_step)/width)); the peak is a normal distribution
-    of area ``peak_area`` about T_peak with the standard deviation ``peak_width_K``.
+    It is at least 1 % of of(T). The step is smooth, S = 1/(1 + exp(-x)) with x = (T - T_step)/w and
+    w the width; the bend is a change of the slope there, L = ln(1 + exp(x)). The peak is a normal
+    distribution of area ``peak_area`` about T_peak with the standard deviation ``peak_width_K``.
+    ``scale`` multiplies slope, bend, step, peak and thinning, so that the changes of several
+    properties can have one strength.
     """
 
     of: "Property" = Field(description="the property without these changes")
     slope_1_K: Number = Field(0.0, description="relative slope [1/K]")
     reference_temperature_K: Positive = Field(475.0, description="T_ref [K]")
+    scale: Number = Field(
+        1.0, description="multiplies slope, bend, step, peak and thinning; any unit"
+    )
+    bend: Number = Field(
+        0.0,
+        description="relative slope from the temperature of the step on [1/K, over the unit of "
+        "scale]",
+    )
+    thinning: Number = Field(
+        0.0, description="p is divided by 1 + thinning above the temperature of the step [-]"
+    )
     step: Number = Field(0.0, description="height of the step, unit of the property")
     step_temperature_K: Positive = Field(390.0, description="temperature of the step [K]")
     step_width_K: Positive = Field(8.0, description="width of the step [K]")
@@ -114,6 +128,10 @@ class Component(Part):
     emissivity: Fraction = Field(0.9, description="surface emissivity = absorptivity [-]")
     absorption_1_m: Annotated[Number | None, POSITIVE] = Field(
         None, description="in-depth absorption coefficient [1/m]; none = opaque"
+    )
+    absorption_factor: Property = Field(
+        1.0,
+        description="multiplies the absorption coefficient, also that of absorption_length_m [-]",
     )
 
 

@@ -34,6 +34,7 @@ UNITS: dict[str, float] = {
     "kg/(m2 s)": 1.0,
     "s": 1.0,
     "1/K": 1.0,
+    "kg/J": 1.0,
 }
 """Factor that takes a value in each unit to SI."""
 

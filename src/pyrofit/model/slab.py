@@ -195,6 +195,16 @@ class Sample(Part):
         description="1/absorption_1_m of all components of the material, instead of theirs [m]; "
         "0 = theirs",
     )
+    surface_share: Fraction = Field(
+        0.0,
+        description="share of the radiation that a translucent sample absorbs at its surface; the "
+        "rest in depth [-]",
+    )
+    gas_specific_heat_J_kgK: NotNegative = Field(
+        0.0,
+        description="specific heat of the gas, which is heated on its way to the front; 0 = it "
+        "takes no heat with it [J/(kg K)]",
+    )
     transmitted: Literal["foil", "back", "lost"] = Field(
         "foil",
         description="radiation that passes the sample: the foil absorbs it; the back face, with or "

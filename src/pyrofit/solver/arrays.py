@@ -72,7 +72,7 @@ class Material(NamedTuple):
     emissivity: FloatArray
     """eps_i [-], shape (components,)."""
     absorption: FloatArray
-    """kappa_i [1/m], shape (components,); 0 = opaque."""
+    """kappa_i(T) [1/m], shape (components, table nodes or 1); 0 = opaque."""
 
 
 class Network(NamedTuple):
@@ -144,6 +144,10 @@ class Exposure(NamedTuple):
     """Between sample and foil [m2 K/W]."""
     back_absorbs: bool
     """Whether the foil, or the back face without one, absorbs what passes the sample."""
+    surface_share: Number
+    """Share of the radiation that a translucent sample absorbs at its surface [-]."""
+    gas_heat: Number
+    """Specific heat of the gas that passes the hot layers [J/(kg K)]."""
     mixing_depth: Number
     """delta [m]: depth over which the surface emissivity is averaged by volume."""
     emissivity_change: Number

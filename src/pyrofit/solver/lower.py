@@ -98,20 +98,25 @@ def property_at(prop: object, values: Values, T: FloatArray, sets: int = 1) -> F
 
 
 def _changed(prop: words.Changed, values: Values, T: FloatArray, sets: int) -> FloatArray:
-    """Return of(T) with slope, step and peak; nothing but of(T) where these are zero."""
+    """Return of(T) with its changes; nothing but of(T) where these are zero."""
     at = {
         name: value_of(getattr(prop, name), values)
         for name in words.Changed.model_fields
         if name != "of"
     }
     of = property_at(prop.of, values, T, sets)
-    slope = 1.0 + at["slope_1_K"] * (T - at["reference_temperature_K"])
+    scale, above = at["scale"], T - at["step_temperature_K"]
+    slope = 1.0 + scale * at["slope_1_K"] * (T - at["reference_temperature_K"])
+    if np.any(np.asarray(at["bend"]) != 0.0):
+        width = at["step_width_K"]
+        slope = slope + scale * at["bend"] * width * np.logaddexp(0.0, above / width)
     # 1 / (1 + exp(-x)), which would overflow.
-    passed = 0.5 + 0.5 * np.tanh(0.5 * (T - at["step_temperature_K"]) / at["step_width_K"])
+    passed = 0.5 + 0.5 * np.tanh(0.5 * above / at["step_width_K"])
     away = (T - at["peak_temperature_K"]) / at["peak_width_K"]
-    height = at["peak_area"] / (math.sqrt(2.0 * math.pi) * at["peak_width_K"])
-    changed = of * slope + at["step"] * passed + height * np.exp(-0.5 * away * away)
-    return np.asarray(np.maximum(changed, LEAST_SHARE * of))
+    height = scale * at["peak_area"] / (math.sqrt(2.0 * math.pi) * at["peak_width_K"])
+    changed = of * slope + scale * at["step"] * passed + height * np.exp(-0.5 * away * away)
+    thinner = changed / np.maximum(1.0 + scale * at["thinning"] * passed, LEAST_SHARE)
+    return np.asarray(np.maximum(thinner, LEAST_SHARE * of))
 
 
 def _tables(properties: list[Any], values: Values, sets: int) -> FloatArray:
@@ -147,7 +152,8 @@ def lower_material(
         conductivity=_tables([c.conductivity_W_mK for c in parts], values, sets),
         specific_heat=_tables([c.specific_heat_J_kgK for c in parts], values, sets),
         emissivity=stack([value_of(c.emissivity, values) for c in parts], sets),
-        absorption=absorption,
+        absorption=absorption[:, None, :]
+        * _tables([c.absorption_factor for c in parts], values, sets),
     )
 
 

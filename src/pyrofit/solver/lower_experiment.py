@@ -69,7 +69,8 @@ def _fixed_exposure(experiment: SlabExperiment) -> Exposure | None:
     sample = experiment.sample
     parts = experiment.front, experiment.back, sample.foil, sample.edge, experiment.burning()
     named = any(isinstance(leaf, str) for part in parts for _, leaf, _ in numbers(part))
-    if named or isinstance(sample.emissivity_change, str):
+    numbers_of = sample.emissivity_change, sample.surface_share, sample.gas_specific_heat_J_kgK
+    if named or any(isinstance(number, str) for number in numbers_of):
         return None
     return _exposure(experiment, {}, 1)
 
@@ -91,6 +92,8 @@ def _exposure(experiment: SlabExperiment, values: Values, sets: int) -> Exposure
         foil_capacity=number(capacity, sets),
         contact_resistance=number(contact, sets),
         back_absorbs=sample.back_absorbs,
+        surface_share=number(value_of(sample.surface_share, values), sets),
+        gas_heat=number(value_of(sample.gas_specific_heat_J_kgK, values), sets),
         mixing_depth=number(0.0, sets),
         emissivity_change=number(value_of(sample.emissivity_change, values), sets),
         backing_mass=number(0.0, sets),

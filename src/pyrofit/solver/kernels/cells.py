@@ -42,11 +42,11 @@ def layer(m, n, material, T):
 
 
 @inner
-def optical_depth(m, n, material):
-    """Return kappa d [-] of cell n, the absorption coefficient mixed by volume."""
+def optical_depth(m, n, material, T):
+    """Return kappa d [-] of cell n at T, the absorption coefficient mixed by volume."""
     optical = 0.0 * m[0, n]
     for i in range(m.shape[0]):
-        optical += m[i, n] * material.specific_volume[i] * material.absorption[i]
+        optical += m[i, n] * material.specific_volume[i] * at_temperature(material.absorption, i, T)
     return optical
 
 

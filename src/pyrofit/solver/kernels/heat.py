@@ -7,7 +7,7 @@ from pyrofit.solver.arrays import Number
 from pyrofit.solver.kernels import row
 from pyrofit.solver.kernels.cells import optical_depth
 from pyrofit.solver.kernels.functions import exp, fma, log, nearly_inverse
-from pyrofit.solver.kernels.jit import between, inner, live
+from pyrofit.solver.kernels.jit import between, inner, live, loop
 from pyrofit.solver.kernels.lanes import opposite, somewhere, where
 from pyrofit.solver.kernels.reactions import TINY
 
@@ -66,9 +66,9 @@ def exchange(surface, air, emissivity, T, t):
 @inner
 def is_opaque(material):
     """Tell whether all components absorb at the surface."""
-    opaque = material.absorption[0] <= 0.0
-    for i in range(1, material.absorption.size):
-        opaque = opaque & (material.absorption[i] <= 0.0)
+    opaque = material.absorption[0, 0] <= 0.0
+    for i in range(1, material.absorption.shape[0]):
+        opaque = opaque & (material.absorption[i, 0] <= 0.0)
     return opaque
 
 
@@ -95,7 +95,7 @@ def add_at_edge(cell, to, edge, value):
         cell[to, n] += where(edge.at == 1.0 * n, value, 0.0)
 
 
-@inner
+@loop
 def absorb(radiation, r_skin, work, edge, material):
     """Add the radiation that each cell absorbs to its source.
 
@@ -104,12 +104,12 @@ def absorb(radiation, r_skin, work, edge, material):
     """
     cell = work.cell
     half = at_edge(cell, row.half_r, edge)
-    skin = optical_depth(work.skin, 0, material)
+    skin = optical_depth(work.skin, 0, material, at_edge(cell, row.T_star, edge))
     passing = radiation * exp(-skin)
     at_front = (radiation - passing) * (1.0 - mean_depth(skin) * r_skin / (r_skin + half))
     add_at_edge(cell, row.source, edge, radiation - passing - at_front)
     for n in live(work.m, edge.first):
-        optical = optical_depth(work.m_new, n, material)
+        optical = optical_depth(work.m_new, n, material, cell[row.T_star, n])
         passed = passing * exp(-optical)
         share = half * (1.0 - 2.0 * mean_depth(optical)) / (r_skin + half)
         forward = where(edge.at == 1.0 * n, share * (passing - passed), 0.0)
@@ -149,15 +149,35 @@ def surface_heat(radiation, eps, front_star, t, given, r_skin, work, edge, mater
     opaque = is_opaque(material)
     at_front = radiation
     if somewhere(opposite(opaque)):
-        entering = where(opaque, 0.0, radiation)
+        kept = where(opaque, 0.0, exposure.surface_share * radiation)
+        entering = where(opaque, 0.0, radiation) - kept
         transmitted, at_front = absorb(entering, r_skin, work, edge, material)
         inside = entering - at_front - transmitted
-        at_front = where(opaque, radiation, at_front)
+        at_front = where(opaque, radiation, at_front + kept)
         if exposure.back_absorbs:
             gain_back += transmitted
     cell[row.source, foil] = gain_back
     cell[row.slope, foil] = slope_back
     return Front(gain + at_front, slope, inside)
+
+
+@loop
+def heat_gas(work, edge, foil, exposure):
+    """Take from every cell what heats the gas that passes it; return the sum [W/m2].
+
+    A cell with the gas flux G in its middle and the temperature fall dT over it loses c_g G dT.
+    """
+    cell = work.cell
+    passing = 0.0 * cell[row.rate, edge.first]
+    taken = 0.0 * passing
+    for n in range(foil - 1, edge.first - 1, -1):
+        rate = cell[row.rate, n]
+        heat = exposure.gas_heat * (passing + 0.5 * rate) * 2.0 * cell[row.fall, n]
+        heat = where(edge.at <= 1.0 * n, heat, 0.0)
+        cell[row.source, n] -= heat
+        taken += heat
+        passing += rate
+    return taken
 
 
 @inner

@@ -15,9 +15,11 @@ from pyrofit.solver.kernels.cells import (
 )
 from pyrofit.solver.kernels.functions import fma, nearly_inverse
 from pyrofit.solver.kernels.heat import (
+    Front,
     add_at_edge,
     at_edge,
     conduct,
+    heat_gas,
     irradiation,
     lose_at_edge,
     net_flux,
@@ -171,6 +173,9 @@ def advance(work, wide, edge, top, clock, mass, rate_scale, room, material, netw
     surface = surface_heat(q, seen, front_star, t, given, r_skin, work, edge, material, exposure)
     if somewhere(exposure.edge_exchange != 0.0):
         lose_at_edge(work, first, exposure)
+    if somewhere(exposure.gas_heat != 0.0):
+        taken = heat_gas(work, edge, foil, exposure)
+        surface = Front(surface.gain, surface.slope, surface.inside - taken)
     add_at_edge(cell, row.C_new, edge, C_skin)
     for n in between(edge.first, edge.behind):
         cell[row.C_mean, n] = mean_capacity(cell, n)

@@ -48,6 +48,8 @@ def exposure_in_lanes(width, g, exposure):
         foil_capacity=_lanes(width, g, exposure.foil_capacity),
         contact_resistance=_lanes(width, g, exposure.contact_resistance),
         back_absorbs=exposure.back_absorbs,
+        surface_share=_lanes(width, g, exposure.surface_share),
+        gas_heat=_lanes(width, g, exposure.gas_heat),
         mixing_depth=_lanes(width, g, exposure.mixing_depth),
         emissivity_change=_lanes(width, g, exposure.emissivity_change),
         backing_mass=_lanes(width, g, exposure.backing_mass),

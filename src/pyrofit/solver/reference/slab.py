@@ -48,6 +48,8 @@ class Outside(NamedTuple):
     """External radiation that the nodes absorb [W/m2], shape (nodes,)."""
     span: tuple[float, float]
     """Start and end of the time around t in which everything given is linear [s]."""
+    passing: FloatArray | float = 0.0
+    """Heat capacity of the gas that passes the elements [W/(m2 K)], shape (elements,)."""
 
 
 @dataclass(frozen=True)
@@ -73,6 +75,10 @@ class Slab:
     mixing_depth: float
     """[m]."""
     emissivity_change: float
+    surface_share: float
+    """Of the radiation, absorbed at the surface of a translucent sample."""
+    gas_heat: float
+    """Specific heat of the gas that flows to the front [J/(kg K)]."""
     rim: Rim
 
     @cached_property
@@ -153,18 +159,23 @@ class Slab:
             return float(volume @ self.substance.emissivity / volume.sum())
         return float(np.interp(to, depth, filled) / to)
 
-    def irradiated(self, radiation: float, volume: FloatArray) -> FloatArray:
+    def irradiated(self, radiation: float, volume: FloatArray, T: FloatArray) -> FloatArray:
         """Return the radiation [W/m2] that each node absorbs, shape (nodes,).
 
-        What an element absorbs goes to its nodes by their shape functions: 1/tau - 1/(e^tau - 1) of
-        it to the lower one.
+        What an element absorbs, whose middle has the temperature T [K], goes to its nodes by their
+        shape functions: 1/tau - 1/(e^tau - 1) of it to the lower one.
         """
         out = np.zeros(self.mass.size + 1)
         if self.is_opaque:
             out[0] = radiation
             return out
-        tau = volume @ self.substance.absorption
-        reaching = radiation * np.exp(-np.concatenate(([0.0], np.cumsum(tau))))
+        kappa = self.substance.absorption * self.substance.absorption_factor.of(T)
+        tau = (volume * kappa).sum(axis=-1)
+        reaching = (
+            (1.0 - self.surface_share)
+            * radiation
+            * np.exp(-np.concatenate(([0.0], np.cumsum(tau))))
+        )
         absorbed = reaching[:-1] - reaching[1:]
         thick = np.maximum(tau, 1e-2)
         lower = np.where(
@@ -172,16 +183,28 @@ class Slab:
         )
         out[:-1] = (1.0 - lower) * absorbed
         out[1:] += lower * absorbed
+        out[0] += self.surface_share * radiation
         if self.back_absorbs:
             out[-1] += reaching[-1]
         return out
 
     def outside(self, t: float, piece: Piece, y: FloatArray) -> Outside:
         """Return what depends on time, or on the whole state at once."""
-        extent = self.split(y)[1]
+        T, extent = self.split(y)
+        T = np.clip(T, COLDEST_K, HOTTEST_K)
         volume = np.maximum(self.masses(extent), 0.0) / self.substance.density
         eps = self.radiating(volume, extent)
-        return Outside(t, eps, self.irradiated(eps * piece.at(t), volume), piece.span)
+        absorbed = self.irradiated(eps * piece.at(t), volume, 0.5 * (T[:-1] + T[1:]))
+        return Outside(t, eps, absorbed, piece.span, self._passing(T, extent))
+
+    def _passing(self, T: FloatArray, extent: FloatArray) -> FloatArray | float:
+        """Return c_g G [W/(m2 K)] in the middle of the elements, G the gas flux to the front."""
+        if self.gas_heat == 0.0:
+            return 0.0
+        reacting, _, _ = self._react(T[:-1], T[1:], extent)
+        rate = self.mass * (reacting @ self.substance.reactions.gas)
+        behind = np.cumsum(rate[::-1])[::-1] - rate
+        return np.asarray(self.gas_heat * (behind + 0.5 * rate))
 
     def derivative(self, y: FloatArray, outside: Outside) -> FloatArray:
         """Return dy/dt of states of shape (..., size)."""
@@ -194,8 +217,9 @@ class Slab:
         volume = self._volume(between, present)
         conducted = (hot - cold) / (self._d_k(between, volume) + self.least_resistance)
         gain = outside.absorbed + self._rim_gain(T, volume.sum(axis=-1))
-        gain[..., :-1] -= conducted + upper
-        gain[..., 1:] += conducted - lower
+        carried = 0.5 * outside.passing * (hot - cold)
+        gain[..., :-1] -= conducted + upper + carried
+        gain[..., 1:] += conducted - lower - carried
         gain[..., 0] += self._front_gain(T[..., 0], outside)
         gain[..., -1] += self._back_gain(T[..., -1], outside)
         out = np.empty(y.shape)
@@ -209,7 +233,7 @@ class Slab:
         gain = outside.absorbed + self._rim_gain(T, self.thickness(T, extent))
         gain[0] += self._front_gain(T[0], outside)
         gain[-1] += self._back_gain(T[-1], outside)
-        return float(gain.sum())
+        return float(gain.sum() - np.sum(outside.passing * (T[:-1] - T[1:])))
 
     def _rim_gain(self, T: FloatArray, d: FloatArray) -> FloatArray:
         """Return what the edge gives to the nodes [W/m2]; the inert layers behind have none."""

@@ -41,6 +41,8 @@ def make_slab(
         back_absorbs=sample.back_absorbs,
         mixing_depth=depth,
         emissivity_change=value_of(sample.emissivity_change, values),
+        surface_share=value_of(sample.surface_share, values),
+        gas_heat=value_of(sample.gas_specific_heat_J_kgK, values),
         rim=rim(sample.edge, values),
     )
 

@@ -9,7 +9,7 @@ from dataclasses import dataclass
 from typing import Any
 
 import numpy as np
-from scipy.special import expit
+from scipy.special import expit, log_expit
 
 from pyrofit.constants import GAS_CONSTANT
 from pyrofit.model import material as words
@@ -59,18 +59,24 @@ class Property:
         return np.asarray(value * (T / reference) ** value_of(given.exponent, self.values))
 
     def _changed(self, given: words.Changed, T: FloatArray) -> FloatArray:
-        """Return of(T) with a slope, a smooth step and a peak, at least 1 % of of(T)."""
+        """Return of(T) with slope, bend, smooth step, peak and thinning, at least 1 % of of(T)."""
 
         def number(name: str) -> float:
             return value_of(getattr(given, name), self.values)
 
+        def scaled(name: str) -> float:
+            return number("scale") * number(name)
+
         of = self._one(given.of, T)
-        rise = number("slope_1_K") * (T - number("reference_temperature_K"))
-        passed = expit((T - number("step_temperature_K")) / number("step_width_K"))
+        rise = scaled("slope_1_K") * (T - number("reference_temperature_K"))
+        above = (T - number("step_temperature_K")) / number("step_width_K")
+        rise = rise - scaled("bend") * number("step_width_K") * log_expit(-above)
+        passed = expit(above)
         width = number("peak_width_K")
         bell = np.exp(-0.5 * ((T - number("peak_temperature_K")) / width) ** 2)
-        peak = number("peak_area") / (width * np.sqrt(2.0 * np.pi)) * bell
-        changed = of * (1.0 + rise) + number("step") * passed + peak
+        peak = scaled("peak_area") / (width * np.sqrt(2.0 * np.pi)) * bell
+        changed = of * (1.0 + rise) + scaled("step") * passed + peak
+        changed /= np.maximum(1.0 + scaled("thinning") * passed, LEAST_SHARE)
         return np.asarray(np.maximum(changed, LEAST_SHARE * of))
 
 
@@ -129,7 +135,8 @@ class Substance:
     specific_heat: Property
     emissivity: FloatArray
     absorption: FloatArray
-    """kappa_i [1/m]; zero = opaque."""
+    """kappa_i [1/m] without its factor; zero = opaque."""
+    absorption_factor: Property
     reactions: Reactions
 
 
@@ -157,6 +164,7 @@ def substance(
         specific_heat=Property(tuple(c.specific_heat_J_kgK for c in parts), values),
         emissivity=np.array([value_of(c.emissivity, values) for c in parts]),
         absorption=np.array(list(kappa.values())),
+        absorption_factor=Property(tuple(c.absorption_factor for c in parts), values),
         reactions=_reactions(material, values),
     )
 
