@@ -124,7 +124,8 @@ REFUSED = {
     "delay of a mass": (
         {f"{STA}__signals__mass_fraction__delay_s": 3.0},
         "signal 'mass_fraction' of a DSC experiment takes neither delay_s nor offset; a sample "
-        "behind its program has lag_s, and a heat flow has the baseline of its experiment",
+        "behind its program has lag_s, one whose recorded temperature is wrong has "
+        "temperature_offset_K, and a heat flow has the baseline of its experiment",
     ),
     "offset of a heat flow": (
         {f"{STA}__signals__heat_flow__offset": 30.0},

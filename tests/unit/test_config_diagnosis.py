@@ -148,7 +148,7 @@ def test_by_default_every_effect_is_a_candidate_that_the_signals_can_show() -> N
 def test_effects_of_the_model_and_what_excludes_them_are_no_candidates() -> None:
     study = study_with(effects={"in_depth": {"length_m": 3e-4}, "k_T": {"slope_1_K": -1e-3}})
     left_out = set(known_effects()) - set(candidate_effects(study))
-    assert left_out == {"in_depth", "in_depth_lost", "k_T"}
+    assert left_out == {"in_depth", "in_depth_bands", "in_depth_lost", "k_T"}
 
 
 def test_forms_that_are_one_model_here_are_offered_once() -> None:

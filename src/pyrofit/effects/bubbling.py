@@ -16,10 +16,10 @@ EFFECT = Effect(
             label="volume of the bubbles over that of the solid",
             unit="-",
             lower=0.0,
-            upper=9.0,
+            upper=3.0,
             value=0.0,
             typical=0.3,
-            source="assumed range; polymers foam to 3 to 10 times their volume; bubbles in PMMA: "
+            source="assumed range; up to 3 quarters of the volume are bubbles; in PMMA: "
             "Vincent et al. 2024, Fire 7, 117",
         )
     },
@@ -37,7 +37,7 @@ EFFECT = Effect(
             symbol="w",
             label="width of bubbling",
             unit="K",
-            lower=2.0,
+            lower=5.0,
             upper=60.0,
             value=15.0,
             typical=40.0,
@@ -47,9 +47,9 @@ EFFECT = Effect(
             label="fall of the conductivity over that of the share of solid",
             unit="-",
             lower=0.0,
-            upper=2.0,
+            upper=1.5,
             value=1.0,
-            typical=1.5,
+            typical=0.5,
             source="1 = in proportion to the share of solid, 1.5 = few small bubbles (Maxwell), "
             "less = radiation within the bubbles conducts, too",
         ),
