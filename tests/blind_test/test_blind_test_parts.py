@@ -408,6 +408,7 @@ def judged(hidden: list[str], found: dict[str, Any], **more: Any) -> dict[str, A
         "signals": "mlr+back",
         "noise": "white",
         "seed": 1,
+        "curves": "",
     }
     result = {"id": "twin", "case": case, "detectability": 20.0, "score_only": "c_T", **found}
     result |= {"location": {"in_windows": 30, "off": 50, "both": 20}, "seconds": {"diagnosis": 9.0}}

@@ -8,7 +8,7 @@ import pytest
 
 from pyrofit.blind_test.detectability import Misfit, located
 from pyrofit.blind_test.power import power, thresholds
-from pyrofit.blind_test.rates import bias, coverage, interval, windows
+from pyrofit.blind_test.rates import bias, coverage, interval, times, windows
 from pyrofit.blind_test.recovery import parameter_rows, strength_rows
 
 SLOPE = {"value": -1.1e-3, "low": -1.2e-3, "high": -1.05e-3, "low_form": None, "high_form": None}
@@ -139,6 +139,13 @@ def test_intervals_of_the_power_hold_the_truth_as_often_as_they_say() -> None:
             assert middle == pytest.approx(truth, rel=0.35)
             hits[name] += low < truth < high
     assert min(hits.values()) >= 35
+
+
+def test_times_are_stated_by_verdict() -> None:
+    twins = pd.DataFrame({"verdict": ["named", "named", "unknown"], "seconds": [1.0, 3.0, 40.0]})
+    table = times(twins).set_index("verdict")
+    assert table.loc["named"].tolist() == [2, 2.0, 3.0]
+    assert table.loc["all", "longest_s"] == 40.0
 
 
 def test_power_of_few_twins_is_wide_and_exists() -> None:

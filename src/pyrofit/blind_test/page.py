@@ -15,6 +15,7 @@ from pyrofit.blind_test.rates import (
     coverage,
     middles,
     rates,
+    times,
     windows,
 )
 from pyrofit.blind_test.recovery import parameters, strengths
@@ -25,7 +26,7 @@ from pyrofit.show.text import markdown
 
 TABLES = (
     *("twins", "rates", "by_detectability", "power", "middles", "strengths", "coverage"),
-    *("parameters", "bias", "windows"),
+    *("parameters", "bias", "windows", "times"),
 )
 _POWER = (
     "Detectability from which half and nine tenths of the effects are rightly named, with 95 % "
@@ -42,7 +43,17 @@ _WINDOWS = (
     "more than half a standard deviation of the noise. Means over effects of 10 standard "
     "deviations or more. A window is the interval that stands out most, not all that is off."
 )
-_WRONG = ["id", "hidden", "named", "verdict", "strength", "signals", "noise", "detectability"]
+_WRONG = [
+    "id",
+    "curves",
+    "hidden",
+    "named",
+    "verdict",
+    "strength",
+    "signals",
+    "noise",
+    "detectability",
+]
 
 
 def write_results(setting: Setting, plan: str, places: Places) -> None:
@@ -69,6 +80,7 @@ def write_results(setting: Setting, plan: str, places: Places) -> None:
         "parameters": of_parameters,
         "bias": bias(of_parameters),
         "windows": windows(found),
+        "times": times(found),
     }
     for name, frame in tables.items():
         write_csv(places.table(name), frame)
@@ -95,7 +107,9 @@ def page(setting: Setting, plan: str, tables: dict[str, pd.DataFrame]) -> str:
         _section("Base parameters before and after the repair", tables["bias"], _BIAS),
         _section("Windows of the base", tables["windows"], _WINDOWS),
         _section("Sets and gaps of claimed effects", tables["middles"]),
+        _section("Time of a diagnosis", tables["times"]),
         _section("Wrong claims", _wrong(found), "Of twins with one hidden effect or none."),
+        _section(f"Effects of {DETECTABLE:g} sd or more that are not claimed", _missed(found)),
         _section("Pairs", found[found["kind"] == "pair"][_WRONG].sort_values("hidden")),
         _section("Hidden effect removed from the candidates", _left_out(found)),
         "## Figures\n",
@@ -137,6 +151,11 @@ def _wrong(found: pd.DataFrame) -> pd.DataFrame:
     single = found["kind"].isin(["effect", "null"])
     wrong = found[single & found["claim"] & ~found["right"]]
     return wrong[_WRONG].sort_values(["hidden", "id"])
+
+
+def _missed(found: pd.DataFrame) -> pd.DataFrame:
+    single = (found["kind"] == "effect") & (found["detectability"] >= DETECTABLE)
+    return found[single & ~found["claim"]][_WRONG].sort_values(["hidden", "id"])
 
 
 def _left_out(found: pd.DataFrame) -> pd.DataFrame:

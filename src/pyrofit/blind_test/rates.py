@@ -183,6 +183,22 @@ def middles(twins: pd.DataFrame) -> pd.DataFrame:
     return pd.DataFrame(rows)
 
 
+def times(twins: pd.DataFrame) -> pd.DataFrame:
+    """Return the time of a diagnosis by its verdict [s]."""
+    parts = [("all", twins), *twins.groupby("verdict")]
+    return pd.DataFrame(
+        [
+            {
+                "verdict": verdict,
+                "twins": len(part),
+                "median_s": part["seconds"].median(),
+                "longest_s": part["seconds"].max(),
+            }
+            for verdict, part in parts
+        ]
+    )
+
+
 def windows(twins: pd.DataFrame) -> pd.DataFrame:
     """Return means of precision, recall and F1 of the windows, over effects of 10 sd or more."""
     seen = twins[_plain(twins)]

@@ -69,6 +69,7 @@ def row_of(found: Mapping[str, Any]) -> dict[str, Any]:
     return {
         "id": found["id"],
         **{key: case[key] for key in ("kind", "strength", "signals", "noise", "seed")},
+        "curves": case["curves"],
         "hidden": " + ".join(sorted(hidden)),
         "group": " + ".join(sorted(_groups(hidden))),
         "is_candidate": not hidden & set(case["without"]),
