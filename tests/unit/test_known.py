@@ -91,14 +91,17 @@ def test_nothing_known_leaves_residuals_and_derivatives_to_the_bit() -> None:
     posed, x = line(), np.array([0.3, 0.7])
     assert posed.prior is NO_PRIOR
     assert posed.residuals(x).size == posed.points[0]
-    assert np.array_equal(posed.jacobian(x), posed.whiten(posed.slopes(x)))
+    assert posed.jacobian(x, posed.residuals(x)).shape == (posed.points[0], 2)
+    slopes = posed.slopes(x)
+    assert np.array_equal(posed.with_known(slopes), posed.whiten(slopes))
 
 
 def test_rows_of_what_is_known_are_derivatives_of_its_residuals() -> None:
     posed, x = with_prior(line(), known(2.2, 0.1)), np.array([0.3, 0.7])
     assert posed.residuals(x)[-1] == pytest.approx((4.0 * 0.7 - 2.2) / 0.1)
-    assert posed.jacobian(x)[-1].tolist() == [0.0, 4.0 / 0.1]
-    assert posed.jacobian(x, [1])[-1].tolist() == [4.0 / 0.1]
+    assert posed.with_known(posed.slopes(x))[-1].tolist() == [0.0, 4.0 / 0.1]
+    by_differences = posed.jacobian(x, posed.residuals(x))
+    assert by_differences == pytest.approx(posed.with_known(posed.slopes(x)), abs=1e-8)
     assert [part.size for part in posed.split(posed.residuals(x))] == posed.points
 
 

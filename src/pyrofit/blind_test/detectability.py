@@ -1,11 +1,11 @@
 """The detectability of a twin's hidden effects, in standard deviations of its noise."""
 
+import math
 from collections.abc import Iterable, Mapping
 from dataclasses import dataclass
 from typing import Any
 
 import numpy as np
-from scipy.optimize import least_squares
 
 from pyrofit.config import Study, calibration_channels, diagnosed_parameters, true_description
 from pyrofit.cost import Target
@@ -13,13 +13,12 @@ from pyrofit.errors import DataError
 from pyrofit.estimate.correlation import Correlation
 from pyrofit.estimate.likelihood import Likelihood
 from pyrofit.estimate.noise import NoiseModel
+from pyrofit.estimate.prior import NormalPrior
 from pyrofit.estimate.problem import Problem, make_problem
 from pyrofit.estimate.targets import Measurements
 from pyrofit.model.signal import Noise
 from pyrofit.solver.arrays import FloatArray
 
-INSIDE = 1e-6
-"""Least distance of the start from a limit, as a fraction of the limits' distance."""
 ACTS = 0.5
 """An effect acts where the best base model misses the truth by more [standard deviations]. A window
 of 50 points that are off by as much is just found."""
@@ -108,22 +107,15 @@ def located(windows: Iterable[Mapping[str, Any]], misfit: Misfit) -> dict[str, i
 
 def _least(truth: Study, problem: Problem, known: Mapping[str, float]) -> Misfit:
     """Return the least misfit of a problem with noise-free targets, searched from the truth."""
-    likelihood = Likelihood(problem, _noise_models(truth, problem))
-    start = likelihood.scaled(_true_values(truth, problem))
-    rows = _known_rows(truth, problem, known)
-
-    def residuals(x: FloatArray) -> FloatArray:
-        return np.concatenate([likelihood.residuals(x), rows @ (x - start)])
-
-    def jacobian(x: FloatArray) -> FloatArray:
-        return np.vstack([likelihood.jacobian(x), rows])
-
-    x = np.clip(start, INSIDE, 1.0 - INSIDE)
-    options = {"x_scale": "jac", "ftol": 1e-4, "max_nfev": 40}
-    found = least_squares(residuals, x, jacobian, bounds=(0.0, 1.0), **options)
-    first = float(np.linalg.norm(residuals(x)))
-    size, points = float(np.sqrt(2.0 * found.cost)), sum(likelihood.points)
-    return Misfit(size, first, points, _differences(likelihood, found.x))
+    values = _true_values(truth, problem)
+    index = tuple(problem.names.index(name) for name in known)
+    sd = np.array([sd * truth.parameters[name].factor for name, sd in known.items()])
+    prior = NormalPrior(index, values[list(index)], sd)
+    likelihood = Likelihood(problem, _noise_models(truth, problem), prior)
+    start = likelihood.scaled(values)
+    end = likelihood.descend(start)
+    size, first = (math.sqrt(chi2) for chi2 in (end.chi2, likelihood.chi2(start)))
+    return Misfit(size, first, sum(likelihood.points), _differences(likelihood, end.x))
 
 
 def _differences(
@@ -139,14 +131,6 @@ def _differences(
             problem.picks, targets, likelihood.split(curves), likelihood.noise, strict=True
         )
     }
-
-
-def _known_rows(truth: Study, base: Problem, known: Mapping[str, float]) -> FloatArray:
-    """Return d((x_k - truth) / sd_k) / dx, shape (known, parameters), x scaled by the limits."""
-    index = [base.names.index(name) for name in known]
-    sds = np.array([sd * truth.parameters[name].factor for name, sd in known.items()])
-    sds /= (base.upper - base.lower)[index]
-    return np.asarray(np.eye(len(base.names))[index] / sds[:, None])
 
 
 def _true(truth: Study, series: Measurements) -> Problem:

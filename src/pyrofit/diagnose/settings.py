@@ -2,6 +2,8 @@
 
 from dataclasses import dataclass
 
+from pyrofit.estimate.bounded_least_squares import MOST_REFUSED, MOST_STEPS, RIDGE
+from pyrofit.estimate.derivatives import STEPS
 from pyrofit.estimate.posterior import AT_LIMIT
 
 
@@ -13,15 +15,15 @@ class Settings:
     """
 
     # Least squares
-    difference_step: float = 3e-3
+    difference_step: float = STEPS[1]
     """Step in x of a one-sided difference."""
-    most_steps: int = 80
+    most_steps: int = MOST_STEPS
     """Steps of a descent at most."""
-    most_refused: int = 8
+    most_refused: int = MOST_REFUSED
     """Refused steps in a row, each with ten times the damping, before a descent ends."""
     converged_gain: float = 0.05
     """A descent ends where the next step promises less of chi-square."""
-    ridge: float = 1e-6
+    ridge: float = RIDGE
     """Added to the curvature, so that a parameter without influence does not move."""
     rough_gain: float = 1.0
     """A rough descent ends where fresh derivatives promise less of chi-square."""

@@ -10,7 +10,8 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
-from pyrofit.estimate.likelihood import ENOUGH, Likelihood, Optimum, fit
+from pyrofit.estimate.bounded_least_squares import Fit
+from pyrofit.estimate.likelihood import Likelihood, fit
 from pyrofit.estimate.posterior import QUANTILE, Posterior, interval, limit_of
 from pyrofit.estimate.prior import NormalPrior
 from pyrofit.estimate.profile import Interval, Profile, profile_of
@@ -25,6 +26,8 @@ WEIGHINGS = 3
 """How often known values are weighed against a misfit that they change."""
 RESTARTS = 3
 """How often a lower chi-square found by a profile starts the analysis again."""
+LOWER = 0.01
+"""A chi-square is lower if it is so by more."""
 
 
 @dataclass(frozen=True)
@@ -83,7 +86,7 @@ class Identification:
     ``slopes`` are d curve / d parameter in the unit of each channel, (points, parameters).
     """
 
-    optimum: Optimum
+    optimum: Fit
     posterior: Posterior
     slopes: FloatArray
     estimates: tuple[Estimate, ...]
@@ -118,13 +121,13 @@ def identify(likelihood: Likelihood, starts: Sequence[FloatArray]) -> Identifica
     weighed, optimum = _weighed(likelihood, fit(likelihood, starts))
     for _ in range(RESTARTS):
         found, lowest = _around(weighed, optimum, likelihood.prior)
-        if lowest.chi2 >= optimum.chi2 - 10.0 * ENOUGH:
+        if lowest.chi2 >= optimum.chi2 - LOWER:
             break
         optimum = weighed.descend(lowest.x)
     return found
 
 
-def _weighed(likelihood: Likelihood, optimum: Optimum) -> tuple[Likelihood, Optimum]:
+def _weighed(likelihood: Likelihood, optimum: Fit) -> tuple[Likelihood, Fit]:
     """Return likelihood and optimum where misfit widens the noise, but not what is known.
 
     With chi-square counted over the dispersion s^2, known values keep their standard deviations if
@@ -143,9 +146,7 @@ def _posterior(likelihood: Likelihood, x: FloatArray, slopes: FloatArray) -> Pos
     return Posterior(x, residuals, likelihood.with_known(slopes))
 
 
-def _around(
-    likelihood: Likelihood, optimum: Optimum, prior: NormalPrior
-) -> tuple[Identification, Optimum]:
+def _around(likelihood: Likelihood, optimum: Fit, prior: NormalPrior) -> tuple[Identification, Fit]:
     """Return the analysis about an optimum, and the lowest point met on the way.
 
     ``prior`` is what is known, as it is stated.
@@ -171,7 +172,7 @@ def _around(
             noise, wide = (Interval(*interval(x, s)) for s in (plain, sd))
             method = "linear"
         else:
-            profile, end = profile_of(likelihood, optimum, i, follow, sd, dispersion)
+            profile, end = profile_of(likelihood.descend, optimum, i, follow, sd, dispersion)
             profiles[name] = profile
             lowest = min(lowest, end, key=lambda o: o.chi2)
             noise, wide = profile.interval(1.0), profile.interval(dispersion)
@@ -182,7 +183,7 @@ def _around(
 
 def _parabolic(
     likelihood: Likelihood,
-    optimum: Optimum,
+    optimum: Fit,
     i: int,
     follow: FloatArray,
     sd: float,

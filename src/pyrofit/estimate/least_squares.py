@@ -4,12 +4,10 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from pyrofit.estimate.derivatives import derivatives
 from pyrofit.estimate.posterior import limit_of
-from pyrofit.estimate.problem import Problem
+from pyrofit.estimate.problem import Problem, failed
 from pyrofit.solver.arrays import FloatArray
-
-STEP = 1e-3
-"""Step of the difference quotients, as a fraction of the limits' distance."""
 
 
 @dataclass(frozen=True)
@@ -59,22 +57,24 @@ def descend(problem: Problem, values: FloatArray) -> Start:
 
     span = problem.upper - problem.lower
     u = np.clip((values - problem.lower) / span, 0.0, 1.0)
+    known: dict[bytes, FloatArray] = {}
     calls = 0
 
     def residuals(v: FloatArray) -> FloatArray:
         nonlocal calls
-        calls += 1
-        return problem.residuals(problem.lower + v * span)
+        if v.tobytes() not in known:
+            calls += 1
+            known[v.tobytes()] = problem.residuals(problem.lower + v * span)
+        return known[v.tobytes()]
+
+    def beside(V: FloatArray) -> list[FloatArray | None]:
+        nonlocal calls
+        calls += len(V)
+        there = problem.residuals_all(problem.lower + V * span)
+        return [None if failed(r) else r for r in there]
 
     def slopes(v: FloatArray) -> FloatArray:
-        """Return d residuals / d v, by central differences, one-sided at the limits."""
-        nonlocal calls
-        calls += 2 * v.size
-        ahead, behind = np.minimum(v + STEP, 1.0), np.maximum(v - STEP, 0.0)
-        moved = np.vstack([v + np.diag(ahead - v), v + np.diag(behind - v)])
-        there = problem.residuals_all(problem.lower + moved * span)
-        pairs = zip(there[: v.size], there[v.size :], ahead - behind, strict=True)
-        return np.column_stack([(high - low) / apart for high, low, apart in pairs])
+        return derivatives(beside, v, residuals(v), order=2)[0]
 
     found = least_squares(
         residuals, u, slopes, bounds=(0.0, 1.0), xtol=1e-7, ftol=1e-7, max_nfev=200

@@ -172,6 +172,11 @@ class Problem:
         return np.full(self.cost.residuals(met).size, np.sqrt(FAILED_COST))
 
 
+def failed(residuals: FloatArray) -> bool:
+    """Tell whether these are the residuals of a run that did not finish."""
+    return bool(np.all(residuals == np.sqrt(FAILED_COST)))
+
+
 def make_problem(
     study: Study,
     estimate: Sequence[str],

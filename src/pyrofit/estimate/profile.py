@@ -6,7 +6,7 @@ from typing import Protocol
 
 import numpy as np
 
-from pyrofit.estimate.likelihood import Optimum
+from pyrofit.estimate.bounded_least_squares import Fit
 from pyrofit.estimate.posterior import QUANTILE
 from pyrofit.solver.arrays import FloatArray
 
@@ -63,23 +63,23 @@ def _crossing(x: FloatArray, root: FloatArray, top: float) -> tuple[float] | Non
     return (float(x[k - 1] + share * (x[k] - x[k - 1])),)
 
 
-class Fits(Protocol):
-    """What a profile asks of a likelihood."""
+class Descend(Protocol):
+    """A descent of chi-square beside a parameter that is kept."""
 
-    def descend(self, x: FloatArray, fixed: int) -> Optimum:
-        """Return the least chi-square from x, one parameter kept."""
+    def __call__(self, x: FloatArray, *, fixed: int) -> Fit:
+        """Return the least chi-square from x."""
 
 
 def profile_of(
-    likelihood: Fits,
-    optimum: Optimum,
+    descend: Descend,
+    optimum: Fit,
     i: int,
     follow: FloatArray,
     sd: float,
     dispersion: float,
-) -> tuple[Profile, Optimum]:
+) -> tuple[Profile, Fit]:
     """Return the profile of a parameter as far as the interval reaches, and its lowest point."""
-    line = _Line(likelihood, optimum, i, follow)
+    line = _Line(descend, optimum, i, follow)
     top = QUANTILE * math.sqrt(dispersion)
     ends = [optimum]
     for sign in (-1.0, 1.0):
@@ -97,24 +97,24 @@ def profile_of(
 class _Line:
     """One parameter at given values, all others at their best."""
 
-    likelihood: Fits
-    optimum: Optimum
+    descend: Descend
+    optimum: Fit
     i: int
     follow: FloatArray
     """How the others move with it, about the optimum."""
 
-    def at(self, value: float, near: Optimum) -> Optimum:
+    def at(self, value: float, near: Fit) -> Fit:
         """Return the least chi-square at a value, searched from a point of another value."""
         x = np.clip(near.x + (value - near.x[self.i]) * self.follow, 0.0, 1.0)
         x[self.i] = value
-        return self.likelihood.descend(x, fixed=self.i)
+        return self.descend(x, fixed=self.i)
 
-    def root(self, end: Optimum) -> float:
+    def root(self, end: Fit) -> float:
         """Return the root of the rise of chi-square: distance in sd, were it a parabola."""
         return float(np.sqrt(max(end.chi2 - self.optimum.chi2, 0.0)))
 
 
-def _outwards(line: _Line, reach: float, top: float) -> list[Optimum]:
+def _outwards(line: _Line, reach: float, top: float) -> list[Fit]:
     """Return points from the optimum outwards, the last at the limit or with a root above top."""
     limit = 1.0 if reach > 0.0 else 0.0
     side = [line.optimum]
@@ -132,7 +132,7 @@ def _outwards(line: _Line, reach: float, top: float) -> list[Optimum]:
     return side
 
 
-def _refined(line: _Line, side: list[Optimum], level: float) -> list[Optimum]:
+def _refined(line: _Line, side: list[Fit], level: float) -> list[Fit]:
     """Add points where a side crosses a level, until one is near to it."""
     side = list(side)
     for step in range(MOST_REFINED):

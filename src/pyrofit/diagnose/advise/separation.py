@@ -22,6 +22,7 @@ from pyrofit.diagnose.base.fitted import FittedModel
 from pyrofit.diagnose.base.model import Base
 from pyrofit.diagnose.settings import SETTINGS
 from pyrofit.estimate.correlation import Correlation
+from pyrofit.estimate.derivatives import derivatives
 from pyrofit.estimate.noise import NoiseModel
 from pyrofit.estimate.posterior import curvature
 from pyrofit.experiments import kind_of
@@ -142,21 +143,27 @@ def _forecast(trial: FittedModel, idea: Idea, requests: Mapping[str, Request]) -
     curves = _run(trial, idea, x, requests)
     if not curves.status.finished:
         return None
-    slopes: dict[str, list[FloatArray]] = {signal: [] for signal in requests}
-    for i in range(x.size):
-        by = SETTINGS.difference_step if x[i] < 0.5 else -SETTINGS.difference_step
-        moved = _run(trial, idea, x + by * (np.arange(x.size) == i), requests)
-        if not moved.status.finished:
-            return None
-        for signal, columns in slopes.items():
-            columns.append((moved.signals[signal] - curves.signals[signal]) / by)
+
+    def stacked(X: FloatArray) -> list[FloatArray | None]:
+        runs = [_run(trial, idea, there, requests) for there in X]
+        return [_stacked(run, requests) if run.status.finished else None for run in runs]
+
+    here = _stacked(curves, requests)
+    slopes, found = derivatives(stacked, x, here, 1, step=SETTINGS.difference_step)
+    if not np.all(found):
+        return None
     bend = curvature(trial.fit.jacobian)
     # C = bend^-1 = R R^T with R = L^-T of Cholesky's bend = L L^T.
     R = np.linalg.inv(np.linalg.cholesky(bend)).T
+    ends = np.cumsum([request.time_s.size for request in requests.values()])
     return _Forecast(
         curve={signal: curves.signals[signal] for signal in requests},
-        spread={signal: np.column_stack(columns) @ R for signal, columns in slopes.items()},
+        spread=dict(zip(requests, np.split(slopes @ R, ends[:-1]), strict=True)),
     )
+
+
+def _stacked(curves: Curves, requests: Mapping[str, Request]) -> FloatArray:
+    return np.concatenate([curves.signals[signal] for signal in requests])
 
 
 def _run(trial: FittedModel, idea: Idea, x: FloatArray, requests: Mapping[str, Request]) -> Curves:

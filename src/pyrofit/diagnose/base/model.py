@@ -10,7 +10,7 @@ from pyrofit.diagnose.settings import SETTINGS
 from pyrofit.effects import known_effects
 from pyrofit.effects.apply import with_effects
 from pyrofit.effects.base import Quantity
-from pyrofit.estimate.likelihood import FAILED, Likelihood
+from pyrofit.estimate.likelihood import Likelihood
 from pyrofit.estimate.problem import Problem
 from pyrofit.solver.arrays import FloatArray
 
@@ -79,31 +79,12 @@ class Model:
         return self.likelihood.residuals_all(X)
 
     def jacobian(self, x: FloatArray, residuals: FloatArray) -> FloatArray:
-        """Return d residuals / d x by differences towards the farther limit.
-
-        Towards the nearer one where no run finishes there, and zero where none does.
-        """
-        J = np.zeros((residuals.size, x.size))
-        missing = np.arange(x.size)
-        for step in (
-            np.where(x < 0.5, SETTINGS.difference_step, -SETTINGS.difference_step),
-            np.where(x < 0.5, -SETTINGS.difference_step, SETTINGS.difference_step),
-        ):
-            moved = np.clip(x[missing] + step[missing], 0.0, 1.0)
-            sets = np.tile(x, (missing.size, 1))
-            sets[np.arange(missing.size), missing] = moved
-            found = np.zeros(missing.size, bool)
-            for a, there in enumerate(self.residuals_all(sets)):
-                i = missing[a]
-                found[a] = moved[a] != x[i] and self.finished(there)
-                if found[a]:
-                    J[:, i] = (there - residuals) / (moved[a] - x[i])
-            missing = missing[~found]
-        return J
+        """Return d residuals / d x by differences of first order."""
+        return self.likelihood.jacobian(x, residuals, 1, SETTINGS.difference_step)
 
     def finished(self, residuals: FloatArray) -> bool:
         """Tell whether all runs finished that some residuals come from."""
-        return not bool(np.all(residuals[: self.points] == FAILED))
+        return self.likelihood.finished(residuals)
 
     def by_channel(self, residuals: FloatArray) -> list[FloatArray]:
         """Split whitened residuals by channel; what is known is left out."""

@@ -1,29 +1,16 @@
 """How chi-square rises with the strength of each effect of a model, all else at its best."""
 
-from dataclasses import dataclass
+from functools import partial
 from typing import Any
 
 import numpy as np
 
 from pyrofit.diagnose.base.descent import descend
 from pyrofit.diagnose.base.fitted import FittedModel, up_to_date
-from pyrofit.diagnose.base.model import Model, strength_of
-from pyrofit.estimate.likelihood import Optimum
+from pyrofit.diagnose.base.model import strength_of
 from pyrofit.estimate.posterior import QUANTILE
 from pyrofit.estimate.profile import profile_of
 from pyrofit.parallel import parallel_map
-from pyrofit.solver.arrays import FloatArray
-
-
-@dataclass(frozen=True, eq=False)
-class _Fits:
-    """The fits of a model with one parameter kept."""
-
-    model: Model
-
-    def descend(self, x: FloatArray, fixed: int) -> Optimum:
-        end = descend(self.model, x, fixed=fixed)
-        return Optimum(end.chi2, end.x)
 
 
 def profiles(trial: FittedModel, processes: int = 1) -> list[dict[str, Any]]:
@@ -43,9 +30,8 @@ def _profile(trial: FittedModel, effect: str) -> dict[str, Any]:
     i, (parameter, quantity) = model.position(effect), strength_of(effect)
     posterior = trial.posterior
     C, dispersion = posterior.covariance(), posterior.dispersion
-    optimum = Optimum(fit.chi2, fit.x)
     found, _ = profile_of(
-        _Fits(model), optimum, i, C[:, i] / C[i, i], float(np.sqrt(C[i, i])), dispersion
+        partial(descend, model), fit, i, C[:, i] / C[i, i], float(np.sqrt(C[i, i])), dispersion
     )
     within = found.interval(dispersion)
 

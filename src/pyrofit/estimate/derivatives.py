@@ -1,0 +1,99 @@
+"""Derivatives of residuals and curves by differences, within limits and beside failed runs."""
+
+from collections.abc import Callable, Sequence
+
+import numpy as np
+from numpy.typing import NDArray
+
+from pyrofit.solver.arrays import FloatArray
+
+Curves = Callable[[FloatArray], Sequence[FloatArray | None]]
+"""From sets, shape (sets, parameters), to a curve of each; None where a run does not finish."""
+
+POINTS = {1: ((1,), (-1,)), 2: ((1, -1), (1, 2), (-1, -2))}
+"""By order, the points beside x in steps towards the farther limit. The next choice serves where
+one does not fit between the limits or a run does not finish."""
+STEPS = {1: 3e-3, 2: 1e-3}
+"""By order, the distance of the points, as a fraction of the limits' distance. Of second order, no
+standard deviation changes by 0.3 % from 1e-4 to 5e-3: neither solver noise nor curvature shows."""
+LEAST = 0.1
+"""Two points nearer to each other than this share of a step are one: rounding would show."""
+
+
+def derivatives(
+    curves: Curves,
+    x: FloatArray,
+    here: FloatArray,
+    order: int,
+    *,
+    step: float | None = None,
+) -> tuple[FloatArray, NDArray[np.bool_]]:
+    """Return d curve / d x, and which derivatives were found; the others are zero.
+
+    Order 1 is the secant through x and one point. Order 2 is the slope of the parabola through x
+    and two points: the central difference inside the limits, the one-sided one at a limit. With the
+    distances h and the differences d of the curve at these points,
+
+        d_1 / h_1,    (d_1 h_2 / h_1 - d_2 h_1 / h_2) / (h_2 - h_1).
+
+    Parameters
+    ----------
+    curves
+        Simulates several sets at once.
+    x
+        Parameters as fractions of the limits' distance, shape (parameters,).
+    here
+        The curve at x, shape (points,).
+    order
+        1 or 2.
+    step
+        Distance of the points, as a fraction of the limits' distance; default `STEPS`.
+
+    Returns
+    -------
+    tuple of arrays
+        Shapes (points, parameters) and (parameters,).
+
+    >>> x = np.array([0.25])
+    >>> for order in (1, 2):
+    ...     print(derivatives(lambda X: [x**2 for x in X], x, x**2, order, step=0.125)[0])
+    [[0.625]]
+    [[0.5]]
+    """
+    step = STEPS[order] if step is None else step
+    J, found = np.zeros((here.size, x.size)), np.zeros(x.size, bool)
+    for choice in POINTS[order]:
+        places = {
+            i: points
+            for i in np.flatnonzero(~found).tolist()
+            if (points := _points(x[i], choice, step))
+        }
+        sets = [_with(x, i, point) for i, points in places.items() for point in points]
+        there = iter(curves(np.array(sets).reshape(-1, x.size)) if sets else [])
+        for i, points in places.items():
+            ends = [next(there) for _ in points]
+            changes = [end - here for end in ends if end is not None]
+            if len(changes) == len(points):
+                J[:, i] = _slope([point - x[i] for point in points], changes)
+                found[i] = True
+    return J, found
+
+
+def _points(x: float, choice: Sequence[int], step: float) -> list[float]:
+    """Return the points of a choice within the limits; none where two of them fall together."""
+    towards = step if x < 0.5 else -step
+    points = [min(max(x + by * towards, 0.0), 1.0) for by in choice]
+    ordered = np.sort([x, *points])
+    return points if np.all(np.diff(ordered) >= LEAST * step) else []
+
+
+def _with(x: FloatArray, i: int, value: float) -> FloatArray:
+    there = x.copy()
+    there[i] = value
+    return there
+
+
+def _slope(h: Sequence[float], d: Sequence[FloatArray]) -> FloatArray:
+    if len(h) == 1:
+        return d[0] / h[0]
+    return (d[0] * (h[1] / h[0]) - d[1] * (h[0] / h[1])) / (h[1] - h[0])
