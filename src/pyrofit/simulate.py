@@ -159,7 +159,7 @@ def _lower(
     if accuracy.cells is None:
         from pyrofit.solver.kernels.grid import cells_needed
 
-        thickness = np.asarray(sum(layer.thickness for layer in layers))
+        thickness = np.asarray(sum(layer.thickness for layer in layers if not layer.added))
         needed = cells_needed(share, thickness, T_start, properties, network, exposure)
         cells = np.ceil(accuracy.cells_factor * needed).astype(np.int64)
     return Case(layers + backing, cells, T_start, properties, network, exposure)

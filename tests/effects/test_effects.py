@@ -26,6 +26,7 @@ from pyrofit.model.parameters import UNITS, Parameter
 EFFECTS = known_effects()
 BASES = {"pmma": pmma(), "wood": wood()}
 LEAST_CHANGE = {
+    "adhesive": ("MLR 60", 0.11),
     "back_convection": ("MLR 60", 0.1),
     "back_loss": ("MLR 25", 0.4),
     "balance_drift": ("MLR 25", 0.02),

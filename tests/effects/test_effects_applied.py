@@ -217,6 +217,7 @@ def test_effect_on_properties_leaves_boards_as_they_are_unless_it_names_them(nam
 @pytest.mark.parametrize(
     "name",
     [
+        "adhesive",
         "thickness",
         "emissivity_conversion",
         "gas_enthalpy",

@@ -110,6 +110,27 @@ def test_bad_layer_behind_the_sample_is_told(
     assert said in str(caught.value)
 
 
+ADHESIVE = "experiments.slab_25.sample.adhesive"
+
+
+@pytest.mark.parametrize(
+    ("glue", "said"),
+    [
+        (
+            {"component": "polymr"},
+            f"{ADHESIVE}.component: unknown component 'polymr'. Did you mean",
+        ),
+        ({"thickness_m": -1e-4}, f"{ADHESIVE}.thickness_m: -0.0001 must not be negative"),
+        ({"thickness_m": 0.6}, f"{ADHESIVE}.thickness_m: 0.6 must be at most 0.5"),
+    ],
+)
+def test_bad_adhesive_is_told(glue: dict[str, Any], said: str) -> None:
+    study = changed(ADHESIVE, {"component": "polymer", "thickness_m": 1e-4, **glue})
+    with pytest.raises(StudyError) as caught:
+        as_study(study, "mine.yaml")
+    assert said in str(caught.value)
+
+
 def test_missing_file_of_a_table_is_told(tmp_path: Path) -> None:
     assert f"{FLUX}: " in complaint(FLUX, {"file": "q.csv"}, tmp_path)
     assert "there is no such file" in complaint(FLUX, {"file": "q.csv"}, tmp_path)

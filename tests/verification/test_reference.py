@@ -433,6 +433,11 @@ CASES = {
             foil=FOIL,
         ),
     ),
+    # 0.9e-5, 0.010 K
+    "adhesive": Case(
+        charring(SIMPLE, {"reactant": "M", **FAST, **HEATED}),
+        specimen(foil=FOIL, adhesive={"thickness_m": 3e-4, "component": "M"}),
+    ),
     # 0.8e-5, 0.010 K
     "consecutive": Case(
         charring(

@@ -8,7 +8,18 @@ import pytest
 from cases import FAINT, Curve, inert_material, placed, powder, rms_over_mean, run, slab_experiment
 from scipy.integrate import quad
 from scipy.optimize import brentq
-from terms import BASE, BEHIND, FOIL, TERMS, Term, charring, specimen
+from terms import (
+    BASE,
+    BEHIND,
+    FAST,
+    FOIL,
+    HEATED,
+    SIMPLE,
+    TERMS,
+    Term,
+    charring,
+    specimen,
+)
 
 from pyrofit.experiments import Gasification, Tga
 from pyrofit.model.accuracy import Accuracy, Resolution
@@ -366,6 +377,36 @@ def test_expanded_slab_is_a_thicker_one_of_less_density(solve: Solver) -> None:
     thick = solve(other, inert_material(density=0.5 * RHO), requests)
     for name in names:
         assert ours.signals[name] == pytest.approx(thick.signals[name], rel=1e-13)
+
+
+def test_adhesive_is_a_last_layer_of_its_component() -> None:
+    # Only its cells differ: those of the sample stay as many as without it. Measured: 6.5e-5.
+    glue = {"thickness_m": 1e-3, "component": "M"}
+    layers = {"thickness_m": 4e-3}, {"thickness_m": 1e-3, "composition": {"M": 1.0}}
+    matter = charring(SIMPLE, {"reactant": "M", **FAST, **HEATED})
+    requests, fine = {"mlr": BINS, "mass": POINTS}, Accuracy(cells=400, tolerance=1e-5)
+    one, other = (
+        run(experiment, matter, requests, fine, {}).signals
+        for experiment in (
+            specimen(layers=({"thickness_m": 4e-3},), adhesive=glue, foil=FOIL),
+            specimen(layers=layers, foil=FOIL),
+        )
+    )
+    assert rms_over_mean(one["mlr"], other["mlr"]) <= 1e-4
+    assert one["mass"] == pytest.approx(other["mass"], rel=1e-4)
+    assert one["mass"][0] == pytest.approx(4e-3 * 1200.0 + 1e-3 * 900.0, rel=1e-3)
+
+
+@pytest.mark.parametrize("thickness", [0.0, "x"])
+def test_adhesive_without_thickness_is_none_bit_for_bit(
+    thickness: float | str, base: Curves
+) -> None:
+    glue = {"thickness_m": thickness, "component": "M"}
+    signals = {n: {"file": "synthetic"} for n in ("mlr", "back_temperature")}
+    experiment = specimen(foil=FOIL, adhesive=glue, signals=signals)
+    none = run(experiment, charring(), REQUESTS, None, {"x": 0.0}, (2e-3,))
+    for signal, curve in base.signals.items():
+        assert np.array_equal(none.signals[signal], curve), signal
 
 
 # What the apparatus does, and TGA

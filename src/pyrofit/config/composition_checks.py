@@ -48,6 +48,7 @@ def check_compositions(study: Study) -> None:
             if layer.composition is not None:
                 place = f"experiments.{name}.sample.layers.{i}.composition"
                 compositions[place] = layer.composition
+        _check_adhesive(study, name, experiment)
         _check_backing(study, name, experiment)
     for label, chosen in (study.kinetics.sets if study.kinetics else {}).items():
         place = f"kinetics.sets.{label}"
@@ -76,6 +77,17 @@ def check_compositions(study: Study) -> None:
         _check_sum(study, composition, place)
     for name, reaction in study.material.reactions.items():
         _check_sum(study, reaction.products, f"material.reactions.{name}.products")
+
+
+def _check_adhesive(study: Study, name: str, experiment: SlabExperiment) -> None:
+    """Refuse an adhesive of an unknown component."""
+    glue, known = experiment.sample.adhesive, study.material.components
+    require(
+        glue is None or glue.component in known,
+        f"experiments.{name}.sample.adhesive.component",
+        f"unknown component '{glue.component if glue else ''}'. "
+        + suggest(glue.component if glue else "", known),
+    )
 
 
 def _check_backing(study: Study, name: str, experiment: SlabExperiment) -> None:

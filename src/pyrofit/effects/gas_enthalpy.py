@@ -16,8 +16,8 @@ EFFECT = Effect(
             upper=4000.0,
             value=0.0,
             typical=1800.0,
-            source="assumed range; ThermaKin and Gpyro count this heat; organic vapours at 600 K "
-            "have 1500 to 2500 J/(kg K)",
+            source="assumed range; ThermaKin and Gpyro count this heat; hydrocarbons of 1 to 8 "
+            "carbon atoms have about 1880 J/(kg K) at 400 to 500 K",
         )
     },
     experiment=on("sample", {"gas_specific_heat_J_kgK": "specific_heat_J_kgK"}),

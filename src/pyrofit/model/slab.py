@@ -6,7 +6,9 @@ from pydantic import Field, model_validator
 
 from pyrofit.errors import suggest
 from pyrofit.model.base import (
+    NOT_NEGATIVE,
     POSITIVE,
+    THIN,
     AboveZero,
     Fraction,
     NotNegative,
@@ -154,6 +156,15 @@ class Layer(Part):
     )
 
 
+class Adhesive(Part):
+    """A thin layer between sample and backing or foil; it counts as part of the sample."""
+
+    thickness_m: Annotated[Number, NOT_NEGATIVE, THIN] = Field(
+        description="thickness [m]; 0 = there is none"
+    )
+    component: str = Field(description="component that it consists of; it may react")
+
+
 class Backing(Part):
     """An inert layer behind the sample: board, plate or gap."""
 
@@ -174,6 +185,9 @@ class Sample(Part):
     """The specimen: layers, foil, edge."""
 
     layers: tuple[Layer, ...] = Field(min_length=1, description="layers, front first")
+    adhesive: Adhesive | None = Field(
+        None, description="layer of glue behind the layers; thickness_factor spares it"
+    )
     backing: tuple[Backing, ...] = Field(
         (),
         description="inert layers behind the sample, front first; keys of the sample spare them",

@@ -34,6 +34,8 @@ class Layer(NamedTuple):
     """[m], shape (sets,)."""
     cells: Number | None = None
     """How many it has, shape (sets,); none = its share of the sample's."""
+    added: bool = False
+    """Whether its share of the sample's cells comes on top of these; it may be none."""
 
 
 def number(value: Value, sets: int) -> Number:
@@ -190,7 +192,7 @@ def lower_layers(
     values: Values,
     sets: int = 1,
 ) -> tuple[Layer, ...]:
-    """Return the layers of the virgin sample, front first."""
+    """Return the layers of the virgin sample, front first, and the adhesive behind them."""
     names = list(material.components)
     sample = experiment.sample
     layers = []
@@ -198,6 +200,14 @@ def lower_layers(
         share = fractions(layer.composition or material.composition, names, values, sets)
         mass = size / total(share * arrays.specific_volume)
         layers.append(Layer(share * mass, number(size, sets)))
+    if sample.adhesive is not None:
+        i, size = (
+            names.index(sample.adhesive.component),
+            value_of(sample.adhesive.thickness_m, values),
+        )
+        mass = np.zeros((len(names), sets))
+        mass[i] = size / arrays.specific_volume[i]
+        layers.append(Layer(mass, number(size, sets), added=True))
     return tuple(layers)
 
 
@@ -214,13 +224,14 @@ def cells_of(
     masses [kg/m2], shape (cells, components, sets), front first, and how many of these cells are
     empty, shape (sets,).
     """
-    sample = [layer for layer in layers if layer.cells is None]
+    sample = [layer for layer in layers if layer.cells is None and not layer.added]
     if len(sample) == 1:
         counts = [cells]
     else:
         size = sum(layer.thickness for layer in sample)
         shares = [np.rint(cells * layer.thickness / size) for layer in sample]
         counts = [np.maximum(2, share).astype(np.int64) for share in shares]
+    counts += [_added(layer, sample, cells) for layer in layers if layer.added]
     counts += [layer.cells.astype(np.int64) for layer in layers if layer.cells is not None]
     needed = np.asarray(sum(counts))
     most = -(-int(needed.max()) // multiple) * multiple
@@ -230,6 +241,12 @@ def cells_of(
     n = np.arange(most)[:, None]
     for layer, count in zip(layers, counts, strict=True):
         here = (n >= begin) & (n < begin + count)
-        out += np.where(here[:, None, :], layer.mass / count, 0.0)
+        out += np.where(here[:, None, :], layer.mass / np.maximum(count, 1), 0.0)
         begin = begin + count
     return out, empty
+
+
+def _added(layer: Layer, sample: list[Layer], cells: IntArray) -> IntArray:
+    """Return the cells of an added layer, at least two; none where it has no thickness."""
+    share = np.rint(cells * layer.thickness / sum(of.thickness for of in sample))
+    return np.where(layer.thickness > 0.0, np.maximum(2, share), 0).astype(np.int64)

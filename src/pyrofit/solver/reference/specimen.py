@@ -59,6 +59,13 @@ def _elements(
         share = mass_fractions(layer.composition or material.composition, solid.names, values)
         virgin.append(np.tile(share, (count, 1)))
         mass.append(np.full(count, size / count / (share / solid.density).sum()))
+    glue = sample.adhesive
+    size = value_of(glue.thickness_m, values) if glue else 0.0
+    if glue and size > 0.0:
+        count = max(2, round(elements * size / sum(sizes)))
+        share = np.array([float(name == glue.component) for name in solid.names])
+        virgin.append(np.tile(share, (count, 1)))
+        mass.append(np.full(count, size / count * float(share @ solid.density)))
     return np.concatenate(virgin), np.concatenate(mass)
 
 
