@@ -345,7 +345,7 @@ def test_interrupted_job_goes_on_and_the_page_shows_all(
     assert "| no hidden effect: claimed | 1 | 1 | 1 |" in page
     for name in TABLES:
         assert (tmp_path / "tables" / f"{name}.csv").is_file()
-    for name in ("confusion", "accuracy", "false_alarms", "gaps"):
+    for name in ("confusion", "accuracy", "power", "false_alarms", "gaps"):
         assert f"figures/{name}.svg" in page
         assert (tmp_path / "figures" / f"{name}.svg").is_file()
 

@@ -10,6 +10,7 @@ from matplotlib.figure import Figure as Canvas
 from matplotlib.ticker import FormatStrFormatter, LogLocator, NullFormatter
 
 from pyrofit.blind_test.places import Places
+from pyrofit.blind_test.power_figure import power_by_effect
 from pyrofit.blind_test.rates import SHARES, by_detectability, interval
 from pyrofit.blind_test.table import one_name
 from pyrofit.effects import known_effects
@@ -199,6 +200,11 @@ FIGURES: dict[str, tuple[Callable[[pd.DataFrame], Canvas], str]] = {
         accuracy,
         "Shares of effects claimed and rightly named against detectability, with 95 % intervals. "
         "For comparison: the largest score, which needs no fit and always gives a name.",
+    ),
+    "power": (
+        power_by_effect,
+        "Detectability from which half and nine tenths of the twins are rightly named, over all "
+        "effects and by effect, with 95 % intervals.",
     ),
     "false_alarms": (
         false_alarms,
