@@ -107,7 +107,7 @@ def page(setting: Setting, plan: str, tables: dict[str, pd.DataFrame]) -> str:
         _section("Base parameters before and after the repair", tables["bias"], _BIAS),
         _section("Windows of the base", tables["windows"], _WINDOWS),
         _section("Sets and gaps of claimed effects", tables["middles"]),
-        _section("Time of a diagnosis", tables["times"]),
+        _section("CPU time of a diagnosis", tables["times"]),
         _section("Wrong claims", _wrong(found), "Of twins with one hidden effect or none."),
         _section(f"Effects of {DETECTABLE:g} sd or more that are not claimed", _missed(found)),
         _section("Pairs", found[found["kind"] == "pair"][_WRONG].sort_values("hidden")),

@@ -184,7 +184,7 @@ def middles(twins: pd.DataFrame) -> pd.DataFrame:
 
 
 def times(twins: pd.DataFrame) -> pd.DataFrame:
-    """Return the time of a diagnosis by its verdict [s]."""
+    """Return the CPU time of a diagnosis by its verdict [s]."""
     parts = [("all", twins), *twins.groupby("verdict")]
     return pd.DataFrame(
         [
