@@ -104,6 +104,7 @@ def page(setting: Setting, plan: str, tables: dict[str, pd.DataFrame]) -> str:
         _section("By detectability", tables["by_detectability"]),
         _section("Power", tables["power"], _POWER),
         _section("Strengths: 95 % intervals that hold the truth", tables["coverage"], _COVERAGE),
+        _section("Intervals that miss the true strength", _uncovered(tables["strengths"])),
         _section("Base parameters before and after the repair", tables["bias"], _BIAS),
         _section("Windows of the base", tables["windows"], _WINDOWS),
         _section("Sets and gaps of claimed effects", tables["middles"]),
@@ -156,6 +157,12 @@ def _wrong(found: pd.DataFrame) -> pd.DataFrame:
 def _missed(found: pd.DataFrame) -> pd.DataFrame:
     single = (found["kind"] == "effect") & (found["detectability"] >= DETECTABLE)
     return found[single & ~found["claim"]][_WRONG].sort_values(["hidden", "id"])
+
+
+def _uncovered(strengths: pd.DataFrame) -> pd.DataFrame:
+    columns = ["id", "effect", "signals", "truth", "value", "low", "high", "low_form", "high_form"]
+    missed = strengths[~strengths["covered_form"].astype(bool)]
+    return missed[columns].sort_values(["effect", "id"])
 
 
 def _left_out(found: pd.DataFrame) -> pd.DataFrame:
