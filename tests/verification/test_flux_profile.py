@@ -12,6 +12,27 @@ RADIUS_M, RELATIVE = (0.0, 0.02, 0.035), (1.0, 0.98, 0.9)
 RINGS = 60
 
 
+def test_parabolic_profile_is_a_spread_beside_a_level() -> None:
+    # Equal areas of a disc share the squares of its radii equally. Measured: 3.6e-5 and 0.014 K.
+    fall, radius = 0.1, np.linspace(0.0, 0.035, 200)
+    shares = 1.0 - fall * (radius / radius[-1]) ** 2
+    profile = FluxProfile(radius_m=tuple(radius), relative_flux=tuple(shares))
+    given = paper_experiment(50.0)
+    time = np.arange(2.5, 900.0, 5.0)
+    requests = {"mlr": Request(time, 5.0), "back_temperature": Request(time)}
+    keys = ({"profile": profile}, {"spread": fall / (2.0 - fall), "flux_factor": 1.0 - fall / 2.0})
+    one, other = (
+        run(
+            given.model_copy(update={"front": changed(given.front, **of)}),
+            paper_material(),
+            requests,
+        ).signals
+        for of in keys
+    )
+    assert rms_over_mean(one["mlr"], other["mlr"]) <= 1e-3
+    assert one["back_temperature"] == pytest.approx(other["back_temperature"], abs=0.5)
+
+
 def test_profile_agrees_with_sixty_rings() -> None:
     # Measured: 0.8 % of the mean rate and 1.1 K; with the flux of the middle 38 % and 117 K.
     # The burn-out of 5 rings smears the collapse of the rate less smoothly than that of 60.

@@ -12,20 +12,22 @@ from pyrofit.model.material import Material, Reaction
 from pyrofit.model.slab import Adhesive, SlabExperiment
 
 GLUE = f"{ADDED}adhesive"
+DENSITY_KG_M3, CONDUCTIVITY_W_MK, ENERGY_J_MOL = 1150.0, 0.2, 1.8e5
+"""Of cured epoxy resin; a layer this thin shows its mass and the temperature of its release."""
 
 
 def _change(material: Material, at: Numbers) -> Material:
     _, reaction = main_reaction(material)
     glue = changed(
         material.components[reaction.reactant],
-        density_kg_m3=1150.0,
-        conductivity_W_mK=0.2,
+        density_kg_m3=DENSITY_KG_M3,
+        conductivity_W_mK=CONDUCTIVITY_W_MK,
         specific_heat_J_kgK=at["specific_heat_J_kgK"],
         expansion=1.0,
     )
     decomposition = Reaction(
         reactant=GLUE,
-        E_J_mol=1.8e5,
+        E_J_mol=ENERGY_J_MOL,
         reference_temperature_K=at["temperature_K"],
         reference_rate_1_s=REFERENCE_RATE_1_S,
         # ASSUME: it takes as much heat as the decomposition of the same mass of the material.

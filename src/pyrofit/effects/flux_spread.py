@@ -1,4 +1,8 @@
-"""The flux differs over the surface."""
+"""The flux differs over the surface.
+
+A flux that falls with the square of the radius, by the share d to the edge of a round sample, is a
+spread of d/(2 - d) beside a `flux_level` of 1 - d/2.
+"""
 
 from pyrofit.effects.base import Effect, Quantity, on
 
@@ -16,7 +20,8 @@ EFFECT = Effect(
             upper=0.3,
             value=0.0,
             typical=0.06,
-            source="assumed range; 0.02 to 0.06 is usual",
+            source="assumed range; 0.02 to 0.06 is usual; a flux that falls as the radius squared, "
+            "by d to the edge, has d/(2 - d) beside a level of 1 - d/2",
         )
     },
     experiment=on("front", {"spread": "spread"}),
