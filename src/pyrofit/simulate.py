@@ -10,7 +10,7 @@ from pyrofit.model.base import value_of
 from pyrofit.model.heated import HeatedExperiment
 from pyrofit.model.material import Material
 from pyrofit.model.slab import SlabExperiment
-from pyrofit.solver.arrays import FLUX, FloatArray, Numerics, Values
+from pyrofit.solver.arrays import FLUX, Description, FloatArray, Numerics, Values
 from pyrofit.solver.backing import lower_backing, with_backing
 from pyrofit.solver.curves import Curves, Request, Runs
 from pyrofit.solver.heated import heated_samples
@@ -123,10 +123,11 @@ def simulate_gasifications(
     located = lower_places(experiment.sample, requests, values, sets)
 
     def run(factor: FloatArray, asked: Mapping[str, Request]) -> Runs:
-        schedule = case.exposure.schedule.copy()
+        exposure = case.description.exposure
+        schedule = exposure.schedule.copy()
         schedule[FLUX] *= factor
-        exposed = case.exposure._replace(schedule=schedule)
-        return march(case._replace(exposure=exposed), asked, _numerics(accuracy), threads)
+        exposed = case.description._replace(exposure=exposure._replace(schedule=schedule))
+        return march(case._replace(description=exposed), asked, _numerics(accuracy), threads)
 
     return observe(experiment, values, located, run, sets).curves()
 
@@ -162,7 +163,7 @@ def _lower(
         thickness = np.asarray(sum(layer.thickness for layer in layers if not layer.added))
         needed = cells_needed(share, thickness, T_start, properties, network, exposure)
         cells = np.ceil(accuracy.cells_factor * needed).astype(np.int64)
-    return Case(layers + backing, cells, T_start, properties, network, exposure)
+    return Case(layers + backing, cells, T_start, Description(properties, network, exposure))
 
 
 def solver_errors(

@@ -164,6 +164,34 @@ class Exposure(NamedTuple):
     """Of the gas there [K]."""
 
 
+class Description(NamedTuple):
+    """What a run solves: the substance and its surroundings."""
+
+    material: Material
+    network: Network
+    exposure: Exposure
+
+
+class Start(NamedTuple):
+    """The state in which a run begins."""
+
+    mass: FloatArray
+    """Masses of the cells [kg/m2], shape (cells, components, lanes), front first."""
+    empty: IntArray
+    """Number of empty cells in front, shape (lanes,)."""
+    temperature: FloatArray
+    """[K], shape (lanes,)."""
+
+
+class End(NamedTuple):
+    """Where a run ends."""
+
+    time: Number
+    """[s]."""
+    when_burnt: bool
+    """Whether it ends before, as soon as the reactant is gone."""
+
+
 class Numerics(NamedTuple):
     """How finely the equations are solved."""
 

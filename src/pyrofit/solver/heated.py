@@ -48,17 +48,9 @@ def heated_samples(
     sets
         Number of parameter sets.
     """
-    asked = [request.programme() for request in requests]
-    flows = np.array([HEAT_FLOW in names for names in wanted])
-    burns = np.array([HEAT_RELEASE in names for names in wanted])
+    programs, rises = _programs(requests, wanted)
+    flows, burns = programs.wanted.T
     network = lower_network(material, values, sets, bool(flows.any()), bool(burns.any()))
-    begins = np.cumsum([0, *(request.time_s.size for request in requests)])
-    programs = Programs(
-        np.concatenate([request.time_s for request in requests]),
-        np.concatenate([temperature for temperature, _ in asked]),
-        begins,
-        np.stack([flows, burns], axis=1),
-    )
     lags = _lags(experiments, values, sets)
     found = heat(
         programs,
@@ -69,17 +61,31 @@ def heated_samples(
         (network.gas * network.combustion, _responses(experiments, values, sets)),
     )
     curves = []
-    for p, (a, b) in enumerate(itertools.pairwise(begins)):
+    for p, (a, b) in enumerate(itertools.pairwise(programs.begins)):
         part = Heated(*(of[..., a:b] for of in found))
         names = {MASS_FRACTION: part.mass, FRACTION_RATE: part.rate}
         if flows[p]:
-            T = asked[p][0][:, None] - lags[p]
-            flow = _flow(part, T, asked[p][1], material, network, values)
+            T = programs.temperature_K[a:b, None] - lags[p]
+            flow = _flow(part, T, rises[p], material, network, values)
             names[HEAT_FLOW] = (flow + _line(experiments[p], T, values)).T
         if burns[p]:
             names[HEAT_RELEASE] = part.release
         curves.append([_curves({n: of[s] for n, of in names.items()}) for s in range(sets)])
     return curves
+
+
+def _programs(
+    requests: Sequence[Request], wanted: Sequence[Collection[str]]
+) -> tuple[Programs, list[FloatArray]]:
+    """Return the programmes of all requests, and the rise of each, dT/dt [K/s]."""
+    temperatures, rises = zip(*(request.programme() for request in requests), strict=True)
+    programs = Programs(
+        np.concatenate([request.time_s for request in requests]),
+        np.concatenate(temperatures),
+        np.cumsum([0, *(request.time_s.size for request in requests)]),
+        np.array([(HEAT_FLOW in names, HEAT_RELEASE in names) for names in wanted]),
+    )
+    return programs, list(rises)
 
 
 def _curves(signals: Mapping[str, FloatArray]) -> Curves:

@@ -30,9 +30,12 @@ class Case(NamedTuple):
     cells: IntArray
     """Number of cells, shape (sets,)."""
     T_start: FloatArray
-    properties: arrays.Material
-    network: arrays.Network
-    exposure: arrays.Exposure
+    description: arrays.Description
+
+    @property
+    def volumes(self) -> FloatArray:
+        """Specific volumes of the components [m3/kg], shape (components, sets)."""
+        return self.description.material.specific_volume
 
 
 def split(array: FloatArray, order: IntArray) -> FloatArray:
@@ -71,9 +74,11 @@ def march(case: Case, asked: Mapping[str, Request], numerics: Numerics, threads:
     at = np.concatenate([r.time_s for r in asked.values()], axis=1)
     outputs = [r.of(n) for n, r in asked.items()]
     early = set(outputs) <= EARLY
-    case = case._replace(network=case.network._replace(burns=HEAT in outputs))
+    network = case.description.network._replace(burns=HEAT in outputs)
+    case = case._replace(description=case.description._replace(network=network))
     depths = arrays.Probes(*(depths_of(asked, follows, sets) for follows in arrays.Probes._fields))
-    work = _Work(case, numerics, np.max(ends, axis=0), wanted, at, depths, outputs, early)
+    end = arrays.End(np.max(ends, axis=0), early)
+    work = _Work(case, numerics, end, wanted, at, depths, outputs)
 
     def fill(index: IntArray) -> None:
         found = _alone(work, index) if index.size == 1 else _together(work, index)
@@ -98,12 +103,11 @@ class _Work(NamedTuple):
 
     case: Case
     numerics: Numerics
-    t_end: FloatArray
+    end: arrays.End
     asked: arrays.Asked
     at: FloatArray
     depths: arrays.Probes
     outputs: list[str]
-    stop_when_burnt: bool
 
 
 @cache
@@ -146,23 +150,18 @@ def _alone(work: _Work, index: IntArray) -> Found:
     """Run one set."""
     from pyrofit.solver.kernels.slab import slab
 
-    case, t_end = work.case, work.t_end
+    case, end = work.case, work.end
     if case.cells.size > 1:
-        case, t_end = mapped(lambda a: a.take(index, axis=-1), (case, t_end))
+        case, end = mapped(lambda a: a.take(index, axis=-1), (case, end))
     start, empty = cells_of(case.layers, work.case.cells[index], LANES)
     signals, outcome = slab(
         (0,),
         (0,) * LANES,
-        start,
-        empty,
-        case.T_start,
-        case.properties,
-        case.network,
-        case.exposure,
+        arrays.Start(start, empty, case.T_start),
+        case.description,
         work.numerics,
-        t_end,
-        work.stop_when_burnt,
-        probes_of(work.depths, index, start, empty, case.properties.specific_volume),
+        end,
+        probes_of(work.depths, index, start, empty, case.volumes),
         work.asked,
         work.at[index],
     )
@@ -175,27 +174,19 @@ def _together(work: _Work, index: IntArray) -> Found:
 
     case = work.case
     filled = np.append(index, np.repeat(index[-1:], -index.size % LANES))
-    layers, volumes = mapped(
-        lambda a: a.take(filled, axis=-1), (case.layers, case.properties.specific_volume)
-    )
+    layers, volumes = mapped(lambda a: a.take(filled, axis=-1), (case.layers, case.volumes))
     start, empty = cells_of(layers, case.cells[filled])
     probes = probes_of(work.depths, filled, start, empty, volumes)
-    T_start, properties, network, exposure, t_end = mapped(
-        lambda a: split(a, filled),
-        (case.T_start, case.properties, case.network, case.exposure, work.t_end),
+    T_start, description, end = mapped(
+        lambda a: split(a, filled), (case.T_start, case.description, work.end)
     )
     per_lane = (filled.size // LANES, LANES)
     signals, outcome = slabs(
         (0,) * LANES,
-        split(start, np.arange(filled.size)),
-        empty.reshape(per_lane),
-        T_start,
-        properties,
-        network,
-        exposure,
+        arrays.Start(split(start, np.arange(filled.size)), empty.reshape(per_lane), T_start),
+        description,
         work.numerics,
-        t_end,
-        work.stop_when_burnt,
+        end,
         arrays.Probes(*(places.reshape(*per_lane, places.shape[1]) for places in probes)),
         work.asked,
         work.at[filled].reshape(*per_lane, work.at.shape[1]),

@@ -70,9 +70,7 @@ def heat(
         order = np.flatnonzero(step == longest_rise)
         for group in _groups((lags, start, network, burning), order, sets):
             *parts, heats = group.parts
-            in_lanes = tga(
-                (0,) * group.width, *programs[:3], *parts, longest_rise, programs.wanted, heats
-            )
+            in_lanes = tga((0,) * group.width, programs, *parts, longest_rise, heats)
             for all_sets, lanes in zip(found, in_lanes, strict=True):
                 # From (points, ..., lanes) to (..., sets, points).
                 all_sets[..., group.sets, :] = np.moveaxis(lanes, 0, -1)[..., : group.sets.size, :]

@@ -3,7 +3,7 @@
 from pyrofit.solver.kernels import row
 from pyrofit.solver.kernels.functions import exp, fma, nearly_inverse
 from pyrofit.solver.kernels.jit import inner, live
-from pyrofit.solver.kernels.lanes import opposite, somewhere, where
+from pyrofit.solver.kernels.lanes import where
 from pyrofit.solver.kernels.reactions import (
     TINY,
     decay_of_order,
@@ -20,8 +20,6 @@ MOST_CORRECTION_K = 20.0
 """Difference T_new - T* up to which the rates are corrected."""
 LEAST_RESISTANCE = 1.0e-13
 """[m2 K/W]; keeps vanished cells from dividing by zero."""
-LEAST_DEPTH = 1.0e-9
-"""Depth [m] from which a surface radiates at least."""
 
 
 @inner
@@ -39,49 +37,6 @@ def layer(m, n, material, T):
         k += v * at_temperature(material.conductivity, i, T)
         c += m[i, n] * at_temperature(material.specific_heat, i, T)
     return d, where(k > 0.0, d * d / max(k, TINY), 0.0), c
-
-
-@inner
-def optical_depth(m, n, material, T):
-    """Return kappa d [-] of cell n at T, the absorption coefficient mixed by volume."""
-    optical = 0.0 * m[0, n]
-    for i in range(m.shape[0]):
-        optical += m[i, n] * material.specific_volume[i] * at_temperature(material.absorption, i, T)
-    return optical
-
-
-@inner
-def emitting_layer(m, n, material):
-    """Return thickness d [m] and eps d [m] of cell n, the emissivity mixed by volume."""
-    d = 0.0 * m[0, n]
-    e = 0.0 * m[0, n]
-    for i in range(m.shape[0]):
-        v = m[i, n] * material.specific_volume[i]
-        d += v
-        e += v * material.emissivity[i]
-    return d, e
-
-
-@inner
-def top_emissivity(depth, skin, m, first, material, before):
-    """Return the volume-averaged emissivity of the top ``depth`` of the current sample.
-
-    A sample that has vanished keeps the value it had ``before``.
-    """
-    depth = max(depth, LEAST_DEPTH)
-    z, total = emitting_layer(skin, 0, material)
-    found = z >= depth
-    eps = where(found, total / max(z, TINY), before)
-    for n in live(m, first):
-        if not somewhere(opposite(found)):
-            return eps
-        d, e = emitting_layer(m, n, material)
-        here = opposite(found) & (d >= depth - z)
-        eps = where(here, (total + (depth - z) / max(d, TINY) * e) / depth, eps)
-        found = found | here
-        total += e
-        z += d
-    return where(opposite(found) & (z > 0.0), total / max(z, TINY), eps)
 
 
 @inner
@@ -105,6 +60,25 @@ def describe(work, first, material):
         d = cell[row.d, n]
         inverse_dk = nearly_inverse(max(cell[row.dk, n], TINY))
         cell[row.half_r, n] = fma(0.5 * d * d, inverse_dk, LEAST_RESISTANCE)
+
+
+@inner
+def mean_capacity(cell, n):
+    """Return the mean of C over the step: logarithmic, and more where gas is released ever faster.
+
+    The cubic with the ends C and C_new, and slopes in proportion to the rates r there, has the mean
+    (C + C_new)/2 + (C - C_new) (r_new - r)/(6 (r_new + r)). What is returned is that to first order
+    in r_new/r, and the logarithmic mean m (1 - d^2/3 - 4 d^4/45), d = (C_new - C)/(C_new + C),
+    where C falls exponentially: r_new/r is C_new/C. C that changes with temperature leaves it.
+    """
+    C, C_new = cell[row.C, n], cell[row.C_new, n]
+    both = max(C + C_new, TINY)
+    d = (C_new - C) * nearly_inverse(both)
+    d2 = d * d
+    mean = 0.5 * both * fma(d2, fma(d2, -4.0 / 45.0, -1.0 / 3.0), 1.0)
+    before, after = cell[row.rate_old, n] * C_new, cell[row.rate, n] * C
+    faster = (after - before) * nearly_inverse(max(abs(after) + abs(before), TINY))
+    return fma((1.0 / 6.0) * cell[row.C_lost, n], faster, mean)
 
 
 @inner

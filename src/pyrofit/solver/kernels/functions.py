@@ -10,7 +10,8 @@ from numba.extending import intrinsic
 from numba.np.arrayobj import make_array
 
 from pyrofit.solver.kernels.jit import inner
-from pyrofit.solver.kernels.lanes import Lanes, number_like, splat
+from pyrofit.solver.kernels.lane_types import Lanes, splat
+from pyrofit.solver.kernels.lanes import number_like
 
 _BITS = ir.IntType(64)
 _DOUBLE = ir.DoubleType()

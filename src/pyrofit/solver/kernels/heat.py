@@ -5,10 +5,10 @@ from typing import NamedTuple
 from pyrofit.constants import STEFAN_BOLTZMANN
 from pyrofit.solver.arrays import Number
 from pyrofit.solver.kernels import row
-from pyrofit.solver.kernels.cells import optical_depth
 from pyrofit.solver.kernels.functions import exp, fma, log, nearly_inverse
 from pyrofit.solver.kernels.jit import between, inner, live, loop
 from pyrofit.solver.kernels.lanes import opposite, somewhere, where
+from pyrofit.solver.kernels.radiation import is_opaque, mean_depth, optical_depth
 from pyrofit.solver.kernels.reactions import TINY
 
 SIGMA = STEFAN_BOLTZMANN
@@ -61,22 +61,6 @@ def exchange(surface, air, emissivity, T, t):
     wall = air.wall
     gain = emissivity * SIGMA * (wall * wall * wall * wall - cube * T) - h * dT + slope * T
     return gain, slope
-
-
-@inner
-def is_opaque(material):
-    """Tell whether all components absorb at the surface."""
-    opaque = material.absorption[0, 0] <= 0.0
-    for i in range(1, material.absorption.shape[0]):
-        opaque = opaque & (material.absorption[i, 0] <= 0.0)
-    return opaque
-
-
-@inner
-def mean_depth(optical):
-    """Return the mean depth at which a layer absorbs over its thickness, 1/tau - 1/(e^tau - 1)."""
-    tau = max(optical, 1e-2)
-    return where(optical < 1e-2, 0.5 - optical / 12.0, 1.0 / tau - 1.0 / (exp(tau) - 1.0))
 
 
 @inner

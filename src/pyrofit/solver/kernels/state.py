@@ -5,6 +5,7 @@ from pyrofit.solver.kernels.cells import describe, layer, rate_constants, reacta
 from pyrofit.solver.kernels.jit import inner, live, loop
 from pyrofit.solver.kernels.lanes import opposite, somewhere, where
 from pyrofit.solver.kernels.step import summed
+from pyrofit.solver.kernels.trace import Size
 
 DEAD_FRACTION = 1.0e-7
 """Reactant left, relative to the cell's initial mass, below which a cell may leave the grid."""
@@ -13,7 +14,7 @@ THIN_FRACTION = 0.01
 
 
 @inner
-def begin(work, wide, material, network, exposure, T_start):
+def begin(work, wide, description, T_start):
     """Fill temperatures, properties and rates of the initial state."""
     cell = work.cell
     foil = work.m.shape[1]
@@ -21,15 +22,15 @@ def begin(work, wide, material, network, exposure, T_start):
         cell[row.T, n] = T_start
         cell[row.T_old, n] = T_start
         cell[row.T_star, n] = T_start
-    describe(wide, 0, material)
-    rate_constants(wide, 0, network)
+    describe(wide, 0, description.material)
+    rate_constants(wide, 0, description.network)
     for n in live(wide.m, 0):
         wide.cell[row.C, n] = wide.cell[row.C_new, n]
         wide.cell[row.d_start, n] = wide.cell[row.d, n]
         for j in range(wide.root.shape[0]):
             wide.root[j, n] = wide.root_new[j, n]
-    cell[row.C_mean, foil] = exposure.foil_capacity
-    cell[row.half_r, foil] = exposure.contact_resistance
+    cell[row.C_mean, foil] = description.exposure.foil_capacity
+    cell[row.half_r, foil] = description.exposure.contact_resistance
 
 
 @inner
@@ -123,7 +124,8 @@ def total_mass(work):
 
 
 @inner
-def thickness(work, first, material, T):
-    """Return the thickness of all cells and of the skin [m], that of the skin, its resistance."""
-    skin, r_skin, _ = layer(work.skin, 0, material, T)
-    return skin + summed(work, row.d, first), skin, r_skin
+def size_of(work, first, T, description):
+    """Return how thick the samples are, whose skins have the temperature T."""
+    skin, r_skin, _ = layer(work.skin, 0, description.material, T)
+    depth = skin + summed(work, row.d, first) - description.exposure.backing_thickness
+    return Size(depth, skin, r_skin)

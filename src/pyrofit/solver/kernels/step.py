@@ -9,11 +9,11 @@ from pyrofit.solver.kernels.cells import (
     correct_rate_constants,
     describe,
     layer,
+    mean_capacity,
     rate_constants,
     react_over,
-    top_emissivity,
 )
-from pyrofit.solver.kernels.functions import fma, nearly_inverse
+from pyrofit.solver.kernels.functions import fma
 from pyrofit.solver.kernels.heat import (
     Front,
     add_at_edge,
@@ -28,7 +28,7 @@ from pyrofit.solver.kernels.heat import (
 )
 from pyrofit.solver.kernels.jit import between, inner, live, loop
 from pyrofit.solver.kernels.lanes import somewhere, where
-from pyrofit.solver.kernels.reactions import TINY
+from pyrofit.solver.kernels.radiation import top_emissivity
 from pyrofit.solver.kernels.schedule import during, given_at
 
 TEMPERATURE_SCALE = 400.0
@@ -36,19 +36,6 @@ TEMPERATURE_SCALE = 400.0
 COLDEST_K, HOTTEST_K = 50.0, 5000.0
 """Range that temperatures must not leave."""
 OK, DIVERGED, NON_FINITE = float(Status.OK), float(Status.DIVERGED), float(Status.NON_FINITE)
-
-
-class Top(NamedTuple):
-    """What a step starts from, besides the cells."""
-
-    front: Number
-    """Front temperature [K]."""
-    front_old: Number
-    """The same a step before [K]."""
-    eps: Number
-    """Front emissivity."""
-    converted: Number
-    """Mass released over initial mass."""
 
 
 class Step(NamedTuple):
@@ -86,12 +73,12 @@ def extrapolate(wide, first, r):
 
 
 @loop
-def predict(wide, first, bdf, room, material, network):
+def predict(wide, first, bdf, room, description):
     """Fill rates at T*, the masses they lead to, properties, and the heat source as a line in T."""
-    cell = wide.cell
+    cell, network = wide.cell, description.network
     rate_constants(wide, first, network)
     react_over(wide, first, bdf.dt, room, network, False)
-    describe(wide, first, material)
+    describe(wide, first, description.material)
     for n in live(wide.m, first):
         slope = bdf.b1 * cell[row.grows, n] * cell[row.inverse_T, n] * cell[row.inverse_T, n]
         used = bdf.b1 * cell[row.heat, n] - bdf.b3 * cell[row.stored_old, n]
@@ -112,25 +99,6 @@ def correct(wide, first, dt, room, network):
 
 
 @inner
-def mean_capacity(cell, n):
-    """Return the mean of C over the step: logarithmic, and more where gas is released ever faster.
-
-    The cubic with the ends C and C_new, and slopes in proportion to the rates r there, has the mean
-    (C + C_new)/2 + (C - C_new) (r_new - r)/(6 (r_new + r)). What is returned is that to first order
-    in r_new/r, and the logarithmic mean m (1 - d^2/3 - 4 d^4/45), d = (C_new - C)/(C_new + C),
-    where C falls exponentially: r_new/r is C_new/C. C that changes with temperature leaves it.
-    """
-    C, C_new = cell[row.C, n], cell[row.C_new, n]
-    both = max(C + C_new, TINY)
-    d = (C_new - C) * nearly_inverse(both)
-    d2 = d * d
-    mean = 0.5 * both * fma(d2, fma(d2, -4.0 / 45.0, -1.0 / 3.0), 1.0)
-    before, after = cell[row.rate_old, n] * C_new, cell[row.rate, n] * C
-    faster = (after - before) * nearly_inverse(max(abs(after) + abs(before), TINY))
-    return fma((1.0 / 6.0) * cell[row.C_lost, n], faster, mean)
-
-
-@inner
 def summed(work, what, first):
     """Return the sum of a row over the cells."""
     total = 0.0 * work.cell[what, first]
@@ -140,33 +108,44 @@ def summed(work, what, first):
 
 
 @inner
-def changed_emissivity(eps, top, released, mass, exposure):
+def first_wide(arrays, edge):
+    """Return the first wide cell on the grid.
+
+    Wide cells hold several of a set that runs alone; the empty ones among them do no harm.
+    """
+    return edge.first * arrays.wide.m.shape[1] // arrays.work.m.shape[1]
+
+
+@inner
+def changed_emissivity(eps, now, released, exposure):
     """Return the emissivity as it has changed with the mass released up to the end of the step."""
     change = exposure.emissivity_change
-    changed = min(max(fma(change, top.converted + released / mass, eps), 0.0), 1.0)
+    changed = min(max(fma(change, now.top.converted + released / now.mass, eps), 0.0), 1.0)
     return where(change != 0.0, changed, eps)
 
 
 @inner
-def advance(work, wide, edge, top, clock, mass, rate_scale, room, material, network, exposure):
-    """Take one step; the state it starts from stays."""
-    cell = work.cell
-    first = edge.first
-    # Wide cells hold several of a set that runs alone; the empty ones among them do no harm.
-    block = first * wide.m.shape[1] // work.m.shape[1]
-    foil = work.m.shape[1]
-    bdf = formula(clock)
-    extrapolate(wide, block, bdf.r)
+def extrapolated(arrays, edge, now, bdf, description):
+    """Fill T* and what follows from it; return that of the front."""
+    work, top = arrays.work, now.top
+    block = first_wide(arrays, edge)
+    extrapolate(arrays.wide, block, bdf.r)
     front_star = fma(bdf.r, top.front - top.front_old, top.front)
-    temperature_falls(cell, foil, edge, front_star)
-    predict(wide, block, bdf, room, material, network)
+    temperature_falls(work.cell, work.m.shape[1], edge, front_star)
+    predict(arrays.wide, block, bdf, arrays.room, description)
+    return front_star
 
-    t = clock.t + bdf.dt
-    eps = top_emissivity(exposure.mixing_depth, work.skin, work.m_new, first, material, top.eps)
+
+@inner
+def exchanged(work, edge, now, front_star, t, description):
+    """Fill what the faces and the edge exchange; return that of the front, r_skin, emissivity."""
+    cell, first = work.cell, edge.first
+    material, network, exposure = description
+    eps = top_emissivity(exposure.mixing_depth, work.skin, work.m_new, first, material, now.top.eps)
     seen = eps
     if somewhere(exposure.emissivity_change != 0.0):
-        seen = changed_emissivity(eps, top, released(work, first, network), mass, exposure)
-    given = given_at(t, clock.piece, exposure.schedule)
+        seen = changed_emissivity(eps, now, released(work, first, network), exposure)
+    given = given_at(t, now.clock.piece, exposure.schedule)
     q = seen * irradiation(given, t, exposure)
     T_skin = 0.5 * (front_star + at_edge(cell, row.T_star, edge))
     _, r_skin, C_skin = layer(work.skin, 0, material, T_skin)
@@ -174,40 +153,61 @@ def advance(work, wide, edge, top, clock, mass, rate_scale, room, material, netw
     if somewhere(exposure.edge_exchange != 0.0):
         lose_at_edge(work, first, exposure)
     if somewhere(exposure.gas_heat != 0.0):
-        taken = heat_gas(work, edge, foil, exposure)
+        taken = heat_gas(work, edge, work.m.shape[1], exposure)
         surface = Front(surface.gain, surface.slope, surface.inside - taken)
     add_at_edge(cell, row.C_new, edge, C_skin)
     for n in between(edge.first, edge.behind):
         cell[row.C_mean, n] = mean_capacity(cell, n)
-    predicted = summed(work, row.rate, first)
-    front_new = conduct(cell, foil, edge, surface, r_skin, bdf)
+    return surface, r_skin, eps
 
-    correct(wide, block, bdf.dt, room, network)
+
+@inner
+def burning(work, first, piece, description):
+    """Return the heat of combustion [J/m2] and that per time [W/m2], zero if not recorded."""
+    burnt, power = 0.0 * work.cell[row.rate, first], 0.0 * work.cell[row.rate, first]
+    if description.network.burns:
+        lit = during(piece, LIT, description.exposure.schedule)
+        burnt = lit * summed(work, row.burnt, first)
+        power = lit * summed(work, row.power, first)
+    return burnt, power
+
+
+@inner
+def scaled_error(work, rate_off, front_off):
+    """Return the largest of the errors of rate (scaled) and of front and back temperature."""
+    cell, foil = work.cell, work.m.shape[1]
+    error = max(abs(rate_off), abs(front_off) / TEMPERATURE_SCALE)
+    return max(error, abs(cell[row.T_new, foil] - cell[row.T_star, foil]) / TEMPERATURE_SCALE)
+
+
+@inner
+def advance(arrays, edge, now, description):
+    """Take one step; the state it starts from stays."""
+    work, first = arrays.work, edge.first
+    cell, foil = work.cell, work.m.shape[1]
+    bdf = formula(now.clock)
+    front_star = extrapolated(arrays, edge, now, bdf, description)
+    t = now.clock.t + bdf.dt
+    surface, r_skin, eps = exchanged(work, edge, now, front_star, t, description)
+    predicted = summed(work, row.rate, first)
+    front = conduct(cell, foil, edge, surface, r_skin, bdf)
+
+    correct(arrays.wide, first_wide(arrays, edge), bdf.dt, arrays.room, description.network)
     rate = summed(work, row.rate, first)
     in_foil = cell[row.C_mean, foil] * (cell[row.T_new, foil] - cell[row.T, foil])
     cell[row.stored, foil] = in_foil
-
-    burnt, power = 0.0 * rate, 0.0 * rate
-    if network.burns:
-        lit = during(clock.piece, LIT, exposure.schedule)
-        burnt = lit * summed(work, row.burnt, first)
-        power = lit * summed(work, row.power, first)
-
-    error = abs(rate - predicted) / rate_scale
-    error = max(error, abs(front_new - front_star) / TEMPERATURE_SCALE)
-    foil_change = abs(cell[row.T_new, foil] - cell[row.T_star, foil])
-    error = max(error, foil_change / TEMPERATURE_SCALE)
+    burnt, power = burning(work, first, now.clock.piece, description)
     return Step(
-        status=check(cell, foil, first, front_new, rate),
-        error=error,
-        front=front_new,
+        status=check(cell, foil, first, front, rate),
+        error=scaled_error(work, (rate - predicted) / now.rate_scale, front - front_star),
+        front=front,
         eps=eps,
         rate=rate,
         gas=summed(work, row.gas, first),
         burnt=burnt,
         power=power,
         heat=summed(work, row.stored, first) + in_foil,
-        net_flux=net_flux(surface, front_new, work, first, exposure),
+        net_flux=net_flux(surface, front, work, first, description.exposure),
     )
 
 

@@ -1,28 +1,15 @@
 """Thermogravimetric analysis: masses along prescribed temperatures."""
 
 import math
-from typing import Any, NamedTuple
 
 import numpy as np
 
 from pyrofit.solver.kernels.functions import exp, power
+from pyrofit.solver.kernels.heated import Gas, Program, allocate, of_points, sample_of
 from pyrofit.solver.kernels.jit import entry, inner, loop
 from pyrofit.solver.kernels.lanes import in_lanes, somewhere, where
 from pyrofit.solver.kernels.reactions import TINY, decay, react
 from pyrofit.solver.kernels.views import network_in_lanes
-from pyrofit.solver.kernels.work import make_room
-
-
-class Parts(NamedTuple):
-    """What the heats of one program are made of: whether they are wanted, and where they go."""
-
-    detailed: Any
-    burns: Any
-    burning: Any
-    response: Any
-    masses: Any
-    rates: Any
-    release: Any
 
 
 @inner
@@ -76,30 +63,65 @@ def _followed(y, mean, x, x_new, dt, tau):
 
 
 @inner
-def _note_parts(n, m, formed, k, network, heats):
-    """Write the masses of the components and the rates of the reactions at point n."""
-    if heats.detailed:
+def _note(n, sample, network, gas, seen, written):
+    """Write what is wanted of the sample at point n; ``seen`` is its heat release."""
+    m, formed, k = sample.m, sample.formed, sample.k
+    written.mass[n] = _mass(m)
+    written.rate[n] = _sum(network.gas, m, formed, k, network)
+    if gas.detailed:
         for i in range(m.shape[0]):
-            heats.masses[n, i] = m[i, 0]
+            written.masses[n, i] = m[i, 0]
         for j in range(k.size):
-            heats.rates[n, j] = _rate(m, formed, k, network, j)
+            written.rates[n, j] = _rate(m, formed, k, network, j)
+    if gas.burns:
+        written.release[n] = seen
+
+
+@inner
+def _react(sample, here, there, lag, dt, network):
+    """Bring the sample over a substep; the programme goes from ``here`` to ``there`` [K]."""
+    m, formed, k, room = sample.m, sample.formed, sample.k, sample.room
+    for j in range(k.size):
+        k_new = _arrhenius(network, j, there - lag)
+        middle = _arrhenius(network, j, 0.5 * (here + there) - lag)
+        room.x[j] = dt * (k[j] + 4.0 * middle + k_new) / 6.0
+        k[j] = k_new
+    react(m, formed, 0, room, network, True, sample.m_new)
+    for j in range(k.size):
+        for i in range(m.shape[0]):
+            formed[i, 0] += network.yields[j, i] * room.used[j]
+    for i in range(m.shape[0]):
+        m[i, 0] = sample.m_new[i, 0]
+
+
+@inner
+def _burning(sample, network, gas):
+    """Return the heat that burning releases [W per kg], zero where it is not wanted."""
+    if gas.burns:
+        return _sum(gas.heat, sample.m, sample.formed, sample.k, network)
+    return 0.0 * sample.m[0, 0]
+
+
+@inner
+def _recorded(seen, before, burnt, dt, sample, gas):
+    """Return the record of the heat release after a substep, from its record before."""
+    if gas.burns:
+        mean = 0.0 * burnt
+        for j in range(sample.k.size):
+            mean += gas.heat[j] * sample.room.used[j]
+        return _followed(seen, mean / dt, before, burnt, dt, gas.response)
+    return seen
 
 
 @loop
-def _heat(
-    time, temperature, lag, network, longest_rise, m, m_new, formed, room, k, mass, rate, heats
-):
-    """Follow one program; the arrays are the state at its start, and room to work."""
-    for j in range(k.size):
-        k[j] = _arrhenius(network, j, temperature[0] - lag)
-    mass[0] = _mass(m)
-    rate[0] = _sum(network.gas, m, formed, k, network)
-    _note_parts(0, m, formed, k, network, heats)
-    burnt = 0.0 * m[0, 0]
-    if heats.burns:
-        burnt = _sum(heats.burning, m, formed, k, network)
-        heats.release[0] = burnt
+def _heat(program, longest_rise, network, sample, gas, written):
+    """Follow one program; the sample is in its initial state."""
+    time, temperature, lag = program
+    for j in range(sample.k.size):
+        sample.k[j] = _arrhenius(network, j, temperature[0] - lag)
+    burnt = _burning(sample, network, gas)
     seen = burnt
+    _note(0, sample, network, gas, seen, written)
     for n in range(1, time.size):
         rise = temperature[n] - temperature[n - 1]
         parts = max(1, math.ceil(abs(rise) / longest_rise))
@@ -107,33 +129,15 @@ def _heat(
         for s in range(parts):
             here = temperature[n - 1] + rise * s / parts
             there = temperature[n - 1] + rise * (s + 1) / parts
-            for j in range(k.size):
-                k_new = _arrhenius(network, j, there - lag)
-                middle = _arrhenius(network, j, 0.5 * (here + there) - lag)
-                room.x[j] = dt * (k[j] + 4.0 * middle + k_new) / 6.0
-                k[j] = k_new
-            react(m, formed, 0, room, network, True, m_new)
-            for j in range(k.size):
-                for i in range(m.shape[0]):
-                    formed[i, 0] += network.yields[j, i] * room.used[j]
-            for i in range(m.shape[0]):
-                m[i, 0] = m_new[i, 0]
-            if heats.burns:
-                mean = 0.0 * m[0, 0]
-                for j in range(k.size):
-                    mean += heats.burning[j] * room.used[j]
-                before = burnt
-                burnt = _sum(heats.burning, m, formed, k, network)
-                seen = _followed(seen, mean / dt, before, burnt, dt, heats.response)
-        mass[n] = _mass(m)
-        rate[n] = _sum(network.gas, m, formed, k, network)
-        _note_parts(n, m, formed, k, network, heats)
-        if heats.burns:
-            heats.release[n] = seen
+            _react(sample, here, there, lag, dt, network)
+            before = burnt
+            burnt = _burning(sample, network, gas)
+            seen = _recorded(seen, before, burnt, dt, sample, gas)
+        _note(n, sample, network, gas, seen, written)
 
 
 @entry
-def tga(width, time, temperature, begins, lag, start, network, longest_rise, wanted, heat):
+def tga(width, programs, lag, start, network, longest_rise, burning):
     """Return the mass fraction, its rate of loss [1/s], and what heats are made of.
 
     dm_i/dt as in `react`; T(t) is linear between the points, the integral of each k_j over a
@@ -143,13 +147,11 @@ def tga(width, time, temperature, begins, lag, start, network, longest_rise, wan
     Parameters
     ----------
     width : a tuple with one entry per lane; its length is part of the compiled code.
-    time, temperature : the programs, one behind the other [s], [K], shape (points,).
-    begins : where each begins, and where the last one ends, shape (programs + 1,).
+    programs : see `pyrofit.solver.run_heated.Programs`.
     lag : by which the sample is behind the program [K], shape (programs, lanes).
     start : mass fractions of the components, shape (components, lanes).
     network : see `pyrofit.solver.arrays`.
-    wanted : whether masses and rates are wanted, and the heat release, shape (programs, 2).
-    heat : h_j [J per kg of reactant], shape (reactions, lanes), and tau [s], (programs, lanes).
+    burning : h_j [J per kg of reactant], shape (reactions, lanes), and tau [s], (programs, lanes).
 
     Returns
     -------
@@ -157,49 +159,24 @@ def tga(width, time, temperature, begins, lag, start, network, longest_rise, wan
     (points, components, lanes) and (points, reactions, lanes); heat release [W per kg], shape
     (points, lanes). The last three have no points where no program wants them.
     """
-    lanes = len(width)
-    components, reactions = start.shape[0], network.reactant.size
-    burning, response = heat
-    points = time.size if wanted.any() else 0
-    mass = np.empty((time.size, lanes))
-    rate = np.empty((time.size, lanes))
-    by_component = np.empty((points, components, lanes))
-    by_reaction = np.empty((points, reactions, lanes))
-    release = np.empty((points, lanes))
-    masses = np.empty((3, components, 1, lanes))
-    rates = np.empty((reactions, lanes))
-    in_mass, in_rate = in_lanes(width, mass), in_lanes(width, rate)
-    in_components, in_reactions = in_lanes(width, by_component), in_lanes(width, by_reaction)
-    in_release = in_lanes(width, release)
-    in_masses, k = in_lanes(width, masses), in_lanes(width, rates)
-    room = make_room(width, reactions)
+    components, reactions, points = start.shape[0], network.reactant.size, programs.time_s.size
+    detailed = points if programs.wanted.any() else 0
+    written = allocate(len(width), components, reactions, points, detailed)
+    masses = np.empty((3, components, 1, len(width)))
+    sample = sample_of(width, masses, np.empty((reactions, len(width))))
     reacting = network_in_lanes(width, None, network)
-    for p in range(begins.size - 1):
+    for p in range(programs.begins.size - 1):
         masses[0, :, 0, :] = start
         masses[2, :, 0, :] = start
-        here = slice(begins[p], begins[p + 1])
-        heats = Parts(
-            wanted[p, 0],
-            wanted[p, 1],
-            in_lanes(width, burning),
-            in_lanes(width, response[p]),
-            in_components[here],
-            in_reactions[here],
-            in_release[here],
-        )
+        part = slice(programs.begins[p], programs.begins[p + 1])
+        lags, wanted = in_lanes(width, lag[p]), programs.wanted[p]
+        heat, response = in_lanes(width, burning[0]), in_lanes(width, burning[1][p])
         _heat(
-            time[here],
-            temperature[here],
-            in_lanes(width, lag[p]),
-            reacting,
+            Program(programs.time_s[part], programs.temperature_K[part], lags),
             longest_rise,
-            in_masses[0],
-            in_masses[1],
-            in_masses[2],
-            room,
-            k,
-            in_mass[here],
-            in_rate[here],
-            heats,
+            reacting,
+            sample,
+            Gas(wanted[0], wanted[1], heat, response),
+            of_points(width, written, part),
         )
-    return mass, rate, by_component, by_reaction, release
+    return written

@@ -1,7 +1,9 @@
 """What is kept of every step: a row for each, lane by lane."""
 
 import math
+from typing import NamedTuple
 
+from pyrofit.solver.arrays import FloatArray, Number
 from pyrofit.solver.kernels import row
 from pyrofit.solver.kernels.jit import inner
 from pyrofit.solver.kernels.lanes import in_lane
@@ -11,6 +13,26 @@ TIME, RELEASED, RATE, FRONT, BACK, THICKNESS, BURNT, POWER, KINK, PROBES = range
 """Columns of the trace; any number of probes, those that follow the material first."""
 STATUS, STEPS, ENERGY_ERROR, MASS_ERROR = range(4)
 """Columns of what a run came to."""
+
+
+class Written(NamedTuple):
+    """What a run writes."""
+
+    trace: FloatArray
+    """Shape (lanes, steps + 1, columns)."""
+    outcome: FloatArray
+    """Shape (lanes, 4)."""
+
+
+class Size(NamedTuple):
+    """How thick a sample is."""
+
+    depth: Number
+    """Without the inert layers behind it [m]."""
+    d_skin: Number
+    """Of the cells that left the grid [m]."""
+    r_skin: Number
+    """Thermal resistance of these [m2 K/W]."""
 
 
 @inner

@@ -3,7 +3,7 @@
 from numba import types
 from numba.extending import overload
 
-from pyrofit.solver.arrays import Exposure, Material, Network, Surface
+from pyrofit.solver.arrays import Description, Exposure, Material, Network, Surface
 from pyrofit.solver.kernels.jit import making
 from pyrofit.solver.kernels.lanes import in_lanes
 
@@ -35,8 +35,7 @@ def _surface(width, g, side):
 
 
 @making
-def exposure_in_lanes(width, g, exposure):
-    """Return what acts on the samples with the lanes as numbers."""
+def _exposure(width, g, exposure):
     return Exposure(
         front=_surface(width, g, exposure.front),
         back=_surface(width, g, exposure.back),
@@ -61,8 +60,7 @@ def exposure_in_lanes(width, g, exposure):
 
 
 @making
-def material_in_lanes(width, g, material):
-    """Return the properties with the lanes as numbers."""
+def _material(width, g, material):
     return Material(
         specific_volume=_lanes(width, g, material.specific_volume),
         expansion=_lanes(width, g, material.expansion),
@@ -90,4 +88,14 @@ def network_in_lanes(width, g, network):
         plain=network.plain,
         residue=network.residue,
         residue_yield=_lanes(width, g, network.residue_yield),
+    )
+
+
+@making
+def in_lanes_of_group(width, g, description):
+    """Return the description with the lanes as numbers."""
+    return Description(
+        _material(width, g, description.material),
+        network_in_lanes(width, g, description.network),
+        _exposure(width, g, description.exposure),
     )

@@ -50,6 +50,17 @@ class Room(NamedTuple):
     """What the reaction's order multiplies k_j with at the end of the step."""
 
 
+class Arrays(NamedTuple):
+    """The work arrays of a run in the three ways they are looked at, and room for a cell."""
+
+    flat: Work
+    """As plain floats."""
+    work: Work
+    """As numbers."""
+    wide: Work
+    room: Room
+
+
 @making
 def allocate(cells, behind, components, reactions, lanes):
     """Return the work arrays of a run as floats, all zero, with room behind the cells."""
@@ -105,3 +116,11 @@ def make_room(width, reactions):
         in_lanes(width, room[2]),
         in_lanes(width, room[3]),
     )
+
+
+@making
+def make_arrays(width, wide, cells, components, reactions):
+    """Return the work arrays of a run, all zero."""
+    lanes = len(width)
+    flat = allocate(cells, len(wide) // lanes, components, reactions, lanes)
+    return Arrays(flat, in_width(width, flat), in_width(wide, flat), make_room(wide, reactions))

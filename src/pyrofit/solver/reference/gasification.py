@@ -15,10 +15,10 @@ from pyrofit.solver.curves import Curves, Request
 from pyrofit.solver.observe import observe_one
 from pyrofit.solver.outputs import BACK, FRONT, HEAT, MASS, RATE, THICKNESS
 from pyrofit.solver.reference.places import inside
-from pyrofit.solver.reference.slab import Outside, Slab
+from pyrofit.solver.reference.slab import Slab
 from pyrofit.solver.reference.specimen import make_slab
 from pyrofit.solver.reference.substance import COLDEST_K, HOTTEST_K
-from pyrofit.solver.reference.surroundings import Fire, Piece, fire, pieces
+from pyrofit.solver.reference.surroundings import Fire, Outside, Piece, fire, pieces
 
 BURNT_FRACTION = 1e-5
 """Reactant left in the sample, relative to its initial mass, at which it counts as burnt out."""

@@ -15,13 +15,14 @@ resistance it has a node of its own, and the contact is an element without mass 
 
 from dataclasses import dataclass
 from functools import cached_property
-from typing import NamedTuple
 
 import numpy as np
 
 from pyrofit.solver.arrays import FloatArray
+from pyrofit.solver.reference.jacobian import banded_jacobian
+from pyrofit.solver.reference.radiation import absorbed, top_average
 from pyrofit.solver.reference.substance import COLDEST_K, HOTTEST_K, Substance
-from pyrofit.solver.reference.surroundings import Piece, Rim, Surface
+from pyrofit.solver.reference.surroundings import Outside, Piece, Rim, Surface
 
 GAUSS = 0.5 - 0.5 / np.sqrt(3.0), 0.5 + 0.5 / np.sqrt(3.0)
 """Points of the rule of two points on (0, 1); both weigh 1/2."""
@@ -31,25 +32,8 @@ LEAST_LEFT = 1e-7
 Ten times as much changes the mass loss rate by 1e-5 of its mean without residue, and by 6e-6 and
 2e-5 in the paper's case at 25 and 60 kW/m2.
 """
-LEAST_DEPTH = 1e-9
-"""Depth [m] from which a surface radiates at least."""
 PERTURBED_K, PERTURBED_EXTENT = 1e-3, -1e-6
 """Differences for the Jacobian; extents go back, where there is something to react."""
-
-
-class Outside(NamedTuple):
-    """What acts on a state from outside, or depends on it as a whole."""
-
-    t: float
-    """[s]."""
-    eps: float
-    """Emissivity of the front."""
-    absorbed: FloatArray
-    """External radiation that the nodes absorb [W/m2], shape (nodes,)."""
-    span: tuple[float, float]
-    """Start and end of the time around t in which everything given is linear [s]."""
-    passing: FloatArray | float = 0.0
-    """Heat capacity of the gas that passes the elements [W/(m2 K)], shape (elements,)."""
 
 
 @dataclass(frozen=True)
@@ -151,41 +135,26 @@ class Slab:
         return float(np.clip(changed, 0.0, 1.0))
 
     def _topmost(self, volume: FloatArray) -> float:
-        depth = np.concatenate(([0.0], np.cumsum(volume.sum(axis=-1))))
-        filled = np.concatenate(([0.0], np.cumsum(volume @ self.substance.emissivity)))
-        to = min(max(self.mixing_depth, LEAST_DEPTH), depth[-1])
-        if to <= 0.0:
+        if not volume.any():
             volume = self.virgin[0] / self.substance.density
             return float(volume @ self.substance.emissivity / volume.sum())
-        return float(np.interp(to, depth, filled) / to)
+        return top_average(volume, self.substance.emissivity, self.mixing_depth)
 
     def irradiated(self, radiation: float, volume: FloatArray, T: FloatArray) -> FloatArray:
         """Return the radiation [W/m2] that each node absorbs, shape (nodes,).
 
-        What an element absorbs, whose middle has the temperature T [K], goes to its nodes by their
-        shape functions: 1/tau - 1/(e^tau - 1) of it to the lower one.
+        The middles of the elements have the temperatures T [K].
         """
-        out = np.zeros(self.mass.size + 1)
         if self.is_opaque:
+            out = np.zeros(self.mass.size + 1)
             out[0] = radiation
             return out
         kappa = self.substance.absorption * self.substance.absorption_factor.of(T)
-        tau = (volume * kappa).sum(axis=-1)
-        reaching = (
-            (1.0 - self.surface_share)
-            * radiation
-            * np.exp(-np.concatenate(([0.0], np.cumsum(tau))))
-        )
-        absorbed = reaching[:-1] - reaching[1:]
-        thick = np.maximum(tau, 1e-2)
-        lower = np.where(
-            tau < 1e-2, 0.5 - tau / 12.0 + tau**3 / 720.0, 1.0 / thick - 1.0 / np.expm1(thick)
-        )
-        out[:-1] = (1.0 - lower) * absorbed
-        out[1:] += lower * absorbed
+        entering = (1.0 - self.surface_share) * radiation
+        out, passing = absorbed(entering, (volume * kappa).sum(axis=-1))
         out[0] += self.surface_share * radiation
         if self.back_absorbs:
-            out[-1] += reaching[-1]
+            out[-1] += passing
         return out
 
     def outside(self, t: float, piece: Piece, y: FloatArray) -> Outside:
@@ -194,8 +163,8 @@ class Slab:
         T = np.clip(T, COLDEST_K, HOTTEST_K)
         volume = np.maximum(self.masses(extent), 0.0) / self.substance.density
         eps = self.radiating(volume, extent)
-        absorbed = self.irradiated(eps * piece.at(t), volume, 0.5 * (T[:-1] + T[1:]))
-        return Outside(t, eps, absorbed, piece.span, self._passing(T, extent))
+        radiation = self.irradiated(eps * piece.at(t), volume, 0.5 * (T[:-1] + T[1:]))
+        return Outside(t, eps, radiation, piece.span, self._passing(T, extent))
 
     def _passing(self, T: FloatArray, extent: FloatArray) -> FloatArray | float:
         """Return c_g G [W/(m2 K)] in the middle of the elements, G the gas flux to the front."""
@@ -220,8 +189,8 @@ class Slab:
         carried = 0.5 * outside.passing * (hot - cold)
         gain[..., :-1] -= conducted + upper + carried
         gain[..., 1:] += conducted - lower - carried
-        gain[..., 0] += self._front_gain(T[..., 0], outside)
-        gain[..., -1] += self._back_gain(T[..., -1], outside)
+        gain[..., 0] += self.front.gain(outside.eps, T[..., 0], outside.t, outside.span)
+        gain[..., -1] += self.back.gain(self.back_emissivity, T[..., -1], outside.t, outside.span)
         out = np.empty(y.shape)
         out[..., :: self.stride] = gain / self._capacity(T, present)
         self.split(out)[1][...] = reacting
@@ -231,19 +200,13 @@ class Slab:
         """Return the heat [W/m2] that a state takes from its surroundings."""
         T, extent = self.split(y)
         gain = outside.absorbed + self._rim_gain(T, self.thickness(T, extent))
-        gain[0] += self._front_gain(T[0], outside)
-        gain[-1] += self._back_gain(T[-1], outside)
+        gain[0] += self.front.gain(outside.eps, T[0], outside.t, outside.span)
+        gain[-1] += self.back.gain(self.back_emissivity, T[-1], outside.t, outside.span)
         return float(gain.sum() - np.sum(outside.passing * (T[:-1] - T[1:])))
 
     def _rim_gain(self, T: FloatArray, d: FloatArray) -> FloatArray:
         """Return what the edge gives to the nodes [W/m2]; the inert layers behind have none."""
         return self.rim.gain(T, np.where(np.arange(self.mass.size) < self.sample, d, 0.0))
-
-    def _front_gain(self, T: FloatArray, outside: Outside) -> FloatArray:
-        return self.front.gain(outside.eps, T, outside.t, outside.span)
-
-    def _back_gain(self, T: FloatArray, outside: Outside) -> FloatArray:
-        return self.back.gain(self.back_emissivity, T, outside.t, outside.span)
 
     def heat_taken(self, y_old: FloatArray, y: FloatArray) -> float:
         """Return the heat [J/m2] stored and used by reactions from one state to the next."""
@@ -281,20 +244,7 @@ class Slab:
         return out
 
     def jacobian(self, y: FloatArray, outside: Outside) -> FloatArray:
-        """Return d(dy/dt)/dy by differences, ``outside`` held, in the packed form of LSODA.
-
-        Row u + i - j of column j holds element (i, j), u = ``stride`` the half width of the band.
-        """
-        u, size = self.stride, y.size
-        change = np.full(size, PERTURBED_EXTENT)
-        change[::u] = PERTURBED_K
-        columns = np.arange(size)
-        groups = 2 * u + 1
-        states = np.tile(y, (groups, 1))
-        states[columns % groups, columns] += change
-        moved = self.derivative(states, outside) - self.derivative(y, outside)
-        packed = np.zeros((groups, size))
-        for off in range(-u, u + 1):
-            j = columns[max(0, -off) : size - max(0, off)]
-            packed[u + off, j] = moved[j % groups, j + off] / change[j]
-        return packed
+        """Return d(dy/dt)/dy by differences, ``outside`` held, as `banded_jacobian` packs it."""
+        change = np.full(y.size, PERTURBED_EXTENT)
+        change[:: self.stride] = PERTURBED_K
+        return banded_jacobian(lambda of: self.derivative(of, outside), y, change, self.stride)

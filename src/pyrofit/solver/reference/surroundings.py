@@ -4,6 +4,7 @@ import math
 from collections.abc import Iterator
 from dataclasses import dataclass
 from itertools import pairwise
+from typing import NamedTuple
 
 import numpy as np
 
@@ -183,3 +184,18 @@ def pieces(
     for start, until in pairwise(sorted({t for t in times if t < end} | {end})):
         lit = flame.begins <= start < flame.ends
         yield Piece(start, until, flux, heater, flame.flux if lit else 0.0)
+
+
+class Outside(NamedTuple):
+    """What acts on a state from outside, or depends on it as a whole."""
+
+    t: float
+    """[s]."""
+    eps: float
+    """Emissivity of the front."""
+    absorbed: FloatArray
+    """External radiation that the nodes absorb [W/m2], shape (nodes,)."""
+    span: tuple[float, float]
+    """Start and end of the time around t in which everything given is linear [s]."""
+    passing: FloatArray | float = 0.0
+    """Heat capacity of the gas that passes the elements [W/(m2 K)], shape (elements,)."""

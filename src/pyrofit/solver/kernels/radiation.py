@@ -1,0 +1,69 @@
+"""How cells absorb and emit radiation."""
+
+from pyrofit.solver.kernels.functions import exp
+from pyrofit.solver.kernels.jit import inner, live
+from pyrofit.solver.kernels.lanes import opposite, somewhere, where
+from pyrofit.solver.kernels.reactions import TINY
+from pyrofit.solver.kernels.tables import at_temperature
+
+LEAST_DEPTH = 1.0e-9
+"""Depth [m] from which a surface radiates at least."""
+
+
+@inner
+def optical_depth(m, n, material, T):
+    """Return kappa d [-] of cell n at T, the absorption coefficient mixed by volume."""
+    optical = 0.0 * m[0, n]
+    for i in range(m.shape[0]):
+        optical += m[i, n] * material.specific_volume[i] * at_temperature(material.absorption, i, T)
+    return optical
+
+
+@inner
+def is_opaque(material):
+    """Tell whether all components absorb at the surface."""
+    opaque = material.absorption[0, 0] <= 0.0
+    for i in range(1, material.absorption.shape[0]):
+        opaque = opaque & (material.absorption[i, 0] <= 0.0)
+    return opaque
+
+
+@inner
+def mean_depth(optical):
+    """Return the mean depth at which a layer absorbs over its thickness, 1/tau - 1/(e^tau - 1)."""
+    tau = max(optical, 1e-2)
+    return where(optical < 1e-2, 0.5 - optical / 12.0, 1.0 / tau - 1.0 / (exp(tau) - 1.0))
+
+
+@inner
+def emitting_layer(m, n, material):
+    """Return thickness d [m] and eps d [m] of cell n, the emissivity mixed by volume."""
+    d = 0.0 * m[0, n]
+    e = 0.0 * m[0, n]
+    for i in range(m.shape[0]):
+        v = m[i, n] * material.specific_volume[i]
+        d += v
+        e += v * material.emissivity[i]
+    return d, e
+
+
+@inner
+def top_emissivity(depth, skin, m, first, material, before):
+    """Return the volume-averaged emissivity of the top ``depth`` of the current sample.
+
+    A sample that has vanished keeps the value it had ``before``.
+    """
+    depth = max(depth, LEAST_DEPTH)
+    z, total = emitting_layer(skin, 0, material)
+    found = z >= depth
+    eps = where(found, total / max(z, TINY), before)
+    for n in live(m, first):
+        if not somewhere(opposite(found)):
+            return eps
+        d, e = emitting_layer(m, n, material)
+        here = opposite(found) & (d >= depth - z)
+        eps = where(here, (total + (depth - z) / max(d, TINY) * e) / depth, eps)
+        found = found | here
+        total += e
+        z += d
+    return where(opposite(found) & (z > 0.0), total / max(z, TINY), eps)

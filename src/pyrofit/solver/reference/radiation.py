@@ -1,0 +1,37 @@
+"""How elements emit radiation, and absorb what enters a sample."""
+
+import numpy as np
+
+from pyrofit.solver.arrays import FloatArray
+
+LEAST_DEPTH = 1e-9
+"""Depth [m] from which a surface radiates at least."""
+
+
+def top_average(volume: FloatArray, emissivity: FloatArray, depth: float) -> float:
+    """Return the emissivity averaged over the top ``depth`` [m] of a sample, or all of it.
+
+    ``volume`` [m], shape (elements, components), is that of the elements, front first.
+    """
+    below = np.concatenate(([0.0], np.cumsum(volume.sum(axis=-1))))
+    filled = np.concatenate(([0.0], np.cumsum(volume @ emissivity)))
+    to = min(max(depth, LEAST_DEPTH), below[-1])
+    return float(np.interp(to, below, filled) / to)
+
+
+def absorbed(radiation: float, tau: FloatArray) -> tuple[FloatArray, float]:
+    """Return the radiation [W/m2] that each node absorbs, shape (elements + 1,), and that passing.
+
+    Elements have the optical depths ``tau``, shape (elements,). What one absorbs goes to its nodes
+    by their shape functions: 1/tau - 1/(e^tau - 1) of it to the lower one.
+    """
+    reaching = radiation * np.exp(-np.concatenate(([0.0], np.cumsum(tau))))
+    lost = reaching[:-1] - reaching[1:]
+    thick = np.maximum(tau, 1e-2)
+    lower = np.where(
+        tau < 1e-2, 0.5 - tau / 12.0 + tau**3 / 720.0, 1.0 / thick - 1.0 / np.expm1(thick)
+    )
+    out = np.zeros(tau.size + 1)
+    out[:-1] = (1.0 - lower) * lost
+    out[1:] += lower * lost
+    return out, float(reaching[-1])
