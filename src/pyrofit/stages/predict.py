@@ -6,7 +6,6 @@ import pandas as pd
 from pyrofit.analysis.best_sets import published_sets
 from pyrofit.config import Study
 from pyrofit.config.unmeasured import unmeasured
-from pyrofit.errors import DataError
 from pyrofit.estimate.optimisers import OPTIMISERS
 from pyrofit.experiments import kind_of
 from pyrofit.quantities.base import Quantity
@@ -16,7 +15,7 @@ from pyrofit.simulate import solver_errors
 from pyrofit.solver.arrays import FloatArray, Values
 from pyrofit.stages.fit import best_sets, fixed_for_imp
 from pyrofit.stages.measurements import load
-from pyrofit.stages.unmeasured import predict_unmeasured
+from pyrofit.stages.unmeasured import check_finished, predict_unmeasured
 
 
 def sets_of(study: Study, results: Results) -> dict[str, dict[str, float]]:
@@ -64,11 +63,7 @@ def predict(study: Study, results: Results) -> None:
             for accuracy in (study.accuracy, study.accuracy.refined())
         )
         for label, run, fine in zip(chosen, runs, finer, strict=True):
-            if not run.status.finished:
-                raise DataError(
-                    f"{name}: the best set of {label} cannot be predicted: "
-                    f"{run.status.explanation}; check the limits of the parameters"
-                )
+            check_finished(name, label, run)
             errors = solver_errors(run, fine, requests)
             for signal, request in requests.items():
                 quantity = experiment.quantity(signal)

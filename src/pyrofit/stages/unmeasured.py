@@ -12,7 +12,7 @@ from pyrofit.experiments import kind_of
 from pyrofit.model.material import Material
 from pyrofit.quantities import known_quantities
 from pyrofit.solver.arrays import Values
-from pyrofit.solver.curves import Request
+from pyrofit.solver.curves import Curves, Request
 
 POINTS = 200
 """Points of a predicted record."""
@@ -56,12 +56,23 @@ def predict_unmeasured(
         simulate = kind_of(experiment).simulate
         runs = simulate([experiment], material, values, [requests], study.accuracy, len(labels))[0]
         for label, run in zip(labels, runs, strict=True):
-            if not run.status.finished:
-                raise DataError(
-                    f"{name}: the best set of {label} cannot be predicted: "
-                    f"{run.status.explanation}; check the limits of the parameters"
-                )
+            check_finished(name, label, run)
             for quantity, curve in run.signals.items():
                 about = {"experiment": name, "signal": quantity, "set": label}
                 parts.append(pd.DataFrame({**about, "time_s": time, "simulated": curve}))
     return pd.concat(parts, ignore_index=True)
+
+
+def check_finished(name: str, label: str, run: Curves) -> None:
+    """Check that the run of a set can be used.
+
+    Raises
+    ------
+    DataError
+        It cannot.
+    """
+    if not run.status.finished:
+        raise DataError(
+            f"{name}: the best set of {label} cannot be predicted: "
+            f"{run.status.explanation}; check the limits of the parameters"
+        )
