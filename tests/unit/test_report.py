@@ -12,7 +12,8 @@ from pyrofit.config import Study
 from pyrofit.errors import DataError
 from pyrofit.results.files import Results, read_csv, write_csv, write_text
 from pyrofit.show.answer.advice import advice
-from pyrofit.show.report import write_report
+from pyrofit.show.facts import facts_of
+from pyrofit.show.report import tables_of, write_report
 from pyrofit.show.robustness.table import write_robustness
 from pyrofit.show.sections import FIGURES, TABLES, make_table
 from pyrofit.show.truth.sentences import errors as sentences
@@ -166,14 +167,13 @@ def test_advice_warns_of_a_set_that_predicts_worse_than_it_fits(tmp_path: Path) 
     scores.loc[scores["experiment"] == "slab_60", "cv_rmse"] *= 2.1
     write_csv(results.validation("scores.csv"), scores)
     write_tables(study, results)
-    assert "2.25, so that predictions are not to be trusted before it is known" in advice(
-        study, results
-    )
+    said = "2.25, so that predictions are not to be trusted before it is known"
+    assert said in advice(study, facts_of(study, results, tables_of(study, results)))
     path = results.identification("estimate.csv")
     bound = read_csv(path).assign(verdict="at its upper bound", bound="upper")
     write_csv(path, bound)
     said = " k and cp are at a limit; the data would push them beyond it."
-    assert advice(study, results).endswith(said)
+    assert advice(study, facts_of(study, results, tables_of(study, results))).endswith(said)
 
 
 def test_sections_say_the_numbers(tmp_path: Path) -> None:

@@ -1,11 +1,35 @@
 """Measured series as they were read."""
 
-from typing import Any
+from typing import Any, NamedTuple
 
 import pandas as pd
 
 from pyrofit.config import Study
 from pyrofit.results.files import Keys, Results, read_csv, read_json
+
+About = dict[str, dict[str, dict[str, Any]]]
+"""What was read, by experiment and signal: source, checksum, points, notes."""
+
+
+class Measured(NamedTuple):
+    """All series of a study, and what was read of each."""
+
+    about: About
+    series: dict[tuple[str, str], pd.DataFrame]
+    """By experiment and signal, SI units."""
+
+
+def measured(study: Study, results: Results) -> Measured:
+    """Return all series as they were read.
+
+    Raises
+    ------
+    DataError
+        The measurements have not been read.
+    """
+    about: About = summary(study, results)["signals"]
+    keys = [(name, signal) for name, signals in about.items() for signal in signals]
+    return Measured(about, {(n, s): series(study, results, n, s) for n, s in keys})
 
 
 def series(study: Study, results: Results, experiment: str, signal: str) -> pd.DataFrame:

@@ -4,7 +4,7 @@ import pandas as pd
 
 from pyrofit.config import Study
 from pyrofit.discovery import contents
-from pyrofit.results import diagnosis
+from pyrofit.results import diagnosis, recorded
 from pyrofit.results.files import Results, write_text
 from pyrofit.show import diagnosis as items
 from pyrofit.show.diagnosis.curves import curve_figures
@@ -41,16 +41,16 @@ def write_page(study: Study, results: Results) -> None:
         A result or a figure is missing.
     """
     make_diagnosis_tables(study, results)
-    shown = section(study, results)
-    title = f"{study.title or study.name}: diagnosis"
-    said = facts(diagnosis.read(study, results))
-    write_text(results.diagnosis("report.html"), page_of(study, results, title, said, [shown]))
-
-
-def section(study: Study, results: Results) -> Shown:
-    """Return all that was found, in the order in which it is read."""
     found = diagnosis.read(study, results)
-    tables, drawn = diagnosis_tables(study, results), figures_of(study, results)
+    shown = section(study, results, found)
+    title = f"{study.title or study.name}: diagnosis"
+    text = page_of(study, recorded.measured(study, results), title, facts(found), [shown])
+    write_text(results.diagnosis("report.html"), text)
+
+
+def section(study: Study, results: Results, found: Found) -> Shown:
+    """Return all that was found, in the order in which it is read."""
+    tables, drawn = diagnosis_tables(study, results), figures_of(study, found)
 
     def parts(text: str, *names: str) -> list[Part | Picture]:
         """Return the tables and figures that there are, sentences before them."""
@@ -107,7 +107,7 @@ def draw_all(results: Results, study: Study) -> list[str]:
     DataError
         A result is missing or broken.
     """
-    figures = figures_of(study, results)
+    figures = figures_of(study, diagnosis.read(study, results))
     for name, figure in figures.items():
         draw_figure(figure, name, study, results, FOLDER)
     for path in results.diagnosis("").iterdir():
@@ -116,9 +116,8 @@ def draw_all(results: Results, study: Study) -> list[str]:
     return list(figures)
 
 
-def figures_of(study: Study, results: Results) -> dict[str, Figure]:
+def figures_of(study: Study, found: Found) -> dict[str, Figure]:
     """Return the figures that a diagnosis has: the curves of each quantity, and all others."""
-    found = diagnosis.read(study, results)
     others = {name: figure for name, figure in FIGURES.items() if figure.applies(found)}
     return {**curve_figures(study, found), **others}
 

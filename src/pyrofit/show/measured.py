@@ -11,19 +11,18 @@ from pyrofit.config import Study
 from pyrofit.model.signal import Signal
 from pyrofit.quantities.base import Quantity
 from pyrofit.quantities.units import ICE_POINT_K
-from pyrofit.results import recorded
-from pyrofit.results.files import Results
 from pyrofit.results.kinetics import heats_shown, masses_shown
+from pyrofit.results.recorded import About, Measured
 from pyrofit.show.names import signal_words
 from pyrofit.show.units import difference, difference_unit, shown
 
 
-def series(study: Study, results: Results, measured: Mapping[str, Any]) -> list[dict[str, Any]]:
+def series(study: Study, measured: Measured) -> list[dict[str, Any]]:
     """Return a row for each measured series."""
     rows = []
-    for name, signals in measured["signals"].items():
+    for name, signals in measured.about.items():
         for signal, about in signals.items():
-            frame = recorded.series(study, results, name, signal)
+            frame = measured.series[name, signal]
             rows.append(
                 {
                     "experiment": title_of(study, name),
@@ -38,27 +37,27 @@ def series(study: Study, results: Results, measured: Mapping[str, Any]) -> list[
     return rows
 
 
-def notes(study: Study, measured: Mapping[str, Any]) -> list[tuple[str, str]]:
+def notes(study: Study, about: About) -> list[tuple[str, str]]:
     """Return what is to be known of series: each note once, and the series that have it."""
     found: dict[str, list[str]] = {}
-    for name, signals in measured["signals"].items():
-        for signal, about in signals.items():
-            stated = about.get("uncertainty") or _noise(study, name, signal)
+    for name, signals in about.items():
+        for signal, read in signals.items():
+            stated = read.get("uncertainty") or _noise(study, name, signal)
             said = [f"uncertainty: {stated}"] if stated else []
-            for note in [*said, *about.get("notes", [])]:
+            for note in [*said, *read.get("notes", [])]:
                 words = f"{title_of(study, name)}, {signal_words(study, name, signal)}"
                 found.setdefault(note, []).append(words)
-    count = sum(len(signals) for signals in measured["signals"].values())
+    count = sum(len(signals) for signals in about.values())
     return [
         (note, "; ".join(names) if len(names) < count else "all series")
         for note, names in found.items()
     ]
 
 
-def closure(study: Study, measured: Mapping[str, Any]) -> list[str]:
+def closure(study: Study, about: About) -> list[str]:
     """Return sentences on the released mass, with titles in place of the experiments' names."""
     lines = []
-    for line in closure_lines(study, measured["signals"]):
+    for line in closure_lines(study, about):
         head, colon, rest = line.partition(": ")
         names = [title_of(study, n) if n in study.experiments else n for n in head.split(" and ")]
         lines.append(" and ".join(names) + colon + rest)

@@ -6,6 +6,7 @@ from pyrofit.results.files import Results, write_json, write_text
 from pyrofit.show import diagnosis_page
 from pyrofit.show.answer.advice import advice
 from pyrofit.show.answer.summary import summary
+from pyrofit.show.facts import Facts, facts_of
 from pyrofit.show.names import titled
 from pyrofit.show.page import page_of, provenance
 from pyrofit.show.parts import Part, Picture, Shown, picture, table_part
@@ -25,18 +26,19 @@ def write_report(study: Study, results: Results) -> None:
     DataError
         A result is missing.
     """
-    origin = provenance(study, recorded.summary(study, results))
-    tables = tables_of(study, results)
-    said = summary(study, results, tables)
-    answer = table_part(study, TABLES["answer"], tables["answer"], advice(study, results))
-    shown = [made for part in SECTIONS if (made := _shown(part, study, results, tables))]
+    measured = recorded.measured(study, results)
+    facts = facts_of(study, results, tables_of(study, results))
+    answer = table_part(study, TABLES["answer"], facts.tables["answer"], advice(study, facts))
+    shown = [made for part in SECTIONS if (made := _shown(part, study, results, facts))]
     # The diagnosis is a step of its own, which a study may go without.
     lacks = ""
     if diagnosis_page.exists(results):
-        lacks = diagnosis.read(study, results)["verdict"]["words"]
-        shown.append(diagnosis_page.section(study, results))
-    text = page_of(study, results, study.title or study.name, said, shown, answer, lacks)
-    write_json(results.root / "provenance.json", origin)
+        found = diagnosis.read(study, results)
+        lacks = found["verdict"]["words"]
+        shown.append(diagnosis_page.section(study, results, found))
+    said = summary(study, facts)
+    text = page_of(study, measured, study.title or study.name, said, shown, answer, lacks)
+    write_json(results.root / "provenance.json", provenance(study, measured))
     write_text(results.root / "report.html", text)
 
 
@@ -45,19 +47,19 @@ def tables_of(study: Study, results: Results) -> Frames:
     return {n: read_table(results, n) for n, table in TABLES.items() if table.applies(study)}
 
 
-def _shown(section: Section, study: Study, results: Results, tables: Frames) -> Shown | None:
+def _shown(section: Section, study: Study, results: Results, facts: Facts) -> Shown | None:
     """Return a section with what the study has of it, none where it has nothing."""
     parts: list[Part | Picture] = []
     for name in section.items:
-        if name in tables:
-            parts.append(table_part(study, section.tables[name], tables[name]))
+        if name in facts.tables:
+            parts.append(table_part(study, section.tables[name], facts.tables[name]))
         elif name in section.figures and section.figures[name].applies(study):
             figure, path = section.figures[name], results.root / "figures" / f"{name}.svg"
             title = titled(study, figure.title, figure.paper)
             parts.append(picture(path, name, title, figure.caption))
     if not parts:
         return None
-    said = section.sentences(study, results, tables)
+    said = section.sentences(study, facts)
     # Robustness is a step of its own, which a study may go without.
     if section.anchor == "costs" and results.robustness("table.csv").is_file():
         parts += _robustness(study, results)

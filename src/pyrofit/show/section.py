@@ -5,11 +5,11 @@ from dataclasses import dataclass
 
 from pyrofit.config import Study
 from pyrofit.discovery import contents
-from pyrofit.results.files import Results
+from pyrofit.show.facts import Facts
 from pyrofit.show.figure import Figure
-from pyrofit.show.table import Frames, Table
+from pyrofit.show.table import Table
 
-Sentences = Callable[[Study, Results, Frames], list[str]]
+Sentences = Callable[[Study, Facts], list[str]]
 
 
 @dataclass(frozen=True)

@@ -1,33 +1,28 @@
 """Which set to predict with, in sentences."""
 
-from pyrofit.analysis.best_sets import best_sets
-from pyrofit.analysis.distances import distances
-from pyrofit.analysis.estimates import estimated
-from pyrofit.analysis.scores import scores
 from pyrofit.analysis.uses import FITTED, HELD_OUT
 from pyrofit.config import Study
-from pyrofit.results.files import Results
+from pyrofit.show.facts import Facts
 from pyrofit.show.names import all_scored
-from pyrofit.show.table import Frames
 from pyrofit.show.text import listed, span
 
 _WORSE = 2.0
 """Ratio of the errors held out and fitted from which a prediction is not to be trusted."""
 
 
-def sentences(study: Study, results: Results, tables: Frames) -> list[str]:
+def sentences(study: Study, facts: Facts) -> list[str]:
     """Return the advice as a list of one."""
-    return [advice(study, results)]
+    return [advice(study, facts)]
 
 
-def advice(study: Study, results: Results) -> str:
+def advice(study: Study, facts: Facts) -> str:
     """Name the best set that fits best, each point weighed by its noise.
 
     It is chosen by the fit: chosen by its prediction, the held-out data would test it no more.
     """
-    best = best_sets(study, results)
+    best = facts.best
     sets = list(zip(best["cost_function"], best["found_by"], strict=True))
-    chi2 = {(d.cost_function, d.set): d.chi2_per_freedom for d in distances(study, results)}
+    chi2 = {(d.cost_function, d.set): d.chi2_per_freedom for d in facts.distances}
     misfit = {(cost, by): chi2[cost, f"{by} best"] for cost, by in sets}
     cost, by = min(misfit, key=lambda one: misfit[one])
     least = f"chi-square per degree of freedom {span([misfit[cost, by]])}"
@@ -37,14 +32,14 @@ def advice(study: Study, results: Results) -> str:
         f"To predict, use the set of {cost} ({by}) as a whole: with each point weighed by its "
         f"noise it fits best of these sets ({least}{beside})"
     )
-    return f"{text}{_tested(study, results, cost, by)}.{_together(study, results)}"
+    return f"{text}{_tested(study, facts, cost, by)}.{_together(facts)}"
 
 
-def _tested(study: Study, results: Results, cost: str, by: str) -> str:
+def _tested(study: Study, facts: Facts, cost: str, by: str) -> str:
     """Say how well a set predicts, and whether to trust that."""
     if not study.validation.experiments:
         return ""
-    mine = [s for s in scores(study, results) if (s.cost_function, s.found_by) == (cost, by)]
+    mine = [s for s in facts.scores if (s.cost_function, s.found_by) == (cost, by)]
     rates = [score for score in mine if score.quantity.relative]
     held = [score for score in rates if score.use == HELD_OUT]
     if not held:
@@ -62,9 +57,9 @@ def _tested(study: Study, results: Results, cost: str, by: str) -> str:
     return text
 
 
-def _together(study: Study, results: Results) -> str:
+def _together(facts: Facts) -> str:
     """Warn of values that make up for one another, and of those at a limit."""
-    known = [e for e in estimated(study, results) if e.stage == "imp"]
+    known = [e for e in facts.estimates if e.stage == "imp"]
     bound = [e.name for e in known if e.grade == "at a bound"]
     loose = [e.name for e in known if e.grade in ("weakly determined", "undetermined")]
     said = ""

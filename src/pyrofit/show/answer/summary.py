@@ -3,10 +3,9 @@
 import pandas as pd
 
 from pyrofit.analysis.cost_tests import SIGNIFICANT
-from pyrofit.analysis.estimates import by_grade, estimated
-from pyrofit.analysis.misfit import misfits
+from pyrofit.analysis.estimates import by_grade
 from pyrofit.analysis.optimisers import LOCAL_OPTIMUM, NOT_A_MINIMUM, SCEUA_AHEAD
-from pyrofit.analysis.scores import Score, scores
+from pyrofit.analysis.scores import Score
 from pyrofit.analysis.uses import (
     FITTED,
     HELD_OUT,
@@ -17,7 +16,7 @@ from pyrofit.analysis.uses import (
     title_of,
 )
 from pyrofit.config import Study
-from pyrofit.results.files import Results
+from pyrofit.show.facts import Facts
 from pyrofit.show.names import all_scored, costs_of, named, places_of
 from pyrofit.show.table import Frames
 from pyrofit.show.text import listed, several, span
@@ -26,42 +25,40 @@ _MOST = 3
 """Quantities that a sentence names one by one."""
 
 
-def summary(study: Study, results: Results, tables: Frames) -> list[str]:
+def summary(study: Study, facts: Facts) -> list[str]:
     """Return five sentences: fit, what is determined, validation, optimisers, cost functions."""
     return [
-        _fit(study, results),
-        _determined(study, results),
-        _validation(study, results),
-        _optimisers(study, tables),
-        _costs(study, tables),
+        _fit(study, facts),
+        _determined(facts),
+        _validation(facts),
+        _optimisers(facts.tables),
+        _costs(study, facts.tables),
     ]
 
 
-def _fit(study: Study, results: Results) -> str:
+def _fit(study: Study, facts: Facts) -> str:
     used = fitted_experiments(study)
     where = listed([title_of(study, name) for name in study.experiments if name in used])
-    fitted = [score for score in _ours(study, results) if score.use == FITTED]
+    fitted = [score for score in _ours(facts) if score.use == FITTED]
     text = (
         f"With {several(len(study.imp.estimate), 'parameter')} fitted to {where} by "
         f"{several(len(study.imp.costs), 'cost function')}, the best sets reproduce "
     )
     text += all_scored(fitted) if fitted else "the fitted data"
-    chi2 = [found.per_point for found in misfits(study, results) if found.stage == "imp"]
+    chi2 = [found.per_point for found in facts.misfits if found.stage == "imp"]
     return (
         f"{text}; weighed by the noise, the best fit of all leaves chi-square {span(chi2)} per "
         "point, where noise alone leaves 1."
     )
 
 
-def _ours(study: Study, results: Results) -> list[Score]:
+def _ours(facts: Facts) -> list[Score]:
     """Return the scores of our sets; none without validation."""
-    if not study.validation.experiments:
-        return []
-    return [score for score in scores(study, results) if score.found_by != PUBLISHED]
+    return [score for score in facts.scores if score.found_by != PUBLISHED]
 
 
-def _determined(study: Study, results: Results) -> str:
-    known = estimated(study, results)
+def _determined(facts: Facts) -> str:
+    known = facts.estimates
     groups = by_grade(known)
     sure = groups.pop("determined", [])
     text = f"The data determine {len(sure)} of {several(len(known), 'parameter')} to within 20 % "
@@ -70,8 +67,8 @@ def _determined(study: Study, results: Results) -> str:
     return f"{text}; {'; '.join(parts)}." if parts else f"{text}."
 
 
-def _validation(study: Study, results: Results) -> str:
-    free = [score for score in _ours(study, results) if score.use != FITTED]
+def _validation(facts: Facts) -> str:
+    free = [score for score in _ours(facts) if score.use != FITTED]
     held_out = [score for score in free if score.use == HELD_OUT]
     if not held_out:
         return "No experiment was held out, so the prediction of other experiments is untested."
@@ -81,7 +78,7 @@ def _validation(study: Study, results: Results) -> str:
     return f"{text}{more}."
 
 
-def _optimisers(study: Study, tables: Frames) -> str:
+def _optimisers(tables: Frames) -> str:
     table = tables["costs"]
     by = {remark: rows.to_dict("records") for remark, rows in table.groupby("remark")}
     stuck, short = by.get(LOCAL_OPTIMUM, []), by.get(NOT_A_MINIMUM, [])

@@ -8,14 +8,14 @@ import pandas as pd
 from pyrofit.analysis.cost_tests import SIGNIFICANT
 from pyrofit.analysis.uses import PUBLISHED, rate_metrics
 from pyrofit.config import Study
-from pyrofit.results.files import Results
+from pyrofit.show.facts import Facts
 from pyrofit.show.table import Frames
 from pyrofit.show.text import listed, number, span
 
 
-def sentences(study: Study, results: Results, tables: Frames) -> list[str]:
+def sentences(study: Study, facts: Facts) -> list[str]:
     """Return the sentences on the cost functions: on one metric, and by tests."""
-    return [text for text in (*_metrics(study, tables), *_tests(tables)) if text]
+    return [text for text in (*_metrics(study, facts.tables), *_tests(facts.tables)) if text]
 
 
 def _metrics(study: Study, tables: Frames) -> list[str]:

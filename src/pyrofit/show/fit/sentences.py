@@ -3,18 +3,16 @@
 import math
 from collections.abc import Sequence
 
-from pyrofit.analysis.repetitions import FIT, Repeated, repeated
+from pyrofit.analysis.repetitions import FIT, Repeated
 from pyrofit.analysis.uses import fitted_experiments, title_of
 from pyrofit.config import Study
-from pyrofit.results.files import Results
-from pyrofit.show.table import Frames
+from pyrofit.show.facts import Facts
 from pyrofit.show.text import listed, number, several
 
 
-def sentences(study: Study, results: Results, tables: Frames) -> list[str]:
+def sentences(study: Study, facts: Facts) -> list[str]:
     """Say what was fitted to what, how low the costs are, and which values are unreliable."""
-    found = repeated(study, results)
-    return [_data(study), _lowest(study, found), _parameters(found)]
+    return [_data(study), _lowest(study, facts.repeated), _parameters(facts.repeated)]
 
 
 def _data(study: Study) -> str:

@@ -3,30 +3,27 @@
 from collections.abc import Sequence
 from itertools import groupby
 
-from pyrofit.analysis.distances import distances
-from pyrofit.analysis.estimates import Estimated, by_grade, estimated
-from pyrofit.analysis.known_values import known_values
-from pyrofit.analysis.misfit import FITS, Misfit, misfits
+from pyrofit.analysis.distances import Distance
+from pyrofit.analysis.estimates import Estimated, by_grade
+from pyrofit.analysis.known_values import Known
+from pyrofit.analysis.misfit import FITS, Misfit
 from pyrofit.analysis.uses import title_of
 from pyrofit.config import Study
-from pyrofit.results.files import Results
+from pyrofit.show.facts import Facts
 from pyrofit.show.names import STAGES, named, signal_words
-from pyrofit.show.table import Frames
 from pyrofit.show.text import listed, signed, span
 
 
-def sentences(study: Study, results: Results, tables: Frames) -> list[str]:
+def sentences(study: Study, facts: Facts) -> list[str]:
     """Return the sentences of the section: verdicts, correlation, misfit, optimisers."""
-    known = estimated(study, results)
-    stages = groupby(misfits(study, results), key=lambda found: found.stage)
+    stages = groupby(facts.misfits, key=lambda found: found.stage)
     fits = [_misfit(study, STAGES[stage], list(found)) for stage, found in stages]
-    said = [verdicts(known), *_known(study, results), _correlation(known)]
-    return [*said, " ".join(fits), _optimisers(study, results)]
+    said = [verdicts(facts.estimates), *_known(facts.known), _correlation(facts.estimates)]
+    return [*said, " ".join(fits), _optimisers(facts.distances)]
 
 
-def _known(study: Study, results: Results) -> list[str]:
+def _known(found: Sequence[Known]) -> list[str]:
     """Name the estimates that lie far from their known values."""
-    found = known_values(study, results)
     if not found:
         return []
     far = [
@@ -82,8 +79,7 @@ def _misfit(study: Study, fit: str, found: Sequence[Misfit]) -> str:
     return f"{text}. The misfit exceeds the noise: the intervals may not contain the true values."
 
 
-def _optimisers(study: Study, results: Results) -> str:
-    found = distances(study, results)
+def _optimisers(found: Sequence[Distance]) -> str:
     parts = []
     for label in dict.fromkeys(one.set for one in found):
         here = [one for one in found if one.set == label]

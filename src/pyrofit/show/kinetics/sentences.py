@@ -2,17 +2,17 @@
 
 from pyrofit.analysis.uses import all_rates, rates_in_fit
 from pyrofit.config import Study
-from pyrofit.results.files import Results
-from pyrofit.show.table import Frames
+from pyrofit.show.facts import Facts
 from pyrofit.show.text import span
 
 
-def sentences(study: Study, results: Results, tables: Frames) -> list[str]:
+def sentences(study: Study, facts: Facts) -> list[str]:
     """Say how well the kinetics reproduce the mass."""
     assert study.kinetics is not None
     if not rates_in_fit(study):
         return []
-    rows = tables["table3"][tables["table3"]["quantity"] == "RMSE of mass fraction"]
+    table = facts.tables["table3"]
+    rows = table[table["quantity"] == "RMSE of mass fraction"]
     used = rows[rows["used_in_fit"] == "yes"]
     other = rows[rows["used_in_fit"] == "no"]
     fitted, every = len(rates_in_fit(study)), len(all_rates(study))

@@ -1,10 +1,12 @@
 """Optimisers compared, in sentences."""
 
+from collections.abc import Mapping, Sequence
+
 from pyrofit.analysis.optimisers import LOCAL_OPTIMUM, NOT_A_MINIMUM
-from pyrofit.analysis.uses import FITTED, PUBLISHED, SCEUA
+from pyrofit.analysis.uses import FITTED, PUBLISHED
 from pyrofit.config import Study
 from pyrofit.estimate.optimisers import OPTIMISERS
-from pyrofit.results.files import Results
+from pyrofit.show.facts import Facts
 from pyrofit.show.names import costs_of
 from pyrofit.show.table import Frames
 from pyrofit.show.text import number
@@ -32,15 +34,9 @@ def ahead(tables: Frames) -> str:
     return text + "."
 
 
-_BENCHMARKS = {
-    SCEUA: "imp_{}_??",
-    **{by.words: f"{key}_{{}}" for key, by in OPTIMISERS.items()},
-}
-
-
-def sentences(study: Study, results: Results, tables: Frames) -> list[str]:
+def sentences(study: Study, facts: Facts) -> list[str]:
     """Return the sentences on the optimisers: who is ahead, and times."""
-    said = [ahead(tables), _beaten(tables), _times(study, results)]
+    said = [ahead(facts.tables), _beaten(facts.tables), _times(facts.times)]
     return [text for text in said if text]
 
 
@@ -65,17 +61,12 @@ def _beaten(tables: Frames) -> str:
     return f"A search may miss what another one finds: {'; '.join(parts)}."
 
 
-def _times(study: Study, results: Results) -> str:
-    """Say the wall times, where the workflow has measured them all."""
-    parts = []
-    for by, pattern in _BENCHMARKS.items():
-        files = [
-            path
-            for cost in study.imp.costs
-            for path in sorted((results.root / "benchmarks").glob(f"{pattern.format(cost)}.tsv"))
-        ]
-        if not files:
-            return ""
-        seconds = sum(float(path.read_text().splitlines()[-1].split("\t")[0]) for path in files)
-        parts.append(f"{by} {seconds:.0f} s in {len(files)} job{'s' if len(files) > 1 else ''}")
+def _times(times: Mapping[str, Sequence[float]]) -> str:
+    """Say the wall times, where the workflow has measured those of all optimisers."""
+    if not all(times.values()):
+        return ""
+    parts = [
+        f"{by} {sum(jobs):.0f} s in {len(jobs)} job{'s' if len(jobs) > 1 else ''}"
+        for by, jobs in times.items()
+    ]
     return f"Wall times of this run, all cost functions: {', '.join(parts)}."

@@ -11,16 +11,15 @@ from pyrofit.config import Study, digest
 from pyrofit.data.fetch import COMMIT
 from pyrofit.plugins import plugin_files
 from pyrofit.provenance import environment
-from pyrofit.results import recorded
 from pyrofit.results.code_digests import code
-from pyrofit.results.files import Results
+from pyrofit.results.recorded import Measured
 from pyrofit.show import measured as measurements
 from pyrofit.show.parts import Part, Shown
 
 
 def page_of(
     study: Study,
-    results: Results,
+    measured: Measured,
     title: str,
     summary: Sequence[str],
     sections: Sequence[Shown],
@@ -31,25 +30,19 @@ def page_of(
 
     ``answer`` is a table that ends the summary, ``lacks`` says what the model lacks; either is left
     out where there is none.
-
-    Raises
-    ------
-    DataError
-        The measurements have not been read.
     """
-    measured = recorded.summary(study, results)
     template = _templates().get_template("report.html.j2")
     return template.render(
         study=study,
         title=title,
         summary=summary,
-        series=measurements.series(study, results, measured),
-        notes=measurements.notes(study, measured),
+        series=measurements.series(study, measured),
+        notes=measurements.notes(study, measured.about),
         answer=answer,
         lacks=lacks,
         costs=list(study.imp.costs),
-        closure=measurements.closure(study, measured),
-        sources=len({a["source"] for s in measured["signals"].values() for a in s.values()}),
+        closure=measurements.closure(study, measured.about),
+        sources=len({a["source"] for s in measured.about.values() for a in s.values()}),
         sections=sections,
         origin=provenance(study, measured),
         description=study.model_dump_json(indent=1, exclude_defaults=True),
@@ -66,7 +59,7 @@ def _templates() -> Environment:
     )
 
 
-def provenance(study: Study, measured: dict[str, Any]) -> dict[str, Any]:
+def provenance(study: Study, measured: Measured) -> dict[str, Any]:
     """Return what the results rest on; the same for the same study, data and environment."""
     return {
         "study": study.name,
@@ -82,7 +75,7 @@ def provenance(study: Study, measured: dict[str, Any]) -> dict[str, Any]:
         },
         "data": {
             f"{name}/{signal}": {"source": about["source"], "sha256": about["sha256"]}
-            for name, signals in measured["signals"].items()
+            for name, signals in measured.about.items()
             for signal, about in signals.items()
         },
     }

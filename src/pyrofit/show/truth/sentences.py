@@ -6,16 +6,15 @@ from pyrofit.analysis.recovery import KINETICS
 from pyrofit.analysis.uses import SCEUA
 from pyrofit.config import Study
 from pyrofit.estimate.optimisers import OPTIMISERS
-from pyrofit.results.files import Results
-from pyrofit.show.table import Frames
+from pyrofit.show.facts import Facts
 
 FOUND_BY = {"sceua": SCEUA, **{key: by.words for key, by in OPTIMISERS.items()}}
 """Optimisers in words, by the beginning of their columns."""
 
 
-def sentences(study: Study, results: Results, tables: Frames) -> list[str]:
+def sentences(study: Study, facts: Facts) -> list[str]:
     """Return the sentences of the section."""
-    return errors(tables["truth"])
+    return errors(facts.tables["truth"])
 
 
 def errors(table: pd.DataFrame) -> list[str]:

@@ -4,23 +4,23 @@ from collections.abc import Sequence
 
 import pandas as pd
 
-from pyrofit.analysis.scores import Score, by_signal, scores
+from pyrofit.analysis.scores import Score, by_signal
 from pyrofit.analysis.uses import FITTED, SCEUA, STARTED, UNKNOWN
 from pyrofit.config import Study
 from pyrofit.results.comparison import ALL
-from pyrofit.results.files import Results
+from pyrofit.show.facts import Facts
 from pyrofit.show.names import places_of, scored
 from pyrofit.show.table import Frames
 from pyrofit.show.text import listed
 from pyrofit.show.units import difference, difference_unit
 
 
-def sentences(study: Study, results: Results, tables: Frames) -> list[str]:
+def sentences(study: Study, facts: Facts) -> list[str]:
     """Say how well the sets predict what they were not fitted to, and how exact the solver is."""
     if not study.validation.experiments:
         return []
-    found = scores(study, results)
-    return [*_predicted(found), _solver(found), reach_of_good_sets(tables)]
+    found = facts.scores
+    return [*_predicted(found), _solver(found), reach_of_good_sets(facts.tables)]
 
 
 def _predicted(found: Sequence[Score]) -> list[str]:

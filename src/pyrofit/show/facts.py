@@ -1,0 +1,74 @@
+"""What the sentences of a report state, read and computed once."""
+
+from collections.abc import Mapping
+from dataclasses import dataclass
+
+import pandas as pd
+
+from pyrofit.analysis.best_sets import best_sets
+from pyrofit.analysis.distances import Distance, distances
+from pyrofit.analysis.estimates import Estimated, estimated
+from pyrofit.analysis.known_values import Known, known_values
+from pyrofit.analysis.misfit import Misfit, misfits
+from pyrofit.analysis.repetitions import Repeated, repeated
+from pyrofit.analysis.scores import Score, scores
+from pyrofit.analysis.wall_times import wall_times
+from pyrofit.config import Study
+from pyrofit.results.files import Results
+from pyrofit.show.table import Frames
+
+
+@dataclass(frozen=True)
+class Facts:
+    """The facts of a study, from its written tables and its results.
+
+    Parameters
+    ----------
+    tables
+        All tables that the study has, by name, as they were written.
+    estimates, known
+        The estimates of all stages, and those that have a known value.
+    misfits
+        How the optimum of the likelihood fits each signal.
+    best
+        The set of the lowest cost of each cost function, SI units.
+    distances
+        How far the optimisers' sets are from the optimum of the likelihood.
+    repeated
+        What the repetitions of SCE-UA found.
+    scores
+        How well all sets predict; none without validation.
+    times
+        Wall times of the searches by optimiser [s], as far as they were measured.
+    """
+
+    tables: Frames
+    estimates: list[Estimated]
+    known: list[Known]
+    misfits: list[Misfit]
+    best: pd.DataFrame
+    distances: list[Distance]
+    repeated: list[Repeated]
+    scores: list[Score]
+    times: Mapping[str, list[float]]
+
+
+def facts_of(study: Study, results: Results, tables: Frames) -> Facts:
+    """Return the facts of a study.
+
+    Raises
+    ------
+    DataError
+        A result is missing or broken.
+    """
+    return Facts(
+        tables=tables,
+        estimates=estimated(study, results),
+        known=known_values(study, results),
+        misfits=misfits(study, results),
+        best=best_sets(study, results),
+        distances=distances(study, results),
+        repeated=repeated(study, results),
+        scores=scores(study, results) if study.validation.experiments else [],
+        times=wall_times(study, results),
+    )
