@@ -5,14 +5,12 @@ entry here: the workflow runs it, tables and figures show it.
 """
 
 from collections.abc import Callable
-from dataclasses import dataclass
-from typing import Any
+from typing import Any, NamedTuple
 
 Run = Callable[[Any, Any, int], Any]
 
 
-@dataclass(frozen=True)
-class Optimiser:
+class Optimiser(NamedTuple):
     """An optimiser that goes from several random starts.
 
     Parameters
