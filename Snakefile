@@ -92,6 +92,7 @@ include: "workflow/rules/validation.smk"
 include: "workflow/rules/comparison.smk"
 include: "workflow/rules/report.smk"
 include: "workflow/rules/robustness.smk"
+include: "workflow/rules/scheme.smk"
 include: "workflow/rules/diagnosis.smk"
 
 

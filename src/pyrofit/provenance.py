@@ -33,6 +33,7 @@ STUDY = (
             "predict",
             "compare",
             "robustness",
+            "scheme",
             "diagnose",
         )
     ),
@@ -41,6 +42,7 @@ STUDY = (
 """Modules of all steps of a study."""
 CATALOGUES = (
     "pyrofit.quantities",
+    "pyrofit.scheme.arrangements",
     *(
         f"pyrofit.show.{subject}"
         for subject in (
@@ -52,6 +54,7 @@ CATALOGUES = (
             "kinetics",
             "optimisers",
             "robustness",
+            "scheme",
             "truth",
             "validation",
         )

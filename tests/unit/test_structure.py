@@ -28,7 +28,7 @@ ORDER = [
     {"config"},
     {"results"},
     {"estimate"},
-    {"diagnose"},
+    {"diagnose", "scheme"},
     {"analysis"},
     {"stages"},
     {"new_study"},

@@ -102,6 +102,12 @@ def kinetics(study: Study) -> dict[str, Any]:
     }
 
 
+def scheme(study: Study) -> dict[str, Any]:
+    """Everything: the study is written again with the chosen scheme, which uses two effects."""
+    more = ("volatile", "tga_lag")
+    return {**study.model_dump(mode="json"), "code": code_of(study, kinetics_of(study).cost, more)}
+
+
 def imp(study: Study, cost: str, optimiser: str) -> dict[str, Any]:
     """Everything of one cost's searches; ``optimiser`` is its key: 'sceua', 'cmaes' ..."""
     stage = study.imp

@@ -222,3 +222,7 @@ class Results:
     def diagnosis(self, name: str) -> Path:
         """Where model and measurement disagree, and what the model lacks."""
         return self.root / "diagnosis" / name
+
+    def scheme(self, name: str) -> Path:
+        """Choice of the reaction scheme."""
+        return self.root / "scheme" / name

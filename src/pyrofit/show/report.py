@@ -1,9 +1,9 @@
 """The report of a study: one page that needs nothing else, and the provenance beside it."""
 
 from pyrofit.config import Study
-from pyrofit.results import diagnosis, recorded
+from pyrofit.results import diagnosis, recorded, scheme
 from pyrofit.results.files import Results, write_json, write_text
-from pyrofit.show import diagnosis_page
+from pyrofit.show import diagnosis_page, scheme_page
 from pyrofit.show.answer.advice import advice
 from pyrofit.show.answer.summary import summary
 from pyrofit.show.facts import Facts, facts_of
@@ -30,7 +30,9 @@ def write_report(study: Study, results: Results) -> None:
     facts = facts_of(study, results, tables_of(study, results))
     answer = table_part(study, TABLES["answer"], facts.tables["answer"], advice(study, facts))
     shown = [made for part in SECTIONS if (made := _shown(part, study, results, facts))]
-    # The diagnosis is a step of its own, which a study may go without.
+    # The choice of a scheme and the diagnosis are steps of their own, which a study may go without.
+    if scheme.exists(results):
+        shown.append(scheme_page.section(study, results))
     lacks = ""
     if diagnosis_page.exists(results):
         found = diagnosis.read(study, results)

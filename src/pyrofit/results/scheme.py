@@ -1,0 +1,123 @@
+"""Result of the choice of a reaction scheme: written and read as these records describe it."""
+
+import json
+from collections.abc import Mapping
+from typing import Any
+
+import pandas as pd
+from pydantic import BaseModel, ConfigDict, Field, ValidationError
+
+from pyrofit.config import Study
+from pyrofit.errors import DataError
+from pyrofit.results.files import Results, read_csv, read_json, write_json
+
+FILE = "scheme.json"
+CURVES = "curves.csv"
+EXTENDED = "extended.yaml"
+COLUMNS = ("temperature_K", "measured", "before", "after", "predicted")
+
+
+class _Part(BaseModel):
+    """A part of the result; its keys are exactly these."""
+
+    model_config = ConfigDict(frozen=True, extra="forbid", allow_inf_nan=False)
+
+
+class OfRecord(_Part):
+    """A record of mass, and how a scheme meets it."""
+
+    experiment: str = Field(description="experiment")
+    heating_rate_K_min: float = Field(description="nominal heating rate [K/min]")
+    laboratory: str = Field(description="who recorded it, if the study says so")
+    calibrated: bool = Field(description="schemes are fitted to it")
+    rms: float = Field(description="of the fit; of a record that is not fitted, of its prediction")
+    predicted_rms: float | None = Field(
+        description="rms of the prediction by a fit without its heating rate; null if none was made"
+    )
+
+
+class OfScheme(_Part):
+    """A scheme as it was fitted."""
+
+    name: str = Field(description="identifier")
+    words: str = Field(description="the scheme in words")
+    parameters: int = Field(description="parameters, nuisance offsets not counted")
+    bic: float = Field(description="BIC of the fit")
+    discrepancy: float = Field(
+        description="what it leaves beyond the noise, as a fraction of the initial mass"
+    )
+    rms: float = Field(description="rms of mass fraction at the fitted records")
+    predicted_rms: float | None = Field(description="rms at heating rates left out of the fit")
+    held_out_rms: float | None = Field(description="rms at records that no scheme is fitted to")
+    log_score: float | None = Field(
+        description="log density of all heating rates, each given the others; null if not computed"
+    )
+    margin: float | None = Field(description="log score that it may lose to the best scheme")
+    records: list[OfRecord] = Field(description="how it meets each record")
+
+
+class OfParameter(_Part):
+    """A parameter of the chosen scheme with its 95 % interval, in its unit."""
+
+    label: str = Field(description="what it is")
+    unit: str = Field(description="unit")
+    value: float = Field(description="estimate")
+    low: float = Field(description="lower end of the 95 % interval")
+    high: float = Field(description="upper end of the 95 % interval")
+    at_limit: bool = Field(description="the estimate is at a limit")
+
+
+class SchemeChoice(_Part):
+    """The result."""
+
+    study: str = Field(description="name of the study")
+    chosen: str = Field(description="identifier of the chosen scheme")
+    best: str = Field(description="identifier of the scheme that predicts best")
+    largest: bool = Field(description="the chosen scheme has as many reactions as were tried")
+    rule: str = Field(description="the rule of the choice")
+    words: str = Field(description="the result in sentences")
+    schemes: list[OfScheme] = Field(min_length=1, description="all fitted schemes, least BIC first")
+    own: OfScheme = Field(description="the scheme that the study describes, fitted alike")
+    parameters: dict[str, OfParameter] = Field(description="parameters of the chosen scheme")
+    settings: dict[str, Any] = Field(description="numbers that steer the choice")
+    extended_study: str = Field(description="file of the study with the chosen scheme")
+
+
+def write(results: Results, content: Mapping[str, Any]) -> None:
+    """Write what was chosen; it must be as the schema says."""
+    text = json.dumps(content, allow_nan=False)
+    SchemeChoice.model_validate_json(text)
+    write_json(results.scheme(FILE), json.loads(text))
+
+
+def read(study: Study, results: Results) -> SchemeChoice:
+    """Return what was chosen.
+
+    Raises
+    ------
+    DataError
+        It is missing, broken, or that of another study.
+    """
+    path = results.scheme(FILE)
+    content = read_json(path)
+    try:
+        found = SchemeChoice.model_validate(content)
+    except ValidationError as error:
+        first = error.errors()[0]
+        place = ".".join(str(key) for key in first["loc"])
+        raise DataError(f"{path}: '{place}': {first['msg']}; delete it and run again") from None
+    names = {scheme.name for scheme in found.schemes}
+    if found.study != study.name or not {found.chosen, found.best} <= names:
+        raise DataError(f"{path}: this is the result of another study; delete it and run again")
+    return found
+
+
+def exists(results: Results) -> bool:
+    """Tell whether a scheme was chosen for a study and its page drawn: the figure is last."""
+    return results.scheme("scheme.svg").is_file()
+
+
+def curves(results: Results) -> pd.DataFrame:
+    """Return measured and simulated masses over initial mass, by experiment."""
+    needs = {"experiment": object, **dict.fromkeys(COLUMNS, float)}
+    return read_csv(results.scheme(CURVES), needs)

@@ -1,0 +1,1 @@
+"""Which reaction scheme the thermogravimetric records of a study support."""

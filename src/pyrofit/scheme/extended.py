@@ -1,0 +1,58 @@
+"""The study with the chosen scheme, as keys that can be written and run."""
+
+from collections.abc import Mapping
+from typing import Any
+
+from pyrofit.config import Study, parameters_in
+from pyrofit.scheme.fit import FittedScheme
+from pyrofit.scheme.record import values_of
+
+Keys = dict[str, Any]
+
+
+def extended_keys(
+    study: Study, chosen: FittedScheme, signals: Mapping[tuple[str, str], Keys]
+) -> Keys:
+    """Return a study's keys with the chosen scheme at its fitted values.
+
+    The parameters of the scheme have both limits and fitted values. The inverse modelling takes
+    the values, `kinetics: described`; the fit of the kinetics and the diagnosis estimate them.
+
+    Parameters
+    ----------
+    study
+        The study.
+    chosen
+        The chosen scheme as it was fitted.
+    signals
+        Keys that replace those of a signal, by (experiment, signal): where its file lies.
+    """
+    posed = chosen.posed
+    made = posed.study
+    keys: Keys = made.model_dump(mode="json", exclude_defaults=True)
+    keys["name"] = f"{study.name}_scheme"
+    keys["title"] = f"{study.title or study.name}, with {posed.words}"
+    values = values_of(posed, chosen)
+    for name, value in values.items():
+        keys["parameters"][name]["value"] = value
+    stages = [*study.imp.estimate, *study.diagnosis.estimate]
+    gone = [n for n in study.kinetics.estimate if n not in values]  # type: ignore[union-attr]
+    used = parameters_in(made.material, *made.experiments.values()) | set(values)
+    for name in gone:
+        if name not in used:
+            keys["parameters"].pop(name, None)
+            keys.get("known", {}).pop(name, None)
+    keys["kinetics"]["estimate"] = list(values)
+    keys["kinetics"].pop("sets", None)
+    keys["imp"]["estimate"] = [n for n in study.imp.estimate if n in used]
+    keys["imp"]["kinetics"] = "described"
+    if study.diagnosis.estimate:
+        kept = [n for n in stages[len(study.imp.estimate) :] if n in used]
+        keys["diagnosis"]["estimate"] = [*values, *(n for n in kept if n not in values)]
+    keys.get("diagnosis", {}).pop("kinetics", None)
+    for (experiment, signal), given in signals.items():
+        keys["experiments"][experiment]["signals"][signal] |= given
+    files = [s["file"] for e in keys["experiments"].values() for s in e["signals"].values()]
+    if "synthetic" not in files:
+        keys.pop("synthetic", None)
+    return keys

@@ -1,0 +1,213 @@
+"""Fit of one scheme to records from several starts, its discrepancy estimated."""
+
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
+from functools import cached_property
+
+import numpy as np
+
+from pyrofit.config import Study
+from pyrofit.errors import DataError
+from pyrofit.estimate.likelihood import Likelihood, fit
+from pyrofit.estimate.prior import NormalPrior, prior_of
+from pyrofit.estimate.problem import Problem, make_problem
+from pyrofit.estimate.targets import Measurements
+from pyrofit.scheme.noise import Scatter, deviance, most_likely
+from pyrofit.scheme.posed import Posed
+from pyrofit.scheme.records import Record
+from pyrofit.scheme.settings import Settings
+from pyrofit.solver.arrays import FloatArray
+
+LITTLE = 0.5
+"""Gain in deviance below which the sizes are not estimated once more."""
+
+
+@dataclass(frozen=True, eq=False)
+class Setting:
+    """What all fits of a study share."""
+
+    study: Study
+    measurements: Measurements
+    records: tuple[Record, ...]
+    settings: Settings
+
+    @property
+    def calibrated(self) -> tuple[Record, ...]:
+        """Records that schemes are fitted to."""
+        return tuple(r for r in self.records if r.calibrated)
+
+    @cached_property
+    def _scatters(self) -> dict[str, Scatter]:
+        return {r.experiment: Scatter(r, self.settings) for r in self.records}
+
+    def scatters(self, records: Sequence[Record]) -> tuple[Scatter, ...]:
+        """Return the scatter of some records."""
+        return tuple(self._scatters[r.experiment] for r in records)
+
+
+@dataclass(frozen=True, eq=False)
+class FittedScheme:
+    """A scheme fitted to records.
+
+    Parameters
+    ----------
+    posed
+        The scheme as a study.
+    records
+        What it is fitted to.
+    likelihood
+        Of these records.
+    x
+        The fit, in [0, 1] of the limits' distance.
+    size
+        Size s of what the scheme leaves beyond the noise, as a fraction of the initial mass.
+    deviance
+        -2 log likelihood, priors of nuisance parameters included.
+    """
+
+    posed: Posed
+    records: tuple[Record, ...]
+    likelihood: Likelihood
+    x: FloatArray
+    size: float
+    deviance: float
+
+    @property
+    def name(self) -> str:
+        """Identifier of the scheme."""
+        return self.posed.name
+
+    @property
+    def values(self) -> dict[str, float]:
+        """Fitted parameters, SI units."""
+        found = self.likelihood.values(self.x).tolist()
+        return dict(zip(self.posed.names, found, strict=True))
+
+    @property
+    def bic(self) -> float:
+        """-2 log likelihood + p log n (Schwarz 1978, doi 10.1214/aos/1176344136).
+
+        p counts the parameters and the size of the discrepancy, n the points.
+        """
+        points = sum(self.likelihood.points)
+        return self.deviance + (self.posed.count + 1) * float(np.log(points))
+
+    def residuals(self) -> list[FloatArray]:
+        """Return simulated minus measured mass of each record."""
+        return _residuals(self.likelihood, self.x)
+
+
+def problem_of(
+    setting: Setting, posed: Posed, records: Sequence[Record]
+) -> tuple[Problem, NormalPrior]:
+    """Return the problem of a scheme at some records, and what is known of its parameters."""
+    study, names = posed.study, posed.names
+    terms = [r.term for r in records]
+    fixed = study.fixed_values()
+    problem = make_problem(study, names, terms, setting.measurements, study.material, fixed)
+    known = prior_of(study, problem)
+    sd = setting.settings.laboratory_shift_K
+    at = tuple(names.index(name) for name in posed.offsets)
+    prior = NormalPrior(
+        known.index + at,
+        np.append(known.mean, np.zeros(len(at))),
+        np.append(known.sd, np.full(len(at), sd)),
+    )
+    return problem, prior
+
+
+def fit_posed(
+    setting: Setting,
+    posed: Posed,
+    records: Sequence[Record],
+    starts: Sequence[Mapping[str, float]],
+    rng: np.random.Generator,
+    size: float | None = None,
+    random: int | None = None,
+) -> FittedScheme:
+    """Fit a scheme to records.
+
+    Parameters
+    ----------
+    setting
+        What all fits share.
+    posed
+        The scheme.
+    records
+        Records to fit it to.
+    starts
+        Values of parameters to start from, SI units; what they lack is drawn.
+    rng
+        Draws the random starts.
+    size
+        Size of the discrepancy at first; default: the largest.
+    random
+        Number of random starts; default: that of the settings.
+
+    Raises
+    ------
+    DataError
+        No set within the limits can be simulated.
+    """
+    settings = setting.settings
+    problem, prior = problem_of(setting, posed, records)
+    scatters = setting.scatters(records)
+    size = settings.discrepancies[-1] if size is None else size
+    likelihood = _likelihood(problem, scatters, size, prior)
+    count = settings.random_starts if random is None else random
+    x = fit(likelihood, _points(likelihood, starts, rng, count)).x
+    lowest = np.inf
+    for _ in range(settings.rounds):
+        size = most_likely(scatters, _residuals(likelihood, x))
+        likelihood = _likelihood(problem, scatters, size, prior)
+        x = likelihood.descend(x).x
+        now = deviance(scatters, _residuals(likelihood, x), size) + _known(likelihood, x)
+        gain, lowest = lowest - now, now
+        if gain < LITTLE:
+            break
+    return FittedScheme(posed, tuple(records), likelihood, x, size, lowest)
+
+
+def _likelihood(
+    problem: Problem, scatters: Sequence[Scatter], size: float, prior: NormalPrior
+) -> Likelihood:
+    return Likelihood(problem, tuple(s.noise(size) for s in scatters), prior)
+
+
+def _known(likelihood: Likelihood, x: FloatArray) -> float:
+    """Return the squares of what is known of parameters."""
+    rows = likelihood.prior.residuals(likelihood.values(x)[None])[0]
+    return float(rows @ rows)
+
+
+def _residuals(likelihood: Likelihood, x: FloatArray) -> list[FloatArray]:
+    curves = likelihood.curves(x)
+    if curves is None:
+        raise DataError("a reaction scheme cannot be simulated at any set within its limits")
+    measured = np.concatenate([t.target.value for _, t in likelihood.problem.cost.terms])
+    return likelihood.split(curves - measured)
+
+
+def _points(
+    likelihood: Likelihood,
+    starts: Sequence[Mapping[str, float]],
+    rng: np.random.Generator,
+    random: int,
+) -> list[FloatArray]:
+    """Return starts in [0, 1]: those given, what they lack drawn, and random ones."""
+    names, known = likelihood.problem.names, likelihood.prior.index
+    drawn = []
+    for given in [*starts, *({} for _ in range(random))]:
+        x = rng.uniform(0.1, 0.9, len(names))
+        x[list(known)] = likelihood.scaled(_means(likelihood))[list(known)]
+        values = likelihood.values(x)
+        for i, name in enumerate(names):
+            values[i] = given.get(name, values[i])
+        drawn.append(likelihood.scaled(values))
+    return drawn
+
+
+def _means(likelihood: Likelihood) -> FloatArray:
+    values = 0.5 * (likelihood.problem.lower + likelihood.problem.upper)
+    values[list(likelihood.prior.index)] = likelihood.prior.mean
+    return np.asarray(values)

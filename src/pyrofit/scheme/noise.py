@@ -1,0 +1,104 @@
+"""Noise of a record, and the discrepancy that a scheme leaves.
+
+The covariance of a record's points, with T their temperatures and x their conversion, is
+
+    C = scatter^2 I + drift^2 exp(-|T - T'|/L_d) + shift^2 m'(T) m'(T)^T
+        + s^2 g g^T exp(-|T - T'|/L),    g = 2 sqrt(x (1 - x)).
+
+The first three terms are what repeats in one laboratory show. The last is what is left beyond them:
+a scheme that is wrong is wrong while the mass changes. Its size s is found by maximum likelihood
+for each scheme, so that neither the number of points nor a fixed floor decides.
+"""
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+from functools import cached_property
+
+import numpy as np
+from scipy.linalg import solve_triangular
+
+from pyrofit.estimate.correlation import Correlation
+from pyrofit.estimate.noise import NoiseModel
+from pyrofit.scheme.records import Record
+from pyrofit.scheme.settings import Settings
+from pyrofit.solver.arrays import FloatArray
+
+LOG_2_PI = float(np.log(2.0 * np.pi))
+LEAST = 0.05
+"""Least g, so that no point is free of discrepancy."""
+
+
+@dataclass(frozen=True, eq=False)
+class Scatter:
+    """Covariance of the points of a record; see the head of the module."""
+
+    record: Record
+    settings: Settings
+
+    @cached_property
+    def _parts(self) -> tuple[FloatArray, FloatArray]:
+        """Covariances of drift, and of a discrepancy of size 1, (n, n) each."""
+        r, given = self.record, self.settings
+        apart = np.abs(np.subtract.outer(r.temperature_K, r.temperature_K))
+        drift = given.drift**2 * np.exp(-apart / given.drift_length_K)
+        g = np.maximum(2.0 * np.sqrt(r.converted * (1.0 - r.converted)), LEAST)
+        return drift, np.outer(g, g) * np.exp(-apart / given.discrepancy_length_K)
+
+    def _lasting(self, size: float) -> FloatArray:
+        drift, unit = self._parts
+        moved = self.settings.repeat_shift_K * self.record.slope
+        return np.asarray(drift + np.outer(moved, moved) + size**2 * unit)
+
+    def covariance(self, size: float) -> FloatArray:
+        """Return C, shape (n, n)."""
+        points = self.record.mass.size
+        return np.asarray(self._lasting(size) + self.settings.scatter**2 * np.eye(points))
+
+    def noise(self, size: float) -> NoiseModel:
+        """Return the same as the noise of a channel."""
+        values, vectors = np.linalg.eigh(self._lasting(size))
+        kept = values > 1e-4 * self.settings.scatter**2
+        return NoiseModel(
+            sd=np.full(self.record.mass.size, self.settings.scatter),
+            correlation=Correlation(),
+            origin="repeats",
+            modes=vectors[:, kept] * np.sqrt(values[kept]),
+        )
+
+    @cached_property
+    def factors(self) -> dict[float, tuple[FloatArray, float]]:
+        """Inverse Cholesky factor and log det of C, by size."""
+        return {size: _factor(self.covariance(size)) for size in self.settings.discrepancies}
+
+
+def deviance(scatters: Sequence[Scatter], residuals: Sequence[FloatArray], size: float) -> float:
+    """Return -2 log density of residuals, one array per record."""
+    total = 0.0
+    for scatter, r in zip(scatters, residuals, strict=True):
+        inverse, log_det = scatter.factors[size]
+        white = inverse @ r
+        total += float(white @ white) + log_det + r.size * LOG_2_PI
+    return total
+
+
+def most_likely(scatters: Sequence[Scatter], residuals: Sequence[FloatArray]) -> float:
+    """Return the size of the discrepancy, among those of the settings, of least deviance."""
+    known = scatters[0].settings.discrepancies
+    return min(known, key=lambda size: deviance(scatters, residuals, size))
+
+
+def log_density(residual: FloatArray, covariance: FloatArray) -> float:
+    """Return the log density of a normal distribution at a residual, shapes (n,) and (n, n).
+
+    >>> round(log_density(np.zeros(1), np.eye(1)), 4)
+    -0.9189
+    """
+    inverse, log_det = _factor(covariance)
+    white = inverse @ residual
+    return -0.5 * (float(white @ white) + log_det + residual.size * LOG_2_PI)
+
+
+def _factor(covariance: FloatArray) -> tuple[FloatArray, float]:
+    factor = np.linalg.cholesky(covariance)
+    inverse = solve_triangular(factor, np.eye(len(factor)), lower=True)
+    return inverse, 2.0 * float(np.log(np.diag(factor)).sum())

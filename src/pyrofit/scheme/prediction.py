@@ -1,0 +1,72 @@
+"""What a scheme predicts of records that it was not fitted to."""
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+
+import numpy as np
+
+from pyrofit.estimate.identify import covariance_of
+from pyrofit.estimate.likelihood import Likelihood
+from pyrofit.scheme.fit import FittedScheme, Setting, fit_posed, problem_of
+from pyrofit.scheme.noise import log_density
+from pyrofit.scheme.records import Record, rates_of
+from pyrofit.solver.arrays import FloatArray
+
+
+@dataclass(frozen=True, eq=False)
+class Predicted:
+    """A record that a scheme predicts.
+
+    Parameters
+    ----------
+    record
+        The record.
+    curve
+        Predicted mass over initial mass at its points.
+    log_score
+        Log density of the record given what the scheme was fitted to.
+    """
+
+    record: Record
+    curve: FloatArray
+    log_score: float
+
+    @property
+    def rms(self) -> float:
+        """Root mean square of predicted minus measured mass fraction."""
+        return float(np.sqrt(np.mean((self.curve - self.record.mass) ** 2)))
+
+
+def leave_rates_out(setting: Setting, fitted: FittedScheme, seed: int) -> list[Predicted]:
+    """Predict each heating rate from a fit to the others."""
+    found = []
+    for rate in rates_of(setting.calibrated):
+        rest = [r for r in setting.calibrated if r.rate != rate]
+        left = [r for r in setting.calibrated if r.rate == rate]
+        rng = np.random.default_rng(seed)
+        start, size = [fitted.values], fitted.size
+        few = fit_posed(setting, fitted.posed, rest, start, rng, size, random=0)
+        found += predict(setting, few, left)
+    return found
+
+
+def predict(setting: Setting, fitted: FittedScheme, records: Sequence[Record]) -> list[Predicted]:
+    """Predict records; the density has the uncertainty of the parameters, linearly.
+
+    The residual of a record has the covariance C + J S J^T: J are the derivatives of its curve
+    by the parameters, S their covariance, C has the size of the fit.
+    """
+    spread = covariance_of(fitted.likelihood.jacobian(fitted.x), 1.0)
+    found = []
+    for record in records:
+        problem, prior = problem_of(setting, fitted.posed, [record])
+        (scatter,) = setting.scatters([record])
+        likelihood = Likelihood(problem, (scatter.noise(fitted.size),), prior)
+        slopes = likelihood.slopes(fitted.x)
+        curve = likelihood.curves(fitted.x)
+        if curve is None:
+            curve = np.zeros(record.mass.size)
+        total = scatter.covariance(fitted.size) + slopes @ spread @ slopes.T
+        score = log_density(curve - record.mass, total)
+        found.append(Predicted(record, curve, score))
+    return found

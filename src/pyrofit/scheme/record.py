@@ -1,0 +1,160 @@
+"""What was chosen, as it is written: ``scheme.json`` and its curves."""
+
+from collections.abc import Mapping, Sequence
+from dataclasses import asdict
+from typing import Any
+
+import numpy as np
+import pandas as pd
+
+from pyrofit.estimate.identify import covariance_of
+from pyrofit.scheme.choice import Candidate, Choice
+from pyrofit.scheme.fit import FittedScheme
+from pyrofit.scheme.posed import Posed
+from pyrofit.scheme.prediction import Predicted
+from pyrofit.scheme.settings import Settings
+from pyrofit.scheme.words import RULE, sentences
+
+QUANTILE = 1.96
+AT_LIMIT = 0.005
+
+Keys = dict[str, Any]
+
+
+def content_of(choice: Choice, settings: Settings, extended: str) -> Keys:
+    """Return ``scheme.json``."""
+    chosen = choice.chosen.fitted
+    scheme = chosen.posed.scheme
+    assert scheme is not None
+    schemes = [_scheme(choice, c) for c in choice.candidates]
+    return {
+        "study": chosen.posed.study.name,
+        "chosen": chosen.name,
+        "best": choice.best.fitted.name,
+        "largest": scheme.reactions == settings.most_reactions,
+        "rule": RULE.format(least=settings.as_good, largest=settings.largest_margin),
+        "words": sentences(choice, settings),
+        "schemes": schemes,
+        "own": _scheme(choice, choice.own),
+        "parameters": parameters_of(chosen),
+        "settings": asdict(settings),
+        "extended_study": extended,
+    }
+
+
+def _scheme(choice: Choice, candidate: Candidate) -> Keys:
+    fitted = candidate.fitted
+    held_out = choice.held_out[fitted.name]
+    return {
+        "name": fitted.name,
+        "words": fitted.posed.words,
+        "parameters": fitted.posed.count,
+        "bic": fitted.bic,
+        "discrepancy": fitted.size,
+        "rms": root_mean([_rms(r) for r in fitted.residuals()]),
+        "predicted_rms": candidate.left_out_rms if candidate.left_out else None,
+        "held_out_rms": root_mean([p.rms for p in held_out]) if held_out else None,
+        "log_score": candidate.log_score if candidate.left_out else None,
+        "margin": choice.margins.get(fitted.name),
+        "records": [*_fitted_records(candidate), *(_record(p, p.rms, None) for p in held_out)],
+    }
+
+
+def _fitted_records(candidate: Candidate) -> list[Keys]:
+    left_out = {p.record.experiment: p for p in candidate.left_out}
+    rows = []
+    for record, residual in zip(
+        candidate.fitted.records, candidate.fitted.residuals(), strict=True
+    ):
+        out = left_out.get(record.experiment)
+        predicted = Predicted(record, record.mass + residual, 0.0)
+        rows.append(_record(predicted, predicted.rms, None if out is None else out.rms))
+    return rows
+
+
+def _record(met: Predicted, rms: float, predicted: float | None) -> Keys:
+    record = met.record
+    return {
+        "experiment": record.experiment,
+        "heating_rate_K_min": record.rate,
+        "laboratory": record.laboratory,
+        "calibrated": record.calibrated,
+        "rms": rms,
+        "predicted_rms": predicted,
+    }
+
+
+def parameters_of(fitted: FittedScheme) -> dict[str, Keys]:
+    """Return the parameters of a fit with linear 95 % intervals, in their units."""
+    spread = np.sqrt(np.diag(covariance_of(fitted.likelihood.jacobian(fitted.x), 1.0)))
+    found = {}
+    for name, x, sd in zip(fitted.posed.names, fitted.x, spread, strict=True):
+        p = fitted.posed.study.parameters[name]
+        low, high = (limit / p.factor for limit in p.bounds_si)
+        value, reach = low + x * (high - low), QUANTILE * sd * (high - low)
+        found[name] = {
+            "label": p.label,
+            "unit": p.unit,
+            "value": float(value),
+            "low": float(max(low, value - reach)),
+            "high": float(min(high, value + reach)),
+            "at_limit": bool(not AT_LIMIT < x < 1.0 - AT_LIMIT),
+        }
+    return found
+
+
+def curves_of(choice: Choice) -> pd.DataFrame:
+    """Return the records with the curves of the study's scheme, the chosen one, its predictions.
+
+    ``predicted`` comes from a fit without the record's heating rate; of a record that is not
+    fitted, it is the prediction itself.
+    """
+    before = _curves(choice.own, choice.held_out)
+    after = _curves(choice.chosen, choice.held_out)
+    out = {p.record.experiment: p.curve for p in choice.chosen.left_out}
+    frames = []
+    for met in after.values():
+        record = met.record
+        name = record.experiment
+        frames.append(
+            pd.DataFrame(
+                {
+                    "experiment": name,
+                    "calibrated": record.calibrated,
+                    "time_s": record.time_s,
+                    "temperature_K": record.temperature_K,
+                    "measured": record.mass,
+                    "before": before[name].curve,
+                    "after": met.curve,
+                    "predicted": out.get(name, met.curve),
+                }
+            )
+        )
+    return pd.concat(frames, ignore_index=True)
+
+
+def _curves(
+    candidate: Candidate, held_out: Mapping[str, Sequence[Predicted]]
+) -> dict[str, Predicted]:
+    fitted = candidate.fitted
+    pairs = zip(fitted.records, fitted.residuals(), strict=True)
+    found = {r.experiment: Predicted(r, r.mass + residual, 0.0) for r, residual in pairs}
+    return found | {p.record.experiment: p for p in held_out[fitted.name]}
+
+
+def root_mean(errors: Sequence[float]) -> float:
+    """Return the root mean square.
+
+    >>> root_mean([3.0, 4.0, 5.0, 0.0]) ** 2
+    12.5
+    """
+    return float(np.sqrt(np.mean(np.square(errors))))
+
+
+def _rms(residual: Any) -> float:
+    return root_mean(residual)
+
+
+def values_of(posed: Posed, fitted: FittedScheme) -> dict[str, float]:
+    """Return fitted values by name in the unit of each parameter."""
+    return {n: v / posed.study.parameters[n].factor for n, v in fitted.values.items()}

@@ -1,0 +1,95 @@
+"""The schemes: how many reactions in which arrangement, and what else they may have."""
+
+from collections.abc import Iterator
+from dataclasses import dataclass, replace
+
+from pyrofit.errors import StudyError, suggest
+from pyrofit.scheme.arrangements import ARRANGEMENTS
+
+PARALLEL = "parallel"
+EXTRAS = ("order", "volatile", "lag")
+
+
+@dataclass(frozen=True, order=True)
+class Scheme:
+    """A reaction scheme.
+
+    Parameters
+    ----------
+    reactions
+        How many reactions decompose the material, an early volatile not counted.
+    arrangement
+        Name of a module in `pyrofit.scheme.arrangements`; of one reaction always 'parallel'.
+    order
+        Whether each reaction has an order n, else all are of first order.
+    volatile
+        Whether an early volatile leaves by a reaction of its own.
+    lag
+        Whether the sample's temperature lags behind the recorded one.
+    """
+
+    reactions: int = 1
+    arrangement: str = PARALLEL
+    order: bool = False
+    volatile: bool = False
+    lag: bool = False
+
+    @property
+    def name(self) -> str:
+        """Identifier.
+
+        >>> Scheme(2, "parallel", order=True).name, Scheme(volatile=True).name
+        ('parallel_2_order', 'single_volatile')
+        """
+        base = "single" if self.reactions == 1 else f"{self.arrangement}_{self.reactions}"
+        return "_".join([base, *(extra for extra in EXTRAS if getattr(self, extra))])
+
+    @property
+    def words(self) -> str:
+        """The scheme in words.
+
+        >>> Scheme(volatile=True, order=True).words
+        'one reaction of order n with an early volatile'
+        """
+        count = ("one", "two", "three", "four", "five", "six")[self.reactions - 1]
+        kind = "" if self.reactions == 1 else f" {self.arrangement}"
+        noun = "reaction" if self.reactions == 1 else "reactions"
+        degree = "of order n" if self.order else "of first order"
+        extras = ["an early volatile"] * self.volatile + ["a temperature lag"] * self.lag
+        tail = f" with {' and '.join(extras)}" if extras else ""
+        return f"{count}{kind} {noun} {degree}{tail}"
+
+    def extensions(self, most_reactions: int, lag: bool) -> Iterator["Scheme"]:
+        """Yield the schemes with one more feature; ``lag`` tells whether a lag is possible."""
+        if self.reactions < most_reactions:
+            kinds = sorted(ARRANGEMENTS) if self.reactions == 1 else [self.arrangement]
+            for kind in kinds:
+                yield replace(self, reactions=self.reactions + 1, arrangement=kind)
+        for extra in EXTRAS:
+            if not getattr(self, extra) and (lag or extra != "lag"):
+                yield replace(self, **{extra: True})  # type: ignore[arg-type]
+
+
+def all_schemes(most_reactions: int) -> dict[str, Scheme]:
+    """Return every scheme by name."""
+    found = {Scheme()}
+    ahead = [Scheme()]
+    while ahead:
+        new = set(ahead.pop().extensions(most_reactions, lag=True)) - found
+        found |= new
+        ahead += new
+    return {scheme.name: scheme for scheme in sorted(found)}
+
+
+def scheme_named(name: str, most_reactions: int) -> Scheme:
+    """Return a scheme by its name.
+
+    Raises
+    ------
+    StudyError
+        There is none of this name.
+    """
+    known = all_schemes(most_reactions)
+    if name not in known:
+        raise StudyError(f"unknown scheme '{name}'. {suggest(name, known)}")
+    return known[name]

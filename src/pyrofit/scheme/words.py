@@ -1,0 +1,57 @@
+"""The result in sentences, and the rule of the choice."""
+
+from pyrofit.scheme.choice import Candidate, Choice
+from pyrofit.scheme.settings import Settings
+
+RULE = (
+    "A scheme predicts as well as the best one if the log score of the heating rates left out is "
+    "lower by no more than the standard error of the difference over the rates, counted as "
+    "{least:g} at least and {largest:g} at most. Of these schemes the one with the fewest "
+    "parameters is chosen; of as many, the one of the least BIC."
+)
+
+
+def sentences(choice: Choice, settings: Settings) -> str:
+    """Say which scheme is chosen, what it predicts, and what it leaves."""
+    chosen, own = choice.chosen, choice.own
+    said = [
+        f"Chosen: {chosen.fitted.posed.words} ({chosen.fitted.posed.count} parameters). It "
+        f"predicts heating rates left out of the fit with an rms of {chosen.left_out_rms:.2g} of "
+        f"the initial mass; the scheme of the study, {_own(own)}."
+    ]
+    held = {c.fitted.name: choice.held_out[c.fitted.name] for c in (chosen, own)}
+    if held[chosen.fitted.name]:
+        parts = zip(held[chosen.fitted.name], held[own.fitted.name], strict=True)
+        text = ", ".join(f"{a.record.rate:g} K/min {a.rms:.2g} ({b.rms:.2g})" for a, b in parts)
+        said.append(
+            f"Records that no scheme was fitted to (the study's scheme in brackets): {text}."
+        )
+    if choice.best is not chosen:
+        said.append(
+            f"{_capital(choice.best.fitted.posed.words)} predict best, by "
+            f"{choice.best.log_score - chosen.log_score:.1f} of log score only."
+        )
+    said.append(_left(chosen, settings))
+    return " ".join(said)
+
+
+def _own(own: Candidate) -> str:
+    return f"fitted alike, with {own.left_out_rms:.2g} ({own.fitted.posed.count} parameters)"
+
+
+def _left(chosen: Candidate, settings: Settings) -> str:
+    size = chosen.fitted.size
+    scheme = chosen.fitted.posed.scheme
+    assert scheme is not None
+    text = (
+        f"It leaves {size:g} of the initial mass unexplained."
+        if size > 0.0
+        else "It leaves nothing but noise."
+    )
+    if scheme.reactions == settings.most_reactions and size > 0.0:
+        text += " It is the largest that was tried: a larger one may predict better."
+    return text
+
+
+def _capital(text: str) -> str:
+    return text[:1].upper() + text[1:]

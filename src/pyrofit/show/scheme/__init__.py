@@ -1,0 +1,1 @@
+"""Which reaction scheme thermogravimetric records support, a step of its own."""

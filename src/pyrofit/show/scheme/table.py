@@ -1,0 +1,81 @@
+"""The schemes in order of how well they predict, and the parameters of the chosen one."""
+
+import pandas as pd
+
+from pyrofit.config import Study
+from pyrofit.results import scheme
+from pyrofit.results.files import Results
+from pyrofit.results.scheme import OfScheme
+from pyrofit.show.table import Table, always
+
+
+def schemes(study: Study, results: Results) -> pd.DataFrame:
+    """List the schemes, best prediction first, those without predictions by BIC behind them."""
+    found = scheme.read(study, results)
+    least = min(s.bic for s in found.schemes)
+    ordered = sorted(
+        [*found.schemes, found.own],
+        key=lambda s: (s.log_score is None, -(s.log_score or 0.0), s.bic),
+    )
+    return pd.DataFrame([_row(s, s.name == found.chosen, least) for s in ordered])
+
+
+def _row(s: OfScheme, chosen: bool, least: float) -> dict[str, object]:
+    return {
+        "scheme": s.words,
+        "chosen": "chosen" if chosen else "",
+        "parameters": s.parameters,
+        "bic": s.bic - least,
+        "log_score": s.log_score,
+        "rms": s.rms,
+        "predicted_rms": s.predicted_rms,
+        "held_out_rms": s.held_out_rms,
+        "discrepancy": s.discrepancy,
+    }
+
+
+def parameters(study: Study, results: Results) -> pd.DataFrame:
+    """List the parameters of the chosen scheme."""
+    found = scheme.read(study, results)
+    return pd.DataFrame(
+        [
+            {
+                "parameter": name,
+                "meaning": p.label,
+                "value": p.value,
+                "low": p.low,
+                "high": p.high,
+                "unit": p.unit,
+                "remark": "at a limit" if p.at_limit else "",
+            }
+            for name, p in found.parameters.items()
+        ]
+    )
+
+
+SCHEMES = Table(
+    place=10,
+    applies=always,
+    make=schemes,
+    title="Reaction schemes and what they predict",
+    note="BIC: above the least one. Log score: log density of all heating rates, each predicted by "
+    "a fit to the others; the higher, the better. Deviations are root mean squares of the mass "
+    "over the initial mass: of the fit, of heating rates left out of it, and of records that no "
+    "scheme was fitted to. Left over: standard deviation of what a scheme leaves beyond the noise.",
+    headings={
+        "bic": "BIC",
+        "log_score": "log score",
+        "rms": "fit",
+        "predicted_rms": "rates left out",
+        "held_out_rms": "records not fitted",
+        "discrepancy": "left over",
+    },
+)
+PARAMETERS = Table(
+    place=20,
+    applies=always,
+    make=parameters,
+    title="Parameters of the chosen scheme",
+    note="Linear 95 % intervals within the limits. A reference temperature is that at which the "
+    "rate constant is 0.001 1/s.",
+)

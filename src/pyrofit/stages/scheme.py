@@ -1,0 +1,46 @@
+"""Which reaction scheme the thermogravimetric records support, and the study with it."""
+
+from pyrofit.config import Study, as_yaml
+from pyrofit.results import scheme
+from pyrofit.results.files import Results, write_csv, write_text
+from pyrofit.scheme.choice import Choice, choose_scheme
+from pyrofit.scheme.extended import extended_keys
+from pyrofit.scheme.fit import Setting
+from pyrofit.scheme.record import content_of, curves_of
+from pyrofit.scheme.records import records_of
+from pyrofit.scheme.search import Tell
+from pyrofit.scheme.settings import Settings
+from pyrofit.stages.measurements import load
+from pyrofit.stages.own_files import files_seen_from, seen_from
+
+_COMMENT = """\
+The study with the reaction scheme that its thermogravimetric records support, at the fitted values.
+It runs: snakemake --cores 2 --configfile <this file>. The inverse modelling takes the kinetics as
+they stand here; the diagnosis estimates them again, from these values, within their limits.
+"""
+
+
+def choose(study: Study, results: Results, tell: Tell) -> Choice:
+    """Choose the reaction scheme of a study; write ``scheme``, return the choice.
+
+    Raises
+    ------
+    StudyError
+        The study has no records of mass at two heating rates or more, or no reaction.
+    DataError
+        A measurement is missing, or no scheme can be simulated within its limits.
+    """
+    settings = Settings()
+    measurements = load(study, results)
+    records = tuple(records_of(study, measurements, settings.points))
+    found = choose_scheme(Setting(study, measurements, records, settings), tell)
+    path = results.scheme(scheme.EXTENDED)
+    keys = extended_keys(
+        study, found.chosen.fitted, dict(files_seen_from(study, results, path.parent))
+    )
+    if study.plugins:
+        keys["plugins"] = [seen_from(path.parent, folder) for folder in study.plugins]
+    write_text(path, as_yaml(keys, _COMMENT))
+    write_csv(results.scheme(scheme.CURVES), curves_of(found))
+    scheme.write(results, content_of(found, settings, scheme.EXTENDED))
+    return found
