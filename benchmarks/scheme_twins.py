@@ -4,7 +4,10 @@ python benchmarks/scheme_twins.py OUTPUT.csv --draws 5
 """
 
 import argparse
+import os
 from pathlib import Path
+
+os.environ["OPENBLAS_NUM_THREADS"] = "1"
 
 import numpy as np
 import pandas as pd

@@ -15,6 +15,7 @@ FOLDERS = {
     "diagnose": "solver",
     "effects": "solver",
     "recovery": "solver",
+    "scheme": "solver",
     "verification": "solver",
     "workflow": "workflow",
 }

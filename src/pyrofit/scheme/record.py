@@ -7,16 +7,13 @@ from typing import Any
 import numpy as np
 import pandas as pd
 
-from pyrofit.estimate.identify import covariance_of
+from pyrofit.estimate.posterior import covariance, interval, limit_of
 from pyrofit.scheme.choice import Candidate, Choice
 from pyrofit.scheme.fit import FittedScheme
 from pyrofit.scheme.posed import Posed
 from pyrofit.scheme.prediction import Predicted
 from pyrofit.scheme.settings import Settings
 from pyrofit.scheme.words import RULE, sentences
-
-QUANTILE = 1.96
-AT_LIMIT = 0.005
 
 Keys = dict[str, Any]
 
@@ -86,19 +83,19 @@ def _record(met: Predicted, rms: float, predicted: float | None) -> Keys:
 
 def parameters_of(fitted: FittedScheme) -> dict[str, Keys]:
     """Return the parameters of a fit with linear 95 % intervals, in their units."""
-    spread = np.sqrt(np.diag(covariance_of(fitted.likelihood.jacobian(fitted.x), 1.0)))
+    spread = np.sqrt(np.diag(covariance(fitted.likelihood.jacobian(fitted.x))))
     found = {}
     for name, x, sd in zip(fitted.posed.names, fitted.x, spread, strict=True):
         p = fitted.posed.study.parameters[name]
         low, high = (limit / p.factor for limit in p.bounds_si)
-        value, reach = low + x * (high - low), QUANTILE * sd * (high - low)
+        ends = interval(float(x), float(sd))
         found[name] = {
             "label": p.label,
             "unit": p.unit,
-            "value": float(value),
-            "low": float(max(low, value - reach)),
-            "high": float(min(high, value + reach)),
-            "at_limit": bool(not AT_LIMIT < x < 1.0 - AT_LIMIT),
+            "value": low + float(x) * (high - low),
+            "low": low + ends[0] * (high - low),
+            "high": low + ends[1] * (high - low),
+            "at_limit": bool(limit_of(float(x))),
         }
     return found
 

@@ -7,7 +7,7 @@ import numpy as np
 from pyrofit.scheme.arrangements.base import PREFIX
 from pyrofit.scheme.fit import FittedScheme, Setting, fit_posed
 from pyrofit.scheme.posed import Posed, may_lag, own, pose
-from pyrofit.scheme.schemes import Scheme
+from pyrofit.scheme.schemes import PARALLEL, Scheme
 from pyrofit.seeds import seed_for
 
 Tell = Callable[[str], None]
@@ -49,7 +49,8 @@ def search(setting: Setting, tell: Tell) -> list[FittedScheme]:
         if least - now <= settings.worth_bic:
             break
         least = now
-        best = sorted(fitted, key=lambda s: fitted[s].bic)[: settings.branches]
+        near = [s for s, f in fitted.items() if f.bic <= now + settings.branch_bic]
+        best = sorted(near, key=lambda s: fitted[s].bic)[: settings.branches]
         new = {x for s in best for x in s.extensions(settings.most_reactions, lag)}
         ahead = new - set(fitted)
     return sorted(fitted.values(), key=lambda f: f.bic)
@@ -90,5 +91,28 @@ def starts_from(parent: FittedScheme, scheme: Scheme) -> list[Values]:
                 new |= {f"T_{i}": first + shift, f"E_{i}": energy}
                 new |= {key: NEW[key[0]][k] for key in (f"n_{i}", f"w_{i}", f"y_{i}")}
             new |= {key: given[k % len(given)] for key, given in NEW.items() if len(key) > 1}
-            starts.append({PREFIX + key: value for key, value in new.items()} | values)
+            started = {PREFIX + key: value for key, value in new.items()} | values
+            starts.append(largest_first(started) if scheme.arrangement == PARALLEL else started)
     return starts
+
+
+def largest_first(values: Values) -> dict[str, float]:
+    """Return values with parallel components numbered by their shares, the largest first.
+
+    >>> found = largest_first({"scheme_w_2": 0.7, "scheme_T_1": 500.0, "scheme_T_2": 600.0})
+    >>> found["scheme_T_1"], round(found["scheme_w_2"], 9)
+    (600.0, 0.3)
+    """
+    shares = {1: 1.0}
+    for i in range(2, 10):
+        if f"{PREFIX}w_{i}" in values and f"{PREFIX}T_{i}" in values:
+            shares[i] = values[f"{PREFIX}w_{i}"]
+    shares[1] -= sum(shares.values()) - 1.0
+    renamed = dict(values)
+    for new, old in enumerate(sorted(shares, key=lambda i: -shares[i]), 1):
+        for key in ("T", "E", "n"):
+            if f"{PREFIX}{key}_{old}" in values:
+                renamed[f"{PREFIX}{key}_{new}"] = values[f"{PREFIX}{key}_{old}"]
+        if new > 1:
+            renamed[f"{PREFIX}w_{new}"] = shares[old]
+    return renamed

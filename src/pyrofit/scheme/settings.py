@@ -53,7 +53,9 @@ class Settings:
     """Reactions beside the early volatile at most."""
     branches: int = 3
     """Schemes that a round extends."""
-    random_starts: int = 6
+    branch_bic: float = 150.0
+    """A scheme this far above the least BIC is not extended."""
+    random_starts: int = 4
     """Random starts of a fit beside those made from the scheme that it extends."""
     rounds: int = 3
     """Times that the discrepancy is estimated and the scheme fitted again."""

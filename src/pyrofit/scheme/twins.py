@@ -8,6 +8,7 @@ import pandas as pd
 
 from pyrofit.config import Study, TermSpec, as_study
 from pyrofit.estimate.targets import Measurements
+from pyrofit.quantities import quantities_of
 from pyrofit.scheme.arrangements.base import PREFIX
 from pyrofit.scheme.fit import Setting, problem_of
 from pyrofit.scheme.posed import pose
@@ -15,6 +16,7 @@ from pyrofit.scheme.records import Record, records_of
 from pyrofit.scheme.schemes import Scheme
 from pyrofit.scheme.settings import Settings
 from pyrofit.solver.arrays import FloatArray
+from pyrofit.solver.outputs import MASS_FRACTION
 
 TEMPERATURES_K = np.arange(320.0, 761.0, 1.0)
 FITTED_RATES = (1.0, 10.0, 50.0)
@@ -42,18 +44,20 @@ def study_of(fitted: Sequence[float], held_out: Sequence[float], seed: int) -> S
         name_of(rate): {
             "kind": "tga",
             "heating_rate_K_min": rate,
-            "signals": {"mass_fraction": {"file": f"{name_of(rate)}.csv"}},
+            "signals": {MASS_FRACTION: {"file": f"{name_of(rate)}.csv"}},
         }
         for rate in (*fitted, *held_out)
     }
+    shown = next(iter(quantities_of("gasification")))
     slab = {
         "kind": "gasification",
         "sample": {"layers": [{"thickness_m": 0.006}], "initial_temperature_K": 300.0},
         "front": {"flux_W_m2": 25000.0, "gas_temperature_K": 300.0},
         "back": {"gas_temperature_K": 300.0},
-        "signals": {"mlr": {"file": "slab.csv"}},
+        "signals": {shown: {"file": "slab.csv"}},
     }
-    mass = {"signal": "mass_fraction", "kind": "RMSE"}
+    # Every study has an inverse modelling; of this one only the kinetics are used.
+    mass = {"signal": MASS_FRACTION, "kind": "RMSE"}
     given = {
         "name": "scheme_twin",
         "seed": seed,
@@ -84,7 +88,7 @@ def study_of(fitted: Sequence[float], held_out: Sequence[float], seed: int) -> S
         "imp": {
             "estimate": ["k"],
             "kinetics": "fitted",
-            "costs": {"RMSE": [{"experiment": "slab", "signal": "mlr", "kind": "RMSE"}]},
+            "costs": {"RMSE": [{"experiment": "slab", "signal": shown, "kind": "RMSE"}]},
         },
         "validation": {"experiments": ["slab"]},
     }
@@ -127,16 +131,15 @@ def make_twin(scheme: Scheme, seed: int, settings: Settings) -> Twin:
     study = study_of(FITTED_RATES, HELD_OUT_RATES, seed)
     truth = draw_truth(scheme, rng)
     blank = {
-        (name_of(rate), "mass_fraction"): _frame(rate, np.linspace(1.0, 0.0, TEMPERATURES_K.size))
+        (name_of(rate), MASS_FRACTION): _frame(rate, np.linspace(1.0, 0.0, TEMPERATURES_K.size))
         for rate in (*FITTED_RATES, *HELD_OUT_RATES)
     }
     measured, clean = dict(blank), {}
-    for (name, signal), frame in blank.items():
+    for name, signal in blank:
         exact = simulated(study, scheme, truth, blank, name, settings)
         rate = study.experiments[name].heating_rate_K_min  # type: ignore[union-attr]
         measured[name, signal] = _frame(rate, exact + _noise(exact, settings, rng))
         clean[name] = exact
-        del frame
     records = tuple(records_of(study, measured, settings.points))
     seen = {
         r.experiment: np.interp(r.temperature_K, TEMPERATURES_K, clean[r.experiment])
@@ -155,7 +158,7 @@ def simulated(
 ) -> FloatArray:
     """Return the mass over the initial mass of a scheme at every temperature of a record."""
     records = records_of(study, measurements, settings.points)
-    term = TermSpec(experiment=name, signal="mass_fraction", kind="RMSE")
+    term = TermSpec(experiment=name, signal=MASS_FRACTION, kind="RMSE")
     whole = [_with_term(r, term) for r in records if r.experiment == name]
     posed = pose(study, scheme, records, settings)
     problem, _ = problem_of(Setting(study, measurements, tuple(records), settings), posed, whole)
@@ -171,7 +174,7 @@ def _with_term(record: Record, term: TermSpec) -> Record:
 
 def _frame(rate: float, mass: FloatArray) -> pd.DataFrame:
     time = (TEMPERATURES_K - TEMPERATURES_K[0]) * 60.0 / rate
-    return pd.DataFrame({"time_s": time, "temperature_K": TEMPERATURES_K, "mass_fraction": mass})
+    return pd.DataFrame({"time_s": time, "temperature_K": TEMPERATURES_K, MASS_FRACTION: mass})
 
 
 def _noise(mass: FloatArray, settings: Settings, rng: np.random.Generator) -> FloatArray:

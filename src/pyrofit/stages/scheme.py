@@ -1,7 +1,7 @@
 """Which reaction scheme the thermogravimetric records support, and the study with it."""
 
 from pyrofit.config import Study, as_yaml
-from pyrofit.results import scheme
+from pyrofit.results import recorded, scheme
 from pyrofit.results.files import Results, write_csv, write_text
 from pyrofit.scheme.choice import Choice, choose_scheme
 from pyrofit.scheme.extended import extended_keys
@@ -10,7 +10,6 @@ from pyrofit.scheme.record import content_of, curves_of
 from pyrofit.scheme.records import records_of
 from pyrofit.scheme.search import Tell
 from pyrofit.scheme.settings import Settings
-from pyrofit.stages.measurements import load
 from pyrofit.stages.own_files import files_seen_from, seen_from
 
 _COMMENT = """\
@@ -31,7 +30,11 @@ def choose(study: Study, results: Results, tell: Tell) -> Choice:
         A measurement is missing, or no scheme can be simulated within its limits.
     """
     settings = Settings()
-    measurements = load(study, results)
+    measurements = {
+        (name, signal): recorded.series(study, results, name, signal)
+        for name, experiment in study.of_stage("kinetics").items()
+        for signal in experiment.signals
+    }
     records = tuple(records_of(study, measurements, settings.points))
     found = choose_scheme(Setting(study, measurements, records, settings), tell)
     path = results.scheme(scheme.EXTENDED)

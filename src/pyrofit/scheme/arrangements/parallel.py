@@ -21,8 +21,8 @@ def _build(template: Template, reactions: Sequence[Reaction]) -> Material:
 
 
 def _shares(i: int, count: int, template: Template) -> dict[str, Limits]:
-    # Together they stay below one; the first component is the rest, and may be the smaller of two.
-    upper = 0.6 if count == 2 else 0.99 / (count - 1)
+    # Numbered by their shares; together they stay below one, and the first component is the rest.
+    upper = 0.6 if count == 2 else {2: 0.5, 3: 0.3, 4: 0.19}[i]
     return {f"w_{i}": Limits("-", 0.001, upper, f"mass fraction of component {i}")}
 
 

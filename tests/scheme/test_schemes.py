@@ -1,0 +1,78 @@
+"""What schemes there are, and the material each makes of a study's own."""
+
+import numpy as np
+import pytest
+
+from pyrofit.errors import StudyError
+from pyrofit.scheme.arrangements import ARRANGEMENTS
+from pyrofit.scheme.arrangements.base import PREFIX
+from pyrofit.scheme.posed import pose
+from pyrofit.scheme.schemes import Scheme, all_schemes, scheme_named
+from pyrofit.scheme.search import largest_first
+from pyrofit.scheme.settings import Settings
+from pyrofit.scheme.twins import draw_truth, make_twin, simulated
+
+SETTINGS = Settings()
+SCHEMES = all_schemes(SETTINGS.most_reactions)
+
+
+def test_each_scheme_has_a_name_of_its_own() -> None:
+    # One reaction, two to four in two arrangements; order, volatile and lag or not.
+    assert len(SCHEMES) == (1 + 3 * len(ARRANGEMENTS)) * 2**3
+    assert all(scheme_named(name, 4) == scheme for name, scheme in SCHEMES.items())
+
+
+def test_unknown_scheme_is_refused_with_the_nearest_name() -> None:
+    with pytest.raises(StudyError, match=r"unknown scheme 'paralel_2'.*parallel_2"):
+        scheme_named("paralel_2", 4)
+
+
+def test_an_extension_has_one_feature_more() -> None:
+    for scheme in SCHEMES.values():
+        for more in scheme.extensions(4, lag=True):
+            features = [s.reactions + s.order + s.volatile + s.lag for s in (scheme, more)]
+            assert features[1] == features[0] + 1
+
+
+def test_no_extension_lags_where_records_have_a_lag_already() -> None:
+    assert not any(s.lag for s in Scheme().extensions(4, lag=False))
+
+
+def test_largest_first_keeps_the_mixture() -> None:
+    given = {f"{PREFIX}{k}": v for k, v in {"w_2": 0.3, "w_3": 0.6, "T_1": 1.0}.items()}
+    given |= {f"{PREFIX}T_{i}": float(i) for i in (2, 3)}
+    found = largest_first(given)
+    assert [found[f"{PREFIX}T_{i}"] for i in (1, 2, 3)] == [3.0, 2.0, 1.0]
+    assert found[f"{PREFIX}w_2"] == 0.3
+    assert found[f"{PREFIX}w_3"] == pytest.approx(0.1)
+
+
+@pytest.fixture(scope="module")
+def setting():
+    return make_twin(Scheme(), 3, SETTINGS).setting
+
+
+@pytest.mark.parametrize("name", SCHEMES)
+def test_material_of_each_scheme_uses_its_parameters(name: str, setting) -> None:
+    posed = pose(setting.study, SCHEMES[name], setting.records, SETTINGS)
+    assert posed.count == len(set(posed.names))
+    assert len(posed.study.material.reactions) == SCHEMES[name].reactions + SCHEMES[name].volatile
+
+
+@pytest.mark.parametrize("name", ["parallel_3_order", "consecutive_3", "single_volatile"])
+def test_residue_is_that_of_the_study_whatever_the_scheme(name: str, setting) -> None:
+    truth = draw_truth(SCHEMES[name], np.random.default_rng(5))
+    mass = simulated(setting.study, SCHEMES[name], truth, setting.measurements, "tga_1", SETTINGS)
+    share = 1.0 - truth[f"{PREFIX}volatile_share"] if SCHEMES[name].volatile else 1.0
+    assert mass[0] == pytest.approx(1.0, abs=1e-6)
+    assert mass[-1] == pytest.approx(0.002 * share, abs=2e-4)
+    assert np.all(np.diff(mass) <= 1e-12)
+
+
+def test_two_equal_parallel_reactions_are_one(setting) -> None:
+    study, measured = setting.study, setting.measurements
+    truth = draw_truth(SCHEMES["parallel_2"], np.random.default_rng(6))
+    truth |= {f"{PREFIX}{k}_2": truth[f"{PREFIX}{k}_1"] for k in "TE"}
+    both = simulated(study, SCHEMES["parallel_2"], truth, measured, "tga_10", SETTINGS)
+    one = simulated(study, SCHEMES["single"], truth, measured, "tga_10", SETTINGS)
+    assert both == pytest.approx(one, abs=1e-12)
