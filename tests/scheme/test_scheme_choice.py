@@ -60,16 +60,20 @@ def test_the_simpler_of_two_that_predict_alike_is_chosen() -> None:
 
 def test_a_simpler_scheme_that_predicts_worse_is_not_chosen() -> None:
     assert (
-        chosen(candidate("many", 9, 9.0, 10, 10, 10), candidate("few", 3, 0.0, 7, 7, 7)) == "many"
+        chosen(candidate("many", 9, 0.0, 10, 10, 10), candidate("few", 3, 9.0, 7, 7, 7)) == "many"
     )
 
 
 def test_a_margin_is_bounded_however_much_rates_differ() -> None:
     # The standard error of the difference is 30; few rates tell it badly.
     assert (
-        chosen(candidate("many", 9, 9.0, 40, 10, 10), candidate("few", 3, 0.0, 10, 10, 10))
+        chosen(candidate("many", 9, 0.0, 40, 10, 10), candidate("few", 3, 9.0, 10, 10, 10))
         == "many"
     )
+
+
+def test_further_parameters_must_pay_in_the_fit_as_well() -> None:
+    assert chosen(candidate("many", 9, 9.0, 40, 40, 40), candidate("few", 3, 0.0, 7, 7, 7)) == "few"
 
 
 def test_of_as_many_parameters_the_least_bic_is_chosen() -> None:

@@ -3,8 +3,9 @@
 Schemes are compared by the log score of what they predict: the log density of each heating rate
 given the others, summed over the rates. A scheme predicts as well as the best one if its sum is
 lower by no more than a margin: three units, or the standard error of the difference over the rates
-where that is larger. Of these schemes the one with the fewest parameters is chosen; of as many, the
-one of the least BIC.
+where that is larger, six at most. Nor is a scheme given up for one of a higher BIC: further
+parameters must pay in the fit and in predictions, both. Of the schemes that are left the one with
+the fewest parameters is chosen; of as many, the one of the least BIC.
 """
 
 from collections.abc import Sequence
@@ -98,7 +99,11 @@ def choose(
     able = [c for c in candidates if c.left_out]
     best = max(able, key=lambda c: c.log_score)
     margins = {c.fitted.name: margin(best, c, settings) for c in able}
-    good = [c for c in able if best.log_score - c.log_score <= margins[c.fitted.name]]
+    good = [
+        c
+        for c in able
+        if best.log_score - c.log_score <= margins[c.fitted.name] or c.fitted.bic < best.fitted.bic
+    ]
     chosen = min(good, key=lambda c: (c.fitted.posed.count, c.fitted.bic))
     return best, chosen, margins
 

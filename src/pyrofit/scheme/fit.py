@@ -9,6 +9,7 @@ import numpy as np
 from pyrofit.config import Study
 from pyrofit.errors import DataError
 from pyrofit.estimate.likelihood import Likelihood, fit
+from pyrofit.estimate.posterior import covariance
 from pyrofit.estimate.prior import NormalPrior, prior_of
 from pyrofit.estimate.problem import Problem, make_problem
 from pyrofit.estimate.targets import Measurements
@@ -91,6 +92,11 @@ class FittedScheme:
         """
         points = sum(self.likelihood.points)
         return self.deviance + (self.posed.count + 1) * float(np.log(points))
+
+    def spread(self) -> FloatArray:
+        """Return the covariance of x, shape (parameters, parameters)."""
+        residuals = self.likelihood.residuals(self.x)
+        return covariance(self.likelihood.jacobian(self.x, residuals))
 
     def residuals(self) -> list[FloatArray]:
         """Return simulated minus measured mass of each record."""

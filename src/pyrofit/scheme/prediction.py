@@ -6,7 +6,6 @@ from dataclasses import dataclass
 import numpy as np
 
 from pyrofit.estimate.likelihood import Likelihood
-from pyrofit.estimate.posterior import covariance
 from pyrofit.scheme.fit import FittedScheme, Setting, fit_posed, problem_of
 from pyrofit.scheme.noise import log_density
 from pyrofit.scheme.records import Record, rates_of
@@ -56,7 +55,7 @@ def predict(setting: Setting, fitted: FittedScheme, records: Sequence[Record]) -
     The residual of a record has the covariance C + J S J^T: J are the derivatives of its curve
     by the parameters, S their covariance, C has the size of the fit.
     """
-    spread = covariance(fitted.likelihood.jacobian(fitted.x))
+    spread = fitted.spread()
     found = []
     for record in records:
         problem, prior = problem_of(setting, fitted.posed, [record])

@@ -7,7 +7,7 @@ from typing import Any
 import numpy as np
 import pandas as pd
 
-from pyrofit.estimate.posterior import covariance, interval, limit_of
+from pyrofit.estimate.posterior import interval, limit_of
 from pyrofit.scheme.choice import Candidate, Choice
 from pyrofit.scheme.fit import FittedScheme
 from pyrofit.scheme.posed import Posed
@@ -83,7 +83,7 @@ def _record(met: Predicted, rms: float, predicted: float | None) -> Keys:
 
 def parameters_of(fitted: FittedScheme) -> dict[str, Keys]:
     """Return the parameters of a fit with linear 95 % intervals, in their units."""
-    spread = np.sqrt(np.diag(covariance(fitted.likelihood.jacobian(fitted.x))))
+    spread = np.sqrt(np.diag(fitted.spread()))
     found = {}
     for name, x, sd in zip(fitted.posed.names, fitted.x, spread, strict=True):
         p = fitted.posed.study.parameters[name]

@@ -6,8 +6,9 @@ from pyrofit.scheme.settings import Settings
 RULE = (
     "A scheme predicts as well as the best one if the log score of the heating rates left out is "
     "lower by no more than the standard error of the difference over the rates, counted as "
-    "{least:g} at least and {largest:g} at most. Of these schemes the one with the fewest "
-    "parameters is chosen; of as many, the one of the least BIC."
+    "{least:g} at least and {largest:g} at most. A scheme of a lower BIC than the best one's is "
+    "kept as well: further parameters must pay in the fit and in predictions. Of these schemes the "
+    "one with the fewest parameters is chosen; of as many, the one of the least BIC."
 )
 
 
