@@ -105,7 +105,7 @@ def pose(study: Study, scheme: Scheme, records: Sequence[Record], settings: Sett
     template = template_of(study)
     limits = _limits(scheme, template, [r for r in records if r.calibrated])
     material = _material(scheme, template)
-    extra, offsets = _of_records(scheme, records, settings)
+    extra, offsets = _of_records(study, scheme, records, settings)
     limits |= extra
     yields = [str(y) for y in template.products.values() if isinstance(y, str)]
     free = [n for n in dict.fromkeys(yields) if study.parameters[n].lower is not None]
@@ -182,14 +182,15 @@ def _reaction(template: Template, i: int, order: bool) -> Reaction:
 
 
 def _of_records(
-    scheme: Scheme, records: Sequence[Record], settings: Settings
+    study: Study, scheme: Scheme, records: Sequence[Record], settings: Settings
 ) -> tuple[dict[str, Limits], dict[str, str]]:
     """Return limits of lag and offsets, and the offset's parameter by laboratory."""
     limits: dict[str, Limits] = {}
     if scheme.lag:
         q = next(iter(known_effects()[LAG].strength.values()))
         limits["lag"] = Limits(q.unit, q.lower, q.upper, q.label)
-    laboratories = list(dict.fromkeys(r.laboratory for r in records))
+    free = [r for r in records if not _has_offset(study, r)]
+    laboratories = list(dict.fromkeys(r.laboratory for r in free))
     if len(laboratories) < 2:
         return limits, {}
     reach = _OFFSET * settings.laboratory_shift_K
@@ -206,10 +207,15 @@ def _placed(study: Study, scheme: Scheme, record: Record, offsets: Mapping[str, 
     update: dict[str, str] = {}
     if scheme.lag:
         update["lag_s"] = f"{PREFIX}lag"
-    if record.laboratory in offsets:
+    if record.laboratory in offsets and not _has_offset(study, record):
         update["temperature_offset_K"] = offsets[record.laboratory]
     experiment: Experiment = study.experiments[record.experiment]
     return changed(experiment, **update) if update else experiment
+
+
+def _has_offset(study: Study, record: Record) -> bool:
+    """Tell whether the study gives the temperature of a record an offset of its own."""
+    return bool(study.experiments[record.experiment].temperature_offset_K != 0.0)  # type: ignore[union-attr]
 
 
 def may_lag(study: Study, records: Sequence[Record]) -> bool:
