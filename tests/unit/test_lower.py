@@ -104,6 +104,18 @@ def test_table_is_linear_inside_and_constant_outside() -> None:
     assert [at(table, T) for T in (250.0, 350.0, 375.0, 1200.0)] == [1000.0, 750.0, 625.0, 500.0]
 
 
+def test_factor_multiplies_a_table_in_both_solvers() -> None:
+    given = {"temperature_K": [300.0, 400.0], "value": [1000.0, 500.0]}
+    plain, twice = (
+        material(virgin={"specific_heat_J_kgK": given | more}) for more in ({}, {"factor": "two"})
+    )
+    values = VALUES | {"two": 2.0}
+    one, other = (lower.lower_material(m, values).specific_heat for m in (plain, twice))
+    changed = np.any(one != other, axis=(1, 2))
+    assert changed.any()
+    np.testing.assert_array_equal(other[changed], 2.0 * one[changed])
+
+
 def test_constants_are_stretched_beside_tables_only() -> None:
     plain = lower.lower_material(material(), VALUES)
     assert plain.conductivity.tolist() == [[[0.2]], [[0.2]], [[0.4]]]
@@ -365,7 +377,7 @@ VARIED = {
     "expansion": {"value": 1.0, "slope_1_K": "x"},
     "emissivity": "share",
 }
-TABLE = {"temperature_K": (300.0, 400.0), "value": ("k", 0.3)}
+TABLE = {"temperature_K": (300.0, 400.0), "value": ("k", 0.3), "factor": "x"}
 REACTIONS = {
     "given": reaction("A", products={"B": "share"}, order="order", E_J_mol="E"),
     "at_a_temperature": {

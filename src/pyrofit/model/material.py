@@ -43,10 +43,11 @@ class PowerLaw(Part):
 
 
 class Table(Part):
-    """p(T), linear between given points, constant outside them."""
+    """p(T) = factor value(T), linear between given points, constant outside them."""
 
     temperature_K: tuple[float, ...] = Field(description="increasing temperatures [K]")
     value: Annotated[tuple[Number, ...], POSITIVE] = Field(description="p at those temperatures")
+    factor: Positive = Field(1.0, description="multiplies all values [-]")
 
     @model_validator(mode="after")
     def _check(self) -> Self:

@@ -82,7 +82,7 @@ def property_at(prop: object, values: Values, T: FloatArray, sets: int = 1) -> F
         points = stack([value_of(v, values) for v in prop.value], sets)
         at = np.broadcast_to(T, shape).T
         columns = [np.interp(t, prop.temperature_K, p) for t, p in zip(at, points.T, strict=True)]
-        return np.stack(columns, axis=1)
+        return np.stack(columns, axis=1) * value_of(prop.factor, values)
     if isinstance(prop, words.Changed):
         return _changed(prop, values, T, sets)
     assert isinstance(prop, words.Linear | words.PowerLaw)

@@ -48,7 +48,8 @@ class Property:
             return np.full(T.shape, value_of(given, self.values))
         if isinstance(given, words.Table):
             points = [value_of(v, self.values) for v in given.value]
-            return np.asarray(np.interp(T, given.temperature_K, points))
+            factor = value_of(given.factor, self.values)
+            return np.asarray(factor * np.interp(T, given.temperature_K, points))
         if isinstance(given, words.Changed):
             return self._changed(given, T)
         value = value_of(given.value, self.values)
