@@ -8,7 +8,9 @@ import numpy as np
 from numpy.typing import NDArray
 
 from pyrofit.config import Study, TermSpec
+from pyrofit.config.uses import parameters_in
 from pyrofit.cost import WeightedSum
+from pyrofit.estimate.distinct_sets import Indices, distinct_sets, taken
 from pyrofit.estimate.targets import Measurements, term_for
 from pyrofit.experiments import kind_of
 from pyrofit.experiments.base import Simulate
@@ -105,18 +107,37 @@ class Problem:
     def _simulated(self, values: Values, sets: int) -> dict[str, list[Curves]]:
         """Return the curves by experiment and set; kinds with one solver in one call.
 
-        Repeats that are described alike and recorded at the same times are simulated once.
+        Repeats that are described alike and recorded at the same times are simulated once, and so
+        are sets that differ only in numbers of other experiments.
         """
-        names: dict[Simulate, list[str]] = {}
+        together: dict[tuple[Simulate, bytes], list[str]] = {}
+        distinct: dict[bytes, tuple[Indices, Indices]] = {}
         for name in dict.fromkeys(self._alike.values()):
-            names.setdefault(kind_of(self.runs[name].experiment).simulate, []).append(name)
+            first, of_set = distinct_sets(
+                [values[p] for p in self._used[name] if p in values], sets
+            )
+            key = of_set.tobytes()
+            distinct[key] = first, of_set
+            simulate = kind_of(self.runs[name].experiment).simulate
+            together.setdefault((simulate, key), []).append(name)
         curves: dict[str, list[Curves]] = {}
-        for simulate, together in names.items():
-            experiments = [self.runs[name].experiment for name in together]
-            asked = [self.runs[name].requests for name in together]
-            found = simulate(experiments, self.material, values, asked, self.accuracy, sets)
-            curves.update(zip(together, found, strict=True))
+        for (simulate, key), names in together.items():
+            first, of_set = distinct[key]
+            experiments = [self.runs[name].experiment for name in names]
+            asked = [self.runs[name].requests for name in names]
+            at = taken(values, first, sets)
+            found = simulate(experiments, self.material, at, asked, self.accuracy, first.size)
+            for name, own in zip(names, found, strict=True):
+                curves[name] = [own[i] for i in of_set]
         return {name: curves[first] for name, first in self._alike.items()}
+
+    @cached_property
+    def _used(self) -> dict[str, tuple[str, ...]]:
+        """The parameters that the material and the description of an experiment name."""
+        return {
+            name: tuple(sorted(parameters_in(self.material, run.experiment)))
+            for name, run in self.runs.items()
+        }
 
     @cached_property
     def _alike(self) -> dict[str, str]:
