@@ -3,10 +3,22 @@
 import re
 from dataclasses import replace
 from pathlib import Path
+from typing import Any
 
 import numpy as np
 import pytest
-from bases import Curve, Numbers, assert_same, changes, curves_of, having, pmma, strength, wood
+from bases import (
+    Base,
+    Curve,
+    Numbers,
+    assert_same,
+    changes,
+    curves_of,
+    having,
+    pmma,
+    strength,
+    wood,
+)
 
 from pyrofit import effects as package
 from pyrofit.effects import known_effects
@@ -247,3 +259,42 @@ def test_bad_choice_of_components_is_told(name: str, of: tuple[str, ...], said: 
     given = {strength(EFFECTS[name]): 0.9, "of": of}
     with pytest.raises(ValueError, match=re.escape(said)):
         with_effects(material, experiments, {name: given})
+
+
+# --- laboratories ---------------------------------------------------------------------------
+
+
+def two_laboratories() -> Base:
+    """Return the slabs as tests of two laboratories."""
+    base = BASES["pmma"]
+    place = {"capa_25": "UMD", "capa_60": "Aalto"}
+    slabs = {
+        name: base.experiments[name].model_copy(update={"laboratory": own})
+        for name, own in place.items()
+    }
+    return replace(base, experiments=slabs)
+
+
+def test_effect_of_the_apparatus_keeps_to_the_laboratories_named() -> None:
+    base = two_laboratories()
+    changed = having(base, {"flux_spread": {"spread": 0.1, "laboratories": ["UMD"]}})
+    assert changed.experiments["capa_25"].front.spread == 0.1
+    assert changed.experiments["capa_60"] == base.experiments["capa_60"]
+    both = having(base, {"flux_spread": {"spread": 0.1}})
+    assert both.experiments["capa_60"].front.spread == 0.1
+
+
+@pytest.mark.parametrize(
+    ("effect", "laboratories", "message"),
+    [
+        ("flux_spread", ["UDM"], "unknown laboratory 'UDM'. Did you mean 'UMD'"),
+        ("flux_spread", "UMD", "'laboratories' must be a list of names, as"),
+        ("swelling", ["UMD"], "it belongs to the material, which all laboratories share"),
+    ],
+)
+def test_laboratories_of_an_effect_must_be_known_and_its_own(
+    effect: str, laboratories: Any, message: str
+) -> None:
+    (strength,) = known_effects()[effect].strength
+    with pytest.raises(ValueError, match=re.escape(message)):
+        having(two_laboratories(), {effect: {strength: 0.1, "laboratories": laboratories}})

@@ -132,8 +132,10 @@ def test_one_repeat_may_be_named_alone() -> None:
     assert study.imp.estimate[-3:] == tuple(
         f"slab_25_1_{what}" for what in ("thickness", "flux", "clock")
     )
-    # The other is predicted only: nothing of it is estimated, and nothing differs.
-    assert study.experiments["slab_25_2"].front.flux_factor == 1.0
+    # The other is predicted only: the diagnosis alone estimates what differs of it.
+    assert study.experiments["slab_25_2"].front.flux_factor == "slab_25_2_flux"
+    assert study.fixed_values()["slab_25_2_flux"] == 1.0
+    assert "slab_25_2_flux" in diagnosed_parameters(study)
 
 
 # --- what differs ---------------------------------------------------------------------------
@@ -228,9 +230,11 @@ class Counted:
     def __init__(self, kind: Kind) -> None:
         self.kind = kind
         self.experiments: list[Any] = []
+        self.sets: list[int] = []
 
     def simulate(self, experiments: Any, *rest: Any) -> Any:
         self.experiments += experiments
+        self.sets += [rest[-1]] * len(experiments)
         return self.kind.simulate(experiments, *rest)
 
 
@@ -283,6 +287,25 @@ def test_shared_simulation_has_the_bits_of_one_for_each() -> None:
     for one, other in zip(shared.simulate(VALUES)[1], apart.simulate(VALUES)[1], strict=True):
         assert np.array_equal(one, other)
     assert shared.evaluate(VALUES) == apart.evaluate(VALUES)
+
+
+@pytest.mark.solver
+def test_sets_that_differ_in_other_experiments_only_are_simulated_once(
+    monkeypatch: pytest.MonkeyPatch,
+) -> None:
+    study = study_of(keys(flux_sd=0.03))
+    problem = posed(study)
+    X = np.tile([*VALUES, 1.0, 1.0], (4, 1))
+    X[1, 5], X[2, 6], X[3, 0] = 1.02, 0.97, 1150.0  # flux of the first, of the second, density
+    alone = [problem.simulate(x)[1] for x in X]
+    from pyrofit.experiments import kind_of
+
+    counted = Counted(kind_of(study.experiments["slab_25_1"]))
+    monkeypatch.setattr(problems, "kind_of", lambda experiment: counted)
+    together = [curves for _, curves in problem.simulate_all(X)]
+    assert counted.sets == [3, 3]
+    for one, other in zip(together, alone, strict=True):
+        assert all(np.array_equal(a, b) for a, b in zip(one, other, strict=True))
 
 
 def test_prior_of_a_problem_holds_what_differs() -> None:
@@ -372,10 +395,18 @@ def test_mistake_is_told_with_place_and_way_out(listed: Any, said: str) -> None:
     assert said in str(told.value)
 
 
-def test_number_that_differs_and_is_given_is_refused() -> None:
+def test_number_that_differs_varies_about_the_one_described() -> None:
     described = keys(flux_sd=0.03)
     described["experiments"]["slab_25"]["front"]["flux_factor"] = 1.02
-    with pytest.raises(StudyError, match=r"flux_factor is 1\.02 already, and differs"):
+    flux = study_of(described).parameters["slab_25_1_flux"]
+    assert (flux.value, flux.lower, flux.upper) == pytest.approx((1.02, 0.9, 1.14))
+
+
+def test_number_that_differs_and_is_a_parameter_is_refused() -> None:
+    described = keys(flux_sd=0.03)
+    described["parameters"]["gauge"] = {"unit": "-", "value": 1.0}
+    described["experiments"]["slab_25"]["front"]["flux_factor"] = "gauge"
+    with pytest.raises(StudyError, match=r"flux_factor is 'gauge' already, and differs"):
         study_of(described)
 
 
@@ -383,4 +414,54 @@ def test_parameter_of_the_same_name_is_refused() -> None:
     described = keys(flux_sd=0.03)
     described["parameters"]["slab_25_1_flux"] = {"unit": "-", "value": 1.0}
     with pytest.raises(StudyError, match=r"parameters\.slab_25_1_flux: this is the name of what"):
+        study_of(described)
+
+
+# --- what is uncertain of an experiment that is not repeated ----------------------------------
+
+
+def uncertain(test: str = "slab_25", **sds: float) -> dict[str, Any]:
+    study = given()
+    study["experiments"][test]["uncertain"] = sds
+    return study
+
+
+def test_uncertain_numbers_are_parameters_of_the_diagnosis_alone() -> None:
+    described = uncertain(**SDS, h_sd_W_m2K=2.0)
+    plain, study = study_of(given()), study_of(described)
+    names = [f"slab_25_{what}" for what in ("thickness", "flux", "h", "clock")]
+    assert study.imp == plain.imp
+    assert study.kinetics == plain.kinetics
+    assert list(diagnosed_parameters(study)) == [*diagnosed_parameters(plain), *names]
+    assert study.experiments["slab_25"].front.h_change_W_m2K == "slab_25_h"
+    assert (study.parameters["slab_25_h"].unit, study.known["slab_25_h"].sd) == ("W/(m2 K)", 2.0)
+    assert not analysed.has_repeats(study)
+
+
+def test_study_with_uncertain_numbers_is_read_again_as_it_was_written() -> None:
+    study = study_of(uncertain(**SDS))
+    assert study_of(study.model_dump(mode="json")) == study
+
+
+def test_uncertain_temperature_of_a_record_needs_a_temperature_programme() -> None:
+    study = study_of(uncertain("tga_5K", temperature_sd_K=5.0))
+    assert study.experiments["tga_5K"].temperature_offset_K == "tga_5K_temperature"
+    with pytest.raises(StudyError, match=r"slab_25\.uncertain\.temperature_sd_K: .* has none"):
+        study_of(uncertain(temperature_sd_K=5.0))
+
+
+def test_repeat_has_its_own_sample() -> None:
+    layers = [{"thickness_m": 0.0045}]
+    study = study_of(keys(flux_sd=0.03, tests=[{"sample": {"layers": layers}}, {}]))
+    one, other = (study.experiments[f"slab_25_{i}"].sample for i in (1, 2))
+    assert (one.layers[0].thickness_m, other.layers[0].thickness_m) == (0.0045, 0.004)
+    assert one.initial_temperature_K == other.initial_temperature_K
+
+
+def test_uncertain_numbers_of_a_repeated_test_are_refused() -> None:
+    described = keys(flux_sd=0.03)
+    described["experiments"]["slab_25"]["uncertain"] = {"flux_sd": 0.03}
+    with pytest.raises(
+        StudyError, match=r"slab_25\.uncertain: the test has repeats; give it there"
+    ):
         study_of(described)

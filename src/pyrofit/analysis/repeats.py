@@ -42,8 +42,9 @@ def repeated(study: Study, results: Results) -> list[Repeated]:
             signals = dict.fromkeys(experiment.signals)
             of_tests.setdefault(experiment.repeat.test, {}).update(signals)
     found = []
+    tests = _tests(study)
     for name, experiment in study.experiments.items():
-        if experiment.repeat is None:
+        if experiment.repeat is None or experiment.repeat.test not in tests:
             continue
         test, nuisances = experiment.repeat.test, experiment.repeat.nuisances
         known = {key: study.known[p] for key, p in nuisances.items() if p in by_name}
@@ -56,4 +57,10 @@ def repeated(study: Study, results: Results) -> list[Repeated]:
 
 def has_repeats(study: Study) -> bool:
     """Tell whether a test of the study is repeated."""
-    return any(e.repeat is not None for e in study.experiments.values())
+    return bool(_tests(study))
+
+
+def _tests(study: Study) -> set[str]:
+    """Return the names of the tests with several records."""
+    tests = [e.repeat.test for e in study.experiments.values() if e.repeat is not None]
+    return {test for test in tests if tests.count(test) > 1}

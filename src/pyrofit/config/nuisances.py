@@ -50,6 +50,14 @@ NUISANCES = {
     "flux_sd": Nuisance(
         1.0, "-", "flux over that described", SlabExperiment, "front", "flux_factor"
     ),
+    "h_sd_W_m2K": Nuisance(
+        0.0,
+        "W/(m2 K)",
+        "front's heat transfer coefficient over that described",
+        SlabExperiment,
+        "front",
+        "h_change_W_m2K",
+    ),
     "clock_sd_s": Nuisance(
         0.0, "s", "time by which the records are late", SlabExperiment, SIGNALS, "delay_s"
     ),
@@ -68,34 +76,35 @@ NUISANCES = {
 """By the key of the standard deviation."""
 
 
-def free(keys: Keys, name: str, sds: Mapping[str, float]) -> Keys:
-    """Return a study's keys with what differs of one repeat as parameters of known value.
+def free(keys: Keys, name: str, sds: Mapping[str, float], stages: list[str]) -> Keys:
+    """Return a study's keys with what is uncertain of an experiment as parameters of known value.
 
-    They are estimated by the stages that fit it; where none does, nothing differs.
+    Stages estimate them; where none does, everything is as described.
 
     Raises
     ------
     ValueError
-        The description sets the number already, or a parameter of the name exists.
+        The description has a parameter in the place, or a parameter of the name exists.
     """
-    stages = [stage for stage, fitted in _fitted(keys).items() if name in fitted]
     if not sds or not stages:
         return keys
     made = {key: f"{name}_{key.partition('_sd')[0]}" for key in sds}
     experiment = keys["experiments"][name]
+    described = {}
     for key, parameter in made.items():
         if parameter in keys.get("parameters", {}):
             raise ValueError(
                 f"parameters.{parameter}: this is the name of what differs of the repeat {name}; "
                 "choose another"
             )
-        experiment = _with(experiment, name, NUISANCES[key], parameter)
+        described[key] = _described(experiment, name, NUISANCES[key])
+        experiment = _with(experiment, NUISANCES[key], parameter)
     experiment = {**experiment, "repeat": {**experiment["repeat"], "nuisances": made}}
     keys = {
         **keys,
         "experiments": {**keys["experiments"], name: experiment},
-        "parameters": {**keys["parameters"], **_parameters(name, sds, made)},
-        "known": {**(keys.get("known") or {}), **_known(sds, made)},
+        "parameters": {**keys["parameters"], **_parameters(name, sds, made, described)},
+        "known": {**(keys.get("known") or {}), **_known(sds, made, described)},
     }
     for stage in stages:
         if stage in ("imp", "kinetics"):
@@ -104,61 +113,81 @@ def free(keys: Keys, name: str, sds: Mapping[str, float]) -> Keys:
     return keys
 
 
-def _parameters(name: str, sds: Mapping[str, float], made: Mapping[str, str]) -> Keys:
+def _parameters(
+    name: str, sds: Mapping[str, float], made: Mapping[str, str], described: Mapping[str, float]
+) -> Keys:
     found = {}
     for key, parameter in made.items():
-        n = NUISANCES[key]
+        n, value = NUISANCES[key], described[key]
         reach = REACH * sds[key]
-        limits = {"lower": n.null - reach, "upper": n.null + reach}
+        limits = {"lower": value - reach, "upper": value + reach}
         label = f"{n.label}, repeat {name}"
-        found[parameter] = {"unit": n.unit, "value": n.null, **limits, "label": label}
+        found[parameter] = {"unit": n.unit, "value": value, **limits, "label": label}
     return found
 
 
-def _known(sds: Mapping[str, float], made: Mapping[str, str]) -> Keys:
+def _known(
+    sds: Mapping[str, float], made: Mapping[str, str], described: Mapping[str, float]
+) -> Keys:
     source = "stated scatter of repeats"
     return {
-        parameter: {"value": NUISANCES[key].null, "sd": sds[key], "source": source}
+        parameter: {"value": described[key], "sd": sds[key], "source": source}
         for key, parameter in made.items()
     }
 
 
+def stages_of(keys: Keys, name: str) -> list[str]:
+    """Return the stages that fit an experiment; the diagnosis also where it holds it out."""
+    return [stage for stage, names in _fitted(keys).items() if name in names]
+
+
 def _fitted(keys: Keys) -> dict[str, set[str]]:
-    """Return the names of the experiments that each stage fits."""
     imp, kinetics = keys.get("imp") or {}, keys.get("kinetics") or {}
-    diagnosis = keys.get("diagnosis") or {}
+    diagnosis, validation = keys.get("diagnosis") or {}, keys.get("validation") or {}
     terms = [term for terms in (imp.get("costs") or {}).values() for term in terms]
-    return {
+    fitted = {
         "imp": _named(terms) | set(imp.get("identification") or {}),
         "kinetics": _named(kinetics.get("cost") or ()),
-        "diagnosis": set(diagnosis.get("calibrate") or {}),
     }
+    calibrated = set(diagnosis.get("calibrate") or (fitted["imp"] | fitted["kinetics"]))
+    held_out = set(diagnosis.get("hold_out") or validation.get("experiments") or ())
+    return {**fitted, "diagnosis": calibrated | held_out}
 
 
 def _named(terms: Any) -> set[str]:
     return {term.get("experiment") for term in terms if term.get("weight", 1.0) > 0.0}
 
 
-def _with(experiment: Keys, name: str, nuisance: Nuisance, parameter: str) -> Keys:
-    """Return an experiment with a parameter in the place of a nuisance."""
+def _described(experiment: Keys, name: str, nuisance: Nuisance) -> float:
+    """Return the number about which a nuisance varies: the one that is described.
+
+    Raises
+    ------
+    ValueError
+        A parameter stands there, or signals have different numbers.
+    """
+    parts = [experiment] if not nuisance.part else [experiment.get(nuisance.part) or {}]
     if nuisance.part == SIGNALS:
-        signals = {
-            n: _set(keys, name, nuisance, parameter) for n, keys in experiment[SIGNALS].items()
-        }
+        parts = list(experiment[SIGNALS].values())
+    given = list(dict.fromkeys(part.get(nuisance.key, nuisance.null) for part in parts))
+    if len(given) != 1 or isinstance(given[0], str):
+        shown = " and ".join(repr(value) for value in given)
+        raise ValueError(
+            f"experiments.{name}: {nuisance.key} is {shown} already, and differs between "
+            "repeats; leave out one of the two"
+        )
+    return float(given[0])
+
+
+def _with(experiment: Keys, nuisance: Nuisance, parameter: str) -> Keys:
+    """Return an experiment with a parameter in the place of a nuisance."""
+    own = {nuisance.key: parameter}
+    if nuisance.part == SIGNALS:
+        signals = {n: {**keys, **own} for n, keys in experiment[SIGNALS].items()}
         return {**experiment, SIGNALS: signals}
     if not nuisance.part:
-        return _set(experiment, name, nuisance, parameter)
-    part = _set(experiment.get(nuisance.part) or {}, name, nuisance, parameter)
-    return {**experiment, nuisance.part: part}
-
-
-def _set(part: Keys, name: str, nuisance: Nuisance, parameter: str) -> Keys:
-    if part.get(nuisance.key, nuisance.null) != nuisance.null:
-        raise ValueError(
-            f"experiments.{name}: {nuisance.key} is {part[nuisance.key]!r} already, and differs "
-            f"between repeats; leave out one of the two"
-        )
-    return {**part, nuisance.key: parameter}
+        return {**experiment, **own}
+    return {**experiment, nuisance.part: {**(experiment.get(nuisance.part) or {}), **own}}
 
 
 def scattered(keys: Keys, sds: Mapping[str, Mapping[str, float]]) -> Keys:
@@ -174,5 +203,5 @@ def scattered(keys: Keys, sds: Mapping[str, Mapping[str, float]]) -> Keys:
         for key, parameter in (keys["experiments"][name]["repeat"].get("nuisances") or {}).items():
             seed = seed_for(keys.get("seed", 1), "repeats", name, key)
             z = float(np.clip(np.random.default_rng(seed).standard_normal(), -DRAWN, DRAWN))
-            drawn[parameter] = NUISANCES[key].null + of[key] * z
+            drawn[parameter] = keys["parameters"][parameter]["value"] + of[key] * z
     return {**keys, "synthetic": {**synthetic, "truth": {**drawn, **synthetic["truth"]}}}

@@ -6,10 +6,10 @@ from typing import Any
 
 from pydantic import TypeAdapter, ValidationError
 
-from pyrofit.config.nuisances import NUISANCES, free, scattered
+from pyrofit.config.nuisances import free, scattered, stages_of
 from pyrofit.config.repeated_names import at_costs, at_names, at_signals
+from pyrofit.config.uncertain import check_family, free_uncertain
 from pyrofit.config.words import in_plain_words
-from pyrofit.experiments import KINDS
 from pyrofit.model.repeats import AnyRepeats, Repeat, Repeats
 
 Keys = dict[str, Any]
@@ -45,14 +45,15 @@ def expand_repeats(given: Mapping[str, Any]) -> Mapping[str, Any]:
         for name, experiment in experiments.items()
         if isinstance(experiment, Mapping) and experiment.get("repeats") is not None
     }
-    if not tests:
+    uncertain = any(isinstance(e, Mapping) and e.get("uncertain") for e in experiments.values())
+    if not tests and not uncertain:
         return given
     keys = _expanded(given, tests)
     sds = {own: given for test in tests.values() for own, given in test.sds.items()}
     try:
         for own, of in sds.items():
-            keys = free(keys, own, of)
-        return scattered(keys, sds)
+            keys = free(keys, own, of, stages_of(keys, own))
+        return scattered(free_uncertain(keys), sds)
     except (AttributeError, KeyError, TypeError):
         return keys  # as above
 
@@ -79,6 +80,11 @@ def _expanded(given: Mapping[str, Any], tests: Mapping[str, _Test]) -> Keys:
 
 def _test(name: str, experiment: Mapping[str, Any], others: Mapping[str, Any]) -> _Test:
     place = f"experiments.{name}.repeats"
+    _require(
+        experiment.get("uncertain") is None,
+        f"experiments.{name}.uncertain",
+        "the test has repeats; give it there, under `repeats`",
+    )
     try:
         repeats = _REPEATS.validate_python(experiment["repeats"])
     except ValidationError as error:
@@ -93,7 +99,7 @@ def _test(name: str, experiment: Mapping[str, Any], others: Mapping[str, Any]) -
         found[own] = _experiment(name, own, experiment, repeat)
         sds[own] = repeats.given | repeat.given
         for key in sds[own]:
-            _check_family(f"{place}.{own}.{key}", key, experiment.get("kind"))
+            check_family(f"{place}.{own}.{key}", key, experiment.get("kind"))
     _check_files(place, found)
     return _Test(found, sds)
 
@@ -120,6 +126,13 @@ def _experiment(name: str, own: str, experiment: Mapping[str, Any], repeat: Repe
         )
     title = repeat.title or f"{experiment.get('title') or name}, {own.removeprefix(f'{name}_')}"
     kept = {key: value for key, value in experiment.items() if key != "repeats"}
+    if repeat.sample:
+        _require(
+            isinstance(experiment.get("sample"), Mapping),
+            f"{place}.sample",
+            "the test has no sample; leave it out, or describe the sample of the test",
+        )
+        kept["sample"] = {**experiment["sample"], **repeat.sample}
     return {**kept, "title": title, "signals": signals, "repeat": {"test": name}}
 
 
@@ -139,19 +152,6 @@ def _check_files(place: str, experiments: Mapping[str, Keys]) -> None:
                 f"'{file}' is the file of {seen.get((signal, file))}, too; give its own file",
             )
             seen[signal, file] = own
-
-
-def _check_family(place: str, key: str, kind: Any) -> None:
-    """Refuse a standard deviation that the kind of the test has not."""
-    known = KINDS.get(kind) if isinstance(kind, str) else None
-    if known is not None:
-        family = NUISANCES[key].family
-        fitting = [k for k, n in NUISANCES.items() if issubclass(known.description, n.family)]
-        _require(
-            issubclass(known.description, family),
-            place,
-            f"a {known.words} experiment has none; it may have {', '.join(fitting)}",
-        )
 
 
 def _require(ok: bool, place: str, message: str) -> None:

@@ -6,7 +6,7 @@ from pyrofit.config.study import Study
 from pyrofit.config.terms import TermSpec
 from pyrofit.config.uses import parameters_in
 from pyrofit.effects import known_effects
-from pyrofit.effects.apply import with_effects
+from pyrofit.effects.apply import own_laboratories, with_effects
 from pyrofit.experiments import kind_of
 from pyrofit.model.experiment import Experiment
 from pyrofit.model.material import Material
@@ -57,7 +57,7 @@ def _whole(chosen: Chosen) -> tuple[TermSpec, ...]:
 def diagnosed_parameters(study: Study) -> tuple[str, ...]:
     """Return the names of the parameters that the diagnosis estimates beside the effects."""
     differing = tuple(
-        name for e in calibrated(study).values() if e.repeat for name in e.repeat.nuisances.values()
+        name for e in diagnosed(study).values() if e.repeat for name in e.repeat.nuisances.values()
     )
     if study.diagnosis.estimate:
         return tuple(dict.fromkeys(study.diagnosis.estimate + differing))
@@ -86,9 +86,11 @@ def obstacle(study: Study, name: str) -> str:
     distinct = effect.distinct_in
     if distinct and not any(distinct(e) for e in calibrated(study).values()):
         return f"it is the same model as another of its group; it needs {distinct.words}"
+    every = diagnosed(study)
+    own = {} if effect.is_shared else own_laboratories(calibrated(study).values(), every.values())
     free = {key: f"{name}_{key}" for key in effect.strength}
     try:
-        with_effects(diagnosed_material(study), diagnosed(study), {name: free})
+        with_effects(diagnosed_material(study), every, {name: {**free, **own}})
     except ValueError as error:
         return str(error).removeprefix(f"effect '{name}': ")
     return ""

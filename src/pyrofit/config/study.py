@@ -72,7 +72,9 @@ class Study(Part):
         description="effects of the catalogue that material and experiments have, with their "
         "parameters: a number in SI units or the name of a parameter; a strength left out is "
         "a parameter <effect>_<strength> to be estimated; `of` lists the components whose "
-        "property changes, by default those of the material, no boards and plates",
+        "property changes, by default those of the material, no boards and plates; "
+        "`laboratories` lists those whose experiments have an effect of apparatus or "
+        "surroundings, by default all",
     )
     with_effects: dict[str, dict[str, Number | tuple[str, ...]]] = Field(
         default_factory=dict,

@@ -13,6 +13,8 @@ from pyrofit.model.material import Material
 from pyrofit.model.slab import SlabExperiment
 
 Kind = TypeVar("Kind", bound=Experiment)
+LABORATORIES = "laboratories"
+"""Key of a chosen effect: names of the laboratories whose apparatus has it."""
 
 
 def with_effects(
@@ -29,7 +31,8 @@ def with_effects(
     chosen
         By effect, its parameters: a number in SI units, or the name of a parameter of the study. A
         strength must be given; a form parameter left out takes its usual value. ``of`` names the
-        components that change, by default all of the material itself, see `Material.own`.
+        components that change, by default all of the material itself, see `Material.own`;
+        ``laboratories`` those whose experiments change, by default all.
 
     Raises
     ------
@@ -56,7 +59,8 @@ def _with(
 ) -> tuple[Material, dict[str, Kind]]:
     of = _components(effect, material, given)
     at = _numbers(effect, {key: x for key, x in given.items() if not isinstance(x, tuple | list)})
-    able = {n for n, e in experiments.items() if effect.needs(e)}
+    places = _laboratories(effect, experiments.values(), given)
+    able = {n for n, e in experiments.items() if effect.needs(e) and e.laboratory in places}
     if effect.of_sample:
         able -= {n for n, e in experiments.items() if _is_inert(e, material)}
     if not able:
@@ -81,6 +85,42 @@ def _components(effect: Effect, material: Material, given: Chosen) -> Collection
         raise ValueError("'of' must be a list of components, as [board]")
     _refuse_unknown("component", of, material.components)
     return of
+
+
+def _laboratories(
+    effect: Effect, experiments: Iterable[Experiment], given: Chosen
+) -> Collection[str]:
+    """Return the laboratories whose experiments an effect changes: those named, or all."""
+    known = {e.laboratory for e in experiments}
+    named = given.get(LABORATORIES)
+    if named is None:
+        return known
+    if effect.is_shared:
+        raise ValueError(
+            f"it belongs to the material, which all laboratories share; leave out '{LABORATORIES}'"
+        )
+    if isinstance(named, float | str) or not named:
+        raise ValueError(f"'{LABORATORIES}' must be a list of names, as [UMD]")
+    _refuse_unknown("laboratory", named, known)
+    return named
+
+
+def own_laboratories(
+    own: Iterable[Experiment], every: Iterable[Experiment]
+) -> dict[str, tuple[str, ...]]:
+    """Return the key by which effects of the apparatus keep to the laboratories of ``own``.
+
+    It is empty where no other laboratory is among ``every``.
+
+    Examples
+    --------
+    >>> from pyrofit.experiments import Tga
+    >>> one, other = (Tga(kind="tga", heating_rate_K_min=5.0, laboratory=l) for l in ("A", "B"))
+    >>> own_laboratories([one], [one, other]), own_laboratories([one], [one])
+    ({'laboratories': ('A',)}, {})
+    """
+    names = dict.fromkeys(e.laboratory for e in own)
+    return {LABORATORIES: tuple(names)} if {e.laboratory for e in every} - names.keys() else {}
 
 
 def _is_inert(experiment: Experiment, material: Material) -> bool:

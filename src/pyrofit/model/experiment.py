@@ -7,7 +7,7 @@ from pydantic import Field, model_validator
 
 from pyrofit.errors import suggest
 from pyrofit.model.base import Part
-from pyrofit.model.repeats import AnyRepeats, RepeatOf
+from pyrofit.model.repeats import AnyRepeats, Nuisances, RepeatOf
 from pyrofit.model.signal import Signal
 from pyrofit.quantities import known_quantities, quantities_of
 from pyrofit.quantities.base import Quantity
@@ -20,14 +20,25 @@ class Experiment(Part):
     """Another kind of experiment; its quantities are measured in this one, too."""
     kind: str
     title: str = Field("", description="name in figures")
+    laboratory: str = Field(
+        "",
+        description="laboratory that made it; effects of apparatus and surroundings belong to one",
+    )
     signals: dict[str, Signal] = Field(
         default_factory=dict, description="measured quantities by name"
     )
     repeats: AnyRepeats | None = Field(
         None, description="records of equal tests, each an experiment of its own"
     )
+    uncertain: Nuisances | None = Field(
+        None,
+        description="what the diagnosis estimates of it besides the model, about the values that "
+        "are described; of a test with `repeats` give it there",
+    )
     repeat: RepeatOf | None = Field(
-        None, description="what it repeats, as noted when a study is read; list yours in `repeats`"
+        None,
+        description="what it repeats or what is uncertain, as noted when a study is read; list "
+        "yours in `repeats` or `uncertain`",
     )
 
     @model_validator(mode="after")
@@ -66,7 +77,9 @@ class Experiment(Part):
     def as_simulated(self, signals: Iterable[str]) -> Self:
         """Return what its curves depend on, with some signals: not how it was recorded."""
         shown = {s: self.signals[s].as_simulated() for s in signals}
-        return self.model_copy(update={"title": "", "repeat": None, "signals": shown})
+        return self.model_copy(
+            update={"title": "", "laboratory": "", "repeat": None, "signals": shown}
+        )
 
     def words(self, signal: str) -> str:
         """Return a signal's name in words: its quantity's, and its own where that is another."""

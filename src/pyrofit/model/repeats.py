@@ -12,13 +12,20 @@ Name = Annotated[str, Field(pattern=r"^[A-Za-z][A-Za-z0-9_]*$")]
 
 
 class Nuisances(Part):
-    """Standard deviations of what differs between repeats; what has none is taken as equal."""
+    """Standard deviations of what differs between repeats, or is uncertain of an experiment.
+
+    What has none is taken as equal, and as described.
+    """
 
     thickness_sd: Relative | None = Field(
         None, description="slab: relative standard deviation of the thickness, hence of the mass"
     )
     flux_sd: Relative | None = Field(
         None, description="slab: relative standard deviation of the external flux"
+    )
+    h_sd_W_m2K: AboveZero | None = Field(
+        None,
+        description="slab: standard deviation of the front's heat transfer coefficient [W/(m2 K)]",
     )
     clock_sd_s: AboveZero | None = Field(
         None, description="slab: standard deviation of the start of the clock [s]"
@@ -48,6 +55,10 @@ class Repeat(Nuisances):
         "signal may be missing",
     )
     title: str = Field("", description="name in figures")
+    sample: dict[str, Any] = Field(
+        default_factory=dict,
+        description="slab: keys of the sample that this repeat has instead of the test's",
+    )
     sample_mass_kg: AboveZero | None = Field(None, description="initial sample mass [kg]")
     sample_area_m2: AboveZero | None = Field(None, description="exposed area [m2]")
 
@@ -75,10 +86,11 @@ AnyRepeats = Annotated[Repeats, BeforeValidator(_as_tests)]
 
 
 class RepeatOf(Part):
-    """What an experiment repeats, as noted when a study is read."""
+    """What an experiment repeats, or what is uncertain of it, as noted when a study is read."""
 
-    test: str = Field(description="name of the test")
+    test: str = Field(description="name of the test; its own, where it repeats none")
     nuisances: dict[str, str] = Field(
         default_factory=dict,
-        description="parameters of what differs, by the key of its standard deviation",
+        description="parameters of what differs or is uncertain, by the key of its standard "
+        "deviation",
     )

@@ -95,8 +95,10 @@ def _elsewhere(trial: FittedModel) -> Iterator[FloatArray]:
     best = trial.fit
     wide = np.sqrt(np.diag(covariance(best.jacobian))) > SETTINGS.wide_sd
     resting = (best.x <= 0.0) | (best.x >= 1.0)
+    # What is uncertain of experiments that are held out changes nothing here.
+    shown = np.any(best.jacobian[: trial.model.points] != 0.0, axis=0)
     base = len(trial.model.names) - trial.numbers
-    for i in np.flatnonzero((wide | resting)[:base]):
+    for i in np.flatnonzero(((wide & shown) | resting)[:base]):
         for value in SETTINGS.elsewhere:
             if abs(value - best.x[i]) > SETTINGS.apart:
                 x = best.x.copy()

@@ -8,8 +8,8 @@ import numpy as np
 from pyrofit.cost import WeightedSum
 from pyrofit.diagnose.settings import SETTINGS
 from pyrofit.effects import known_effects
-from pyrofit.effects.apply import with_effects
-from pyrofit.effects.base import Quantity
+from pyrofit.effects.apply import own_laboratories, with_effects
+from pyrofit.effects.base import Chosen, Quantity
 from pyrofit.estimate.likelihood import Likelihood
 from pyrofit.estimate.problem import Problem
 from pyrofit.solver.arrays import FloatArray
@@ -100,15 +100,18 @@ def model_of(base: Base, effects: Free, channels: Sequence[int] | None = None) -
         The description cannot have an effect.
     """
     channels = base.calibrated if channels is None else tuple(channels)
-    problem = _with_effects(base.likelihood.problem, effects)
+    problem = _with_effects(base, effects)
     noise = tuple(base.likelihood.noise[i] for i in channels)
     likelihood = Likelihood(_restricted(problem, channels), noise, base.likelihood.prior)
     return Model(base, effects, channels, likelihood)
 
 
-def _with_effects(problem: Problem, effects: Free) -> Problem:
-    catalogue = known_effects()
-    chosen = {name: {p: name_of(name, p) for p in free} for name, free in effects.items()}
+def _with_effects(base: Base, effects: Free) -> Problem:
+    problem, catalogue = base.likelihood.problem, known_effects()
+    chosen: dict[str, Chosen] = {
+        name: {**{p: name_of(name, p) for p in free}, **laboratories_of(base, name)}
+        for name, free in effects.items()
+    }
     experiments = {name: run.experiment for name, run in problem.runs.items()}
     material, changed = with_effects(problem.material, experiments, chosen)
     added = [(name, p) for name, free in effects.items() for p in free]
@@ -121,6 +124,19 @@ def _with_effects(problem: Problem, effects: Free) -> Problem:
         material=material,
         runs={n: replace(run, experiment=changed[n]) for n, run in problem.runs.items()},
     )
+
+
+def laboratories_of(base: Base, effect: str) -> dict[str, tuple[str, ...]]:
+    """Return the key that names the laboratories to which an effect belongs.
+
+    Effects of apparatus and surroundings belong to all calibrated laboratories together; those held
+    out keep their own. The key is empty where the effect belongs to all experiments.
+    """
+    if known_effects()[effect].is_shared:
+        return {}
+    runs = base.likelihood.problem.runs
+    fitted = [runs[base.channels[i][0]].experiment for i in base.calibrated]
+    return own_laboratories(fitted, [run.experiment for run in runs.values()])
 
 
 def _restricted(problem: Problem, channels: Sequence[int]) -> Problem:

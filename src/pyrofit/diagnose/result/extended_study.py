@@ -5,7 +5,7 @@ from typing import Any
 
 from pyrofit.config import Study
 from pyrofit.diagnose.base.fitted import FittedModel
-from pyrofit.diagnose.base.model import model_of, name_of, strength_of
+from pyrofit.diagnose.base.model import laboratories_of, model_of, name_of, strength_of
 from pyrofit.effects import known_effects
 
 Keys = dict[str, Any]
@@ -53,9 +53,12 @@ def _fits(trial: FittedModel, effect: str) -> bool:
 
 
 def _effects(trial: FittedModel) -> Keys:
-    values = trial.model.likelihood.values(trial.fit.x).tolist()
+    base, values = trial.model.base, trial.model.likelihood.values(trial.fit.x).tolist()
     fitted = dict(zip(trial.model.names, values, strict=True))
     return {
-        effect: {parameter: fitted[name_of(effect, parameter)] for parameter in free}
+        effect: {
+            **{parameter: fitted[name_of(effect, parameter)] for parameter in free},
+            **{key: list(names) for key, names in laboratories_of(base, effect).items()},
+        }
         for effect, free in trial.model.effects.items()
     }
