@@ -6,11 +6,12 @@ from pathlib import Path
 from typing import Any
 
 import numpy as np
+from pydantic import TypeAdapter
 
-from pyrofit.config import read_study
+from pyrofit.config import read_mapping
 from pyrofit.effects.apply import with_effects
 from pyrofit.effects.base import Effect
-from pyrofit.experiments import Gasification, Tga
+from pyrofit.experiments import AnyExperiment, Gasification, Tga
 from pyrofit.model.experiment import Experiment
 from pyrofit.model.material import Material
 from pyrofit.simulate import simulate_gasification, simulate_tga
@@ -47,9 +48,20 @@ class Base:
 
 def pmma() -> Base:
     """Two components that react to the same residue, a foil, an open back."""
-    study = read_study(PMMA)
+    keys = read_mapping(PMMA)
     names = ("capa_25", "capa_60", "tga_10K", "tga_100K")
-    return Base(study.material, {n: study.experiments[n] for n in names}, PMMA_VALUES)
+    # As described, and without a heat capacity that has a glass transition already.
+    exact = {"uncertain": None}
+    experiments = {n: {**keys["experiments"][n], **exact} for n in names}
+    for name in ("tga_10K", "tga_100K"):
+        del experiments[name]["temperature_offset_K"]
+    components = {n: c for n, c in keys["material"]["components"].items() if n != "wool"}
+    for of in components.values():
+        if not isinstance(of["specific_heat_J_kgK"], float | int):
+            of["specific_heat_J_kgK"] = "cp_a"
+    material = Material.model_validate({**keys["material"], "components": components})
+    described = TypeAdapter(dict[str, AnyExperiment]).validate_python(experiments)
+    return Base(material, described, PMMA_VALUES)
 
 
 def wood() -> Base:
