@@ -98,10 +98,13 @@ DIAGNOSIS = rows_of(
         ),
         (
             "known value of a fixed parameter",
-            put(known={"eps": {"value": 0.9, "sd": 0.02}}),
+            put(
+                known={"eps": {"value": 0.9, "sd": 0.02}},
+                parameters__eps={"unit": "-", "value": 0.9},
+            ),
             (
                 "known.eps: no stage estimates it, it has a fixed value; name it under ",
-                "or leave it out here",
+                "give it limits, or leave it out here",
             ),
         ),
         (

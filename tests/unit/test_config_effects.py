@@ -7,7 +7,7 @@ from typing import Any
 import pytest
 import yaml
 
-from pyrofit.config import Study, as_study, digest
+from pyrofit.config import Study, as_study, diagnosed_parameters, digest
 from pyrofit.effects import known_effects
 from pyrofit.errors import StudyError
 from pyrofit.model.material import Changed
@@ -71,8 +71,9 @@ KINETIC = {
 @pytest.mark.parametrize("name", known_effects())
 def test_every_effect_can_be_estimated(name: str) -> None:
     # Others have numbers of their own where effects of the apparatus set theirs.
-    own = {} if known_effects()[name].is_shared else {"laboratories": ["UMD", "UMET"]}
-    study = given("pmma", **{name: own}) if name != "tga_offset" else given("twin", tga_offset=None)
+    everywhere = known_effects()[name].is_shared or name == "tga_offset"
+    own = {} if everywhere else {"laboratories": ["UMD", "UMET"]}
+    study = given("paper" if name == "tga_offset" else "pmma", **{name: own})
     for experiment in study["experiments"].values():
         experiment.pop("uncertain", None)
     strengths = [f"{name}_{key}" for key in known_effects()[name].strength]
@@ -139,3 +140,14 @@ def test_broken_effect_is_refused_in_words(effects: dict[str, Any], words: str) 
     with pytest.raises(StudyError) as error:
         as_study(study, "smoke.yaml")
     assert words in str(error.value)
+
+
+def test_parameter_that_is_known_only_is_estimated_by_the_diagnosis() -> None:
+    study = given()
+    study["parameters"]["gauge"] = {"unit": "-", "value": 1.0, "lower": 0.9, "upper": 1.1}
+    study["experiments"]["slab_25"]["front"]["flux_factor"] = "gauge"
+    study["synthetic"]["truth"]["gauge"] = 1.0
+    study["known"] = {"gauge": {"value": 1.0, "sd": 0.03}}
+    found = as_study(study, "smoke.yaml")
+    assert diagnosed_parameters(found)[-1] == "gauge"
+    assert "gauge" not in found.imp.estimate

@@ -23,7 +23,7 @@ class Diagnosis(Part):
     estimate: tuple[str, ...] = Field(
         (),
         description="parameters to estimate; none = those of kinetics where a TGA is fitted or "
-        "they have no value, then those of imp",
+        "they have no value, those of imp, and those that `known` alone names",
     )
     kinetics: str = Field(
         "", description="'described', 'fitted', or one of kinetics.sets; none = as imp.kinetics"

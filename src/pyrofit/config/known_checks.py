@@ -27,7 +27,7 @@ def check_known(study: Study) -> None:
             name in estimated,
             place,
             "no stage estimates it, it has a fixed value; name it under kinetics.estimate, "
-            "imp.estimate or diagnosis.estimate, or leave it out here",
+            "imp.estimate or diagnosis.estimate, give it limits, or leave it out here",
         )
         p = study.parameters[name]
         assert p.lower is not None

@@ -64,9 +64,16 @@ def diagnosed_parameters(study: Study) -> tuple[str, ...]:
     kinetics = study.kinetics.estimate if study.kinetics else ()
     if not any(kind_of(e).stage == "kinetics" for e in calibrated(study).values()):
         kinetics = tuple(name for name in kinetics if study.parameters[name].value is None)
-    names = kinetics + study.imp.estimate + differing
+    names = kinetics + study.imp.estimate + differing + _known_beside(study)
     used = parameters_in(diagnosed_material(study), *diagnosed(study).values())
     return tuple(name for name in dict.fromkeys(names) if name in used)
+
+
+def _known_beside(study: Study) -> tuple[str, ...]:
+    """Return the parameters that are known only within limits, and that no other stage fits."""
+    others = {*study.imp.estimate, *(study.kinetics.estimate if study.kinetics else ())}
+    limited = (n for n, p in study.parameters.items() if p.lower is not None)
+    return tuple(n for n in limited if n in study.known and n not in others)
 
 
 def candidate_effects(study: Study) -> tuple[str, ...]:

@@ -58,8 +58,8 @@ def _with(
     effect: Effect, material: Material, experiments: dict[str, Kind], given: Chosen
 ) -> tuple[Material, dict[str, Kind]]:
     of = _components(effect, material, given)
-    at = _numbers(effect, {key: x for key, x in given.items() if not isinstance(x, tuple | list)})
     places = _laboratories(effect, experiments.values(), given)
+    at = _numbers(effect, {key: x for key, x in given.items() if not isinstance(x, tuple | list)})
     able = {n for n, e in experiments.items() if effect.needs(e) and e.laboratory in places}
     if effect.of_sample:
         able -= {n for n, e in experiments.items() if _is_inert(e, material)}
