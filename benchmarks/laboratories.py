@@ -1,0 +1,290 @@
+"""What models fitted to one laboratory predict of others: the table of docs/measured_pmma.md.
+
+    python benchmarks/laboratories.py [--loose] [config/pmma.yaml]
+
+A model is fitted to the calibrated signals of the study's diagnosis and predicts those held out,
+three times: with what is uncertain of the other laboratories as described; with that fitted to
+their data, within what is known; and with the material's parameters fitted to them as well.
+``--loose`` forgets what is known of the material and of the calibrated experiments: a constant heat
+capacity, and the limits of the published study.
+"""
+
+import argparse
+import copy
+import sys
+from collections.abc import Mapping, Sequence
+from dataclasses import replace
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+
+from pyrofit.config import (
+    Study,
+    as_study,
+    calibration_channels,
+    diagnosed_material,
+    diagnosed_parameters,
+    held_out_channels,
+    read_mapping,
+)
+from pyrofit.config.resolve import calibrated
+from pyrofit.config.uses import parameters_in
+from pyrofit.diagnose.base.descent import descend
+from pyrofit.diagnose.base.fitted import FittedModel
+from pyrofit.diagnose.base.model import Base, Free, Model, extended, model_of
+from pyrofit.estimate.likelihood import likelihood_of
+from pyrofit.estimate.prior import NormalPrior, prior_of
+from pyrofit.estimate.problem import make_problem
+from pyrofit.estimate.targets import Measurements
+from pyrofit.solver.arrays import FloatArray
+from pyrofit.stages.reading import read_all
+
+MODELS: dict[str, Free] = {
+    "base": {},
+    "three effects": {
+        "swelling": ("step", "temperature_K", "width_K"),
+        "foil_mass": ("factor",),
+        "flux_spread": ("spread",),
+    },
+    "four effects": {
+        "swelling": ("step", "temperature_K", "width_K"),
+        "glass_transition": ("step_J_kgK", "temperature_K"),
+        "foil_mass": ("factor",),
+        "flux_spread": ("spread",),
+    },
+}
+STARTS = {"swelling": 1.0, "glass_transition": 200.0, "foil_mass": 15.0, "flux_spread": 0.03}
+SPREAD = 5
+"""Starts beside the centre of the limits."""
+DEGREES = ("as described", "uncertain fitted", "material fitted")
+"""How far a held-out laboratory is fitted."""
+KINETICS = ("T_A", "E_A", "T_B", "E_B", "w_A")
+SHOWN = {"mlr": (1e3, "g/(m2 s)"), "mass": (1.0, "kg/m2"), "mass_fraction": (1.0, "-")}
+
+
+LOOSE = {
+    "rho_a": {"unit": "kg/m3", "lower": 600, "upper": 1500},
+    "k_a": {"unit": "W/(m K)", "lower": 0.09, "upper": 0.35},
+    "c_a": {"unit": "kJ/(kg K)", "lower": 0.875, "upper": 2.725},
+    "eps_a": {"unit": "-", "lower": 0.01, "upper": 0.99},
+}
+
+
+def loose(keys: dict[str, Any]) -> dict[str, Any]:
+    """Return a study's keys without what is known of material and calibrated experiments."""
+    keys = copy.deepcopy(keys)
+    keys["parameters"] |= LOOSE
+    keys["known"] = {}
+    for of in keys["material"]["components"].values():
+        if of["density_kg_m3"] == "rho_a":
+            of["specific_heat_J_kgK"] = "c_a"
+    for name in keys["diagnosis"]["calibrate"]:
+        keys["experiments"][name].pop("uncertain", None)
+    return keys
+
+
+def base_of(study: Study, measurements: Measurements, held_out: bool) -> Base:
+    """Return the base against the calibrated signals, or against those held out as well."""
+    channels = calibration_channels(study)
+    count = len(channels)
+    used = parameters_in(diagnosed_material(study), *calibrated(study).values())
+    names = [n for n in diagnosed_parameters(study) if held_out or n in used]
+    channels += held_out_channels(study) if held_out else ()
+    material = diagnosed_material(study)
+    problem = make_problem(study, names, channels, measurements, material, study.fixed_values())
+    return Base(likelihood_of(problem, prior_of(study, problem)), tuple(range(count)))
+
+
+def centre(base: Base) -> FloatArray:
+    """Return the middle of the limits, known parameters at their means."""
+    likelihood = base.likelihood
+    x = np.full(len(likelihood.problem.names), 0.5)
+    known, span = likelihood.prior, likelihood.problem.upper - likelihood.problem.lower
+    index = list(known.index)
+    x[index] = (known.mean - likelihood.problem.lower[index]) / span[index]
+    return x
+
+
+def starts(base: Base, seed: int) -> list[FloatArray]:
+    """Return the centre and points about it; what is known of parameters stays."""
+    x = centre(base)
+    moved = [i for i in range(x.size) if i not in base.likelihood.prior.index]
+    found = [x]
+    for _ in range(SPREAD):
+        other = x.copy()
+        other[moved] = 0.1 + 0.8 * np.random.default_rng([seed, len(found)]).random(len(moved))
+        found.append(other)
+    return found
+
+
+def with_starts(effects: Free, x: FloatArray) -> FloatArray:
+    """Return x with the effects' strengths where they are often met."""
+    for effect, free in effects.items():
+        x = extended(x, effect, STARTS[effect], free[1:])
+    return x
+
+
+def best(model: Model, begins: Sequence[FloatArray]) -> FittedModel:
+    """Return the lowest end of descents, twice descended."""
+    ends = [descend(model, x) for x in begins]
+    lowest = min(ends, key=lambda end: end.chi2)
+    return FittedModel(model, descend(model, lowest.x))
+
+
+def fitted(base: Base, effects: Free, seed: int) -> FittedModel:
+    """Return the best fit of the base with effects to the calibrated signals."""
+    begins = [with_starts(effects, x) for x in starts(base, seed)]
+    return best(model_of(base, effects), begins)
+
+
+def values_of(trial: FittedModel) -> dict[str, float]:
+    """Return the fitted values by name, SI units."""
+    names = trial.model.names
+    return dict(zip(names, trial.model.likelihood.values(trial.fit.x).tolist(), strict=True))
+
+
+def of_laboratory(whole: Base, trial: FittedModel, names: Sequence[str], free: set[str]) -> Model:
+    """Return a model of some held-out experiments, with some parameters free.
+
+    Others keep the values of a fit to the calibrated signals; what is uncertain of the
+    experiments, and was not fitted, is as described.
+    """
+    channels = [i for i in whole.held_out if whole.channels[i][0] in names]
+    model = model_of(whole, trial.model.effects, channels)
+    likelihood = model.likelihood
+    problem, known = likelihood.problem, likelihood.prior
+    of_known = [problem.names[i] for i in known.index]
+    described = dict(zip(of_known, known.mean.tolist(), strict=True))
+    fixed = {**problem.fixed, **described, **values_of(trial)}
+    kept = [i for i, name in enumerate(problem.names) if name in free]
+    at = [k for k, i in enumerate(known.index) if i in kept]
+    prior = NormalPrior(tuple(kept.index(known.index[k]) for k in at), known.mean[at], known.sd[at])
+    smaller = replace(
+        problem,
+        names=tuple(problem.names[i] for i in kept),
+        lower=problem.lower[kept],
+        upper=problem.upper[kept],
+        fixed={n: v for n, v in fixed.items() if n not in free},
+    )
+    return replace(model, likelihood=replace(likelihood, problem=smaller, prior=prior))
+
+
+def at_fit(model: Model, trial: FittedModel) -> FloatArray:
+    """Return where a model of a laboratory starts: at the fit, and as described."""
+    likelihood, fit = model.likelihood, values_of(trial)
+    problem, known = likelihood.problem, likelihood.prior
+    mean = dict(zip((problem.names[i] for i in known.index), known.mean.tolist(), strict=True))
+    values = [fit.get(name, mean.get(name, 0.0)) for name in problem.names]
+    return likelihood.scaled(np.array(values))
+
+
+def rms(model: Model, x: FloatArray) -> dict[tuple[str, str], float]:
+    """Return the root mean square of simulated less measured by channel, SI units."""
+    likelihood = model.likelihood
+    curves = likelihood.curves(x)
+    assert curves is not None
+    found = {}
+    terms = (term for _, term in likelihood.problem.cost.terms)
+    picks = likelihood.problem.picks
+    for (name, signal, _), term, curve in zip(picks, terms, likelihood.split(curves), strict=True):
+        found[name, signal] = float(np.sqrt(np.mean((curve - term.target.value) ** 2)))
+    return found
+
+
+def predictions(whole: Base, trial: FittedModel) -> dict[str, dict[tuple[str, str], float]]:
+    """Return the rms of held-out signals, laboratory by laboratory, and three times."""
+    runs = whole.likelihood.problem.runs
+    names = dict.fromkeys(whole.channels[i][0] for i in whole.held_out)
+    places: dict[str, list[str]] = {}
+    for name in names:
+        places.setdefault(runs[name].experiment.laboratory, []).append(name)
+    shared = {n for n in material_names(trial) if n not in KINETICS}
+    found: dict[str, dict[tuple[str, str], float]] = {d: {} for d in DEGREES}
+    for own in places.values():
+        uncertain = {p for n in own for p in runs[n].experiment.repeat.nuisances.values()}
+        for degree, free in zip(DEGREES, (set(), uncertain, uncertain | shared), strict=True):
+            model = of_laboratory(whole, trial, own, free)
+            x = at_fit(model, trial)
+            found[degree] |= rms(model, descend(model, x).x if free else x)
+    return found
+
+
+def material_names(trial: FittedModel) -> set[str]:
+    """Return the parameters that all laboratories share."""
+    problem = trial.model.likelihood.problem
+    return set(problem.names) & parameters_in(problem.material)
+
+
+def noise(whole: Base) -> dict[tuple[str, str], float]:
+    """Return the scatter of points and between repeats of held-out signals, SI units."""
+    found = {}
+    for i in whole.held_out:
+        size = whole.likelihood.noise[i].total_sd
+        found[whole.channels[i]] = float(np.sqrt(np.mean(size**2)))
+    return found
+
+
+def shown(signal: str, value: float) -> str:
+    """Return a value in the unit that is shown."""
+    factor, _ = SHOWN.get(signal, (1.0, "K"))
+    return f"{factor * value:.3g}"
+
+
+def table(rows: Mapping[tuple[str, str], Sequence[float]], heads: Sequence[str]) -> str:
+    """Return rows as a table of Markdown."""
+    lines = ["| signal | unit | " + " | ".join(heads) + " |", "|---" * (len(heads) + 2) + "|"]
+    for (name, signal), values in rows.items():
+        unit = SHOWN.get(signal, (1.0, "K"))[1]
+        cells = " | ".join(shown(signal, v) for v in values)
+        lines.append(f"| {name} {signal} | {unit} | {cells} |")
+    return "\n".join(lines)
+
+
+def report(study: Study) -> str:
+    """Return the tables of all models."""
+    measurements = {key: frame for key, (frame, _) in read_all(study).items()}
+    base, whole = (base_of(study, measurements, both) for both in (False, True))
+    trials: dict[str, FittedModel] = {}
+    for words, effects in MODELS.items():
+        trials[words] = fitted(base, effects, study.seed)
+        print(words, round(trials[words].fit.chi2), values_of(trials[words]), file=sys.stderr)
+    calibration = {words: rms(t.model, t.fit.x) for words, t in trials.items()}
+    heads = list(MODELS)
+    parts = ["## Calibrated", table(_joined(calibration), heads), chi2_table(trials)]
+    found = {words: predictions(whole, trial) for words, trial in trials.items()}
+    floor = noise(whole)
+    for degree in DEGREES:
+        rows = _joined({words: of[degree] for words, of in found.items()})
+        rows = {key: [*values, floor[key]] for key, values in rows.items()}
+        parts += [f"## Held out, {degree}", table(rows, [*heads, "noise"])]
+    return "\n\n".join(parts)
+
+
+def chi2_table(trials: Mapping[str, FittedModel]) -> str:
+    """Return chi-square of each model, and parameters, as a table."""
+    names = list(dict.fromkeys(n for t in trials.values() for n in t.model.names))
+    lines = ["| | " + " | ".join(trials) + " |", "|---" * (len(trials) + 1) + "|"]
+    lines.append(
+        "| chi-square | " + " | ".join(f"{t.fit.chi2:.0f}" for t in trials.values()) + " |"
+    )
+    for name in names:
+        cells = [f"{v[name]:.4g}" if name in v else "" for v in map(values_of, trials.values())]
+        lines.append(f"| {name} | " + " | ".join(cells) + " |")
+    return "\n".join(lines)
+
+
+def _joined(
+    by_words: Mapping[str, Mapping[tuple[str, str], float]],
+) -> dict[tuple[str, str], list[float]]:
+    keys = next(iter(by_words.values()))
+    return {key: [of[key] for of in by_words.values()] for key in keys}
+
+
+if __name__ == "__main__":
+    parser = argparse.ArgumentParser()
+    parser.add_argument("study", nargs="?", default="config/pmma.yaml")
+    parser.add_argument("--loose", action="store_true")
+    given = parser.parse_args()
+    described = read_mapping(Path(given.study))
+    print(report(as_study(loose(described) if given.loose else described, given.study)))
