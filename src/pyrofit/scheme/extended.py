@@ -15,8 +15,8 @@ def extended_keys(
 ) -> Keys:
     """Return a study's keys with the chosen scheme at its fitted values.
 
-    The parameters of the scheme have both limits and fitted values. The inverse modelling takes
-    the values, `kinetics: described`; the fit of the kinetics and the diagnosis estimate them.
+    The parameters of the scheme have both limits and fitted values. Inverse modelling and diagnosis
+    take the values, `imp.kinetics: described`; the fit of the kinetics estimates them again.
 
     Parameters
     ----------
@@ -35,7 +35,6 @@ def extended_keys(
     values = values_of(posed, chosen)
     for name, value in values.items():
         keys["parameters"][name]["value"] = value
-    stages = [*study.imp.estimate, *study.diagnosis.estimate]
     gone = [n for n in study.kinetics.estimate if n not in values]  # type: ignore[union-attr]
     used = parameters_in(made.material, *made.experiments.values()) | set(values)
     for name in gone:
@@ -46,9 +45,8 @@ def extended_keys(
     keys["kinetics"].pop("sets", None)
     keys["imp"]["estimate"] = [n for n in study.imp.estimate if n in used]
     keys["imp"]["kinetics"] = "described"
-    if study.diagnosis.estimate:
-        kept = [n for n in stages[len(study.imp.estimate) :] if n in used]
-        keys["diagnosis"]["estimate"] = [*values, *(n for n in kept if n not in values)]
+    rest = study.diagnosis.estimate or study.imp.estimate
+    keys.setdefault("diagnosis", {})["estimate"] = [n for n in rest if n in used - set(values)]
     keys.get("diagnosis", {}).pop("kinetics", None)
     for (experiment, signal), given in signals.items():
         keys["experiments"][experiment]["signals"][signal] |= given

@@ -14,8 +14,8 @@ from pyrofit.stages.own_files import files_seen_from, seen_from
 
 _COMMENT = """\
 The study with the reaction scheme that its thermogravimetric records support, at the fitted values.
-It runs: snakemake --cores 2 --configfile <this file>. The inverse modelling takes the kinetics as
-they stand here; the diagnosis estimates them again, from these values, within their limits.
+It runs: snakemake --cores 2 --configfile <this file>. Inverse modelling and diagnosis take the
+kinetics as they stand here; add their parameters to diagnosis.estimate to estimate them again.
 """
 
 
