@@ -1,5 +1,6 @@
 """Which records a scheme is chosen from, and what is refused."""
 
+from dataclasses import replace
 from functools import cache
 
 import numpy as np
@@ -7,8 +8,8 @@ import pytest
 
 from pyrofit.config import Study
 from pyrofit.errors import StudyError
-from pyrofit.scheme.fit import Setting
-from pyrofit.scheme.posed import template_of
+from pyrofit.scheme.fit import Setting, problem_of
+from pyrofit.scheme.posed import pose, template_of
 from pyrofit.scheme.records import rates_of, records_of
 from pyrofit.scheme.schemes import Scheme
 from pyrofit.scheme.settings import Settings
@@ -64,3 +65,24 @@ def test_temperature_at_a_share_is_where_that_share_is_still_to_come() -> None:
     for record in setting().records:
         halfway = record.temperature_at(0.5)
         assert np.interp(halfway, record.temperature_K, record.mass) == pytest.approx(0.5, abs=0.02)
+
+
+def test_each_of_two_laboratories_has_an_offset_of_5_K_about_zero() -> None:
+    given = setting()
+    experiments = dict(given.study.experiments)
+    for name in experiments:
+        laboratory = "one" if name in ("tga_1", "tga_10") else "two"
+        experiments[name] = experiments[name].model_copy(update={"laboratory": laboratory})
+    study = given.study.model_copy(update={"experiments": experiments})
+    found = records_of(study, given.measurements, 120)
+    posed = pose(study, Scheme(), found, given.settings)
+    assert posed.offsets == ("scheme_offset_1", "scheme_offset_2")
+    assert posed.count == 2
+    _, prior = problem_of(replace(given, study=study, records=tuple(found)), posed, found)
+    assert prior.mean.tolist() == [0.0, 0.0]
+    assert prior.sd.tolist() == [5.0, 5.0]
+
+
+def test_one_laboratory_has_no_offset() -> None:
+    given = setting()
+    assert pose(given.study, Scheme(), given.records, given.settings).offsets == ()
