@@ -86,7 +86,7 @@ def test_tables_and_figure_are_written_and_make_a_section(made: Made) -> None:
 @pytest.mark.parametrize(
     ("key", "value", "message"),
     [
-        ("chosen", "paralel", "another study"),
+        ("chosen", "two_in_parallel", "another study"),
         ("study", "other", "another study"),
         ("schemes", [], "'schemes'"),
     ],

@@ -72,7 +72,7 @@ def test_residue_is_that_of_the_study_whatever_the_scheme(name: str, setting) ->
 def test_two_equal_parallel_reactions_are_one(setting) -> None:
     study, measured = setting.study, setting.measurements
     truth = draw_truth(SCHEMES["parallel_2"], np.random.default_rng(6))
-    truth |= {f"{PREFIX}{k}_2": truth[f"{PREFIX}{k}_1"] for k in "TE"}
+    truth |= {f"{PREFIX}{k}_2": truth[f"{PREFIX}{k}_1"] for k in ("T", "E")}
     both = simulated(study, SCHEMES["parallel_2"], truth, measured, "tga_10", SETTINGS)
     one = simulated(study, SCHEMES["single"], truth, measured, "tga_10", SETTINGS)
     assert both == pytest.approx(one, abs=1e-12)
