@@ -29,6 +29,11 @@ class Correlation:
         """How many numbers describe it."""
         return len(self.lags) + (self.ar != 0.0)
 
+    @property
+    def opposed(self) -> bool:
+        """Whether neighbours deviate to opposite sides rather than to the same."""
+        return self.ar + sum(self.lags) < 0.0
+
     def sequence(self, points: int) -> FloatArray:
         """Return the autocorrelation at lags 0 ... points - 1."""
         if self.ar:

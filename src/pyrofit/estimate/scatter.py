@@ -19,6 +19,8 @@ from pyrofit.solver.arrays import FloatArray
 NEAR = 0.02
 """How nearly a correlation is found: a few hundred points tell it to 0.05 at best."""
 LARGEST_AR = 0.9995
+CLEAR = 10.0
+"""Difference of BIC that is strong evidence (Kass and Raftery 1995, doi 10.2307/2291091)."""
 
 _SPLINES = (4, 6, 8, 11, 15, 20, 27, 36, 48, 64)
 _ENOUGH_SPLINES = 27
@@ -73,7 +75,8 @@ def scatter_of(time: FloatArray, value: FloatArray, shape: FloatArray, known: bo
             (_fit(X, y, shape, found, known) for found in _correlations(X, y, known)),
             key=lambda fit: fit.criterion,
         )
-        worse = 0 if best is None or here.criterion < best.criterion else worse + 1
+        lower = best is None or here.criterion < best.criterion
+        worse = 0 if lower else worse + 1
         best = here if worse == 0 else best
     assert best is not None
     return best
@@ -121,7 +124,12 @@ def _correlations(X: FloatArray, y: FloatArray, known: bool) -> list[Correlation
 def _fit(
     X: FloatArray, y: FloatArray, shape: FloatArray, found: Correlation, known: bool
 ) -> Scatter:
-    """Fit the curve, and judge it by BIC: -2 log likelihood + numbers fitted * log n."""
+    """Fit the curve, and judge it by BIC: -2 log likelihood + numbers fitted * log n.
+
+    Splines that follow white noise leave neighbours that deviate to opposite sides. Taken for a
+    property of the noise, this makes every lasting deviation look significant. Such a correlation
+    therefore costs as much as strong evidence for it brings.
+    """
     white, log_det = found.whiten(np.column_stack([X, y]))
     basis, R = np.linalg.qr(white[:, :-1], mode="reduced")
     part = basis.T @ white[:, -1]
@@ -131,7 +139,10 @@ def _fit(
     scale = float(np.sqrt(squares / (n - splines)))
     misfit = squares if known else n * np.log(squares / n)
     return Scatter(
-        criterion=log_det + misfit + (splines + found.numbers) * np.log(n),
+        criterion=log_det
+        + misfit
+        + (splines + found.numbers) * np.log(n)
+        + (CLEAR if found.opposed else 0.0),
         correlation=found,
         scale=scale,
         curve=shape * (X @ np.linalg.solve(R, part)),
