@@ -18,6 +18,7 @@ from pyrofit.errors import DataError
 from pyrofit.quantities import known_quantities
 from pyrofit.results.files import Results, read_csv, write_csv
 from pyrofit.show.costs.sentences import sentences as costs
+from pyrofit.show.facts import facts_of
 from pyrofit.show.optimisers.sentences import sentences as optimisers
 from pyrofit.show.sections import TABLES
 from pyrofit.show.validation.sentences import reach_of_good_sets as good_sets
@@ -341,9 +342,8 @@ def test_rank_correlation_knows_nothing_of_what_the_costs_differ_in(tmp_path: Pa
 def said(study: Study, results: Results) -> str:
     names = ("costs", "every_cost", "cost_tests", "bands")
     tables = {n: TABLES[n].make(study, results) for n in names}
-    return " ".join(
-        [*optimisers(study, results, tables), *costs(study, results, tables), good_sets(tables)]
-    )
+    facts = facts_of(study, results, tables)
+    return " ".join([*optimisers(study, facts), *costs(study, facts), good_sets(tables)])
 
 
 def test_sentences_say_the_numbers(tmp_path: Path) -> None:

@@ -16,6 +16,7 @@ from pyrofit.estimate.identify import identify
 from pyrofit.estimate.likelihood import Likelihood
 from pyrofit.estimate.prior import NO_PRIOR, NormalPrior, prior_of
 from pyrofit.results import dependencies
+from pyrofit.show.facts import facts_of
 from pyrofit.show.identification.known_values import table as known_values
 from pyrofit.show.identification.sentences import sentences
 
@@ -166,11 +167,14 @@ def test_estimate_far_from_its_known_value_is_flagged_in_table_and_report(tmp_pa
     assert (row["known"], row["known_sd"], row["source"]) == (0.2, 0.5, "hot disk")
     assert row["away_sd"] == pytest.approx((row["estimate"] - 0.2) / 0.5)
     assert row["flag"] is None
-    said = sentences(study, results, {})
+    said = sentences(study, facts_of(study, results, {}))
     assert "All estimates are within 2 standard deviations of their known values." in said
     far = {"value": float(row["estimate"]) + 0.025, "sd": 0.01}
     study, results = fake(tmp_path, described(known={"k": far}))
     row = known_values(study, results).iloc[0]
     assert row["away_sd"] == pytest.approx(-2.5)
     assert row["flag"] == "more than 2 sd away"
-    assert any("k of the inverse modelling" in text for text in sentences(study, results, {}))
+    assert any(
+        "k of the inverse modelling" in text
+        for text in sentences(study, facts_of(study, results, {}))
+    )
