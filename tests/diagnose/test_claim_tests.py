@@ -11,15 +11,8 @@ from scipy.stats import kstest, multivariate_normal
 
 from pyrofit.diagnose.base.fitted import at_limit
 from pyrofit.diagnose.base.model import strength_of
-from pyrofit.diagnose.judge.claim_tests import (
-    HELD_OUT,
-    Trust,
-    disagreement,
-    explains,
-    predictions,
-    slabs,
-    trust,
-)
+from pyrofit.diagnose.base.prediction import HELD_OUT, predictions, slabs
+from pyrofit.diagnose.judge.claim_tests import Trust, disagreement, explains, trust
 from pyrofit.diagnose.settings import SETTINGS
 from pyrofit.estimate.posterior import UNIFORM
 from pyrofit.solver.arrays import FloatArray

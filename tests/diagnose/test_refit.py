@@ -17,8 +17,8 @@ from pyrofit.diagnose.search.score_test import Screening, tried
 from pyrofit.diagnose.settings import SETTINGS
 from pyrofit.solver.arrays import FloatArray
 
-# The data say nothing of k, so that it is wide.
-COLUMNS = {**linear.random_columns(3, "k_T"), "k": np.zeros(linear.TOTAL)}
+# The data say next to nothing of k, so that it is wide.
+COLUMNS = {**linear.random_columns(3, "k_T"), "k": np.full(linear.TOTAL, 1e-6)}
 Y = np.random.default_rng(1).standard_normal(linear.TOTAL)
 
 

@@ -8,17 +8,11 @@ import pytest
 from linear import POINTS, TOTAL, column_of, fit_with, moved
 
 from pyrofit.diagnose.base.model import strength_of
+from pyrofit.diagnose.base.prediction import HELD_OUT
 from pyrofit.diagnose.diagnosis import _undecided
-from pyrofit.diagnose.judge.claim_tests import HELD_OUT
 from pyrofit.diagnose.judge.findings import Judged, Verdict
-from pyrofit.diagnose.judge.verdict import (
-    ONE_FLUX,
-    _against,
-    _doubts,
-    _without,
-    alternatives,
-    judge,
-)
+from pyrofit.diagnose.judge.places import _against, alternatives, without_each
+from pyrofit.diagnose.judge.verdict import ONE_FLUX, _doubts, judge
 from pyrofit.diagnose.result.candidates import candidates
 from pyrofit.diagnose.result.verdict_text import form_of, sentences
 from pyrofit.diagnose.search.step import SearchContext
@@ -184,10 +178,13 @@ def test_two_planted_effects_are_multiple_and_each_is_found() -> None:
     assert sentences(verdict).startswith("The model lacks 2 effects: ")
 
 
-def test_one_of_two_planted_effects_is_not_claimed_where_one_is_the_most() -> None:
+def test_one_of_two_planted_effects_explains_a_part_where_one_is_the_most() -> None:
     verdict = verdict_on(searched(planted(k_T=0.8, c_T=-0.7), most=1))
-    assert verdict.kind == "unknown"
-    assert "what is left is more than noise" in verdict.reasons[-1]
+    assert verdict.kind == "partly"
+    assert verdict.confirmed
+    (effect,) = (finding.effect for finding in verdict.findings)
+    assert {effect, verdict.suspects[0].effect} == {"k_T", "c_T"}
+    assert "part of the misfit remains" in verdict.reasons[0]
 
 
 def test_alternatives_of_one_of_two_effects_keep_the_other() -> None:
@@ -220,7 +217,8 @@ def test_model_without_an_effect_is_the_best_one_at_hand() -> None:
     rounds = (replace(found.rounds[0], trials=tuple(lower)), *found.rounds[1:])
     at = found.end.effects.index("c_T")
     before, after = (
-        _without(searched, 1)[at].fit.chi2 for searched in (found, replace(found, rounds=rounds))
+        without_each(searched, 1)[at].fit.chi2
+        for searched in (found, replace(found, rounds=rounds))
     )
     assert after == pytest.approx(before - 40.0, abs=0.1)
 
@@ -247,13 +245,14 @@ def test_misfit_that_no_effect_explains_is_unknown() -> None:
     assert abs(found.end_lack.windows[0].start - 20) <= 1
 
 
-def test_effect_that_leaves_a_misfit_is_unknown_and_comes_nearest() -> None:
+def test_effect_that_leaves_a_misfit_explains_a_part() -> None:
     y = planted() + 0.8 * strength_of("k_T")[1].typical * column_of(ELSEWHERE, "k_T")
     y[20:26] += 9.0
     verdict = verdict_on(searched(y, ELSEWHERE))
-    assert verdict.kind == "unknown"
-    assert "what is left is more than noise" in verdict.reasons[0]
-    assert "Nearest comes slope of the conductivity, which is not confirmed." in sentences(verdict)
+    assert verdict.kind == "partly"
+    assert [finding.leading for finding in verdict.findings] == ["k_T"]
+    assert "they explain a part of the misfit only" in sentences(verdict)
+    assert verdict.suspects == ()
 
 
 def test_effect_at_its_limit_is_not_claimed() -> None:
@@ -262,6 +261,7 @@ def test_effect_at_its_limit_is_not_claimed() -> None:
     verdict = verdict_on(searched(planted(k_T=beyond)))
     assert verdict.kind == "unknown"
     assert "k_T: k_T_slope_1_K rests at a limit" in verdict.reasons
+    assert "Nearest comes " in sentences(verdict)
 
 
 def test_effect_whose_strength_differs_between_experiments_is_not_claimed() -> None:
@@ -322,7 +322,7 @@ def test_next_experiment_tells_apart_the_two_best_models_of_different_effects() 
     y[20:26] += 12.0
     found = searched(y, ELSEWHERE, EFFECTS)
     verdict = verdict_on(found)
-    assert verdict.kind == "unknown"
+    assert verdict.kind == "partly"
     one, other = _undecided(verdict.search, verdict)
     assert set(one.effects) != set(other.effects)
     assert one.penalised == min(trial.penalised for trial in found.trials)

@@ -151,7 +151,7 @@ DIAGNOSIS = rows_of(
             ("'heater_ramp' cannot be a candidate: rise_time_s is 5.0 already",),
         ),
         ("no effect at most", put(diagnosis={"most_effects": 0}), ("0 must be at least 1",)),
-        ("four effects at most", put(diagnosis={"most_effects": 4}), ("4 must be at most 3",)),
+        ("seven effects at most", put(diagnosis={"most_effects": 7}), ("7 must be at most 6",)),
         (
             "clock that is too right",
             put(experiments__slab_25__signals__mlr__timing_s=-1),

@@ -49,6 +49,7 @@ EFFECTS_OF = {
     "named": ["k_T"],
     "ambiguous": ["heater_ramp"],
     "multiple": ["k_T", "melting"],
+    "partly": ["k_T"],
     "unknown": [],
 }
 SETS = {"ambiguous": [["heater_ramp", "time_offset"]], "multiple": [["k_T", "c_T"], ["melting"]]}
@@ -82,6 +83,7 @@ def found(study: Study, kind: str) -> dict[str, Any]:
             "confirmed": kind == "named",
             "words": f"These are the words of {kind}.",
             "reasons": [] if quiet else ["chi-square falls by 400.", "predictions improve"],
+            "suspects": [{"effect": "c_T", "gain": 40.0}] if kind == "partly" else [],
         },
         "noise": [noise_of(c) for c in channels(study)],
         "not_tried": [{"effect": "tga_lag", "reason": "no calibrated signal can show it"}],

@@ -17,7 +17,7 @@ from pyrofit.effects import known_effects
 from pyrofit.results.files import Results
 from pyrofit.show import style
 
-OTHER = ("ambiguous", "multiple", "unknown", "none")
+OTHER = ("ambiguous", "multiple", "partly", "unknown", "none")
 """Verdicts that do not name one effect, the last columns of the confusion matrix."""
 MARKERS = ("o", "s", "^", "D")
 _FALSE_ALARM_TARGET = 0.02

@@ -10,7 +10,7 @@ from pyrofit.blind_test.places import Places
 from pyrofit.effects import known_effects, same_as
 from pyrofit.results.files import Keys, read_json
 
-CLAIMS = ("named", "ambiguous", "multiple")
+CLAIMS = ("named", "ambiguous", "multiple", "partly")
 """Verdicts that claim a missing effect."""
 Verdict = Mapping[str, Any]
 _NEEDS: dict[Keys, type] = {

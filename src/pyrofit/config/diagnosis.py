@@ -31,7 +31,7 @@ class Diagnosis(Part):
     effects: tuple[str, ...] | None = Field(
         None, description="candidates; none = all of the catalogue that the fitted signals can show"
     )
-    most_effects: int = Field(3, ge=1, le=3, description="effects that are added at most")
+    most_effects: int = Field(6, ge=1, le=6, description="effects that are added at most")
 
     @model_validator(mode="before")
     @classmethod

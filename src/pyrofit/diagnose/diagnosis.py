@@ -59,9 +59,10 @@ def examine(
     """
     setup = set_up(study, measurements, processes)
     tell(f"base model: chi-square {setup.base.fit.chi2:.1f} of {setup.base.model.points} points")
-    means = SearchContext(np.random.default_rng(study.seed), tell, processes)
-    found = search(setup.base, setup.candidates, study.diagnosis.most_effects, means)
-    verdict = judge(found, means.rng, processes)
+    rng = np.random.default_rng(study.seed)
+    context = SearchContext(rng, tell, processes, setup.other_starts)
+    found = search(setup.base, setup.candidates, study.diagnosis.most_effects, context)
+    verdict = judge(found, context.rng, processes)
     found = verdict.search
     content = record.content(study, found, verdict)
     content["profiles"] = profiles(found.end, processes) if advise else []
@@ -78,7 +79,7 @@ def diagnose(study: Study, measurements: Measurements) -> dict[str, Any]:
 
 
 def _probes(found: Search, verdict: Verdict, processes: int) -> list[Probe]:
-    return probes(found.end, processes) if verdict.kind == "unknown" else []
+    return probes(found.end, processes) if verdict.kind in ("partly", "unknown") else []
 
 
 def _shown(probe: Probe) -> dict[str, Any]:

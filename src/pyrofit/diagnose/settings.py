@@ -53,6 +53,10 @@ class Settings:
     """Blocks of noise draws, each with its own random generator."""
     draws_per_block: int = 100
     """Draws of a block."""
+    close_scan: float = 0.15
+    """The critical value is drawn again, from more blocks, if the scan is nearer to it."""
+    close_draw_blocks: int = 60
+    """Blocks of that second draw."""
     most_windows: int = 8
     """Windows of misfit of one signal at most."""
 
@@ -69,6 +73,22 @@ class Settings:
     """An effect that lowers chi-square by a smaller share is fitted from a second start."""
     most_polished: int = 5
     """Models of a step that are searched again from other values of uncertain parameters."""
+    most_form_parameters: int = 2
+    """Form parameters of a model that are freed one after the other."""
+    most_polished_forms: int = 2
+    """Models with a freed form parameter that are searched again in the same way."""
+    most_restarts: int = 3
+    """Models of a step from which the model without their last effect is fitted again."""
+    most_refitted: int = 5
+    """Effects that are fitted again where that lowered chi-square."""
+    most_carried: int = 3
+    """Models of each number of effects that a search with a sharper noise starts from."""
+    most_predicted: int = 6
+    """Models of a step whose predictions are compared."""
+    most_exchanged: int = 4
+    """Effects that are tried in the place of each effect of the final model."""
+    other_bases: int = 2
+    """Other minima of the base model from which leading effects are fitted where misfit is left."""
     noise_leaders: int = 3
     """Effects with which the noise is estimated again."""
     ambiguous_chi2: float = 9.0
@@ -77,7 +97,9 @@ class Settings:
     """Models that a step carries on."""
     far_chi2_ratio: float = 10.0
     """A model is not carried on if its chi-square exceeds the best one's by this factor."""
-    candidates_of_second_branch: int = 8
+    candidates_of_first_branch: int = 14
+    """Effects that are added to the best model of a step, from the second effect on."""
+    candidates_of_second_branch: int = 6
     """Effects that are added to the second best model of a step."""
     clearer_bic: float = 6.0
     """Gain in BIC that a new estimate of the noise must bring to be used."""
@@ -89,6 +111,8 @@ class Settings:
     """Strengths of different experiments disagree if chance is less probable than this."""
     informative_gain: float = 2.0
     """Smallest difference of log scores that counts: odds of 7 to 1."""
+    most_suspects: int = 3
+    """Candidates that are named for what a verdict leaves unexplained."""
     most_judged: int = 6
     """Models that are judged in the place of one effect, at most."""
 

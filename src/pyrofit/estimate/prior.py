@@ -19,6 +19,8 @@ class NormalPrior:
     index: tuple[int, ...]
     mean: FloatArray
     sd: FloatArray
+    weight: float = 1.0
+    """What the standard deviations were divided by, see `over`."""
 
     def residuals(self, values: FloatArray) -> FloatArray:
         """Return r of parameter sets in SI units: (sets, parameters) to (sets, known)."""
@@ -32,7 +34,7 @@ class NormalPrior:
 
     def over(self, factor: float) -> "NormalPrior":
         """Return the same knowledge with its standard deviations over a factor."""
-        return replace(self, sd=self.sd / factor)
+        return replace(self, sd=self.sd / factor, weight=self.weight * factor)
 
 
 NO_PRIOR = NormalPrior((), np.empty(0), np.empty(0))

@@ -48,7 +48,7 @@ def read(study: Study, results: Results) -> dict[str, Any]:
     except ValidationError as error:
         raise DataError(f"{path}: {_said(error, found)}; {_AGAIN}") from None
     kind = found["verdict"]["kind"]
-    if kind in ("named", "ambiguous", "multiple") and not found["verdict"]["sets"]:
+    if kind in ("named", "ambiguous", "multiple", "partly") and not found["verdict"]["sets"]:
         raise DataError(f"{path}: 'verdict.sets' is empty; {_AGAIN}")
     here = {(c["experiment"], c["signal"]) for c in found["noise"] + found["windows"]}
     there = {(name, s) for name, e in study.experiments.items() for s in e.signals}

@@ -4,13 +4,20 @@ from typing import Literal, get_args
 
 from pydantic import BaseModel, ConfigDict, Field
 
-Kind = Literal["none", "named", "ambiguous", "multiple", "unknown"]
+Kind = Literal["none", "named", "ambiguous", "multiple", "partly", "unknown"]
 
 
 class Record(BaseModel):
     """A part of the result; its keys are exactly these."""
 
     model_config = ConfigDict(strict=True, frozen=True, extra="forbid", allow_inf_nan=False)
+
+
+class OfSuspect(Record):
+    """A candidate for what the verdict leaves unexplained."""
+
+    effect: str = Field(description="its name")
+    gain: float = Field(description="fall of chi-square that the score test promises")
 
 
 class OfVerdict(Record):
@@ -26,6 +33,9 @@ class OfVerdict(Record):
     )
     words: str = Field(description="the verdict in sentences")
     reasons: list[str] = Field(description="reasons against a firmer verdict")
+    suspects: list[OfSuspect] = Field(
+        description="leading candidates for the rest, where the verdict explains a part"
+    )
 
 
 class OfNoise(Record):
@@ -60,8 +70,8 @@ class OfStrength(Record):
     low: float = Field(description="lower end of the 95 % interval")
     high: float = Field(description="upper end of the 95 % interval")
     unit: str = Field(description="unit")
-    low_form: float | None = Field(description="lower end, the form as uncertain as its limits")
-    high_form: float | None = Field(description="upper end, the form as uncertain as its limits")
+    low_form: float | None = Field(description="lower end, all form parameters fitted as well")
+    high_form: float | None = Field(description="upper end, all form parameters fitted as well")
 
 
 class OfBase(Record):

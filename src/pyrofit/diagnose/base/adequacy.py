@@ -68,11 +68,10 @@ def lack_of_fit(
     ``directions`` holds the unit changes by each candidate, shape (points + known, strengths).
     """
     spanned = projector(fit)
-    rngs = rng.spawn(SETTINGS.draw_blocks)
 
-    def block(b: int) -> tuple[FloatArray, FloatArray]:
+    def block(rng: np.random.Generator) -> tuple[FloatArray, FloatArray]:
         noise = project(
-            spanned, rngs[b].standard_normal((fit.residuals.size, SETTINGS.draws_per_block))
+            spanned, rng.standard_normal((fit.residuals.size, SETTINGS.draws_per_block))
         )
         highest = [_highest(part) for part in model.by_channel(noise)]
         scores = [-(noise.T @ d).min(axis=1, initial=0.0) for d in directions]
@@ -80,17 +79,23 @@ def lack_of_fit(
             [np.zeros(SETTINGS.draws_per_block), *scores], axis=0
         )
 
-    drawn = zip(*parallel_map(block, SETTINGS.draw_blocks, processes), strict=True)
-    critical, score_critical = (
-        float(np.quantile(np.concatenate(of_blocks), 1.0 - SETTINGS.false_alarm_level))
-        for of_blocks in drawn
-    )
+    def critical_values(blocks: int) -> tuple[float, float]:
+        rngs = rng.spawn(blocks)
+        drawn = parallel_map(lambda b: block(rngs[b]), blocks, processes)
+        scans, scores = (np.concatenate(of_blocks) for of_blocks in zip(*drawn, strict=True))
+        level = 1.0 - SETTINGS.false_alarm_level
+        return float(np.quantile(scans, level)), float(np.quantile(scores, level))
+
     parts = model.by_channel(fit.residuals)
+    scan = float(max(_highest(part[:, None])[0] for part in parts))
+    critical, score_critical = critical_values(SETTINGS.draw_blocks)
+    if abs(scan - critical) < SETTINGS.close_scan:
+        critical, score_critical = critical_values(SETTINGS.close_draw_blocks)
     freedom = fit.residuals.size - float(np.sum(spanned**2))
     windows = [w for i, part in enumerate(parts) for w in windows_of(part, critical, i)]
     return LackOfFit(
         windows=tuple(windows),
-        scan=float(max(_highest(part[:, None])[0] for part in parts)),
+        scan=scan,
         scan_critical=critical,
         score=max((score(fit.residuals, d) for d in directions), default=0.0),
         score_critical=score_critical,

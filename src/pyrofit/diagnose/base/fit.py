@@ -36,6 +36,8 @@ class Setup:
 
     base: FittedModel
     candidates: tuple[str, ...]
+    other_starts: tuple[FloatArray, ...] = ()
+    """Points within the limits of the base model, the lowest chi-square first."""
 
 
 def set_up(study: Study, measurements: Measurements, processes: int = 1) -> Setup:
@@ -53,10 +55,29 @@ def set_up(study: Study, measurements: Measurements, processes: int = 1) -> Setu
     likelihood = likelihood_of(problem, prior_of(study, problem))
     calibrated = tuple(range(len(calibration_channels(study))))
     base = Base(likelihood, calibrated)
-    first = _fitted(base, study.seed, processes)
+    first, starts = _fitted(base, study.seed, processes)
     _check_held_out(first)
     base = with_noise_about(first, processes=processes)
-    return Setup(refitted(first, base), candidate_effects(study))
+    others = tuple(starts[: SETTINGS.other_bases])
+    fitted = weighed(refitted(first, base))
+    return Setup(fitted, candidate_effects(study), others)
+
+
+def weighed(trial: FittedModel) -> FittedModel:
+    """Return the fit with known values that a misfitting model cannot overrule.
+
+    Misfit makes every point count for more than it tells. Known values are therefore weighed by the
+    dispersion of the fit.
+    """
+    base = trial.model.base
+    prior = base.likelihood.prior
+    if not prior.index:
+        return trial
+    dispersion = trial.posterior.dispersion
+    if dispersion == 1.0:
+        return trial
+    heavier = replace(base.likelihood, prior=prior.over(float(np.sqrt(dispersion))))
+    return refitted(trial, replace(base, likelihood=heavier))
 
 
 def _check_held_out(trial: FittedModel) -> None:
@@ -82,20 +103,24 @@ def _problem(study: Study, measurements: Measurements) -> Problem:
     )
 
 
-def _fitted(base: Base, seed: int, processes: int) -> FittedModel:
-    """Return the fit of the base from the best of several points spread over the limits."""
+def _fitted(base: Base, seed: int, processes: int) -> tuple[FittedModel, list[FloatArray]]:
+    """Return the fit of the base from the best of several points spread over the limits.
+
+    The points are returned, too, the lowest chi-square first.
+    """
     model = model_of(base, {})
     starts = _starts(base, seed)
     ahead = [_chi2(residuals) for residuals in model.residuals_all(np.array(starts))]
-    order = np.argsort(ahead, kind="stable")[: SETTINGS.base_descents]
-    ends = parallel_map(lambda k: descend(model, starts[order[k]]), len(order), processes)
+    starts = [starts[k] for k in np.argsort(ahead, kind="stable")]
+    first = starts[: SETTINGS.base_descents]
+    ends = parallel_map(lambda k: descend(model, first[k]), len(first), processes)
     best = min(ends, key=lambda end: end.chi2)
     if np.any(best.residuals[: model.points] == FAILED):
         raise DataError(
             "diagnosis: no run within the limits of the parameters finishes; check the limits and "
             "the description of the experiments"
         )
-    return polished([FittedModel(model, best)], processes)[0]
+    return polished([FittedModel(model, best)], processes)[0], starts
 
 
 def _starts(base: Base, seed: int) -> list[FloatArray]:

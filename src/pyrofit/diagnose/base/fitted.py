@@ -39,7 +39,9 @@ class FittedModel:
     def posterior(self) -> Posterior:
         """The parameters about the fit."""
         residuals = self.fit.residuals[: self.model.points]
-        return Posterior(self.fit.x, residuals, self.fit.jacobian)
+        jacobian = self.fit.jacobian.copy()
+        jacobian[self.model.points :] /= self.model.likelihood.prior.weight
+        return Posterior(self.fit.x, residuals, jacobian)
 
     def strength(self, effect: str) -> float:
         """Return the fitted strength of an effect in SI units."""

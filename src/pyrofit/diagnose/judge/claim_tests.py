@@ -1,34 +1,22 @@
 """What a claim must pass besides its gain: limits, agreement of experiments, prediction.
 
-A prediction is scored by the logarithm of its density (Gneiting and Raftery 2007,
-doi 10.1198/016214506000001437), parameters uncertain as the calibration leaves them:
-
-    log p(y_out | y_cal) = log p(y_out, y_cal) - log p(y_cal),
-    log p(y) = -(min chi2 + log det(J^T J + Pi))/2 + constant   (Laplace),
-
-Pi the inverse variance of a value anywhere within its limits. So a model that predicts badly, but
-leaves room for that, loses less than one that is sure of itself.
+A model that still misfits makes every test statistic too large. Its dispersion, chi-square per
+degree of freedom, then divides the statistics and the gains of the log scores.
 """
 
 from collections.abc import Sequence
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 
 import numpy as np
 from scipy.stats import chi2 as chi_squared
 
 from pyrofit.diagnose.base.adequacy import lack_of_fit
-from pyrofit.diagnose.base.descent import Fit, descend
 from pyrofit.diagnose.base.fit import refitted, with_noise_about
-from pyrofit.diagnose.base.fitted import FittedModel, at_limit, up_to_date
-from pyrofit.diagnose.base.model import Model, model_of
+from pyrofit.diagnose.base.fitted import FittedModel, at_limit
+from pyrofit.diagnose.base.prediction import HELD_OUT, Predictions
 from pyrofit.diagnose.base.projection import project, projector
 from pyrofit.diagnose.settings import SETTINGS
-from pyrofit.estimate.posterior import curvature
-from pyrofit.experiments import kind_of
-from pyrofit.parallel import parallel_map
 from pyrofit.solver.arrays import FloatArray
-
-HELD_OUT = "held out"
 
 
 @dataclass(frozen=True)
@@ -51,34 +39,45 @@ class Trust:
 
     @property
     def predicts(self) -> bool:
-        """Whether predictions improve on the whole, and none gets clearly worse."""
-        total = sum(self.gains.values())
-        return (
-            total >= SETTINGS.informative_gain
-            and min(self.gains.values(), default=0.0) > -SETTINGS.informative_gain
-        )
+        """Whether predictions improve on the whole, and none gets clearly worse.
+
+        One held-out experiment alone does not decide against several others: its apparatus may be
+        the reason.
+        """
+        if self.outvoted:
+            return True
+        return not self.worse and sum(self.gains.values()) >= SETTINGS.informative_gain
+
+    @property
+    def worse(self) -> list[str]:
+        """Predictions that get clearly worse."""
+        return [n for n, gain in self.gains.items() if gain <= -SETTINGS.informative_gain]
+
+    @property
+    def outvoted(self) -> bool:
+        """Whether one held-out experiment alone gets worse, and several predictions improve."""
+        better = [n for n, gain in self.gains.items() if gain >= SETTINGS.informative_gain]
+        return len(self.worse) == 1 and self.worse[0] in self.held_out and len(better) > 1
 
     @property
     def confirmed(self) -> bool:
         """Whether predictions improve and what is held out, if anything, gains enough by itself."""
-        return (
-            self.predicts
-            and self.gains.get(HELD_OUT, SETTINGS.informative_gain) >= SETTINGS.informative_gain
+        held_out = self.held_out
+        return self.predicts and (
+            not held_out or sum(held_out.values()) >= SETTINGS.informative_gain
         )
 
-
-@dataclass(frozen=True, eq=False)
-class Predictions:
-    """Log scores by experiment left out, or held out, and the fit to all signals."""
-
-    scores: dict[str, float]
-    whole: FittedModel
+    @property
+    def held_out(self) -> dict[str, float]:
+        """Gains of the log score of what is held out."""
+        return {n: gain for n, gain in self.gains.items() if n.startswith(HELD_OUT)}
 
 
-def disagreement(trial: FittedModel, effect: str) -> float:
+def disagreement(trial: FittedModel, effect: str, dispersion: float = 1.0) -> float:
     """Return the probability that a strength common to all experiments looks as different.
 
     Score test: the columns of d w/d strength, one experiment each, against what the fit leaves.
+    The statistic is divided by ``dispersion``.
     """
     model, fit = trial.model, trial.fit
     column = fit.jacobian[: model.points, model.position(effect)]
@@ -93,61 +92,13 @@ def disagreement(trial: FittedModel, effect: str) -> float:
         d[: model.points, k] = np.concatenate(own)
     d = project(projector(fit), d)
     found = np.linalg.lstsq(d, fit.residuals, rcond=1e-8)[0]
-    return float(chi_squared.sf(float(fit.residuals @ d @ found), len(moved) - 1))
+    return float(chi_squared.sf(float(fit.residuals @ d @ found) / dispersion, len(moved) - 1))
 
 
 def _size(parts: Sequence[FloatArray], owners: Sequence[str], experiment: str) -> float:
     return max(
         float(np.abs(p).max()) for p, o in zip(parts, owners, strict=True) if o == experiment
     )
-
-
-def forecast(part: Fit, whole: Fit) -> float:
-    """Return the log score of what a fit to the whole has more than a fit to a part."""
-    misfit = whole.chi2 - part.chi2
-    return -0.5 * (misfit + _log_det(whole) - _log_det(part))
-
-
-def _log_det(fit: Fit) -> float:
-    return float(np.linalg.slogdet(curvature(fit.jacobian))[1])
-
-
-def slabs(trial: FittedModel) -> list[str]:
-    """Return the calibrated experiments that show the slab: without any of them others remain."""
-    base = trial.model.base
-    found = [base.channels[i] for i in trial.model.channels]
-    runs = base.likelihood.problem.runs
-    names = dict.fromkeys(n for n, _ in found if kind_of(runs[n].experiment).stage == "imp")
-    return list(names) if len(names) > 1 else []
-
-
-def predictions(trials: Sequence[FittedModel], processes: int = 1) -> list[Predictions]:
-    """Return what models predict: experiments from the others, and what is held out."""
-    tasks = [(k, HELD_OUT) for k, trial in enumerate(trials) if trial.model.base.held_out]
-    tasks += [(k, name) for k, trial in enumerate(trials) for name in slabs(trial)]
-    fits = parallel_map(
-        lambda i: _refit(trials[tasks[i][0]], tasks[i][1]).fit, len(tasks), processes
-    )
-    found = [Predictions({}, trial) for trial in trials]
-    for (k, name), fit in zip(tasks, fits, strict=True):
-        part, whole = (trials[k].fit, fit) if name == HELD_OUT else (fit, trials[k].fit)
-        found[k].scores[name] = forecast(part, whole)
-        if name == HELD_OUT:
-            found[k] = replace(found[k], whole=FittedModel(_model_for(trials[k], HELD_OUT), fit))
-    return found
-
-
-def _model_for(trial: FittedModel, prediction: str) -> Model:
-    """Return the model against all channels, or without those of an experiment."""
-    base, used = trial.model.base, trial.model.channels
-    rest = tuple(i for i in used if base.channels[i][0] != prediction)
-    channels = (*used, *base.held_out) if prediction == HELD_OUT else rest
-    return model_of(base, trial.model.effects, channels)
-
-
-def _refit(trial: FittedModel, prediction: str) -> FittedModel:
-    model = _model_for(trial, prediction)
-    return up_to_date(FittedModel(model, descend(model, trial.fit.x)))
 
 
 def explains(found: Predictions, rng: np.random.Generator) -> bool:
@@ -164,7 +115,12 @@ def explains(found: Predictions, rng: np.random.Generator) -> bool:
 
 
 def trust(
-    trial: FittedModel, effect: str, own: Predictions, without: Predictions, explained: bool
+    trial: FittedModel,
+    effect: str,
+    own: Predictions,
+    without: Predictions,
+    explained: bool,
+    dispersion: float = 1.0,
 ) -> Trust:
     """Return what speaks for or against an effect of a model.
 
@@ -174,6 +130,11 @@ def trust(
         What the model predicts, and what it predicts without the effect.
     explained
         Whether it fits what is held out, too.
+    dispersion
+        Chi-square per degree of freedom that divides test statistics and gains.
     """
-    gains = {name: own.scores[name] - before for name, before in without.scores.items()}
-    return Trust(at_limit(trial, effect), disagreement(trial, effect), gains, explained)
+    gains = {
+        name: (own.scores[name] - before) / dispersion for name, before in without.scores.items()
+    }
+    disagree = disagreement(trial, effect, dispersion)
+    return Trust(at_limit(trial, effect), disagree, gains, explained)

@@ -11,7 +11,7 @@ from pyrofit.effects import known_effects
 ORDER = ("apparatus", "environment", "material")
 """What an experimenter can check comes first."""
 
-Kind = Literal["none", "named", "ambiguous", "multiple", "unknown"]
+Kind = Literal["none", "named", "ambiguous", "multiple", "partly", "unknown"]
 
 
 @dataclass(frozen=True, eq=False)
@@ -73,6 +73,22 @@ class Finding:
         return bool(self.group) and self.predicted and self.explains
 
 
+@dataclass(frozen=True)
+class Suspect:
+    """A candidate for what a model leaves unexplained.
+
+    Parameters
+    ----------
+    effect
+        Its name.
+    gain
+        Fall of chi-square that the linear forecast of the score test promises.
+    """
+
+    effect: str
+    gain: float
+
+
 @dataclass(frozen=True, eq=False)
 class Verdict:
     """What is claimed, with the findings it rests on and the reasons, in words."""
@@ -82,8 +98,12 @@ class Verdict:
     """The search, ended with the model that the verdict is about."""
     findings: tuple[Finding, ...]
     reasons: tuple[str, ...]
+    suspects: tuple[Suspect, ...] = ()
+    """Where the findings explain a part only: the leading candidates for the rest."""
 
     @property
     def confirmed(self) -> bool:
-        """Whether effects are claimed that explain and predict what was not fitted."""
-        return self.kind in ("named", "multiple") and all(f.sure for f in self.findings)
+        """Whether the effects that are claimed predict what was not fitted."""
+        return self.kind == "partly" or (
+            self.kind in ("named", "multiple") and all(f.sure for f in self.findings)
+        )

@@ -1,10 +1,10 @@
 """What the calibration leaves of each parameter: 95 % intervals."""
 
-from dataclasses import replace
 from typing import Any
 
 import numpy as np
 
+from pyrofit.diagnose.base.descent import descend, refreshed
 from pyrofit.diagnose.base.fitted import FittedModel
 from pyrofit.diagnose.base.model import fraction, model_of, name_of
 from pyrofit.effects import known_effects
@@ -35,32 +35,43 @@ def interval(
 def strengths(trial: FittedModel, with_form: bool) -> dict[str, Any]:
     """Return the parameters of a model's effects, SI units.
 
-    ``with_form`` adds the interval that the strength has with the effect's form as uncertain as the
-    limits of its form parameters.
+    ``with_form`` adds the interval with an uncertain form: from the lowest to the highest end of
+    the intervals with the form as it is, and with all form parameters of the effect fitted, too.
     """
     values, sd = values_of(trial)
     catalogue = known_effects()
     found = {}
     for effect, free in trial.model.effects.items():
+        wide = _formed(trial, effect) if with_form else None
         for parameter in free:
             name = name_of(effect, parameter)
-            i = trial.model.names.index(name)
+            own = interval(trial, trial.model.names.index(name), values, sd)
             found[name] = {
-                **interval(trial, i, values, sd),
+                **own,
                 "unit": catalogue[effect].quantities[parameter].unit,
-                **(_with_form(trial, effect, i) if with_form else _NO_FORM),
+                **_with_form(own, wide, name),
             }
     return found
 
 
-_NO_FORM: dict[str, float | None] = {"low_form": None, "high_form": None}
+def _with_form(
+    own: dict[str, float], wide: FittedModel | None, name: str
+) -> dict[str, float | None]:
+    """Return the ends of both intervals together, nothing where the effect has no other form."""
+    if wide is None:
+        return {"low_form": None, "high_form": None}
+    other = interval(wide, wide.model.names.index(name), *values_of(wide))
+    return {
+        "low_form": min(own["low"], other["low"]),
+        "high_form": max(own["high"], other["high"]),
+    }
 
 
-def _with_form(trial: FittedModel, effect: str, i: int) -> dict[str, float | None]:
-    """Return the 95 % interval with the effect's form as uncertain as its limits."""
+def _formed(trial: FittedModel, effect: str) -> FittedModel | None:
+    """Return the model fitted with all form parameters of an effect free, if it has others."""
     form = [p for p in known_effects()[effect].form if p not in trial.model.effects[effect]]
     if not form:
-        return _NO_FORM
+        return None
     quantities = known_effects()[effect].quantities
     free = {**trial.model.effects, effect: (*trial.model.effects[effect], *form)}
     model = model_of(trial.model.base, free, trial.model.channels)
@@ -70,8 +81,4 @@ def _with_form(trial: FittedModel, effect: str, i: int) -> dict[str, float | Non
     for parameter in form:
         at = model.names.index(name_of(effect, parameter))
         x[at] = fraction(quantities[parameter], quantities[parameter].value)
-    jacobian = model.jacobian(x, model.residuals(x))
-    wide = FittedModel(model, replace(trial.fit, x=x, jacobian=jacobian))
-    at = model.names.index(trial.model.names[i])
-    found = interval(wide, at, *values_of(wide))
-    return {"low_form": found["low"], "high_form": found["high"]}
+    return FittedModel(model, refreshed(model, descend(model, x)))

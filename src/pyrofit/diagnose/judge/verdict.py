@@ -1,26 +1,24 @@
 """The verdict: what of the search may be claimed, and how surely."""
 
 from collections.abc import Sequence
-from dataclasses import replace
 
 import numpy as np
 
-from pyrofit.diagnose.base.adequacy import lack_of_fit
-from pyrofit.diagnose.base.fitted import FittedModel, at_limit, up_to_date
-from pyrofit.diagnose.judge.claim_tests import HELD_OUT, Trust, explains, predictions, trust
-from pyrofit.diagnose.judge.findings import Finding, Judged, Kind, Verdict
-from pyrofit.diagnose.search.step import SearchStep
-from pyrofit.diagnose.search.stepwise import Search, dropped
+from pyrofit.diagnose.base.fitted import FittedModel
+from pyrofit.diagnose.base.prediction import HELD_OUT
+from pyrofit.diagnose.judge.findings import Finding, Judged, Kind, Suspect, Verdict
+from pyrofit.diagnose.judge.places import ended, findings_of, needed
+from pyrofit.diagnose.search.refit import look_at
+from pyrofit.diagnose.search.stepwise import Search
 from pyrofit.diagnose.settings import SETTINGS
 from pyrofit.model.slab import SlabExperiment
-from pyrofit.parallel import parallel_map
 
 ONE_FLUX = "only the mass loss rate at one flux is calibrated"
 """A reason that leaves every claim open."""
 
 
 def judge(found: Search, rng: np.random.Generator, processes: int = 1) -> Verdict:
-    """Return what may be claimed of a search's end.
+    """Return what may be claimed of a search's final model.
 
     Parameters
     ----------
@@ -31,21 +29,79 @@ def judge(found: Search, rng: np.random.Generator, processes: int = 1) -> Verdic
     """
     if not found.end.effects:
         return _without_effects(found)
-    found, without = _needed(found, rng, processes)
-    findings = _findings(found, without, rng, processes)
-    reasons = [f"{f.effect}: {j.rejected}" for f in findings for j in f.judged[:1] if j.rejected]
+    found, without = needed(found, rng, processes)
+    findings = findings_of(found, without, rng, processes)
+    reasons = _reasons(findings)
     if len(findings) == 1 and reasons and findings[0].kept:
         # The best one fails, another does not: the verdict is about that one.
-        found, reasons = _ended(found, findings[0].kept[0].trial, rng), []
+        found, reasons = ended(found, findings[0].kept[0].trial, rng), []
     if not found.end_lack.adequate:
         reasons.append("what is left is more than noise, with every effect that gains enough")
     if reasons:
-        return Verdict("unknown", found, findings, tuple(reasons))
+        part = _partly(found, findings, without, rng, processes)
+        return part or Verdict("unknown", found, findings, tuple(reasons))
+    return _explained(found, findings)
+
+
+def _explained(found: Search, findings: Sequence[Finding]) -> Verdict:
+    """Return the verdict on effects that leave nothing but noise."""
     doubts = tuple(_doubts(found, findings))
     kind: Kind = "multiple" if len(findings) > 1 else "named"
     if ONE_FLUX in doubts or (kind == "named" and not findings[0].sure):
         kind = "ambiguous"
-    return Verdict(kind, found, findings, doubts)
+    return Verdict(kind, found, tuple(findings), doubts)
+
+
+def _reasons(findings: Sequence[Finding]) -> list[str]:
+    return [f"{f.effect}: {j.rejected}" for f in findings for j in f.judged[:1] if j.rejected]
+
+
+def _partly(
+    found: Search,
+    findings: Sequence[Finding],
+    without: Sequence[FittedModel],
+    rng: np.random.Generator,
+    processes: int,
+) -> Verdict | None:
+    """Return the verdict on the effects that pass every test, if there are any.
+
+    Effects that fail a test are taken away one by one, the one that gains least first; the others
+    are judged again. They usually explain a part only.
+    """
+    while not all(_supported(finding) for finding in findings):
+        failed = [k for k, finding in enumerate(findings) if not _supported(finding)]
+        if len(findings) == 1:
+            return None
+        least = min(failed, key=lambda k: without[k].penalised)
+        found, without = needed(ended(found, without[least], rng), rng, processes)
+        findings = findings_of(found, without, rng, processes)
+    if found.end_lack.adequate:
+        return _explained(found, findings)
+    if ONE_FLUX in _doubts(found, findings):
+        return None
+    leading = [finding.kept[0] for finding in findings]
+    rest = [
+        "part of the misfit remains: chi-square is "
+        f"{found.end.fit.chi2 / found.end.model.points:.2f} per point"
+    ]
+    worse = [_outvoted(judged) for judged in leading if judged.trust.outvoted]
+    suspects = _suspects(found, processes)
+    return Verdict("partly", found, tuple(findings), (*rest, *worse), suspects)
+
+
+def _supported(finding: Finding) -> bool:
+    """Tell whether the leading effect passes every test, and nothing else is as good."""
+    passes = bool(finding.kept) and finding.kept[0] is finding.judged[0]
+    return passes and bool(finding.group) and finding.predicted
+
+
+def _suspects(found: Search, processes: int) -> tuple[Suspect, ...]:
+    """Return the candidates that promise most for what the final model leaves."""
+    names = [look.effect for look in found.rounds[0].looks if look.effect not in found.end.effects]
+    looks = look_at(found.end, names, processes)
+    gains = [Suspect(look.effect, found.end.fit.chi2 - float(look.ahead.min())) for look in looks]
+    leading = sorted(gains, key=lambda suspect: -suspect.gain)[: SETTINGS.most_suspects]
+    return tuple(suspect for suspect in leading if suspect.gain > found.spare)
 
 
 def _without_effects(found: Search) -> Verdict:
@@ -55,45 +111,6 @@ def _without_effects(found: Search) -> Verdict:
         reason = "an effect's score is remarkable, but none gains enough to be claimed"
         return Verdict("none", found, (), (reason,))
     return Verdict("unknown", found, (), ("no effect of the catalogue gains enough",))
-
-
-def _needed(
-    found: Search, rng: np.random.Generator, processes: int
-) -> tuple[Search, list[FittedModel]]:
-    """End a search without the effects that others make superfluous, the least one first.
-
-    Returns the search, and the best model without each of the effects that are left.
-    """
-    without = _without(found, processes)
-    while len(without) > 1:
-        least = min(without, key=lambda trial: trial.penalised)
-        if least.penalised - found.end.penalised >= found.spare:
-            break
-        found = _ended(found, least, rng)
-        without = _without(found, processes)
-    if not any(_same(trial, found.end) for trial in found.trials):
-        step = SearchStep(without[0], found.end_lack, (), (found.end,))
-        found = replace(found, rounds=(*found.rounds, step))
-    return found, without
-
-
-def _without(found: Search, processes: int) -> list[FittedModel]:
-    """Return the best model without each effect of a search's end: as dropped, or as at hand."""
-    dropped_ones = dropped(found.end, found.end.effects, processes)
-    at_hand = [found.base, *found.trials]
-    return [
-        up_to_date(min([one, *(t for t in at_hand if _same(t, one))], key=lambda t: t.fit.chi2))
-        for one in dropped_ones
-    ]
-
-
-def _same(trial: FittedModel, other: FittedModel) -> bool:
-    return dict(trial.model.effects) == dict(other.model.effects)
-
-
-def _ended(found: Search, end: FittedModel, rng: np.random.Generator) -> Search:
-    """Return a search with another end."""
-    return replace(found, end=end, end_lack=lack_of_fit(end.model, end.fit, [], rng))
 
 
 def _doubts(found: Search, findings: Sequence[Finding]) -> list[str]:
@@ -109,86 +126,32 @@ def _doubts(found: Search, findings: Sequence[Finding]) -> list[str]:
     if not all(finding.explains for finding in findings):
         doubts.append("what is held out is not explained, not even if it is fitted, too")
     kept = [judged for finding in findings for judged in finding.kept]
-    return doubts + [_unconfirmed(judged) for judged in kept if not judged.trust.confirmed]
+    doubts += [_unconfirmed(judged) for judged in kept if not judged.trust.confirmed]
+    open_ones = [finding for finding in findings if not finding.group]
+    return doubts + [f"these data do not separate {_listed(finding)}" for finding in open_ones]
+
+
+def _listed(finding: Finding) -> str:
+    *first, last = finding.effects
+    return f"{', '.join(first)} and {last}" if first else last
 
 
 def _unconfirmed(judged: Judged) -> str:
     if not judged.trust.predicts:
         return f"{judged.effect}: no prediction confirms it clearly"
-    gain = judged.trust.gains[HELD_OUT]
+    if judged.trust.outvoted:
+        return _outvoted(judged)
+    gain = sum(judged.trust.held_out.values())
     return (
         f"{judged.effect}: the log score of what is held out gains {gain:+.1f} only; "
         f"{SETTINGS.informative_gain:g} at least is asked for"
     )
 
 
-def _findings(
-    found: Search, without: Sequence[FittedModel], rng: np.random.Generator, processes: int
-) -> tuple[Finding, ...]:
-    """Judge each effect of a search's end, and those that it cannot be told from.
-
-    ``without`` are the models without each of them.
-    """
-    effects = found.end.effects
-    places = [alternatives(found, effect) for effect in effects]
-    # The end of the search has a place among the rivals of each of its effects.
-    rivals = {_key(trial): trial for place in places for _, trial in place}
-    predicted = predictions([*without, *rivals.values()], processes)
-    before, own = predicted[: len(without)], predicted[len(without) :]
-    rngs = rng.spawn(len(own))
-    explained = parallel_map(lambda i: explains(own[i], rngs[i]), len(own), processes)
-    known = dict(zip(rivals, zip(own, explained, strict=True), strict=True))
-
-    def judged(name: str, trial: FittedModel, k: int) -> Judged:
-        foreseen, also = known[_key(trial)]
-        about = trust(trial, name, foreseen, before[k], also)
-        if trial is not places[k][0][1]:  # the end's other effects have places of their own
-            limits = filter(None, (at_limit(trial, effect) for effect in trial.effects))
-            about = replace(about, limit=next(limits, ""))
-        gain = without[k].penalised - trial.penalised
-        return Judged(name, trial, about, _against(gain, found.spare, about))
-
-    return tuple(
-        Finding(effect, tuple(judged(name, trial, k) for name, trial in places[k]))
-        for k, effect in enumerate(effects)
+def _outvoted(judged: Judged) -> str:
+    """Say that one held-out experiment is predicted worse, against several others."""
+    (name,) = judged.trust.worse
+    return (
+        f"{judged.effect}: the prediction of {name.removeprefix(f'{HELD_OUT}: ')} gets worse "
+        f"(log score {judged.trust.gains[name]:+.1f}), the others improve: check its apparatus"
     )
-
-
-def _key(trial: FittedModel) -> tuple[tuple[str, tuple[str, ...]], ...]:
-    return tuple(trial.model.effects.items())
-
-
-def alternatives(found: Search, effect: str) -> list[tuple[str, FittedModel]]:
-    """Return the models with another effect in one's place that cannot be told from the best.
-
-    Of each effect the best form; the end of the search itself first.
-    """
-    others = set(found.end.effects) - {effect}
-    best = {effect: found.end}
-    for trial in sorted(found.trials, key=lambda trial: trial.penalised):
-        (*rest,) = set(trial.effects) - others
-        same = others <= set(trial.effects) and len(rest) == 1
-        if same and trial.penalised <= found.end.penalised + SETTINGS.ambiguous_chi2:
-            best.setdefault(rest[0], trial)
-    return [(name, up_to_date(trial)) for name, trial in list(best.items())[: SETTINGS.most_judged]]
-
-
-def _against(gain: float, spare: float, about: Trust) -> str:
-    """Say what speaks against a model, nothing where it passes.
-
-    ``gain`` is that of penalised chi-square over the model without the effect.
-    """
-    if gain < spare:
-        return f"gains {gain:.1f} of penalised chi-square, {spare:.1f} are asked for"
-    if about.limit:
-        return f"{about.limit} rests at a limit"
-    if about.disagree < SETTINGS.agreement_level:
-        return f"the experiments ask for different strengths (p = {about.disagree:.1g})"
-    if about.informative and not about.predicts:
-        worst = min(about.gains, key=lambda name: about.gains[name])
-        return (
-            f"predictions do not improve: log score {about.gains[worst]:+.1f} for {worst}, "
-            f"{sum(about.gains.values()):+.1f} in all; "
-            f"{SETTINGS.informative_gain:g} at least is asked for"
-        )
-    return ""

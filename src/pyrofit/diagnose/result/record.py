@@ -10,7 +10,7 @@ from pyrofit.config import Study, candidate_effects
 from pyrofit.config.resolve import obstacle
 from pyrofit.diagnose.base.fitted import FittedModel, up_to_date
 from pyrofit.diagnose.base.model import model_of
-from pyrofit.diagnose.judge.claim_tests import HELD_OUT
+from pyrofit.diagnose.base.prediction import HELD_OUT
 from pyrofit.diagnose.judge.findings import Verdict
 from pyrofit.diagnose.judge.intervals import interval, values_of
 from pyrofit.diagnose.result.candidates import candidates, confusability_of, screened
@@ -59,6 +59,7 @@ def _verdict(verdict: Verdict) -> dict[str, Any]:
         "confirmed": verdict.confirmed,
         "words": sentences(verdict),
         "reasons": list(verdict.reasons),
+        "suspects": [asdict(suspect) for suspect in verdict.suspects],
     }
 
 

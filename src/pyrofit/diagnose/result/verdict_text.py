@@ -24,6 +24,7 @@ def sentences(verdict: Verdict) -> str:
         "named": _named,
         "ambiguous": _ambiguous,
         "multiple": _multiple,
+        "partly": _partly,
         "unknown": _unknown,
     }[verdict.kind](verdict)
     return " ".join(filter(None, said))
@@ -64,6 +65,21 @@ def _multiple(verdict: Verdict) -> list[str]:
         f"The model lacks {_several(verdict)}.",
         "Each of them is needed with the others there.",
         _because(verdict),
+    ]
+
+
+def _partly(verdict: Verdict) -> list[str]:
+    """Say what is confirmed, and what is suspected of the rest."""
+    catalogue = known_effects()
+    number = len(verdict.findings)
+    lacks = f"{number} effects: " if number > 1 else ""
+    found = "; and ".join(_listed(finding) for finding in verdict.findings)
+    suspects = " or ".join(catalogue[suspect.effect].title for suspect in verdict.suspects)
+    return [
+        f"The model lacks {lacks}{found}.",
+        "They improve the fit and the predictions, but they explain a part of the misfit only.",
+        _because(verdict),
+        f"Leading candidates for the rest: {suspects}." if suspects else "",
     ]
 
 

@@ -93,21 +93,19 @@ def _start(trial: FittedModel, seen: Screening, at: int) -> FloatArray:
     return x
 
 
-def model_with_form(trial: FittedModel, parameter: str) -> Model:
-    """Return the model with a form parameter of its last effect free in addition."""
-    last = trial.effects[-1]
-    free = {n: (*f, parameter) if n == last else f for n, f in trial.model.effects.items()}
+def model_with_form(trial: FittedModel, effect: str, parameter: str) -> Model:
+    """Return the model with a form parameter of an effect free in addition."""
+    free = {n: (*f, parameter) if n == effect else f for n, f in trial.model.effects.items()}
     return model_of(trial.model.base, free, trial.model.channels)
 
 
-def with_form(trial: FittedModel, parameter: str) -> FittedModel:
-    """Fit a form parameter of the last effect, too: from its usual value and the best of others.
+def with_form(trial: FittedModel, effect: str, parameter: str) -> FittedModel:
+    """Fit a form parameter of an effect, too: from its usual value and the best of others.
 
     Never worse than without it.
     """
-    effect = trial.effects[-1]
     quantity = known_effects()[effect].quantities[parameter]
-    model = model_with_form(trial, parameter)
+    model = model_with_form(trial, effect, parameter)
     at = model.names.index(name_of(effect, parameter))
     usual, *others = (
         np.insert(trial.fit.x, at, fraction(quantity, value)) for value in _forms_of(quantity)
@@ -123,6 +121,17 @@ def _forms_of(quantity: Quantity) -> Sequence[float]:
     """Return the usual value of a form parameter, another one, and two towards the limits."""
     lower, usual, upper = quantity.lower, quantity.value, quantity.upper
     return (usual, quantity.typical, 0.5 * (lower + usual), 0.5 * (usual + upper))
+
+
+def fixed_forms(trial: FittedModel) -> list[tuple[str, str]]:
+    """Return effect and name of each form parameter that a model does not fit."""
+    catalogue = known_effects()
+    return [
+        (effect, form)
+        for effect, free in trial.model.effects.items()
+        for form in catalogue[effect].form
+        if form not in free
+    ]
 
 
 def look_at(trial: FittedModel, effects: Sequence[str], processes: int = 1) -> list[Screening]:

@@ -8,6 +8,7 @@ import numpy as np
 from pyrofit.diagnose.base.adequacy import LackOfFit
 from pyrofit.diagnose.base.fitted import FittedModel, followed, polished
 from pyrofit.diagnose.search.refit import (
+    fixed_forms,
     from_best_start,
     from_elsewhere,
     model_with,
@@ -17,8 +18,8 @@ from pyrofit.diagnose.search.refit import (
 )
 from pyrofit.diagnose.search.score_test import Screening
 from pyrofit.diagnose.settings import SETTINGS
-from pyrofit.effects import known_effects
 from pyrofit.parallel import parallel_map
+from pyrofit.solver.arrays import FloatArray
 
 Tell = Callable[[str], None]
 
@@ -30,6 +31,8 @@ class SearchContext:
     rng: np.random.Generator
     tell: Tell = lambda text: None
     processes: int = 1
+    other_starts: tuple[FloatArray, ...] = ()
+    """Points of the base model's limits from which leading models are fitted as well."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -54,29 +57,26 @@ class SearchStep:
     trials: tuple[FittedModel, ...] = ()
 
 
-def singles(step: SearchStep, means: SearchContext) -> tuple[FittedModel, ...]:
+def singles(step: SearchStep, context: SearchContext) -> tuple[FittedModel, ...]:
     """Fit every effect alone, then the leading ones that have several forms in these."""
-    trials = _polished(_fitted(step, len(step.looks), means), means)
-    catalogue = known_effects()
-    leading = [trial for trial in trials if catalogue[trial.effects[-1]].form][
-        : SETTINGS.most_formed
-    ]
-    return in_order([*trials, *_forms(leading, means)])
+    trials = _polished(_fitted(step, len(step.looks), context), context)
+    leading = [trial for trial in trials if fixed_forms(trial)][: SETTINGS.most_formed]
+    return in_order([*trials, *_forms(leading, context)])
 
 
-def more(step: SearchStep, most_tried: int, means: SearchContext) -> tuple[FittedModel, ...]:
-    """Fit one effect more, those that promise most."""
-    trials = _polished(_fitted(step, most_tried, means), means)
-    return in_order([*trials, *_forms(trials[:1], means)])
+def more(step: SearchStep, most_tried: int, context: SearchContext) -> tuple[FittedModel, ...]:
+    """Fit one effect more, those that promise most, then the best model in other forms."""
+    trials = _polished(_fitted(step, most_tried, context), context)
+    return in_order([*trials, *_forms(trials[:1], context)])
 
 
-def _fitted(step: SearchStep, most: int, means: SearchContext) -> list[FittedModel]:
+def _fitted(step: SearchStep, most: int, context: SearchContext) -> list[FittedModel]:
     """Fit one effect more, those that promise most.
 
     Roughly first, those that gain next to nothing from a second start as well. Those that come near
     the best one are then fitted to the end, from the other starts, too.
     """
-    start, processes = step.start, means.processes
+    start, processes = step.start, context.processes
     looks = sorted(step.looks, key=lambda look: float(look.ahead.min()))[:most]
     others = [starts(look)[1:] for look in looks]
     fits = parallel_map(
@@ -100,19 +100,39 @@ def _fitted(step: SearchStep, most: int, means: SearchContext) -> list[FittedMod
     again([i for i, trial in enumerate(found) if trial.fit.chi2 > little], once_more)
     hopeful = min((trial.fit.chi2 for trial in found), default=0.0) + SETTINGS.hopeless_chi2
     again([i for i, trial in enumerate(found) if trial.fit.chi2 <= hopeful], to_the_end)
-    return _told(found, means)
+    return _told(found, context)
 
 
-def _forms(leading: Sequence[FittedModel], means: SearchContext) -> list[FittedModel]:
-    """Fit the last effect of each model with each of its form parameters free."""
-    catalogue = known_effects()
-    forms = [(t, form) for t in leading for form in catalogue[t.effects[-1]].form]
-    fits = parallel_map(lambda i: with_form(*forms[i]).fit, len(forms), means.processes)
-    models = [model_with_form(trial, form) for trial, form in forms]
-    return _told(list(map(FittedModel, models, fits)), means)
+def _forms(leading: Sequence[FittedModel], context: SearchContext) -> list[FittedModel]:
+    """Fit each model with one form parameter more, then the best one with a second, if that pays.
+
+    Models whose form parameter lowers the penalised chi-square are searched on from elsewhere:
+    otherwise a further effect may gain only because its fit starts anew.
+    """
+    found: list[FittedModel] = []
+    for _ in range(SETTINGS.most_form_parameters):
+        tasks = [(trial, *form) for trial in leading for form in fixed_forms(trial)]
+        if not tasks:
+            break
+        fits = parallel_map(
+            lambda i, t=tasks: with_form(*t[i]).fit,  # type: ignore[misc]
+            len(tasks),
+            context.processes,
+        )
+        models = [model_with_form(*task) for task in tasks]
+        formed = _told(list(map(FittedModel, models, fits)), context)
+        paying = [
+            trial
+            for trial, (start, *_) in zip(formed, tasks, strict=True)
+            if trial.penalised < start.penalised
+        ]
+        paying = polished(in_order(paying)[: SETTINGS.most_polished_forms], context.processes)
+        found += [*formed, *paying]
+        leading = in_order(paying)[:1]
+    return found
 
 
-def _polished(trials: Sequence[FittedModel], means: SearchContext) -> list[FittedModel]:
+def _polished(trials: Sequence[FittedModel], context: SearchContext) -> list[FittedModel]:
     """Return the trials in order, the leading ones searched on from elsewhere."""
     order = in_order(trials)
     leading = [
@@ -120,14 +140,14 @@ def _polished(trials: Sequence[FittedModel], means: SearchContext) -> list[Fitte
         for t in order[: SETTINGS.most_polished]
         if t.penalised <= order[0].penalised + SETTINGS.hopeless_chi2
     ]
-    better = polished(leading, means.processes)
+    better = polished(leading, context.processes)
     return list(in_order([*better, *order[len(leading) :]]))
 
 
-def _told(trials: list[FittedModel], means: SearchContext) -> list[FittedModel]:
+def _told(trials: list[FittedModel], context: SearchContext) -> list[FittedModel]:
     for trial in trials:
         free = [f"{e} ({', '.join(f)})" for e, f in trial.model.effects.items()]
-        means.tell(f"{' + '.join(free)}: chi-square {trial.fit.chi2:.1f}")
+        context.tell(f"{' + '.join(free)}: chi-square {trial.fit.chi2:.1f}")
     return trials
 
 

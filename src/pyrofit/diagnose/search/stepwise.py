@@ -1,24 +1,26 @@
-"""The search: every effect alone, the leading ones in other forms, then pairs, then three."""
+"""The search: every effect alone, the leading ones in other forms, then pairs, then more."""
 
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass, replace
 
 import numpy as np
 
 from pyrofit.diagnose.base.adequacy import LackOfFit, lack_of_fit
-from pyrofit.diagnose.base.descent import Fit, descend, refreshed
 from pyrofit.diagnose.base.fit import blurred, clearer, refitted, with_noise_about
-from pyrofit.diagnose.base.fitted import FittedModel, at_limit, up_to_date
-from pyrofit.diagnose.base.model import Base, model_of
+from pyrofit.diagnose.base.fitted import FittedModel, up_to_date
+from pyrofit.diagnose.search.branches import branches
 from pyrofit.diagnose.search.refit import look_at, model_with, with_effect
+from pyrofit.diagnose.search.restart import best_of_each, dropped, from_other_starts, restarted
 from pyrofit.diagnose.search.step import SearchContext, SearchStep, in_order, more, singles
 from pyrofit.diagnose.settings import SETTINGS
 from pyrofit.parallel import parallel_map
 
+Fitting = Callable[[SearchStep], Sequence[FittedModel]]
+
 
 @dataclass(frozen=True, eq=False)
 class Search:
-    """All rounds in order, and the model they end with: the base itself, or one with effects."""
+    """All steps in order, and the final model: the base itself, or one with effects."""
 
     rounds: tuple[SearchStep, ...]
     end: FittedModel
@@ -38,11 +40,12 @@ class Search:
         return [trial for step in self.rounds for trial in step.trials]
 
 
-def search(base: FittedModel, effects: Sequence[str], most: int, means: SearchContext) -> Search:
+def search(base: FittedModel, effects: Sequence[str], most: int, context: SearchContext) -> Search:
     """Add effects to the base until what is left is noise, none gains enough, or there are most.
 
-    Where more than noise is left, the noise is estimated about the end, and if that explains more
-    the search is made once more: what the base cannot follow may have been taken for noise.
+    Where more than noise is left, or the noise exceeds what is stated, it is estimated about the
+    final model. If that explains more, the search is repeated with it, from the models of the first
+    search as well.
 
     Parameters
     ----------
@@ -52,58 +55,121 @@ def search(base: FittedModel, effects: Sequence[str], most: int, means: SearchCo
         Names of the candidates.
     most
         Most effects of a model.
-    means
-        Noise, listener, processes.
+    context
+        Noise, listener, processes, other starts.
     """
-    found = _search(base, effects, most, means)
+    found = _Pass(effects, most, context).run(_look(base, effects, context))
     off = found.end.fit.chi2 > SETTINGS.misfit_chi2_per_point * found.end.model.points
-    if found.end_lack.adequate or not found.end.effects or off:
+    settled = found.end_lack.adequate and not blurred(found.end.model.base)
+    if settled or not found.end.effects or off:
         return found
-    sharper = with_noise_about(found.end, processes=means.processes)
+    sharper = with_noise_about(found.end, processes=context.processes)
     if clearer(found.end.model.base, sharper) < SETTINGS.clearer_bic:
         return found
-    means.tell("once more, with the noise about the best model")
-    return _search(refitted(found.base, sharper), effects, most, means)
+    context.tell("once more, with the noise about the best model")
+    leading = _leading(found)
+    fits = parallel_map(lambda i: refitted(leading[i], sharper), len(leading), context.processes)
+    carried = [replace(t, model=replace(t.model, base=sharper)) for t in fits]
+    start = _look(refitted(found.base, sharper), effects, context)
+    return _Pass(effects, most, context, tuple(carried)).run(start)
 
 
-def _search(base: FittedModel, effects: Sequence[str], most: int, means: SearchContext) -> Search:
-    spare = 2.0 * float(np.log(max(len(effects), 1)))
-    first = _sharp(_look(base, effects, means), means)
-    best, best_alarm, rounds = first.start, first.lack, [first]
-    if first.lack.passes:
-        return Search((first,), best, best_alarm, spare)
-    rounds = [replace(first, trials=singles(first, means))]
-    beam = _claims(rounds, spare)
-    while beam:
-        steps = [_onwards(beam[0], effects, means)]
-        added = len(beam[0].effects) - len(best.effects)
-        if best.penalised - beam[0].penalised >= added * spare:
-            best, best_alarm = steps[0].start, steps[0].lack
-        if best_alarm.passes or len(beam[0].effects) >= most:
-            break
-        steps += [_onwards(trial, effects, means) for trial in beam[1:]]
-        # The best may get any effect more; the other those that promise most.
-        steps = [
-            replace(
-                step,
-                trials=more(
-                    step, SETTINGS.candidates_of_second_branch if i else len(effects), means
-                ),
-            )
-            for i, step in enumerate(steps)
+def _leading(found: Search) -> list[FittedModel]:
+    """Return the best models of each number of effects, the final one among them."""
+    best: list[FittedModel] = [found.end]
+    for size in range(1, max(len(t.effects) for t in found.trials) + 1):
+        of_size = [t for t in best_of_each(found.trials) if len(t.effects) == size]
+        best += [t for t in of_size[: SETTINGS.most_carried] if t is not found.end]
+    return best
+
+
+@dataclass(frozen=True, eq=False)
+class _Pass:
+    """One pass of the search under one noise.
+
+    ``carried`` are models that an earlier pass found, fitted under this noise.
+    """
+
+    effects: Sequence[str]
+    most: int
+    context: SearchContext
+    carried: tuple[FittedModel, ...] = ()
+
+    @property
+    def spare(self) -> float:
+        return 2.0 * float(np.log(max(len(self.effects), 1)))
+
+    def run(self, first: SearchStep) -> Search:
+        """Search from the first look at the base model."""
+        if not self.carried:
+            first = _sharp(first, self.context)
+        if first.lack.passes:
+            return Search((first,), first.start, first.lack, self.spare)
+        first = self._fitted(first, lambda step: self._singles(step))
+        best, best_lack, rounds = first.start, first.lack, [first]
+        beam = branches([first], self.spare, self.context)
+        while beam:
+            steps = [self._onwards(beam[0])]
+            added = len(beam[0].effects) - len(best.effects)
+            if best.penalised - steps[0].start.penalised >= added * self.spare:
+                best, best_lack = steps[0].start, steps[0].lack
+            if best_lack.passes or len(beam[0].effects) >= self.most:
+                break
+            steps += [self._onwards(trial) for trial in beam[1:]]
+            steps = [self._more(step, first=k == 0) for k, step in enumerate(steps)]
+            rounds += steps
+            beam = branches(steps, self.spare, self.context)
+        found = Search(tuple(rounds), best, best_lack, self.spare)
+        return self._exchanged(found) if len(best.effects) > 1 else found
+
+    def _onwards(self, trial: FittedModel) -> SearchStep:
+        rest = [effect for effect in self.effects if effect not in trial.effects]
+        return _look(up_to_date(trial), rest, self.context)
+
+    def _singles(self, step: SearchStep) -> Sequence[FittedModel]:
+        trials = singles(step, self.context)
+        return in_order([*trials, *from_other_starts(trials, self.context)])
+
+    def _more(self, step: SearchStep, first: bool) -> SearchStep:
+        most = (
+            SETTINGS.candidates_of_first_branch if first else SETTINGS.candidates_of_second_branch
+        )
+        return self._fitted(step, lambda given: more(given, most, self.context))
+
+    def _fitted(self, step: SearchStep, fitting: Fitting) -> SearchStep:
+        """Fit one effect more; where that leads to a lower start, fit the leading ones from it."""
+        size = len(step.start.effects) + 1
+        own = [
+            trial
+            for trial in self.carried
+            if len(trial.effects) == size and set(step.start.effects) <= set(trial.effects)
         ]
-        rounds += steps
-        beam = _claims(steps, spare)
-    return Search(tuple(rounds), best, best_alarm, spare)
+        trials = best_of_each([*fitting(step), *own])
+        start = restarted(step.start, trials, self.context)
+        if start is not step.start:
+            self.context.tell(f"a lower minimum without the last effect: {start.fit.chi2:.1f}")
+            step = _look(start, [look.effect for look in step.looks], self.context)
+            trials = best_of_each([*trials, *more(step, SETTINGS.most_refitted, self.context)])
+        return replace(step, trials=tuple(trials))
+
+    def _exchanged(self, found: Search) -> Search:
+        """Try other effects in the place of each of the final model; take what is better."""
+        rounds = list(found.rounds)
+        for without in dropped(found.end, found.end.effects, self.context.processes):
+            step = self._onwards(without)
+            trials = more(step, SETTINGS.most_exchanged, self.context)
+            rounds.append(replace(step, trials=tuple(trials)))
+        same = [
+            t for step in rounds for t in step.trials if len(t.effects) == len(found.end.effects)
+        ]
+        (best, *_) = in_order([found.end, *same])
+        if best is found.end:
+            return replace(found, rounds=tuple(rounds))
+        step = self._onwards(best)
+        return replace(found, rounds=tuple(rounds), end=step.start, end_lack=step.lack)
 
 
-def _onwards(trial: FittedModel, effects: Sequence[str], means: SearchContext) -> SearchStep:
-    return _look(
-        up_to_date(trial), [effect for effect in effects if effect not in trial.effects], means
-    )
-
-
-def _sharp(step: SearchStep, means: SearchContext) -> SearchStep:
+def _sharp(step: SearchStep, context: SearchContext) -> SearchStep:
     """Return the first look with a noise that does not count the misfit of the base as noise.
 
     The noise is estimated again about the most promising models with one effect.
@@ -114,59 +180,19 @@ def _sharp(step: SearchStep, means: SearchContext) -> SearchStep:
     if not order:
         return step
     fits = parallel_map(
-        lambda i: with_effect(step.start, order[i]).fit, len(order), means.processes
+        lambda i: with_effect(step.start, order[i]).fit, len(order), context.processes
     )
     at = int(np.argmin([fit.chi2 for fit in fits]))
     best = FittedModel(model_with(step.start, order[at].effect), fits[at])
-    base = with_noise_about(best, processes=means.processes)
+    base = with_noise_about(best, processes=context.processes)
     if clearer(best.model.base, base) < SETTINGS.clearer_bic:
         return step
     start = refitted(step.start, base)
-    return _look(start, [look.effect for look in step.looks], means)
+    return _look(start, [look.effect for look in step.looks], context)
 
 
-def _look(trial: FittedModel, effects: Sequence[str], means: SearchContext) -> SearchStep:
-    looks = look_at(trial, effects, means.processes)
+def _look(trial: FittedModel, effects: Sequence[str], context: SearchContext) -> SearchStep:
+    looks = look_at(trial, effects, context.processes)
     directions = [look.directions for look in looks]
-    return SearchStep(
-        trial,
-        lack_of_fit(trial.model, trial.fit, directions, means.rng, means.processes),
-        tuple(looks),
-    )
-
-
-def _claims(steps: Sequence[SearchStep], spare: float) -> list[FittedModel]:
-    """Return the best trials that gain enough over the model they started from, each effect once.
-
-    Those with a strength at a limit, which may not be claimed, only where there are no others.
-    """
-    found = [
-        trial
-        for step in steps
-        for trial in step.trials
-        if step.start.penalised - trial.penalised >= spare
-    ]
-    inside = [trial for trial in found if not any(at_limit(trial, e) for e in trial.effects)]
-    best: dict[frozenset[str], FittedModel] = {}
-    for trial in in_order(inside or found):
-        best.setdefault(frozenset(trial.effects), trial)
-    leading = list(best.values())[: SETTINGS.branches]
-    return [
-        trial
-        for trial in leading
-        if trial.fit.chi2 <= SETTINGS.far_chi2_ratio * leading[0].fit.chi2
-    ]
-
-
-def dropped(trial: FittedModel, effects: Sequence[str], processes: int = 1) -> list[FittedModel]:
-    """Fit the model without each of some effects, from where it stands."""
-    base: Base = trial.model.base
-    of = trial.model.effects
-    free = [{name: of[name] for name in of if name != effect} for effect in effects]
-    models = [model_of(base, kept, trial.model.channels) for kept in free]
-
-    def fit(k: int) -> Fit:
-        keep = [name in models[k].names for name in trial.model.names]
-        return refreshed(models[k], descend(models[k], trial.fit.x[keep]))
-
-    return list(map(FittedModel, models, parallel_map(fit, len(models), processes)))
+    lack = lack_of_fit(trial.model, trial.fit, directions, context.rng, context.processes)
+    return SearchStep(trial, lack, tuple(looks))

@@ -20,7 +20,7 @@ MOST = 12
 """Candidates and experiments that a table lists."""
 
 
-CLAIMS = ("named", "ambiguous", "multiple")
+CLAIMS = ("named", "ambiguous", "multiple", "partly")
 """Verdicts that claim an effect."""
 
 

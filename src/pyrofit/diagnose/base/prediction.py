@@ -1,0 +1,111 @@
+"""What fitted models predict: experiments that are left out of the fit, or held out of the study.
+
+A prediction is scored by the logarithm of its density (Gneiting and Raftery 2007,
+doi 10.1198/016214506000001437), parameters uncertain as the calibration leaves them:
+
+    log p(y_out | y_cal) = log p(y_out, y_cal) - log p(y_cal),
+    log p(y) = -(min chi2 + log det(J^T J + Pi))/2 + constant   (Laplace),
+
+Pi the inverse variance of a value anywhere within its limits. A model that predicts badly but has
+wide intervals loses less than one with narrow intervals.
+"""
+
+from collections.abc import Sequence
+from dataclasses import dataclass, replace
+
+import numpy as np
+
+from pyrofit.diagnose.base.descent import Fit, descend
+from pyrofit.diagnose.base.fitted import FittedModel, up_to_date
+from pyrofit.diagnose.base.model import Model, model_of
+from pyrofit.estimate.posterior import curvature
+from pyrofit.experiments import kind_of
+from pyrofit.parallel import parallel_map
+
+HELD_OUT = "held out"
+
+
+@dataclass(frozen=True, eq=False)
+class Predictions:
+    """Log scores by experiment left out, or held out, and the fit to all signals."""
+
+    scores: dict[str, float]
+    whole: FittedModel
+
+    @property
+    def total(self) -> float:
+        """Sum of the log scores."""
+        return sum(self.scores.values())
+
+
+def forecast(part: Fit, whole: Fit) -> float:
+    """Return the log score of what a fit to the whole has more than a fit to a part."""
+    misfit = whole.chi2 - part.chi2
+    return -0.5 * (misfit + _log_det(whole) - _log_det(part))
+
+
+def _log_det(fit: Fit) -> float:
+    return float(np.linalg.slogdet(curvature(fit.jacobian))[1])
+
+
+def slabs(trial: FittedModel) -> list[str]:
+    """Return the calibrated experiments that show the slab: without any of them others remain."""
+    base = trial.model.base
+    found = [base.channels[i] for i in trial.model.channels]
+    runs = base.likelihood.problem.runs
+    names = dict.fromkeys(n for n, _ in found if kind_of(runs[n].experiment).stage == "imp")
+    return list(names) if len(names) > 1 else []
+
+
+def predictions(
+    trials: Sequence[FittedModel], processes: int = 1, held_out: bool = True
+) -> list[Predictions]:
+    """Return what models predict: experiments from the others, and what is held out.
+
+    With ``held_out`` false, only calibrated experiments are left out, one by one.
+    """
+    tasks = [(k, name) for k, trial in enumerate(trials) for name in _tasks(trial, held_out)]
+    fits = parallel_map(
+        lambda i: _refit(trials[tasks[i][0]], tasks[i][1]).fit, len(tasks), processes
+    )
+    found = [Predictions({}, trial) for trial in trials]
+    for (k, name), fit in zip(tasks, fits, strict=True):
+        if name == HELD_OUT:
+            found[k] = replace(found[k], whole=FittedModel(_model_for(trials[k], name), fit))
+        if name != HELD_OUT or not _several(trials[k]):
+            out = name.startswith(HELD_OUT)
+            part, whole = (trials[k].fit, fit) if out else (fit, trials[k].fit)
+            found[k].scores[name] = forecast(part, whole)
+    return found
+
+
+def _tasks(trial: FittedModel, held_out: bool) -> list[str]:
+    """Return the predictions of a model: all that is held out, each of several, each left out."""
+    base = trial.model.base
+    whole = [HELD_OUT] if held_out and base.held_out else []
+    return [*whole, *(_several(trial) if held_out else []), *slabs(trial)]
+
+
+def _several(trial: FittedModel) -> list[str]:
+    """Return the names of the predictions of held-out experiments, if there are several."""
+    base = trial.model.base
+    names = dict.fromkeys(base.channels[i][0] for i in base.held_out)
+    return [f"{HELD_OUT}: {name}" for name in names] if len(names) > 1 else []
+
+
+def _model_for(trial: FittedModel, prediction: str) -> Model:
+    """Return the model against all channels, with one held-out experiment, or without one."""
+    base, used = trial.model.base, trial.model.channels
+    _, out, name = prediction.partition(f"{HELD_OUT}: ")
+    if prediction == HELD_OUT:
+        channels = (*used, *base.held_out)
+    elif out:
+        channels = (*used, *(i for i in base.held_out if base.channels[i][0] == name))
+    else:
+        channels = tuple(i for i in used if base.channels[i][0] != prediction)
+    return model_of(base, trial.model.effects, channels)
+
+
+def _refit(trial: FittedModel, prediction: str) -> FittedModel:
+    model = _model_for(trial, prediction)
+    return up_to_date(FittedModel(model, descend(model, trial.fit.x)))

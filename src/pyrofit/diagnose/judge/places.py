@@ -1,0 +1,130 @@
+"""Which effects of the final model are needed, and what speaks for and against each."""
+
+from collections.abc import Sequence
+from dataclasses import replace
+
+import numpy as np
+
+from pyrofit.diagnose.base.adequacy import lack_of_fit
+from pyrofit.diagnose.base.fitted import FittedModel, at_limit, up_to_date
+from pyrofit.diagnose.base.prediction import predictions
+from pyrofit.diagnose.judge.claim_tests import Trust, explains, trust
+from pyrofit.diagnose.judge.findings import Finding, Judged
+from pyrofit.diagnose.search.restart import dropped
+from pyrofit.diagnose.search.step import SearchStep
+from pyrofit.diagnose.search.stepwise import Search
+from pyrofit.diagnose.settings import SETTINGS
+from pyrofit.parallel import parallel_map
+
+
+def needed(
+    found: Search, rng: np.random.Generator, processes: int
+) -> tuple[Search, list[FittedModel]]:
+    """End a search without the effects that others make superfluous, the least one first.
+
+    Returns the search, and the best model without each of the effects that are left.
+    """
+    without = without_each(found, processes)
+    while len(without) > 1:
+        least = min(without, key=lambda trial: trial.penalised)
+        if least.penalised - found.end.penalised >= found.spare:
+            break
+        found = ended(found, least, rng)
+        without = without_each(found, processes)
+    if not any(_same(trial, found.end) for trial in found.trials):
+        step = SearchStep(without[0], found.end_lack, (), (found.end,))
+        found = replace(found, rounds=(*found.rounds, step))
+    return found, without
+
+
+def without_each(found: Search, processes: int) -> list[FittedModel]:
+    """Return the best model without each effect of a search's end: as dropped, or as at hand."""
+    dropped_ones = dropped(found.end, found.end.effects, processes)
+    at_hand = [found.base, *found.trials]
+    return [
+        up_to_date(min([one, *(t for t in at_hand if _same(t, one))], key=lambda t: t.fit.chi2))
+        for one in dropped_ones
+    ]
+
+
+def _same(trial: FittedModel, other: FittedModel) -> bool:
+    return dict(trial.model.effects) == dict(other.model.effects)
+
+
+def ended(found: Search, end: FittedModel, rng: np.random.Generator) -> Search:
+    """Return a search with another end."""
+    return replace(found, end=end, end_lack=lack_of_fit(end.model, end.fit, [], rng))
+
+
+def findings_of(
+    found: Search, without: Sequence[FittedModel], rng: np.random.Generator, processes: int
+) -> tuple[Finding, ...]:
+    """Judge each effect of a search's end, and those that it cannot be told from.
+
+    ``without`` are the models without each of them.
+    """
+    effects = found.end.effects
+    places = [alternatives(found, effect) for effect in effects]
+    # The end of the search has a place among the rivals of each of its effects.
+    rivals = {_key(trial): trial for place in places for _, trial in place}
+    predicted = predictions([*without, *rivals.values()], processes)
+    before, own = predicted[: len(without)], predicted[len(without) :]
+    dispersion = 1.0 if found.end_lack.adequate else found.end.posterior.dispersion
+    rngs = rng.spawn(len(own))
+    explained = parallel_map(lambda i: explains(own[i], rngs[i]), len(own), processes)
+    known = dict(zip(rivals, zip(own, explained, strict=True), strict=True))
+
+    def judged(name: str, trial: FittedModel, k: int) -> Judged:
+        foreseen, also = known[_key(trial)]
+        about = trust(trial, name, foreseen, before[k], also, dispersion)
+        if trial is not places[k][0][1]:  # the end's other effects have places of their own
+            limits = filter(None, (at_limit(trial, effect) for effect in trial.effects))
+            about = replace(about, limit=next(limits, ""))
+        gain = (without[k].fit.chi2 - trial.fit.chi2) / dispersion
+        gain -= (trial.numbers - without[k].numbers) * float(np.log(trial.model.points))
+        return Judged(name, trial, about, _against(gain, found.spare, about))
+
+    return tuple(
+        Finding(effect, tuple(judged(name, trial, k) for name, trial in places[k]))
+        for k, effect in enumerate(effects)
+    )
+
+
+def _key(trial: FittedModel) -> tuple[tuple[str, tuple[str, ...]], ...]:
+    return tuple(trial.model.effects.items())
+
+
+def alternatives(found: Search, effect: str) -> list[tuple[str, FittedModel]]:
+    """Return the models with another effect in one's place that cannot be told from the best.
+
+    Of each effect the best form; the end of the search itself first.
+    """
+    others = set(found.end.effects) - {effect}
+    best = {effect: found.end}
+    for trial in sorted(found.trials, key=lambda trial: trial.penalised):
+        (*rest,) = set(trial.effects) - others
+        same = others <= set(trial.effects) and len(rest) == 1
+        if same and trial.penalised <= found.end.penalised + SETTINGS.ambiguous_chi2:
+            best.setdefault(rest[0], trial)
+    return [(name, up_to_date(trial)) for name, trial in list(best.items())[: SETTINGS.most_judged]]
+
+
+def _against(gain: float, spare: float, about: Trust) -> str:
+    """Say what speaks against a model, nothing where it passes.
+
+    ``gain`` is that of penalised chi-square over the model without the effect.
+    """
+    if gain < spare:
+        return f"gains {gain:.1f} of penalised chi-square, {spare:.1f} are asked for"
+    if about.limit:
+        return f"{about.limit} rests at a limit"
+    if about.disagree < SETTINGS.agreement_level:
+        return f"the experiments ask for different strengths (p = {about.disagree:.1g})"
+    if about.informative and not about.predicts:
+        worst = min(about.gains, key=lambda name: about.gains[name])
+        return (
+            f"predictions do not improve: log score {about.gains[worst]:+.1f} for {worst}, "
+            f"{sum(about.gains.values()):+.1f} in all; "
+            f"{SETTINGS.informative_gain:g} at least is asked for"
+        )
+    return ""

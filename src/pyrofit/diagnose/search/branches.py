@@ -1,0 +1,72 @@
+"""Which models a step carries on: those that gain enough and predict what was left out."""
+
+from collections.abc import Sequence
+
+from pyrofit.diagnose.base.fitted import FittedModel, at_limit
+from pyrofit.diagnose.base.prediction import predictions, slabs
+from pyrofit.diagnose.search.step import SearchContext, SearchStep, in_order
+from pyrofit.diagnose.settings import SETTINGS
+from pyrofit.effects import known_effects
+
+Claim = tuple[FittedModel, FittedModel]
+"""A model, and the one that it was started from."""
+
+
+def branches(
+    steps: Sequence[SearchStep], spare: float, context: SearchContext
+) -> list[FittedModel]:
+    """Return the models that are carried on, the best first.
+
+    Those that gain enough are compared by penalised chi-square. Where several experiments show the
+    slab, each of them is also predicted from the others: the sum of the log scores, doubled, counts
+    as much as chi-square does, and a model whose predictions get worse comes behind all others.
+    """
+    claims = _claims(steps, spare)
+    if len(claims) > 1 and slabs(claims[0][0]):
+        claims = _by_prediction(claims, context)
+    found = [trial for trial, _ in claims][: SETTINGS.branches]
+    if not found:
+        return []
+    lowest = min(trial.fit.chi2 for trial in found)
+    return [trial for trial in found if trial.fit.chi2 <= SETTINGS.far_chi2_ratio * lowest]
+
+
+def _claims(steps: Sequence[SearchStep], spare: float) -> list[Claim]:
+    """Return the best models that gain enough, one for each set of groups of effects.
+
+    Those with a strength at a limit, which may not be claimed, only where there are no others.
+    """
+    found = [
+        (trial, step.start)
+        for step in steps
+        for trial in step.trials
+        if step.start.penalised - trial.penalised >= spare
+    ]
+    inside = [c for c in found if not any(at_limit(c[0], e) for e in c[0].effects)]
+    start = {id(trial): start for trial, start in inside or found}
+    best: dict[frozenset[str], FittedModel] = {}
+    for trial in in_order([trial for trial, _ in inside or found]):
+        best.setdefault(_groups(trial), trial)
+    return [(trial, start[id(trial)]) for trial in list(best.values())[: SETTINGS.most_predicted]]
+
+
+def _groups(trial: FittedModel) -> frozenset[str]:
+    catalogue = known_effects()
+    return frozenset(catalogue[effect].group for effect in trial.effects)
+
+
+def _by_prediction(claims: Sequence[Claim], context: SearchContext) -> list[Claim]:
+    """Return claims in the order of penalised chi-square less twice the log scores."""
+    starts = {id(start): start for _, start in claims}
+    models = [*(trial for trial, _ in claims), *starts.values()]
+    found = predictions(models, context.processes, held_out=False)
+    own = found[: len(claims)]
+    before = dict(zip(starts, found[len(claims) :], strict=True))
+
+    def order(k: int) -> tuple[bool, float]:
+        trial, start = claims[k]
+        gains = [own[k].scores[name] - s for name, s in before[id(start)].scores.items()]
+        worse = sum(gains) < 0.0 or min(gains) <= -SETTINGS.informative_gain
+        return worse, trial.penalised - 2.0 * own[k].total
+
+    return [claims[k] for k in sorted(range(len(claims)), key=order)]
