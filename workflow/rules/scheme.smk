@@ -28,7 +28,9 @@ if study.kinetics is not None:
         params:
             study=STUDY,
             digest=digest(dependencies.scheme(study)),
-            source=source_fingerprint("pyrofit.stages.scheme", "pyrofit.show.scheme_page"),
+            source=source_fingerprint(
+                "pyrofit.stages.scheme", "pyrofit.show.scheme_page"
+            ),
         message:
             "Which reaction scheme the thermogravimetric records support"
         shell:
