@@ -142,8 +142,8 @@ def _curves(
 def root_mean(errors: Sequence[float]) -> float:
     """Return the root mean square.
 
-    >>> root_mean([3.0, 4.0, 5.0, 0.0]) ** 2
-    12.5
+    >>> root_mean([3.0, -3.0, 3.0, 3.0])
+    3.0
     """
     return float(np.sqrt(np.mean(np.square(errors))))
 
