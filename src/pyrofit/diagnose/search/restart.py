@@ -7,7 +7,7 @@ import numpy as np
 
 from pyrofit.diagnose.base.descent import Fit, descend, refreshed
 from pyrofit.diagnose.base.fitted import FittedModel, followed, lower_of
-from pyrofit.diagnose.base.model import Base, extended, model_of, strength_of
+from pyrofit.diagnose.base.model import Base, Free, extended, model_of, strength_of
 from pyrofit.diagnose.search.step import SearchContext, in_order
 from pyrofit.diagnose.settings import SETTINGS
 from pyrofit.parallel import parallel_map
@@ -31,22 +31,22 @@ def restarted(
     fitted again without it, each from where it ended.
     """
     leading = [t for t in trials if set(t.effects) > set(start.effects)][: SETTINGS.most_restarts]
-    base, channels = start.model.base, start.model.channels
+    base, channels, of = start.model.base, start.model.channels, set(start.effects)
 
-    def without_last(k: int) -> FittedModel:
+    def kept(trial: FittedModel) -> Free:
+        return {name: free for name, free in trial.model.effects.items() if name in of}
+
+    def without(k: int) -> FittedModel:
         trial = leading[k]
-        last = trial.effects[-1]
-        kept = {name: free for name, free in trial.model.effects.items() if name != last}
-        model = model_of(base, kept, channels)
+        model = model_of(base, kept(trial), channels)
         keep = [name in model.names for name in trial.model.names]
         return FittedModel(model, descend(model, trial.fit.x[keep]))
 
     best = start
     for k, fit in enumerate(
-        parallel_map(lambda k: without_last(k).fit, len(leading), context.processes)
+        parallel_map(lambda k: without(k).fit, len(leading), context.processes)
     ):
-        kept = {n: f for n, f in leading[k].model.effects.items() if n != leading[k].effects[-1]}
-        trial = FittedModel(model_of(base, kept, channels), fit)
+        trial = FittedModel(model_of(base, kept(leading[k]), channels), fit)
         if trial.penalised < best.penalised - SETTINGS.same_valley:
             best = trial
     return best if best is start else replace(best, fit=refreshed(best.model, best.fit))
