@@ -87,8 +87,8 @@ class Settings:
     """Models of a step whose predictions are compared."""
     most_exchanged: int = 4
     """Effects that are tried in the place of each effect of the final model."""
-    other_bases: int = 2
-    """Other minima of the base model from which leading effects are fitted where misfit is left."""
+    other_starts: int = 2
+    """Points within the limits from which leading effects are fitted as well, if misfit is left."""
     noise_leaders: int = 3
     """Effects with which the noise is estimated again."""
     ambiguous_chi2: float = 9.0

@@ -2,15 +2,11 @@
 
 from typing import Literal, get_args
 
-from pydantic import BaseModel, ConfigDict, Field
+from pydantic import Field
+
+from pyrofit.results.record import Record
 
 Kind = Literal["none", "named", "ambiguous", "multiple", "partly", "unknown"]
-
-
-class Record(BaseModel):
-    """A part of the result; its keys are exactly these."""
-
-    model_config = ConfigDict(strict=True, frozen=True, extra="forbid", allow_inf_nan=False)
 
 
 class OfSuspect(Record):

@@ -3,7 +3,8 @@
 from collections.abc import Iterator
 from typing import Literal, get_args, get_origin
 
-from pyrofit.results.diagnosis_schema import Diagnosis, Record
+from pyrofit.results.diagnosis_schema import Diagnosis
+from pyrofit.results.record import Record
 
 _TYPES = {
     "str": "text",

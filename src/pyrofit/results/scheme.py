@@ -5,11 +5,12 @@ from collections.abc import Mapping
 from typing import Any
 
 import pandas as pd
-from pydantic import BaseModel, ConfigDict, Field, ValidationError
+from pydantic import Field, ValidationError
 
 from pyrofit.config import Study
 from pyrofit.errors import DataError
 from pyrofit.results.files import Results, read_csv, read_json, write_json
+from pyrofit.results.record import Record
 
 FILE = "scheme.json"
 CURVES = "curves.csv"
@@ -17,13 +18,7 @@ EXTENDED = "extended.yaml"
 COLUMNS = ("temperature_K", "measured", "before", "after", "predicted")
 
 
-class _Part(BaseModel):
-    """A part of the result; its keys are exactly these."""
-
-    model_config = ConfigDict(frozen=True, extra="forbid", allow_inf_nan=False)
-
-
-class OfRecord(_Part):
+class OfRecord(Record):
     """A record of mass, and how a scheme meets it."""
 
     experiment: str = Field(description="experiment")
@@ -36,7 +31,7 @@ class OfRecord(_Part):
     )
 
 
-class OfScheme(_Part):
+class OfScheme(Record):
     """A scheme as it was fitted."""
 
     name: str = Field(description="identifier")
@@ -56,7 +51,7 @@ class OfScheme(_Part):
     records: list[OfRecord] = Field(description="how it meets each record")
 
 
-class OfParameter(_Part):
+class OfParameter(Record):
     """A parameter of the chosen scheme with its 95 % interval, in its unit."""
 
     label: str = Field(description="what it is")
@@ -67,7 +62,7 @@ class OfParameter(_Part):
     at_limit: bool = Field(description="the estimate is at a limit")
 
 
-class SchemeChoice(_Part):
+class SchemeChoice(Record):
     """The result."""
 
     study: str = Field(description="name of the study")

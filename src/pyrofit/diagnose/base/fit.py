@@ -14,9 +14,9 @@ from pyrofit.config import (
     diagnosed_parameters,
     held_out_channels,
 )
-from pyrofit.diagnose.base.descent import descend, refreshed
+from pyrofit.diagnose.base.descent import Fit, descend, refreshed
 from pyrofit.diagnose.base.fitted import FittedModel, polished
-from pyrofit.diagnose.base.model import Base, model_of
+from pyrofit.diagnose.base.model import Base, Model, model_of
 from pyrofit.diagnose.settings import SETTINGS
 from pyrofit.errors import DataError
 from pyrofit.estimate.between_repeats import with_repeats
@@ -58,7 +58,7 @@ def set_up(study: Study, measurements: Measurements, processes: int = 1) -> Setu
     first, starts = _fitted(base, study.seed, processes)
     _check_held_out(first)
     base = with_noise_about(first, processes=processes)
-    others = tuple(starts[: SETTINGS.other_bases])
+    others = tuple(starts[: SETTINGS.other_starts])
     fitted = weighed(refitted(first, base))
     return Setup(fitted, candidate_effects(study), others)
 
@@ -173,7 +173,20 @@ def with_noise_about(
 def refitted(trial: FittedModel, base: Base) -> FittedModel:
     """Return the same effects fitted with another noise."""
     model = model_of(base, trial.model.effects, trial.model.channels)
-    return FittedModel(model, refreshed(model, descend(model, trial.fit.x)))
+    return FittedModel(model, _refit(model, trial.fit.x))
+
+
+def refitted_all(
+    trials: Sequence[FittedModel], base: Base, processes: int = 1
+) -> list[FittedModel]:
+    """Return several fitted models, each with its own effects, fitted with another noise."""
+    models = [model_of(base, trial.model.effects, trial.model.channels) for trial in trials]
+    fits = parallel_map(lambda k: _refit(models[k], trials[k].fit.x), len(models), processes)
+    return list(map(FittedModel, models, fits))
+
+
+def _refit(model: Model, x: FloatArray) -> Fit:
+    return refreshed(model, descend(model, x))
 
 
 def clearer(base: Base, other: Base) -> float:

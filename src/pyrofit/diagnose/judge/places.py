@@ -10,7 +10,7 @@ from pyrofit.diagnose.base.fitted import FittedModel, at_limit, up_to_date
 from pyrofit.diagnose.base.prediction import predictions
 from pyrofit.diagnose.judge.claim_tests import Trust, explains, trust
 from pyrofit.diagnose.judge.findings import Finding, Judged
-from pyrofit.diagnose.search.restart import dropped
+from pyrofit.diagnose.search.restart import refitted_without
 from pyrofit.diagnose.search.step import SearchStep
 from pyrofit.diagnose.search.stepwise import Search
 from pyrofit.diagnose.settings import SETTINGS
@@ -39,11 +39,11 @@ def needed(
 
 def without_each(found: Search, processes: int) -> list[FittedModel]:
     """Return the best model without each effect of a search's end: as dropped, or as at hand."""
-    dropped_ones = dropped(found.end, found.end.effects, processes)
+    reduced = refitted_without(found.end, found.end.effects, processes)
     at_hand = [found.base, *found.trials]
     return [
         up_to_date(min([one, *(t for t in at_hand if _same(t, one))], key=lambda t: t.fit.chi2))
-        for one in dropped_ones
+        for one in reduced
     ]
 
 

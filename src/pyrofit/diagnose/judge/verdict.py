@@ -90,7 +90,7 @@ def _partly(
 
 
 def _supported(finding: Finding) -> bool:
-    """Tell whether the leading effect passes every test, and nothing else is as good."""
+    """Tell whether the leading effect passes every test, and all that fit as well agree with it."""
     passes = bool(finding.kept) and finding.kept[0] is finding.judged[0]
     return passes and bool(finding.group) and finding.predicted
 

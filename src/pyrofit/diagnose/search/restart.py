@@ -7,7 +7,7 @@ import numpy as np
 
 from pyrofit.diagnose.base.descent import Fit, descend, refreshed
 from pyrofit.diagnose.base.fitted import FittedModel, followed, lower_of
-from pyrofit.diagnose.base.model import Base, Free, extended, model_of, strength_of
+from pyrofit.diagnose.base.model import extended, model_of, strength_of
 from pyrofit.diagnose.search.step import SearchContext, in_order
 from pyrofit.diagnose.settings import SETTINGS
 from pyrofit.parallel import parallel_map
@@ -31,25 +31,9 @@ def restarted(
     fitted again without it, each from where it ended.
     """
     leading = [t for t in trials if set(t.effects) > set(start.effects)][: SETTINGS.most_restarts]
-    base, channels, of = start.model.base, start.model.channels, set(start.effects)
-
-    def kept(trial: FittedModel) -> Free:
-        return {name: free for name, free in trial.model.effects.items() if name in of}
-
-    def without(k: int) -> FittedModel:
-        trial = leading[k]
-        model = model_of(base, kept(trial), channels)
-        keep = [name in model.names for name in trial.model.names]
-        return FittedModel(model, descend(model, trial.fit.x[keep]))
-
-    best = start
-    for k, fit in enumerate(
-        parallel_map(lambda k: without(k).fit, len(leading), context.processes)
-    ):
-        trial = FittedModel(model_of(base, kept(leading[k]), channels), fit)
-        if trial.penalised < best.penalised - SETTINGS.same_valley:
-            best = trial
-    return best if best is start else replace(best, fit=refreshed(best.model, best.fit))
+    again = _reduced([(trial, start.effects) for trial in leading], context.processes)
+    best = min(again, key=lambda trial: trial.penalised, default=start)
+    return best if best.penalised < start.penalised - SETTINGS.same_valley else start
 
 
 def from_other_starts(trials: Sequence[FittedModel], context: SearchContext) -> list[FittedModel]:
@@ -91,15 +75,30 @@ def _start(trial: FittedModel, x: FloatArray) -> FloatArray:
     return points[int(np.argmin(chi2))]
 
 
-def dropped(trial: FittedModel, effects: Sequence[str], processes: int = 1) -> list[FittedModel]:
+def refitted_without(
+    trial: FittedModel, effects: Sequence[str], processes: int = 1
+) -> list[FittedModel]:
     """Fit the model without each of some effects, from where it stands."""
-    base: Base = trial.model.base
-    of = trial.model.effects
-    free = [{name: of[name] for name in of if name != effect} for effect in effects]
-    models = [model_of(base, kept, trial.model.channels) for kept in free]
+    kept = [[name for name in trial.effects if name != effect] for effect in effects]
+    return _reduced([(trial, names) for names in kept], processes)
+
+
+def _reduced(
+    tasks: Sequence[tuple[FittedModel, Sequence[str]]], processes: int
+) -> list[FittedModel]:
+    """Fit models with only the named effects of theirs, each from where it stands."""
+    models = [
+        model_of(
+            trial.model.base,
+            {name: free for name, free in trial.model.effects.items() if name in names},
+            trial.model.channels,
+        )
+        for trial, names in tasks
+    ]
 
     def fit(k: int) -> Fit:
-        keep = [name in models[k].names for name in trial.model.names]
-        return refreshed(models[k], descend(models[k], trial.fit.x[keep]))
+        whole = tasks[k][0]
+        keep = [name in models[k].names for name in whole.model.names]
+        return refreshed(models[k], descend(models[k], whole.fit.x[keep]))
 
     return list(map(FittedModel, models, parallel_map(fit, len(models), processes)))

@@ -114,13 +114,7 @@ def _forms(leading: Sequence[FittedModel], context: SearchContext) -> list[Fitte
         tasks = [(trial, *form) for trial in leading for form in fixed_forms(trial)]
         if not tasks:
             break
-        fits = parallel_map(
-            lambda i, t=tasks: with_form(*t[i]).fit,  # type: ignore[misc]
-            len(tasks),
-            context.processes,
-        )
-        models = [model_with_form(*task) for task in tasks]
-        formed = _told(list(map(FittedModel, models, fits)), context)
+        formed = _told(_with_forms(tasks, context.processes), context)
         paying = [
             trial
             for trial, (start, *_) in zip(formed, tasks, strict=True)
@@ -130,6 +124,12 @@ def _forms(leading: Sequence[FittedModel], context: SearchContext) -> list[Fitte
         found += [*formed, *paying]
         leading = in_order(paying)[:1]
     return found
+
+
+def _with_forms(tasks: Sequence[tuple[FittedModel, str, str]], processes: int) -> list[FittedModel]:
+    """Fit a model with a form parameter of an effect more, for each such task."""
+    fits = parallel_map(lambda i: with_form(*tasks[i]).fit, len(tasks), processes)
+    return list(map(FittedModel, (model_with_form(*task) for task in tasks), fits))
 
 
 def _polished(trials: Sequence[FittedModel], context: SearchContext) -> list[FittedModel]:

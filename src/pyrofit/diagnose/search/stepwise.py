@@ -6,11 +6,16 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from pyrofit.diagnose.base.adequacy import LackOfFit, lack_of_fit
-from pyrofit.diagnose.base.fit import blurred, clearer, refitted, with_noise_about
+from pyrofit.diagnose.base.fit import blurred, clearer, refitted, refitted_all, with_noise_about
 from pyrofit.diagnose.base.fitted import FittedModel, up_to_date
 from pyrofit.diagnose.search.branches import branches
 from pyrofit.diagnose.search.refit import look_at, model_with, with_effect
-from pyrofit.diagnose.search.restart import best_of_each, dropped, from_other_starts, restarted
+from pyrofit.diagnose.search.restart import (
+    best_of_each,
+    from_other_starts,
+    refitted_without,
+    restarted,
+)
 from pyrofit.diagnose.search.step import SearchContext, SearchStep, in_order, more, singles
 from pyrofit.diagnose.settings import SETTINGS
 from pyrofit.parallel import parallel_map
@@ -67,11 +72,9 @@ def search(base: FittedModel, effects: Sequence[str], most: int, context: Search
     if clearer(found.end.model.base, sharper) < SETTINGS.clearer_bic:
         return found
     context.tell("once more, with the noise about the best model")
-    leading = _leading(found)
-    fits = parallel_map(lambda i: refitted(leading[i], sharper), len(leading), context.processes)
-    carried = [replace(t, model=replace(t.model, base=sharper)) for t in fits]
-    start = _look(refitted(found.base, sharper), effects, context)
-    return _Pass(effects, most, context, tuple(carried)).run(start)
+    carried = refitted_all([found.base, *_leading(found)], sharper, context.processes)
+    start = _look(carried[0], effects, context)
+    return _Pass(effects, most, context, tuple(carried[1:])).run(start)
 
 
 def _leading(found: Search) -> list[FittedModel]:
@@ -119,8 +122,21 @@ class _Pass:
             steps = [self._more(step, first=k == 0) for k, step in enumerate(steps)]
             rounds += steps
             beam = branches(steps, self.spare, self.context)
-        found = Search(tuple(rounds), best, best_lack, self.spare)
-        return self._exchanged(found) if len(best.effects) > 1 else found
+        found = self._not_above_carried(Search(tuple(rounds), best, best_lack, self.spare))
+        return self._exchanged(found) if len(found.end.effects) > 1 else found
+
+    def _not_above_carried(self, found: Search) -> Search:
+        """Return the search ended with the best carried model, where that ranks before its end."""
+
+        def rank(trial: FittedModel) -> float:
+            return trial.penalised + self.spare * len(trial.effects)
+
+        best = min([found.end, *self.carried], key=rank)
+        return found if best is found.end else self._ended(found, best)
+
+    def _ended(self, found: Search, best: FittedModel) -> Search:
+        step = self._onwards(best)
+        return replace(found, end=step.start, end_lack=step.lack)
 
     def _onwards(self, trial: FittedModel) -> SearchStep:
         rest = [effect for effect in self.effects if effect not in trial.effects]
@@ -155,7 +171,7 @@ class _Pass:
     def _exchanged(self, found: Search) -> Search:
         """Try other effects in the place of each of the final model; take what is better."""
         rounds = list(found.rounds)
-        for without in dropped(found.end, found.end.effects, self.context.processes):
+        for without in refitted_without(found.end, found.end.effects, self.context.processes):
             step = self._onwards(without)
             trials = more(step, SETTINGS.most_exchanged, self.context)
             rounds.append(replace(step, trials=tuple(trials)))
@@ -163,10 +179,8 @@ class _Pass:
             t for step in rounds for t in step.trials if len(t.effects) == len(found.end.effects)
         ]
         (best, *_) = in_order([found.end, *same])
-        if best is found.end:
-            return replace(found, rounds=tuple(rounds))
-        step = self._onwards(best)
-        return replace(found, rounds=tuple(rounds), end=step.start, end_lack=step.lack)
+        found = replace(found, rounds=tuple(rounds))
+        return found if best is found.end else self._ended(found, best)
 
 
 def _sharp(step: SearchStep, context: SearchContext) -> SearchStep:
