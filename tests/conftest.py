@@ -3,6 +3,7 @@
 The rest are the fast ones, `make test-fast`; none of them compiles a kernel.
 """
 
+import os
 import sys
 from pathlib import Path
 from types import ModuleType
@@ -45,8 +46,11 @@ KERNELS = [f"pyrofit.solver.kernels.{name}" for name in ("grid", "slab", "tga", 
 
 
 def pytest_collection_modifyitems(items: list[pytest.Item]) -> None:
-    """Mark the tests of a folder or a file with their speed class."""
+    """Mark tests with the speed class of their folder or file; skip those that lack their data."""
+    no_data = pytest.mark.skip(reason="PYROFIT_DATA_DIR is not set")
     for item in items:
+        if item.get_closest_marker("measured") and not os.environ.get("PYROFIT_DATA_DIR"):
+            item.add_marker(no_data)
         if HERE not in item.path.parents:
             continue  # an example of the source
         folder = item.path.relative_to(HERE).parts[0]

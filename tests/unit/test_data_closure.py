@@ -1,5 +1,3 @@
-import os
-
 import numpy as np
 import pytest
 
@@ -25,7 +23,6 @@ def test_series_from_zero_is_the_trapezoidal_rule() -> None:
 
 
 @pytest.mark.measured
-@pytest.mark.skipif(not os.environ.get("PYROFIT_DATA_DIR"), reason="PYROFIT_DATA_DIR is not set")
 @pytest.mark.parametrize(("flux", "mass", "negative"), [(25, 6.95, 8), (60, 6.82, 4)])
 def test_measured_runs_release_the_known_mass(flux: int, mass: float, negative: int) -> None:
     from pyrofit.data.fetch import locate

@@ -380,7 +380,6 @@ def test_impossible_description_is_refused(
 
 
 @pytest.mark.measured
-@pytest.mark.skipif(not os.environ.get("PYROFIT_DATA_DIR"), reason="PYROFIT_DATA_DIR is not set")
 def test_every_file_of_two_laboratories_is_read_without_options() -> None:
     from pyrofit.data.fetch import locate, registry
 
@@ -406,7 +405,6 @@ FLAWED = {
 
 
 @pytest.mark.measured
-@pytest.mark.skipif(not os.environ.get("PYROFIT_DATA_DIR"), reason="PYROFIT_DATA_DIR is not set")
 def test_heat_release_of_every_laboratory_is_read_without_naming_columns() -> None:
     # 139 of the 140 files of 17 laboratories that have a heat release rate, pine wood and PMMA.
     root = Path(os.environ["PYROFIT_DATA_DIR"])

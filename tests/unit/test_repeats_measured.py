@@ -13,10 +13,7 @@ from pyrofit.estimate.likelihood import likelihood_of
 from pyrofit.estimate.problem import make_problem
 from pyrofit.stages.reading import read_all
 
-pytestmark = [
-    pytest.mark.measured,
-    pytest.mark.skipif(not os.environ.get("PYROFIT_DATA_DIR"), reason="PYROFIT_DATA_DIR not set"),
-]
+pytestmark = pytest.mark.measured
 
 
 def folder() -> Path:

@@ -353,7 +353,6 @@ def test_gap_in_a_column_that_is_not_read_does_no_harm(tmp_path: Path) -> None:
 
 
 @pytest.mark.measured
-@pytest.mark.skipif(not os.environ.get("PYROFIT_DATA_DIR"), reason="PYROFIT_DATA_DIR is not set")
 @pytest.mark.parametrize("name", MEASURED)
 def test_records_of_laboratories_are_read(name: str) -> None:
     file, (quantity, options), first = MEASURED[name]

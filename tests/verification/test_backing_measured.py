@@ -15,10 +15,7 @@ from pyrofit.stages.reading import read_all
 
 SMOKE = Path(__file__).parents[2] / "config" / "smoke.yaml"
 FILE = "PMMA/Calibration_Data/Edinburgh/Edinburgh_Cone_25kW_1.csv"
-pytestmark = [
-    pytest.mark.measured,
-    pytest.mark.skipif(not os.environ.get("PYROFIT_DATA_DIR"), reason="PYROFIT_DATA_DIR not set"),
-]
+pytestmark = pytest.mark.measured
 BLOCK = {
     "density_kg_m3": 2700,
     "conductivity_W_mK": 200,

@@ -23,10 +23,7 @@ ROOT = os.environ.get("PYROFIT_DATA_DIR")
 TOLERANCE = 2e-4
 KINDS = ["RMSE", "RANGE", "RANGE_PROPTI", "BANDS_PROPTI"]
 
-pytestmark = [
-    pytest.mark.measured,
-    pytest.mark.skipif(not ROOT, reason="PYROFIT_DATA_DIR is not set"),
-]
+pytestmark = pytest.mark.measured
 
 
 @pytest.fixture(scope="module")
