@@ -255,6 +255,19 @@ def test_effect_that_leaves_a_misfit_explains_a_part() -> None:
     assert verdict.suspects == ()
 
 
+def test_effects_that_leave_only_noise_are_unknown_where_one_of_them_fails() -> None:
+    """Taken away, it would leave a misfit that the other explains in part."""
+    q = strength_of("c_T")[1]
+    beyond = 1.005 * (q.lower if q.typical < 0.0 else q.upper) / q.typical
+    found = searched(planted(k_T=0.8, c_T=beyond))
+    assert set(found.end.effects) == {"k_T", "c_T"}
+    assert found.end_lack.adequate
+    verdict = verdict_on(found)
+    assert verdict.kind == "unknown"
+    assert not verdict.confirmed
+    assert "c_T: c_T_slope_1_K rests at a limit" in verdict.reasons
+
+
 def test_effect_at_its_limit_is_not_claimed() -> None:
     q = strength_of("k_T")[1]
     beyond = 1.3 * (q.lower if q.typical < 0.0 else q.upper) / q.typical

@@ -93,14 +93,18 @@ def _from(trial: FittedModel, x: FloatArray) -> Fit:
 
 
 def _elsewhere(trial: FittedModel) -> Iterator[FloatArray]:
-    """Yield the fit with a parameter moved that is hardly determined or rests at a limit."""
+    """Yield the fit with a parameter moved that is hardly determined or rests at a limit.
+
+    A parameter with a known value is not searched elsewhere: what is known says where it is.
+    """
     best = trial.fit
     wide = np.sqrt(np.diag(covariance(best.jacobian))) > SETTINGS.wide_sd
     resting = (best.x <= 0.0) | (best.x >= 1.0)
     # What is uncertain of experiments that are held out changes nothing here.
     shown = np.any(best.jacobian[: trial.model.points] != 0.0, axis=0)
-    base = len(trial.model.names) - trial.numbers
-    for i in np.flatnonzero(((wide & shown) | resting)[:base]):
+    moved = (wide & shown) | resting
+    moved[list(trial.model.likelihood.prior.index)] = False
+    for i in np.flatnonzero(moved[: len(trial.model.names) - trial.numbers]):
         for value in SETTINGS.elsewhere:
             if abs(value - best.x[i]) > SETTINGS.apart:
                 x = best.x.copy()

@@ -66,8 +66,10 @@ def _partly(
     """Return the verdict on the effects that pass every test, if there are any.
 
     Effects that fail a test are taken away one by one, the one that gains least first; the others
-    are judged again. They usually explain a part only.
+    are judged again. They usually explain a part only. None is claimed where all together leave
+    nothing but noise: if one of these fails, the others may stand for a missing effect as well.
     """
+    all_fit = found.end_lack.adequate
     while not all(_supported(finding) for finding in findings):
         failed = [k for k, finding in enumerate(findings) if not _supported(finding)]
         if len(findings) == 1:
@@ -77,7 +79,7 @@ def _partly(
         findings = findings_of(found, without, rng, processes)
     if found.end_lack.adequate:
         return _explained(found, findings)
-    if ONE_FLUX in _doubts(found, findings):
+    if all_fit or ONE_FLUX in _doubts(found, findings):
         return None
     leading = [finding.kept[0] for finding in findings]
     rest = [
