@@ -15,12 +15,8 @@ from pyrofit.solver.backing import lower_backing, with_backing
 from pyrofit.solver.curves import Curves, Request, Runs
 from pyrofit.solver.heated import heated_samples
 from pyrofit.solver.lower import lower_material, lower_network
-from pyrofit.solver.lower_experiment import (
-    lower_exposure,
-    lower_layers,
-    lower_places,
-    lower_share,
-)
+from pyrofit.solver.lower_experiment import lower_layers, lower_places, lower_share
+from pyrofit.solver.lower_exposure import lower_exposure
 from pyrofit.solver.observe import observe
 from pyrofit.solver.run import Case, march
 

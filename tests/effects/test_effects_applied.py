@@ -27,8 +27,10 @@ from pyrofit.effects.base import changed
 from pyrofit.effects.page import effects_page
 from pyrofit.experiments import Gasification
 from pyrofit.model.experiment import Experiment
-from pyrofit.model.material import Changed, Material
-from pyrofit.model.slab import Back, Backing, Layer
+from pyrofit.model.material import Material
+from pyrofit.model.properties import Changed
+from pyrofit.model.slab import Backing, Layer
+from pyrofit.model.slab_faces import Back
 
 DOCS = Path(__file__).parents[2] / "docs"
 EFFECTS = known_effects()

@@ -10,7 +10,7 @@ import yaml
 from pyrofit.config import Study, as_study, diagnosed_parameters, digest
 from pyrofit.effects import known_effects
 from pyrofit.errors import StudyError
-from pyrofit.model.material import Changed
+from pyrofit.model.properties import Changed
 
 CONFIG = Path(__file__).parents[2] / "config"
 

@@ -5,8 +5,9 @@ import numpy as np
 import pytest
 
 from pyrofit.experiments import Gasification
-from pyrofit.model.material import Linear, Material, PowerLaw, Reaction, Table
-from pyrofit.solver import lower, lower_experiment
+from pyrofit.model.material import Material, Reaction
+from pyrofit.model.properties import Linear, PowerLaw, Table
+from pyrofit.solver import lower, lower_experiment, lower_exposure
 from pyrofit.solver.arrays import BACK_GAS, FLUX, FRONT_H, TABLE_TEMPERATURES_K, TIME
 
 VIRGIN: dict[str, Any] = {
@@ -61,7 +62,7 @@ def at(table: Any, temperature_K: float) -> float:
 def exposed(experiment, material):
     arrays = lower.lower_material(material, VALUES)
     share = lower_experiment.lower_share(experiment, material, VALUES)
-    return lower_experiment.lower_exposure(experiment, share, arrays, VALUES)
+    return lower_exposure.lower_exposure(experiment, share, arrays, VALUES)
 
 
 @pytest.mark.parametrize(
@@ -267,7 +268,7 @@ def test_whole_numbers_are_taken_as_floats(sets: int) -> None:
     values = VALUES | {"h": 12, "q": 30000}
     arrays = lower.lower_material(matter, values, sets)
     share = lower_experiment.lower_share(given, matter, values, sets)
-    exposure = lower_experiment.lower_exposure(given, share, arrays, values, sets)
+    exposure = lower_exposure.lower_exposure(given, share, arrays, values, sets)
     for found, exact in ((exposure.schedule[FRONT_H, 0], 12.0), (exposure.schedule[FLUX, 0], 3e4)):
         assert found.dtype == np.float64
         assert found.tolist() == [exact] * sets
@@ -406,7 +407,7 @@ def everything(values: Any, sets: int) -> list[Any]:
     return [
         *arrays,
         *lower.lower_network(matter, values, sets),
-        *lower_experiment.lower_exposure(given, share, arrays, values, sets),
+        *lower_exposure.lower_exposure(given, share, arrays, values, sets),
         *(
             part
             for layer in lower_experiment.lower_layers(given, matter, arrays, values, sets)

@@ -5,17 +5,9 @@ from pydantic import ValidationError
 
 from pyrofit.experiments import Gasification, Tga
 from pyrofit.model.base import Part, numbers, value_of
-from pyrofit.model.material import (
-    Changed,
-    Component,
-    Linear,
-    Material,
-    PowerLaw,
-    Reaction,
-    Table,
-    check_composition,
-)
+from pyrofit.model.material import Component, Material, Reaction, check_composition
 from pyrofit.model.parameters import Parameter
+from pyrofit.model.properties import Changed, Linear, PowerLaw, Table
 from pyrofit.model.time_table import TimeTable
 
 SOLID: dict[str, Any] = {

@@ -7,7 +7,7 @@ from pydantic import ValidationError
 
 from pyrofit.effects.base import changed
 from pyrofit.experiments import Gasification
-from pyrofit.model.slab import FluxProfile
+from pyrofit.model.slab_faces import FluxProfile
 from pyrofit.solver.arrays import FloatArray, Status
 from pyrofit.solver.curves import Curves, Request, Runs
 from pyrofit.solver.observe import observe, observe_one, rings

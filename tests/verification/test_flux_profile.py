@@ -5,7 +5,7 @@ import pytest
 from cases import paper_experiment, paper_material, rms_over_mean, run
 
 from pyrofit.effects.base import changed
-from pyrofit.model.slab import FluxProfile
+from pyrofit.model.slab_faces import FluxProfile
 from pyrofit.solver.curves import Request
 
 RADIUS_M, RELATIVE = (0.0, 0.02, 0.035), (1.0, 0.98, 0.9)

@@ -23,11 +23,12 @@ from terms import (
 
 from pyrofit.experiments import Gasification, Tga
 from pyrofit.model.accuracy import Accuracy, Resolution
-from pyrofit.model.material import Changed, Material
+from pyrofit.model.material import Material
+from pyrofit.model.properties import Changed
 from pyrofit.simulate import simulate_tga
 from pyrofit.solver.arrays import TABLE_TEMPERATURES_K, Status
 from pyrofit.solver.curves import Curves, Request
-from pyrofit.solver.lower import property_table
+from pyrofit.solver.lower_property import property_table
 from pyrofit.solver.reference.gasification import reference_gasification
 from pyrofit.solver.reference.tga import reference_tga
 

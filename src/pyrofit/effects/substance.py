@@ -4,7 +4,8 @@ from collections.abc import Collection, Mapping
 from typing import Any
 
 from pyrofit.effects.base import ComponentsChange, Numbers, changed
-from pyrofit.model.material import REST, Changed, Component, Material, Reaction
+from pyrofit.model.material import REST, Component, Material, Reaction
+from pyrofit.model.properties import Changed
 
 REFERENCE_RATE_1_S = 1e-3
 """At the reference temperature of a reaction that an effect adds."""

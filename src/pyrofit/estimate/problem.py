@@ -11,14 +11,14 @@ from pyrofit.config import Study, TermSpec
 from pyrofit.config.uses import parameters_in
 from pyrofit.cost import WeightedSum
 from pyrofit.estimate.distinct_sets import Indices, distinct_sets, taken
+from pyrofit.estimate.run import Run, is_alike
 from pyrofit.estimate.targets import Measurements, term_for
 from pyrofit.experiments import kind_of
 from pyrofit.experiments.base import Simulate
 from pyrofit.model.accuracy import Accuracy
-from pyrofit.model.experiment import Experiment
 from pyrofit.model.material import Material
 from pyrofit.solver.arrays import FloatArray, Status, Values
-from pyrofit.solver.curves import Curves, Request
+from pyrofit.solver.curves import Curves
 
 FAILED_COST = 1e12
 """Cost of a run that did not finish: finite, and worse than any run that did."""
@@ -37,34 +37,6 @@ class Evaluation:
 
 
 @dataclass(frozen=True)
-class _Run:
-    """One simulation and the terms that look at it."""
-
-    experiment: Experiment
-    requests: dict[str, Request]
-
-
-def _is_alike(one: _Run, other: _Run) -> bool:
-    """Tell whether two runs are repeats of one test with the same curves at the same times."""
-    repeats = one.experiment.repeat, other.experiment.repeat
-    return (
-        repeats[0] is not None
-        and repeats[1] is not None
-        and repeats[0].test == repeats[1].test
-        and one.requests.keys() == other.requests.keys()
-        and all(_is_same(one.requests[s], other.requests[s]) for s in one.requests)
-        and one.experiment.as_simulated(one.requests) == other.experiment.as_simulated(one.requests)
-    )
-
-
-def _is_same(one: Request, other: Request) -> bool:
-    pairs = ((one.time_s, other.time_s), (one.temperature_K, other.temperature_K))
-    return (one.average_s, one.output) == (other.average_s, other.output) and all(
-        a is b or (a is not None and b is not None and np.array_equal(a, b)) for a, b in pairs
-    )
-
-
-@dataclass(frozen=True)
 class Problem:
     """Estimation of ``names`` within ``lower`` and ``upper`` (SI units) by a cost, Eq. 5."""
 
@@ -73,7 +45,7 @@ class Problem:
     upper: FloatArray
     material: Material
     fixed: Mapping[str, float]
-    runs: Mapping[str, _Run]
+    runs: Mapping[str, Run]
     picks: tuple[tuple[str, str, NDArray[np.int64]], ...]
     cost: WeightedSum
     accuracy: Accuracy
@@ -144,7 +116,7 @@ class Problem:
         """The first experiment that is simulated as each one is."""
         found: dict[str, str] = {}
         for name, run in self.runs.items():
-            same = (n for n in dict.fromkeys(found.values()) if _is_alike(self.runs[n], run))
+            same = (n for n in dict.fromkeys(found.values()) if is_alike(self.runs[n], run))
             found[name] = next(same, name)
         return found
 
@@ -234,10 +206,10 @@ def make_problem(
     for spec, target in zip(specs, targets, strict=True):
         key = spec.experiment, spec.signal
         times[key] = np.union1d(times.get(key, np.empty(0)), target.time_s)
-    runs: dict[str, _Run] = {}
+    runs: dict[str, Run] = {}
     for (name, signal), at in times.items():
         experiment = study.experiments[name]
-        run = runs.setdefault(name, _Run(experiment, {}))
+        run = runs.setdefault(name, Run(experiment, {}))
         frame = measurements[name, signal]
         run.requests[signal] = kind_of(experiment).request(experiment, signal, frame, at)
     picks = tuple(

@@ -6,7 +6,8 @@ from dataclasses import replace
 import numpy as np
 
 from pyrofit.model.base import value_of
-from pyrofit.model.slab import FluxProfile, SlabExperiment
+from pyrofit.model.slab import SlabExperiment
+from pyrofit.model.slab_faces import FluxProfile
 from pyrofit.solver.arrays import FloatArray, Value, Values
 from pyrofit.solver.curves import Curves, Request, Runs
 

@@ -5,10 +5,11 @@ from collections.abc import Sequence
 import numpy as np
 
 from pyrofit.model.base import value_of
-from pyrofit.model.slab import Flame, Side, SlabExperiment
+from pyrofit.model.slab import SlabExperiment
+from pyrofit.model.slab_faces import Flame, Side
 from pyrofit.model.time_table import OverTime, TimeTable
 from pyrofit.solver.arrays import FLAME, FLUX, LIT, TIME, FloatArray, Value, Values
-from pyrofit.solver.lower import stack
+from pyrofit.solver.lower_property import stack
 
 Point = tuple[float, bool]
 """A time [s], and whether what holds just before it is meant."""

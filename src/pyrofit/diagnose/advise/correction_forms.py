@@ -16,13 +16,14 @@ from pyrofit.effects.base import changed
 from pyrofit.effects.substance import properties_changed, shares
 from pyrofit.estimate.problem import Outcome, Problem
 from pyrofit.model.base import value_of
-from pyrofit.model.slab import Front, SlabExperiment
+from pyrofit.model.slab import SlabExperiment
+from pyrofit.model.slab_faces import Front
 from pyrofit.model.time_table import TimeTable, at_start
 from pyrofit.simulate import simulate_gasification
 from pyrofit.solver.arrays import FloatArray
 from pyrofit.solver.arrays import Values as Sets
 from pyrofit.solver.curves import Request
-from pyrofit.solver.lower import property_table
+from pyrofit.solver.lower_property import property_table
 from pyrofit.solver.outputs import FRONT, MASS
 
 LOSS_SD = {"gas_temperature_K": 30.0, "h_change_W_m2K": 6.0, "h_cube_root_W_m2K43": 0.8}

@@ -12,26 +12,26 @@ Forzatti 1984, Chem. Eng. Sci. 39, 81).
 
 import math
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 from itertools import combinations
 
 import numpy as np
 
 from pyrofit.diagnose.advise.candidate_experiments import ideas
+from pyrofit.diagnose.advise.new_record import (
+    kind_of_record,
+    noise_of_record,
+    requests_of,
+    simulated,
+)
 from pyrofit.diagnose.base.fitted import FittedModel
-from pyrofit.diagnose.base.model import Base
 from pyrofit.diagnose.settings import SETTINGS
-from pyrofit.estimate.correlation import Correlation
 from pyrofit.estimate.derivatives import derivatives
 from pyrofit.estimate.noise import NoiseModel
 from pyrofit.estimate.posterior import curvature
-from pyrofit.experiments import kind_of
 from pyrofit.experiments.base import Idea
-from pyrofit.model.signal import TIMING_S
-from pyrofit.quantities import known_quantities
 from pyrofit.solver.arrays import FloatArray
 from pyrofit.solver.curves import Curves, Request
-from pyrofit.solver.outputs import MASS
 
 
 @dataclass(frozen=True)
@@ -54,16 +54,6 @@ class Design:
     words: str
     separation_sd: float
     pairs: dict[str, float]
-
-
-@dataclass(frozen=True, eq=False)
-class _Kind:
-    """Noise of a signal in this study, the spacing of its points and its clock's error [s]."""
-
-    sd: float
-    correlation: Correlation
-    spacing_s: float
-    timing_s: float
 
 
 @dataclass(frozen=True, eq=False)
@@ -96,13 +86,13 @@ def next_experiments(trials: Sequence[FittedModel]) -> list[Design]:
 
 def _designs(trials: Sequence[FittedModel], idea: Idea) -> list[Design]:
     """Return an idea with each choice of its signals; none where a simulation does not finish."""
-    kinds = {s: _kind(trials[0].model.base, s) for s in idea.most_quantities}
-    requests = _requests(trials, idea, kinds)
+    kinds = {s: kind_of_record(trials[0].model.base, s) for s in idea.most_quantities}
+    requests = requests_of(trials, idea, kinds)
     forecasts = [_forecast(trial, idea, requests) for trial in trials]
     known = [forecast for forecast in forecasts if forecast is not None]
     if len(known) < len(trials):
         return []
-    noise = {s: _noise(kinds[s], r.time_s, known[0].curve[s]) for s, r in requests.items()}
+    noise = {s: noise_of_record(kinds[s], r.time_s, known[0].curve[s]) for s, r in requests.items()}
     names = [_name(trial) for trial in trials]
     found = []
     for design, words, signals in idea.choices:
@@ -140,12 +130,12 @@ def _separation(one: _Forecast, other: _Forecast, noise: Mapping[str, NoiseModel
 def _forecast(trial: FittedModel, idea: Idea, requests: Mapping[str, Request]) -> _Forecast | None:
     """Return what a model predicts; None where it does not finish."""
     x = trial.fit.x
-    curves = _run(trial, idea, x, requests)
+    curves = simulated(trial, idea, x, requests)
     if not curves.status.finished:
         return None
 
     def stacked(X: FloatArray) -> list[FloatArray | None]:
-        runs = [_run(trial, idea, there, requests) for there in X]
+        runs = [simulated(trial, idea, there, requests) for there in X]
         return [_stacked(run, requests) if run.status.finished else None for run in runs]
 
     here = _stacked(curves, requests)
@@ -164,88 +154,3 @@ def _forecast(trial: FittedModel, idea: Idea, requests: Mapping[str, Request]) -
 
 def _stacked(curves: Curves, requests: Mapping[str, Request]) -> FloatArray:
     return np.concatenate([curves.signals[signal] for signal in requests])
-
-
-def _run(trial: FittedModel, idea: Idea, x: FloatArray, requests: Mapping[str, Request]) -> Curves:
-    """Simulate the new test with a model's own description of the one it is like."""
-    likelihood = trial.model.likelihood
-    problem = likelihood.problem
-    values = problem.values(likelihood.values(x))
-    experiment = idea.change(problem.runs[idea.like].experiment)
-    simulate = kind_of(experiment).simulate
-    return simulate([experiment], problem.material, values, [requests], problem.accuracy)[0][0]
-
-
-def _requests(
-    trials: Sequence[FittedModel], idea: Idea, kinds: Mapping[str, _Kind]
-) -> dict[str, Request]:
-    """Return times until all models have burnt out; of a TGA, the measured range of temperature."""
-    run = trials[0].model.likelihood.problem.runs[idea.like]
-    request = next(iter(run.requests.values()))
-    if request.temperature_K is not None:
-        T = np.linspace(request.temperature_K[0], request.temperature_K[-1], request.time_s.size)
-        rate = idea.change(run.experiment).heating_rate_K_min / 60.0
-        heated = Request((T - T[0]) / rate, temperature_K=T)
-        return {name: replace(heated, output=known_quantities()[name].curve) for name in kinds}
-    end = max(_burnt_out(trial, idea) for trial in trials)
-    widths = {
-        run.experiment.quantity(name).name: signal.average_s
-        for name, signal in run.experiment.signals.items()
-    }
-    return {
-        name: Request(
-            _times(kind.spacing_s, end),
-            widths.get(name, 0.0),
-            output=known_quantities()[name].curve,
-        )
-        for name, kind in kinds.items()
-    }
-
-
-def _times(spacing: float, end: float) -> FloatArray:
-    """Return times of a record, twenty at least."""
-    spacing = min(spacing, end / SETTINGS.design_fewest_times)
-    return np.arange(spacing, end, spacing)
-
-
-def _burnt_out(trial: FittedModel, idea: Idea) -> float:
-    """Return the time at which a test may end [s]."""
-    time = np.arange(
-        0.0, SETTINGS.design_longest_s + SETTINGS.design_spacing_s, SETTINGS.design_spacing_s
-    )
-    curves = _run(trial, idea, trial.fit.x, {MASS: Request(time)})
-    if not curves.status.finished:
-        return SETTINGS.design_longest_s
-    lost = curves.signals[MASS][0] - curves.signals[MASS]
-    if lost[-1] <= 0.0:
-        return SETTINGS.design_longest_s
-    end = float(time[np.searchsorted(lost, SETTINGS.design_burnt_out * lost[-1])])
-    return min(1.1 * end, SETTINGS.design_longest_s)
-
-
-def _kind(base: Base, quantity: str) -> _Kind:
-    """Return the noise of a quantity's channel that is neither the quietest nor the noisiest."""
-    terms, runs = base.likelihood.problem.cost.terms, base.likelihood.problem.runs
-    found = [
-        _Kind(
-            float(np.median(noise.sd)),
-            noise.correlation,
-            float(np.median(np.diff(term.target.time_s))),
-            runs[experiment].experiment.signals[name].timing_s,
-        )
-        for (experiment, name), noise, (_, term) in zip(
-            base.channels, base.likelihood.noise, terms, strict=True
-        )
-        if runs[experiment].experiment.quantity(name).name == quantity
-    ]
-    if not found:
-        # ASSUME: the noise of a quantity that the study does not measure is white.
-        sd = known_quantities()[quantity].usual_sd
-        return _Kind(sd, Correlation(), SETTINGS.design_spacing_s, TIMING_S)
-    return sorted(found, key=lambda kind: kind.sd)[len(found) // 2]
-
-
-def _noise(kind: _Kind, time: FloatArray, curve: FloatArray) -> NoiseModel:
-    """Return the noise of a new record, with the clock's error where the curve is steep."""
-    steep = kind.timing_s * np.gradient(curve, time)
-    return NoiseModel(np.hypot(kind.sd, steep), kind.correlation)

@@ -10,7 +10,8 @@ from pyrofit.experiments.cone.facts import facts
 from pyrofit.experiments.slab.course import course
 from pyrofit.experiments.slab.from_files import from_files
 from pyrofit.experiments.slab.simulate import reference, request, simulate, synthetic
-from pyrofit.model.slab import Flame, SlabExperiment
+from pyrofit.model.slab import SlabExperiment
+from pyrofit.model.slab_faces import Flame
 
 
 class Cone(SlabExperiment):

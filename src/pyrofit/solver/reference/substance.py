@@ -14,6 +14,7 @@ from scipy.special import expit, log_expit
 from pyrofit.constants import GAS_CONSTANT
 from pyrofit.model import material as words
 from pyrofit.model.base import value_of
+from pyrofit.model.properties import Changed, Linear, Table
 from pyrofit.solver.arrays import FloatArray, IntArray
 
 Values = Mapping[str, float]
@@ -46,20 +47,20 @@ class Property:
     def _one(self, given: Any, T: FloatArray) -> FloatArray:
         if isinstance(given, float | str):
             return np.full(T.shape, value_of(given, self.values))
-        if isinstance(given, words.Table):
+        if isinstance(given, Table):
             points = [value_of(v, self.values) for v in given.value]
             factor = value_of(given.factor, self.values)
             return np.asarray(factor * np.interp(T, given.temperature_K, points))
-        if isinstance(given, words.Changed):
+        if isinstance(given, Changed):
             return self._changed(given, T)
         value = value_of(given.value, self.values)
         reference = value_of(given.reference_temperature_K, self.values)
-        if isinstance(given, words.Linear):
+        if isinstance(given, Linear):
             rise = value_of(given.slope_1_K, self.values) * (T - reference)
             return np.asarray(value * np.maximum(1.0 + rise, LEAST_SHARE))
         return np.asarray(value * (T / reference) ** value_of(given.exponent, self.values))
 
-    def _changed(self, given: words.Changed, T: FloatArray) -> FloatArray:
+    def _changed(self, given: Changed, T: FloatArray) -> FloatArray:
         """Return of(T) with slope, bend, smooth step, peak and thinning, at least 1 % of of(T)."""
 
         def number(name: str) -> float:

@@ -10,7 +10,8 @@ import numpy as np
 
 from pyrofit.constants import STEFAN_BOLTZMANN
 from pyrofit.model.base import value_of
-from pyrofit.model.slab import Edge, Flame, Side, SlabExperiment
+from pyrofit.model.slab import Edge, SlabExperiment
+from pyrofit.model.slab_faces import Flame, Side
 from pyrofit.model.time_table import OverTime, TimeTable
 from pyrofit.solver.arrays import FloatArray
 from pyrofit.solver.reference.substance import Values

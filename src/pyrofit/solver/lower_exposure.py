@@ -1,0 +1,131 @@
+"""From the surroundings of a slab in words to the arrays of the kernels."""
+
+import numpy as np
+
+from pyrofit.model.base import numbers, value_of
+from pyrofit.model.slab import Edge, EmissivityDepth, Foil, SlabExperiment
+from pyrofit.model.slab_faces import Side
+from pyrofit.solver.arrays import (
+    TABLE_TEMPERATURES_K,
+    Exposure,
+    FloatArray,
+    Material,
+    Number,
+    Surface,
+    Value,
+    Values,
+)
+from pyrofit.solver.lower import total
+from pyrofit.solver.schedule import lower_schedule
+
+
+def number(value: Value, sets: int) -> Number:
+    """Return a value for every set, shape (sets,)."""
+    if sets == 1 and isinstance(value, float):
+        return np.array([value])
+    return np.full(sets, value, np.float64)
+
+
+def _surface(side: Side, values: Values, sets: int, factor: Value = 1.0) -> Surface:
+    return Surface(
+        h_cube_root=number(factor * value_of(side.h_cube_root_W_m2K43, values), sets),
+        gas_rise=number(value_of(side.gas_rise_K, values), sets),
+        gas_rise_time=number(value_of(side.gas_rise_time_s, values), sets),
+    )
+
+
+def lower_exposure(
+    experiment: SlabExperiment, share: FloatArray, arrays: Material, values: Values, sets: int = 1
+) -> Exposure:
+    """Return what acts on the sample, whose front layer has these mass fractions, as arrays.
+
+    What no parameter changes is made once for a set that runs alone.
+    """
+    depth = _mixing_depth(experiment, share, arrays, values)
+    fixed = experiment.derived("exposure", _fixed_exposure) if sets == 1 else None
+    found = fixed or _exposure(experiment, values, sets)
+    return found._replace(mixing_depth=number(depth, sets))
+
+
+def _fixed_exposure(experiment: SlabExperiment) -> Exposure | None:
+    """Return the exposure of one set, none if a parameter changes it."""
+    sample = experiment.sample
+    parts = experiment.front, experiment.back, sample.foil, sample.edge, experiment.burning()
+    named = any(isinstance(leaf, str) for part in parts for _, leaf, _ in numbers(part))
+    numbers_of = sample.emissivity_change, sample.surface_share, sample.gas_specific_heat_J_kgK
+    if named or any(isinstance(number, str) for number in numbers_of):
+        return None
+    return _exposure(experiment, {}, 1)
+
+
+def _exposure(experiment: SlabExperiment, values: Values, sets: int) -> Exposure:
+    """Return the exposure without its mixing depth."""
+    front, back, sample = experiment.front, experiment.back, experiment.sample
+    losses = value_of(back.loss_factor, values)
+    capacity, contact = _foil(sample.foil, values)
+    exchange, edge_gas = _edge(sample.edge, values)
+    return Exposure(
+        front=_surface(front, values, sets),
+        back=_surface(back, values, sets, losses),
+        schedule=lower_schedule(experiment, values, sets),
+        rise_time=number(value_of(front.rise_time_s, values), sets),
+        drift=number(value_of(front.drift_1_s, values), sets),
+        drift_time=number(value_of(front.drift_time_s, values), sets),
+        back_emissivity=number(losses * value_of(back.emissivity, values), sets),
+        foil_capacity=number(capacity, sets),
+        contact_resistance=number(contact, sets),
+        back_absorbs=sample.back_absorbs,
+        surface_share=number(value_of(sample.surface_share, values), sets),
+        gas_heat=number(value_of(sample.gas_specific_heat_J_kgK, values), sets),
+        mixing_depth=number(0.0, sets),
+        emissivity_change=number(value_of(sample.emissivity_change, values), sets),
+        backing_mass=number(0.0, sets),
+        backing_thickness=number(0.0, sets),
+        backing_cells=number(0.0, sets),
+        edge_exchange=number(exchange, sets),
+        edge_temperature=number(edge_gas, sets),
+    )
+
+
+def _foil(foil: Foil | None, values: Values) -> tuple[Value, Value]:
+    """Return heat capacity [J/(m2 K)] and resistance to the sample [m2 K/W]."""
+    if foil is None:
+        return 0.0, 0.0
+    mass = value_of(foil.thickness_m, values) * value_of(foil.density_kg_m3, values)
+    mass = mass * value_of(foil.mass_factor, values)
+    capacity = mass * value_of(foil.specific_heat_J_kgK, values)
+    return capacity, value_of(foil.contact_m2K_W, values)
+
+
+def _edge(edge: Edge | None, values: Values) -> tuple[Value, Value]:
+    """Return h times perimeter over area [W/(m3 K)] and the gas temperature [K]."""
+    if edge is None:
+        return 0.0, 0.0
+    exchange = value_of(edge.h_W_m2K, values) * value_of(edge.perimeter_per_area_1_m, values)
+    return exchange, value_of(edge.gas_temperature_K, values)
+
+
+def _mixing_depth(
+    experiment: SlabExperiment, share: FloatArray, arrays: Material, values: Values
+) -> Value:
+    depth = experiment.sample.emissivity_depth
+    if not isinstance(depth, EmissivityDepth):
+        return value_of(depth, values)
+    volume = share * arrays.specific_volume
+    T = value_of(experiment.sample.initial_temperature_K, values)
+    k = total(volume * at_temperature(arrays.conductivity, T)) / total(volume)
+    rho_c = total(share * at_temperature(arrays.specific_heat, T)) / total(volume)
+    return value_of(depth.cell_size_factor, values) * np.sqrt(k / rho_c)
+
+
+def at_temperature(tables: FloatArray, T: Value) -> FloatArray:
+    """Return the properties of all components at T, shape (components, sets)."""
+    if tables.shape[1] == 1:
+        return tables[:, 0]
+    at = np.broadcast_to(T, tables.shape[2:])
+    return np.array(
+        [
+            [np.interp(x, TABLE_TEMPERATURES_K, table[:, s]) for s, x in enumerate(at)]
+            for table in tables
+        ]
+    )

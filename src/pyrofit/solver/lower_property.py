@@ -1,0 +1,82 @@
+"""From properties in words to tables over temperature, for all sets at once."""
+
+import math
+from collections.abc import Sequence
+
+import numpy as np
+
+from pyrofit.model.base import value_of
+from pyrofit.model.properties import Changed, Linear, PowerLaw, Table
+from pyrofit.solver.arrays import (
+    TABLE_TEMPERATURES_K,
+    FloatArray,
+    Value,
+    Values,
+)
+
+LEAST_SHARE = 0.01
+"""Least value of a linear property, relative to its reference value, and of a changed one."""
+NODES_K: FloatArray = TABLE_TEMPERATURES_K[:, None]
+
+
+def stack(rows: Sequence[Value], sets: int) -> FloatArray:
+    """Return one row per value, shape (values, sets)."""
+    if sets == 1 and all(isinstance(value, float) for value in rows):
+        return np.array(rows)[:, None]
+    out = np.empty((len(rows), sets))
+    for row, value in zip(out, rows, strict=True):
+        row[:] = value
+    return out
+
+
+def property_table(prop: object, values: Values, sets: int = 1) -> FloatArray:
+    """Return p at the nodes of `TABLE_TEMPERATURES_K`, shape (nodes, sets); constant: (1, sets)."""
+    return property_at(prop, values, NODES_K, sets)
+
+
+def property_at(prop: object, values: Values, T: FloatArray, sets: int = 1) -> FloatArray:
+    """Return p at temperatures [K], shape (points, sets); constant: (1, sets).
+
+    The temperatures have the shape (points, 1), or (points, sets). A linear property ends at 1 %
+    of its reference value: it must not become negative.
+    """
+    if isinstance(prop, float | str):
+        return stack([value_of(prop, values)], sets)
+    shape = len(T), sets
+    if isinstance(prop, Table):
+        points = stack([value_of(v, values) for v in prop.value], sets)
+        at = np.broadcast_to(T, shape).T
+        columns = [np.interp(t, prop.temperature_K, p) for t, p in zip(at, points.T, strict=True)]
+        return np.stack(columns, axis=1) * value_of(prop.factor, values)
+    if isinstance(prop, Changed):
+        return _changed(prop, values, T, sets)
+    assert isinstance(prop, Linear | PowerLaw)
+    value = value_of(prop.value, values)
+    reference = value_of(prop.reference_temperature_K, values)
+    if isinstance(prop, Linear):
+        rise = value_of(prop.slope_1_K, values) * (T - reference)
+        table = value * np.maximum(LEAST_SHARE, 1.0 + rise)
+    else:
+        # Not a power: of some exponents numpy makes a root or a square, which rounds otherwise.
+        table = value * np.exp(value_of(prop.exponent, values) * np.log(T / reference))
+    return np.broadcast_to(table, shape)
+
+
+def _changed(prop: Changed, values: Values, T: FloatArray, sets: int) -> FloatArray:
+    """Return of(T) with its changes; nothing but of(T) where these are zero."""
+    at = {
+        name: value_of(getattr(prop, name), values) for name in Changed.model_fields if name != "of"
+    }
+    of = property_at(prop.of, values, T, sets)
+    scale, above = at["scale"], T - at["step_temperature_K"]
+    slope = 1.0 + scale * at["slope_1_K"] * (T - at["reference_temperature_K"])
+    if np.any(np.asarray(at["bend"]) != 0.0):
+        width = at["step_width_K"]
+        slope = slope + scale * at["bend"] * width * np.logaddexp(0.0, above / width)
+    # 1 / (1 + exp(-x)), which would overflow.
+    passed = 0.5 + 0.5 * np.tanh(0.5 * above / at["step_width_K"])
+    away = (T - at["peak_temperature_K"]) / at["peak_width_K"]
+    height = scale * at["peak_area"] / (math.sqrt(2.0 * math.pi) * at["peak_width_K"])
+    changed = of * slope + scale * at["step"] * passed + height * np.exp(-0.5 * away * away)
+    thinner = changed / np.maximum(1.0 + scale * at["thinning"] * passed, LEAST_SHARE)
+    return np.asarray(np.maximum(thinner, LEAST_SHARE * of))
