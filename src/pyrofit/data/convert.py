@@ -36,11 +36,11 @@ def convert_columns(
                 f"{table.path}: a unit is given for the {role}, but no column is read for it; "
                 "leave the unit out or name the column."
             )
-    data = {"time_s": _to_si(spec, table, headers, "time", ("time",))[0]}
+    data = {"time_s": to_si(spec, table, headers, "time", ("time",))[0]}
     if "temperature" in headers:
-        data["temperature_K"] = _to_si(spec, table, headers, "temperature", ("temperature",))[0]
+        data["temperature_K"] = to_si(spec, table, headers, "temperature", ("temperature",))[0]
     kinds = spec.of.scales
-    value, kind = _to_si(spec, table, headers, "value", kinds)
+    value, kind = to_si(spec, table, headers, "value", kinds)
     divisor, notes = _divisor(spec, kind, float(value[0]))
     data[spec.of.column] = spec.sign * value / divisor
     if spec.sign < 0:
@@ -49,17 +49,17 @@ def convert_columns(
         data[spec.of.uncertainty_column] = np.full(len(value), spec.uncertainty)
         notes.append("one uncertainty is given for all points")
     elif "uncertainty" in headers:
-        spread, its = _to_si(spec, table, headers, "uncertainty", (kind, kinds[0]))
+        spread, its = to_si(spec, table, headers, "uncertainty", (kind, kinds[0]))
         data[spec.of.uncertainty_column] = spread / divisor if its == kind else spread
     else:
         notes.append("no uncertainty is known")
     for role in (role for role in LIMITS if role in headers):
-        limit, _ = _to_si(spec, table, headers, role, (kind,))
+        limit, _ = to_si(spec, table, headers, role, (kind,))
         data[spec.of.limit_columns[role]] = limit / divisor
     return pd.DataFrame(data), notes
 
 
-def _to_si(
+def to_si(
     spec: SeriesSpec, table: Table, headers: Mapping[str, str], role: str, kinds: Sequence[str]
 ) -> tuple[FloatArray, str]:
     """Convert one column to SI units; give also which of the kinds of quantity its unit is."""

@@ -11,7 +11,8 @@ from pathlib import Path
 import numpy as np
 import numpy.typing as npt
 
-from pyrofit.data.csvheading import Line, name_columns, ragged, trim
+from pyrofit.data.csvheading import Line, is_number, name_columns, ragged, trim
+from pyrofit.data.mend import decoded, mended_lines
 from pyrofit.errors import DataError, suggest
 
 FloatArray = npt.NDArray[np.float64]
@@ -37,6 +38,8 @@ class Table:
         Line number, from 1, of the first row of numbers in the file.
     left_out : tuple of int
         Rows of the file, from 0, that the columns do not have any more.
+    mended : tuple of str
+        What was wrong with the text of the file and was read all the same.
     """
 
     path: Path
@@ -44,6 +47,7 @@ class Table:
     units: dict[str, str | None]
     first_row: int
     left_out: tuple[int, ...] = ()
+    mended: tuple[str, ...] = ()
 
     def line(self, row: int) -> int:
         """Return the line number, from 1, of a row of the columns."""
@@ -51,7 +55,7 @@ class Table:
         return self.first_row + int(np.delete(np.arange(rows), self.left_out)[row])
 
 
-def read_table(path: Path) -> Table:
+def read_table(path: Path, mend: bool = False) -> Table:
     r"""Read a delimited text file: header, units row or units in the header, and numbers.
 
     The delimiter is a comma, a semicolon or a tab, the decimal sign a point. Units stand in a row
@@ -61,6 +65,10 @@ def read_table(path: Path) -> Table:
     ----------
     path : Path
         A UTF-8 text file, with or without a byte-order mark.
+    mend : bool
+        Read over other encodings, a preamble, words such as `NaN` for a cell without a value, and
+        rows at the end without a first cell; the table lists them. Measured series of a study are
+        never mended.
 
     Returns
     -------
@@ -83,18 +91,23 @@ def read_table(path: Path) -> Table:
     >>> table.columns["Mass"].tolist(), table.units["Mass"], table.first_row
     ([5.0, 4.5], 'mg', 3)
     """
-    lines = _split(path, _read_text(path))
+    notes: list[str] = []
+    lines = _split(path, _read_text(path, notes if mend else None))
+    if mend:
+        lines = mended_lines(lines, notes)
     count = _count_text_lines(path, lines)
     names, units = name_columns(path, lines[:count])
     rows = _trim_rows(path, lines[count:], len(names))
     values = np.array([_parse_row(path, row, names) for row in rows], dtype=np.float64)
     columns = {name: values[:, i].copy() for i, name in enumerate(names)}
-    return Table(path, columns, dict(zip(names, units, strict=True)), rows[0].number)
+    named = dict(zip(names, units, strict=True))
+    return Table(path, columns, named, rows[0].number, mended=tuple(notes))
 
 
-def _read_text(path: Path) -> str:
+def _read_text(path: Path, notes: list[str] | None = None) -> str:
     try:
-        return path.read_bytes().decode("utf-8-sig")
+        data = path.read_bytes()
+        return data.decode("utf-8-sig") if notes is None else decoded(data, notes)
     except FileNotFoundError:
         raise DataError(f"{path}: there is no such file. {_near_files(path)}") from None
     except IsADirectoryError:
@@ -143,16 +156,8 @@ def _split(path: Path, text: str) -> list[Line]:
     return [line for line in lines[:first_number] if any(line.cells)] + lines[first_number:]
 
 
-def _is_number(cell: str) -> bool:
-    try:
-        float(cell)
-    except ValueError:
-        return False
-    return "_" not in cell
-
-
 def _has_number(line: Line) -> bool:
-    return any(_is_number(cell) for cell in line.cells)
+    return any(is_number(cell) for cell in line.cells)
 
 
 def _count_text_lines(path: Path, lines: Sequence[Line]) -> int:
@@ -199,7 +204,7 @@ def _parse_row(path: Path, row: Line, names: Sequence[str]) -> list[float]:
 def _parse_cell(path: Path, line: int, name: str, cell: str) -> float:
     if not cell:
         return math.nan
-    if _is_number(cell) and math.isfinite(value := float(cell)):
+    if is_number(cell) and math.isfinite(value := float(cell)):
         return value
     if _DECIMAL_COMMA.fullmatch(cell):
         raise DataError(

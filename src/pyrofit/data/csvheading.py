@@ -37,6 +37,15 @@ def name_columns(path: Path, heading: Sequence[Line]) -> tuple[list[str], list[s
     return names, units
 
 
+def is_number(cell: str) -> bool:
+    """Tell whether a cell is written as a number."""
+    try:
+        float(cell)
+    except ValueError:
+        return False
+    return "_" not in cell
+
+
 def trim(cells: Sequence[str], width: int = 0) -> list[str]:
     """Drop the empty cells that trailing delimiters leave, down to a width."""
     end = len(cells)

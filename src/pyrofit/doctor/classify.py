@@ -1,0 +1,103 @@
+"""Tell what a measured file is, and read its signals."""
+
+from dataclasses import replace
+from pathlib import Path
+
+import numpy as np
+
+from pyrofit.data.convert import to_si
+from pyrofit.data.csvfile import Table, read_table
+from pyrofit.data.spec import SeriesSpec
+from pyrofit.doctor.examined import Examined, Signal
+from pyrofit.doctor.names import Label
+from pyrofit.doctor.properties import property_signals
+from pyrofit.doctor.readme import Facts
+from pyrofit.errors import DataError
+from pyrofit.experiments import KINDS
+from pyrofit.new_study.columns import Found, Recognised, recognise
+
+_TOTAL = "total"
+
+
+def examine(path: Path, label: Label, facts: Facts) -> Examined:
+    """Read a file as far as it goes; what keeps it from being read is a finding.
+
+    The kind of experiment is that of the name, else the one of whose quantities the file holds
+    most. A gasification with a heat release rate is a test in air.
+    """
+    seen = Examined(path, label, facts)
+    try:
+        seen.table = read_table(path, mend=True)
+    except DataError as error:
+        seen.say("unreadable", "fault", str(error).removeprefix(f"{path}"))
+        return seen
+    for note in seen.table.mended:
+        seen.say("mended", "note", note)
+    kind, signals = property_signals(seen.table)
+    if kind:
+        seen.kind, seen.signals = kind, signals
+        return seen
+    seen.table = _named(seen.table)
+    seen.kind, recognised = _best(seen.table, label.kind)
+    for found in recognised.signals:
+        _take(seen, found)
+    seen.left = {n: w for n, w in recognised.left.items() if _used(seen, n)}
+    return seen
+
+
+def _named(table: Table) -> Table:
+    """Return the table with units out of the middle of names, and one total among several parts."""
+    totals = [n for n in table.columns if n.casefold().startswith(_TOTAL)]
+    parts = [n for n in table.columns if "reversing" in n.casefold()]
+    if len(totals) == 1 and parts:
+        columns = {n: c for n, c in table.columns.items() if n not in parts}
+        name = "Heat Flow"
+        columns = {name if n == totals[0] else n: c for n, c in columns.items()}
+        units = {n: "W/g" if n == name else table.units[n] for n in columns}
+        return replace(table, columns=columns, units=units)
+    return table
+
+
+def _best(table: Table, kind: str) -> tuple[str, Recognised]:
+    """Return the kind of experiment that explains most columns, that of the name first."""
+    if kind == "gasification" and any("hrr" in name.casefold() for name in table.columns):
+        kind = "cone"
+    kinds = [kind] if kind in KINDS else list(KINDS)
+    tried = [(k, recognise(table, k)) for k in kinds]
+    return max(tried, key=lambda one: sum(not f.missing and not f.unread for f in one[1].signals))
+
+
+def _take(seen: Examined, found: Found) -> None:
+    """Add a signal to what is known of a file, or say why it cannot be read."""
+    table = seen.table
+    assert table is not None
+    if found.missing:
+        if len(found.missing) < len(found.of.roles):
+            missing = " and ".join(found.missing)
+            seen.say("columns", "fault", f"{found.quantity}: no one column is the {missing}")
+        return
+    header = found.columns["value"]
+    for role, unit in found.unread.items():
+        seen.say("unit", "fault", f"unknown unit '{unit}'", found.columns[role])
+    if found.unread:
+        return
+    for role in found.guessed:
+        text = f"no unit; the numbers look like {found.units[role]}"
+        seen.say("unit", "doubt", text, found.columns[role])
+    spec = SeriesSpec(found.quantity, seen.path, found.columns, found.units)
+    columns = found.columns
+    arrays = [to_si(spec, table, columns, "time", ("time",))[0]]
+    y, scale = to_si(spec, table, columns, "value", found.of.scales)
+    arrays.append(y)
+    if "temperature" in columns:
+        arrays.append(to_si(spec, table, columns, "temperature", ("temperature",))[0])
+    known = np.isfinite(arrays).all(axis=0)
+    x, y, *T = (array[known] for array in arrays)
+    unit = table.units[header] or ""
+    heated = T[0] if T else None
+    seen.signals[found.signal] = Signal(found.quantity, header, unit, scale, x, y, heated)
+
+
+def _used(seen: Examined, name: str) -> bool:
+    """Tell whether a column that is not a signal is worth a word."""
+    return name not in {signal.header for signal in seen.signals.values()}

@@ -1,0 +1,109 @@
+"""A measured file, what it is, and its signals in SI units."""
+
+from collections.abc import Mapping
+from dataclasses import dataclass, field
+from pathlib import Path
+from typing import Literal
+
+import numpy as np
+from numpy.typing import NDArray
+
+from pyrofit.data.csvfile import Table
+from pyrofit.doctor.names import Label
+from pyrofit.doctor.readme import Facts
+
+FloatArray = NDArray[np.float64]
+Weight = Literal["fault", "doubt", "note"]
+
+
+@dataclass(frozen=True)
+class Finding:
+    """What is wrong with a file, or looks so.
+
+    Parameters
+    ----------
+    check
+        Name of the check.
+    weight
+        `fault`: wrong by itself. `doubt`: unusual, to be looked at. `note`: was read all the same.
+    text
+        What was found, with numbers.
+    column
+        Header of the column; nothing where the file as a whole is meant.
+    """
+
+    check: str
+    weight: Weight
+    text: str
+    column: str = ""
+
+
+@dataclass(frozen=True, eq=False)
+class Signal:
+    """A column of a file in SI units.
+
+    Parameters
+    ----------
+    quantity
+        Name of the quantity.
+    header, unit
+        Header, and the unit as the file states it; nothing where it states none.
+    scale
+        Kind of unit, see `pyrofit.quantities.units`.
+    x : time [s], temperature [K] or wavenumber [1/m] of each value, shape (n,)
+    y : values, shape (n,)
+    temperature_K : temperature of a heated sample, shape (n,)
+    """
+
+    quantity: str
+    header: str
+    unit: str
+    scale: str
+    x: FloatArray
+    y: FloatArray
+    temperature_K: FloatArray | None = None
+
+
+@dataclass(eq=False)
+class Examined:
+    """What is known of a file.
+
+    Parameters
+    ----------
+    path
+        The file.
+    label
+        What its name says.
+    facts
+        What the README says of it.
+    table
+        Its columns; None where it cannot be read.
+    signals
+        Columns that are recognised, by name of the signal.
+    left
+        Why other columns are not, by header.
+    findings
+        What looks wrong.
+    """
+
+    path: Path
+    label: Label
+    facts: Facts
+    kind: str = ""
+    table: Table | None = None
+    signals: dict[str, Signal] = field(default_factory=dict)
+    left: Mapping[str, str] = field(default_factory=dict)
+    findings: list[Finding] = field(default_factory=list)
+
+    @property
+    def classified(self) -> bool:
+        """Whether it is known what the file is, and every value of a signal can be read."""
+        return bool(self.kind and self.signals)
+
+    def first(self, quantity: str) -> Signal | None:
+        """Return the first signal of a quantity; None where there is none."""
+        return next((s for s in self.signals.values() if s.quantity == quantity), None)
+
+    def say(self, check: str, weight: Weight, text: str, column: str = "") -> None:
+        """Add a finding."""
+        self.findings.append(Finding(check, weight, text, column))
