@@ -32,6 +32,7 @@ ORDER = [
     {"analysis"},
     {"stages"},
     {"new_study"},
+    {"doctor"},
     {"show"},
     {"archive", "archive_texts", "blind_test"},
     {"cli"},

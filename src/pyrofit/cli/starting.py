@@ -15,6 +15,16 @@ def add(commands: Any) -> None:
     fetch.set_defaults(step=_fetch)
     where = actions.add_parser("where", help="print their folder; exit 2 where files are missing")
     where.set_defaults(step=_where)
+    doctor = actions.add_parser(
+        "doctor", help="say what each measured file of a folder is, and what looks wrong in it"
+    )
+    doctor.add_argument("folder", type=Path, help="folder, with its subfolders")
+    doctor.add_argument(
+        "--json", type=Path, metavar="FILE", help="write the report as JSON as well"
+    )
+    doctor.add_argument("--notes", action="store_true", help="list placeholders and the like too")
+    doctor.add_argument("--short", action="store_true", help="print the counts alone")
+    doctor.set_defaults(step=_doctor)
 
     init = commands.add_parser("init", help="write a study and a folder for your own material")
     init.add_argument("name", help="name of study and folder: letters, digits and _")
@@ -51,6 +61,20 @@ def _where(given: argparse.Namespace) -> None:
             "get them with `make data`, or set PYROFIT_DATA_DIR to a copy of the data base"
         )
     print(folder)
+
+
+def _doctor(given: argparse.Namespace) -> None:
+    import json
+
+    from pyrofit.doctor.report import as_json, examine_folder, lines_of, summary
+
+    files = examine_folder(given.folder)
+    lines = summary(files) if given.short else lines_of(files, given.folder, given.notes)
+    for line in lines:
+        print(line)
+    if given.json is not None:
+        text = json.dumps(as_json(files, given.folder), indent=1, ensure_ascii=False)
+        given.json.write_text(text + "\n", encoding="utf-8")
 
 
 def _add_kinds(init: argparse.ArgumentParser) -> None:

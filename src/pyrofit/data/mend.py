@@ -67,6 +67,8 @@ def _without_preamble(lines: Sequence[Line], notes: list[str]) -> list[Line]:
     start = next(
         (i for i in range(len(lines)) if all(map(_is_row, lines[i : i + _RUN]))), len(lines)
     )
+    if start == len(lines):
+        return list(lines)
     first = start
     while first > max(start - _HEADING, 0) and _is_heading(lines[first - 1], lines[start:]):
         first -= 1

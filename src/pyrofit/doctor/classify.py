@@ -59,10 +59,12 @@ def _named(table: Table) -> Table:
 
 
 def _best(table: Table, kind: str) -> tuple[str, Recognised]:
-    """Return the kind of experiment that explains most columns, that of the name first."""
-    if kind == "gasification" and any("hrr" in name.casefold() for name in table.columns):
-        kind = "cone"
-    kinds = [kind] if kind in KINDS else list(KINDS)
+    """Return the kind of experiment that explains most columns: that of the name, or one like it.
+
+    A gasification with a heat release rate is a test in a cone calorimeter.
+    """
+    like = [name for name, other in KINDS.items() if kind == other.description.LIKE]
+    kinds = [kind, *like] if kind in KINDS else list(KINDS)
     tried = [(k, recognise(table, k)) for k in kinds]
     return max(tried, key=lambda one: sum(not f.missing and not f.unread for f in one[1].signals))
 

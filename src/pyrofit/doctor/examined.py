@@ -100,10 +100,6 @@ class Examined:
         """Whether it is known what the file is, and every value of a signal can be read."""
         return bool(self.kind and self.signals)
 
-    def first(self, quantity: str) -> Signal | None:
-        """Return the first signal of a quantity; None where there is none."""
-        return next((s for s in self.signals.values() if s.quantity == quantity), None)
-
     def say(self, check: str, weight: Weight, text: str, column: str = "") -> None:
         """Add a finding."""
         self.findings.append(Finding(check, weight, text, column))

@@ -34,10 +34,10 @@ def property_signals(table: Table) -> tuple[str, dict[str, Signal]]:
 def _signal(table: Table, kind: str, x: str, y: str) -> Signal | None:
     units = {name: unit_key(table.units[name] or "") for name in (x, y)}
     if kind == "reflectivity":
-        factor, scale = _PER_METRE.get(units[x], None), _FRACTION.get(units[y], None)
+        factor, scale = _PER_METRE.get(units[x]), _FRACTION.get(units[y])
         offset: float | None = 0.0
     else:
-        factor, scale = 1.0, _DIFFUSIVITY.get(units[y], None)
+        factor, scale = 1.0, _DIFFUSIVITY.get(units[y])
         offset = _TEMPERATURE.get(units[x])
     if factor is None or scale is None or offset is None:
         return None

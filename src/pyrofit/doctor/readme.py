@@ -1,5 +1,6 @@
 """What a README beside measured files says of each test."""
 
+import math
 import re
 from collections.abc import Mapping
 from dataclasses import dataclass, replace
@@ -10,7 +11,9 @@ from pyrofit.doctor.names import Label, label_of
 _COLUMNS = {
     "mass_kg": (r"(?!.*final)(?!.*(cup|crucible|pan)).*mass\s*[\[(](mg|g|kg)[\])].*", 2),
     "thickness_m": (r".*thick\w*\s*[\[(](mm|cm|m)[\])].*", 1),
-    "flux_W_m2": (r".*flux\s*[\[(](kw/m2|kw/m\^2)[\])].*", 1),
+    "flux_W_m2": (r".*flux\s*[\[(](kw/m2|kw/m\^2|kw/m²)[\])].*", 1),
+    "area_m2": (r".*surface area\s*[\[(](m2|cm2)[\])].*", 1),
+    "diameter_m": (r"diameter\s*[\[(](mm|cm|m)[\])].*", 1),
 }
 _FACTORS = {
     "mg": 1e-6,
@@ -21,6 +24,9 @@ _FACTORS = {
     "m": 1.0,
     "kw/m2": 1e3,
     "kw/m^2": 1e3,
+    "kw/m²": 1e3,
+    "m2": 1.0,
+    "cm2": 1e-4,
 }
 _AREA = re.compile(r"surface area\D{0,12}?([\d.]+)\s*(m2|m\^2|cm2|cm\^2)", re.IGNORECASE)
 _AREA_FACTORS = {"m2": 1.0, "m^2": 1.0, "cm2": 1e-4, "cm^2": 1e-4}
@@ -92,6 +98,8 @@ def _values(cells: list[str], heading: Mapping[str, tuple[int, float]]) -> dict[
     for key, (i, factor) in heading.items():
         if i < len(cells) and _NUMBER.fullmatch(cells[i]):
             values[key] = float(cells[i]) * factor
+    if (diameter := values.pop("diameter_m", None)) is not None:
+        values["area_m2"] = 0.25 * math.pi * diameter**2
     return values
 
 
@@ -104,7 +112,7 @@ def _same(label: Label, other: Label) -> bool:
         and label.flux_kW_m2 == other.flux_kW_m2
     )
     words = {label.word.casefold(), other.word.casefold()}
-    kinds = len(words) == 1 or (label.kind == other.kind == "gasification")
+    kinds = len(words) == 1 or label.kind == other.kind
     kinds = kinds or ("sta" in words and {label.kind, other.kind} <= {"tga", "dsc"})
     gases = not (label.gas and other.gas) or label.gas == other.gas
     return numbers and kinds and gases and (ours <= theirs or theirs <= ours)

@@ -1,0 +1,138 @@
+"""Examine all files of a folder, and say what they are and what is wrong."""
+
+from collections import Counter
+from collections.abc import Iterable, Iterator, Sequence
+from pathlib import Path
+from typing import Any
+
+from pyrofit.doctor.checks import run_checks
+from pyrofit.doctor.classify import examine
+from pyrofit.doctor.examined import Examined
+from pyrofit.doctor.names import Label, label_of
+from pyrofit.doctor.readme import Facts, facts_of, read_readme
+from pyrofit.errors import DataError
+
+ENDINGS = {".csv", ".txt", ".tsv", ".dat", ".asc"}
+TEXTS = ENDINGS - {".csv", ".tsv"}
+_NOT_MEASURED = ("results", "verification", "predictions")
+"""Words in names of folders that hold what was computed."""
+_WEIGHTS = "fault", "doubt", "note"
+
+
+def examine_folder(folder: Path) -> list[Examined]:
+    """Return what is known of each measured file below a folder, sorted by path.
+
+    Raises
+    ------
+    DataError
+        There is no such folder, or no file in it.
+    """
+    if not folder.is_dir():
+        raise DataError(f"{folder}: there is no such folder; give the folder of measured files.")
+    paths = sorted(measured_files(folder))
+    if not paths:
+        raise DataError(
+            f"{folder}: it holds no measured files ({', '.join(sorted(ENDINGS))}); "
+            "give another folder."
+        )
+    readmes: dict[Path, dict[Label, Facts]] = {}
+    files = []
+    for path in paths:
+        known = readmes.setdefault(path.parent, read_readme(path.parent))
+        label = label_of(path.stem, path.parent.name)
+        files.append(examine(path, label, facts_of(label, known)))
+    run_checks(files)
+    return files
+
+
+def measured_files(folder: Path) -> Iterator[Path]:
+    """Yield the measured files below a folder: no hidden ones, none of a folder of results."""
+    for path in folder.rglob("*"):
+        inside = [part.casefold() for part in path.relative_to(folder).parts[:-1]]
+        computed = any(word in part for part in inside for word in _NOT_MEASURED)
+        hidden = any(part.startswith(".") for part in (*inside, path.name))
+        ending = path.suffix.casefold()
+        # A text file may be anything: its name must say of which test it is.
+        text = ending in TEXTS and not label_of(path.stem).kind
+        if ending in ENDINGS and path.is_file() and not (computed or hidden or text):
+            yield path
+
+
+def lines_of(files: Sequence[Examined], folder: Path, notes: bool) -> Iterator[str]:
+    """Yield the report: each file, what was found, and the counts."""
+    for seen in files:
+        signals = ", ".join(_signal_words(seen)) or "nothing recognised"
+        kind = seen.kind or "unknown"
+        parts = [seen.label.laboratory, kind, seen.label.conditions, signals]
+        yield f"{seen.path.relative_to(folder)}: {'; '.join(part for part in parts if part)}"
+    for weight in _WEIGHTS if notes else _WEIGHTS[:2]:
+        found = [(s, f) for s in files for f in s.findings if f.weight == weight]
+        if found:
+            yield f"\n{weight.capitalize()}s ({len(found)})"
+        for seen, finding in found:
+            column = f", column '{finding.column}'" if finding.column else ""
+            where = f"{seen.path.relative_to(folder)}{column}"
+            yield f"  {where}: {finding.check}: {finding.text}"
+    yield ""
+    yield from summary(files)
+
+
+def summary(files: Sequence[Examined]) -> list[str]:
+    """Return the counts of files, kinds and findings."""
+    known = sum(seen.classified for seen in files)
+    share = 100.0 * known / len(files)
+    kinds = Counter(seen.kind for seen in files if seen.classified)
+    counts = [f"{n} {kind}" for kind, n in kinds.most_common()]
+    lines = [f"{known} of {len(files)} files classified ({share:.1f} %): {', '.join(counts)}"]
+    for weight in _WEIGHTS:
+        found = Counter(f.check for s in files for f in s.findings if f.weight == weight)
+        where = sum(any(f.weight == weight for f in s.findings) for s in files)
+        words = ", ".join(f"{n} {check}" for check, n in found.most_common())
+        lines.append(f"{found.total()} {weight}s in {where} files{': ' if words else ''}{words}")
+    return lines
+
+
+def as_json(files: Iterable[Examined], folder: Path) -> dict[str, Any]:
+    """Return the report as data for JSON."""
+    return {"folder": folder.name, "files": [_file_as_json(seen, folder) for seen in files]}
+
+
+def _file_as_json(seen: Examined, folder: Path) -> dict[str, Any]:
+    label, facts = seen.label, seen.facts
+    return {
+        "file": seen.path.relative_to(folder).as_posix(),
+        "classified": seen.classified,
+        "kind": seen.kind,
+        "laboratory": label.laboratory,
+        "gas": label.gas,
+        "heating_K_min": label.heating_K_min,
+        "flux_kW_m2": label.flux_kW_m2,
+        "other": list(label.other),
+        "repeat": label.repeat,
+        "readme": {
+            "mass_kg": facts.mass_kg,
+            "thickness_m": facts.thickness_m,
+            "area_m2": facts.area_m2,
+        },
+        "signals": [
+            {
+                "signal": name,
+                "quantity": signal.quantity,
+                "column": signal.header,
+                "unit": signal.unit,
+                "points": signal.y.size,
+            }
+            for name, signal in seen.signals.items()
+        ],
+        "not_used": dict(seen.left),
+        "findings": [
+            {"check": f.check, "weight": f.weight, "column": f.column, "text": f.text}
+            for f in seen.findings
+        ],
+    }
+
+
+def _signal_words(seen: Examined) -> list[str]:
+    return [
+        f"{name.replace('_', ' ')} [{signal.unit or '-'}]" for name, signal in seen.signals.items()
+    ]
