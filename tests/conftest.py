@@ -16,6 +16,7 @@ FOLDERS = {
     "blind_test": "solver",
     "diagnose": "solver",
     "effects": "solver",
+    "exchange": "solver",
     "recovery": "solver",
     "scheme": "solver",
     "verification": "solver",

@@ -31,6 +31,7 @@ ORDER = [
     {"diagnose", "scheme"},
     {"analysis"},
     {"stages"},
+    {"exchange"},
     {"new_study"},
     {"doctor"},
     {"show"},

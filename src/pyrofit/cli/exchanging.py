@@ -1,0 +1,35 @@
+"""Commands that write and read files of other programs."""
+
+import argparse
+from pathlib import Path
+from typing import Any
+
+
+def add(commands: Any) -> None:
+    """Add these commands."""
+    export = commands.add_parser("export", help="write a fitted material for another program")
+    programs = export.add_subparsers(dest="program", required=True, metavar="PROGRAM")
+    fds = programs.add_parser("fds", help="a file to include, and decks that check it")
+    fds.add_argument("study", type=Path, help="study file (YAML or JSON)")
+    fds.add_argument("--set", default="", help="set of the report, 'truth', 'diagnosis', or a JSON")
+    fds.add_argument("--fds-version", default="6.7", help="6.7 (default) or 6.8+")
+    fds.add_argument("--results", type=Path, help="results folder; default results/<name>")
+    fds.add_argument("--out", type=Path, help="folder of the files; default results/<name>/fds")
+    fds.set_defaults(step=_export_fds)
+
+
+def _export_fds(given: argparse.Namespace) -> None:
+    from pyrofit.config import read_study
+    from pyrofit.exchange.fds.export import MATERIAL, export
+    from pyrofit.exchange.fds.versions import version_of
+    from pyrofit.exchange.sets import parameter_set
+    from pyrofit.results.files import Results
+
+    version = version_of(given.fds_version)
+    study = read_study(given.study)
+    results = Results(given.results or Path("results") / study.name)
+    chosen = parameter_set(study, results, given.set, given.study.parent)
+    folder = given.out or results.root / "fds"
+    for line in export(study, chosen, version, folder, []):
+        print(line)
+    print(f"{folder / MATERIAL}: set '{chosen.label}' for FDS {version.name}, decks beside it")

@@ -1,0 +1,1 @@
+"""Fire Dynamics Simulator: input files of a fitted material, runs that check them, import."""

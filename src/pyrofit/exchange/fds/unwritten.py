@@ -1,0 +1,36 @@
+"""What of a slab experiment no version of FDS has, and what is applied to its output."""
+
+from collections.abc import Iterator
+
+from pyrofit.exchange.fds.materials import Values
+from pyrofit.exchange.fds.remarks import Remark
+from pyrofit.model.base import value_of
+from pyrofit.model.heated import HeatedExperiment
+from pyrofit.model.slab import SlabExperiment
+
+
+def unwritten(experiment: SlabExperiment, values: Values) -> Iterator[Remark]:
+    """Yield what of a slab experiment is not in its deck."""
+    sample = experiment.sample
+    if sample.edge is not None and value_of(sample.edge.h_W_m2K, values) > 0.0:
+        what = "edge loss (sample.edge)"
+        yield Remark("left out", what, "FDS's conduction has one dimension")
+    if change := value_of(sample.emissivity_change, values):
+        what = f"emissivity with conversion, {change:.3g} in all (sample.emissivity_change)"
+        yield Remark("left out", what, "an emissivity of FDS belongs to a component")
+    if heat := value_of(sample.gas_specific_heat_J_kgK, values):
+        what = f"enthalpy of the gas, {heat:.4g} J/(kg K) (sample.gas_specific_heat_J_kgK)"
+        yield Remark("left out", what, "the gas of FDS leaves without taking up heat")
+    for name, signal in experiment.signals.items():
+        for key, unit in (("delay_s", "s"), ("offset", "SI")):
+            if shift := value_of(getattr(signal, key), values):
+                what = f"{key} of {shift:.4g} {unit} (signals.{name}.{key})"
+                yield Remark("when read", what, "it belongs to the record, not to the sample")
+
+
+def unwritten_heated(experiment: HeatedExperiment, values: Values) -> Iterator[Remark]:
+    """Yield what of a heated sample is not in its deck."""
+    for key, unit in (("lag_s", "s"), ("temperature_offset_K", "K")):
+        if shift := value_of(getattr(experiment, key), values):
+            what = f"{key} of {shift:.4g} {unit} ({key})"
+            yield Remark("when read", what, "FDS's temperature is that of the sample")

@@ -1,0 +1,156 @@
+"""The parameter set that is exported: values, where they come from, how well they are known."""
+
+import json
+from collections.abc import Mapping
+from pathlib import Path
+from typing import Any, NamedTuple
+
+from pyrofit.analysis.best_sets import published_sets
+from pyrofit.analysis.estimates import Estimated, estimated
+from pyrofit.config import Study, diagnosed_material, parameters_in
+from pyrofit.errors import DataError, StudyError, suggest
+from pyrofit.estimate.optimisers import OPTIMISERS
+from pyrofit.model.material import Material
+from pyrofit.results import diagnosis
+from pyrofit.results.files import Results, read_json
+from pyrofit.stages.fit import fixed_for_imp
+from pyrofit.stages.predict import sets_of
+
+DIAGNOSIS, TRUTH, PUBLISHED = "diagnosis", "truth", "published"
+
+
+class ParameterSet(NamedTuple):
+    """A parameter set.
+
+    Parameters
+    ----------
+    label
+        What it is called.
+    material
+        The material with the kinetics that belong to it.
+    values
+        All parameter values, SI units.
+    notes
+        By parameter: interval, and what determines it, in words.
+    """
+
+    label: str
+    material: Material
+    values: dict[str, float]
+    notes: dict[str, str]
+
+
+def parameter_set(study: Study, results: Results, label: str, beside: Path) -> ParameterSet:
+    """Return the set of a label.
+
+    Parameters
+    ----------
+    study, results
+        The study and its results.
+    label
+        A set of the report, 'truth', '<cost> published', 'diagnosis', or the path of a JSON file
+        of values in SI units by name; empty = least squares of the first cost, or what the
+        diagnosis left beside the study file.
+    beside
+        Folder of the study file.
+
+    Raises
+    ------
+    StudyError
+        There is no such set, or a value is missing.
+    """
+    label = label or _usual(study, results, beside)
+    if label.endswith(".json"):
+        chosen = ParameterSet(label, _fitted(study), {**study.fixed_values(), **_file(label)}, {})
+    elif label == DIAGNOSIS:
+        chosen = _diagnosed(study, results, beside)
+    elif label == TRUTH and study.synthetic is not None:
+        chosen = ParameterSet(label, _fitted(study), study.true_values(), {})
+    elif label.removesuffix(f" {PUBLISHED}") in published_sets(study) and label.endswith(PUBLISHED):
+        own = published_sets(study)[label.removesuffix(f" {PUBLISHED}")]
+        chosen = ParameterSet(label, _fitted(study), fixed_for_imp(study, results) | own, {})
+    else:
+        chosen = _of_report(study, results, label)
+    needed = parameters_in(chosen.material, *study.experiments.values())
+    for name in sorted(needed - set(chosen.values)):
+        raise StudyError(
+            f"set '{label}' of study '{study.name}' has no value for '{name}'; "
+            "give a file with all values: --set values.json"
+        )
+    return chosen
+
+
+def _fitted(study: Study) -> Material:
+    return study.material_with(study.imp.kinetics)
+
+
+def _usual(study: Study, results: Results, beside: Path) -> str:
+    if results.imp("summary.csv").exists():
+        return f"{next(iter(study.imp.costs))} {OPTIMISERS['least_squares'].words}"
+    if _diagnosis_of(results, beside) is not None:
+        return DIAGNOSIS
+    raise StudyError(
+        f"{results.root}: study '{study.name}' has no fitted values there; run the workflow, or "
+        "choose a set that needs none: --set truth, --set '<cost> published', --set values.json"
+    )
+
+
+def _of_report(study: Study, results: Results, label: str) -> ParameterSet:
+    known = sets_of(study, results)
+    if label not in known:
+        raise StudyError(
+            f"study '{study.name}' has no set '{label}'. "
+            + suggest(label, [*known, DIAGNOSIS, *([TRUTH] if study.synthetic else [])])
+        )
+    try:
+        notes = {e.name: _note(e) for e in estimated(study, results)}
+    except DataError:
+        notes = {}  # the analysis has not run
+    values = fixed_for_imp(study, results) | known[label]
+    return ParameterSet(label, _fitted(study), values, notes)
+
+
+def _note(found: Estimated) -> str:
+    partner = (
+        f", correlated with {found.partner} ({found.correlation:.2f})" if found.partner else ""
+    )
+    return f"95 % interval {found.low:.5g} to {found.high:.5g}, {found.grade}{partner}"
+
+
+def _file(label: str) -> dict[str, float]:
+    content: Mapping[str, Any]
+    try:
+        content = json.loads(Path(label).read_text(encoding="utf-8"))
+        content = content.get("values_SI", content)
+        return {name: float(value) for name, value in content.items()}
+    except (OSError, ValueError, TypeError, AttributeError) as error:
+        raise StudyError(
+            f"{label}: cannot be read ({error}); give a JSON mapping of parameters to values in SI "
+            "units"
+        ) from None
+
+
+def _diagnosis_of(results: Results, beside: Path) -> Path | None:
+    """Return the diagnosis of a study, or the one that wrote it beside itself."""
+    paths = (beside / "diagnosis.json", results.diagnosis("diagnosis.json"))
+    return next((path for path in paths if path.exists()), None)
+
+
+def _diagnosed(study: Study, results: Results, beside: Path) -> ParameterSet:
+    """Return the values that the diagnosis fitted: with effects where the study has them."""
+    path = _diagnosis_of(results, beside)
+    if path is None:
+        raise StudyError(
+            f"{results.diagnosis('diagnosis.json')}: this result is missing; run `snakemake "
+            "diagnose`"
+        )
+    extended = path.parent == beside
+    found = read_json(path) if extended else diagnosis.read(study, results)
+    of = found["extended"]["parameters"] if extended else found["base"]["parameters"]
+    values, notes = study.fixed_values(), {}
+    for name, p in of.items():
+        if name in study.parameters:
+            values[name] = p["value"] * study.parameters[name].factor
+            limit = ", at a limit" if p["at_limit"] else ""
+            notes[name] = f"95 % interval {p['low']:.5g} to {p['high']:.5g} {p['unit']}{limit}"
+    return ParameterSet(DIAGNOSIS, diagnosed_material(study), values, notes)

@@ -1,0 +1,51 @@
+"""Decks of the base of the tests of effects."""
+
+from functools import cache
+
+from bases import Base, having, pmma
+
+from pyrofit.effects import known_effects
+from pyrofit.exchange.fds.export import text_of
+from pyrofit.exchange.fds.heated import heated_deck
+from pyrofit.exchange.fds.parse import read_namelists
+from pyrofit.exchange.fds.predicted import Predicted, predict_slab
+from pyrofit.exchange.fds.slab import Deck, slab_deck
+from pyrofit.exchange.fds.versions import OLD, Version
+from pyrofit.model.accuracy import Accuracy
+from pyrofit.model.heated import HeatedExperiment
+from pyrofit.model.slab import SlabExperiment
+
+
+def lines(deck: Deck) -> list[str]:
+    return text_of(deck, []).splitlines()
+
+
+def keys(deck: Deck, group: str) -> list[dict[str, list[object]]]:
+    return [of for name, of, _ in read_namelists(text_of(deck, []), deck.name) if name == group]
+
+
+@cache
+def base() -> Base:
+    return pmma()
+
+
+def predicted(of: Base, name: str) -> Predicted:
+    experiment = of.experiments[name]
+    assert isinstance(experiment, SlabExperiment)
+    return predict_slab(experiment, of.material, of.values, Accuracy())
+
+
+def deck_of(of: Base, name: str, version: Version = OLD, like: Predicted | None = None) -> Deck:
+    """Return the deck of an experiment; ``like`` spares the simulation."""
+    experiment = of.experiments[name]
+    if isinstance(experiment, HeatedExperiment):
+        return heated_deck(name, experiment, of.material, of.values, version, 800.0)
+    assert isinstance(experiment, SlabExperiment)
+    curve = like or predicted(of, name)
+    return slab_deck(name, experiment, of.material, of.values, version, curve)
+
+
+def with_effect(of: Base, name: str) -> Base:
+    """Return a base with an effect at its typical strength."""
+    effect = known_effects()[name]
+    return having(of, {name: {key: q.typical for key, q in effect.strength.items()}})

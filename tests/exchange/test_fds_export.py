@@ -1,0 +1,60 @@
+"""What `pyrofit export fds` writes of a study."""
+
+import json
+from pathlib import Path
+
+import pytest
+
+from pyrofit.cli import main
+from pyrofit.exchange.fds.parse import read_namelists
+
+ROOT = Path(__file__).parents[2]
+
+
+@pytest.fixture(scope="module")
+def folder(tmp_path_factory: pytest.TempPathFactory) -> Path:
+    out = tmp_path_factory.mktemp("with a space")
+    given = ["export", "fds", str(ROOT / "config" / "smoke.yaml"), "--set", "truth"]
+    assert main([*given, "--fds-version", "6.11.1", "--out", str(out)]) == 0
+    return out
+
+
+def test_every_file_of_the_summary_is_there_and_can_be_read(folder: Path) -> None:
+    summary = json.loads((folder / "export.json").read_text())
+    assert summary["fds"] == "6.8+"
+    assert summary["set"] == "truth"
+    for deck in summary["decks"]:
+        path = folder / deck["file"]
+        groups = [group for group, _, _ in read_namelists(path.read_text(), path.name)]
+        assert groups[0] == "HEAD"
+        assert groups[-1] == "TAIL"
+        assert (folder / f"{path.stem}_pyrofit.csv").exists()
+
+
+def test_the_include_file_has_no_head_and_names_every_parameter(folder: Path) -> None:
+    text = (folder / "material.fds").read_text()
+    read = list(read_namelists(text, "material.fds"))
+    assert {group for group, _, _ in read} <= {"REAC", "MATL", "RAMP", "SURF"}
+    (gas,) = [keys["FUEL"] for group, keys, _ in read if group == "REAC"]
+    for group, keys, _ in read:
+        if group == "MATL" and "N_REACTIONS" in keys:
+            assert keys["SPEC_ID(1,1)"] == gas
+    for name in json.loads((folder / "export.json").read_text())["values_SI"]:
+        assert f"  {name} = " in text
+    text.encode("ascii")
+
+
+def test_an_unknown_set_is_refused_with_the_way_out(
+    tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    study = str(ROOT / "config" / "twin.yaml")
+    assert main(["export", "fds", study, "--results", str(tmp_path)]) == 2
+    assert "--set truth" in capsys.readouterr().err
+
+
+def test_a_set_without_a_value_names_it(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    path = tmp_path / "values.json"
+    path.write_text("{}")
+    study = str(ROOT / "config" / "smoke.yaml")
+    assert main(["export", "fds", study, "--set", str(path), "--out", str(tmp_path)]) == 2
+    assert "has no value for" in capsys.readouterr().err
