@@ -104,7 +104,7 @@ class Settings:
     clearer_bic: float = 6.0
     """Gain in BIC that a new estimate of the noise must bring to be used."""
     misfit_chi2_per_point: float = 2.0
-    """Above this chi-square per point, misfit was not mistaken for noise."""
+    """Above this chi-square per point of a signal, its misfit was not mistaken for noise."""
 
     # Tests of a claim
     agreement_level: float = 1e-3

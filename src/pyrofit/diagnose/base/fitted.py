@@ -112,6 +112,12 @@ def _elsewhere(trial: FittedModel) -> Iterator[FloatArray]:
                 yield x
 
 
+def misfits(trial: FittedModel) -> bool:
+    """Tell whether a signal misfits so much that its misfit was not mistaken for noise."""
+    parts = trial.model.by_channel(trial.fit.residuals)
+    return any(float(np.mean(part**2)) > SETTINGS.misfit_chi2_per_point for part in parts)
+
+
 def at_limit(trial: FittedModel, effect: str) -> str:
     """Return the name of an effect's strength if it rests at a limit, else nothing.
 

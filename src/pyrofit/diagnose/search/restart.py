@@ -6,7 +6,7 @@ from dataclasses import replace
 import numpy as np
 
 from pyrofit.diagnose.base.descent import Fit, descend, refreshed
-from pyrofit.diagnose.base.fitted import FittedModel, followed, lower_of
+from pyrofit.diagnose.base.fitted import FittedModel, followed, lower_of, misfits
 from pyrofit.diagnose.base.model import extended, model_of, strength_of
 from pyrofit.diagnose.search.step import SearchContext, in_order
 from pyrofit.diagnose.settings import SETTINGS
@@ -41,9 +41,7 @@ def from_other_starts(trials: Sequence[FittedModel], context: SearchContext) -> 
 
     The base fit may lie far from the valley in which an effect explains the data.
     """
-    if not trials or not context.other_starts:
-        return []
-    if trials[0].fit.chi2 <= SETTINGS.misfit_chi2_per_point * trials[0].model.points:
+    if not trials or not context.other_starts or not misfits(trials[0]):
         return []
     leading = trials[: SETTINGS.most_refitted]
     begins = [(t, x) for t in leading for x in context.other_starts]

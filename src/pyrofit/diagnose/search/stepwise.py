@@ -7,7 +7,7 @@ import numpy as np
 
 from pyrofit.diagnose.base.adequacy import LackOfFit, lack_of_fit
 from pyrofit.diagnose.base.fit import blurred, clearer, refitted, refitted_all, with_noise_about
-from pyrofit.diagnose.base.fitted import FittedModel, up_to_date
+from pyrofit.diagnose.base.fitted import FittedModel, misfits, up_to_date
 from pyrofit.diagnose.search.branches import branches
 from pyrofit.diagnose.search.refit import look_at, model_with, with_effect
 from pyrofit.diagnose.search.restart import (
@@ -64,9 +64,8 @@ def search(base: FittedModel, effects: Sequence[str], most: int, context: Search
         Noise, listener, processes, other starts.
     """
     found = _Pass(effects, most, context).run(_look(base, effects, context))
-    off = found.end.fit.chi2 > SETTINGS.misfit_chi2_per_point * found.end.model.points
     settled = found.end_lack.adequate and not blurred(found.end.model.base)
-    if settled or not found.end.effects or off:
+    if settled or not found.end.effects or misfits(found.end):
         return found
     sharper = with_noise_about(found.end, processes=context.processes)
     if clearer(found.end.model.base, sharper) < SETTINGS.clearer_bic:
