@@ -20,7 +20,8 @@ from pyrofit.exchange.fds.materials import Values
 from pyrofit.exchange.fds.predicted import Predicted
 from pyrofit.exchange.fds.remarks import Remark
 from pyrofit.model.base import value_of
-from pyrofit.model.slab import Side, SlabExperiment
+from pyrofit.model.slab import SlabExperiment
+from pyrofit.model.slab_faces import Side
 from pyrofit.solver.arrays import (
     BACK_GAS,
     BACK_H,

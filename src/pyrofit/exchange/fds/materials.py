@@ -15,7 +15,7 @@ from pyrofit.exchange.fds.versions import Version
 from pyrofit.model.base import value_of
 from pyrofit.model.material import Component, Material, Reaction
 from pyrofit.solver.arrays import FloatArray
-from pyrofit.solver.lower import LEAST_SHARE
+from pyrofit.solver.lower_property import LEAST_SHARE
 
 R_FDS = 8.314472
 """Molar gas constant of FDS [J/(mol K)]."""

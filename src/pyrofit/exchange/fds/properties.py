@@ -5,9 +5,9 @@ from collections.abc import Callable
 import numpy as np
 
 from pyrofit.exchange.fds.namelists import Item, Namelist
-from pyrofit.model.material import Property
+from pyrofit.model.properties import Property
 from pyrofit.solver.arrays import TABLE_TEMPERATURES_K, FloatArray, Values
-from pyrofit.solver.lower import property_table
+from pyrofit.solver.lower_property import property_table
 
 CELSIUS_K = 273.15
 NEGLIGIBLE = 1e-6
