@@ -8,9 +8,10 @@ from pyrofit.exchange.fds.depth import absorption
 from pyrofit.exchange.fds.exposure import Flux, Outside, surroundings
 from pyrofit.exchange.fds.layers import Layer, foil_layers, layer_keys, own_layers
 from pyrofit.exchange.fds.materials import Lines, Options, Values, write_materials
-from pyrofit.exchange.fds.namelists import Item, Items, Namelist
+from pyrofit.exchange.fds.namelists import Item, Namelist
 from pyrofit.exchange.fds.predicted import Predicted
 from pyrofit.exchange.fds.properties import CELSIUS_K
+from pyrofit.exchange.fds.records import CELL_M, closing
 from pyrofit.exchange.fds.remarks import Remark, once
 from pyrofit.exchange.fds.unwritten import unwritten
 from pyrofit.exchange.fds.versions import Version
@@ -24,8 +25,6 @@ STRONG_W_M2 = 40e3
 FINE, FINER = 0.2, 0.1
 """CELL_SIZE_FACTOR of uniform cells; the smaller one where residue collects."""
 MUCH_RESIDUE = 0.02
-CELL_M = 0.1
-"""Width of a cell of the gas, which only carries the surface."""
 LEAST_EMISSIVITY = 1e-6
 
 
@@ -99,7 +98,7 @@ def slab_deck(
             *lines.namelists,
             *more,
             *surfaces,
-            *_tail(len(spots)),
+            *closing(len(spots)),
         ),
         once(found),
         tuple(w for _, w in spots),
@@ -240,33 +239,3 @@ def _external(flux: Flux, ramp: str) -> tuple[dict[str, Item], list[Namelist]]:
         for t, x in zip(flux.time_s, q / most, strict=True)
     ]
     return {"EXTERNAL_FLUX": most, "RAMP_EF": ramp}, lines
-
-
-DEVICES: dict[str, dict[str, Item]] = {
-    "MLR": {"QUANTITY": "MASS FLUX", "SPEC_ID": "METHANE"},
-    "T_front": {"QUANTITY": "WALL TEMPERATURE"},
-    "T_back": {"QUANTITY": "BACK WALL TEMPERATURE"},
-    "mass": {"QUANTITY": "SURFACE DENSITY"},
-    "thickness": {"QUANTITY": "WALL THICKNESS"},
-}
-"""What a deck records, by the name of its column; means over the second before."""
-
-
-def _tail(spots: int) -> list[Namelist]:
-    cells = max(3, spots)
-    found = []
-    for n in range(spots):
-        mark = "" if spots == 1 else f"_{n + 1}"
-        left = CELL_M * ((n - 0.5 * cells) if spots > 1 else -0.5)
-        box = [round(x, 9) for x in (left, left + CELL_M, -0.05, 0.05, 0.0, 0.0)]
-        found.append(Namelist("VENT", {"XB": box, "SURF_ID": f"SLAB{mark}"}))
-    sides = ("XMIN", "XMAX", "YMIN", "YMAX", "ZMAX")
-    found += [Namelist("VENT", {"MB": side, "SURF_ID": "OPEN"}) for side in sides]
-    found.append(Namelist("DUMP", {"DT_DEVC": 1.0, "DT_RESTART": 1e6, "SMOKE3D": False}))
-    for n in range(spots):
-        mark = "" if spots == 1 else f"_{n + 1}"
-        at = round(CELL_M * (n + 0.5 - 0.5 * cells), 9) if spots > 1 else 0.0
-        for name, items in DEVICES.items():
-            place: Items = {"ID": f"{name}{mark}", "XYZ": [at, 0.0, 0.0], "IOR": 3}
-            found.append(Namelist("DEVC", {**place, **items}))
-    return [*found, Namelist("TAIL", {})]
