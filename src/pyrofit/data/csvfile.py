@@ -11,6 +11,7 @@ from pathlib import Path
 import numpy as np
 import numpy.typing as npt
 
+from pyrofit.data.cone_exports import is_ftt, unfolded
 from pyrofit.data.csvheading import Line, is_number, name_columns, ragged, trim
 from pyrofit.data.mend import decoded, mended_lines
 from pyrofit.errors import DataError, suggest
@@ -39,7 +40,8 @@ class Table:
     left_out : tuple of int
         Rows of the file, from 0, that the columns do not have any more.
     mended : tuple of str
-        What was wrong with the text of the file and was read all the same.
+        What was wrong with the text of the file and was read all the same, and the form of an
+        export that was unfolded.
     """
 
     path: Path
@@ -92,7 +94,7 @@ def read_table(path: Path, mend: bool = False) -> Table:
     ([5.0, 4.5], 'mg', 3)
     """
     notes: list[str] = []
-    lines = _split(path, _read_text(path, notes if mend else None))
+    lines = unfolded(path, _split(path, _read_text(path, notes, mend)), notes)
     if mend:
         lines = mended_lines(lines, notes)
     count = _count_text_lines(path, lines)
@@ -104,10 +106,10 @@ def read_table(path: Path, mend: bool = False) -> Table:
     return Table(path, columns, named, rows[0].number, mended=tuple(notes))
 
 
-def _read_text(path: Path, notes: list[str] | None = None) -> str:
+def _read_text(path: Path, notes: list[str], mend: bool) -> str:
     try:
         data = path.read_bytes()
-        return data.decode("utf-8-sig") if notes is None else decoded(data, notes)
+        return decoded(data, notes) if mend or is_ftt(data) else data.decode("utf-8-sig")
     except FileNotFoundError:
         raise DataError(f"{path}: there is no such file. {_near_files(path)}") from None
     except IsADirectoryError:

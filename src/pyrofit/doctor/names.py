@@ -18,7 +18,7 @@ KINDS = {
 }
 """Kind of experiment by the word of a name, in lower case."""
 _HEATING = re.compile(r"(\d+(?:[.-]\d+)?)k(?:min)?", re.IGNORECASE)
-_FLUX = re.compile(r"(?:q)?(\d+(?:[.-]\d+)?)kw", re.IGNORECASE)
+_FLUX = re.compile(r"q?(\d+(?:[.-]\d+)?)kw|hf(\d+)(?:scan|scalar)?", re.IGNORECASE)
 _GAS = re.compile(r"(n2|ar|air|o2(?:-\d+)?)", re.IGNORECASE)
 _REPEAT = re.compile(r"r?(\d{1,2})", re.IGNORECASE)
 _GRAIN = "parallel", "perpendicular"
@@ -115,7 +115,7 @@ def label_of(stem: str, folder: str = "") -> Label:
         elif match := _HEATING.fullmatch(part):
             heating = float(match[1].replace("-", "."))
         elif match := _FLUX.fullmatch(part):
-            flux = float(match[1].replace("-", "."))
+            flux = float((match[1] or match[2]).replace("-", "."))
         elif match := _REPEAT.fullmatch(part):
             repeat = int(match[1])
         else:

@@ -105,7 +105,7 @@ def recognise(table: Table, kind: str) -> Recognised:
         if role not in _OWN
     }
     taken = {*empty, *shared.values()}
-    signals, unclear = _signals([n for n in table.columns if n not in taken], quantities)
+    signals, unclear = _signals(table, [n for n in table.columns if n not in taken], quantities)
     left |= unclear
     signals = signals or {quantities[0].name: (quantities[0], "")}
     found = _all_found(table, signals, shared)
@@ -130,7 +130,7 @@ def _shared(table: Table, quantities: Sequence[Quantity], role: str, empty: Sequ
 
 
 def _signals(
-    free: Sequence[str], quantities: Sequence[Quantity]
+    table: Table, free: Sequence[str], quantities: Sequence[Quantity]
 ) -> tuple[dict[str, tuple[Quantity, str]], dict[str, str]]:
     """Return quantity and column of each signal, and why other columns are none."""
     claims: dict[str, list[str]] = {}
@@ -149,7 +149,7 @@ def _signals(
             where = f"may be {quantity.name}, whose place no file tells; name it in the study"
             left |= dict.fromkeys(names, where)
             continue
-        chosen = _chosen(names, quantity)
+        chosen = _chosen(table, names, quantity)
         for i, name in enumerate(chosen, start=1):
             label = quantity.name if len(chosen) == 1 else f"{quantity.name}_{i}"
             signals[label] = (quantity, name)
@@ -158,11 +158,15 @@ def _signals(
     return signals, left
 
 
-def _chosen(names: Sequence[str], quantity: Quantity) -> list[str]:
-    """Return the columns that are signals of a quantity; none where it is not clear which are."""
+def _chosen(table: Table, names: Sequence[str], quantity: Quantity) -> list[str]:
+    """Return the columns that are signals of a quantity; none where it is not clear which are.
+
+    Of several, one that is in the quantity's own unit comes first: per area, not per sample.
+    """
     first = [name for name in names if is_usual(name, quantity)] or list(names)
     if not quantity.is_temperature:
-        return first if len(first) == 1 else []
+        own = [n for n in first if kind_of(table.units[n] or "", quantity.scales[:1])]
+        return first if len(first) == 1 else own if len(own) == 1 else []
     roots = {root_of(name) for name in first}
     return [n for n in names if root_of(n) in roots] if len(roots) == 1 else []
 

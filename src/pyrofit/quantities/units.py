@@ -38,6 +38,7 @@ def unit_key(unit: str) -> str:
     key = re.sub(r"[\s^*·⋅()\[\]]", "", unit.casefold()).replace("²", "2").replace("−", "-")
     key = re.sub(r"(c?m)-2", r"/\g<1>2", key)
     key = re.sub(r"([km]?g|s)-1", r"/\1", key)
+    key = re.sub(r"/s-(c?m2)$", r"/s/\1", key)
     return re.sub(r"/(c?m2)/?s$|/s(c?m2)$", r"/s/\1\2", key)
 
 

@@ -1,0 +1,148 @@
+"""Files that cone calorimeters write: turned into a header and rows before they are read."""
+
+from collections.abc import Mapping, Sequence
+from pathlib import Path
+
+import numpy as np
+
+from pyrofit.data.csvheading import Line, is_number
+from pyrofit.data.oxygen import FloatArray, heat_release_rate
+from pyrofit.quantities.units import ICE_POINT_K
+
+_FTT_KEYS = {"laboratory name", "c-factor (si units)", "surface area (cm²)", "date of test"}
+_DEATAK = "names"
+_FEWEST_KEYS = 2
+_BEFORE = 10
+"""Rows from which the oxygen of the air is taken where nothing tells the start of the test."""
+
+
+def is_ftt(data: bytes) -> bool:
+    r"""Tell whether bytes that are not UTF-8 are an export of FTT, which is in cp1252.
+
+    >>> is_ftt("Laboratory name,X,Time (s)\nSurface area (cm²),88,0".encode("cp1252"))
+    True
+    """
+    text = data.decode("cp1252", errors="replace").casefold()
+    return sum(key in text for key in _FTT_KEYS) >= _FEWEST_KEYS
+
+
+def unfolded(path: Path, lines: Sequence[Line], notes: list[str]) -> list[Line]:
+    """Return the lines of a cone calorimeter's export as a header and rows; others as they are.
+
+    Known are the files of FTT, whose first two columns hold keys and values, and the scans of
+    Deatak, with names in the first row and units below; their keys are in a file beside them, named
+    `Scalar` instead of `Scan`. Where a file has no heat release rate, it is computed from the
+    oxygen, see `pyrofit.data.oxygen`.
+    """
+    first = [cell.casefold() for cell in lines[0].cells]
+    keys = {line.cells[0].casefold() for line in lines if line.cells}
+    if len(keys & _FTT_KEYS) >= _FEWEST_KEYS and "time (s)" in first[2:]:
+        return _ftt(lines, notes)
+    if first[:2] == [_DEATAK, "time"]:
+        return _deatak(path, lines, notes)
+    return list(lines)
+
+
+def _ftt(lines: Sequence[Line], notes: list[str]) -> list[Line]:
+    known = {line.cells[0].casefold(): line.cells[1] for line in lines if len(line.cells) > 1}
+    names = [cell for cell in lines[0].cells[2:] if cell]
+    rows = [Line(line.number, line.cells[2 : 2 + len(names)]) for line in lines[1:]]
+    rows = [row for row in rows if any(map(is_number, row.cells))]
+    notes.append(f"FTT export with {len(known)} keys")
+    places = {name.casefold(): i for i, name in enumerate(names)}
+    start = _number(known.get("test start time (s)"))
+    columns = _columns(
+        rows, places, ("time (s)", "o2 (%)", "dpt (pa)", "stack tc (k)"), (0.0, 0.0, 0.0, 0.0)
+    )
+    area = _number(known.get("surface area (cm²)"))
+    facts = (
+        None if area is None else area * 1e-4,
+        _number(known.get("c-factor (si units)")),
+        _number(known.get("o2 delay time (s)")),
+    )
+    header = Line(lines[0].number, names)
+    return _with_heat_release([header, *rows], columns, facts, start, notes)
+
+
+def _deatak(path: Path, lines: Sequence[Line], notes: list[str]) -> list[Line]:
+    by_key = {line.cells[0].casefold(): line.cells[1:] for line in lines[:8]}
+    names, units = by_key[_DEATAK], by_key.get("units", [])
+    units = [*units, *[""] * (len(names) - len(units))]
+    words = {"sec": "s", "C": "degC"}
+    header = [
+        f"{n} ({words.get(u, u)})" if u else n for n, u in zip(names, units, strict=False) if n
+    ]
+    rows = [Line(row.number, row.cells[1:]) for row in lines if is_number(row.cells[0])]
+    notes.append("Deatak scan")
+    places = {name.casefold(): i for i, name in enumerate(names)}
+    columns = _columns(
+        rows, places, ("time", "o2 meter", "exh press", "stack tc"), (0.0, 0.0, 0.0, ICE_POINT_K)
+    )
+    scalars = _scalars(path)
+    facts = tuple(_number(scalars.get(k)) for k in ("surf area", "c factor", "o2 delay time"))
+    return _with_heat_release([Line(lines[0].number, header), *rows], columns, facts, None, notes)
+
+
+def _scalars(path: Path) -> dict[str, str]:
+    """Return the keys of the file beside a scan; none where there is no such file."""
+    beside = path.with_name(path.name.replace("Scan", "Scalar"))
+    if beside == path or not beside.is_file():
+        return {}
+    text = beside.read_bytes().decode("cp1252", errors="replace")
+    pairs = (line.split(",", 1) for line in text.splitlines() if "," in line)
+    return {key.strip().casefold(): value.strip() for key, value in pairs}
+
+
+def _columns(
+    rows: Sequence[Line],
+    places: Mapping[str, int],
+    names: Sequence[str],
+    offsets: Sequence[float],
+) -> list[FloatArray] | None:
+    """Return time, oxygen [%], pressure [Pa] and temperature [K]; None where one is missing."""
+    if any(name not in places for name in names):
+        return None
+    columns = []
+    for name, offset in zip(names, offsets, strict=True):
+        i = places[name]
+        cells = [row.cells[i] if i < len(row.cells) else "" for row in rows]
+        columns.append(np.array([float(c) if is_number(c) else np.nan for c in cells]) + offset)
+    return columns
+
+
+def _with_heat_release(
+    lines: list[Line],
+    columns: list[FloatArray] | None,
+    facts: Sequence[float | None],
+    start: float | None,
+    notes: list[str],
+) -> list[Line]:
+    """Add the heat release rate per area, where the file has none and tells all that it needs."""
+    area, c_factor, delay = facts
+    has = any("hrr" in name.casefold() for name in lines[0].cells)
+    if has or columns is None or not area or not c_factor:
+        return lines
+    time, percent, pressure, stack = columns
+    before = time < start if start else np.arange(time.size) < _BEFORE
+    before = before if before.any() else np.arange(time.size) < _BEFORE
+    ambient = float(np.nanmean(percent[before])) / 100.0
+    q = heat_release_rate(time, percent / 100.0, pressure, stack, c_factor, ambient, delay or 0.0)
+    notes.append(
+        f"HRR computed from oxygen: C = {c_factor:g}, {100 * ambient:.4g} % before the test, "
+        f"delay {delay or 0.0:g} s, {area:g} m2"
+    )
+    width = len(lines[0].cells)
+    header = Line(lines[0].number, [*lines[0].cells, "HRR (kW/m2)"])
+    rows = [
+        Line(row.number, [*_filled(row.cells, width), f"{x / area / 1e3:.6g}"])
+        for row, x in zip(lines[1:], q, strict=True)
+    ]
+    return [header, *rows]
+
+
+def _filled(cells: Sequence[str], width: int) -> list[str]:
+    return [*cells[:width], *[""] * (width - len(cells))]
+
+
+def _number(cell: str | None) -> float | None:
+    return float(cell) if cell is not None and is_number(cell) else None

@@ -1,0 +1,112 @@
+"""Exports of cone calorimeters, in files made for these tests."""
+
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+from pyrofit.data.csvfile import read_table
+from pyrofit.data.oxygen import heat_release_rate
+from pyrofit.data.series import read_series
+from pyrofit.data.spec import SeriesSpec
+from pyrofit.new_study.draft import measured
+
+TIME = np.arange(0.0, 120.0)
+C, AREA, AMBIENT, DELAY = 0.042, 0.00884, 0.2095, 8.0
+PRESSURE, STACK = 130.0 + 0.1 * TIME, 310.0 + TIME
+TRUE = 4e3 * np.exp(-(((TIME - 60.0) / 15.0) ** 2))  # W
+
+
+def oxygen() -> np.ndarray:
+    """Return what an analyser with a delay shows: the equation solved for the oxygen."""
+    flow = 1.10 * 13.1e6 * C * np.sqrt(PRESSURE / STACK)
+    ratio = TRUE / flow
+    x = (AMBIENT - 1.105 * ratio) / (1.0 - 1.5 * ratio)
+    return np.interp(TIME - DELAY, TIME, x)
+
+
+def ftt(path: Path, with_hrr: bool = False) -> Path:
+    keys = {
+        "Test": "7",
+        "Laboratory name": "Own",
+        "Date of test": "01/02/2024",
+        "Surface area (cm²)": f"{AREA * 1e4}",
+        "C-factor (SI units)": f"{C}",
+        "O2 delay time (s)": f"{DELAY}",
+        "Test start time (s)": "6",
+    }
+    names = ["Time (s)", "Mass (g)", "O2 (%)", "DPT (Pa)", "Stack TC (K)"]
+    columns = [TIME, 70.0 - 0.5 * TIME, 100 * oxygen(), PRESSURE, STACK]
+    if with_hrr:
+        names, columns = [*names, "HRR (kW/m²)"], [*columns, TRUE]
+    rows = [",".join(f"{x:.9g}" for x in row) for row in zip(*columns, strict=True)]
+    left = [",".join(pair) for pair in keys.items()] + [","] * (len(rows) + 2 - len(keys))
+    text = [",".join(names), "," * (len(names) - 1), *rows]
+    path.write_bytes(
+        "\n".join(f"{a},{b}" for a, b in zip(left, text, strict=True)).encode("cp1252")
+    )
+    return path
+
+
+def deatak(folder: Path) -> Path:
+    names = "Names,Time,Stack TC,Exh Press,O2 Meter,Sample Mass,Flame Verif"
+    head = [names, "Chan Gain,,500,1,1,1,1", "Units,sec,C,Pa,%,g,", "Baseline,,36.8,130,20.95,0,"]
+    columns = [TIME, STACK - 273.15, PRESSURE, 100 * oxygen(), 70.0 - 0.5 * TIME, 0 * TIME]
+    rows = [
+        f"{i}," + ",".join(f"{x:.9g}" for x in row)
+        for i, row in enumerate(zip(*columns, strict=True), start=1)
+    ]
+    path = folder / "Own_Cone_HF50Scan_240102_R1.csv"
+    path.write_text("\n".join([*head, *rows]), encoding="utf-8")
+    return path
+
+
+def scalars(folder: Path) -> None:
+    text = f"LABORATORY,Own\nSURF AREA,{AREA}\nC FACTOR,{C}\nO2 DELAY TIME,{DELAY:g}\n"
+    (folder / "Own_Cone_HF50Scalar_240102_R1.csv").write_text(text, encoding="utf-8")
+
+
+def test_heat_release_follows_from_the_oxygen() -> None:
+    q = heat_release_rate(TIME, oxygen(), PRESSURE, STACK, C, AMBIENT, DELAY)
+    assert np.abs(q - TRUE)[:-10].max() < 1e-6 * TRUE.max()
+
+
+def test_ftt_export_is_a_cone_test_with_mass_and_heat_release(tmp_path: Path) -> None:
+    table = read_table(ftt(tmp_path / "A_Cone_50kW_1.csv"))
+    assert list(table.columns)[:2] == ["Time", "Mass"]
+    assert np.allclose(table.columns["HRR"][:-10] * AREA * 1e3, TRUE[:-10], atol=0.5)
+    assert "HRR computed from oxygen" in table.mended[-1]
+    run = measured("cone", table.path)
+    assert {f.quantity for f in run.signals} == {"heat_release_rate", "mass"}
+    assert run.number == 50.0
+
+
+def test_heat_release_of_an_ftt_export_is_kept(tmp_path: Path) -> None:
+    table = read_table(ftt(tmp_path / "A_Cone_50kW_1.csv", with_hrr=True))
+    assert list(table.columns).count("HRR") == 1
+    assert table.columns["HRR"].max() == pytest.approx(4e3)
+
+
+def test_deatak_scan_takes_its_keys_from_the_file_beside_it(tmp_path: Path) -> None:
+    path = deatak(tmp_path)
+    assert "HRR" not in read_table(path).columns
+    scalars(tmp_path)
+    table = read_table(path)
+    assert table.units["Stack TC"] == "degC"
+    assert np.allclose(table.columns["HRR"][:-10] * AREA * 1e3, TRUE[:-10], atol=0.5)
+    assert measured("cone", path).number == 50.0
+
+
+def test_standard_columns_of_the_nist_data_base(tmp_path: Path) -> None:
+    path = tmp_path / "A_Cone_50kW_1.csv"
+    header = "Time (s),Mass (g),HRR (kW),MFR (kg/s),T Duct (K),O2 (Vol fr),K Smoke (1/m)"
+    header += ",MLRPUA (g/s-m2),HRRPUA (kW/m2)"
+    columns = [TIME, 70.0 - 0.5 * TIME, TRUE / 1e3, 0 * TIME + 0.02, STACK, oxygen(), 0 * TIME]
+    columns += [0 * TIME + 50.0, TRUE / AREA / 1e3]
+    rows = [",".join(f"{x:.9g}" for x in row) for row in zip(*columns, strict=True)]
+    path.write_text("\n".join([header, *rows]), encoding="utf-8")
+    found = {f.quantity: f for f in measured("cone", path).signals}
+    assert found["heat_release_rate"].columns["value"] == "HRRPUA"
+    assert found["mlr"].columns["value"] == "MLRPUA"
+    series = read_series(SeriesSpec("mlr", path, found["mlr"].columns, found["mlr"].units))
+    assert series.frame["mlr_kg_m2_s"].iloc[0] == pytest.approx(0.05)
