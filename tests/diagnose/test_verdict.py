@@ -17,6 +17,8 @@ from pyrofit.diagnose.result.candidates import candidates
 from pyrofit.diagnose.result.verdict_text import form_of, sentences
 from pyrofit.diagnose.search.step import SearchContext
 from pyrofit.diagnose.search.stepwise import Search, search
+from pyrofit.diagnose.search.stepwise import _look as look_first
+from pyrofit.diagnose.search.stepwise import _Pass as Pass
 from pyrofit.effects import known_effects
 from pyrofit.solver.arrays import FloatArray
 
@@ -204,6 +206,18 @@ def test_effect_that_another_makes_superfluous_is_dropped() -> None:
     rows = candidates(verdict.search, verdict)
     (row,) = [row for row in rows if row["free"] == {"k_T": ["slope_1_K"]}]
     assert row["rejected"] == ""
+
+
+def test_no_pass_ends_above_a_model_that_an_earlier_one_found() -> None:
+    base = searched(planted(k_T=0.8, c_T=-0.7)).base
+    earlier = fit_with(base, "c_T", "k_T")
+    context = SearchContext(np.random.default_rng(1))
+    first = look_first(base, ("heater_ramp",), context)
+    found = Pass(("heater_ramp",), 3, context, (earlier,)).run(first)
+    assert set(found.end.effects) == {"c_T", "k_T"}
+    assert found.end.fit.chi2 <= earlier.fit.chi2
+    alone = Pass(("heater_ramp",), 3, context).run(first)
+    assert set(alone.end.effects) <= {"heater_ramp"}
 
 
 def test_model_without_an_effect_is_the_best_one_at_hand() -> None:
