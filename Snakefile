@@ -3,6 +3,7 @@
 import json
 import os
 import re
+import shutil
 from pathlib import Path
 
 from snakemake.utils import min_version, update_config
@@ -81,6 +82,8 @@ localrules:
     archive,
     diagnosis_page,
     diagnose,
+    fds,
+    fds_check,
 
 
 include: "workflow/rules/common.smk"
@@ -93,6 +96,7 @@ include: "workflow/rules/comparison.smk"
 include: "workflow/rules/report.smk"
 include: "workflow/rules/robustness.smk"
 include: "workflow/rules/scheme.smk"
+include: "workflow/rules/fds.smk"
 include: "workflow/rules/diagnosis.smk"
 
 

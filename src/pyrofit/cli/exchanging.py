@@ -1,8 +1,11 @@
 """Commands that write and read files of other programs."""
 
 import argparse
+import sys
 from pathlib import Path
 from typing import Any
+
+from pyrofit.cli.common import add_step, open_study
 
 
 def add(commands: Any) -> None:
@@ -14,8 +17,12 @@ def add(commands: Any) -> None:
     fds.add_argument("--set", default="", help="set of the report, 'truth', 'diagnosis', or a JSON")
     fds.add_argument("--fds-version", default="6.7", help="6.7 (default) or 6.8+")
     fds.add_argument("--results", type=Path, help="results folder; default results/<name>")
+    fds.add_argument("--log", type=Path, help="file that keeps what is printed")
     fds.add_argument("--out", type=Path, help="folder of the files; default results/<name>/fds")
     fds.set_defaults(step=_export_fds)
+    check = add_step(commands, "fds-check", "run the decks in a real FDS and compare", _check_fds)
+    check.add_argument("--set", default="", help="as of `export fds`")
+    check.add_argument("--limit", type=float, default=1200.0, help="time limit of a run [s]")
 
 
 def _export_fds(given: argparse.Namespace) -> None:
@@ -29,7 +36,23 @@ def _export_fds(given: argparse.Namespace) -> None:
     study = read_study(given.study)
     results = Results(given.results or Path("results") / study.name)
     chosen = parameter_set(study, results, given.set, given.study.parent)
-    folder = given.out or results.root / "fds"
+    folder = given.out or results.fds("")
     for line in export(study, chosen, version, folder, []):
         print(line)
     print(f"{folder / MATERIAL}: set '{chosen.label}' for FDS {version.name}, decks beside it")
+
+
+def _check_fds(given: argparse.Namespace) -> None:
+    from pyrofit.exchange.fds.check import check
+    from pyrofit.exchange.fds.run import find_fds
+    from pyrofit.exchange.sets import parameter_set
+    from pyrofit.results import dependencies
+
+    study, results = open_study(given, dependencies.presentation)
+    chosen = parameter_set(study, results, given.set, given.study.parent)
+    check(study, chosen, find_fds(), results.fds(""), _tell, given.limit)
+    print(f"{results.fds('check.md')}: FDS beside pyrofit", file=sys.stderr)
+
+
+def _tell(text: str) -> None:
+    print(text, file=sys.stderr, flush=True)

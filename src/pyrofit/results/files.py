@@ -226,3 +226,7 @@ class Results:
     def scheme(self, name: str) -> Path:
         """Choice of the reaction scheme."""
         return self.root / "scheme" / name
+
+    def fds(self, name: str) -> Path:
+        """Files for FDS, and what it made of them."""
+        return self.root / "fds" / name

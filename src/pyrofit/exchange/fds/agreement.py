@@ -6,8 +6,9 @@ from typing import NamedTuple
 import numpy as np
 import pandas as pd
 
+from pyrofit.exchange.fds.materials import SUM
 from pyrofit.exchange.fds.predicted import burn_out
-from pyrofit.exchange.fds.slab import STRONG_W_M2, Deck
+from pyrofit.exchange.fds.slab import WEAK_STEP_S, Deck
 from pyrofit.solver.arrays import FloatArray
 from pyrofit.solver.outputs import BACK, MASS, MASS_FRACTION, RATE
 
@@ -30,6 +31,8 @@ class Agreement(NamedTuple):
         What of them is compared with the largest that is accepted, and that.
     burnout_s
         Burn-out of FDS minus that of pyrofit [s].
+    latest_s
+        Largest difference of burn-out that is accepted [s].
     """
 
     signal: str
@@ -38,12 +41,16 @@ class Agreement(NamedTuple):
     rms: float
     level: tuple[str, float]
     burnout_s: float = math.nan
+    latest_s: float = math.inf
 
     @property
-    def agrees(self) -> bool:
-        """Whether the difference is within its level."""
+    def verdict(self) -> str:
+        """Agrees or differs; none where a term is approximate or left out."""
         name, most = self.level
-        return bool(getattr(self, name) <= most)
+        if math.isinf(most):
+            return "approximate terms"
+        on_time = math.isnan(self.burnout_s) or abs(self.burnout_s) <= self.latest_s
+        return "agrees" if getattr(self, name) <= most and on_time else "differs"
 
 
 class Levels(NamedTuple):
@@ -56,28 +63,28 @@ class Levels(NamedTuple):
     fraction: float
 
 
-def levels(flux_W_m2: float, deck: Deck) -> Levels:
-    """Return what is accepted of a deck."""
-    said = " ".join(remark.what for remark in deck.remarks)
-    is_sum = "order" in said
-    sharp = is_sum or any(
-        "_ID(2,1)" in key for n in deck.namelists for key in n.items if n.group == "MATL"
-    )
-    strong = flux_W_m2 >= STRONG_W_M2
-    rate = 0.01 if sharp else 0.006 if strong else 0.003
-    late = 2.0 if sharp else 1.5 if strong else 0.6
+def levels(deck: Deck) -> Levels:
+    """Return what is accepted of a deck: infinite where a term is approximate or left out."""
+    sums = [r for r in deck.remarks if SUM in r.how]
+    if any(r.kind != "when read" and r not in sums for r in deck.remarks):
+        return Levels(math.inf, math.inf, math.inf, math.inf, math.inf)
+    reacting = [n.items for n in deck.namelists if n.group == "MATL"]
+    sharp = bool(sums) or any("MATL_ID(2,1)" in items for items in reacting)
+    strong = 0.0 < deck.step_s < WEAK_STEP_S
     return Levels(
-        rate, late, 1.5 if strong else 0.5, 2e-3 if is_sum else 5e-4, 1e-3 if is_sum else 2e-4
+        rate=0.01 if sharp else 0.006 if strong else 0.003,
+        burnout_s=2.0 if sharp else 1.5 if strong else 0.6,
+        back_K=1.5 if strong else 0.5,
+        mass=2e-3 if sums else 5e-4,
+        fraction=1e-3 if sums else 2e-4,
     )
 
 
-def _signal(
-    name: str, found: FloatArray, ours: FloatArray, level: tuple[str, float], burnout_s: float
-) -> Agreement:
+def _signal(name: str, found: FloatArray, ours: FloatArray, level: tuple[str, float]) -> Agreement:
     off = found - ours
     rms = float(np.sqrt(np.mean(off**2)))
     mean = abs(float(np.mean(ours)))
-    return Agreement(name, rms / mean, float(np.abs(off).max()), rms, level, burnout_s)
+    return Agreement(name, rms / mean, float(np.abs(off).max()), rms, level)
 
 
 def slab_agreement(fds: pd.DataFrame, ours: pd.DataFrame, accepted: Levels) -> list[Agreement]:
@@ -105,27 +112,21 @@ def slab_agreement(fds: pd.DataFrame, ours: pd.DataFrame, accepted: Levels) -> l
     kept = (time < until) & (time <= last) & (time > 1.0)
     lost = [float(m[0] - m[time <= last][-1]) for m in (fds["mass_kg_m2"].to_numpy(float), mass)]
     released = abs(lost[0] / lost[1] - 1.0) if lost[1] else math.nan
+    pairs = {
+        RATE: (fds["rate_kg_m2s"], rate, ("rms_over_mean", accepted.rate)),
+        BACK: (fds["back_K"], back, ("rms", accepted.back_K)),
+    }
     found = [
-        _signal(
-            RATE,
-            fds["rate_kg_m2s"].to_numpy(float)[kept],
-            rate[kept],
-            ("rms_over_mean", accepted.rate),
-            late,
-        ),
-        _signal(
-            BACK, fds["back_K"].to_numpy(float)[kept], back[kept], ("rms", accepted.back_K), late
-        ),
+        _signal(name, theirs.to_numpy(float)[kept], own[kept], level)
+        for name, (theirs, own, level) in pairs.items()
     ]
-    of_mass = Agreement(
-        MASS,
-        released,
-        abs(lost[0] - lost[1]),
-        abs(lost[0] - lost[1]),
-        ("rms_over_mean", accepted.mass),
-        late,
-    )
-    return [*found, of_mass]
+    off = abs(lost[0] - lost[1])
+    found.append(Agreement(MASS, released, off, off, ("rms_over_mean", accepted.mass)))
+    first, *rest = found
+    return [
+        first._replace(burnout_s=late, latest_s=accepted.burnout_s),
+        *(of._replace(burnout_s=late) for of in rest),
+    ]
 
 
 def heated_agreement(fds: pd.DataFrame, ours: pd.DataFrame, accepted: Levels) -> list[Agreement]:
@@ -133,5 +134,5 @@ def heated_agreement(fds: pd.DataFrame, ours: pd.DataFrame, accepted: Levels) ->
     T = fds["temperature_K"].to_numpy(float)
     kept = float(ours["temperature_K"].iloc[-1]) >= T
     mass = np.interp(T[kept], ours["temperature_K"], ours[MASS_FRACTION])
-    found = fds["mass_fraction"].to_numpy(float)[kept]
-    return [_signal(MASS_FRACTION, found, mass, ("largest", accepted.fraction), math.nan)]
+    found = fds[MASS_FRACTION].to_numpy(float)[kept]
+    return [_signal(MASS_FRACTION, found, mass, ("largest", accepted.fraction))]

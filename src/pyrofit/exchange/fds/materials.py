@@ -23,6 +23,8 @@ REFERENCE_RATE_1_S = 1e-3
 """Rate at which FDS and pyrofit agree to the last digit in spite of another gas constant."""
 MOST_RAMP, MOST_ID = 30, 40
 """Characters of an identifier; FDS cuts longer ones without a word."""
+SUM = "first-order parts"
+"""What stands for a reaction of another order."""
 OPAQUE_1_M = 1e7
 """Absorption coefficient behind a translucent sample; FDS's default lets radiation pass a foil."""
 Values = Mapping[str, float]
@@ -119,7 +121,7 @@ def _parts(
     orders = [value_of(r.order, values) for _, r in own]
     if len(own) == 1 and orders[0] > 1.0 + 1e-6 and not formed:
         parts = first_order_sum(round(orders[0], 9))
-        how = f"{len(parts)} first-order parts, mass within 1E-3 of the exact one"
+        how = f"{len(parts)} {SUM}, mass within 1E-3 of the exact one"
         remarks.append(Remark("approximate", _of_order(own[0][0], orders[0]), how))
         return parts
     for (reaction, _), order in zip(own, orders, strict=True):

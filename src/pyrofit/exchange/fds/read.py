@@ -9,6 +9,7 @@ import pandas as pd
 from pyrofit.exchange.fds.properties import CELSIUS_K
 from pyrofit.exchange.fds.records import DEVICES
 from pyrofit.exchange.fds.versions import FdsError
+from pyrofit.solver.outputs import MASS_FRACTION
 
 COLUMNS = {
     "MLR": "rate_kg_m2s",
@@ -93,4 +94,6 @@ def read_tga(path: Path) -> pd.DataFrame:
         raise FdsError(f"{path.name}: the columns 'Temp' and 'Total mass' are missing")
     left = raw[mass].to_numpy(float)
     T = raw[temperature].to_numpy(float) + CELSIUS_K
-    return pd.DataFrame({"temperature_K": T, "mass_fraction": left / left[0]})
+    falls = np.flatnonzero(np.diff(T) <= 0.0)  # FDS's temperature of a sample that is gone
+    end = int(falls[0]) + 1 if falls.size else len(T)
+    return pd.DataFrame({"temperature_K": T[:end], MASS_FRACTION: left[:end] / left[0]})

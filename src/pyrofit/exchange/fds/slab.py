@@ -22,6 +22,7 @@ from pyrofit.solver.observe import POINTS, WEIGHTS, rings
 
 STRONG_W_M2 = 40e3
 """Flux from which on the time step is halved."""
+WEAK_STEP_S = 0.02
 FINE, FINER = 0.2, 0.1
 """CELL_SIZE_FACTOR of uniform cells; the smaller one where residue collects."""
 MUCH_RESIDUE = 0.02
@@ -86,7 +87,8 @@ def slab_deck(
     foil, more = foil_layers(sample.foil, values, outside.emissivity_back, bool(kappa))
     factor, of_cells = _cells(experiment, material, values, lines)
     spots = _spots(experiment, values)
-    step = 0.02 if float(outside.flux.value_W_m2.max()) < STRONG_W_M2 else 0.01
+    weak = float(outside.flux.value_W_m2.max()) < STRONG_W_M2
+    step = WEAK_STEP_S if weak else 0.5 * WEAK_STEP_S
     surfaces = _surfaces(layers + foil, lines, experiment, values, outside, version, factor, spots)
     found = [*remarks, *lines.remarks, *outside.remarks, *of_cells]
     found += unwritten(experiment, values)
