@@ -20,6 +20,14 @@ def add(commands: Any) -> None:
     fds.add_argument("--log", type=Path, help="file that keeps what is printed")
     fds.add_argument("--out", type=Path, help="folder of the files; default results/<name>/fds")
     fds.set_defaults(step=_export_fds)
+    imports = commands.add_parser("import", help="read a material of another program")
+    sources = imports.add_subparsers(dest="program", required=True, metavar="PROGRAM")
+    matl = sources.add_parser("fds", help="MATL lines become the material of a study")
+    matl.add_argument("file", type=Path, help="file with MATL, RAMP and SURF lines")
+    matl.add_argument("--surf", default="", help="SURF line of the virgin material; default: first")
+    matl.add_argument("--fds-version", default="6.8+", help="6.7 (up to 6.7.7) or 6.8+ (default)")
+    matl.add_argument("--out", type=Path, help="YAML file; default: standard output")
+    matl.set_defaults(step=_import_fds)
     check = add_step(commands, "fds-check", "run the decks in a real FDS and compare", _check_fds)
     check.add_argument("--set", default="", help="as of `export fds`")
     check.add_argument("--limit", type=float, default=1200.0, help="time limit of a run [s]")
@@ -56,3 +64,25 @@ def _check_fds(given: argparse.Namespace) -> None:
 
 def _tell(text: str) -> None:
     print(text, file=sys.stderr, flush=True)
+
+
+def _import_fds(given: argparse.Namespace) -> None:
+    from pyrofit.config import as_yaml
+    from pyrofit.exchange.fds.imported import import_fds
+    from pyrofit.exchange.fds.versions import OLD, FdsError, version_of
+    from pyrofit.results.files import write_text
+
+    try:
+        text = given.file.read_text(encoding="utf-8-sig", errors="replace")
+    except OSError as error:
+        raise FdsError(f"{given.file}: cannot be read ({error.strerror})") from None
+    old = version_of(given.fds_version) is OLD
+    found = import_fds(text, str(given.file), old, given.surf)
+    comment = "\n".join([f"Material of {given.file.name}, for a study.", *found.remarks])
+    content = as_yaml({"material": found.material}, comment)
+    for remark in found.remarks:
+        print(remark, file=sys.stderr)
+    if given.out is None:
+        print(content, end="")
+    else:
+        write_text(given.out, content)

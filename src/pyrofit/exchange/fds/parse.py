@@ -37,7 +37,7 @@ def read_namelists(text: str, source: str) -> Iterator[Read]:
     [('RAMP', {'ID': ['k'], 'T': [20.0], 'F': [0.1, 0.1]}, 2)]
     """
     at = 0
-    while found := re.compile(r"^[^!\n]*?&([A-Za-z]\w*)", re.M).search(text, at):
+    while found := re.compile(r"^[ \t]*&([A-Za-z]\w*)", re.M).search(text, at):
         line = text.count("\n", 0, found.end(1)) + 1
         keys, at = _keys(text, found.end(), f"{source}, line {line}, {found[1].upper()}")
         yield found[1].upper(), keys, line
@@ -59,19 +59,24 @@ def _keys(text: str, at: int, place: str) -> tuple[dict[str, Values], int]:
         elif found["word"]:
             if not key:
                 raise FdsError(f"{place}: '{found['word']}' belongs to no key; correct it")
-            keys[key] += _word(found["word"], f"{place}, {key}")
+            keys[key] += _word(found["word"], f"{place}, {key}", not keys[key])
     raise FdsError(f"{place}: it does not end; add the / at its end")
 
 
-def _word(word: str, place: str) -> Values:
-    """Return the values of a word: a number, a logical, or several of one by ``3*``."""
+def _word(word: str, place: str, is_first: bool) -> Values:
+    """Return the values of a word: a number, a logical, or several of one by ``3*``.
+
+    The first word of a key may be text without quotes, which compilers read as well.
+    """
     count, star, rest = word.partition("*")
     if star and count.isdigit():
-        return int(count) * _word(rest, place)
+        return int(count) * _word(rest, place, False)
     logical = word.strip(".").upper()
     if logical in ("TRUE", "T", "FALSE", "F"):
         return [logical.startswith("T")]
     try:
         return [float(re.sub("[dD]", "E", word))]
     except ValueError:
+        if is_first and re.fullmatch(r"[A-Za-z][\w.-]*", word):
+            return [word]
         raise FdsError(f"{place}: '{word}' is no number; correct it") from None
