@@ -33,6 +33,7 @@ FILES = {
     "test_identify_stage": "solver",
     "test_input_properties": "slow",
     "test_lanes": "solver",
+    "test_macfp_predictions": "solver",
     "test_noise": "slow",
     "test_reaction_order": "solver",
     "test_robustness": "solver",

@@ -7,7 +7,7 @@ import sys
 from collections.abc import Callable, Sequence
 from typing import Any
 
-from pyrofit.cli import diagnosing, exchanging, fitting, scheming, showing, starting
+from pyrofit.cli import diagnosing, exchanging, fitting, macfp, scheming, showing, starting
 from pyrofit.errors import PyrofitError
 from pyrofit.logs import Tee, open_log
 
@@ -69,6 +69,6 @@ def _run(given: argparse.Namespace) -> int:
 def _parser() -> argparse.ArgumentParser:
     parser = Parser(prog="pyrofit", description=__doc__)
     commands = parser.add_subparsers(dest="command", required=True, metavar="COMMAND")
-    for group in (starting, fitting, scheming, diagnosing, showing, exchanging):
+    for group in (starting, fitting, scheming, diagnosing, showing, exchanging, macfp):
         group.add(commands)
     return parser

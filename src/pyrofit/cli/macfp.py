@@ -1,0 +1,74 @@
+"""Commands for the parameter sets of the MaCFP data base."""
+
+import argparse
+from pathlib import Path
+from typing import Any
+
+from pyrofit.errors import DataError
+
+
+def add(commands: Any) -> None:
+    """Add these commands."""
+    macfp = commands.add_parser("macfp", help="parameter sets and submissions of MaCFP")
+    actions = macfp.add_subparsers(dest="action", required=True, metavar="ACTION")
+    lint = actions.add_parser("lint", help="say what is wrong with parameter sets")
+    lint.add_argument("files", type=Path, nargs="+", metavar="FILE", help="JSON files")
+    lint.add_argument("--strict", action="store_true", help="exit 2 unless all are strict")
+    lint.add_argument("--write", type=Path, metavar="FOLDER", help="write the strict form there")
+    lint.set_defaults(step=_lint)
+    schema = actions.add_parser("schema", help="print the JSON Schema of the strict form")
+    schema.set_defaults(step=_schema)
+    material = actions.add_parser("material", help="print a set as the material of a study")
+    material.add_argument("file", type=Path, help="JSON file")
+    material.set_defaults(step=_material)
+    predict = actions.add_parser("predict", help="simulate the ideal cases for sets")
+    predict.add_argument("files", type=Path, nargs="+", metavar="FILE", help="JSON files")
+    predict.add_argument("--cases", choices=("pmma", "wood"), default="pmma", help="MaCFP-2 or -4")
+    predict.add_argument("--out", type=Path, metavar="FOLDER", help="write the curves there")
+    predict.set_defaults(step=_predict)
+
+
+def _lint(given: argparse.Namespace) -> None:
+    from pyrofit.exchange.macfp.lint import lint
+    from pyrofit.exchange.macfp.read import read_set
+
+    strict = True
+    for line, fits in lint(given.files):
+        print(line)
+        strict = strict and fits
+    if given.write is not None:
+        given.write.mkdir(parents=True, exist_ok=True)
+        for path in given.files:
+            text = read_set(path).strict.text()
+            (given.write / path.name).write_text(text, encoding="utf-8")
+    if given.strict and not strict:
+        raise DataError(
+            "not all sets are in the strict form; write it with `pyrofit macfp lint --write FOLDER`"
+        )
+
+
+def _schema(given: argparse.Namespace) -> None:
+    import json
+
+    from pyrofit.exchange.macfp.schema import schema
+
+    print(json.dumps(schema(), indent=1, ensure_ascii=False))
+
+
+def _material(given: argparse.Namespace) -> None:
+    import json
+
+    from pyrofit.exchange.macfp.material import material_of
+    from pyrofit.exchange.macfp.read import read_set
+
+    found = read_set(given.file)
+    for note in (*found.mended, *found.notes):
+        print(f"# {note}")
+    print(json.dumps({"material": material_of(found.strict)}, indent=2, ensure_ascii=False))
+
+
+def _predict(given: argparse.Namespace) -> None:
+    from pyrofit.exchange.macfp.compare import compared
+
+    for line in compared(given.files, given.cases, given.out):
+        print(line)

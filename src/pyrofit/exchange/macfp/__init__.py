@@ -1,0 +1,1 @@
+"""Parameter sets, predictions and submissions of the MaCFP data base."""
