@@ -34,6 +34,7 @@ FILES = {
     "test_input_properties": "slow",
     "test_lanes": "solver",
     "test_macfp_predictions": "solver",
+    "test_macfp_submission": "solver",
     "test_noise": "slow",
     "test_reaction_order": "solver",
     "test_robustness": "solver",

@@ -26,6 +26,16 @@ def add(commands: Any) -> None:
     predict.add_argument("--cases", choices=("pmma", "wood"), default="pmma", help="MaCFP-2 or -4")
     predict.add_argument("--out", type=Path, metavar="FOLDER", help="write the curves there")
     predict.set_defaults(step=_predict)
+    submit = actions.add_parser("submit", help="write a complete submission of a fitted study")
+    submit.add_argument("study", type=Path, help="study file (YAML or JSON)")
+    submit.add_argument("--institute", required=True, metavar="NAME", help="your laboratory")
+    submit.add_argument("--material", default="PMMA", metavar="NAME", help="default: PMMA")
+    submit.add_argument("--form", choices=("3", "4", "both"), default="both", help="workshop")
+    submit.add_argument("--set", default="", help="set of the report, 'truth', 'diagnosis', a JSON")
+    submit.add_argument("--like", default="", metavar="EXPERIMENT", help="apparatus of MaCFP-3")
+    submit.add_argument("--results", type=Path, help="results folder; default results/<name>")
+    submit.add_argument("--out", type=Path, help="default results/<name>/macfp")
+    submit.set_defaults(step=_submit)
 
 
 def _lint(given: argparse.Namespace) -> None:
@@ -72,3 +82,21 @@ def _predict(given: argparse.Namespace) -> None:
 
     for line in compared(given.files, given.cases, given.out):
         print(line)
+
+
+def _submit(given: argparse.Namespace) -> None:
+    from pyrofit.config import read_study
+    from pyrofit.exchange.macfp.asked import Asked
+    from pyrofit.exchange.macfp.submit import submit
+    from pyrofit.exchange.sets import parameter_set
+    from pyrofit.results.files import Results
+
+    study = read_study(given.study)
+    results = Results(given.results or Path("results") / study.name)
+    chosen = parameter_set(study, results, given.set, given.study.parent)
+    forms = (3, 4) if given.form == "both" else (int(given.form),)
+    folder = given.out or results.root / "macfp"
+    asked = Asked(given.institute, given.material, forms, given.like)
+    for line in submit(study, chosen, asked, folder):
+        print(line)
+    print(f"{folder}: set '{chosen.label}' of study '{study.name}'")

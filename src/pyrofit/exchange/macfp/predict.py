@@ -6,6 +6,7 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
+from pyrofit.errors import DataError
 from pyrofit.exchange.macfp.material import material_of
 from pyrofit.exchange.macfp.schema import StrictSet
 from pyrofit.experiments import KINDS
@@ -151,6 +152,8 @@ def simulate_case(of: Material, case: Case, accuracy: Accuracy | None = None) ->
         "front": Request(times, output=outputs.FRONT),
     }
     curves = kind.simulate([described], of, {}, [asked], accuracy or Accuracy())[0][0]
+    if not curves.status.finished:
+        raise DataError(f"{case.name}: no prediction: {curves.status.explanation}")
     start = _initial_mass(of, case)
     return SlabCurves(
         np.append(0.0, times),
