@@ -1,24 +1,24 @@
 """MATL, RAMP and SURF lines of FDS as the material of a study."""
 
-import math
 from collections.abc import Iterator, Mapping
-from typing import Any, NamedTuple
+from typing import NamedTuple
 
 from pydantic import ValidationError
 
-from pyrofit.constants import GAS_CONSTANT
-from pyrofit.exchange.fds.arrays import array
-from pyrofit.exchange.fds.depth import TWO_FLUX
-from pyrofit.exchange.fds.materials import R_FDS, REFERENCE_RATE_1_S
+from pyrofit.exchange.fds.matl_line import (
+    DERIVED,
+    Keys,
+    Layer,
+    Matl,
+    component,
+    number_of,
+    reactions_of,
+)
 from pyrofit.exchange.fds.namelists import unique
 from pyrofit.exchange.fds.parse import read_namelists
-from pyrofit.exchange.fds.properties import CELSIUS_K
 from pyrofit.exchange.fds.versions import FdsError
 from pyrofit.model.material import Material
 
-Keys = dict[str, Any]
-DEFAULT_EMISSIVITY, OPAQUE_1_M = 0.9, 5e4
-"""What FDS takes where a MATL line is silent."""
 KNOWN = {
     *("ID", "FYI", "DENSITY", "CONDUCTIVITY", "CONDUCTIVITY_RAMP", "SPECIFIC_HEAT"),
     *("SPECIFIC_HEAT_RAMP", "EMISSIVITY", "ABSORPTION_COEFFICIENT", "N_REACTIONS", "A", "E"),
@@ -26,8 +26,6 @@ KNOWN = {
     *("HEAT_OF_COMBUSTION", "ADJUST_H"),
 }
 """Keys of a MATL line that are read."""
-DERIVED = {"REFERENCE_TEMPERATURE", "REFERENCE_RATE", "PYROLYSIS_RANGE", "HEATING_RATE"}
-"""Keys from which FDS would make A and E, of the peak of a TGA."""
 
 
 class Imported(NamedTuple):
@@ -43,32 +41,6 @@ class Imported(NamedTuple):
 
     material: Keys
     remarks: tuple[str, ...]
-
-
-class _Matl(NamedTuple):
-    name: str
-    keys: Mapping[str, list[Any]]
-    place: str
-
-    def one(self, key: str) -> Any:
-        """Return a single value, none where the line is silent."""
-        given = self.keys.get(key)
-        return given[0] if given else None
-
-    def of(self, key: str, rank: int) -> dict[tuple[int, ...], Any]:
-        """Return the values of an array by place, names or numbers."""
-        found = array(self.keys, key, rank, self.place)
-        kind = str if key.endswith("_ID") else float
-        for value in found.values():
-            if not isinstance(value, kind):
-                what = "name" if kind is str else "number"
-                raise FdsError(f"{self.place}: {key}: '{value}' is no {what}; correct it")
-        return found
-
-
-class _Layer(NamedTuple):
-    shares: dict[str, float]
-    density: float
 
 
 def import_fds(text: str, source: str, old_order: bool, surface: str = "") -> Imported:
@@ -93,8 +65,8 @@ def import_fds(text: str, source: str, old_order: bool, surface: str = "") -> Im
     shares = _composition(surfs, matls, source, surface)
     wanted = _reached(matls, shares)
     names = unique(wanted, 60)
-    density = 1.0 / sum(w / _number(matls[n], "DENSITY") for n, w in shares.items())
-    layer = _Layer(shares, density)
+    density = 1.0 / sum(w / number_of(matls[n], "DENSITY") for n, w in shares.items())
+    layer = Layer(shares, density)
     remarks: list[str] = [
         f"MATL '{n}': not of the virgin material, nor formed; left out"
         for n in matls
@@ -103,8 +75,8 @@ def import_fds(text: str, source: str, old_order: bool, surface: str = "") -> Im
     components: Keys = {}
     reactions: Keys = {}
     for name in wanted:
-        components[names[name]] = dict(_component(matls[name], ramps))
-        reactions |= dict(_reactions(matls[name], names, layer, old_order, remarks))
+        components[names[name]] = dict(component(matls[name], ramps))
+        reactions |= dict(reactions_of(matls[name], names, layer, old_order, remarks))
         remarks += _ignored(matls[name])
     _all_or_none(components, remarks)
     material = {
@@ -123,14 +95,14 @@ def import_fds(text: str, source: str, old_order: bool, surface: str = "") -> Im
 
 def _sorted(
     text: str, source: str
-) -> tuple[dict[str, _Matl], dict[str, list[tuple[float, float]]], list[_Matl]]:
+) -> tuple[dict[str, Matl], dict[str, list[tuple[float, float]]], list[Matl]]:
     """Return MATL lines and points of ramps by identifier, and SURF lines."""
-    matls: dict[str, _Matl] = {}
+    matls: dict[str, Matl] = {}
     ramps: dict[str, list[tuple[float, float]]] = {}
     surfs = []
     for group, keys, line in read_namelists(text, source):
         place = f"{source}, line {line}"
-        one = _Matl(str(keys.get("ID", [""])[0]), keys, place)
+        one = Matl(str(keys.get("ID", [""])[0]), keys, place)
         if group == "MATL":
             matls[one.name] = one
         elif group == "SURF":
@@ -143,7 +115,7 @@ def _sorted(
 
 
 def _composition(
-    surfs: list[_Matl], matls: Mapping[str, _Matl], source: str, wanted: str
+    surfs: list[Matl], matls: Mapping[str, Matl], source: str, wanted: str
 ) -> dict[str, float]:
     """Return the mass fractions of the front layer of a SURF line."""
     having = [s for s in surfs if any(k.startswith("MATL_ID") for k in s.keys)]
@@ -171,7 +143,7 @@ def _composition(
     return {**{name: present[name] for name in first}, last: rest}
 
 
-def _reached(matls: Mapping[str, _Matl], shares: Mapping[str, float]) -> list[str]:
+def _reached(matls: Mapping[str, Matl], shares: Mapping[str, float]) -> list[str]:
     found = list(shares)
     for name in found:  # grows as it is read
         for product in matls[name].of("MATL_ID", 2).values():
@@ -182,106 +154,7 @@ def _reached(matls: Mapping[str, _Matl], shares: Mapping[str, float]) -> list[st
     return found
 
 
-def _number(matl: _Matl, key: str) -> float:
-    value = matl.one(key)
-    if not isinstance(value, float):
-        raise FdsError(f"{matl.place}: MATL '{matl.name}' has no {key}; add it")
-    return value
-
-
-def _component(
-    matl: _Matl, ramps: Mapping[str, list[tuple[float, float]]]
-) -> Iterator[tuple[str, Any]]:
-    """Yield the keys of a component, SI units."""
-    yield "density_kg_m3", _number(matl, "DENSITY")
-    for key, own, factor in (
-        ("CONDUCTIVITY", "conductivity_W_mK", 1.0),
-        ("SPECIFIC_HEAT", "specific_heat_J_kgK", 1e3),
-    ):
-        ramp = matl.one(f"{key}_RAMP")
-        if ramp is None:
-            yield own, _digits(factor * _number(matl, key))
-            continue
-        points = sorted(ramps.get(ramp, []))
-        if len(points) < 2:
-            raise FdsError(f"{matl.place}: the RAMP '{ramp}' has {len(points)} lines; it needs 2")
-        table = {
-            "temperature_K": [round(T + CELSIUS_K, 6) for T, _ in points],
-            "value": [_digits(factor * F) for _, F in points],
-        }
-        yield own, table
-    emissivity = matl.one("EMISSIVITY")
-    yield "emissivity", DEFAULT_EMISSIVITY if emissivity is None else emissivity
-    kappa = matl.one("ABSORPTION_COEFFICIENT")
-    if kappa is not None and kappa < OPAQUE_1_M:
-        yield "absorption_1_m", _digits(kappa / TWO_FLUX)
-
-
-def _digits(value: float) -> float:
-    """Return a number without the noise of a change of units."""
-    return float(f"{value:.12g}")
-
-
-def _reactions(
-    matl: _Matl, names: Mapping[str, str], layer: _Layer, old_order: bool, remarks: list[str]
-) -> Iterator[tuple[str, Keys]]:
-    """Yield the reactions of a component by name."""
-    count = int(matl.one("N_REACTIONS") or 0)
-    factors, energies, orders = (matl.of(key, 1) for key in ("A", "E", "N_S"))
-    heats = matl.of("HEAT_OF_REACTION", 1)
-    products, yields = matl.of("MATL_ID", 2), matl.of("NU_MATL", 2)
-    gases, burnt = matl.of("NU_SPEC", 2), matl.of("HEAT_OF_COMBUSTION", 2)
-    for j in range(1, count + 1):
-        if (j,) not in factors or (j,) not in energies:
-            given = sorted(DERIVED & {key.partition("(")[0] for key in matl.keys})
-            why = f", not {', '.join(given)}, which FDS turns into them" if given else ""
-            raise FdsError(f"{matl.place}: MATL '{matl.name}' needs A({j}) and E({j}){why}")
-        order = float(orders.get((j,), 1.0))
-        solid = {names[p]: yields.get((i, j), 0.0) for (i, k), p in products.items() if k == j}
-        total = sum(solid.values()) + sum(nu for (_, k), nu in gases.items() if k == j)
-        if abs(total - 1.0) > 1e-6:
-            remarks.append(
-                f"MATL '{matl.name}': yields of reaction {j} add up to {total:g}; "
-                "the rest is taken as gas"
-            )
-        reaction: Keys = {"reactant": names[matl.name]}
-        if present := {product: nu for product, nu in solid.items() if nu > 0.0}:
-            reaction["products"] = present
-        reaction["A_1_s"] = _factor(factors[j,], order, matl, layer, old_order, remarks)
-        reaction["E_J_mol"] = energies[j,]
-        if order != 1.0:
-            reaction["order"] = order
-        reaction["heat_of_reaction_J_kg"] = _digits(1e3 * heats.get((j,), 0.0))
-        if (1, j) in burnt:
-            reaction["heat_of_combustion_J_kg"] = _digits(1e3 * burnt[1, j])
-        name = names[matl.name]
-        yield (name if count == 1 else f"{name}_{j}"), reaction
-
-
-def _factor(
-    A: float, order: float, matl: _Matl, layer: _Layer, old_order: bool, remarks: list[str]
-) -> float:
-    """Return A of pyrofit [1/s], of r = A exp(-E/(R T)) m0 (m/m0)^n.
-
-    Up to 6.7.7 r = rho_s0 A (rho_i/rho_s0)^n, from 6.7.8 on A rho_i^n, with rho_s0 of the layer.
-    """
-    if order != 1.0:
-        share = layer.shares.get(matl.name)
-        if share is None:
-            remarks.append(f"MATL '{matl.name}': order {order:g} of a product; A taken as it is")
-        else:
-            A *= (share if old_order else share * layer.density) ** (order - 1.0)
-            remarks.append(
-                f"MATL '{matl.name}': order {order:g}: FDS applies it to the density of a cell, "
-                "which shrinks; pyrofit to the mass"
-            )
-    if A > REFERENCE_RATE_1_S:
-        ratio = R_FDS / GAS_CONSTANT
-        A = REFERENCE_RATE_1_S * math.exp(math.log(A / REFERENCE_RATE_1_S) * ratio)
-    return float(A)
-
-
-def _ignored(matl: _Matl) -> Iterator[str]:
+def _ignored(matl: Matl) -> Iterator[str]:
     """Yield the keys of a line that are not read."""
     for key in matl.keys:
         if key.partition("(")[0] not in KNOWN | DERIVED:

@@ -1,0 +1,148 @@
+"""A MATL line of FDS as a component and its reactions."""
+
+import math
+from collections.abc import Iterator, Mapping
+from typing import Any, NamedTuple
+
+from pyrofit.constants import GAS_CONSTANT
+from pyrofit.exchange.fds.arrays import array
+from pyrofit.exchange.fds.depth import TWO_FLUX
+from pyrofit.exchange.fds.materials import R_FDS, REFERENCE_RATE_1_S
+from pyrofit.exchange.fds.properties import CELSIUS_K
+from pyrofit.exchange.fds.versions import FdsError
+
+Keys = dict[str, Any]
+DEFAULT_EMISSIVITY, OPAQUE_1_M = 0.9, 5e4
+"""What FDS takes where a MATL line is silent."""
+DERIVED = {"REFERENCE_TEMPERATURE", "REFERENCE_RATE", "PYROLYSIS_RANGE", "HEATING_RATE"}
+"""Keys from which FDS would make A and E, of the peak of a TGA."""
+
+
+class Matl(NamedTuple):
+    """A line: its identifier, its keys, and where it stands."""
+
+    name: str
+    keys: Mapping[str, list[Any]]
+    place: str
+
+    def one(self, key: str) -> Any:
+        """Return a single value, none where the line is silent."""
+        given = self.keys.get(key)
+        return given[0] if given else None
+
+    def of(self, key: str, rank: int) -> dict[tuple[int, ...], Any]:
+        """Return the values of an array by place, names or numbers."""
+        found = array(self.keys, key, rank, self.place)
+        kind = str if key.endswith("_ID") else float
+        for value in found.values():
+            if not isinstance(value, kind):
+                what = "name" if kind is str else "number"
+                raise FdsError(f"{self.place}: {key}: '{value}' is no {what}; correct it")
+        return found
+
+
+class Layer(NamedTuple):
+    """The virgin material: mass fractions by identifier, and density [kg/m3]."""
+
+    shares: dict[str, float]
+    density: float
+
+
+def number_of(matl: Matl, key: str) -> float:
+    """Return a number that a line must have."""
+    value = matl.one(key)
+    if not isinstance(value, float):
+        raise FdsError(f"{matl.place}: MATL '{matl.name}' has no {key}; add it")
+    return value
+
+
+def component(
+    matl: Matl, ramps: Mapping[str, list[tuple[float, float]]]
+) -> Iterator[tuple[str, Any]]:
+    """Yield the keys of a component, SI units."""
+    yield "density_kg_m3", number_of(matl, "DENSITY")
+    for key, own, factor in (
+        ("CONDUCTIVITY", "conductivity_W_mK", 1.0),
+        ("SPECIFIC_HEAT", "specific_heat_J_kgK", 1e3),
+    ):
+        ramp = matl.one(f"{key}_RAMP")
+        if ramp is None:
+            yield own, _digits(factor * number_of(matl, key))
+            continue
+        points = sorted(ramps.get(ramp, []))
+        if len(points) < 2:
+            raise FdsError(f"{matl.place}: the RAMP '{ramp}' has {len(points)} lines; it needs 2")
+        table = {
+            "temperature_K": [round(T + CELSIUS_K, 6) for T, _ in points],
+            "value": [_digits(factor * F) for _, F in points],
+        }
+        yield own, table
+    emissivity = matl.one("EMISSIVITY")
+    yield "emissivity", DEFAULT_EMISSIVITY if emissivity is None else emissivity
+    kappa = matl.one("ABSORPTION_COEFFICIENT")
+    if kappa is not None and kappa < OPAQUE_1_M:
+        yield "absorption_1_m", _digits(kappa / TWO_FLUX)
+
+
+def _digits(value: float) -> float:
+    """Return a number without the noise of a change of units."""
+    return float(f"{value:.12g}")
+
+
+def reactions_of(
+    matl: Matl, names: Mapping[str, str], layer: Layer, old_order: bool, remarks: list[str]
+) -> Iterator[tuple[str, Keys]]:
+    """Yield the reactions of a component by name."""
+    count = int(matl.one("N_REACTIONS") or 0)
+    factors, energies, orders = (matl.of(key, 1) for key in ("A", "E", "N_S"))
+    heats = matl.of("HEAT_OF_REACTION", 1)
+    products, yields = matl.of("MATL_ID", 2), matl.of("NU_MATL", 2)
+    gases, burnt = matl.of("NU_SPEC", 2), matl.of("HEAT_OF_COMBUSTION", 2)
+    for j in range(1, count + 1):
+        if (j,) not in factors or (j,) not in energies:
+            given = sorted(DERIVED & {key.partition("(")[0] for key in matl.keys})
+            why = f", not {', '.join(given)}, which FDS turns into them" if given else ""
+            raise FdsError(f"{matl.place}: MATL '{matl.name}' needs A({j}) and E({j}){why}")
+        order = float(orders.get((j,), 1.0))
+        solid = {names[p]: yields.get((i, j), 0.0) for (i, k), p in products.items() if k == j}
+        total = sum(solid.values()) + sum(nu for (_, k), nu in gases.items() if k == j)
+        if abs(total - 1.0) > 1e-6:
+            remarks.append(
+                f"MATL '{matl.name}': yields of reaction {j} add up to {total:g}; "
+                "the rest is taken as gas"
+            )
+        reaction: Keys = {"reactant": names[matl.name]}
+        if present := {product: nu for product, nu in solid.items() if nu > 0.0}:
+            reaction["products"] = present
+        reaction["A_1_s"] = _factor(factors[j,], order, matl, layer, old_order, remarks)
+        reaction["E_J_mol"] = energies[j,]
+        if order != 1.0:
+            reaction["order"] = order
+        reaction["heat_of_reaction_J_kg"] = _digits(1e3 * heats.get((j,), 0.0))
+        if (1, j) in burnt:
+            reaction["heat_of_combustion_J_kg"] = _digits(1e3 * burnt[1, j])
+        name = names[matl.name]
+        yield (name if count == 1 else f"{name}_{j}"), reaction
+
+
+def _factor(
+    A: float, order: float, matl: Matl, layer: Layer, old_order: bool, remarks: list[str]
+) -> float:
+    """Return A of pyrofit [1/s], of r = A exp(-E/(R T)) m0 (m/m0)^n.
+
+    Up to 6.7.7 r = rho_s0 A (rho_i/rho_s0)^n, from 6.7.8 on A rho_i^n, with rho_s0 of the layer.
+    """
+    if order != 1.0:
+        share = layer.shares.get(matl.name)
+        if share is None:
+            remarks.append(f"MATL '{matl.name}': order {order:g} of a product; A taken as it is")
+        else:
+            A *= (share if old_order else share * layer.density) ** (order - 1.0)
+            remarks.append(
+                f"MATL '{matl.name}': order {order:g}: FDS applies it to the density of a cell, "
+                "which shrinks; pyrofit to the mass"
+            )
+    if A > REFERENCE_RATE_1_S:
+        ratio = R_FDS / GAS_CONSTANT
+        A = REFERENCE_RATE_1_S * math.exp(math.log(A / REFERENCE_RATE_1_S) * ratio)
+    return float(A)
