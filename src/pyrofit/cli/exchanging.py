@@ -2,6 +2,7 @@
 
 import argparse
 import sys
+from collections.abc import Callable
 from pathlib import Path
 from typing import Any
 
@@ -12,14 +13,13 @@ def add(commands: Any) -> None:
     """Add these commands."""
     export = commands.add_parser("export", help="write a fitted material for another program")
     programs = export.add_subparsers(dest="program", required=True, metavar="PROGRAM")
-    fds = programs.add_parser("fds", help="a file to include, and decks that check it")
-    fds.add_argument("study", type=Path, help="study file (YAML or JSON)")
-    fds.add_argument("--set", default="", help="set of the report, 'truth', 'diagnosis', or a JSON")
+    fds = _program(programs, "fds", "a file to include, and decks that check it", _export_fds)
     fds.add_argument("--fds-version", default="6.7", help="6.7 (default) or 6.8+")
-    fds.add_argument("--results", type=Path, help="results folder; default results/<name>")
     fds.add_argument("--log", type=Path, help="file that keeps what is printed")
-    fds.add_argument("--out", type=Path, help="folder of the files; default results/<name>/fds")
-    fds.set_defaults(step=_export_fds)
+    _program(programs, "gpyro", "input files `.data`", _export_other)
+    _program(programs, "thermakin", "input files `.cmp` and `.cnd`", _export_other)
+    spyro = _program(programs, "spyro", "reference curves for FDS 6.8 and newer", _export_other)
+    spyro.add_argument("--curves", choices=("simulated", "measured"), default="simulated")
     imports = commands.add_parser("import", help="read a material of another program")
     sources = imports.add_subparsers(dest="program", required=True, metavar="PROGRAM")
     matl = sources.add_parser("fds", help="MATL lines become the material of a study")
@@ -31,6 +31,41 @@ def add(commands: Any) -> None:
     check = add_step(commands, "fds-check", "run the decks in a real FDS and compare", _check_fds)
     check.add_argument("--set", default="", help="as of `export fds`")
     check.add_argument("--limit", type=float, default=1200.0, help="time limit of a run [s]")
+
+
+def _program(
+    programs: Any, name: str, text: str, step: Callable[[argparse.Namespace], None]
+) -> Any:
+    """Add a program that a study is written for."""
+    parser = programs.add_parser(name, help=text)
+    parser.add_argument("study", type=Path, help="study file (YAML or JSON)")
+    parser.add_argument("--set", default="", help="set of the report, truth, diagnosis, or a JSON")
+    parser.add_argument("--results", type=Path, help="results folder; default results/<name>")
+    parser.add_argument("--out", type=Path, help=f"folder; default results/<name>/{name}")
+    parser.set_defaults(step=step)
+    return parser
+
+
+def _export_other(given: argparse.Namespace) -> None:
+    from pyrofit.config import read_study
+    from pyrofit.exchange import programs
+    from pyrofit.exchange.sets import parameter_set
+    from pyrofit.results.files import Results
+
+    study = read_study(given.study)
+    results = Results(given.results or Path("results") / study.name)
+    chosen = parameter_set(study, results, given.set, given.study.parent)
+    folder = given.out or results.root / given.program
+    if given.program == "spyro":
+        measured = given.curves == "measured"
+        said = programs.export_spyro(study, chosen, results, folder, measured)
+    elif given.program == "gpyro":
+        said = programs.export_gpyro(study, chosen, folder)
+    else:
+        said = programs.export_thermakin(study, chosen, folder)
+    for line in said:
+        print(line)
+    print(f"{folder}: set '{chosen.label}' for {given.program}")
 
 
 def _export_fds(given: argparse.Namespace) -> None:

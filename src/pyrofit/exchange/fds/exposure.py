@@ -1,4 +1,4 @@
-"""What acts on a slab, as FDS takes it: one flux over time, one temperature on each side.
+"""What acts on a slab: one flux over time, one temperature on each side.
 
 FDS's surroundings are at one temperature T_0 for convection and radiation. With T_0 the gas
 temperature at the start, the external flux
@@ -77,6 +77,12 @@ class Outside(NamedTuple):
     back_K: float
     cube_root: float
     remarks: tuple[Remark, ...]
+
+    @classmethod
+    def still(cls, T: float) -> "Outside":
+        """Return surroundings at one temperature [K], without any exchange."""
+        flux = Flux(np.zeros(1), np.zeros(1))
+        return cls(flux, np.zeros(1), 0.0, T, 0.0, 0.0, T, 0.0, ())
 
     @property
     def is_insulated(self) -> bool:

@@ -50,11 +50,12 @@ def include(study: Study, chosen: ParameterSet, version: Version) -> Deck:
     burnt = [value_of(r.heat_of_combustion_J_kg, values) for r in material.reactions.values()]
     heat = max(burnt, default=0.0)
     described = tuple(_described(study, chosen, lines))
-    namelists = (_gas(1e-3 * heat), *described, _surface(study, chosen, lines, slabs))
+    namelists = (gas_line(1e-3 * heat), *described, _surface(study, chosen, lines, slabs))
     return Deck("material", "the material", namelists, once(found))
 
 
-def _gas(heat: float) -> Namelist:
+def gas_line(heat: float) -> Namelist:
+    """Return the REAC line of the gas, with a heat of combustion [kJ/kg] where it is known."""
     items: dict[str, Item] = {"ID": "PYROLYSIS GAS", "FUEL": GAS, **dict(OF_GAS)}
     stated = "as in the study" if heat else "not from the study"
     comment = (

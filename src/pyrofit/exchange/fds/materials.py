@@ -84,7 +84,7 @@ def write_materials(
     """Return the lines of the named components and of what they form."""
     chosen = reached(material, names)
     remarks: list[Remark] = []
-    split = {name: _parts(material, values, name, remarks) for name in chosen}
+    split = {name: first_order_parts(material, values, name, remarks) for name in chosen}
     keys = [
         f"{name}{k + 1}" if len(of) > 1 else name
         for name, of in split.items()
@@ -109,10 +109,10 @@ def write_materials(
 def _own(material: Material, values: Values, name: str) -> list[tuple[str, Reaction]]:
     """Return the reactions of a component that run at all."""
     found = [(n, r) for n, r in material.reactions.items() if r.reactant == name]
-    return [(n, r) for n, r in found if _factor(r, values) > 0.0]
+    return [(n, r) for n, r in found if factor_with(r, values) > 0.0]
 
 
-def _parts(
+def first_order_parts(
     material: Material, values: Values, name: str, remarks: list[Remark]
 ) -> tuple[tuple[float, float], ...]:
     """Return shares and relative rates of the first-order parts that a component is split into."""
@@ -185,19 +185,19 @@ def _unwritten(
         yield Remark("left out", what, "an absorption coefficient of FDS is constant")
 
 
-def _factor(reaction: Reaction, values: Values) -> float:
-    """Return A [1/s] with the gas constant of FDS."""
+def factor_with(reaction: Reaction, values: Values, R: float = R_FDS) -> float:
+    """Return A [1/s] that has the same rate with another gas constant R [J/(mol K)]."""
     E = value_of(reaction.E_J_mol, values)
     if reaction.A_1_s is None:
         assert reaction.reference_rate_1_s is not None
         assert reaction.reference_temperature_K is not None
         rate = value_of(reaction.reference_rate_1_s, values)
-        return rate * math.exp(E / (R_FDS * value_of(reaction.reference_temperature_K, values)))
+        return rate * math.exp(E / (R * value_of(reaction.reference_temperature_K, values)))
     A = value_of(reaction.A_1_s, values)
     if A <= REFERENCE_RATE_1_S:
         return A
     # The same k at the temperature of the reference rate: E / (R T) = ln(A / k) there.
-    return REFERENCE_RATE_1_S * math.exp(math.log(A / REFERENCE_RATE_1_S) * GAS_CONSTANT / R_FDS)
+    return REFERENCE_RATE_1_S * math.exp(math.log(A / REFERENCE_RATE_1_S) * GAS_CONSTANT / R)
 
 
 def _reactions(
@@ -219,7 +219,7 @@ def _reactions(
     is_sum = rate != 1.0
     for j, reaction in enumerate(own, 1):
         factor = rate if is_sum else same_half_time(value_of(reaction.order, values))
-        yield f"A({j})", factor * _factor(reaction, values)
+        yield f"A({j})", factor * factor_with(reaction, values)
         yield f"E({j})", value_of(reaction.E_J_mol, values)
         yield f"N_S({j})", 1.0
         yield from _products(reaction, values, first, options.gas, j)

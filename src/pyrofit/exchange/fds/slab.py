@@ -13,12 +13,12 @@ from pyrofit.exchange.fds.predicted import Predicted
 from pyrofit.exchange.fds.properties import CELSIUS_K
 from pyrofit.exchange.fds.records import CELL_M, closing
 from pyrofit.exchange.fds.remarks import Remark, once
+from pyrofit.exchange.fds.spots import spots_of
 from pyrofit.exchange.fds.unwritten import unwritten
 from pyrofit.exchange.fds.versions import Version
 from pyrofit.model.base import value_of
 from pyrofit.model.material import Material
 from pyrofit.model.slab import EmissivityDepth, SlabExperiment
-from pyrofit.solver.observe import POINTS, WEIGHTS, rings
 
 STRONG_W_M2 = 40e3
 """Flux from which on the time step is halved."""
@@ -82,11 +82,11 @@ def slab_deck(
     layers = own_layers(sample, material, values)
     names = [n for layer in layers for n in layer.shares]
     lines = write_materials(material, values, names, Options(version, absorption_1_m=kappa))
-    emissivity = _emissivity(layers[0], material, values)
+    emissivity = virgin_emissivity(layers[0], material, values)
     outside = surroundings(experiment, values, predicted, emissivity, version.cube_root)
     foil, more = foil_layers(sample.foil, values, outside.emissivity_back, bool(kappa))
     factor, of_cells = _cells(experiment, material, values, lines)
-    spots = _spots(experiment, values)
+    spots = spots_of(experiment, values)
     weak = float(outside.flux.value_W_m2.max()) < STRONG_W_M2
     step = WEAK_STEP_S if weak else 0.5 * WEAK_STEP_S
     surfaces = _surfaces(layers + foil, lines, experiment, values, outside, version, factor, spots)
@@ -108,7 +108,7 @@ def slab_deck(
     )
 
 
-def _emissivity(layer: Layer, material: Material, values: Values) -> float:
+def virgin_emissivity(layer: Layer, material: Material, values: Values) -> float:
     """Return the emissivity of the virgin front, by volume as pyrofit mixes it."""
     parts = [(material.components[n], w) for n, w in layer.shares.items()]
     volumes = [w / value_of(c.density_kg_m3, values) for c, w in parts]
@@ -137,17 +137,6 @@ def _cells(
     how = "FDS takes that of its surface cell; `emissivity_depth: {cell_size_factor: 0.2}` is alike"
     what = "depth over which the emissivity is averaged (sample.emissivity_depth)"
     return factor, [Remark("approximate", what, how)]
-
-
-def _spots(experiment: SlabExperiment, values: Values) -> list[tuple[float, float]]:
-    """Return multiples of the flux, and weights, whose mean the uneven flux is."""
-    spread = value_of(experiment.front.spread, values)
-    even = [(1.0, 1.0)]
-    if spread:
-        pairs = zip(POINTS.tolist(), WEIGHTS.tolist(), strict=True)
-        even = [(1.0 + spread * x, 0.5 * w) for x, w in pairs]
-    profile = zip(*(part.tolist() for part in rings(experiment.front.profile)), strict=True)
-    return [(f * g, v * w) for f, v in list(profile) for g, w in even]
 
 
 def _head(
@@ -193,7 +182,7 @@ def _surfaces(
     common = {
         "COLOR": "BLACK",
         **layer_keys(layers, lines),
-        "CELL_SIZE_FACTOR": factor,
+        **_fineness(layers, lines, factor, version),
         # For every layer: TMP_INNER alone sets the first one only.
         f"TMP_INNER(1:{len(layers)})": [start] * len(layers),
         "HEAT_TRANSFER_COEFFICIENT": outside.h_front,
@@ -206,6 +195,16 @@ def _surfaces(
         found.append(Namelist("SURF", {"ID": f"SLAB{mark}", **common, **flux}))
         found += ramp
     return found
+
+
+def _fineness(
+    layers: list[Layer], lines: Lines, factor: float, version: Version
+) -> dict[str, Item | list[Item]]:
+    """Return the fineness of the cells: one number up to 6.7, one for each layer later."""
+    described = sum(set(layer.shares) <= set(lines.parts) for layer in layers)
+    if version.locks_step and described > 1:
+        return {f"CELL_SIZE_FACTOR(1:{len(layers)})": [factor] * len(layers)}
+    return {"CELL_SIZE_FACTOR": factor}
 
 
 def _under(outside: Outside, multiple: float) -> Flux:

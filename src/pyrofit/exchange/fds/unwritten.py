@@ -14,13 +14,13 @@ def unwritten(experiment: SlabExperiment, values: Values) -> Iterator[Remark]:
     sample = experiment.sample
     if sample.edge is not None and value_of(sample.edge.h_W_m2K, values) > 0.0:
         what = "edge loss (sample.edge)"
-        yield Remark("left out", what, "FDS's conduction has one dimension")
+        yield Remark("left out", what, "conduction has one dimension")
     if change := value_of(sample.emissivity_change, values):
         what = f"emissivity with conversion, {change:.3g} in all (sample.emissivity_change)"
-        yield Remark("left out", what, "an emissivity of FDS belongs to a component")
+        yield Remark("left out", what, "an emissivity belongs to a component")
     if heat := value_of(sample.gas_specific_heat_J_kgK, values):
         what = f"enthalpy of the gas, {heat:.4g} J/(kg K) (sample.gas_specific_heat_J_kgK)"
-        yield Remark("left out", what, "the gas of FDS leaves without taking up heat")
+        yield Remark("left out", what, "the gas leaves without taking up heat")
     for name, signal in experiment.signals.items():
         for key, unit in (("delay_s", "s"), ("offset", "SI")):
             if shift := value_of(getattr(signal, key), values):
@@ -33,4 +33,4 @@ def unwritten_heated(experiment: HeatedExperiment, values: Values) -> Iterator[R
     for key, unit in (("lag_s", "s"), ("temperature_offset_K", "K")):
         if shift := value_of(getattr(experiment, key), values):
             what = f"{key} of {shift:.4g} {unit} ({key})"
-            yield Remark("when read", what, "FDS's temperature is that of the sample")
+            yield Remark("when read", what, "the temperature is that of the sample")

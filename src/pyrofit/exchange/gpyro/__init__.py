@@ -1,0 +1,1 @@
+"""Gpyro: input files of slabs and heating rates."""

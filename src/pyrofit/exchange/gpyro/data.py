@@ -1,0 +1,191 @@
+"""Input files of Gpyro, one for each slab and one for all heating rates."""
+
+from collections.abc import Iterator, Sequence
+from typing import NamedTuple
+
+import numpy as np
+
+from pyrofit.exchange.fds.exposure import Outside, surroundings
+from pyrofit.exchange.fds.heated import virgin
+from pyrofit.exchange.fds.layers import Layer, own_layers
+from pyrofit.exchange.fds.materials import Values, reached
+from pyrofit.exchange.fds.namelists import Namelist
+from pyrofit.exchange.fds.predicted import Predicted
+from pyrofit.exchange.fds.properties import tabulated
+from pyrofit.exchange.fds.remarks import Remark, once
+from pyrofit.exchange.fds.slab import virgin_emissivity
+from pyrofit.exchange.fds.unwritten import unwritten
+from pyrofit.exchange.fitted_forms import power_law, remark_on
+from pyrofit.exchange.gpyro.groups import (
+    CELLS,
+    T_REF_K,
+    Items,
+    boundaries,
+    general,
+    geometry,
+    initial,
+    numbered,
+    output,
+    reactions,
+    species,
+    unused,
+)
+from pyrofit.exchange.steps import Step, steps_of
+from pyrofit.model.base import value_of
+from pyrofit.model.heated import HeatedExperiment
+from pyrofit.model.material import Material
+from pyrofit.model.slab import Foil, SlabExperiment
+
+R_GPYRO = 8.314
+OPAQUE_1_M = 9e9
+FOIL = "foil"
+TGA_ENDS_K = 900.0
+
+
+class Data(NamedTuple):
+    """A file of Gpyro: its lines, and what is not exact."""
+
+    namelists: tuple[Namelist, ...]
+    remarks: tuple[Remark, ...]
+
+
+def slab_data(
+    name: str,
+    experiment: SlabExperiment,
+    material: Material,
+    values: Values,
+    predicted: Predicted,
+) -> Data:
+    """Return the file of a slab.
+
+    The foil is a cell of its heat capacity. Gas and walls of the front are one temperature, the
+    rest is part of QE, as for FDS.
+    """
+    sample = experiment.sample
+    layers = own_layers(sample, material, values)
+    present = reached(material, [n for layer in layers for n in layer.shares])
+    eps = virgin_emissivity(layers[0], material, values)
+    outside = surroundings(experiment, values, predicted, eps, False)
+    length = value_of(sample.absorption_length_m, values)
+    bodies, remarks = all_species(material, values, present, length)
+    remarks += [*unwritten(experiment, values), *outside.remarks]
+    remarks += _left_out(experiment, values, outside, eps)
+    steps = steps_of(material, values, present, R_GPYRO)
+    remarks += _orders(steps, layers)
+    if sample.foil is not None:
+        thickness = sum(layer.thickness_m for layer in layers) / (CELLS - 1)
+        bodies.append(_foil(sample.foil, values, thickness, outside.emissivity_back))
+        layers.append(Layer({FOIL: 1.0}, thickness))
+        present = [*present, FOIL]
+    depth = sum(layer.thickness_m for layer in layers)
+    end: Items = {"TSTOP(1)": predicted.end_s, "ZEROD(1)": False, "BETA(1)": 0}
+    namelists = (
+        general(0.02, outside.gas_K),
+        output(name, ["MLR", "TEMPERATURE", "TEMPERATURE"], [0.0, 0.0, depth]),
+        Namelist("GPYRO_SPROPS", numbered("NSSPEC", bodies)),
+        *reactions(steps),
+        Namelist("GPYRO_CASES", {"NCASES": 1, "IMESH(1)": 1, **end}),
+        *unused(),
+        initial(layers, present, value_of(sample.initial_temperature_K, values)),
+        Namelist("GPYRO_ALLBC", numbered("NSURF_IDX", boundaries(outside))),
+        Namelist("GPYRO_GEOM", geometry(layers, depth, (0, 0, 0, 0, 1, 2))),
+    )
+    return Data(namelists, once(remarks))
+
+
+def heated_data(
+    name: str, experiments: Sequence[HeatedExperiment], material: Material, values: Values
+) -> Data:
+    """Return the file of all heating rates: one case of no dimension for each."""
+    layer = virgin(material, values)._replace(thickness_m=1.0)
+    present = reached(material, list(layer.shares))
+    bodies, remarks = all_species(material, values, present, 0.0)
+    steps = steps_of(material, values, present, R_GPYRO)
+    rates = sorted({e.heating_rate_K_min for e in experiments})
+    start = experiments[0].start_temperature_K
+    cases: Items = {"NCASES": len(rates)}
+    for n, rate in enumerate(rates, 1):
+        stop = round(60.0 * (TGA_ENDS_K - start) / rate, 3)
+        cases |= {f"IMESH({n})": 1, f"TSTOP({n})": stop, f"ZEROD({n})": True, f"BETA({n})": rate}
+    mesh: Items = geometry([layer], 1.0, (1,) * 6) | {"NCELLZ(1)": 1}
+    namelists = (
+        general(0.1, start),
+        output(name, ["MLR", "M/M0"], [0.0, 0.0]),
+        Namelist("GPYRO_SPROPS", numbered("NSSPEC", bodies)),
+        *reactions(steps),
+        Namelist("GPYRO_CASES", cases),
+        *unused(),
+        initial([layer], present, start),
+        Namelist("GPYRO_ALLBC", numbered("NSURF_IDX", boundaries(Outside.still(start)))),
+        Namelist("GPYRO_GEOM", mesh),
+    )
+    return Data(namelists, once([*remarks, *_orders(steps, [layer])]))
+
+
+def _left_out(
+    experiment: SlabExperiment, values: Values, outside: Outside, eps: float
+) -> Iterator[Remark]:
+    """Yield what of a slab Gpyro has not, or another way."""
+    sample = experiment.sample
+    if value_of(experiment.front.spread, values) or experiment.front.profile:
+        what = "flux spread (front.spread, front.profile)"
+        yield Remark("left out", what, "the mean flux is written")
+    if value_of(sample.surface_share, values):
+        what = "in-depth absorption of one band only (sample.surface_share)"
+        yield Remark("left out", what, "all radiation is absorbed in depth")
+    if sample.foil is not None:
+        yield Remark("approximate", "foil (sample.foil)", "a cell of its heat capacity")
+        if value_of(sample.foil.contact_m2K_W, values):
+            what = "resistance between sample and foil (sample.foil.contact_m2K_W)"
+            yield Remark("left out", what, "the foil touches the sample")
+    elif not outside.is_insulated and abs(outside.emissivity_back - eps) > 1e-3:
+        what = "emissivity of the back (back.emissivity)"
+        yield Remark("left out", what, "that of the material in the last cell counts")
+
+
+def _orders(steps: list[Step], layers: list[Layer]) -> list[Remark]:
+    """Name orders of products, whose initial mass is another one in Gpyro."""
+    virgin = {n for layer in layers for n in layer.shares}
+    return [
+        Remark(
+            "approximate", f"order {s.order:.4g} of '{s.reactant}'", "Gpyro counts what was formed"
+        )
+        for s in steps
+        if s.order != 1.0 and s.reactant not in virgin
+    ]
+
+
+def all_species(
+    material: Material, values: Values, present: list[str], length: float
+) -> tuple[list[Items], list[Remark]]:
+    """Return the properties of components, each as phi0 (T/T_ref)^n."""
+    found: list[Items] = []
+    remarks = []
+    for name in present:
+        of = material.components[name]
+        k, c = (
+            power_law(tabulated(p, values), T_REF_K)
+            for p in (of.conductivity_W_mK, of.specific_heat_J_kgK)
+        )
+        power = "phi0 (T/300)^n"
+        remarks += remark_on(k, f"conductivity of '{name}' (conductivity_W_mK)", power)
+        remarks += remark_on(c, f"specific heat of '{name}' (specific_heat_J_kgK)", power)
+        if np.any(np.abs(tabulated(of.expansion, values) - 1.0) > 1e-9):
+            what = f"swelling of '{name}' (components.{name}.expansion)"
+            remarks.append(Remark("left out", what, "not written"))
+        kappa = value_of(of.absorption_1_m or 0.0, values)
+        if length > 0.0 and name in material.own:
+            kappa = 1.0 / length
+        density, eps = value_of(of.density_kg_m3, values), value_of(of.emissivity, values)
+        found.append(
+            species(name, k.coefficients, density, c.coefficients, eps, kappa or OPAQUE_1_M)
+        )
+    return found, remarks
+
+
+def _foil(foil: Foil, values: Values, thickness: float, emissivity: float) -> Items:
+    """Return a body of a thickness [m] that has the heat capacity of the foil."""
+    mass = value_of(foil.mass_factor, values) * value_of(foil.thickness_m, values)
+    density = mass * value_of(foil.density_kg_m3, values) / thickness
+    heat = value_of(foil.specific_heat_J_kgK, values)
+    return species(FOIL, (387.0, 0.0), density, (heat, 0.0), emissivity, OPAQUE_1_M)

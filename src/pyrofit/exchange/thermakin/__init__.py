@@ -1,0 +1,1 @@
+"""ThermaKin2Ds: components, and conditions of slabs and heating rates."""
