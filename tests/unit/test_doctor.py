@@ -114,6 +114,21 @@ def test_density_of_the_readme_is_compared(tmp_path: Path) -> None:
     assert "mass against README" in checks(seen, "doubt")
 
 
+def test_area_of_a_readme_holds_for_its_section(tmp_path: Path) -> None:
+    head = "|Test Name | Initial sample mass (g) | Thickness (mm) |\n|---|---|---|\n"
+    (tmp_path / "README.md").write_text(
+        "### CAPA\n* Sample Surface Area: 0.00385 m2\n" + head + "| A_CAPA_50kW_1 | 12 | 8.5 |\n"
+        "### LFA\n* Sample Surface Area: 5 cm2\n### Cone\n" + head + "| A_Cone_50kW_1 | 70 | 6 |\n",
+        encoding="utf-8",
+    )
+    header = "Time (s),Mass (g)"
+    write(tmp_path / "A_CAPA_50kW_1.csv", header, SECONDS, SLAB / 6.0)
+    cone(tmp_path / "A_Cone_50kW_1.csv")
+    facts = {seen.path.stem: seen.facts for seen in examine_folder(tmp_path)}
+    assert facts["A_CAPA_50kW_1"].area_m2 == 0.00385
+    assert facts["A_Cone_50kW_1"].area_m2 is None
+
+
 def test_copied_end_is_found(tmp_path: Path) -> None:
     other = 71.0 / (1.0 + np.exp((SECONDS - 280.0) / 25.0))
     cone(tmp_path / "A_Cone_50kW_1.csv")
@@ -206,4 +221,5 @@ def test_every_measured_file_of_the_data_base_is_classified() -> None:
         ("Edinburgh_Cone_65kW_6", "heat unit"),
         ("UClan_DSC_N2_10K", "heat unit"),
         ("UClan_Cone_65kW", "temperature"),
+        ("FSRI_Wood_CAPA_N2_40kW_R1", "density"),
     } <= faults

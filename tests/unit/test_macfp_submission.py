@@ -73,6 +73,20 @@ def test_proof_of_calibration_differs_by_the_noise(submission: Path) -> None:
     assert "Held out, used by no cost: slab_60." in readme
 
 
+def test_parameters_with_a_given_value_are_told_so(tmp_path: Path) -> None:
+    text = SMOKE.read_text(encoding="utf-8")
+    text = text.replace(
+        "rho: {unit: kg/m3, lower: 900, upper: 1500,", "rho: {unit: kg/m3, value: 1180,"
+    )
+    text = text.replace("estimate: [rho, k,", "estimate: [k,").replace("rho: 1190, ", "")
+    path = tmp_path / "known.yaml"
+    path.write_text(text, encoding="utf-8")
+    given = ["macfp", "submit", str(path), "--institute", "Own", "--set", "truth", "--form", "3"]
+    assert main([*given, "--out", str(tmp_path / "out")]) == 0
+    readme = (tmp_path / "out" / "README.md").read_text(encoding="utf-8")
+    assert "| density | 1180 | kg/m3 | given |" in readme
+
+
 def test_rules_of_the_guidelines_are_minded(
     tmp_path: Path, capsys: pytest.CaptureFixture[str]
 ) -> None:

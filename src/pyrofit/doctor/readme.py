@@ -30,6 +30,7 @@ _FACTORS = {
 }
 _AREA = re.compile(r"surface area\D{0,12}?([\d.]+)\s*(m2|m\^2|cm2|cm\^2)", re.IGNORECASE)
 _AREA_FACTORS = {"m2": 1.0, "m^2": 1.0, "cm2": 1e-4, "cm^2": 1e-4}
+_SECTION = re.compile(r"#{1,3} ")
 _NUMBER = re.compile(r"\d+(\.\d+)?")
 
 
@@ -57,19 +58,26 @@ def read_readme(folder: Path) -> dict[Label, Facts]:
     if not paths:
         return {}
     text = paths[0].read_bytes().decode("utf-8", errors="replace")
-    areas = {float(m[1]) * _AREA_FACTORS[m[2].casefold()] for m in _AREA.finditer(text)}
+    areas = {_area(m) for m in _AREA.finditer(text)}
     common = Facts(area_m2=areas.pop() if len(areas) == 1 else None)
     facts = {Label(""): common}
+    own = common
     heading: dict[str, tuple[int, float]] = {}
     for line in text.splitlines():
         cells = [cell.strip().replace("\\_", "_") for cell in line.strip().strip("|").split("|")]
         if "|" not in line:
             heading = {}
+            # An area holds for the tables that follow it in its section.
+            if _SECTION.match(line):
+                own = common
+            elif match := _AREA.search(line):
+                own = replace(common, area_m2=_area(match))
         elif found := _heading(cells):
             heading = found
         elif heading and (values := _values(cells, heading)):
-            label = label_of(re.sub(r"\s", "", cells[0]), folder.name)
-            facts[label] = replace(common, **values)
+            name = re.sub(r"\s|\.csv$", "", cells[0], flags=re.IGNORECASE)
+            label = label_of(name, folder.name)
+            facts[label] = replace(own, **values)
     return facts
 
 
@@ -80,10 +88,14 @@ def facts_of(label: Label, known: Mapping[Label, Facts]) -> Facts:
     return different.pop() if len(different) == 1 else known.get(Label(""), Facts())
 
 
+def _area(match: re.Match[str]) -> float:
+    return float(match[1]) * _AREA_FACTORS[match[2].casefold()]
+
+
 def _heading(cells: list[str]) -> dict[str, tuple[int, float]]:
     """Return place and factor of each column of a table that is known."""
     found: dict[str, tuple[int, float]] = {}
-    if not re.match(r"test\b", cells[0], re.IGNORECASE):
+    if not re.match(r"(file|test)\b", cells[0], re.IGNORECASE):
         return found
     for i, cell in enumerate(cells):
         for key, (pattern, group) in _COLUMNS.items():

@@ -80,10 +80,12 @@ def _parameters(study: Study, chosen: ParameterSet) -> Iterator[str]:
         if name not in chosen.values:
             continue
         value = chosen.values[name] / p.factor
-        low, high = study.search_limits(name)
+        given = p.lower is None or p.upper is None
+        low, high = (0.0, 0.0) if given else study.search_limits(name)
+        searched = "given" if given else f"{low:.5g} to {high:.5g}"
         note = chosen.notes.get(name, "")
         label = p.label or name
-        yield f"| {label} | {value:.5g} | {p.unit} | {low:.5g} to {high:.5g} | {note} |"
+        yield f"| {label} | {value:.5g} | {p.unit} | {searched} | {note} |"
 
 
 def _proofs(proofs: Sequence[Proof]) -> Iterator[str]:
