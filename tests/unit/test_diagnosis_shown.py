@@ -258,6 +258,7 @@ def candidates(kind: str) -> list[dict[str, Any]]:
                     for effect, names in free.items()
                     for name in names
                 },
+                "ridges": [],
                 "adequate": best,
                 "disagree": 0.25 if best else None,
                 "predictions": {"slab_60": 12.0, "held out": -1.5} if best else {},

@@ -116,6 +116,12 @@ class Settings:
     most_judged: int = 6
     """Models that are judged in the place of one effect, at most."""
 
+    # What the data determine of an effect
+    open_sd: float = 0.15
+    """A parameter with a larger relative standard deviation is left open by the data."""
+    ridge_gain: float = 3.0
+    """A product of such parameters is stated if it is known this many times better."""
+
     # Free corrections
     correction_coefficients: int = 6
     """Coefficients of a curve over time or temperature."""

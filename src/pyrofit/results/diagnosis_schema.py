@@ -140,6 +140,15 @@ class OfNotTried(Record):
     reason: str = Field(description="why it is no candidate")
 
 
+class OfRidge(Record):
+    """A product of powers of an effect's parameters that the data determine better than each."""
+
+    effect: str = Field(description="effect")
+    exponents: dict[str, float] = Field(description="power of each parameter")
+    relative_sd: float = Field(description="relative standard deviation of the product [-]")
+    alone: dict[str, float] = Field(description="the same of each parameter [-]")
+
+
 class OfCandidate(Record):
     """A model with effects that was fitted."""
 
@@ -151,6 +160,9 @@ class OfCandidate(Record):
     gain: float = Field(description="fall of chi-square below that with one effect less")
     penalised: float = Field(description="penalised chi-square")
     parameters: dict[str, OfStrength] = Field(description="parameters by effect and name")
+    ridges: list[OfRidge] = Field(
+        description="products of parameters that the data determine better than each"
+    )
     adequate: bool | None = Field(description="no lack of fit; null where not tested")
     disagree: float | None = Field(
         description="p of one strength for all experiments; null where not tested"

@@ -1,5 +1,6 @@
 """What the calibration leaves of each parameter: 95 % intervals."""
 
+from collections.abc import Mapping
 from typing import Any
 
 import numpy as np
@@ -7,6 +8,7 @@ import numpy as np
 from pyrofit.diagnose.base.descent import descend, refreshed
 from pyrofit.diagnose.base.fitted import FittedModel
 from pyrofit.diagnose.base.model import fraction, model_of, name_of
+from pyrofit.diagnose.judge.ridges import Ridge, ridge_of
 from pyrofit.effects import known_effects
 from pyrofit.estimate.posterior import interval as interval_of
 from pyrofit.solver.arrays import FloatArray
@@ -32,26 +34,46 @@ def interval(
     }
 
 
-def strengths(trial: FittedModel, with_form: bool) -> dict[str, Any]:
+def strengths(trial: FittedModel, wide: Mapping[str, FittedModel]) -> dict[str, Any]:
     """Return the parameters of a model's effects, SI units.
 
-    ``with_form`` adds the interval with an uncertain form: from the lowest to the highest end of
-    the intervals with the form as it is, and with all form parameters of the effect fitted, too.
+    ``wide`` are the models of `with_all_forms`. They add the interval with an uncertain form: from
+    the lowest to the highest end of the intervals with the form as it is, and with all of them
+    fitted.
     """
     values, sd = values_of(trial)
     catalogue = known_effects()
     found = {}
     for effect, free in trial.model.effects.items():
-        wide = _formed(trial, effect) if with_form else None
         for parameter in free:
             name = name_of(effect, parameter)
             own = interval(trial, trial.model.names.index(name), values, sd)
             found[name] = {
                 **own,
                 "unit": catalogue[effect].quantities[parameter].unit,
-                **_with_form(own, wide, name),
+                **_with_form(own, wide.get(effect), name),
             }
     return found
+
+
+def ridges(trial: FittedModel, wide: Mapping[str, FittedModel]) -> list[Ridge]:
+    """Return the products of parameters that the data determine, by effect with several."""
+    found = []
+    for effect in trial.effects:
+        model = wide.get(effect, trial)
+        free = model.model.effects[effect]
+        problem = model.model.likelihood.problem
+        at = [model.model.names.index(name_of(effect, parameter)) for parameter in free]
+        span = (problem.upper - problem.lower)[at]
+        covariance = model.posterior.covariance()[np.ix_(at, at)] * np.outer(span, span)
+        found.append(ridge_of(effect, free, values_of(model)[0][at], covariance))
+    return [ridge for ridge in found if ridge is not None]
+
+
+def with_all_forms(trial: FittedModel) -> dict[str, FittedModel]:
+    """Return, by effect, the model fitted with all its form parameters free, if it has others."""
+    found = {effect: _formed(trial, effect) for effect in trial.effects}
+    return {effect: model for effect, model in found.items() if model is not None}
 
 
 def _with_form(

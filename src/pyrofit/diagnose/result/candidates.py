@@ -1,5 +1,6 @@
 """Candidates of a diagnosis as `diagnosis.json` holds them."""
 
+from dataclasses import asdict
 from typing import Any
 
 import numpy as np
@@ -7,7 +8,7 @@ import numpy as np
 from pyrofit.diagnose.base.fitted import FittedModel, at_limit
 from pyrofit.diagnose.base.model import strength_of
 from pyrofit.diagnose.judge.findings import Judged, Verdict
-from pyrofit.diagnose.judge.intervals import strengths
+from pyrofit.diagnose.judge.intervals import ridges, strengths, with_all_forms
 from pyrofit.diagnose.search.score_test import confusability
 from pyrofit.diagnose.search.step import SearchStep
 from pyrofit.diagnose.search.stepwise import Search
@@ -53,13 +54,15 @@ def candidates(found: Search, verdict: Verdict) -> list[dict[str, Any]]:
     for step, trial in models(found):
         here = judged.get(_key(trial), [])
         trial = here[0].trial if here else trial
+        wide = with_all_forms(trial) if here else {}
         row = {
             "effects": list(trial.effects),
             "free": {name: list(free) for name, free in trial.model.effects.items()},
             "chi2": trial.fit.chi2,
             "gain": step.start.fit.chi2 - trial.fit.chi2,
             "penalised": trial.penalised,
-            "parameters": strengths(trial, bool(here)),
+            "parameters": strengths(trial, wide),
+            "ridges": [asdict(ridge) for ridge in ridges(trial, wide)] if here else [],
             "adequate": found.end_lack.adequate if _key(trial) == _key(found.end) else None,
             **_judgement(here),
         }

@@ -36,7 +36,25 @@ def missing(found: Found) -> str:
     for one in found["not_tried"]:
         reasons.setdefault(one["reason"], []).append(effect_name(one["effect"]))
     left = [f"{listed(names)} ({reason})" for reason, names in reasons.items()]
-    return " ".join([_found(found), *([f"Not tried: {'; '.join(left)}."] if left else [])])
+    said = [_found(found), *_determined(found)]
+    return " ".join([*said, *([f"Not tried: {'; '.join(left)}."] if left else [])])
+
+
+def _determined(found: Found) -> list[str]:
+    """Say which products of an effect's parameters the data determine better than each of them."""
+    said = []
+    for ridge in (leading(found) or {"ridges": []})["ridges"]:
+        quantities = known_effects()[ridge["effect"]].quantities
+        factors = [
+            f"({quantities[name].label})" + (f"^{power:g}" if power != 1.0 else "")
+            for name, power in ridge["exponents"].items()
+        ]
+        alone = listed([f"{100.0 * sd:.2g} %" for sd in ridge["alone"].values()])
+        said.append(
+            f"Of {effect_name(ridge['effect'])}, the data determine {' '.join(factors)} with a "
+            f"standard deviation of {100.0 * ridge['relative_sd']:.2g} %, each factor with {alone}."
+        )
+    return said
 
 
 def _found(found: Found) -> str:

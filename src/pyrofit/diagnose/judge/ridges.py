@@ -1,0 +1,75 @@
+"""The product of an effect's parameters that the data determine where they leave each one open.
+
+A layer of char resists heat by its thickness over its conductivity: a curve determines that ratio,
+not the yield, the density and the conductivity from which it follows. With C the covariance of the
+parameters p, R_ij = C_ij/(p_i p_j) is that of their logarithms. The eigenvector a of its least
+eigenvalue says which product of powers, p_1^a_1 p_2^a_2 ..., is known best; its relative standard
+deviation is sqrt(a^T R a).
+"""
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+
+import numpy as np
+
+from pyrofit.diagnose.settings import SETTINGS
+from pyrofit.solver.arrays import FloatArray
+
+
+@dataclass(frozen=True)
+class Ridge:
+    """A product of powers of an effect's parameters that the data determine better than each.
+
+    Parameters
+    ----------
+    effect
+        The effect.
+    exponents
+        Powers by parameter, that of the strength, or else the largest one, is 1.
+    relative_sd
+        Relative standard deviation of the product.
+    alone
+        The same of each parameter.
+    """
+
+    effect: str
+    exponents: dict[str, float]
+    relative_sd: float
+    alone: dict[str, float]
+
+
+def ridge_of(
+    effect: str, names: Sequence[str], values: FloatArray, covariance: FloatArray
+) -> Ridge | None:
+    """Return what the data determine of an effect's parameters, none where each one is known.
+
+    Only positive parameters with a relative standard deviation of `SETTINGS.open_sd` or more take
+    part, and the product must be known `SETTINGS.ridge_gain` times better than the first of them.
+
+    Parameters
+    ----------
+    names
+        Parameters, the strength first.
+    values, covariance
+        Their values and covariance, one unit each.
+    """
+    sd = np.sqrt(np.diag(covariance))
+    left_open = [i for i, p in enumerate(values) if p > 0.0 and sd[i] >= SETTINGS.open_sd * p]
+    if len(left_open) < 2:
+        return None
+    p = values[left_open]
+    R = covariance[np.ix_(left_open, left_open)] / np.outer(p, p)
+    a = np.linalg.eigh(R)[1][:, 0]
+    unit = 0 if abs(a[0]) >= 0.1 * np.abs(a).max() else int(np.argmax(np.abs(a)))
+    a = np.round(a / a[unit], 1)
+    product = float(np.sqrt(max(a @ R @ a, 0.0)))
+    alone = np.sqrt(np.diag(R))
+    if np.count_nonzero(a) < 2 or SETTINGS.ridge_gain * product > alone[unit]:
+        return None
+    parts = [(names[i], float(b), float(s)) for i, b, s in zip(left_open, a, alone, strict=True)]
+    return Ridge(
+        effect,
+        {name: power for name, power, _ in parts if power},
+        product,
+        {name: own for name, power, own in parts if power},
+    )
