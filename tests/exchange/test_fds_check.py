@@ -21,6 +21,8 @@ from pyrofit.exchange.fds.run import find_fds, version_text
 from pyrofit.exchange.fds.versions import OLD, FdsError
 from pyrofit.exchange.sets import ParameterSet, parameter_set
 from pyrofit.results.files import Results
+from pyrofit.show import fds_page
+from pyrofit.show.parts import Part
 
 ROOT = Path(__file__).parents[2]
 SMOKE = ROOT / "config" / "smoke.yaml"
@@ -195,6 +197,28 @@ def test_burn_out_that_is_late_differs() -> None:
     rate = slab_agreement(late, curve, levels(deck))[0]
     assert rate.burnout_s == pytest.approx(0.8, abs=0.05)
     assert rate.verdict == "differs"
+
+
+def test_the_command_draws_what_the_report_shows(
+    written: list[Written], study: Study, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    fds = install(tmp_path / "a bin", written, "success", "6.8.0", factor=1.01)
+    monkeypatch.setenv("PYROFIT_FDS", str(fds))
+    results = Results(tmp_path / "results")
+    given = ["fds-check", "--study", str(SMOKE), "--set", "truth", "--results", str(results.root)]
+    assert main(given) == 0
+    assert fds_page.exists(results)
+    part = fds_page.section(study, results)
+    shown = part.parts[0]
+    assert isinstance(shown, Part)
+    assert "FDS 6.8.0, set 'truth'" in shown.text
+    rows = [row for body in shown.bodies for row in body["rows"]]
+    assert len(rows) == len(json.loads(results.fds("check.json").read_text()))
+    assert any("differs" in row for row in rows)
+    # Without FDS, or where all runs fail, an old figure would be taken for a proof.
+    (tmp_path / "a bin" / "mode").write_text("error")
+    assert main(given) == 0
+    assert not fds_page.exists(results)
 
 
 @pytest.mark.skipif(not os.environ.get("PYROFIT_FDS"), reason="PYROFIT_FDS is not set")

@@ -90,10 +90,12 @@ def _check_fds(given: argparse.Namespace) -> None:
     from pyrofit.exchange.fds.run import find_fds
     from pyrofit.exchange.sets import parameter_set
     from pyrofit.results import dependencies
+    from pyrofit.show import fds_page
 
     study, results = open_study(given, dependencies.presentation)
     chosen = parameter_set(study, results, given.set, given.study.parent)
     check(study, chosen, find_fds(), results.fds(""), _tell, given.limit)
+    fds_page.draw_and_write(study, results)
     print(f"{results.fds('check.md')}: FDS beside pyrofit", file=sys.stderr)
 
 

@@ -3,7 +3,7 @@
 from pyrofit.config import Study
 from pyrofit.results import diagnosis, recorded, scheme
 from pyrofit.results.files import Results, write_json, write_text
-from pyrofit.show import diagnosis_page, scheme_page
+from pyrofit.show import diagnosis_page, fds_page, scheme_page
 from pyrofit.show.answer.advice import advice
 from pyrofit.show.answer.summary import summary
 from pyrofit.show.facts import Facts, facts_of
@@ -30,9 +30,11 @@ def write_report(study: Study, results: Results) -> None:
     facts = facts_of(study, results, tables_of(study, results))
     answer = table_part(study, TABLES["answer"], facts.tables["answer"], advice(study, facts))
     shown = [made for part in SECTIONS if (made := _shown(part, study, results, facts))]
-    # The choice of a scheme and the diagnosis are steps of their own, which a study may go without.
+    # Scheme, diagnosis and the proof by FDS are steps of their own, which a study may go without.
     if scheme.exists(results):
         shown.append(scheme_page.section(study, results))
+    if fds_page.exists(results):
+        shown.append(fds_page.section(study, results))
     lacks = ""
     if diagnosis_page.exists(results):
         found = diagnosis.read(study, results)

@@ -7,6 +7,7 @@ from collections.abc import Callable, Iterable
 from pathlib import Path
 from typing import Any, NamedTuple
 
+import numpy as np
 import pandas as pd
 
 from pyrofit.config import Study
@@ -22,7 +23,7 @@ from pyrofit.exchange.fds.run import LIMIT_S, NO_FDS, run_deck, version_text
 from pyrofit.exchange.fds.versions import FdsError, Version, version_of
 from pyrofit.exchange.sets import ParameterSet
 from pyrofit.results.files import write_csv, write_text
-from pyrofit.solver.outputs import MASS_FRACTION
+from pyrofit.solver.outputs import BACK, MASS_FRACTION, RATE
 
 CHECK, PAGE, CURVES, DECKS = "check.json", "check.md", "curves.csv", "checked"
 ENDS_WITHIN = 2.0
@@ -109,7 +110,26 @@ def run_one(
     entries = [_entry(one, agreement, run.seconds) for agreement in agreements]
     for line in sentences(entries):
         tell(line)
-    return Checked(entries, found.assign(experiment=one.experiment))
+    return Checked(entries, beside(one, found))
+
+
+def beside(one: Written, found: pd.DataFrame) -> pd.DataFrame:
+    """Return the curves of FDS and pyrofit, a row for each point of FDS, SI units.
+
+    Columns: ``experiment``, ``signal``, ``time_s`` or ``temperature_K``, ``fds``, ``pyrofit``.
+    """
+    if not one.deck.step_s:
+        pairs = {MASS_FRACTION: (MASS_FRACTION, MASS_FRACTION)}
+    else:
+        pairs = {RATE: ("rate_kg_m2s", f"{RATE}_kg_m2s"), BACK: ("back_K", f"{BACK}_K")}
+    at = "time_s" if one.deck.step_s else "temperature_K"
+    parts = []
+    for signal, (theirs, ours) in pairs.items():
+        x = found[at].to_numpy(float)
+        own = np.interp(x, one.curve[at], one.curve[ours])
+        columns = {"experiment": one.experiment, "signal": signal, at: x}
+        parts.append(pd.DataFrame({**columns, "fds": found[theirs], "pyrofit": own}))
+    return pd.concat(parts, ignore_index=True)
 
 
 def _compared(one: Written, folder: Path) -> tuple[pd.DataFrame, list[Agreement]]:

@@ -40,7 +40,7 @@ def heated_deck(
     layer = virgin(material, values)
     lines = write_materials(material, values, list(layer.shares), Options(version))
     start = experiment.start_temperature_K - CELSIUS_K
-    title = f"{experiment.heating_rate_K_min:g} K/min"
+    title = f"{experiment.heating_rate_K_min:g} K per min"
     surface = {
         "ID": "SAMPLE",
         "TGA_ANALYSIS": True,

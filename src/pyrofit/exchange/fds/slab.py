@@ -153,7 +153,8 @@ def _head(
     time: dict[str, Item] = {"T_END": predicted.end_s, "DT": step, "WALL_INCREMENT": 1}
     if version.locks_step:
         time["LOCK_TIME_STEP"] = True
-    ascii_title = title.encode("ascii", "ignore").decode() or name
+    # Some readers of input files take a slash for the end of a namelist, quoted or not.
+    ascii_title = title.replace("/", " per ").encode("ascii", "ignore").decode() or name
     corners = [-width, width, -0.15, 0.15, 0.0, 0.3]
     return [
         Namelist("HEAD", {"CHID": name, "TITLE": ascii_title[:60]}),

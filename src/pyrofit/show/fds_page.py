@@ -1,0 +1,118 @@
+"""FDS beside pyrofit: a table, a figure, and a section of the report."""
+
+import json
+from typing import Any
+
+import pandas as pd
+from matplotlib.axes import Axes
+from matplotlib.figure import Figure as Canvas
+
+from pyrofit.config import Study
+from pyrofit.errors import DataError
+from pyrofit.quantities import known_quantities
+from pyrofit.results.files import Results, read_csv
+from pyrofit.show import style
+from pyrofit.show.parts import Part, Picture, Shown, picture, table_part
+from pyrofit.show.table import Table, write_table
+from pyrofit.show.units import shown
+
+FOLDER = "fds"
+TITLE = "FDS beside pyrofit"
+CAPTION = "The same material and tests in pyrofit (lines) and in FDS (dashed)."
+MOST_PANELS = 12
+
+
+def entries(results: Results) -> list[dict[str, Any]]:
+    """Return what FDS made of the decks, an entry for each signal.
+
+    Raises
+    ------
+    DataError
+        The file is missing or broken.
+    """
+    path = results.fds("check.json")
+    try:
+        found = json.loads(path.read_text(encoding="utf-8"))
+    except (OSError, ValueError) as error:
+        raise DataError(f"{path}: cannot be read ({error}); delete it and run again") from None
+    if not isinstance(found, list):
+        raise DataError(f"{path}: this is no list of entries; delete it and run again")
+    return found
+
+
+def exists(results: Results) -> bool:
+    """Whether the decks have been run in FDS."""
+    return results.fds(f"{FOLDER}.svg").is_file()
+
+
+def _table(study: Study, results: Results) -> pd.DataFrame:
+    rows = [
+        {
+            "experiment": study.experiments[e["experiment"]].title or e["experiment"],
+            "signal": known_quantities()[e["signal"]].title if e["signal"] else "",
+            "rms": None if e["rms_over_mean"] is None else 100.0 * e["rms_over_mean"],
+            "late_s": e["burnout_s"],
+            "verdict": f"failed: {e['error']}" if e["error"] else e["verdict"],
+        }
+        for e in entries(results)
+    ]
+    return pd.DataFrame(rows)
+
+
+TABLE = Table(
+    place=10,
+    applies=lambda study: True,
+    make=_table,
+    title=TITLE,
+    note="Rates and temperatures until 10 s before burn-out. No verdict where FDS has a term in "
+    "another form or not at all.",
+    headings={
+        "rms": "rms difference over mean [%]",
+        "late_s": "burn-out, FDS minus pyrofit [s]",
+    },
+)
+
+
+def figure(study: Study, results: Results) -> Canvas:
+    """Draw the curves of both, a panel for each experiment and signal."""
+    curves = read_csv(results.fds("curves.csv"), {"fds": float, "pyrofit": float})
+    groups = list(curves.groupby(["experiment", "signal"], sort=False))[:MOST_PANELS]
+    canvas, axes = style.panels(len(groups), 2, style.TWO_COLUMNS, 45.0)
+    style.letter(axes, [study.experiments[str(e)].title or str(e) for (e, _), _ in groups])
+    for ax, ((_, signal), part) in zip(axes, groups, strict=True):
+        _draw(ax, str(signal), part)
+    lines = [style.line("pyrofit", color="black")]
+    style.legend_below(canvas, [*lines, style.line("FDS", color=style.colour(1), linestyle="--")])
+    return canvas
+
+
+def _draw(ax: Axes, signal: str, part: pd.DataFrame) -> None:
+    quantity = known_quantities()[signal]
+    timed = "time_s" in part and part["time_s"].notna().all()
+    x = part["time_s"] if timed else style.celsius(part["temperature_K"])
+    ax.plot(x, shown(quantity, part["pyrofit"]), color="black")
+    ax.plot(x, shown(quantity, part["fds"]), color=style.colour(1), linestyle="--")
+    ax.set_xlabel("time [s]" if timed else "temperature [°C]")
+    ax.set_ylabel(f"{quantity.title} [{quantity.shown.unit}]")
+
+
+def draw_and_write(study: Study, results: Results) -> None:
+    """Write table and figure to ``fds``; the figure only where FDS has made a curve."""
+    results.fds(f"{FOLDER}.svg").unlink(missing_ok=True)
+    if not any(not e["error"] for e in entries(results)):
+        return
+    write_table(results.fds(""), "table", TABLE, _table(study, results), study)
+    with style.style():
+        style.save(figure(study, results), results, FOLDER, FOLDER)
+
+
+def section(study: Study, results: Results) -> Shown:
+    """Return what FDS made of the decks as a section of the report."""
+    found = entries(results)
+    about = f"FDS {found[0]['fds']}, set '{found[0]['set']}'."
+    parts: list[Part | Picture] = [
+        table_part(study, TABLE, _table(study, results), about),
+        picture(results.fds(f"{FOLDER}.svg"), FOLDER, TITLE, CAPTION),
+    ]
+    text = "The decks of the export, run in a real FDS, beside the curves of pyrofit."
+    return Shown(FOLDER, "In FDS", text, tuple(parts))
