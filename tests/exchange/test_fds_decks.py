@@ -20,6 +20,7 @@ from pyrofit.exchange.fds.properties import CELSIUS_K
 from pyrofit.exchange.fds.remarks import Remark
 from pyrofit.exchange.fds.slab import Deck
 from pyrofit.exchange.fds.versions import NEW, OLD, FdsError, Version, version_of
+from pyrofit.experiments import Cone
 from pyrofit.model.slab import SlabExperiment
 
 HERE = Path(__file__).parent / "data"
@@ -218,6 +219,48 @@ def test_identifiers_that_fds_would_cut_stay_different() -> None:
     found = unique([f"{'a' * 60}{n}" for n in range(12)], 30)
     assert len(set(found.values())) == 12
     assert max(map(len, found.values())) <= 30
+
+
+def test_the_last_versions_of_6_7_lack_a_key_and_count_the_order_otherwise() -> None:
+    first, last = version_of("6.7.4"), version_of("6.7.9")
+    assert (first.cube_root, first.layer_order) == (True, True)
+    assert (last.cube_root, last.layer_order) == (False, False)
+    assert last.back_gas == "TMP_BACK"
+
+
+def with_cube_root() -> Base:
+    experiment = base().experiments["capa_25"]
+    assert isinstance(experiment, SlabExperiment)
+    back = experiment.back.model_copy(update={"h_W_m2K": 0.0, "h_cube_root_W_m2K43": 1.31})
+    changed = experiment.model_copy(update={"back": back})
+    return Base(base().material, {**base().experiments, "capa_25": changed}, base().values)
+
+
+def test_natural_convection_is_a_coefficient_or_a_named_mean() -> None:
+    of = with_cube_root()
+    like = predicted(of, "capa_25")
+    old, new = (deck_of(of, "capa_25", v, like) for v in (OLD, NEW))
+    (before,), (after,) = keys(old, "SURF"), keys(new, "SURF")
+    assert before["C_VERTICAL"] == [1.31]
+    assert "HEAT_TRANSFER_COEFFICIENT_BACK" not in before
+    assert not old.remarks
+    mean = 1.31 * np.mean(np.abs(like.back_K - 300.0) ** (1.0 / 3.0))
+    assert after["HEAT_TRANSFER_COEFFICIENT_BACK"] == pytest.approx([mean])
+    assert [r.kind for r in new.remarks] == [APPROXIMATE]
+
+
+def test_a_flame_adds_to_the_flux_while_it_burns() -> None:
+    plain = base().experiments["capa_25"]
+    keys_of = plain.model_dump(exclude={"kind", "repeat", "uncertain", "repeats"})
+    flame = {"flux_W_m2": 12000.0, "ignition_s": 200.0, "ends_s": 900.0}
+    cone = Cone.model_validate(keys_of | {"kind": "cone", "flame": flame})
+    of = Base(base().material, {**base().experiments, "cone": cone}, base().values)
+    deck = deck_of(of, "cone", like=predicted(base(), "capa_25"))
+    points = [(p["T"][0], p["F"][0]) for p in keys(deck, "RAMP")]
+    t, F = np.array(points, float).T
+    (surface,) = keys(deck, "SURF")
+    q = float(str(surface["EXTERNAL_FLUX"][0])) * np.interp([100.0, 500.0, 1000.0], t, F)
+    np.testing.assert_allclose(q - q[0], [0.0, 12.0, 0.0], atol=1e-4)
 
 
 @pytest.mark.parametrize("text", ["6.6", "5", "", "newest"])

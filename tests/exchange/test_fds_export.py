@@ -6,6 +6,7 @@ from pathlib import Path
 import pytest
 
 from pyrofit.cli import main
+from pyrofit.config import as_yaml, read_mapping, read_study
 from pyrofit.exchange.fds.parse import read_namelists
 
 ROOT = Path(__file__).parents[2]
@@ -58,3 +59,30 @@ def test_a_set_without_a_value_names_it(tmp_path: Path, capsys: pytest.CaptureFi
     study = str(ROOT / "config" / "smoke.yaml")
     assert main(["export", "fds", study, "--set", str(path), "--out", str(tmp_path)]) == 2
     assert "has no value for" in capsys.readouterr().err
+
+
+def test_an_extended_study_takes_the_values_that_the_diagnosis_left_beside_it(
+    tmp_path: Path,
+) -> None:
+    study = read_study(ROOT / "config" / "smoke.yaml")
+    given = read_mapping(ROOT / "config" / "smoke.yaml")
+    given |= {"name": "smoke_extended", "effects": {"k_T": {"slope_1_K": -0.001}}}
+    path = tmp_path / "diagnosis" / "extended.yaml"
+    path.parent.mkdir()
+    path.write_text(as_yaml(given, ""))
+    truth = study.synthetic.truth if study.synthetic else {}
+    about = {"low": 0.0, "high": 1.0, "at_limit": False}
+    of = {n: {"value": v, "unit": study.parameters[n].unit, **about} for n, v in truth.items()}
+    found = {"extended": {"parameters": of}}
+    (path.parent / "diagnosis.json").write_text(json.dumps(found))
+    out = tmp_path / "fds"
+    assert main(["export", "fds", str(path), "--results", str(tmp_path), "--out", str(out)]) == 0
+    summary = json.loads((out / "export.json").read_text())
+    assert summary["set"] == "diagnosis"
+    assert summary["effects"] == {"k_T": {"slope_1_K": -0.001}}
+    for name, value in truth.items():
+        assert summary["values_SI"][name] == pytest.approx(value * study.parameters[name].factor)
+    text = (out / "material.fds").read_text()
+    assert "CONDUCTIVITY_RAMP" in text
+    assert "effects of the model: k_T" in text
+    assert "95 % interval 0 to 1" in text

@@ -25,7 +25,7 @@ def add(commands: Any) -> None:
     matl = sources.add_parser("fds", help="MATL lines become the material of a study")
     matl.add_argument("file", type=Path, help="file with MATL, RAMP and SURF lines")
     matl.add_argument("--surf", default="", help="SURF line of the virgin material; default: first")
-    matl.add_argument("--fds-version", default="6.8+", help="6.7 (up to 6.7.7) or 6.8+ (default)")
+    matl.add_argument("--fds-version", default="6.8+", help="such as 6.7.4; default: 6.8+")
     matl.add_argument("--out", type=Path, help="YAML file; default: standard output")
     matl.set_defaults(step=_import_fds)
     check = add_step(commands, "fds-check", "run the decks in a real FDS and compare", _check_fds)
@@ -106,14 +106,14 @@ def _tell(text: str) -> None:
 def _import_fds(given: argparse.Namespace) -> None:
     from pyrofit.config import as_yaml
     from pyrofit.exchange.fds.imported import import_fds
-    from pyrofit.exchange.fds.versions import OLD, FdsError, version_of
+    from pyrofit.exchange.fds.versions import FdsError, version_of
     from pyrofit.results.files import write_text
 
     try:
         text = given.file.read_text(encoding="utf-8-sig", errors="replace")
     except OSError as error:
         raise FdsError(f"{given.file}: cannot be read ({error.strerror})") from None
-    old = version_of(given.fds_version) is OLD
+    old = version_of(given.fds_version).layer_order
     found = import_fds(text, str(given.file), old, given.surf)
     comment = "\n".join([f"Material of {given.file.name}, for a study.", *found.remarks])
     content = as_yaml({"material": found.material}, comment)

@@ -25,8 +25,8 @@ class Version(NamedTuple):
         Whether the time step is held by LOCK_TIME_STEP.
     cube_root
         Whether the coefficient of natural convection can be given.
-    furnace
-        Whether `Temp` of a TGA is the furnace, and `T_surf` the sample.
+    layer_order
+        Whether A of an order other than 1 counts densities over that of the layer.
     """
 
     name: str
@@ -34,11 +34,13 @@ class Version(NamedTuple):
     adjusts_heat: bool
     locks_step: bool
     cube_root: bool
-    furnace: bool
+    layer_order: bool
 
 
-OLD = Version("6.7", "TMP_BACK", False, False, True, False)
-NEW = Version("6.8+", "TMP_GAS_BACK", True, True, False, True)
+OLD = Version("6.7", "TMP_BACK", False, False, True, True)
+NEW = Version("6.8+", "TMP_GAS_BACK", True, True, False, False)
+LAST_WITH_CUBE_ROOT, LAST_WITH_LAYER_ORDER = 4, 7
+"""Of 6.7: C_VERTICAL was there in 6.7.4 and gone by 6.7.9; A changed its unit in 6.7.8."""
 
 
 def version_of(text: str) -> Version:
@@ -54,7 +56,12 @@ def version_of(text: str) -> Version:
     >>> version_of("6.7.4").name, version_of("6.11.1").name, version_of("6.8+").name
     ('6.7', '6.8+', '6.8+')
     """
-    found = re.match(r"(\d+)\.(\d+)", text)
+    found = re.match(r"(\d+)\.(\d+)(?:\.(\d+))?", text)
     if not found or (int(found[1]), int(found[2])) < (6, 7):
         raise FdsError(f"unknown version of FDS '{text}'; give 6.7 or 6.8+")
-    return OLD if (int(found[1]), int(found[2])) == (6, 7) else NEW
+    if (int(found[1]), int(found[2])) > (6, 7):
+        return NEW
+    patch = int(found[3] or 0)
+    return OLD._replace(
+        cube_root=patch <= LAST_WITH_CUBE_ROOT, layer_order=patch <= LAST_WITH_LAYER_ORDER
+    )
