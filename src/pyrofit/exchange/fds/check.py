@@ -20,7 +20,7 @@ from pyrofit.exchange.fds.agreement import (
 from pyrofit.exchange.fds.export import Written, decks, export, text_of
 from pyrofit.exchange.fds.read import read_devc, read_tga
 from pyrofit.exchange.fds.run import LIMIT_S, NO_FDS, run_deck, version_text
-from pyrofit.exchange.fds.versions import FdsError, Version, version_of
+from pyrofit.exchange.fds.versions import FdsError, version_of
 from pyrofit.exchange.sets import ParameterSet
 from pyrofit.results.files import write_csv, write_text
 from pyrofit.solver.outputs import BACK, MASS_FRACTION, RATE
@@ -73,9 +73,9 @@ def check(
     with tempfile.TemporaryDirectory() as temporary:
         text = version_text(executable, Path(temporary))
     version = version_of(text)
-    checked = [
-        run_one(one, executable, version, limit_s, tell) for one in decks(study, chosen, version)
-    ]
+    written = decks(study, chosen, version)
+    tell(f"FDS {text}: {len(written)} decks, each of 2 to 30 s of computing as a rule")
+    checked = [run_one(one, executable, limit_s, tell) for one in written]
     about = {"set": chosen.label, "fds": text}
     entries = [about | entry for one in checked for entry in one.entries]
     curves = [one.curves for one in checked if one.curves is not None]
@@ -92,9 +92,7 @@ def _write(folder: Path, entries: list[Entry], lines: Iterable[str]) -> None:
     write_text(folder / PAGE, "# FDS beside pyrofit\n\n" + "\n".join(lines) + "\n")
 
 
-def run_one(
-    one: Written, executable: Path, version: Version, limit_s: float, tell: Tell
-) -> Checked:
+def run_one(one: Written, executable: Path, limit_s: float, tell: Tell) -> Checked:
     """Run a deck and compare; a run that fails is an entry with its error."""
     name = one.deck.name
     with tempfile.TemporaryDirectory() as temporary:

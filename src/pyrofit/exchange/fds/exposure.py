@@ -38,7 +38,7 @@ from pyrofit.solver.schedule import lower_schedule
 
 STEP_S = 0.01
 """Time that a step of a ramp takes."""
-CURVED = 160
+CURVED = 300
 """Points of a flux that follows a curve."""
 
 

@@ -51,7 +51,7 @@ def foil_layers(
     resistance = value_of(foil.contact_m2K_W, values)
     if resistance > 0.0:
         layers.append(Layer({CONTACT: 1.0}, CONTACT_M))
-        no_heat: dict[str, Item] = {"DENSITY": 10.0, "SPECIFIC_HEAT": 0.01, "EMISSIVITY": 0.9}
+        no_heat: dict[str, Item] = {"DENSITY": 1.0, "SPECIFIC_HEAT": 1.0, "EMISSIVITY": 1.0}
         k = CONTACT_M / resistance
         lines.append(Namelist("MATL", {"ID": CONTACT, "CONDUCTIVITY": k, **no_heat, **opaque}))
     mass = value_of(foil.mass_factor, values)
