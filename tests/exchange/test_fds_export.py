@@ -84,5 +84,5 @@ def test_an_extended_study_takes_the_values_that_the_diagnosis_left_beside_it(
         assert summary["values_SI"][name] == pytest.approx(value * study.parameters[name].factor)
     text = (out / "material.fds").read_text()
     assert "CONDUCTIVITY_RAMP" in text
-    assert "effects of the model: k_T" in text
+    assert "effect of the model: k_T: slope_1_K -0.001" in text
     assert "95 % interval 0 to 1" in text

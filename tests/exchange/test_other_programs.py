@@ -256,3 +256,21 @@ def test_scaling_pyrolysis_has_no_reactions(tmp_path: Path) -> None:
     assert surface["INERT_Q_REF"] == [True]
     assert len(surface["RAMP_Q(1:2)"]) == len(surface["REFERENCE_HEAT_FLUX(1:2)"]) == 2
     assert "N_REACTIONS" not in text
+
+
+def test_reference_curves_may_be_the_measured_ones(tmp_path: Path) -> None:
+    study, results = str(ROOT / "config" / "smoke.yaml"), str(tmp_path)
+    assert main(["prepare", "--study", study, "--results", results]) == 0
+    given = ["export", "spyro", study, "--set", "truth", "--results", results]
+    texts = []
+    for curves in ("measured", "simulated"):
+        assert main([*given, "--curves", curves]) == 0
+        texts.append((tmp_path / "spyro" / "spyro.fds").read_text())
+    areas = []
+    for text in texts:
+        ramps = [of for group, of, _ in read_namelists(text, "spyro.fds") if group == "RAMP"]
+        points = [(r["T"][0], r["F"][0]) for r in ramps if r["ID"] == ["Q_1"]]
+        areas.append(np.trapezoid([q for _, q in points], [t for t, _ in points]))
+    assert "reference curves: measured" in texts[0]
+    assert areas[0] != areas[1]  # noise
+    assert areas[0] == pytest.approx(areas[1], rel=0.03)

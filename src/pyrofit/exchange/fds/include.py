@@ -128,8 +128,9 @@ def heading(study: Study, chosen: ParameterSet, version: Version) -> list[str]:
         f"set '{chosen.label}'",
         f"for FDS {version.name}: another version reads these lines otherwise",
     ]
-    if study.with_effects:
-        lines.append(f"effects of the model: {', '.join(study.with_effects)}")
+    for name, given in study.with_effects.items():
+        numbers_of = ", ".join(f"{key} {value}" for key, value in given.items())
+        lines.append(f"effect of the model: {name}: {numbers_of}")
     lines.append("parameters of the material:")
     return [*lines, *(f"  {_parameter(study, chosen, name)}" for name in used)]
 
