@@ -14,6 +14,7 @@ from pyrofit.cli import main
 from pyrofit.errors import DataError
 from pyrofit.exchange.macfp.forms import Lines, alike, to_study
 from pyrofit.exchange.macfp.material import has_heat, material_of, strict_of
+from pyrofit.exchange.macfp.numeric import numeric
 from pyrofit.exchange.macfp.read import read_set
 from pyrofit.exchange.macfp.schema import StrictSet, schema
 from pyrofit.exchange.macfp.tolerant import read_json
@@ -110,6 +111,41 @@ def test_density_over_temperature_is_an_expansion(tmp_path: Path) -> None:
     table = component["expansion"]
     density = component["density_kg_m3"] / np.interp(600.0, table["temperature_K"], table["value"])
     assert density == pytest.approx(1380 - 0.6 * 600)
+
+
+def simple(**component: Any) -> Material:
+    """Return a material of one component that becomes gas."""
+    properties = {"density_kg_m3": 1000, "conductivity_W_mK": 0.2, "specific_heat_J_kgK": 1500}
+    return Material.model_validate(
+        {
+            "components": {"a": properties | component, "b": properties, "c": properties},
+            "reactions": {"r": {"reactant": "a", "A_1_s": 1e12, "E_J_mol": 1.6e5}},
+            "composition": {"a": "w", "b": "rest"},
+        }
+    )
+
+
+def test_changed_property_is_written_as_a_table_that_follows_it() -> None:
+    step = {"of": "c", "step": 500.0, "step_temperature_K": 390.0, "step_width_K": 8.0}
+    of, notes = numeric(simple(specific_heat_J_kgK=step), {"w": 0.3, "c": 1400.0})
+    assert notes == ["specific_heat_J_kgK of a is written as a table"]
+    heat = strict_of(of, {"Material": "a", "Lab": "b", "Calibration": []}).as_json()
+    table = heat["Thermodynamics"]["Heat Capacity"]["Value"][0]
+    got = np.interp([300.0, 390.0, 600.0], table["Temperatures"], table["Values"])
+    assert got == pytest.approx([1400.0, 1650.0, 1900.0], rel=1e-3)
+    assert heat["Composition"]["Initial Mass Fraction"] == pytest.approx([0.3, 0.7])
+
+
+def test_what_the_data_base_has_no_words_for_is_refused_by_name() -> None:
+    known = {"Material": "a", "Lab": "b", "Calibration": []}
+    of, _ = numeric(simple(expansion=1.1), {"w": 0.3})
+    with pytest.raises(DataError, match="an expansion that does not vary"):
+        strict_of(of, known)
+    given = simple().model_dump()
+    given["reactions"]["r"]["products"] = {"b": 0.1, "c": 0.1}
+    of, _ = numeric(Material.model_validate(given), {"w": 0.3})
+    with pytest.raises(DataError, match="the reaction of 'a' has several solid products"):
+        strict_of(of, known)
 
 
 BAD: dict[str, tuple[list[Any], Any, str]] = {

@@ -23,6 +23,12 @@ from pyrofit.exchange.macfp.readme import readme
 from pyrofit.exchange.sets import ParameterSet
 from pyrofit.experiments import kind_of
 
+_TRANSLUCENT = (
+    "absorption in depth: once little is left, the back face takes the radiation that passes the "
+    "remnant, and the back temperature of the ideal slabs rises above the equilibrium; it holds "
+    "until 95 % of the mass is lost"
+)
+
 
 def submit(study: Study, chosen: ParameterSet, asked: Asked, folder: Path) -> Iterator[str]:
     """Write all files of a submission into a folder; yield what was written and what to mind.
@@ -44,6 +50,8 @@ def submit(study: Study, chosen: ParameterSet, asked: Asked, folder: Path) -> It
         "Calibration": calibration(study, chosen),
     }
     strict = strict_of(of, about)
+    if any(part.absorption_1_m is not None for part in of.components.values()):
+        notes.append(_TRANSLUCENT)
     folder.mkdir(parents=True, exist_ok=True)
     name = f"MaCFP_{asked.material}_{asked.institute}.json"
     (folder / name).write_text(strict.text(), encoding="utf-8")
