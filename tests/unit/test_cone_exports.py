@@ -76,7 +76,11 @@ def test_ftt_export_is_a_cone_test_with_mass_and_heat_release(tmp_path: Path) ->
     assert list(table.columns)[:2] == ["Time", "Mass"]
     assert np.allclose(table.columns["HRR"][:-10] * AREA * 1e3, TRUE[:-10], atol=0.5)
     assert "HRR computed from oxygen" in table.mended[-1]
+    assert "the test starts at 6 s of the record: give `delay_s: 6`" in table.mended
     run = measured("cone", table.path)
+    heat = run.signals[0]
+    series = read_series(SeriesSpec(heat.quantity, table.path, heat.columns, heat.units))
+    assert any("HRR computed from oxygen" in note for note in series.notes)
     assert {f.quantity for f in run.signals} == {"heat_release_rate", "mass"}
     assert run.number == 50.0
 

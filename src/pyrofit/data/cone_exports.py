@@ -51,6 +51,8 @@ def _ftt(lines: Sequence[Line], notes: list[str]) -> list[Line]:
     notes.append(f"FTT export with {len(known)} keys")
     places = {name.casefold(): i for i, name in enumerate(names)}
     start = _number(known.get("test start time (s)"))
+    if start:
+        notes.append(f"the test starts at {start:g} s of the record: give `delay_s: {start:g}`")
     columns = _columns(
         rows, places, ("time (s)", "o2 (%)", "dpt (pa)", "stack tc (k)"), (0.0, 0.0, 0.0, 0.0)
     )

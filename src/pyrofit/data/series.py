@@ -100,7 +100,7 @@ def read_series(spec: SeriesSpec) -> Measurement:
     check_finite(spec.path, frame)
     check_order(spec.of, table, headers, frame)
     check_limits(spec.of, table, headers, frame)
-    notes += gaps
+    notes = [*table.mended, *notes, *gaps]
     if unread := [name for name in dummies if name not in headers.values()]:
         notes.append(f"left out, zero throughout: {', '.join(unread)}")
     if negative := int((frame[spec.of.column] < 0.0).sum()):
