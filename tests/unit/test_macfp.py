@@ -13,6 +13,7 @@ from macfp_sets import OLD, ZERO_BASED, write
 from pyrofit.cli import main
 from pyrofit.errors import DataError
 from pyrofit.exchange.macfp.forms import Lines, alike, to_study
+from pyrofit.exchange.macfp.lint import unusual
 from pyrofit.exchange.macfp.material import has_heat, material_of, strict_of
 from pyrofit.exchange.macfp.numeric import numeric
 from pyrofit.exchange.macfp.read import read_set
@@ -186,6 +187,18 @@ def test_lint_tells_and_writes_the_strict_form(
     assert main(["macfp", "lint", str(path), "--write", str(tmp_path / "out")]) == 0
     assert main(["macfp", "lint", str(tmp_path / "out" / "set.json"), "--strict"]) == 0
     assert "1 of 1 sets read, 1 of them in the strict form" in capsys.readouterr().out
+
+
+def test_values_that_are_unusual_are_said(tmp_path: Path) -> None:
+    given = copy.deepcopy(OLD)
+    given["Thermodynamics"]["Heat of Pyrolysis"]["Value"] = [-1e5, -2e5]
+    given["Kinetics"]["Reaction Order"] = [1, 7.5]
+    said = list(unusual(read_set(write(tmp_path / "set.json", given)).strict))
+    assert said == [
+        "every Heat of Pyrolysis is below 0, exothermic in the data base: the other sign?",
+        "Reaction Order 7.5 of reaction 2 is unusual: up to 4",
+    ]
+    assert list(unusual(read_set(write(tmp_path / "set.json", OLD)).strict)) == []
 
 
 def test_published_schema_is_that_of_the_code() -> None:

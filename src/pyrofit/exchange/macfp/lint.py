@@ -67,6 +67,10 @@ def unusual(given: StrictSet) -> Iterator[str]:
             number = value.get("Value") if isinstance(value, dict) else value
             if isinstance(number, float) and not low <= number <= high:
                 yield f"{key} {number:g} is unusual: {low:g} to {high:g}"
+    heat = getattr(thermal, "heat_of_pyrolysis", None)
+    heats = getattr(heat, "value", 0.0)
+    if max(heats if isinstance(heats, tuple) else [heats]) < 0.0:
+        yield "every Heat of Pyrolysis is below 0, exothermic in the data base: the other sign?"
     kinetics = given.kinetics
     for i, E in enumerate(kinetics.E, start=1):
         if not 2e4 <= E <= 4e5:
