@@ -36,10 +36,8 @@ from pyrofit.solver.arrays import (
 )
 from pyrofit.solver.schedule import lower_schedule
 
-STEP_S = 0.01
-"""Time that a step of a ramp takes."""
-CURVED = 300
-"""Points of a flux that follows a curve."""
+STEP_S, CURVED = 0.01, 300
+"""Time that a step of a ramp takes, and points of a flux that follows a curve."""
 
 
 class Flux(NamedTuple):
