@@ -9,13 +9,13 @@ rule fds_export:
         results.fds("{version}/export.json"),
     log:
         log_of("fds_export_{version}"),
+    wildcard_constraints:
+        version=r"6\.\d+",
     params:
         study=STUDY,
         folder=lambda wildcards, output: os.path.dirname(output[0]),
         digest=digest(dependencies.presentation(study)),
         source=source_fingerprint("pyrofit.exchange.fds.export"),
-    wildcard_constraints:
-        version=r"6\.\d+",
     message:
         "The fitted material for FDS {wildcards.version}: {output[0]}"
     shell:
