@@ -36,7 +36,7 @@ campaign: $(VENV)/installed
 	pyrofit check "$$study" && snakemake --cores $(CORES) --configfile "$$study"
 
 test: $(VENV)/installed
-	pytest -n $(CORES) --dist loadgroup
+	pytest -n $(CORES) --dist loadfile
 
 test-fast: $(VENV)/installed
 	pytest -m "not (slow or solver or workflow)"

@@ -11,7 +11,6 @@ from types import ModuleType
 import pytest
 
 HERE = Path(__file__).parent
-VERIFICATION = HERE / "verification"
 FOLDERS = {
     "blind_test": "solver",
     "diagnose": "solver",
@@ -49,17 +48,10 @@ KERNELS = [f"pyrofit.solver.kernels.{name}" for name in ("grid", "slab", "tga", 
 """Compiled modules that the solver imports when it runs."""
 
 
-def pytest_collection_modifyitems(config: pytest.Config, items: list[pytest.Item]) -> None:
-    """Mark tests with the speed class of their folder or file; skip those that lack their data.
-
-    Where several processes share the tests, those of a file stay together, and so does the
-    verification, whose page is compared with all of it.
-    """
+def pytest_collection_modifyitems(items: list[pytest.Item]) -> None:
+    """Mark tests with the speed class of their folder or file; skip those that lack their data."""
     no_data = pytest.mark.skip(reason="PYROFIT_DATA_DIR is not set")
     for item in items:
-        if config.pluginmanager.hasplugin("xdist"):
-            together = VERIFICATION if VERIFICATION in item.path.parents else item.path
-            item.add_marker(pytest.mark.xdist_group(str(together)))
         if item.get_closest_marker("measured") and not os.environ.get("PYROFIT_DATA_DIR"):
             item.add_marker(no_data)
         if HERE not in item.path.parents:
