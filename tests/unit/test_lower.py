@@ -7,7 +7,7 @@ import pytest
 from pyrofit.experiments import Gasification
 from pyrofit.model.material import Material, Reaction
 from pyrofit.model.properties import Linear, PowerLaw, Table
-from pyrofit.solver import lower, lower_experiment, lower_exposure
+from pyrofit.solver import lower, lower_experiment, lower_exposure, lower_property
 from pyrofit.solver.arrays import BACK_GAS, FLUX, FRONT_H, TABLE_TEMPERATURES_K, TIME
 
 VIRGIN: dict[str, Any] = {
@@ -82,26 +82,26 @@ def test_fractions_are_in_the_order_of_the_components(
 
 
 def test_constant_property_is_one_value() -> None:
-    assert lower.property_table(0.3, VALUES).tolist() == [[0.3]]
-    assert lower.property_table("rho_c", VALUES).tolist() == [[500.0]]
+    assert lower_property.property_table(0.3, VALUES).tolist() == [[0.3]]
+    assert lower_property.property_table("rho_c", VALUES).tolist() == [[500.0]]
 
 
 def test_linear_property_by_hand() -> None:
-    table = lower.property_table(Linear(value=0.2, slope_1_K=1e-3), VALUES)
+    table = lower_property.property_table(Linear(value=0.2, slope_1_K=1e-3), VALUES)
     assert at(table, 300.0) == pytest.approx(0.2)
     assert at(table, 552.5) == pytest.approx(0.2 * 1.2525)
 
 
 def test_power_law_by_hand() -> None:
     law = PowerLaw(value=0.2, exponent=0.5, reference_temperature_K=400.0)
-    table = lower.property_table(law, VALUES)
+    table = lower_property.property_table(law, VALUES)
     assert at(table, 400.0) == pytest.approx(0.2)
     assert at(table, 900.0) == pytest.approx(0.3)
 
 
 def test_table_is_linear_inside_and_constant_outside() -> None:
     law = Table(temperature_K=(300.0, 400.0), value=(1000.0, "rho_c"))
-    table = lower.property_table(law, VALUES)
+    table = lower_property.property_table(law, VALUES)
     assert [at(table, T) for T in (250.0, 350.0, 375.0, 1200.0)] == [1000.0, 750.0, 625.0, 500.0]
 
 
@@ -414,7 +414,7 @@ def everything(values: Any, sets: int) -> list[Any]:
             for part in layer
         ),
         share,
-        lower.property_table(Table(**TABLE), values, sets),
+        lower_property.property_table(Table(**TABLE), values, sets),
     ]
 
 
