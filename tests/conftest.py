@@ -24,6 +24,7 @@ FOLDERS = {
 FILES = {
     "test_bad_input": "solver",
     "test_comparison": "solver",
+    "test_compiled_cache": "solver",
     "test_cost_properties": "slow",
     "test_diagnosis_shown": "slow",
     "test_estimate": "solver",
@@ -46,6 +47,11 @@ FILES = {
 
 KERNELS = [f"pyrofit.solver.kernels.{name}" for name in ("grid", "slab", "tga", "trace")]
 """Compiled modules that the solver imports when it runs."""
+
+
+def pytest_addoption(parser: pytest.Parser) -> None:
+    """Let tests that repeat a fault at random moments repeat it more often."""
+    parser.addoption("--thorough", action="store_true", help="repeat faults often, for an hour")
 
 
 def pytest_collection_modifyitems(items: list[pytest.Item]) -> None:

@@ -1,6 +1,5 @@
 """A copy of the project, so that tests may edit its source, with a tiny study run in it."""
 
-import hashlib
 import json
 import os
 import re
@@ -109,14 +108,6 @@ OWN_FILE = "Time,Temperature,Mass\n[s],[K],[mg]\n" + "".join(
 )
 
 
-KERNELS = "src/pyrofit/solver/kernels"
-
-
-def compiled_for(root: Path) -> str:
-    """Return the name of the folder in which numba keeps what it has compiled."""
-    return "kernels_" + hashlib.sha1(str(root / KERNELS).encode()).hexdigest()
-
-
 @dataclass(frozen=True)
 class Run:
     """How a call of Snakemake ended."""
@@ -142,9 +133,6 @@ class Project:
         for folder in ("src", "workflow", "profiles", "config"):
             shutil.copytree(source / folder, to / folder)
         shutil.copy2(source / "Snakefile", to)
-        # Time stamps are kept; numba names the folder after the path of the source.
-        for compiled in to.glob(f"{KERNELS}/__pycache__/*/{compiled_for(source)}"):
-            compiled.rename(compiled.with_name(compiled_for(to)))
         project = cls(to)
         (to / "mine" / "data").mkdir(parents=True)
         (to / "mine" / "data" / "run.csv").write_text(OWN_FILE)

@@ -3,8 +3,15 @@
 import numpy as np
 from numba import njit
 
-entry = njit(cache=True, error_model="numpy", no_cfunc_wrapper=True, nogil=True)
-"""For functions called from Python; cached on disk."""
+from pyrofit.solver.kernels.cache import CompiledFiles
+
+
+def entry(function):
+    """For functions called from Python; kept on disk by a cache of our own."""
+    compiled = njit(error_model="numpy", no_cfunc_wrapper=True, nogil=True)(function)
+    compiled._cache = CompiledFiles(function)  # where `cache=True` puts that of numba
+    return compiled
+
 
 making = njit(error_model="numpy", no_cfunc_wrapper=True, no_cpython_wrapper=True)
 """For what these call that makes arrays, or hands out views of them."""
