@@ -142,8 +142,11 @@ def _lower(
     accuracy: Accuracy,
     sets: int,
 ) -> Case:
-    length = value_of(experiment.sample.absorption_length_m, values)
-    properties = lower_material(material, values, sets, length)
+    sample = experiment.sample
+    length, denser = (
+        value_of(x, values) for x in (sample.absorption_length_m, sample.density_factor)
+    )
+    properties = lower_material(material, values, sets, length, denser)
     network = lower_network(material, values, sets)
     share = lower_share(experiment, material, values, sets)
     exposure = lower_exposure(experiment, share, properties, values, sets)
@@ -151,7 +154,7 @@ def _lower(
     factor = accuracy.cells_factor
     backing = lower_backing(experiment, material, properties, values, sets, factor)
     exposure = with_backing(exposure, backing)
-    T_start = np.full(sets, value_of(experiment.sample.initial_temperature_K, values), np.float64)
+    T_start = np.full(sets, value_of(sample.initial_temperature_K, values), np.float64)
     cells = np.full(sets, accuracy.cells or 0)
     if accuracy.cells is None:
         from pyrofit.solver.kernels.grid import cells_needed

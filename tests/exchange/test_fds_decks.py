@@ -19,6 +19,7 @@ from pyrofit.exchange.fds.orders import first_order_sum, same_half_time, unreact
 from pyrofit.exchange.fds.properties import CELSIUS_K
 from pyrofit.exchange.fds.remarks import Remark
 from pyrofit.exchange.fds.slab import Deck
+from pyrofit.exchange.fds.unwritten import unwritten
 from pyrofit.exchange.fds.versions import NEW, OLD, FdsError, Version, version_of
 from pyrofit.experiments import Cone
 from pyrofit.model.slab import SlabExperiment
@@ -104,6 +105,18 @@ def test_no_effect_is_dropped_without_a_word(effect: str, version: Version) -> N
     kinds = {remark.kind for remark in remarks}
     assert kinds == REMARKS.get(effect, set())
     assert in_lines or kinds
+
+
+def test_a_denser_piece_is_named() -> None:
+    slab = base().experiments["capa_25"]
+    assert isinstance(slab, SlabExperiment)
+    denser = slab.model_copy(
+        update={"sample": slab.sample.model_copy(update={"density_factor": 1.1})}
+    )
+    said = {r.what for r in unwritten(denser, base().values)}
+    assert said - {r.what for r in unwritten(slab, base().values)} == {
+        "density of the piece, 1.1 times the material's (sample.density_factor)"
+    }
 
 
 def test_an_order_is_a_sum_of_first_orders() -> None:

@@ -295,6 +295,16 @@ def test_closure_with_known_density_takes_the_described_mass(tmp_path: Path) -> 
     assert lines[0] == "slab_25: released 0.060 of 4.000 kg/m² (1.5 %)"
 
 
+def test_closure_with_a_denser_piece_takes_its_mass(tmp_path: Path) -> None:
+    described = json.loads(on_files(tmp_path).model_dump_json())
+    described["material"]["components"]["polymer"]["density_kg_m3"] = 1000.0
+    described["experiments"]["slab_25"]["sample"]["density_factor"] = 1.5
+    described["imp"]["estimate"].remove("rho")
+    del described["parameters"]["rho"], described["synthetic"]["truth"]["rho"]
+    lines = measurements.prepare(as_study(described, "study.json"), Results(tmp_path / "results"))
+    assert lines[0] == "slab_25: released 0.060 of 6.000 kg/m² (1.0 %)"
+
+
 def test_different_samples_are_not_compared(tmp_path: Path) -> None:
     described = json.loads(on_files(tmp_path).model_dump_json())
     described["experiments"]["slab_25"]["sample"]["layers"][0]["thickness_m"] = 0.003

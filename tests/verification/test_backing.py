@@ -215,6 +215,21 @@ def test_backing_belongs_to_nothing_of_the_sample() -> None:
     assert one["thickness"][0] == pytest.approx(5e-3, rel=1e-9)
 
 
+def test_density_of_the_sample_leaves_the_board_as_it_is() -> None:
+    given = backed(("board", 0.02), front={"flux_W_m2": 5e4}, density_factor=2.0)
+    plain = backed(("board", 0.02), front={"flux_W_m2": 5e4})
+    matter = burning().model_dump(exclude_unset=True)
+    for name in ("V", "C"):
+        for key in ("density_kg_m3", "conductivity_W_mK"):
+            matter["components"][name][key] *= 2.0
+    requests = {n: Request(np.arange(0.0, 600.0, 5.0)) for n in ("mass", "back_temperature")}
+    one = run(given, burning(), requests, values={}).signals
+    other = run(plain, Material.model_validate(matter), requests, values={}).signals
+    assert one["mass"][0] == pytest.approx(12.0, rel=1e-12)
+    for name, curve in one.items():
+        assert np.array_equal(curve, other[name]), name
+
+
 def test_sets_with_a_backing_have_the_same_bits_alone_and_side_by_side() -> None:
     matter = burning(conductivity_W_mK="k")
     k = np.linspace(0.04, 0.5, 9)

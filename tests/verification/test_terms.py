@@ -342,6 +342,15 @@ def test_thickness_factor_multiplies_every_layer() -> None:
     assert same((thick, charring()), (specimen(layers=double), charring()))
 
 
+def test_density_factor_multiplies_density_and_conductivity_of_the_material() -> None:
+    twice = charring().model_dump(exclude_unset=True)
+    for component in twice["components"].values():
+        for key in ("density_kg_m3", "conductivity_W_mK"):
+            component[key] *= 2.0
+    given = specimen(foil=FOIL, density_factor=2.0)
+    assert same((given, charring()), (specimen(foil=FOIL), Material.model_validate(twice)))
+
+
 def test_absorption_length_stands_for_the_coefficient_of_every_component() -> None:
     clear = {"absorption_1_m": 2000.0 / 3.0}
     coefficients = charring(kappa=2000.0, char=clear | {"absorption_1_m": 2000.0})

@@ -56,7 +56,8 @@ def _line(study: Study, name: str, signal: str, released: float, several: bool) 
         initial = described.sample_mass_kg / described.sample_area_m2
     else:
         with contextlib.suppress(KeyError):
-            initial = described_mass(study, _reacting(study, experiment, values), values)
+            layers = _reacting(study, experiment, values)
+            initial = described_mass(study, experiment, layers, values)
     if initial is not None:
         return f"{said} of {initial:.3f} kg/m² ({released / initial:.1%})".replace("%", " %")
     return (
@@ -87,11 +88,17 @@ def layers_of(experiment: SlabExperiment, values: Mapping[str, float]) -> list[t
 
 
 def described_mass(
-    study: Study, layers: Sequence[tuple[Layer, float]], values: Mapping[str, float]
+    study: Study,
+    experiment: SlabExperiment,
+    layers: Sequence[tuple[Layer, float]],
+    values: Mapping[str, float],
 ) -> float:
     """Return the mass of layers per area [kg/m2]; KeyError where a parameter has no value."""
     components = study.material.components
-    volumes = np.array([1.0 / value_of(c.density_kg_m3, values) for c in components.values()])
+    own = np.isin(list(components), sorted(study.material.own))
+    denser = np.where(own, value_of(experiment.sample.density_factor, values), 1.0)
+    density = np.array([value_of(c.density_kg_m3, values) for c in components.values()])
+    volumes = 1.0 / (denser * density)
     total = 0.0
     for layer, size in layers:
         composition = layer.composition or study.material.composition
@@ -110,7 +117,9 @@ def _spread(study: Study, released: Mapping[Record, float]) -> list[str]:
             assert isinstance(one, SlabExperiment)
             assert isinstance(other, SlabExperiment)
             alike = one.quantity(a[1]).name == other.quantity(b[1]).name
-            if a[0] != b[0] and alike and one.sample.layers == other.sample.layers:
+            same = one.sample.layers == other.sample.layers
+            same &= one.sample.density_factor == other.sample.density_factor
+            if a[0] != b[0] and alike and same:
                 apart = abs(released[a] - released[b]) / max(released[a], released[b])
                 lines.append(f"{a[0]} and {b[0]}: equal samples, released masses {apart:.1%} apart")
     return lines

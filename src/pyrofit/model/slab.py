@@ -95,6 +95,11 @@ class Sample(Part):
     thickness_factor: Positive = Field(
         1.0, description="multiplies the thickness of every layer, not of the backing [-]"
     )
+    density_factor: Positive = Field(
+        1.0,
+        description="multiplies density and conductivity of the material's components: a denser "
+        "piece of the same porous material, whose diffusivity stays; not of boards and foil [-]",
+    )
     emissivity_change: Number = Field(
         0.0,
         description="added to the surface emissivity, times the mass released over the initial [-]",

@@ -61,11 +61,16 @@ def _tables(properties: list[Any], values: Values, sets: int) -> FloatArray:
 
 
 def lower_material(
-    material: words.Material, values: Values, sets: int = 1, absorption_length: Value = 0.0
+    material: words.Material,
+    values: Values,
+    sets: int = 1,
+    absorption_length: Value = 0.0,
+    density_factor: Value = 1.0,
 ) -> Material:
     """Return the component properties as arrays, in the order of ``material.components``.
 
-    An ``absorption_length`` [m] above zero holds for all components of the material itself.
+    An ``absorption_length`` [m] above zero holds for all components of the material itself, and so
+    does the ``density_factor``, which multiplies density and conductivity.
     """
     parts = list(material.components.values())
     own = material.derived("own", lambda m: np.array([n in m.own for n in m.components]))[:, None]
@@ -78,10 +83,11 @@ def lower_material(
     if not own.all():
         opaque = ~own & (absorption == 0.0) & (absorption > 0.0).any(axis=0)
         absorption = np.where(opaque, OPAQUE_1_M, absorption)
+    denser = np.where(own, density_factor, 1.0)
     return Material(
-        specific_volume=1.0 / density,
+        specific_volume=1.0 / (denser * density),
         expansion=_tables([c.expansion for c in parts], values, sets),
-        conductivity=_tables([c.conductivity_W_mK for c in parts], values, sets),
+        conductivity=denser[:, None] * _tables([c.conductivity_W_mK for c in parts], values, sets),
         specific_heat=_tables([c.specific_heat_J_kgK for c in parts], values, sets),
         emissivity=stack([value_of(c.emissivity, values) for c in parts], sets),
         absorption=absorption[:, None, :]

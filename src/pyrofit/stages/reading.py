@@ -206,7 +206,7 @@ def _start_notes(
             ]
     if quantity.curve == MASS:
         with contextlib.suppress(KeyError):
-            described = described_mass(study, layers_of(experiment, values), values)
+            described = described_mass(study, experiment, layers_of(experiment, values), values)
             offset = value_of(experiment.signals[signal].offset, values)
             start = float(np.median(record[:FIRST])) - offset
             if abs(start - described) > OTHER_MASS * described:

@@ -39,10 +39,12 @@ class Property:
 
     given: tuple[Any, ...]
     values: Values
+    factor: FloatArray | float = 1.0
+    """Multiplies p_i, shape (components,)."""
 
     def of(self, T: FloatArray) -> FloatArray:
         """Return p_i(T), shape (..., components) for T [K] of shape (...,)."""
-        return np.stack([self._one(p, T) for p in self.given], axis=-1)
+        return np.stack([self._one(p, T) for p in self.given], axis=-1) * self.factor
 
     def _one(self, given: Any, T: FloatArray) -> FloatArray:
         if isinstance(given, float | str):
@@ -143,12 +145,16 @@ class Substance:
 
 
 def substance(
-    material: words.Material, values: Values, absorption_length: float = 0.0
+    material: words.Material,
+    values: Values,
+    absorption_length: float = 0.0,
+    density_factor: float = 1.0,
 ) -> Substance:
     """Return the material with the numbers of the given parameter values.
 
     An ``absorption_length`` [m] above zero replaces that of every component of the material itself;
-    other bodies are opaque unless described otherwise.
+    other bodies are opaque unless described otherwise. The ``density_factor`` multiplies density
+    and conductivity of the same components.
     """
     parts = list(material.components.values())
     kappa = {
@@ -158,11 +164,13 @@ def substance(
     if any(kappa.values()):
         opaque = {n: OPAQUE_1_M for n, of in kappa.items() if not of and n not in material.own}
         kappa |= opaque
+    own = np.isin(list(material.components), sorted(material.own))
+    denser = np.where(own, density_factor, 1.0)
     return Substance(
         names=list(material.components),
-        density=np.array([value_of(c.density_kg_m3, values) for c in parts]),
+        density=denser * np.array([value_of(c.density_kg_m3, values) for c in parts]),
         expansion=Property(tuple(c.expansion for c in parts), values),
-        conductivity=Property(tuple(c.conductivity_W_mK for c in parts), values),
+        conductivity=Property(tuple(c.conductivity_W_mK for c in parts), values, denser),
         specific_heat=Property(tuple(c.specific_heat_J_kgK for c in parts), values),
         emissivity=np.array([value_of(c.emissivity, values) for c in parts]),
         absorption=np.array(list(kappa.values())),
