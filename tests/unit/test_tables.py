@@ -1,3 +1,4 @@
+from dataclasses import replace
 from pathlib import Path
 from typing import Any
 
@@ -14,7 +15,9 @@ from pyrofit.errors import StudyError
 from pyrofit.quantities import known_quantities
 from pyrofit.results.files import Results, read_csv, write_csv, write_json
 from pyrofit.show.costs.table5 import table5
+from pyrofit.show.facts import facts_of
 from pyrofit.show.fit.table4 import flags
+from pyrofit.show.identification.sentences import sentences
 from pyrofit.show.names import data_name, flag
 from pyrofit.show.sections import TABLES, make_table
 from pyrofit.show.text import number
@@ -443,6 +446,27 @@ def test_determined_by_hand(tmp_path: Path) -> None:
     assert cp["ends"] == "upper"
     assert [k["method"], cp["method"]] == ["linear", "profile"]
     assert k["strongest_correlation"] == "cp −0.80"
+
+
+def test_trade_offs_by_hand(tmp_path: Path) -> None:
+    (row,) = made("trade_offs", *fake(tmp_path)).to_dict("records")
+    assert (row["parameter"], row["partner"]) == ("k", "cp")
+    # k by its sd of 0.01; cp by -0.8 times 800 J/(kg K).
+    assert row["rise"] == 0.01
+    assert (row["shift"], row["partner_unit"]) == (pytest.approx(-0.64), "kJ/(kg K)")
+    assert row["correlation"] == -0.8
+
+
+def test_report_says_what_compensates_what_where_it_is_strong(tmp_path: Path) -> None:
+    study, results = fake(tmp_path)
+    facts = facts_of(study, results, {})
+    words = (
+        "These changes make up for each other in the inverse modelling, the strongest first: "
+        "k +0.01 W/(m K) and cp −0.64 kJ/(kg K)."
+    )
+    assert words in sentences(study, facts)
+    weak = [replace(pair, correlation=-0.69) for pair in facts.trade_offs]
+    assert words not in sentences(study, replace(facts, trade_offs=weak))
 
 
 def test_noise_gives_chi_square_per_point(tmp_path: Path) -> None:

@@ -12,6 +12,7 @@ from pyrofit.analysis.known_values import Known, known_values
 from pyrofit.analysis.misfit import Misfit, misfits
 from pyrofit.analysis.repetitions import Repeated, repeated
 from pyrofit.analysis.scores import Score, scores
+from pyrofit.analysis.trade_offs import TradeOff, trade_offs
 from pyrofit.analysis.wall_times import wall_times
 from pyrofit.config import Study
 from pyrofit.results.files import Results
@@ -28,6 +29,8 @@ class Facts:
         All tables that the study has, by name, as they were written.
     estimates, known
         The estimates of all stages, and those that have a known value.
+    trade_offs
+        Pairs of estimates of which one makes up for the other.
     misfits
         How the optimum of the likelihood fits each signal.
     best
@@ -45,6 +48,7 @@ class Facts:
     tables: Frames
     estimates: list[Estimated]
     known: list[Known]
+    trade_offs: list[TradeOff]
     misfits: list[Misfit]
     best: pd.DataFrame
     distances: list[Distance]
@@ -65,6 +69,7 @@ def facts_of(study: Study, results: Results, tables: Frames) -> Facts:
         tables=tables,
         estimates=estimated(study, results),
         known=known_values(study, results),
+        trade_offs=trade_offs(study, results),
         misfits=misfits(study, results),
         best=best_sets(study, results),
         distances=distances(study, results),

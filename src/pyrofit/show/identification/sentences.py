@@ -7,11 +7,15 @@ from pyrofit.analysis.distances import Distance
 from pyrofit.analysis.estimates import Estimated, by_grade
 from pyrofit.analysis.known_values import Known
 from pyrofit.analysis.misfit import FITS, Misfit
+from pyrofit.analysis.trade_offs import STRONG, TradeOff
 from pyrofit.analysis.uses import title_of
 from pyrofit.config import Study
 from pyrofit.show.facts import Facts
 from pyrofit.show.names import STAGES, named, signal_words
 from pyrofit.show.text import listed, signed, span
+
+SHOWN_PAIRS = 5
+"""Pairs of parameters that the text names; the table has all."""
 
 
 def sentences(study: Study, facts: Facts) -> list[str]:
@@ -19,6 +23,7 @@ def sentences(study: Study, facts: Facts) -> list[str]:
     stages = groupby(facts.misfits, key=lambda found: found.stage)
     fits = [_misfit(study, STAGES[stage], list(found)) for stage, found in stages]
     said = [verdicts(facts.estimates), *_known(facts.known), _correlation(facts.estimates)]
+    said += _compensation(facts.trade_offs)
     return [*said, " ".join(fits), _optimisers(facts.distances)]
 
 
@@ -59,6 +64,26 @@ def _correlation(known: Sequence[Estimated]) -> str:
         f"The strongest correlation is that of {first.name} and {first.partner}, "
         f"{signed(sizes[first])}."
     )
+
+
+def _compensation(found: Sequence[TradeOff]) -> list[str]:
+    """Say which parameters make up for which, the strongest of the inverse modelling first."""
+    strong = [p for p in found if p.stage == "imp" and abs(p.correlation) >= STRONG]
+    if not strong:
+        return []
+    pairs = [
+        f"{_change(p.name, p.rise, p.unit)} and {_change(p.partner, p.shift, p.partner_unit)}"
+        for p in strong[:SHOWN_PAIRS]
+    ]
+    return [
+        "These changes make up for each other in the inverse modelling, the strongest first: "
+        f"{'; '.join(pairs)}."
+    ]
+
+
+def _change(name: str, by: float, unit: str) -> str:
+    """Return a parameter with a signed change; a number without unit has none."""
+    return f"{name} {by:+.2g}".replace("-", "−") + (f" {unit}" if unit != "-" else "")
 
 
 def _misfit(study: Study, fit: str, found: Sequence[Misfit]) -> str:

@@ -1,0 +1,63 @@
+"""Pairs of estimates of which one makes up for the other."""
+
+from dataclasses import dataclass
+from itertools import combinations
+
+from pyrofit.config import Study
+from pyrofit.results.files import Results
+from pyrofit.results.identification import estimates, matrix_of, stages_of
+
+STRONG = 0.7
+"""Correlation from which on half of a variance is that of another parameter."""
+
+
+@dataclass(frozen=True)
+class TradeOff:
+    """What an estimate does where another one is held off its best value.
+
+    Parameters
+    ----------
+    stage
+        'kinetics' or 'imp'.
+    name, unit, rise
+        The parameter, and its standard deviation, by which it is raised.
+    partner, partner_unit, shift
+        The parameter that makes up for it, and by how much its best value then moves.
+    correlation
+        Correlation of the two.
+    """
+
+    stage: str
+    name: str
+    unit: str
+    rise: float
+    partner: str
+    partner_unit: str
+    shift: float
+    correlation: float
+
+
+def trade_offs(study: Study, results: Results) -> list[TradeOff]:
+    """Return the strongly correlated pairs of each stage, the strongest first.
+
+    Of estimates with the covariance C, raising p_i by sd_i moves the best p_j by rho_ij sd_j, all
+    other parameters fitted anew. Where no pair of a stage is that strong, its strongest is given.
+    """
+    found = []
+    for stage in stages_of(study):
+        pairs = sorted(_pairs(study, results, stage), key=lambda p: -abs(p.correlation))
+        found += [p for n, p in enumerate(pairs) if n == 0 or abs(p.correlation) >= STRONG]
+    return found
+
+
+def _pairs(study: Study, results: Results, stage: str) -> list[TradeOff]:
+    related = matrix_of(study, results, stage)
+    sd = estimates(study, results, stage)["sd"].to_dict()
+    pairs = []
+    for name, partner in combinations(related.index, 2):
+        one, other = study.parameters[name], study.parameters[partner]
+        size = float(related[name][partner])
+        shift = size * float(sd[partner]) / other.factor
+        rise = float(sd[name]) / one.factor
+        pairs.append(TradeOff(stage, name, one.unit, rise, partner, other.unit, shift, size))
+    return [p for p in pairs if p.correlation != 0.0]

@@ -1,0 +1,41 @@
+"""Which parameters make up for which."""
+
+import pandas as pd
+
+from pyrofit.analysis.trade_offs import TradeOff, trade_offs
+from pyrofit.config import Study
+from pyrofit.results.files import Results
+from pyrofit.show.names import STAGES
+from pyrofit.show.table import Table
+
+COLUMNS = ("fit", "parameter", "rise", "unit", "partner", "shift", "partner_unit", "correlation")
+
+
+def table(study: Study, results: Results) -> pd.DataFrame:
+    """List pairs of parameters of which one makes up for the other, the strongest first."""
+    rows = [_row(pair) for pair in trade_offs(study, results)]
+    return pd.DataFrame(rows, columns=list(COLUMNS))
+
+
+def _row(pair: TradeOff) -> tuple[object, ...]:
+    fit = STAGES[pair.stage]
+    one, other = (pair.name, pair.rise, pair.unit), (pair.partner, pair.shift, pair.partner_unit)
+    return fit, *one, *other, pair.correlation
+
+
+TABLE = Table(
+    place=12,
+    applies=lambda study: True,
+    make=table,
+    title="What compensates what",
+    note="Raise a parameter by its standard deviation, and the best value of the other one moves "
+    "by the shift, all others fitted anew: the measurements change little. Pairs with a "
+    "correlation of 0.7 or more, else the strongest.",
+    headings={
+        "rise": "raised by",
+        "partner": "makes up for it",
+        "shift": "its shift",
+        "partner_unit": "its unit",
+    },
+    group_by="fit",
+)
