@@ -1,9 +1,8 @@
 """The whole study: data, kinetics, inverse modelling, validation, tables, figures, report."""
 
-import json
 import os
-import re
 import shutil
+import sys
 from pathlib import Path
 
 from snakemake.utils import min_version, update_config
@@ -14,8 +13,10 @@ from pyrofit.errors import PyrofitError
 from pyrofit.provenance import STUDY as STUDY_MODULES
 from pyrofit.provenance import source_fingerprint
 from pyrofit.results import dependencies
-from pyrofit.results.files import Results, write_text
+from pyrofit.results.files import Results
 from pyrofit.results.kinetics import heats_shown
+from pyrofit.running.frozen import freeze, frozen_study
+from pyrofit.running.lock import end_run, join_run, start_run
 from pyrofit.show.sections import FIGURES, TABLES, module_of
 from pyrofit.stages.reading import check_measurements
 
@@ -39,21 +40,20 @@ try:
     for path in workflow.configfiles:
         update_config(given, read_mapping(Path(os.path.relpath(path))))
     update_config(given, workflow.config_settings.config)
-    study = as_study(given, SOURCE)
-    check_measurements(study, SOURCE, macfp=False)
+    if workflow.is_main_process:
+        study = as_study(given, SOURCE)
+        check_measurements(study, SOURCE, macfp=False)
+    else:  # a job of a cluster: the study file may have been edited since the start
+        study = frozen_study(given, SOURCE)
     ROOT = Path("results") / study.name
-    # The study as checked and completed, with what --config changed: every step reads this file,
-    # and verifies by digest that its part of it is what the rule was planned with.
-    STUDY = ROOT / "study.json"
-    _text = json.dumps(study.model_dump(mode="json"), indent=1) + "\n"
-    _dry = any(
-        re.fullmatch("-[A-Za-z]*n[A-Za-z]*|--dry-?run", word) for word in sys.argv
-    )
-    if not _dry and (not STUDY.exists() or STUDY.read_text() != _text):
-        write_text(STUDY, _text)
+    if not workflow.is_main_process:
+        join_run(ROOT)
 except PyrofitError as error:
     raise WorkflowError(str(error)) from None
 
+# The study as checked and completed, with what --config changed: every step reads this file, and
+# verifies by digest that its part of it is what the rule was planned with.
+STUDY = ROOT / "study.json"
 results = Results(ROOT)
 # What the fits, and what the report, which states this fingerprint, are made by.
 FITS = source_fingerprint("pyrofit.stages.fit")
@@ -66,7 +66,21 @@ wildcard_constraints:
     cost="|".join(COSTS),
 
 
+onstart:
+    try:
+        if told := start_run(ROOT):
+            print(told, file=sys.stderr)
+        freeze(study, STUDY)
+    except PyrofitError as error:
+        raise WorkflowError(str(error)) from None
+
+
+onerror:
+    end_run(ROOT)
+
+
 onsuccess:
+    end_run(ROOT)
     for _page in (ROOT / "report.html", results.diagnosis("report.html")):
         if _page.exists():
             print(f"Page: {_page}")

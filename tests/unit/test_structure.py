@@ -27,6 +27,7 @@ ORDER = [
     {"plugins"},
     {"config"},
     {"results"},
+    {"running"},
     {"estimate"},
     {"diagnose", "scheme"},
     {"analysis"},

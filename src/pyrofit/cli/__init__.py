@@ -56,7 +56,8 @@ def main(arguments: Sequence[str] | None = None) -> int:
 
 def _run(given: argparse.Namespace) -> int:
     try:
-        given.step(given)
+        with contextlib.ExitStack() as given.until_end:
+            given.step(given)
     except PyrofitError as error:
         print(f"error: {error}", file=sys.stderr)
         return 2

@@ -22,9 +22,13 @@ def add_step(commands: Any, name: str, text: str, step: Step) -> argparse.Argume
 
 
 def open_study(given: argparse.Namespace, slice_of: Callable[..., Any], *arguments: Any) -> Any:
-    """Return study and results; refuse a study that differs from what the caller described."""
+    """Return study and results; refuse a study that differs from what the caller described.
+
+    Until the command ends, no other run of the study may start.
+    """
     from pyrofit.config import digest, read_study
     from pyrofit.results.files import Results
+    from pyrofit.running.lock import job
 
     study = read_study(given.study)
     cost = getattr(given, "cost", None)
@@ -34,5 +38,10 @@ def open_study(given: argparse.Namespace, slice_of: Callable[..., Any], *argumen
             + suggest(cost, study.imp.costs)
         )
     if given.digest is not None and digest(slice_of(study, *arguments)) != given.digest:
-        raise StudyError(f"{given.study}: the study changed while the workflow ran; run it again")
-    return study, Results(given.results or Path("results") / study.name)
+        raise StudyError(
+            f"{given.study}: the study changed while the workflow ran; run it again. "
+            f"'{given.command}' depends on what changed"
+        )
+    root = given.results or Path("results") / study.name
+    given.until_end.enter_context(job(root))
+    return study, Results(root)

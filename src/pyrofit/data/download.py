@@ -2,7 +2,7 @@
 
 import errno
 import hashlib
-import os
+import uuid
 from pathlib import Path
 
 from pyrofit.errors import DataError
@@ -52,7 +52,7 @@ def sha256(path: Path) -> str:
 
 def download(url: str, target: Path, digest: str) -> None:
     """Download beside the target, verify, then rename: the target is whole or absent."""
-    part = target.with_name(f".{target.name}.{os.getpid()}.part")
+    part = target.with_name(f".{target.name}.{uuid.uuid4().hex[:12]}.part")
     try:
         target.parent.mkdir(parents=True, exist_ok=True)
         try:

@@ -5,7 +5,7 @@ import gzip
 import io
 import json
 import math
-import os
+import uuid
 import zlib
 from collections.abc import Iterable, Mapping
 from pathlib import Path
@@ -17,6 +17,8 @@ import pandas as pd
 from pyrofit.errors import DataError
 
 Keys = tuple[str, ...]
+PART = ".part"
+"""End of the name of a file that is being written; those of killed processes are deleted."""
 EACH = "*"
 """Among keys: every item of a list."""
 
@@ -32,7 +34,8 @@ def write_bytes(path: Path, content: bytes) -> None:
     DataError
         The disk is full or the folder cannot be written; no partial file is left.
     """
-    temporary = path.with_name(f".{path.name}.{os.getpid()}")
+    # The number of a process is not unique on a file system that several machines share.
+    temporary = path.with_name(f".{path.name}.{uuid.uuid4().hex[:12]}{PART}")
     try:
         path.parent.mkdir(parents=True, exist_ok=True)
         temporary.write_bytes(content)

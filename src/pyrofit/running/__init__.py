@@ -1,0 +1,1 @@
+"""One run of a study at a time, and one study throughout a run."""

@@ -1,0 +1,139 @@
+"""One run of a study at a time, of the study that it was started with."""
+
+import json
+import os
+import shutil
+import signal
+import subprocess
+import time
+from collections.abc import Iterator
+from pathlib import Path
+
+import pytest
+from tiny import FIT, OWN_FILE, TINY, Project, Run
+
+from pyrofit.running.frozen import FROZEN
+from pyrofit.running.lock import TOKEN, end_run, start_run
+
+FOLDER = "results/tiny/running"
+STUDY = "results/tiny/study.json"
+SERIES = "results/tiny/measurements/tga_own_mass_fraction.csv"
+SUMMARY = "results/tiny/measurements/summary.json"
+AS_A_JOB = ("--mode", "remote", "--target-jobs", "kinetics:", "--allowed-rules", "kinetics")
+"""How a cluster's job calls Snakemake."""
+JOB = (*AS_A_JOB, "--cores", "1", "--force", "--no-hooks", "--ignore-incomplete")
+
+
+def wait_for(project: Project, name: str, process: "subprocess.Popen[str]") -> None:
+    give_up = time.monotonic() + 300.0
+    while not (project.root / name).exists():
+        assert time.monotonic() < give_up
+        assert process.poll() is None
+        time.sleep(0.02)
+
+
+def test_second_run_is_refused_and_edits_in_mid_run_change_nothing(
+    finished: tuple[Project, Run], tmp_path: Path
+) -> None:
+    project = Project.copy(finished[0].root, tmp_path / "project")
+    with project.start("--cores", "1", FIT) as process:
+        wait_for(project, SERIES, process)
+        os.killpg(process.pid, signal.SIGSTOP)  # that it may not end too early
+        frozen = project.read(STUDY)
+        project.change("seed", 4)
+        (project.root / "mine" / "data" / "run.csv").write_text(OWN_FILE.replace("5.0", "4.0"))
+        second = project.snakemake("--cores", "1", FIT)
+        for harmless in (("--dry-run",), ("--list-rules",)):
+            assert project.snakemake(*harmless).code == 0
+        assert project.read(STUDY) == frozen
+        os.killpg(process.pid, signal.SIGCONT)
+        said, _ = process.communicate()
+    assert second.code != 0
+    assert f"    kill {process.pid}    #" in second.said
+    assert "another run of this study is alive" in second.said
+    assert "Traceback" not in second.said
+    assert process.returncode == 0, said
+    for name in (STUDY, SERIES, SUMMARY, FIT):
+        assert project.read(name) == finished[0].read(name), name
+    assert not (project.root / FOLDER).exists()
+    # What was edited is seen by the next run.
+    jobs = project.plan(FIT)
+    assert {"Measured series into tidy tables, mass closure checked"} < jobs
+
+
+def test_without_nolock_a_killed_run_is_unlocked_and_goes_on(
+    finished: tuple[Project, Run], tmp_path: Path
+) -> None:
+    project = Project.copy(finished[0].root, tmp_path / "project")
+    bare = ("--workflow-profile", "none", "--cores", "1")
+    with project.start(*bare, SERIES) as process:
+        wait_for(project, f"{FOLDER}/run.json", process)
+        os.killpg(process.pid, signal.SIGKILL)
+        process.communicate()
+    locked = project.snakemake(*bare, SERIES)
+    assert locked.code != 0
+    assert "LockException" in locked.said
+    assert project.snakemake(*bare, "--unlock").code == 0
+    again = project.snakemake(*bare, "--rerun-incomplete", SERIES)
+    assert again.code == 0, again.said
+    assert "was broken off; going on" in again.said
+    assert project.read(SERIES) == finished[0].read(SERIES)
+
+
+@pytest.fixture
+def as_job(
+    finished: tuple[Project, Run], tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> Iterator[Project]:
+    """Return a finished project, as the job of a cluster finds it whose run is this process."""
+    shutil.copytree(finished[0].root, tmp_path / "project")
+    project = Project(tmp_path / "project")
+    project.write(TINY)
+    root = project.root / "results" / "tiny"
+    for name in (TOKEN, FROZEN):
+        monkeypatch.setenv(name, "")  # so that it is restored at the end
+    start_run(root)
+    monkeypatch.delenv(FROZEN)
+    yield project
+    end_run(root)
+
+
+def digest_of(project: Project) -> str:
+    from pyrofit.config import digest
+
+    return digest(json.loads(project.read(STUDY)))
+
+
+def test_job_of_a_cluster_computes_the_study_that_its_run_was_started_with(
+    as_job: Project, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    fit, frozen = as_job.read(FIT), as_job.read(STUDY)
+    monkeypatch.setenv(FROZEN, f"{digest_of(as_job)} {STUDY}")
+    as_job.change("seed", 4)
+    run = as_job.snakemake(*JOB)
+    assert run.code == 0, run.said
+    assert "Kinetics fitted" in run.said
+    assert as_job.read(FIT) == fit
+    assert as_job.read(STUDY) == frozen
+
+
+def test_job_of_a_cluster_that_does_not_know_its_run_refuses_an_edited_study(
+    as_job: Project,
+) -> None:
+    fit, frozen = as_job.read(FIT), as_job.read(STUDY)
+    as_job.change("seed", 4)
+    run = as_job.snakemake(*JOB)
+    assert run.code != 0
+    assert "mine/tiny.yaml: changed while the workflow runs: seed." in run.said
+    assert as_job.read(FIT) == fit
+    assert as_job.read(STUDY) == frozen
+
+
+def test_job_of_a_run_that_is_over_removes_no_result(
+    as_job: Project, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    fit = as_job.read(FIT)
+    monkeypatch.setenv(TOKEN, "that of the run before")
+    run = as_job.snakemake(*JOB)
+    assert run.code != 0
+    assert "the run that this job belongs to is over; nothing was written" in run.said
+    assert as_job.read(FIT) == fit
