@@ -8,6 +8,7 @@ from pathlib import Path
 from snakemake.utils import min_version, update_config
 
 from pyrofit.config import as_study, digest, read_mapping
+from pyrofit.config.programs import externals, program_files
 from pyrofit.config.unmeasured import unmeasured
 from pyrofit.errors import PyrofitError
 from pyrofit.provenance import STUDY as STUDY_MODULES
@@ -59,6 +60,11 @@ results = Results(ROOT)
 FITS = source_fingerprint("pyrofit.stages.fit")
 SHOWS = source_fingerprint(*STUDY_MODULES)
 COSTS = list(study.imp.costs)
+# What external programs need, and the cores that their runs at once take.
+PROGRAM_FILES = list(program_files(study))
+PROGRAMS = [experiment.program for experiment in externals(study).values()]
+RUN_CORES = max([program.cores for program in PROGRAMS], default=1)
+RUNS_CORES = max([p.parallel * p.cores for p in PROGRAMS], default=1)
 REPETITIONS = [f"{n:02d}" for n in range(study.imp.repetitions)]
 
 
@@ -103,6 +109,7 @@ localrules:
 include: "workflow/rules/common.smk"
 include: "workflow/rules/data.smk"
 include: "workflow/rules/kinetics.smk"
+include: "workflow/rules/programs.smk"
 include: "workflow/rules/imp.smk"
 include: "workflow/rules/identify.smk"
 include: "workflow/rules/validation.smk"

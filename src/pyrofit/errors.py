@@ -16,6 +16,10 @@ class DataError(PyrofitError):
     """A measured file breaks a rule."""
 
 
+class ProgramError(PyrofitError):
+    """An external program, or a file of it, cannot be used."""
+
+
 class CostError(PyrofitError):
     """A cost cannot be computed from these options or this target."""
 

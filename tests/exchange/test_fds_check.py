@@ -17,9 +17,10 @@ from pyrofit.exchange.fds.agreement import levels, slab_agreement
 from pyrofit.exchange.fds.check import check
 from pyrofit.exchange.fds.export import Written, decks, slab_curve
 from pyrofit.exchange.fds.read import read_devc, read_tga
-from pyrofit.exchange.fds.run import find_fds, version_text
+from pyrofit.exchange.fds.run import version_text
 from pyrofit.exchange.fds.versions import OLD, FdsError
 from pyrofit.exchange.sets import ParameterSet, parameter_set
+from pyrofit.external.fds import find_fds
 from pyrofit.results.files import Results
 from pyrofit.show import fds_page
 from pyrofit.show.parts import Part

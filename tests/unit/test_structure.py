@@ -9,7 +9,7 @@ from pathlib import Path
 
 import pytest
 
-from pyrofit.experiments import KINDS
+from pyrofit.experiments import KINDS, OF_FILES
 from pyrofit.quantities import known_quantities
 
 ROOT = Path(__file__).parents[2]
@@ -22,6 +22,7 @@ ORDER = [
     {"effects"},
     {"solver"},
     {"simulate"},
+    {"external"},
     {"experiments"},
     {"cost"},
     {"plugins"},
@@ -178,7 +179,7 @@ def test_a_new_study_names_no_kind_and_no_quantity() -> None:
             assert not (literal and node.value in names), f"{path.name}: '{node.value}'"
     words = set(re.findall(r"\w+", (folder / "study.yaml.j2").read_text(encoding="utf-8")))
     assert not words & names
-    for name in KINDS:
+    for name in OF_FILES:
         assert (SOURCE / "experiments" / name / "new.yaml.j2").is_file(), name
 
 

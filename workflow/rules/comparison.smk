@@ -5,6 +5,7 @@ rule compare:
     input:
         MEASUREMENTS,
         KINETICS_FOR_IMP,
+        OUTSIDE,
         results.imp("summary.csv"),
         STARTED,
     output:
@@ -13,6 +14,7 @@ rule compare:
         log_of("compare"),
     benchmark:
         benchmark_of("compare")
+    threads: RUNS_CORES
     params:
         study=STUDY,
         digest=digest(dependencies.compare(study)),

@@ -8,6 +8,7 @@ MEASUREMENTS = [
 rule prepare:
     input:
         study.own_files,
+        PROGRAM_FILES if study.is_synthetic else [],
     output:
         series=MEASUREMENTS,
         summary=results.measurements_summary,

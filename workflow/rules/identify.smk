@@ -5,6 +5,7 @@ rule identify:
     input:
         MEASUREMENTS,
         KINETICS_FOR_IMP,
+        OUTSIDE,
         results.imp("summary.csv"),
         STARTED,
     output:
@@ -13,6 +14,7 @@ rule identify:
         log_of("identify"),
     benchmark:
         benchmark_of("identify")
+    threads: RUNS_CORES
     params:
         study=STUDY,
         digest=digest(dependencies.identify(study)),

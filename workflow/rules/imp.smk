@@ -1,6 +1,7 @@
 # The solver is two to three times as fast with eight parameter sets at once: repetitions share
 # jobs by eights. The rest run alone: one more runs no other again, unless it completes an eight.
-SIDE_BY_SIDE = 8
+# Runs of an external program gain nothing: there, each repetition is a job.
+SIDE_BY_SIDE = 1 if PROGRAMS else 8
 EIGHTS = len(REPETITIONS) - len(REPETITIONS) % SIDE_BY_SIDE
 for _together in [
     *(REPETITIONS[n : n + SIDE_BY_SIDE] for n in range(0, EIGHTS, SIDE_BY_SIDE)),
@@ -13,6 +14,7 @@ for _together in [
         input:
             MEASUREMENTS,
             KINETICS_FOR_IMP,
+            OUTSIDE,
         output:
             expand(
                 ROOT / "imp/{{cost}}/{repetition}{suffix}",
@@ -23,6 +25,7 @@ for _together in [
             log_of(f"imp_{{cost}}_{_together[0]}"),
         benchmark:
             benchmark_of(f"imp_{{cost}}_{_together[0]}")
+        threads: RUN_CORES
         params:
             study=STUDY,
             digest=lambda wildcards: digest(
@@ -44,6 +47,7 @@ rule optimise:
     input:
         MEASUREMENTS,
         KINETICS_FOR_IMP,
+        OUTSIDE,
     output:
         ROOT / "imp/{cost}/{optimiser}.json",
     log:
@@ -52,6 +56,7 @@ rule optimise:
         benchmark_of("{optimiser}_{cost}")
     wildcard_constraints:
         optimiser="|".join(OPTIMISERS),
+    threads: RUNS_CORES
     params:
         study=STUDY,
         digest=lambda wildcards: digest(
@@ -73,11 +78,13 @@ rule descent:
     input:
         MEASUREMENTS,
         KINETICS_FOR_IMP,
+        OUTSIDE,
         results.imp("summary.csv"),
     output:
         ROOT / "imp/{cost}/descent.json",
     log:
         log_of("descent_{cost}"),
+    threads: RUNS_CORES
     params:
         study=STUDY,
         digest=lambda wildcards: digest(

@@ -2,6 +2,7 @@ rule robustness_of_cost:
     input:
         MEASUREMENTS,
         KINETICS_FOR_IMP,
+        OUTSIDE,
         # The truth of the twins, where the measurements have none.
         [] if study.synthetic else [results.imp("summary.csv")],
     output:
@@ -10,6 +11,7 @@ rule robustness_of_cost:
         log_of("robustness_{cost}"),
     benchmark:
         benchmark_of("robustness_{cost}")
+    threads: RUNS_CORES
     params:
         study=STUDY,
         digest=lambda wildcards: digest(dependencies.robustness(study, wildcards.cost)),

@@ -12,12 +12,14 @@ rule predict:
     input:
         MEASUREMENTS,
         KINETICS_FOR_IMP,
+        OUTSIDE,
         results.imp("summary.csv"),
         STARTED,
     output:
         PREDICTED,
     log:
         log_of("predict"),
+    threads: RUNS_CORES
     params:
         study=STUDY,
         digest=digest(dependencies.validation(study)),

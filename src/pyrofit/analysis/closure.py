@@ -29,9 +29,9 @@ def closure_lines(study: Study, signals: Mapping[str, Any]) -> list[str]:
     """
     released = {
         (name, signal): float(about["released_kg_m2"])
-        for name in study.experiments
+        for name, experiment in study.experiments.items()
         for signal, about in signals[name].items()
-        if "released_kg_m2" in about
+        if "released_kg_m2" in about and isinstance(experiment, SlabExperiment)
     }
     records = Counter(name for name, _ in released)
     lines = [

@@ -3,6 +3,7 @@
 import argparse
 import contextlib
 import os
+import signal
 import sys
 from collections.abc import Callable, Sequence
 from typing import Any
@@ -55,6 +56,9 @@ def main(arguments: Sequence[str] | None = None) -> int:
 
 
 def _run(given: argparse.Namespace) -> int:
+    # So that what a step has started ends with it, as after Ctrl-C: schedulers send this signal.
+    with contextlib.suppress(ValueError):  # not in the first thread
+        signal.signal(signal.SIGTERM, signal.default_int_handler)
     try:
         with contextlib.ExitStack() as given.until_end:
             given.step(given)

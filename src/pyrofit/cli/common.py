@@ -27,6 +27,8 @@ def open_study(given: argparse.Namespace, slice_of: Callable[..., Any], *argumen
     Until the command ends, no other run of the study may start.
     """
     from pyrofit.config import digest, read_study
+    from pyrofit.config.programs import externals, keeping_runs
+    from pyrofit.external.scratch import sweep
     from pyrofit.results.files import Results
     from pyrofit.running.lock import job
 
@@ -44,4 +46,7 @@ def open_study(given: argparse.Namespace, slice_of: Callable[..., Any], *argumen
         )
     root = given.results or Path("results") / study.name
     given.until_end.enter_context(job(root))
+    if externals(study):
+        sweep()
+        study = keeping_runs(study, root / "programs")
     return study, Results(root)

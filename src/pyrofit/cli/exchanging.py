@@ -87,8 +87,8 @@ def _export_fds(given: argparse.Namespace) -> None:
 
 def _check_fds(given: argparse.Namespace) -> None:
     from pyrofit.exchange.fds.check import check
-    from pyrofit.exchange.fds.run import find_fds
     from pyrofit.exchange.sets import parameter_set
+    from pyrofit.external.fds import find_fds
     from pyrofit.results import dependencies
     from pyrofit.show import fds_page
 

@@ -13,6 +13,10 @@ from pyrofit.estimate.optimisers import OPTIMISERS
 def add(commands: Any) -> None:
     """Add these commands."""
     add_step(commands, "prepare", "read the measurements into tidy tables", _prepare)
+    timed = add_step(
+        commands, "trial", "run external programs once; say what the campaign costs", _trial
+    )
+    timed.add_argument("--cores", type=int, default=1, help="cores of the campaign; default: 1")
     add_step(commands, "kinetics", "fit the kinetics to TGA", _kinetics)
     imp = add_step(commands, "imp", "run repetitions of the inverse modelling", _imp)
     imp.add_argument("--cost", required=True, help="cost function of the study")
@@ -47,6 +51,15 @@ def _prepare(given: argparse.Namespace) -> None:
 
     for line in measurements.prepare(*open_study(given, dependencies.data)):
         print(f"mass closure: {line}", file=sys.stderr)
+
+
+def _trial(given: argparse.Namespace) -> None:
+    from pyrofit.results import dependencies
+    from pyrofit.stages import trial
+
+    study, results = open_study(given, dependencies.trial)
+    for line in trial.trial(study, results, given.cores):
+        print(line, file=sys.stderr)
 
 
 def _kinetics(given: argparse.Namespace) -> None:

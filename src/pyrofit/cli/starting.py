@@ -4,7 +4,7 @@ import argparse
 from pathlib import Path
 from typing import Any
 
-from pyrofit.errors import PyrofitError
+from pyrofit.errors import ProgramError, PyrofitError
 
 
 def add(commands: Any) -> None:
@@ -79,19 +79,18 @@ def _doctor(given: argparse.Namespace) -> None:
 
 def _add_kinds(init: argparse.ArgumentParser) -> None:
     """Add an option for the files of each kind of experiment."""
-    from pyrofit.experiments import KINDS
+    from pyrofit.experiments import OF_FILES, files_of
 
-    for name, kind in KINDS.items():
-        init.add_argument(
-            f"--{name}", type=Path, nargs="+", default=[], metavar="CSV", help=kind.files.help
-        )
+    for name in OF_FILES:
+        text = files_of(name).help
+        init.add_argument(f"--{name}", type=Path, nargs="+", default=[], metavar="CSV", help=text)
 
 
 def _init(given: argparse.Namespace) -> None:
-    from pyrofit.experiments import KINDS
+    from pyrofit.experiments import OF_FILES
     from pyrofit.new_study.write import init
 
-    study, lines = init(given.name, {kind: getattr(given, kind) for kind in KINDS}, Path())
+    study, lines = init(given.name, {kind: getattr(given, kind) for kind in OF_FILES}, Path())
     for line in lines:
         print(line)
     print(f"{study}: written. Change what is marked CHANGE.")
@@ -114,11 +113,18 @@ def _reference(given: argparse.Namespace) -> None:
 
 def _check(given: argparse.Namespace) -> None:
     from pyrofit.config import read_study
+    from pyrofit.config.programs import externals
+    from pyrofit.external.filled import executable_of
     from pyrofit.stages.reading import check_measurements
 
     study = read_study(given.study)
     read = check_measurements(study, str(given.study))
     runs = study.imp.repetitions * len(study.imp.costs)
+    for name, experiment in externals(study).items():
+        try:
+            print(f"experiments.{name}: the program is {executable_of(experiment.program)}")
+        except ProgramError as error:
+            print(f"experiments.{name}: not here: {error}")
     print(
         f"{given.study}: study '{study.name}' is valid; {read} measured series read; "
         f"{runs} repetitions in all"

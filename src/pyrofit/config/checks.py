@@ -4,6 +4,7 @@ from pyrofit.config.composition_checks import check_compositions
 from pyrofit.config.effects import check_true_effects
 from pyrofit.config.numbers import check_numbers, check_parameters, require
 from pyrofit.config.places import check_places
+from pyrofit.config.programs import externals
 from pyrofit.config.stage_checks import check_stages
 from pyrofit.config.study import Study
 from pyrofit.config.unmeasured import unmeasured
@@ -26,6 +27,8 @@ def check_study(study: Study) -> None:
     ValueError
         With place, rule and way out.
     """
+    if len(externals(study)) < len(study.experiments) and not study.material.components:
+        raise ValueError("material: this key is missing, and is required")
     _check_with_effects(study)
     check_numbers(study)
     check_compositions(study)
@@ -49,6 +52,7 @@ def _check_with_effects(study: Study) -> None:
 
 
 def _check_signals(study: Study) -> None:
+    external = externals(study)
     for name, experiment in study.experiments.items():
         require(
             bool(experiment.signals) or name in unmeasured(study),
@@ -69,7 +73,9 @@ def _check_signals(study: Study) -> None:
             )
             rests_on = experiment.quantity(quantity).rests_on
             require(
-                not rests_on or any(x != 0.0 for x in numbers_of(study.material, rests_on)),
+                not rests_on
+                or name in external
+                or any(x != 0.0 for x in numbers_of(study.material, rests_on)),
                 place,
                 f"every {' and '.join(rests_on)} of the material is 0; give at least one",
             )

@@ -42,8 +42,11 @@ def check_compositions(study: Study) -> None:
     ValueError
         With place, rule and way out.
     """
-    compositions = {"material.composition": study.material.composition}
-    for name, experiment in study.of_stage("imp").items():
+    material = study.material
+    compositions = {"material.composition": material.composition} if material.components else {}
+    for name, experiment in study.experiments.items():
+        if not isinstance(experiment, SlabExperiment):
+            continue
         for i, layer in enumerate(experiment.sample.layers):
             if layer.composition is not None:
                 place = f"experiments.{name}.sample.layers.{i}.composition"

@@ -119,6 +119,16 @@ def units_of(place: str) -> tuple[str, ...]:
     return next(units for end, units in _UNITS.items() if keys[-1].endswith(end))
 
 
+def alike_units(unit: str) -> tuple[str, ...]:
+    """Return the units of the same quantity as a unit, itself among them.
+
+    >>> alike_units("kJ/kg")
+    ('J/kg', 'kJ/kg')
+    """
+    groups = (units for end, units in _UNITS.items() if unit in units and end != "scale")
+    return next(groups, (unit,))
+
+
 def check_parameters(study: Study) -> None:
     """Refuse values and truths outside their limits, and parameters that nothing uses.
 

@@ -16,6 +16,7 @@ from pyrofit.config.checks import check_study
 from pyrofit.config.diagnosis_checks import check_diagnosis
 from pyrofit.config.effects import apply_effects
 from pyrofit.config.known_checks import check_known
+from pyrofit.config.programs import with_programs
 from pyrofit.config.repeats import expand_repeats
 from pyrofit.config.study import Study, is_own
 from pyrofit.config.tables import with_tables
@@ -44,7 +45,7 @@ def as_study(given: Mapping[str, Any], source: str) -> Study:
         use_plugins([(folder or Path()) / name for name in _plugins(given)])
         given = expand_repeats(given)
         given = with_tables(given, folder or Path())
-        study = Study.model_validate(apply_effects(given))
+        study = with_programs(Study.model_validate(apply_effects(given)), folder)
         check_study(study)
         check_diagnosis(study)
         check_known(study)

@@ -9,6 +9,7 @@ from pyrofit.effects import known_effects
 from pyrofit.effects.apply import own_laboratories, with_effects
 from pyrofit.experiments import kind_of
 from pyrofit.model.experiment import Experiment
+from pyrofit.model.external import ExternalExperiment
 from pyrofit.model.material import Material
 
 Chosen = Mapping[str, tuple[str, ...]]
@@ -80,6 +81,8 @@ def candidate_effects(study: Study) -> tuple[str, ...]:
     """Return the names of the effects that the diagnosis considers."""
     if study.diagnosis.effects is not None:
         return study.diagnosis.effects
+    if any(isinstance(e, ExternalExperiment) for e in diagnosed(study).values()):
+        return ()  # no effect changes the model of an external program
     return tuple(name for name in known_effects() if not obstacle(study, name))
 
 

@@ -65,7 +65,11 @@ class Study(Part):
         description="measured values of estimated parameters, with standard deviations, by "
         "parameter",
     )
-    material: Material = Field(description="components, reactions, composition")
+    material: Material = Field(
+        Material(components={}, composition={}),
+        description="components, reactions, composition; required but where external programs "
+        "simulate all experiments",
+    )
     experiments: dict[Name, AnyExperiment] = Field(min_length=1, description="experiments by name")
     effects: dict[str, dict[str, Number | tuple[str, ...]] | None] = Field(
         default_factory=dict,

@@ -3,6 +3,7 @@
 from collections.abc import Collection, Iterable, Mapping
 
 from pyrofit.model.base import numbers
+from pyrofit.model.external import ExternalExperiment
 from pyrofit.model.material import REST, Material
 from pyrofit.model.slab import SlabExperiment
 from pyrofit.quantities.base import Quantity
@@ -18,6 +19,8 @@ def parameters_in(*parts: object) -> set[str]:
         found |= {value for _, value, _ in numbers(part) if isinstance(value, str)}
         if isinstance(part, Material):
             found |= names_in(part.composition)
+        if isinstance(part, ExternalExperiment):
+            found |= set(part.program.units)
         if isinstance(part, SlabExperiment):
             for layer in part.sample.layers:
                 found |= names_in(layer.composition or {})

@@ -13,7 +13,7 @@ from pyrofit.doctor.names import Label
 from pyrofit.doctor.properties import property_signals
 from pyrofit.doctor.readme import Facts
 from pyrofit.errors import DataError
-from pyrofit.experiments import KINDS
+from pyrofit.experiments import OF_FILES
 from pyrofit.new_study.columns import Found, Recognised, recognise
 
 _TOTAL = "total"
@@ -63,8 +63,8 @@ def _best(table: Table, kind: str) -> tuple[str, Recognised]:
 
     A gasification with a heat release rate is a test in a cone calorimeter.
     """
-    like = [name for name, other in KINDS.items() if kind == other.description.LIKE]
-    kinds = [kind, *like] if kind in KINDS else list(KINDS)
+    like = [name for name, other in OF_FILES.items() if kind == other.description.LIKE]
+    kinds = [kind, *like] if kind in OF_FILES else list(OF_FILES)
     tried = [(k, recognise(table, k)) for k in kinds]
     return max(tried, key=lambda one: sum(not f.missing and not f.unread for f in one[1].signals))
 

@@ -95,7 +95,7 @@ class Kind:
     designs
         New tests: those fitted by name, those fitted or predicted, quantities recorded in these.
     files
-        What a new study needs that is written from files.
+        What a new study needs that is written from files; none = it is not written.
     """
 
     description: type[Experiment]
@@ -109,4 +109,4 @@ class Kind:
     designs: Callable[
         [Mapping[str, Any], Mapping[str, Any], Mapping[str, set[str]]], Iterator[Idea]
     ]
-    files: FromFiles
+    files: FromFiles | None

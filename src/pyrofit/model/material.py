@@ -89,7 +89,8 @@ class Material(Part):
 
     @model_validator(mode="after")
     def _check(self) -> Self:
-        check_composition(self.composition, self.components)
+        if self.components or self.composition:  # else external programs have their own
+            check_composition(self.composition, self.components)
         for name, reaction in self.reactions.items():
             for used in (reaction.reactant, *reaction.products):
                 if used not in self.components:

@@ -13,7 +13,7 @@ from pyrofit.data.csvfile import read_table
 from pyrofit.data.series import read_series
 from pyrofit.data.spec import SeriesSpec
 from pyrofit.errors import DataError, StudyError
-from pyrofit.experiments import KINDS
+from pyrofit.experiments import KINDS, files_of
 from pyrofit.experiments.base import Kind
 from pyrofit.new_study.columns import Found, recognise
 from pyrofit.quantities.units import PER_AREA, PER_MASS
@@ -90,7 +90,7 @@ def measured(kind: str, path: Path) -> Measured:
     table = read_table(path)
     recognised = recognise(table, kind)
     frames = _frames(path, recognised.signals)
-    files = KINDS[kind].files
+    files = files_of(kind)
     number, sure = files.number.find(path.stem)
     recorded = files.recorded(number, frames)
     if recorded is not None:
@@ -120,7 +120,7 @@ def kinetics_of(records: Iterable[Measured]) -> Kinetics:
     At the usual heating rates the rate constant there is some 0.01 1/s; 0.001 1/s is reached 20 K
     to 120 K below.
     """
-    losses = [loss for run in records if (loss := run.of.files.loss(run.frames)) is not None]
+    losses = [loss for run in records if (loss := files_of(run.kind).loss(run.frames)) is not None]
     if not losses:
         return Kinetics()
     half = [loss.temperature_K for loss in losses]

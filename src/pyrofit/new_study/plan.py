@@ -3,6 +3,7 @@
 from collections.abc import Iterable, Sequence
 from dataclasses import dataclass
 
+from pyrofit.experiments import files_of
 from pyrofit.experiments.base import Stage
 from pyrofit.new_study.draft import Measured
 
@@ -104,7 +105,7 @@ def _terms(run: Measured) -> list[tuple[str, str]]:
     temperature only where there is nothing else.
     """
     if run.path is None:
-        return [(run.of.files.computed_signal, "mean")]
+        return [(files_of(run.kind).computed_signal, "mean")]
     rates = [f for f in run.signals if f.of.relative]
     losses = [f for f in run.signals if f.of.released is not None]
     others = [f for f in run.signals if not f.of.relative and not f.of.is_temperature]

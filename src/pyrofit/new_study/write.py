@@ -8,7 +8,7 @@ from jinja2 import Environment, PackageLoader, StrictUndefined
 from jinja2.loaders import ChoiceLoader
 
 from pyrofit.errors import DataError, StudyError
-from pyrofit.experiments import KINDS
+from pyrofit.experiments import KINDS, OF_FILES, files_of
 from pyrofit.experiments.base import Stage
 from pyrofit.new_study import draft
 from pyrofit.new_study.draft import Kinetics, Measured
@@ -88,8 +88,8 @@ def computed() -> list[Measured]:
     """Return the experiments whose measurements are computed where there are no files."""
     return [
         Measured(kind, f"{kind}_{number:g}", None, number)
-        for kind, of in KINDS.items()
-        for number in of.files.computed
+        for kind in OF_FILES
+        for number in files_of(kind).computed
     ]
 
 
@@ -144,7 +144,7 @@ def _experiments(runs: Sequence[Measured]) -> list[str]:
             run=run,
             words=run.of.words,
             again=again[run.name],
-            facts=run.of.files.facts(run.frames),
+            facts=files_of(run.kind).facts(run.frames),
             signals=signal_lines(run),
         )
         .rstrip("\n")
@@ -185,7 +185,7 @@ def _check(name: str, folder: Path, files: Files) -> None:
     given = [kind for kind, paths in files.items() if paths]
     if given and not any(KINDS[kind].stage == "imp" for kind in given):
         words = " and ".join(KINDS[kind].words for kind in given)
-        slabs = " or ".join(f"--{kind}" for kind, of in KINDS.items() if of.stage == "imp")
+        slabs = " or ".join(f"--{kind}" for kind, of in OF_FILES.items() if of.stage == "imp")
         raise StudyError(
             f"{words} alone makes no study, the properties are fitted to slabs; give a file of "
             f"one with {slabs}, or no file at all for computed measurements"

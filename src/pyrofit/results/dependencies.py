@@ -13,8 +13,11 @@ from pyrofit.config import (
     held_out_channels,
     parameters_in,
 )
+from pyrofit.config.programs import externals
 from pyrofit.config.uses import names_in
 from pyrofit.errors import StudyError
+from pyrofit.external.filled import file_digests
+from pyrofit.model.external import ExternalExperiment
 from pyrofit.plugins import code_digest
 from pyrofit.quantities import known_quantities
 from pyrofit.results.code_digests import all_terms, code, code_of
@@ -41,12 +44,31 @@ def _known_values(study: Study, names: Iterable[str]) -> dict[str, Any]:
 def _experiment(study: Study, name: str) -> dict[str, Any]:
     """As it is simulated and compared by costs, which know nothing of errors of clocks."""
     clocks = {"signals": {"__all__": {"timing_s"}}}
-    return study.experiments[name].model_dump(exclude={"title": True, **clocks})
+    described = study.experiments[name].model_dump(exclude={"title": True, **clocks})
+    return described | _files(study, name)
 
 
 def _measured(study: Study, name: str) -> dict[str, Any]:
     """As it is simulated and compared with regard to its noise."""
-    return study.experiments[name].model_dump(exclude={"title"})
+    return study.experiments[name].model_dump(exclude={"title"}) | _files(study, name)
+
+
+def _files(study: Study, name: str) -> dict[str, Any]:
+    """Checksums of template and other files of an external program; no key where there is none."""
+    experiment = study.experiments[name]
+    if not isinstance(experiment, ExternalExperiment):
+        return {}
+    return {"program_files": file_digests(experiment.program)}
+
+
+def trial(study: Study) -> dict[str, Any]:
+    """All that the external programs are given, and what is planned."""
+    return {
+        "experiments": {n: _experiment(study, n) for n in externals(study)},
+        "parameters": _parameters(study, set(study.parameters)),
+        "imp": study.imp.model_dump(),
+        "seed": study.seed,
+    }
 
 
 def data(study: Study) -> dict[str, Any]:

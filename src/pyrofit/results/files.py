@@ -230,6 +230,10 @@ class Results:
         """Choice of the reaction scheme."""
         return self.root / "scheme" / name
 
+    def programs(self, name: str) -> Path:
+        """Files of external programs: their runs, and the timed one."""
+        return self.root / "programs" / name
+
     def fds(self, name: str) -> Path:
         """Files for FDS, and what it made of them."""
         return self.root / "fds" / name

@@ -37,6 +37,7 @@ class Status(IntEnum):
     DIVERGED = 2
     NON_FINITE = 3
     TOO_MANY_STEPS = 4
+    PROGRAM_FAILED = 5
 
     @property
     def finished(self) -> bool:
@@ -55,6 +56,7 @@ _EXPLANATIONS = {
     Status.DIVERGED: "a temperature left the range 50 K to 5000 K",
     Status.NON_FINITE: "a temperature or mass was not a number",
     Status.TOO_MANY_STEPS: "the step control needed more steps than allowed",
+    Status.PROGRAM_FAILED: "the external program failed; see the folder programs/ of the results",
 }
 
 

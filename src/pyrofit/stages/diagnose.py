@@ -3,9 +3,13 @@
 from typing import Any
 
 from pyrofit.config import Study, as_yaml
+from pyrofit.config.programs import externals
+from pyrofit.config.resolve import diagnosed
 from pyrofit.diagnose.diagnosis import examine
 from pyrofit.diagnose.result.extended_study import extended_keys
 from pyrofit.diagnose.search.step import Tell
+from pyrofit.errors import StudyError
+from pyrofit.experiments.external.simulate import OWN_MODEL
 from pyrofit.results import diagnosis
 from pyrofit.results.files import Results, write_csv, write_text
 from pyrofit.stages.measurements import load
@@ -26,7 +30,12 @@ def diagnose(study: Study, results: Results, tell: Tell, processes: int = 1) -> 
     ------
     DataError
         A measurement is missing, a channel is too short, or no run within the limits finishes.
+    StudyError
+        An external program simulates one of its experiments.
     """
+    outside = set(diagnosed(study)) & set(externals(study))
+    if outside:
+        raise StudyError(f"experiments.{min(outside)}: {OWN_MODEL}")
     found = examine(study, load(study, results), tell, processes)
     effects = found.search.end.effects
     path = results.diagnosis(EXTENDED)

@@ -19,9 +19,10 @@ from pyrofit.exchange.fds.agreement import (
 )
 from pyrofit.exchange.fds.export import Written, decks, export, text_of
 from pyrofit.exchange.fds.read import read_devc, read_tga
-from pyrofit.exchange.fds.run import LIMIT_S, NO_FDS, run_deck, version_text
+from pyrofit.exchange.fds.run import LIMIT_S, run_deck, version_text
 from pyrofit.exchange.fds.versions import FdsError, version_of
 from pyrofit.exchange.sets import ParameterSet
+from pyrofit.external.fds import NO_FDS
 from pyrofit.results.files import write_csv, write_text
 from pyrofit.solver.outputs import BACK, MASS_FRACTION, RATE
 

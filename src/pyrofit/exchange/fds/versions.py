@@ -3,10 +3,10 @@
 import re
 from typing import NamedTuple
 
-from pyrofit.errors import PyrofitError
+from pyrofit.errors import ProgramError
 
 
-class FdsError(PyrofitError):
+class FdsError(ProgramError):
     """FDS, or a file of it, cannot be used."""
 
 

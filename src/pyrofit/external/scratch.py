@@ -1,0 +1,67 @@
+"""Folders in which programs run: on the disk of the node, one for each run, removed afterwards.
+
+A process that is killed leaves its folder. The next one finds it, as nobody holds its lock any
+more, ends what still runs there, and removes it.
+"""
+
+import contextlib
+import fcntl
+import os
+import shutil
+import signal
+import socket
+import tempfile
+from collections.abc import Iterator
+from pathlib import Path
+
+VARIABLE = "PYROFIT_SCRATCH"
+PREFIX = "pyrofit-runs-"
+LOCK = "owner.lock"
+
+
+def scratch_root() -> Path:
+    """Return the folder that PYROFIT_SCRATCH names, else that of the system, TMPDIR."""
+    return Path(os.environ.get(VARIABLE) or tempfile.gettempdir())
+
+
+@contextlib.contextmanager
+def scratch() -> Iterator[Path]:
+    """Make a folder for the runs of this process, locked, and remove it at the end."""
+    root = scratch_root()
+    root.mkdir(parents=True, exist_ok=True)
+    folder = Path(tempfile.mkdtemp(prefix=f"{_own_prefix()}{os.getpid()}-", dir=root))
+    with (folder / LOCK).open("w") as lock:
+        fcntl.flock(lock, fcntl.LOCK_EX)
+        try:
+            yield folder
+        finally:
+            shutil.rmtree(folder, ignore_errors=True)
+
+
+def sweep() -> int:
+    """Remove what killed processes of this node have left; return how many folders."""
+    removed = 0
+    for folder in scratch_root().glob(f"{_own_prefix()}*"):
+        with contextlib.suppress(OSError), (folder / LOCK).open("r+") as lock:
+            try:
+                fcntl.flock(lock, fcntl.LOCK_EX | fcntl.LOCK_NB)
+            except BlockingIOError:
+                continue  # its owner lives
+            _end_processes_in(folder)
+            shutil.rmtree(folder, ignore_errors=True)
+            removed += 1
+    return removed
+
+
+def _own_prefix() -> str:
+    """Return the beginning of the names of folders of this user on this node."""
+    return f"{PREFIX}{os.getuid()}-{socket.gethostname()}-"
+
+
+def _end_processes_in(folder: Path) -> None:
+    """Kill the processes whose working folder lies in a folder; where the system shows them."""
+    inside = f"{folder.resolve()}{os.sep}"
+    for process in Path("/proc").glob("[0-9]*"):
+        with contextlib.suppress(OSError):
+            if os.readlink(process / "cwd").startswith(inside):
+                os.kill(int(process.name), signal.SIGKILL)

@@ -1,0 +1,155 @@
+"""What is kept of every run, so that none is run again: its curves, or why it failed.
+
+A run is known by the digest of all that it depends on. Its file is written once and whole; of two
+processes that run the same set, all read what the first has written.
+"""
+
+import contextlib
+import gzip
+import json
+import os
+import shutil
+import tempfile
+from collections.abc import Callable, Mapping
+from pathlib import Path
+from typing import Any, NamedTuple
+
+import numpy as np
+
+from pyrofit.errors import ProgramError
+from pyrofit.external.output import Record
+
+Content = dict[str, Any]
+
+
+class Known(NamedTuple):
+    """What is kept of a run that succeeded.
+
+    Parameters
+    ----------
+    records
+        Its curves by signal.
+    seconds
+        Its wall time [s].
+    version
+        The version that the program tells of itself, where it does.
+    """
+
+    records: Mapping[str, Record]
+    seconds: float
+    version: str = ""
+
+
+class Store:
+    """The folder of one experiment; without a folder nothing is kept.
+
+    Parameters
+    ----------
+    folder
+        ``results/<study>/programs/<experiment>``; empty = none.
+    """
+
+    def __init__(self, folder: str) -> None:
+        self.folder = Path(folder) if folder else None
+
+    def known(self, key: str) -> Known | None:
+        """Return what is kept of a run, none where it is not known."""
+        content = self._read(self._run(key), gzip.decompress)
+        if content is None:
+            return None
+        records = {
+            name: Record(np.array(one["at"]), np.array(one["value"]))
+            for name, one in content["signals"].items()
+        }
+        return Known(records, content["seconds"], content["version"])
+
+    def keep(self, key: str, run: Known) -> None:
+        """Keep the curves of a run."""
+        path = self._run(key)
+        if path is None:
+            return
+        content = {
+            "seconds": run.seconds,
+            "version": run.version,
+            "signals": {
+                name: {"at": one.at.tolist(), "value": one.value.tolist()}
+                for name, one in run.records.items()
+            },
+        }
+        _write_once(path, gzip.compress(json.dumps(content).encode(), 6, mtime=0))
+
+    def failure(self, key: str) -> Content | None:
+        """Return what is known of a run that failed, none where none did."""
+        return self._read(self._failed(key), bytes)
+
+    def fail(self, key: str, content: Content, run: Path | None, most: int) -> None:
+        """Record a failure; keep the folder of the run where fewer than ``most`` are kept."""
+        path = self._failed(key)
+        if path is None:
+            return
+        kept = _kept(run, path.with_suffix(""), most) if run is not None else None
+        text = json.dumps({**content, "folder": kept}, indent=1, ensure_ascii=False)
+        _write_once(path, text.encode("utf-8", "surrogateescape") + b"\n", replace=True)
+
+    def _run(self, key: str) -> Path | None:
+        return self.folder and self.folder / "runs" / key[:2] / f"{key}.json.gz"
+
+    def _failed(self, key: str) -> Path | None:
+        return self.folder and self.folder / "failed" / f"{key}.json"
+
+    def _read(self, path: Path | None, unpack: Callable[[bytes], bytes]) -> Content | None:
+        """Return what a file holds, none where it is not there, or not whole."""
+        try:
+            found = json.loads(unpack(path.read_bytes())) if path else None
+        except (OSError, EOFError, ValueError):
+            return None
+        return found if isinstance(found, dict) else None
+
+
+def _kept(run: Path, to: Path, most: int) -> str | None:
+    """Copy the folder of a run beside its record; return its name, none where enough are kept."""
+    for number in range(most):
+        # Made by one process alone: each place holds one folder. A full disk keeps none.
+        with contextlib.suppress(OSError):
+            to.parent.mkdir(parents=True, exist_ok=True)
+            (to.parent / f".place_{number}").touch(exist_ok=False)
+            shutil.copytree(run, to, dirs_exist_ok=True, symlinks=True)
+            return to.name
+    return None
+
+
+def _write_once(path: Path, content: bytes, replace: bool = False) -> None:
+    """Write a file whole; one that is there stays, unless it is to be replaced.
+
+    Raises
+    ------
+    ProgramError
+        There is no room, or no right to write.
+    """
+    try:
+        path.parent.mkdir(parents=True, exist_ok=True)
+        handle, name = tempfile.mkstemp(prefix=".", dir=path.parent)
+        try:
+            with os.fdopen(handle, "wb") as file:
+                file.write(content)
+            _name(name, path, replace)
+        finally:
+            Path(name).unlink(missing_ok=True)
+    except OSError as error:
+        raise ProgramError(
+            f"{path}: cannot be written ({error.strerror}); make room, and run again to go on"
+        ) from None
+
+
+def _name(written: str, path: Path, replace: bool) -> None:
+    """Give a written file its name."""
+    if not replace:
+        try:
+            os.link(written, path)
+        except FileExistsError:
+            return
+        except OSError:  # a file system without links
+            pass
+        else:
+            return
+    os.replace(written, path)

@@ -1,0 +1,49 @@
+"""An experiment that an external program simulates."""
+
+from collections.abc import Iterable
+from typing import Self
+
+from pydantic import Field, model_validator
+
+from pyrofit.errors import suggest
+from pyrofit.model.base import AboveZero
+from pyrofit.model.experiment import Experiment
+from pyrofit.model.program import Program
+from pyrofit.quantities import known_quantities
+from pyrofit.quantities.base import Quantity
+
+
+class ExternalExperiment(Experiment):
+    """Any test that an external program simulates."""
+
+    program: Program = Field(description="the program")
+    duration_s: AboveZero = Field(1000.0, description="synthetic: length of the record [s]")
+
+    @model_validator(mode="after")
+    def _read(self) -> Self:
+        for signal in self.signals:
+            if signal not in self.program.reads:
+                raise ValueError(
+                    f"program.reads: name the file and the columns of the signal '{signal}'"
+                )
+        for signal in self.program.reads:
+            if signal not in self.signals:
+                raise ValueError(
+                    f"program.reads: there is no signal '{signal}'. {suggest(signal, self.signals)}"
+                )
+        return self
+
+    @property
+    def measurable(self) -> dict[str, Quantity]:
+        """Every quantity."""
+        return known_quantities()
+
+    @property
+    def synthetic_span(self) -> tuple[float, str]:
+        """Length of a computed record [s], and the keys that set it."""
+        return self.duration_s, "duration_s"
+
+    def as_simulated(self, signals: Iterable[str]) -> Self:
+        """Return what its curves depend on: all that is read is read of every run."""
+        program = self.program.model_copy(update={"store": ""})
+        return super().as_simulated(self.signals).model_copy(update={"program": program})

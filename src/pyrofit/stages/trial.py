@@ -1,0 +1,162 @@
+"""Before a campaign with external programs: one timed run of each, and what the whole will cost."""
+
+from collections.abc import Iterator, Mapping
+from typing import Any
+
+import numpy as np
+
+from pyrofit.config import Study, TermSpec
+from pyrofit.config.programs import externals
+from pyrofit.errors import ProgramError
+from pyrofit.estimate.targets import Measurements
+from pyrofit.experiments import kind_of
+from pyrofit.experiments.base import Asked
+from pyrofit.experiments.external.simulate import last_needed
+from pyrofit.external.filled import executable_digest, executable_of, file_digests
+from pyrofit.external.runs import Outcome, outcomes
+from pyrofit.model.external import ExternalExperiment
+from pyrofit.results.files import Results, write_json
+from pyrofit.seeds import seed_for
+from pyrofit.stages.fit import fixed_for_imp
+from pyrofit.stages.measurements import load
+
+DRAWS = 4
+"""Sets that are tried where the middle of the limits fails."""
+CALLS_PER_ROW = 1.63
+"""Model calls of SCE-UA for each point of a generation after the first."""
+STEPS = 15
+"""Steps of least squares from one start, about."""
+
+
+def trial(study: Study, results: Results, cores: int) -> list[str]:
+    """Run every program once, write ``programs/trial.json``, and say what the campaign costs.
+
+    A program runs with the middle of the limits, else with sets that are drawn within them.
+
+    Parameters
+    ----------
+    study
+        The study, whose programs keep their runs.
+    results
+        Its results.
+    cores
+        Cores that the campaign will have.
+
+    Raises
+    ------
+    ProgramError
+        A program is not there, or fails with every set.
+    """
+    found = {name: _tried(study, results, name, e) for name, e in externals(study).items()}
+    seconds = {name: one["seconds"] for name, one in found.items()}
+    calls = list(planned_calls(study))
+    hours = sum(n * _seconds(study, terms, seconds) for _, n, terms in calls) / 3600.0
+    by_search = {label: round(n) for label, n, _ in calls}
+    content = {"experiments": found, "calls": by_search, "core_hours": hours}
+    write_json(results.programs("trial.json"), content)
+    return list(_sentences(content, cores))
+
+
+def _tried(
+    study: Study, results: Results, name: str, experiment: ExternalExperiment
+) -> dict[str, Any]:
+    """Return what is known of a program after one run."""
+    program = experiment.program
+    outcome = _first_success(study, results, name, experiment)
+    return {
+        "command": list(program.command),
+        "executable": executable_of(program).name,
+        "sha256": executable_digest(program),
+        "version": outcome.version,
+        "files": file_digests(program),
+        "seconds": outcome.seconds,
+        "time_limit_s": program.time_limit_s,
+    }
+
+
+def _first_success(
+    study: Study, results: Results, name: str, experiment: ExternalExperiment
+) -> Outcome:
+    measurements = load(study, results)
+    quantities = {s: experiment.quantity(s) for s in experiment.program.reads}
+    needed = last_needed(experiment, measured_times(experiment, name, measurements))
+    fixed = fixed_for_imp(study, results)
+    failed = Outcome({})
+    for values in _sets(study):
+        outcome = outcomes(experiment.program, quantities, needed, [{**fixed, **values}])[0]
+        if not outcome.why:
+            return outcome
+        failed = failed if failed.why else outcome
+    folder = experiment.program.store
+    raise ProgramError(
+        f"experiments.{name}: the program fails with all of {1 + DRAWS} sets within the limits; "
+        f"with the middle of them: {failed.why}. Correct template or command"
+        + (f"; {folder}/failed shows each run" if folder else "")
+    )
+
+
+def measured_times(experiment: ExternalExperiment, name: str, measurements: Measurements) -> Asked:
+    """Return the requests at all measured times by signal."""
+    kind = kind_of(experiment)
+    frames = {s: measurements[name, s] for s in experiment.signals}
+    return {
+        s: kind.request(experiment, s, frame, frame["time_s"].to_numpy(float))
+        for s, frame in frames.items()
+    }
+
+
+def _sets(study: Study) -> Iterator[dict[str, float]]:
+    """Yield the middle of the limits, then some sets that are drawn."""
+    bounds = np.array([study.parameters[n].bounds_si for n in study.imp.estimate])
+    rng = np.random.default_rng(seed_for(study.seed, "programs", "trial"))
+    places = np.vstack([np.full(len(bounds), 0.5), rng.uniform(size=(DRAWS, len(bounds)))])
+    for u in places:
+        x = bounds[:, 0] + u * (bounds[:, 1] - bounds[:, 0])
+        yield dict(zip(study.imp.estimate, x.tolist(), strict=True))
+
+
+def planned_calls(study: Study) -> Iterator[tuple[str, float, tuple[TermSpec, ...]]]:
+    """Yield what is planned: a label, about how many model calls, the terms that are simulated.
+
+    SCE-UA makes (2n + 1) c (1 + 1.63 (g - 1)) calls with n parameters, c complexes and g
+    generations; CMA-ES at most what its settings allow.
+    """
+    stage, n = study.imp, len(study.imp.estimate)
+    points = (2 * n + 1) * (stage.sceua.complexes or n)
+    sceua = points * (1.0 + CALLS_PER_ROW * (stage.sceua.generations - 1))
+    squares = stage.least_squares.starts * STEPS * (2 * n + 1)
+    for cost, terms in stage.costs.items():
+        yield f"SCE-UA, {cost}", stage.repetitions * sceua, terms
+        yield f"least squares, {cost}", squares, terms
+        yield f"CMA-ES, {cost}", float(stage.cmaes.starts * stage.cmaes.calls), terms
+
+
+def _seconds(study: Study, terms: tuple[TermSpec, ...], seconds: Mapping[str, float]) -> float:
+    """Return the core seconds of one call."""
+    found = externals(study)
+    used = {t.experiment for t in terms} & set(found)
+    return float(sum(seconds[name] * found[name].program.cores for name in used))
+
+
+def _sentences(content: Mapping[str, Any], cores: int) -> Iterator[str]:
+    for name, one in content["experiments"].items():
+        version = f" {one['version']}" if one["version"] else ""
+        yield f"{name}: one run of {one['executable']}{version} takes {one['seconds']:.3g} s"
+    total, hours = sum(content["calls"].values()), content["core_hours"]
+    yield (
+        f"about {total} model calls in the searches: {_duration(hours)} on one core, "
+        f"{_duration(hours / cores)} on {cores}; the analysis after them adds to that"
+    )
+
+
+def _duration(hours: float) -> str:
+    """Return a time in words.
+
+    >>> _duration(0.001), _duration(0.5), _duration(30.0), _duration(100.0)
+    ('4 s', '30 min', '30 h', '4.2 days')
+    """
+    if hours < 1.0 / 60.0:
+        return f"{3600.0 * hours:.0f} s"
+    if hours < 2.0:
+        return f"{60.0 * hours:.0f} min"
+    return f"{hours:.0f} h" if hours < 72.0 else f"{hours / 24.0:.1f} days"

@@ -1,0 +1,27 @@
+# What simulates besides pyrofit: files of the user, and the timed run ahead of the campaign.
+OUTSIDE = [*PROGRAM_FILES]
+
+
+if PROGRAMS:
+    # Its seconds differ from run to run, which is no reason to run a campaign again.
+    OUTSIDE += [ancient(results.programs("trial.json"))]
+
+    rule trial:
+        input:
+            MEASUREMENTS,
+            KINETICS_FOR_IMP,
+            PROGRAM_FILES,
+        output:
+            results.programs("trial.json"),
+        log:
+            log_of("trial"),
+        threads: max(1, workflow.cores or 1)
+        params:
+            study=STUDY,
+            digest=digest(dependencies.trial(study)),
+            source=source_fingerprint("pyrofit.stages.trial"),
+        message:
+            "External programs: one timed run, and what the campaign costs"
+        shell:
+            "pyrofit trial --study {params.study} --digest {params.digest} --log {log}"
+            " --cores {threads}"
