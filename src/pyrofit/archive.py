@@ -16,6 +16,7 @@ from typing import Any
 from pyrofit import __version__
 from pyrofit.archive_texts import COMMENT, MACFP_FILES, README
 from pyrofit.config import Study, as_yaml, digest
+from pyrofit.config.programs import program_files
 from pyrofit.errors import DataError
 from pyrofit.model.signal import Signal
 from pyrofit.plugins import folder_names, plugin_files
@@ -40,6 +41,7 @@ _SOFTWARE = (
     "pyproject.toml",
     "requirements.lock",
     "config/*.yaml",
+    "config/templates/*",
     "profiles/*/config.yaml",
     "workflow/**/*",
 )
@@ -67,10 +69,13 @@ def write_archive(study: Study, results: Results, given: Sequence[Path], project
     """
     origin = read_json(results.root / "provenance.json", {("data",): dict})
     _check_origin(study, results, origin)
-    own = _own_files(study)
-    entries: Entries = {"study.yaml": _study_file(study, own).encode()}
+    own = _places("data", study.own_files)
+    # Programs find them by name: where two have the same, another folder keeps one.
+    of_programs = _places("programs", program_files(study), "/")
+    entries: Entries = {"study.yaml": _study_file(study, own | of_programs).encode()}
     entries |= {f"as_given/{path.name}": _bytes(path) for path in given}
     entries |= {inside: _bytes(Path(file)) for file, inside in own.items()}
+    entries |= {inside: _bytes(Path(file)) for file, inside in of_programs.items()}
     for inside, path in plugin_files([Path(folder) for folder in study.plugins]).items():
         entries[f"plugins/{inside}"] = _bytes(path)
     for path in _results(study, results):
@@ -111,13 +116,16 @@ def _readme(study: Study, origin: Mapping[str, Any]) -> str:
     return text
 
 
-def _own_files(study: Study) -> dict[str, str]:
-    """Return the place in the archive of each of the user's files, no two alike."""
+def _places(folder: str, files: Sequence[str], between: str = "_") -> dict[str, str]:
+    """Return the place in the archive of each of the user's files, no two alike.
+
+    ``between`` joins a number and a name that another file has already.
+    """
     places: dict[str, str] = {}
-    for file in study.own_files:
-        name = f"data/{Path(file).name}"
+    for file in files:
+        name = f"{folder}/{Path(file).name}"
         if name in places.values():
-            name = f"data/{len(places)}_{Path(file).name}"
+            name = f"{folder}/{len(places)}{between}{Path(file).name}"
         places[file] = name
     return places
 
@@ -128,6 +136,9 @@ def _study_file(study: Study, own: Mapping[str, str]) -> str:
     for experiment in keys["experiments"].values():
         for signal in experiment["signals"].values():
             signal["file"] = own.get(signal["file"], signal["file"])
+        if program := experiment.get("program"):
+            program["template"] = own[program["template"]]
+            program["files"] = [own[file] for file in program.get("files", ())]
     if study.plugins:
         folders = [Path(folder) for folder in study.plugins]
         keys["plugins"] = [f"plugins/{name}" for name in folder_names(folders)]
@@ -154,6 +165,8 @@ def _belongs(study: Study, folder: str, *inside: str) -> bool:
     name, stem = inside[-1], Path(inside[-1]).stem
     if folder in _LEFT_OUT or name.startswith("."):
         return False
+    if folder == "programs":
+        return inside == ("trial.json",) or (inside[1:2] == ("failed",) and len(inside) == 3)
     if folder == "tables":
         return stem in TABLES and TABLES[stem].applies(study)
     if folder == "figures":

@@ -10,6 +10,8 @@ README = """\
 study.yaml         the study as it was run; as_given/ has the files it came from
 data/              measured files of its own
 plugins/           effects, quantities, costs of its own, if it has any
+programs/          templates and other files that external programs are given, if there are any; the
+                   programs themselves are not here: results/provenance.json has their checksums
 results/           study.json (every key completed), provenance.json (versions, seed, checksums of
                    all measured files), histories and best sets of all searches, predictions,
                    tables, figures, report.html

@@ -71,12 +71,14 @@ def read_output(folder: Path, reading: Reading, quantity: Quantity) -> Record:
     except OSError as error:
         raise OutputError(f"{reading.file}: cannot be read ({error.strerror})") from None
     columns = _columns(reading, [line for line in text.split("\n") if line.strip()])
-    frame = in_si(reading, quantity, columns)
-    at = frame.at
-    if np.any(np.diff(at) < 0.0) and reading.abscissa == "time":
-        row = int(np.flatnonzero(np.diff(at) < 0.0)[0]) + 2
-        raise OutputError(f"{reading.file}, row {row} of numbers: time decreases")
-    return frame
+    record = in_si(reading, quantity, columns)
+    falls = np.flatnonzero(np.diff(record.at) < 0.0)
+    if falls.size:
+        raise OutputError(f"{reading.file}, row {falls[0] + 2} of numbers: time decreases")
+    if reading.holds == "point":
+        return record
+    # A mean over an interval is the value in its middle.
+    return Record(0.5 * (record.at[1:] + record.at[:-1]), record.value[1:])
 
 
 def in_si(reading: Reading, quantity: Quantity, columns: Mapping[str, FloatArray]) -> Record:
@@ -139,25 +141,25 @@ def _columns(reading: Reading, lines: Sequence[str]) -> dict[str, FloatArray]:
 
 def _header(reading: Reading, lines: Sequence[str]) -> tuple[int, dict[str, int], str | None]:
     """Return the row below the header, the columns by role, and what sets cells apart."""
-    heads = {role: str(head) for role, head in reading.heads.items()}
-    most: list[str] = []
+    heads = reading.heads
+    named = [head for head in heads.values() if isinstance(head, str)]
+    seen: list[str] = []
     for i, line in enumerate(lines):
         separator = _separator(line)
         cells = _cells(line, separator)
         where = {role: _place(head, cells) for role, head in heads.items()}
         if all(place >= 0 for place in where.values()):
             return i + 1, where, separator
-        if sum(p >= 0 for p in where.values()) > 0 or (not most and not _all_numbers(line)):
-            most = cells
-    missing = [head for head in heads.values() if _place(head, most) < 0]
-    raise OutputError(
-        f"{reading.file}: there is no column '{(missing or list(heads.values()))[0]}'. "
-        + suggest((missing or [""])[0], [cell for cell in most if cell])
-    )
+        if any(_place(head, cells) >= 0 for head in named) or (not seen and not _all_numbers(line)):
+            seen = [cell for cell in cells if cell]
+    missing = next((head for head in named if _place(head, seen) < 0), named[0])
+    raise OutputError(f"{reading.file}: there is no column '{missing}'. {suggest(missing, seen)}")
 
 
-def _place(head: str, cells: Sequence[str]) -> int:
+def _place(head: str | int, cells: Sequence[str]) -> int:
     """Return the column of a header, -1 where there is none, or more than one."""
+    if isinstance(head, int):
+        return head - 1 if 1 <= head <= len(cells) else -1
     if cells.count(head) == 1:
         return cells.index(head)
     keys = [header_key(cell) for cell in cells]

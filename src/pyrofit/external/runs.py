@@ -66,6 +66,7 @@ def outcomes(
     quantities: Mapping[str, Quantity],
     needed: Needed,
     sets: Sequence[Values],
+    again: bool = False,
 ) -> list[Outcome]:
     """Return the outcomes for some parameter sets; what is known is not run again.
 
@@ -79,6 +80,8 @@ def outcomes(
         How far each curve must reach.
     sets
         Parameter values in SI units by name, of each set.
+    again
+        Whether a run that has failed is tried again.
 
     Raises
     ------
@@ -98,7 +101,7 @@ def outcomes(
             continue
         key = task.filled.key
         keys.append(key)
-        known = found.get(key) or _known(store, task)
+        known = found.get(key) or _known(store, task, again)
         if known is None:
             waiting[key] = task
         else:
@@ -107,13 +110,13 @@ def outcomes(
     return [found[key] for key in keys]
 
 
-def _known(store: Store, task: _Task) -> Outcome | None:
+def _known(store: Store, task: _Task, again: bool) -> Outcome | None:
     """Return the outcome of a run that was made before, none where there is none."""
     known = store.known(task.filled.key)
     if known is not None:
         short = _short(known.records, task.needed)
         return Outcome({}, short) if short else _success(known)
-    failure = store.failure(task.filled.key)
+    failure = None if again else store.failure(task.filled.key)
     if failure is None:
         return None
     # It may succeed with more time, or where less is asked for.

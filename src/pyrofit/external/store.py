@@ -10,6 +10,7 @@ import json
 import os
 import shutil
 import tempfile
+from collections import Counter
 from collections.abc import Callable, Mapping
 from pathlib import Path
 from typing import Any, NamedTuple
@@ -90,6 +91,14 @@ class Store:
         kept = _kept(run, path.with_suffix(""), most) if run is not None else None
         text = json.dumps({**content, "folder": kept}, indent=1, ensure_ascii=False)
         _write_once(path, text.encode("utf-8", "surrogateescape") + b"\n", replace=True)
+
+    def counts(self) -> tuple[int, Counter[str]]:
+        """Return how many runs are kept, and the reasons of failures with their numbers."""
+        if self.folder is None:
+            return 0, Counter()
+        runs = sum(1 for _ in self.folder.glob("runs/*/*.json.gz"))
+        records = [self._read(path, bytes) for path in self.folder.glob("failed/*.json")]
+        return runs, Counter(record["why"] for record in records if record)
 
     def _run(self, key: str) -> Path | None:
         return self.folder and self.folder / "runs" / key[:2] / f"{key}.json.gz"

@@ -71,6 +71,8 @@ class Reading(Part):
                     raise ValueError(f"{key}: name that of the {role}: `{key}: {{{role}: ...}}`")
         if {"time", "temperature"} <= {*self.columns}:
             raise ValueError("columns: name the time or the temperature, not both")
+        if self.holds == "before" and self.abscissa != "time":
+            raise ValueError("holds: only values over time are means of the time before")
         if not _is_plain(self.file):
             raise ValueError(f"file: '{self.file}' must be a name in the folder of the run")
         return self

@@ -3,7 +3,7 @@
 from pyrofit.config import Study
 from pyrofit.results import diagnosis, recorded, scheme
 from pyrofit.results.files import Results, write_json, write_text
-from pyrofit.show import diagnosis_page, fds_page, scheme_page
+from pyrofit.show import diagnosis_page, fds_page, programs_page, scheme_page
 from pyrofit.show.answer.advice import advice
 from pyrofit.show.answer.summary import summary
 from pyrofit.show.facts import Facts, facts_of
@@ -29,12 +29,16 @@ def write_report(study: Study, results: Results) -> None:
     measured = recorded.measured(study, results)
     facts = facts_of(study, results, tables_of(study, results))
     answer = table_part(study, TABLES["answer"], facts.tables["answer"], advice(study, facts))
-    shown = [made for part in SECTIONS if (made := _shown(part, study, results, facts))]
+    shown = [one for part in SECTIONS if (one := _shown(part, study, results, facts))]
     # Scheme, diagnosis and the proof by FDS are steps of their own, which a study may go without.
     if scheme.exists(results):
         shown.append(scheme_page.section(study, results))
     if fds_page.exists(results):
         shown.append(fds_page.section(study, results))
+    made = provenance(study, measured)
+    if programs_page.exists(study, results):
+        shown.append(programs_page.section(study, results))
+        made["programs"] = programs_page.origin(results)
     lacks = ""
     if diagnosis_page.exists(results):
         found = diagnosis.read(study, results)
@@ -42,7 +46,7 @@ def write_report(study: Study, results: Results) -> None:
         shown.append(diagnosis_page.section(study, results, found))
     said = summary(study, facts)
     text = page_of(study, measured, study.title or study.name, said, shown, answer, lacks)
-    write_json(results.root / "provenance.json", provenance(study, measured))
+    write_json(results.root / "provenance.json", made)
     write_text(results.root / "report.html", text)
 
 

@@ -5,6 +5,7 @@ from typing import Any
 
 import numpy as np
 
+from pyrofit.analysis.good_sets import SWEEPS, WALKERS
 from pyrofit.config import Study, TermSpec
 from pyrofit.config.programs import externals
 from pyrofit.errors import ProgramError
@@ -21,11 +22,13 @@ from pyrofit.stages.fit import fixed_for_imp
 from pyrofit.stages.measurements import load
 
 DRAWS = 4
-"""Sets that are tried where the middle of the limits fails."""
+"""Sets that are tried where the middle of the limits fails, each for another reason."""
 CALLS_PER_ROW = 1.63
 """Model calls of SCE-UA for each point of a generation after the first."""
-STEPS = 15
+STEPS = 20
 """Steps of least squares from one start, about."""
+ANALYSIS = 200
+"""Calls for each derivative, about, in finding what the data determine."""
 
 
 def trial(study: Study, results: Results, cores: int) -> list[str]:
@@ -81,17 +84,20 @@ def _first_success(
     quantities = {s: experiment.quantity(s) for s in experiment.program.reads}
     needed = last_needed(experiment, measured_times(experiment, name, measurements))
     fixed = fixed_for_imp(study, results)
-    failed = Outcome({})
+    reasons: list[str] = []
     for values in _sets(study):
-        outcome = outcomes(experiment.program, quantities, needed, [{**fixed, **values}])[0]
+        outcome = outcomes(
+            experiment.program, quantities, needed, [{**fixed, **values}], again=True
+        )[0]
         if not outcome.why:
             return outcome
-        failed = failed if failed.why else outcome
+        if outcome.why in reasons:
+            break
+        reasons.append(outcome.why)
     folder = experiment.program.store
     raise ProgramError(
-        f"experiments.{name}: the program fails with all of {1 + DRAWS} sets within the limits; "
-        f"with the middle of them: {failed.why}. Correct template or command"
-        + (f"; {folder}/failed shows each run" if folder else "")
+        f"experiments.{name}: the program fails: {'; '.join(reasons)}. Correct template or command"
+        + (f"; {folder}/failed shows the runs" if folder else "")
     )
 
 
@@ -129,6 +135,8 @@ def planned_calls(study: Study) -> Iterator[tuple[str, float, tuple[TermSpec, ..
         yield f"SCE-UA, {cost}", stage.repetitions * sceua, terms
         yield f"least squares, {cost}", squares, terms
         yield f"CMA-ES, {cost}", float(stage.cmaes.starts * stage.cmaes.calls), terms
+        yield f"good sets, {cost}", float(WALKERS * SWEEPS), terms
+    yield "what the data determine", float(ANALYSIS * (2 * n + 1)), stage.channels
 
 
 def _seconds(study: Study, terms: tuple[TermSpec, ...], seconds: Mapping[str, float]) -> float:
@@ -142,10 +150,11 @@ def _sentences(content: Mapping[str, Any], cores: int) -> Iterator[str]:
     for name, one in content["experiments"].items():
         version = f" {one['version']}" if one["version"] else ""
         yield f"{name}: one run of {one['executable']}{version} takes {one['seconds']:.3g} s"
-    total, hours = sum(content["calls"].values()), content["core_hours"]
+    calls, hours = content["calls"], content["core_hours"]
+    total = sum(calls.values())
     yield (
-        f"about {total} model calls in the searches: {_duration(hours)} on one core, "
-        f"{_duration(hours / cores)} on {cores}; the analysis after them adds to that"
+        f"about {total} model calls ({', '.join(f'{n} {label}' for label, n in calls.items())}): "
+        f"{_duration(hours)} on one core, {_duration(hours / cores)} on {cores}"
     )
 
 

@@ -1,0 +1,83 @@
+"""The external programs of a study, as a section of the report."""
+
+from typing import Any
+
+import pandas as pd
+
+from pyrofit.config import Study
+from pyrofit.config.programs import externals
+from pyrofit.external.store import Store
+from pyrofit.results.files import Results, read_json
+from pyrofit.show.parts import Shown, table_part
+from pyrofit.show.table import Table
+
+NAME = "programs"
+TEXT = (
+    "These experiments are simulated by programs outside of pyrofit: each run fills a template, "
+    "starts the program and reads its output."
+)
+
+
+def exists(study: Study, results: Results) -> bool:
+    """Whether external programs simulate experiments, and have been tried."""
+    return bool(externals(study)) and results.programs("trial.json").is_file()
+
+
+def origin(results: Results) -> dict[str, Any]:
+    """Return what the runs rest on: by experiment command, program, version and checksums.
+
+    Raises
+    ------
+    DataError
+        The record of the timed run is missing or broken.
+    """
+    found = read_json(results.programs("trial.json"), {("experiments",): dict})["experiments"]
+    left_out = ("seconds", "time_limit_s")
+    return {n: {k: v for k, v in one.items() if k not in left_out} for n, one in found.items()}
+
+
+def _table(study: Study, results: Results) -> pd.DataFrame:
+    found = read_json(results.programs("trial.json"), {("experiments",): dict})["experiments"]
+    rows = []
+    for name, one in found.items():
+        runs, reasons = Store(str(results.programs(name))).counts()
+        often = reasons.most_common(1)
+        rows.append(
+            {
+                "experiment": study.experiments[name].title or name,
+                "program": " ".join(filter(None, [one["executable"], one["version"]])),
+                "sha256": one["sha256"][:12],
+                "seconds": one["seconds"],
+                "runs": runs,
+                "failed": sum(reasons.values()),
+                "why": f"{often[0][0]} ({often[0][1]})" if often else "",
+            }
+        )
+    return pd.DataFrame(rows)
+
+
+TABLE = Table(
+    place=10,
+    applies=lambda study: bool(externals(study)),
+    make=_table,
+    title="External programs",
+    note="Runs: different parameter sets that succeeded. The folder `failed` beside them holds a "
+    "record of every other one.",
+    headings={
+        "sha256": "SHA-256 of the program",
+        "seconds": "one run [s]",
+        "why": "most frequent reason (runs)",
+    },
+)
+
+
+def section(study: Study, results: Results) -> Shown:
+    """Return the programs as a section of the report.
+
+    Raises
+    ------
+    DataError
+        The record of the timed run is missing or broken.
+    """
+    part = table_part(study, TABLE, _table(study, results))
+    return Shown(NAME, "External programs", TEXT, (part,))
