@@ -70,7 +70,9 @@ def read_output(folder: Path, reading: Reading, quantity: Quantity) -> Record:
         raise OutputError(f"{reading.file}: the program has not written it") from None
     except OSError as error:
         raise OutputError(f"{reading.file}: cannot be read ({error.strerror})") from None
-    columns = _columns(reading, [line for line in text.split("\n") if line.strip()])
+    # A row that does not end may lack digits: it is left out.
+    whole = text.rpartition("\n")[0]
+    columns = _columns(reading, [line for line in whole.split("\n") if line.strip()])
     record = in_si(reading, quantity, columns)
     falls = np.flatnonzero(np.diff(record.at) < 0.0)
     if falls.size:

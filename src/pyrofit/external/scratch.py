@@ -60,8 +60,9 @@ def _own_prefix() -> str:
 
 def _end_processes_in(folder: Path) -> None:
     """Kill the processes whose working folder lies in a folder; where the system shows them."""
-    inside = f"{folder.resolve()}{os.sep}"
+    here = str(folder.resolve())
     for process in Path("/proc").glob("[0-9]*"):
         with contextlib.suppress(OSError):
-            if os.readlink(process / "cwd").startswith(inside):
+            where = os.readlink(process / "cwd")
+            if where == here or where.startswith(here + os.sep):
                 os.kill(int(process.name), signal.SIGKILL)

@@ -78,6 +78,9 @@ class Store:
             },
         }
         _write_once(path, gzip.compress(json.dumps(content).encode(), 6, mtime=0))
+        failed = self._failed(key)
+        if failed is not None:  # an earlier time
+            failed.unlink(missing_ok=True)
 
     def failure(self, key: str) -> Content | None:
         """Return what is known of a run that failed, none where none did."""
