@@ -93,7 +93,7 @@ FAILURES = {
     "exit status": ("fails above 0.04", {}, "exit status 3"),
     "signal": ("dies", {}, "it was ended by signal 11"),
     "no output": ("silent", {}, "rate.csv: the program has not written it"),
-    "ends early": ("short", {}, "mlr ends at 5"),
+    "ends early": ("short", {}, "mlr ends at 49, and is needed until 98"),
     "cut": ("cut", {}, "mlr ends at 5"),
     "not finite": ("infinite", {}, "no finite number"),
     "says so": ("says", {"fails": "^ERROR.*"}, "it says 'ERROR: no convergence'"),
@@ -275,7 +275,7 @@ def test_a_program_that_always_fails_stops_before_the_campaign(tmp_path: Path) -
     found = opened(tmp_path)
     results = Results(tmp_path)
     prepare(found, results)
-    with pytest.raises(ProgramError, match="the program fails: rate.csv: the program has not"):
+    with pytest.raises(ProgramError, match=r"the program fails: rate\.csv: the program has not"):
         trial(opened(tmp_path, "silent"), results, cores=1)
 
 

@@ -606,8 +606,8 @@ STAGES = rows_of(
             "TGA in the inverse modelling",
             put(imp__costs__RMSE__0__experiment="tga_10"),
             (
-                "imp.costs.RMSE.0.experiment: 'tga_10' is no cone calorimeter or gasification "
-                "experiment",
+                "imp.costs.RMSE.0.experiment: 'tga_10' is no cone calorimeter, gasification or "
+                "external experiment",
             ),
         ),
         (
@@ -710,7 +710,10 @@ STAGES = rows_of(
         (
             "TGA to predict",
             put(validation__experiments=["tga_10"]),
-            ("validation.experiments: 'tga_10' is no cone calorimeter or gasification experiment",),
+            (
+                "validation.experiments: 'tga_10' is no cone calorimeter, "
+                "gasification or external experiment",
+            ),
         ),
         (
             "nothing to predict",

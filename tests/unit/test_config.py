@@ -468,7 +468,10 @@ BROKEN: list[tuple[str, str, object, list[str]]] = [
         "TGA in the inverse modelling",
         "imp.costs.RMSE.0",
         {"experiment": "tga_5K", "signal": "mass_fraction", "kind": "RMSE"},
-        ["imp.costs.RMSE.0.experiment: 'tga_5K' is no cone calorimeter or gasification experiment"],
+        [
+            "imp.costs.RMSE.0.experiment: 'tga_5K' is no cone calorimeter, "
+            "gasification or external experiment"
+        ],
     ),
     (
         "gasification in the kinetics",
@@ -486,7 +489,10 @@ BROKEN: list[tuple[str, str, object, list[str]]] = [
         "TGA to predict",
         "validation.experiments",
         ["slab_25", "tga_5K"],
-        ["validation.experiments: 'tga_5K' is no cone calorimeter or gasification experiment"],
+        [
+            "validation.experiments: 'tga_5K' is no cone calorimeter, "
+            "gasification or external experiment"
+        ],
     ),
     ("nothing to predict", "validation.experiments", [], ["validation.experiments:", "at least 1"]),
     ("no cost", "imp.costs.RMSE", [], ["imp.costs.RMSE:", "too short; give at least 1"]),

@@ -165,7 +165,7 @@ def test_slice_knows_channels_and_limits_and_not_the_repetitions() -> None:
         ({"slab_25": ["mlr", "mlr"]}, "imp.identification.slab_25: a signal stands twice"),
         (
             {"tga_5K": ["mass_fraction"]},
-            "'tga_5K' is no cone calorimeter or gasification experiment",
+            "'tga_5K' is no cone calorimeter, gasification or external experiment",
         ),
     ],
 )

@@ -1,6 +1,7 @@
 """A campaign with an external program: it survives failures, kills and other numbers of cores."""
 
 import os
+import shutil
 import sys
 import time
 from pathlib import Path
@@ -100,6 +101,23 @@ def test_an_edited_template_or_file_runs_again_what_it_changes(whole: tuple[Proj
             os.utime(path, ns=(times.st_atime_ns, times.st_mtime_ns))
         assert {TRIAL} | SEARCHES <= planned
     assert not project.plan(SUMMARY, SCORES)
+
+
+@pytest.mark.parametrize("name", ["hotplate", "paper_fds", "pmma_gpyro"])
+def test_shipped_campaigns_are_planned_without_their_programs(
+    name: str, whole: tuple[Project, Run]
+) -> None:
+    project, _ = whole
+    mine = project.root / "mine"
+    before = (mine / "tiny.yaml").read_text()
+    shutil.copytree(project.root / "config" / "templates", mine / "templates", dirs_exist_ok=True)
+    shutil.copy(project.root / "config" / f"{name}.yaml", mine / "tiny.yaml")
+    try:
+        planned = project.plan()
+    finally:
+        (mine / "tiny.yaml").write_text(before)
+    assert TRIAL in planned
+    assert "What the data determine of the inverse modelling" in planned
 
 
 def test_the_diagnosis_is_refused_in_words(whole: tuple[Project, Run]) -> None:

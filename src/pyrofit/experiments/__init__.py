@@ -56,7 +56,7 @@ def kinds_of(stage: Stage) -> list[str]:
     """Return the words for the kinds of experiment that a stage fits.
 
     >>> kinds_of("imp")
-    ['cone calorimeter', 'gasification', 'external program']
+    ['cone calorimeter', 'gasification', 'external']
     """
     return [kind.words for kind in KINDS.values() if kind.stage == stage]
 

@@ -24,7 +24,7 @@ class External(ExternalExperiment):
 
 KIND = Kind(
     description=External,
-    words="external program",
+    words="external",
     stage="imp",
     simulate=simulate,
     reference=reference,
