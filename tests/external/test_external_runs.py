@@ -206,6 +206,36 @@ def test_an_interruption_ends_the_program_and_keeps_no_failure(
     assert not list(tmp_path.glob("results/*/programs/*/failed/*.json"))
 
 
+def test_an_interruption_ends_all_runs_at_once_and_keeps_no_failure(tmp_path: Path) -> None:
+    mine = tmp_path / "mine"
+    write(mine, "hangs")
+    (mine / "study.yaml").write_text(yaml.safe_dump(study(parallel=3)))
+    script = (
+        f"import sys; sys.path.insert(0, {str(Path(__file__).parent)!r})\n"
+        "from pathlib import Path; from pyrofit.config import read_study\n"
+        "from pyrofit.config.programs import externals, keeping_runs\n"
+        "from pyrofit.external.runs import outcomes\n"
+        "from pyrofit.quantities import known_quantities\n"
+        "found = keeping_runs(read_study(Path('mine/study.yaml')), Path('programs'))\n"
+        "sets = [{'height': 9.0, 'fall': 0.01 * n} for n in range(1, 6)]\n"
+        "quantities = {'mlr': known_quantities()['mlr']}\n"
+        "outcomes(externals(found)['plate'].program, quantities, {}, sets)\n"
+    )
+    with subprocess.Popen(
+        [sys.executable, "-c", script], cwd=tmp_path, stderr=subprocess.PIPE
+    ) as process:
+        give_up = time.monotonic() + 60.0
+        while len(runs(tmp_path)) < 3:
+            assert time.monotonic() < give_up
+            time.sleep(0.05)
+        process.send_signal(signal.SIGINT)
+        _, said = process.communicate(timeout=20)
+    assert b"KeyboardInterrupt" in said
+    assert not processes_in(tmp_path / "scratch")
+    assert len(runs(tmp_path)) == 3
+    assert not list(tmp_path.glob("programs/*/failed/*.json"))
+
+
 MISSING = {
     "on the path": ("decayed x", "there is no program 'decayed' on the PATH"),
     "path": ("./nowhere/decayed x", "is no executable file"),

@@ -57,8 +57,13 @@ def parameter_set(study: Study, results: Results, label: str, beside: Path) -> P
     Raises
     ------
     StudyError
-        There is no such set, or a value is missing.
+        There is no such set, a value is missing, or the study has no material.
     """
+    if not study.material.components:
+        raise StudyError(
+            f"study '{study.name}' has no material: other programs simulate its experiments, and "
+            "their input has the parameters already"
+        )
     label = label or _usual(study, results, beside)
     if label.endswith(".json"):
         chosen = ParameterSet(label, _fitted(study), {**study.fixed_values(), **_file(label)}, {})

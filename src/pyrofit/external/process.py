@@ -47,13 +47,16 @@ class Groups:
     """Groups of processes that run, each begun by a program; several threads may start them."""
 
     def __init__(self) -> None:
+        self.is_over = False
         self._running: set[int] = set()
         self._lock = threading.Lock()
 
     def add(self, group: int) -> None:
-        """Note a group that has begun."""
+        """Note a group that has begun; where all is over, kill it."""
         with self._lock:
             self._running.add(group)
+        if self.is_over:
+            self.end(group)
 
     def end(self, group: int) -> None:
         """Kill what is left of a group, and forget it."""
@@ -62,7 +65,8 @@ class Groups:
             os.killpg(group, signal.SIGKILL)
 
     def end_all(self) -> None:
-        """Kill all that runs."""
+        """Kill all that runs, and what begins later."""
+        self.is_over = True
         for group in list(self._running):
             self.end(group)
 
@@ -90,6 +94,11 @@ def run_process(
         Time limit [s].
     groups
         Those that another thread may kill.
+
+    Raises
+    ------
+    InterruptedError
+        Another thread has killed it.
     """
     groups = groups or Groups()
     begin = time.monotonic()
@@ -117,6 +126,8 @@ def run_process(
         # What it left running goes, too: its processes are one group.
         groups.end(process.pid)
         process.wait()
+    if groups.is_over:
+        raise InterruptedError("the run was killed from outside: it tells nothing")
     seconds = time.monotonic() - begin
     return Ended(why, status, seconds, _end_of(folder / OUT), _end_of(folder / ERR))
 

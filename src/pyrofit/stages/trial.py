@@ -153,7 +153,7 @@ def _sentences(content: Mapping[str, Any], cores: int) -> Iterator[str]:
     calls, hours = content["calls"], content["core_hours"]
     total = sum(calls.values())
     yield (
-        f"about {total} model calls ({', '.join(f'{n} {label}' for label, n in calls.items())}): "
+        f"about {total} model calls ({'; '.join(f'{label}: {n}' for label, n in calls.items())}): "
         f"{_duration(hours)} on one core, {_duration(hours / cores)} on {cores}"
     )
 
