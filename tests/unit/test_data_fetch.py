@@ -70,8 +70,10 @@ def test_registry_lists_the_needed_files_with_their_checksums() -> None:
     assert sum("UMET_TGA_N2" in name for name in listed) == 7
     assert sum("UMD_CAPA" in name for name in listed) == 4
     assert "PMMA/Calibration_Data/UMD/UMD_TGA_N2_10K.csv" in listed
-    assert sum("Gasification" in name for name in listed) == 8
-    assert len(listed) == 21
+    assert sum("PMMA" in name and "Gasification" in name for name in listed) == 8
+    assert sum("UMD_Wood_CAPA" in name for name in listed) == 9
+    assert len(listed) == 57
+    assert not any("NIST" in name for name in listed)
     assert all(len(digest) == 64 and int(digest, 16) for digest in listed.values())
 
 

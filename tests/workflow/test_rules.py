@@ -124,3 +124,14 @@ def test_profile_of_slurm_keeps_what_the_default_profile_says() -> None:
     given = yaml.safe_load(SLURM.read_text(encoding="utf-8"))
     del usual["cores"]  # those of this machine; on a cluster it is `jobs`
     assert {key: given[key] for key in usual} == usual
+
+
+@pytest.mark.measured
+def test_shipped_study_of_pine_plans_its_report() -> None:
+    ran = snakemake("--dry-run", "--configfile", "config/pine.yaml")
+    said = ran.stdout + ran.stderr
+    assert ran.returncode == 0, said
+    planned = set(re.findall(r"^Job \d+: (.*)$", said, re.M))
+    assert "Kinetics fitted to heated samples" in planned
+    assert "Report: results/pine/report.html" in planned
+    assert {f"Inverse modelling, RMSE, repetition {n:02d}" for n in range(2)} <= planned
