@@ -5,7 +5,8 @@ import contextlib
 import os
 import signal
 import sys
-from collections.abc import Callable, Sequence
+import threading
+from collections.abc import Callable, Iterator, Sequence
 from typing import Any
 
 from pyrofit.cli import diagnosing, exchanging, fitting, macfp, scheming, showing, starting
@@ -56,11 +57,8 @@ def main(arguments: Sequence[str] | None = None) -> int:
 
 
 def _run(given: argparse.Namespace) -> int:
-    # So that what a step has started ends with it, as after Ctrl-C: schedulers send this signal.
-    with contextlib.suppress(ValueError):  # not in the first thread
-        signal.signal(signal.SIGTERM, signal.default_int_handler)
     try:
-        with contextlib.ExitStack() as given.until_end:
+        with _interruptible(), contextlib.ExitStack() as given.until_end:
             given.step(given)
     except PyrofitError as error:
         print(f"error: {error}", file=sys.stderr)
@@ -69,6 +67,19 @@ def _run(given: argparse.Namespace) -> int:
         print("interrupted; run again to go on, finished parts are kept", file=sys.stderr)
         return 130
     return 0
+
+
+@contextlib.contextmanager
+def _interruptible() -> Iterator[None]:
+    """Take SIGTERM, which schedulers send, for Ctrl-C: what a step has started ends with it."""
+    if threading.current_thread() is not threading.main_thread():
+        yield
+        return
+    before = signal.signal(signal.SIGTERM, signal.default_int_handler)
+    try:
+        yield
+    finally:
+        signal.signal(signal.SIGTERM, before)
 
 
 def _parser() -> argparse.ArgumentParser:

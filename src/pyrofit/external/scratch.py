@@ -5,7 +5,6 @@ more, ends what still runs there, and removes it.
 """
 
 import contextlib
-import fcntl
 import os
 import shutil
 import signal
@@ -13,6 +12,13 @@ import socket
 import tempfile
 from collections.abc import Iterator
 from pathlib import Path
+
+from pyrofit.errors import ProgramError
+
+try:
+    import fcntl
+except ImportError:  # Windows, where programs cannot be killed with all that they started, either
+    fcntl = None  # type: ignore[assignment]
 
 VARIABLE = "PYROFIT_SCRATCH"
 PREFIX = "pyrofit-runs-"
@@ -26,7 +32,15 @@ def scratch_root() -> Path:
 
 @contextlib.contextmanager
 def scratch() -> Iterator[Path]:
-    """Make a folder for the runs of this process, locked, and remove it at the end."""
+    """Make a folder for the runs of this process, locked, and remove it at the end.
+
+    Raises
+    ------
+    ProgramError
+        The system has no locks.
+    """
+    if fcntl is None:
+        raise ProgramError("external programs need Linux or macOS; on Windows use WSL")
     root = scratch_root()
     root.mkdir(parents=True, exist_ok=True)
     folder = Path(tempfile.mkdtemp(prefix=f"{_own_prefix()}{os.getpid()}-", dir=root))
@@ -41,6 +55,8 @@ def scratch() -> Iterator[Path]:
 def sweep() -> int:
     """Remove what killed processes of this node have left; return how many folders."""
     removed = 0
+    if fcntl is None:
+        return removed
     for folder in scratch_root().glob(f"{_own_prefix()}*"):
         with contextlib.suppress(OSError), (folder / LOCK).open("r+") as lock:
             try:
