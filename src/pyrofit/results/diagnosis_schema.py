@@ -4,6 +4,7 @@ from typing import Literal, get_args
 
 from pydantic import Field
 
+from pyrofit.results.diagnosis_candidates import OfCandidate
 from pyrofit.results.record import Record
 
 Kind = Literal["none", "named", "ambiguous", "multiple", "partly", "unknown"]
@@ -57,17 +58,6 @@ class OfParameter(Record):
     high: float = Field(description="upper end of the 95 % interval")
     unit: str = Field(description="unit")
     at_limit: bool = Field(description="the estimate is at a limit")
-
-
-class OfStrength(Record):
-    """A parameter of an effect with its 95 % interval."""
-
-    value: float = Field(description="estimate")
-    low: float = Field(description="lower end of the 95 % interval")
-    high: float = Field(description="upper end of the 95 % interval")
-    unit: str = Field(description="unit")
-    low_form: float | None = Field(description="lower end, all form parameters fitted as well")
-    high_form: float | None = Field(description="upper end, all form parameters fitted as well")
 
 
 class OfBase(Record):
@@ -138,40 +128,6 @@ class OfNotTried(Record):
 
     effect: str = Field(description="effect")
     reason: str = Field(description="why it is no candidate")
-
-
-class OfRidge(Record):
-    """A product of powers of an effect's parameters that the data determine better than each."""
-
-    effect: str = Field(description="effect")
-    exponents: dict[str, float] = Field(description="power of each parameter")
-    relative_sd: float = Field(description="relative standard deviation of the product [-]")
-    alone: dict[str, float] = Field(description="the same of each parameter [-]")
-
-
-class OfCandidate(Record):
-    """A model with effects that was fitted."""
-
-    effects: list[str] = Field(description="its effects")
-    free: dict[str, list[str]] = Field(
-        description="fitted parameters of each effect, the strength first"
-    )
-    chi2: float = Field(description="chi-square")
-    gain: float = Field(description="fall of chi-square below that with one effect less")
-    penalised: float = Field(description="penalised chi-square")
-    parameters: dict[str, OfStrength] = Field(description="parameters by effect and name")
-    ridges: list[OfRidge] = Field(
-        description="products of parameters that the data determine better than each"
-    )
-    adequate: bool | None = Field(description="no lack of fit; null where not tested")
-    disagree: float | None = Field(
-        description="p of one strength for all experiments; null where not tested"
-    )
-    predictions: dict[str, float] = Field(
-        description="gain of the log score by experiment left out, and `held out`"
-    )
-    explains: bool | None = Field(description="it fits the held-out signals once they are fitted")
-    rejected: str = Field(description="why it was rejected; empty where it was not")
 
 
 class OfGap(Record):

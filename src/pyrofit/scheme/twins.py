@@ -2,6 +2,7 @@
 
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
+from typing import Any
 
 import numpy as np
 import pandas as pd
@@ -35,27 +36,8 @@ class Twin:
 
 def study_of(fitted: Sequence[float], held_out: Sequence[float], seed: int) -> Study:
     """Return a study with a material of one reaction and records at some rates [K/min]."""
-    inert = {
-        "density_kg_m3": 1200.0,
-        "conductivity_W_mK": 0.2,
-        "specific_heat_J_kgK": 1500.0,
-    }
-    tga = {
-        name_of(rate): {
-            "kind": "tga",
-            "heating_rate_K_min": rate,
-            "signals": {MASS_FRACTION: {"file": f"{name_of(rate)}.csv"}},
-        }
-        for rate in (*fitted, *held_out)
-    }
+    heated = {name_of(rate): _heated(rate) for rate in (*fitted, *held_out)}
     shown = next(iter(quantities_of("gasification")))
-    slab = {
-        "kind": "gasification",
-        "sample": {"layers": [{"thickness_m": 0.006}], "initial_temperature_K": 300.0},
-        "front": {"flux_W_m2": 25000.0, "gas_temperature_K": 300.0},
-        "back": {"gas_temperature_K": 300.0},
-        "signals": {shown: {"file": "slab.csv"}},
-    }
     # Every study has an inverse modelling; of this one only the kinetics are used.
     mass = {"signal": MASS_FRACTION, "kind": "RMSE"}
     given = {
@@ -66,20 +48,8 @@ def study_of(fitted: Sequence[float], held_out: Sequence[float], seed: int) -> S
             "E": {"unit": "kJ/mol", "lower": 80.0, "upper": 350.0},
             "k": {"unit": "W/(m K)", "lower": 0.1, "upper": 0.4},
         },
-        "material": {
-            "components": {"A": {**inert, "conductivity_W_mK": "k"}, "residue": inert},
-            "reactions": {
-                "A": {
-                    "reactant": "A",
-                    "products": {"residue": 0.002},
-                    "reference_temperature_K": "T",
-                    "reference_rate_1_s": 0.001,
-                    "E_J_mol": "E",
-                }
-            },
-            "composition": {"A": "rest"},
-        },
-        "experiments": {**tga, "slab": slab},
+        "material": _material(),
+        "experiments": {**heated, "slab": _slab(shown)},
         "kinetics": {
             "estimate": ["T", "E"],
             "cost": [{"experiment": name_of(rate), **mass} for rate in fitted],
@@ -93,6 +63,40 @@ def study_of(fitted: Sequence[float], held_out: Sequence[float], seed: int) -> S
         "validation": {"experiments": ["slab"]},
     }
     return as_study(given, "scheme_twin.json")
+
+
+def _heated(rate: float) -> dict[str, Any]:
+    return {
+        "kind": "tga",
+        "heating_rate_K_min": rate,
+        "signals": {MASS_FRACTION: {"file": f"{name_of(rate)}.csv"}},
+    }
+
+
+def _slab(signal: str) -> dict[str, Any]:
+    return {
+        "kind": "gasification",
+        "sample": {"layers": [{"thickness_m": 0.006}], "initial_temperature_K": 300.0},
+        "front": {"flux_W_m2": 25000.0, "gas_temperature_K": 300.0},
+        "back": {"gas_temperature_K": 300.0},
+        "signals": {signal: {"file": "slab.csv"}},
+    }
+
+
+def _material() -> dict[str, Any]:
+    inert = {"density_kg_m3": 1200.0, "conductivity_W_mK": 0.2, "specific_heat_J_kgK": 1500.0}
+    reaction = {
+        "reactant": "A",
+        "products": {"residue": 0.002},
+        "reference_temperature_K": "T",
+        "reference_rate_1_s": 0.001,
+        "E_J_mol": "E",
+    }
+    return {
+        "components": {"A": {**inert, "conductivity_W_mK": "k"}, "residue": inert},
+        "reactions": {"A": reaction},
+        "composition": {"A": "rest"},
+    }
 
 
 def name_of(rate: float) -> str:
