@@ -15,7 +15,9 @@ from pyrofit.analysis import groups
 from pyrofit.analysis.rank_correlation import rank_correlation
 from pyrofit.config import Study, as_study
 from pyrofit.errors import DataError
+from pyrofit.estimate.optimisers import OPTIMISERS
 from pyrofit.quantities import known_quantities
+from pyrofit.results import searches
 from pyrofit.results.files import Results, read_csv, write_csv
 from pyrofit.show.costs.sentences import sentences as costs
 from pyrofit.show.facts import facts_of
@@ -160,7 +162,7 @@ def test_every_end_of_every_optimiser_is_judged(study: Study, results: Results) 
 def test_cost_of_a_set_is_that_which_the_searches_minimise(
     study: Study, results: Results, cost: str
 ) -> None:
-    found = compare.ends(study, results)
+    found = compare.ends(study, searches.read(study, results, OPTIMISERS))
     problem = fit.imp_problem(study, results, cost)
     here = scores(results).query(f"place == 'fitted' and measure == '{cost}'")
     for value, (_, row) in zip(here["value"], found.iterrows(), strict=True):
@@ -238,7 +240,7 @@ def test_missing_results_of_cmaes_are_told(study: Study, tmp_path: Path) -> None
     fit.collect(study, results)
     results.starts("RANGE", "cmaes").unlink()
     with pytest.raises(DataError, match=r"RANGE/cmaes\.json: this result is missing"):
-        compare.ends(study, results)
+        compare.ends(study, searches.read(study, results, OPTIMISERS))
 
 
 # --- tables ---------------------------------------------------------------------------------

@@ -12,7 +12,9 @@ from pyrofit.analysis.recovery import compared
 from pyrofit.analysis.repetitions import Repeated
 from pyrofit.config import Study, as_study
 from pyrofit.errors import StudyError
+from pyrofit.estimate.optimisers import OPTIMISERS
 from pyrofit.quantities import known_quantities
+from pyrofit.results import searches
 from pyrofit.results.files import Results, read_csv, write_csv, write_json
 from pyrofit.show.costs.table5 import table5
 from pyrofit.show.facts import facts_of
@@ -291,7 +293,7 @@ def _validation(study: Study, results: Results) -> None:
 
 def comparison(study: Study, results: Results) -> None:
     """Under its own cost a set has its cost, under another 0.01 more; the metric is 0.1 + that."""
-    found = compare.ends(study, results)
+    found = compare.ends(study, searches.read(study, results, OPTIMISERS))
     rows = []
     for row in found.to_dict("records"):
         about = {key: row[key] for key in ("cost_function", "found_by", "number", "best")}

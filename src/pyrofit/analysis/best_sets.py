@@ -7,8 +7,7 @@ from pyrofit.analysis.uses import PUBLISHED, SCEUA
 from pyrofit.config import Study
 from pyrofit.estimate.optimisers import OPTIMISERS
 from pyrofit.estimate.posterior import limit_of
-from pyrofit.results import searches
-from pyrofit.results.files import Results
+from pyrofit.results.searches import Searched
 
 
 def at_bound(value: float, lower: float, upper: float) -> str:
@@ -20,15 +19,15 @@ def at_bound(value: float, lower: float, upper: float) -> str:
     return limit_of((value - lower) / (upper - lower))
 
 
-def best_sets(study: Study, results: Results) -> pd.DataFrame:
+def best_sets(study: Study, searched: Searched) -> pd.DataFrame:
     """Return the set of the lowest cost of each cost function, whoever found it, SI units."""
-    found = ends(study, results)
+    found = ends(study, searched)
     ours = found[found["found_by"] != PUBLISHED].reset_index(drop=True)
     lowest = ours.groupby("cost_function", sort=False)["cost"].idxmin()
     return ours.loc[lowest].reset_index(drop=True)
 
 
-def ends(study: Study, results: Results) -> pd.DataFrame:
+def ends(study: Study, searched: Searched) -> pd.DataFrame:
     """Return where every repetition and every start ended, and published sets, SI units.
 
     Columns: ``cost_function``, ``found_by``, ``number``, ``best`` (whether it has the lowest cost
@@ -36,13 +35,10 @@ def ends(study: Study, results: Results) -> pd.DataFrame:
     """
     rows = []
     names = list(study.imp.estimate)
-    summary = searches.summary(study, results)
+    every = searched.repetitions
     for cost in study.imp.costs:
-        ours = summary[summary["cost_function"] == cost].to_dict("records")
-        starts = {
-            optimiser.words: searches.starts(study, results, cost, key)
-            for key, optimiser in OPTIMISERS.items()
-        }
+        ours = every[every["cost_function"] == cost].to_dict("records")
+        starts = {by.words: searched.starts[cost][key] for key, by in OPTIMISERS.items()}
         groups = {
             SCEUA: [(float(row["cost"]), row) for row in ours],
             **{by: [(float(s["cost"]), s["parameters"]) for s in e] for by, e in starts.items()},

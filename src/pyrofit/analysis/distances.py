@@ -5,8 +5,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from pyrofit.config import Study
-from pyrofit.results.files import Results, read_csv
-from pyrofit.results.identification import WITHIN, noise
+from pyrofit.results.identification import WITHIN, Identified
 
 
 @dataclass(frozen=True)
@@ -33,18 +32,12 @@ class Distance:
     distance_sd: float
 
 
-def distances(study: Study, results: Results) -> list[Distance]:
+def distances(study: Study, identified: Identified) -> list[Distance]:
     """Return the distances of all sets, in the study's order of cost functions."""
     names = list(study.imp.estimate)
-    columns: dict[str, type] = {"set": object, "chi2": float, **dict.fromkeys(names, float)}
-    frame = read_csv(
-        results.identification("sets.csv"),
-        columns,
-        {("cost_function",): [(cost,) for cost in study.imp.costs]},
-    )
-    freedom = noise(results)["freedom"]
+    freedom = identified.noise["imp"]["freedom"]
     found = []
-    for row in frame.to_dict("records"):
+    for row in identified.sets.to_dict("records"):
         away = np.abs([float(row[name]) for name in names])
         found.append(
             Distance(

@@ -7,8 +7,7 @@ from typing import Any, Literal
 import pandas as pd
 
 from pyrofit.config import Study
-from pyrofit.results.files import Results
-from pyrofit.results.identification import estimates, matrix_of, stages_of
+from pyrofit.results.identification import Identified
 
 Grade = Literal["determined", "weakly determined", "at a bound", "undetermined"]
 GRADES: tuple[Grade, ...] = ("determined", "weakly determined", "at a bound", "undetermined")
@@ -74,14 +73,13 @@ class Estimated:
         return "determined" if self.verdict == "determined" else "weakly determined"
 
 
-def estimated(study: Study, results: Results) -> list[Estimated]:
+def estimated(study: Study, identified: Identified) -> list[Estimated]:
     """Return the estimates of all stages, in the study's order."""
-    found = []
-    for stage in stages_of(study):
-        related = matrix_of(study, results, stage)
-        rows = estimates(study, results, stage).to_dict("records")
-        found += [_estimated(study, stage, row, related) for row in rows]
-    return found
+    return [
+        _estimated(study, stage, row, identified.correlations[stage])
+        for stage, frame in identified.estimates.items()
+        for row in frame.to_dict("records")
+    ]
 
 
 def _estimated(

@@ -1,10 +1,10 @@
 """Known values of parameters beside their estimates."""
 
+from collections.abc import Iterable
 from dataclasses import dataclass
 
-from pyrofit.analysis.estimates import Estimated, estimated
+from pyrofit.analysis.estimates import Estimated
 from pyrofit.config import Study
-from pyrofit.results.files import Results
 from pyrofit.results.identification import stages_of
 
 FAR = 2.0
@@ -34,11 +34,10 @@ class Known:
         return abs(self.away_sd) > FAR
 
 
-def known_values(study: Study, results: Results) -> list[Known]:
-    """Return the known values of all estimated parameters, by stage."""
-    found = [e for e in estimated(study, results) if e.name in study.known]
-    known = [study.known[e.name] for e in found]
-    return [Known(k.value, k.sd, k.source, e) for k, e in zip(known, found, strict=True)]
+def known_values(study: Study, estimates: Iterable[Estimated]) -> list[Known]:
+    """Return the known values of those estimated parameters that have one."""
+    found = [(study.known[e.name], e) for e in estimates if e.name in study.known]
+    return [Known(known.value, known.sd, known.source, e) for known, e in found]
 
 
 def has_known(study: Study) -> bool:

@@ -2,9 +2,7 @@
 
 from dataclasses import dataclass
 
-from pyrofit.config import Study
-from pyrofit.results.files import Results
-from pyrofit.results.identification import noise, stages_of
+from pyrofit.results.identification import Identified
 
 FITS = 1.2
 """Chi-square per point up to which the model is said to fit within the noise."""
@@ -39,11 +37,11 @@ class Misfit:
         return self.chi2 / self.points
 
 
-def misfits(study: Study, results: Results) -> list[Misfit]:
+def misfits(identified: Identified) -> list[Misfit]:
     """Return the misfit of every fitted signal, by stage."""
     keys = ("experiment", "signal", "points", "words", "chi2")
     return [
         Misfit(stage, **{key: channel[key] for key in keys})
-        for stage in stages_of(study)
-        for channel in noise(results, stage)["channels"]
+        for stage, noise in identified.noise.items()
+        for channel in noise["channels"]
     ]

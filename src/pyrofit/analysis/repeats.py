@@ -1,10 +1,10 @@
 """Repeats of tests: their signals, and what differs between them beside its stated scatter."""
 
+from collections.abc import Iterable
 from dataclasses import dataclass
 
-from pyrofit.analysis.estimates import Estimated, estimated
+from pyrofit.analysis.estimates import Estimated
 from pyrofit.config import Study
-from pyrofit.results.files import Results
 
 
 @dataclass(frozen=True)
@@ -33,9 +33,9 @@ class Repeated:
     differing: tuple[Differing, ...]
 
 
-def repeated(study: Study, results: Results) -> list[Repeated]:
+def repeated(study: Study, estimates: Iterable[Estimated]) -> list[Repeated]:
     """Return all repeats of the study's tests, in its order."""
-    by_name = {e.name: e for e in estimated(study, results)}
+    by_name = {e.name: e for e in estimates}
     of_tests: dict[str, dict[str, None]] = {}
     for experiment in study.experiments.values():
         if experiment.repeat is not None:

@@ -7,8 +7,6 @@ import pandas as pd
 from pyrofit.analysis.best_sets import at_bound
 from pyrofit.analysis.optimisers import lowest_of
 from pyrofit.config import Study
-from pyrofit.results import searches
-from pyrofit.results.files import Results
 
 FIT = "fit"
 """Name under which the cost itself stands."""
@@ -54,12 +52,11 @@ class Repeated:
         return self.sigma > WIDE_SPREAD * (self.upper - self.lower)
 
 
-def repeated(study: Study, results: Results) -> list[Repeated]:
+def repeated(study: Study, repetitions: pd.DataFrame) -> list[Repeated]:
     """Return the cost and the parameters of every cost function."""
-    summary = searches.summary(study, results)
     found = []
     for cost in study.imp.costs:
-        group = summary[summary["cost_function"] == cost]
+        group = repetitions[repetitions["cost_function"] == cost]
         best = lowest_of(group)
         found.append(_of(cost, FIT, group["cost"], float(best["cost"]), (None, None)))
         for name in study.imp.estimate:

@@ -3,11 +3,11 @@
 from collections.abc import Iterable
 from dataclasses import dataclass
 
+import pandas as pd
+
 from pyrofit.analysis.uses import predicted_sets, title_of, use_of
 from pyrofit.config import Study
 from pyrofit.quantities.base import Quantity
-from pyrofit.results import prediction
-from pyrofit.results.files import Results
 
 
 @dataclass(frozen=True)
@@ -42,11 +42,11 @@ class Score:
     solver: float
 
 
-def scores(study: Study, results: Results) -> list[Score]:
+def scores(study: Study, predicted: pd.DataFrame) -> list[Score]:
     """Return the scores, experiments and signals together, in the order of their first set."""
     sets = {chosen.label: chosen for chosen in predicted_sets(study)}
     found = []
-    for row in prediction.scores(study, results, list(sets)).to_dict("records"):
+    for row in predicted.to_dict("records"):
         name, signal, chosen = row["experiment"], row["signal"], sets[row["set"]]
         quantity = study.experiments[name].quantity(signal)
         measure = "cv_rmse" if quantity.relative else "rmse_si"

@@ -4,8 +4,7 @@ from dataclasses import dataclass
 from itertools import combinations
 
 from pyrofit.config import Study
-from pyrofit.results.files import Results
-from pyrofit.results.identification import estimates, matrix_of, stages_of
+from pyrofit.results.identification import Identified
 
 STRONG = 0.7
 """Correlation from which on half of a variance is that of another parameter."""
@@ -37,22 +36,22 @@ class TradeOff:
     correlation: float
 
 
-def trade_offs(study: Study, results: Results) -> list[TradeOff]:
+def trade_offs(study: Study, identified: Identified) -> list[TradeOff]:
     """Return the strongly correlated pairs of each stage, the strongest first.
 
     Of estimates with the covariance C, raising p_i by sd_i moves the best p_j by rho_ij sd_j, all
     other parameters fitted anew. Where no pair of a stage is that strong, its strongest is given.
     """
     found = []
-    for stage in stages_of(study):
-        pairs = sorted(_pairs(study, results, stage), key=lambda p: -abs(p.correlation))
+    for stage in identified.estimates:
+        pairs = sorted(_pairs(study, identified, stage), key=lambda p: -abs(p.correlation))
         found += [p for n, p in enumerate(pairs) if n == 0 or abs(p.correlation) >= STRONG]
     return found
 
 
-def _pairs(study: Study, results: Results, stage: str) -> list[TradeOff]:
-    related = matrix_of(study, results, stage)
-    sd = estimates(study, results, stage)["sd"].to_dict()
+def _pairs(study: Study, identified: Identified, stage: str) -> list[TradeOff]:
+    related = identified.correlations[stage]
+    sd = identified.estimates[stage]["sd"].to_dict()
     pairs = []
     for name, partner in combinations(related.index, 2):
         one, other = study.parameters[name], study.parameters[partner]

@@ -87,6 +87,11 @@ def predicted_sets(study: Study) -> list[PredictedSet]:
     return sets
 
 
+def predicted_labels(study: Study) -> list[str]:
+    """Return the labels of the sets that the validation simulates, in its order."""
+    return [chosen.label for chosen in predicted_sets(study)]
+
+
 def use_of(study: Study, cost: str, experiment: str, signal: str) -> str:
     """Say whether a cost's sets were fitted to a signal, or predict it."""
     if cost not in study.imp.costs:

@@ -11,7 +11,7 @@ from pyrofit.config import Study, diagnosed_material, parameters_in
 from pyrofit.errors import DataError, StudyError, suggest
 from pyrofit.estimate.optimisers import OPTIMISERS
 from pyrofit.model.material import Material
-from pyrofit.results import diagnosis
+from pyrofit.results import diagnosis, identification
 from pyrofit.results.files import Results, read_json
 from pyrofit.stages.fit import fixed_for_imp
 from pyrofit.stages.predict import sets_of
@@ -108,7 +108,7 @@ def _of_report(study: Study, results: Results, label: str) -> ParameterSet:
             + suggest(label, [*known, DIAGNOSIS, *([TRUTH] if study.synthetic else [])])
         )
     try:
-        notes = {e.name: _note(e) for e in estimated(study, results)}
+        notes = {e.name: _note(e) for e in estimated(study, identification.read(study, results))}
     except DataError:
         notes = {}  # the analysis has not run
     values = fixed_for_imp(study, results) | known[label]

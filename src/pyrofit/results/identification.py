@@ -1,6 +1,6 @@
 """What the data determine of the parameters, as the analysis left it."""
 
-from typing import Any
+from typing import Any, NamedTuple
 
 import pandas as pd
 
@@ -10,7 +10,35 @@ from pyrofit.results.files import EACH, Results, read_csv, read_json
 WITHIN = 1.96
 """Standard deviations that a value within a 95 % interval is away at most."""
 
+_SETS: dict[str, type] = {"set": object, "chi2": float}
 _NUMBERS = ("estimate", "sd", "low", "high", "width", "noise_low", "noise_high", "noise_width")
+
+
+class Identified(NamedTuple):
+    """All that the analysis left, read at once; what is of a stage stands under its name."""
+
+    estimates: dict[str, pd.DataFrame]
+    correlations: dict[str, pd.DataFrame]
+    noise: dict[str, dict[str, Any]]
+    sets: pd.DataFrame
+    """Sets of the optimisers: distance of each parameter from the optimum [sd], chi-square."""
+
+
+def read(study: Study, results: Results) -> Identified:
+    """Return all that the analysis left.
+
+    Raises
+    ------
+    DataError
+        A result is missing or broken.
+    """
+    stages = stages_of(study)
+    return Identified(
+        estimates={stage: estimates(study, results, stage) for stage in stages},
+        correlations={stage: matrix_of(study, results, stage) for stage in stages},
+        noise={stage: noise(results, stage) for stage in stages},
+        sets=_sets(study, results),
+    )
 
 
 def stages_of(study: Study) -> dict[str, tuple[str, ...]]:
@@ -50,3 +78,9 @@ def noise(results: Results, stage: str = "imp") -> dict[str, Any]:
             **{(key,): float for key in ("chi2", "freedom", "dispersion")},
         },
     )
+
+
+def _sets(study: Study, results: Results) -> pd.DataFrame:
+    costs = [(cost,) for cost in study.imp.costs]
+    columns = {**_SETS, **dict.fromkeys(study.imp.estimate, float)}
+    return read_csv(results.identification("sets.csv"), columns, {("cost_function",): costs})

@@ -1,11 +1,36 @@
 """Results of the searches: repetitions of SCE-UA, and the optimisers beside them."""
 
-from typing import Any
+from collections.abc import Iterable
+from typing import Any, NamedTuple
 
 import pandas as pd
 
 from pyrofit.config import Study
 from pyrofit.results.files import EACH, Keys, Results, read_csv, read_json
+
+
+class Searched(NamedTuple):
+    """Where all searches ended, read at once."""
+
+    repetitions: pd.DataFrame
+    """The best set of every repetition of SCE-UA."""
+    starts: dict[str, dict[str, list[dict[str, Any]]]]
+    """By cost function and optimiser, the ends from every start, best first."""
+
+
+def read(study: Study, results: Results, optimisers: Iterable[str]) -> Searched:
+    """Return where the repetitions of SCE-UA and the starts of the optimisers beside it ended.
+
+    Raises
+    ------
+    DataError
+        A result is missing or broken.
+    """
+    keys = list(optimisers)
+    return Searched(
+        summary(study, results),
+        {c: {key: starts(study, results, c, key) for key in keys} for c in study.imp.costs},
+    )
 
 
 def repetition(study: Study, results: Results, cost: str, number: int) -> dict[str, Any]:

@@ -13,8 +13,11 @@ from pyrofit.analysis.misfit import Misfit, misfits
 from pyrofit.analysis.repetitions import Repeated, repeated
 from pyrofit.analysis.scores import Score, scores
 from pyrofit.analysis.trade_offs import TradeOff, trade_offs
+from pyrofit.analysis.uses import predicted_labels
 from pyrofit.analysis.wall_times import wall_times
 from pyrofit.config import Study
+from pyrofit.estimate.optimisers import OPTIMISERS
+from pyrofit.results import identification, prediction, searches
 from pyrofit.results.files import Results
 from pyrofit.show.table import Frames
 
@@ -58,22 +61,28 @@ class Facts:
 
 
 def facts_of(study: Study, results: Results, tables: Frames) -> Facts:
-    """Return the facts of a study.
+    """Return the facts of a study: its results are read first, then analysed.
 
     Raises
     ------
     DataError
         A result is missing or broken.
     """
+    identified = identification.read(study, results)
+    searched = searches.read(study, results, OPTIMISERS)
+    predicted = pd.DataFrame()
+    if study.validation.experiments:
+        predicted = prediction.scores(study, results, predicted_labels(study))
+    estimates = estimated(study, identified)
     return Facts(
         tables=tables,
-        estimates=estimated(study, results),
-        known=known_values(study, results),
-        trade_offs=trade_offs(study, results),
-        misfits=misfits(study, results),
-        best=best_sets(study, results),
-        distances=distances(study, results),
-        repeated=repeated(study, results),
-        scores=scores(study, results) if study.validation.experiments else [],
+        estimates=estimates,
+        known=known_values(study, estimates),
+        trade_offs=trade_offs(study, identified),
+        misfits=misfits(identified),
+        best=best_sets(study, searched),
+        distances=distances(study, identified),
+        repeated=repeated(study, searched.repetitions),
+        scores=scores(study, predicted),
         times=wall_times(study, results),
     )

@@ -27,8 +27,9 @@ def write_report(study: Study, results: Results) -> None:
         A result is missing.
     """
     measured = recorded.measured(study, results)
-    facts = facts_of(study, results, tables_of(study, results))
-    answer = table_part(study, TABLES["answer"], facts.tables["answer"], advice(study, facts))
+    tables = tables_of(study, results)
+    facts = facts_of(study, results, tables)
+    answer = table_part(study, TABLES["answer"], tables["answer"], advice(study, facts))
     shown = [one for part in SECTIONS if (one := _shown(part, study, results, facts))]
     # Scheme, diagnosis and the proof by FDS are steps of their own, which a study may go without.
     if scheme.exists(results):

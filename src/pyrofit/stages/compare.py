@@ -11,8 +11,10 @@ from pyrofit.analysis.good_sets import GOOD, explore, thinned
 from pyrofit.analysis.uses import FITTED
 from pyrofit.config import Study, TermSpec
 from pyrofit.errors import CostError
+from pyrofit.estimate.optimisers import OPTIMISERS
 from pyrofit.estimate.problem import Problem, make_problem
 from pyrofit.estimate.targets import Measurements, term_for
+from pyrofit.results import searches
 from pyrofit.results.files import Results, write_csv
 from pyrofit.seeds import seed_for
 from pyrofit.stages.fit import fixed_for_imp, imp_problem
@@ -30,7 +32,7 @@ def compare(study: Study, results: Results) -> None:
         A result is missing or broken.
     """
     measurements = load(study, results)
-    found = ends(study, results)
+    found = ends(study, searches.read(study, results, OPTIMISERS))
     scores = pd.concat(
         [
             _scores(found, _problem(study, results, measurements, judges), place, judges)

@@ -8,6 +8,8 @@ import pandas as pd
 from pyrofit.analysis.best_sets import at_bound, best_sets
 from pyrofit.analysis.estimates import Estimated, estimated
 from pyrofit.config import Study
+from pyrofit.estimate.optimisers import OPTIMISERS
+from pyrofit.results import identification, searches
 from pyrofit.results.files import Results
 from pyrofit.show.names import STAGES, flag
 from pyrofit.show.table import Table
@@ -22,8 +24,8 @@ def answer(study: Study, results: Results) -> pd.DataFrame:
         One row per parameter, in its own unit. A column for each cost function holds the set of
         the lowest cost that any optimiser found, and names the optimiser.
     """
-    known = estimated(study, results)
-    best = best_sets(study, results)
+    known = estimated(study, identification.read(study, results))
+    best = best_sets(study, searches.read(study, results, OPTIMISERS))
     frame = pd.DataFrame([_row(study, estimate) for estimate in known])
     for row in best.to_dict("records"):
         frame[column_of(row)] = [

@@ -11,6 +11,7 @@ from pyrofit.analysis.best_sets import ends
 from pyrofit.analysis.uses import SCEUA, STARTED
 from pyrofit.config import Study
 from pyrofit.estimate.optimisers import OPTIMISERS
+from pyrofit.results import searches
 from pyrofit.results.files import Results
 from pyrofit.results.identification import estimates
 from pyrofit.show import style
@@ -47,7 +48,7 @@ _PUBLISHED: dict[str, Any] = {"color": "black", "marker": "_", "markersize": 6.0
 def spread(study: Study, results: Results) -> Canvas:
     """Draw all repetitions' sets by cost function within the limits, a panel per parameter."""
     names = list(study.imp.estimate)
-    found = ends(study, results)
+    found = ends(study, searches.read(study, results, OPTIMISERS))
     intervals = estimates(study, results)
     canvas, axes = style.panels(len(names), 3, style.TWO_COLUMNS, 46.0)
     style.letter(axes, [f"{name} [{study.parameters[name].unit}]" for name in names])

@@ -7,6 +7,7 @@ import pandas as pd
 from pyrofit.analysis.estimates import estimated
 from pyrofit.analysis.repetitions import FIT, Repeated, repeated
 from pyrofit.config import Study
+from pyrofit.results import identification, searches
 from pyrofit.results.files import Results
 from pyrofit.show.names import flag
 from pyrofit.show.table import Table
@@ -23,8 +24,9 @@ def table4(study: Study, results: Results) -> pd.DataFrame:
     pandas.DataFrame
         One row per cost function and quantity ('fit' and each parameter, in its own unit).
     """
-    repetitions = list(repeated(study, results))
-    by_data = {e.name: flag(e) for e in estimated(study, results) if e.stage == "imp"}
+    repetitions = repeated(study, searches.summary(study, results))
+    estimates = estimated(study, identification.read(study, results))
+    by_data = {e.name: flag(e) for e in estimates if e.stage == "imp"}
     rows = [_row(study, found, by_data.get(found.name, "")) for found in repetitions]
     absent = [] if study.published else [f"published_{what}" for what in ("best", "mean", "sigma")]
     return pd.DataFrame(rows).drop(columns=absent)

@@ -6,6 +6,7 @@ import pandas as pd
 
 from pyrofit.analysis.estimates import Estimated, estimated
 from pyrofit.config import Study
+from pyrofit.results import identification
 from pyrofit.results.files import Results
 from pyrofit.show.names import STAGES
 from pyrofit.show.table import Table
@@ -18,7 +19,8 @@ def determined(study: Study, results: Results) -> pd.DataFrame:
     ``low``, ``high``, ``width_percent``: with chi-square divided by its value per degree of
     freedom where that exceeds 1; ``noise_low``, ``noise_high``: as if noise were all.
     """
-    return pd.DataFrame([_row(study, e) for e in estimated(study, results)])
+    estimates = estimated(study, identification.read(study, results))
+    return pd.DataFrame([_row(study, e) for e in estimates])
 
 
 def _row(study: Study, e: Estimated) -> dict[str, Any]:

@@ -6,6 +6,7 @@ import pandas as pd
 
 from pyrofit.analysis.distances import distances
 from pyrofit.config import Study
+from pyrofit.results import identification
 from pyrofit.results.files import Results
 from pyrofit.show.table import Table
 
@@ -15,7 +16,8 @@ def table(study: Study, results: Results) -> pd.DataFrame:
 
     Distances are in standard deviations of the parameter, chi-square per degree of freedom.
     """
-    return pd.DataFrame([asdict(found) for found in distances(study, results)])
+    found = distances(study, identification.read(study, results))
+    return pd.DataFrame([asdict(one) for one in found])
 
 
 TABLE = Table(

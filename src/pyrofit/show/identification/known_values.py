@@ -4,8 +4,10 @@ from typing import Any
 
 import pandas as pd
 
+from pyrofit.analysis.estimates import estimated
 from pyrofit.analysis.known_values import Known, has_known, known_values
 from pyrofit.config import Study
+from pyrofit.results import identification
 from pyrofit.results.files import Results
 from pyrofit.show.names import STAGES
 from pyrofit.show.table import Table
@@ -13,7 +15,8 @@ from pyrofit.show.table import Table
 
 def table(study: Study, results: Results) -> pd.DataFrame:
     """List known value, estimate and their distance of each parameter with a known value."""
-    return pd.DataFrame([_row(known) for known in known_values(study, results)])
+    estimates = estimated(study, identification.read(study, results))
+    return pd.DataFrame([_row(known) for known in known_values(study, estimates)])
 
 
 def _row(known: Known) -> dict[str, Any]:

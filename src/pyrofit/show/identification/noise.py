@@ -5,6 +5,7 @@ import pandas as pd
 from pyrofit.analysis.misfit import misfits
 from pyrofit.analysis.uses import title_of
 from pyrofit.config import Study
+from pyrofit.results import identification
 from pyrofit.results.files import Results
 from pyrofit.show.names import STAGES, signal_words
 from pyrofit.show.table import Table
@@ -21,7 +22,7 @@ def noise_of_signals(study: Study, results: Results) -> pd.DataFrame:
             "noise": found.words,
             "chi2_per_point": found.per_point,
         }
-        for found in misfits(study, results)
+        for found in misfits(identification.read(study, results))
     ]
     return pd.DataFrame(rows)
 

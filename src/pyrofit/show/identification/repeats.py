@@ -4,9 +4,11 @@ from typing import Any
 
 import pandas as pd
 
+from pyrofit.analysis.estimates import estimated
 from pyrofit.analysis.repeats import Differing, Repeated, has_repeats, repeated
 from pyrofit.config import Study
 from pyrofit.config.nuisances import NUISANCES
+from pyrofit.results import identification
 from pyrofit.results.files import Results
 from pyrofit.show.names import STAGES
 from pyrofit.show.table import Table
@@ -20,9 +22,10 @@ def table(study: Study, results: Results) -> pd.DataFrame:
     pandas.DataFrame
         One row per repeat and value that differs; one row for a repeat without any.
     """
+    estimates = estimated(study, identification.read(study, results))
     rows = [
         _row(study, repeat, one)
-        for repeat in repeated(study, results)
+        for repeat in repeated(study, estimates)
         for one in repeat.differing or (None,)
     ]
     return pd.DataFrame(rows).dropna(axis="columns", how="all")

@@ -4,6 +4,7 @@ import pandas as pd
 
 from pyrofit.analysis.trade_offs import TradeOff, trade_offs
 from pyrofit.config import Study
+from pyrofit.results import identification
 from pyrofit.results.files import Results
 from pyrofit.show.names import STAGES
 from pyrofit.show.table import Table
@@ -13,7 +14,7 @@ COLUMNS = ("fit", "parameter", "rise", "unit", "partner", "shift", "partner_unit
 
 def table(study: Study, results: Results) -> pd.DataFrame:
     """List pairs of parameters of which one makes up for the other, the strongest first."""
-    rows = [_row(pair) for pair in trade_offs(study, results)]
+    rows = [_row(pair) for pair in trade_offs(study, identification.read(study, results))]
     return pd.DataFrame(rows, columns=list(COLUMNS))
 
 

@@ -18,13 +18,14 @@ def costs(study: Study, results: Results) -> pd.DataFrame:
     pandas.DataFrame
         One row per cost function; model calls are those of all repetitions and of all starts.
     """
-    summary = searches.summary(study, results)
+    searched = searches.read(study, results, OPTIMISERS)
+    every = searched.repetitions
     rows = []
     for cost in study.imp.costs:
-        others = {key: searches.starts(study, results, cost, key) for key in OPTIMISERS}
         descent = float(searches.end_of_descent(results, cost)["cost"])
-        group = summary[summary["cost_function"] == cost]
-        rows.append({"cost_function": cost, **comparison(group, others, descent)})
+        group = every[every["cost_function"] == cost]
+        row = comparison(group, searched.starts[cost], descent)
+        rows.append({"cost_function": cost, **row})
     return pd.DataFrame(rows)
 
 

@@ -6,8 +6,10 @@ from typing import Any
 import pandas as pd
 
 from pyrofit.analysis.scores import Score, scores
+from pyrofit.analysis.uses import predicted_labels
 from pyrofit.config import Study
 from pyrofit.quantities.base import Quantity
+from pyrofit.results import prediction
 from pyrofit.results.files import Results
 from pyrofit.show.table import Table
 from pyrofit.show.units import unit_cells
@@ -23,7 +25,7 @@ def validation(study: Study, results: Results) -> pd.DataFrame:
         the signal or predicts it; ``solver_...`` is the solver's own error, estimated by
         refinement, in the same measure.
     """
-    found = scores(study, results)
+    found = scores(study, prediction.scores(study, results, predicted_labels(study)))
     among = [score.quantity for score in found]
     return pd.DataFrame([_row(score, among) for score in found])
 
