@@ -57,7 +57,7 @@ def _line(study: Study, name: str, signal: str, released: float, several: bool) 
     else:
         with contextlib.suppress(KeyError):
             layers = _reacting(study, experiment, values)
-            initial = described_mass(study, experiment, layers, values)
+            initial = _mass(study, experiment, layers, values)
     if initial is not None:
         return f"{said} of {initial:.3f} kg/m² ({released / initial:.1%})".replace("%", " %")
     return (
@@ -76,18 +76,26 @@ def _reacting(
     reactants = {reaction.reactant for reaction in study.material.reactions.values()}
     return [
         (layer, size)
-        for layer, size in layers_of(experiment, values)
+        for layer, size in _layers_of(experiment, values)
         if reactants & set(layer.composition or study.material.composition)
     ]
 
 
-def layers_of(experiment: SlabExperiment, values: Mapping[str, float]) -> list[tuple[Layer, float]]:
+def described_mass(study: Study, experiment: SlabExperiment, values: Mapping[str, float]) -> float:
+    """Return the mass of all layers per area [kg/m2]; KeyError where a parameter has no value."""
+    layers = _layers_of(experiment, values)
+    return _mass(study, experiment, layers, values)
+
+
+def _layers_of(
+    experiment: SlabExperiment, values: Mapping[str, float]
+) -> list[tuple[Layer, float]]:
     """Return all layers with their thickness [m]; KeyError where a parameter has no value."""
     sizes = map(float, thicknesses(experiment.sample, values))
     return list(zip(experiment.sample.layers, sizes, strict=True))
 
 
-def described_mass(
+def _mass(
     study: Study,
     experiment: SlabExperiment,
     layers: Sequence[tuple[Layer, float]],

@@ -100,7 +100,8 @@ def with_noise(
     columns = {"time_s": request.time_s}
     if request.temperature_K is not None:
         columns["temperature_K"] = request.temperature_K
-    columns[quantity.column] = clean + noise.sd * draw(noise.correlation(clean.size), rng)
+    correlation = noise.correlation(clean.size)
+    columns[quantity.column] = clean + noise.sd * draw(correlation, rng)
     if noise.sd > 0.0:
         columns[quantity.uncertainty_column] = np.full(clean.size, noise.sd)
     return pd.DataFrame(columns)

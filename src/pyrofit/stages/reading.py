@@ -1,14 +1,12 @@
 """Measured files: whether they are there, what they hold, and whether the costs fit them."""
 
-import contextlib
 from collections.abc import Iterator
 from pathlib import Path
 from typing import Any
 
-import numpy as np
 import pandas as pd
 
-from pyrofit.analysis.closure import described_mass, layers_of
+from pyrofit.analysis.agreement import disagreements
 from pyrofit.config import Study, TermSpec
 from pyrofit.data.download import FOLDER_VARIABLE
 from pyrofit.data.fetch import locate, store
@@ -16,19 +14,9 @@ from pyrofit.data.series import Measurement, read_series
 from pyrofit.data.spec import SeriesSpec
 from pyrofit.errors import CostError, DataError
 from pyrofit.estimate.targets import Measurements, term_for
-from pyrofit.model.base import value_of
-from pyrofit.model.heated import HeatedExperiment
 from pyrofit.model.signal import Signal
-from pyrofit.model.slab import SlabExperiment
 from pyrofit.quantities.base import Quantity
-from pyrofit.solver.outputs import MASS
 
-OTHER_RATE = 0.2
-"""Share by which a measured heating rate may differ from the one given."""
-OTHER_START_K = 3.0
-"""Difference from the described initial temperature from which it is noted."""
-OTHER_MASS, FIRST = 0.05, 5
-"""Share by which the median of the first points of a mass may differ from what is described."""
 SYNTHETIC = "synthetic"
 MACFP = "macfp:"
 
@@ -75,8 +63,9 @@ def read_all(study: Study, macfp: bool = True) -> dict[tuple[str, str], Read]:
         if signal.file.startswith(MACFP) and not macfp:
             continue
         try:
-            series[name, label] = _read(study.experiments[name].quantity(label), signal)
-            _check_experiment(study, name, label, *series[name, label])
+            frame, about = _read(study.experiments[name].quantity(label), signal)
+            about["notes"] += disagreements(study, name, label, frame, about["source"])
+            series[name, label] = frame, about
         except DataError as error:
             # One file may serve several experiments.
             if not any(line.endswith(str(error)) for line in wrong):
@@ -145,10 +134,11 @@ def _missing(study: Study) -> list[str]:
 
 
 def _read(quantity: Quantity, signal: Signal) -> Read:
+    path = _locate(signal.file)
     found: Measurement = read_series(
         SeriesSpec(
             quantity=quantity.name,
-            path=_locate(signal.file),
+            path=path,
             columns=signal.columns,
             units=signal.units,
             uncertainty=signal.uncertainty,
@@ -172,49 +162,6 @@ def _read(quantity: Quantity, signal: Signal) -> Read:
         "notes": list(found.notes),
     }
     return frame, about
-
-
-def _check_experiment(
-    study: Study, name: str, signal: str, frame: pd.DataFrame, about: dict[str, Any]
-) -> None:
-    """Compare a series with its experiment: refuse another heating rate, note another start."""
-    experiment = study.experiments[name]
-    if isinstance(experiment, HeatedExperiment):
-        rise = np.gradient(frame["temperature_K"].to_numpy(), frame["time_s"].to_numpy())
-        found, given = 60.0 * float(np.median(rise)), experiment.heating_rate_K_min
-        if abs(found - given) > OTHER_RATE * given:
-            raise DataError(
-                f"{about['source']}: the temperature rises by {found:.3g} K/min, the experiment's "
-                f"heating_rate_K_min is {given:g}; correct it, or the unit of the time column"
-            )
-    elif isinstance(experiment, SlabExperiment):
-        about["notes"] += _start_notes(study, experiment, signal, frame)
-
-
-def _start_notes(
-    study: Study, experiment: SlabExperiment, signal: str, frame: pd.DataFrame
-) -> list[str]:
-    """Note where a temperature or a mass starts elsewhere than the description says."""
-    quantity, values = experiment.quantity(signal), study.fixed_values()
-    record = frame[quantity.column].to_numpy()
-    if quantity.is_temperature:
-        start = float(record[0])
-        described = value_of(experiment.sample.initial_temperature_K, values)
-        if abs(start - described) > OTHER_START_K:
-            return [
-                f"starts at {start:.1f} K, initial_temperature_K of the sample is {described:.1f}"
-            ]
-    if quantity.curve == MASS:
-        with contextlib.suppress(KeyError):
-            described = described_mass(study, experiment, layers_of(experiment, values), values)
-            offset = value_of(experiment.signals[signal].offset, values)
-            start = float(np.median(record[:FIRST])) - offset
-            if abs(start - described) > OTHER_MASS * described:
-                return [
-                    f"starts at {start:.3f} kg/m2, the sample as described has {described:.3f}; "
-                    "where the load cell does not show the sample alone, give `offset`"
-                ]
-    return []
 
 
 def _locate(file: str) -> Path:

@@ -1,0 +1,71 @@
+"""Whether a measured series agrees with the experiment as it is described."""
+
+import contextlib
+
+import numpy as np
+import pandas as pd
+
+from pyrofit.analysis.closure import described_mass
+from pyrofit.config import Study
+from pyrofit.errors import DataError
+from pyrofit.model.base import value_of
+from pyrofit.model.heated import HeatedExperiment
+from pyrofit.model.slab import SlabExperiment
+from pyrofit.solver.outputs import MASS
+
+OTHER_RATE = 0.2
+"""Share by which a measured heating rate may differ from the one given."""
+OTHER_START_K = 3.0
+"""Difference from the described initial temperature from which it is noted."""
+OTHER_MASS, FIRST = 0.05, 5
+"""Share by which the median of the first points of a mass may differ from what is described."""
+
+
+def disagreements(
+    study: Study, name: str, signal: str, frame: pd.DataFrame, source: str
+) -> list[str]:
+    """Return notes on where a series, SI units, starts elsewhere than its experiment says.
+
+    Raises
+    ------
+    DataError
+        With ``source``, the file: the sample was heated at another rate than the experiment gives.
+    """
+    experiment = study.experiments[name]
+    if isinstance(experiment, HeatedExperiment):
+        rise = np.gradient(frame["temperature_K"].to_numpy(), frame["time_s"].to_numpy())
+        found, given = 60.0 * float(np.median(rise)), experiment.heating_rate_K_min
+        if abs(found - given) > OTHER_RATE * given:
+            raise DataError(
+                f"{source}: the temperature rises by {found:.3g} K/min, the experiment's "
+                f"heating_rate_K_min is {given:g}; correct it, or the unit of the time column"
+            )
+    elif isinstance(experiment, SlabExperiment):
+        return _start_notes(study, experiment, signal, frame)
+    return []
+
+
+def _start_notes(
+    study: Study, experiment: SlabExperiment, signal: str, frame: pd.DataFrame
+) -> list[str]:
+    """Note where a temperature or a mass starts elsewhere than the description says."""
+    quantity, values = experiment.quantity(signal), study.fixed_values()
+    record = frame[quantity.column].to_numpy()
+    if quantity.is_temperature:
+        start = float(record[0])
+        described = value_of(experiment.sample.initial_temperature_K, values)
+        if abs(start - described) > OTHER_START_K:
+            return [
+                f"starts at {start:.1f} K, initial_temperature_K of the sample is {described:.1f}"
+            ]
+    if quantity.curve == MASS:
+        with contextlib.suppress(KeyError):
+            described = described_mass(study, experiment, values)
+            offset = value_of(experiment.signals[signal].offset, values)
+            start = float(np.median(record[:FIRST])) - offset
+            if abs(start - described) > OTHER_MASS * described:
+                return [
+                    f"starts at {start:.3f} kg/m2, the sample as described has {described:.3f}; "
+                    "where the load cell does not show the sample alone, give `offset`"
+                ]
+    return []
