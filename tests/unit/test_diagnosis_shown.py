@@ -538,7 +538,7 @@ def page_of(root: Path, kind: str) -> tuple[Page, str]:
     study, results = diagnosed(root, kind)
     rectangles(study, results)
     report.write_page(study, results)
-    text = results.diagnosis("report.html").read_text()
+    text = results.diagnosis("report.html").read_text().replace("\xa0", " ")
     return Page(text), text
 
 
@@ -575,7 +575,7 @@ def test_page_says_the_numbers(tmp_path: Path) -> None:
         f"{equation}. The last effect gains 1650; a claim needs 12.4."
     ) in words
     assert "goes from 5 to 1 (fitted) and from 5 to 1 (held out)" in words
-    assert "cp rests at a limit" in words
+    assert "cp is at a limit" in words
     assert "+12.0 (slab_60 from the others) and -1.5 (what is held out)" in words
 
 

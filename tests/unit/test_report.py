@@ -59,7 +59,7 @@ def written(root: Path, given: dict[str, Any] | None = None) -> tuple[Page, str]
             write_text(root / "figures" / f"{name}.svg", '<svg width="240.95pt"><rect/></svg>')
     write_tables(study, results)
     write_report(study, results)
-    text = (root / "report.html").read_text()
+    text = (root / "report.html").read_text().replace("\xa0", " ")
     return Page(text), text
 
 

@@ -271,7 +271,7 @@ def test_closure_with_unknown_density_gives_the_density_it_would_take(tmp_path: 
         "slab_25: released 0.060 kg/m², 15 kg/m³ over the 4 mm of the sample; "
         "initial mass not given, density to be estimated"
     )
-    assert lines[2] == "slab_25 and slab_60: equal samples, released masses 0.0% apart"
+    assert lines[2] == "slab_25 and slab_60: equal samples, released masses 0.0 % apart"
 
 
 def test_closure_with_given_sample_mass_says_the_share(tmp_path: Path) -> None:

@@ -59,7 +59,7 @@ def _line(study: Study, name: str, signal: str, released: float, several: bool) 
             layers = _reacting(study, experiment, values)
             initial = _mass(study, experiment, layers, values)
     if initial is not None:
-        return f"{said} of {initial:.3f} kg/m² ({released / initial:.1%})".replace("%", " %")
+        return f"{said} of {initial:.3f} kg/m² ({100.0 * released / initial:.1f} %)"
     return (
         f"{said} kg/m², {released / thickness:.0f} kg/m³ over the {thickness * 1e3:g} mm of the "
         "sample; initial mass not given, density to be estimated"
@@ -129,5 +129,6 @@ def _spread(study: Study, released: Mapping[Record, float]) -> list[str]:
             same &= one.sample.density_factor == other.sample.density_factor
             if a[0] != b[0] and alike and same:
                 apart = abs(released[a] - released[b]) / max(released[a], released[b])
-                lines.append(f"{a[0]} and {b[0]}: equal samples, released masses {apart:.1%} apart")
+                said = f"{a[0]} and {b[0]}: equal samples, released masses"
+                lines.append(f"{said} {100.0 * apart:.1f} % apart")
     return lines

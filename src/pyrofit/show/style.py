@@ -57,6 +57,7 @@ STYLE: dict[str, Any] = {
     "font.family": "DejaVu Sans",
     "font.size": 8,
     "mathtext.default": "regular",
+    "axes.formatter.use_mathtext": True,
     "axes.titlesize": 8,
     "axes.labelsize": 8,
     "figure.titlesize": 9,

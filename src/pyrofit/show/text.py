@@ -1,6 +1,7 @@
 """Numbers, lists and tables as text."""
 
 import math
+import re
 from collections.abc import Iterator, Mapping, Sequence
 
 import pandas as pd
@@ -26,6 +27,18 @@ def number(value: object) -> str:
     if not 1e-4 <= size < 1e6:
         return f"{value:.3e}"
     return f"{value:.{max(1, 3 - math.floor(math.log10(size)))}f}"
+
+
+def typeset(text: str) -> str:
+    r"""Set a text for a page: raise the powers of metres, keep a number and its unit together.
+
+    >>> typeset("6.9 kg/m3, 8 % of the mean")
+    '6.9\xa0kg/m³, 8\xa0% of the mean'
+    """
+    raised = re.sub(r"(?<=[/( ])m([23])\b", lambda power: "m" + "²³"[int(power[1]) - 2], text)
+    return re.sub(
+        r"(?<=\d) (?=%|°C|(?:K|s|sd|mm)\b|[A-Za-z]+/)|(?<=[\w²]) (?=[Ks]\))", "\xa0", raised
+    )
 
 
 def plain_rows(frame: pd.DataFrame) -> list[list[object]]:

@@ -16,6 +16,7 @@ from pyrofit.results.files import Results
 from pyrofit.results.identification import estimates
 from pyrofit.show import style
 from pyrofit.show.figure import Figure
+from pyrofit.show.text import typeset
 
 _WIDTH = 0.5
 """Width over which the repetitions of a cost function are laid out, in columns."""
@@ -51,7 +52,7 @@ def spread(study: Study, results: Results) -> Canvas:
     found = ends(study, searches.read(study, results, OPTIMISERS))
     intervals = estimates(study, results)
     canvas, axes = style.panels(len(names), 3, style.TWO_COLUMNS, 46.0)
-    style.letter(axes, [f"{name} [{study.parameters[name].unit}]" for name in names])
+    style.letter(axes, [typeset(f"{name} [{study.parameters[name].unit}]") for name in names])
     for ax, name in zip(axes, names, strict=True):
         _draw_spread(ax, study, found, intervals, name)
     style.legend_below(canvas, _spread_entries(study))

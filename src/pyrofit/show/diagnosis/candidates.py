@@ -68,7 +68,7 @@ TABLE = Table(
     "anew. Gain: fall of chi-square below that of the model with one effect less. Above best: "
     "penalised chi-square, log(points) for each parameter of an effect. Predictions: gain of "
     "the log score where an experiment is left out or held out; above 0 is better than "
-    "without the effect, 2 counts.",
+    "without the effect, and 2 is needed.",
     headings={
         "chi2": "chi-square",
         "above_best": "above best",

@@ -94,9 +94,9 @@ def certainty(study: Study, found: Found) -> str:
     """Say what speaks for the verdict besides the fit, and what against it."""
     chosen = leading(found)
     bound = [name for name, p in found["base"]["parameters"].items() if p["at_limit"]]
-    said = [f"Of the base model, {listed(bound)} rest at a limit."] if len(bound) > 1 else []
-    said += [f"Of the base model, {bound[0]} rests at a limit."] if len(bound) == 1 else []
-    said += [] if bound else ["No parameter of the base model rests at a limit."]
+    said = [f"Of the base model, {listed(bound)} are at a limit."] if len(bound) > 1 else []
+    said += [f"Of the base model, {bound[0]} is at a limit."] if len(bound) == 1 else []
+    said += [] if bound else ["No parameter of the base model is at a limit."]
     said += _of_noise(study, found)
     if chosen is None:
         return " ".join(said)
@@ -105,13 +105,15 @@ def certainty(study: Study, found: Found) -> str:
         said.append(f"With the effects found the model leaves {left}.")
     if chosen.get("disagree") is not None:
         said.append(
-            "That the strength differs from one experiment to another as much as it does has the "
-            f"probability {number(chosen['disagree'])} if it is the same in all."
+            "If the strength were equal in all experiments, differences as large as those found "
+            f"would occur with probability {number(chosen['disagree'])}."
         )
     gains = [
         f"{gain:+.1f} ({_predicted(study, name)})" for name, gain in chosen["predictions"].items()
     ]
-    said += [f"The log score of predictions changes by {listed(gains)}; 2 counts."] * bool(gains)
+    said += [
+        f"The log score of predictions changes by {listed(gains)}; a claim needs a rise of 2."
+    ] * bool(gains)
     return " ".join(said)
 
 

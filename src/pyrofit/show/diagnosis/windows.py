@@ -53,10 +53,11 @@ TABLE = Table(
     applies=always,
     make=windows,
     title="Where model and measurement disagree",
-    note="Stretches of a curve that are to one side by more than noise would put any, in 99 of "
-    "100 studies. Temperature: of the surface, in TGA of the programme. Conversion: share of "
-    "all that is released in the record. Difference: mean of simulated minus measured, also in "
-    "per cent of the measured mean; the simulation lies above where it is positive.",
+    note="Intervals in which the residuals are biased more strongly than noise explains: in a "
+    "study without misfit, 1 % would show any. Temperature: of the surface, in TGA of the "
+    "programme. Conversion: share of all that is released in the record. Difference: mean of "
+    "simulated minus measured, also in per cent of the measured mean; the simulation lies above "
+    "where it is positive.",
     headings={
         "time_s": "time [s]",
         "temperature_C": "temperature [°C]",

@@ -13,6 +13,7 @@ from pyrofit.results.files import Results, read_csv
 from pyrofit.results.identification import WITHIN, estimates, noise
 from pyrofit.show import style
 from pyrofit.show.figure import Figure
+from pyrofit.show.text import typeset
 
 _PARABOLA: dict[str, Any] = {"color": "0.45", "linestyle": (0, (4, 2)), "linewidth": 1.0}
 
@@ -74,7 +75,7 @@ def _draw_profile(
         if x[0] <= bound <= x[-1]:
             ax.axvline(bound, **_LIMIT, clip_on=False)
     ax.xaxis.set_major_locator(MaxNLocator(4))
-    ax.set_xlabel(f"{row['parameter']} [{parameter.unit}]")
+    ax.set_xlabel(typeset(f"{row['parameter']} [{parameter.unit}]"))
 
 
 def _entries(dispersion: float) -> list[Any]:

@@ -15,6 +15,7 @@ from pyrofit.results.code_digests import code
 from pyrofit.results.recorded import Measured
 from pyrofit.show import measured as measurements
 from pyrofit.show.parts import Part, Shown
+from pyrofit.show.text import typeset
 
 
 def page_of(
@@ -50,13 +51,15 @@ def page_of(
 
 
 def _templates() -> Environment:
-    return Environment(
+    templates = Environment(
         loader=PackageLoader("pyrofit.show.page", "."),
         autoescape=select_autoescape(("html", "html.j2")),
         undefined=StrictUndefined,
         trim_blocks=True,
         lstrip_blocks=True,
     )
+    templates.filters["typeset"] = typeset
+    return templates
 
 
 def provenance(study: Study, measured: Measured) -> dict[str, Any]:
