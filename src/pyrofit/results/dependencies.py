@@ -155,12 +155,11 @@ def imp(study: Study, cost: str, optimiser: str) -> dict[str, Any]:
 def identify(study: Study) -> dict[str, Any]:
     """Channels, parameters and material of the analysis of what the data determine."""
     stage = study.imp
-    channels = stage.channels
-    used = sorted({c.experiment for c in channels})
+    used = sorted({c.experiment for c in stage.channels})
     material = study.material_with(stage.kinetics)
     names = parameters_in(material, *(study.experiments[n] for n in used))
     return {
-        "channels": [c.model_dump() for c in channels],
+        "channels": [c.model_dump() for c in stage.channels],
         "experiments": {n: _measured(study, n) for n in used},
         "material": material.model_dump(),
         "parameters": _parameters(study, names | set(stage.estimate)),
@@ -201,9 +200,8 @@ def diagnose(study: Study) -> dict[str, Any]:
 
 def validation(study: Study) -> dict[str, Any]:
     """Predicted experiments, and the material they are predicted with."""
-    names = list(study.of_stage("imp"))
     return {
-        "experiments": {n: _experiment(study, n) for n in names},
+        "experiments": {n: _experiment(study, n) for n in study.of_stage("imp")},
         "material": study.material_with(study.imp.kinetics).model_dump(),
         "estimate": study.imp.estimate,
         "parameters": _values(study),
