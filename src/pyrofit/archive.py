@@ -9,7 +9,7 @@ import hashlib
 import io
 import re
 import zipfile
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Iterable, Iterator, Mapping, Sequence
 from pathlib import Path
 from typing import Any
 
@@ -30,7 +30,7 @@ Entries = dict[str, bytes]
 """Contents by name in the archive."""
 
 _PAGES = ("study.json", "provenance.json", "report.html")
-_LEFT_OUT = ("logs", "benchmarks")
+_LEFT_OUT = ("logs", "benchmarks", "running")
 """Folders of results that differ from run to run."""
 _SOFTWARE = (
     "CITATION.cff",
@@ -70,6 +70,7 @@ def write_archive(study: Study, results: Results, given: Sequence[Path], project
     origin = read_json(results.root / "provenance.json", {("data",): dict})
     _check_origin(study, results, origin)
     own = _places("data", study.own_files)
+    _check_files(own, origin["data"])
     # Programs find them by name: where two have the same, another folder keeps one.
     of_programs = _places("programs", program_files(study), "/")
     entries: Entries = {"study.yaml": _study_file(study, own | of_programs).encode()}
@@ -101,6 +102,16 @@ def _check_origin(study: Study, results: Results, origin: Mapping[str, Any]) -> 
             raise DataError(
                 f"{results.root}: {what} changed since these results were made; run the workflow "
                 "again, then archive"
+            )
+
+
+def _check_files(own: Iterable[str], read: Mapping[str, Any]) -> None:
+    """Refuse measured files that are not those that the results were made from."""
+    sums = {entry["source"]: entry["sha256"] for entry in read.values() if entry.get("sha256")}
+    for file in own:
+        if file in sums and hashlib.sha256(_bytes(Path(file))).hexdigest() != sums[file]:
+            raise DataError(
+                f"{file}: this file changed since it was read; run the workflow again, then archive"
             )
 
 

@@ -1,5 +1,6 @@
 """What an archive must leave out, and what it refuses."""
 
+import hashlib
 import json
 import shutil
 import zipfile
@@ -116,6 +117,25 @@ def test_two_files_of_one_name_have_two_places(tmp_path: Path) -> None:
     }
     assert "file: data/tga.csv" in held["study.yaml"]
     assert "file: data/1_tga.csv" in held["study.yaml"]
+
+
+def test_measured_file_that_was_replaced_after_the_run_is_not_packed(tmp_path: Path) -> None:
+    study = read_study(ROOT / "config" / "smoke.yaml")
+    file = tmp_path / "tga.csv"
+    file.write_text("as it was read")
+    signal = study.experiments["tga_5K"].signals["mass_fraction"]
+    own = signal.model_copy(update={"file": file.as_posix()})
+    tga = study.experiments["tga_5K"].model_copy(update={"signals": {"mass_fraction": own}})
+    study = study.model_copy(update={"experiments": {**study.experiments, "tga_5K": tga}})
+    results = results_of(study, tmp_path / "results")
+    origin = json.loads((results.root / "provenance.json").read_text())
+    read = {"source": file.as_posix(), "sha256": hashlib.sha256(file.read_bytes()).hexdigest()}
+    origin["data"] = {"tga_5K/mass_fraction": read}
+    (results.root / "provenance.json").write_text(json.dumps(origin))
+    write_archive(study, results, [], ROOT)
+    file.write_text("replaced")
+    with pytest.raises(DataError, match=r"tga.csv: this file changed since it was read; run"):
+        write_archive(study, results, [], ROOT)
 
 
 def test_plugins_are_packed_and_found_again(tmp_path: Path) -> None:

@@ -1,13 +1,10 @@
 """The workflow as users run it: what runs, what is kept, what runs again."""
 
-import contextlib
 import hashlib
 import json
-import time
 from pathlib import Path
 from typing import Any
 
-import psutil
 import pytest
 from tiny import COSTS, FIT, OWN_FILE, SCORES, TINY, Project, Run
 
@@ -211,38 +208,6 @@ def test_change_of_the_tga_fit_alone_runs_nothing_else_again(
     changed[stage][key] = value or {**study[stage][key], "upper": 650}
     project.write(changed)
     assert project.plan(SCORES, FIT) == {KINETICS}
-
-
-# --- interruption ---------------------------------------------------------------------------
-
-
-def kill(process: psutil.Process) -> None:
-    """Kill a process and all it started, as a power cut would."""
-    for one in [process, *process.children(recursive=True)]:
-        with contextlib.suppress(psutil.NoSuchProcess):
-            one.kill()
-
-
-def test_killed_run_goes_on_to_the_same_bits_on_another_number_of_cores(
-    finished: tuple[Project, Run], tmp_path: Path
-) -> None:
-    project = Project.copy(finished[0].root, tmp_path / "project")
-    with project.start("--cores", "2", SCORES) as process:
-        imp = project.root / "results" / "tiny" / "imp"
-        give_up = time.monotonic() + 300.0
-        while process.poll() is None and not list(imp.glob("*/*.json")):
-            assert time.monotonic() < give_up
-            time.sleep(0.02)
-        kill(psutil.Process(process.pid))
-        process.communicate()
-    assert process.returncode != 0
-    assert not (project.root / SUMMARY).exists()
-    resumed = project.snakemake("--cores", "1", SCORES)
-    assert resumed.code == 0, resumed.said
-    assert PREPARE not in resumed.jobs
-    assert COLLECT in resumed.jobs
-    for name in (FIT, SUMMARY, SCORES):
-        assert project.read(name) == finished[0].read(name), name
 
 
 # --- mistakes -------------------------------------------------------------------------------

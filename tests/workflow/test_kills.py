@@ -1,0 +1,153 @@
+"""A run may be killed at any moment: the same command goes on to the same bits."""
+
+import contextlib
+import hashlib
+import os
+import random
+import re
+import shutil
+import signal
+import subprocess
+import time
+from collections import Counter
+from pathlib import Path
+
+import psutil
+import pytest
+from tiny import FIT, Project, Run
+
+RESULTS = Path("results/tiny")
+OF_THE_RUN = ("logs", "benchmarks", "running")
+"""Folders whose files may differ between two runs."""
+STAGES = (
+    ("measurements",),
+    ("kinetics",),
+    ("imp",),
+    ("identification", "comparison", "validation"),
+    ("tables", "figures", "report.html", "provenance.json"),
+)
+"""Results of each stage."""
+LONGEST_S = 12.0
+"""Longest time between the start of the first job and the kill."""
+
+
+def bits(project: Project) -> dict[str, str]:
+    """Return the digests of all results."""
+    root = project.root / RESULTS
+    return {
+        path.relative_to(root).as_posix(): hashlib.sha256(path.read_bytes()).hexdigest()
+        for path in sorted(root.rglob("*"))
+        if path.is_file()
+        and path.relative_to(root).parts[0] not in OF_THE_RUN
+        and not path.name.endswith(".part")
+    }
+
+
+def kill(process: "subprocess.Popen[str]") -> None:
+    """Kill a run and all it started, as a loss of power would."""
+    for one in psutil.pids():
+        with contextlib.suppress(OSError):
+            if os.getsid(one) == process.pid:
+                os.kill(one, signal.SIGKILL)
+
+
+def lock_of(project: Project) -> bytes:
+    """Return the lock of a run, of a dead one too; nothing if there is none."""
+    try:
+        return project.read(str(RESULTS / "running/run.json"))
+    except FileNotFoundError:
+        return b""
+
+
+def run_and_kill(project: Project, draw: random.Random) -> tuple[str, bool]:
+    """Start or continue the whole study, and kill it; return what it said, and if it was faster."""
+    before = lock_of(project)
+    with project.start("--cores", str(draw.choice([1, 2]))) as process:
+        while process.poll() is None and lock_of(project) in (before, b""):
+            time.sleep(0.01)
+        with contextlib.suppress(subprocess.TimeoutExpired):
+            process.wait(draw.uniform(0.0, LONGEST_S))
+        ended = process.poll() is not None
+        kill(process)
+        said, _ = process.communicate()
+    if ended:
+        assert process.returncode == 0, said
+    return said, ended
+
+
+def begin(project: Project, finished: Project, stage: int) -> None:
+    """Make the project one that has finished all before a stage."""
+    shutil.rmtree(project.root, ignore_errors=True)
+    shutil.copytree(finished.root, project.root)
+    for names in STAGES[stage:]:
+        for name in names:
+            path = project.root / RESULTS / name
+            shutil.rmtree(path) if path.is_dir() else path.unlink()
+
+
+def cut_off(said: str) -> set[str]:
+    """Return the rules that were under way when a run was killed."""
+    begun = dict(re.findall(r"^(?:local)?rule (\w+):\n(?:    .*\n)*?    jobid: (\d+)", said, re.M))
+    done = set(re.findall(r"Finished jobid: (\d+)", said))
+    return {re.sub(r"_\d+$", "", rule) for rule, jobid in begun.items() if jobid not in done}
+
+
+def test_killed_runs_go_on_to_the_same_bits(
+    finished: tuple[Project, Run], tmp_path: Path, request: pytest.FixtureRequest
+) -> None:
+    """One kill that begins with each stage, with --thorough ten; at last a whole study."""
+    each = 10 if request.config.getoption("--thorough") else 1
+    right = bits(finished[0])
+    draw = random.Random(each)
+    project = Project(tmp_path / "project")
+    under_way: Counter[str] = Counter()
+    for stage in reversed(range(len(STAGES))):
+        begin(project, finished[0], stage)
+        done = 0
+        while done < each:
+            said, ended = run_and_kill(project, draw)
+            assert "Traceback" not in said
+            assert bits(project).items() <= right.items()
+            if ended:
+                assert bits(project) == right
+                begin(project, finished[0], stage)
+            else:
+                done += 1
+                under_way.update(cut_off(said))
+        print(f"stage {stage}: {done} kills; cut off so far: {dict(under_way)}", flush=True)
+    last = project.snakemake("--cores", "2")
+    assert last.code == 0, last.said
+    assert bits(project) == right
+
+
+def test_interrupted_run_ends_in_order_and_goes_on(
+    finished: tuple[Project, Run], tmp_path: Path
+) -> None:
+    project = Project.copy(finished[0].root, tmp_path / "project")
+    running = project.root / RESULTS / "running"
+    with project.start("--cores", "1", FIT) as process:
+        while process.poll() is None and not list(running.glob("job_*")):
+            time.sleep(0.01)
+        os.killpg(process.pid, signal.SIGINT)
+        said, _ = process.communicate(timeout=300)
+    assert process.returncode != 0
+    assert "Traceback" not in said
+    assert not running.exists()
+    again = project.snakemake("--cores", "1", FIT)
+    assert again.code == 0, again.said
+    assert project.read(FIT) == finished[0].read(FIT)
+
+
+def test_results_with_times_in_the_future_stay_right(
+    finished: tuple[Project, Run], tmp_path: Path
+) -> None:
+    # As after a clock that was set back while the study ran.
+    shutil.copytree(finished[0].root, tmp_path / "project")
+    project = Project(tmp_path / "project")
+    right = bits(project)
+    future = time.time() + 86400.0
+    for name in ("tga_20K_mass_fraction", "slab_60_mlr"):
+        os.utime(project.root / RESULTS / "measurements" / f"{name}.csv", (future, future))
+    run = project.snakemake("--cores", "2", FIT)
+    assert run.code == 0, run.said
+    assert bits(project) == right
