@@ -86,10 +86,10 @@ def begin(project: Project, finished: Project, stage: int) -> None:
 
 
 def cut_off(said: str) -> set[str]:
-    """Return the rules that were under way when a run was killed."""
-    begun = dict(re.findall(r"^(?:local)?rule (\w+):\n(?:    .*\n)*?    jobid: (\d+)", said, re.M))
+    """Return the jobs that were under way when a run was killed, by the first word of each."""
+    begun = dict(re.findall(r"^(?:Job|local job) (\d+): (\w+)", said, re.M))
     done = set(re.findall(r"Finished jobid: (\d+)", said))
-    return {re.sub(r"_\d+$", "", rule) for rule, jobid in begun.items() if jobid not in done}
+    return {word for jobid, word in begun.items() if jobid not in done}
 
 
 def test_killed_runs_go_on_to_the_same_bits(
