@@ -9,7 +9,7 @@ import hashlib
 import io
 import re
 import zipfile
-from collections.abc import Iterable, Iterator, Mapping, Sequence
+from collections.abc import Container, Iterator, Mapping, Sequence
 from pathlib import Path
 from typing import Any
 
@@ -105,14 +105,12 @@ def _check_origin(study: Study, results: Results, origin: Mapping[str, Any]) -> 
             )
 
 
-def _check_files(own: Iterable[str], read: Mapping[str, Any]) -> None:
+def _check_files(own: Container[str], read: Mapping[str, Any]) -> None:
     """Refuse measured files that are not those that the results were made from."""
-    sums = {entry["source"]: entry["sha256"] for entry in read.values() if entry.get("sha256")}
-    for file in own:
-        if file in sums and hashlib.sha256(_bytes(Path(file))).hexdigest() != sums[file]:
-            raise DataError(
-                f"{file}: this file changed since it was read; run the workflow again, then archive"
-            )
+    for entry in read.values():
+        file = entry["source"]
+        if file in own and hashlib.sha256(_bytes(Path(file))).hexdigest() != entry["sha256"]:
+            raise DataError(f"{file}: changed since it was read; run the workflow again")
 
 
 def _readme(study: Study, origin: Mapping[str, Any]) -> str:

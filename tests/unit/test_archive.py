@@ -134,7 +134,7 @@ def test_measured_file_that_was_replaced_after_the_run_is_not_packed(tmp_path: P
     (results.root / "provenance.json").write_text(json.dumps(origin))
     write_archive(study, results, [], ROOT)
     file.write_text("replaced")
-    with pytest.raises(DataError, match=r"tga.csv: this file changed since it was read; run"):
+    with pytest.raises(DataError, match=r"tga.csv: changed since it was read; run"):
         write_archive(study, results, [], ROOT)
 
 
