@@ -37,6 +37,7 @@ FILES = {
     "test_macfp_submission": "solver",
     "test_noise": "slow",
     "test_reaction_order": "solver",
+    "test_ready_timing": "solver",
     "test_robustness": "solver",
     "test_slab_quantities": "solver",
     "test_stages": "solver",

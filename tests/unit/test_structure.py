@@ -35,7 +35,7 @@ ORDER = [
     {"stages"},
     {"exchange"},
     {"new_study"},
-    {"doctor"},
+    {"doctor", "ready"},
     {"show"},
     {"archive", "archive_texts", "blind_test"},
     {"cli"},

@@ -29,7 +29,7 @@ class Parser(argparse.ArgumentParser):
 
 
 def main(arguments: Sequence[str] | None = None) -> int:
-    """Run a command; return 0, or 2 with a message where the user can repair something."""
+    """Run a command; return its status, or 2 with a message where the user can repair something."""
     # Threads of linear algebra would get in the way of the workflow's jobs, and change last bits:
     # Snakemake asks for as many as a job has cores.
     os.environ["OPENBLAS_NUM_THREADS"] = "1"
@@ -59,14 +59,14 @@ def main(arguments: Sequence[str] | None = None) -> int:
 def _run(given: argparse.Namespace) -> int:
     try:
         with _interruptible(), contextlib.ExitStack() as given.until_end:
-            given.step(given)
+            status: int = given.step(given) or 0
+            return status
     except PyrofitError as error:
         print(f"error: {error}", file=sys.stderr)
         return 2
     except KeyboardInterrupt:
         print("interrupted; run again to go on, finished parts are kept", file=sys.stderr)
         return 130
-    return 0
 
 
 @contextlib.contextmanager

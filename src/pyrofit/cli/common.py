@@ -7,7 +7,7 @@ from typing import Any
 
 from pyrofit.errors import StudyError, suggest
 
-Step = Callable[[argparse.Namespace], None]
+Step = Callable[[argparse.Namespace], int | None]
 
 
 def add_step(commands: Any, name: str, text: str, step: Step) -> argparse.ArgumentParser:

@@ -41,6 +41,15 @@ def add(commands: Any) -> None:
     check.add_argument("study", type=Path, help="study file (YAML)")
     check.set_defaults(step=_check)
 
+    ready = commands.add_parser("doctor", help="say whether all is there that a run needs")
+    ready.add_argument("study", type=Path, nargs="?", help="study file; without: the machine alone")
+    ready.add_argument("--results", type=Path, help="results folder; default results/<name>")
+    ready.add_argument("--cores", type=int, help="jobs at once; default: those of the profile")
+    ready.add_argument(
+        "--profile", type=Path, metavar="FOLDER", help="Snakemake profile, such as profiles/slurm"
+    )
+    ready.set_defaults(step=_ready)
+
 
 def _fetch(given: argparse.Namespace) -> None:
     from pyrofit.data.fetch import fetch, store
@@ -129,3 +138,13 @@ def _check(given: argparse.Namespace) -> None:
         f"{given.study}: study '{study.name}' is valid; {read} measured series read; "
         f"{runs} repetitions in all"
     )
+
+
+def _ready(given: argparse.Namespace) -> int:
+    from pyrofit.ready.report import findings
+
+    worst = 0
+    for finding in findings(given.study, given.results, given.cores, given.profile):
+        print(finding, flush=True)
+        worst = max(worst, finding.level == "error")
+    return int(worst)

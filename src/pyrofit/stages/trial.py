@@ -8,6 +8,7 @@ import numpy as np
 from pyrofit.analysis.good_sets import SWEEPS, WALKERS
 from pyrofit.config import Study, TermSpec
 from pyrofit.config.programs import externals
+from pyrofit.config.stages import Imp, Kinetics
 from pyrofit.errors import ProgramError
 from pyrofit.estimate.targets import Measurements
 from pyrofit.experiments import kind_of
@@ -128,15 +129,21 @@ def planned_calls(study: Study) -> Iterator[tuple[str, float, tuple[TermSpec, ..
     generations; CMA-ES at most what its settings allow.
     """
     stage, n = study.imp, len(study.imp.estimate)
-    points = (2 * n + 1) * (stage.sceua.complexes or n)
-    sceua = points * (1.0 + CALLS_PER_ROW * (stage.sceua.generations - 1))
-    squares = stage.least_squares.starts * STEPS * (2 * n + 1)
+    sceua, squares = search_calls(stage)
     for cost, terms in stage.costs.items():
         yield f"SCE-UA, {cost}", stage.repetitions * sceua, terms
         yield f"least squares, {cost}", squares, terms
         yield f"CMA-ES, {cost}", float(stage.cmaes.starts * stage.cmaes.calls), terms
         yield f"good sets, {cost}", float(WALKERS * SWEEPS), terms
     yield "what the data determine", float(ANALYSIS * (2 * n + 1)), stage.channels
+
+
+def search_calls(stage: Imp | Kinetics) -> tuple[float, int]:
+    """Return about how many model calls a search of SCE-UA, and all of least squares, make."""
+    n = len(stage.estimate)
+    points = (2 * n + 1) * (stage.sceua.complexes or n)
+    sceua = points * (1.0 + CALLS_PER_ROW * (stage.sceua.generations - 1))
+    return sceua, stage.least_squares.starts * STEPS * (2 * n + 1)
 
 
 def _seconds(study: Study, terms: tuple[TermSpec, ...], seconds: Mapping[str, float]) -> float:

@@ -1,0 +1,65 @@
+"""How many model calls and jobs a study plans, and how much it will write.
+
+Sizes are those of finished studies with 5 to 9 parameters (`twin`, `pmma`, `paper`).
+"""
+
+from collections.abc import Iterator
+from dataclasses import dataclass
+
+from pyrofit.config import Study
+from pyrofit.stages.trial import search_calls
+
+SIDE_BY_SIDE = 8
+"""Repetitions of one job, as the workflow groups them."""
+BYTES_PER_NUMBER = 11
+"""Size of a number in a compressed history; 10.1 to 10.4 were measured."""
+BYTES_BESIDE = 40_000_000
+"""Tables, figures, predictions and the report of a study; 9 to 23 MB were measured."""
+
+
+@dataclass(frozen=True)
+class Part:
+    """The searches on one cost.
+
+    Parameters
+    ----------
+    cost
+        Name of the cost; "" is the kinetics stage.
+    alone, together
+        Model calls one by one, and in batches of eight.
+    jobs
+        Number of jobs.
+    """
+
+    cost: str
+    alone: float
+    together: float
+    jobs: int
+
+
+def parts_of(study: Study) -> Iterator[Part]:
+    """Yield the searches of a study."""
+    if study.kinetics is not None:
+        calls = search_calls(study.kinetics)
+        yield Part("", calls[0], calls[1], jobs=1)
+    stage = study.imp
+    single = stage.repetitions % SIDE_BY_SIDE
+    grouped = stage.repetitions - single
+    sceua, squares = search_calls(stage)
+    beside = squares + stage.cmaes.starts * stage.cmaes.calls
+    for cost in stage.costs:
+        yield Part(
+            cost,
+            alone=single * sceua,
+            together=grouped * sceua + beside,
+            jobs=single + grouped // SIDE_BY_SIDE + 2,
+        )
+
+
+def bytes_of(study: Study) -> float:
+    """Return how much a study writes, about."""
+    stage = study.imp
+    numbers = sum(len(stage.estimate) + len(terms) for terms in stage.costs.values())
+    rows = stage.repetitions * search_calls(stage)[0]
+    # An archive and the report hold most files once more.
+    return 2.0 * (BYTES_BESIDE + BYTES_PER_NUMBER * numbers * rows)

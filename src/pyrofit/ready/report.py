@@ -1,0 +1,64 @@
+"""All checks, in the order of the report."""
+
+from collections.abc import Iterator
+from pathlib import Path
+from typing import Any
+
+from pyrofit.config import read_mapping, read_study
+from pyrofit.errors import PyrofitError, StudyError
+from pyrofit.ready.data import data
+from pyrofit.ready.finding import Check, Finding, Situation
+from pyrofit.ready.machine import available_cores, cache, cores, disk, memory, versions
+from pyrofit.ready.slurm import slurm
+from pyrofit.ready.timing import duration
+
+CHECKS: list[Check] = [versions, cache, cores, memory, disk, data, slurm, duration]
+USUAL = Path("profiles/default/config.yaml")
+"""The profile that Snakemake takes if none is named."""
+
+
+def findings(
+    source: Path | None, results: Path | None, cores: int | None, profile: Path | None
+) -> Iterator[Finding]:
+    """Yield the findings of all checks.
+
+    Parameters
+    ----------
+    source
+        The study file; None checks the machine alone.
+    results
+        Folder of results; by default ``results/<name>``.
+    cores
+        Jobs at once; by default those of the profile.
+    profile
+        Folder of the Snakemake profile; by default the usual one.
+
+    Raises
+    ------
+    StudyError
+        The profile cannot be read.
+    """
+    study = None
+    if source is not None:
+        try:
+            study = read_study(source)
+            yield Finding("ok", "study", f"'{study.name}' is valid")
+        except PyrofitError as error:
+            yield Finding("error", "study", str(error))
+    keys = _profile(profile)
+    at_once = cores or keys.get("jobs") or keys.get("cores") or available_cores()
+    if not isinstance(at_once, int):
+        at_once = available_cores()
+    folder = results or Path("results") / (study.name if study else "")
+    situation = Situation(study, folder, at_once, profile=keys)
+    for check in CHECKS:
+        yield from check(situation)
+
+
+def _profile(folder: Path | None) -> dict[str, Any]:
+    if folder is None:
+        return read_mapping(USUAL) if USUAL.is_file() else {}
+    path = folder / "config.yaml"
+    if not path.is_file():
+        raise StudyError(f"{path}: there is no such profile; name its folder: profiles/slurm")
+    return read_mapping(path)

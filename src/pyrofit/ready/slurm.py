@@ -1,0 +1,75 @@
+"""Check of the cluster: Slurm, the partition of the profile, the plugin."""
+
+import importlib.metadata
+import shutil
+import subprocess
+from collections.abc import Iterator, Mapping
+from typing import Any
+
+from pyrofit.ready.finding import Finding, Level, Situation
+
+PLUGIN = "snakemake-executor-plugin-slurm"
+LONGEST_ANSWER_S = 20.0
+
+
+def slurm(situation: Situation) -> Iterator[Finding]:
+    """Ask `sinfo`; silent where neither a Slurm profile is used nor Slurm is installed."""
+    used, program = situation.on_slurm, shutil.which("sinfo")
+    if not used and program is None:
+        return
+    wrong: Level = "error" if used else "warning"
+    if program is None:
+        text = "the profile is for Slurm, but there is no `sinfo`; run on a login node"
+        yield Finding("error", "slurm", text)
+        return
+    try:
+        there = _partitions(program)
+    except (OSError, subprocess.SubprocessError) as error:
+        said = (getattr(error, "stderr", None) or str(error)).strip().splitlines()[-1]
+        text = f"Slurm does not answer ({said}); run on a login node, or ask your administrators"
+        yield Finding(wrong, "slurm", text)
+        return
+    wanted = partition_of(situation.profile)
+    if not used:
+        text = f"reachable; --profile profiles/slurm checks its partition ({', '.join(there)})"
+        yield Finding("ok", "slurm", text)
+    elif wanted is not None and wanted not in there:
+        text = f"there is no partition '{wanted}'; set slurm_partition to one of {', '.join(there)}"
+        yield Finding("error", "slurm", text)
+    else:
+        yield Finding("ok", "slurm", f"reachable, partition {wanted or 'by default'}")
+    if used:
+        yield _plugin()
+
+
+def _plugin() -> Finding:
+    try:
+        return Finding("ok", "plugin", f"{PLUGIN} {importlib.metadata.version(PLUGIN)}")
+    except importlib.metadata.PackageNotFoundError:
+        return Finding("error", "plugin", f"{PLUGIN} is not installed; pip install {PLUGIN}")
+
+
+def _partitions(program: str) -> list[str]:
+    shown = subprocess.run(
+        [program, "--noheader", "--format=%R"],
+        capture_output=True,
+        text=True,
+        check=True,
+        timeout=LONGEST_ANSWER_S,
+    )
+    return sorted(set(shown.stdout.split()))
+
+
+def partition_of(profile: Mapping[str, Any]) -> str | None:
+    """Return the partition of a profile.
+
+    >>> partition_of({"default-resources": {"slurm_partition": "main"}})
+    'main'
+    >>> partition_of({"default-resources": ["mem_mb=2000", "slurm_partition=long"]})
+    'long'
+    """
+    given = profile.get("default-resources") or {}
+    if not isinstance(given, Mapping):
+        given = dict(str(item).partition("=")[::2] for item in given)
+    found = given.get("slurm_partition")
+    return None if found is None else str(found)

@@ -1,0 +1,138 @@
+"""Check of the compiler and of the time: a few model calls of each cost are timed."""
+
+import time
+from collections.abc import Iterator
+from typing import Any
+
+import numpy as np
+
+from pyrofit.config import Study, true_description
+from pyrofit.config.programs import externals
+from pyrofit.errors import PyrofitError
+from pyrofit.estimate.problem import Problem, make_problem
+from pyrofit.estimate.targets import Measurements
+from pyrofit.experiments import kind_of
+from pyrofit.ready.finding import Finding, Situation
+from pyrofit.ready.plan import SIDE_BY_SIDE, Part, parts_of
+from pyrofit.stages.measurements import with_noise
+from pyrofit.stages.reading import read_all
+
+START_S, START_ON_SLURM_S = 3.0, 10.0
+"""Time that a job needs beside its calculation; on a cluster Snakemake starts anew in each."""
+LONG_H = 24.0
+"""Duration from which there is a warning."""
+
+
+def duration(situation: Situation) -> Iterator[Finding]:
+    """Compile the solver, time it on each cost, and estimate the duration of the fits."""
+    study = situation.study
+    if study is None:
+        return
+    if externals(study):
+        text = "external programs are not run here; `pyrofit trial --study FILE` times them"
+        yield Finding("warning", "time", text)
+        return
+    start = time.perf_counter()
+    try:
+        measured = measurements(study)
+        timed = [(part, *seconds(_problem(study, part, measured))) for part in parts_of(study)]
+    except PyrofitError as error:
+        yield Finding("error", "time", f"the model cannot be timed: {error}")
+        return
+    except Exception as error:  # the compiler has many kinds of errors
+        text = f"{type(error).__name__}: {error}; reinstall with `make .venv/installed`"
+        yield Finding("error", "compiler", text)
+        return
+    took = time.perf_counter() - start
+    yield Finding("ok", "compiler", f"the solver runs; compiling and timing took {took:.0f} s")
+    yield _estimate(situation, timed)
+
+
+def _estimate(situation: Situation, timed: list[tuple[Part, float, float]]) -> Finding:
+    calls = sum(part.alone + part.together for part, _, _ in timed)
+    model = sum(part.alone * alone + part.together * each for part, alone, each in timed)
+    jobs = sum(part.jobs for part, _, _ in timed)
+    start = START_ON_SLURM_S if situation.on_slurm else START_S
+    total = model + jobs * start
+    # No job is divided.
+    cores = min(situation.cores, jobs)
+    text = (
+        f"about {words(total / cores)} for the fits = ({calls:,.0f} model calls x "
+        f"{1e3 * model / calls:.2g} ms + {jobs} jobs x {start:g} s) / {cores} cores; "
+        "tables, figures and a diagnosis come on top"
+    )
+    if total / cores > 3600.0 * LONG_H:
+        way_out = "fewer repetitions, more cores, or a cluster (docs/cluster.md) make it shorter"
+        return Finding("warning", "time", f"{text}; {way_out}")
+    return Finding("ok", "time", text)
+
+
+def seconds(problem: Problem) -> tuple[float, float]:
+    """Return the time of one model call alone, and in a batch of eight [s].
+
+    The sets are random ones within the limits. The first calls, which may compile, do not count.
+    """
+    rng = np.random.default_rng(0)
+    span = problem.upper - problem.lower
+    sets = problem.lower + span * rng.uniform(0.05, 0.95, (SIDE_BY_SIDE, len(problem.names)))
+    problem.evaluate(sets[0])
+    problem.evaluate_all(sets)
+    start = time.perf_counter()
+    problem.evaluate_all(sets)
+    together = time.perf_counter()
+    for x in sets:
+        problem.evaluate(x)
+    end = time.perf_counter()
+    return (end - together) / len(sets), (together - start) / len(sets)
+
+
+def measurements(study: Study) -> Measurements:
+    """Return the measured series; those to be computed come from the fast solver."""
+    series: dict[tuple[str, str], Any] = {key: frame for key, (frame, _) in read_all(study).items()}
+    if not study.is_synthetic:
+        return series
+    values = study.true_values()
+    material, experiments = true_description(study)
+    for name, experiment in experiments.items():
+        kind = kind_of(experiment)
+        wanted = [signal for signal in experiment.signals if study.is_computed(name, signal)]
+        asked = kind.synthetic(experiment, wanted)
+        curves = kind.simulate([experiment], material, values, [asked], study.accuracy)[0][0]
+        for signal, request in asked.items():
+            described = experiment.quantity(signal), experiment.signals[signal].noise
+            rng = np.random.default_rng(0)
+            clean = curves.signals[signal]
+            series[name, signal] = with_noise(described[0], request, clean, described[1], rng)
+    return series
+
+
+def _problem(study: Study, part: Part, measured: Measurements) -> Problem:
+    stage = study.imp
+    if part.cost:
+        estimate, cost = stage.estimate, stage.costs[part.cost]
+        material = study.material_with(stage.kinetics)
+    else:
+        assert study.kinetics is not None
+        estimate, cost, material = study.kinetics.estimate, study.kinetics.cost, study.material
+    return make_problem(study, estimate, cost, measured, material, _values(study))
+
+
+def _values(study: Study) -> dict[str, float]:
+    """Return a value of every parameter: the given one, the true one, or the middle."""
+    middle = {
+        name: 0.5 * sum(p.bounds_si)
+        for name, p in study.parameters.items()
+        if p.lower is not None and p.upper is not None
+    }
+    return middle | study.true_values()
+
+
+def words(seconds: float) -> str:
+    """Return a duration in words.
+
+    >>> words(42.0), words(600.0), words(90_000.0)
+    ('42 s', '10 min', '25 h')
+    """
+    if seconds < 120.0:
+        return f"{seconds:.0f} s"
+    return f"{seconds / 60.0:.0f} min" if seconds < 7200.0 else f"{seconds / 3600.0:.0f} h"

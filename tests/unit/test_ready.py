@@ -1,0 +1,291 @@
+"""`pyrofit doctor`: each fault has its line, with the way out, before a run starts."""
+
+import importlib.metadata
+import re
+import shutil
+from collections.abc import Iterator
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+from pyrofit import cli
+from pyrofit.config import Study, read_study
+from pyrofit.estimate.problem import Evaluation
+from pyrofit.ready import machine, plan, report, slurm
+from pyrofit.ready.data import data
+from pyrofit.ready.finding import Check, Finding, Situation
+from pyrofit.ready.timing import _estimate, duration
+from pyrofit.solver.arrays import Status
+from pyrofit.stages.trial import search_calls
+
+ROOT = Path(__file__).parents[2]
+SMOKE = ROOT / "config" / "smoke.yaml"
+PMMA = ROOT / "config" / "pmma.yaml"
+SLURM = {"executor": "slurm", "default-resources": {"slurm_partition": "main"}}
+SINFO = "#!/bin/sh\necho debug\necho main\n"
+
+
+@pytest.fixture(scope="module")
+def smoke() -> Study:
+    return read_study(SMOKE)
+
+
+def only(check: Check, situation: Situation) -> Finding:
+    (finding,) = check(situation)
+    return finding
+
+
+def program(folder: Path, name: str, text: str, monkeypatch: pytest.MonkeyPatch) -> None:
+    """Put a program in the search path."""
+    path = folder / name
+    path.write_text(text)
+    path.chmod(0o755)
+    monkeypatch.setenv("PATH", f"{folder}:/usr/bin:/bin")
+
+
+def test_package_that_is_not_installed_is_an_error(monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr(machine, "PACKAGES", ("numpy", "no-such-package"))
+    found = next(machine.versions(Situation(None, Path(), 1, ROOT)))
+    assert found.level == "error"
+    assert "no-such-package is not installed; `make .venv/installed`" in found.text
+
+
+def test_other_version_than_the_locked_one_is_a_warning(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    here = importlib.metadata.version("numpy")
+    (tmp_path / "requirements.lock").write_text("numpy==0.1 ; python_version < '3'\n")
+    monkeypatch.setattr(machine, "PACKAGES", ("numpy",))
+    situation = Situation(None, Path(), 1, tmp_path)
+    found = only(machine.versions, situation)
+    assert found.level == "warning"
+    assert f"numpy {here} (locked: 0.1)" in found.text
+    with (tmp_path / "requirements.lock").open("a") as lock:
+        lock.write(f"numpy=={here} ; python_version >= '3'\n")
+    assert only(machine.versions, situation).level == "ok"
+
+
+def test_cache_that_cannot_be_written_is_an_error(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    (tmp_path / "file").touch()
+    places = [tmp_path / "file" / "a", tmp_path / "file" / "b"]
+    monkeypatch.setattr("pyrofit.solver.kernels.cache.folders", lambda: places)
+    found = only(machine.cache, Situation(None, tmp_path, 1))
+    assert found.level == "error"
+    assert f"{places[1]} (Not a directory)" in found.text
+    assert "set NUMBA_CACHE_DIR" in found.text
+    places.append(tmp_path / "good")
+    assert only(machine.cache, Situation(None, tmp_path, 1)).level == "ok"
+
+
+def test_more_jobs_than_cores_are_a_warning(smoke: Study, monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr(machine, "available_cores", lambda: 4)
+    found = only(machine.cores, Situation(smoke, Path(), 9))
+    assert (found.level, found.text.endswith("use --cores 4")) == ("warning", True)
+    assert only(machine.cores, Situation(smoke, Path(), 4)).level == "ok"
+    assert only(machine.cores, Situation(smoke, Path(), 9, profile=SLURM)).level == "ok"
+
+
+def test_too_little_memory_is_an_error_with_the_cores_that_fit(
+    monkeypatch: pytest.MonkeyPatch,
+) -> None:
+    monkeypatch.setattr(machine, "available_memory", lambda: 2.0e9)
+    found = only(machine.memory, Situation(None, Path(), 8))
+    assert (found.level, found.text.endswith("use --cores 2")) == ("error", True)
+    assert only(machine.memory, Situation(None, Path(), 2)).level == "ok"
+    monkeypatch.setattr(machine, "available_memory", lambda: None)
+    assert only(machine.memory, Situation(None, Path(), 2)).level == "warning"
+
+
+def test_too_little_disk_is_an_error(
+    smoke: Study, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    situation = Situation(smoke, tmp_path / "results" / "smoke", 1)
+    assert only(machine.disk, situation).level == "ok"
+    monkeypatch.setattr(machine, "free_bytes", lambda folder: 1e6)
+    found = only(machine.disk, situation)
+    assert found.level == "error"
+    assert found.text.startswith("1 MB free for")
+    assert "make room" in found.text
+    assert only(machine.disk, Situation(None, tmp_path, 1)).level == "warning"
+
+
+def test_results_folder_that_cannot_be_written_is_an_error(tmp_path: Path) -> None:
+    (tmp_path / "results").touch()
+    found = only(machine.disk, Situation(None, tmp_path / "results", 1))
+    assert found.level == "error"
+    assert "results: cannot be written" in found.text
+
+
+def test_missing_measured_files_are_an_error(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setenv("PYROFIT_DATA_DIR", str(tmp_path))
+    found = only(data, Situation(read_study(PMMA), tmp_path, 1))
+    assert found.level == "error"
+    assert "more files of the MaCFP data base are not there; get them with `make data`" in (
+        found.text
+    )
+    assert only(data, Situation(None, tmp_path, 1)).level == "warning"
+    monkeypatch.setenv("PYROFIT_DATA_DIR", str(tmp_path / "nowhere"))
+    assert only(data, Situation(None, tmp_path, 1)).level == "error"
+
+
+def test_wrong_checksum_is_an_error(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    study = read_study(PMMA)
+    for name in study.needs_macfp:
+        (tmp_path / name).parent.mkdir(parents=True, exist_ok=True)
+        (tmp_path / name).write_text("Time,Mass\n")
+    monkeypatch.setenv("PYROFIT_DATA_DIR", str(tmp_path))
+    found = only(data, Situation(study, tmp_path, 1))
+    assert found.level == "error"
+    assert "is registered: the file was altered. Delete it and put" in found.text
+
+
+@pytest.mark.measured
+def test_right_measured_files_are_ok() -> None:
+    found = only(data, Situation(read_study(PMMA), Path(), 1))
+    assert found.level == "ok"
+    assert "files of the MaCFP data base are right" in found.text
+
+
+def test_no_slurm_is_silent_without_and_an_error_with_its_profile(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setenv("PATH", str(tmp_path))
+    assert list(slurm.slurm(Situation(None, Path(), 1))) == []
+    found = only(slurm.slurm, Situation(None, Path(), 1, profile=SLURM))
+    assert (found.level, found.text.endswith("run on a login node")) == ("error", True)
+
+
+def test_unknown_partition_is_an_error_with_the_known_ones(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    program(tmp_path, "sinfo", SINFO, monkeypatch)
+    monkeypatch.setattr(slurm, "PLUGIN", "numpy")
+    right = list(slurm.slurm(Situation(None, Path(), 1, profile=SLURM)))
+    assert [f.level for f in right] == ["ok", "ok"]
+    wrong = SLURM | {"default-resources": ["slurm_partition=compute"]}
+    found = next(slurm.slurm(Situation(None, Path(), 1, profile=wrong)))
+    assert found.level == "error"
+    assert "no partition 'compute'; set slurm_partition to one of debug, main" in found.text
+
+
+def test_missing_plugin_is_an_error(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    program(tmp_path, "sinfo", SINFO, monkeypatch)
+    monkeypatch.setattr(slurm, "PLUGIN", "no-such-plugin")
+    _, found = slurm.slurm(Situation(None, Path(), 1, profile=SLURM))
+    assert found.level == "error"
+    assert "pip install no-such-plugin" in found.text
+
+
+def test_slurm_that_does_not_answer_is_told(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    program(tmp_path, "sinfo", "#!/bin/sh\necho 'cannot contact' >&2\nexit 1\n", monkeypatch)
+    used = only(slurm.slurm, Situation(None, Path(), 1, profile=SLURM))
+    assert (used.level, "(cannot contact)" in used.text) == ("error", True)
+    assert only(slurm.slurm, Situation(None, Path(), 1)).level == "warning"
+
+
+class Bowl:
+    """A problem without a simulation: the distance from a point."""
+
+    names = ("a", "b", "c", "d", "e", "f")
+    lower, upper = np.zeros(6), np.ones(6)
+    picks = ("a",)
+
+    def evaluate_all(self, sets: np.ndarray) -> list[Evaluation]:
+        costs = [float(np.sum((x - 0.3) ** 2)) for x in sets]
+        return [Evaluation(cost, (cost,), Status.OK) for cost in costs]
+
+
+def test_planned_calls_and_size_are_those_of_a_search(smoke: Study, tmp_path: Path) -> None:
+    from pyrofit.estimate.sceua import search
+    from pyrofit.results.files import write_csv
+
+    history = search(Bowl(), 3, 12)  # type: ignore[arg-type]
+    settings = smoke.imp.sceua.model_copy(update={"generations": 12, "complexes": None})
+    stage = smoke.imp.model_copy(update={"sceua": settings, "estimate": Bowl.names})
+    assert search_calls(stage)[0] == pytest.approx(len(history), rel=0.15)
+    write_csv(tmp_path / "h.csv.gz", history)
+    planned = plan.BYTES_PER_NUMBER * 7 * search_calls(stage)[0]
+    assert planned == pytest.approx((tmp_path / "h.csv.gz").stat().st_size, rel=0.25)
+
+
+def test_jobs_are_grouped_as_the_workflow_groups_them(smoke: Study) -> None:
+    stage = smoke.imp.model_copy(update={"repetitions": 19})
+    first, *costs = plan.parts_of(smoke.model_copy(update={"imp": stage}))
+    assert (first.cost, first.jobs) == ("", 1)
+    assert [c.jobs for c in costs] == [2 + 3 + 2] * 3
+    rules = (ROOT / "workflow" / "rules" / "imp.smk").read_text()
+    assert re.search(rf"^SIDE_BY_SIDE = .*\b{plan.SIDE_BY_SIDE}$", rules, re.M)
+
+
+def test_duration_is_calls_times_their_time_and_jobs_over_cores() -> None:
+    part = plan.Part("RMSE", alone=1000.0, together=4000.0, jobs=10)
+    found = _estimate(Situation(None, Path(), 2), [(part, 0.02, 0.01)])
+    assert found.level == "ok"
+    # 1000 x 0.02 s + 4000 x 0.01 s + 10 x 3 s = 90 s
+    assert found.text.startswith("about 45 s for the fits = (5,000 model calls x 12 ms + 10 jobs")
+    slow = _estimate(Situation(None, Path(), 2), [(part, 20.0, 40.0)])
+    assert (slow.level, "docs/cluster.md" in slow.text) == ("warning", True)
+
+
+def test_external_programs_are_left_to_the_trial() -> None:
+    study = read_study(ROOT / "config" / "hotplate.yaml")
+    found = only(duration, Situation(study, Path(), 1))
+    assert found.level == "warning"
+    assert "`pyrofit trial --study" in found.text
+
+
+def good(situation: Situation) -> Iterator[Finding]:
+    yield Finding("ok", "some", "thing")
+
+
+def bad(situation: Situation) -> Iterator[Finding]:
+    yield Finding("error", "other", "thing")
+
+
+def test_status_is_1_on_an_error_alone(
+    monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
+) -> None:
+    monkeypatch.setattr(report, "CHECKS", [good])
+    assert cli.main(["doctor", str(SMOKE)]) == 0
+    assert capsys.readouterr().out.splitlines()[0] == "ok       study     'smoke' is valid"
+    monkeypatch.setattr(report, "CHECKS", [bad, good])
+    assert cli.main(["doctor", str(SMOKE)]) == 1
+    assert len(capsys.readouterr().out.splitlines()) == 3
+
+
+def test_wrong_study_is_an_error_and_the_machine_is_checked_all_the_same(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
+) -> None:
+    monkeypatch.setattr(report, "CHECKS", [good])
+    assert cli.main(["doctor", str(tmp_path / "none.yaml")]) == 1
+    first, second = capsys.readouterr().out.splitlines()
+    assert first.startswith("error    study")
+    assert second == "ok       some      thing"
+
+
+def test_profile_gives_the_jobs_at_once(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
+) -> None:
+    seen: list[Situation] = []
+
+    def look(situation: Situation) -> Iterator[Finding]:
+        seen.append(situation)
+        return iter(())
+
+    monkeypatch.setattr(report, "CHECKS", [look])
+    assert cli.main(["doctor", "--profile", str(ROOT / "profiles" / "slurm")]) == 0
+    assert seen[0].on_slurm
+    assert seen[0].cores == seen[0].profile["jobs"]
+    assert cli.main(["doctor", "--profile", str(tmp_path)]) == 2
+    assert "there is no such profile; name its folder" in capsys.readouterr().err
+    shutil.copytree(ROOT / "profiles", tmp_path / "profiles")
+    monkeypatch.chdir(tmp_path)
+    assert cli.main(["doctor"]) == 0
+    assert (seen[1].cores, seen[1].on_slurm) == (2, False)
