@@ -1,5 +1,7 @@
 """One finished run, shared by all tests of the workflow."""
 
+import shutil
+
 import pytest
 from tiny import ROOT, TINY, Project, Run
 
@@ -10,7 +12,14 @@ def finished(tmp_path_factory: pytest.TempPathFactory) -> tuple[Project, Run]:
     project = Project.copy(ROOT, tmp_path_factory.mktemp("finished") / "project")
     run = project.snakemake("--cores", "2")
     assert run.code == 0, run.said
+    shutil.copytree(project.root, project.root.with_name("untouched"))
     return project, run
+
+
+@pytest.fixture(scope="session")
+def untouched(finished: tuple[Project, Run]) -> Project:
+    """Return a copy of the finished project that no test changes."""
+    return Project(finished[0].root.with_name("untouched"))
 
 
 @pytest.fixture

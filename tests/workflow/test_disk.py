@@ -9,7 +9,7 @@ from pathlib import Path
 
 import pytest
 from test_kills import RESULTS, bits
-from tiny import FIT, Project, Run
+from tiny import FIT, Project
 
 STUDY = ("--study", str(RESULTS / "study.json"))
 STEPS = {
@@ -31,11 +31,11 @@ ROOM = 400
 
 @pytest.fixture(scope="module")
 def whole(
-    finished: tuple[Project, Run], tmp_path_factory: pytest.TempPathFactory
+    untouched: Project, tmp_path_factory: pytest.TempPathFactory
 ) -> tuple[Project, dict[str, str]]:
     """Return a copy of the finished project, with the digests of its results."""
     to = tmp_path_factory.mktemp("disk") / "project"
-    shutil.copytree(finished[0].root, to)
+    shutil.copytree(untouched.root, to)
     return Project(to), bits(Project(to))
 
 
@@ -78,9 +78,9 @@ def test_step_on_a_full_disk_says_so_and_completes_when_there_is_room(
 
 
 @pytest.fixture
-def small_disk(finished: tuple[Project, Run], tmp_path: Path) -> Iterator[Project]:
+def small_disk(untouched: Project, tmp_path: Path) -> Iterator[Project]:
     """Return a project whose results lie on a file system of 64 kB."""
-    project = Project.copy(finished[0].root, tmp_path / "project")
+    project = Project.copy(untouched.root, tmp_path / "project")
     results = project.root / "results"
     results.mkdir()
     if not mounted("-t", "tmpfs", "-o", "size=64k", "tmpfs", str(results)):
@@ -96,7 +96,7 @@ def mounted(*arguments: str) -> bool:
 
 
 def test_run_on_a_small_disk_and_a_read_only_one_goes_on_when_there_is_room(
-    small_disk: Project, finished: tuple[Project, Run]
+    small_disk: Project, untouched: Project
 ) -> None:
     results = str(small_disk.root / "results")
     filling = Path(results) / "filling"
@@ -114,4 +114,4 @@ def test_run_on_a_small_disk_and_a_read_only_one_goes_on_when_there_is_room(
     assert mounted("-o", "remount,rw,size=10m", results)
     again = small_disk.snakemake("--cores", "1", FIT)
     assert again.code == 0, again.said
-    assert small_disk.read(FIT) == finished[0].read(FIT)
+    assert small_disk.read(FIT) == untouched.read(FIT)

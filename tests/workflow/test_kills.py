@@ -14,7 +14,7 @@ from pathlib import Path
 
 import psutil
 import pytest
-from tiny import FIT, Project, Run
+from tiny import FIT, Project
 
 RESULTS = Path("results/tiny")
 OF_THE_RUN = ("logs", "benchmarks", "running")
@@ -93,16 +93,16 @@ def cut_off(said: str) -> set[str]:
 
 
 def test_killed_runs_go_on_to_the_same_bits(
-    finished: tuple[Project, Run], tmp_path: Path, request: pytest.FixtureRequest
+    untouched: Project, tmp_path: Path, request: pytest.FixtureRequest
 ) -> None:
     """One kill that begins with each stage, with --thorough ten; at last a whole study."""
     each = 10 if request.config.getoption("--thorough") else 1
-    right = bits(finished[0])
+    right = bits(untouched)
     draw = random.Random(each)
     project = Project(tmp_path / "project")
     under_way: Counter[str] = Counter()
     for stage in reversed(range(len(STAGES))):
-        begin(project, finished[0], stage)
+        begin(project, untouched, stage)
         done = 0
         while done < each:
             said, ended = run_and_kill(project, draw)
@@ -110,7 +110,7 @@ def test_killed_runs_go_on_to_the_same_bits(
             assert bits(project).items() <= right.items()
             if ended:
                 assert bits(project) == right
-                begin(project, finished[0], stage)
+                begin(project, untouched, stage)
             else:
                 done += 1
                 under_way.update(cut_off(said))
@@ -120,10 +120,8 @@ def test_killed_runs_go_on_to_the_same_bits(
     assert bits(project) == right
 
 
-def test_interrupted_run_ends_in_order_and_goes_on(
-    finished: tuple[Project, Run], tmp_path: Path
-) -> None:
-    project = Project.copy(finished[0].root, tmp_path / "project")
+def test_interrupted_run_ends_in_order_and_goes_on(untouched: Project, tmp_path: Path) -> None:
+    project = Project.copy(untouched.root, tmp_path / "project")
     running = project.root / RESULTS / "running"
     with project.start("--cores", "1", FIT) as process:
         while process.poll() is None and not list(running.glob("job_*")):
@@ -135,14 +133,12 @@ def test_interrupted_run_ends_in_order_and_goes_on(
     assert not running.exists()
     again = project.snakemake("--cores", "1", FIT)
     assert again.code == 0, again.said
-    assert project.read(FIT) == finished[0].read(FIT)
+    assert project.read(FIT) == untouched.read(FIT)
 
 
-def test_results_with_times_in_the_future_stay_right(
-    finished: tuple[Project, Run], tmp_path: Path
-) -> None:
+def test_results_with_times_in_the_future_stay_right(untouched: Project, tmp_path: Path) -> None:
     # As after a clock that was set back while the study ran.
-    shutil.copytree(finished[0].root, tmp_path / "project")
+    shutil.copytree(untouched.root, tmp_path / "project")
     project = Project(tmp_path / "project")
     right = bits(project)
     future = time.time() + 86400.0

@@ -10,7 +10,7 @@ from collections.abc import Iterator
 from pathlib import Path
 
 import pytest
-from tiny import FIT, OWN_FILE, TINY, Project, Run
+from tiny import FIT, OWN_FILE, Project
 
 from pyrofit.running.frozen import FROZEN
 from pyrofit.running.lock import TOKEN, end_run, start_run
@@ -33,9 +33,9 @@ def wait_for(project: Project, name: str, process: "subprocess.Popen[str]") -> N
 
 
 def test_second_run_is_refused_and_edits_in_mid_run_change_nothing(
-    finished: tuple[Project, Run], tmp_path: Path
+    untouched: Project, tmp_path: Path
 ) -> None:
-    project = Project.copy(finished[0].root, tmp_path / "project")
+    project = Project.copy(untouched.root, tmp_path / "project")
     with project.start("--cores", "1", FIT) as process:
         wait_for(project, SERIES, process)
         os.killpg(process.pid, signal.SIGSTOP)  # that it may not end too early
@@ -54,7 +54,7 @@ def test_second_run_is_refused_and_edits_in_mid_run_change_nothing(
     assert "Traceback" not in second.said
     assert process.returncode == 0, said
     for name in (STUDY, SERIES, SUMMARY, FIT):
-        assert project.read(name) == finished[0].read(name), name
+        assert project.read(name) == untouched.read(name), name
     assert not (project.root / FOLDER).exists()
     # What was edited is seen by the next run.
     jobs = project.plan(FIT)
@@ -62,9 +62,9 @@ def test_second_run_is_refused_and_edits_in_mid_run_change_nothing(
 
 
 def test_without_nolock_a_killed_run_is_unlocked_and_goes_on(
-    finished: tuple[Project, Run], tmp_path: Path
+    untouched: Project, tmp_path: Path
 ) -> None:
-    project = Project.copy(finished[0].root, tmp_path / "project")
+    project = Project.copy(untouched.root, tmp_path / "project")
     bare = ("--workflow-profile", "none", "--cores", "1")
     with project.start(*bare, SERIES) as process:
         wait_for(project, f"{FOLDER}/run.json", process)
@@ -77,17 +77,16 @@ def test_without_nolock_a_killed_run_is_unlocked_and_goes_on(
     again = project.snakemake(*bare, "--rerun-incomplete", SERIES)
     assert again.code == 0, again.said
     assert "was broken off; going on" in again.said
-    assert project.read(SERIES) == finished[0].read(SERIES)
+    assert project.read(SERIES) == untouched.read(SERIES)
 
 
 @pytest.fixture
 def as_job(
-    finished: tuple[Project, Run], tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+    untouched: Project, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> Iterator[Project]:
     """Return a finished project, as the job of a cluster finds it whose run is this process."""
-    shutil.copytree(finished[0].root, tmp_path / "project")
+    shutil.copytree(untouched.root, tmp_path / "project")
     project = Project(tmp_path / "project")
-    project.write(TINY)
     root = project.root / "results" / "tiny"
     for name in (TOKEN, FROZEN):
         monkeypatch.setenv(name, "")  # so that it is restored at the end
