@@ -22,6 +22,7 @@ FOLDERS = {
     "workflow": "workflow",
 }
 FILES = {
+    "test_archive_crate": "slow",
     "test_bad_input": "solver",
     "test_comparison": "solver",
     "test_compiled_cache": "solver",

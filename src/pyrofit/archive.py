@@ -8,13 +8,14 @@ import csv
 import hashlib
 import io
 import re
-import zipfile
 from collections.abc import Container, Iterator, Mapping, Sequence
 from pathlib import Path
 from typing import Any
 
 from pyrofit import __version__
+from pyrofit.archive_crate import METADATA, metadata
 from pyrofit.archive_texts import COMMENT, MACFP_FILES, README
+from pyrofit.archive_zip import Entries, zipped
 from pyrofit.config import Study, as_yaml, digest
 from pyrofit.config.programs import program_files
 from pyrofit.errors import DataError
@@ -25,9 +26,6 @@ from pyrofit.results.code_digests import code
 from pyrofit.results.files import Results, read_json, write_bytes
 from pyrofit.show.sections import FIGURES, TABLES
 from pyrofit.stages.reading import MACFP
-
-Entries = dict[str, bytes]
-"""Contents by name in the archive."""
 
 _PAGES = ("study.json", "provenance.json", "report.html")
 _LEFT_OUT = ("logs", "benchmarks", "running")
@@ -45,7 +43,6 @@ _SOFTWARE = (
     "profiles/*/config.yaml",
     "workflow/**/*",
 )
-_NO_DATE = (1980, 1, 1, 0, 0, 0)  # the earliest that the format knows
 
 
 def write_archive(study: Study, results: Results, given: Sequence[Path], project: Path) -> Path:
@@ -84,10 +81,11 @@ def write_archive(study: Study, results: Results, given: Sequence[Path], project
         entries[f"results/{name}"] = _without_macfp(study, path)
     entries |= {f"software/{name}": _bytes(path) for name, path in _software(project)}
     entries["README.txt"] = _readme(study, origin).encode()
+    entries[METADATA] = metadata(study, origin, entries)
     sums = [f"{hashlib.sha256(entries[n]).hexdigest()}  {n}\n" for n in sorted(entries)]
     entries["SHA256SUMS"] = "".join(sums).encode()
     target = results.root / f"{study.name}.zip"
-    write_bytes(target, _zipped(entries))
+    write_bytes(target, zipped(entries))
     return target
 
 
@@ -237,16 +235,3 @@ def _bytes(path: Path) -> bytes:
         raise DataError(
             f"{path}: cannot be read ({error.strerror}); the archive needs it"
         ) from None
-
-
-def _zipped(entries: Entries) -> bytes:
-    """Return a zip file: sorted entries, no dates, no rights of a user."""
-    buffer = io.BytesIO()
-    with zipfile.ZipFile(buffer, "w") as archive:
-        for name in sorted(entries):
-            about = zipfile.ZipInfo(name, _NO_DATE)
-            about.compress_type = zipfile.ZIP_DEFLATED
-            about.create_system = 3  # Unix, wherever it is written: the rights mean the same
-            about.external_attr = 0o644 << 16
-            archive.writestr(about, entries[name])
-    return buffer.getvalue()

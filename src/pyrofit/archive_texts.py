@@ -17,6 +17,8 @@ results/           study.json (every key completed), provenance.json (versions, 
                    tables, figures, report.html
 software/          pyrofit {version} as it made the results, source fingerprint {fingerprint},
                    and requirements.lock with the exact versions of all packages
+ro-crate-metadata.json
+                   the same for programs: a Workflow Run RO-Crate, profile 0.5
 SHA256SUMS         checksums of all these files: sha256sum --check SHA256SUMS
 
 To run it again you need Python 3.11 or newer and make:

@@ -37,7 +37,7 @@ ORDER = [
     {"new_study"},
     {"doctor", "ready"},
     {"show"},
-    {"archive", "archive_texts", "blind_test"},
+    {"archive", "archive_crate", "archive_texts", "archive_zip", "blind_test"},
     {"cli"},
 ]
 RANK = {part: rank for rank, parts in enumerate(ORDER) for part in parts}

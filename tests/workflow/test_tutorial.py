@@ -1,6 +1,7 @@
 """The tutorial, as a stranger follows it, and the archive that it ends with."""
 
 import hashlib
+import json
 import os
 import re
 import shutil
@@ -119,6 +120,13 @@ def test_archive_holds_what_its_checksums_say(unpacked: Path) -> None:
     assert there == {*listed, "SHA256SUMS"}
     for name, digest in listed.items():
         assert hashlib.sha256((unpacked / name).read_bytes()).hexdigest() == digest, name
+
+
+def test_metadata_of_the_archive_name_nothing_that_it_lacks(unpacked: Path) -> None:
+    crate = json.loads((unpacked / "ro-crate-metadata.json").read_text(encoding="utf-8"))
+    local = {e["@id"] for e in crate["@graph"] if not e["@id"].startswith(("#", "http"))}
+    assert {"study.yaml", "software/Snakefile", "results/report.html"} <= local
+    assert [name for name in local if not (unpacked / name).exists()] == []
 
 
 def test_archive_holds_study_files_results_and_software(followed: Followed, unpacked: Path) -> None:
