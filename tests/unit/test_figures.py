@@ -15,6 +15,7 @@ from pyrofit.results.files import Results, read_csv, write_csv
 from pyrofit.show import style
 from pyrofit.show.fit.fig3 import fig3
 from pyrofit.show.kinetics.drawing import slope
+from pyrofit.show.kinetics.kinetics_all_rates import kinetics_all_rates
 from pyrofit.show.sections import FIGURES, make_figure
 
 OF_OTHER_STUDIES = {"heats", "unmeasured"}
@@ -186,3 +187,17 @@ def test_axes_of_the_papers_figures_name_quantity_and_unit(name: str, tmp_path: 
     for ax in axes:
         below = [other for other in axes if ax in other.get_shared_x_axes().get_siblings(other)]
         assert any(other.get_xlabel() for other in below)
+
+
+def test_panels_of_several_laboratories_name_them(tmp_path: Path) -> None:
+    given = described()
+    titles = []
+    for laboratories in (("", ""), ("Here", "There")):
+        for name, laboratory in zip(("slow", "fast"), laboratories, strict=True):
+            given["experiments"][name]["laboratory"] = laboratory
+        study, results = fake(tmp_path / f"{len(titles)}", given)
+        canvas = kinetics_all_rates(study, results)
+        titles.append([ax.get_title(loc="left") for ax in canvas.axes])
+    plain, named = titles
+    assert not [title for title in plain if "ere, " in title]
+    assert [t.split(") ")[1].split(",")[0] for t in named] == ["Here", "There"]

@@ -41,7 +41,7 @@ def kinetics_all_rates(study: Study, results: Results) -> Canvas:
             temperature = style.celsius(curve["temperature_K"])
             ax.plot(temperature, curve[MASS_FRACTION], color=style.colour(k), linestyle=dash_of(k))
         ax.set_xlim(*busy_span(curves))
-    style.letter(axes, [rate_of(study, n) + (", in fit" if n in used else "") for n in names])
+    style.letter(axes, [_title(study, n) + (", in fit" if n in used else "") for n in names])
     for i, ax in enumerate(axes):
         if i % 4 == 0:
             ax.set_ylabel("normalised mass $m/m_0$ [–]")
@@ -54,6 +54,15 @@ def kinetics_all_rates(study: Study, results: Results) -> Canvas:
     ]
     style.legend_below(canvas, [*data_entries(study, results, names), *lines])
     return canvas
+
+
+def _title(study: Study, name: str) -> str:
+    """Return the heating rate, after the laboratory where the study has several."""
+    laboratories = {study.experiments[n].laboratory for n in all_rates(study)}
+    own = study.experiments[name].laboratory
+    return (
+        f"{own}, {rate_of(study, name)}" if len(laboratories) > 1 and own else rate_of(study, name)
+    )
 
 
 FIGURE = Figure(
