@@ -32,6 +32,7 @@ _LEFT_OUT = ("logs", "benchmarks", "running")
 """Folders of results that differ from run to run."""
 _SOFTWARE = (
     "CITATION.cff",
+    "Dockerfile",
     "LICENSE",
     "Makefile",
     "README.md",
