@@ -294,7 +294,7 @@ PLACES = [
         "prepare --study study.yaml",
         full_disk,
         (
-            f"error: {RESULTS}/measurements/",
+            f"error: {RESULTS}/running/",
             "cannot be written (No space left on device)",
             "make room or choose another folder. Everything finished before is kept.",
         ),
@@ -303,19 +303,19 @@ PLACES = [
         "folder that takes no files",
         "prepare --study study.yaml --results /proc/nowhere",
         nothing,
-        ("error: /proc/nowhere/measurements/", "cannot be written", "choose another folder"),
+        ("error: /proc/nowhere/", "cannot be written", "choose another folder"),
     ),
     Case(
         "read-only folder",
         "prepare --study study.yaml",
         read_only,
-        (f"error: {RESULTS}/measurements/", "cannot be written (Read-only file system)"),
+        (f"error: {RESULTS}/running/", "cannot be written (Read-only file system)"),
     ),
     Case(
         "results folder is a file",
         "prepare --study study.yaml --results taken",
         results_in_a_file,
-        ("error: taken/measurements/", "cannot be written", "choose another folder"),
+        ("error: taken/", "cannot be written", "choose another folder"),
     ),
     Case(
         "disk full for the log",
