@@ -18,7 +18,7 @@ from pyrofit.solver.lower import lower_material, lower_network
 from pyrofit.solver.lower_experiment import lower_layers, lower_places, lower_share
 from pyrofit.solver.lower_exposure import lower_exposure
 from pyrofit.solver.observe import observe
-from pyrofit.solver.run import Case, march
+from pyrofit.solver.run import Case, march, repeated
 
 
 def simulate_tga(
@@ -118,12 +118,13 @@ def simulate_gasifications(
     case = _lower(experiment, material, values, accuracy, sets)
     located = lower_places(experiment.sample, requests, values, sets)
 
-    def run(factor: FloatArray, asked: Mapping[str, Request]) -> Runs:
-        exposure = case.description.exposure
+    def run(factors: FloatArray, asked: Mapping[str, Request]) -> Runs:
+        runs = repeated(case, factors.size // sets)
+        exposure = runs.description.exposure
         schedule = exposure.schedule.copy()
-        schedule[FLUX] *= factor
-        exposed = case.description._replace(exposure=exposure._replace(schedule=schedule))
-        return march(case._replace(description=exposed), asked, _numerics(accuracy), threads)
+        schedule[FLUX] *= factors
+        exposed = runs.description._replace(exposure=exposure._replace(schedule=schedule))
+        return march(runs._replace(description=exposed), asked, _numerics(accuracy), threads)
 
     return observe(experiment, values, located, run, sets).curves()
 

@@ -123,8 +123,8 @@ def side_by_side(factor: FloatArray, asked: Mapping[str, Request]) -> Runs:
     return Runs(
         status=status,
         signals={name: np.where(hot[:, None], np.nan, curve) for name, curve in curves.items()},
-        cells=np.arange(factor.size),
-        steps=np.arange(factor.size) + 10,
+        cells=np.resize(np.arange(4), factor.size),
+        steps=np.resize(np.arange(4), factor.size) + 10,
         energy_error=factor,
         mass_error=-factor,
     )

@@ -1,21 +1,22 @@
 """What the apparatus makes of a run: uneven flux, clocks that differ, a balance that drifts."""
 
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Callable, Mapping
 from dataclasses import replace
+from typing import Any
 
 import numpy as np
 
 from pyrofit.model.base import value_of
 from pyrofit.model.slab import SlabExperiment
 from pyrofit.model.slab_faces import FluxProfile
-from pyrofit.solver.arrays import FloatArray, Value, Values
+from pyrofit.solver.arrays import FloatArray, IntArray, Value, Values
 from pyrofit.solver.curves import Curves, Request, Runs
 
 Run = Callable[[FloatArray, Mapping[str, Request]], Runs]
-"""Runs under multiples of the flux, shape (sets,), at times of shape (sets, points)."""
+"""Runs under multiples of the flux, shape (sets,), at times of shape (sets, points); of several
+times as many sets as there are, these are repeated."""
 POINTS, WEIGHTS = np.polynomial.legendre.leggauss(5)
 """Gauss's rule on (-1, 1), for fluxes that are spread evenly over the surface."""
-MIDDLE = 2
 RINGS = 4000
 """Rings of equal area into which a profile of the flux is cut to find its rule."""
 
@@ -56,8 +57,7 @@ def observe(
         for name, r in requests.items()
     }
     spread = np.full(sets, value_of(experiment.front.spread, values))
-    factors, weights = rings(experiment.front.profile)
-    runs = _mean([_spread(spread, shifted, _under(f, run)) for f in factors.tolist()], weights)
+    runs = _mean_over_surface(spread, experiment.front.profile, shifted, run)
     signals = {
         name: curve + _of(experiment, name, "offset", values)
         for name, curve in runs.signals.items()
@@ -73,17 +73,17 @@ def observe_one(
 ) -> Curves:
     """Return the same for a solver of one set, whose times asked for have the shape (points,)."""
 
-    def runs(factor: FloatArray, asked: Mapping[str, Request]) -> Runs:
+    def runs(factors: FloatArray, asked: Mapping[str, Request]) -> Runs:
         plain = {name: replace(r, time_s=r.time_s[0]) for name, r in asked.items()}
-        one = run(float(factor[0]), plain)
+        found = [run(factor, plain) for factor in factors.tolist()]
         missing = {name: np.full(r.time_s.shape, np.nan) for name, r in plain.items()}
         return Runs(
-            status=np.array([one.status]),
-            signals={name: curve[None] for name, curve in (one.signals or missing).items()},
-            cells=np.array([one.cells]),
-            steps=np.array([one.steps]),
-            energy_error=np.array([one.energy_error]),
-            mass_error=np.array([one.mass_error]),
+            status=np.array([one.status for one in found]),
+            signals={n: np.array([(one.signals or missing)[n] for one in found]) for n in plain},
+            cells=np.array([one.cells for one in found]),
+            steps=np.array([one.steps for one in found]),
+            energy_error=np.array([one.energy_error for one in found]),
+            mass_error=np.array([one.mass_error for one in found]),
         )
 
     return observe(experiment, values, requests, runs).curves()[0]
@@ -125,43 +125,52 @@ def rings(profile: FluxProfile | None) -> tuple[FloatArray, FloatArray]:
     return factors, vectors[0] ** 2
 
 
-def _under(factor: float, run: Run) -> Run:
-    """Return the run under a multiple of the flux."""
-    return run if factor == 1.0 else lambda of, asked: run(factor * of, asked)
+def _mean_over_surface(
+    spread: FloatArray, profile: FluxProfile | None, requests: Mapping[str, Request], run: Run
+) -> Runs:
+    """Return the mean over the fluxes of the surface, and the worst of their ends and balances.
 
+    All fluxes of all sets, whose spreads are of shape (sets,), run side by side.
+    """
+    ring_factors, ring_weights = rings(profile)
+    points, weights = (POINTS, 0.5 * WEIGHTS) if spread.any() else (np.zeros(1), np.ones(1))
+    factors = ring_factors[:, None, None] * (1.0 + points[:, None] * spread)
+    shape = factors.shape
+    if factors.size == spread.size:
+        return run(factors.ravel(), requests)
+    copies = factors.size // spread.size
+    runs = run(factors.ravel(), {name: _repeated(r, copies) for name, r in requests.items()})
+    ring, middle = int(np.argmax(ring_weights)), int(np.argmax(weights))
 
-def _mean(runs: Sequence[Runs], weights: FloatArray) -> Runs:
-    """Return the weighted mean of runs, and the worst of their ends and balances."""
-    if len(runs) == 1:
-        return runs[0]
-    middle = runs[int(np.argmax(weights))]
-    signals = {
-        name: np.asarray(sum(w * r.signals[name] for w, r in zip(weights, runs, strict=True)))
-        for name in middle.signals
-    }
-    return replace(
-        middle,
-        status=np.max([r.status for r in runs], axis=0),
-        signals=signals,
-        energy_error=np.max([r.energy_error for r in runs], axis=0),
-        mass_error=np.max([r.mass_error for r in runs], axis=0),
+    def mean(curves: FloatArray) -> FloatArray:
+        by_flux = curves.reshape(*shape, -1)
+        over_spread = _weighted(by_flux.swapaxes(0, 1), weights)
+        even = np.where(spread[:, None] == 0.0, by_flux[:, middle], over_spread)
+        return _weighted(even, ring_weights)
+
+    def worst(of: FloatArray | IntArray) -> Any:
+        return of.reshape(-1, spread.size).max(axis=0)
+
+    return Runs(
+        status=worst(runs.status),
+        signals={name: mean(curves) for name, curves in runs.signals.items()},
+        cells=runs.cells.reshape(shape)[ring, middle],
+        steps=runs.steps.reshape(shape)[ring, middle],
+        energy_error=worst(runs.energy_error),
+        mass_error=worst(runs.mass_error),
     )
 
 
-def _spread(spread: FloatArray, requests: Mapping[str, Request], run: Run) -> Runs:
-    if not spread.any():
-        return run(np.ones(spread.size), requests)
-    runs = [run(1.0 + spread * float(x), requests) for x in POINTS]
-    even = spread == 0.0
-    weights = 0.5 * WEIGHTS
-    signals = {}
-    for name in requests:
-        mean = sum(w * r.signals[name] for w, r in zip(weights, runs, strict=True))
-        signals[name] = np.where(even[:, None], runs[MIDDLE].signals[name], mean)
-    return replace(
-        runs[MIDDLE],
-        status=np.max([r.status for r in runs], axis=0),
-        signals=signals,
-        energy_error=np.max([r.energy_error for r in runs], axis=0),
-        mass_error=np.max([r.mass_error for r in runs], axis=0),
-    )
+def _weighted(curves: FloatArray, weights: FloatArray) -> FloatArray:
+    """Return the weighted sum over the first axis, term by term; of one curve itself."""
+    if len(curves) == 1 and weights[0] == 1.0:
+        return np.asarray(curves[0])
+    return np.asarray(sum(w * curve for w, curve in zip(weights, curves, strict=True)))
+
+
+def _repeated(request: Request, copies: int) -> Request:
+    """Return a request of several sets, shape (sets, points), for copies of them."""
+    place = request.place
+    if place is not None:
+        place = replace(place, depth_m=np.tile(place.depth_m, copies))
+    return replace(request, time_s=np.tile(request.time_s, (copies, 1)), place=place)
