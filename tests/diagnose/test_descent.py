@@ -21,6 +21,7 @@ class Fake:
 
     function: Function
     asked: list[FloatArray] = field(default_factory=list)
+    idle: tuple[int, ...] = ()
 
     def residuals(self, x: FloatArray) -> FloatArray:
         self.asked.append(x.copy())

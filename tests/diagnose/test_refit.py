@@ -30,7 +30,12 @@ def ends(monkeypatch: pytest.MonkeyPatch) -> Callable[[Iterable[float]], list[Fl
         waiting: Iterator[float] = iter(chi2)
         begun: list[FloatArray] = []
 
-        def descend(model: object, x: FloatArray, enough: float = SETTINGS.converged_gain) -> Fit:
+        def descend(
+            model: object,
+            x: FloatArray,
+            enough: float = SETTINGS.converged_gain,
+            known: Fit | None = None,
+        ) -> Fit:
             begun.append(x)
             return replace(trial().fit, x=x, chi2=next(waiting))
 

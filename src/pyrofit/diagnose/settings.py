@@ -2,7 +2,13 @@
 
 from dataclasses import dataclass
 
-from pyrofit.estimate.bounded_least_squares import MOST_REFUSED, MOST_STEPS, RIDGE
+from pyrofit.estimate.bounded_least_squares import (
+    LIKE_PARABOLA,
+    MOST_REFUSED,
+    MOST_STEPS,
+    NEAR,
+    RIDGE,
+)
 from pyrofit.estimate.derivatives import STEPS
 from pyrofit.estimate.posterior import AT_LIMIT
 
@@ -25,6 +31,10 @@ class Settings:
     """A descent ends where the next step promises less of chi-square."""
     ridge: float = RIDGE
     """Added to the curvature, so that a parameter without influence does not move."""
+    returning_chi2: float = NEAR
+    """A descent that leads to a fit at hand is recognised within this chi-square above it."""
+    returning_share: float = LIKE_PARABOLA
+    """Its rise then differs by less than this share from that of the parabola about the fit."""
     rough_gain: float = 1.0
     """A rough descent ends where fresh derivatives promise less of chi-square."""
     same_valley: float = 0.5

@@ -5,7 +5,7 @@ step costs one simulation instead of one per parameter; the derivatives are made
 updated ones lead nowhere.
 """
 
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 
 import numpy as np
@@ -18,6 +18,10 @@ MOST_REFUSED = 8
 """Refused steps in a row, each with ten times the damping, before a descent ends."""
 RIDGE = 1e-6
 """Added to the curvature, so that a parameter without influence does not move."""
+NEAR = 50.0
+"""A descent that leads to a known fit is recognised within this rise of the sum of squares,"""
+LIKE_PARABOLA = 0.2
+"""where its rise differs by less than this share from that of the parabola about the fit."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -25,7 +29,7 @@ class Fit:
     """Where a descent ended: chi-square, x, whitened residuals and their derivatives there.
 
     chi2 counts what is known; ``jacobian`` has shape (points + known, parameters) and is exact at x
-    only where it is ``fresh``.
+    only where it is ``fresh``. A descent that ``returned`` ended on its way to a known fit.
     """
 
     chi2: float
@@ -33,6 +37,17 @@ class Fit:
     residuals: FloatArray
     jacobian: FloatArray
     fresh: bool = True
+    returned: bool = False
+
+    def leads_here(self, x: FloatArray, chi2: float) -> bool:
+        """Tell whether a descent at x is about to end here.
+
+        It is where chi-square is near and as the parabola about this fit has it.
+        """
+        parabola = self.residuals + self.jacobian @ (x - self.x)
+        rise = float(parabola @ parabola) - self.chi2
+        found = chi2 - self.chi2
+        return self.fresh and 0.0 < found < NEAR and abs(found - rise) < LIKE_PARABOLA * found
 
 
 def minimise(
@@ -43,6 +58,8 @@ def minimise(
     *,
     begin: FloatArray | None = None,
     fixed: int | None = None,
+    idle: Sequence[int] = (),
+    known: Fit | None = None,
     most_steps: int = MOST_STEPS,
     most_refused: int = MOST_REFUSED,
     ridge: float = RIDGE,
@@ -63,6 +80,10 @@ def minimise(
         Derivatives to begin with, if some are at hand.
     fixed
         Position of a parameter that keeps its value.
+    idle
+        Positions of parameters that change nothing and stay where they are.
+    known
+        A fit at hand: a descent that leads there ends early.
     most_steps, most_refused, ridge
         As the constants of this module say.
     """
@@ -70,10 +91,13 @@ def minimise(
     r = residuals(x)
     fresh = begin is None
     held = [] if fixed is None else [fixed]
-    J = _without(held, jacobian(x, r)) if begin is None else begin
-    damping, refused = 1e-3, 0
+    moving = [i for i in range(x.size) if i not in idle]
+    whole = _without(held, jacobian(x, r)) if begin is None else begin
+    J = _columns(whole, moving)
+    damping, refused, returned = 1e-3, 0, False
     for _ in range(most_steps):
-        step, promised = _step(J, r, x, damping, ridge)
+        step = np.zeros(x.size)
+        step[moving], promised = _step(J, r, x[moving], damping, ridge)
         step[held] = 0.0
         gained = -1.0
         if promised > converged_gain:
@@ -81,18 +105,30 @@ def minimise(
             there = residuals(ahead)
             gained = float(r @ r - there @ there)
         if gained > 0.0:
-            J = J + np.outer(there - r - J @ step, step) / (step @ step)
+            taken = step[moving]
+            J = J + np.outer(there - r - J @ taken, taken) / (taken @ taken)
             x, r, fresh, refused = ahead, there, False, 0
             damping = max(damping * (0.2 if gained > 0.5 * promised else 1.0), 1e-6)
+            returned = known is not None and known.leads_here(x, float(r @ r))
+        if returned:
+            break
         if gained > converged_gain:
             continue
         if not fresh:
-            J, fresh = _without(held, jacobian(x, r)), True
+            whole, fresh = _without(held, jacobian(x, r)), True
+            J = _columns(whole, moving)
         elif promised <= converged_gain or refused == most_refused:
             break
         else:
             damping, refused = 10.0 * damping, refused + 1
-    return Fit(float(r @ r), x, r, J, fresh)
+    whole = whole.copy()
+    whole[:, moving] = J
+    return Fit(float(r @ r), x, r, whole, fresh, returned)
+
+
+def _columns(jacobian: FloatArray, moving: list[int]) -> FloatArray:
+    """Return the derivatives by the parameters that move."""
+    return jacobian if len(moving) == jacobian.shape[1] else jacobian.take(moving, axis=1)
 
 
 def _without(held: list[int], jacobian: FloatArray) -> FloatArray:

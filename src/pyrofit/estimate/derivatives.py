@@ -27,6 +27,7 @@ def derivatives(
     order: int,
     *,
     step: float | None = None,
+    by: Sequence[int] | None = None,
 ) -> tuple[FloatArray, NDArray[np.bool_]]:
     """Return d curve / d x, and which derivatives were found; the others are zero.
 
@@ -48,6 +49,8 @@ def derivatives(
         1 or 2.
     step
         Distance of the points, as a fraction of the limits' distance; default `STEPS`.
+    by
+        Positions of the parameters, all by default; the other derivatives are zero.
 
     Returns
     -------
@@ -62,10 +65,11 @@ def derivatives(
     """
     step = STEPS[order] if step is None else step
     J, found = np.zeros((here.size, x.size)), np.zeros(x.size, bool)
+    wanted = np.ones(x.size, bool) if by is None else np.isin(np.arange(x.size), by)
     for choice in POINTS[order]:
         places = {
             i: points
-            for i in np.flatnonzero(~found).tolist()
+            for i in np.flatnonzero(wanted & ~found).tolist()
             if (points := _points(x[i], choice, step))
         }
         sets = [_with(x, i, point) for i, points in places.items() for point in points]

@@ -51,12 +51,11 @@ class Likelihood:
 
     def values(self, x: FloatArray) -> FloatArray:
         """Return the parameters in SI units."""
-        return self.problem.lower + x * (self.problem.upper - self.problem.lower)
+        return self.problem.lower + x * self.problem.span
 
     def scaled(self, values: FloatArray) -> FloatArray:
         """Return SI values as fractions of the limits' distance, brought within the limits."""
-        span = self.problem.upper - self.problem.lower
-        return np.clip((values - self.problem.lower) / span, 0.0, 1.0)
+        return np.clip((values - self.problem.lower) / self.problem.span, 0.0, 1.0)
 
     def curves(self, x: FloatArray) -> FloatArray | None:
         """Return the simulated channels one after the other; None where a run does not finish."""
@@ -117,7 +116,7 @@ class Likelihood:
         here = self.curves(x)
         if here is None:
             return np.zeros((sum(self.points), x.size))
-        return derivatives(self.curves_all, x, here, order=2)[0]
+        return derivatives(self.curves_all, x, here, order=2, by=self.problem.moving)[0]
 
     def jacobian(
         self, x: FloatArray, residuals: FloatArray, order: int = 2, step: float | None = None
@@ -130,16 +129,20 @@ class Likelihood:
         def beside(X: FloatArray) -> list[FloatArray | None]:
             return [there if self.finished(there) else None for there in self.residuals_all(X)]
 
-        return derivatives(beside, x, residuals, order, step=step)[0]
+        J = derivatives(beside, x, residuals, order, step=step, by=self.problem.moving)[0]
+        idle = list(self.problem.idle)
+        J[sum(self.points) :, idle] = self.prior.slopes(self.problem.span)[:, idle]
+        return J
 
     def with_known(self, slopes: FloatArray) -> FloatArray:
         """Return d residuals / d x from d curves / d x."""
-        known = self.prior.slopes(self.problem.upper - self.problem.lower)
+        known = self.prior.slopes(self.problem.span)
         return np.vstack([self.whiten(slopes), known])
 
     def descend(self, x: FloatArray, fixed: int | None = None) -> Fit:
         """Minimise chi-square from x within the limits; parameter ``fixed`` keeps its value."""
-        return minimise(self.residuals, self.jacobian, x, ENOUGH, fixed=fixed)
+        idle = self.problem.idle
+        return minimise(self.residuals, self.jacobian, x, ENOUGH, fixed=fixed, idle=idle)
 
 
 def likelihood_of(problem: Problem, prior: NormalPrior = NO_PRIOR) -> Likelihood:

@@ -50,6 +50,22 @@ class Problem:
     cost: WeightedSum
     accuracy: Accuracy
 
+    @property
+    def span(self) -> FloatArray:
+        """Distance of the limits, SI units, shape (parameters,)."""
+        return self.upper - self.lower
+
+    @property
+    def moving(self) -> tuple[int, ...]:
+        """Positions of the parameters that some run uses."""
+        used = set().union(*self._used.values())
+        return tuple(i for i, name in enumerate(self.names) if name in used)
+
+    @property
+    def idle(self) -> tuple[int, ...]:
+        """Positions of the parameters that no run uses."""
+        return tuple(i for i in range(len(self.names)) if i not in self.moving)
+
     def values(self, x: FloatArray) -> dict[str, float]:
         """Return all parameters by name, fixed ones too, SI units; x has shape (parameters,)."""
         return {**self.fixed, **dict(zip(self.names, x.tolist(), strict=True))}

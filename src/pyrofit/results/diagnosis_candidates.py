@@ -46,5 +46,7 @@ class OfCandidate(Record):
     predictions: dict[str, float] = Field(
         description="gain of the log score by experiment left out, and `held out`"
     )
-    explains: bool | None = Field(description="it fits the held-out signals once they are fitted")
+    explains: bool | None = Field(
+        description="it fits the held-out signals once they are fitted; null where not tested"
+    )
     rejected: str = Field(description="why it was rejected; empty where it was not")

@@ -65,6 +65,11 @@ class _Derived(Problem):
 
     derive: Callable[[Values], Values]
 
+    @property
+    def moving(self) -> tuple[int, ...]:
+        """All positions: what is made of the values may use each of them."""
+        return tuple(range(len(self.names)))
+
     def outcomes(self, values: Sets, sets: int) -> list[Outcome]:
         """Return how each set ended and its models, with what is made of its values."""
         columns = {name: np.broadcast_to(value, sets) for name, value in values.items()}

@@ -16,11 +16,12 @@ def descend(
     jacobian: FloatArray | None = None,
     enough: float = SETTINGS.converged_gain,
     fixed: int | None = None,
+    known: Fit | None = None,
 ) -> Fit:
     """Minimise chi-square from x, with derivatives to begin with if some are at hand.
 
-    It ends where fresh derivatives promise less than ``enough``. The parameter at position
-    ``fixed`` keeps its value.
+    It ends where fresh derivatives promise less than ``enough``, or where it leads to a fit that is
+    ``known``. The parameter at position ``fixed`` keeps its value.
     """
     return minimise(
         model.residuals,
@@ -29,6 +30,8 @@ def descend(
         enough,
         begin=jacobian,
         fixed=fixed,
+        idle=model.idle,
+        known=known,
         most_steps=SETTINGS.most_steps,
         most_refused=SETTINGS.most_refused,
         ridge=SETTINGS.ridge,

@@ -66,6 +66,11 @@ class Model:
         """Number of measured points."""
         return sum(self.likelihood.points)
 
+    @property
+    def idle(self) -> tuple[int, ...]:
+        """Positions of the parameters that no run of these channels uses."""
+        return self.likelihood.problem.idle
+
     def position(self, effect: str) -> int:
         """Return the position of an effect's strength among the parameters."""
         return self.names.index(name_of(effect, strength_of(effect)[0]))

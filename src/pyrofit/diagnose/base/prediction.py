@@ -58,13 +58,17 @@ def slabs(trial: FittedModel) -> list[str]:
 
 
 def predictions(
-    trials: Sequence[FittedModel], processes: int = 1, held_out: bool = True
+    trials: Sequence[FittedModel],
+    processes: int = 1,
+    held_out: bool = True,
+    whole: bool = True,
 ) -> list[Predictions]:
     """Return what models predict: experiments from the others, and what is held out.
 
-    With ``held_out`` false, only calibrated experiments are left out, one by one.
+    With ``held_out`` false, only calibrated experiments are left out, one by one. With ``whole``
+    false, no model is fitted to all that is held out at once, unless a score asks for it.
     """
-    tasks = [(k, name) for k, trial in enumerate(trials) for name in _tasks(trial, held_out)]
+    tasks = [(k, name) for k, trial in enumerate(trials) for name in _tasks(trial, held_out, whole)]
     fits = parallel_map(
         lambda i: _refit(trials[tasks[i][0]], tasks[i][1]).fit, len(tasks), processes
     )
@@ -74,16 +78,16 @@ def predictions(
             found[k] = replace(found[k], whole=FittedModel(_model_for(trials[k], name), fit))
         if name != HELD_OUT or not _several(trials[k]):
             out = name.startswith(HELD_OUT)
-            part, whole = (trials[k].fit, fit) if out else (fit, trials[k].fit)
-            found[k].scores[name] = forecast(part, whole)
+            part, joint = (trials[k].fit, fit) if out else (fit, trials[k].fit)
+            found[k].scores[name] = forecast(part, joint)
     return found
 
 
-def _tasks(trial: FittedModel, held_out: bool) -> list[str]:
+def _tasks(trial: FittedModel, held_out: bool, whole: bool) -> list[str]:
     """Return the predictions of a model: all that is held out, each of several, each left out."""
-    base = trial.model.base
-    whole = [HELD_OUT] if held_out and base.held_out else []
-    return [*whole, *(_several(trial) if held_out else []), *slabs(trial)]
+    several = _several(trial)
+    at_once = [HELD_OUT] if trial.model.base.held_out and (whole or not several) else []
+    return [*(at_once + several if held_out else []), *slabs(trial)]
 
 
 def _several(trial: FittedModel) -> list[str]:

@@ -29,8 +29,9 @@ class Trust:
     """Probability that equal strengths look as different between experiments."""
     gains: dict[str, float]
     """Gain of the log score, by experiments left out or held out."""
-    explains: bool
-    """Whether the model fits what is held out as well, once that is fitted, too."""
+    explains: bool | None
+    """Whether the model fits what is held out as well, once that is fitted, too; None if not
+    tested, as the model leaves more than noise of what is calibrated."""
 
     @property
     def informative(self) -> bool:
@@ -119,7 +120,7 @@ def trust(
     effect: str,
     own: Predictions,
     without: Predictions,
-    explained: bool,
+    explained: bool | None,
     dispersion: float = 1.0,
 ) -> Trust:
     """Return what speaks for or against an effect of a model.

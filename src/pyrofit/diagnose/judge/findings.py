@@ -65,7 +65,7 @@ class Finding:
     @property
     def explains(self) -> bool:
         """Whether the leading one fits what is held out, too."""
-        return bool(self.kept) and self.kept[0].trust.explains
+        return bool(self.kept) and self.kept[0].trust.explains is True
 
     @property
     def sure(self) -> bool:

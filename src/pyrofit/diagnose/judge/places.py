@@ -67,11 +67,15 @@ def findings_of(
     places = [alternatives(found, effect) for effect in effects]
     # The end of the search has a place among the rivals of each of its effects.
     rivals = {_key(trial): trial for place in places for _, trial in place}
-    predicted = predictions([*without, *rivals.values()], processes)
+    # A model that leaves misfit explains no held-out signal, unless the effect is replaced.
+    may_explain = found.end_lack.adequate or len(effects) == 1
+    predicted = predictions([*without, *rivals.values()], processes, whole=may_explain)
     before, own = predicted[: len(without)], predicted[len(without) :]
     dispersion = 1.0 if found.end_lack.adequate else found.end.posterior.dispersion
     rngs = rng.spawn(len(own))
-    explained = parallel_map(lambda i: explains(own[i], rngs[i]), len(own), processes)
+    explained: list[bool | None] = [None] * len(own)
+    if may_explain:
+        explained[:] = parallel_map(lambda i: explains(own[i], rngs[i]), len(own), processes)
     known = dict(zip(rivals, zip(own, explained, strict=True), strict=True))
 
     def judged(name: str, trial: FittedModel, k: int) -> Judged:

@@ -94,10 +94,11 @@ def _judgement(judged: list[Judged]) -> dict[str, Any]:
     if not judged:
         return {"disagree": None, "predictions": {}, "explains": None, "rejected": ""}
     against = dict.fromkeys(f"{j.effect}: {j.rejected}" for j in judged if j.rejected)
+    tested = [j.trust.explains for j in judged]
     return {
         "disagree": min(j.trust.disagree for j in judged),
         "predictions": min((j.trust.gains for j in judged), key=lambda g: sum(g.values())),
-        "explains": all(j.trust.explains for j in judged),
+        "explains": None if None in tested else all(tested),
         "rejected": "; ".join(against),
     }
 

@@ -62,9 +62,9 @@ def from_elsewhere(
     """Fit an effect from other starts, too, until two end alike."""
     ends = [best.fit.chi2]
     for at in others:
-        end = descend(best.model, _start(trial, seen, at), enough=enough)
+        end = descend(best.model, _start(trial, seen, at), enough=enough, known=best.fit)
         best = lower_of(best, end)
-        if any(abs(end.chi2 - other) < SETTINGS.same_valley for other in ends):
+        if end.returned or any(abs(end.chi2 - other) < SETTINGS.same_valley for other in ends):
             break
         ends.append(end.chi2)
     return best
@@ -113,8 +113,9 @@ def with_form(trial: FittedModel, effect: str, parameter: str) -> FittedModel:
     spanned = projector(trial.fit)
     there = model.residuals_all(np.array(others))
     ahead = [float(np.sum(project(spanned, residuals) ** 2)) for residuals in there]
-    ends = [descend(model, usual), descend(model, others[int(np.argmin(ahead))])]
-    return FittedModel(model, min(ends, key=lambda end: end.chi2))
+    first = FittedModel(model, descend(model, usual))
+    other = descend(model, others[int(np.argmin(ahead))], known=first.fit)
+    return lower_of(first, other)
 
 
 def _forms_of(quantity: Quantity) -> Sequence[float]:

@@ -48,7 +48,7 @@ def from_other_starts(trials: Sequence[FittedModel], context: SearchContext) -> 
 
     def end(i: int) -> Fit:
         trial, x = begins[i]
-        rough = descend(trial.model, _start(trial, x), enough=SETTINGS.rough_gain)
+        rough = descend(trial.model, _start(trial, x), enough=SETTINGS.rough_gain, known=trial.fit)
         return followed(replace(trial, fit=rough)).fit if rough.chi2 < trial.fit.chi2 else rough
 
     found = list(leading)
