@@ -45,7 +45,7 @@ class Settings:
     # Base model
     base_starts: int = 15
     """Points within the limits at which chi-square is evaluated, beside their centre."""
-    base_descents: int = 3
+    base_descents: int = 8
     """Descents, from the best of these points."""
     wide_sd: float = 0.1
     """A parameter whose standard deviation in x is larger is hardly determined."""

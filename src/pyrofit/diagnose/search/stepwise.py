@@ -50,7 +50,8 @@ def search(base: FittedModel, effects: Sequence[str], most: int, context: Search
 
     Where more than noise is left, or the noise exceeds what is stated, it is estimated about the
     final model. If that explains more, the search is repeated with it, from the models of the first
-    search as well.
+    search as well. It is not repeated where as many effects as allowed leave more than noise: a
+    clearer noise leaves them even more.
 
     Parameters
     ----------
@@ -65,7 +66,8 @@ def search(base: FittedModel, effects: Sequence[str], most: int, context: Search
     """
     found = _Pass(effects, most, context).run(_look(base, effects, context))
     settled = found.end_lack.adequate and not blurred(found.end.model.base)
-    if settled or not found.end.effects or misfits(found.end):
+    used_up = len(found.end.effects) >= most and not found.end_lack.adequate
+    if settled or used_up or not found.end.effects or misfits(found.end):
         return found
     sharper = with_noise_about(found.end, processes=context.processes)
     if clearer(found.end.model.base, sharper) < SETTINGS.clearer_bic:
