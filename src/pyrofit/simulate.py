@@ -162,6 +162,7 @@ def _lower(
 
         thickness = np.asarray(sum(layer.thickness for layer in layers if not layer.added))
         needed = cells_needed(share, thickness, T_start, properties, network, exposure)
+        needed = np.minimum(needed, accuracy.most_cells)
         cells = np.ceil(accuracy.cells_factor * needed).astype(np.int64)
     return Case(layers + backing, cells, T_start, Description(properties, network, exposure))
 

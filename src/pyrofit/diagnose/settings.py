@@ -47,6 +47,8 @@ class Settings:
     """Points within the limits at which chi-square is evaluated, beside their centre."""
     base_descents: int = 8
     """Descents, from the best of these points."""
+    most_work: int = 5
+    """Runs get at most so many times the cells and time steps of the fitted base model."""
     wide_sd: float = 0.1
     """A parameter whose standard deviation in x is larger is hardly determined."""
     elsewhere: tuple[float, ...] = (0.15, 0.5, 0.85)

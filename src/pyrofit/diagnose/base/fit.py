@@ -56,11 +56,24 @@ def set_up(study: Study, measurements: Measurements, processes: int = 1) -> Setu
     calibrated = tuple(range(len(calibration_channels(study))))
     base = Base(likelihood, calibrated)
     first, starts = _fitted(base, study.seed, processes)
+    first = within_work(first)
     _check_held_out(first)
     base = with_noise_about(first, processes=processes)
     others = tuple(starts[: SETTINGS.other_starts])
     fitted = weighed(refitted(first, base))
     return Setup(fitted, candidate_effects(study), others)
+
+
+def within_work(trial: FittedModel) -> FittedModel:
+    """Return the fit whose base bounds the work of all runs by that of the fitted one.
+
+    Far from it, a reaction zone may ask for a thousand times as much.
+    """
+    base = trial.model.base
+    problem, likelihood = base.likelihood.problem, base.likelihood
+    bounded = problem.within_work(likelihood.values(trial.fit.x), SETTINGS.most_work)
+    base = replace(base, likelihood=replace(likelihood, problem=bounded))
+    return replace(trial, model=model_of(base, trial.model.effects, trial.model.channels))
 
 
 def weighed(trial: FittedModel) -> FittedModel:

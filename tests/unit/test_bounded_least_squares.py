@@ -1,0 +1,76 @@
+"""Descents: what ends them early, and what they leave alone."""
+
+from collections.abc import Callable
+from typing import Any
+
+import numpy as np
+import pytest
+
+from pyrofit.estimate.bounded_least_squares import Fit, minimise
+from pyrofit.solver.arrays import FloatArray
+
+Residuals = Callable[[FloatArray], FloatArray]
+RNG = np.random.default_rng(3)
+ROWS = RNG.standard_normal((40, 3))
+TRUTH = np.array([0.4, 0.6, 0.5])
+
+
+def bent(x: FloatArray) -> FloatArray:
+    """Return residuals that are linear about the truth and bend away from it."""
+    return 30.0 * (ROWS @ (x - TRUTH)) + 20.0 * (ROWS[:, :2] @ (x[:2] - TRUTH[:2]) ** 2)
+
+
+def two_valleys(x: FloatArray) -> FloatArray:
+    """Return residuals of two minima: 0 at x = 0.2, 1 at x = 0.8."""
+    return np.array([20.0 * (x[0] - 0.2) * (x[0] - 0.8), 1.0 if x[0] > 0.5 else 0.0])
+
+
+def differences(residuals: Residuals) -> Callable[[FloatArray, FloatArray], FloatArray]:
+    """Return the derivatives of residuals by differences."""
+
+    def jacobian(x: FloatArray, r: FloatArray) -> FloatArray:
+        return np.column_stack([(residuals(x + d) - r) / 1e-6 for d in 1e-6 * np.eye(x.size)])
+
+    return jacobian
+
+
+def descend(residuals: Residuals, x: list[float], **options: Any) -> Fit:
+    """Minimise to the end."""
+    return minimise(residuals, differences(residuals), np.array(x), 1e-6, **options)
+
+
+def test_descent_that_comes_back_to_a_known_fit_ends_early() -> None:
+    known = descend(bent, [0.5, 0.5, 0.5])
+    found = descend(bent, [0.9, 0.1, 0.9], known=known)
+    assert found.returned
+    assert 0.0 < found.chi2 - known.chi2 < 50.0
+    whole = descend(bent, [0.9, 0.1, 0.9])
+    assert not whole.returned
+    assert whole.chi2 == pytest.approx(known.chi2, abs=1e-6)
+
+
+@pytest.mark.parametrize(("start", "end"), [(0.1, 0.2), (0.35, 0.2), (0.95, 0.8)])
+def test_descent_to_another_valley_goes_on(start: float, end: float) -> None:
+    known = descend(two_valleys, [1.0 - end])
+    found = descend(two_valleys, [start], known=known)
+    assert not found.returned
+    assert found.x.item() == pytest.approx(end, abs=1e-3)
+
+
+def test_descent_does_not_return_to_a_fit_with_old_derivatives() -> None:
+    old = descend(bent, [0.5, 0.5, 0.5])
+    old = Fit(old.chi2, old.x, old.residuals, old.jacobian, fresh=False)
+    assert not descend(bent, [0.9, 0.1, 0.9], known=old).returned
+
+
+def test_idle_parameter_stays_and_keeps_its_derivatives() -> None:
+    def with_idle(x: FloatArray) -> FloatArray:
+        return np.append(bent(x[:3]), 2.0 * (x[3] - 0.3))
+
+    found = descend(with_idle, [0.9, 0.1, 0.9, 0.3], idle=(3,))
+    alone = descend(bent, [0.9, 0.1, 0.9])
+    assert found.x[3] == 0.3
+    assert found.x[:3] == pytest.approx(alone.x, abs=1e-9)
+    assert found.jacobian.shape == (41, 4)
+    assert found.jacobian[40, 3] == pytest.approx(2.0, rel=1e-6)
+    assert not found.jacobian[:40, 3].any()
