@@ -86,13 +86,13 @@ class Problem:
 
     def outcomes(self, values: Values, sets: int) -> list[Outcome]:
         """Return the same for values by name, each a number or of shape (sets,)."""
-        simulated = self._simulated(values, sets)
+        simulated = self.simulated(values, sets)
         return [
             self._picked({name: curves[s] for name, curves in simulated.items()})
             for s in range(sets)
         ]
 
-    def _simulated(self, values: Values, sets: int) -> dict[str, list[Curves]]:
+    def simulated(self, values: Values, sets: int) -> dict[str, list[Curves]]:
         """Return the curves by experiment and set; kinds with one solver in one call.
 
         Repeats that are described alike and recorded at the same times are simulated once, and so
@@ -159,24 +159,6 @@ class Problem:
                 return Evaluation(total, tuple(parts), status)
             status = Status.NON_FINITE
         return Evaluation(FAILED_COST, (FAILED_COST,) * len(self.picks), status)
-
-    def within_work(self, x: FloatArray, factor: int) -> "Problem":
-        """Return the same problem whose runs need at most so many times the cells and steps of x.
-
-        ``x`` has the shape (parameters,), SI units. A run that needs more cells gets fewer; one
-        that needs more steps does not finish.
-        """
-        simulated = self._simulated(self.values(x), 1)
-        cells = factor * max(curves[0].cells for curves in simulated.values())
-        steps = factor * max(curves[0].steps for curves in simulated.values())
-        a = self.accuracy
-        least = {"most_cells": max(cells, 50), "most_steps": max(steps, 100)}
-        return replace(
-            self,
-            accuracy=a.model_copy(
-                update={name: min(value, getattr(a, name)) for name, value in least.items()}
-            ),
-        )
 
     def refined(self) -> "Problem":
         """Return the same problem with a quarter of the solver's error."""

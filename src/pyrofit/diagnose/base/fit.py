@@ -17,6 +17,7 @@ from pyrofit.config import (
 from pyrofit.diagnose.base.descent import Fit, descend, refreshed
 from pyrofit.diagnose.base.fitted import FittedModel, polished
 from pyrofit.diagnose.base.model import Base, Model, model_of
+from pyrofit.diagnose.base.work import within_work
 from pyrofit.diagnose.settings import SETTINGS
 from pyrofit.errors import DataError
 from pyrofit.estimate.between_repeats import with_repeats
@@ -62,18 +63,6 @@ def set_up(study: Study, measurements: Measurements, processes: int = 1) -> Setu
     others = tuple(starts[: SETTINGS.other_starts])
     fitted = weighed(refitted(first, base))
     return Setup(fitted, candidate_effects(study), others)
-
-
-def within_work(trial: FittedModel) -> FittedModel:
-    """Return the fit whose base bounds the work of all runs by that of the fitted one.
-
-    Far from it, a reaction zone may ask for a thousand times as much.
-    """
-    base = trial.model.base
-    problem, likelihood = base.likelihood.problem, base.likelihood
-    bounded = problem.within_work(likelihood.values(trial.fit.x), SETTINGS.most_work)
-    base = replace(base, likelihood=replace(likelihood, problem=bounded))
-    return replace(trial, model=model_of(base, trial.model.effects, trial.model.channels))
 
 
 def weighed(trial: FittedModel) -> FittedModel:

@@ -1,0 +1,37 @@
+"""A bound on the work of single runs: a trial may ask for a thousand times the usual one."""
+
+from dataclasses import replace
+
+from pyrofit.diagnose.base.fitted import FittedModel
+from pyrofit.diagnose.base.model import model_of
+from pyrofit.diagnose.settings import SETTINGS
+from pyrofit.estimate.problem import Problem
+from pyrofit.solver.arrays import FloatArray
+
+
+def within_work(trial: FittedModel) -> FittedModel:
+    """Return the fit whose base bounds the work of all runs by that of the fitted one.
+
+    Far from it, a reaction zone may be so thin that a run takes a thousand times as long.
+    """
+    base = trial.model.base
+    likelihood = base.likelihood
+    bounded = _bounded(likelihood.problem, likelihood.values(trial.fit.x))
+    base = replace(base, likelihood=replace(likelihood, problem=bounded))
+    return replace(trial, model=model_of(base, trial.model.effects, trial.model.channels))
+
+
+def _bounded(problem: Problem, x: FloatArray) -> Problem:
+    """Return a problem whose runs get a multiple of the cells and steps that x [SI] needs, at most.
+
+    A run that needs more cells gets fewer; one that needs more steps does not finish.
+    """
+    simulated = problem.simulated(problem.values(x), 1)
+    cells = SETTINGS.most_work * max(curves[0].cells for curves in simulated.values())
+    steps = SETTINGS.most_work * max(curves[0].steps for curves in simulated.values())
+    accuracy = problem.accuracy
+    least = {
+        "most_cells": min(max(cells, 50), accuracy.most_cells),
+        "most_steps": min(max(steps, 100), accuracy.most_steps),
+    }
+    return replace(problem, accuracy=accuracy.model_copy(update=least))
