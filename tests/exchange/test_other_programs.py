@@ -107,6 +107,24 @@ def test_gpyro_front_has_the_flux_over_time_in_order() -> None:
     assert np.all(np.diff(times) > 0.0)
 
 
+def test_gpyro_gets_no_back_warmer_than_the_sample_which_would_end_the_flux() -> None:
+    of = base()
+    experiment = slab(of)
+    for given, written in ((280.0, 280.0), (320.0, 295.0)):
+        back = experiment.back.model_copy(
+            update={"gas_temperature_K": given, "wall_temperature_K": given}
+        )
+        sample = experiment.sample.model_copy(update={"initial_temperature_K": 295.0})
+        changed = experiment.model_copy(update={"back": back, "sample": sample})
+        found = slab_data("a", changed, of.material, of.values, predicted(of, "capa_25"))
+        bc = keys(found)["ALLBC"]
+        last = int(number(bc["NSURF_IDX"]))
+        assert number(bc[f"SURF_IDX({last})"]) == 2
+        assert number(bc[f"TINF({last})"]) == pytest.approx(written)
+        named = [r for r in found.remarks if "gas behind" in r.what]
+        assert bool(named) == (given != written)
+
+
 def test_gpyro_heats_every_rate_in_a_case() -> None:
     rates = [TEN, Tga(kind="tga", heating_rate_K_min=50.0), TEN]
     cases = keys(heated_data("tga", rates, base().material, base().values))["CASES"]

@@ -65,7 +65,8 @@ def slab_data(
     layers = own_layers(sample, material, values)
     present = reached(material, [n for layer in layers for n in layer.shares])
     eps = virgin_emissivity(layers[0], material, values)
-    outside = surroundings(experiment, values, predicted, eps, False)
+    start = value_of(sample.initial_temperature_K, values)
+    outside = _not_warmer_behind(surroundings(experiment, values, predicted, eps, False), start)
     length = value_of(sample.absorption_length_m, values)
     bodies, remarks = all_species(material, values, present, length)
     remarks += [*unwritten(experiment, values), *outside.remarks]
@@ -86,7 +87,7 @@ def slab_data(
         *reactions(steps),
         Namelist("GPYRO_CASES", {"NCASES": 1, "IMESH(1)": 1, **end}),
         *unused(),
-        initial(layers, present, value_of(sample.initial_temperature_K, values)),
+        initial(layers, present, start),
         Namelist("GPYRO_ALLBC", numbered("NSURF_IDX", boundaries(outside))),
         Namelist("GPYRO_GEOM", geometry(layers, depth, (0, 0, 0, 0, 1, 2))),
     )
@@ -120,6 +121,19 @@ def heated_data(
         Namelist("GPYRO_GEOM", mesh),
     )
     return Data(namelists, once([*remarks, *_orders(steps, [layer])]))
+
+
+def _not_warmer_behind(outside: Outside, start_K: float) -> Outside:
+    """Return surroundings whose back is not warmer than the sample at its start.
+
+    Gpyro 0.82 sets the flux of the front to zero while net radiation enters the back.
+    """
+    if outside.is_insulated or outside.back_K <= start_K:
+        return outside
+    what = f"gas behind at {outside.back_K:g} K (back.gas_temperature_K, back.wall_temperature_K)"
+    how = f"{start_K:g} K, as the sample; Gpyro 0.82 drops the front's flux behind a warmer back"
+    remarks = (*outside.remarks, Remark("approximate", what, how))
+    return outside._replace(back_K=start_K, remarks=remarks)
 
 
 def _left_out(
