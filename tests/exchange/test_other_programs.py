@@ -77,7 +77,7 @@ def test_gpyro_gets_all_groups_that_its_samples_have() -> None:
     assert [f"NAME({n + 1})" in found["SPROPS"] for n in range(count + 1)] == [True] * count + [
         False
     ]
-    assert number(found["GEOM"]["NOBST"]) == number(found["IC"]["NIC"]) == 2.0
+    assert number(found["GEOM"]["NOBST"]) == number(found["IC"]["NIC"]) == 1.0
 
 
 def test_gpyro_heat_belongs_to_the_gas_and_solids_keep_their_mass() -> None:

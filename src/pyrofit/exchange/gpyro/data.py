@@ -17,7 +17,6 @@ from pyrofit.exchange.fds.slab import virgin_emissivity
 from pyrofit.exchange.fds.unwritten import unwritten
 from pyrofit.exchange.fitted_forms import power_law, remark_on
 from pyrofit.exchange.gpyro.groups import (
-    CELLS,
     T_REF_K,
     Items,
     boundaries,
@@ -34,11 +33,10 @@ from pyrofit.exchange.steps import Step, steps_of
 from pyrofit.model.base import value_of
 from pyrofit.model.heated import HeatedExperiment
 from pyrofit.model.material import Material
-from pyrofit.model.slab import Foil, SlabExperiment
+from pyrofit.model.slab import SlabExperiment
 
 R_GPYRO = 8.314
 OPAQUE_1_M = 9e9
-FOIL = "foil"
 TGA_ENDS_K = 900.0
 
 
@@ -58,7 +56,8 @@ def slab_data(
 ) -> Data:
     """Return the file of a slab.
 
-    The foil is a cell of its heat capacity. Gas and walls of the front are one temperature, the
+    The foil is left out: Gpyro 0.82 gives the faces between two bodies the flux and losses of the
+    outside, so that the rate is zero. Gas and walls of the front are one temperature, the
     rest is part of QE, as for FDS.
     """
     sample = experiment.sample
@@ -73,11 +72,6 @@ def slab_data(
     remarks += _left_out(experiment, values, outside, eps)
     steps = steps_of(material, values, present, R_GPYRO)
     remarks += _orders(steps, layers)
-    if sample.foil is not None:
-        thickness = sum(layer.thickness_m for layer in layers) / (CELLS - 1)
-        bodies.append(_foil(sample.foil, values, thickness, outside.emissivity_back))
-        layers.append(Layer({FOIL: 1.0}, thickness))
-        present = [*present, FOIL]
     depth = sum(layer.thickness_m for layer in layers)
     end: Items = {"TSTOP(1)": predicted.end_s, "ZEROD(1)": False, "BETA(1)": 0}
     namelists = (
@@ -148,11 +142,9 @@ def _left_out(
         what = "in-depth absorption of one band only (sample.surface_share)"
         yield Remark("left out", what, "all radiation is absorbed in depth")
     if sample.foil is not None:
-        yield Remark("approximate", "foil (sample.foil)", "a cell of its heat capacity")
-        if value_of(sample.foil.contact_m2K_W, values):
-            what = "resistance between sample and foil (sample.foil.contact_m2K_W)"
-            yield Remark("left out", what, "the foil touches the sample")
-    elif not outside.is_insulated and abs(outside.emissivity_back - eps) > 1e-3:
+        how = "Gpyro 0.82 exposes the faces between two bodies to the surroundings"
+        yield Remark("left out", "foil (sample.foil)", how)
+    if not outside.is_insulated and abs(outside.emissivity_back - eps) > 1e-3:
         what = "emissivity of the back (back.emissivity)"
         yield Remark("left out", what, "that of the material in the last cell counts")
 
@@ -195,11 +187,3 @@ def all_species(
             species(name, k.coefficients, density, c.coefficients, eps, kappa or OPAQUE_1_M)
         )
     return found, remarks
-
-
-def _foil(foil: Foil, values: Values, thickness: float, emissivity: float) -> Items:
-    """Return a body of a thickness [m] that has the heat capacity of the foil."""
-    mass = value_of(foil.mass_factor, values) * value_of(foil.thickness_m, values)
-    density = mass * value_of(foil.density_kg_m3, values) / thickness
-    heat = value_of(foil.specific_heat_J_kgK, values)
-    return species(FOIL, (387.0, 0.0), density, (heat, 0.0), emissivity, OPAQUE_1_M)
