@@ -4,6 +4,7 @@ The rest are the fast ones, `make test-fast`; none of them compiles a kernel.
 """
 
 import os
+import signal
 import sys
 from pathlib import Path
 from types import ModuleType
@@ -11,6 +12,9 @@ from types import ModuleType
 import pytest
 
 HERE = Path(__file__).parent
+# A shell starts what runs in the background with Ctrl-C ignored; what a test interrupts heeds it.
+if signal.getsignal(signal.SIGINT) is signal.SIG_IGN:
+    signal.signal(signal.SIGINT, signal.default_int_handler)
 FOLDERS = {
     "blind_test": "solver",
     "diagnose": "solver",

@@ -385,7 +385,7 @@ def test_every_file_of_two_laboratories_is_read_without_options() -> None:
 
     lengths = {}
     for name in registry():
-        if name.endswith(".csv") and ("UMD" in name or "UMET" in name):
+        if name.endswith(".csv") and "PMMA/" in name and ("UMD" in name or "UMET" in name):
             quantity = "mass_fraction" if "_TGA_" in name else "back_temperature"
             quantity = "mlr" if name.endswith("_Mass.csv") else quantity
             series = read_series(SeriesSpec(quantity, locate(name)))

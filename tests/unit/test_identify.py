@@ -32,6 +32,18 @@ class Posed:
     target: Target
 
     @property
+    def span(self) -> FloatArray:
+        return self.upper - self.lower
+
+    @property
+    def moving(self) -> tuple[int, ...]:
+        return tuple(range(len(self.names)))
+
+    @property
+    def idle(self) -> tuple[int, ...]:
+        return ()
+
+    @property
     def picks(self) -> list[tuple[str, str, None]]:
         return [("slab", "mlr", None)]
 

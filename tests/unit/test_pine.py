@@ -5,7 +5,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from pyrofit.analysis.closure import described_mass, layers_of
+from pyrofit.analysis.closure import described_mass
 from pyrofit.config import Study, read_study
 from pyrofit.data.fetch import registry
 from pyrofit.model.base import value_of
@@ -62,8 +62,7 @@ def test_discs_and_boards_weigh_what_the_study_says(study: Study) -> None:
     for (name, signal), frame in masses.items():
         experiment = study.experiments[name]
         assert isinstance(experiment, SlabExperiment)
-        layers = layers_of(experiment, values)
-        described = described_mass(study, experiment, layers, values)
+        described = described_mass(study, experiment, values)
         offset = value_of(experiment.signals[signal].offset, values)
         start = float(np.median(frame["mass_kg_m2"][:5])) - offset
         assert start == pytest.approx(described, rel=0.02), name

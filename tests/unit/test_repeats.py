@@ -24,6 +24,7 @@ from pyrofit.estimate.prior import prior_of
 from pyrofit.estimate.problem import Problem, make_problem
 from pyrofit.experiments.base import Kind
 from pyrofit.results.files import Results
+from pyrofit.show.identification import repeats as shown
 from pyrofit.show.identification.repeats import table
 from pyrofit.stages.measurements import computed
 
@@ -333,7 +334,8 @@ def test_table_gives_estimates_beside_their_stated_scatter(
         SimpleNamespace(name=f"slab_25_{i}_thickness", value=value, **about)
         for i, value in ((1, 1.05), (2, 0.99))
     ]
-    monkeypatch.setattr(analysed, "estimated", lambda study, results: found)
+    monkeypatch.setattr(shown.identification, "read", lambda study, results: None)
+    monkeypatch.setattr(shown, "estimated", lambda study, identified: found)
     frame = table(study, Results(tmp_path))
     assert frame["stated_sd"].tolist() == [0.02, 0.02]
     assert frame["away_sd"].tolist() == pytest.approx([2.5, -0.5])

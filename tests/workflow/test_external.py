@@ -8,7 +8,7 @@ from pathlib import Path
 
 import psutil
 import pytest
-from test_workflow import kill
+from test_diagnose import kill
 from tiny import ROOT, Project, Run
 
 sys.path.insert(0, str(ROOT / "tests" / "external"))

@@ -74,7 +74,7 @@ def observe_one(
     """Return the same for a solver of one set, whose times asked for have the shape (points,)."""
 
     def runs(factors: FloatArray, asked: Mapping[str, Request]) -> Runs:
-        plain = {name: replace(r, time_s=r.time_s[0]) for name, r in asked.items()}
+        plain = {n: replace(requests[n], time_s=r.time_s[0]) for n, r in asked.items()}
         found = [run(factor, plain) for factor in factors.tolist()]
         missing = {name: np.full(r.time_s.shape, np.nan) for name, r in plain.items()}
         return Runs(

@@ -10,7 +10,6 @@ time: one process compiles a signature, the others wait for its file.
 import contextlib
 import functools
 import hashlib
-import importlib.metadata
 import logging
 import os
 import pickle
@@ -20,6 +19,7 @@ import tempfile
 import time
 from pathlib import Path
 
+import llvmlite
 import numba
 import numpy as np
 from numba.core.compiler import CompileResult
@@ -185,7 +185,7 @@ def folders():
     total = hashlib.sha256(b"".join(path.read_bytes() for path in _SOURCES))
     versions = (
         numba.__version__,
-        importlib.metadata.version("llvmlite"),
+        llvmlite.__version__,
         np.__version__,
         platform.python_version(),
     )
