@@ -70,6 +70,10 @@ class Simulate(Protocol):
         ...
 
 
+Designs = Callable[[Mapping[str, Any], Mapping[str, Any], Mapping[str, set[str]]], Iterator[Idea]]
+"""From fitted experiments, fitted or predicted ones, and their recorded quantities to new tests."""
+
+
 @dataclass(frozen=True)
 class Kind:
     """A kind of experiment.
@@ -93,7 +97,7 @@ class Kind:
     course
         Phases: description, material, values, a request at the wanted times, accuracy.
     designs
-        New tests: those fitted by name, those fitted or predicted, quantities recorded in these.
+        New tests.
     files
         What a new study needs that is written from files; none = it is not written.
     """
@@ -106,7 +110,5 @@ class Kind:
     request: Callable[[Any, str, pd.DataFrame, FloatArray], Request]
     synthetic: Callable[[Any, Sequence[str]], dict[str, Request]]
     course: Callable[[Any, Material, Mapping[str, float], Request, Accuracy], Course]
-    designs: Callable[
-        [Mapping[str, Any], Mapping[str, Any], Mapping[str, set[str]]], Iterator[Idea]
-    ]
+    designs: Designs
     files: FromFiles | None

@@ -4,12 +4,10 @@ from typing import ClassVar, Literal
 
 from pydantic import Field
 
-from pyrofit.experiments.base import Kind
 from pyrofit.experiments.cone.designs import designs
 from pyrofit.experiments.cone.facts import facts
-from pyrofit.experiments.slab.course import course
 from pyrofit.experiments.slab.from_files import from_files
-from pyrofit.experiments.slab.simulate import reference, request, simulate, synthetic
+from pyrofit.experiments.slab.kind import slab_kind
 from pyrofit.model.slab import SlabExperiment
 from pyrofit.model.slab_faces import Flame
 
@@ -34,15 +32,8 @@ class Cone(SlabExperiment):
         return self.flame
 
 
-KIND = Kind(
-    description=Cone,
-    words=Cone.APPARATUS,
-    stage="imp",
-    simulate=simulate,
-    reference=reference,
-    request=request,
-    synthetic=synthetic,
-    course=course,
-    designs=designs,
-    files=from_files("files of a cone calorimeter or FPA, in which the slab burns", facts),
+KIND = slab_kind(
+    Cone,
+    designs,
+    from_files("files of a cone calorimeter or FPA, in which the slab burns", facts),
 )
