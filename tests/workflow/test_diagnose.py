@@ -1,6 +1,5 @@
 """The diagnosis as a target of the workflow: what it leaves, what is kept, what runs again."""
 
-import contextlib
 import json
 import shutil
 import time
@@ -9,9 +8,8 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
 
-import psutil
 import pytest
-from tiny import OWN_FILE, ROOT, TINY, Project, Run
+from tiny import OWN_FILE, ROOT, TINY, Project, Run, kill
 
 PREPARE = "Measured series into tidy tables, mass closure checked"
 DIAGNOSIS = "Which effect the model lacks"
@@ -172,13 +170,6 @@ def test_one_core_finds_the_same_bytes_as_two(diagnosed: Diagnosed) -> None:
     assert diagnosed.now() == diagnosed.left
 
 
-def kill(process: psutil.Process) -> None:
-    """Kill a process and all it started, as a power cut would."""
-    for one in [process, *process.children(recursive=True)]:
-        with contextlib.suppress(psutil.NoSuchProcess):
-            one.kill()
-
-
 def test_killed_diagnosis_goes_on_to_the_same_bytes(diagnosed: Diagnosed) -> None:
     diagnosed.forget()
     log = diagnosed.project.root / LOG
@@ -187,7 +178,7 @@ def test_killed_diagnosis_goes_on_to_the_same_bytes(diagnosed: Diagnosed) -> Non
         while process.poll() is None and not (log.exists() and "chi-square" in log.read_text()):
             assert time.monotonic() < give_up
             time.sleep(0.005)
-        kill(psutil.Process(process.pid))
+        kill(process)
         process.communicate()
     assert process.returncode != 0
     assert not (diagnosed.project.root / FOUND[0]).exists()

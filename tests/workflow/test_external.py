@@ -6,10 +6,8 @@ import sys
 import time
 from pathlib import Path
 
-import psutil
 import pytest
-from test_diagnose import kill
-from tiny import ROOT, Project, Run
+from tiny import ROOT, Project, Run, kill
 
 sys.path.insert(0, str(ROOT / "tests" / "external"))
 from decay import study, write
@@ -71,7 +69,7 @@ def test_a_killed_campaign_goes_on_without_running_a_set_again(
             assert time.monotonic() < give_up
             assert process.poll() is None
             time.sleep(0.02)
-        kill(psutil.Process(process.pid))
+        kill(process)
         process.communicate()
     before = len(runs(project))
     assert not (project.root / HISTORIES[1]).exists()

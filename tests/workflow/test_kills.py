@@ -12,9 +12,8 @@ import time
 from collections import Counter
 from pathlib import Path
 
-import psutil
 import pytest
-from tiny import FIT, Project
+from tiny import FIT, Project, kill
 
 RESULTS = Path("results/tiny")
 OF_THE_RUN = ("logs", "benchmarks", "running")
@@ -44,14 +43,6 @@ def bits(project: Project) -> dict[str, str]:
         and path.relative_to(root).parts[0] not in OF_THE_RUN
         and not path.name.endswith(".part")
     }
-
-
-def kill(process: "subprocess.Popen[str]") -> None:
-    """Kill a run and all it started, as a loss of power would."""
-    for one in psutil.pids():
-        with contextlib.suppress(OSError):
-            if os.getsid(one) == process.pid:
-                os.kill(one, signal.SIGKILL)
 
 
 def lock_of(project: Project) -> bytes:

@@ -1,5 +1,6 @@
 """A copy of the project, so that tests may edit its source, with a tiny study run in it."""
 
+import contextlib
 import json
 import os
 import re
@@ -10,6 +11,7 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
 
+import psutil
 import yaml
 
 ROOT = Path(__file__).parents[2]
@@ -190,3 +192,18 @@ class Project:
 
     def read(self, name: str) -> bytes:
         return (self.root / name).read_bytes()
+
+
+def kill(process: "subprocess.Popen[str]") -> None:
+    """Kill a run and all it started, as a loss of power would.
+
+    Jobs may have lost their parent, and external programs have sessions of their own.
+    """
+    started: list[psutil.Process] = []
+    with contextlib.suppress(psutil.NoSuchProcess):
+        run = psutil.Process(process.pid)
+        started = [run, *run.children(recursive=True)]
+    for one in [*started, *psutil.process_iter()]:
+        with contextlib.suppress(OSError, psutil.NoSuchProcess):
+            if one in started or os.getsid(one.pid) == process.pid:
+                one.kill()
