@@ -24,22 +24,28 @@ def exists(study: Study, results: Results) -> bool:
 
 
 def origin(results: Results) -> dict[str, Any]:
-    """Return what the runs rest on: by experiment command, program, version and checksums.
+    """Return command, program, version and checksums of the runs by experiment.
 
     Raises
     ------
     DataError
         The record of the timed run is missing or broken.
     """
-    found = read_json(results.programs("trial.json"), {("experiments",): dict})["experiments"]
     left_out = ("seconds", "time_limit_s")
+    found = _timed_runs(results)
     return {n: {k: v for k, v in one.items() if k not in left_out} for n, one in found.items()}
 
 
+def _timed_runs(results: Results) -> dict[str, Any]:
+    """Return the records of the timed runs by experiment."""
+    content = read_json(results.programs("trial.json"), {("experiments",): dict})
+    found: dict[str, Any] = content["experiments"]
+    return found
+
+
 def _table(study: Study, results: Results) -> pd.DataFrame:
-    found = read_json(results.programs("trial.json"), {("experiments",): dict})["experiments"]
     rows = []
-    for name, one in found.items():
+    for name, one in _timed_runs(results).items():
         runs, reasons = Store(str(results.programs(name))).counts()
         often = reasons.most_common(1)
         rows.append(
