@@ -38,7 +38,8 @@ def test_the_value_of_an_expression() -> None:
     assert found == 0.001 * math.exp(1e5 / (8.314 * 500.0)) ** 2 + 3.0
     assert names_of(expression) == {"E", "T"}
     assert math.isnan(value_of_expression("log(x)", {"x": -1.0}))
-    assert math.isnan(value_of_expression("(-x) ** 0.5", {"x": 2.0}))
+    for root in ("(-x) ** 0.5", "exp((-x) ** 0.5)", "abs((-x) ** 0.5)", "max(1, (-x) ** 0.5)"):
+        assert math.isnan(value_of_expression(root, {"x": 2.0}))
 
 
 @pytest.mark.parametrize(
@@ -47,6 +48,15 @@ def test_the_value_of_an_expression() -> None:
 )
 def test_what_is_no_arithmetic_is_refused(expression: str) -> None:
     with pytest.raises(ValueError, match=r"expression|only numbers|unknown function"):
+        names_of(expression)
+
+
+@pytest.mark.parametrize(
+    ("expression", "says"),
+    [("log(x, 2)", "one number"), ("sqrt(x, x)", "one number"), ("min(x)", "two numbers or more")],
+)
+def test_a_function_takes_no_other_number_of_numbers(expression: str, says: str) -> None:
+    with pytest.raises(ValueError, match=f"takes {says}"):
         names_of(expression)
 
 
@@ -97,6 +107,11 @@ WRONG: dict[str, tuple[str, dict[str, Any], str]] = {
         TEMPLATE,
         {"reads": {"mlr": {**READS, "columns": {"time": "t"}}}},
         "columns: name that of the value",
+    ),
+    "column before the first": (
+        TEMPLATE,
+        {"reads": {"mlr": {**READS, "columns": {"time": 1, "value": 0}}}},
+        "columns: the number of the value is 0; the first column is 1",
     ),
     "signal that is not read": (TEMPLATE, {"reads": {}}, "name the file and the columns"),
     "no template": (TEMPLATE, {"template": "decai.inp"}, "no such file. Did you mean 'decay.inp'"),

@@ -3,8 +3,7 @@
 import ast
 import math
 import operator
-from collections.abc import Callable, Iterable, Mapping
-from typing import Any
+from collections.abc import Callable, Mapping
 
 from pyrofit.errors import suggest
 
@@ -17,12 +16,14 @@ FUNCTIONS: dict[str, Callable[..., float]] = {
     "min": min,
     "sqrt": math.sqrt,
 }
-_OPERATORS: dict[type, Callable[[Any, Any], Any]] = {
+OF_SEVERAL = ("max", "min")
+"""Functions of two numbers or more; all others take one."""
+_OPERATORS: dict[type, Callable[[float, float], float]] = {
     ast.Add: operator.add,
     ast.Sub: operator.sub,
     ast.Mult: operator.mul,
     ast.Div: operator.truediv,
-    ast.Pow: operator.pow,
+    ast.Pow: math.pow,  # not that of Python, whose root of a negative number is complex
 }
 _ARITHMETIC = (
     *(ast.Expression, ast.BinOp, ast.UnaryOp, ast.Constant, ast.Name, ast.Call, ast.Load),
@@ -36,7 +37,7 @@ def names_of(expression: str) -> set[str]:
     Raises
     ------
     ValueError
-        It is more than arithmetic, or calls an unknown function.
+        It is more than arithmetic, or calls a function that is unknown or takes other numbers.
 
     Examples
     --------
@@ -57,7 +58,7 @@ def names_of(expression: str) -> set[str]:
 
 
 def _check(node: ast.AST, expression: str) -> None:
-    """Refuse what is not arithmetic."""
+    """Refuse all but arithmetic."""
     if isinstance(node, ast.Call):
         name = node.func.id if isinstance(node.func, ast.Name) else ""
         if name not in FUNCTIONS or node.keywords or not node.args:
@@ -65,6 +66,9 @@ def _check(node: ast.AST, expression: str) -> None:
                 f"'{expression}': unknown function '{ast.unparse(node.func)}'. "
                 + suggest(name, FUNCTIONS)
             )
+        if (len(node.args) > 1) != (name in OF_SEVERAL):
+            takes = "two numbers or more" if name in OF_SEVERAL else "one number"
+            raise ValueError(f"'{expression}': {name} takes {takes}; correct it")
     number = not isinstance(node, ast.Constant) or type(node.value) in (int, float)
     if not (isinstance(node, (*_ARITHMETIC, *_OPERATORS)) and number):
         raise ValueError(
@@ -89,15 +93,15 @@ def value_of_expression(expression: str, values: Mapping[str, float]) -> float:
     26.850000000000023
     """
     try:
-        found = _value(ast.parse(expression.strip(), mode="eval").body, values)
-        return float(found) if not isinstance(found, complex) else math.nan
+        return _value(ast.parse(expression.strip(), mode="eval").body, values)
     except (ArithmeticError, ValueError):
         return math.nan
 
 
-def _value(node: ast.expr, values: Mapping[str, float]) -> Any:
+def _value(node: ast.expr, values: Mapping[str, float]) -> float:
     if isinstance(node, ast.Constant):
-        return float(node.value)  # type: ignore[arg-type]
+        assert isinstance(node.value, (int, float))
+        return float(node.value)
     if isinstance(node, ast.Name):
         return values[node.id]
     if isinstance(node, ast.UnaryOp):
@@ -107,8 +111,4 @@ def _value(node: ast.expr, values: Mapping[str, float]) -> Any:
         return _OPERATORS[type(node.op)](_value(node.left, values), _value(node.right, values))
     assert isinstance(node, ast.Call)
     assert isinstance(node.func, ast.Name)
-    return FUNCTIONS[node.func.id](*_all(node.args, values))
-
-
-def _all(nodes: Iterable[ast.expr], values: Mapping[str, float]) -> list[float]:
-    return [_value(node, values) for node in nodes]
+    return FUNCTIONS[node.func.id](*(_value(argument, values) for argument in node.args))

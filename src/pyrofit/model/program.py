@@ -69,6 +69,11 @@ class Reading(Part):
             for role in ("value", *({"temperature"} & {*self.columns})):
                 if role not in given:
                     raise ValueError(f"{key}: name that of the {role}: `{key}: {{{role}: ...}}`")
+        for role, head in self.columns.items():
+            if isinstance(head, int) and head < 1:
+                raise ValueError(
+                    f"columns: the number of the {role} is {head}; the first column is 1"
+                )
         if {"time", "temperature"} <= {*self.columns}:
             raise ValueError("columns: name the time or the temperature, not both")
         if self.holds == "before" and self.abscissa != "time":
