@@ -139,6 +139,32 @@ def test_broken_input_is_refused_before_anything_runs(
         posed(tmp_path, study(**program))
 
 
+AGAINST_TEMPERATURE: dict[str, tuple[str, dict[str, Any], str]] = {
+    "rate over time": ("mlr", {}, "mlr is measured over time; name the column of the time"),
+    "bins in seconds": ("mass_fraction", {"average_s": 5}, "average_s: .* without a time"),
+    "delay": ("mass_fraction", {"delay_s": 2}, "delay_s: .* without a time"),
+    "no measured file": ("mass_fraction", {"file": "synthetic"}, "cannot be synthetic"),
+}
+
+
+@pytest.mark.parametrize(
+    ("signal", "keys", "says"), AGAINST_TEMPERATURE.values(), ids=AGAINST_TEMPERATURE
+)
+def test_a_record_against_temperature_takes_no_key_of_time(
+    signal: str, keys: dict[str, Any], says: str, tmp_path: Path
+) -> None:
+    write(tmp_path)
+    reading = {
+        "file": "rate.csv",
+        "columns": {"temperature": "T", "value": "Rate"},
+        "units": {"temperature": "K", "value": "g/m2/s" if signal == "mlr" else "-"},
+    }
+    given = study(reads={signal: reading})
+    given["experiments"]["plate"]["signals"] = {signal: {"file": "tga.csv", **keys}}
+    with pytest.raises(StudyError, match=says):
+        posed(tmp_path, given)
+
+
 def test_another_template_file_program_or_number_is_another_run(tmp_path: Path) -> None:
     write(tmp_path)
     values = {"height": 9.0, "fall": 0.02}

@@ -31,7 +31,31 @@ class ExternalExperiment(Experiment):
                 raise ValueError(
                     f"program.reads: there is no signal '{signal}'. {suggest(signal, self.signals)}"
                 )
+        for signal, reading in self.program.reads.items():
+            if reading.abscissa == "temperature":
+                self._check_against_temperature(signal)
         return self
+
+    def _check_against_temperature(self, name: str) -> None:
+        """Refuse keys that need the time of each point."""
+        signal, quantity = self.signals[name], self.quantity(name)
+        if not quantity.against_temperature:
+            raise ValueError(
+                f"program.reads.{name}.columns: {quantity.name} is measured over time; name the "
+                "column of the time"
+            )
+        for key in ("average_s", "delay_s"):
+            if getattr(signal, key) != 0.0:
+                raise ValueError(
+                    f"signals.{name}.{key}: the program gives this signal against temperature, "
+                    "without a time; leave it out"
+                )
+        if signal.file == "synthetic":
+            raise ValueError(
+                f"signals.{name}.file: a signal against temperature cannot be synthetic, as no "
+                "temperature programme is described; name a measured file, or the column of the "
+                "time"
+            )
 
     @property
     def measurable(self) -> dict[str, Quantity]:
