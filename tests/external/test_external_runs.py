@@ -257,6 +257,17 @@ def test_a_program_beside_the_study_is_found(tmp_path: Path) -> None:
     assert run(found, (9.0, 0.02))[0].why == ""
 
 
+def test_a_program_goes_by_the_name_of_its_link(tmp_path: Path) -> None:
+    found = opened(tmp_path, command="./by_link x")
+    folder = tmp_path / "my study"
+    (folder / "program").write_text(
+        "#!/bin/sh\ncase $0 in *by_link) python3 -S decay.py decay.inp;; *) exit 4;; esac\n"
+    )
+    (folder / "program").chmod(0o755)
+    (folder / "by_link").symlink_to("program")
+    assert run(found, (9.0, 0.02))[0].why == ""
+
+
 # --- the same costs and optimisers ----------------------------------------------------------
 
 

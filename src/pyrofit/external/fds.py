@@ -29,11 +29,11 @@ def find_fds() -> Path | None:
     named = os.environ.get(VARIABLE)
     if not named:
         found = shutil.which("fds")
-        return Path(found) if found else None
+        return Path(found).absolute() if found else None
     path = Path(named).expanduser()
     if not (path.is_file() and os.access(path, os.X_OK)):
         raise ProgramError(f"{VARIABLE}={named}: there is no such executable file; correct it")
-    return path.resolve()
+    return path.absolute()
 
 
 def fds_environment() -> dict[str, str]:

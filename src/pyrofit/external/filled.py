@@ -85,7 +85,7 @@ def executable_of(program: Program) -> Path:
             raise ProgramError(NO_FDS)
         return path
     if "/" in word:
-        path = Path(word).expanduser().resolve()
+        path = Path(word).expanduser().absolute()  # links lead on: some programs go by their name
         if path.is_file() and os.access(path, os.X_OK):
             return path
         raise ProgramError(
@@ -98,7 +98,7 @@ def executable_of(program: Program) -> Path:
             f"program.command: there is no program '{word}' on the PATH; install it, load its "
             "module, or give its path"
         )
-    return Path(found)
+    return Path(found).absolute()
 
 
 def words_of(program: Program) -> list[str]:
