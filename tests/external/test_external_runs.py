@@ -121,6 +121,24 @@ def test_a_failure_is_recorded_and_not_run_again(
     assert len(runs(tmp_path)) == 1
 
 
+@pytest.mark.parametrize(
+    ("mode", "says"),
+    [("ended from outside", "from outside by signal 15"), ("no program", "cannot be started")],
+)
+def test_what_tells_nothing_of_the_set_stops_the_step_and_is_not_kept(
+    mode: str, says: str, tmp_path: Path
+) -> None:
+    found = opened(tmp_path, mode)
+    if mode == "no program":
+        nothing = tmp_path / "my study" / "nothing"
+        nothing.write_bytes(b"\x00")
+        nothing.chmod(0o755)
+        found = opened(tmp_path, command="./nothing x")
+    with pytest.raises(ProgramError, match=says):
+        run(found, (9.0, 0.02))
+    assert failures(tmp_path) == []
+
+
 def test_no_more_folders_of_failures_are_kept_than_asked_for(tmp_path: Path) -> None:
     found = opened(tmp_path, "fails above 0.04", keep_failed=2)
     run(found, *((9.0, 0.05 + 0.001 * n) for n in range(4)))

@@ -10,10 +10,14 @@ from collections.abc import Mapping, Sequence
 from pathlib import Path
 from typing import NamedTuple
 
+from pyrofit.errors import ProgramError
+
 OUT, ERR = "pyrofit_stdout.txt", "pyrofit_stderr.txt"
-"""Files in the folder that hold what a program writes to its terminal."""
+"""Files in the folder that hold the output of a program on the terminal."""
 MOST_SAID = 1_000_000
-"""Bytes at the end of each of them that are looked at."""
+"""Bytes at the end of each of these files that are read."""
+FROM_OUTSIDE = (signal.SIGHUP, signal.SIGINT, signal.SIGTERM)
+"""Signals by which a user or a scheduler ends a program; they tell nothing of its input."""
 
 
 class Ended(NamedTuple):
@@ -22,13 +26,13 @@ class Ended(NamedTuple):
     Parameters
     ----------
     why
-        Why it did not end by itself; empty where it did.
+        Reason if it did not end by itself; else empty.
     status
-        Exit status, negative for a signal; None where it did not end by itself.
+        Exit status, negative for a signal; None if it did not end by itself.
     seconds
         Wall time [s].
     out, err
-        What it wrote to its standard output and error, the end of much.
+        Its standard output and error; of long texts the end.
     """
 
     why: str
@@ -39,7 +43,7 @@ class Ended(NamedTuple):
 
     @property
     def said(self) -> str:
-        """What it wrote to its terminal."""
+        """Its whole output on the terminal."""
         return self.out + self.err
 
 
@@ -52,20 +56,20 @@ class Groups:
         self._lock = threading.Lock()
 
     def add(self, group: int) -> None:
-        """Note a group that has begun; where all is over, kill it."""
+        """Note a group that has begun; kill it if all runs are to end."""
         with self._lock:
             self._running.add(group)
         if self.is_over:
             self.end(group)
 
     def end(self, group: int) -> None:
-        """Kill what is left of a group, and forget it."""
+        """Kill the remaining processes of a group, and forget it."""
         with self._lock, contextlib.suppress(ProcessLookupError, PermissionError):
             self._running.discard(group)
             os.killpg(group, signal.SIGKILL)
 
     def end_all(self) -> None:
-        """Kill all that runs, and what begins later."""
+        """Kill all groups that run, and those that begin later."""
         self.is_over = True
         for group in list(self._running):
             self.end(group)
@@ -80,7 +84,7 @@ def run_process(
 ) -> Ended:
     """Run a program in a folder; after the time limit it is killed with all that it started.
 
-    So it is where this process is interrupted meanwhile.
+    The same happens if this process is interrupted meanwhile.
 
     Parameters
     ----------
@@ -99,6 +103,8 @@ def run_process(
     ------
     InterruptedError
         Another thread has killed it.
+    ProgramError
+        It cannot be started, or was ended from outside.
     """
     groups = groups or Groups()
     begin = time.monotonic()
@@ -114,7 +120,10 @@ def run_process(
                 start_new_session=True,
             )
         except OSError as error:
-            return Ended(f"it cannot be started ({error.strerror})", None, 0.0)
+            raise ProgramError(
+                f"{words[0]}: cannot be started ({error.strerror}); correct the program, or free "
+                "memory, and run again to go on"
+            ) from None
     why = ""
     status: int | None = None
     groups.add(process.pid)
@@ -123,11 +132,15 @@ def run_process(
     except subprocess.TimeoutExpired:
         why = f"it did not end within {limit_s:g} s"
     finally:
-        # What it left running goes, too: its processes are one group.
+        # Processes that it left running are killed, too: they are of its group.
         groups.end(process.pid)
         process.wait()
     if groups.is_over:
-        raise InterruptedError("the run was killed from outside: it tells nothing")
+        raise InterruptedError("another thread has killed the run")
+    if status is not None and -status in FROM_OUTSIDE:
+        raise ProgramError(
+            f"{words[0]}: ended from outside by signal {-status}; run again to go on"
+        )
     seconds = time.monotonic() - begin
     return Ended(why, status, seconds, _end_of(folder / OUT), _end_of(folder / ERR))
 

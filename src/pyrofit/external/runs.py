@@ -225,7 +225,7 @@ def _failure(task: _Task, ended: Ended, why: str, is_short: bool) -> Content:
         "command": list(task.program.command),
         "node": socket.gethostname(),
     }
-    if ended.why and ended.seconds:
+    if ended.why:
         content["time_limit_s"] = task.program.time_limit_s
     if is_short:
         content["needed"] = dict(task.needed)
