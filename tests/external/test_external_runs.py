@@ -18,6 +18,7 @@ from pyrofit.config import Study, as_study
 from pyrofit.config.programs import externals, keeping_runs
 from pyrofit.errors import ProgramError, StudyError
 from pyrofit.estimate.problem import FAILED_COST, Problem, make_problem
+from pyrofit.external import scratch as scratch_module
 from pyrofit.external.filled import filled
 from pyrofit.external.runs import Outcome, outcomes
 from pyrofit.external.scratch import PREFIX, scratch, sweep
@@ -198,6 +199,33 @@ def test_what_a_killed_process_left_is_ended_and_removed(tmp_path: Path) -> None
     time.sleep(0.1)
     assert not processes_in(tmp_path / "scratch")
     assert not list((tmp_path / "scratch").glob(f"{PREFIX}*"))
+
+
+def test_a_folder_is_locked_before_another_process_can_find_it_free(
+    monkeypatch: pytest.MonkeyPatch,
+) -> None:
+    lock = scratch_module.fcntl.flock
+    swept = []
+
+    def sweep_first(file: Any, kind: int) -> None:
+        if not swept:
+            swept.append(0)
+            swept[0] = sweep()
+        lock(file, kind)
+
+    monkeypatch.setattr(scratch_module.fcntl, "flock", sweep_first)
+    with scratch() as folder:
+        assert swept == [0]
+        assert folder.is_dir()
+
+
+def test_a_scratch_folder_that_cannot_be_written_is_told(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    (tmp_path / "file").touch()
+    monkeypatch.setenv("PYROFIT_SCRATCH", str(tmp_path / "file"))
+    with pytest.raises(ProgramError, match=r"file: cannot be written .*PYROFIT_SCRATCH"):
+        run(opened(tmp_path), (9.0, 0.02))
 
 
 @pytest.mark.parametrize("number", [signal.SIGINT, signal.SIGTERM])

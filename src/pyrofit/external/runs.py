@@ -20,7 +20,7 @@ from pyrofit.external.filled import (
 )
 from pyrofit.external.output import OutputError, Record, read_output
 from pyrofit.external.process import Ended, Groups, last_lines, run_process
-from pyrofit.external.scratch import scratch
+from pyrofit.external.scratch import lay_out, scratch
 from pyrofit.external.store import Content, Known, Store
 from pyrofit.model.program import Program
 from pyrofit.quantities.base import Quantity
@@ -148,10 +148,7 @@ def _run(store: Store, task: _Task, scratch_folder: Path, groups: Groups) -> Out
     """Make a run in a folder of its own; keep what comes of it."""
     program, key = task.program, task.filled.key
     folder = scratch_folder / key
-    folder.mkdir()
-    (folder / program.input_name).write_bytes(task.filled.content)
-    for name, content in other_files(program).items():
-        (folder / name).write_bytes(content)
+    lay_out(folder, {program.input_name: task.filled.content, **other_files(program)})
     ended = run_process(
         words_of(program), folder, environment_of(program), program.time_limit_s, groups
     )

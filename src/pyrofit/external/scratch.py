@@ -1,7 +1,7 @@
 """Folders in which programs run: on the disk of the node, one for each run, removed afterwards.
 
-A process that is killed leaves its folder. The next one finds it, as nobody holds its lock any
-more, ends what still runs there, and removes it.
+A process that is killed leaves its folder. The next one finds that nobody holds its lock any more,
+kills the programs that still run there, and removes it.
 """
 
 import contextlib
@@ -10,7 +10,7 @@ import shutil
 import signal
 import socket
 import tempfile
-from collections.abc import Iterator
+from collections.abc import Iterator, Mapping
 from pathlib import Path
 
 from pyrofit.errors import ProgramError
@@ -37,23 +37,53 @@ def scratch() -> Iterator[Path]:
     Raises
     ------
     ProgramError
-        The system has no locks.
+        The system has no locks, or the folder cannot be written.
     """
     if fcntl is None:
         raise ProgramError("external programs need Linux or macOS; on Windows use WSL")
     root = scratch_root()
-    root.mkdir(parents=True, exist_ok=True)
-    folder = Path(tempfile.mkdtemp(prefix=f"{_own_prefix()}{os.getpid()}-", dir=root))
-    with (folder / LOCK).open("w") as lock:
+    with _written(root):
+        root.mkdir(parents=True, exist_ok=True)
+        folder = Path(tempfile.mkdtemp(prefix=f"{_own_prefix()}{os.getpid()}-", dir=root))
+        unnamed = folder / f"new_{LOCK}"
+        lock = unnamed.open("w")
+    with lock:
         fcntl.flock(lock, fcntl.LOCK_EX)
+        unnamed.rename(folder / LOCK)  # locked before `sweep` can find it
         try:
             yield folder
         finally:
             shutil.rmtree(folder, ignore_errors=True)
 
 
+def lay_out(folder: Path, files: Mapping[str, bytes]) -> None:
+    """Make the folder of a run with its files.
+
+    Raises
+    ------
+    ProgramError
+        There is no room.
+    """
+    with _written(folder):
+        folder.mkdir()
+        for name, content in files.items():
+            (folder / name).write_bytes(content)
+
+
+@contextlib.contextmanager
+def _written(folder: Path) -> Iterator[None]:
+    """Turn a fault of the disk into a message."""
+    try:
+        yield
+    except OSError as error:
+        raise ProgramError(
+            f"{folder}: cannot be written ({error.strerror}); make room, or set {VARIABLE} to a "
+            "folder on another disk"
+        ) from None
+
+
 def sweep() -> int:
-    """Remove what killed processes of this node have left; return how many folders."""
+    """Remove the folders that killed processes of this node have left; return their number."""
     removed = 0
     if fcntl is None:
         return removed
@@ -75,7 +105,7 @@ def _own_prefix() -> str:
 
 
 def _end_processes_in(folder: Path) -> None:
-    """Kill the processes whose working folder lies in a folder; where the system shows them."""
+    """Kill the processes whose working folder lies in a folder, if the system shows them."""
     here = str(folder.resolve())
     for process in Path("/proc").glob("[0-9]*"):
         with contextlib.suppress(OSError):
