@@ -228,6 +228,23 @@ def test_a_scratch_folder_that_cannot_be_written_is_told(
         run(opened(tmp_path), (9.0, 0.02))
 
 
+@pytest.mark.parametrize("content", [b"", b"cut", "middle"])
+def test_a_damaged_file_of_a_run_is_made_anew(content: Any, tmp_path: Path) -> None:
+    found = opened(tmp_path)
+    first = run(found, (9.0, 0.02))
+    (kept,) = (tmp_path / "programs" / "plate" / "runs").glob("*/*.gz")
+    whole = kept.read_bytes()
+    if content == "middle":
+        content = whole[:100] + b"\xff" * 50 + whole[150:]
+    kept.write_bytes(content)
+    second = run(found, (9.0, 0.02))
+    assert second[0].records["mlr"].value.tobytes() == first[0].records["mlr"].value.tobytes()
+    run(found, (9.0, 0.02))
+    assert len(runs(tmp_path)) == 2
+    assert kept.stat().st_mode & 0o044 == 0o044  # for colleagues
+    assert not list(kept.parent.glob(".*"))
+
+
 @pytest.mark.parametrize("number", [signal.SIGINT, signal.SIGTERM])
 def test_an_interruption_ends_the_program_and_keeps_no_failure(
     number: signal.Signals, tmp_path: Path

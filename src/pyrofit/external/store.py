@@ -1,7 +1,7 @@
-"""What is kept of every run, so that none is run again: its curves, or why it failed.
+"""Records of all runs, so that none is made twice: the curves, or the reason of a failure.
 
-A run is known by the digest of all that it depends on. Its file is written once and whole; of two
-processes that run the same set, all read what the first has written.
+A run is known by the digest of all that it depends on. Its file is written once and whole. If two
+processes run the same set, both use the file of the first.
 """
 
 import contextlib
@@ -9,7 +9,8 @@ import gzip
 import json
 import os
 import shutil
-import tempfile
+import uuid
+import zlib
 from collections import Counter
 from collections.abc import Callable, Mapping
 from pathlib import Path
@@ -21,10 +22,12 @@ from pyrofit.errors import ProgramError
 from pyrofit.external.output import Record
 
 Content = dict[str, Any]
+PART = ".part"
+"""End of the name of a file that is being written; the next run of the study removes those left."""
 
 
 class Known(NamedTuple):
-    """What is kept of a run that succeeded.
+    """The record of a run that succeeded.
 
     Parameters
     ----------
@@ -54,8 +57,8 @@ class Store:
         self.folder = Path(folder) if folder else None
 
     def known(self, key: str) -> Known | None:
-        """Return what is kept of a run, none where it is not known."""
-        content = self._read(self._run(key), gzip.decompress)
+        """Return the record of a run that succeeded; None if there is none."""
+        content = _read(self._run(key), gzip.decompress)
         if content is None:
             return None
         records = {
@@ -69,6 +72,7 @@ class Store:
         path = self._run(key)
         if path is None:
             return
+        is_damaged = path.exists() and self.known(key) is None
         content = {
             "seconds": run.seconds,
             "version": run.version,
@@ -77,30 +81,30 @@ class Store:
                 for name, one in run.records.items()
             },
         }
-        _write_once(path, gzip.compress(json.dumps(content).encode(), 6, mtime=0))
+        _write(path, gzip.compress(json.dumps(content).encode(), 6, mtime=0), is_damaged)
         failed = self._failed(key)
         if failed is not None:  # an earlier time
             failed.unlink(missing_ok=True)
 
     def failure(self, key: str) -> Content | None:
-        """Return what is known of a run that failed, none where none did."""
-        return self._read(self._failed(key), bytes)
+        """Return the record of a run that failed; None if there is none."""
+        return _read(self._failed(key), bytes)
 
     def fail(self, key: str, content: Content, run: Path | None, most: int) -> None:
-        """Record a failure; keep the folder of the run where fewer than ``most`` are kept."""
+        """Record a failure; keep the folder of the run if fewer than ``most`` are kept."""
         path = self._failed(key)
         if path is None:
             return
         kept = _kept(run, path.with_suffix(""), most) if run is not None else None
         text = json.dumps({**content, "folder": kept}, indent=1, ensure_ascii=False)
-        _write_once(path, text.encode("utf-8", "surrogateescape") + b"\n", replace=True)
+        _write(path, text.encode("utf-8", "surrogateescape") + b"\n", replace=True)
 
     def counts(self) -> tuple[int, Counter[str]]:
-        """Return how many runs are kept, and the reasons of failures with their numbers."""
+        """Return the number of runs that succeeded, and that of failures by reason."""
         if self.folder is None:
             return 0, Counter()
         runs = sum(1 for _ in self.folder.glob("runs/*/*.json.gz"))
-        records = [self._read(path, bytes) for path in self.folder.glob("failed/*.json")]
+        records = [_read(path, bytes) for path in self.folder.glob("failed/*.json")]
         return runs, Counter(record["why"] for record in records if record)
 
     def _run(self, key: str) -> Path | None:
@@ -109,17 +113,18 @@ class Store:
     def _failed(self, key: str) -> Path | None:
         return self.folder and self.folder / "failed" / f"{key}.json"
 
-    def _read(self, path: Path | None, unpack: Callable[[bytes], bytes]) -> Content | None:
-        """Return what a file holds, none where it is not there, or not whole."""
-        try:
-            found = json.loads(unpack(path.read_bytes())) if path else None
-        except (OSError, EOFError, ValueError):
-            return None
-        return found if isinstance(found, dict) else None
+
+def _read(path: Path | None, unpack: Callable[[bytes], bytes]) -> Content | None:
+    """Return the content of a file; None if it is missing or damaged."""
+    try:
+        found = json.loads(unpack(path.read_bytes())) if path else None
+    except (OSError, EOFError, ValueError, zlib.error):
+        return None
+    return found if isinstance(found, dict) else None
 
 
 def _kept(run: Path, to: Path, most: int) -> str | None:
-    """Copy the folder of a run beside its record; return its name, none where enough are kept."""
+    """Copy the folder of a run beside its record; return its name, None if enough are kept."""
     for number in range(most):
         # Made by one process alone: each place holds one folder. A full disk keeps none.
         with contextlib.suppress(OSError):
@@ -130,30 +135,29 @@ def _kept(run: Path, to: Path, most: int) -> str | None:
     return None
 
 
-def _write_once(path: Path, content: bytes, replace: bool = False) -> None:
-    """Write a file whole; one that is there stays, unless it is to be replaced.
+def _write(path: Path, content: bytes, replace: bool) -> None:
+    """Write a file whole; an existing one stays, unless it is to be replaced.
 
     Raises
     ------
     ProgramError
         There is no room, or no right to write.
     """
+    written = path.with_name(f".{uuid.uuid4().hex}{PART}")
     try:
         path.parent.mkdir(parents=True, exist_ok=True)
-        handle, name = tempfile.mkstemp(prefix=".", dir=path.parent)
         try:
-            with os.fdopen(handle, "wb") as file:
-                file.write(content)
-            _name(name, path, replace)
+            written.write_bytes(content)
+            _name(written, path, replace)
         finally:
-            Path(name).unlink(missing_ok=True)
+            written.unlink(missing_ok=True)
     except OSError as error:
         raise ProgramError(
             f"{path}: cannot be written ({error.strerror}); make room, and run again to go on"
         ) from None
 
 
-def _name(written: str, path: Path, replace: bool) -> None:
+def _name(written: Path, path: Path, replace: bool) -> None:
     """Give a written file its name."""
     if not replace:
         try:
