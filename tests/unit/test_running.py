@@ -10,6 +10,7 @@ import threading
 import time
 from collections.abc import Iterator
 from pathlib import Path
+from typing import Any
 
 import pytest
 
@@ -127,6 +128,50 @@ def test_damaged_lock_is_that_of_a_dead_run(content: str, root: Path) -> None:
     assert list(root.iterdir()) == []
 
 
+@pytest.mark.parametrize("content", ["", None])
+def test_lock_that_another_run_takes_meanwhile_stays_its_own(
+    content: str | None, root: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    path = root / FOLDER / "run.json"
+    if content is not None:
+        path.parent.mkdir(parents=True)
+        path.write_text(content)
+    read, others = lock._read, []
+
+    def read_then_another_starts(asked: Path) -> lock.Mark | None:
+        found = read(asked)
+        if asked == path and not others:
+            path.unlink(missing_ok=True)
+            others.append(Other(root))
+            assert others[0].said == "holds\n"
+        return found
+
+    monkeypatch.setattr(lock, "_read", read_then_another_starts)
+    with pytest.raises(RunError):
+        start_run(root)
+    kept = json.loads(path.read_text())
+    others[0].kill()
+    assert kept["pid"] == others[0].process.pid
+
+
+def test_process_that_the_system_hides_counts_as_alive(
+    root: Path, run: Other, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    # As /proc mounted with hidepid shows a run of another user.
+    show = Path.read_text
+
+    def hide(path: Path, *given: Any, **named: Any) -> str:
+        if path == Path(f"/proc/{run.process.pid}/stat"):
+            raise FileNotFoundError
+        return show(path, *given, **named)
+
+    monkeypatch.setattr(Path, "read_text", hide)
+    with pytest.raises(RunError, match="is alive"):
+        start_run(root)
+    run.kill()
+    assert "broken off" in start_run(root)
+
+
 def test_of_many_runs_that_start_together_one_goes_on(root: Path, run: Other) -> None:
     run.kill()  # with a lock to be taken over
     others = [Other(root) for _ in range(6)]
@@ -203,6 +248,7 @@ def squeue(folder: Path, script: str, monkeypatch: pytest.MonkeyPatch) -> None:
     [
         ("echo RUNNING", True),
         ("echo PENDING", True),
+        ("echo COMPLETING", True),
         ("echo COMPLETED", False),
         ("exit 0", False),
         ("echo 'slurm_load_jobs error: Invalid job id specified' >&2; exit 1", False),

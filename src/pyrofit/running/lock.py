@@ -1,8 +1,8 @@
 """The lock of a study's results: one run at a time, and none beside jobs of a former one.
 
-Snakemake's own lock stays behind when a run is killed, and knows nothing of jobs. Here run and jobs
-leave a file each, with the process that they are; files of dead processes count as nothing. A job
-writes its file before it looks whose run it is, and a run writes its own before it looks for jobs:
+Snakemake's own lock stays behind when a run is killed, and does not cover jobs. Here a run and each
+of its jobs write a file that describes their process; files of dead processes are ignored. A job
+writes its file before it reads that of the run, and a run writes its own before it looks for jobs:
 one of the two sees the other.
 """
 
@@ -43,7 +43,8 @@ def start_run(root: Path) -> str:
 
     Returns
     -------
-    A sentence on the dead run whose lock was taken over, or "".
+    str
+        A sentence on the dead run whose lock was taken over, or "".
 
     Raises
     ------
@@ -56,10 +57,9 @@ def start_run(root: Path) -> str:
     before = _read(path)
     if before is not None and is_alive(before.process, path, beats=True):
         raise RunError(_refusal(root, [before, *_live_jobs(root)]))
-    if before is None and path.exists():  # cut off by a loss of power
-        path.unlink(missing_ok=True)
+    is_stale = before is not None or path.exists()  # after a loss of power it may be damaged
     token = uuid.uuid4().hex
-    _put(path, token, before)
+    _put(path, token, before.token if before else "", is_stale)
     atexit.register(end_run, root, token)
     if jobs := _live_jobs(root):
         end_run(root, token)
@@ -144,17 +144,27 @@ def _live_jobs(root: Path) -> list[Mark]:
     return alive
 
 
-def _put(path: Path, token: str, before: Mark | None) -> None:
-    """Write the lock where none is, or that of a dead run; of two processes one succeeds."""
+def _put(path: Path, token: str, before: str, is_stale: bool) -> None:
+    """Write the lock of a run; of two processes that do so one succeeds.
+
+    Parameters
+    ----------
+    path, token
+        The lock, and the token of the run.
+    before
+        Token of a dead run whose lock is to be replaced, empty if that is damaged.
+    is_stale
+        Whether there is such a lock.
+    """
     fresh = path.with_name(f"run_{token}.json")
     _write(fresh, token)
     stale = path.with_name(f"stale_{token}.json")
     try:
-        if before is not None:
+        if is_stale:
             with contextlib.suppress(FileNotFoundError):
                 path.rename(stale)
             moved = _read(stale)
-            if moved is not None and moved.token != before.token:  # another one was faster
+            if moved is not None and moved.token != before:  # another process was faster
                 with contextlib.suppress(FileExistsError):
                     os.link(stale, path)
         os.link(fresh, path)
@@ -166,7 +176,7 @@ def _put(path: Path, token: str, before: Mark | None) -> None:
 
 
 def _beat(path: Path, token: str) -> None:
-    """Touch the lock for ever, as long as it is that of this run."""
+    """Touch the lock as long as it is that of this run."""
     pause = threading.Event()
     while not pause.wait(BEAT_S):
         mark = _read(path)
@@ -181,7 +191,7 @@ def _write(path: Path, token: str) -> None:
 
 
 def _read(path: Path) -> Mark | None:
-    """Return what a file tells, None if it is not there or damaged."""
+    """Return the content of a file; None if it is missing or damaged."""
     try:
         content = json.loads(path.read_text(encoding="utf-8"))
         token = str(content.pop("token"))

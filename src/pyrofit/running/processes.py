@@ -9,9 +9,13 @@ from dataclasses import dataclass
 from pathlib import Path
 
 BEAT_S = 5.0
-"""So often a run touches its lock."""
+"""Time between two touches of a run's lock."""
 SILENCE_S = 4 * BEAT_S
 """A run of another machine that does not touch its lock for so long is gone."""
+STATES_ALIVE = ("PENDING", "CONFIGURING", "RUNNING", "SUSPENDED", "COMPLETING")
+"""States of Slurm jobs whose processes run, or will."""
+HIDDEN = "unknown"
+"""Start of a process that is there, but shows no start."""
 
 
 @dataclass(frozen=True)
@@ -57,7 +61,7 @@ def this_process() -> Process:
 
 
 def is_alive(process: Process, mark: Path, beats: bool) -> bool:
-    """Return whether a process lives, as far as can be told from here.
+    """Return whether a process lives.
 
     Parameters
     ----------
@@ -66,10 +70,10 @@ def is_alive(process: Process, mark: Path, beats: bool) -> bool:
     mark
         Its file, which it touches every `BEAT_S` seconds if it ``beats``.
 
-    No clock is compared with another one. What cannot be told counts as alive.
+    No clock is compared with another one. A process that cannot be looked up counts as alive.
     """
     if process.machine == _machine():
-        return _started(process.pid) == process.started
+        return _started(process.pid) in (process.started, HIDDEN)
     if process.slurm_job and (told := _slurm_says(process.slurm_job)) is not None:
         return told
     return _touched(mark) if beats else True
@@ -105,7 +109,7 @@ def _started(pid: int) -> str:
         # The name, in brackets, may hold anything. Then come the state and 18 numbers.
         state, *numbers = Path(f"/proc/{pid}/stat").read_text().rpartition(")")[2].split()
     except OSError:
-        return "" if Path("/proc/self/stat").exists() else _answers(pid)
+        return _answers(pid)  # there is none, or it is hidden, as those of other users may be
     return "" if state in "ZX" else numbers[18]
 
 
@@ -116,7 +120,7 @@ def _answers(pid: int) -> str:
         return ""
     except OSError:  # of another user
         pass
-    return "unknown"
+    return HIDDEN
 
 
 def _slurm_says(job: str) -> bool | None:
@@ -133,7 +137,7 @@ def _slurm_says(job: str) -> bool | None:
         return None
     if asked.returncode:
         return False if "Invalid job id" in asked.stderr else None
-    return any(s in asked.stdout for s in ("PENDING", "RUNNING", "CONFIGURING", "SUSPENDED"))
+    return any(s in asked.stdout for s in STATES_ALIVE)
 
 
 def _touched(mark: Path) -> bool:
