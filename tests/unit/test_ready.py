@@ -190,6 +190,24 @@ def test_slurm_that_does_not_answer_is_told(
     assert only(slurm.slurm, Situation(None, Path(), 1)).level == "warning"
 
 
+@pytest.mark.parametrize(
+    ("script", "says"),
+    [
+        ("#!/bin/sh\necho >&2\nexit 1\n", "exit status 1"),
+        ("#!/bin/sh\necho 'no route' >&2\nexec sleep 30\n", "(no route)"),
+    ],
+    ids=["blank line", "no end"],
+)
+def test_reason_of_slurm_is_text_in_any_case(
+    script: str, says: str, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    program(tmp_path, "sinfo", script, monkeypatch)
+    monkeypatch.setattr(slurm, "LONGEST_ANSWER_S", 0.5)
+    found = only(slurm.slurm, Situation(None, Path(), 1))
+    assert found.level == "warning"
+    assert says in found.text
+
+
 class Bowl:
     """A problem without a simulation: the distance from a point."""
 

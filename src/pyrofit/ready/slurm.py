@@ -25,8 +25,10 @@ def slurm(situation: Situation) -> Iterator[Finding]:
     try:
         there = _partitions(program)
     except (OSError, subprocess.SubprocessError) as error:
-        said = (getattr(error, "stderr", None) or str(error)).strip().splitlines()[-1]
-        text = f"Slurm does not answer ({said}); run on a login node, or ask your administrators"
+        text = (
+            f"Slurm does not answer ({_reason(error)}); run on a login node, or ask your "
+            "administrators"
+        )
         yield Finding(wrong, "slurm", text)
         return
     wanted = partition_of(situation.profile)
@@ -47,6 +49,13 @@ def _plugin() -> Finding:
         return Finding("ok", "plugin", f"{PLUGIN} {importlib.metadata.version(PLUGIN)}")
     except importlib.metadata.PackageNotFoundError:
         return Finding("error", "plugin", f"{PLUGIN} is not installed; pip install {PLUGIN}")
+
+
+def _reason(error: Exception) -> str:
+    """Return the last line that a program wrote before it failed, else the error itself."""
+    said = getattr(error, "stderr", None) or ""
+    text = said.decode(errors="replace") if isinstance(said, bytes) else said
+    return (text.strip() or str(error)).splitlines()[-1]
 
 
 def _partitions(program: str) -> list[str]:
