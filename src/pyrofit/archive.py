@@ -72,7 +72,8 @@ def write_archive(study: Study, results: Results, given: Sequence[Path], project
     # Programs find them by name: where two have the same, another folder keeps one.
     of_programs = _places("programs", program_files(study), "/")
     entries: Entries = {"study.yaml": _study_file(study, own | of_programs).encode()}
-    entries |= {f"as_given/{path.name}": _bytes(path) for path in given}
+    as_given = _places("as_given", [str(path) for path in given])
+    entries |= {inside: _bytes(Path(file)) for file, inside in as_given.items()}
     entries |= {inside: _bytes(Path(file)) for file, inside in own.items()}
     entries |= {inside: _bytes(Path(file)) for file, inside in of_programs.items()}
     for inside, path in plugin_files([Path(folder) for folder in study.plugins]).items():

@@ -73,6 +73,15 @@ def test_files_of_the_data_base_are_named_by_commit_and_checksum_and_not_copied(
     assert '"sha256": "abc"' in held["results/provenance.json"]
 
 
+def test_given_files_of_one_name_are_all_kept(pmma: tuple[Study, Results], tmp_path: Path) -> None:
+    given = [tmp_path / folder / "study.yaml" for folder in ("a", "b")]
+    for path in given:
+        path.parent.mkdir()
+        path.write_text(f"{path.parent.name}\n")
+    held = packed(write_archive(*pmma, given, ROOT))
+    assert {held[n] for n in held if n.startswith("as_given/")} == {"a\n", "b\n"}
+
+
 def test_columns_that_repeat_measured_values_keep_everything_else(
     pmma: tuple[Study, Results],
 ) -> None:
