@@ -31,10 +31,8 @@ def simulate(
     sets: int = 1,
 ) -> list[list[Curves]]:
     """Return the curves by experiment and set."""
-    each = [
-        {name: float(x if np.ndim(x) == 0 else x[s]) for name, x in values.items()}  # type: ignore[index]
-        for s in range(sets)
-    ]
+    columns = {name: np.broadcast_to(x, sets).tolist() for name, x in values.items()}
+    each = [{name: float(column[s]) for name, column in columns.items()} for s in range(sets)]
     return [_simulate(e, each, of) for e, of in zip(experiments, asked, strict=True)]
 
 
