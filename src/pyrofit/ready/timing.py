@@ -2,19 +2,17 @@
 
 import time
 from collections.abc import Iterator
-from typing import Any
 
 import numpy as np
 
-from pyrofit.config import Study, true_description
+from pyrofit.config import Study
 from pyrofit.config.programs import externals
 from pyrofit.errors import PyrofitError
 from pyrofit.estimate.problem import Problem, make_problem
 from pyrofit.estimate.targets import Measurements
-from pyrofit.experiments import kind_of
 from pyrofit.ready.finding import Finding, Situation
 from pyrofit.ready.plan import SIDE_BY_SIDE, Part, parts_of
-from pyrofit.stages.measurements import with_noise
+from pyrofit.stages.measurements import computed
 from pyrofit.stages.reading import read_all
 
 START_S, START_ON_SLURM_S = 3.0, 10.0
@@ -88,22 +86,8 @@ def seconds(problem: Problem) -> tuple[float, float]:
 
 def measurements(study: Study) -> Measurements:
     """Return the measured series; those to be computed come from the fast solver."""
-    series: dict[tuple[str, str], Any] = {key: frame for key, (frame, _) in read_all(study).items()}
-    if not study.is_synthetic:
-        return series
-    values = study.true_values()
-    material, experiments = true_description(study)
-    for name, experiment in experiments.items():
-        kind = kind_of(experiment)
-        wanted = [signal for signal in experiment.signals if study.is_computed(name, signal)]
-        asked = kind.synthetic(experiment, wanted)
-        curves = kind.simulate([experiment], material, values, [asked], study.accuracy)[0][0]
-        for signal, request in asked.items():
-            described = experiment.quantity(signal), experiment.signals[signal].noise
-            rng = np.random.default_rng(0)
-            clean = curves.signals[signal]
-            series[name, signal] = with_noise(described[0], request, clean, described[1], rng)
-    return series
+    measured = {key: frame for key, (frame, _) in read_all(study).items()}
+    return measured | (computed(study, fast=True) if study.is_synthetic else {})
 
 
 def _problem(study: Study, part: Part, measured: Measurements) -> Problem:

@@ -60,27 +60,37 @@ def load(study: Study, results: Results) -> Measurements:
     }
 
 
-def computed(study: Study) -> dict[tuple[str, str], pd.DataFrame]:
-    """Return synthetic measurements: curves of the reference solver under the truth, with noise.
+def computed(study: Study, fast: bool = False) -> dict[tuple[str, str], pd.DataFrame]:
+    """Return synthetic measurements: simulated curves under the truth, with noise.
 
     Deterministic by the study's seed; noise is normal with the autocorrelation asked for, and its
     standard deviation is given as the uncertainty.
 
+    Parameters
+    ----------
+    study
+        The study.
+    fast
+        Whether the production solver simulates, not the reference solver.
+
     Raises
     ------
     DataError
-        The reference solver does not finish.
+        A run does not finish.
     """
     assert study.synthetic is not None
     values = study.true_values()
     series = {}
     material, experiments = true_description(study)
-    resolution = study.synthetic.accuracy
     for name, experiment in experiments.items():
         kind = kind_of(experiment)
         wanted = [signal for signal in experiment.signals if study.is_computed(name, signal)]
         requests = kind.synthetic(experiment, wanted)
-        curves = kind.reference(experiment, material, values, requests, resolution)
+        if fast:
+            [[curves]] = kind.simulate([experiment], material, values, [requests], study.accuracy)
+        else:
+            resolution = study.synthetic.accuracy
+            curves = kind.reference(experiment, material, values, requests, resolution)
         if not curves.status.finished:
             raise DataError(
                 f"experiments.{name}: synthetic measurement failed: "
