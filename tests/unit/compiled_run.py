@@ -16,6 +16,7 @@ import os
 import resource
 import time
 from collections.abc import Callable
+from importlib import import_module
 from pathlib import Path
 from typing import Any
 
@@ -86,9 +87,9 @@ def take_turns(folder: Path, which: str) -> None:
 
 
 def be_nobody() -> None:
-    """Give up the rights of root; what is imported later may not be readable any more."""
-    from pyrofit.solver.kernels import grid, slab, tga  # noqa: F401
-
+    """Give up the rights of root; modules that are imported later may be unreadable then."""
+    for name in ("grid", "slab", "tga"):
+        import_module(f"pyrofit.solver.kernels.{name}")
     read_study(SMOKE)
     if os.getuid() == 0:
         os.setgid(65534)

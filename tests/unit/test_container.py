@@ -7,7 +7,15 @@ import pytest
 
 ROOT = Path(__file__).parents[2]
 MAKEFILE = (ROOT / "Makefile").read_text(encoding="utf-8")
+PROJECT = (ROOT / "pyproject.toml").read_text(encoding="utf-8")
 VENV = ".venv"
+
+
+def groups_in(pattern: str, text: str) -> tuple[str, ...]:
+    """Return the groups of a pattern, which the text must have."""
+    found = re.search(pattern, text, re.M)
+    assert found is not None, pattern
+    return found.groups()
 
 
 def steps() -> list[tuple[str, str]]:
@@ -37,7 +45,7 @@ def test_instructions_are_known_and_in_order() -> None:
 
 def test_environment_is_made_by_the_target_of_the_makefile() -> None:
     target = install()[1].removeprefix("make ")
-    assert re.search(r"^VENV := (.*)$", MAKEFILE, re.M)[1] == VENV  # type: ignore[index]
+    assert groups_in(r"^VENV := (.*)$", MAKEFILE) == (VENV,)
     assert target == f"{VENV}/installed"
     assert re.search(r"^\$\(VENV\)/installed:", MAKEFILE, re.M)
     # No package is installed beside it.
@@ -45,11 +53,9 @@ def test_environment_is_made_by_the_target_of_the_makefile() -> None:
 
 
 def test_all_that_the_target_needs_is_copied_before() -> None:
-    needed = set(re.search(r"^\$\(VENV\)/installed:(.*)$", MAKEFILE, re.M)[1].split())  # type: ignore[index]
-    project = (ROOT / "pyproject.toml").read_text(encoding="utf-8")
-    readme = re.search(r'^readme = "(.+)"', project, re.M)
-    assert readme is not None
-    assert {*needed, readme[1], "Makefile", "LICENSE", "src"} <= copied_before(install())
+    (needed,) = groups_in(r"^\$\(VENV\)/installed:(.*)$", MAKEFILE)
+    (readme,) = groups_in(r'^readme = "(.+)"', PROJECT)
+    assert {*needed.split(), readme, "Makefile", "LICENSE", "src"} <= copied_before(install())
 
 
 def test_all_that_is_copied_is_there_and_the_workflow_among_it() -> None:
@@ -62,11 +68,9 @@ def test_all_that_is_copied_is_there_and_the_workflow_among_it() -> None:
 def test_programs_are_found_and_python_is_new_enough() -> None:
     places = dict(steps())
     assert places["ENV"].startswith(f"PATH={places['WORKDIR']}/{VENV}/bin:")
-    major, minor = re.match(r"python:(\d+)\.(\d+)", places["FROM"]).groups()  # type: ignore[union-attr]
-    project = (ROOT / "pyproject.toml").read_text(encoding="utf-8")
-    least = re.search(r'requires-python = ">=(\d+)\.(\d+)"', project)
-    assert least is not None
-    assert (int(major), int(minor)) >= (int(least[1]), int(least[2]))
+    taken = groups_in(r"^python:(\d+)\.(\d+)", places["FROM"])
+    least = groups_in(r'requires-python = ">=(\d+)\.(\d+)"', PROJECT)
+    assert tuple(map(int, taken)) >= tuple(map(int, least))
 
 
 @pytest.mark.parametrize("name", ["docs/cluster.md", "docs/doctor.md"])

@@ -9,16 +9,15 @@ import os
 import shutil
 import signal
 import socket
+import sys
 import tempfile
 from collections.abc import Iterator, Mapping
 from pathlib import Path
 
 from pyrofit.errors import ProgramError
 
-try:
+if sys.platform != "win32":
     import fcntl
-except ImportError:  # Windows, where programs cannot be killed with all that they started, either
-    fcntl = None  # type: ignore[assignment]
 
 VARIABLE = "PYROFIT_SCRATCH"
 PREFIX = "pyrofit-runs-"
@@ -39,7 +38,7 @@ def scratch() -> Iterator[Path]:
     ProgramError
         The system has no locks, or the folder cannot be written.
     """
-    if fcntl is None:
+    if sys.platform == "win32":  # it cannot kill programs with all that they started, either
         raise ProgramError("external programs need Linux or macOS; on Windows use WSL")
     root = scratch_root()
     with _written(root):
@@ -85,7 +84,7 @@ def _written(folder: Path) -> Iterator[None]:
 def sweep() -> int:
     """Remove the folders that killed processes of this node have left; return their number."""
     removed = 0
-    if fcntl is None:
+    if sys.platform == "win32":
         return removed
     for folder in scratch_root().glob(f"{_own_prefix()}*"):
         with contextlib.suppress(OSError), (folder / LOCK).open("r+") as lock:
