@@ -52,15 +52,15 @@ try:
 except PyrofitError as error:
     raise WorkflowError(str(error)) from None
 
-# The study as checked and completed, with what --config changed: every step reads this file, and
-# verifies by digest that its part of it is what the rule was planned with.
+# The study as checked and completed, with the changes of --config. Every step reads this file, and
+# verifies by digest that its part of it did not change after the rule was planned.
 STUDY = ROOT / "study.json"
 results = Results(ROOT)
 # What the fits, and what the report, which states this fingerprint, are made by.
 FITS = source_fingerprint("pyrofit.stages.fit")
 SHOWS = source_fingerprint(*STUDY_MODULES)
 COSTS = list(study.imp.costs)
-# What external programs need, and the cores that their runs at once take.
+# Inputs of external programs, and the cores of their simultaneous runs.
 PROGRAM_FILES = list(program_files(study))
 PROGRAMS = [experiment.program for experiment in externals(study).values()]
 RUN_CORES = max([program.cores for program in PROGRAMS], default=1)

@@ -39,7 +39,7 @@ def run(given):
         lost = mass * (1.0 - math.exp(-rate / mass * step)) if mass > 0.0 else 0.0
         heat = given["emissivity"] * (given["flux_W_m2"] - SIGMA * (temperature**4 - ROOM_K**4))
         gained = heat * step - given["heat_of_reaction_J_kg"] * lost
-        # What is left at the end is the plate: a tenth of the sample.
+        # The remaining heat capacity is that of the plate: a tenth of the sample's.
         temperature += gained / ((mass + 0.1 * start) * given["specific_heat_J_kgK"])
         mass -= lost
 

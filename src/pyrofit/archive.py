@@ -69,7 +69,7 @@ def write_archive(study: Study, results: Results, given: Sequence[Path], project
     _check_origin(study, results, origin)
     own = _places("data", study.own_files)
     _check_files(own, origin["data"])
-    # Programs find them by name: where two have the same, another folder keeps one.
+    # Programs find them by name: one of two files of the same name goes into another folder.
     of_programs = _places("programs", program_files(study), "/")
     entries: Entries = {"study.yaml": _study_file(study, own | of_programs).encode()}
     as_given = _places("as_given", [str(path) for path in given])
@@ -106,7 +106,7 @@ def _check_origin(study: Study, results: Results, origin: Mapping[str, Any]) -> 
 
 
 def _check_files(own: Container[str], read: Mapping[str, Any]) -> None:
-    """Refuse measured files that are not those that the results were made from."""
+    """Refuse measured files that changed after the results were made."""
     for entry in read.values():
         file = entry["source"]
         if file in own and hashlib.sha256(_bytes(Path(file))).hexdigest() != entry["sha256"]:
@@ -126,9 +126,9 @@ def _readme(study: Study, origin: Mapping[str, Any]) -> str:
 
 
 def _places(folder: str, files: Sequence[str], between: str = "_") -> dict[str, str]:
-    """Return the place in the archive of each of the user's files, no two alike.
+    """Return a place of its own in the archive for each of the user's files.
 
-    ``between`` joins a number and a name that another file has already.
+    ``between`` joins a number and a name that is taken.
     """
     places: dict[str, str] = {}
     for file in files:

@@ -1,6 +1,6 @@
 """The metadata that make an archive a Workflow Run RO-Crate, profile 0.5, of RO-Crate 1.1.
 
-Other programs find in them the workflow, its input, its results, and the run that joins them. The
+They tell other programs the workflow, its input, its results, and the run that made them. The
 checksums of all files are in SHA256SUMS.
 """
 
@@ -28,7 +28,7 @@ FOLDERS = {
     "results/": "results of the run",
     "software/": "pyrofit as it made the results, its workflow, and the versions of all packages",
 }
-"""Folders of the archive, those that a study lacks included."""
+"""All folders that an archive may have."""
 LISTED = ("README.txt", "study.yaml", "results/study.json", "results/provenance.json")
 REPORT = "results/report.html"
 NO_DATE = 315532800

@@ -1,4 +1,4 @@
-"""A zip file whose bytes depend on nothing but names and contents."""
+"""A zip file whose bytes depend only on names and contents."""
 
 import io
 import zipfile

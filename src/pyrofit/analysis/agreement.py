@@ -16,15 +16,15 @@ from pyrofit.solver.outputs import MASS
 OTHER_RATE = 0.2
 """Share by which a measured heating rate may differ from the one given."""
 OTHER_START_K = 3.0
-"""Difference from the described initial temperature from which it is noted."""
+"""Difference from the described initial temperature [K] above which there is a note."""
 OTHER_MASS, FIRST = 0.05, 5
-"""Share by which the median of the first points of a mass may differ from what is described."""
+"""Share by which the median of the first points may differ from the described mass."""
 
 
 def disagreements(
     study: Study, name: str, signal: str, frame: pd.DataFrame, source: str
 ) -> list[str]:
-    """Return notes on where a series, SI units, starts elsewhere than its experiment says.
+    """Return notes on a series, SI units, whose start differs from the described one.
 
     Raises
     ------
@@ -48,7 +48,7 @@ def disagreements(
 def _start_notes(
     study: Study, experiment: SlabExperiment, signal: str, frame: pd.DataFrame
 ) -> list[str]:
-    """Note where a temperature or a mass starts elsewhere than the description says."""
+    """Note a temperature or a mass that starts at another value than the described one."""
     quantity, values = experiment.quantity(signal), study.fixed_values()
     record = frame[quantity.column].to_numpy()
     if quantity.is_temperature:

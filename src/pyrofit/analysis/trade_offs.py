@@ -1,4 +1,4 @@
-"""Pairs of estimates of which one makes up for the other."""
+"""Pairs of strongly correlated estimates."""
 
 from dataclasses import dataclass
 from itertools import combinations
@@ -7,21 +7,21 @@ from pyrofit.config import Study
 from pyrofit.results.identification import Identified
 
 STRONG = 0.7
-"""Correlation from which on half of a variance is that of another parameter."""
+"""Correlation above which one parameter explains half of the variance of another."""
 
 
 @dataclass(frozen=True)
 class TradeOff:
-    """What an estimate does where another one is held off its best value.
+    """The shift of a best value when another parameter is held off its own.
 
     Parameters
     ----------
     stage
         'kinetics' or 'imp'.
     name, unit, rise
-        The parameter, and its standard deviation, by which it is raised.
+        The raised parameter, and the rise: its standard deviation.
     partner, partner_unit, shift
-        The parameter that makes up for it, and by how much its best value then moves.
+        The parameter that compensates for it, and the shift of its best value.
     correlation
         Correlation of the two.
     """
@@ -40,7 +40,7 @@ def trade_offs(study: Study, identified: Identified) -> list[TradeOff]:
     """Return the strongly correlated pairs of each stage, the strongest first.
 
     Of estimates with the covariance C, raising p_i by sd_i moves the best p_j by rho_ij sd_j, all
-    other parameters fitted anew. Where no pair of a stage is that strong, its strongest is given.
+    other parameters fitted anew. If no pair of a stage is that strong, its strongest is given.
     """
     found = []
     for stage in identified.estimates:

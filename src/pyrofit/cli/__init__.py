@@ -29,7 +29,7 @@ class Parser(argparse.ArgumentParser):
 
 
 def main(arguments: Sequence[str] | None = None) -> int:
-    """Run a command; return its status, or 2 with a message where the user can repair something."""
+    """Run a command; return its status, or 2 with a message if the user can correct a mistake."""
     # Threads of linear algebra would get in the way of the workflow's jobs, and change last bits:
     # Snakemake asks for as many as a job has cores.
     os.environ["OPENBLAS_NUM_THREADS"] = "1"
@@ -71,7 +71,7 @@ def _run(given: argparse.Namespace) -> int:
 
 @contextlib.contextmanager
 def _interruptible() -> Iterator[None]:
-    """Take SIGTERM, which schedulers send, for Ctrl-C: what a step has started ends with it."""
+    """Treat SIGTERM, which schedulers send, as Ctrl-C: all that a step has started ends with it."""
     if threading.current_thread() is not threading.main_thread():
         yield
         return

@@ -22,7 +22,7 @@ def add_step(commands: Any, name: str, text: str, step: Step) -> argparse.Argume
 
 
 def open_study(given: argparse.Namespace, slice_of: Callable[..., Any], *arguments: Any) -> Any:
-    """Return study and results; refuse a study that differs from what the caller described.
+    """Return study and results; refuse a study other than the one the caller described.
 
     Until the command ends, no other run of the study may start.
     """

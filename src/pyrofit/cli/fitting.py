@@ -14,7 +14,10 @@ def add(commands: Any) -> None:
     """Add these commands."""
     add_step(commands, "prepare", "read the measurements into tidy tables", _prepare)
     timed = add_step(
-        commands, "trial", "run external programs once; say what the campaign costs", _trial
+        commands,
+        "trial",
+        "run external programs once; estimate the duration",
+        _trial,
     )
     timed.add_argument("--cores", type=int, default=1, help="cores of the campaign; default: 1")
     add_step(commands, "kinetics", "fit the kinetics to TGA", _kinetics)

@@ -1,4 +1,4 @@
-"""External programs of a study: where their files lie, what their templates use, and checks."""
+"""External programs of a study: places of their files, parameters of templates, and checks."""
 
 import re
 from pathlib import Path
@@ -22,14 +22,14 @@ def externals(study: Study) -> dict[str, ExternalExperiment]:
 
 
 def with_programs(study: Study, folder: Path | None) -> Study:
-    """Return a study whose programs are found, and note the units of what their templates take.
+    """Return a study with the places of its programs and the units of their parameters.
 
     Parameters
     ----------
     study
-        The study, whose keys are right one by one.
+        The study; each key is valid by itself.
     folder
-        That of the study file; none where the files are found already.
+        Folder of the study file; None if the files are found already.
 
     Raises
     ------
@@ -108,10 +108,10 @@ def _located(program: Program, folder: Path | None) -> Program:
 
 
 def _check_placeholders(study: Study, place: str, program: Program, there: set[str]) -> None:
-    """Refuse placeholders that stand nowhere, hide a parameter, or use unknown ones."""
+    """Refuse placeholders that the template lacks, that hide a parameter, or use unknown ones."""
     for name, given in program.placeholders.items():
         at = f"{place}.placeholders.{name}"
-        require(name in there, at, f"'#{name}#' stands nowhere in {program.template}; delete it")
+        require(name in there, at, f"{program.template} has no '#{name}#'; delete it")
         require(
             name not in study.parameters,
             at,
@@ -135,7 +135,7 @@ def _names(place: str, expression: str) -> set[str]:
 
 
 def _check_units(study: Study, place: str, program: Program, used: set[str]) -> None:
-    """Refuse units of what is not used, and those of another quantity."""
+    """Refuse units of unused parameters, and those of another quantity."""
     for name, unit in program.units.items():
         at = f"{place}.units.{name}"
         require(

@@ -32,9 +32,9 @@ class Settings:
     ridge: float = RIDGE
     """Added to the curvature, so that a parameter without influence does not move."""
     returning_chi2: float = NEAR
-    """A descent that leads to a fit at hand is recognised within this chi-square above it."""
+    """Largest rise of chi-square above a known fit from which a descent may return to it."""
     returning_share: float = LIKE_PARABOLA
-    """Its rise then differs by less than this share from that of the parabola about the fit."""
+    """Largest relative difference of this rise from that of the parabola about the fit."""
     rough_gain: float = 1.0
     """A rough descent ends where fresh derivatives promise less of chi-square."""
     same_valley: float = 0.5
@@ -48,7 +48,7 @@ class Settings:
     base_descents: int = 8
     """Descents, from the best of these points."""
     most_work: int = 5
-    """Runs get at most so many times the cells and time steps of the fitted base model."""
+    """Largest multiple of the cells and time steps of the fitted base model that a run gets."""
     wide_sd: float = 0.1
     """A parameter whose standard deviation in x is larger is hardly determined."""
     elsewhere: tuple[float, ...] = (0.15, 0.5, 0.85)

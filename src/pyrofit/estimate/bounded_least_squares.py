@@ -19,9 +19,9 @@ MOST_REFUSED = 8
 RIDGE = 1e-6
 """Added to the curvature, so that a parameter without influence does not move."""
 NEAR = 50.0
-"""A descent that leads to a known fit is recognised within this rise of the sum of squares,"""
+"""Largest rise of the sum of squares above a known fit from which a descent may return to it."""
 LIKE_PARABOLA = 0.2
-"""where its rise differs by less than this share from that of the parabola about the fit."""
+"""Largest relative difference of this rise from that of the parabola about the fit."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -40,9 +40,9 @@ class Fit:
     returned: bool = False
 
     def leads_here(self, x: FloatArray, chi2: float) -> bool:
-        """Tell whether a descent at x is about to end here.
+        """Return whether a descent at x leads to this fit.
 
-        It is where chi-square is near and as the parabola about this fit has it.
+        It does if chi-square is near that of the fit, and near the parabola about it.
         """
         parabola = self.residuals + self.jacobian @ (x - self.x)
         rise = float(parabola @ parabola) - self.chi2
@@ -81,7 +81,7 @@ def minimise(
     fixed
         Position of a parameter that keeps its value.
     idle
-        Positions of parameters that change nothing and stay where they are.
+        Positions of parameters without influence, which keep their values.
     known
         A fit at hand: a descent that leads there ends early.
     most_steps, most_refused, ridge
@@ -127,7 +127,7 @@ def minimise(
 
 
 def _columns(jacobian: FloatArray, moving: list[int]) -> FloatArray:
-    """Return the derivatives by the parameters that move."""
+    """Return the derivatives by the moving parameters."""
     return jacobian if len(moving) == jacobian.shape[1] else jacobian.take(moving, axis=1)
 
 

@@ -61,8 +61,8 @@ def parameter_set(study: Study, results: Results, label: str, beside: Path) -> P
     """
     if not study.material.components:
         raise StudyError(
-            f"study '{study.name}' has no material: other programs simulate its experiments, and "
-            "their input has the parameters already"
+            f"study '{study.name}' has no material: other programs simulate its experiments. "
+            "Export a study whose experiments pyrofit simulates"
         )
     label = label or _usual(study, results, beside)
     if label.endswith(".json"):

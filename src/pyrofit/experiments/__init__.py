@@ -30,7 +30,7 @@ KINDS: dict[str, Kind] = {
 }
 """Kinds of experiment by name."""
 OF_FILES = {name: kind for name, kind in KINDS.items() if kind.files is not None}
-"""Those of which a new study is written from files."""
+"""Kinds of experiment that a new study can be written for."""
 AnyExperiment = Annotated[
     Cone | Tga | Dsc | Mcc | Gasification | External, Field(discriminator="kind")
 ]
@@ -46,7 +46,7 @@ def kind_of(experiment: Experiment) -> Kind:
 
 
 def files_of(kind: str) -> FromFiles:
-    """Return what a new study needs of one of `OF_FILES`."""
+    """Return the rules by which a new study is written for one of `OF_FILES`."""
     files = KINDS[kind].files
     assert files is not None
     return files

@@ -91,7 +91,7 @@ class Kind:
     reference
         The reference solver: description, material, values, requests, resolution.
     request
-        What a simulation is asked for: description, signal, measured series, times [s].
+        Request of a simulation: description, signal, measured series, times [s].
     synthetic
         Requests of the signals that are computed: description, their names.
     course
@@ -99,7 +99,7 @@ class Kind:
     designs
         New tests.
     files
-        What a new study needs that is written from files; none = it is not written.
+        Rules by which a new study is written from files; None = it is not written.
     """
 
     description: type[Experiment]

@@ -1,1 +1,1 @@
-"""External programs as simulators: template, run, output, and what is kept of every run."""
+"""External programs as simulators: template, run, output, and the record of every run."""

@@ -1,4 +1,4 @@
-"""FDS as a program: where it is, and what its words mean."""
+"""FDS as a program: its executable, its environment, and its messages."""
 
 import os
 import re
@@ -9,12 +9,12 @@ from pyrofit.errors import ProgramError
 
 VARIABLE = "PYROFIT_FDS"
 KEPT = ("PATH", "HOME", "TMPDIR", "LD_LIBRARY_PATH", "I_MPI_ROOT", "FI_PROVIDER_PATH")
-"""Variables of the environment that a run gets: those that change a result are not among them."""
+"""Variables of the environment that a run gets; none of them changes a result."""
 SUCCESS = re.compile(
     r"STOP: (FDS completed successfully|TGA analysis only|FDS performed a TGA analysis only)"
 )
 LAST = 6
-"""Lines at the end among which that of success is."""
+"""Number of last lines that are searched for the one of success."""
 NO_FDS = f"no FDS found; set {VARIABLE} to its executable, or have `fds` on the PATH"
 
 
@@ -43,7 +43,7 @@ def fds_environment() -> dict[str, str]:
 
 
 def version_in(said: str) -> str:
-    """Return the version that FDS tells of itself; nothing where it tells none.
+    """Return the version that FDS prints; empty if it prints none.
 
     >>> version_in(" Revision         : FDS6.7.4-0-gbfaa110-release")
     '6.7.4'
@@ -53,9 +53,9 @@ def version_in(said: str) -> str:
 
 
 def complaint(said: str, status: int | None) -> str:
-    """Return why a run failed; empty where its last lines tell of success.
+    """Return the reason of a failure; empty if the last lines report success.
 
-    Compilers and MPI may add a note behind FDS's own last line.
+    Compilers and MPI may add a note after FDS's own last line.
 
     >>> complaint("ERROR: Problem with SURF", 0)
     'ERROR: Problem with SURF'

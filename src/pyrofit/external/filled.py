@@ -1,4 +1,4 @@
-"""What a run of a program depends on: the filled template, its other files, the program itself."""
+"""Input of a run and its digest: the filled template, its other files, the program itself."""
 
 import hashlib
 import json
@@ -18,7 +18,7 @@ from pyrofit.model.program import Program
 
 
 class Filled(NamedTuple):
-    """The input of a run, and its digest with all else that the output depends on."""
+    """The input of a run, and a digest of everything that the output depends on."""
 
     content: bytes
     key: str
@@ -46,7 +46,7 @@ def file_digests(program: Program) -> dict[str, str]:
 
 
 def used_parameters(program: Program) -> set[str]:
-    """Return the names that the template and the expressions use."""
+    """Return the names of the parameters in the template and the expressions."""
     direct = {name for name, _ in places(template_text(program))} - set(program.placeholders)
     given = program.placeholders.values()
     return direct.union(*(names_of(e) for e in given if isinstance(e, str)))
@@ -85,7 +85,8 @@ def executable_of(program: Program) -> Path:
             raise ProgramError(NO_FDS)
         return path
     if "/" in word:
-        path = Path(word).expanduser().absolute()  # links lead on: some programs go by their name
+        # Not resolved: a program may depend on the name of its link.
+        path = Path(word).expanduser().absolute()
         if path.is_file() and os.access(path, os.X_OK):
             return path
         raise ProgramError(
@@ -107,7 +108,7 @@ def words_of(program: Program) -> list[str]:
 
 
 def environment_of(program: Program) -> dict[str, str]:
-    """Return the environment of a run; of FDS that without what changes a result."""
+    """Return the environment of a run; FDS gets no variable that changes a result."""
     usual = fds_environment() if program.dialect == "fds" else dict(os.environ)
     return {**usual, "OMP_NUM_THREADS": str(program.cores), **program.environment}
 

@@ -1,4 +1,4 @@
-"""What a program has written: columns of numbers, read by name or number, in SI units."""
+"""Output of a program: columns of numbers, read by name or number, in SI units."""
 
 import math
 import re
@@ -19,7 +19,7 @@ from pyrofit.solver.arrays import FloatArray
 
 _FORTRAN = re.compile(r"([-+]?(?:\d+\.?\d*|\.\d+))(?:[dD]([-+]?\d+)|([-+]\d{2,3}))")
 FEWEST = 2
-"""Rows that a record has at least."""
+"""Smallest number of rows of a record."""
 
 
 class Record(NamedTuple):
@@ -42,19 +42,19 @@ class OutputError(Exception):
 
 
 def read_output(folder: Path, reading: Reading, quantity: Quantity) -> Record:
-    """Return what the output of a run holds of a signal.
+    """Return the curve of a signal in the output of a run.
 
-    Rows ahead of the header, and rows of units about it, are passed over. Cells are set apart by
-    comma, semicolon, tab or blanks; numbers may have the exponents of Fortran.
+    Rows above the header and rows of units beside it are skipped. Commas, semicolons, tabs or
+    blanks separate cells; numbers may have the exponents of Fortran.
 
     Parameters
     ----------
     folder
-        Where the program ran.
+        Folder of the run.
     reading
         File, columns and units.
     quantity
-        What is read.
+        Quantity of the signal.
 
     Raises
     ------
@@ -70,7 +70,7 @@ def read_output(folder: Path, reading: Reading, quantity: Quantity) -> Record:
         raise OutputError(f"{reading.file}: the program has not written it") from None
     except OSError as error:
         raise OutputError(f"{reading.file}: cannot be read ({error.strerror})") from None
-    # A row that does not end may lack digits: it is left out.
+    # A last row without its end may lack digits: it is left out.
     whole = text.rpartition("\n")[0]
     columns = _columns(reading, [line for line in whole.split("\n") if line.strip()])
     record = in_si(reading, quantity, columns)
@@ -142,7 +142,7 @@ def _columns(reading: Reading, lines: Sequence[str]) -> dict[str, FloatArray]:
 
 
 def _header(reading: Reading, lines: Sequence[str]) -> tuple[int, dict[str, int], str | None]:
-    """Return the row below the header, the columns by role, and what sets cells apart."""
+    """Return the row below the header, the columns by role, and the separator of cells."""
     heads = reading.heads
     named = [head for head in heads.values() if isinstance(head, str)]
     seen: list[str] = []
@@ -159,7 +159,7 @@ def _header(reading: Reading, lines: Sequence[str]) -> tuple[int, dict[str, int]
 
 
 def _place(head: str | int, cells: Sequence[str]) -> int:
-    """Return the column of a header, -1 where there is none, or more than one."""
+    """Return the column of a header; -1 if there is none, or more than one."""
     if isinstance(head, int):
         return head - 1 if 1 <= head <= len(cells) else -1
     if cells.count(head) == 1:
@@ -170,7 +170,7 @@ def _place(head: str | int, cells: Sequence[str]) -> int:
 
 
 def _separator(line: str) -> str | None:
-    """Return what sets the cells of a line apart; none = blanks."""
+    """Return the separator of the cells of a line; None = blanks."""
     found = max(",;\t", key=line.count)
     return found if found in line else None
 
@@ -189,7 +189,7 @@ def _is_row(row: Sequence[str], where: Mapping[str, int]) -> bool:
 
 
 def to_number(cell: str) -> float:
-    """Return the number in a cell, as Fortran may write it; NaN where there is none.
+    """Return the number in a cell, as Fortran may write it; NaN if there is none.
 
     >>> to_number("1.5D-03"), to_number("0.1234-101"), to_number("*****")
     (0.0015, 1.234e-102, nan)

@@ -1,4 +1,4 @@
-"""A program in a folder: started without a shell, and killed with all that it started."""
+"""Run a program in a folder without a shell, and kill it with all that it started."""
 
 import contextlib
 import os
@@ -17,7 +17,7 @@ OUT, ERR = "pyrofit_stdout.txt", "pyrofit_stderr.txt"
 MOST_SAID = 1_000_000
 """Bytes at the end of each of these files that are read."""
 FROM_OUTSIDE = (signal.SIGHUP, signal.SIGINT, signal.SIGTERM)
-"""Signals by which a user or a scheduler ends a program; they tell nothing of its input."""
+"""Signals by which a user or a scheduler ends a program; they do not depend on its input."""
 
 
 class Ended(NamedTuple):
@@ -91,13 +91,13 @@ def run_process(
     words
         The program and its arguments.
     folder
-        Where it runs.
+        Folder of the run.
     environment
         All variables of its environment.
     limit_s
         Time limit [s].
     groups
-        Those that another thread may kill.
+        Groups of processes that another thread may kill.
 
     Raises
     ------

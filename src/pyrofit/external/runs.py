@@ -27,7 +27,7 @@ from pyrofit.quantities.base import Quantity
 
 Values = Mapping[str, float]
 Needed = Mapping[str, float]
-"""Last time [s], or temperature [K], that is asked for, by signal."""
+"""Last time [s] or temperature [K] at which a value is needed, by signal."""
 
 
 class Outcome(NamedTuple):
@@ -36,13 +36,13 @@ class Outcome(NamedTuple):
     Parameters
     ----------
     records
-        Curves by signal, none of a run that failed.
+        Curves by signal; empty if the run failed.
     why
-        Why it failed; empty where it did not.
+        Reason of a failure; empty if there is none.
     seconds
-        Wall time [s] of a run that did not fail, whenever it was made.
+        Wall time [s] of a run that succeeded, also of an earlier one.
     version
-        The version that the program tells of itself, where it does.
+        Version that the program prints, if it does.
     """
 
     records: Mapping[str, Record]
@@ -68,25 +68,25 @@ def outcomes(
     sets: Sequence[Values],
     again: bool = False,
 ) -> list[Outcome]:
-    """Return the outcomes for some parameter sets; what is known is not run again.
+    """Return the outcomes for some parameter sets; runs that are kept are not repeated.
 
     Parameters
     ----------
     program
         The program.
     quantities
-        What it reads, by signal.
+        Quantities that are read, by signal.
     needed
-        How far each curve must reach.
+        Last time or temperature that each curve must reach.
     sets
         Parameter values in SI units by name, of each set.
     again
-        Whether a run that has failed is tried again.
+        Whether a run that failed before is repeated.
 
     Raises
     ------
     ProgramError
-        The program, or a file that it needs, is not there.
+        The program or a file that it needs is missing, or it cannot be run.
     """
     store = Store(program.store)
     found: dict[str, Outcome] = {}
@@ -111,7 +111,7 @@ def outcomes(
 
 
 def _known(store: Store, task: _Task, again: bool) -> Outcome | None:
-    """Return the outcome of a run that was made before, none where there is none."""
+    """Return the outcome of a run that was made before; None if there is none."""
     known = store.known(task.filled.key)
     if known is not None:
         short = _short(known.records, task.needed)
@@ -119,14 +119,14 @@ def _known(store: Store, task: _Task, again: bool) -> Outcome | None:
     failure = None if again else store.failure(task.filled.key)
     if failure is None:
         return None
-    # It may succeed with more time, or where less is asked for.
+    # It may succeed with more time, or if less is needed.
     more_time = failure.get("time_limit_s", task.program.time_limit_s) < task.program.time_limit_s
     less = any(task.needed.get(s, 0.0) < t for s, t in failure.get("needed", {}).items())
     return None if more_time or less else Outcome({}, failure["why"])
 
 
 def _run_all(store: Store, tasks: Mapping[str, _Task], parallel: int) -> dict[str, Outcome]:
-    """Make runs, some of them at once."""
+    """Make runs, several of them at once."""
     if not tasks:
         return {}
     groups = Groups()
@@ -145,7 +145,7 @@ def _run_all(store: Store, tasks: Mapping[str, _Task], parallel: int) -> dict[st
 
 
 def _run(store: Store, task: _Task, scratch_folder: Path, groups: Groups) -> Outcome:
-    """Make a run in a folder of its own; keep what comes of it."""
+    """Make a run in a folder of its own, and keep its curves or its failure."""
     program, key = task.program, task.filled.key
     folder = scratch_folder / key
     lay_out(folder, {program.input_name: task.filled.content, **other_files(program)})
@@ -164,7 +164,7 @@ def _run(store: Store, task: _Task, scratch_folder: Path, groups: Groups) -> Out
         made = Known(records, ended.seconds, version_in(ended.said))
         store.keep(key, made)
         shutil.rmtree(folder, ignore_errors=True)
-        # What another process has written meanwhile counts, should the two differ.
+        # The record of a faster process counts, if the two differ.
         return _success(store.known(key) or made)
     store.fail(key, _failure(task, ended, why, bool(records)), folder, program.keep_failed)
     shutil.rmtree(folder, ignore_errors=True)
@@ -183,7 +183,7 @@ def _read(task: _Task, folder: Path) -> dict[str, Record]:
 
 
 def judged(program: Program, ended: Ended) -> str:
-    """Return why a run failed by what its program says; empty where it succeeded."""
+    """Return the reason of a failure by status and messages of a program; empty if it succeeded."""
     if ended.why:
         return ended.why
     if program.dialect == "fds":
@@ -200,7 +200,7 @@ def judged(program: Program, ended: Ended) -> str:
 
 
 def _short(records: Mapping[str, Record], needed: Needed) -> str:
-    """Say which curve ends before what is asked for, by more than its last step."""
+    """Name a curve that ends before the needed value by more than its last step."""
     for name, last in needed.items():
         at = records[name].at
         step = float(at[-1] - at[-2]) if at.size > 1 else 0.0

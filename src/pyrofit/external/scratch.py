@@ -38,7 +38,7 @@ def scratch() -> Iterator[Path]:
     ProgramError
         The system has no locks, or the folder cannot be written.
     """
-    if sys.platform == "win32":  # it cannot kill programs with all that they started, either
+    if sys.platform == "win32":  # nor can it kill a program with all that it started
         raise ProgramError("external programs need Linux or macOS; on Windows use WSL")
     root = scratch_root()
     with _written(root):

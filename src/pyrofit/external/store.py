@@ -23,7 +23,7 @@ from pyrofit.external.output import Record
 
 Content = dict[str, Any]
 PART = ".part"
-"""End of the name of a file that is being written; the next run of the study removes those left."""
+"""Suffix of files that are being written; the next run deletes those of killed processes."""
 
 
 class Known(NamedTuple):
@@ -36,7 +36,7 @@ class Known(NamedTuple):
     seconds
         Its wall time [s].
     version
-        The version that the program tells of itself, where it does.
+        Version that the program prints, if it does.
     """
 
     records: Mapping[str, Record]
@@ -83,7 +83,7 @@ class Store:
         }
         _write(path, gzip.compress(json.dumps(content).encode(), 6, mtime=0), is_damaged)
         failed = self._failed(key)
-        if failed is not None:  # an earlier time
+        if failed is not None:  # of an earlier attempt
             failed.unlink(missing_ok=True)
 
     def failure(self, key: str) -> Content | None:
@@ -126,7 +126,7 @@ def _read(path: Path | None, unpack: Callable[[bytes], bytes]) -> Content | None
 def _kept(run: Path, to: Path, most: int) -> str | None:
     """Copy the folder of a run beside its record; return its name, None if enough are kept."""
     for number in range(most):
-        # Made by one process alone: each place holds one folder. A full disk keeps none.
+        # Only one process can make a place, and it holds one folder. A full disk keeps none.
         with contextlib.suppress(OSError):
             to.parent.mkdir(parents=True, exist_ok=True)
             (to.parent / f".place_{number}").touch(exist_ok=False)
@@ -141,7 +141,7 @@ def _write(path: Path, content: bytes, replace: bool) -> None:
     Raises
     ------
     ProgramError
-        There is no room, or no right to write.
+        The disk is full, or the folder cannot be written.
     """
     written = path.with_name(f".{uuid.uuid4().hex}{PART}")
     try:

@@ -22,11 +22,11 @@ def read_bytes(path: Path) -> bytes:
         return path.read_bytes()
     except FileNotFoundError:
         near = [p.name for p in path.parent.iterdir()] if path.parent.is_dir() else []
-        hint = suggest(path.name, near) if near else "Its folder is empty, or not there either."
+        hint = suggest(path.name, near) if near else "Its folder is empty or missing, too."
         raise ProgramError(f"{path}: there is no such file. {hint}") from None
     except OSError as error:
         raise ProgramError(
-            f"{path}: cannot be read ({error.strerror}); give a file that can"
+            f"{path}: cannot be read ({error.strerror}); correct its rights"
         ) from None
 
 
@@ -98,5 +98,5 @@ def fill(text: str, values: Mapping[str, float]) -> str:
     """
     for name, _ in places(text):
         if not math.isfinite(values[name]):
-            raise ValueError(f"the value of '#{name}#' is no finite number")
+            raise ValueError(f"the value of '#{name}#' is not finite")
     return PLACEHOLDER.sub(lambda found: number(values[found[1]]), text)

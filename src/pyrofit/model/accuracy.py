@@ -17,7 +17,7 @@ class Accuracy(Part):
         1.0, ge=0.1, le=100.0, description="multiplies the cells that the reaction zone needs"
     )
     most_cells: int = Field(
-        2000, ge=50, le=5000, description="cells at most, where the reaction zone needs more"
+        2000, ge=50, le=5000, description="largest number of cells, if the reaction zone needs more"
     )
     tolerance: float = Field(
         2e-3, gt=0.0, le=0.1, description="bound on the scaled predictor-corrector difference"

@@ -68,6 +68,6 @@ class ExternalExperiment(Experiment):
         return self.duration_s, "duration_s"
 
     def as_simulated(self, signals: Iterable[str]) -> Self:
-        """Return what its curves depend on: all that is read is read of every run."""
+        """Return the keys that its curves depend on; every run is read for all signals."""
         program = self.program.model_copy(update={"store": ""})
         return super().as_simulated(self.signals).model_copy(update={"program": program})

@@ -1,4 +1,4 @@
-"""An external program: its template, its command, and where it writes what is measured."""
+"""An external program: its template, its command, and the columns of its output."""
 
 import shlex
 from typing import Annotated, Any, Literal, Self
@@ -30,8 +30,8 @@ class Reading(Part):
 
     file: str = Field(description="file that the program writes, in the folder where it runs")
     columns: dict[str, str | int] = Field(
-        description="header, or number from 1 on, of the columns `value` and `time` (usual: Time), "
-        "or `temperature` instead of `time` where the record is one against temperature"
+        description="header, or number from 1 on, of the columns `value` and `time` (usual: Time); "
+        "for a record against temperature, `temperature` instead of `time`"
     )
     units: dict[str, str] = Field(
         description="unit of `value`, as in measured files, of `temperature`, and of `time` "
@@ -39,19 +39,20 @@ class Reading(Part):
     )
     holds: Literal["point", "before"] = Field(
         "point",
-        description="whether a value holds for its time, or is the mean over the time since the "
-        "row before, as in the device files of FDS",
+        description="`point`: a value belongs to its time; `before`: it is the mean over the time "
+        "since the row before, as in the device files of FDS",
     )
     sample_mass_kg: AboveZero | None = Field(
-        None, description="initial mass of the sample [kg], which divides a power or a mass"
+        None, description="initial mass of the sample [kg]: powers and masses are divided by it"
     )
     sample_area_m2: AboveZero | None = Field(
-        None, description="area of the sample [m2], which divides a mass, its rate or a heat rate"
+        None,
+        description="area of the sample [m2]: masses, their rates and heat rates are divided by it",
     )
 
     @property
     def abscissa(self) -> str:
-        """What the value is recorded against: time or temperature."""
+        """Axis of the record: time or temperature."""
         return "temperature" if "temperature" in self.columns else "time"
 
     @property
@@ -90,19 +91,19 @@ class Program(Part):
         description="its input file with placeholders `#name#`, relative to the study file"
     )
     input: str = Field(
-        "", description="name under which the filled template lies; usual: that of the template"
+        "", description="file name of the filled template; usual: that of the template"
     )
     command: Command = Field(
-        description="command, a list of words or one line; no shell sees it. The first word is a "
-        "program on the PATH, or a file relative to the study file"
+        description="command, a list of words or one line, run without a shell. The first word is "
+        "a program on the PATH, or a file relative to the study file"
     )
     files: tuple[str, ...] = Field(
         (), description="further files that a run needs, relative to the study file"
     )
     placeholders: dict[str, str | float] = Field(
         default_factory=dict,
-        description="placeholders that are no parameters: a number, or an expression of "
-        "parameters in the units they have here, such as `T_p - 273.15`",
+        description="further placeholders: a number, or an expression of parameters in the units "
+        "of the template, such as `T_p - 273.15`",
     )
     units: dict[str, str] = Field(
         default_factory=dict,
@@ -110,29 +111,27 @@ class Program(Part):
     )
     reads: dict[str, Reading] = Field(description="where the output holds each signal")
     time_limit_s: AboveZero = Field(
-        description="wall time [s] after which a run is killed, and counts as failed"
+        description="wall time [s] after which a run is killed and counts as failed"
     )
     dialect: Dialect = Field(
         "any",
-        description="`fds`: the first word `fds` is found by PYROFIT_FDS or on the PATH, and its "
-        "STOP line tells success, as its exit status is always 0",
+        description="`fds`: the first word `fds` is found by PYROFIT_FDS or on the PATH. Its STOP "
+        "line reports success, as its exit status is always 0",
     )
     succeeds: str = Field(
-        "", description="regular expression that the output on the terminal has after a success"
+        "", description="regular expression that the terminal output contains after a success"
     )
-    fails: str = Field("", description="regular expression that it has after a failure")
+    fails: str = Field("", description="regular expression that it contains after a failure")
     environment: dict[str, str] = Field(
-        default_factory=dict, description="variables of the environment that a run gets besides"
+        default_factory=dict, description="further environment variables of a run"
     )
     cores: int = Field(1, ge=1, description="cores of one run; OMP_NUM_THREADS is set to it")
-    parallel: int = Field(1, ge=1, description="runs at once in one step, where it has several")
-    keep_failed: int = Field(
-        3, ge=0, description="folders of failed runs that are kept of this experiment"
-    )
+    parallel: int = Field(1, ge=1, description="largest number of simultaneous runs in one step")
+    keep_failed: int = Field(3, ge=0, description="largest number of kept folders of failed runs")
     store: str = Field(
         "",
         exclude=True,
-        description="folder of the runs, which the commands set; leave it out",
+        description="folder of the runs; set by the commands, leave it out",
     )
 
     @property
@@ -156,14 +155,14 @@ class Program(Part):
         for signal, reading in self.reads.items():
             if reading.file in names:
                 raise ValueError(
-                    f"reads.{signal}.file: '{reading.file}' lies there before the run; name a "
+                    f"reads.{signal}.file: '{reading.file}' exists before the run; name a "
                     "file that the program writes"
                 )
         return self
 
 
 def _is_plain(name: str) -> bool:
-    """Tell whether a name is that of a file in the folder itself."""
+    """Return whether a name is that of a file in the folder itself."""
     return name not in ("", ".", "..") and "/" not in name and "\\" not in name
 
 

@@ -21,7 +21,7 @@ class Finding:
     subject
         Subject of the check, one word.
     text
-        The finding, with the way out unless it is ok.
+        The finding; of a warning or an error with the remedy.
     """
 
     level: Level
@@ -71,7 +71,7 @@ Check = Callable[[Situation], Iterator[Finding]]
 
 
 def writable(folder: Path) -> str:
-    """Try to write a file in a folder, which is made; return the reason of a failure, or ""."""
+    """Make a folder and try to write a file in it; return the reason of a failure, or ""."""
     import tempfile
 
     try:

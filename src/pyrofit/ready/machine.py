@@ -17,7 +17,7 @@ JOB_BYTES = 700e6
 SNAKEMAKE_BYTES = 300e6
 """Memory of Snakemake itself; 266 MB were measured with 1000 repetitions."""
 LEAST_FREE = 0.5e9
-"""Disk space below which the machine alone, without a study, gets a warning."""
+"""Disk space below which there is a warning if no study is given."""
 
 
 def versions(situation: Situation) -> Iterator[Finding]:
@@ -33,7 +33,7 @@ def versions(situation: Situation) -> Iterator[Finding]:
         text = f"{lock}: there is no such file; run in the folder with the Snakefile of pyrofit"
         yield Finding("warning", "versions", text)
         return
-    # A package has several lines where its version depends on that of Python.
+    # A package has several lines if its version depends on that of Python.
     locked: dict[str, list[str]] = {}
     for name, version in re.findall(
         r"^([\w.-]+)==([^\s;]+)", lock.read_text(encoding="utf-8"), re.M
@@ -68,7 +68,7 @@ def cache(situation: Situation) -> Iterator[Finding]:
     yield Finding(
         "error",
         "cache",
-        f"compiled code cannot be kept, every job would compile for a minute: {tried}; make room, "
+        f"compiled code cannot be kept; every job would compile for a minute: {tried}; make room, "
         "or set NUMBA_CACHE_DIR to a folder that can be written",
     )
 
@@ -85,7 +85,7 @@ def cores(situation: Situation) -> Iterator[Finding]:
         return
     jobs = sum(part.jobs for part in parts_of(situation.study)) if situation.study else asked
     if jobs < asked:
-        text = f"{asked} of {there} cores; the fits have {jobs} jobs, so that others stay idle"
+        text = f"{asked} of {there} cores; the fits have {jobs} jobs, so that some stay idle"
     else:
         text = f"{asked} of {there} cores are used"
     yield Finding("ok", "cores", text)
@@ -140,7 +140,7 @@ def available_cores() -> int:
 
 
 def available_memory() -> float | None:
-    """Return the memory that programs can still take [byte]; None where the system is silent."""
+    """Return the memory that programs can still take [byte]; None if the system does not tell."""
     try:
         text = Path("/proc/meminfo").read_text(encoding="ascii")
     except OSError:

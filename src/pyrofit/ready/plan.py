@@ -1,4 +1,4 @@
-"""How many model calls and jobs a study plans, and how much it will write.
+"""Planned model calls and jobs of a study, and the size of its results.
 
 Sizes are those of finished studies with 5 to 9 parameters (`twin`, `pmma`, `paper`).
 """
@@ -10,7 +10,7 @@ from pyrofit.config import Study
 from pyrofit.stages.trial import search_calls
 
 SIDE_BY_SIDE = 8
-"""Repetitions of one job, as the workflow groups them."""
+"""Repetitions in one job of the workflow."""
 BYTES_PER_NUMBER = 11
 """Size of a number in a compressed history; 10.1 to 10.4 were measured."""
 BYTES_BESIDE = 40_000_000
@@ -57,7 +57,7 @@ def parts_of(study: Study) -> Iterator[Part]:
 
 
 def bytes_of(study: Study) -> float:
-    """Return how much a study writes, about."""
+    """Return the approximate size of the results of a study [byte]."""
     stage = study.imp
     numbers = sum(len(stage.estimate) + len(terms) for terms in stage.costs.values())
     rows = stage.repetitions * search_calls(stage)[0]

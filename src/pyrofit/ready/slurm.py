@@ -13,7 +13,7 @@ LONGEST_ANSWER_S = 20.0
 
 
 def slurm(situation: Situation) -> Iterator[Finding]:
-    """Ask `sinfo`; silent where neither a Slurm profile is used nor Slurm is installed."""
+    """Ask `sinfo`; yield nothing if neither a Slurm profile is used nor Slurm is installed."""
     used, program = situation.on_slurm, shutil.which("sinfo")
     if not used and program is None:
         return

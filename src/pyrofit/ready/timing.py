@@ -16,9 +16,9 @@ from pyrofit.stages.measurements import computed
 from pyrofit.stages.reading import read_all
 
 START_S, START_ON_SLURM_S = 3.0, 10.0
-"""Time that a job needs beside its calculation; on a cluster Snakemake starts anew in each."""
+"""Time of a job besides its calculation [s]; on a cluster each job starts Snakemake."""
 LONG_H = 24.0
-"""Duration from which there is a warning."""
+"""Duration [h] above which there is a warning."""
 
 
 def duration(situation: Situation) -> Iterator[Finding]:
@@ -68,7 +68,7 @@ def _estimate(situation: Situation, timed: list[tuple[Part, float, float]]) -> F
 def seconds(problem: Problem) -> tuple[float, float]:
     """Return the time of one model call alone, and in a batch of eight [s].
 
-    The sets are random ones within the limits. The first calls, which may compile, do not count.
+    The sets are drawn within the limits. The first calls, which may compile, are not timed.
     """
     rng = np.random.default_rng(0)
     span = problem.upper - problem.lower

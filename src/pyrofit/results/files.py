@@ -18,7 +18,7 @@ from pyrofit.errors import DataError
 
 Keys = tuple[str, ...]
 PART = ".part"
-"""End of the name of a file that is being written; those of killed processes are deleted."""
+"""Suffix of files that are being written; the next run deletes those of killed processes."""
 EACH = "*"
 """Among keys: every item of a list."""
 

@@ -15,7 +15,7 @@ _NUMBERS = ("estimate", "sd", "low", "high", "width", "noise_low", "noise_high",
 
 
 class Identified(NamedTuple):
-    """All that the analysis left, read at once; what is of a stage stands under its name."""
+    """All results of the analysis, read at once, those of a stage under its name."""
 
     estimates: dict[str, pd.DataFrame]
     correlations: dict[str, pd.DataFrame]
@@ -25,7 +25,7 @@ class Identified(NamedTuple):
 
 
 def read(study: Study, results: Results) -> Identified:
-    """Return all that the analysis left.
+    """Return all results of the analysis.
 
     Raises
     ------

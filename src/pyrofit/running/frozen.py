@@ -16,7 +16,7 @@ MOST_NAMED = 5
 
 
 def freeze(study: Study, path: Path) -> None:
-    """Write the study, every key completed, and tell jobs by `FROZEN`.
+    """Write the study, every key completed, and pass its place to jobs by `FROZEN`.
 
     Raises
     ------
@@ -36,13 +36,13 @@ def frozen_study(given: dict[str, Any], source: str) -> Study:
     Parameters
     ----------
     given, source
-        The study as its file now says, and the name of the file. It counts only where the
-        environment of the run did not get here: then it must be the frozen one still.
+        The study as its file now says, and the name of the file. They are used only if the
+        environment of the run did not reach this job: the study must then equal the frozen one.
 
     Raises
     ------
     StudyError
-        The frozen study is missing or was changed, or the file was and nothing else is known.
+        The frozen study is missing or was changed, or the study file differs from it.
     """
     told = os.environ.get(FROZEN)
     if told is None:
@@ -51,8 +51,8 @@ def frozen_study(given: dict[str, Any], source: str) -> Study:
     kept = as_study(read_mapping(Path(name)), name)
     if digest(kept.model_dump(mode="json")) != expected:
         raise StudyError(
-            f"{name}: this is not the study '{kept.name}' that the run was started with; it is "
-            "written by the start of a run alone. Run it again"
+            f"{name}: this is not the study '{kept.name}' that the run was started with; only the "
+            "start of a run writes this file. Run it again"
         )
     return kept
 

@@ -21,7 +21,7 @@ from pyrofit.results.files import PART, write_json
 from pyrofit.running.processes import BEAT_S, Process, is_alive, line_that_ends, this_process
 
 TOKEN = "PYROFIT_RUN"
-"""Environment variable that tells jobs which run they belong to."""
+"""Environment variable that passes the token of their run to jobs."""
 FOLDER = "running"
 
 
@@ -39,7 +39,7 @@ class Mark:
 
 
 def start_run(root: Path) -> str:
-    """Take the lock of a results folder until this process ends, and tell jobs by `TOKEN`.
+    """Take the lock of a results folder until this process ends, and pass its token to jobs.
 
     Returns
     -------
@@ -72,7 +72,7 @@ def start_run(root: Path) -> str:
 
 
 def end_run(root: Path, token: str | None = None) -> None:
-    """Give the lock back if this process has it."""
+    """Delete the lock if this process has it."""
     path = root / FOLDER / "run.json"
     mark = _read(path)
     if mark is not None and mark.token == (token or os.environ.get(TOKEN)):
@@ -83,7 +83,7 @@ def end_run(root: Path, token: str | None = None) -> None:
 
 @contextlib.contextmanager
 def job(root: Path) -> Iterator[None]:
-    """Count as a job of the run that the environment tells, or of none, as long as this lasts.
+    """Count as a job within this context: of the run that the environment names, or of none.
 
     Raises
     ------
@@ -133,7 +133,7 @@ def _refusal(root: Path, marks: list[Mark]) -> str:
 
 
 def _live_jobs(root: Path) -> list[Mark]:
-    """Return the jobs that live, and delete the files of all others."""
+    """Return the jobs that are alive, and delete the files of all others."""
     alive = []
     for path in sorted((root / FOLDER).glob("job_*.json")):
         mark = _read(path)

@@ -1,4 +1,4 @@
-"""Processes that work on a study: who they are, whether they live, how they are ended."""
+"""Processes that work on a study: their description, whether they are alive, how to end them."""
 
 import getpass
 import os
@@ -13,9 +13,9 @@ BEAT_S = 5.0
 SILENCE_S = 4 * BEAT_S
 """A run of another machine that does not touch its lock for so long is gone."""
 STATES_ALIVE = ("PENDING", "CONFIGURING", "RUNNING", "SUSPENDED", "COMPLETING")
-"""States of Slurm jobs whose processes run, or will."""
+"""States of Slurm jobs whose processes run now or later."""
 HIDDEN = "unknown"
-"""Start of a process that is there, but shows no start."""
+"""Start of a process that exists, but whose start is not shown."""
 
 
 @dataclass(frozen=True)
@@ -27,10 +27,10 @@ class Process:
     host, user, pid
         For people.
     machine
-        The start of the operating system and the space of process numbers: where this is equal,
-        the number says which process it is.
+        Boot of the operating system and its space of process numbers. If both are equal, the
+        number identifies a process.
     started
-        When the process began, as the system counts: numbers are used again.
+        Start of the process, as the system counts it, because numbers are used again.
     slurm_job
         The Slurm job that it belongs to, or "".
     """
@@ -104,7 +104,7 @@ def _machine() -> str:
 
 
 def _started(pid: int) -> str:
-    """Return when a process of this machine began; "" if there is none."""
+    """Return the start of a process of this machine; "" if there is none."""
     try:
         # The name, in brackets, may hold anything. Then come the state and 18 numbers.
         state, *numbers = Path(f"/proc/{pid}/stat").read_text().rpartition(")")[2].split()
@@ -124,7 +124,7 @@ def _answers(pid: int) -> str:
 
 
 def _slurm_says(job: str) -> bool | None:
-    """Return whether Slurm knows a job that has not ended; None where it cannot be asked."""
+    """Return whether Slurm knows a job that has not ended; None if it cannot be asked."""
     try:
         asked = subprocess.run(
             ["squeue", "--noheader", "--jobs", job, "--format", "%T"],

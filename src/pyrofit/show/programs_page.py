@@ -13,8 +13,8 @@ from pyrofit.show.table import Table
 
 NAME = "programs"
 TEXT = (
-    "These experiments are simulated by programs outside of pyrofit: each run fills a template, "
-    "starts the program and reads its output."
+    "Other programs simulate these experiments. Each run fills a template, starts the program and "
+    "reads its output."
 )
 
 
@@ -67,8 +67,8 @@ TABLE = Table(
     applies=lambda study: bool(externals(study)),
     make=_table,
     title="External programs",
-    note="Runs: different parameter sets that succeeded. The folder `failed` beside them holds a "
-    "record of every other one.",
+    note="Runs: parameter sets whose run succeeded. The folder `failed` holds a record of every "
+    "failed one.",
     headings={
         "sha256": "SHA-256 of the program",
         "seconds": "one run [s]",

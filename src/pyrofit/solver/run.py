@@ -56,7 +56,7 @@ def mapped(change: Callable[[FloatArray], FloatArray], part: Any) -> Any:
 
 
 def repeated(case: Case, copies: int) -> Case:
-    """Return a case of so many copies of its sets, one behind the other."""
+    """Return a case of several copies of its sets, one after the other."""
     if copies == 1:
         return case
     index = np.tile(np.arange(case.cells.size), copies)

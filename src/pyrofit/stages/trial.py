@@ -1,4 +1,4 @@
-"""Before a campaign with external programs: one timed run of each, and what the whole will cost."""
+"""Before a campaign with external programs: one timed run of each, and the estimated duration."""
 
 from collections.abc import Iterator, Mapping
 from typing import Any
@@ -23,17 +23,17 @@ from pyrofit.stages.fit import fixed_for_imp
 from pyrofit.stages.measurements import load
 
 DRAWS = 4
-"""Sets that are tried where the middle of the limits fails, each for another reason."""
+"""Largest number of drawn sets that are tried if the middle of the limits fails."""
 CALLS_PER_ROW = 1.63
 """Model calls of SCE-UA for each point of a generation after the first."""
 STEPS = 20
-"""Steps of least squares from one start, about."""
+"""Typical number of steps of least squares from one start."""
 ANALYSIS = 200
-"""Calls for each derivative, about, in finding what the data determine."""
+"""Typical number of calls for each derivative in the analysis of the determined parameters."""
 
 
 def trial(study: Study, results: Results, cores: int) -> list[str]:
-    """Run every program once, write ``programs/trial.json``, and say what the campaign costs.
+    """Run every program once, write ``programs/trial.json``, and estimate the duration.
 
     A program runs with the middle of the limits, else with sets that are drawn within them.
 
@@ -49,7 +49,7 @@ def trial(study: Study, results: Results, cores: int) -> list[str]:
     Raises
     ------
     ProgramError
-        A program is not there, or fails with every set.
+        A program is missing, or fails with every set.
     """
     found = {name: _tried(study, results, name, e) for name, e in externals(study).items()}
     seconds = {name: one["seconds"] for name, one in found.items()}
@@ -64,7 +64,7 @@ def trial(study: Study, results: Results, cores: int) -> list[str]:
 def _tried(
     study: Study, results: Results, name: str, experiment: ExternalExperiment
 ) -> dict[str, Any]:
-    """Return what is known of a program after one run."""
+    """Return the record of a program after one run."""
     program = experiment.program
     outcome = _first_success(study, results, name, experiment)
     return {
@@ -113,7 +113,7 @@ def measured_times(experiment: ExternalExperiment, name: str, measurements: Meas
 
 
 def _sets(study: Study) -> Iterator[dict[str, float]]:
-    """Yield the middle of the limits, then some sets that are drawn."""
+    """Yield the middle of the limits, then some drawn sets."""
     bounds = np.array([study.parameters[n].bounds_si for n in study.imp.estimate])
     rng = np.random.default_rng(seed_for(study.seed, "programs", "trial"))
     places = np.vstack([np.full(len(bounds), 0.5), rng.uniform(size=(DRAWS, len(bounds)))])
@@ -123,7 +123,7 @@ def _sets(study: Study) -> Iterator[dict[str, float]]:
 
 
 def planned_calls(study: Study) -> Iterator[tuple[str, float, tuple[TermSpec, ...]]]:
-    """Yield what is planned: a label, about how many model calls, the terms that are simulated.
+    """Yield planned searches: label, approximate number of model calls, simulated terms.
 
     SCE-UA makes (2n + 1) c (1 + 1.63 (g - 1)) calls with n parameters, c complexes and g
     generations; CMA-ES at most what its settings allow.
@@ -135,11 +135,11 @@ def planned_calls(study: Study) -> Iterator[tuple[str, float, tuple[TermSpec, ..
         yield f"least squares, {cost}", squares, terms
         yield f"CMA-ES, {cost}", float(stage.cmaes.starts * stage.cmaes.calls), terms
         yield f"good sets, {cost}", float(WALKERS * SWEEPS), terms
-    yield "what the data determine", float(ANALYSIS * (2 * n + 1)), stage.channels
+    yield "determined parameters", float(ANALYSIS * (2 * n + 1)), stage.channels
 
 
 def search_calls(stage: Imp | Kinetics) -> tuple[float, int]:
-    """Return about how many model calls a search of SCE-UA, and all of least squares, make."""
+    """Return the approximate number of model calls of a search of SCE-UA, and of least squares."""
     n = len(stage.estimate)
     points = (2 * n + 1) * (stage.sceua.complexes or n)
     sceua = points * (1.0 + CALLS_PER_ROW * (stage.sceua.generations - 1))

@@ -67,11 +67,11 @@ class _Derived(Problem):
 
     @property
     def moving(self) -> tuple[int, ...]:
-        """All positions: what is made of the values may use each of them."""
+        """All positions: derived values may use each of them."""
         return tuple(range(len(self.names)))
 
     def outcomes(self, values: Sets, sets: int) -> list[Outcome]:
-        """Return how each set ended and its models, with what is made of its values."""
+        """Return how each set ended and its models, derived values included."""
         columns = {name: np.broadcast_to(value, sets) for name, value in values.items()}
         each = [
             self.derive({name: float(column[s]) for name, column in columns.items()})

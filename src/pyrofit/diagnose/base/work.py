@@ -1,4 +1,4 @@
-"""A bound on the work of single runs: a trial may ask for a thousand times the usual one."""
+"""A bound on the cells and time steps of single runs."""
 
 from dataclasses import replace
 
@@ -10,7 +10,7 @@ from pyrofit.solver.arrays import FloatArray
 
 
 def within_work(trial: FittedModel) -> FittedModel:
-    """Return the fit whose base bounds the work of all runs by that of the fitted one.
+    """Return the fit with a base that bounds the work of all runs by that of the fitted one.
 
     Far from it, a reaction zone may be so thin that a run takes a thousand times as long.
     """
@@ -22,7 +22,7 @@ def within_work(trial: FittedModel) -> FittedModel:
 
 
 def _bounded(problem: Problem, x: FloatArray) -> Problem:
-    """Return a problem whose runs get a multiple of the cells and steps that x [SI] needs, at most.
+    """Return a problem whose runs get at most a multiple of the cells and steps of that at x [SI].
 
     A run that needs more cells gets fewer; one that needs more steps does not finish.
     """

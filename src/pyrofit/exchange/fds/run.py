@@ -1,4 +1,4 @@
-"""FDS as a program: run with a time limit, and never believed by its exit status."""
+"""Run FDS with a time limit; its exit status does not count, as it is always 0."""
 
 from pathlib import Path
 from typing import NamedTuple

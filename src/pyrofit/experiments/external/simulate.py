@@ -47,7 +47,7 @@ def _simulate(
 
 
 def last_needed(experiment: ExternalExperiment, asked: Asked) -> dict[str, float]:
-    """Return how far each curve must reach: the last time [s] or temperature [K]."""
+    """Return the last time [s] or temperature [K] that each curve must reach."""
     return {
         name: float(
             request.time_s.max()
@@ -61,7 +61,7 @@ def last_needed(experiment: ExternalExperiment, asked: Asked) -> dict[str, float
 def _curves(
     experiment: ExternalExperiment, values: Mapping[str, float], asked: Asked, outcome: Outcome
 ) -> Curves:
-    """Return what the records show at the times that are asked for, as the apparatus sees it.
+    """Return the signals of a run at the requested times, as the apparatus records them.
 
     y(t) = offset + m(t - delay), m the mean over the bin of the request.
     """
@@ -79,7 +79,7 @@ def _curves(
 
 
 def mean(record: Record, at: FloatArray, width: float) -> FloatArray:
-    """Return the means of a curve, linear between its points, over bins; outside its ends hold.
+    """Return means over bins of a curve, linear between its points and constant beyond its ends.
 
     >>> mean(Record(np.array([0.0, 2.0]), np.array([0.0, 2.0])), np.array([0.5, 1.0]), 1.0)
     array([0.5, 1. ])
@@ -104,14 +104,14 @@ def reference(
     asked: Asked,
     resolution: Resolution,
 ) -> Curves:
-    """Return the curves of the same program: there is no other."""
+    """Return the curves of the same program, as there is no reference solver."""
     return simulate([experiment], material, values, [asked], Accuracy())[0][0]
 
 
 def request(
     experiment: ExternalExperiment, signal: str, frame: pd.DataFrame, times: FloatArray
 ) -> Request:
-    """Return what a simulation is asked for at the given times of a signal."""
+    """Return the request of a signal at the given times."""
     temperature = None
     if "temperature_K" in frame:
         recorded = frame["time_s"].to_numpy(float), frame["temperature_K"].to_numpy(float)
@@ -136,7 +136,7 @@ def course(
     request: Request,
     accuracy: Accuracy,
 ) -> Course:
-    """Refuse: what happens inside of the sample is not known.
+    """Refuse, as the state inside the sample is not known.
 
     Raises
     ------
@@ -151,5 +151,5 @@ def designs(
     measured: Mapping[str, ExternalExperiment],
     recorded: Mapping[str, set[str]],
 ) -> Iterator[Idea]:
-    """Yield no new test: a program cannot be asked what another one would show."""
+    """Yield no new test: the template describes one test only."""
     yield from ()

@@ -67,7 +67,7 @@ def _correlation(known: Sequence[Estimated]) -> str:
 
 
 def _compensation(found: Sequence[TradeOff]) -> list[str]:
-    """Say which parameters make up for which, the strongest of the inverse modelling first."""
+    """Name strongly correlated parameters, the strongest pair of the inverse modelling first."""
     strong = [p for p in found if p.stage == "imp" and abs(p.correlation) >= STRONG]
     if not strong:
         return []

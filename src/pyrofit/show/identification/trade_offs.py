@@ -1,4 +1,4 @@
-"""Which parameters make up for which."""
+"""The table of strongly correlated estimates."""
 
 import pandas as pd
 
@@ -13,7 +13,7 @@ COLUMNS = ("fit", "parameter", "rise", "unit", "partner", "shift", "partner_unit
 
 
 def table(study: Study, results: Results) -> pd.DataFrame:
-    """List pairs of parameters of which one makes up for the other, the strongest first."""
+    """List pairs of parameters with strongly correlated estimates, the strongest first."""
     rows = [_row(pair) for pair in trade_offs(study, identification.read(study, results))]
     return pd.DataFrame(rows, columns=list(COLUMNS))
 
@@ -28,13 +28,13 @@ TABLE = Table(
     place=12,
     applies=lambda study: True,
     make=table,
-    title="What compensates what",
-    note="Raise a parameter by its standard deviation, and the best value of the other one moves "
-    "by the shift, all others fitted anew: the measurements change little. Pairs with a "
-    "correlation of 0.7 or more, else the strongest.",
+    title="Correlated estimates",
+    note="If a parameter is raised by its standard deviation and all others are fitted anew, the "
+    "best value of its partner moves by the shift; the simulated measurements change little. "
+    "Pairs with a correlation of 0.7 or more, else the strongest.",
     headings={
         "rise": "raised by",
-        "partner": "makes up for it",
+        "partner": "partner",
         "shift": "its shift",
         "partner_unit": "its unit",
     },

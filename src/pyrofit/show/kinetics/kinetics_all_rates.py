@@ -57,7 +57,7 @@ def kinetics_all_rates(study: Study, results: Results) -> Canvas:
 
 
 def _title(study: Study, name: str) -> str:
-    """Return the heating rate, after the laboratory where the study has several."""
+    """Return the heating rate, with the laboratory if the study has several."""
     laboratories = {study.experiments[n].laboratory for n in all_rates(study)}
     own = study.experiments[name].laboratory
     return (
