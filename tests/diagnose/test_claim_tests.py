@@ -1,5 +1,6 @@
 """The gates of a claim, against densities of linear Gaussian models worked out by hand."""
 
+from dataclasses import replace
 from types import SimpleNamespace
 from typing import Any
 
@@ -10,11 +11,12 @@ from linear import POINTS, TOTAL, column_of
 from scipy.stats import kstest, multivariate_normal
 
 from pyrofit.diagnose.base.fitted import at_limit
-from pyrofit.diagnose.base.model import strength_of
+from pyrofit.diagnose.base.model import model_of, strength_of
 from pyrofit.diagnose.base.prediction import HELD_OUT, predictions, slabs
 from pyrofit.diagnose.judge.claim_tests import Trust, disagreement, explains, trust
 from pyrofit.diagnose.settings import SETTINGS
 from pyrofit.estimate.posterior import UNIFORM
+from pyrofit.model.repeats import RepeatOf
 from pyrofit.solver.arrays import FloatArray
 
 COLUMNS = linear.random_columns(4, "k_T", size=400.0)
@@ -198,6 +200,45 @@ def test_one_slab_alone_is_not_left_out() -> None:
     model = SimpleNamespace(base=base, channels=(0, 1))
     fake: Any = SimpleNamespace(model=model)
     assert slabs(fake) == []
+
+
+@pytest.mark.parametrize(
+    ("laboratories", "places"),
+    [
+        (("", ""), ["held out: slab_25", "held out: slab_60"]),
+        (("A", "B"), ["held out: A", "held out: B"]),
+        (("A", "A"), [HELD_OUT]),
+    ],
+)
+def test_held_out_tests_of_one_laboratory_are_one_prediction(
+    laboratories: tuple[str, str], places: list[str]
+) -> None:
+    """An error of its apparatus shows in all its tests, and counts once."""
+    trial = linear.fit(COLUMNS, truth(), calibrated=(0,))
+    base = trial.model.base
+    problem = base.likelihood.problem
+    runs = {
+        name: replace(run, experiment=run.experiment.model_copy(update={"laboratory": laboratory}))
+        for (name, run), laboratory in zip(problem.runs.items(), laboratories, strict=True)
+    }
+    likelihood = replace(base.likelihood, problem=replace(problem, runs=runs))
+    model = model_of(replace(base, likelihood=likelihood), {}, trial.model.channels)
+    assert list(scores(replace(trial, model=model))) == places
+
+
+def test_repeats_of_one_test_are_one_prediction() -> None:
+    trial = linear.fit(COLUMNS, truth(), calibrated=(0,))
+    base = trial.model.base
+    problem = base.likelihood.problem
+    runs = {
+        name: replace(
+            run, experiment=run.experiment.model_copy(update={"repeat": RepeatOf(test="slab")})
+        )
+        for name, run in problem.runs.items()
+    }
+    likelihood = replace(base.likelihood, problem=replace(problem, runs=runs))
+    model = model_of(replace(base, likelihood=likelihood), {}, trial.model.channels)
+    assert list(scores(replace(trial, model=model))) == [HELD_OUT]
 
 
 def test_misfit_of_what_is_held_out_is_noticed() -> None:

@@ -24,7 +24,7 @@ from pyrofit.results.files import Results, write_csv, write_json, write_text
 from pyrofit.results.schema_page import schema_page
 from pyrofit.show import diagnosis_page as report
 from pyrofit.show import style
-from pyrofit.show.diagnosis.words import leading
+from pyrofit.show.diagnosis.words import leading, prediction_name
 from pyrofit.show.diagnosis_page import (
     diagnosis_tables,
     draw_all,
@@ -390,7 +390,7 @@ def test_candidates_are_ranked_and_say_why_they_were_rejected(tmp_path: Path) ->
     )
     # The interval is that with the form's uncertainty.
     assert "-0.00123 (-0.005 to 0.004) 1/K" in best["fitted"]
-    assert best["predictions"] == "slab_60 +12.0; held out -1.5"
+    assert best["predictions"] == "slab_60 +12.0; all that is held out -1.5"
     assert set(frame["remark"][1:]) == {"chi-square is 1500 above that of the best"}
 
 
@@ -576,7 +576,21 @@ def test_page_says_the_numbers(tmp_path: Path) -> None:
     ) in words
     assert "goes from 5 to 1 (fitted) and from 5 to 1 (held out)" in words
     assert "cp is at a limit" in words
-    assert "+12.0 (slab_60 from the others) and -1.5 (what is held out)" in words
+    assert "+12.0 (slab_60 from the others) and -1.5 (all that is held out)" in words
+
+
+def test_predictions_are_named_by_title_and_laboratory(tmp_path: Path) -> None:
+    study, _ = diagnosed(tmp_path, "named")
+    study.experiments["slab_60"] = study.experiments["slab_60"].model_copy(
+        update={"title": "Slab 60 kW/m²"}
+    )
+    names = {
+        "slab_60": "Slab 60 kW/m²",
+        "held out": "all that is held out",
+        "held out: slab_60": "held out: Slab 60 kW/m²",
+        "held out: Aalto": "held out: Aalto",
+    }
+    assert {name: prediction_name(study, name) for name in names} == names
 
 
 def test_page_of_an_ambiguous_verdict_says_what_to_measure(tmp_path: Path) -> None:

@@ -69,19 +69,11 @@ def lack_of_fit(
     """
     spanned = projector(fit)
 
-    def block(rng: np.random.Generator) -> tuple[FloatArray, FloatArray]:
-        noise = project(
-            spanned, rng.standard_normal((fit.residuals.size, SETTINGS.draws_per_block))
-        )
-        highest = [_highest(part) for part in model.by_channel(noise)]
-        scores = [-(noise.T @ d).min(axis=1, initial=0.0) for d in directions]
-        return np.max(highest, axis=0), np.max(
-            [np.zeros(SETTINGS.draws_per_block), *scores], axis=0
-        )
-
     def critical_values(blocks: int) -> tuple[float, float]:
         rngs = rng.spawn(blocks)
-        drawn = parallel_map(lambda b: block(rngs[b]), blocks, processes)
+        drawn = parallel_map(
+            lambda b: _of_noise(model, spanned, directions, rngs[b]), blocks, processes
+        )
         scans, scores = (np.concatenate(of_blocks) for of_blocks in zip(*drawn, strict=True))
         level = 1.0 - SETTINGS.false_alarm_level
         return float(np.quantile(scans, level)), float(np.quantile(scores, level))
@@ -102,6 +94,20 @@ def lack_of_fit(
         chi2=fit.chi2,
         chi2_critical=float(chi_squared.isf(SETTINGS.false_alarm_level, freedom)),
     )
+
+
+def _of_noise(
+    model: Model,
+    spanned: FloatArray,
+    directions: Sequence[FloatArray],
+    rng: np.random.Generator,
+) -> tuple[FloatArray, FloatArray]:
+    """Return the largest scan statistic and the largest score of each of some draws of noise."""
+    draws = SETTINGS.draws_per_block
+    noise = project(spanned, rng.standard_normal((spanned.shape[0], draws)))
+    scans = [_highest(part) for part in model.by_channel(noise)]
+    scores = [-(noise.T @ d).min(axis=1, initial=0.0) for d in directions]
+    return np.max(scans, axis=0), np.max([np.zeros(draws), *scores], axis=0)
 
 
 def score(residuals: FloatArray, directions: FloatArray) -> float:

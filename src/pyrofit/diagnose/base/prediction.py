@@ -17,7 +17,7 @@ import numpy as np
 
 from pyrofit.diagnose.base.descent import Fit, descend
 from pyrofit.diagnose.base.fitted import FittedModel, up_to_date
-from pyrofit.diagnose.base.model import Model, model_of
+from pyrofit.diagnose.base.model import Base, Model, model_of
 from pyrofit.estimate.posterior import curvature
 from pyrofit.experiments import kind_of
 from pyrofit.parallel import parallel_map
@@ -84,27 +84,37 @@ def predictions(
 
 
 def _tasks(trial: FittedModel, held_out: bool, whole: bool) -> list[str]:
-    """Return the predictions of a model: all that is held out, each of several, each left out."""
+    """Return the predictions of a model: all held out, each of several places, each left out."""
     several = _several(trial)
     at_once = [HELD_OUT] if trial.model.base.held_out and (whole or not several) else []
     return [*(at_once + several if held_out else []), *slabs(trial)]
 
 
 def _several(trial: FittedModel) -> list[str]:
-    """Return the names of the predictions of held-out experiments, if there are several."""
+    """Return the names of the predictions of what is held out, if there are several.
+
+    Tests of one laboratory are one prediction: an error of its apparatus shows in all of them.
+    """
     base = trial.model.base
-    names = dict.fromkeys(base.channels[i][0] for i in base.held_out)
-    return [f"{HELD_OUT}: {name}" for name in names] if len(names) > 1 else []
+    places = dict.fromkeys(_place(base, i) for i in base.held_out)
+    return [f"{HELD_OUT}: {place}" for place in places] if len(places) > 1 else []
+
+
+def _place(base: Base, channel: int) -> str:
+    """Return the laboratory of a channel, else the name of its test."""
+    name, _ = base.channels[channel]
+    experiment = base.likelihood.problem.runs[name].experiment
+    return experiment.laboratory or (experiment.repeat.test if experiment.repeat else name)
 
 
 def _model_for(trial: FittedModel, prediction: str) -> Model:
-    """Return the model against all channels, with one held-out experiment, or without one."""
+    """Return the model against all channels, with one held-out place, or without one test."""
     base, used = trial.model.base, trial.model.channels
-    _, out, name = prediction.partition(f"{HELD_OUT}: ")
+    _, out, place = prediction.partition(f"{HELD_OUT}: ")
     if prediction == HELD_OUT:
         channels = (*used, *base.held_out)
     elif out:
-        channels = (*used, *(i for i in base.held_out if base.channels[i][0] == name))
+        channels = (*used, *(i for i in base.held_out if _place(base, i) == place))
     else:
         channels = tuple(i for i in used if base.channels[i][0] != prediction)
     return model_of(base, trial.model.effects, channels)

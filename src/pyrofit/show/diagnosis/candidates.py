@@ -8,7 +8,7 @@ from pyrofit.config import Study
 from pyrofit.effects import known_effects
 from pyrofit.results import diagnosis
 from pyrofit.results.files import Results
-from pyrofit.show.diagnosis.words import HELD_OUT, MOST, Found, model_name, ranked, remark
+from pyrofit.show.diagnosis.words import MOST, Found, model_name, prediction_name, ranked, remark
 from pyrofit.show.table import Table, always
 
 
@@ -55,8 +55,7 @@ def _widest(p: Found) -> tuple[float, float]:
 
 
 def _predictions(study: Study, gains: Mapping[str, float]) -> str:
-    names = {name: study.experiments[name].title or name for name in gains if name != HELD_OUT}
-    return "; ".join(f"{names.get(name, name)} {gain:+.1f}" for name, gain in gains.items())
+    return "; ".join(f"{prediction_name(study, name)} {gain:+.1f}" for name, gain in gains.items())
 
 
 TABLE = Table(

@@ -3,7 +3,15 @@
 from pyrofit.analysis.uses import title_of
 from pyrofit.config import Study
 from pyrofit.effects import known_effects
-from pyrofit.show.diagnosis.words import HELD_OUT, ROLES, Found, effect_name, leading, words_of
+from pyrofit.show.diagnosis.words import (
+    HELD_OUT,
+    ROLES,
+    Found,
+    effect_name,
+    leading,
+    prediction_name,
+    words_of,
+)
 from pyrofit.show.text import listed, number
 
 _TOO_FEW = ", too few to tell them apart"
@@ -134,9 +142,8 @@ def _of_noise(study: Study, found: Found) -> list[str]:
 
 
 def _predicted(study: Study, name: str) -> str:
-    if name == HELD_OUT:
-        return "what is held out"
-    return f"{study.experiments[name].title or name} from the others"
+    title = prediction_name(study, name)
+    return title if name.startswith(HELD_OUT) else f"{title} from the others"
 
 
 def next_measured(found: Found) -> str:

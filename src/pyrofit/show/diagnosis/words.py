@@ -40,6 +40,19 @@ def words_of(study: Study, row: Found) -> str:
     return study.experiments[row["experiment"]].words(row["signal"])
 
 
+def prediction_name(study: Study, name: str) -> str:
+    """Return the title of a test that was left out of the fit, or the words for what is held out.
+
+    ``name`` is that of a test, "held out", or "held out: " and a laboratory or test.
+    """
+    if name == HELD_OUT:
+        return "all that is held out"
+    place = name.removeprefix(f"{HELD_OUT}: ")
+    test = study.experiments.get(place)
+    title = test.title if test and test.title else place
+    return title if place == name else f"{HELD_OUT}: {title}"
+
+
 def effect_name(name: str) -> str:
     """Return title and name of an effect.
 
