@@ -7,7 +7,6 @@ import pandas as pd
 from matplotlib.axes import Axes
 from matplotlib.lines import Line2D
 from matplotlib.patches import Patch
-from scipy.signal import savgol_filter
 
 from pyrofit.analysis.uses import mass_signal
 from pyrofit.config import Study
@@ -56,6 +55,8 @@ def slope(temperature_K: FloatArray, mass_fraction: FloatArray) -> tuple[FloatAr
     step = float(grid[1] - grid[0])
     window = min(max(5, 2 * int(0.5 * WINDOW_K / step) + 1), (rising.size - 1) // 2 * 2 + 1)
     even = np.interp(grid, rising, mass_fraction[first])
+    from scipy.signal import savgol_filter  # its import takes longer than most figures
+
     return grid, -savgol_filter(even, window, min(2, window - 1), deriv=1, delta=step)
 
 
