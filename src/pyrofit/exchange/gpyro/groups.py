@@ -5,10 +5,10 @@ from collections.abc import Sequence
 from pyrofit.exchange.fds.exposure import Outside
 from pyrofit.exchange.fds.layers import Layer
 from pyrofit.exchange.fds.namelists import Item, Namelist, unique
+from pyrofit.exchange.gpyro.grid import Grid
 from pyrofit.exchange.steps import Step
 
 T_REF_K = 300.0
-CELLS = 201
 Items = dict[str, Item | Sequence[Item]]
 
 
@@ -39,8 +39,11 @@ def numbered(count: str, parts: Sequence[Items]) -> Items:
     return found
 
 
-def reactions(steps: list[Step]) -> list[Namelist]:
-    """Return reactions: solid products keep all mass (CHI = 0), heat belongs to the gas."""
+def reactions(steps: list[Step], gas_heat: float) -> list[Namelist]:
+    """Return reactions: solid products keep all mass (CHI = 0), heat belongs to the gas.
+
+    ``gas_heat`` [J/(kg K)] is what the gas takes up on its way to the front, per kg and K.
+    """
     parts: list[Items] = []
     for step in steps:
         per_gas = step.heat_J_kg / step.share if step.product is None else 0.0
@@ -55,7 +58,7 @@ def reactions(steps: list[Step]) -> list[Namelist]:
                 **{"M": 0.0, "KCAT": 0.0, "ICAT": 0},
             }
         )
-    gas: Items = {"NGSPEC": 1, "IBG": 1, "IO2": 2, "CPG": 1000.0, "NAME(1)": "pyrolysate"}
+    gas: Items = {"NGSPEC": 1, "IBG": 1, "IO2": 2, "CPG": gas_heat, "NAME(1)": "pyrolysate"}
     gas |= {"M(1)": 44.0, "SIGMA(1)": 5.061, "EPSOK(1)": 254.0, "C0(1)": 1000.0, "NC(1)": 0.0}
     yields: Items = {f"GYIELDS(1,{n + 1})": 1.0 for n in range(len(parts))}
     return [
@@ -67,8 +70,13 @@ def reactions(steps: list[Step]) -> list[Namelist]:
     ]
 
 
-def general(step: float, ambient: float) -> Namelist:
-    """Return the settings of the solution, as in Gpyro's sample of a thermoplastic."""
+def general(step: float, ambient: float, bodies: Sequence[Items]) -> Namelist:
+    """Return the settings of the solution, as in Gpyro's sample of a thermoplastic.
+
+    Gpyro conducts along gradients of enthalpy. Where specific heats of components differ, only its
+    correction SHYI makes them gradients of temperature.
+    """
+    heats = {(of["C0"], of["NC"]) for of in bodies}
     on = ("THERMAL_EQUILIBRIUM", "USE_TOFH_NEWTON", "CONSTANT_DHVOL")
     off: tuple[str, ...] = (
         "EXPLICIT_T",
@@ -77,7 +85,13 @@ def general(step: float, ambient: float) -> Namelist:
         "SOLVE_PRESSURE",
         "FDSMODE",
     )
-    off += ("SHYI_CORRECTION", "CONVENTIONAL_RXN_ORDER", "NOCONSUMPTION", "BLOWING", "FULL_QSG")
+    off += (
+        "GEOMETRY_IS_UPSIDE_DOWN",
+        "CONVENTIONAL_RXN_ORDER",
+        "NOCONSUMPTION",
+        "BLOWING",
+        "FULL_QSG",
+    )
     off += ("GASES_PRODUCED_AT_TSOLID",)
     items: Items = {"DT0": step, "TAMB": ambient, "TREF": T_REF_K, "P0": 101300.0}
     items |= {"GX": 0.0, "GZ": 0.0, "GY": 0.0, "VHLC": 0.0, "HCV": 1e6, "NU_A": 2.0, "NU_B": 1.0}
@@ -85,6 +99,7 @@ def general(step: float, ambient: float) -> Namelist:
     items |= {"ALPHA": 1.0, "TMPTOL": 1e-4, "HTOL": 1e-9, "YITOL": 1e-8, "PTOL": 1e-4}
     items |= {"YJTOL": 1e-4, "HGTOL": 0.1, "NCOEFF_UPDATE_SKIP": 1, "EPS": 1e-15}
     items |= dict.fromkeys(on, True) | dict.fromkeys(off, False)
+    items["SHYI_CORRECTION"] = len(heats) > 1
     return Namelist("GPYRO_GENERAL", items)
 
 
@@ -132,21 +147,20 @@ def boundaries(outside: Outside) -> list[Items]:
     return [*front, side(2, 0.0, 0.0, outside.h_back or 0.0, outside.back_K, radiates)]
 
 
-def geometry(layers: list[Layer], depth: float, sides: tuple[int, ...]) -> Items:
-    """Return the mesh, and the layers as bodies in it."""
-    items: Items = {"NMESH": 1, "NOBST": len(layers), "ZDIM(1)": depth, "NCELLZ(1)": CELLS}
-    items |= {"XDIM(1)": 1.0, "NCELLX(1)": 1, "YDIM(1)": 1.0, "NCELLY(1)": 1}
-    items |= {"GEOMETRY_FILE(1)": "null", "DEFAULT_IC(1)": 1}
+def geometry(grid: Grid, sides: tuple[int, ...]) -> Items:
+    """Return the mesh, and each layer as a body from its front to the back, over those before."""
+    back = grid.depth_m
+    items: Items = {"NMESH": 1, "NOBST": len(grid.fronts_m), "ZDIM(1)": back}
+    items |= {"NCELLZ(1)": grid.nodes, "XDIM(1)": 1.0, "NCELLX(1)": 1, "YDIM(1)": 1.0}
+    items |= {"NCELLY(1)": 1, "GEOMETRY_FILE(1)": "null", "DEFAULT_IC(1)": 1}
     items |= {f"DEFAULT_SURF_IDX(1,{n})": s for n, s in enumerate(sides, 1)}
     items |= {"OFFSETZ(1)": 0.0, "OFFSETX(1)": 0.0, "OFFSETY(1)": 0.0}
-    z = 0.0
-    for n, layer in enumerate(layers, 1):
-        items |= {f"IMESH({n})": 1, f"Z1({n})": z, f"Z2({n})": z + layer.thickness_m}
+    for n, front in enumerate(grid.fronts_m, 1):
+        items |= {f"IMESH({n})": 1, f"Z1({n})": front, f"Z2({n})": back}
         items |= {f"X1({n})": 0.0, f"X2({n})": 1.0, f"Y1({n})": 0.0, f"Y2({n})": 1.0}
         items |= {f"ICNUM({n})": n}
         items |= {f"SURF_IDX2D({n},{m})": s for m, s in enumerate(sides, 1)}
         items |= {f"HCR({n},{m})": 9e9 for m in range(1, 7)}
-        z += layer.thickness_m
     return items
 
 
