@@ -12,7 +12,7 @@ from types import ModuleType
 import pytest
 
 HERE = Path(__file__).parent
-# A shell starts what runs in the background with Ctrl-C ignored; what a test interrupts heeds it.
+# A shell starts background processes with Ctrl-C ignored; processes that a test interrupts heed it.
 if signal.getsignal(signal.SIGINT) is signal.SIG_IGN:
     signal.signal(signal.SIGINT, signal.default_int_handler)
 FOLDERS = {

@@ -105,7 +105,7 @@ def compiled() -> dict[str, int]:
 
 
 def main() -> None:
-    """Call what the command line names."""
+    """Call the functions that the command line names."""
     parser = argparse.ArgumentParser()
     parser.add_argument("names", nargs="+")
     parser.add_argument("--turn", nargs=2)

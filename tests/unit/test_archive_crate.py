@@ -33,7 +33,7 @@ def crate(smoke: Study) -> dict[str, Any]:
 
 
 def faults(crate: dict[str, Any], folder: Path) -> list[str]:
-    """Return what breaks a MUST of the profile or of those it builds on."""
+    """Return the violations of a MUST of the profile or of those it builds on."""
     for name in NAMES:
         (folder / name).parent.mkdir(parents=True, exist_ok=True)
         (folder / name).touch()

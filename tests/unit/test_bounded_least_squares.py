@@ -1,4 +1,4 @@
-"""Descents: what ends them early, and what they leave alone."""
+"""Descents: their early end, and parameters that they keep."""
 
 from collections.abc import Callable
 from typing import Any

@@ -29,7 +29,7 @@ class Process:
         )
 
     def end(self) -> tuple[dict[str, Any], str]:
-        """Return what it found and what it said."""
+        """Return its result and its messages."""
         out, said = self._process.communicate(timeout=600)
         assert self._process.returncode == 0, said
         return json.loads(out.splitlines()[-1]), said

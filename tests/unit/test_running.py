@@ -78,7 +78,7 @@ def run(root: Path) -> Iterator[Other]:
 
 
 def rewrite(root: Path, **values: object) -> None:
-    """Change what the lock tells of its process."""
+    """Change the description of the process in the lock."""
     path = root / FOLDER / "run.json"
     path.write_text(json.dumps(json.loads(path.read_text()) | values))
 

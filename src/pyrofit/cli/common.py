@@ -42,7 +42,7 @@ def open_study(given: argparse.Namespace, slice_of: Callable[..., Any], *argumen
     if given.digest is not None and digest(slice_of(study, *arguments)) != given.digest:
         raise StudyError(
             f"{given.study}: the study changed while the workflow ran; run it again. "
-            f"'{given.command}' depends on what changed"
+            f"'{given.command}' depends on the change"
         )
     root = given.results or Path("results") / study.name
     given.until_end.enter_context(job(root))

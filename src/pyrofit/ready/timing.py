@@ -57,7 +57,7 @@ def _estimate(situation: Situation, timed: list[tuple[Part, float, float]]) -> F
     text = (
         f"about {words(total / cores)} for the fits = ({calls:,.0f} model calls x "
         f"{1e3 * model / calls:.2g} ms + {jobs} jobs x {start:g} s) / {cores} cores; "
-        "tables, figures and a diagnosis come on top"
+        "tables, figures and a diagnosis are not included"
     )
     if total / cores > 3600.0 * LONG_H:
         way_out = "fewer repetitions, more cores, or a cluster (docs/cluster.md) make it shorter"

@@ -13,8 +13,8 @@ from pyrofit.solver.arrays import FloatArray, IntArray, Value, Values
 from pyrofit.solver.curves import Curves, Request, Runs
 
 Run = Callable[[FloatArray, Mapping[str, Request]], Runs]
-"""Runs under multiples of the flux, shape (runs,), at times of shape (runs, points); the number
-of runs is a multiple of that of sets, which are repeated."""
+"""Runs under multiples of the flux, shape (runs,), at times of shape (runs, points). The number
+of runs is a multiple of that of the sets, which are repeated."""
 POINTS, WEIGHTS = np.polynomial.legendre.leggauss(5)
 """Gauss's rule on (-1, 1), for fluxes that are spread evenly over the surface."""
 RINGS = 4000

@@ -126,7 +126,7 @@ def planned_calls(study: Study) -> Iterator[tuple[str, float, tuple[TermSpec, ..
     """Yield planned searches: label, approximate number of model calls, simulated terms.
 
     SCE-UA makes (2n + 1) c (1 + 1.63 (g - 1)) calls with n parameters, c complexes and g
-    generations; CMA-ES at most what its settings allow.
+    generations. CMA-ES makes at most the calls of its settings.
     """
     stage, n = study.imp, len(study.imp.estimate)
     sceua, squares = search_calls(stage)

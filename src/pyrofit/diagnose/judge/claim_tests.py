@@ -30,8 +30,8 @@ class Trust:
     gains: dict[str, float]
     """Gain of the log score, by experiments left out or held out."""
     explains: bool | None
-    """Whether the model fits the held-out signals as well, if they are fitted, too; None if not
-    tested, as the model leaves more than noise of the calibrated signals."""
+    """Whether the model fits the held-out signals as well, if they are fitted, too. None if not
+    tested, because it leaves more than noise of the calibrated signals."""
 
     @property
     def informative(self) -> bool:
