@@ -1,4 +1,4 @@
-"""The shipped study of pine: what it fits and holds out, and that its files say what it says."""
+"""The study of pine: fitted and held-out tests, and the agreement of its files with its keys."""
 
 from pathlib import Path
 

@@ -34,7 +34,7 @@ def with_programs(study: Study, folder: Path | None) -> Study:
     Raises
     ------
     ValueError
-        With place, file and line, rule and way out.
+        With place, file and line, rule and remedy.
     """
     made = {
         name: e.model_copy(update={"program": _checked(study, name, e, folder)})

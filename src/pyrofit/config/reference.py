@@ -59,7 +59,7 @@ def _sections(root: type[Part]) -> list[str]:
 def _section(part: type[Part], places: list[str]) -> str:
     title = ", ".join(f"`{place}`" for place in places if place) or "The whole file"
     lines = [f"## {part.__name__}", "", f"{title}: {_sentence(part)}", ""]
-    lines += ["| key | what it is | unit | takes | usual |", "|---|---|---|---|---|"]
+    lines += ["| key | meaning | unit | takes | usual |", "|---|---|---|---|---|"]
     lines += [_row(name, field) for name, field in part.model_fields.items()]
     return "\n".join([*lines, ""])
 

@@ -19,7 +19,7 @@ Those of one group are forms of one another.
 """
 _BELONGS = "| family | belongs to | effects |\n|---|---|---|\n"
 _COLUMNS = (
-    "| parameter | symbol | what it is | unit | from | to | {} | source |\n"
+    "| parameter | symbol | meaning | unit | from | to | {} | source |\n"
     "|---|---|---|---|---|---|---|---|"
 )
 

@@ -73,12 +73,12 @@ def _check(node: ast.AST, expression: str) -> None:
     if not (isinstance(node, (*_ARITHMETIC, *_OPERATORS)) and number):
         raise ValueError(
             f"'{expression}': only numbers, parameters, + - * / ** and "
-            f"{', '.join(FUNCTIONS)} may stand here"
+            f"{', '.join(FUNCTIONS)} are allowed"
         )
 
 
 def value_of_expression(expression: str, values: Mapping[str, float]) -> float:
-    """Return the value of an expression; NaN where it has none.
+    """Return the value of an expression; NaN if it has none.
 
     Parameters
     ----------

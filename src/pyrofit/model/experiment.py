@@ -32,13 +32,13 @@ class Experiment(Part):
     )
     uncertain: Nuisances | None = Field(
         None,
-        description="what the diagnosis estimates of it besides the model, about the values that "
-        "are described; of a test with `repeats` give it there",
+        description="properties of the test that the diagnosis estimates besides the model, about "
+        "the described values; for a test with `repeats` give them there",
     )
     repeat: RepeatOf | None = Field(
         None,
-        description="what it repeats or what is uncertain, as noted when a study is read; list "
-        "yours in `repeats` or `uncertain`",
+        description="the repeated test or the uncertain properties, as noted when a study is read; "
+        "list yours in `repeats` or `uncertain`",
     )
 
     @model_validator(mode="after")

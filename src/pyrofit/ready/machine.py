@@ -97,7 +97,7 @@ def memory(situation: Situation) -> Iterator[Finding]:
     need = SNAKEMAKE_BYTES + jobs * JOB_BYTES
     there = available_memory()
     if there is None:
-        text = f"{size(need)} are needed; this system does not tell how much is available"
+        text = f"{size(need)} are needed; the available memory is unknown on this system"
         yield Finding("warning", "memory", text)
     elif there < need:
         fit = int((there - SNAKEMAKE_BYTES) // JOB_BYTES)
@@ -140,7 +140,7 @@ def available_cores() -> int:
 
 
 def available_memory() -> float | None:
-    """Return the memory that programs can still take [byte]; None if the system does not tell."""
+    """Return the memory that programs can still take [byte]; None if it is unknown."""
     try:
         text = Path("/proc/meminfo").read_text(encoding="ascii")
     except OSError:

@@ -62,7 +62,7 @@ def _files(study: Study, name: str) -> dict[str, Any]:
 
 
 def trial(study: Study) -> dict[str, Any]:
-    """All that the external programs are given, and what is planned."""
+    """All inputs of the external programs, and the planned searches."""
     return {
         "experiments": {n: _experiment(study, n) for n in externals(study)},
         "parameters": _parameters(study, set(study.parameters)),

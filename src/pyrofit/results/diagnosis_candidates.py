@@ -49,4 +49,4 @@ class OfCandidate(Record):
     explains: bool | None = Field(
         description="it fits the held-out signals once they are fitted; null where not tested"
     )
-    rejected: str = Field(description="why it was rejected; empty where it was not")
+    rejected: str = Field(description="reason of its rejection; empty if it was not rejected")

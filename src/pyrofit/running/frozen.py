@@ -11,7 +11,7 @@ from pyrofit.errors import StudyError
 from pyrofit.results.files import write_text
 
 FROZEN = "PYROFIT_STUDY"
-"""Environment variable that tells jobs the file of the frozen study, and its digest."""
+"""Environment variable that passes digest and file of the frozen study to jobs."""
 MOST_NAMED = 5
 
 
