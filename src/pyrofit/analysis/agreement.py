@@ -49,23 +49,29 @@ def _start_notes(
     study: Study, experiment: SlabExperiment, signal: str, frame: pd.DataFrame
 ) -> list[str]:
     """Note a temperature or a mass that starts at another value than the described one."""
-    quantity, values = experiment.quantity(signal), study.fixed_values()
+    quantity = experiment.quantity(signal)
     record = frame[quantity.column].to_numpy()
-    if quantity.is_temperature:
-        start = float(record[0])
-        described = value_of(experiment.sample.initial_temperature_K, values)
-        if abs(start - described) > OTHER_START_K:
-            return [
-                f"starts at {start:.1f} K, initial_temperature_K of the sample is {described:.1f}"
-            ]
-    if quantity.curve == MASS:
-        with contextlib.suppress(KeyError):
-            described = described_mass(study, experiment, values)
-            offset = value_of(experiment.signals[signal].offset, values)
-            start = float(np.median(record[:FIRST])) - offset
-            if abs(start - described) > OTHER_MASS * described:
-                return [
-                    f"starts at {start:.3f} kg/m2, the sample as described has {described:.3f}; "
-                    "where the load cell does not show the sample alone, give `offset`"
-                ]
+    with contextlib.suppress(KeyError):  # the described value is to be estimated
+        if quantity.is_temperature:
+            return _temperature_notes(study, experiment, float(record[0]))
+        if quantity.curve == MASS:
+            offset = value_of(experiment.signals[signal].offset, study.fixed_values())
+            return _mass_notes(study, experiment, float(np.median(record[:FIRST])) - offset)
     return []
+
+
+def _temperature_notes(study: Study, experiment: SlabExperiment, start: float) -> list[str]:
+    described = value_of(experiment.sample.initial_temperature_K, study.fixed_values())
+    if abs(start - described) <= OTHER_START_K:
+        return []
+    return [f"starts at {start:.1f} K, initial_temperature_K of the sample is {described:.1f}"]
+
+
+def _mass_notes(study: Study, experiment: SlabExperiment, start: float) -> list[str]:
+    described = described_mass(study, experiment, study.fixed_values())
+    if abs(start - described) <= OTHER_MASS * described:
+        return []
+    return [
+        f"starts at {start:.3f} kg/m2, the sample as described has {described:.3f}; "
+        "if the load cell shows more than the sample, give `offset`"
+    ]
