@@ -55,6 +55,14 @@ def test_missing_study_of_a_run_is_told(study: Study) -> None:
         frozen_study(edited(), "config/smoke.yaml")
 
 
+@pytest.mark.parametrize("content", [b"", b"{", b"\xff\x00"])
+def test_a_damaged_file_is_written_anew_by_the_next_run(content: bytes, study: Study) -> None:
+    path = Path("results/smoke/study.json")
+    path.write_bytes(content)
+    freeze(study, path)
+    assert frozen_study(edited(), "config/smoke.yaml") == study
+
+
 def test_differences_name_what_is_only_in_one() -> None:
     one, other = {"a": {"b": 1}, "c": None}, {"a": {"b": 1, "d": 2}, "c": {"e": 3}}
     assert list(differences(one, other)) == ["a.d", "c"]

@@ -25,7 +25,7 @@ def freeze(study: Study, path: Path) -> None:
     """
     whole = study.model_dump(mode="json")
     text = json.dumps(whole, indent=1) + "\n"
-    if not path.exists() or path.read_text(encoding="utf-8") != text:
+    if not path.exists() or path.read_bytes() != text.encode():
         write_text(path, text)
     os.environ[FROZEN] = f"{digest(whole)} {path}"
 
