@@ -390,7 +390,7 @@ def test_candidates_are_ranked_and_say_why_they_were_rejected(tmp_path: Path) ->
     )
     # The interval is that with the form's uncertainty.
     assert "-0.00123 (-0.005 to 0.004) 1/K" in best["fitted"]
-    assert best["predictions"] == "slab_60 +12.0; all that is held out -1.5"
+    assert best["predictions"] == "slab_60 +12.0; all held-out tests -1.5"
     assert set(frame["remark"][1:]) == {"chi-square is 1500 above that of the best"}
 
 
@@ -576,7 +576,7 @@ def test_page_says_the_numbers(tmp_path: Path) -> None:
     ) in words
     assert "goes from 5 to 1 (fitted) and from 5 to 1 (held out)" in words
     assert "cp is at a limit" in words
-    assert "+12.0 (slab_60 from the others) and -1.5 (all that is held out)" in words
+    assert "+12.0 (slab_60 from the others) and -1.5 (all held-out tests)" in words
 
 
 def test_predictions_are_named_by_title_and_laboratory(tmp_path: Path) -> None:
@@ -586,7 +586,7 @@ def test_predictions_are_named_by_title_and_laboratory(tmp_path: Path) -> None:
     )
     names = {
         "slab_60": "Slab 60 kW/m²",
-        "held out": "all that is held out",
+        "held out": "all held-out tests",
         "held out: slab_60": "held out: Slab 60 kW/m²",
         "held out: Aalto": "held out: Aalto",
     }

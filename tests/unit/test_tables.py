@@ -459,11 +459,11 @@ def test_trade_offs_by_hand(tmp_path: Path) -> None:
     assert row["correlation"] == -0.8
 
 
-def test_report_says_what_compensates_what_where_it_is_strong(tmp_path: Path) -> None:
+def test_report_names_strongly_correlated_pairs(tmp_path: Path) -> None:
     study, results = fake(tmp_path)
     facts = facts_of(study, results, {})
     words = (
-        "These changes make up for each other in the inverse modelling, the strongest first: "
+        "These changes compensate each other in the inverse modelling, the strongest first: "
         "k +0.01 W/(m K) and cp −0.64 kJ/(kg K)."
     )
     assert words in sentences(study, facts)

@@ -33,7 +33,7 @@ class Facts:
     estimates, known
         The estimates of all stages, and those that have a known value.
     trade_offs
-        Pairs of estimates of which one makes up for the other.
+        Pairs of strongly correlated estimates.
     misfits
         How the optimum of the likelihood fits each signal.
     best

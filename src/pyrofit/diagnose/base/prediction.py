@@ -66,7 +66,7 @@ def predictions(
     """Return what models predict: experiments from the others, and what is held out.
 
     With ``held_out`` false, only calibrated experiments are left out, one by one. With ``whole``
-    false, no model is fitted to all that is held out at once, unless a score asks for it.
+    false, no model is fitted to all held-out tests at once, unless a score needs it.
     """
     tasks = [(k, name) for k, trial in enumerate(trials) for name in _tasks(trial, held_out, whole)]
     fits = parallel_map(

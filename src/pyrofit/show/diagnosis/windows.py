@@ -53,11 +53,10 @@ TABLE = Table(
     applies=always,
     make=windows,
     title="Where model and measurement disagree",
-    note="Intervals in which the residuals are biased more strongly than noise explains: in a "
-    "study without misfit, 1 % would show any. Temperature: of the surface, in TGA of the "
-    "programme. Conversion: share of all that is released in the record. Difference: mean of "
-    "simulated minus measured, also in per cent of the measured mean; the simulation lies above "
-    "where it is positive.",
+    note="Intervals in which the residuals are biased more strongly than by noise: 1 % of studies "
+    "without misfit have such an interval. Temperature: of the surface, in TGA of the programme. "
+    "Conversion: share of the whole release in the record. Difference: mean of simulated minus "
+    "measured, also in per cent of the measured mean.",
     headings={
         "time_s": "time [s]",
         "temperature_C": "temperature [°C]",

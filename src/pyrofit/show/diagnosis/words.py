@@ -41,12 +41,12 @@ def words_of(study: Study, row: Found) -> str:
 
 
 def prediction_name(study: Study, name: str) -> str:
-    """Return the title of a test that was left out of the fit, or the words for what is held out.
+    """Return the title of a test that was left out of the fit, or words for the held-out tests.
 
     ``name`` is that of a test, "held out", or "held out: " and a laboratory or test.
     """
     if name == HELD_OUT:
-        return "all that is held out"
+        return "all held-out tests"
     place = name.removeprefix(f"{HELD_OUT}: ")
     test = study.experiments.get(place)
     title = test.title if test and test.title else place

@@ -41,7 +41,7 @@ def _known(found: Sequence[Known]) -> list[str]:
         return ["All estimates are within 2 standard deviations of their known values."]
     return [
         f"More than 2 standard deviations from the known value: {listed(far)}. Check the known "
-        "value; else the estimate makes up for something that the model lacks."
+        "value; else the estimate compensates for an effect that the model lacks."
     ]
 
 
@@ -76,7 +76,7 @@ def _compensation(found: Sequence[TradeOff]) -> list[str]:
         for p in strong[:SHOWN_PAIRS]
     ]
     return [
-        "These changes make up for each other in the inverse modelling, the strongest first: "
+        "These changes compensate each other in the inverse modelling, the strongest first: "
         f"{'; '.join(pairs)}."
     ]
 

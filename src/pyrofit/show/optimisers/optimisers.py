@@ -22,6 +22,6 @@ FIGURE = Figure(
     title="Rates of the optimisers",
     caption="The best sets of least squares (diamonds) and CMA-ES (squares) beside those of "
     "SCE-UA. Where a lower cost at the fitted experiment comes with a worse prediction "
-    "elsewhere, the fitted data do not determine the parameters, or these make up for "
-    "something that the model lacks.",
+    "elsewhere, the fitted data do not determine the parameters, or their values "
+    "compensate an effect that the model lacks.",
 )
