@@ -320,6 +320,17 @@ def test_a_program_beside_the_study_is_found(tmp_path: Path) -> None:
     assert run(found, (9.0, 0.02))[0].why == ""
 
 
+def test_a_program_of_the_home_folder_is_found(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setenv("HOME", str(tmp_path / "home"))
+    (tmp_path / "home").mkdir()
+    program = tmp_path / "home" / "program"
+    program.write_text("#!/bin/sh\nexec python3 -S decay.py decay.inp\n")
+    program.chmod(0o755)
+    assert run(opened(tmp_path, command="~/program"), (9.0, 0.02))[0].why == ""
+
+
 def test_a_program_goes_by_the_name_of_its_link(tmp_path: Path) -> None:
     found = opened(tmp_path, command="./by_link x")
     folder = tmp_path / "my study"

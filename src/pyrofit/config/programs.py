@@ -94,7 +94,8 @@ def _located(program: Program, folder: Path | None) -> Program:
         return program
     first = program.command[0]
     here = folder / first
-    if "/" in first or here.is_file():
+    # A path from the home folder stays so: it is another one on another machine.
+    if not first.startswith("~") and ("/" in first or here.is_file()):
         found = here.as_posix()
         first = found if "/" in found else f"./{found}"
     return program.model_copy(

@@ -46,9 +46,9 @@ def scratch() -> Iterator[Path]:
         folder = Path(tempfile.mkdtemp(prefix=f"{_own_prefix()}{os.getpid()}-", dir=root))
         unnamed = folder / f"new_{LOCK}"
         lock = unnamed.open("w")
-    with lock:
         fcntl.flock(lock, fcntl.LOCK_EX)
         unnamed.rename(folder / LOCK)  # locked before `sweep` can find it
+    with lock:
         try:
             yield folder
         finally:
