@@ -10,6 +10,11 @@ from pyrofit.config.words import in_plain_words
 from pyrofit.experiments import KINDS
 from pyrofit.model.repeats import Nuisances
 
+OF_PROGRAMS = (
+    "make it one of the `parameters`, with a value under `known`, and name it in the template, "
+    "or in delay_s or offset of a signal"
+)
+
 
 def free_uncertain(keys: Keys) -> Keys:
     """Return a study's keys with what is uncertain of its experiments as parameters.
@@ -57,6 +62,5 @@ def check_family(place: str, key: str, kind: Any) -> None:
     known = KINDS.get(kind) if isinstance(kind, str) else None
     if known is not None and not issubclass(known.description, NUISANCES[key].family):
         fitting = [k for k, n in NUISANCES.items() if issubclass(known.description, n.family)]
-        raise ValueError(
-            f"{place}: a {known.words} experiment has none; it may have {', '.join(fitting)}"
-        )
+        way = f"it may have {', '.join(fitting)}" if fitting else OF_PROGRAMS
+        raise ValueError(f"{place}: a {known.words} experiment has none; {way}")
