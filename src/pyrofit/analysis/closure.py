@@ -71,7 +71,7 @@ def _reacting(
 ) -> list[tuple[Layer, float]]:
     """Return the layers that can release mass, with their thickness [m]: no inert board.
 
-    KeyError where a parameter has no value.
+    KeyError if a parameter has no value.
     """
     reactants = {reaction.reactant for reaction in study.material.reactions.values()}
     return [
@@ -82,7 +82,7 @@ def _reacting(
 
 
 def described_mass(study: Study, experiment: SlabExperiment, values: Mapping[str, float]) -> float:
-    """Return the mass of all layers per area [kg/m2]; KeyError where a parameter has no value."""
+    """Return the mass of all layers per area [kg/m2]; KeyError if a parameter has no value."""
     layers = _layers_of(experiment, values)
     return _mass(study, experiment, layers, values)
 
@@ -90,7 +90,7 @@ def described_mass(study: Study, experiment: SlabExperiment, values: Mapping[str
 def _layers_of(
     experiment: SlabExperiment, values: Mapping[str, float]
 ) -> list[tuple[Layer, float]]:
-    """Return all layers with their thickness [m]; KeyError where a parameter has no value."""
+    """Return all layers with their thickness [m]; KeyError if a parameter has no value."""
     sizes = map(float, thicknesses(experiment.sample, values))
     return list(zip(experiment.sample.layers, sizes, strict=True))
 
@@ -101,7 +101,7 @@ def _mass(
     layers: Sequence[tuple[Layer, float]],
     values: Mapping[str, float],
 ) -> float:
-    """Return the mass of layers per area [kg/m2]; KeyError where a parameter has no value."""
+    """Return the mass of layers per area [kg/m2]; KeyError if a parameter has no value."""
     components = study.material.components
     own = np.isin(list(components), sorted(study.material.own))
     denser = np.where(own, value_of(experiment.sample.density_factor, values), 1.0)

@@ -54,7 +54,7 @@ def _measured(study: Study, name: str) -> dict[str, Any]:
 
 
 def _files(study: Study, name: str) -> dict[str, Any]:
-    """Checksums of template and other files of an external program; no key where there is none."""
+    """Checksums of template and other files of an external program; empty if there is none."""
     experiment = study.experiments[name]
     if not isinstance(experiment, ExternalExperiment):
         return {}

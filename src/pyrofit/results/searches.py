@@ -10,7 +10,7 @@ from pyrofit.results.files import EACH, Keys, Results, read_csv, read_json
 
 
 class Searched(NamedTuple):
-    """Where all searches ended, read at once."""
+    """Ends of all searches, read at once."""
 
     repetitions: pd.DataFrame
     """The best set of every repetition of SCE-UA."""
@@ -19,7 +19,7 @@ class Searched(NamedTuple):
 
 
 def read(study: Study, results: Results, optimisers: Iterable[str]) -> Searched:
-    """Return where the repetitions of SCE-UA and the starts of the optimisers beside it ended.
+    """Return the ends of all repetitions of SCE-UA and of all starts of the other optimisers.
 
     Raises
     ------
