@@ -8,11 +8,12 @@ from matplotlib.colors import to_rgb
 from test_tables import described, fake, synthetic
 
 from pyrofit.analysis import running
-from pyrofit.analysis.uses import PUBLISHED, predicted_sets
-from pyrofit.config import as_study
+from pyrofit.analysis.uses import PUBLISHED, predicted_sets, predicted_signals
+from pyrofit.config import as_study, read_study
 from pyrofit.errors import StudyError
 from pyrofit.results.files import Results, read_csv, write_csv
 from pyrofit.show import style
+from pyrofit.show.curves import tests_of as groups_of
 from pyrofit.show.fit.fig3 import fig3
 from pyrofit.show.kinetics.drawing import slope
 from pyrofit.show.kinetics.kinetics_all_rates import kinetics_all_rates
@@ -201,3 +202,24 @@ def test_panels_of_several_laboratories_name_them(tmp_path: Path) -> None:
     plain, named = titles
     assert not [title for title in plain if "ere, " in title]
     assert [t.split(") ")[1].split(",")[0] for t in named] == ["Here", "There"]
+
+
+def test_repeats_of_a_test_share_a_panel() -> None:
+    study = read_study(Path(__file__).parents[2] / "config" / "pine.yaml")
+    groups = groups_of(study, predicted_signals(study, relative=False))
+    assert len(groups) == 17
+    assert groups[0] == [(f"umd_30_{n}", "mass") for n in (1, 2, 3)]
+    assert {len(group) for group in groups} == {2, 3}
+
+
+def test_many_panels_are_in_more_columns_and_have_two_letters() -> None:
+    canvas, axes = style.panels(30, 2, 170.0, 72.0)
+    assert axes[2].get_subplotspec().rowspan == axes[0].get_subplotspec().rowspan  # type: ignore[union-attr]
+    assert canvas.get_figheight() < 20.0
+    style.letter(axes, ["x"] * 30)
+    assert [axes[i].get_title(loc="left") for i in (0, 25, 26, 29)] == [
+        "a) x",
+        "z) x",
+        "aa) x",
+        "ad) x",
+    ]

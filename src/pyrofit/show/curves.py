@@ -1,6 +1,7 @@
 """Predicted and measured curves over time."""
 
 from collections.abc import Sequence
+from itertools import takewhile
 from typing import Any
 
 import pandas as pd
@@ -36,23 +37,52 @@ Pair = tuple[str, str]
 def compare_curves(
     study: Study, results: Results, pairs: Sequence[Pair], origins: tuple[str, ...]
 ) -> Canvas:
-    """Draw measured and predicted curves, one panel per signal."""
+    """Draw measured and predicted curves, one panel per signal; repeats of a test share one."""
     curves = predicted_curves(study, results)
     shown_sets = [s for s in predicted_sets(study) if s.origin in origins]
-    canvas, axes = panels_of(study, pairs)
-    for ax, (name, signal) in zip(axes, pairs, strict=True):
-        quantity = study.experiments[name].quantity(signal)
-        frame = recorded.series(study, results, name, signal)
-        draw_band(ax, frame, quantity)
-        ax.plot(frame["time_s"], shown(quantity, frame[quantity.column]), **_MEASURED)
+    groups = tests_of(study, pairs)
+    canvas, axes = panels_of(study, [group[0] for group in groups])
+    style.letter(axes, [_title(study, group) for group in groups])
+    for ax, group in zip(axes, groups, strict=True):
+        for name, signal in group:
+            _draw_measured(ax, study, results, name, signal)
         # Published ones last are hidden by nothing; ours come on top of them.
         for chosen in sorted(shown_sets, key=lambda s: s.origin != PUBLISHED):
-            curve = curve_of(curves, name, signal, chosen.label)
-            ax.plot(curve["time_s"], shown(quantity, curve["simulated"]), **look_of(study, chosen))
-    label_axes(axes, [label_of(study, *pair) for pair in pairs])
+            look = look_of(study, chosen) | ({"linewidth": 0.7} if len(group) > 1 else {})
+            for name, signal in group:
+                quantity = study.experiments[name].quantity(signal)
+                curve = curve_of(curves, name, signal, chosen.label)
+                ax.plot(curve["time_s"], shown(quantity, curve["simulated"]), **look)
+    label_axes(axes, [label_of(study, *group[0]) for group in groups])
     entries = measured_entries(study, results, pairs, with_line=True)
     style.legend_below(canvas, [*entries, *set_entries(study, shown_sets)])
     return canvas
+
+
+def tests_of(study: Study, pairs: Sequence[Pair]) -> list[list[Pair]]:
+    """Return the pairs of each test together: those of its repeats that have the signal."""
+    groups: dict[Pair, list[Pair]] = {}
+    for name, signal in pairs:
+        repeat = study.experiments[name].repeat
+        groups.setdefault((repeat.test if repeat else name, signal), []).append((name, signal))
+    return list(groups.values())
+
+
+def _title(study: Study, group: Sequence[Pair]) -> str:
+    """Return the title of a test: what the titles of its repeats begin with."""
+    titles = [title_of(study, name) for name, _ in group]
+    if len(titles) == 1:
+        return titles[0]
+    same = takewhile(lambda of: len({*of}) == 1, zip(*titles, strict=False))
+    return "".join(of[0] for of in same).rstrip(" ,;(") or titles[0]
+
+
+def _draw_measured(ax: Axes, study: Study, results: Results, name: str, signal: str) -> None:
+    """Draw a measured series with its uncertainty."""
+    quantity = study.experiments[name].quantity(signal)
+    frame = recorded.series(study, results, name, signal)
+    draw_band(ax, frame, quantity)
+    ax.plot(frame["time_s"], shown(quantity, frame[quantity.column]), **_MEASURED)
 
 
 def label_of(study: Study, name: str, signal: str) -> str:

@@ -94,6 +94,10 @@ STYLE: dict[str, Any] = {
 }
 
 
+MANY, MOST_COLUMNS = 12, 3
+"""Panels beyond which a figure has more columns, and how many."""
+
+
 def colour(i: int) -> str:
     """Return the colour of the i-th curve."""
     return COLOURS[i % len(COLOURS)]
@@ -114,7 +118,12 @@ def cost_styles(study: Study) -> dict[str, dict[str, Any]]:
 def panels(
     count: int, columns: int, width: float, height: float, **options: Any
 ) -> tuple[Canvas, list[Axes]]:
-    """Return a canvas with ``count`` panels in rows; sizes in mm, the height is a row's."""
+    """Return a canvas with ``count`` panels in rows; sizes in mm, the height is a row's.
+
+    Many panels are smaller, three in a row, so that the figure is not too long.
+    """
+    if count > MANY and columns < MOST_COLUMNS:
+        columns, height = MOST_COLUMNS, height * columns / MOST_COLUMNS
     columns = min(columns, count)
     rows = -(-count // columns)
     canvas = Canvas(figsize=(width * MM, rows * height * MM))
@@ -129,7 +138,17 @@ def panels(
 def letter(axes: Sequence[Axes], titles: Sequence[str]) -> None:
     """Title the panels; with a letter in front where there are several."""
     for i, (ax, title) in enumerate(zip(axes, titles, strict=True)):
-        ax.set_title(f"{chr(97 + i)}) {title}" if len(axes) > 1 else title, loc="left")
+        ax.set_title(f"{letters(i)}) {title}" if len(axes) > 1 else title, loc="left")
+
+
+def letters(i: int) -> str:
+    """Return the letters of the i-th panel.
+
+    >>> letters(0), letters(25), letters(26), letters(53)
+    ('a', 'z', 'aa', 'bb')
+    """
+    before, last = divmod(i, 26)
+    return (letters(before - 1) if before else "") + chr(97 + last)
 
 
 def line(label: str, **style: Any) -> Line2D:

@@ -21,6 +21,7 @@ FIGURE = Figure(
     make=other_signals,
     title="Temperatures and other signals",
     caption="Signals of the predicted experiments that are no rates, such as the back temperature: "
-    "the data with their uncertainty and the predictions of the same sets. A signal that was not "
+    "the data with their uncertainty and the predictions of the same sets. Repeats of a test share "
+    "a panel, with a prediction for each. A signal that was not "
     "fitted tests whether the parameters have a physical meaning.",
 )
