@@ -186,10 +186,38 @@ def test_threshold_residuals_tell_early_from_late():
     assert term.residuals(np.array([0.0, 0.0, 2.0])).tolist() == [0.5]
 
 
+def test_gpyros_objective_by_hand():
+    # y = 10, 20, 60; differences 0.5, -4, 8; eps = 0.1: 1/1.5, 2/6 and 6/14, squared.
+    lost = 3.0 - (2 / 3) ** 2 - (1 / 3) ** 2 - (3 / 7) ** 2
+    term = make_term("GPYRO", TARGET)
+    assert term(MODEL) == pytest.approx(lost / 3.0, rel=1e-14)
+    assert term(VALUE) == 0.0
+    # Gpyro's own fitness of the same model: |y| / (|model - y| + eps |y|), squared, mean.
+    fitness = ((10 / 1.5) ** 2 + (20 / 6) ** 2 + (60 / 14) ** 2) / 3.0
+    assert term(MODEL) == pytest.approx(1.0 - 0.1**2 * fitness, rel=1e-14)
+
+
+def test_gpyros_objective_by_hand_with_its_options():
+    # Counted from 8 on: 2, 12, 52; eps = 0.5: 1/1.5, 6/10, 26/34.
+    lost = 3.0 - 2 / 3 - 0.6 - 26 / 34
+    term = make_term("GPYRO", TARGET, eps=0.5, zeta=1.0, reference=8.0)
+    assert term(MODEL) == pytest.approx(lost / 3.0, rel=1e-14)
+
+
+def test_gpyros_objective_takes_a_measured_zero_as_met_or_missed():
+    term = make_term("GPYRO", Target(TIME, [0.0, 20.0, 0.0]))
+    assert term(np.array([0.0, 20.0, 1e-9])) == pytest.approx(1.0 / 3.0, rel=1e-14)
+
+
+def test_residuals_of_gpyros_objective_have_the_sign_of_the_difference():
+    residuals = make_term("GPYRO", TARGET).residuals(MODEL)
+    assert np.sign(residuals).tolist() == [1.0, -1.0, 1.0]
+
+
 @pytest.mark.parametrize("bad", [math.nan, math.inf, -math.inf])
 @pytest.mark.parametrize("kind", KINDS)
 def test_a_model_that_is_not_finite_costs_infinity(kind, bad):
-    options = {} if "normalisation" in signature_of(kind) else {"time_s": 1.0}
+    options = {} if signature_of(kind) else {"time_s": 1.0}
     assert make_term(kind, TARGET, **options)(np.array([10.0, bad, 60.0])) == math.inf
 
 
@@ -207,6 +235,9 @@ def signature_of(kind):
         ("RANGE", {"r": -0.1}, "r = -0.1; it must be"),
         ("RANGE", {"r": "wide"}, "r = 'wide'; it must be"),
         ("RANGE_PROPTI", {"r": math.nan}, "r = nan; it must be"),
+        ("GPYRO", {"eps": 0.0}, "eps = 0.0; it must be a finite number above 0"),
+        ("GPYRO", {"zeta": -2.0}, "zeta = -2.0; it must be"),
+        ("GPYRO", {"reference": math.nan}, "reference = nan; it must be a finite number"),
         ("BANDS", {"n_sigma": 0.0}, "n_sigma = 0.0; it must be"),
         ("BANDS", {"smooth_s": -1.0}, "smooth_s = -1.0; it must be"),
         ("BANDS", {"lower": VALUE}, "give both `lower` and `upper`"),
@@ -295,12 +326,12 @@ def test_a_model_of_another_shape_is_refused():
 
 @pytest.mark.parametrize("kind", KINDS)
 def test_a_term_survives_pickling(kind):
-    options = {} if "normalisation" in signature_of(kind) else {"time_s": 1.0}
+    options = {} if signature_of(kind) else {"time_s": 1.0}
     term = make_term(kind, TARGET, **options)
     assert pickle.loads(pickle.dumps(term))(MODEL) == term(MODEL)
 
 
-@pytest.mark.parametrize("kind", ["RMSE", "RANGE_PROPTI", "BANDS", "THR_above"])
+@pytest.mark.parametrize("kind", ["RMSE", "RANGE_PROPTI", "BANDS", "THR_above", "GPYRO"])
 def test_a_call_takes_microseconds(kind):
     time = np.linspace(0.0, 10.0, 100)
     target = Target(time, np.sin(time) + 2.0, np.full(100, 0.1))

@@ -3,6 +3,7 @@
 from collections.abc import Callable
 
 from pyrofit.cost.added import added_costs
+from pyrofit.cost.gpyro import gpyro
 from pyrofit.cost.single_point import (
     nrse,
     thr_above,
@@ -24,6 +25,7 @@ KINDS: dict[str, Callable[..., Residuals]] = {
     "THR_below": thr_below,
     "THR_above_literal": thr_above_literal,
     "THR_below_literal": thr_below_literal,
+    "GPYRO": gpyro,
 }
 """The package's costs by name; the keyword arguments of each are its options."""
 
