@@ -43,6 +43,7 @@ FILES = {
     "test_noise": "slow",
     "test_reaction_order": "solver",
     "test_ready_timing": "solver",
+    "test_rescore_stage": "solver",
     "test_robustness": "solver",
     "test_slab_quantities": "solver",
     "test_stages": "solver",

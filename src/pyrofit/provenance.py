@@ -33,6 +33,7 @@ STUDY = (
             "predict",
             "compare",
             "robustness",
+            "rescore",
             "scheme",
             "diagnose",
         )
@@ -53,6 +54,7 @@ CATALOGUES = (
             "identification",
             "kinetics",
             "optimisers",
+            "rescore",
             "robustness",
             "scheme",
             "truth",

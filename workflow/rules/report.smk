@@ -75,6 +75,7 @@ rule report:
             for page in (
                 results.diagnosis("report.html"),
                 results.robustness("table.csv"),
+                results.rescored("valleys.svg"),
                 results.scheme("scheme.svg"),
             )
             if page.exists()

@@ -9,7 +9,16 @@ import threading
 from collections.abc import Callable, Iterator, Sequence
 from typing import Any
 
-from pyrofit.cli import diagnosing, exchanging, fitting, macfp, scheming, showing, starting
+from pyrofit.cli import (
+    diagnosing,
+    exchanging,
+    fitting,
+    macfp,
+    rescoring,
+    scheming,
+    showing,
+    starting,
+)
 from pyrofit.errors import PyrofitError
 from pyrofit.logs import Tee, open_log
 
@@ -85,6 +94,6 @@ def _interruptible() -> Iterator[None]:
 def _parser() -> argparse.ArgumentParser:
     parser = Parser(prog="pyrofit", description=__doc__)
     commands = parser.add_subparsers(dest="command", required=True, metavar="COMMAND")
-    for group in (starting, fitting, scheming, diagnosing, showing, exchanging, macfp):
+    for group in (starting, fitting, rescoring, scheming, diagnosing, showing, exchanging, macfp):
         group.add(commands)
     return parser

@@ -214,6 +214,10 @@ class Results:
         """All sets of all optimisers under all costs, and the family of good ones."""
         return self.root / "comparison" / name
 
+    def rescored(self, name: str) -> Path:
+        """All that tells how other costs rank the stored sets."""
+        return self.root / "rescore" / name
+
     def robustness(self, name: str) -> Path:
         """Fits of all cost functions to twins of known truth."""
         return self.root / "robustness" / name

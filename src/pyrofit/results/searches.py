@@ -46,6 +46,12 @@ def running_minimum(results: Results, cost: str, number: int) -> pd.DataFrame:
     return read_csv(path, dict.fromkeys(("generation", "calls", "best_cost"), float))
 
 
+def history(study: Study, results: Results, cost: str, number: int) -> pd.DataFrame:
+    """Return every model call of one repetition: call, cost, status, parameters in SI units."""
+    numbers = ("call", "cost", "status", *study.imp.estimate)
+    return read_csv(results.repetition(cost, number, ".csv.gz"), dict.fromkeys(numbers, float))
+
+
 def summary(study: Study, results: Results) -> pd.DataFrame:
     """Return the best set of every repetition."""
     numbers = ("cost", "cost_refined", "calls", "failed_calls", *study.imp.estimate)

@@ -1,0 +1,1 @@
+"""Stored sets scored again under other costs, a step of its own."""

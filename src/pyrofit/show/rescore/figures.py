@@ -1,0 +1,89 @@
+"""How the costs agree in ranking the stored sets, and where their valleys lie."""
+
+import numpy as np
+from matplotlib.figure import Figure as Canvas
+
+from pyrofit.config import Study
+from pyrofit.results import rescored
+from pyrofit.results.files import Results
+from pyrofit.show import style
+from pyrofit.show.figure import Figure
+from pyrofit.show.matrix import draw_matrix
+from pyrofit.show.rescore.facts import correlation, of_shown, shown
+from pyrofit.show.table import always
+
+
+def agreement(study: Study, results: Results) -> Canvas:
+    """Draw the rank correlation of the costs."""
+    return draw_matrix(correlation(study, results), "rank correlation [–]")
+
+
+def regret(study: Study, results: Results) -> Canvas:
+    """Draw which share of the sets each cost finds better than the best set of another."""
+    table = of_shown(rescored.read(study, results), rescored.matrix(results, rescored.BETTER))
+    percent = 100.0 * table.to_numpy()
+    names = [str(name) for name in table]
+    size = min(style.TWO_COLUMNS, 34.0 + 11.5 * len(names))
+    canvas, (ax,) = style.panels(1, 1, size + 12.0, size - 8.0)
+    image = ax.imshow(percent, cmap="cividis_r", vmin=0.0, vmax=100.0)
+    for (i, k), value in np.ndenumerate(percent):
+        colour = "white" if value > 55.0 else "black"
+        text = f"{value:.2g}" if value < 10.0 else f"{value:.0f}"
+        ax.text(k, i, text, ha="center", va="center", color=colour, fontsize=7)
+    ax.set_xticks(range(len(names)), names, rotation=45, ha="right", rotation_mode="anchor")
+    ax.set_yticks(range(len(names)), names)
+    ax.set_xlabel("judged by")
+    ax.set_ylabel("best set of")
+    ax.tick_params(length=0)
+    canvas.colorbar(image, ax=ax, label="sets that are better [%]", shrink=0.85)
+    return canvas
+
+
+def valleys(study: Study, results: Results) -> Canvas:
+    """Draw the range of each parameter over the best sets of every cost."""
+    measures = shown(rescored.read(study, results))
+    names = list(study.imp.estimate)
+    height = 14.0 + 4.2 * len(measures)
+    canvas, axes = style.panels(len(names), 3, style.TWO_COLUMNS, height, sharey=True)
+    places = np.arange(len(measures))[::-1]
+    for ax, name in zip(axes, names, strict=True):
+        for y, measure in zip(places, measures, strict=True):
+            at = measure.valley[name]
+            ax.plot([at.low, at.high], [y, y], color=style.COLOURS[0], linewidth=3.5, alpha=0.55)
+            ax.plot(at.best, y, color="black", marker="|", markersize=6.0)
+        ax.set_xlim(-0.02, 1.02)
+        ax.set_yticks(places, [measure.name for measure in measures])
+        ax.tick_params(axis="y", length=0)
+    style.letter(axes, names)
+    canvas.supxlabel("fraction of the limits [–]", fontsize=8)
+    return canvas
+
+
+FIGURES = {
+    "agreement": Figure(
+        place=10,
+        applies=always,
+        make=agreement,
+        title="How the costs agree in ranking the stored sets",
+        caption="Spearman's rank correlation over the stored sets: 1 (dark red) means the same "
+        "order, 0 (white) no relation, −1 (dark blue) the reverse order. Costs that rank all sets "
+        "in the same order as one shown are left out.",
+    ),
+    "regret": Figure(
+        place=20,
+        applies=always,
+        make=regret,
+        title="The best set of one cost under another",
+        caption="Share of the stored sets that the cost of the column finds better than the best "
+        "set of the cost of the row. 0 means that both costs choose the same set.",
+    ),
+    "valleys": Figure(
+        place=30,
+        applies=always,
+        make=valleys,
+        title="Where the valleys of the costs lie",
+        caption="Bars: range of each parameter over the best stored sets of a cost; marks: its "
+        "best set. A long bar tells that the cost does not settle the parameter; bars apart tell "
+        "that two costs ask for different values.",
+    ),
+}

@@ -1,0 +1,101 @@
+"""Every cost with its best stored set, and how good that is under the others."""
+
+from typing import Any
+
+import pandas as pd
+
+from pyrofit.config import Study
+from pyrofit.results import rescored
+from pyrofit.results.files import Results
+from pyrofit.show.rescore.facts import in_units, of_shown
+from pyrofit.show.table import Table, always
+
+
+def best(study: Study, results: Results) -> pd.DataFrame:
+    """List the costs, each with its best stored set."""
+    found = rescored.read(study, results)
+    same = {name: group[0] for group in found.same for name in group[1:]}
+    return pd.DataFrame([_row(study, measure, same) for measure in found.measures])
+
+
+def _row(study: Study, measure: rescored.OfMeasure, same: dict[str, str]) -> dict[str, Any]:
+    values = in_units(study, measure.parameters.items())
+    return {
+        "cost": measure.name,
+        "what": measure.words,
+        "ranks_as": same.get(measure.name, "" if measure.tells_apart else "tells no sets apart"),
+        "value": measure.value,
+        "fitted_with": measure.fitted_with,
+        **values,
+    }
+
+
+def excess(study: Study, results: Results) -> pd.DataFrame:
+    """List how much higher the best set of each cost is under the others, in per cent."""
+    table = of_shown(rescored.read(study, results), rescored.matrix(results, rescored.EXCESS))
+    return (100.0 * table).rename_axis("best_of").reset_index()
+
+
+def correlations(study: Study, results: Results) -> pd.DataFrame:
+    """List Spearman's rank correlation of all costs."""
+    table = rescored.matrix(results, rescored.CORRELATION)
+    return of_shown(rescored.read(study, results), table).reset_index()
+
+
+def valleys(study: Study, results: Results) -> pd.DataFrame:
+    """List where the valley of each cost lies, per cent of the limits."""
+    found = rescored.read(study, results)
+    rows = [
+        {
+            "cost": measure.name,
+            "sets": measure.valley_sets,
+            "parameter": name,
+            "low": 100.0 * at.low,
+            "best": 100.0 * at.best,
+            "high": 100.0 * at.high,
+        }
+        for measure in found.measures
+        for name, at in measure.valley.items()
+    ]
+    return pd.DataFrame(rows)
+
+
+TABLES = {
+    "best": Table(
+        place=10,
+        applies=always,
+        make=best,
+        title="Best stored set of every cost",
+        note="Lowest of all stored sets that were scored, whatever they were fitted with. 'Ranks "
+        "as': the cost puts all sets in the same order as the one named.",
+        headings={
+            "what": "what it is",
+            "ranks_as": "ranks as",
+            "fitted_with": "found by the search with",
+        },
+    ),
+    "rank_correlation": Table(
+        place=20,
+        applies=always,
+        make=correlations,
+        title="Rank correlation of the costs over the stored sets",
+        note="Spearman's correlation. Costs that rank as another one are left out.",
+    ),
+    "regret": Table(
+        place=30,
+        applies=always,
+        make=excess,
+        title="How much higher the best set of one cost is under another",
+        note="In per cent of the lowest value of the cost in the column; empty where that is 0.",
+        headings={"best_of": "best set of"},
+    ),
+    "valleys": Table(
+        place=40,
+        applies=always,
+        make=valleys,
+        title="Where the valley of every cost lies",
+        note="Range of each parameter over the best sets of a cost, and the best of them, in per "
+        "cent of the distance between the parameter's limits.",
+        group_by="cost",
+    ),
+}

@@ -1,0 +1,184 @@
+"""Every stored call scored again under any cost: which costs rank the sets alike."""
+
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass
+
+import numpy as np
+import pandas as pd
+
+from pyrofit.analysis import rescoring
+from pyrofit.config import Study, digest
+from pyrofit.errors import DataError
+from pyrofit.results import dependencies, rescored, searches
+from pyrofit.results.files import Results, write_csv
+from pyrofit.solver.arrays import Status
+from pyrofit.stages.measurements import load
+from pyrofit.stages.rescore_measures import measures_of
+from pyrofit.stages.rescore_record import content_of
+from pyrofit.stages.rescore_scorer import Scorer, scored, scorer_of
+
+SETS = 3000
+"""Sets that are scored unless told otherwise."""
+Tell = Callable[[str], None]
+
+
+@dataclass(frozen=True, eq=False)
+class Stored:
+    """The stored calls that were chosen, and how many there are in all.
+
+    Columns of ``sets``: ``set``, ``cost_function``, ``repetition``, ``call``, ``cost``, parameters
+    in SI units.
+    """
+
+    sets: pd.DataFrame
+    finished: int
+    failed: int
+    histories: int
+
+
+def rescore(
+    study: Study,
+    results: Results,
+    tell: Tell,
+    asked: Sequence[str],
+    count: int | None,
+    cores: int = 1,
+) -> None:
+    """Score stored sets under the study's and other costs; write ``rescore``.
+
+    Parameters
+    ----------
+    study, results
+        A study whose searches have run.
+    tell
+        Told how many sets are scored.
+    asked
+        Names of costs; none = all that can be computed.
+    count
+        How many sets, the same of every search; None = all.
+    cores
+        Processes.
+
+    Raises
+    ------
+    StudyError
+        A cost is unknown.
+    CostError
+        A cost that is asked for cannot be computed.
+    DataError
+        A search has not run, or belongs to another description of the study.
+    """
+    stored = stored_sets(study, results, count)
+    measurements = load(study, results)
+    measures, left_out = measures_of(study, measurements, asked)
+    tell(
+        f"scoring {len(stored.sets)} of {stored.finished} stored sets of {stored.histories} "
+        f"searches under {len(measures)} costs"
+    )
+    scorer, more = scorer_of(study, results, measurements, measures)
+    sets = stored.sets[list(scorer.problem.names)].to_numpy(float)
+    names = [measure.name for measure in scorer.measures]
+    scores = pd.DataFrame(scored(scorer, sets, cores), columns=names)
+    _write(study, results, scorer, stored, scores, [*left_out, *more])
+
+
+def _write(
+    study: Study,
+    results: Results,
+    scorer: Scorer,
+    stored: Stored,
+    scores: pd.DataFrame,
+    left_out: Sequence[str],
+) -> None:
+    """Write sets, scores and what follows from them; sets whose run fails are left out."""
+    whole = np.isfinite(scores.to_numpy()).all(axis=1)
+    if not whole.any():
+        raise DataError(f"{results.root}: no stored set can be simulated now; run the study again")
+    sets = stored.sets[whole].reset_index(drop=True)
+    about = {
+        "study": study.name,
+        "stored": stored.finished,
+        "failed": stored.failed,
+        "sampled": len(stored.sets),
+        "histories": stored.histories,
+        "unfinished": int(np.sum(~whole)),
+        "drift": _drift(study, stored.sets, scores),
+        "left_out": list(left_out),
+    }
+    scores = scores[whole].reset_index(drop=True)
+    tidy = scores.assign(set=sets["set"]).melt(id_vars="set", var_name="cost", value_name="value")
+    write_csv(results.rescored(rescored.SETS), sets)
+    write_csv(results.rescored(rescored.SCORES), tidy)
+    _write_matrices(results, scores)
+    rescored.write(results, content_of(about, study, scorer, sets, scores))
+
+
+def stored_sets(study: Study, results: Results, count: int | None) -> Stored:
+    """Return the chosen calls of all searches; the lowest of every search is among them.
+
+    Raises
+    ------
+    DataError
+        A search has not run, or belongs to another description of the study.
+    """
+    found, failed = [], 0
+    for cost in study.imp.costs:
+        expected = digest(dependencies.imp(study, cost, "sceua"))
+        for number in range(study.imp.repetitions):
+            _check_own(study, results, cost, number, expected)
+            history = searches.history(study, results, cost, number)
+            finished = history[history["status"] == Status.OK]
+            failed += len(history) - len(finished)
+            found.append(finished.assign(cost_function=cost, repetition=number))
+    sizes = [len(history) for history in found]
+    wanted = sizes if count is None else rescoring.shares(sizes, count)
+    columns = ["cost_function", "repetition", "call", "cost", *study.imp.estimate]
+    chosen = [
+        history.iloc[np.sort(rescoring.strata(history["cost"].to_numpy(), share))]
+        for history, share in zip(found, wanted, strict=True)
+        if share
+    ]
+    if not chosen:
+        raise DataError(f"{results.root}: none of the stored calls finished; run the study again")
+    sets = pd.concat(chosen, ignore_index=True)[columns]
+    sets.insert(0, "set", np.arange(len(sets)))
+    return Stored(sets, sum(sizes), failed, len(found))
+
+
+def _check_own(study: Study, results: Results, cost: str, number: int, expected: str) -> None:
+    path = results.repetition(cost, number, ".json")
+    if not path.is_file():
+        raise DataError(
+            f"{path}: this search has not run; its calls are to be scored. Run the study first: "
+            "snakemake --cores 2 --configfile <the study>"
+        )
+    if searches.repetition(study, results, cost, number)["digest"] != expected:
+        raise DataError(
+            f"{path}: this search belongs to another description of study '{study.name}': its "
+            "costs, experiments, material, parameters or budget were changed since. Run the study "
+            "again, or name the study file that it ran with"
+        )
+
+
+def _drift(study: Study, sets: pd.DataFrame, scores: pd.DataFrame) -> float:
+    """Return the largest relative difference between stored and recomputed costs."""
+    largest = 0.0
+    for cost in study.imp.costs:
+        if cost in scores:
+            mine = (sets["cost_function"] == cost).to_numpy()
+            stored = sets.loc[mine, "cost"].to_numpy(float)
+            again = scores.loc[mine, cost].to_numpy(float)
+            apart = np.abs(again - stored) / np.maximum(np.abs(stored), 1e-300)
+            largest = max(largest, float(np.nanmax(apart, initial=0.0)))
+    return largest
+
+
+def _write_matrices(results: Results, scores: pd.DataFrame) -> None:
+    telling = scores[rescoring.telling(scores)]
+    tables = {
+        rescored.EXCESS: rescoring.excess(scores),
+        rescored.BETTER: rescoring.better(scores),
+        rescored.CORRELATION: rescoring.spearman(telling),
+    }
+    for name, table in tables.items():
+        write_csv(results.rescored(name), table.rename_axis("cost").reset_index())

@@ -1,0 +1,45 @@
+"""Stored sets scored again under other costs; a target of its own."""
+
+from pyrofit.results import rescored
+
+
+rule rescore:
+    input:
+        MEASUREMENTS,
+        KINETICS_FOR_IMP,
+        OUTSIDE,
+        expand(
+            ROOT / "imp/{cost}/{repetition}{suffix}",
+            cost=COSTS,
+            repetition=REPETITIONS,
+            suffix=[".csv.gz", ".json"],
+        ),
+    output:
+        [
+            results.rescored(name)
+            for name in (
+                "rescore.json",
+                "sets.csv.gz",
+                "scores.csv.gz",
+                "correlation.csv",
+                "excess.csv",
+                "better.csv",
+                "agreement.svg",
+                "regret.svg",
+                "valleys.svg",
+            )
+        ],
+    log:
+        log_of("rescore"),
+    benchmark:
+        benchmark_of("rescore")
+    threads: 2
+    params:
+        study=STUDY,
+        digest=digest(rescored.slice_of(study)),
+        source=source_fingerprint("pyrofit.stages.rescore", "pyrofit.show.rescore_page"),
+    message:
+        "Stored sets scored again under other costs"
+    shell:
+        "pyrofit rescore {params.study} --digest {params.digest} --log {log}"
+        " --cores {threads}"
