@@ -142,7 +142,7 @@ def test_page_has_figures_numbers_and_table(study: Study, results: Results) -> N
 def command(results: Results, folder: Path, *options: str) -> list[str]:
     path = folder / "mine.yaml"
     if not path.exists():
-        path.write_text(yaml.safe_dump(given()))
+        path.write_text(yaml.safe_dump(given(), sort_keys=False))
     return ["rescore", str(path), "--results", str(results.root), *options]
 
 
@@ -191,7 +191,7 @@ def test_study_with_other_limits_than_its_searches_is_refused(
     results: Results, tmp_path: Path, capsys: pytest.CaptureFixture[str]
 ) -> None:
     changed = given(parameters__k={"unit": "W/(m K)", "lower": 0.1, "upper": 0.7})
-    (tmp_path / "mine.yaml").write_text(yaml.safe_dump(changed))
+    (tmp_path / "mine.yaml").write_text(yaml.safe_dump(changed, sort_keys=False))
     assert main(command(results, tmp_path)) == 2
     said = capsys.readouterr().err
     assert f"{results.repetition('RMSE', 0, '.json')}: this search belongs to another" in said

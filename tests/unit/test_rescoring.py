@@ -7,7 +7,7 @@ from scipy.stats import spearmanr
 
 from pyrofit.analysis import rescoring
 from pyrofit.cost import Target
-from pyrofit.show.rescore.sentences import _alike
+from pyrofit.show.rescore.sentences import _alike, _own, _regret
 from pyrofit.stages.rescore_measures import fall, peak, rise
 
 SCORES = pd.DataFrame(
@@ -122,3 +122,17 @@ def test_sentences_name_who_agrees_and_who_does_not() -> None:
         "a and b agree least (rank correlation 0.99).",
     ]
     assert _alike(pd.DataFrame([[1.0]], index=["a"], columns=["a"])) == []
+
+
+def test_sentences_on_regret_name_row_and_column() -> None:
+    table = rescoring.excess(SCORES)
+    assert _own(table.loc[["a", "c"], ["a", "c"]]) == [
+        "Among the cost functions of the study, the best set of one is at most 300 % higher under "
+        "another (a under c)."
+    ]
+    assert _own(table.loc[["a"], ["a"]]) == []
+    assert _own(rescoring.excess(SCORES.assign(a=0.0, b=0.0, c=0.0))) == []
+    assert _regret(rescoring.better(SCORES[["b", "c"]])) == [
+        "Of all, the best set of b does worst under another cost: c finds 75 % of the sets better."
+    ]
+    assert _regret(rescoring.better(SCORES[["a", "b"]])) == []

@@ -8,7 +8,9 @@ import pandas as pd
 from pydantic import Field, ValidationError
 
 from pyrofit.config import Study
+from pyrofit.cost import known_costs
 from pyrofit.errors import DataError
+from pyrofit.plugins import code_digest
 from pyrofit.results import dependencies
 from pyrofit.results.files import Results, read_csv, read_json, write_json
 from pyrofit.results.record import Record
@@ -67,6 +69,7 @@ def slice_of(study: Study) -> dict[str, Any]:
     return {
         "searches": {cost: dependencies.imp(study, cost, "sceua") for cost in study.imp.costs},
         "likelihood": dependencies.identify(study),
+        "kinds": {name: code_digest("costs", name) for name in known_costs()},
         **dependencies.collect(study),
     }
 

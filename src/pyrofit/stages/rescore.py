@@ -154,9 +154,9 @@ def _check_own(study: Study, results: Results, cost: str, number: int, expected:
         )
     if searches.repetition(study, results, cost, number)["digest"] != expected:
         raise DataError(
-            f"{path}: this search belongs to another description of study '{study.name}': its "
-            "costs, experiments, material, parameters or budget were changed since. Run the study "
-            "again, or name the study file that it ran with"
+            f"{path}: this search belongs to another description of study '{study.name}': costs, "
+            "experiments, material, parameters, budget or the program's quantities were changed "
+            "since. Run the study again, or name the study file that it ran with"
         )
 
 

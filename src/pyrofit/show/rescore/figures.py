@@ -32,8 +32,6 @@ def regret(study: Study, results: Results) -> Canvas:
         ax.text(k, i, text, ha="center", va="center", color=colour, fontsize=7)
     ax.set_xticks(range(len(names)), names, rotation=45, ha="right", rotation_mode="anchor")
     ax.set_yticks(range(len(names)), names)
-    ax.set_xlabel("judged by")
-    ax.set_ylabel("best set of")
     ax.tick_params(length=0)
     canvas.colorbar(image, ax=ax, label="sets that are better [%]", shrink=0.85)
     return canvas

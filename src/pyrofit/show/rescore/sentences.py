@@ -10,23 +10,32 @@ from pyrofit.results import rescored
 from pyrofit.results.files import Results
 from pyrofit.results.rescored import OfMeasure, Rescored
 from pyrofit.show.rescore.facts import correlation, of_shown, shown
-from pyrofit.show.text import listed, number, several
+from pyrofit.show.text import listed, several, span
 
-DRIFT = 1e-6
-"""Relative difference of stored and recomputed costs that is mentioned."""
-MOST_PAIRS = 3
-"""Pairs of valleys apart that are named."""
+DRIFT = 1e-4
+"""Relative difference of stored and recomputed costs that is mentioned.
+
+A run that is asked for more signals takes other steps, within a part of the solver's error.
+"""
+UNDECIDED = 0.05
+"""Share of the sets from which on a cost with so many best ones is said not to choose."""
+MOST_APART = 3
+"""Valleys apart that are named."""
 
 
 def sentences(study: Study, results: Results) -> list[str]:
     """Return the sentences on how the costs rank the stored sets."""
     found = rescored.read(study, results)
+    better = of_shown(found, rescored.matrix(results, rescored.BETTER))
+    higher = rescored.matrix(results, rescored.EXCESS)
     return [
         _sample(found),
-        *_same(found),
         *_alike(correlation(study, results)),
-        *_regret(of_shown(found, rescored.matrix(results, rescored.BETTER))),
+        *_undecided(found),
+        *_own(_part(higher, list(study.imp.costs))),
+        *_regret(_part(better, [name for name in better if name not in undecided(found)])),
         *_valleys(shown(found), found),
+        *_same(found),
         *_warnings(found),
     ]
 
@@ -34,7 +43,7 @@ def sentences(study: Study, results: Results) -> list[str]:
 def _sample(found: Rescored) -> str:
     return (
         f"{found.sampled - found.unfinished} of {found.stored} stored model calls from "
-        f"{several(found.histories, 'search').replace('searchs', 'searches')} were scored under "
+        f"{found.histories} searches were scored under "
         f"{several(len(found.measures), 'cost')}."
     )
 
@@ -63,41 +72,79 @@ def _alike(matrix: pd.DataFrame) -> list[str]:
         verb = "ranks" if len(alone) == 1 else "rank"
         said.append(f"{listed(alone)} {verb} them unlike {others}.")
     one, other, value = rescoring.least_alike(matrix)
-    return [*said, f"{one} and {other} agree least (rank correlation {value:.2f})."]
+    least = f"{value:.2f}".replace("-", "−")
+    return [*said, f"{one} and {other} agree least (rank correlation {least})."]
+
+
+def undecided(found: Rescored) -> dict[str, float]:
+    """Return the costs with very many best sets that tie, and the share of these [%]."""
+    scored = found.sampled - found.unfinished
+    parts = {m.name: m.valley_sets / scored for m in shown(found) if m.tells_apart}
+    return {name: 100.0 * part for name, part in parts.items() if part > UNDECIDED}
+
+
+def _undecided(found: Rescored) -> list[str]:
+    return [
+        f"{name} does not choose among {share:.0f} % of the sets, which share its lowest values."
+        for name, share in undecided(found).items()
+    ]
+
+
+def _part(table: pd.DataFrame, names: Sequence[object]) -> pd.DataFrame:
+    """Return the part of a square table that belongs to some costs."""
+    known = [name for name in names if name in table]
+    return table.loc[known, known]
+
+
+def _own(higher: pd.DataFrame) -> list[str]:
+    """Say how far the study's own cost functions regret each other's best sets."""
+    if len(higher) < 2 or higher.isna().all(axis=None):
+        return []
+    row = str(higher.max(axis=1).idxmax())
+    column = str(higher.T[row].idxmax())
+    most = 100.0 * float(higher.T[row].max())
+    return [
+        "Among the cost functions of the study, the best set of one is at most "
+        f"{span([most])} % higher under another ({row} under {column})."
+    ]
 
 
 def _regret(better: pd.DataFrame) -> list[str]:
     """Say which best set is worst under another cost."""
-    worst = better.max(axis=1)
-    if len(better) < 2 or worst.max() == 0.0:
+    if len(better) < 2 or better.max(axis=None) == 0.0:
         return []
-    row = str(worst.idxmax())
-    column = str(better.loc[row].idxmax())
-    share = 100.0 * float(worst.max())
+    row = str(better.max(axis=1).idxmax())
+    column = str(better.T[row].idxmax())
+    share = 100.0 * float(better.T[row].max())
     return [
-        f"The best set of {row} does worst under another cost: {column} finds {number(share)} % "
-        "of the sets better."
+        f"Of all, the best set of {row} does worst under another cost: {column} finds "
+        f"{share:.2g} % of the sets better."
     ]
 
 
 def _valleys(measures: Sequence[OfMeasure], found: Rescored) -> list[str]:
-    """Say which valleys lie apart, the farthest first."""
-    apart = []
-    for i, one in enumerate(measures):
-        for other in measures[:i]:
-            for name, at in one.valley.items():
-                beside = other.valley[name]
-                size = rescoring.gap((at.low, at.high), (beside.low, beside.high))
-                if size > 0.0:
-                    apart.append((-size, f"{other.name} and {one.name} in {name}"))
+    """Say in which parameters valleys lie apart, the farthest pair of each."""
     best = f"the best {100.0 * found.valley_share:g} % of the sets"
+    apart = sorted(_farthest(measures, name) for name in measures[0].valley)
+    apart = [(size, words) for size, words in apart if size < 0.0]
     if not apart:
         return [f"The valleys of all costs ({best}) overlap in every parameter."]
-    named = [f"{words} ({-100.0 * size:.2g} %)" for size, words in sorted(apart)[:MOST_PAIRS]]
+    named = [f"{words} ({-100.0 * size:.2g} %)" for size, words in apart[:MOST_APART]]
     return [
-        f"The valleys ({best}) of {several(len(apart), 'pair')} of costs lie apart in a parameter; "
-        f"farthest, in per cent of the limits: {listed(named)}."
+        f"Some valleys ({best}) lie apart in {several(len(apart), 'parameter')}; farthest, in per "
+        f"cent of the limits: {listed(named)}."
     ]
+
+
+def _farthest(measures: Sequence[OfMeasure], name: str) -> tuple[float, str]:
+    """Return the largest distance of two valleys in a parameter, negative, and whose it is."""
+    found = (0.0, "")
+    for i, one in enumerate(measures):
+        for other in measures[:i]:
+            here, there = one.valley[name], other.valley[name]
+            size = rescoring.gap((here.low, here.high), (there.low, there.high))
+            found = min(found, (-size, f"{other.name} and {one.name} in {name}"))
+    return found
 
 
 def _warnings(found: Rescored) -> list[str]:
