@@ -12,7 +12,7 @@ from pyrofit.results.rescored import OfMeasure, Rescored
 from pyrofit.show.rescore.facts import correlation, of_shown, shown
 from pyrofit.show.text import listed, several, span
 
-DRIFT = 1e-4
+DRIFT = 1e-3
 """Relative difference of stored and recomputed costs that is mentioned.
 
 A run that is asked for more signals takes other steps, within a part of the solver's error.
