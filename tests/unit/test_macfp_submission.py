@@ -11,6 +11,8 @@ from pyrofit.config import read_study
 from pyrofit.exchange.macfp.numeric import numeric
 from pyrofit.exchange.macfp.predict import WOOD_CASES, material, simulate_case
 from pyrofit.exchange.macfp.read import read_set
+from pyrofit.exchange.macfp.readme import _absent
+from pyrofit.exchange.macfp.schema import Composition, Kinetics, StrictSet
 
 SMOKE = Path(__file__).parents[2] / "config" / "smoke.yaml"
 
@@ -71,6 +73,15 @@ def test_proof_of_calibration_differs_by_the_noise(submission: Path) -> None:
     assert float(line.split("|")[3].split()[0]) == pytest.approx(0.003, rel=0.2)
     assert "| reference temperature of the reaction | 605 | K | 560 to 660 |" in readme
     assert "Held out, used by no cost: slab_60." in readme
+
+
+def test_water_of_other_samples_is_told_to_be_absent() -> None:
+    kinetics = Kinetics.model_construct(reactants=((3,), (1,)), products=((0,), (2,)))
+    composition = Composition.model_construct(
+        names=("wood", "char", "water"), fractions=(1.0, 0.0, 0.0)
+    )
+    strict = StrictSet.model_construct(composition=composition, kinetics=kinetics)
+    assert _absent(strict) == ["water"]
 
 
 def test_parameters_with_a_given_value_are_told_so(tmp_path: Path) -> None:

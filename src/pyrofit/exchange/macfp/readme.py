@@ -33,7 +33,7 @@ def readme(
         "",
         *_proofs(proofs),
         "",
-        *_predictions(written, asked),
+        *_predictions(written, asked, strict),
     ]
     if notes:
         lines += ["", "## To mind", "", *[f"- {note}" for note in notes]]
@@ -102,7 +102,15 @@ def _proofs(proofs: Sequence[Proof]) -> Iterator[str]:
         )
 
 
-def _predictions(written: Sequence[str], asked: Asked) -> Iterator[str]:
+def _absent(strict: StrictSet) -> list[str]:
+    """Return what reacts, but is neither in the virgin material nor made of it, as water."""
+    of, k = strict.composition, strict.kinetics
+    made = {product for products in k.products for product in products}
+    given = sorted({reactant for (reactant,) in k.reactants} - made)
+    return [of.names[n - 1] for n in given if of.fractions[n - 1] == 0.0]
+
+
+def _predictions(written: Sequence[str], asked: Asked, strict: StrictSet) -> Iterator[str]:
     yield "## Predictions"
     yield ""
     if 4 in asked.forms:
@@ -113,5 +121,8 @@ def _predictions(written: Sequence[str], asked: Asked) -> Iterator[str]:
     if 3 in asked.forms:
         place = f"the apparatus of '{asked.like}'" if asked.like else "an ideal slab of 6 mm"
         yield f"MaCFP-3: {place}, at 25 and 50 kW/m2."
+    if absent := _absent(strict):
+        yield f"The predicted samples contain no {', no '.join(absent)}: they have the initial "
+        yield "mass fractions of the set."
     yield ""
     yield from (f"- {name}" for name in written)
