@@ -10,7 +10,9 @@ from test_tables import described, fake, made, synthetic
 
 from pyrofit.config import Study
 from pyrofit.errors import DataError
+from pyrofit.results import rescored
 from pyrofit.results.files import Results, read_csv, write_csv, write_text
+from pyrofit.show import rescore_page
 from pyrofit.show.answer.advice import advice
 from pyrofit.show.facts import facts_of
 from pyrofit.show.report import tables_of, write_report
@@ -246,6 +248,51 @@ def test_robustness_is_shown_once_it_has_run(tmp_path: Path) -> None:
     page = Page((tmp_path / "report.html").read_text())
     assert "robustness" in page.ids
     assert "Median error of the parameters in per cent of their limits" in page.words
+
+
+def test_scores_under_other_costs_are_shown_once_they_are_there(tmp_path: Path) -> None:
+    page, _ = written(tmp_path)
+    assert "rescore" not in page.ids
+    study, results = fake(tmp_path)
+    at = {"low": 0.2, "high": 0.4, "best": 0.3}
+    found = {
+        "signals": ["slab_25 mlr"],
+        "tells_apart": True,
+        "value": 0.1,
+        "set_number": 3,
+        "fitted_with": "RMSE",
+        "parameters": {"k": 0.2, "cp": 2000.0},
+        "valley_sets": 1,
+        "valley": {"k": at, "cp": at},
+    }
+    counts = {"stored": 900, "failed": 2, "sampled": 60, "histories": 6, "unfinished": 0}
+    content = {
+        "study": study.name,
+        **counts,
+        "drift": 0.01,
+        "valley_share": 0.01,
+        "left_out": ["no GPYRO"],
+        "same": [],
+        "measures": [{"name": name, "words": "a cost", **found} for name in ("RMSE", "GPYRO")],
+    }
+    rescored.write(results, content)
+    matrix = pd.DataFrame({"cost": ["RMSE", "GPYRO"], "RMSE": [1.0, 0.5], "GPYRO": [0.5, 1.0]})
+    for name in ("CORRELATION", "AMONG_BEST", "EXCESS", "BETTER"):
+        write_csv(results.rescored(getattr(rescored, name)), matrix)
+    rescore_page.draw_and_write(study, results)
+    write_report(study, results)
+    page = Page((tmp_path / "report.html").read_text())
+    assert {"rescore", "rescore_agreement", "rescore_valleys"} <= set(page.ids)
+    for words in (
+        "60 of 900 stored model calls from 6 searches were scored under 2 costs.",
+        "RMSE and GPYRO rank them unlike each other.",
+        "RMSE and GPYRO agree least (rank correlation 0.50).",
+        "overlap in every parameter",
+        "Stored and recomputed costs differ by up to 1\xa0%",
+        "Left out: no GPYRO",
+        "kJ/(kg K)",
+    ):
+        assert words in page.words, words
 
 
 def test_synthetic_data_are_said_so(tmp_path: Path) -> None:

@@ -133,7 +133,7 @@ def test_page_has_figures_numbers_and_table(study: Study, results: Results) -> N
     shown = section(study, results)
     assert [type(part).__name__ for part in shown.parts] == ["Picture"] * 3 + ["Part"]
     assert shown.said[0].startswith("60 of ")
-    for name in ("agreement", "regret", "valleys"):
+    for name in ("agreement", "agreement_best", "regret", "valleys"):
         assert results.rescored(f"{name}.png").stat().st_size > 0
     text = results.rescored("table_rank_correlation.md").read_text()
     assert text.startswith("# Rank correlation of the costs over the stored sets (synthetic data)")

@@ -49,6 +49,18 @@ def test_rank_correlation_by_hand_and_as_scipy_computes_it() -> None:
     assert rescoring.spearman(tied).to_numpy() == pytest.approx(expected, abs=1e-14)
 
 
+def test_correlation_over_the_best_sets_leaves_the_others_out() -> None:
+    rng = np.random.default_rng(3)
+    scores = pd.DataFrame(rng.random((200, 3)), columns=list("abc")).assign(mute=0.0)
+    scores.loc[:9, "mute"] = 1.0
+    found = rescoring.spearman_among_best(scores, 0.2)
+    best = scores.sort_values("a").head(40)
+    assert found.loc["a", "b"] == pytest.approx(spearmanr(best["a"], best["b"]).statistic)
+    assert found.loc["a", "b"] != found.loc["b", "a"]
+    # All 190 sets tie as the best of `mute`, which does not tell them apart.
+    assert found.loc["mute"].tolist() == [0.0, 0.0, 0.0, 1.0]
+
+
 def test_cost_that_tells_no_sets_apart_has_no_rank() -> None:
     assert rescoring.telling(SCORES.assign(mute=0.0)) == ["a", "b", "c"]
 

@@ -17,7 +17,7 @@ def test_rescore_is_a_target_of_its_own_that_leaves_figures(
     assert run.jobs == {"Stored sets scored again under other costs"}
     assert "rank correlation" in run.said
     assert json.loads((folder / "rescore.json").read_text())["drift"] < 1e-4
-    for name in ("agreement", "regret", "valleys"):
+    for name in ("agreement", "agreement_best", "regret", "valleys"):
         assert (folder / f"{name}.svg").stat().st_size > 0
     # The report shows it from now on; the other tests share the project as it was.
     assert project.plan() == {"Report: results/tiny/report.html"}

@@ -22,9 +22,11 @@ rule rescore:
                 "sets.csv.gz",
                 "scores.csv.gz",
                 "correlation.csv",
+                "correlation_best.csv",
                 "excess.csv",
                 "better.csv",
                 "agreement.svg",
+                "agreement_best.svg",
                 "regret.svg",
                 "valleys.svg",
             )

@@ -11,6 +11,8 @@ from pyrofit.solver.arrays import FloatArray
 
 VALLEY = 0.01
 """Share of the sets, the best ones, that are called the valley of a cost."""
+GOOD = 0.1
+"""Share of the sets, the best ones of a cost, among which the order of others is compared."""
 ALIKE = 0.95
 """Least rank correlation of two costs that are said to rank alike."""
 SAME = 1.0 - 1e-9
@@ -91,6 +93,29 @@ def spearman(scores: pd.DataFrame) -> pd.DataFrame:
     matrix = np.atleast_2d(np.corrcoef(ranks, rowvar=False))
     np.fill_diagonal(matrix, 1.0)
     return pd.DataFrame(matrix, index=scores.columns, columns=scores.columns)
+
+
+def spearman_among_best(scores: pd.DataFrame, share: float = GOOD) -> pd.DataFrame:
+    """Return the rank correlation of two costs over the best sets of the first (row).
+
+    Over all sets, costs agree on the bad ones, which are many; here the bad ones are left out. The
+    best sets are those of `valley` with its ``share``. A cost that does not tell them apart has no
+    relation, 0. The table is not symmetric.
+
+    >>> scores = pd.DataFrame({"a": [1, 2, 3, 9, 9, 9], "b": [3, 2, 1, 9, 9, 9]})
+    >>> spearman_among_best(scores, 0.5).loc["a", "b"].item()
+    -1.0
+    """
+    found = pd.DataFrame(np.eye(scores.shape[1]), index=scores.columns, columns=scores.columns)
+    count = max(1, int(np.ceil(share * len(scores))))
+    for row in scores:
+        best = scores[scores[row] <= scores[row].nsmallest(count).iloc[-1]]
+        own = best[row].rank()
+        for column in scores:
+            told = best[column].nunique() > 1 < best[row].nunique()
+            if column != row:
+                found.loc[row, column] = own.corr(best[column].rank()) if told else 0.0
+    return found
 
 
 def grouped(correlation: pd.DataFrame, least: float) -> list[list[str]]:

@@ -10,6 +10,8 @@ from pyrofit.show.rescore.tables import TABLES
 from pyrofit.show.table import read_table, write_table
 
 FOLDER = "rescore"
+ON_PAGE = ("agreement", "agreement_best", "valleys")
+"""The figures of the report; all are in the folder."""
 
 
 def draw_and_write(study: Study, results: Results) -> None:
@@ -35,8 +37,13 @@ def section(study: Study, results: Results) -> Shown:
         A result or a figure is missing.
     """
     drawn = [
-        picture(results.rescored(f"{name}.svg"), f"rescore_{name}", figure.title, figure.caption)
-        for name, figure in FIGURES.items()
+        picture(
+            results.rescored(f"{name}.svg"),
+            f"rescore_{name}",
+            FIGURES[name].title,
+            FIGURES[name].caption,
+        )
+        for name in ON_PAGE
     ]
     best = table_part(study, TABLES["best"], read_table(results, "table_best", FOLDER))
     return Shown(

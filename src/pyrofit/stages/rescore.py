@@ -179,6 +179,7 @@ def _write_matrices(results: Results, scores: pd.DataFrame) -> None:
         rescored.EXCESS: rescoring.excess(scores),
         rescored.BETTER: rescoring.better(scores),
         rescored.CORRELATION: rescoring.spearman(telling),
+        rescored.AMONG_BEST: rescoring.spearman_among_best(telling),
     }
     for name, table in tables.items():
         write_csv(results.rescored(name), table.rename_axis("cost").reset_index())

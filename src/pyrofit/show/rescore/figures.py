@@ -3,6 +3,7 @@
 import numpy as np
 from matplotlib.figure import Figure as Canvas
 
+from pyrofit.analysis.rescoring import GOOD
 from pyrofit.config import Study
 from pyrofit.results import rescored
 from pyrofit.results.files import Results
@@ -16,6 +17,12 @@ from pyrofit.show.table import always
 def agreement(study: Study, results: Results) -> Canvas:
     """Draw the rank correlation of the costs."""
     return draw_matrix(correlation(study, results), "rank correlation [–]")
+
+
+def agreement_best(study: Study, results: Results) -> Canvas:
+    """Draw the rank correlation of the costs over the best sets of each."""
+    table = of_shown(rescored.read(study, results), rescored.matrix(results, rescored.AMONG_BEST))
+    return draw_matrix(table, "rank correlation [–]")
 
 
 def regret(study: Study, results: Results) -> Canvas:
@@ -66,6 +73,15 @@ FIGURES = {
         caption="Spearman's rank correlation over the stored sets: 1 (dark red) means the same "
         "order, 0 (white) no relation, −1 (dark blue) the reverse order. Costs that rank all sets "
         "in the same order as one shown are left out.",
+    ),
+    "agreement_best": Figure(
+        place=15,
+        applies=always,
+        make=agreement_best,
+        title="How the costs agree in ranking the best sets",
+        caption=f"Rank correlation of two costs over the best {100.0 * GOOD:g} % of the sets of "
+        "the cost in the row. Over all sets most costs agree on which are bad; here they have to "
+        "agree on which of the good ones are better. 0 also where a cost does not tell them apart.",
     ),
     "regret": Figure(
         place=20,

@@ -2,6 +2,7 @@
 
 from collections.abc import Sequence
 
+import numpy as np
 import pandas as pd
 
 from pyrofit.analysis import rescoring
@@ -31,6 +32,7 @@ def sentences(study: Study, results: Results) -> list[str]:
     return [
         _sample(found),
         *_alike(correlation(study, results)),
+        *_among_best(_part(rescored.matrix(results, rescored.AMONG_BEST), list(study.imp.costs))),
         *_undecided(found),
         *_own(_part(higher, list(study.imp.costs))),
         *_regret(_part(better, [name for name in better if name not in undecided(found)])),
@@ -74,6 +76,18 @@ def _alike(matrix: pd.DataFrame) -> list[str]:
     one, other, value = rescoring.least_alike(matrix)
     least = f"{value:.2f}".replace("-", "−")
     return [*said, f"{one} and {other} agree least (rank correlation {least})."]
+
+
+def _among_best(matrix: pd.DataFrame) -> list[str]:
+    """Say how far the study's own cost functions agree on good sets."""
+    if len(matrix) < 2:
+        return []
+    beside = matrix.to_numpy()[~np.eye(len(matrix), dtype=bool)]
+    low, high = (f"{value:.2f}".replace("-", "−") for value in (beside.min(), beside.max()))
+    return [
+        f"Over the best {100.0 * rescoring.GOOD:g} % of the sets of one of them, the rank "
+        f"correlation of two cost functions of the study is {low} to {high}."
+    ]
 
 
 def undecided(found: Rescored) -> dict[str, float]:
