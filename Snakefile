@@ -16,6 +16,7 @@ from pyrofit.provenance import source_fingerprint
 from pyrofit.results import dependencies
 from pyrofit.results.files import Results
 from pyrofit.results.kinetics import heats_shown
+from pyrofit.running import shares
 from pyrofit.running.frozen import freeze, frozen_study
 from pyrofit.running.lock import end_run, join_run, start_run
 from pyrofit.show.sections import FIGURES, TABLES, module_of
@@ -40,13 +41,17 @@ try:
     given = {}
     for path in workflow.configfiles:
         update_config(given, read_mapping(Path(os.path.relpath(path))))
-    update_config(given, workflow.config_settings.config)
+    # How repetitions are shared out to jobs belongs to the run, not to the study.
+    settings = dict(workflow.config_settings.config)
+    per_job = settings.pop(shares.KEY, None)
+    update_config(given, settings)
     if workflow.is_main_process:
         study = as_study(given, SOURCE)
         check_measurements(study, SOURCE, macfp=False)
     else:  # a job of a cluster: the study file may have been edited since the start
         study = frozen_study(given, SOURCE)
     ROOT = Path("results") / study.name
+    SHARES = [[f"{n:02d}" for n in job] for job in shares.shares(study, per_job)]
     if not workflow.is_main_process:
         join_run(ROOT)
 except PyrofitError as error:
@@ -65,7 +70,7 @@ PROGRAM_FILES = list(program_files(study))
 PROGRAMS = [experiment.program for experiment in externals(study).values()]
 RUN_CORES = max([program.cores for program in PROGRAMS], default=1)
 RUNS_CORES = max([p.parallel * p.cores for p in PROGRAMS], default=1)
-REPETITIONS = [f"{n:02d}" for n in range(study.imp.repetitions)]
+REPETITIONS = [repetition for job in SHARES for repetition in job]
 
 
 wildcard_constraints:

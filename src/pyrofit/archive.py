@@ -28,7 +28,7 @@ from pyrofit.show.sections import FIGURES, TABLES
 from pyrofit.stages.reading import MACFP
 
 _PAGES = ("study.json", "provenance.json", "report.html")
-_LEFT_OUT = ("logs", "benchmarks", "running")
+_LEFT_OUT = ("logs", "benchmarks", "running", "unfinished")
 """Folders of results that differ from run to run."""
 _SOFTWARE = (
     "CITATION.cff",

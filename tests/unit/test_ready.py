@@ -238,8 +238,6 @@ def test_jobs_are_grouped_as_the_workflow_groups_them(smoke: Study) -> None:
     first, *costs = plan.parts_of(smoke.model_copy(update={"imp": stage}))
     assert (first.cost, first.jobs) == ("", 1)
     assert [c.jobs for c in costs] == [2 + 3 + 2] * 3
-    rules = (ROOT / "workflow" / "rules" / "imp.smk").read_text()
-    assert re.search(rf"^SIDE_BY_SIDE = .*\b{plan.SIDE_BY_SIDE}$", rules, re.M)
 
 
 def test_duration_is_calls_times_their_time_and_jobs_over_cores() -> None:

@@ -1,6 +1,7 @@
 """The steps of a study, on results made by hand or with a tiny budget."""
 
 import json
+import shutil
 from pathlib import Path
 from typing import Any
 
@@ -14,7 +15,9 @@ from pyrofit.errors import DataError, StudyError
 from pyrofit.estimate.least_squares import Start
 from pyrofit.results import dependencies
 from pyrofit.results.files import Results, read_csv, read_json, write_csv, write_json
-from pyrofit.stages import fit, measurements, predict
+from pyrofit.running import shares
+from pyrofit.stages import fit, measurements, predict, unfinished
+from pyrofit.stages.unfinished import Unfinished
 
 CONFIG = Path(__file__).parents[2] / "config"
 SMOKE = json.dumps(yaml.safe_load((CONFIG / "smoke.yaml").read_text(encoding="utf-8")))
@@ -403,6 +406,68 @@ def test_repetition_writes_its_best_history_and_convergence(
     assert found["parameters"] == {n: best[n] for n in study.imp.estimate}
     assert (found["calls"], found["generations"]) == (len(history), 3)
     assert found["failed_calls"] == (~history["status"].isin([0, 1])).sum()
+
+
+def files_of(results: Results) -> dict[str, bytes]:
+    """Return all files of repetitions."""
+    folder = results.imp("RMSE")
+    return {path.name: path.read_bytes() for path in sorted(folder.glob("*"))}
+
+
+def posed(results: Results, root: Path) -> Results:
+    """Return a folder with measurements and kinetics alone."""
+    for name in ("measurements", "kinetics"):
+        shutil.copytree(results.root / name, root / name)
+    return Results(root)
+
+
+def test_job_that_fails_keeps_the_repetitions_that_it_has_finished(
+    results: Results, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    study, search, asked = study_with(), fit._search, []
+    together = posed(results, tmp_path / "together")
+    fit.repeat(study, together, "RMSE", [0, 1, 2])
+
+    def fails(*given: Any) -> None:
+        asked.append(given[-1])
+        if len(asked) == 2:
+            raise MemoryError
+        search(*given)
+
+    monkeypatch.setattr(shares, "SIDE_BY_SIDE", 1)
+    monkeypatch.setattr(fit, "_search", fails)
+    own = posed(results, tmp_path / "own")
+    with pytest.raises(MemoryError):
+        fit.repeat(study, own, "RMSE", [0, 1, 2])
+    assert files_of(own) == {}
+    fit.repeat(study, own, "RMSE", [0, 1, 2])
+    assert asked == [[0], [1], [], [1], [2]]
+    assert files_of(own) == files_of(together)
+    assert len(files_of(own)) == 9
+    assert not (own.root / "unfinished").exists()
+
+
+@pytest.mark.parametrize("changed", ["seed", "measurement", "kinetics", "source"])
+def test_finished_repetitions_of_what_has_changed_since_are_not_taken(
+    changed: str, results: Results, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    own, study = posed(results, tmp_path), study_with()
+    kept = Unfinished(study, own, "RMSE")
+    write_json(kept.results.repetition("RMSE", 0, ".json"), {})
+    assert Unfinished(study, own, "RMSE").has(0)
+    assert not Unfinished(study, own, "RANGE").has(0)
+    if changed == "seed":
+        study = study_with(seed=8)
+    elif changed == "source":
+        monkeypatch.setattr(unfinished, "source_fingerprint", lambda *modules: "another")
+    else:
+        path = own.kinetics("fit.json")
+        if changed == "measurement":
+            path = own.measurement("slab_25", "mlr")
+        path.write_bytes(path.read_bytes() + b" ")
+    assert not Unfinished(study, own, "RMSE").has(0)
+    unfinished.sweep(own)
+    assert not (own.root / "unfinished").exists()
 
 
 def test_summary_has_one_row_for_each_repetition(results: Results) -> None:

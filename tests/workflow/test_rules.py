@@ -2,6 +2,7 @@
 
 import os
 import re
+import resource
 import subprocess
 import sys
 from importlib.util import find_spec
@@ -124,6 +125,18 @@ def test_profile_of_slurm_keeps_what_the_default_profile_says() -> None:
     given = yaml.safe_load(SLURM.read_text(encoding="utf-8"))
     del usual["cores"]  # those of this machine; on a cluster it is `jobs`
     assert {key: given[key] for key in usual} == usual
+
+
+def test_thousand_repetitions_are_planned_soon_in_at_most_a_hundred_jobs() -> None:
+    before = resource.getrusage(resource.RUSAGE_CHILDREN)
+    ran = snakemake("--dry-run", "--quiet", "--config", 'imp={"repetitions": 1000}', *SMOKE)
+    after = resource.getrusage(resource.RUSAGE_CHILDREN)
+    assert ran.returncode == 0, ran.stderr
+    total = re.search(r"^total +(\d+)$", ran.stdout + ran.stderr, re.M)
+    assert total is not None
+    assert int(total[1]) <= 100
+    spent = after.ru_utime + after.ru_stime - before.ru_utime - before.ru_stime
+    assert spent < 15.0  # 6 to 9 s were measured
 
 
 @pytest.mark.measured

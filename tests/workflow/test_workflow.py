@@ -127,6 +127,22 @@ def test_eight_repetitions_share_a_job_and_the_rest_run_alone(project: Project) 
     assert computing(jobs) == eights | sceua(8) | GATHERED
 
 
+def test_repetitions_of_a_job_are_a_setting_of_the_run_that_runs_nothing_again(
+    project: Project,
+) -> None:
+    assert project.plan("--config", "repetitions_per_job=2") == set()
+    jobs = project.plan("--config", 'imp={"repetitions": 7}', "repetitions_per_job=3")
+    shared = {
+        f"Inverse modelling, {cost}, repetition {numbers}"
+        for cost in COSTS
+        for numbers in ("00 to 02", "03 to 05", "06")
+    }
+    assert computing(jobs) == shared | GATHERED
+    wrong = project.snakemake("--dry-run", "--config", "repetitions_per_job=some")
+    assert wrong.code != 0
+    assert "--config repetitions_per_job=some: not a whole number" in wrong.said
+
+
 def test_changed_file_of_measurements_runs_its_readers_again(project: Project) -> None:
     file = project.root / "mine" / "data" / "run.csv"
     file.write_text(OWN_FILE.replace("5.0", "5.1"))

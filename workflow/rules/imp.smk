@@ -1,46 +1,47 @@
-# The solver is two to three times as fast with eight parameter sets at once: repetitions share
-# jobs by eights. The rest run alone: one more runs no other again, unless it completes an eight.
-# Runs of an external program gain nothing: there, each repetition is a job.
-SIDE_BY_SIDE = 1 if PROGRAMS else 8
-EIGHTS = len(REPETITIONS) - len(REPETITIONS) % SIDE_BY_SIDE
-for _together in [
-    *(REPETITIONS[n : n + SIDE_BY_SIDE] for n in range(0, EIGHTS, SIDE_BY_SIDE)),
-    *([repetition] for repetition in REPETITIONS[EIGHTS:]),
-]:
+from itertools import product
+
+
+def repetitions_in(files):
+    """Return the repetitions whose results are among some files."""
+    return [Path(name).stem for name in files if name.endswith(".json")]
+
+
+# Their names are written out: among thousands, Snakemake looks long for a rule with wildcards.
+for _cost, _together in product(COSTS, SHARES):
 
     rule:
         name:
-            f"imp_{_together[0]}"
+            f"imp_{_cost}_{_together[0]}"
         input:
             MEASUREMENTS,
             KINETICS_FOR_IMP,
             OUTSIDE,
         output:
             expand(
-                ROOT / "imp/{{cost}}/{repetition}{suffix}",
+                ROOT / f"imp/{_cost}/{{repetition}}{{suffix}}",
                 repetition=_together,
                 suffix=[".csv.gz", "_convergence.csv", ".json"],
             ),
         log:
-            log_of(f"imp_{{cost}}_{_together[0]}"),
+            log_of(f"imp_{_cost}_{_together[0]}"),
         benchmark:
-            benchmark_of(f"imp_{{cost}}_{_together[0]}")
+            benchmark_of(f"imp_{_cost}_{_together[0]}")
         threads: RUN_CORES
         params:
             study=STUDY,
-            digest=lambda wildcards: digest(
-                dependencies.imp(study, wildcards.cost, "sceua")
-            ),
+            digest=digest(dependencies.imp(study, _cost, "sceua")),
             generations=study.imp.sceua.generations,
             seed=study.seed,
             source=FITS,
-            repetitions=_together,
+            cost=_cost,
+            # Derived from the output: sharing out otherwise runs nothing again.
+            repetitions=lambda wildcards, output: repetitions_in(output),
         message:
-            "Inverse modelling, {wildcards.cost}, repetition "
+            f"Inverse modelling, {_cost}, repetition "
             + " to ".join(dict.fromkeys([_together[0], _together[-1]]))
         shell:
             "pyrofit imp --study {params.study} --digest {params.digest} --log {log}"
-            " --cost {wildcards.cost} --repetition {params.repetitions}"
+            " --cost {params.cost} --repetition {params.repetitions}"
 
 
 rule optimise:

@@ -6,7 +6,7 @@ from pyrofit.estimate.optimisers import OPTIMISERS
 from pyrofit.results.files import Results
 
 _FILES = {
-    SCEUA: "imp_{}_??",
+    SCEUA: "imp_{}_[0-9]*",
     **{by.words: f"{key}_{{}}" for key, by in OPTIMISERS.items()},
 }
 

@@ -7,10 +7,9 @@ from collections.abc import Iterator
 from dataclasses import dataclass
 
 from pyrofit.config import Study
+from pyrofit.running.shares import shares
 from pyrofit.stages.trial import search_calls
 
-SIDE_BY_SIDE = 8
-"""Repetitions in one job of the workflow."""
 BYTES_PER_NUMBER = 11
 """Size of a number in a compressed history; 10.1 to 10.4 were measured."""
 BYTES_BESIDE = 40_000_000
@@ -43,7 +42,8 @@ def parts_of(study: Study) -> Iterator[Part]:
         calls = search_calls(study.kinetics)
         yield Part("", calls[0], calls[1], jobs=1)
     stage = study.imp
-    single = stage.repetitions % SIDE_BY_SIDE
+    jobs = shares(study)
+    single = sum(len(share) for share in jobs if len(share) == 1)
     grouped = stage.repetitions - single
     sceua, squares = search_calls(stage)
     beside = squares + stage.cmaes.starts * stage.cmaes.calls
@@ -52,7 +52,7 @@ def parts_of(study: Study) -> Iterator[Part]:
             cost,
             alone=single * sceua,
             together=grouped * sceua + beside,
-            jobs=single + grouped // SIDE_BY_SIDE + 2,
+            jobs=len(jobs) + 2,
         )
 
 

@@ -11,7 +11,8 @@ from pyrofit.errors import PyrofitError
 from pyrofit.estimate.problem import Problem, make_problem
 from pyrofit.estimate.targets import Measurements
 from pyrofit.ready.finding import Finding, Situation
-from pyrofit.ready.plan import SIDE_BY_SIDE, Part, parts_of
+from pyrofit.ready.plan import Part, parts_of
+from pyrofit.running.shares import SIDE_BY_SIDE
 from pyrofit.stages.measurements import computed
 from pyrofit.stages.reading import read_all
 

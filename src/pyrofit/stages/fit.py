@@ -18,12 +18,14 @@ from pyrofit.model.base import value_of
 from pyrofit.model.material import Material
 from pyrofit.results import dependencies, kinetics, searches
 from pyrofit.results.files import Results, write_csv, write_json
+from pyrofit.running.shares import at_once, parts
 from pyrofit.seeds import seed_for
 from pyrofit.solver.arrays import FloatArray, Status
 from pyrofit.solver.lower import fractions, rate_factor
 from pyrofit.solver.outputs import MASS_FRACTION
 from pyrofit.stages.kinetic_curves import write_curves
 from pyrofit.stages.measurements import load
+from pyrofit.stages.unfinished import Unfinished, sweep
 
 Values = Mapping[str, float]
 
@@ -139,8 +141,27 @@ def imp_problem(study: Study, results: Results, cost: str) -> Problem:
 
 
 def repeat(study: Study, results: Results, cost: str, repetitions: Sequence[int]) -> None:
-    """Run repetitions of the inverse modelling side by side; write histories and results."""
+    """Run repetitions of the inverse modelling; write histories and results.
+
+    Some run side by side, then the next ones: as many as are fastest at once.
+    """
     problem = imp_problem(study, results, cost)
+    side_by_side = parts(list(repetitions), at_once(study))
+    if len(side_by_side) == 1:
+        _search(study, results, problem, cost, side_by_side[0])
+        return
+    unfinished = Unfinished(study, results, cost)
+    for some in side_by_side:
+        _search(
+            study, unfinished.results, problem, cost, [n for n in some if not unfinished.has(n)]
+        )
+    unfinished.place(repetitions)
+
+
+def _search(
+    study: Study, results: Results, problem: Problem, cost: str, repetitions: Sequence[int]
+) -> None:
+    """Run repetitions side by side; write histories and results."""
     seeds = [seed_for(study.seed, cost, repetition) for repetition in repetitions]
     budget = study.imp.sceua
     tell = [_tell(f"{cost} {repetition:02d}", budget.generations) for repetition in repetitions]
@@ -192,9 +213,10 @@ def collect(study: Study, results: Results) -> None:
     rows = []
     running = []
     for cost in study.imp.costs:
+        expected = digest(dependencies.imp(study, cost, "sceua"))
         for repetition in range(study.imp.repetitions):
             found = searches.repetition(study, results, cost, repetition)
-            if found.pop("digest") != digest(dependencies.imp(study, cost, "sceua")):
+            if found.pop("digest") != expected:
                 raise StudyError(
                     f"{results.repetition(cost, repetition, '.json')}: this repetition belongs to "
                     "another description of the study; two runs of it at once? Run it again."
@@ -205,6 +227,7 @@ def collect(study: Study, results: Results) -> None:
             running.append(frame.assign(cost_function=cost, repetition=repetition))
     write_csv(results.imp("summary.csv"), pd.DataFrame(rows))
     write_csv(results.imp("convergence.csv"), pd.concat(running, ignore_index=True))
+    sweep(results)
 
 
 def best_sets(study: Study, results: Results) -> dict[str, dict[str, float]]:
