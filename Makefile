@@ -1,6 +1,7 @@
 # make campaign   everything from nothing: environment, data, the whole study, report
 # make test       everything from nothing: environment, all tests
 # make test-fast  the tests that neither run the solver nor Snakemake, in 90 s
+# make test-slurm the study smoke on a Slurm of virtual nodes; needs root, installs Debian's packages
 # STUDY=my.yaml make campaign runs your own study; CORES=n sets the number of cores.
 
 PYTHON ?= python3
@@ -8,7 +9,7 @@ CORES ?= 2
 VENV := .venv
 export PATH := $(CURDIR)/$(VENV)/bin:$(PATH)
 
-.PHONY: campaign test test-fast verification data lint bench format lock clean
+.PHONY: campaign test test-fast test-slurm verification data lint bench format lock clean
 
 $(VENV)/installed: requirements.lock pyproject.toml
 	@echo "Setting up the environment in $(VENV) (about a minute)"
@@ -41,6 +42,9 @@ test: $(VENV)/installed
 test-fast: $(VENV)/installed
 	pytest -m "not (slow or solver or workflow)"
 
+test-slurm: $(VENV)/installed
+	pytest --slurm -s tests/slurm
+
 verification: $(VENV)/installed
 	pytest tests/verification --page docs/verification
 
@@ -64,7 +68,7 @@ format: $(VENV)/installed
 	snakefmt Snakefile workflow
 
 lock:
-	uv pip compile pyproject.toml --extra dev --universal --python-version 3.11 --generate-hashes \
+	uv pip compile pyproject.toml --extra dev --extra slurm --universal --python-version 3.11 --generate-hashes \
 		--no-emit-index-url --no-header --no-annotate --quiet -o requirements.lock
 
 clean:

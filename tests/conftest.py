@@ -22,6 +22,7 @@ FOLDERS = {
     "exchange": "solver",
     "recovery": "solver",
     "scheme": "solver",
+    "slurm": "workflow",
     "verification": "solver",
     "workflow": "workflow",
 }
@@ -57,8 +58,9 @@ KERNELS = [f"pyrofit.solver.kernels.{name}" for name in ("grid", "slab", "tga", 
 
 
 def pytest_addoption(parser: pytest.Parser) -> None:
-    """Let tests that repeat a fault at random moments repeat it more often."""
+    """Let tests repeat faults at random moments more often, and start a Slurm."""
     parser.addoption("--thorough", action="store_true", help="repeat faults often, for an hour")
+    parser.addoption("--slurm", action="store_true", help="start a Slurm on this machine, as root")
 
 
 def pytest_collection_modifyitems(items: list[pytest.Item]) -> None:
@@ -70,6 +72,8 @@ def pytest_collection_modifyitems(items: list[pytest.Item]) -> None:
         if HERE not in item.path.parents:
             continue  # an example of the source
         folder = item.path.relative_to(HERE).parts[0]
+        if folder == "slurm" and not item.config.getoption("--slurm"):
+            item.add_marker(pytest.mark.skip(reason="make test-slurm runs it"))
         name = FOLDERS.get(folder) or FILES.get(item.path.stem)
         if name:
             item.add_marker(name)

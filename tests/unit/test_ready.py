@@ -1,7 +1,6 @@
 """`pyrofit doctor`: each fault has its line, with the way out, before a run starts."""
 
 import importlib.metadata
-import re
 import shutil
 from collections.abc import Iterator
 from pathlib import Path
@@ -178,7 +177,7 @@ def test_missing_plugin_is_an_error(tmp_path: Path, monkeypatch: pytest.MonkeyPa
     monkeypatch.setattr(slurm, "PLUGIN", "no-such-plugin")
     _, found = slurm.slurm(Situation(None, Path(), 1, profile=SLURM))
     assert found.level == "error"
-    assert "pip install no-such-plugin" in found.text
+    assert "pip install .[slurm]" in found.text
 
 
 def test_slurm_that_does_not_answer_is_told(

@@ -5,7 +5,7 @@ import re
 import resource
 import subprocess
 import sys
-from importlib.util import find_spec
+import tomllib
 from pathlib import Path
 
 import pytest
@@ -13,6 +13,7 @@ import yaml
 from tiny import ROOT, Project, Run
 
 SLURM = ROOT / "profiles" / "slurm" / "config.yaml"
+CLUSTER = ROOT / "docs" / "cluster.md"
 BLIND_TEST = "workflow/blind_test.smk"
 SMOKE = ("--configfile", "config/smoke.yaml")
 
@@ -95,29 +96,41 @@ def test_report_of_snakemake_shows_every_figure_and_table(
     (results / "snakemake.html").unlink()
 
 
-@pytest.mark.skipif(
-    find_spec("snakemake_executor_plugin_slurm") is not None, reason="the plugin is installed"
-)
-def test_slurm_without_its_plugin_is_told() -> None:
-    ran = snakemake("--dry-run", "--workflow-profile", "profiles/slurm", *SMOKE)
-    assert ran.returncode != 0
-    assert "invalid choice: 'slurm'" in ran.stderr
-    assert "pip install snakemake-executor-plugin-slurm" in SLURM.read_text(encoding="utf-8")
+def test_plugin_of_slurm_is_the_version_that_the_profile_was_tried_with() -> None:
+    extra = tomllib.loads((ROOT / "pyproject.toml").read_text(encoding="utf-8"))
+    (plugin,) = extra["project"]["optional-dependencies"]["slurm"]
+    locked = (ROOT / "requirements.lock").read_text(encoding="utf-8")
+    assert re.fullmatch(r"snakemake-executor-plugin-slurm==[\d.]+", plugin)
+    assert f"\n{plugin} " in locked
+    assert f"plugin {plugin.partition('==')[2]}" in CLUSTER.read_text(encoding="utf-8")
 
 
 def test_profile_of_slurm_holds_for_the_rules() -> None:
-    # All but the executor, which is a plugin.
+    # All but the executor and its settings, which are those of a plugin.
     profile = ("--workflow-profile", "profiles/slurm", "--executor", "local")
     ran = snakemake("--dry-run", "--forceall", *profile, *SMOKE)
     assert ran.returncode == 0, ran.stderr
     assert "slurm_partition=" in ran.stdout + ran.stderr
     given = yaml.safe_load(SLURM.read_text(encoding="utf-8"))
-    rules = snakemake("--list-rules", *SMOKE).stdout.split()
-    assert set(given["groups"]) <= set(rules)
+    rules = set(snakemake("--list-rules", *SMOKE).stdout.split())
+    assert set(given["groups"]) | set(given["set-resources"]) <= rules
     assert set(given["groups"].values()) == set(given["group-components"])
     known = snakemake("--help").stdout
     for key in given:
-        assert f"--{key}" in known, key
+        assert f"--{key}" in known or key.startswith("slurm-"), key
+
+
+def test_groups_of_the_profile_ask_for_little() -> None:
+    given = yaml.safe_load(SLURM.read_text(encoding="utf-8"))
+    at_once = given["resources"]["at_once"]
+    assert at_once <= 4
+    assert given["set-resource-scopes"]["at_once"] == "local"  # of each group, not of all
+    for rule, group in given["groups"].items():
+        asks = given["set-resources"][rule]
+        assert asks["at_once"] == 1
+        assert asks["mem_mb"] * at_once <= 4000
+        layers = -(-given["group-components"][group] // at_once)
+        assert asks["runtime"] * layers <= 60
 
 
 def test_profile_of_slurm_keeps_what_the_default_profile_says() -> None:

@@ -48,7 +48,7 @@ def _plugin() -> Finding:
     try:
         return Finding("ok", "plugin", f"{PLUGIN} {importlib.metadata.version(PLUGIN)}")
     except importlib.metadata.PackageNotFoundError:
-        return Finding("error", "plugin", f"{PLUGIN} is not installed; pip install {PLUGIN}")
+        return Finding("error", "plugin", f"{PLUGIN} is not installed; pip install .[slurm]")
 
 
 def _reason(error: Exception) -> str:

@@ -50,8 +50,6 @@ def slope(temperature_K: FloatArray, mass_fraction: FloatArray) -> tuple[FloatAr
     >>> bool(np.allclose(rate, 0.01))
     True
     """
-    from scipy.signal import savgol_filter  # half a second that planning does without
-
     rising, first = np.unique(temperature_K, return_index=True)
     grid = np.linspace(rising[0], rising[-1], rising.size)
     step = float(grid[1] - grid[0])
