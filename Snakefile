@@ -3,6 +3,7 @@
 import os
 import shutil
 import sys
+from itertools import product
 from pathlib import Path
 
 from snakemake.utils import min_version, update_config

@@ -21,10 +21,11 @@ from pathlib import Path
 
 PACKAGES = ("slurmctld", "slurmd", "slurm-client", "munge")
 PROGRAMS = ("slurmctld", "slurmd", "squeue", "munged")
-NODES = 2
+NODES = 3
 CORES, MEMORY_MB = 4, 4000
 """Of a node: no job of the profile may ask for more."""
 PARTITION = "main"
+CLUSTER = "pyrofit_test"
 LONGEST_WAIT_S = 30.0
 LINK = Path("/etc/slurm/slurm.conf")
 """Where jobs look for the configuration: Snakemake's plugin takes SLURM_CONF away from them."""
@@ -77,7 +78,7 @@ def configuration(folder: Path, port: int) -> str:
     """Return the text of slurm.conf."""
     host = socket.gethostname().partition(".")[0]
     keys = {
-        "ClusterName": "test",
+        "ClusterName": CLUSTER,
         "SlurmctldHost": f"{host}(127.0.0.1)",
         "SlurmctldPort": port,
         "AuthType": "auth/munge",
@@ -161,6 +162,9 @@ def stop(folder: Path) -> None:
             with contextlib.suppress(NoSlurmError):
                 _wait(name, lambda number=number, name=name: not _is(number, name), 10.0)
         path.unlink()
+    for number in _left_of_jobs():
+        with contextlib.suppress(ProcessLookupError):
+            os.kill(number, signal.SIGKILL)
     if LINK.is_symlink() and LINK.readlink() == folder / "slurm.conf":
         LINK.unlink()
 
@@ -192,6 +196,17 @@ def _is(number: int, name: str) -> bool:
         return False
     inside, _, after = text.partition("(")[2].rpartition(")")
     return inside == name and after.split()[0] != "Z"
+
+
+def _left_of_jobs() -> list[int]:
+    """Return the processes of jobs whose node was put down: nobody ends them."""
+    mine = f"SLURM_CLUSTER_NAME={CLUSTER}".encode()
+    found = []
+    for path in Path("/proc").glob("[0-9]*/environ"):
+        with contextlib.suppress(OSError):
+            if mine in path.read_bytes().split(b"\0"):
+                found.append(int(path.parent.name))
+    return found
 
 
 def _wait(what: str, ready: Callable[[], bool], longest_s: float = LONGEST_WAIT_S) -> None:

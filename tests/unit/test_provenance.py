@@ -1,5 +1,6 @@
 """Fingerprints of the source change with an edit of all that a step depends on, and of no more."""
 
+import ast
 import shutil
 import subprocess
 import sys
@@ -13,7 +14,7 @@ from pyrofit import effects
 from pyrofit.config import Study, digest, read_study
 from pyrofit.effects import known_effects
 from pyrofit.plugins import code_digest
-from pyrofit.provenance import imported_files, source_fingerprint
+from pyrofit.provenance import _imports, imported_files, source_fingerprint
 from pyrofit.results import dependencies
 
 SOURCE = Path(pyrofit.__file__).parent
@@ -93,6 +94,17 @@ def test_import_inside_a_function_or_for_type_checks_alone_counts(copy: Path) ->
             "stages/__init__.py",
             f"stages/{name}.py",
         }
+
+
+@pytest.mark.parametrize("path", sorted(SOURCE.rglob("*.py")), ids=lambda p: p.stem)
+def test_imports_are_those_of_the_syntax_tree(path: Path) -> None:
+    names = set()
+    for node in ast.walk(ast.parse(path.read_bytes())):
+        if isinstance(node, ast.Import):
+            names |= {alias.name for alias in node.names}
+        elif isinstance(node, ast.ImportFrom) and node.module:
+            names |= {node.module, *(f"{node.module}.{alias.name}" for alias in node.names)}
+    assert _imports(path.read_bytes()) == {n for n in names if n.startswith("pyrofit.")}
 
 
 def test_fingerprint_of_a_module_that_is_not_there_is_refused() -> None:

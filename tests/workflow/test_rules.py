@@ -122,15 +122,17 @@ def test_profile_of_slurm_holds_for_the_rules() -> None:
 
 def test_groups_of_the_profile_ask_for_little() -> None:
     given = yaml.safe_load(SLURM.read_text(encoding="utf-8"))
-    at_once = given["resources"]["at_once"]
-    assert at_once <= 4
-    assert given["set-resource-scopes"]["at_once"] == "local"  # of each group, not of all
+    # Of each group, not of all: members run one after the other, on one core.
+    assert given["resources"] == {"in_turn": 1}
+    assert given["set-resource-scopes"] == {"in_turn": "local"}
     for rule, group in given["groups"].items():
         asks = given["set-resources"][rule]
-        assert asks["at_once"] == 1
-        assert asks["mem_mb"] * at_once <= 4000
-        layers = -(-given["group-components"][group] // at_once)
-        assert asks["runtime"] * layers <= 60
+        assert asks["in_turn"] == 1
+        assert asks["runtime"] * given["group-components"][group] <= 60
+    # Of any job, in the last attempt as well.
+    megabytes, times, attempt = given["default-resources"]["mem_mb"].split()
+    assert (times, attempt) == ("*", "attempt")
+    assert int(megabytes) * (given["retries"] + 1) <= 4000
 
 
 def test_profile_of_slurm_keeps_what_the_default_profile_says() -> None:

@@ -28,3 +28,8 @@ def title_in(shown, name):
 STARTED = expand(
     ROOT / "imp/{cost}/{optimiser}.json", cost=COSTS, optimiser=list(OPTIMISERS)
 )
+
+
+def repetitions_in(files):
+    """Return the repetitions whose results are among some files."""
+    return [Path(name).stem for name in files if name.endswith(".json")]

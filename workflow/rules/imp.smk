@@ -1,11 +1,3 @@
-from itertools import product
-
-
-def repetitions_in(files):
-    """Return the repetitions whose results are among some files."""
-    return [Path(name).stem for name in files if name.endswith(".json")]
-
-
 # Their names are written out: among thousands, Snakemake looks long for a rule with wildcards.
 for _cost, _together in product(COSTS, SHARES):
 
