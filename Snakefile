@@ -17,7 +17,7 @@ from pyrofit.provenance import source_fingerprint
 from pyrofit.results import dependencies
 from pyrofit.results.files import Results
 from pyrofit.results.kinetics import heats_shown
-from pyrofit.running import shares
+from pyrofit.running import causes, shares
 from pyrofit.running.frozen import freeze, frozen_study
 from pyrofit.running.lock import end_run, join_run, start_run
 from pyrofit.show.sections import FIGURES, TABLES, module_of
@@ -71,6 +71,7 @@ PROGRAM_FILES = list(program_files(study))
 PROGRAMS = [experiment.program for experiment in externals(study).values()]
 RUN_CORES = max([program.cores for program in PROGRAMS], default=1)
 RUNS_CORES = max([p.parallel * p.cores for p in PROGRAMS], default=1)
+OLD_LOGS = causes.logs()
 REPETITIONS = [repetition for job in SHARES for repetition in job]
 
 
@@ -88,6 +89,8 @@ onstart:
 
 
 onerror:
+    for _cause in causes.causes(OLD_LOGS):
+        print(_cause, file=sys.stderr)
     end_run(ROOT)
 
 
