@@ -129,10 +129,10 @@ class Watch:
                 rule = comment.removeprefix("rule_")
                 self.asked[rule] = int(cores), int(memory.removesuffix("M")), limit
                 wanted = next(iter(self.faults), "none")
-                if state == "RUNNING" and rule.startswith(wanted):
-                    if self.faults[wanted](job, node):
-                        del self.faults[wanted]
-                        self.done.append(rule)
+                here = state == "RUNNING" and rule.startswith(wanted)
+                if here and self.faults[wanted](job, node):
+                    del self.faults[wanted]
+                    self.done.append(rule)
             time.sleep(0.5)
 
 
