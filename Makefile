@@ -37,7 +37,7 @@ campaign: $(VENV)/installed
 	pyrofit check "$$study" && snakemake --cores $(CORES) --configfile "$$study"
 
 test: $(VENV)/installed
-	pytest -n $(CORES) --dist loadfile
+	pytest -n $(CORES) --dist loadfile --no-loadscope-reorder
 
 test-fast: $(VENV)/installed
 	pytest -m "not (slow or solver or workflow)"

@@ -51,6 +51,7 @@ FILES = {
     "test_unmeasured": "solver",
 }
 """Files of folders whose other tests are fast."""
+_LONGEST_FIRST = {"workflow": 0, "blind_test": 1}
 
 
 KERNELS = [f"pyrofit.solver.kernels.{name}" for name in ("grid", "slab", "tga", "trace")]
@@ -77,6 +78,8 @@ def pytest_collection_modifyitems(items: list[pytest.Item]) -> None:
         name = FOLDERS.get(folder) or FILES.get(item.path.stem)
         if name:
             item.add_marker(name)
+    # The longest first, so that no process waits for another one at the end.
+    items.sort(key=lambda item: _LONGEST_FIRST.get(item.path.parent.name, 2))
 
 
 def pytest_sessionstart() -> None:
