@@ -127,12 +127,12 @@ def test_run_leaves_results_page_figures_and_tables(diagnosed: Diagnosed) -> Non
 
 def test_extended_study_runs_as_it_is(diagnosed: Diagnosed) -> None:
     root = diagnosed.project.root
-    computed, shown = "validation/scores.csv", "tables/parameters.md"
+    computed, shown = "validation/scores.csv", "tables/answer.md"
     files = [f"results/tiny_extended/{name}" for name in (computed, shown)]
     run = diagnosed.project.snakemake("--cores", "2", *files, "--configfile", FOUND[2])
     assert run.code == 0, run.said
     study = json.loads((root / "results" / "tiny_extended" / "study.json").read_text())
-    assert list(study["effects"]) == ["heater_ramp"]
+    assert list(study["with_effects"]) == ["heater_ramp"]
 
 
 def test_second_call_has_nothing_to_do(diagnosed: Diagnosed) -> None:

@@ -26,6 +26,8 @@ rule table:
         markdown=ROOT / "tables/{name}.md",
     log:
         log_of("table_{name}"),
+    wildcard_constraints:
+        name="|".join(TABLES),
     params:
         study=STUDY,
         digest=digest(dependencies.presentation(study)),
@@ -52,6 +54,8 @@ rule figure:
         png=ROOT / "figures/{name}.png",
     log:
         log_of("figure_{name}"),
+    wildcard_constraints:
+        name="|".join(FIGURES),
     params:
         study=STUDY,
         digest=digest(dependencies.presentation(study)),
