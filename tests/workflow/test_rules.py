@@ -144,7 +144,7 @@ def test_profile_of_slurm_keeps_what_the_default_profile_says() -> None:
 
 def test_thousand_repetitions_are_planned_soon_in_at_most_a_hundred_jobs() -> None:
     before = resource.getrusage(resource.RUSAGE_CHILDREN)
-    ran = snakemake("--dry-run", "--quiet", "--config", 'imp={"repetitions": 1000}', *SMOKE)
+    ran = snakemake("--dry-run", "--config", 'imp={"repetitions": 1000}', *SMOKE)
     after = resource.getrusage(resource.RUSAGE_CHILDREN)
     assert ran.returncode == 0, ran.stderr
     total = re.search(r"^total +(\d+)$", ran.stdout + ran.stderr, re.M)
