@@ -6,10 +6,7 @@ import shutil
 from tiny import Project
 
 
-def test_rescore_is_a_target_of_its_own_that_leaves_figures(
-    finished: tuple[Project, object],
-) -> None:
-    project, _ = finished
+def test_rescore_is_a_target_of_its_own_that_leaves_figures(project: Project) -> None:
     folder = project.root / "results/tiny/rescore"
     assert not folder.exists()
     run = project.snakemake("--cores", "2", "rescore")
