@@ -22,6 +22,7 @@ from pyrofit.show.fit.table4 import flags
 from pyrofit.show.identification.sentences import sentences
 from pyrofit.show.names import data_name, flag
 from pyrofit.show.sections import TABLES, make_table
+from pyrofit.show.table import readable
 from pyrofit.show.text import number
 from pyrofit.stages import compare
 
@@ -620,6 +621,12 @@ def test_validation_marks_fitted_and_held_out_data(tmp_path: Path) -> None:
     assert temperature["rmse_K"].tolist() == [7.0, 8.0, 9.0, 10.0, 11.0, 12.0, 13.0]
     assert temperature["cv_rmse"].isna().all()
     assert table["rmse_K"].notna().sum() == 7
+
+
+def test_measures_in_other_units_are_headed_in_words() -> None:
+    frame = pd.DataFrame({"rmse_K": [1.0], "rmse [kg/m²]": [2.0], "solver_rmse [kg/m²]": [0.1]})
+    ((_, shown),) = readable(replace(TABLES["validation"], group_by=None), frame)
+    assert list(shown) == ["RMSE [K]", "RMSE [kg/m²]", "solver, RMSE [kg/m²]"]
 
 
 def test_other_signal_of_a_fitted_experiment_is_a_held_out_signal(tmp_path: Path) -> None:

@@ -58,10 +58,20 @@ def readable(table: Table, frame: pd.DataFrame) -> list[tuple[str, pd.DataFrame]
     """Return a table as it is read: in parts with a heading each, columns named in words."""
     if table.upright is not None:
         frame = turned(frame, table.upright, table.headings)
-    headings = dict(table.headings)
+    headings = {**table.headings, **_of_units(table, frame)}
     return [
         (heading, part.rename(columns=headings)) for heading, part in groups(frame, table.group_by)
     ]
+
+
+def _of_units(table: Table, frame: pd.DataFrame) -> dict[str, str]:
+    """Return the headings of columns ``measure [unit]`` whose measure has a heading."""
+    found = {}
+    for column in map(str, frame.columns):
+        measure, bracket, unit = column.partition(" [")
+        if bracket and measure in table.headings:
+            found[column] = f"{table.headings[measure]} [{unit}"
+    return found
 
 
 def _page(study: Study, table: Table, frame: pd.DataFrame) -> str:

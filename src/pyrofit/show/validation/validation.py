@@ -61,7 +61,9 @@ TABLE = Table(
         "cv_rmse": "CV(RMSE) [-]",
         "solver_cv_rmse": "solver, CV(RMSE) [-]",
         "rmse_K": "RMSE [K]",
+        "rmse": "RMSE",
         "solver_rmse_K": "solver, RMSE [K]",
+        "solver_rmse": "solver, RMSE",
     },
     group_by="experiment",
 )
