@@ -40,7 +40,7 @@ test: $(VENV)/installed
 	pytest -n $(CORES) --dist loadfile --no-loadscope-reorder
 
 test-fast: $(VENV)/installed
-	pytest -m "not (slow or solver or workflow)"
+	pytest -n $(CORES) -m "not (slow or solver or workflow)"
 
 test-slurm: $(VENV)/installed
 	pytest --slurm -s tests/slurm
