@@ -1,6 +1,7 @@
 # make campaign   everything from nothing: environment, data, the whole study, report
 # make test       everything from nothing: environment, all tests
 # make test-fast  the tests that neither run the solver nor Snakemake, in 90 s
+# make docs       the documentation as a site, build/docs/index.html
 # make test-slurm the study smoke on a Slurm of virtual nodes; needs root, installs Debian's packages
 # STUDY=my.yaml make campaign runs your own study; CORES=n sets the number of cores.
 
@@ -9,7 +10,7 @@ CORES ?= 2
 VENV := .venv
 export PATH := $(CURDIR)/$(VENV)/bin:$(PATH)
 
-.PHONY: campaign test test-fast test-slurm verification data lint bench format lock clean
+.PHONY: campaign test test-fast test-slurm verification docs data lint bench format lock clean
 
 $(VENV)/installed: requirements.lock pyproject.toml
 	@echo "Setting up the environment in $(VENV) (about a minute)"
@@ -48,6 +49,10 @@ test-slurm: $(VENV)/installed
 verification: $(VENV)/installed
 	pytest tests/verification --page docs/verification
 
+docs: $(VENV)/installed
+	sphinx-build --fail-on-warning --keep-going --quiet -b html -c docs/site -d build/doctrees . build/docs
+	@echo "The site: build/docs/index.html"
+
 data: $(VENV)/installed
 	pyrofit data fetch
 
@@ -68,7 +73,7 @@ format: $(VENV)/installed
 	snakefmt Snakefile workflow
 
 lock:
-	uv pip compile pyproject.toml --extra dev --extra slurm --universal --python-version 3.11 --generate-hashes \
+	uv pip compile pyproject.toml --extra dev --extra docs --extra slurm --universal --python-version 3.11 --generate-hashes \
 		--no-emit-index-url --no-header --no-annotate --quiet -o requirements.lock
 
 clean:

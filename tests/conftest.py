@@ -43,6 +43,7 @@ FILES = {
     "test_macfp_submission": "solver",
     "test_noise": "slow",
     "test_reaction_order": "solver",
+    "test_python_page": "solver",
     "test_ready_timing": "solver",
     "test_rescore_stage": "solver",
     "test_robustness": "solver",

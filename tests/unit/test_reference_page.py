@@ -3,8 +3,11 @@
 import re
 from pathlib import Path
 
+import pytest
+
 from pyrofit.blind_test.reference import blind_test_keys
 from pyrofit.blind_test.setting import Setting
+from pyrofit.cli import main
 from pyrofit.config import Study
 from pyrofit.config.read import read_mapping
 from pyrofit.config.reference import reference_page
@@ -16,6 +19,22 @@ def test_page_of_keys_is_up_to_date() -> None:
     written = (ROOT / "config" / "README.md").read_text(encoding="utf-8")
     printed = f"{reference_page()}\n{blind_test_keys()}"
     assert written == printed, "run: pyrofit reference > config/README.md"
+
+
+@pytest.mark.parametrize("page", ["commands", "costs", "quantities"])
+def test_generated_page_is_up_to_date(page: str, capsys: pytest.CaptureFixture[str]) -> None:
+    main(["reference", "--of", page])
+    written = (ROOT / "docs" / f"{page}.md").read_text(encoding="utf-8")
+    assert written == capsys.readouterr().out, (
+        f"run: pyrofit reference --of {page} > docs/{page}.md"
+    )
+
+
+def test_page_of_commands_has_options_that_are_known_late() -> None:
+    page = (ROOT / "docs" / "commands.md").read_text(encoding="utf-8")
+    assert "| `--gasification` `CSV` |" in page
+    assert "## `pyrofit data doctor`" in page
+    assert "## `pyrofit data`\n" not in page
 
 
 def test_every_key_of_a_study_is_described() -> None:

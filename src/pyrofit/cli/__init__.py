@@ -6,8 +6,7 @@ import os
 import signal
 import sys
 import threading
-from collections.abc import Callable, Iterator, Sequence
-from typing import Any
+from collections.abc import Iterator, Sequence
 
 from pyrofit.cli import (
     diagnosing,
@@ -19,22 +18,9 @@ from pyrofit.cli import (
     showing,
     starting,
 )
+from pyrofit.cli.parser import Parser
 from pyrofit.errors import PyrofitError
 from pyrofit.logs import Tee, open_log
-
-
-class Parser(argparse.ArgumentParser):
-    """A parser that may take options which are known only after slow imports."""
-
-    late: Callable[["Parser"], None] | None = None
-    """Adds them; it is called when the command is given."""
-
-    def parse_known_args(self, *given: Any, **named: Any) -> Any:
-        """Parse arguments as usual."""
-        if self.late is not None:
-            add, self.late = self.late, None
-            add(self)
-        return super().parse_known_args(*given, **named)
 
 
 def main(arguments: Sequence[str] | None = None) -> int:
@@ -96,4 +82,5 @@ def _parser() -> argparse.ArgumentParser:
     commands = parser.add_subparsers(dest="command", required=True, metavar="COMMAND")
     for group in (starting, fitting, rescoring, scheming, diagnosing, showing, exchanging, macfp):
         group.add(commands)
+    parser.set_defaults(program=parser)
     return parser

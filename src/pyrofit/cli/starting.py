@@ -11,12 +11,14 @@ def add(commands: Any) -> None:
     """Add these commands."""
     data = commands.add_parser("data", help="the measured files of the MaCFP data base")
     actions = data.add_subparsers(dest="action", required=True, metavar="ACTION")
-    fetch = actions.add_parser("fetch", help="download them, by commit and SHA-256")
+    fetch = actions.add_parser("fetch", help="download the files; check commit and SHA-256")
     fetch.set_defaults(step=_fetch)
-    where = actions.add_parser("where", help="print their folder; exit 2 where files are missing")
+    where = actions.add_parser(
+        "where", help="print the folder of the files; exit with 2 if files are missing"
+    )
     where.set_defaults(step=_where)
     doctor = actions.add_parser(
-        "doctor", help="say what each measured file of a folder is, and what looks wrong in it"
+        "doctor", help="recognise the measured files of a folder and report suspected errors"
     )
     doctor.add_argument("folder", type=Path, help="folder, with its subfolders")
     doctor.add_argument(
@@ -31,9 +33,11 @@ def add(commands: Any) -> None:
     init.late = _add_kinds
     init.set_defaults(step=_init)
 
-    reference = commands.add_parser("reference", help="print the reference of all keys")
+    reference = commands.add_parser(
+        "reference", help="print a reference page: keys, commands, costs ..."
+    )
     reference.add_argument(
-        "--of", choices=("study", "diagnosis"), default="study", help="default: study"
+        "--of", choices=(*_PAGES, "commands"), default="study", help="default: study"
     )
     reference.set_defaults(step=_reference)
 
@@ -41,7 +45,7 @@ def add(commands: Any) -> None:
     check.add_argument("study", type=Path, help="study file (YAML)")
     check.set_defaults(step=_check)
 
-    ready = commands.add_parser("doctor", help="say whether all is there that a run needs")
+    ready = commands.add_parser("doctor", help="check study and machine before a long run")
     ready.add_argument("study", type=Path, nargs="?", help="study file; without: the machine alone")
     ready.add_argument("--results", type=Path, help="results folder; default results/<name>")
     ready.add_argument("--cores", type=int, help="jobs at once; default: those of the profile")
@@ -110,14 +114,53 @@ def _init(given: argparse.Namespace) -> None:
 
 
 def _reference(given: argparse.Namespace) -> None:
+    if given.of == "commands":
+        from pyrofit.cli.page import commands_page
+
+        print(commands_page(given.program), end="")
+    else:
+        print(_PAGES[given.of](), end="")
+
+
+def _study_page() -> str:
     from pyrofit.blind_test.reference import blind_test_keys
     from pyrofit.config.reference import reference_page
+
+    return f"{reference_page()}\n{blind_test_keys()}"
+
+
+def _diagnosis_page() -> str:
     from pyrofit.results.schema_page import schema_page
 
-    if given.of == "diagnosis":
-        print(schema_page(), end="")
-        return
-    print(reference_page(), blind_test_keys(), sep="\n", end="")
+    return schema_page()
+
+
+def _effects_page() -> str:
+    from pyrofit.effects.page import effects_page
+
+    return effects_page()
+
+
+def _costs_page() -> str:
+    from pyrofit.cost.page import costs_page
+
+    return costs_page()
+
+
+def _quantities_page() -> str:
+    from pyrofit.quantities.page import quantities_page
+
+    return quantities_page()
+
+
+_PAGES = {
+    "study": _study_page,
+    "diagnosis": _diagnosis_page,
+    "effects": _effects_page,
+    "costs": _costs_page,
+    "quantities": _quantities_page,
+}
+"""Pages of the documentation by the name that `pyrofit reference --of` takes."""
 
 
 def _check(given: argparse.Namespace) -> None:

@@ -1,0 +1,61 @@
+"""The commands as a page of the documentation, read from the parser itself."""
+
+import argparse
+from collections.abc import Iterator
+
+from pyrofit.cli.parser import Parser
+
+_HEAD = """\
+# Commands
+
+`pyrofit COMMAND --help` prints the same. The [workflow](running.md) calls most of these commands;
+`init`, `check`, `doctor`, `rescore`, `data`, `export`, `import`, `macfp` and `reference` are for
+use by hand.
+
+This page is generated: `pyrofit reference --of commands > docs/commands.md`.
+"""
+
+
+def commands_page(program: argparse.ArgumentParser) -> str:
+    """Return the page: every command of the program with its arguments."""
+    sections = [_section(name, text, parser) for name, text, parser in _commands(program)]
+    return "\n".join([_HEAD, *sections])
+
+
+def _commands(
+    parser: argparse.ArgumentParser,
+) -> Iterator[tuple[str, str, argparse.ArgumentParser]]:
+    """Yield name, description and parser of each command that has no commands of its own."""
+    for action in parser._actions:
+        if isinstance(action, argparse._SubParsersAction):
+            texts = {choice.dest: choice.help or "" for choice in action._choices_actions}
+            for name, inner in action.choices.items():
+                if isinstance(inner, Parser):
+                    inner.complete()
+                deeper = list(_commands(inner))
+                yield from deeper or [(inner.prog, texts.get(name, ""), inner)]
+
+
+def _section(name: str, text: str, parser: argparse.ArgumentParser) -> str:
+    lines = [f"## `{name}`", "", f"{text[:1].upper()}{text[1:]}.", ""]
+    rows = [_row(a) for a in parser._actions if not isinstance(a, argparse._HelpAction)]
+    if rows:
+        lines += ["| argument | meaning |", "|---|---|", *rows, ""]
+    return "\n".join(lines)
+
+
+def _row(action: argparse.Action) -> str:
+    """Return the row of an argument: its names, its value and its help."""
+    names = ", ".join(f"`{name}`" for name in action.option_strings) or f"`{_value(action)}`"
+    value = f" `{_value(action)}`" if action.option_strings and action.nargs != 0 else ""
+    required = action.required and bool(action.option_strings)
+    text = (action.help or "").replace("|", "\\|").replace("*", "\\*")
+    return f"| {names}{value} | {text}{' (required)' if required else ''} |"
+
+
+def _value(action: argparse.Action) -> str:
+    if action.metavar:
+        return str(action.metavar)
+    if action.choices:
+        return "{" + ",".join(map(str, action.choices)) + "}"
+    return action.dest if not action.option_strings else action.dest.upper()

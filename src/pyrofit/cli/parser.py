@@ -1,0 +1,23 @@
+"""A parser whose commands may get options late."""
+
+import argparse
+from collections.abc import Callable
+from typing import Any
+
+
+class Parser(argparse.ArgumentParser):
+    """A parser that may take options which are known only after slow imports."""
+
+    late: Callable[["Parser"], None] | None = None
+    """Adds them; it is called when the command is given."""
+
+    def complete(self) -> None:
+        """Add the late options, once."""
+        if self.late is not None:
+            add, self.late = self.late, None
+            add(self)
+
+    def parse_known_args(self, *given: Any, **named: Any) -> Any:
+        """Parse arguments as usual."""
+        self.complete()
+        return super().parse_known_args(*given, **named)
