@@ -20,7 +20,7 @@ from pyrofit.results.kinetics import heats_shown
 from pyrofit.running import causes, shares
 from pyrofit.running.frozen import freeze, frozen_study
 from pyrofit.running.lock import end_run, join_run, start_run
-from pyrofit.show.sections import FIGURES, TABLES, module_of
+from pyrofit.show.sections import FIGURES, SUBJECTS, TABLES
 from pyrofit.stages.reading import check_measurements
 
 min_version("9.27")

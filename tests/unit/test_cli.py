@@ -12,7 +12,7 @@ from pyrofit.errors import DataError
 ROOT = Path(__file__).parents[2]
 SMOKE = ROOT / "config" / "smoke.yaml"
 STEPS = ["prepare", "kinetics", "imp", "least-squares", "cma-es", "collect", "predict"]
-SHOWS = ["table", "figure", "report"]
+SHOWS = ["show", "report"]
 
 
 def test_module_of_the_command_line_imports_nothing_slow() -> None:

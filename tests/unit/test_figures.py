@@ -17,7 +17,7 @@ from pyrofit.show.curves import tests_of as groups_of
 from pyrofit.show.fit.fig3 import fig3
 from pyrofit.show.kinetics.drawing import slope
 from pyrofit.show.kinetics.kinetics_all_rates import kinetics_all_rates
-from pyrofit.show.sections import FIGURES, make_figure
+from pyrofit.show.sections import FIGURES, make_figure, make_named, make_subject
 
 OF_OTHER_STUDIES = {"heats", "unmeasured"}
 """Figures of quantities and experiments that the faked study lacks."""
@@ -91,7 +91,7 @@ def test_drawing_leaves_matplotlibs_settings_alone(tmp_path: Path) -> None:
 def test_unknown_figure_names_the_nearest(tmp_path: Path) -> None:
     study, results = fake(tmp_path)
     with pytest.raises(StudyError, match="Did you mean 'residuals'"):
-        make_figure("residual", study, results)
+        make_named("residual", study, results)
 
 
 def test_slope_of_a_parabola_is_exact_on_uneven_temperatures_too() -> None:
@@ -223,3 +223,9 @@ def test_many_panels_are_in_more_columns_and_have_two_letters() -> None:
         "aa) x",
         "ad) x",
     ]
+
+
+def test_unknown_subject_names_the_nearest(tmp_path: Path) -> None:
+    study, results = fake(tmp_path)
+    with pytest.raises(StudyError, match="Did you mean 'kinetics'"):
+        make_subject("kinetic", study, results)

@@ -21,7 +21,7 @@ from pyrofit.show.facts import facts_of
 from pyrofit.show.fit.table4 import flags
 from pyrofit.show.identification.sentences import sentences
 from pyrofit.show.names import data_name, flag
-from pyrofit.show.sections import TABLES, make_table
+from pyrofit.show.sections import TABLES, make_named, make_table
 from pyrofit.show.table import readable
 from pyrofit.show.text import number
 from pyrofit.stages import compare
@@ -651,7 +651,7 @@ def test_labels_are_those_of_the_prediction() -> None:
 def test_unknown_table_names_the_nearest(tmp_path: Path) -> None:
     study, results = fake(tmp_path)
     with pytest.raises(StudyError, match="Did you mean 'table4'"):
-        make_table("tabel4", study, results)
+        make_named("tabel4", study, results)
 
 
 def test_study_without_kinetics_has_no_table3(tmp_path: Path) -> None:

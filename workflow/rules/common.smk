@@ -24,6 +24,16 @@ def title_in(shown, name):
     return titled(study, shown[name].title, shown[name].paper)
 
 
+def reported(path, kind, titles, name):
+    """Return a file that Snakemake's own report shows as well."""
+    return report(
+        path,
+        caption="../report/subject.rst",
+        category=f"{kind.capitalize()}s",
+        labels={kind: title_in(titles, name)},
+    )
+
+
 # The ends of the optimisers beside SCE-UA.
 STARTED = expand(
     ROOT / "imp/{cost}/{optimiser}.json", cost=COSTS, optimiser=list(OPTIMISERS)

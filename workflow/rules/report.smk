@@ -9,63 +9,51 @@ CALCULATED = [
     PREDICTED,
     COMPARED,
 ]
-SHOWN_TABLES = [name for name, table in TABLES.items() if table.applies(study)]
-SHOWN_FIGURES = [name for name, figure in FIGURES.items() if figure.applies(study)]
+SHOWN_TABLES = [name for part in SUBJECTS.values() for name in part.tables_of(study)]
+SHOWN_FIGURES = [name for part in SUBJECTS.values() for name in part.figures_of(study)]
 
 
-rule table:
-    input:
-        CALCULATED,
-    output:
-        csv=report(
-            ROOT / "tables/{name}.csv",
-            caption="../report/table.rst",
-            category="Tables",
-            labels=lambda wildcards: {"table": title_in(TABLES, wildcards.name)},
-        ),
-        markdown=ROOT / "tables/{name}.md",
-    log:
-        log_of("table_{name}"),
-    wildcard_constraints:
-        name="|".join(TABLES),
-    params:
-        study=STUDY,
-        digest=digest(dependencies.presentation(study)),
-        note=lambda wildcards: TABLES[wildcards.name].note,
-        source=lambda wildcards: source_fingerprint(module_of(wildcards.name)),
-    message:
-        "Table {wildcards.name}"
-    shell:
-        "pyrofit table --study {params.study} --digest {params.digest} --log {log}"
-        " --name {wildcards.name}"
+# One process makes all of a subject: to start one takes longer than to draw a figure.
+for _subject, _part in SUBJECTS.items():
+    _tables, _figures = _part.tables_of(study), _part.figures_of(study)
+    if not _tables and not _figures:
+        continue
 
-
-rule figure:
-    input:
-        CALCULATED,
-        MEASUREMENTS,
-    output:
-        svg=report(
-            ROOT / "figures/{name}.svg",
-            caption="../report/figure.rst",
-            category="Figures",
-            labels=lambda wildcards: {"figure": title_in(FIGURES, wildcards.name)},
-        ),
-        png=ROOT / "figures/{name}.png",
-    log:
-        log_of("figure_{name}"),
-    wildcard_constraints:
-        name="|".join(FIGURES),
-    params:
-        study=STUDY,
-        digest=digest(dependencies.presentation(study)),
-        caption=lambda wildcards: FIGURES[wildcards.name].caption,
-        source=lambda wildcards: source_fingerprint(module_of(wildcards.name)),
-    message:
-        "Figure {wildcards.name}"
-    shell:
-        "pyrofit figure --study {params.study} --digest {params.digest} --log {log}"
-        " --name {wildcards.name}"
+    rule:
+        name:
+            f"show_{_subject}"
+        input:
+            CALCULATED,
+            MEASUREMENTS,
+        output:
+            tables=[
+                reported(ROOT / f"tables/{name}.csv", "table", TABLES, name)
+                for name in _tables
+            ],
+            read=[ROOT / f"tables/{name}.md" for name in _tables],
+            figures=[
+                reported(ROOT / f"figures/{name}.svg", "figure", FIGURES, name)
+                for name in _figures
+            ],
+            drawn=[ROOT / f"figures/{name}.png" for name in _figures],
+        log:
+            log_of(f"show_{_subject}"),
+        params:
+            study=STUDY,
+            digest=digest(dependencies.presentation(study)),
+            subject=_subject,
+            shown={
+                **{title_in(TABLES, name): TABLES[name].note for name in _tables},
+                **{
+                    title_in(FIGURES, name): FIGURES[name].caption for name in _figures
+                },
+            },
+            source=source_fingerprint(*_part.modules),
+        message:
+            "Tables and figures, {params.subject}"
+        shell:
+            "pyrofit show --study {params.study} --digest {params.digest} --log {log}"
+            " --subject {params.subject}"
 
 
 rule report:

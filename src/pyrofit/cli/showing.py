@@ -9,10 +9,10 @@ from pyrofit.cli.common import add_step, open_study
 
 def add(commands: Any) -> None:
     """Add these commands."""
-    table = add_step(commands, "table", "write one table", _table)
-    table.add_argument("--name", required=True, help="name of the table")
-    figure = add_step(commands, "figure", "draw one figure", _figure)
-    figure.add_argument("--name", required=True, help="name of the figure")
+    shown = add_step(commands, "show", "write tables and figures", _show)
+    which = shown.add_mutually_exclusive_group(required=True)
+    which.add_argument("--subject", help="section of the report whose tables and figures to write")
+    which.add_argument("--name", nargs="+", help="names of tables and figures")
     add_step(commands, "report", "write report.html and provenance.json", _report)
     archive = add_step(
         commands, "archive", "put all of a study in one file, to be run again", _archive
@@ -22,18 +22,15 @@ def add(commands: Any) -> None:
     )
 
 
-def _table(given: argparse.Namespace) -> None:
+def _show(given: argparse.Namespace) -> None:
     from pyrofit.results import dependencies
-    from pyrofit.show.sections import make_table
+    from pyrofit.show.sections import make_named, make_subject
 
-    make_table(given.name, *open_study(given, dependencies.presentation))
-
-
-def _figure(given: argparse.Namespace) -> None:
-    from pyrofit.results import dependencies
-    from pyrofit.show.sections import make_figure
-
-    make_figure(given.name, *open_study(given, dependencies.presentation))
+    study, results = open_study(given, dependencies.presentation)
+    if given.subject is not None:
+        make_subject(given.subject, study, results)
+    for name in given.name or ():
+        make_named(name, study, results)
 
 
 def _report(given: argparse.Namespace) -> None:

@@ -43,6 +43,19 @@ class Section:
         places |= {name: figure.place for name, figure in self.figures.items()}
         return sorted(places, key=lambda name: places[name])
 
+    def tables_of(self, study: Study) -> list[str]:
+        """Return the names of the tables that a study has."""
+        return [name for name, table in self.tables.items() if table.applies(study)]
+
+    def figures_of(self, study: Study) -> list[str]:
+        """Return the names of the figures that a study has."""
+        return [name for name, figure in self.figures.items() if figure.applies(study)]
+
+    @property
+    def modules(self) -> list[str]:
+        """Full names of the modules that make its tables and figures."""
+        return sorted(f"{self.package}.{name}" for name in self.items)
+
 
 def section_of(
     package: str, folders: Sequence[str], anchor: str, heading: str, text: str, sentences: Sentences

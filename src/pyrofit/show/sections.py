@@ -29,18 +29,46 @@ SECTIONS: tuple[Section, ...] = (
     COSTS,
 )
 """The sections of the report, in its order."""
+SUBJECTS: dict[str, Section] = {part.anchor: part for part in (ANSWER, *SECTIONS)}
 TABLES: dict[str, Table] = {
-    name: table for part in (ANSWER, *SECTIONS) for name, table in part.tables.items()
+    name: table for part in SUBJECTS.values() for name, table in part.tables.items()
 }
 FIGURES: dict[str, Figure] = {
     name: figure for part in SECTIONS for name, figure in part.figures.items()
 }
 
 
-def module_of(name: str) -> str:
-    """Return the module that a table or figure is made by."""
-    (part,) = (part for part in (ANSWER, *SECTIONS) if name in part.items)
-    return f"{part.package}.{name}"
+def make_subject(subject: str, study: Study, results: Results) -> None:
+    """Write all tables and figures of a subject that the study has.
+
+    Raises
+    ------
+    StudyError
+        There is no such subject.
+    """
+    if subject not in SUBJECTS:
+        raise StudyError(f"unknown subject '{subject}'. {suggest(subject, SUBJECTS)}")
+    part = SUBJECTS[subject]
+    for name in part.tables_of(study):
+        make_table(name, study, results)
+    for name in part.figures_of(study):
+        make_figure(name, study, results)
+
+
+def make_named(name: str, study: Study, results: Results) -> None:
+    """Write the table or figure of a name.
+
+    Raises
+    ------
+    StudyError
+        There is none of this name, or the study does not have it.
+    """
+    if name not in TABLES and name not in FIGURES:
+        known = [*TABLES, *FIGURES]
+        raise StudyError(f"unknown table or figure '{name}'. {suggest(name, known)}")
+    for made, make in ((TABLES, make_table), (FIGURES, make_figure)):
+        if name in made:
+            make(name, study, results)
 
 
 def make_table(name: str, study: Study, results: Results) -> None:
@@ -49,10 +77,8 @@ def make_table(name: str, study: Study, results: Results) -> None:
     Raises
     ------
     StudyError
-        There is no such table, or the study does not have it.
+        The study does not have it.
     """
-    if name not in TABLES:
-        raise StudyError(f"unknown table '{name}'. {suggest(name, TABLES)}")
     table = TABLES[name]
     if not table.applies(study):
         raise StudyError(f"study '{study.name}' has no {name}: it lacks what the table shows")
@@ -66,10 +92,8 @@ def make_figure(name: str, study: Study, results: Results) -> None:
     Raises
     ------
     StudyError
-        There is no such figure, or the study does not have it.
+        The study does not have it.
     """
-    if name not in FIGURES:
-        raise StudyError(f"unknown figure '{name}'. {suggest(name, FIGURES)}")
     figure = FIGURES[name]
     if not figure.applies(study):
         raise StudyError(f"study '{study.name}' has no {name}: it lacks what the figure shows")
