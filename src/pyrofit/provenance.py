@@ -34,6 +34,7 @@ STUDY = (
             "compare",
             "robustness",
             "rescore",
+            "sensitivity",
             "scheme",
             "diagnose",
         )
@@ -57,6 +58,7 @@ CATALOGUES = (
             "rescore",
             "robustness",
             "scheme",
+            "sensitivity",
             "truth",
             "validation",
         )

@@ -68,6 +68,7 @@ rule report:
                 results.diagnosis("report.html"),
                 results.robustness("table.csv"),
                 results.rescored("valleys.svg"),
+                results.sensitivity("costs.svg"),
                 results.scheme("scheme.svg"),
             )
             if page.exists()

@@ -15,12 +15,26 @@ from pyrofit.cli import (
     macfp,
     rescoring,
     scheming,
+    sensing,
     showing,
     starting,
 )
 from pyrofit.cli.parser import Parser
 from pyrofit.errors import PyrofitError
 from pyrofit.logs import Tee, open_log
+
+_GROUPS = (
+    starting,
+    fitting,
+    rescoring,
+    sensing,
+    scheming,
+    diagnosing,
+    showing,
+    exchanging,
+    macfp,
+)
+"""Modules of the commands, in the order of the help."""
 
 
 def main(arguments: Sequence[str] | None = None) -> int:
@@ -80,7 +94,7 @@ def _interruptible() -> Iterator[None]:
 def _parser() -> argparse.ArgumentParser:
     parser = Parser(prog="pyrofit", description=__doc__)
     commands = parser.add_subparsers(dest="command", required=True, metavar="COMMAND")
-    for group in (starting, fitting, rescoring, scheming, diagnosing, showing, exchanging, macfp):
+    for group in _GROUPS:
         group.add(commands)
     parser.set_defaults(program=parser)
     return parser

@@ -218,6 +218,10 @@ class Results:
         """All that tells how other costs rank the stored sets."""
         return self.root / "rescore" / name
 
+    def sensitivity(self, name: str) -> Path:
+        """Shares of the variance of signals and costs by parameter."""
+        return self.root / "sensitivity" / name
+
     def robustness(self, name: str) -> Path:
         """Fits of all cost functions to twins of known truth."""
         return self.root / "robustness" / name

@@ -43,9 +43,10 @@ class Scorer:
         """Return the value of each cost, shape (sets, costs); not a number where a run fails."""
         outcomes = self.problem.simulate_all(sets)
         pairs = zip(sets, outcomes, strict=True)
-        return np.array([self._of(values, outcome) for values, outcome in pairs])
+        return np.array([self.of(values, outcome) for values, outcome in pairs])
 
-    def _of(self, values: FloatArray, outcome: Outcome) -> list[float]:
+    def of(self, values: FloatArray, outcome: Outcome) -> list[float]:
+        """Return the value of each cost for one set, from how its simulation ended."""
         status, models = outcome
         if not status.finished:
             return [np.nan] * len(self.measures)

@@ -1,0 +1,1 @@
+"""What signals and costs depend on, over time, a step of its own."""

@@ -1,0 +1,65 @@
+"""What varies, what the signals depend on, and what the costs see."""
+
+from typing import Any
+
+import pandas as pd
+
+from pyrofit.config import Study
+from pyrofit.results import sensitivity
+from pyrofit.results.files import Results, read_csv
+from pyrofit.show.sensitivity.facts import distribution, short, shown
+from pyrofit.show.table import Table, always
+
+
+def inputs(study: Study, results: Results) -> pd.DataFrame:
+    """List what varies, and the share of every signal's variance in which it takes part."""
+    found = sensitivity.read(study, results)
+    rows = []
+    for one in found.inputs:
+        row: dict[str, Any] = {
+            "input": short(found, one.name),
+            "what": one.label,
+            "kind": one.kind,
+            "distribution": distribution(one),
+            "unit": one.unit,
+        }
+        for signal in found.signals:
+            row[f"{signal.experiment} {signal.signal}"] = round(signal.total[one.name], 3)
+        rows.append(row)
+    return pd.DataFrame(rows)
+
+
+def costs(study: Study, results: Results) -> pd.DataFrame:
+    """List the total index of every cost with its interval, in words."""
+    found = sensitivity.read(study, results)
+    frame = read_csv(results.sensitivity(sensitivity.COSTS)).fillna(0.0)
+    rows = []
+    for cost in shown(found):
+        own = frame[frame["cost"] == cost.name].set_index("input")
+        row: dict[str, Any] = {"cost": cost.name}
+        for one in found.inputs:
+            total, low, high = own.loc[one.name, ["total", "total_low", "total_high"]]
+            row[short(found, one.name)] = f"{total:.2f} ({low:.2f} to {high:.2f})"
+        rows.append(row)
+    return pd.DataFrame(rows)
+
+
+TABLES = {
+    "inputs": Table(
+        place=10,
+        applies=always,
+        make=inputs,
+        title="What varies, and its part in the variance of the signals",
+        note="Part: total variance of an input over the record, divided by all variance. Parts add "
+        "up to more than 1 where inputs act in combination. 'Over that described': a factor, or a "
+        "difference where the unit is not '-'.",
+        headings={"what": "what it is"},
+    ),
+    "costs": Table(
+        place=20,
+        applies=always,
+        make=costs,
+        title="Total index of the costs",
+        note="With the 95 % interval of the bootstrap.",
+    ),
+}

@@ -1,0 +1,144 @@
+"""What signals and costs depend on: variance-based sensitivity, over time."""
+
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass
+
+import numpy as np
+
+from pyrofit.analysis import sobol
+from pyrofit.config import Study, TermSpec
+from pyrofit.errors import DataError
+from pyrofit.parallel import MOST_PIECES, parallel_map
+from pyrofit.results.files import Results
+from pyrofit.seeds import seed_for
+from pyrofit.solver.arrays import FloatArray, Values
+from pyrofit.stages.measurements import load
+from pyrofit.stages.rescore_measures import Measure, channels, measures_of
+from pyrofit.stages.rescore_scorer import AT_ONCE, Scorer, scorer_of
+from pyrofit.stages.sensitivity_inputs import Input, columns, inputs_of
+from pyrofit.stages.sensitivity_record import write_found
+
+SAMPLES = 1024
+"""Base points unless told otherwise."""
+MOST_TIMES = 120
+"""Times of a signal at which indices are computed."""
+LITERAL = "_literal"
+"""End of the names of costs that give nearly all sets the same value; they are left out."""
+Tell = Callable[[str], None]
+
+
+@dataclass(frozen=True, eq=False)
+class Sampler:
+    """Signals and costs of sets: every set is simulated once.
+
+    Parameters
+    ----------
+    scorer
+        Its first measure are the signals.
+    inputs
+        What varies.
+    at
+        Positions of the times that count, of each signal.
+    """
+
+    scorer: Scorer
+    inputs: Sequence[Input]
+    at: Sequence[FloatArray]
+
+    def outputs(self, points: FloatArray) -> FloatArray:
+        """Return signals, then costs, at points of the unit cube; no numbers of failed runs."""
+        problem = self.scorer.problem
+        varied = columns(self.inputs, points)
+        values: Values = {**problem.fixed, **varied}
+        sets = np.column_stack([varied[name] for name in problem.names])
+        rows = []
+        for own, outcome in zip(sets, problem.outcomes(values, len(points)), strict=True):
+            status, models = outcome
+            curves = [m[i] for m, i in zip(models, self.at, strict=False)]
+            if not status.finished:
+                curves = [np.full(len(i), np.nan) for i in self.at]
+            rows.append(np.concatenate([*curves, self.scorer.of(own, outcome)[1:]]))
+        return np.array(rows)
+
+
+def sensitivity(
+    study: Study,
+    results: Results,
+    tell: Tell,
+    within: str = "limits",
+    samples: int = SAMPLES,
+    cores: int = 1,
+) -> None:
+    """Compute Sobol's indices of all signals over time and of all costs; write ``sensitivity``.
+
+    Parameters
+    ----------
+    study, results
+        A study whose measurements are prepared and kinetics known.
+    tell
+        Told how many model calls are made.
+    within
+        'limits': estimated parameters are uniform over their limits; 'near': uniform over a fifth
+        of them about the estimates; 'intervals': normal about the estimates, with the standard
+        deviations of the analysis of the likelihood.
+    samples
+        Base points, a power of two.
+    cores
+        Processes.
+
+    Raises
+    ------
+    DataError
+        A result is missing, or no run finishes.
+    """
+    measurements = load(study, results)
+    known, left_out = measures_of(study, measurements)
+    measures = [m for m in known if m.name in study.imp.costs or not m.name.endswith(LITERAL)]
+    scorer, more = scorer_of(study, results, measurements, [_signals(study), *measures])
+    inputs, problem = inputs_of(study, results, scorer.problem, within)
+    sampler = Sampler(Scorer(problem, scorer.measures, scorer.likelihood), inputs, _times(scorer))
+    seed = seed_for(study.seed, "sensitivity")
+    points = sobol.design(samples, len(inputs), seed)
+    tell(f"sensitivity: {points[..., 0].size} model calls, {len(inputs)} inputs")
+    outputs, failed = sobol.filled(_sampled(sampler, points, cores), seed)
+    if failed == samples:
+        raise DataError(
+            f"{results.root}: of each point of the sample, a run does not finish; narrow the "
+            "limits of the parameters, or take more points with --samples"
+        )
+    about = {
+        "study": study.name,
+        "within": within,
+        "samples": samples,
+        "runs": int(points[..., 0].size),
+        "unfinished": failed,
+        "left_out": [*left_out, *more],
+    }
+    found = sobol.indices(outputs, seed)
+    write_found(study, results, about, sampler, outputs, found)
+
+
+def _signals(study: Study) -> Measure:
+    """Return all signals of the fitted experiments as terms, at all measured times."""
+    experiments = dict.fromkeys(c.experiment for c in channels(study))
+    pairs = [(e, s) for e in experiments for s in study.experiments[e].signals]
+    return Measure("", "", tuple(TermSpec(experiment=e, signal=s, kind="RMSE") for e, s in pairs))
+
+
+def _times(scorer: Scorer) -> list[FloatArray]:
+    found = []
+    for _, term in scorer.problem.cost.terms[: len(scorer.measures[0].terms)]:
+        last = term.target.time_s.size - 1
+        found.append(np.unique(np.linspace(0, last, min(last + 1, MOST_TIMES)).round().astype(int)))
+    return found
+
+
+def _sampled(sampler: Sampler, points: FloatArray, cores: int) -> FloatArray:
+    """Return the outputs, shape (samples, inputs + 2, outputs); processes do not change them."""
+    flat = points.reshape(-1, points.shape[-1])
+    size = max(AT_ONCE, -(-len(flat) // MOST_PIECES))
+    starts = range(0, len(flat), size)
+    pieces = parallel_map(
+        lambda i: sampler.outputs(flat[starts[i] : starts[i] + size]), len(starts), cores
+    )
+    return np.concatenate(pieces).reshape(*points.shape[:2], -1)

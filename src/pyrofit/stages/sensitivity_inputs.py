@@ -1,0 +1,235 @@
+"""What varies in a sensitivity analysis: estimated parameters, known values, the apparatus."""
+
+from collections.abc import Iterable, Mapping
+from dataclasses import dataclass, replace
+
+import numpy as np
+
+from pyrofit.config import Study, parameters_in
+from pyrofit.effects.base import changed, has_open_back
+from pyrofit.estimate.prior import within_known
+from pyrofit.estimate.problem import Problem
+from pyrofit.model.experiment import Experiment
+from pyrofit.model.slab import SlabExperiment
+from pyrofit.results.files import Results, read_csv
+from pyrofit.solver.arrays import FloatArray
+
+REACH = 3.0
+"""Standard deviations from the mean to the farthest value of a normal distribution."""
+NEAR = 0.1
+"""Half of the range about an estimate, of the limits' distance."""
+ESTIMATED, KNOWN, APPARATUS = "estimated", "known", "apparatus"
+EMISSIVITY_SD = 0.02
+"""Of a component whose emissivity is a number of the description."""
+
+
+@dataclass(frozen=True)
+class Place:
+    """A number of a slab's description that varies: its part and key, words, unit, sd."""
+
+    part: str
+    key: str
+    label: str
+    unit: str
+    sd: float
+
+
+PLACES = {
+    "flux": Place("front", "flux_factor", "flux over that described", "-", 0.03),
+    "thickness": Place("sample", "thickness_factor", "thickness over that described", "-", 0.02),
+    "h": Place("front", "h_change_W_m2K", "front's h over that described", "W/(m2 K)", 2.0),
+    "gas": Place("front", "gas_rise_K", "gas temperature over that described", "K", 10.0),
+    "start": Place("sample", "initial_temperature_K", "initial temperature", "K", 2.0),
+    "back_loss": Place("back", "loss_factor", "loss of the back over that described", "-", 0.1),
+}
+"""What the apparatus leaves uncertain unless the study tells, by the end of the input's name."""
+
+
+@dataclass(frozen=True)
+class Input:
+    """Something that varies, SI units: uniform between limits, or normal within them.
+
+    ``experiment`` is empty where it belongs to all of them; ``sd`` is none if it is uniform.
+    """
+
+    name: str
+    label: str
+    kind: str
+    unit: str
+    factor: float
+    low: float
+    high: float
+    mean: float
+    sd: float | None
+    source: str
+    experiment: str = ""
+
+    def at(self, u: FloatArray) -> FloatArray:
+        """Return the values of a uniform variable in [0, 1)."""
+        if self.sd is None:
+            return np.asarray(self.low + u * (self.high - self.low))
+        from scipy.special import ndtr, ndtri
+
+        ends = ndtr((np.array([self.low, self.high]) - self.mean) / self.sd)
+        drawn = self.mean + self.sd * ndtri(ends[0] + u * (ends[1] - ends[0]))
+        return np.asarray(np.clip(drawn, self.low, self.high))
+
+
+def inputs_of(
+    study: Study, results: Results, problem: Problem, within: str
+) -> tuple[list[Input], Problem]:
+    """Return what varies, and the problem with names in its places.
+
+    Parameters
+    ----------
+    study, results
+        The study.
+    problem
+        Its terms are all costs.
+    within
+        'limits': estimated parameters vary over their limits; 'near': over a fifth of them about
+        the estimates; 'intervals': as the data leave them.
+    """
+    named, apparatus = _apparatus(problem)
+    used = {
+        n for run in problem.runs.values() for n in parameters_in(problem.material, run.experiment)
+    }
+    estimated = {"limits": _within_limits, "near": _near, "intervals": _within_intervals}[within]
+    found = estimated(study, results, problem)
+    known = [n for n in study.known if n in used and n not in problem.names]
+    return [*found, *(_known(study, name) for name in known), *apparatus], named
+
+
+def _within_limits(study: Study, results: Results, problem: Problem) -> list[Input]:
+    searched = within_known(study, problem)
+    return [
+        _parameter(study, name, ESTIMATED, low, high, 0.5 * (low + high), None, "limits")
+        for name, low, high in zip(
+            searched.names, searched.lower.tolist(), searched.upper.tolist(), strict=True
+        )
+    ]
+
+
+def _near(study: Study, results: Results, problem: Problem) -> list[Input]:
+    """Return uniform distributions about the estimates, over a fifth of the limits' distance."""
+    searched = within_known(study, problem)
+    reach = NEAR * searched.span
+    found = []
+    for i, (name, (mean, _)) in enumerate(_estimates(results, problem).items()):
+        low = float(max(mean - reach[i], searched.lower[i]))
+        high = float(min(mean + reach[i], searched.upper[i]))
+        found.append(_parameter(study, name, ESTIMATED, low, high, mean, None, "about estimate"))
+    return found
+
+
+def _within_intervals(study: Study, results: Results, problem: Problem) -> list[Input]:
+    """Return normal distributions about the estimates, cut off at the limits."""
+    found = []
+    for i, (name, (mean, sd)) in enumerate(_estimates(results, problem).items()):
+        low = float(max(mean - REACH * sd, problem.lower[i]))
+        high = float(min(mean + REACH * sd, problem.upper[i]))
+        found.append(_parameter(study, name, ESTIMATED, low, high, mean, sd, "estimate"))
+    return found
+
+
+def _estimates(results: Results, problem: Problem) -> dict[str, tuple[float, float]]:
+    """Return estimate and standard deviation of the analysis of the likelihood, SI units."""
+    columns = {"parameter": object, "estimate": float, "sd": float}
+    frame = read_csv(
+        results.identification("estimate.csv"),
+        columns,
+        {("parameter",): [(name,) for name in problem.names]},
+    )
+    values = frame.set_index("parameter").loc[list(problem.names), ["estimate", "sd"]]
+    pairs = values.to_numpy(float).tolist()
+    return {name: (mean, sd) for name, (mean, sd) in zip(problem.names, pairs, strict=True)}
+
+
+def _known(study: Study, name: str) -> Input:
+    known, factor = study.known[name], study.parameters[name].factor
+    mean, sd = factor * known.value, factor * known.sd
+    source = known.source or "known value"
+    return _parameter(study, name, KNOWN, mean - REACH * sd, mean + REACH * sd, mean, sd, source)
+
+
+def _parameter(
+    study: Study,
+    name: str,
+    kind: str,
+    low: float,
+    high: float,
+    mean: float,
+    sd: float | None,
+    source: str,
+) -> Input:
+    p = study.parameters[name]
+    return Input(name, p.label or name, kind, p.unit, p.factor, low, high, mean, sd, source)
+
+
+def _apparatus(problem: Problem) -> tuple[Problem, list[Input]]:
+    """Return what is uncertain of slabs and of emissivities that are numbers, and its problem."""
+    runs, found = dict(problem.runs), list[Input]()
+    for name, run in problem.runs.items():
+        experiment = run.experiment
+        for key, place in PLACES.items():
+            if (value := _described(experiment, place)) is not None:
+                made = f"{name}_{key}"
+                part = getattr(experiment, place.part)
+                part = changed(part, **{place.key: made})
+                experiment = changed(experiment, **{place.part: part})
+                found.append(_uncertain(made, place, value, name))
+        runs[name] = replace(run, experiment=experiment)
+    components = dict(problem.material.components)
+    for name in sorted(problem.material.own if any(_slabs(problem)) else ()):
+        emissivity = components[name].emissivity
+        if isinstance(emissivity, float):
+            made = f"emissivity_{name}"
+            components[name] = changed(components[name], emissivity=made)
+            place = Place("", "", f"emissivity of {name}", "-", EMISSIVITY_SD)
+            found.append(_uncertain(made, place, emissivity, "", 0.0, 1.0))
+    material = changed(problem.material, components=components)
+    return replace(problem, runs=runs, material=material), found
+
+
+def _slabs(problem: Problem) -> Iterable[SlabExperiment]:
+    experiments = (run.experiment for run in problem.runs.values())
+    return [e for e in experiments if isinstance(e, SlabExperiment)]
+
+
+def _described(experiment: Experiment, place: Place) -> float | None:
+    """Return the number that is described, if it is one and matters."""
+    if not isinstance(experiment, SlabExperiment):
+        return None
+    if place.key == "loss_factor" and not has_open_back(experiment):
+        return None
+    value = getattr(getattr(experiment, place.part), place.key)
+    return value if isinstance(value, float) else None
+
+
+def _uncertain(
+    name: str,
+    place: Place,
+    value: float,
+    experiment: str,
+    least: float = -np.inf,
+    most: float = np.inf,
+) -> Input:
+    low, high = max(value - REACH * place.sd, least), min(value + REACH * place.sd, most)
+    return Input(
+        name=name,
+        label=place.label,
+        kind=APPARATUS,
+        unit=place.unit,
+        factor=1.0,
+        low=low,
+        high=high,
+        mean=value,
+        sd=place.sd,
+        source="default",
+        experiment=experiment,
+    )
+
+
+def columns(inputs: Iterable[Input], points: FloatArray) -> Mapping[str, FloatArray]:
+    """Return the values of all inputs, by name, at points of the unit cube (points, inputs)."""
+    return {one.name: one.at(points[:, i]) for i, one in enumerate(inputs)}

@@ -1,0 +1,162 @@
+"""What is kept of a sensitivity analysis: indices over time, of costs, and the record."""
+
+from collections.abc import Mapping
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+import pandas as pd
+
+from pyrofit.analysis.sobol import Indices
+from pyrofit.config import Study
+from pyrofit.results import sensitivity
+from pyrofit.results.files import Results, write_csv
+from pyrofit.solver.arrays import FloatArray
+from pyrofit.stages.rescore_measures import Measure
+from pyrofit.stages.rescore_scorer import Scorer
+
+if TYPE_CHECKING:
+    from pyrofit.stages.sensitivity import Sampler
+
+QUIET = 0.05
+"""A signal that varies by less, as a share of its largest standard deviation, counts as at rest."""
+BAND = (0.05, 0.95)
+"""Ends of the band of curves."""
+EQUAL = 1e-9
+"""Largest difference of indices of costs that differ by a factor."""
+
+
+def write_found(
+    study: Study,
+    results: Results,
+    about: Mapping[str, Any],
+    sampler: "Sampler",
+    outputs: FloatArray,
+    found: Indices,
+) -> None:
+    """Write indices of signals and costs, curves and the record.
+
+    Parameters
+    ----------
+    about
+        What is known of the sample.
+    sampler
+        Signals, costs and inputs.
+    outputs
+        Shape (samples, inputs + 2, outputs).
+    found
+        Their indices.
+    """
+    names = [one.name for one in sampler.inputs]
+    signals, curves, over_time, first = [], [], [], 0
+    for (experiment, signal), time, size in _signals(sampler):
+        part = slice(first, first + size)
+        first += size
+        values = outputs[:, :2, part].reshape(-1, size)
+        rest = values.std(axis=0) < QUIET * values.std(axis=0).max()
+        frame = _indices(found, part, names, {"time_s": time}, rest)
+        over_time.append(frame.assign(experiment=experiment, signal=signal))
+        curves.append(_curve(values, time).assign(experiment=experiment, signal=signal))
+        signals.append({"experiment": experiment, "signal": signal, **_most(frame, values, names)})
+    measures = sampler.scorer.measures[1:]
+    frame = _indices(found, slice(first, None), names, {"cost": [m.name for m in measures]})
+    write_csv(results.sensitivity(sensitivity.CURVES), pd.concat(curves, ignore_index=True))
+    write_csv(results.sensitivity(sensitivity.OVER_TIME), pd.concat(over_time, ignore_index=True))
+    write_csv(results.sensitivity(sensitivity.COSTS), frame)
+    content = {
+        **about,
+        "inputs": [_input(one) for one in sampler.inputs],
+        "signals": signals,
+        "costs": [_cost(study, sampler.scorer, m, frame) for m in measures],
+        "same": _same(frame),
+    }
+    sensitivity.write(results, content)
+
+
+def _signals(sampler: "Sampler") -> list[tuple[tuple[str, str], FloatArray, int]]:
+    """Return experiment and signal, times and number of them of each signal."""
+    terms = sampler.scorer.problem.cost.terms
+    return [
+        ((spec.experiment, spec.signal), term.target.time_s[at], len(at))
+        for spec, (_, term), at in zip(
+            sampler.scorer.measures[0].terms, terms, sampler.at, strict=False
+        )
+    ]
+
+
+def _indices(
+    found: Indices,
+    part: slice,
+    names: list[str],
+    by: Mapping[str, Any],
+    rest: Any = False,
+) -> pd.DataFrame:
+    """Return a tidy table of indices; no numbers where a signal rests."""
+    columns = {key: getattr(found, key)[part] for key in Indices.__annotations__}
+    (key, labels), count = next(iter(by.items())), len(names)
+    labels = np.asarray(labels)
+    frame = pd.DataFrame({key: np.repeat(labels, count), "input": names * len(labels)})
+    for column, values in columns.items():
+        kept = np.where(np.broadcast_to(rest, labels.shape)[:, None], np.nan, values)
+        frame[column] = kept.ravel()
+    return frame
+
+
+def _curve(values: FloatArray, time: FloatArray) -> pd.DataFrame:
+    low, high = np.quantile(values, BAND, axis=0)
+    mean, sd = values.mean(axis=0), values.std(axis=0)
+    return pd.DataFrame({"time_s": time, "mean": mean, "sd": sd, "low": low, "high": high})
+
+
+def _most(frame: pd.DataFrame, values: FloatArray, names: list[str]) -> dict[str, Any]:
+    """Return the largest index of each input over time, and its share of all variance.
+
+    The share is sum_t V(t) total(t) / sum_t V(t) (Lamboni et al. 2011,
+    doi 10.1016/j.ress.2010.09.002).
+    """
+    total = frame.pivot(index="time_s", columns="input", values="total")[names]
+    variance = values.var(axis=0)
+    counts = total.notna().all(axis=1).to_numpy()
+    shares = variance[counts] @ total[counts].to_numpy() / max(variance[counts].sum(), 1e-300)
+    largest = total.fillna(0.0).to_numpy()
+    times = total.index.to_numpy(float)[largest.argmax(axis=0)]
+    return {
+        "total": dict(zip(names, shares.tolist(), strict=True)),
+        "most": dict(zip(names, largest.max(axis=0).tolist(), strict=True)),
+        "most_at_s": dict(zip(names, times.tolist(), strict=True)),
+    }
+
+
+def _input(one: Any) -> dict[str, Any]:
+    scaled = {
+        key: None if (value := getattr(one, key)) is None else value / one.factor
+        for key in ("low", "high", "mean", "sd")
+    }
+    plain = {key: getattr(one, key) for key in ("name", "label", "kind", "experiment", "unit")}
+    return {**plain, **scaled, "source": one.source}
+
+
+def _cost(study: Study, scorer: Scorer, measure: Measure, frame: pd.DataFrame) -> dict[str, Any]:
+    own = frame[frame["cost"] == measure.name].fillna(0.0).set_index("input")
+    signals = {(t.experiment, t.signal) for t in measure.terms or study.imp.channels}
+    times = {t.options.get("time_s") for t in measure.terms}
+    return {
+        "name": measure.name,
+        "words": measure.words,
+        "own": measure.name in study.imp.costs,
+        "signals": [list(pair) for pair in sorted(signals)],
+        "at_s": times.pop() if len(times) == 1 else None,
+        "first": own["first"].to_dict(),
+        "total": own["total"].to_dict(),
+    }
+
+
+def _same(frame: pd.DataFrame) -> list[list[str]]:
+    """Return groups of costs with equal indices; the first of a group is shown."""
+    wide = frame.pivot(index="cost", columns="input", values="total").fillna(0.0)
+    groups: list[list[str]] = []
+    for name in dict.fromkeys(frame["cost"]):
+        row = wide.loc[name].to_numpy(float)
+        alike = (g for g in groups if np.max(np.abs(wide.loc[g[0]].to_numpy() - row)) < EQUAL)
+        group = next(alike, None)
+        groups.append([name]) if group is None else group.append(name)
+    return [group for group in groups if len(group) > 1]
