@@ -47,7 +47,9 @@ FILES = {
     "test_ready_timing": "solver",
     "test_rescore_stage": "solver",
     "test_robustness": "solver",
+    "test_sensitivity_stage": "solver",
     "test_slab_quantities": "solver",
+    "test_sobol": "slow",
     "test_stages": "solver",
     "test_unmeasured": "solver",
 }

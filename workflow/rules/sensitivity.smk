@@ -17,6 +17,7 @@ rule sensitivity:
                 "over_time.csv.gz",
                 "costs.csv",
                 "total.svg",
+                "apparatus.svg",
                 "first.svg",
                 "costs.svg",
             )
@@ -29,7 +30,9 @@ rule sensitivity:
     params:
         study=STUDY,
         digest=digest(sensitivity.slice_of(study)),
-        source=source_fingerprint("pyrofit.stages.sensitivity", "pyrofit.show.sensitivity_page"),
+        source=source_fingerprint(
+            "pyrofit.stages.sensitivity", "pyrofit.show.sensitivity_page"
+        ),
     message:
         "Sensitivity of signals over time and of costs"
     shell:

@@ -10,7 +10,7 @@ from pyrofit.show.sensitivity.tables import TABLES
 from pyrofit.show.table import read_table, write_table
 
 FOLDER = "sensitivity"
-ON_PAGE = ("total", "costs")
+ON_PAGE = ("total", "apparatus", "costs")
 """The figures of the report; all are in the folder."""
 
 

@@ -1,7 +1,6 @@
 """What signals and costs depend on: variance-based sensitivity, over time."""
 
-from collections.abc import Callable, Sequence
-from dataclasses import dataclass
+from collections.abc import Callable
 
 import numpy as np
 
@@ -11,12 +10,13 @@ from pyrofit.errors import DataError
 from pyrofit.parallel import MOST_PIECES, parallel_map
 from pyrofit.results.files import Results
 from pyrofit.seeds import seed_for
-from pyrofit.solver.arrays import FloatArray, Values
+from pyrofit.solver.arrays import FloatArray
 from pyrofit.stages.measurements import load
 from pyrofit.stages.rescore_measures import Measure, channels, measures_of
 from pyrofit.stages.rescore_scorer import AT_ONCE, Scorer, scorer_of
-from pyrofit.stages.sensitivity_inputs import Input, columns, inputs_of
+from pyrofit.stages.sensitivity_inputs import inputs_of
 from pyrofit.stages.sensitivity_record import write_found
+from pyrofit.stages.sensitivity_sampler import Sampler
 
 SAMPLES = 1024
 """Base points unless told otherwise."""
@@ -25,40 +25,6 @@ MOST_TIMES = 120
 LITERAL = "_literal"
 """End of the names of costs that give nearly all sets the same value; they are left out."""
 Tell = Callable[[str], None]
-
-
-@dataclass(frozen=True, eq=False)
-class Sampler:
-    """Signals and costs of sets: every set is simulated once.
-
-    Parameters
-    ----------
-    scorer
-        Its first measure are the signals.
-    inputs
-        What varies.
-    at
-        Positions of the times that count, of each signal.
-    """
-
-    scorer: Scorer
-    inputs: Sequence[Input]
-    at: Sequence[FloatArray]
-
-    def outputs(self, points: FloatArray) -> FloatArray:
-        """Return signals, then costs, at points of the unit cube; no numbers of failed runs."""
-        problem = self.scorer.problem
-        varied = columns(self.inputs, points)
-        values: Values = {**problem.fixed, **varied}
-        sets = np.column_stack([varied[name] for name in problem.names])
-        rows = []
-        for own, outcome in zip(sets, problem.outcomes(values, len(points)), strict=True):
-            status, models = outcome
-            curves = [m[i] for m, i in zip(models, self.at, strict=False)]
-            if not status.finished:
-                curves = [np.full(len(i), np.nan) for i in self.at]
-            rows.append(np.concatenate([*curves, self.scorer.of(own, outcome)[1:]]))
-        return np.array(rows)
 
 
 def sensitivity(

@@ -1,7 +1,7 @@
 """What is kept of a sensitivity analysis: indices over time, of costs, and the record."""
 
 from collections.abc import Mapping
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 import numpy as np
 import pandas as pd
@@ -13,9 +13,7 @@ from pyrofit.results.files import Results, write_csv
 from pyrofit.solver.arrays import FloatArray
 from pyrofit.stages.rescore_measures import Measure
 from pyrofit.stages.rescore_scorer import Scorer
-
-if TYPE_CHECKING:
-    from pyrofit.stages.sensitivity import Sampler
+from pyrofit.stages.sensitivity_sampler import Sampler
 
 QUIET = 0.05
 """A signal that varies by less, as a share of its largest standard deviation, counts as at rest."""
@@ -29,7 +27,7 @@ def write_found(
     study: Study,
     results: Results,
     about: Mapping[str, Any],
-    sampler: "Sampler",
+    sampler: Sampler,
     outputs: FloatArray,
     found: Indices,
 ) -> None:
@@ -72,7 +70,7 @@ def write_found(
     sensitivity.write(results, content)
 
 
-def _signals(sampler: "Sampler") -> list[tuple[tuple[str, str], FloatArray, int]]:
+def _signals(sampler: Sampler) -> list[tuple[tuple[str, str], FloatArray, int]]:
     """Return experiment and signal, times and number of them of each signal."""
     terms = sampler.scorer.problem.cost.terms
     return [

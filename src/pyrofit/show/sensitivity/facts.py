@@ -1,6 +1,6 @@
 """What tables, figures and sentences of the sensitivity share."""
 
-from collections.abc import Iterable
+from collections.abc import Iterable, Sequence
 
 import pandas as pd
 
@@ -38,11 +38,16 @@ def estimated(found: Sensitivity) -> list[str]:
     return [one.name for one in found.inputs if one.kind == "estimated"]
 
 
-def largest(found: Sensitivity) -> list[str]:
-    """Return the inputs with the largest share of the variance of some signal."""
-    share = {i.name: max(s.total[i.name] for s in found.signals) for i in found.inputs}
-    first = sorted(share, key=lambda name: -share[name])[:MOST_SHOWN]
-    return [one.name for one in found.inputs if one.name in first]
+def others(found: Sensitivity) -> list[str]:
+    """Return the names of what varies besides."""
+    return [one.name for one in found.inputs if one.kind != "estimated"]
+
+
+def largest(found: Sensitivity, names: Sequence[str], count: int = MOST_SHOWN) -> list[str]:
+    """Return those inputs with the largest index at some time, in their order."""
+    most = {name: max(s.most[name] for s in found.signals) for name in names}
+    first = sorted(names, key=lambda name: -most[name])[:count]
+    return [name for name in names if name in first]
 
 
 def over_time(results: Results, signal: OfSignal) -> pd.DataFrame:

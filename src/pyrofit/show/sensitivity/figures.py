@@ -1,5 +1,8 @@
 """Which input makes a signal vary at each time, and which cost sees which input."""
 
+from collections.abc import Callable, Sequence
+from typing import Any
+
 import numpy as np
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure as Canvas
@@ -10,16 +13,34 @@ from pyrofit.results.files import Results
 from pyrofit.results.sensitivity import OfSignal, Sensitivity
 from pyrofit.show import style, units
 from pyrofit.show.figure import Figure
-from pyrofit.show.sensitivity.facts import curve, largest, over_time, short, shown, words
+from pyrofit.show.sensitivity.facts import (
+    curve,
+    estimated,
+    largest,
+    others,
+    over_time,
+    short,
+    shown,
+    words,
+)
 from pyrofit.show.table import always
 
 HATCHES = ("", "////", "....", "\\\\\\\\", "xxxx", "----")
 
 
 def total(study: Study, results: Results) -> Canvas:
-    """Draw the total index of the inputs over time, with its interval."""
+    """Draw the total index of the estimated parameters over time, with its interval."""
+    return _total(study, results, estimated(sensitivity.read(study, results)))
+
+
+def apparatus(study: Study, results: Results) -> Canvas:
+    """Draw the same of what is not estimated."""
+    return _total(study, results, others(sensitivity.read(study, results)))
+
+
+def _total(study: Study, results: Results, among: Sequence[str]) -> Canvas:
     found = sensitivity.read(study, results)
-    names = largest(found)
+    names = largest(found, among)
 
     def draw(ax: Axes, signal: OfSignal) -> None:
         frame = over_time(results, signal)
@@ -43,48 +64,43 @@ def total(study: Study, results: Results) -> Canvas:
 def first(study: Study, results: Results) -> Canvas:
     """Draw the shares of the variance that inputs make alone, stacked, over time."""
     found = sensitivity.read(study, results)
-    names = largest(found)
+    rest = others(found)
+    names = largest(found, estimated(found), len(HATCHES) - 1)
 
     def draw(ax: Axes, signal: OfSignal) -> None:
         table = over_time(results, signal).pivot(index="time_s", columns="input", values="first")
-        shares = np.clip(table[names].to_numpy().T, 0.0, None)
+        parts = [*(table[name] for name in names), table[rest].sum(axis=1, skipna=False)]
+        shares = np.clip(np.array(parts), 0.0, None)
         shares /= np.maximum(shares.sum(axis=0), 1.0)
         ends = np.cumsum(np.vstack([np.zeros(len(table)), shares]), axis=0)
-        for i in range(len(names)):
-            ax.fill_between(
-                table.index,
-                ends[i],
-                ends[i + 1],
-                facecolor=style.colour(i),
-                alpha=0.55,
-                hatch=HATCHES[i],
-                edgecolor="white",
-                linewidth=0.3,
-            )
+        for i, look in enumerate(looks):
+            ax.fill_between(table.index, ends[i], ends[i + 1], **look)
         ax.fill_between(table.index, ends[-1], 1.0, facecolor="0.93", linewidth=0.0)
         ax.set_ylim(0.0, 1.0)
 
-    entries = [
-        style.patch(
-            short(found, name),
-            facecolor=style.colour(i),
-            alpha=0.55,
-            hatch=HATCHES[i],
-            edgecolor="white",
-        )
-        for i, name in enumerate(names)
+    faces = [*(style.colour(i) for i in range(len(names))), "0.45"]
+    hatches = [*HATCHES[: len(names)], HATCHES[-1]]
+    looks: list[dict[str, Any]] = [
+        {"facecolor": face, "hatch": hatch, "alpha": 0.6, "edgecolor": "white"}
+        for face, hatch in zip(faces, hatches, strict=True)
     ]
-    rest = style.patch("in combination, and others", facecolor="0.93")
+    labels = [*(short(found, name) for name in names), "what is not estimated"]
+    entries = [style.patch(label, **look) for label, look in zip(labels, looks, strict=True)]
     canvas = _panels(study, results, found, draw, "share of the variance [–]", mean=False)
-    style.legend_below(canvas, [*entries, rest])
+    together = style.patch("in combination", facecolor="0.93")
+    style.legend_below(canvas, [*entries, together])
     return canvas
 
 
 def _panels(
-    study: Study, results: Results, found: Sensitivity, draw: object, label: str, mean: bool = True
+    study: Study,
+    results: Results,
+    found: Sensitivity,
+    draw: Callable[[Axes, OfSignal], None],
+    label: str,
+    mean: bool = True,
 ) -> Canvas:
     """Draw a panel for every signal, with its mean curve over the sample."""
-    assert callable(draw)
     count = len(found.signals)
     canvas, axes = style.panels(count, 2, style.TWO_COLUMNS, 62.0)
     for ax, signal in zip(axes, found.signals, strict=True):
@@ -127,9 +143,9 @@ def costs(study: Study, results: Results) -> Canvas:
     ax.set_xticks(range(len(names)), labels, rotation=45, ha="right", rotation_mode="anchor")
     ax.set_yticks(range(len(rows)), [cost.name for cost in rows])
     ax.tick_params(length=0)
-    others = sum(one.kind == "estimated" for one in found.inputs)
-    if 0 < others < len(names):
-        ax.axvline(others - 0.5, color="white", linewidth=2.5)
+    count = len(estimated(found))
+    if count < len(names):
+        ax.axvline(count - 0.5, color="white", linewidth=2.5)
     canvas.colorbar(image, ax=ax, label="total index [–]", shrink=0.9)
     return canvas
 
@@ -139,10 +155,18 @@ FIGURES = {
         place=10,
         applies=always,
         make=total,
-        title="What the signals depend on over time",
-        caption="Total index of the inputs that matter most: share of the variance at a time in "
-        "which an input takes part, alone or in combination. Bands: 95 % intervals of the "
+        title="On which estimated parameters the signals depend",
+        caption="Total index of the parameters that matter most: share of the variance at a time "
+        "in which a parameter takes part, alone or in combination. Bands: 95 % intervals of the "
         "bootstrap. Grey: mean curve over the sample. Gaps: the signal hardly varies.",
+    ),
+    "apparatus": Figure(
+        place=15,
+        applies=always,
+        make=apparatus,
+        title="On which other values the signals depend",
+        caption="The same of known values and of the apparatus, which vary within their "
+        "uncertainty.",
     ),
     "first": Figure(
         place=20,
