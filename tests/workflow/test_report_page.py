@@ -74,6 +74,7 @@ async function main() {{
     const loaded = new Promise((resolve) => (frame.onload = resolve));
     document.body.append(frame);
     await loaded;
+    frame.contentDocument.querySelectorAll("details").forEach((one) => (one.open = true));
     await Promise.all([...frame.contentDocument.images].map((i) => i.decode().catch(() => {{}})));
     found[width] = {{ ...look(frame), ...use(frame) }};
   }}

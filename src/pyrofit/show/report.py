@@ -11,7 +11,7 @@ from pyrofit.show import (
     scheme_page,
     sensitivity_page,
 )
-from pyrofit.show.answer.advice import advice
+from pyrofit.show.answer import ANSWER
 from pyrofit.show.answer.summary import summary
 from pyrofit.show.facts import Facts, facts_of
 from pyrofit.show.names import titled
@@ -36,7 +36,10 @@ def write_report(study: Study, results: Results) -> None:
     measured = recorded.measured(study, results)
     tables = tables_of(study, results)
     facts = facts_of(study, results, tables)
-    answer = table_part(study, TABLES["answer"], tables["answer"], advice(study, facts))
+    answer = (
+        _pictures(ANSWER, study, results),
+        table_part(study, TABLES["answer"], tables["answer"]),
+    )
     shown = [one for part in SECTIONS if (one := _shown(part, study, results, facts))]
     # Scheme, other costs, sensitivity, diagnosis and the proof by FDS are steps of their own, which
     # a study may go without.
@@ -58,7 +61,7 @@ def write_report(study: Study, results: Results) -> None:
         lacks = found["verdict"]["words"]
         shown.append(diagnosis_page.section(study, results, found))
     said = summary(study, facts)
-    text = page_of(study, measured, study.title or study.name, said, shown, answer, lacks)
+    text = page_of(study, measured, study.title or study.name, said, shown, *answer, lacks)
     write_json(results.root / "provenance.json", made)
     write_text(results.root / "report.html", text)
 
@@ -74,10 +77,8 @@ def _shown(section: Section, study: Study, results: Results, facts: Facts) -> Sh
     for name in section.items:
         if name in facts.tables:
             parts.append(table_part(study, section.tables[name], facts.tables[name]))
-        elif name in section.figures and section.figures[name].applies(study):
-            figure, path = section.figures[name], results.root / "figures" / f"{name}.svg"
-            title = titled(study, figure.title, figure.paper)
-            parts.append(picture(path, name, title, figure.caption))
+        elif name in section.figures:
+            parts += _pictures(section, study, results, name)
     if not parts:
         return None
     said = section.sentences(study, facts)
@@ -85,6 +86,19 @@ def _shown(section: Section, study: Study, results: Results, facts: Facts) -> Sh
     if section.anchor == "costs" and results.robustness("table.csv").is_file():
         parts += _robustness(study, results)
     return Shown(section.anchor, section.heading, section.text, tuple(parts), tuple(said))
+
+
+def _pictures(
+    section: Section, study: Study, results: Results, only: str | None = None
+) -> list[Picture]:
+    """Return the figures of a section that the study has, or the one of a name."""
+    names = section.figures_of(study)
+    found = []
+    for name in names if only is None else [n for n in names if n == only]:
+        figure, path = section.figures[name], results.root / "figures" / f"{name}.svg"
+        title = titled(study, figure.title, figure.paper)
+        found.append(picture(path, name, title, figure.caption))
+    return found
 
 
 def _robustness(study: Study, results: Results) -> list[Part | Picture]:

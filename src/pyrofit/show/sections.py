@@ -34,7 +34,7 @@ TABLES: dict[str, Table] = {
     name: table for part in SUBJECTS.values() for name, table in part.tables.items()
 }
 FIGURES: dict[str, Figure] = {
-    name: figure for part in SECTIONS for name, figure in part.figures.items()
+    name: figure for part in SUBJECTS.values() for name, figure in part.figures.items()
 }
 
 

@@ -39,7 +39,9 @@ def answer(study: Study, results: Results) -> pd.DataFrame:
 
 
 def _row(study: Study, e: Estimated) -> dict[str, Any]:
-    row: dict[str, Any] = {"fit": STAGES[e.stage], "parameter": e.name, "unit": e.unit}
+    row: dict[str, Any] = {"fit": STAGES[e.stage], "parameter": e.name}
+    # A column that is empty for all parameters is not shown.
+    row |= {"name": study.parameters[e.name].label or None, "unit": e.unit}
     row |= {"estimate": e.value, "low": e.low, "high": e.high}
     return row if study.synthetic is None else {**row, "truth": study.synthetic.truth.get(e.name)}
 

@@ -14,7 +14,7 @@ from pyrofit.provenance import environment
 from pyrofit.results.code_digests import code
 from pyrofit.results.recorded import Measured
 from pyrofit.show import measured as measurements
-from pyrofit.show.parts import Part, Shown
+from pyrofit.show.parts import Part, Picture, Shown
 from pyrofit.show.text import typeset
 
 
@@ -24,13 +24,14 @@ def page_of(
     title: str,
     summary: Sequence[str],
     sections: Sequence[Shown],
+    pictures: Sequence[Picture] = (),
     answer: Part | None = None,
     lacks: str = "",
 ) -> str:
     """Return a page as HTML: sentences of the summary, the data, sections, provenance.
 
-    ``answer`` is a table that ends the summary, ``lacks`` says what the model lacks; either is left
-    out where there is none.
+    ``pictures`` and the table ``answer`` end the summary, ``lacks`` names the missing effects; each
+    is left out where there is none.
     """
     template = _templates().get_template("report.html.j2")
     return template.render(
@@ -39,6 +40,7 @@ def page_of(
         summary=summary,
         series=measurements.series(study, measured),
         notes=measurements.notes(study, measured.about),
+        pictures=pictures,
         answer=answer,
         lacks=lacks,
         costs=list(study.imp.costs),
