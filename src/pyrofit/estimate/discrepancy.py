@@ -1,0 +1,208 @@
+"""What a model lacks, as a random curve: its covariance, estimated from the best fit's residuals.
+
+y = f(x) + delta + e. A discrepancy (Kennedy and O'Hagan 2001, doi 10.1111/1467-9868.00294) is made
+of relative errors of level and of time, and of an offset:
+
+    delta(t) = a(t) (f - f_0) + b(t) t df/dt + c(t) range(f),
+    cov(a, a') = s_a^2 exp(-|t - t'| / (l t_half)),  b and c likewise with s_b and s_c.
+
+s_a, s_b, s_c and l have no unit; so they can be carried over to an experiment that was not fitted.
+They have the highest restricted likelihood, which allows for what the parameters take from the
+residuals r: with S = N + D, J = d f / d x, and limits and known values as rows K,
+
+    -2 log L = log det S + log det M + r^T S^-1 r - b^T M^-1 b,
+    M = J^T S^-1 J + K^T K + 12 I,    b = J^T S^-1 r.
+"""
+
+from collections.abc import Sequence
+from dataclasses import dataclass, replace
+
+import numpy as np
+
+from pyrofit.estimate.likelihood import Likelihood
+from pyrofit.estimate.noise import NoiseModel
+from pyrofit.estimate.posterior import UNIFORM
+from pyrofit.solver.arrays import FloatArray
+
+MOST_POINTS = 200
+"""Points of a series from which a discrepancy is estimated, evenly taken: it lasts over many."""
+USUAL = np.log([0.01, 0.01, 0.01, 0.2])
+"""Middle of what is expected of s_a, s_b, s_c and l, as logarithms ..."""
+SPREAD = np.array([2.0, 2.0, 2.0, 0.8])
+"""... and its standard deviations, wide: they keep a size that the data do not tell finite."""
+LIMITS = np.log([[1e-5, 1e-5, 1e-5, 0.02], [0.5, 0.5, 0.5, 2.0]])
+SWEEPS = 3
+"""How often all channels are gone through."""
+JITTER = 1e-10
+"""Added to the diagonal, relative to the largest variance, so that a factor exists."""
+
+
+@dataclass(frozen=True)
+class Discrepancy:
+    """Relative sizes of the errors of level and time and of the offset, and how long they last.
+
+    ``lasting`` counts in half times of the curve: when half of all its ups and downs have passed.
+    """
+
+    level: float
+    time: float
+    offset: float
+    lasting: float
+
+    def covariance(self, time: FloatArray, curve: FloatArray) -> FloatArray:
+        """Return D of a simulated curve at some times [s], shape (points, points)."""
+        return np.asarray(_basis(time, curve, self.lasting) @ self._squares)
+
+    @property
+    def _squares(self) -> FloatArray:
+        return np.square([self.level, self.time, self.offset])
+
+    def factor(self, time: FloatArray, curve: FloatArray) -> FloatArray:
+        """Return F with F F^T = D, shape (points, points)."""
+        return factor_of(self.covariance(time, curve))
+
+
+def half_time(time: FloatArray, curve: FloatArray) -> float:
+    """Return when half of all ups and downs of a curve have passed [s].
+
+    >>> half_time(np.array([0.0, 1.0, 2.0, 3.0]), np.array([0.0, 1.0, 3.0, 4.0]))
+    1.5
+    """
+    way = np.concatenate([[0.0], np.cumsum(np.abs(np.diff(curve)))])
+    if way[-1] <= 0.0:
+        return float(0.5 * time[-1])
+    return float(np.interp(0.5 * way[-1], way, time))
+
+
+def _basis(time: FloatArray, curve: FloatArray, lasting: float) -> FloatArray:
+    """Return the covariance of each part for a size of 1, shape (points, points, 3)."""
+    scale = lasting * max(half_time(time, curve), 1e-9)
+    kernel = np.exp(-np.abs(np.subtract.outer(time, time)) / scale)
+    shapes = (
+        curve - curve[0],
+        time * np.gradient(curve, time),
+        np.full(curve.size, np.ptp(curve)),
+    )
+    return np.stack([kernel * np.outer(g, g) for g in shapes], axis=2)
+
+
+def factor_of(covariance: FloatArray) -> FloatArray:
+    """Return the Cholesky factor of a covariance that may be singular."""
+    size = float(np.max(np.diag(covariance)))
+    return np.linalg.cholesky(covariance + (JITTER * size + 1e-300) * np.eye(len(covariance)))
+
+
+def noise_covariance(noise: NoiseModel) -> FloatArray:
+    """Return N of a channel: with w = A r white, N = (A^T A)^-1."""
+    whitening = noise.whiten(np.eye(noise.sd.size))
+    return np.asarray(np.linalg.inv(whitening.T @ whitening))
+
+
+def with_discrepancy(
+    likelihood: Likelihood, found: Sequence[Discrepancy], curves: FloatArray
+) -> Likelihood:
+    """Return the likelihood with discrepancies of some simulated curves in its covariance."""
+    widened = []
+    for noise, of, time, curve in zip(
+        likelihood.noise, found, times(likelihood), likelihood.split(curves), strict=True
+    ):
+        modes = of.factor(time, curve)
+        known = [] if noise.modes is None else [noise.modes]
+        widened.append(replace(noise, modes=np.column_stack([*known, modes])))
+    return replace(likelihood, noise=tuple(widened))
+
+
+def times(likelihood: Likelihood) -> list[FloatArray]:
+    """Return the times of each channel [s]."""
+    return [term.target.time_s for _, term in likelihood.problem.cost.terms]
+
+
+def estimated(
+    likelihood: Likelihood, x: FloatArray, slopes: FloatArray, curves: FloatArray
+) -> tuple[Discrepancy, ...]:
+    """Estimate the discrepancy of each channel from the residuals at x.
+
+    Parameters
+    ----------
+    likelihood
+        With the noise alone.
+    x
+        Optimum, in distances of the limits.
+    slopes, curves
+        d curves / d x and the curves there, shapes (points, parameters) and (points,).
+    """
+    measured = np.concatenate([t.target.value for _, t in likelihood.problem.cost.terms])
+    parts = zip(
+        likelihood.noise,
+        times(likelihood),
+        likelihood.split(curves),
+        likelihood.split(slopes),
+        likelihood.split(measured - curves),
+        strict=True,
+    )
+    channels = [_Channel(*part) for part in parts]
+    known = likelihood.prior.slopes(likelihood.problem.span)
+    ahead = known.T @ known + UNIFORM * np.eye(x.size)
+    logs = [USUAL.copy() for _ in channels]
+    sums = [channel.sums(log) for channel, log in zip(channels, logs, strict=True)]
+    for _ in range(SWEEPS):
+        for k, channel in enumerate(channels):
+            others = [own for i, own in enumerate(sums) if i != k]
+            M = ahead + sum((own[0] for own in others), np.zeros_like(ahead))
+            b = sum((own[1] for own in others), np.zeros(x.size))
+            logs[k] = channel.likeliest(M, b, logs[k])
+            sums[k] = channel.sums(logs[k])
+    return tuple(Discrepancy(*np.exp(log).tolist()) for log in logs)
+
+
+Sums = tuple[FloatArray, FloatArray, float]
+"""J^T S^-1 J, J^T S^-1 r, and r^T S^-1 r + log det S of a channel."""
+
+
+class _Channel:
+    """Residuals of a channel at few points, and their covariance."""
+
+    def __init__(
+        self,
+        noise: NoiseModel,
+        time: FloatArray,
+        curve: FloatArray,
+        slopes: FloatArray,
+        residual: FloatArray,
+    ) -> None:
+        few = slice(None, None, max(1, -(-time.size // MOST_POINTS)))
+        self.noise = noise_covariance(noise)[few, few]
+        self.rows = np.column_stack([slopes, residual])[few]
+        self.time, self.curve, self.few = time, curve, few
+        self.bases: dict[float, FloatArray] = {}
+
+    def _basis(self, lasting: float) -> FloatArray:
+        whole = _basis(self.time, self.curve, lasting)
+        return np.asarray(whole[self.few, self.few])
+
+    def sums(self, log: FloatArray) -> Sums:
+        """Return the sums for logarithms of sizes and lasting."""
+        from scipy.linalg import solve_triangular
+
+        *sizes, lasting = np.exp(log)
+        S = self.noise + self._basis(float(lasting)) @ np.square(sizes)
+        factor = np.linalg.cholesky(S)
+        white = solve_triangular(factor, self.rows, lower=True, check_finite=False)
+        J, r = white[:, :-1], white[:, -1]
+        return J.T @ J, J.T @ r, float(r @ r + 2.0 * np.sum(np.log(np.diag(factor))))
+
+    def likeliest(self, M: FloatArray, b: FloatArray, start: FloatArray) -> FloatArray:
+        """Return the logarithms of the highest restricted likelihood."""
+        from scipy.optimize import minimize
+
+        def criterion(log: FloatArray) -> float:
+            inside = np.clip(log, *LIMITS)
+            JJ, Jr, rr = self.sums(inside)
+            whole, part = M + JJ, b + Jr
+            _, log_det = np.linalg.slogdet(whole)
+            expected = float(np.sum(((log - USUAL) / SPREAD) ** 2))
+            return log_det + rr - float(part @ np.linalg.solve(whole, part)) + expected
+
+        options = {"xatol": 0.03, "fatol": 0.03, "maxfev": 400}
+        found = minimize(criterion, start, method="Nelder-Mead", options=options)
+        return np.asarray(np.clip(found.x, *LIMITS))

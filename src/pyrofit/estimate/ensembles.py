@@ -1,0 +1,184 @@
+"""Draws from the posterior by independent ensembles of walkers, all walkers simulated side by side.
+
+emcee (Foreman-Mackey et al. 2013, doi 10.1086/670067) moves one half of an ensemble by differences
+of the other half (ter Braak 2006, doi 10.1007/s11222-006-8769-1): no derivatives are needed, and
+the runs of a half are independent. A fifth of the moves is snooker (ter Braak and Vrugt 2008,
+doi 10.1007/s11222-008-9104-9), which goes through the ensemble's far ends.
+"""
+
+from collections.abc import Callable
+from dataclasses import dataclass
+
+import numpy as np
+
+from pyrofit.estimate.convergence import ENOUGH_TIMES, ESS, RHAT, autocorrelation_times, rhat
+from pyrofit.estimate.likelihood import Likelihood
+from pyrofit.parallel import parallel_map
+from pyrofit.seeds import seed_for
+from pyrofit.solver.arrays import FloatArray
+
+ENSEMBLES = 4
+LEAST_WALKERS = 24
+PER_PARAMETER = 4
+"""Walkers per parameter."""
+CHUNK = 100
+"""Steps between two looks at convergence."""
+MOST_STEPS = 3000
+"""Steps at most, unless told otherwise."""
+LEFT_OUT = 1.0 / 3.0
+"""Share of the steps, the first ones, that depends on where walkers start."""
+WIDER = 1.5
+"""Walkers start wider than the parabola by this factor, so that R-hat can tell."""
+SNOOKER = 0.2
+Tell = Callable[[str], None]
+State = tuple[FloatArray, FloatArray | None, tuple[object, ...]]
+"""Walkers, their log density if it is known, and the state of the random numbers."""
+
+
+@dataclass(frozen=True, eq=False)
+class Drawn:
+    """The draws that count, and how far to trust them.
+
+    Parameters
+    ----------
+    samples
+        x of each draw, shape (ensembles, steps, walkers, parameters).
+    steps
+        Steps of each ensemble, with those left out.
+    calls
+        Parameter sets proposed.
+    accepted
+        Share of the proposals that was taken.
+    """
+
+    samples: FloatArray
+    steps: int
+    calls: int
+    accepted: float
+
+    @property
+    def flat(self) -> FloatArray:
+        """All draws, shape (draws, parameters)."""
+        return self.samples.reshape(-1, self.samples.shape[-1])
+
+    @property
+    def rhat(self) -> FloatArray:
+        """R-hat of each parameter."""
+        return np.array([rhat(self.samples[..., i]) for i in range(self.samples.shape[-1])])
+
+    @property
+    def times(self) -> FloatArray:
+        """Autocorrelation time of each parameter in steps."""
+        return autocorrelation_times(self.samples)
+
+    @property
+    def ess(self) -> FloatArray:
+        """Effective sample size of each parameter."""
+        return self.samples[..., 0].size / self.times
+
+    @property
+    def converged(self) -> bool:
+        """Whether ensembles agree, are large enough, and long enough to tell so."""
+        times = self.times
+        long = self.samples.shape[1] >= ENOUGH_TIMES * float(np.max(times))
+        return long and bool(np.all(self.rhat < RHAT) and np.all(self.ess > ESS))
+
+
+def log_density(likelihood: Likelihood, X: FloatArray) -> FloatArray:
+    """Return -chi2/2 of several sets, shape (sets,); -inf outside the limits and of failed runs."""
+    found = np.full(len(X), -np.inf)
+    inside = np.flatnonzero(np.all((X >= 0.0) & (X <= 1.0), axis=1))
+    if inside.size:
+        for i, rows in zip(inside, likelihood.residuals_all(X[inside]), strict=True):
+            if likelihood.finished(rows):
+                found[i] = -0.5 * float(rows @ rows)
+    return found
+
+
+def draw(
+    likelihood: Likelihood,
+    x: FloatArray,
+    covariance: FloatArray,
+    seed: int,
+    cores: int = 1,
+    most_steps: int = MOST_STEPS,
+    tell: Tell = lambda text: None,
+) -> Drawn:
+    """Draw from exp(-chi2/2) within the limits until the ensembles agree, or to the most steps.
+
+    Parameters
+    ----------
+    likelihood
+        chi-square, known values included.
+    x, covariance
+        Optimum and covariance about it, from which walkers start, in distances of the limits.
+    seed
+        The draws are a function of it alone, not of the number of processes.
+    cores
+        Processes, each of which takes whole ensembles.
+    most_steps
+        Where an ensemble ends that does not converge.
+    tell
+        Told what has been reached.
+    """
+    states = [_start(x, covariance, seed_for(seed, "posterior", i)) for i in range(ENSEMBLES)]
+    parts: list[FloatArray] = []
+    accepted, steps = 0.0, 0
+    while True:
+        chunk = min(CHUNK, most_steps - steps)
+        moved = parallel_map(
+            lambda i, n=chunk: _advance(likelihood, states[i], n),  # type: ignore[misc]
+            ENSEMBLES,
+            cores,
+        )
+        states = [state for state, _, _ in moved]
+        parts.append(np.stack([chain for _, chain, _ in moved]))
+        accepted += float(np.mean([share for _, _, share in moved])) * chunk
+        steps += chunk
+        samples = np.concatenate(parts, axis=1)[:, int(LEFT_OUT * steps) :]
+        calls = ENSEMBLES * samples.shape[2] * (steps + 1)
+        found = Drawn(samples, steps, calls, accepted / steps)
+        tell(_reached(found))
+        if steps >= most_steps or found.converged:
+            return found
+
+
+def _reached(found: Drawn) -> str:
+    return (
+        f"{found.steps} steps, {found.calls} calls: R-hat at most {np.max(found.rhat):.3f}, "
+        f"effective sample size at least {np.min(found.ess):.0f}"
+    )
+
+
+def walkers_of(parameters: int) -> int:
+    """Return the number of walkers of an ensemble, an even one."""
+    return max(LEAST_WALKERS, 2 * (PER_PARAMETER * parameters // 2))
+
+
+def _start(x: FloatArray, covariance: FloatArray, seed: int) -> State:
+    """Return walkers about the optimum; those beyond a limit are mirrored at it."""
+    random = np.random.RandomState(seed)
+    factor = np.linalg.cholesky(covariance)
+    z = random.standard_normal((walkers_of(x.size), x.size))
+    beyond = np.mod(x + WIDER * z @ factor.T, 2.0)
+    return np.where(beyond > 1.0, 2.0 - beyond, beyond), None, random.get_state(legacy=True)
+
+
+def _advance(likelihood: Likelihood, state: State, steps: int) -> tuple[State, FloatArray, float]:
+    """Return an ensemble after some steps, its chain (steps, walkers, parameters), acceptance."""
+    import emcee
+
+    walkers, density, random = state
+    sampler = emcee.EnsembleSampler(
+        *walkers.shape,
+        lambda X: log_density(likelihood, X),
+        vectorize=True,
+        moves=[
+            (emcee.moves.DEMove(), 1.0 - SNOOKER),
+            (emcee.moves.DESnookerMove(), SNOOKER),
+        ],
+    )
+    begin = emcee.State(walkers, log_prob=density, random_state=random)
+    end = sampler.run_mcmc(begin, steps, skip_initial_state_check=True)
+    after = (np.array(end.coords), np.array(end.log_prob), end.random_state)
+    return after, np.array(sampler.get_chain()), float(np.mean(sampler.acceptance_fraction))
