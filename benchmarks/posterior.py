@@ -2,8 +2,8 @@
 
     python benchmarks/posterior.py OUTPUT.csv --first 0 --twins 10 --kinds right wrong
 
-A twin is fitted at 25 kW/m2 and predicted at 60 kW/m2. Its truth comes from the reference solver: with
-the fitted model ('right'), or with an effect that this model lacks.
+A twin is fitted at 25 kW/m2 and predicted at 60 kW/m2. Its truth comes from the reference solver:
+with the fitted model ('right'), or with an effect that this model lacks.
 """
 
 import argparse
@@ -169,7 +169,9 @@ def main() -> None:
     parser.add_argument("output", type=Path)
     parser.add_argument("--twins", type=int, default=10, help="of each kind")
     parser.add_argument("--first", type=int, default=0)
-    parser.add_argument("--kinds", nargs="+", default=["right", "wrong"], choices=[*LACKING, "wrong"])
+    parser.add_argument(
+        "--kinds", nargs="+", default=["right", "wrong"], choices=[*LACKING, "wrong"]
+    )
     given = parser.parse_args()
     rows: list[dict[str, object]] = []
     for number in range(given.first, given.first + given.twins):

@@ -35,6 +35,7 @@ STUDY = (
             "robustness",
             "rescore",
             "sensitivity",
+            "posterior",
             "scheme",
             "diagnose",
         )
@@ -55,6 +56,7 @@ CATALOGUES = (
             "identification",
             "kinetics",
             "optimisers",
+            "posterior",
             "rescore",
             "robustness",
             "scheme",

@@ -69,6 +69,7 @@ rule report:
                 results.robustness("table.csv"),
                 results.rescored("valleys.svg"),
                 results.sensitivity("costs.svg"),
+                results.posterior("parameters.svg"),
                 results.scheme("scheme.svg"),
             )
             if page.exists()

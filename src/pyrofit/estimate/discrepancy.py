@@ -83,13 +83,14 @@ def _basis(time: FloatArray, curve: FloatArray, lasting: float) -> FloatArray:
         time * np.gradient(curve, time),
         np.full(curve.size, np.ptp(curve)),
     )
-    return np.stack([kernel * np.outer(g, g) for g in shapes], axis=2)
+    return np.asarray(np.stack([kernel * np.outer(g, g) for g in shapes], axis=2))
 
 
 def factor_of(covariance: FloatArray) -> FloatArray:
     """Return the Cholesky factor of a covariance that may be singular."""
     size = float(np.max(np.diag(covariance)))
-    return np.linalg.cholesky(covariance + (JITTER * size + 1e-300) * np.eye(len(covariance)))
+    raised = covariance + (JITTER * size + 1e-300) * np.eye(len(covariance))
+    return np.asarray(np.linalg.cholesky(raised))
 
 
 def noise_covariance(noise: NoiseModel) -> FloatArray:
@@ -201,7 +202,7 @@ class _Channel:
             whole, part = M + JJ, b + Jr
             _, log_det = np.linalg.slogdet(whole)
             expected = float(np.sum(((log - USUAL) / SPREAD) ** 2))
-            return log_det + rr - float(part @ np.linalg.solve(whole, part)) + expected
+            return float(log_det + rr - part @ np.linalg.solve(whole, part)) + expected
 
         options = {"xatol": 0.03, "fatol": 0.03, "maxfev": 400}
         found = minimize(criterion, start, method="Nelder-Mead", options=options)

@@ -6,8 +6,10 @@ the runs of a half are independent. A fifth of the moves is snooker (ter Braak a
 doi 10.1007/s11222-008-9104-9), which goes through the ensemble's far ends.
 """
 
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass
+from functools import partial
+from typing import Any
 
 import numpy as np
 
@@ -31,7 +33,7 @@ WIDER = 1.5
 """Walkers start wider than the parabola by this factor, so that R-hat can tell."""
 SNOOKER = 0.2
 Tell = Callable[[str], None]
-State = tuple[FloatArray, FloatArray | None, tuple[object, ...]]
+State = tuple[FloatArray, FloatArray | None, Any]
 """Walkers, their log density if it is known, and the state of the random numbers."""
 
 
@@ -126,11 +128,7 @@ def draw(
     accepted, steps = 0.0, 0
     while True:
         chunk = min(CHUNK, most_steps - steps)
-        moved = parallel_map(
-            lambda i, n=chunk: _advance(likelihood, states[i], n),  # type: ignore[misc]
-            ENSEMBLES,
-            cores,
-        )
+        moved = parallel_map(partial(_advance, likelihood, states, chunk), ENSEMBLES, cores)
         states = [state for state, _, _ in moved]
         parts.append(np.stack([chain for _, chain, _ in moved]))
         accepted += float(np.mean([share for _, _, share in moved])) * chunk
@@ -161,14 +159,17 @@ def _start(x: FloatArray, covariance: FloatArray, seed: int) -> State:
     factor = np.linalg.cholesky(covariance)
     z = random.standard_normal((walkers_of(x.size), x.size))
     beyond = np.mod(x + WIDER * z @ factor.T, 2.0)
-    return np.where(beyond > 1.0, 2.0 - beyond, beyond), None, random.get_state(legacy=True)
+    inside = np.asarray(np.where(beyond > 1.0, 2.0 - beyond, beyond))
+    return inside, None, random.get_state(legacy=True)
 
 
-def _advance(likelihood: Likelihood, state: State, steps: int) -> tuple[State, FloatArray, float]:
-    """Return an ensemble after some steps, its chain (steps, walkers, parameters), acceptance."""
-    import emcee
+def _advance(
+    likelihood: Likelihood, states: Sequence[State], steps: int, i: int
+) -> tuple[State, FloatArray, float]:
+    """Return ensemble i after some steps, its chain (steps, walkers, parameters), acceptance."""
+    import emcee  # a tenth of a second that other steps save
 
-    walkers, density, random = state
+    walkers, density, random = states[i]
     sampler = emcee.EnsembleSampler(
         *walkers.shape,
         lambda X: log_density(likelihood, X),

@@ -108,4 +108,5 @@ def _exceeded(chi2: float, freedom: float) -> float:
 def spread(drawn: Drawn, count: int) -> FloatArray:
     """Return some draws evenly over steps, walkers and ensembles, shape (count, parameters)."""
     flat = drawn.flat
-    return flat[np.linspace(0, len(flat) - 1, min(count, len(flat))).round().astype(int)]
+    chosen = np.linspace(0, len(flat) - 1, min(count, len(flat))).round().astype(int)
+    return np.asarray(flat[chosen])

@@ -222,6 +222,10 @@ class Results:
         """Shares of the variance of signals and costs by parameter."""
         return self.root / "sensitivity" / name
 
+    def posterior(self, name: str) -> Path:
+        """Draws of the parameters, the ensemble, and bands of predictions."""
+        return self.root / "posterior" / name
+
     def robustness(self, name: str) -> Path:
         """Fits of all cost functions to twins of known truth."""
         return self.root / "robustness" / name

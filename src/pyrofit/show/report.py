@@ -1,11 +1,12 @@
 """The report of a study: one page that needs nothing else, and the provenance beside it."""
 
 from pyrofit.config import Study
-from pyrofit.results import diagnosis, recorded, rescored, scheme, sensitivity
+from pyrofit.results import diagnosis, posterior, recorded, rescored, scheme, sensitivity
 from pyrofit.results.files import Results, write_json, write_text
 from pyrofit.show import (
     diagnosis_page,
     fds_page,
+    posterior_page,
     programs_page,
     rescore_page,
     scheme_page,
@@ -41,12 +42,14 @@ def write_report(study: Study, results: Results) -> None:
         table_part(study, TABLES["answer"], tables["answer"]),
     )
     shown = [one for part in SECTIONS if (one := _shown(part, study, results, facts))]
-    # Scheme, other costs, sensitivity, diagnosis and the proof by FDS are steps of their own, which
-    # a study may go without.
+    # Scheme, other costs, sensitivity, posterior, diagnosis and the proof by FDS are steps of their
+    # own, which a study may go without.
     if rescored.exists(results):
         shown.append(rescore_page.section(study, results))
     if sensitivity.exists(results):
         shown.append(sensitivity_page.section(study, results))
+    if posterior.exists(results):
+        shown.append(posterior_page.section(study, results))
     if scheme.exists(results):
         shown.append(scheme_page.section(study, results))
     if fds_page.exists(results):

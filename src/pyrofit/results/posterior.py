@@ -1,0 +1,145 @@
+"""The posterior of the parameters: written by the stage, read by tables, figures and sentences."""
+
+import json
+from collections.abc import Mapping
+from typing import Any, Literal
+
+import pandas as pd
+from pydantic import Field, ValidationError
+
+from pyrofit.config import Study
+from pyrofit.errors import DataError
+from pyrofit.results import dependencies
+from pyrofit.results.files import Results, read_csv, read_json, write_json
+from pyrofit.results.record import Record
+
+FILE = "posterior.json"
+SAMPLES = "samples.csv.gz"
+ENSEMBLE = "ensemble.csv"
+BANDS = "bands.csv"
+CORRELATION = "correlation.csv"
+SETS = "sets"
+"""Folder with a file of values for each set of the ensemble."""
+LAST = "parameters.svg"
+"""File that is written last, so that all others are there when it is."""
+Role = Literal["fitted", "held out", "not measured"]
+_BAND = ("low", "median", "high", "parameters_low", "parameters_median", "parameters_high")
+
+
+class OfParameter(Record):
+    """What the draws say about a parameter, SI units."""
+
+    name: str = Field(description="name of the parameter")
+    mean: float = Field(description="mean of the draws")
+    sd: float = Field(description="their standard deviation")
+    low: float = Field(description="2.5 % quantile")
+    median: float = Field(description="median")
+    high: float = Field(description="97.5 % quantile")
+    rhat: float = Field(description="rank-normalised split R-hat of the ensembles")
+    ess: float = Field(description="effective sample size")
+
+
+class OfDiscrepancy(Record):
+    """What the model lacks in a signal."""
+
+    experiment: str = Field(description="name of the experiment")
+    signal: str = Field(description="signal")
+    level: float = Field(description="relative error of level, standard deviation")
+    time: float = Field(description="relative error of time, standard deviation")
+    offset: float = Field(description="offset over the range of the curve, standard deviation")
+    lasting: float = Field(description="correlation time over the half time of the curve")
+
+
+class OfBand(Record):
+    """A predicted signal."""
+
+    experiment: str = Field(description="name of the experiment")
+    signal: str = Field(description="signal")
+    role: Role = Field(description="whether it was fitted, held out, or not measured")
+    width: float = Field(description="mean width of the 95 % band over the range of its median")
+    parameters_width: float = Field(description="the same of the parameters alone")
+    lacking: bool = Field(description="whether a discrepancy is part of the band")
+    inside: float | None = Field(
+        description="share of the measured points in the band with noise; null where none is"
+    )
+
+
+class Posterior(Record):
+    """The result."""
+
+    study: str = Field(description="name of the study")
+    seed: int = Field(description="seed of the draws")
+    chi2: float = Field(description="chi-square of the channels at the optimum of noise alone")
+    freedom: float = Field(description="its degrees of freedom")
+    probability: float = Field(description="chance that noise alone exceeds that chi-square")
+    converged: bool = Field(description="whether R-hat, sample size and length suffice")
+    ensembles: int = Field(description="independent ensembles")
+    walkers: int = Field(description="walkers of each")
+    steps: int = Field(description="steps of each")
+    left_out: int = Field(description="first steps that are left out")
+    calls: int = Field(description="parameter sets proposed")
+    accepted: float = Field(description="share of proposals taken")
+    times: float = Field(description="longest autocorrelation time in steps")
+    sets: int = Field(description="sets of the ensemble that was written, of equal weight")
+    parameters: list[OfParameter] = Field(min_length=1, description="the parameters")
+    discrepancies: list[OfDiscrepancy] = Field(min_length=1, description="what the model lacks")
+    bands: list[OfBand] = Field(description="the predicted signals")
+
+
+def slice_of(study: Study) -> dict[str, Any]:
+    """Return what the step depends on: the likelihood, and all predicted experiments."""
+    return {
+        "likelihood": dependencies.identify(study),
+        "validation": dependencies.validation(study),
+        "seed": study.seed,
+    }
+
+
+def write(results: Results, content: Mapping[str, Any]) -> None:
+    """Write what was found; it must be as the schema says."""
+    text = json.dumps(content, allow_nan=False)
+    Posterior.model_validate_json(text)
+    write_json(results.posterior(FILE), json.loads(text))
+
+
+def read(study: Study, results: Results) -> Posterior:
+    """Return what was found.
+
+    Raises
+    ------
+    DataError
+        It is missing, broken, or that of another study.
+    """
+    path = results.posterior(FILE)
+    try:
+        found = Posterior.model_validate(read_json(path))
+    except ValidationError as error:
+        first = error.errors()[0]
+        place = ".".join(str(key) for key in first["loc"])
+        raise DataError(f"{path}: '{place}': {first['msg']}; delete it and run again") from None
+    if found.study != study.name or [p.name for p in found.parameters] != list(study.imp.estimate):
+        raise DataError(f"{path}: this is the result of another study; delete it and run again")
+    return found
+
+
+def correlation(study: Study, results: Results) -> pd.DataFrame:
+    """Return the correlation of the draws, by name."""
+    names = list(study.imp.estimate)
+    columns = {"parameter": object, **dict.fromkeys(names, float)}
+    return read_csv(results.posterior(CORRELATION), columns).set_index("parameter")
+
+
+def bands(results: Results) -> pd.DataFrame:
+    """Return the bands of all predicted signals, SI units."""
+    columns = {"experiment": object, "signal": object, **dict.fromkeys(("time_s", *_BAND), float)}
+    return read_csv(results.posterior(BANDS), columns)
+
+
+def samples(study: Study, results: Results) -> pd.DataFrame:
+    """Return draws of the parameters, SI units."""
+    return read_csv(results.posterior(SAMPLES), dict.fromkeys(study.imp.estimate, float))
+
+
+def exists(results: Results) -> bool:
+    """Tell whether the posterior was drawn and its page made."""
+    return results.posterior(LAST).is_file()

@@ -1,0 +1,1 @@
+"""Draws from the posterior of the parameters, a step of its own."""

@@ -1,0 +1,87 @@
+"""What sampling tells, in sentences."""
+
+from pyrofit.config import Study
+from pyrofit.estimate.convergence import ENOUGH_TIMES, ESS, RHAT
+from pyrofit.results import posterior
+from pyrofit.results.files import Results
+from pyrofit.results.posterior import Posterior
+from pyrofit.show.text import listed, several
+
+CHANCE = 0.05
+"""Chance of a chi-square below which noise alone does not explain the data."""
+INSIDE = 0.9
+"""Share of the points of a held-out signal that a band of 95 % should hold at least."""
+
+
+def sentences(study: Study, results: Results) -> list[str]:
+    """Return the sentences on convergence, adequacy, bands and the ensemble."""
+    found = posterior.read(study, results)
+    return [_converged(found), _adequate(found), *_bands(found), *_missing(found), _ensemble(found)]
+
+
+def _converged(found: Posterior) -> str:
+    rhat = max(p.rhat for p in found.parameters)
+    ess = min(p.ess for p in found.parameters)
+    reached = (
+        f"{several(found.ensembles, 'ensemble')} of {found.walkers} walkers took {found.steps} "
+        f"steps ({found.calls} model calls): R-hat is at most {rhat:.3f}, the effective sample "
+        f"size at least {ess:.0f}"
+    )
+    if found.converged:
+        return f"The sampling converged. {reached}."
+    length = (found.steps - found.left_out) / found.times
+    return (
+        f"The sampling did NOT converge: do not use its numbers. {reached}, and the ensembles "
+        f"are {length:.0f} autocorrelation times long. Below {RHAT:g}, above {ESS:g} and "
+        f"{ENOUGH_TIMES:g} are needed: raise --steps."
+    )
+
+
+def _adequate(found: Posterior) -> str:
+    ratio = found.chi2 / found.freedom
+    size = f"chi-square per degree of freedom {ratio:.3g}, p = {found.probability:.2g}"
+    if found.probability < CHANCE:
+        return (
+            f"Noise alone does not explain the data ({size}): the model lacks something. The "
+            "bands count it by the size that the residuals show."
+        )
+    return (
+        f"Noise alone may explain the data ({size}). That does not prove the model: parameters "
+        "can make up for what it lacks. The bands count a discrepancy that the residuals allow."
+    )
+
+
+def _bands(found: Posterior) -> list[str]:
+    """Say whether bands hold what was measured and not fitted."""
+    held = [of for of in found.bands if of.role == "held out" and of.inside is not None]
+    low = [of for of in held if of.inside is not None and of.inside < INSIDE]
+    said = [
+        f"The 95 % band of {of.experiment} {of.signal}, which was not fitted, holds only "
+        f"{100.0 * (of.inside or 0.0):.0f} % of the measured points: do not trust it."
+        for of in low
+    ]
+    if held and not low:
+        names = listed([f"{of.experiment} {of.signal}" for of in held])
+        least = min(of.inside for of in held if of.inside is not None)
+        said.append(
+            f"The 95 % bands hold {100.0 * least:.0f} % or more of the points that were not "
+            f"fitted ({names})."
+        )
+    return said
+
+
+def _missing(found: Posterior) -> list[str]:
+    names = [f"{of.experiment} {of.signal}" for of in found.bands if not of.lacking]
+    if not names:
+        return []
+    return [
+        f"No fitted signal tells what the model lacks in {listed(names)}: the band holds the "
+        "parameters alone, and is too narrow."
+    ]
+
+
+def _ensemble(found: Posterior) -> str:
+    return (
+        f"For predictions, use the ensemble of {found.sets} sets of equal weight rather than one "
+        "set: posterior/ensemble.csv, and posterior/sets for other programs."
+    )

@@ -1,0 +1,117 @@
+"""The posterior in tables: parameters, correlations, what the model lacks, bands."""
+
+import numpy as np
+import pandas as pd
+
+from pyrofit.config import Study
+from pyrofit.results import posterior
+from pyrofit.results.files import Results
+from pyrofit.show.table import Table, always
+
+
+def parameters(study: Study, results: Results) -> pd.DataFrame:
+    """List mean, sd, interval and convergence of each parameter, in the study's units."""
+    rows = []
+    for of in posterior.read(study, results).parameters:
+        parameter = study.parameters[of.name]
+        values = {k: getattr(of, k) / parameter.factor for k in ("mean", "sd", "low", "high")}
+        rows.append(
+            {"parameter": of.name, "unit": parameter.unit, **values, "rhat": of.rhat, "ess": of.ess}
+        )
+    return pd.DataFrame(rows)
+
+
+def correlations(study: Study, results: Results) -> pd.DataFrame:
+    """List the correlation of each two parameters, the strongest first."""
+    matrix = posterior.correlation(study, results)
+    names = list(matrix)
+    values = matrix.to_numpy(float)
+    pairs = [(i, k) for i in range(len(names)) for k in range(i)]
+    pairs.sort(key=lambda pair: -abs(values[pair]))
+    return pd.DataFrame(
+        [(names[k], names[i], values[i, k]) for i, k in pairs],
+        columns=["parameter", "other", "correlation"],
+    )
+
+
+def lacking(study: Study, results: Results) -> pd.DataFrame:
+    """List what the model lacks in each fitted signal."""
+    found = posterior.read(study, results).discrepancies
+    return pd.DataFrame(
+        [
+            {
+                "experiment": of.experiment,
+                "signal": of.signal,
+                "level [%]": 100.0 * of.level,
+                "time [%]": 100.0 * of.time,
+                "offset [%]": 100.0 * of.offset,
+                "lasting [–]": of.lasting,
+            }
+            for of in found
+        ]
+    )
+
+
+def bands(study: Study, results: Results) -> pd.DataFrame:
+    """List the widths of the bands, and what share of the measured points they hold."""
+    found = posterior.read(study, results).bands
+    return pd.DataFrame(
+        [
+            {
+                "experiment": of.experiment,
+                "signal": of.signal,
+                "role": of.role,
+                "parameters [%]": 100.0 * of.parameters_width,
+                "width [%]": 100.0 * of.width if of.lacking else np.nan,
+                "inside [%]": np.nan if of.inside is None else 100.0 * of.inside,
+            }
+            for of in found
+        ]
+    )
+
+
+TABLES = {
+    "parameters": Table(
+        place=10,
+        applies=always,
+        make=parameters,
+        title="Parameters by sampling",
+        note="95 % interval: 2.5 and 97.5 % quantiles of the draws. R-hat compares independent "
+        "ensembles: below 1.05 they agree. ESS: effective sample size.",
+        headings={
+            "low": "95 % from",
+            "high": "95 % to",
+            "rhat": "R-hat",
+            "ess": "ESS",
+        },
+    ),
+    "correlations": Table(
+        place=20,
+        applies=always,
+        make=correlations,
+        title="Correlation of the parameters by sampling",
+    ),
+    "lacking": Table(
+        place=30,
+        applies=always,
+        make=lacking,
+        title="What the model lacks in each fitted signal",
+        note="Standard deviations: relative errors of level and time, offset over the range of the "
+        "curve; correlation time over the time at which half of all ups and downs have passed.",
+        headings={"lasting": "correlation time"},
+    ),
+    "bands": Table(
+        place=40,
+        applies=always,
+        make=bands,
+        title="Widths of the 95 % bands",
+        note="Mean widths over the range of the curve: of parameters alone, and with what the "
+        "model lacks. Last: measured points within the band of new measurements, noise included. "
+        "Empty: no fitted experiment tells what the model lacks, or nothing was measured.",
+        headings={
+            "parameters": "parameters alone",
+            "width": "with what the model lacks",
+            "inside": "points inside",
+        },
+    ),
+}
