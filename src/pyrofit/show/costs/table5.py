@@ -81,7 +81,7 @@ def _keys_of_parameters(study: Study) -> dict[str, set[str]]:
 
 TABLE = Table(
     place=20,
-    applies=lambda study: True,
+    applies=lambda study: study.published is not None,
     make=table5,
     title="Symbols and units",
     paper="Table 5",

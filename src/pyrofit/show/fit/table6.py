@@ -62,8 +62,7 @@ TABLE = Table(
     make=table6,
     title="Sampling limits",
     paper="Table 6",
-    note="All optimisers search within these limits, the same for all cost functions, as in "
-    "Lauer et al. (2020), who give none for the kinetics.",
+    note="All optimisers search within these limits, the same for all cost functions.",
     headings={
         "lower_limit": "lower limit",
         "upper_limit": "upper limit",
