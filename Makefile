@@ -62,6 +62,7 @@ lint: $(VENV)/installed
 	mypy
 	snakefmt --check Snakefile workflow
 	codespell
+	python tools/plain_words.py --check
 	! grep -n "://" requirements.lock
 
 bench: $(VENV)/installed

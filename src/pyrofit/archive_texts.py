@@ -1,7 +1,7 @@
 """Texts that an archive holds: how it is run again, and what it leaves out."""
 
 COMMENT = """\
-The study as it was run, with what the command line had changed. The files of its measurements are
+The study as it was run, with the changes of the command line. The files of its measurements are
 in data/, those of its plugins in plugins/. It runs in the folder software/; README.txt says how.
 """
 README = """\

@@ -103,7 +103,7 @@ DIAGNOSIS = rows_of(
                 parameters__eps={"unit": "-", "value": 0.9},
             ),
             (
-                "known.eps: no stage estimates it, it has a fixed value; name it under ",
+                "known.eps: no stage estimates it, it has a fixed value. Name it under ",
                 "give it limits, or leave it out here",
             ),
         ),

@@ -400,7 +400,7 @@ COMMANDS = [
             parameters__T_p__value=605,
             parameters__E_p__value=190,
         ),
-        ("study 'small' has no table3: it lacks what the table shows",),
+        ("study 'small' has no table3: it lacks the contents of the table",),
     ),
     Case(
         "kinetics that the study does not have",

@@ -78,7 +78,7 @@ NO_STUDY = rows_of(
             study("<<: *slab", "<<: *slap"),
             (
                 f"line {line_of('    <<: *slab')}: found undefined alias 'slap'",
-                "mark what it repeats with &",
+                "mark the repeated part with &",
             ),
         ),
         (

@@ -55,7 +55,7 @@ def test_header_of_a_laboratory_is_recognised(tmp_path: Path, header: str) -> No
 
 
 def test_power_without_a_sample_mass_is_refused(tmp_path: Path) -> None:
-    with pytest.raises(DataError, match="the unit is that of a power; give `sample_mass_kg`"):
+    with pytest.raises(DataError, match=r"the unit is that of a power\. Give `sample_mass_kg`"):
         read(written(tmp_path, "mW", 5e-3))
 
 
@@ -123,8 +123,8 @@ REFUSED = {
     ),
     "delay of a mass": (
         {f"{STA}__signals__mass_fraction__delay_s": 3.0},
-        "signal 'mass_fraction' of a DSC experiment takes neither delay_s nor offset; a sample "
-        "behind its program has lag_s, one whose recorded temperature is wrong has "
+        "signal 'mass_fraction' of a DSC experiment takes neither delay_s nor offset. A sample "
+        "behind its programme has lag_s; one whose recorded temperature is wrong has "
         "temperature_offset_K, and a heat flow has the baseline of its experiment",
     ),
     "offset of a heat flow": (

@@ -194,7 +194,7 @@ def test_general_terms_carry_their_rules(place: str, good: float, bad: float) ->
 @pytest.mark.parametrize("given", [{"delay_s": 2.0}, {"offset": "zero"}])
 def test_signal_of_a_tga_experiment_has_no_delay_and_no_offset(given: dict[str, Any]) -> None:
     signals = {"mass_fraction": {"file": "synthetic", **given}}
-    with pytest.raises(ValidationError, match=r"neither delay_s nor offset; .* has lag_s"):
+    with pytest.raises(ValidationError, match=r"neither delay_s nor offset\. .* has lag_s"):
         Tga.model_validate({"kind": "tga", "heating_rate_K_min": 10.0, "signals": signals})
 
 

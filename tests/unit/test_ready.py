@@ -244,7 +244,7 @@ def test_duration_is_calls_times_their_time_and_jobs_over_cores() -> None:
     found = _estimate(Situation(None, Path(), 2), [(part, 0.02, 0.01)])
     assert found.level == "ok"
     # 1000 x 0.02 s + 4000 x 0.01 s + 10 x 3 s = 90 s
-    assert found.text.startswith("about 45 s for the fits = (5,000 model calls x 12 ms + 10 jobs")
+    assert found.text.startswith("about 45 s for the fits: (5,000 model calls x 12 ms + 10 jobs")
     slow = _estimate(Situation(None, Path(), 2), [(part, 20.0, 40.0)])
     assert (slow.level, "docs/cluster.md" in slow.text) == ("warning", True)
 

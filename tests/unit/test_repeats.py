@@ -415,7 +415,9 @@ def test_number_that_differs_and_is_a_parameter_is_refused() -> None:
 def test_parameter_of_the_same_name_is_refused() -> None:
     described = keys(flux_sd=0.03)
     described["parameters"]["slab_25_1_flux"] = {"unit": "-", "value": 1.0}
-    with pytest.raises(StudyError, match=r"parameters\.slab_25_1_flux: this is the name of what"):
+    with pytest.raises(
+        StudyError, match=r"parameters\.slab_25_1_flux: the repeat slab_25_1 needs this name"
+    ):
         study_of(described)
 
 

@@ -135,7 +135,7 @@ def _summary(found: pd.DataFrame, seeds: str) -> str:
     return (
         f"{len(found)} twins ({kinds}), seeds of the range '{seeds}'. The diagnosis reads the "
         "measurements of each twin, not its truth. Detectability is the number of standard "
-        "deviations of the noise by which the best base model misses the truth; an effect of "
+        "deviations of the noise by which the best base model misses the truth. An effect of "
         f"{DETECTABLE:g} or more should be named. A claim is a verdict that names one effect, an "
         "ambiguous set, or several effects. The best fit gives the name of a set. A second effect "
         "that is not hidden makes a claim wrong. Effects that these signals cannot distinguish, "

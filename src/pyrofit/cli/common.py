@@ -15,8 +15,8 @@ def add_step(commands: Any, name: str, text: str, step: Step) -> argparse.Argume
     parser: argparse.ArgumentParser = commands.add_parser(name, help=text)
     parser.add_argument("--study", type=Path, required=True, help="study file (YAML or JSON)")
     parser.add_argument("--results", type=Path, help="results folder; default results/<name>")
-    parser.add_argument("--digest", help="expected digest of what the step depends on")
-    parser.add_argument("--log", type=Path, help="file that keeps what is printed")
+    parser.add_argument("--digest", help="digest of all inputs of the step; another one is refused")
+    parser.add_argument("--log", type=Path, help="file that keeps a copy of the output")
     parser.set_defaults(step=step)
     return parser
 

@@ -19,7 +19,7 @@ def add(commands: Any) -> None:
     blind.add_argument("--setting", type=Path, default=Path("config/blind_test.yaml"))
     blind.add_argument("--plan", required=True, help="plan of the setting")
     blind.add_argument("--chunk", type=int, help="job to run; without: gather all jobs")
-    blind.add_argument("--log", type=Path, help="file that keeps what is printed")
+    blind.add_argument("--log", type=Path, help="file that keeps a copy of the output")
     blind.set_defaults(step=_blind_test)
     _add_foreign(commands)
 

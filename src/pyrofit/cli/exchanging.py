@@ -15,7 +15,7 @@ def add(commands: Any) -> None:
     programs = export.add_subparsers(dest="program", required=True, metavar="PROGRAM")
     fds = _program(programs, "fds", "a file to include, and decks that check it", _export_fds)
     fds.add_argument("--fds-version", default="6.7", help="6.7 (default) or 6.8+")
-    fds.add_argument("--log", type=Path, help="file that keeps what is printed")
+    fds.add_argument("--log", type=Path, help="file that keeps a copy of the output")
     _program(programs, "gpyro", "input files `.data`", _export_other)
     _program(programs, "thermakin", "input files `.cmp` and `.cnd`", _export_other)
     spyro = _program(programs, "spyro", "reference curves for FDS 6.8 and newer", _export_other)

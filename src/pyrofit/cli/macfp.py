@@ -11,7 +11,7 @@ def add(commands: Any) -> None:
     """Add these commands."""
     macfp = commands.add_parser("macfp", help="parameter sets and submissions of MaCFP")
     actions = macfp.add_subparsers(dest="action", required=True, metavar="ACTION")
-    lint = actions.add_parser("lint", help="say what is wrong with parameter sets")
+    lint = actions.add_parser("lint", help="check parameter sets and report errors")
     lint.add_argument("files", type=Path, nargs="+", metavar="FILE", help="JSON files")
     lint.add_argument("--strict", action="store_true", help="exit 2 unless all are strict")
     lint.add_argument("--write", type=Path, metavar="FOLDER", help="write the strict form there")

@@ -106,7 +106,7 @@ def _init(given: argparse.Namespace) -> None:
     study, lines = init(given.name, {kind: getattr(given, kind) for kind in OF_FILES}, Path())
     for line in lines:
         print(line)
-    print(f"{study}: written. Change what is marked CHANGE.")
+    print(f"{study}: written. Change the places marked CHANGE.")
     try:
         _check(argparse.Namespace(study=study))
     except PyrofitError as error:

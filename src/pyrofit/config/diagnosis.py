@@ -12,8 +12,8 @@ class Diagnosis(Part):
 
     calibrate: dict[str, tuple[str, ...]] = Field(
         default_factory=dict,
-        description="signals by experiment that are fitted; none = those from which is found what "
-        "the data determine, of kinetics where imp does not take a published set, and of imp",
+        description="fitted signals by experiment; none = the signals of the identification, with "
+        "those of kinetics where imp takes no published set",
     )
     hold_out: dict[str, tuple[str, ...]] = Field(
         default_factory=dict,
@@ -22,8 +22,8 @@ class Diagnosis(Part):
     )
     estimate: tuple[str, ...] = Field(
         (),
-        description="parameters to estimate; none = those of kinetics where a TGA is fitted or "
-        "they have no value, those of imp, and those that `known` alone names",
+        description="parameters to estimate; none = those of imp and of `known`, "
+        "and those of kinetics if a TGA is fitted or they have no value",
     )
     kinetics: str = Field(
         "", description="'described', 'fitted', or one of kinetics.sets; none = as imp.kinetics"

@@ -26,7 +26,7 @@ def check_known(study: Study) -> None:
         require(
             name in estimated,
             place,
-            "no stage estimates it, it has a fixed value; name it under kinetics.estimate, "
+            "no stage estimates it, it has a fixed value. Name it under kinetics.estimate, "
             "imp.estimate or diagnosis.estimate, give it limits, or leave it out here",
         )
         p = study.parameters[name]

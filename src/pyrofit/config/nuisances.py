@@ -94,8 +94,8 @@ def free(keys: Keys, name: str, sds: Mapping[str, float], stages: list[str]) -> 
     for key, parameter in made.items():
         if parameter in keys.get("parameters", {}):
             raise ValueError(
-                f"parameters.{parameter}: this is the name of what differs of the repeat {name}; "
-                "choose another"
+                f"parameters.{parameter}: the repeat {name} needs this name for a number of its "
+                "own; choose another"
             )
         described[key] = _described(experiment, name, NUISANCES[key])
         experiment = _with(experiment, NUISANCES[key], parameter)

@@ -186,7 +186,7 @@ _WAYS_OUT = {
     r"character '\t'": "indent with spaces, not with tabs",
     "stands twice": "",
     "none of a text file": "delete it",
-    "undefined alias": "mark what it repeats with & further up, or correct its name",
+    "undefined alias": "mark the repeated part with & further up, or correct its name",
     "found duplicate anchor": "give every & a name of its own",
     "could not determine a constructor": "leave the tag out",
     "unhashable": "a key must be a single word",

@@ -15,11 +15,11 @@ from pyrofit.model.parameters import UNITS
 _HEAD = """\
 # Keys of a study
 
-Every key that a study file may have, by the place where it stands; `<name>` is a name of yours,
-and `[]` marks the items of a list. *Required* keys have no usual value. Where it says "number or
+Every key that a study file may have, by its place. `<name>` is a name of your choice, and `[]`
+marks the items of a list. *Required* keys have no default. Where the page says "number or
 parameter", the name of one of the `parameters` may stand. Unknown keys are refused, with the
-nearest known one; `pyrofit check STUDY` tells all that is wrong. The studies in this folder are
-examples, and `pyrofit init NAME` writes one for your own material.
+nearest known one. `pyrofit check STUDY` reports all errors of a study. The studies in this folder
+are examples, and `pyrofit init NAME` writes one for your own material.
 
 Units of parameters: {units}.
 

@@ -81,8 +81,8 @@ class Imp(Part):
     cmaes: Cmaes = Field(default_factory=Cmaes, description="beside both")
     identification: dict[str, tuple[str, ...]] = Field(
         default_factory=dict,
-        description="signals by gasification experiment from which is found what the data "
-        "determine; none = those that the costs compare",
+        description="signals by gasification experiment for the analysis of identifiability; "
+        "none = those that the costs compare",
     )
 
     @property

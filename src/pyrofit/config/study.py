@@ -52,7 +52,7 @@ class Study(Part):
 
     name: Name = Field(description="name of the results folder")
     title: str = Field("", description="title of the report")
-    description: str = Field("", description="what the study is, in a sentence or two")
+    description: str = Field("", description="the study in a sentence or two")
     seed: int = Field(1, ge=0, description="seed of everything random")
     plugins: tuple[str, ...] = Field(
         (),
@@ -74,11 +74,11 @@ class Study(Part):
     effects: dict[str, dict[str, Number | tuple[str, ...]] | None] = Field(
         default_factory=dict,
         description="effects of the catalogue that material and experiments have, with their "
-        "parameters: a number in SI units or the name of a parameter; a strength left out is "
-        "a parameter <effect>_<strength> to be estimated; `of` lists the components whose "
-        "property changes, by default those of the material, no boards and plates; "
-        "`laboratories` lists those whose experiments have an effect of apparatus or "
-        "surroundings, by default all",
+        "parameters. Each is a number in SI units or the name of a parameter. A strength "
+        "left out is a parameter <effect>_<strength> to be estimated. `of` lists the "
+        "components whose property changes, by default those of the material, no boards "
+        "and plates. `laboratories` lists the laboratories whose experiments have an "
+        "effect of apparatus or surroundings, by default all",
     )
     with_effects: dict[str, dict[str, Number | tuple[str, ...]]] = Field(
         default_factory=dict,

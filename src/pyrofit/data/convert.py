@@ -91,7 +91,7 @@ def _divisor(spec: SeriesSpec, kind: str, first: float) -> tuple[float, list[str
     if kind in PER_MASS:
         if spec.sample_mass_kg is None:
             raise DataError(
-                f"{spec.path}: the unit is that of a {kind}; give `sample_mass_kg`, the initial "
+                f"{spec.path}: the unit is that of a {kind}. Give `sample_mass_kg`, the initial "
                 f"mass of the sample, or the right unit of a {PER_MASS[kind]}, such as W/g."
             )
         return spec.sample_mass_kg, [f"{kind} divided by {spec.sample_mass_kg:g} kg"]

@@ -215,7 +215,7 @@ def _parse_cell(path: Path, line: int, name: str, cell: str) -> float:
             "or replace the commas."
         )
     raise DataError(
-        f"{path}, line {line}, column '{name}': given '{cell}'; each cell must be a finite number "
-        "with a decimal point, and cells are set apart by comma, semicolon or tab. "
+        f"{path}, line {line}, column '{name}': given '{cell}'; each cell must be a finite "
+        "number with a decimal point. Cells are separated by comma, semicolon or tab. "
         "Correct the cell or delete its row."
     )

@@ -104,7 +104,7 @@ def _write_readme(
 ) -> None:
     """Write what the files are: their formats have no comments."""
     first = [f"Study '{study.name}', set '{chosen.label}', for {program}."]
-    shown = ["", "What it says otherwise than pyrofit:", *said] if said else []
+    shown = ["", "Differences to pyrofit:", *said] if said else []
     write_text(folder / "README.txt", "\n".join([*first, *shown]) + "\n")
 
 

@@ -53,7 +53,7 @@ class ExternalExperiment(Experiment):
         if signal.file == "synthetic":
             raise ValueError(
                 f"signals.{name}.file: a signal against temperature cannot be synthetic, as no "
-                "temperature programme is described; name a measured file, or the column of the "
+                "temperature programme is described. Name a measured file, or the column of the "
                 "time"
             )
 

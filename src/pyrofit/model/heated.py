@@ -42,7 +42,7 @@ class HeatedExperiment(Experiment):
             if signal.delay_s != 0.0 or signal.offset != 0.0:
                 raise ValueError(
                     f"signal '{name}' of a {self.kind.upper()} experiment takes neither delay_s "
-                    "nor offset; a sample behind its program has lag_s, one whose recorded "
+                    "nor offset. A sample behind its programme has lag_s; one whose recorded "
                     f"temperature is wrong has temperature_offset_K{self._other_way_out}"
                 )
         return self

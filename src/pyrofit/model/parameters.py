@@ -46,7 +46,7 @@ class Parameter(Part):
     value: float | None = Field(None, description="value where the parameter is not estimated")
     lower: float | None = Field(None, description="lower sampling limit")
     upper: float | None = Field(None, description="upper sampling limit")
-    label: str = Field("", description="what it is, in words")
+    label: str = Field("", description="the parameter in words")
 
     @model_validator(mode="after")
     def _check(self) -> Self:

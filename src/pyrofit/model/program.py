@@ -39,8 +39,8 @@ class Reading(Part):
     )
     holds: Literal["point", "before"] = Field(
         "point",
-        description="`point`: a value belongs to its time; `before`: it is the mean over the time "
-        "since the row before, as in the device files of FDS",
+        description="`point`: a value belongs to its time; `before`: it is the mean since the "
+        "time of the row before, as in device files of FDS",
     )
     sample_mass_kg: AboveZero | None = Field(
         None, description="initial mass of the sample [kg]: powers and masses are divided by it"

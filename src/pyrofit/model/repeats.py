@@ -12,7 +12,7 @@ Name = Annotated[str, Field(pattern=r"^[A-Za-z][A-Za-z0-9_]*$")]
 
 
 class Nuisances(Part):
-    """Standard deviations of what differs between repeats, or is uncertain of an experiment.
+    """Standard deviations of numbers that differ between repeats or are uncertain.
 
     What has none is taken as equal, and as described.
     """
@@ -86,11 +86,11 @@ AnyRepeats = Annotated[Repeats, BeforeValidator(_as_tests)]
 
 
 class RepeatOf(Part):
-    """What an experiment repeats, or what is uncertain of it, as noted when a study is read."""
+    """The repeated experiment and the uncertain numbers, noted when a study is read."""
 
     test: str = Field(description="name of the test; its own, where it repeats none")
     nuisances: dict[str, str] = Field(
         default_factory=dict,
-        description="parameters of what differs or is uncertain, by the key of its standard "
+        description="parameters that differ or are uncertain, by the key of their standard "
         "deviation",
     )

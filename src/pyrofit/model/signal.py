@@ -83,7 +83,7 @@ class Signal(Part):
     uncertainty: AboveZero | None = Field(
         None, description="constant uncertainty, SI unit of the quantity"
     )
-    uncertainty_meaning: str = Field("", description="what the uncertainty is, in words")
+    uncertainty_meaning: str = Field("", description="the uncertainty in words")
     uncertainty_sds: AboveZero = Field(
         1.0,
         description="standard deviations of a point's noise that the uncertainty is",
@@ -95,14 +95,14 @@ class Signal(Part):
         0.0, ge=0.0, description="width of the bins the values are averages over [s]; 0 = points"
     )
     delay_s: Number = Field(0.0, description="time by which the record is late [s]")
-    offset: Number = Field(0.0, description="what the record shows too much, SI unit")
+    offset: Number = Field(0.0, description="constant that the record shows in excess, SI unit")
     depth_m: Annotated[Number | None, NOT_NEGATIVE] = Field(
         None, description="in-depth temperature: depth below the initial front [m]"
     )
     follows: Follows | None = Field(
         None,
-        description="in-depth temperature: what the thermocouple moves with; `material` (default) "
-        "or `fixture`, which keeps its distance from the back face of the sample",
+        description="in-depth temperature: `material` (default), the thermocouple moves with "
+        "it; or `fixture`, it keeps its distance from the back face of the sample",
     )
     layer: int | None = Field(
         None, ge=1, description="interface temperature: behind which layer; the front one is 1"

@@ -187,7 +187,7 @@ def _check(name: str, folder: Path, files: Files) -> None:
         words = " and ".join(KINDS[kind].words for kind in given)
         slabs = " or ".join(f"--{kind}" for kind, of in OF_FILES.items() if of.stage == "imp")
         raise StudyError(
-            f"{words} alone makes no study, the properties are fitted to slabs; give a file of "
+            f"{words} alone makes no study, the properties are fitted to slabs. Give a file of "
             f"one with {slabs}, or no file at all for computed measurements"
         )
 

@@ -56,9 +56,9 @@ def _estimate(situation: Situation, timed: list[tuple[Part, float, float]]) -> F
     # No job is divided.
     cores = min(situation.cores, jobs)
     text = (
-        f"about {words(total / cores)} for the fits = ({calls:,.0f} model calls x "
-        f"{1e3 * model / calls:.2g} ms + {jobs} jobs x {start:g} s) / {cores} cores; "
-        "tables, figures and a diagnosis are not included"
+        f"about {words(total / cores)} for the fits: ({calls:,.0f} model calls x "
+        f"{1e3 * model / calls:.2g} ms + {jobs} jobs x {start:g} s) / {cores} cores. "
+        "Tables, figures and a diagnosis are not included"
     )
     if total / cores > 3600.0 * LONG_H:
         way_out = "fewer repetitions, more cores, or a cluster (docs/cluster.md) make it shorter"

@@ -22,7 +22,7 @@ class OfVerdict(Record):
 
     kind: Kind = Field(description="kind of verdict")
     effects: list[str] = Field(description="the leading effect of each set")
-    groups: list[str] = Field(description="what is missing, by effect")
+    groups: list[str] = Field(description="missing items, by effect")
     forms: list[str] = Field(description="in which form each is found, in words")
     sets: list[list[str]] = Field(description="per effect, those that cannot be told from it")
     confirmed: bool = Field(

@@ -39,7 +39,7 @@ class OfScheme(Record):
     parameters: int = Field(description="parameters, nuisance offsets not counted")
     bic: float = Field(description="BIC of the fit")
     discrepancy: float = Field(
-        description="what it leaves beyond the noise, as a fraction of the initial mass"
+        description="misfit beyond the noise, as a fraction of the initial mass"
     )
     rms: float = Field(description="rms of mass fraction at the fitted records")
     predicted_rms: float | None = Field(description="rms at heating rates left out of the fit")

@@ -105,15 +105,15 @@ def rates_of(records: Sequence[Record]) -> list[float]:
 def _check(study: Study, fitted: Sequence[Record]) -> None:
     if not fitted:
         raise StudyError(
-            f"study '{study.name}': kinetics.cost compares no mass of a TGA; add a term with the "
-            "signal of its mass fraction, a reaction scheme is chosen from that"
+            f"study '{study.name}': kinetics.cost compares no mass of a TGA. Add a term with "
+            "the signal of its mass fraction: the reaction scheme is chosen from it"
         )
     rates = rates_of(fitted)
     if len(rates) < FEWEST_RATES:
         raise StudyError(
-            f"study '{study.name}': kinetics.cost compares TGA at {rates[0]:g} K/min only; a "
-            f"scheme is judged by heating rates left out, so give at least {FEWEST_RATES}, "
-            "better three that differ by a factor of 5 or more"
+            f"study '{study.name}': kinetics.cost compares TGA at {rates[0]:g} K/min only. A "
+            f"scheme is judged by heating rates left out: give at least {FEWEST_RATES}, better "
+            "three that differ by a factor of 5 or more"
         )
 
 

@@ -4,11 +4,13 @@ from pyrofit.scheme.choice import Candidate, Choice
 from pyrofit.scheme.settings import Settings
 
 RULE = (
-    "A scheme predicts as well as the best one if the log score of the heating rates left out is "
-    "lower by no more than the standard error of the difference over the rates, counted as "
-    "{least:g} at least and {largest:g} at most. A scheme of a lower BIC than the best one's is "
-    "kept as well: further parameters must pay in the fit and in predictions. Of these schemes the "
-    "one with the fewest parameters is chosen; of as many, the one of the least BIC."
+    "The log scores of the heating rates left out are summed. A scheme predicts as "
+    "well as the best one if its sum is at most one standard error of the "
+    "difference lower. This standard error counts as {least:g} at least and "
+    "{largest:g} at most. A scheme of a lower BIC than the best one's is kept as "
+    "well: further parameters must pay in the fit and in predictions. The chosen "
+    "scheme is the one with the fewest parameters among these, and with the lowest "
+    "BIC among equals."
 )
 
 

@@ -81,7 +81,7 @@ def make_table(name: str, study: Study, results: Results) -> None:
     """
     table = TABLES[name]
     if not table.applies(study):
-        raise StudyError(f"study '{study.name}' has no {name}: it lacks what the table shows")
+        raise StudyError(f"study '{study.name}' has no {name}: it lacks the contents of the table")
     frame = table.make(study, results)
     write_table(results.root / "tables", name, table, frame, study)
 
@@ -96,5 +96,5 @@ def make_figure(name: str, study: Study, results: Results) -> None:
     """
     figure = FIGURES[name]
     if not figure.applies(study):
-        raise StudyError(f"study '{study.name}' has no {name}: it lacks what the figure shows")
+        raise StudyError(f"study '{study.name}' has no {name}: it lacks the contents of the figure")
     draw_figure(figure, name, study, results)

@@ -40,5 +40,5 @@ def check_start(seen: Examined) -> None:
         if start < 0.0:
             seen.say("time", "doubt", f"time begins at {start:g} s, before the start")
         elif start > _LATE_S:
-            text = f"time begins at {start:g} s: what was before, such as a hold, is cut off"
+            text = f"time begins at {start:g} s: earlier times, such as a hold, are cut off"
             seen.say("time", "note", text)

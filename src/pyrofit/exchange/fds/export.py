@@ -104,7 +104,7 @@ def _heated_curve(T: FloatArray, mass: FloatArray, last: float) -> pd.DataFrame:
 def text_of(deck: Deck, heading_lines: list[str]) -> str:
     """Return a file: heading, what is not exact, and the lines."""
     said = [*heading_lines]
-    said += ["What FDS says otherwise than pyrofit:" if deck.remarks else "All terms are exact."]
+    said += ["Differences between FDS and pyrofit:" if deck.remarks else "All terms are exact."]
     said += [f"  {remark.line}" for remark in deck.remarks]
     comment = "".join(f"{comment_line(line)}\n" for line in said)
     return comment + "\n" + write_all(deck.namelists)

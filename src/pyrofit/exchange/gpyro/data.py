@@ -214,9 +214,7 @@ def _orders(steps: list[Step], layers: list[Layer]) -> list[Remark]:
     """Name orders of products, whose initial mass is another one in Gpyro."""
     virgin = {n for layer in layers for n in layer.shares}
     return [
-        Remark(
-            "approximate", f"order {s.order:.4g} of '{s.reactant}'", "Gpyro counts what was formed"
-        )
+        Remark("approximate", f"order {s.order:.4g} of '{s.reactant}'", "Gpyro counts the products")
         for s in steps
         if s.order != 1.0 and s.reactant not in virgin
     ]

@@ -24,9 +24,9 @@ from pyrofit.exchange.sets import ParameterSet
 from pyrofit.experiments import kind_of
 
 _TRANSLUCENT = (
-    "absorption in depth: once little is left, the back face takes the radiation that passes the "
-    "remnant, and the back temperature of the ideal slabs rises above the equilibrium; it holds "
-    "until 95 % of the mass is lost"
+    "absorption in depth: once little is left, the back face absorbs the radiation "
+    "that passes the remnant. The back temperature of the ideal slabs then rises "
+    "above the equilibrium; it is valid until 95 % of the mass is lost"
 )
 
 
@@ -71,7 +71,7 @@ def submit(study: Study, chosen: ParameterSet, asked: Asked, folder: Path) -> It
     warnings = list(_against_rules(study, asked))
     text = readme(study, chosen, strict, proofs, written, [*notes, *warnings], asked)
     (folder / "README.md").write_text(text, encoding="utf-8")
-    yield "README.md: complete what is marked CHANGE"
+    yield "README.md: complete the places marked CHANGE"
     yield from warnings
 
 

@@ -14,7 +14,8 @@ class Dsc(HeatedExperiment):
 
     kind: Literal["dsc"] = Field(description="heat flow, and mass, against temperature")
     baseline: Baseline = Field(
-        default_factory=Baseline, description="what the heat flow has besides the sample's"
+        default_factory=Baseline,
+        description="additions to the heat flow of the sample, such as a baseline",
     )
 
     @property

@@ -17,8 +17,9 @@ from pyrofit.solver.arrays import FloatArray, Status, Values
 from pyrofit.solver.curves import Curves, Request
 
 OWN_MODEL = (
-    "an external program has a model of its own, which no effect changes: the diagnosis and new "
-    "experiments need one of pyrofit's kinds of experiment, such as `kind: gasification`"
+    "an external program has a model of its own, which no effect changes. The "
+    "diagnosis and new experiments need one of pyrofit's kinds of experiment, such as "
+    "`kind: gasification`"
 )
 
 

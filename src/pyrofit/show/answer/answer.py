@@ -68,9 +68,9 @@ TABLE = Table(
     applies=lambda study: True,
     make=answer,
     title="The answer: estimate, 95 % interval, and the best set of each cost function",
-    note="Estimate: the optimum of the likelihood, which weighs each point by its noise; the "
-    "interval says how far other values fit as well, the model taken as right. Best sets: of "
-    "the lowest cost, by whichever optimiser found it. Values of one column belong together.",
+    note="Estimate: the optimum of the likelihood, which weighs each point by its noise. "
+    "The 95 % interval holds for a correct model. Best sets: lowest cost of all "
+    "optimisers. Values of one column belong together.",
     headings={"low": "95 % low", "high": "95 % high"},
     group_by="fit",
 )

@@ -8,14 +8,14 @@ TABLE = Table(
     applies=lambda study: len(study.imp.costs) > 1,
     make=cost_tests,
     title="Do the cost functions differ?",
-    note="Over the repetitions of SCE-UA. Place: Kruskal and Wallis's test; scatter: Brown and "
-    "Forsythe's; both p are Holm-corrected for the number of quantities, and 0.05 is the "
-    "level. Effect: epsilon squared, the share of the ranks' variance, from 0 to 1. Pairs, "
-    "where places differ: by Mann and Whitney's test, Holm-corrected, with Cliff's delta: +1, "
-    "all values of the first are above those of the second. Scatter ratio: largest over "
-    "smallest mean distance from the median. A difference may be significant and yet small: it "
-    "is given in per cent of the limits' distance and of the width of the 95 % interval that "
-    "the data leave.",
+    note="Over the repetitions of SCE-UA. Place: Kruskal and Wallis's test; scatter: Brown "
+    "and Forsythe's; both p are Holm-corrected for the number of quantities, and 0.05 "
+    "is the level. Effect: epsilon squared, the share of the ranks' variance, from 0 "
+    "to 1. Pairs, where places differ: by Mann and Whitney's test, Holm-corrected, "
+    "with Cliff's delta: +1, all values of the first are above those of the second. "
+    "Scatter ratio: largest over smallest mean distance from the median. A "
+    "significant difference may be small. It is given in per cent of the limits' "
+    "distance and of the width of the 95 % interval.",
     headings={
         "difference": "largest difference of medians",
         "of_limits": "in % of limits",

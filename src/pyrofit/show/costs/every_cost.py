@@ -40,10 +40,10 @@ TABLE = Table(
     applies=lambda study: True,
     make=every_cost,
     title="Every best set under every cost, and on one metric",
-    note="'Fitted': every cost as the searches minimised it. At an experiment that no cost was "
-    "fitted to, the cost functions are those of the study with this experiment in the place of "
-    "theirs, over its whole record. The metric, over all measured points: CV(RMSE) of the mass "
-    "loss rate [–], RMSE of the back temperature [K].",
+    note="'Fitted': every cost as the searches minimised it. At an experiment that was not "
+    "fitted, each cost function of the study is applied to the whole record of that "
+    "experiment. The metric, over all measured points: CV(RMSE) of the mass loss rate "
+    "[–], RMSE of the back temperature [K].",
     headings={"fitted_with": "fitted with", "found_by": "found by"},
     group_by="place",
 )

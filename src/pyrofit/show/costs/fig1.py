@@ -208,14 +208,14 @@ FIGURE = Figure(
     place=10,
     applies=lambda study: True,
     make=fig1,
-    title="What the cost functions count",
+    title="Cost functions: the compared differences",
     paper="Figure 1",
-    caption="An example, the same for every study: target (solid), model (dashed), the "
-    "distance that counts (green, hatched; green bars for a single point and a threshold), and "
-    "the area in which a model costs nothing (light blue). The numbers are the costs of this "
-    "example. a) Relative difference at one time. b) Time at which the model passes a level "
-    "that the target passes at the dot. c) to e) Root mean square of the shaded differences "
-    "divided by the mean of the target: to the target, to its band of uncertainty, to "
-    f"{100 * R:g} % about it (usually 5 %). f) Three of them added with weights, BANDS over "
-    "part of the time.",
+    caption="An example, the same for every study: target (solid) and model (dashed). Green, "
+    "hatched: the difference that counts; green bars: a single point and a threshold. "
+    "Light blue: the area in which a model costs nothing. The numbers are the costs "
+    "of this example. a) Relative difference at one time. b) Time at which the model "
+    "passes a level that the target passes at the dot. c) to e) Root mean square of "
+    "the shaded differences divided by the mean of the target. The differences are "
+    f"those to the target, to its band of uncertainty, and to {100 * R:g} % about it "
+    "(usually 5 %). f) Three of them added with weights, BANDS over part of the time.",
 )

@@ -53,8 +53,8 @@ def _places(table: pd.DataFrame) -> str:
     apart = table[table["p_place"] <= SIGNIFICANT]
     if apart.empty:
         return (
-            "Over the repetitions the cost functions show no difference in where the searches end, "
-            "what their sets predict, and how long they take (Kruskal and Wallis's test)."
+            "Over the repetitions the cost functions do not differ in the ends, the "
+            "predictions and the durations of their searches (Kruskal and Wallis's test)."
         )
     parts = [_difference(row) for row in apart.to_dict("records")]
     rest = len(table) - len(apart)

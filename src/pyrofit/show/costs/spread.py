@@ -108,9 +108,10 @@ FIGURE = Figure(
     applies=lambda study: True,
     make=spread,
     title="Where the sets of all repetitions lie",
-    caption="Each dot is the best set of one repetition of SCE-UA, in their order from left to "
-    "right; beside them the best sets of the other optimisers; to the left those of the "
-    "literature, if any. The axis ends at the limits. Dots all over the height: the search "
-    "finds no one value. Dots at one height but off the grey area, or off the truth: the "
-    "searches agree on a value that the data, with the noise of each point, do not support.",
+    caption="Each dot is the best set of one repetition of SCE-UA, in their order from left "
+    "to right. Beside them are the best sets of the other optimisers, to the left "
+    "those of the literature, if any. The axis ends at the limits. Dots over the "
+    "whole height: the repetitions find different values. Dots at one height but off "
+    "the grey area, or off the truth: the searches agree, but the data do not support "
+    "their value.",
 )

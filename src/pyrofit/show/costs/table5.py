@@ -85,11 +85,11 @@ TABLE = Table(
     make=table5,
     title="Symbols and units",
     paper="Table 5",
-    note="Lauer et al. (2020) print kJ/kg for E and m/K for k, two misprints; here stand "
-    "kJ/kmol, as in their Table 3, and W/(m K). kJ/kmol is the same number as J/mol. The code "
-    "and its files of results are in SI units; a parameter is given and shown in the unit "
-    "behind its name. Where T stands for A, it is the temperature at which the rate constant "
-    "has a given value.",
+    note="Lauer et al. 2020 print kJ/kg for E and m/K for k, two misprints. This table has "
+    "kJ/kmol, as in their Table 3, and W/(m K). kJ/kmol is the same number as J/mol. "
+    "The code and its files of results are in SI units; a parameter is given and "
+    "shown in the unit behind its name. Where T stands for A, it is the temperature "
+    "at which the rate constant has a given value.",
     headings={
         "paper_unit": "unit in Lauer et al. (2020), corrected",
         "si_unit": "SI unit",

@@ -64,10 +64,10 @@ TABLE = Table(
     make=candidates,
     title="Candidates, the best first",
     note="Each is the base model with one effect more, or several, all parameters fitted "
-    "anew. Gain: fall of chi-square below that of the model with one effect less. Above best: "
-    "penalised chi-square, log(points) for each parameter of an effect. Predictions: gain of "
-    "the log score where an experiment is left out or held out; above 0 is better than "
-    "without the effect, and 2 is needed.",
+    "anew. Gain: fall of chi-square below that of the model with one effect less. "
+    "Above best: penalised chi-square, log(points) for each parameter of an effect. "
+    "Predictions: gain of the log score for experiments left out or held out. Above 0 "
+    "the effect improves them, and 2 is needed.",
     headings={
         "chi2": "chi-square",
         "above_best": "above best",

@@ -83,10 +83,10 @@ FIGURE = Figure(
     place=62,
     applies=lambda found: bool(found["screen"]) and bool(found["confusability"]["effects"]),
     make=effects,
-    title="What these measurements can show",
-    caption="a) Bars: by how many standard deviations each effect of typical strength would "
-    "show after all parameters were fitted anew; short bars cannot be found with these "
-    "measurements. Diamonds: how far the residuals of the base model point its way. b) Cosine "
-    "between what two effects leave after such a refit; dark ones look alike, crosses mark "
-    "0.9 and more.",
+    title="Detectability and confusability of the effects",
+    caption="a) Bars: standard deviations by which each effect of typical strength would "
+    "change the measurements, after a refit of all parameters. These measurements "
+    "cannot show effects with short bars. Diamonds: the same for the residuals of the "
+    "base model in the direction of the effect. b) Cosine between the changes of two "
+    "effects after such a refit. Dark pairs look alike; crosses mark 0.9 and more.",
 )

@@ -48,8 +48,8 @@ TABLE = Table(
     applies=always,
     make=gap,
     title="How much the gap shrank",
-    note="Root mean square of simulated minus measured, before and after the effects of the "
-    "verdict were added, and the same in standard deviations of the noise, allowing for its "
+    note="Root mean square of simulated minus measured, before and after the effects of "
+    "the verdict were added. The same in standard deviations of the noise, with its "
     "correlation: 1 is noise alone. Held-out signals were not fitted.",
     headings={
         "rms_before": "rms before",

@@ -62,8 +62,8 @@ TABLE = Table(
     make=next_experiments,
     title="What to measure next",
     note="Separation of the two models that the experiment separates least, in standard "
-    "deviations, allowing for the uncertainty of their parameters; above 3 they are told "
-    "apart.",
+    "deviations, with the uncertainty of their parameters. Above 3 it distinguishes "
+    "them.",
     headings={"separation_sd": "separation [sd]"},
 )
 
@@ -73,7 +73,7 @@ FIGURE = Figure(
     applies=lambda found: bool(found["next_experiment"]),
     make=draw_next_experiments,
     title="What to measure next",
-    caption="By how many standard deviations planned experiments would separate the models "
-    "that the data cannot tell apart, or else the two best ones: those that are separated "
-    "least (bars) and each two (points).",
+    caption="Standard deviations by which planned experiments would separate the models that "
+    "the data cannot distinguish, or else the two best ones. Bars: the pair that is "
+    "separated least; points: each pair.",
 )

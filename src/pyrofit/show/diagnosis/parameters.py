@@ -37,8 +37,8 @@ TABLE = Table(
     applies=always,
     make=parameters,
     title="Parameters of the model",
-    note="95 % intervals, each model taken as right. A parameter at a limit is a symptom: it "
-    "may stand in for what is missing.",
+    note="95 % intervals, each model taken as right. A parameter at a limit is a symptom: "
+    "it may compensate for a missing effect.",
     headings={
         "base_low": "95 % low",
         "base_high": "95 % high",

@@ -49,7 +49,7 @@ TABLE = Table(
     place=40,
     applies=always,
     make=probes,
-    title="What would absorb the misfit",
+    title="Free corrections that absorb the misfit",
     note="A free curve in one place of the model; absorbed: share of the chi-square above that "
     "of noise which it removes. It tells where the missing effect acts, not its name.",
     headings={"absorbed_percent": "absorbed [%]"},
@@ -60,7 +60,8 @@ FIGURE = Figure(
     place=40,
     applies=lambda found: any(p["shape"] for p in found["probes"]),
     make=draw_probes,
-    title="What would absorb the misfit",
-    caption="Free curves, each put into the model in one place and fitted with all parameters, "
-    "and the share of the excess of chi-square that they absorb; grey lines: no correction.",
+    title="Free corrections that absorb the misfit",
+    caption="Free curves, each put into the model in one place and fitted with all "
+    "parameters. The share of the excess chi-square that each absorbs is given. Grey "
+    "lines: no correction.",
 )

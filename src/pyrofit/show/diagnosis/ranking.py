@@ -100,8 +100,8 @@ FIGURE = Figure(
     make=ranking,
     title="Candidates, the best first",
     caption="Chi-square with log(points) for each parameter of an effect, above that of the "
-    "best candidate; linear below 1, logarithmic beyond. What lies left of the dashed line is "
-    "not told apart from the best by the fit alone; in the grey area one effect gains too "
-    "little to be claimed. In brackets: parameters of the form that were fitted, too. "
-    f"At most {MOST} are shown.",
+    "best candidate; linear below 1, logarithmic beyond. The fit alone does not "
+    "distinguish candidates left of the dashed line from the best one. In the grey "
+    "area one effect gains too little to be claimed. In brackets: parameters of the "
+    f"form that were fitted, too. At most {MOST} are shown.",
 )

@@ -136,8 +136,8 @@ def _of_noise(study: Study, found: Found) -> list[str]:
     estimated, lasting = those("stated"), those("white")
     said = [f"No uncertainty is given, so that the noise is estimated: {estimated}."]
     return said * bool(estimated) + [
-        "What is left of the noise is not white where the estimated correlation is taken out, so "
-        f"that the levels of the gates hold less surely: {lasting}."
+        "The noise of these series remains correlated after the estimated correlation is "
+        f"removed, so that the critical values hold less surely: {lasting}."
     ] * bool(lasting)
 
 

@@ -38,7 +38,7 @@ TABLE = Table(
     place=30,
     applies=always,
     make=strengths,
-    title="What is missing, and how much of it",
+    title="Missing effects and their strengths",
     note="95 % intervals; with form: including that the effect may look otherwise than its "
     "equation says. Without: the value at which the effect is absent, or the usual value of a "
     "parameter that says how it looks.",

@@ -26,9 +26,10 @@ FIGURE = Figure(
     make=fig3,
     title="Fitted rates",
     paper="Figure 3",
-    caption="Mass loss rate or heat release rate of the fitted experiments: the data with their "
-    "uncertainty (grey area), and the best set that SCE-UA found for each cost function; thin grey "
-    "curves with markers, if any, are our solver's for sets of the literature. Curves on "
-    "top of each other mean that the choice of the cost function makes no difference here; "
-    "long stretches outside the grey area are what no set explains.",
+    caption="Mass loss rate or heat release rate of the fitted experiments. Grey area: the "
+    "data with their uncertainty. Coloured: the best set that SCE-UA found for each "
+    "cost function. Thin grey curves with markers: sets of the literature, simulated "
+    "by our solver. Curves on top of each other mean that the choice of the cost "
+    "function makes no difference here. No set explains long stretches outside the "
+    "grey area.",
 )

@@ -49,13 +49,13 @@ TABLE = Table(
     place=10,
     applies=lambda study: True,
     make=determined,
-    title="95 % intervals of the parameters, and what the data determine",
-    note="Low, high: 95 % interval about the optimum of the likelihood, chi-square divided by "
-    "its value per degree of freedom where that exceeds 1; 'noise alone': without that "
-    "division, where that differs. Width in per cent of the "
-    "distance of the limits: up to 20 determined, up to 50 weakly determined, else "
-    "undetermined. Linear: from the parabola of chi-square; profile: all other parameters "
-    "fitted anew at each value. All intervals take the model and its other values as exact, "
+    title=("95 % intervals of the parameters, and how well the data determine them"),
+    note="Low, high: 95 % interval about the optimum of the likelihood. Chi-square is "
+    "divided by its value per degree of freedom where that exceeds 1. 'Noise alone': "
+    "without that division, where that differs. Width in per cent of the distance of "
+    "the limits: up to 20 determined, up to 50 weakly determined, else undetermined. "
+    "Linear: from the parabola of chi-square; profile: all other parameters fitted "
+    "anew at each value. All intervals take the model and its other values as exact, "
     "those of the inverse modelling the kinetics as well.",
     headings={
         "low": "95 % low",

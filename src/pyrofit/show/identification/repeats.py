@@ -59,7 +59,7 @@ TABLE = Table(
     place=16,
     applies=has_repeats,
     make=table,
-    title="Repeats and what differs between them",
+    title="Repeats and their differences",
     note="Repeats are fitted together and never averaged. Stated sd: standard deviation between "
     "repeats, given under `repeats`. Distance: estimate minus the value of no difference, over "
     "the stated sd; beyond 2 the repeats differ by more than is stated.",

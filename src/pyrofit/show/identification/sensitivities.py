@@ -55,6 +55,6 @@ FIGURE = Figure(
     make=sensitivities,
     title="Sensitivity of the signals",
     caption="Change of each signal per distance of a parameter's limits, at the optimum. A "
-    "curve within the noise (grey area) at all times tells little of its parameter; parameters "
-    "whose curves have the same shape cannot be told apart.",
+    "curve within the noise (grey area) at all times tells little about its "
+    "parameter. Parameters with curves of the same shape cannot be distinguished.",
 )

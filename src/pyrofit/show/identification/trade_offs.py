@@ -29,9 +29,10 @@ TABLE = Table(
     applies=lambda study: True,
     make=table,
     title="Correlated estimates",
-    note="If a parameter is raised by its standard deviation and all others are fitted anew, the "
-    "best value of its partner moves by the shift; the simulated measurements change little. "
-    "Pairs with a correlation of 0.7 or more, else the strongest.",
+    note="If a parameter is raised by its standard deviation and all others are fitted "
+    "anew, the best value of its partner moves by the shift. The simulated "
+    "measurements change little. Pairs with a correlation of 0.7 or more, else the "
+    "strongest.",
     headings={
         "rise": "raised by",
         "partner": "partner",

@@ -71,9 +71,9 @@ FIGURE = Figure(
     title="Kinetics at the fitted heating rates",
     paper="Figure 2",
     caption="Normalised mass (left) and mass loss rate (right) against temperature at the "
-    "heating rates used in the fit, the slowest to the left: data (wide, light), fitted "
-    "(dashed), sets of the literature, if any (dotted). The rate is divided by the heating "
-    "rate, so that all are of similar height; it is the slope of a parabola fitted to each "
-    "10 K of the mass, of data and simulations alike. Good kinetics shift with the heating "
-    "rate as the data do.",
+    "heating rates used in the fit, the slowest to the left. Wide, light: data; "
+    "dashed: fitted; dotted: sets of the literature, if any. The rate is divided by "
+    "the heating rate, so that all are of similar height. It is the slope of a "
+    "parabola fitted to each 10 K of the mass, of data and simulations alike. Good "
+    "kinetics shift with the heating rate as the data do.",
 )

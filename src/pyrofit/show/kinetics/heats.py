@@ -88,7 +88,7 @@ FIGURE = Figure(
     make=heats,
     title="Heat flow and heat release of heated samples",
     caption="Heat flow (DSC, positive where heat is taken up) or heat release rate (MCC) per "
-    "initial mass against temperature: data with their uncertainty (grey), the fit and sets of the "
-    "literature (dashed and dotted). The simulated heat flow includes the baseline. Panels "
-    "without 'in fit' are predictions.",
+    "initial mass against temperature. Grey: data with their uncertainty; dashed and "
+    "dotted: the fit and sets of the literature. The simulated heat flow includes the "
+    "baseline. Panels without 'in fit' are predictions.",
 )

@@ -47,11 +47,11 @@ TABLE = Table(
     applies=lambda study: True,
     make=costs,
     title="Optimisers compared on the same costs",
-    note="Model calls are those of all repetitions, and of all starts. The ratio is the lowest "
-    "cost of the others over the best of SCE-UA. 'From SCE-UA's best': where least squares "
-    "gets from there; a set that it lowers is no minimum. The solver's error is 4/3 of what "
-    "twice the cells and half the steps change. 'At bound': within 0.5 % of the limits' "
-    "distance.",
+    note="Model calls are those of all repetitions, and of all starts. The ratio is the "
+    "lowest cost of the others over the best of SCE-UA. 'From SCE-UA's best': end of "
+    "least squares started there. If it is lower, SCE-UA did not reach a minimum. The "
+    "solver's error is 4/3 of the change with twice the cells and half the steps. 'At "
+    "bound': within 0.5 % of the limits' distance.",
     headings={
         "cost_function": "cost function",
         "sceua_best": "SCE-UA best",

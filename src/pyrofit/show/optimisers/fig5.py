@@ -120,8 +120,8 @@ FIGURE = Figure(
     paper="Figure 5",
     caption="Lowest cost found so far, from the lowest to the highest of the repetitions "
     "(area) and their median (line), by generation and by model calls. The scale is "
-    "logarithmic and each cost function has its own: heights of different cost functions are "
-    "not comparable. Where the dashed line, the best of least squares on the same cost, lies "
-    "below the area, SCE-UA did not reach the lowest known cost; a narrow area alone does not "
-    "show that it did.",
+    "logarithmic and each cost function has its own: heights of different cost "
+    "functions are not comparable. Where the dashed line, the best of least squares "
+    "on the same cost, lies below the area, SCE-UA did not reach the lowest known "
+    "cost. A narrow area alone is no proof of convergence.",
 )

@@ -21,7 +21,7 @@ FIGURE = Figure(
     make=optimisers,
     title="Rates of the optimisers",
     caption="The best sets of least squares (diamonds) and CMA-ES (squares) beside those of "
-    "SCE-UA. Where a lower cost at the fitted experiment comes with a worse prediction "
-    "elsewhere, the fitted data do not determine the parameters, or their values "
-    "compensate an effect that the model lacks.",
+    "SCE-UA. A lower cost at the fitted experiment may come with a worse prediction "
+    "elsewhere. Then the fitted data do not determine the parameters, or their values "
+    "compensate for a missing effect.",
 )

@@ -58,7 +58,7 @@ def _beaten(tables: Frames) -> str:
             )
     if not parts:
         return "Under no cost function is a set lower by 1 % than those that were fitted with it."
-    return f"A search may miss what another one finds: {'; '.join(parts)}."
+    return f"One search may miss a set that another one finds: {'; '.join(parts)}."
 
 
 def _times(times: Mapping[str, Sequence[float]]) -> str:

@@ -94,8 +94,8 @@ TABLES = {
         applies=always,
         make=valleys,
         title="Where the valley of every cost lies",
-        note="Range of each parameter over the best sets of a cost, and the best of them, in per "
-        "cent of the distance between the parameter's limits.",
+        note="Range of each parameter over the best sets of a cost, and the best of them. Both "
+        "in per cent of the distance between the parameter's limits.",
         group_by="cost",
     ),
 }

@@ -16,9 +16,9 @@ TITLE = "Robustness on twins of known truth"
 
 
 CAPTION = (
-    "Errors of the fits against how much noise (left) and how many outliers (right) the twins "
-    "have; dots: one twin each, lines: their median. A cost function whose line stays low bears "
-    "what disturbs it; lines that lie within each other's dots do not differ."
+    "Errors of the fits against how much noise (left) and how many outliers (right) "
+    "the twins have; dots: one twin each, lines: their median. A cost function whose "
+    "line stays low is robust. Lines within each other's dots do not differ."
 )
 
 

@@ -71,13 +71,14 @@ TABLE = Table(
     applies=lambda study: True,
     make=robustness,
     title="Robustness of the cost functions on twins of known truth",
-    note="Twins: curves of the model itself with white noise of the measurement's size times the "
-    "number given, or with that noise and outliers besides, up or down by a share of the signal's "
-    "range. Fitted by least squares from random starts. Error: root mean square over the "
-    "parameters, in per cent of their limits, median over the twins; left out are parameters that "
-    f"no cost function recovers within {RECOVERED:g} % at the least noise. Prediction: CV(RMSE) of "
-    "the mass loss rate at the held-out experiments against the truth. p: Kruskal and Wallis's "
-    "test that the errors of the cost functions lie at the same place, Holm-corrected.",
+    note="Twins: curves of the model itself with white noise. Its standard deviation is "
+    "that of the measurement times the number given. Some twins have outliers as "
+    "well, up or down by a share of the signal's range. Fitted by least squares from "
+    "random starts. Error: root mean square over the parameters, in per cent of their "
+    "limits, median over the twins. Left out are parameters that no cost function "
+    f"recovers within {RECOVERED:g} % at the least noise. Prediction: CV(RMSE) of the "
+    "mass loss rate at the held-out experiments against the truth. p: Kruskal and "
+    "Wallis's test of equal errors of the cost functions, Holm-corrected.",
     headings={
         "cost_function": "cost function",
         "error_percent": "error [% of limits]",

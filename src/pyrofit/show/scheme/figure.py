@@ -13,11 +13,11 @@ from pyrofit.show.kinetics.drawing import rate_of, slope
 
 TITLE = "Reaction scheme of the study and the chosen one"
 CAPTION = (
-    "At every heating rate, the slowest above: mass over initial mass (left), its slope over "
-    "temperature (middle), simulated minus measured mass (right). Black: measured; red, dashed: "
-    "the scheme of the study, fitted alike; blue: the chosen scheme; ochre, dotted: what a fit of "
-    "the chosen scheme without this heating rate predicts. Rates marked 'not fitted' are predicted "
-    "by every curve."
+    "At every heating rate, the slowest at the top: mass over initial mass (left), "
+    "its slope over temperature (middle), simulated minus measured mass (right). "
+    "Black: measured; red, dashed: the scheme of the study, fitted alike. Blue: the "
+    "chosen scheme; ochre, dotted: prediction of the chosen scheme, fitted without "
+    "this heating rate. Rates marked 'not fitted' are predicted by every curve."
 )
 LOOKS: dict[str, dict[str, object]] = {
     "before": {"color": style.COLOURS[1], "linestyle": style.DASHES[1], "linewidth": 1.0},

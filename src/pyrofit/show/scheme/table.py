@@ -57,11 +57,12 @@ SCHEMES = Table(
     place=10,
     applies=always,
     make=schemes,
-    title="Reaction schemes and what they predict",
-    note="BIC: above the least one. Log score: log density of all heating rates, each predicted by "
-    "a fit to the others; the higher, the better. Deviations are root mean squares of the mass "
-    "over the initial mass: of the fit, of heating rates left out of it, and of records that no "
-    "scheme was fitted to. Left over: standard deviation of what a scheme leaves beyond the noise.",
+    title="Reaction schemes and their predictions",
+    note="BIC: above the least one. Log score: log density of all heating rates, each "
+    "predicted by a fit to the others; the higher, the better. Deviations are root "
+    "mean squares of the mass over the initial mass. They are given for the fit, for "
+    "heating rates left out of it, and for records that were not fitted. Left over: "
+    "standard deviation of the misfit beyond the noise.",
     headings={
         "bic": "BIC",
         "log_score": "log score",

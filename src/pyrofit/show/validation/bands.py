@@ -75,13 +75,13 @@ TABLE = Table(
     place=60,
     applies=lambda study: True,
     make=width_of_bands,
-    title="What the good sets predict",
-    note=f"Good sets: those whose cost is at most {GOOD:g} of the lowest known one, met on a "
-    f"random walk from there within the limits; simulated are at most {MOST} for each cost "
-    "function, those that lie farthest apart. Width: highest minus lowest "
-    "prediction, mean over time. Within: share of the measured points inside the band, and "
-    "inside the band widened by their stated uncertainty. The band is the reach of the good "
-    "sets, not an interval of a probability.",
+    title="Predictions of the good sets",
+    note=f"Good sets: their cost is at most {GOOD:g} of the lowest known one. A random walk "
+    f"from there within the limits meets them. At most {MOST} are simulated for each "
+    "cost function, those that lie farthest apart. Width: highest minus lowest "
+    "prediction, mean over time. Within: share of the measured points inside the "
+    "band, and inside the band widened by their stated uncertainty. The band is the "
+    "range of the good sets, not a confidence interval.",
     headings={
         "cost_function": "cost function",
         "good_sets": "good sets",

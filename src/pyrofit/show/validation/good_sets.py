@@ -70,9 +70,9 @@ FIGURE = Figure(
     place=50,
     applies=lambda study: bool(study.validation.experiments),
     make=good_sets,
-    title="What the good sets predict",
-    caption="Lowest and highest prediction of all sets whose cost is near the lowest known one "
-    "(blue), and the set of the lowest cost for each cost function. Data outside the "
-    "blue area are missed by all sets that fit well: what is wrong there is the model or its "
-    "given values, not the choice of a set.",
+    title="Predictions of the good sets",
+    caption="Lowest and highest prediction of all sets whose cost is near the lowest known "
+    "one (blue). The lines are the sets of the lowest cost of each cost function. All sets that "
+    "fit well miss the data outside the blue area. There the model or its given "
+    "values are wrong, not the choice of a set.",
 )

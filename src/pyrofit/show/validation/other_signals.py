@@ -20,8 +20,8 @@ FIGURE = Figure(
     applies=lambda study: bool(predicted_signals(study, relative=False)),
     make=other_signals,
     title="Temperatures and other signals",
-    caption="Signals of the predicted experiments that are no rates, such as the back temperature: "
-    "the data with their uncertainty and the predictions of the same sets. Repeats of a test share "
-    "a panel, with a prediction for each. A signal that was not "
-    "fitted tests whether the parameters have a physical meaning.",
+    caption="Signals of the predicted experiments that are no rates, such as the back "
+    "temperature. Shown are the data with their uncertainty and the predictions of "
+    "the same sets. Repeats of a test share a panel, with a prediction for each. A "
+    "signal that was not fitted tests whether the parameters have a physical meaning.",
 )

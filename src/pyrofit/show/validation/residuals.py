@@ -53,8 +53,8 @@ FIGURE = Figure(
     applies=lambda study: bool(predicted_signals(study, relative=True)),
     make=residuals,
     title="Residuals of the rates",
-    caption="Mass loss rate or heat release rate of the best sets minus that of the data: every "
-    "point (thin) and the running mean over 3 % of the points (bold), and the uncertainty of the "
-    "data about zero (grey area). Noise scatters about zero; long stretches on one side are "
-    "systematic.",
+    caption="Mass loss rate or heat release rate of the best sets minus that of the data. "
+    "Thin: every point; bold: running mean over 3 % of the points; grey area: "
+    "uncertainty of the data about zero. Noise scatters about zero; long stretches on "
+    "one side are systematic.",
 )
