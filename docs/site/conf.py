@@ -51,10 +51,17 @@ html_copy_source = False
 html_show_sphinx = False
 
 
+MORE = "```{toctree}\n:caption: More\n:hidden:\n"
+"""Pages that have no place in the navigation yet."""
+
+
 def prepare(app: Sphinx, page: str, source: list[str]) -> None:
     """Append the navigation to the first page, and turn anchors of HTML into those of MyST."""
     if page == root_doc:
-        source[0] += "\n" + (HERE / "navigation.md").read_text(encoding="utf-8")
+        navigation = (HERE / "navigation.md").read_text(encoding="utf-8")
+        pages = sorted(p.stem for p in (ROOT / "docs").glob("*.md"))
+        new = [f"docs/{name}" for name in pages if f"docs/{name}" not in navigation]
+        source[0] += "\n" + "\n".join([navigation, MORE, *new, "```"])
     source[0] = re.sub(r'<a id="([\w-]+)"></a>', r"(\1)=", source[0])
 
 
