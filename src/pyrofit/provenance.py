@@ -36,6 +36,7 @@ STUDY = (
             "rescore",
             "sensitivity",
             "posterior",
+            "worth",
             "scheme",
             "diagnose",
         )
@@ -63,6 +64,7 @@ CATALOGUES = (
             "sensitivity",
             "truth",
             "validation",
+            "worth",
         )
     ),
 )

@@ -70,6 +70,7 @@ rule report:
                 results.rescored("valleys.svg"),
                 results.sensitivity("costs.svg"),
                 results.posterior("parameters.svg"),
+                results.worth("worth.svg"),
                 results.scheme("scheme.svg"),
             )
             if page.exists()

@@ -226,6 +226,10 @@ class Results:
         """Draws of the parameters, the ensemble, and bands of predictions."""
         return self.root / "posterior" / name
 
+    def worth(self, name: str) -> Path:
+        """By how much planned tests narrow parameters and predictions."""
+        return self.root / "worth" / name
+
     def robustness(self, name: str) -> Path:
         """Fits of all cost functions to twins of known truth."""
         return self.root / "robustness" / name

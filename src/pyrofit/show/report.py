@@ -1,7 +1,9 @@
 """The report of a study: one page that needs nothing else, and the provenance beside it."""
 
+from typing import Any
+
 from pyrofit.config import Study
-from pyrofit.results import diagnosis, posterior, recorded, rescored, scheme, sensitivity
+from pyrofit.results import diagnosis, posterior, recorded, rescored, scheme, sensitivity, worth
 from pyrofit.results.files import Results, write_json, write_text
 from pyrofit.show import (
     diagnosis_page,
@@ -11,6 +13,7 @@ from pyrofit.show import (
     rescore_page,
     scheme_page,
     sensitivity_page,
+    worth_page,
 )
 from pyrofit.show.answer import ANSWER
 from pyrofit.show.answer.summary import summary
@@ -24,6 +27,16 @@ from pyrofit.show.robustness.table import TABLE as ROBUSTNESS
 from pyrofit.show.section import Section
 from pyrofit.show.sections import SECTIONS, TABLES
 from pyrofit.show.table import Frames, read_table
+
+
+OWN_STEPS: tuple[tuple[Any, Any], ...] = (
+    (rescored, rescore_page),
+    (sensitivity, sensitivity_page),
+    (posterior, posterior_page),
+    (worth, worth_page),
+    (scheme, scheme_page),
+)
+"""Results of steps of their own, and their sections."""
 
 
 def write_report(study: Study, results: Results) -> None:
@@ -42,16 +55,10 @@ def write_report(study: Study, results: Results) -> None:
         table_part(study, TABLES["answer"], tables["answer"]),
     )
     shown = [one for part in SECTIONS if (one := _shown(part, study, results, facts))]
-    # Scheme, other costs, sensitivity, posterior, diagnosis and the proof by FDS are steps of their
-    # own, which a study may go without.
-    if rescored.exists(results):
-        shown.append(rescore_page.section(study, results))
-    if sensitivity.exists(results):
-        shown.append(sensitivity_page.section(study, results))
-    if posterior.exists(results):
-        shown.append(posterior_page.section(study, results))
-    if scheme.exists(results):
-        shown.append(scheme_page.section(study, results))
+    # These, diagnosis and the proof by FDS are steps of their own, which a study may go without.
+    for result, page in OWN_STEPS:
+        if result.exists(results):
+            shown.append(page.section(study, results))
     if fds_page.exists(results):
         shown.append(fds_page.section(study, results))
     made = provenance(study, measured)

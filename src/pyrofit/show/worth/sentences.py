@@ -1,0 +1,65 @@
+"""Which test to make next, in sentences."""
+
+from pyrofit.config import Study
+from pyrofit.results import worth
+from pyrofit.results.files import Results
+from pyrofit.results.worth import OfTest, Worth
+from pyrofit.show.text import listed, several
+from pyrofit.show.worth.facts import LITTLE, label, remaining
+
+UNLIKE = 15.0
+"""Difference of the check from the linear number that is mentioned [% of the present sd]."""
+MOST_NAMED = 3
+
+
+def sentences(study: Study, results: Results) -> list[str]:
+    """Return the sentences on the worth of planned tests."""
+    found = worth.read(study, results)
+    return [_best(study, found), *_check(study, found), *_useless(found), *_left_out(found)]
+
+
+def _best(study: Study, found: Worth) -> str:
+    test = found.tests[0]
+    left = remaining(found, test)
+    parameters = sorted(study.imp.estimate, key=lambda name: left[name])[:MOST_NAMED]
+    names = [*parameters, *found.predictions]
+    shares = [f"{left[name]:.0f} % ({label(study, found, name)})" for name in names]
+    return (
+        f"Of {several(len(found.tests), 'planned test')}, {test.words} narrows parameters and "
+        f"predictions most. Of the present standard deviations it leaves {listed(shares)}."
+    )
+
+
+def _check(study: Study, found: Worth) -> list[str]:
+    """Say how far refits of drawn data agree with the linear numbers."""
+    checked = [test for test in found.tests if test.checked is not None]
+    if not checked:
+        return []
+    apart = {
+        (test.words, name): abs(value - remaining(found, test)[name])
+        for test in checked
+        for name, value in remaining(found, test, checked=True).items()
+    }
+    (words, name), most = max(apart.items(), key=lambda pair: pair[1])
+    about = f"The best {len(checked)} were checked by refits of {found.draws} drawn data sets"
+    if most <= UNLIKE:
+        return [
+            f"{about}, which agree: what is left differs by at most {most:.0f} percentage points."
+        ]
+    return [
+        f"{about}. What is left differs most for {label(study, found, name)} with {words}, by "
+        f"{most:.0f} percentage points: the linear numbers are rough there."
+    ]
+
+
+def _useless(found: Worth) -> list[str]:
+    none = [test.words for test in found.tests if _narrows(found, test) < LITTLE]
+    return [f"Nothing is narrowed by {LITTLE:g} % or more by {listed(none)}."] if none else []
+
+
+def _narrows(found: Worth, test: OfTest) -> float:
+    return max(100.0 - left for left in remaining(found, test).values())
+
+
+def _left_out(found: Worth) -> list[str]:
+    return [f"Left out, as its simulation does not finish: {words}." for words in found.left_out]

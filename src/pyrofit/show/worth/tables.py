@@ -1,0 +1,60 @@
+"""The planned tests and what each leaves of the standard deviations."""
+
+from typing import Any
+
+import pandas as pd
+
+from pyrofit.config import Study
+from pyrofit.results import worth
+from pyrofit.results.files import Results
+from pyrofit.show.table import Table, always
+from pyrofit.show.units import difference, difference_unit
+from pyrofit.show.worth.facts import label, remaining
+
+NOW = "none: standard deviation now"
+
+
+def tests(study: Study, results: Results) -> pd.DataFrame:
+    """List the present standard deviations, then what each test leaves of them [%]."""
+    found = worth.read(study, results)
+    rows: list[dict[str, Any]] = [_now(study, found)]
+    for test in found.tests:
+        rows.append(_row(study, found, test.words, test.gain_bit, remaining(found, test)))
+        if again := remaining(found, test, checked=True):
+            rows.append(_row(study, found, f"{test.words}: refits", None, again))
+    return pd.DataFrame(rows)
+
+
+def _now(study: Study, found: worth.Worth) -> dict[str, Any]:
+    row: dict[str, Any] = {"test": NOW, "gain_bit": None}
+    for name, sd in found.now.parameters.items():
+        unit = study.parameters[name].unit
+        row[name] = f"{sd:.2g}" + ("" if unit == "-" else f" {unit}")
+    for name, sd in found.now.predictions.items():
+        one = found.predictions[name]
+        quantity = study.experiments[one.experiment].quantity(one.signal)
+        shown = float(difference(quantity, sd))
+        row[label(study, found, name)] = f"{shown:.2g} {difference_unit(quantity)}"
+    return row
+
+
+def _row(
+    study: Study, found: worth.Worth, words: str, gain: float | None, left: dict[str, float]
+) -> dict[str, Any]:
+    shown = {label(study, found, name): f"{value:.0f} %" for name, value in left.items()}
+    return {"test": words, "gain_bit": None if gain is None else round(gain, 1), **shown}
+
+
+TABLES = {
+    "worth": Table(
+        place=10,
+        applies=always,
+        make=tests,
+        title="Worth of planned tests",
+        note="First row: standard deviations with the data so far, widened by the dispersion. "
+        "Other rows: what a test leaves of them. Gain: logarithm to base 2 of the factor by which "
+        "the volume of the parameters' uncertainty falls. Refits: spread of the parameters fitted "
+        "to drawn data with the test, over that without it.",
+        headings={"gain_bit": "gain [bit]"},
+    ),
+}

@@ -1,0 +1,236 @@
+"""Which measurement would narrow parameters and predictions most: the worth of planned tests."""
+
+from collections.abc import Callable, Mapping, Sequence
+from typing import Any
+
+import numpy as np
+
+from pyrofit.analysis import data_worth
+from pyrofit.config import Study
+from pyrofit.config.programs import externals
+from pyrofit.diagnose.base.fitted import FittedModel
+from pyrofit.diagnose.base.model import Base, model_of
+from pyrofit.errors import DataError, StudyError
+from pyrofit.estimate.bounded_least_squares import Fit
+from pyrofit.estimate.likelihood import Likelihood, likelihood_of
+from pyrofit.estimate.posterior import curvature
+from pyrofit.estimate.prior import prior_of
+from pyrofit.estimate.problem import make_problem
+from pyrofit.estimate.targets import Measurements
+from pyrofit.experiments import kind_of
+from pyrofit.experiments.external.simulate import OWN_MODEL
+from pyrofit.results import dependencies, worth
+from pyrofit.results.files import Results, read_csv
+from pyrofit.solver.arrays import FloatArray
+from pyrofit.stages.fit import fixed_for_imp
+from pyrofit.stages.measurements import load
+from pyrofit.stages.worth_check import Drawn, spreads
+from pyrofit.stages.worth_forecast import Forecast, forecast
+from pyrofit.stages.worth_tests import Planned, planned
+
+DRAWS = 50
+"""Drawn data sets of the check unless told otherwise."""
+CHECKED = 3
+"""Tests that are checked."""
+Tell = Callable[[str], None]
+
+
+def worth_of_tests(
+    study: Study, results: Results, tell: Tell, draws: int = DRAWS, cores: int = 1
+) -> None:
+    """Compute by how much planned tests narrow parameters and predictions; write ``worth``.
+
+    Parameters
+    ----------
+    study, results
+        A study whose estimates have been analysed.
+    tell
+        Told what is done.
+    draws
+        Data sets that are drawn and fitted again to check the best tests; 0 = no check.
+    cores
+        Processes.
+
+    Raises
+    ------
+    DataError
+        A result is missing, or no planned test can be simulated.
+    StudyError
+        An external program simulates a fitted experiment.
+    """
+    fitted = best_fit(study, results)
+    predictions = _predictions(study, fitted, load(study, results))
+    tests, left_out = planned(study, fitted)
+    if not tests:
+        raise DataError(f"study '{study.name}': none of the planned tests can be simulated")
+    tell(f"worth of {len(tests)} planned tests for {len(predictions)} predictions")
+    before = _curvature(fitted)
+    ranked = _ranked(fitted, before, tests, predictions)
+    best = [test for test, _ in ranked[:CHECKED]]
+    checked = _checked(study, fitted, best, predictions, draws, tell, cores)
+    content = {
+        "study": study.name,
+        "points": fitted.model.points,
+        "dispersion": fitted.posterior.dispersion,
+        "draws": draws,
+        "estimate": _in_units(study, fitted, fitted.model.likelihood.values(fitted.fit.x)),
+        "now": _sds(study, fitted, *_linear(before, predictions)),
+        "now_checked": checked.get(""),
+        "predictions": {
+            name: dict(zip(("experiment", "signal"), name.split(" "), strict=True))
+            for name in predictions
+        },
+        "tests": [
+            {
+                **about,
+                "sds": _sds(study, fitted, *about["sds"]),
+                "checked": checked.get(test.name),
+            }
+            for test, about in ranked
+        ],
+        "left_out": left_out,
+    }
+    worth.write(results, content)
+
+
+def _curvature(fitted: FittedModel) -> FloatArray:
+    posterior = fitted.posterior
+    return curvature(posterior.jacobian, posterior.dispersion, posterior.known)
+
+
+def _checked(
+    study: Study,
+    fitted: FittedModel,
+    tests: Sequence[Planned],
+    predictions: Mapping[str, Forecast],
+    draws: int,
+    tell: Tell,
+    cores: int,
+) -> dict[str, dict[str, Any]]:
+    """Return the spread over refits without a test, by the name '', and with each of some."""
+    if draws == 0:
+        return {}
+    tell(f"checking {len(tests)} of them by {draws * (len(tests) + 1)} refits of drawn data")
+    drawn = Drawn(fitted, fitted.posterior.dispersion, study.seed)
+    records = [None, *(test.record for test in tests)]
+    found = spreads(drawn, records, predictions, draws, cores)
+    names = ["", *(test.name for test in tests)]
+    return {n: _sds(study, fitted, *one) for n, one in zip(names, found, strict=True)}
+
+
+def best_fit(study: Study, results: Results) -> FittedModel:
+    """Return the best fit to all fitted data: kinetics too, where they are fitted.
+
+    Raises
+    ------
+    DataError
+        The estimates are missing.
+    StudyError
+        An external program simulates a fitted experiment.
+    """
+    estimates = read_csv(
+        results.identification("estimate.csv"),
+        {"parameter": object, "estimate": float},
+        {("parameter",): [(name,) for name in study.imp.estimate]},
+    ).set_index("parameter")["estimate"]
+    likelihood, fixed = _likelihood(study, results)
+    values = {**fixed, **{str(name): float(value) for name, value in estimates.items()}}
+    start = likelihood.scaled(np.array([values[name] for name in likelihood.problem.names]))
+    end = likelihood.descend(start)
+    jacobian = likelihood.jacobian(end.x, end.residuals)
+    base = Base(likelihood, tuple(range(len(likelihood.noise))))
+    return FittedModel(model_of(base, {}), Fit(end.chi2, end.x, end.residuals, jacobian))
+
+
+def _likelihood(study: Study, results: Results) -> tuple[Likelihood, dict[str, float]]:
+    """Return the likelihood of all fitted data, and the values of all known parameters."""
+    fixed = fixed_for_imp(study, results)
+    names, specs = list(study.imp.estimate), list(study.imp.channels)
+    if study.imp.kinetics == "fitted":
+        stage = dependencies.kinetics_of(study)
+        names, specs = [*stage.estimate, *names], [*stage.channels, *specs]
+    outside = {spec.experiment for spec in specs} & set(externals(study))
+    if outside:
+        raise StudyError(f"experiments.{min(outside)}: {OWN_MODEL}")
+    problem = make_problem(
+        study,
+        list(dict.fromkeys(names)),
+        specs,
+        load(study, results),
+        study.material_with(study.imp.kinetics),
+        fixed,
+    )
+    return likelihood_of(problem, prior_of(study, problem)), fixed
+
+
+def _predictions(
+    study: Study, fitted: FittedModel, measurements: Measurements
+) -> dict[str, Forecast]:
+    """Return the curves of the experiments that are predicted and not fitted."""
+    likelihood, x = fitted.model.likelihood, fitted.fit.x
+    found = {}
+    for name in study.validation.experiments:
+        if name in likelihood.problem.runs or name in externals(study):
+            continue
+        experiment = study.experiments[name]
+        for signal in experiment.signals:
+            frame = measurements[name, signal]
+            time = frame["time_s"].to_numpy(float)
+            request = kind_of(experiment).request(experiment, signal, frame, time)
+            if one := forecast(likelihood, x, experiment, {signal: request}):
+                found[f"{name} {signal}"] = one
+    return found
+
+
+def _ranked(
+    fitted: FittedModel,
+    before: FloatArray,
+    tests: Sequence[Planned],
+    predictions: Mapping[str, Forecast],
+) -> list[tuple[Planned, dict[str, Any]]]:
+    """Return the tests with what they leave, the best first."""
+    dispersion = fitted.posterior.dispersion
+    found = []
+    for test in tests:
+        after = data_worth.narrowed(before, test.record.jacobian, dispersion)
+        parts = [_linear(curve, predictions) for curve in (before, after)]
+        left = [
+            data_worth.left(np.asarray(now), np.asarray(then))
+            for now, then in (
+                (parts[0][0], parts[1][0]),
+                (list(parts[0][1].values()), list(parts[1][1].values())),
+            )
+        ]
+        about = {
+            "name": test.name,
+            "words": test.words,
+            "quantities": list(test.record.noise),
+            "gain_bit": data_worth.gain(before, after),
+            "left": float(np.sqrt(left[0] * left[1])) if predictions else left[0],
+            "sds": parts[1],
+        }
+        found.append((test, about))
+    return sorted(found, key=lambda pair: pair[1]["left"])
+
+
+def _linear(
+    curve: FloatArray, predictions: Mapping[str, Forecast]
+) -> tuple[FloatArray, dict[str, float]]:
+    """Return the standard deviations that an inverse covariance leaves."""
+    return data_worth.sds(curve), {
+        name: data_worth.predicted_sd(curve, np.concatenate(list(one.slopes.values())))
+        for name, one in predictions.items()
+    }
+
+
+def _sds(
+    study: Study, fitted: FittedModel, sds: FloatArray, predictions: Mapping[str, float]
+) -> dict[str, Any]:
+    values = sds * fitted.model.likelihood.problem.span
+    return {"parameters": _in_units(study, fitted, values), "predictions": dict(predictions)}
+
+
+def _in_units(study: Study, fitted: FittedModel, values: FloatArray) -> dict[str, float]:
+    names = fitted.model.likelihood.problem.names
+    pairs = zip(names, values.tolist(), strict=True)
+    return {name: value / study.parameters[name].factor for name, value in pairs}

@@ -1,0 +1,92 @@
+"""Curves of tests that were not made or not fitted, and their derivatives at the best fit."""
+
+from collections.abc import Mapping
+from dataclasses import dataclass
+
+import numpy as np
+
+from pyrofit.estimate.derivatives import derivatives
+from pyrofit.estimate.likelihood import Likelihood
+from pyrofit.estimate.noise import NoiseModel
+from pyrofit.experiments import kind_of
+from pyrofit.model.experiment import Experiment
+from pyrofit.solver.arrays import FloatArray, Values
+from pyrofit.solver.curves import Request
+
+
+@dataclass(frozen=True, eq=False)
+class Forecast:
+    """Curves of a test at the best fit, by signal, and d curve / d x, (points, parameters).
+
+    x are the parameters of the likelihood, in distances of their limits.
+    """
+
+    experiment: Experiment
+    requests: Mapping[str, Request]
+    curves: Mapping[str, FloatArray]
+    slopes: Mapping[str, FloatArray]
+
+
+def simulated(
+    likelihood: Likelihood,
+    experiment: Experiment,
+    requests: Mapping[str, Request],
+    X: FloatArray,
+) -> list[FloatArray | None]:
+    """Return the curves of a test, one after the other, of sets; None where a run fails."""
+    problem = likelihood.problem
+    columns = dict(zip(problem.names, likelihood.values(X).T, strict=True))
+    values: Values = {**problem.fixed, **columns}
+    simulate = kind_of(experiment).simulate
+    [runs] = simulate([experiment], problem.material, values, [requests], problem.accuracy, len(X))
+    return [
+        np.concatenate([run.signals[s] for s in requests]) if run.status.finished else None
+        for run in runs
+    ]
+
+
+def forecast(
+    likelihood: Likelihood, x: FloatArray, experiment: Experiment, requests: Mapping[str, Request]
+) -> Forecast | None:
+    """Return curves and derivatives of a test at x; None where a run does not finish."""
+
+    def curves(X: FloatArray) -> list[FloatArray | None]:
+        return simulated(likelihood, experiment, requests, X)
+
+    here = curves(x[None])[0]
+    if here is None:
+        return None
+    slopes, found = derivatives(curves, x, here, order=2)
+    if not np.all(found):
+        return None
+    ends = np.cumsum([request.time_s.size for request in requests.values()])[:-1]
+    return Forecast(
+        experiment,
+        requests,
+        dict(zip(requests, np.split(here, ends), strict=True)),
+        dict(zip(requests, np.split(slopes, ends), strict=True)),
+    )
+
+
+@dataclass(frozen=True, eq=False)
+class Record:
+    """A further record: some signals of a forecast, with their noise."""
+
+    forecast: Forecast
+    noise: Mapping[str, NoiseModel]
+
+    @property
+    def jacobian(self) -> FloatArray:
+        """Whitened derivatives, shape (points, parameters)."""
+        parts = [n.whiten(self.forecast.slopes[s]) for s, n in self.noise.items()]
+        return np.concatenate(parts)
+
+    def whitened(self, likelihood: Likelihood, x: FloatArray) -> FloatArray | None:
+        """Return the whitened differences of the curves at x and at the best fit."""
+        asked = {s: self.forecast.requests[s] for s in self.noise}
+        there = simulated(likelihood, self.forecast.experiment, asked, x[None])[0]
+        if there is None:
+            return None
+        ends = np.cumsum([r.time_s.size for r in asked.values()])[:-1]
+        parts = zip(self.noise.items(), np.split(there, ends), strict=True)
+        return np.concatenate([n.whiten(c - self.forecast.curves[s]) for (s, n), c in parts])

@@ -1,0 +1,25 @@
+"""By how much planned tests would narrow parameters and predictions; a target of its own."""
+
+from pyrofit.results import worth
+
+
+rule worth:
+    input:
+        MEASUREMENTS,
+        KINETICS_FOR_IMP,
+        results.identification("estimate.csv"),
+    output:
+        [results.worth(name) for name in ("worth.json", "worth.svg")],
+    log:
+        log_of("worth"),
+    benchmark:
+        benchmark_of("worth")
+    threads: 2
+    params:
+        study=STUDY,
+        digest=digest(worth.slice_of(study)),
+        source=source_fingerprint("pyrofit.stages.worth", "pyrofit.show.worth_page"),
+    message:
+        "Worth of planned tests"
+    shell:
+        "pyrofit worth {params.study} --digest {params.digest} --log {log} --cores {threads}"
