@@ -53,6 +53,7 @@ FILES = {
     "test_sobol": "slow",
     "test_stages": "solver",
     "test_unmeasured": "solver",
+    "test_worth_stage": "solver",
 }
 """Files of folders whose other tests are fast."""
 _LONGEST_FIRST = {"workflow": 0, "blind_test": 1}
