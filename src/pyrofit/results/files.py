@@ -148,7 +148,9 @@ def read_csv(
     for name, kind in (columns or {}).items():
         if name not in frame or frame.empty:
             raise DataError(f"{path}: the column '{name}' is missing or empty; {_AGAIN}")
-        if kind is float and not _all_numbers(frame[name]):
+        column = frame[name]
+        finite = pd.api.types.is_numeric_dtype(column) and bool(np.isfinite(column).all())
+        if kind is float and not finite:
             raise DataError(
                 f"{path}: the column '{name}' does not hold numbers throughout; {_AGAIN}"
             )
@@ -165,10 +167,6 @@ def _check_rows(path: Path, frame: pd.DataFrame, names: Keys, wanted: list[Keys]
         what = "is of another study" if row in found else "is missing"
         named = ", ".join(f"{n} '{value}'" for n, value in zip(names, row, strict=True))
         raise DataError(f"{path}: the row of {named} {what}; {_AGAIN}")
-
-
-def _all_numbers(column: pd.Series) -> bool:
-    return pd.api.types.is_numeric_dtype(column) and bool(np.isfinite(column).all())
 
 
 class Results:
