@@ -128,7 +128,9 @@ def test_a_test_with_the_very_same_record_leaves_the_root_of_half(fitted: Fitted
     jacobian = fitted.fit.jacobian
     before = curvature(jacobian) - 12.0 * np.eye(jacobian.shape[1])
     after = data_worth.narrowed(before, jacobian, 1.0)
-    assert data_worth.left(data_worth.sds(before), data_worth.sds(after)) == pytest.approx(0.5**0.5)
+    free = range(len(before))
+    sds = [data_worth.sds(part, free) for part in (before, after)]
+    assert data_worth.left(*sds) == pytest.approx(0.5**0.5)
 
 
 def test_a_further_sensor_is_never_worth_less(study: Study, results: Results) -> None:

@@ -8,6 +8,8 @@ far leave, and the whitened derivatives J of the new record,
 A prediction with derivatives P has the covariance P C P^T.
 """
 
+from collections.abc import Sequence
+
 import numpy as np
 
 from pyrofit.solver.arrays import FloatArray
@@ -22,30 +24,48 @@ def narrowed(curvature: FloatArray, jacobian: FloatArray, dispersion: float) -> 
     return np.asarray(curvature + jacobian.T @ jacobian / dispersion)
 
 
-def sds(curvature: FloatArray) -> FloatArray:
-    """Return the standard deviations of the parameters, shape (parameters,)."""
-    return np.asarray(np.sqrt(np.diag(np.linalg.inv(curvature))))
+def sds(curvature: FloatArray, free: Sequence[int]) -> FloatArray:
+    """Return the standard deviations of the parameters, shape (parameters,).
+
+    ``free`` are the positions of those that do not rest at a limit. One that does does not move
+    with the others; its own number is that of its leaving the limit.
+
+    >>> sds(np.array([[2.0, 1.0], [1.0, 1.0]]), [0, 1]).tolist()
+    [1.0, 1.4142135623730951]
+    >>> sds(np.array([[4.0, 1.0], [1.0, 1.0]]), [0]).round(3).tolist()
+    [0.5, 1.155]
+    """
+    found = np.empty(len(curvature))
+    for i in range(len(curvature)):
+        moving = sorted({*free, i})
+        found[i] = np.sqrt(np.linalg.inv(_of(curvature, moving))[moving.index(i), moving.index(i)])
+    return found
 
 
-def predicted_sd(curvature: FloatArray, slopes: FloatArray) -> float:
+def predicted_sd(curvature: FloatArray, slopes: FloatArray, free: Sequence[int]) -> float:
     """Return the standard deviation of a predicted curve, root mean square over its points.
 
     ``slopes`` are the derivatives of the curve, shape (points, parameters).
 
-    >>> predicted_sd(np.diag([4.0, 1.0]), np.array([[2.0, 0.0], [0.0, 7.0]]))
+    >>> predicted_sd(np.diag([4.0, 1.0]), np.array([[2.0, 0.0], [0.0, 7.0]]), [0, 1])
     5.0
     """
-    spread = slopes @ np.linalg.inv(np.linalg.cholesky(curvature)).T
-    return float(np.sqrt(np.sum(spread**2) / len(slopes)))
+    root = np.linalg.inv(np.linalg.cholesky(_of(curvature, free))).T
+    return float(np.sqrt(np.sum((slopes[:, list(free)] @ root) ** 2) / len(slopes)))
 
 
-def gain(before: FloatArray, after: FloatArray) -> float:
+def gain(before: FloatArray, after: FloatArray, free: Sequence[int]) -> float:
     """Return the information gained [bit].
 
-    >>> gain(np.eye(2), np.diag([4.0, 1.0]))
+    >>> gain(np.eye(2), np.diag([4.0, 1.0]), [0, 1])
     1.0
     """
-    return float(0.5 * (np.linalg.slogdet(after)[1] - np.linalg.slogdet(before)[1]) / np.log(2.0))
+    (_, new), (_, old) = (np.linalg.slogdet(_of(part, free)) for part in (after, before))
+    return float(0.5 * (new - old) / np.log(2.0))
+
+
+def _of(curvature: FloatArray, moving: Sequence[int]) -> FloatArray:
+    return curvature[np.ix_(list(moving), list(moving))]
 
 
 def left(before: FloatArray, after: FloatArray) -> float:

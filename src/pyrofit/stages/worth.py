@@ -13,7 +13,7 @@ from pyrofit.diagnose.base.model import Base, model_of
 from pyrofit.errors import DataError, StudyError
 from pyrofit.estimate.bounded_least_squares import Fit
 from pyrofit.estimate.likelihood import Likelihood, likelihood_of
-from pyrofit.estimate.posterior import curvature
+from pyrofit.estimate.posterior import curvature, limit_of
 from pyrofit.estimate.prior import prior_of
 from pyrofit.estimate.problem import make_problem
 from pyrofit.estimate.targets import Measurements
@@ -74,7 +74,7 @@ def worth_of_tests(
         "dispersion": fitted.posterior.dispersion,
         "draws": draws,
         "estimate": _in_units(study, fitted, fitted.model.likelihood.values(fitted.fit.x)),
-        "now": _sds(study, fitted, *_linear(before, predictions)),
+        "now": _sds(study, fitted, *_linear(fitted, before, predictions)),
         "now_checked": checked.get(""),
         "predictions": {
             name: dict(zip(("experiment", "signal"), name.split(" "), strict=True))
@@ -193,7 +193,7 @@ def _ranked(
     found = []
     for test in tests:
         after = data_worth.narrowed(before, test.record.jacobian, dispersion)
-        parts = [_linear(curve, predictions) for curve in (before, after)]
+        parts = [_linear(fitted, curve, predictions) for curve in (before, after)]
         left = [
             data_worth.left(np.asarray(now), np.asarray(then))
             for now, then in (
@@ -205,7 +205,7 @@ def _ranked(
             "name": test.name,
             "words": test.words,
             "quantities": list(test.record.noise),
-            "gain_bit": data_worth.gain(before, after),
+            "gain_bit": data_worth.gain(before, after, _free(fitted)),
             "left": float(np.sqrt(left[0] * left[1])) if predictions else left[0],
             "sds": parts[1],
         }
@@ -213,12 +213,18 @@ def _ranked(
     return sorted(found, key=lambda pair: pair[1]["left"])
 
 
+def _free(fitted: FittedModel) -> list[int]:
+    """Return the positions of the parameters that do not rest at a limit."""
+    return [i for i, x in enumerate(fitted.fit.x) if not limit_of(x)]
+
+
 def _linear(
-    curve: FloatArray, predictions: Mapping[str, Forecast]
+    fitted: FittedModel, curve: FloatArray, predictions: Mapping[str, Forecast]
 ) -> tuple[FloatArray, dict[str, float]]:
     """Return the standard deviations that an inverse covariance leaves."""
-    return data_worth.sds(curve), {
-        name: data_worth.predicted_sd(curve, np.concatenate(list(one.slopes.values())))
+    free = _free(fitted)
+    return data_worth.sds(curve, free), {
+        name: data_worth.predicted_sd(curve, np.concatenate(list(one.slopes.values())), free)
         for name, one in predictions.items()
     }
 

@@ -25,7 +25,7 @@ from pyrofit.solver.curves import Place, Request
 from pyrofit.solver.outputs import FRONT, HEAT_FLOW, INSIDE
 from pyrofit.stages.worth_forecast import Forecast, Record, forecast
 
-INNER = "in_depth_temperature"
+INNER = next(name for name, q in known_quantities().items() if q.curve == INSIDE)
 SENSORS = {FRONT: "the front temperature", INNER: "the temperature at half the depth"}
 """Quantities that a slab may record besides, in words."""
 DSC_RATE_K_MIN = 10.0
