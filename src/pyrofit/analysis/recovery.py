@@ -8,7 +8,8 @@ import pandas as pd
 from pyrofit.config import Kinetics, Study, TermSpec
 from pyrofit.estimate.optimisers import OPTIMISERS
 from pyrofit.results import searches
-from pyrofit.results.files import EACH, Keys, Results, read_csv, read_json
+from pyrofit.results.files import Results, read_csv, read_json
+from pyrofit.results.needed import EACH, Keys
 
 KINETICS = "kinetics"
 

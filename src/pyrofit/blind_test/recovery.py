@@ -9,7 +9,8 @@ import pandas as pd
 from pyrofit.blind_test.places import Places
 from pyrofit.blind_test.table import leading, right_claim
 from pyrofit.effects import known_effects
-from pyrofit.results.files import Keys, read_json
+from pyrofit.results.files import read_json
+from pyrofit.results.needed import Keys
 
 Found = Mapping[str, Any]
 STRENGTHS = (

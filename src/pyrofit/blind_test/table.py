@@ -8,7 +8,8 @@ import pandas as pd
 
 from pyrofit.blind_test.places import Places
 from pyrofit.effects import known_effects, same_as
-from pyrofit.results.files import Keys, read_json
+from pyrofit.results.files import read_json
+from pyrofit.results.needed import Keys
 
 CLAIMS = ("named", "ambiguous", "multiple", "partly")
 """Verdicts that claim a missing effect."""

@@ -7,7 +7,8 @@ import pandas as pd
 
 from pyrofit.blind_test.foreign import EXPERIMENT, MANIFEST, Manifest, Truth
 from pyrofit.errors import DataError
-from pyrofit.results.files import Keys, read_csv, read_json, write_csv, write_json
+from pyrofit.results.files import read_csv, read_json, write_csv, write_json
+from pyrofit.results.needed import Keys
 from pyrofit.solver.arrays import FloatArray
 
 SPACING_S = 5.0

@@ -4,7 +4,6 @@ import contextlib
 import gzip
 import io
 import json
-import math
 import uuid
 import zlib
 from collections.abc import Iterable, Mapping
@@ -15,15 +14,10 @@ import numpy as np
 import pandas as pd
 
 from pyrofit.errors import DataError
+from pyrofit.results.needed import AGAIN, Keys, check_rows, check_value
 
-Keys = tuple[str, ...]
 PART = ".part"
 """Suffix of files that are being written; the next run deletes those of killed processes."""
-EACH = "*"
-"""Among keys: every item of a list."""
-
-_AGAIN = "delete it and run again"
-_KINDS = {float: "a finite number", dict: "a mapping", list: "a list", str: "text"}
 
 
 def write_bytes(path: Path, content: bytes) -> None:
@@ -80,32 +74,12 @@ def read_json(path: Path, needs: Mapping[Keys, type] | None = None) -> dict[str,
     except FileNotFoundError:
         raise DataError(f"{path}: this result is missing; run the workflow to make it") from None
     except (OSError, ValueError, RecursionError) as error:
-        raise DataError(f"{path}: cannot be read ({error}); {_AGAIN}") from None
+        raise DataError(f"{path}: cannot be read ({error}); {AGAIN}") from None
     if not isinstance(content, dict):
-        raise DataError(f"{path}: this is no result; {_AGAIN}")
+        raise DataError(f"{path}: this is no result; {AGAIN}")
     for keys, kind in (needs or {}).items():
-        _check_value(path, content, keys, kind)
+        check_value(path, content, keys, kind)
     return content
-
-
-def _check_value(path: Path, part: Any, keys: Keys, kind: type, place: str = "") -> None:
-    """Refuse a result that lacks the value at the end of some keys, or has one of another type."""
-    if not keys:
-        number = isinstance(part, int | float) and not isinstance(part, bool)
-        if not (number and math.isfinite(part) if kind is float else isinstance(part, kind)):
-            raise DataError(f"{path}: '{place}' is not {_KINDS[kind]}; {_AGAIN}")
-        return
-    key, *rest = keys
-    if key == EACH:
-        if not isinstance(part, list) or not part:
-            raise DataError(f"{path}: '{place}' is not a list of at least one; {_AGAIN}")
-        for i, item in enumerate(part):
-            _check_value(path, item, tuple(rest), kind, f"{place}.{i}")
-        return
-    place = f"{place}.{key}".removeprefix(".")
-    if not isinstance(part, dict) or key not in part:
-        raise DataError(f"{path}: '{place}' is missing in this result; {_AGAIN}")
-    _check_value(path, part[key], tuple(rest), kind, place)
 
 
 def write_csv(path: Path, frame: pd.DataFrame) -> None:
@@ -144,29 +118,19 @@ def read_csv(
     except FileNotFoundError:
         raise DataError(f"{path}: this result is missing; run the workflow to make it") from None
     except (OSError, ValueError, EOFError, zlib.error) as error:
-        raise DataError(f"{path}: cannot be read ({error}); {_AGAIN}") from None
+        raise DataError(f"{path}: cannot be read ({error}); {AGAIN}") from None
     for name, kind in (columns or {}).items():
         if name not in frame or frame.empty:
-            raise DataError(f"{path}: the column '{name}' is missing or empty; {_AGAIN}")
+            raise DataError(f"{path}: the column '{name}' is missing or empty; {AGAIN}")
         column = frame[name]
         finite = pd.api.types.is_numeric_dtype(column) and bool(np.isfinite(column).all())
         if kind is float and not finite:
             raise DataError(
-                f"{path}: the column '{name}' does not hold numbers throughout; {_AGAIN}"
+                f"{path}: the column '{name}' does not hold numbers throughout; {AGAIN}"
             )
     for names, wanted in (rows or {}).items():
-        _check_rows(path, frame, names, list(wanted))
+        check_rows(path, frame, names, list(wanted))
     return frame
-
-
-def _check_rows(path: Path, frame: pd.DataFrame, names: Keys, wanted: list[Keys]) -> None:
-    if absent := [name for name in names if name not in frame]:
-        raise DataError(f"{path}: the column '{absent[0]}' is missing; {_AGAIN}")
-    found = set(frame[list(names)].itertuples(index=False, name=None))
-    for row in sorted(found ^ set(wanted), key=str):
-        what = "is of another study" if row in found else "is missing"
-        named = ", ".join(f"{n} '{value}'" for n, value in zip(names, row, strict=True))
-        raise DataError(f"{path}: the row of {named} {what}; {_AGAIN}")
 
 
 class Results:

@@ -5,7 +5,8 @@ from typing import Any, NamedTuple
 import pandas as pd
 
 from pyrofit.config import Study
-from pyrofit.results.files import EACH, Results, read_csv, read_json
+from pyrofit.results.files import Results, read_csv, read_json
+from pyrofit.results.needed import EACH
 
 WITHIN = 1.96
 """Standard deviations that a value within a 95 % interval is away at most."""

@@ -6,7 +6,8 @@ from typing import Any
 import pandas as pd
 
 from pyrofit.config import Study
-from pyrofit.results.files import EACH, Keys, Results, read_csv, read_json
+from pyrofit.results.files import Results, read_csv, read_json
+from pyrofit.results.needed import EACH, Keys
 from pyrofit.solver.outputs import MASS_FRACTION
 
 FITTED = "fitted"

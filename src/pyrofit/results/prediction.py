@@ -6,7 +6,8 @@ import pandas as pd
 
 from pyrofit.config import Study
 from pyrofit.config.unmeasured import unmeasured
-from pyrofit.results.files import Keys, Results, read_csv
+from pyrofit.results.files import Results, read_csv
+from pyrofit.results.needed import Keys
 
 
 def curves(study: Study, results: Results, labels: Sequence[str]) -> pd.DataFrame:

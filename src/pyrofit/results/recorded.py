@@ -5,7 +5,8 @@ from typing import Any, NamedTuple
 import pandas as pd
 
 from pyrofit.config import Study
-from pyrofit.results.files import Keys, Results, read_csv, read_json
+from pyrofit.results.files import Results, read_csv, read_json
+from pyrofit.results.needed import Keys
 
 About = dict[str, dict[str, dict[str, Any]]]
 """What was read, by experiment and signal: source, checksum, points, notes."""

@@ -28,7 +28,6 @@ from pyrofit.show.section import Section
 from pyrofit.show.sections import SECTIONS, TABLES
 from pyrofit.show.table import Frames, read_table
 
-
 OWN_STEPS: tuple[tuple[Any, Any], ...] = (
     (rescored, rescore_page),
     (sensitivity, sensitivity_page),
