@@ -19,7 +19,7 @@ import pandas as pd
 import yaml
 
 from pyrofit.config import Study, TermSpec, as_study
-from pyrofit.estimate.bands import band, carried, free, measured
+from pyrofit.estimate.bands import band, carried, measured
 from pyrofit.estimate.likelihood import likelihood_of
 from pyrofit.estimate.problem import Problem, make_problem
 from pyrofit.estimate.sampled import Sampled, sample, spread
@@ -123,8 +123,7 @@ def _lacking(
     rng: np.random.Generator,
 ) -> FloatArray:
     if flux == "60":
-        covariance = carried([found.discrepancies[k]]).covariance(time_s, np.median(curves, axis=0))
-        return free(covariance, len(curves), rng)
+        return carried([found.discrepancies[k]]).carried_to(time_s, curves, rng) - curves
     target = found.likelihood.problem.cost.terms[k][1].target
     best = found.likelihood.split(found.curves)[k]
     covariance = found.discrepancies[k].covariance(time_s, best)

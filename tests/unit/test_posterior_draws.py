@@ -144,6 +144,21 @@ def estimated(value: FloatArray, sd: float) -> Discrepancy:
     return discrepancy.estimated(likelihood, np.array([0.5]), slopes, CURVE)[0]
 
 
+def test_carried_errors_scale_move_and_lift_a_curve() -> None:
+    curves = np.tile(CURVE, (2000, 1))
+    rng = np.random.default_rng(2)
+    level = Discrepancy(0.05, 0.0, 0.0, 0.5).carried_to(TIME, curves, rng)
+    inside = 0.1 * CURVE.max() < CURVE
+    assert np.std(level, axis=0)[inside] == pytest.approx(0.05 * CURVE[inside], rel=0.1)
+    moved = Discrepancy(0.0, 0.05, 0.0, 50.0).carried_to(TIME, curves, rng)
+    assert moved.max() <= CURVE.max()
+    assert moved.min() >= CURVE.min()
+    # The peak at 500 s moves by 5 % of that.
+    assert np.std(TIME[np.argmax(moved, axis=1)]) == pytest.approx(25.0, rel=0.1)
+    lifted = Discrepancy(0.0, 0.0, 0.02, 0.5).carried_to(TIME, curves, rng)
+    assert np.std(lifted, axis=0) == pytest.approx(0.02 * np.ptp(CURVE), rel=0.1)
+
+
 def test_drawn_discrepancy_of_a_measured_series_has_the_exact_mean_and_sd() -> None:
     rng = np.random.default_rng(1)
     D = Discrepancy(0.05, 0.0, 0.02, 0.2).covariance(TIME, CURVE)

@@ -61,6 +61,33 @@ class Discrepancy:
     def _squares(self) -> FloatArray:
         return np.square([self.level, self.time, self.offset])
 
+    def carried_to(
+        self, time: FloatArray, curves: FloatArray, rng: np.random.Generator
+    ) -> FloatArray:
+        """Draw what curves become where no measurement tells, shape (sets, points).
+
+        y(t) = f_0 + (1 + a) (f(t (1 + b)) - f_0) + c range(f): an error of time moves a steep end,
+        and raises nothing above the curve.
+
+        Parameters
+        ----------
+        time
+            Times [s], shape (points,).
+        curves
+            f of each set, shape (sets, points).
+        rng
+            The random numbers.
+        """
+        middle = np.median(curves, axis=0)
+        factor = factor_of(_kernel(time, middle, self.lasting))
+        shape = (3, *curves.shape)
+        a, b, c = rng.standard_normal(shape) @ factor.T * np.sqrt(self._squares)[:, None, None]
+        moved = np.array(
+            [np.interp(time * (1.0 + s), time, f) for f, s in zip(curves, b, strict=True)]
+        )
+        first = curves[:, :1]
+        return np.asarray(first + (1.0 + a) * (moved - first) + c * np.ptp(middle))
+
     def factor(self, time: FloatArray, curve: FloatArray) -> FloatArray:
         """Return F with F F^T = D, shape (points, points)."""
         return factor_of(self.covariance(time, curve))
@@ -78,10 +105,14 @@ def half_time(time: FloatArray, curve: FloatArray) -> float:
     return float(np.interp(0.5 * way[-1], way, time))
 
 
+def _kernel(time: FloatArray, curve: FloatArray, lasting: float) -> FloatArray:
+    scale = lasting * max(half_time(time, curve), 1e-9)
+    return np.asarray(np.exp(-0.5 * (np.subtract.outer(time, time) / scale) ** 2))
+
+
 def _basis(time: FloatArray, curve: FloatArray, lasting: float) -> FloatArray:
     """Return the covariance of each part for a size of 1, shape (points, points, 3)."""
-    scale = lasting * max(half_time(time, curve), 1e-9)
-    kernel = np.exp(-0.5 * (np.subtract.outer(time, time) / scale) ** 2)
+    kernel = _kernel(time, curve, lasting)
     shapes = (
         curve - curve[0],
         time * np.gradient(curve, time),

@@ -10,7 +10,7 @@ import pandas as pd
 from pyrofit.config import Study, TermSpec
 from pyrofit.config.unmeasured import unmeasured
 from pyrofit.errors import DataError
-from pyrofit.estimate.bands import band, carried, free, measured
+from pyrofit.estimate.bands import band, carried, measured
 from pyrofit.estimate.channel_noise import noise_of
 from pyrofit.estimate.discrepancy import Discrepancy
 from pyrofit.estimate.problem import Problem, make_problem
@@ -170,8 +170,7 @@ def _carried(
     ]
     if not known:
         return None
-    covariance = carried(known).covariance(time, np.median(curves, axis=0))
-    return free(covariance, len(curves), rng)
+    return carried(known).carried_to(time, curves, rng) - curves
 
 
 def _bands(of: Predicted, rng: np.random.Generator) -> tuple[pd.DataFrame, dict[str, Any]]:
