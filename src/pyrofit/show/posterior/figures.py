@@ -23,7 +23,7 @@ from pyrofit.show.table import always
 from pyrofit.show.units import shown
 from pyrofit.solver.arrays import FloatArray
 
-WIDE, NARROW = "#A9BED6", "#004488"
+WIDE, DARK, NARROW = "#A9BED6", "#5C86B3", "#004488"
 BINS = 40
 _TRUTH: Any = {"color": style.COLOURS[1], "linewidth": 1.0, "linestyle": (0, (5, 1.5))}
 Entries = list[Line2D | Patch]
@@ -50,7 +50,7 @@ def bands(study: Study, results: Results) -> Canvas:
     label_axes(axes, [_label(study, of) for of in found.bands])
     entries: Entries = [
         style.patch("95 %, with what the model lacks", color=WIDE),
-        style.patch("95 %, parameters alone", color=NARROW, alpha=0.55),
+        style.patch("95 %, parameters alone", color=DARK),
         style.line("median", color=NARROW, linewidth=0.9),
         style.line("data", color=style.MEASURED, linewidth=0.0, marker=".", markersize=2.0),
     ]
@@ -69,11 +69,11 @@ def _draw_bands(ax: Axes, study: Study, frame: pd.DataFrame) -> None:
     first = frame.iloc[0]
     quantity = quantity_of(study, str(first["experiment"]), str(first["signal"]))
     time = frame["time_s"]
-    low, high = shown(quantity, frame["low"]), shown(quantity, frame["high"])
-    ax.fill_between(time, low, high, color=WIDE, linewidth=0.0)
-    low = shown(quantity, frame["parameters_low"])
-    high = shown(quantity, frame["parameters_high"])
-    ax.fill_between(time, low, high, color=NARROW, alpha=0.55, linewidth=0.0)
+    kinds = [("", WIDE), ("parameters_", DARK)]
+    # The narrower band comes on top: in a fitted signal that is the one which was measured.
+    for kind, colour in kinds if first["role"] != "fitted" else reversed(kinds):
+        low, high = (shown(quantity, frame[f"{kind}{end}"]) for end in ("low", "high"))
+        ax.fill_between(time, low, high, color=colour, linewidth=0.0)
     data = shown(quantity, frame["measured"].astype(float))
     ax.plot(time, data, color=style.MEASURED, linewidth=0.0, marker=".", markersize=1.2)
     ax.plot(time, shown(quantity, frame["median"]), color=NARROW, linewidth=0.9)
@@ -118,8 +118,9 @@ FIGURES = {
         make=bands,
         title="Predicted signals with 95 % bands",
         caption="Dark: band of the curve where parameters alone are uncertain. Light: the same "
-        "with what the model lacks, for the curve without noise. 'Held out' experiments took no "
-        "part in the fit.",
+        "with what the model lacks, for the curve without noise. In a fitted signal that is the "
+        "narrower one, as the sum of both was measured. 'Held out' experiments took no part in "
+        "the fit.",
     ),
     "parameters": Figure(
         place=20,
