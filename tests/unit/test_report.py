@@ -12,7 +12,7 @@ from test_tables import described, fake, made, synthetic
 from pyrofit.analysis.recommended import recommended
 from pyrofit.config import Study
 from pyrofit.errors import DataError
-from pyrofit.results import rescored
+from pyrofit.results import posterior, rescored
 from pyrofit.results.files import Results, read_csv, write_csv, write_text
 from pyrofit.show import rescore_page
 from pyrofit.show.answer.advice import advice
@@ -318,6 +318,36 @@ def test_scores_under_other_costs_are_shown_once_they_are_there(tmp_path: Path) 
         "kJ/(kg K)",
     ):
         assert words in page.words, words
+
+
+def test_ensemble_is_recommended_once_it_is_there_and_has_converged(tmp_path: Path) -> None:
+    study, results = fake(tmp_path)
+    write_tables(study, results)
+    one = "use the set of RMSE (SCE-UA) as a whole. Of 6 sets"
+    for converged, words in ((True, "ensemble of 100 sets"), (False, f"To predict, {one}")):
+        write_posterior(study, results, converged)
+        said = advice(study, facts_of(study, results, tables_of(study, results)))
+        assert words in said
+        assert one in said
+        assert ("ensemble" in said) == converged
+
+
+def write_posterior(study: Study, results: Results, converged: bool) -> None:
+    """Write a posterior of two parameters that predicts nothing."""
+    of = dict.fromkeys(("mean", "sd", "low", "median", "high", "rhat", "ess"), 1.0)
+    counts = ("seed", "ensembles", "walkers", "steps", "left_out", "calls", "chi2", "freedom")
+    lacking = dict.fromkeys(("level", "time", "offset", "lasting"), 0.1)
+    content = {
+        "study": study.name,
+        **dict.fromkeys((*counts, "probability", "accepted", "times"), 1),
+        "converged": converged,
+        "sets": 100,
+        "parameters": [{"name": name, **of} for name in study.imp.estimate],
+        "discrepancies": [{"experiment": "slab_25", "signal": "mlr", **lacking}],
+        "bands": [],
+    }
+    posterior.write(results, content)
+    write_text(results.posterior(posterior.LAST), "<svg/>")
 
 
 def test_synthetic_data_are_said_so(tmp_path: Path) -> None:

@@ -17,7 +17,7 @@ from pyrofit.analysis.uses import predicted_labels
 from pyrofit.analysis.wall_times import wall_times
 from pyrofit.config import Study
 from pyrofit.estimate.optimisers import OPTIMISERS
-from pyrofit.results import identification, prediction, searches
+from pyrofit.results import identification, posterior, prediction, searches
 from pyrofit.results.files import Results
 from pyrofit.show.table import Frames
 
@@ -46,6 +46,8 @@ class Facts:
         How well all sets predict; none without validation.
     times
         Wall times of the searches by optimiser [s], as far as they were measured.
+    ensemble
+        Number of sets drawn from the posterior; 0 where it was not sampled, or did not converge.
     """
 
     tables: Frames
@@ -58,6 +60,7 @@ class Facts:
     repeated: list[Repeated]
     scores: list[Score]
     times: Mapping[str, list[float]]
+    ensemble: int
 
 
 def facts_of(study: Study, results: Results, tables: Frames) -> Facts:
@@ -85,4 +88,12 @@ def facts_of(study: Study, results: Results, tables: Frames) -> Facts:
         repeated=repeated(study, searched.repetitions),
         scores=scores(study, predicted),
         times=wall_times(study, results),
+        ensemble=_ensemble(study, results),
     )
+
+
+def _ensemble(study: Study, results: Results) -> int:
+    if not posterior.exists(results):
+        return 0
+    found = posterior.read(study, results)
+    return found.sets if found.converged else 0

@@ -17,9 +17,18 @@ def sentences(study: Study, facts: Facts) -> list[str]:
 
 
 def advice(study: Study, facts: Facts) -> str:
-    """Name the set that predicts held-out experiments best, else the one that fits best."""
+    """Name the ensemble where there is one, and the set that predicts best, else fits best.
+
+    Experiments that were held out tell which set predicts best.
+    """
     chosen = recommended(facts.scores, facts.distances)
-    text = f"To predict, use the set of {chosen.cost_function} ({chosen.found_by}) as a whole. "
+    one = f"the set of {chosen.cost_function} ({chosen.found_by}) as a whole. "
+    text = f"To predict, use {one}"
+    if facts.ensemble:
+        text = (
+            f"To predict, use the ensemble of {facts.ensemble} sets (posterior/ensemble.csv): its "
+            f"bands tell how certain the prediction is. If one set has to do, use {one}"
+        )
     if chosen.held_out:
         return text + _by_prediction(chosen, facts)
     return text + _by_fit(chosen, facts)
