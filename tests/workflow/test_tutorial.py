@@ -153,20 +153,28 @@ def test_unpacked_study_passes_check_with_the_software_of_the_archive(unpacked: 
     assert "study 'mypolymer' is valid; 3 measured series read; 1 repetitions" in ran.stdout
 
 
-def test_unpacked_study_gives_the_same_sets_again(unpacked: Path) -> None:
-    wanted = ["kinetics/fit.json", "imp/RMSE/00.json"]
-    targets = [f"results/mypolymer/{name}" for name in wanted]
+def test_unpacked_study_gives_the_same_results_again(unpacked: Path) -> None:
     study = ("--configfile", "../study.yaml")
-    ran = run(unpacked / "software", "snakemake", "--cores", "2", *targets, *study)
+    ran = run(unpacked / "software", "snakemake", "--cores", "2", *study)
     assert ran.returncode == 0, ran.stdout + ran.stderr
-    for name in wanted:
-        again = unpacked / "software" / "results" / "mypolymer" / name
-        assert _without_digest(again) == _without_digest(unpacked / "results" / name), name
+    again = unpacked / "software" / "results" / "mypolymer"
+    # These name the files that were read, which lie elsewhere now; the report tells wall times.
+    places = {"study.json", "report.html", "provenance.json", "measurements/summary.json"}
+    compared = 0
+    for path in (unpacked / "results").rglob("*"):
+        place = path.relative_to(unpacked / "results").as_posix()
+        if path.is_file() and place not in places:
+            assert _without_digest(again / place) == _without_digest(path), place
+            compared += 1
+    assert compared > 50
 
 
-def _without_digest(path: Path) -> str:
+def _without_digest(path: Path) -> bytes:
     """Return a result without the digest of the study, which knows where the files lay."""
-    return re.sub(r'"(config_)?digest": "\w+"', "", path.read_text(encoding="utf-8"))
+    content = path.read_bytes()
+    if path.suffix != ".json":
+        return content
+    return re.sub(rb'"(config_)?digest": "\w+"', b"", content)
 
 
 def test_archive_of_the_same_results_has_the_same_bytes(followed: Followed) -> None:
