@@ -23,7 +23,9 @@ from pyrofit.show.worth.facts import remaining
 from pyrofit.show.worth.sentences import sentences
 from pyrofit.show.worth_page import section
 from pyrofit.stages import measurements
-from pyrofit.stages.worth import best_fit, worth_of_tests
+from pyrofit.stages.worth import worth_of_tests
+from pyrofit.stages.worth_apparatus import lasting_of
+from pyrofit.stages.worth_fit import best_fit
 from pyrofit.stages.worth_tests import Planned, planned
 
 TRUTH = {"rho": 1190.0, "k": 0.2, "cp": 2100.0, "eps": 0.9, "dh": 800e3}
@@ -162,6 +164,28 @@ def test_refits_of_drawn_data_agree_with_the_linear_numbers(study: Study, result
     assert found.now_checked is not None
     for name, sd in found.now.predictions.items():
         assert 0.4 < found.now_checked.predictions[name] / sd < 2.0
+
+
+def test_whitening_leaves_noise_and_apparatus_white() -> None:
+    rng = np.random.default_rng(1)
+    moves = [rng.standard_normal(40) * size for size in (0.1, 1.0, 30.0)]
+    V = np.column_stack(moves) / 2.0**0.5
+    T = lasting_of(moves, 2.0).whiten(np.eye(40))
+    assert np.allclose(T @ (np.eye(40) + V @ V.T) @ T.T, np.eye(40), atol=1e-9)
+
+
+def test_uncertain_apparatus_leaves_estimates_wider_and_repeats_worth_less(
+    study: Study, results: Results, tmp_path: Path
+) -> None:
+    there = prepared(study, tmp_path)
+    worth_of_tests(study, there, lambda text: None, 0, apparatus="uncertain")
+    wide, exact = worth.read(study, there), worth.read(study, results)
+    for name, sd in exact.now.parameters.items():
+        assert wide.now.parameters[name] >= sd * (1.0 - 1e-9)
+    # Density times thickness is the mass, and the thickness is known to 2 %.
+    assert wide.now.parameters["rho"] > 3.0 * exact.now.parameters["rho"]
+    assert wide.tests[0].checked is None
+    assert "With the apparatus taken as uncertain" in sentences(study, there)[0]
 
 
 def test_calorimetry_tells_nothing_of_the_conductivity(study: Study, fitted: FittedModel) -> None:

@@ -22,6 +22,13 @@ def add(commands: Any) -> None:
         default=DRAWS,
         help=f"drawn data sets that check the best three; 0 = no check; default: {DRAWS}",
     )
+    command.add_argument(
+        "--apparatus",
+        choices=("exact", "uncertain"),
+        default="exact",
+        help="whether flux, thickness, heat losses and temperatures are as described or uncertain "
+        "by their standard deviations; default: exact",
+    )
     command.add_argument("--cores", type=_cores, default=1, help="processes; default: 1")
     command.add_argument("--results", type=Path, help="results folder; default results/<name>")
     command.add_argument("--digest", help="expected digest of what the step depends on")
@@ -54,7 +61,7 @@ def _worth(given: argparse.Namespace) -> None:
     from pyrofit.stages.worth import worth_of_tests
 
     study, results = open_study(given, worth.slice_of)
-    worth_of_tests(study, results, _tell, given.draws, given.cores)
+    worth_of_tests(study, results, _tell, given.draws, given.cores, given.apparatus)
     draw_and_write(study, results)
     for line in sentences(study, results):
         print(line)

@@ -2,7 +2,7 @@
 
 import json
 from collections.abc import Mapping
-from typing import Any
+from typing import Any, Literal
 
 from pydantic import Field, ValidationError
 
@@ -53,6 +53,7 @@ class Worth(Record):
     study: str = Field(description="name of the study")
     points: int = Field(description="measured points so far")
     dispersion: float = Field(description="chi-square per degree of freedom, 1 at least")
+    apparatus: Literal["exact", "uncertain"] = Field(description="how the apparatus is taken")
     draws: int = Field(description="drawn data sets of the check")
     estimate: dict[str, float] = Field(description="best fit, in the parameters' units")
     now: Sds = Field(description="with the data so far, linear")

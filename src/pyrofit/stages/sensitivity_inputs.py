@@ -172,11 +172,9 @@ def _apparatus(problem: Problem) -> tuple[Problem, list[Input]]:
     for name, run in problem.runs.items():
         experiment = run.experiment
         for key, place in PLACES.items():
-            if (value := _described(experiment, place)) is not None:
+            if (value := described(experiment, place)) is not None:
                 made = f"{name}_{key}"
-                part = getattr(experiment, place.part)
-                part = changed(part, **{place.key: made})
-                experiment = changed(experiment, **{place.part: part})
+                experiment = with_value(experiment, place, made)
                 found.append(_uncertain(made, place, value, name))
         runs[name] = replace(run, experiment=experiment)
     components = dict(problem.material.components)
@@ -196,7 +194,7 @@ def _slabs(problem: Problem) -> Iterable[SlabExperiment]:
     return [e for e in experiments if isinstance(e, SlabExperiment)]
 
 
-def _described(experiment: Experiment, place: Place) -> float | None:
+def described(experiment: Experiment, place: Place) -> float | None:
     """Return the number that is described, if it is one and matters."""
     if not isinstance(experiment, SlabExperiment):
         return None
@@ -204,6 +202,12 @@ def _described(experiment: Experiment, place: Place) -> float | None:
         return None
     value = getattr(getattr(experiment, place.part), place.key)
     return value if isinstance(value, float) else None
+
+
+def with_value(experiment: Experiment, place: Place, value: float | str) -> Experiment:
+    """Return an experiment with a value, or the name of a parameter, in a place."""
+    part = changed(getattr(experiment, place.part), **{place.key: value})
+    return changed(experiment, **{place.part: part})
 
 
 def _uncertain(

@@ -1,6 +1,7 @@
 """Which measurement would narrow parameters and predictions most: the worth of planned tests."""
 
 from collections.abc import Callable, Mapping, Sequence
+from dataclasses import replace
 from typing import Any
 
 import numpy as np
@@ -9,23 +10,18 @@ from pyrofit.analysis import data_worth
 from pyrofit.config import Study
 from pyrofit.config.programs import externals
 from pyrofit.diagnose.base.fitted import FittedModel
-from pyrofit.diagnose.base.model import Base, model_of
-from pyrofit.errors import DataError, StudyError
-from pyrofit.estimate.bounded_least_squares import Fit
-from pyrofit.estimate.likelihood import Likelihood, likelihood_of
+from pyrofit.errors import DataError
 from pyrofit.estimate.posterior import curvature, limit_of
-from pyrofit.estimate.prior import prior_of
-from pyrofit.estimate.problem import make_problem
 from pyrofit.estimate.targets import Measurements
 from pyrofit.experiments import kind_of
-from pyrofit.experiments.external.simulate import OWN_MODEL
-from pyrofit.results import dependencies, worth
-from pyrofit.results.files import Results, read_csv
+from pyrofit.results import worth
+from pyrofit.results.files import Results
 from pyrofit.solver.arrays import FloatArray
-from pyrofit.stages.fit import fixed_for_imp
 from pyrofit.stages.measurements import load
+from pyrofit.stages.worth_apparatus import of_fitted, of_record
 from pyrofit.stages.worth_check import Drawn, spreads
-from pyrofit.stages.worth_forecast import Forecast, forecast
+from pyrofit.stages.worth_fit import best_fit
+from pyrofit.stages.worth_forecast import Forecast, Lasting, forecast
 from pyrofit.stages.worth_tests import Planned, planned
 
 DRAWS = 50
@@ -36,7 +32,12 @@ Tell = Callable[[str], None]
 
 
 def worth_of_tests(
-    study: Study, results: Results, tell: Tell, draws: int = DRAWS, cores: int = 1
+    study: Study,
+    results: Results,
+    tell: Tell,
+    draws: int = DRAWS,
+    cores: int = 1,
+    apparatus: str = "exact",
 ) -> None:
     """Compute by how much planned tests narrow parameters and predictions; write ``worth``.
 
@@ -50,6 +51,9 @@ def worth_of_tests(
         Data sets that are drawn and fitted again to check the best tests; 0 = no check.
     cores
         Processes.
+    apparatus
+        'exact': it is as described; 'uncertain': flux, thickness, heat losses and temperatures of
+        every slab are uncertain as in the sensitivity analysis.
 
     Raises
     ------
@@ -64,14 +68,20 @@ def worth_of_tests(
     if not tests:
         raise DataError(f"study '{study.name}': none of the planned tests can be simulated")
     tell(f"worth of {len(tests)} planned tests for {len(predictions)} predictions")
-    before = _curvature(fitted)
+    dispersion, lasting = fitted.posterior.dispersion, Lasting()
+    if apparatus == "uncertain":
+        lasting = of_fitted(fitted, dispersion)
+        tests = [replace(t, record=of_record(fitted, t.record, dispersion)) for t in tests]
+    before = _curvature(fitted, lasting)
     ranked = _ranked(fitted, before, tests, predictions)
     best = [test for test, _ in ranked[:CHECKED]]
-    checked = _checked(study, fitted, best, predictions, draws, tell, cores)
+    drawn = Drawn(fitted, dispersion, study.seed, lasting)
+    checked = _checked(study, drawn, best, predictions, draws, tell, cores)
     content = {
         "study": study.name,
         "points": fitted.model.points,
-        "dispersion": fitted.posterior.dispersion,
+        "dispersion": dispersion,
+        "apparatus": apparatus,
         "draws": draws,
         "estimate": _in_units(study, fitted, fitted.model.likelihood.values(fitted.fit.x)),
         "now": _sds(study, fitted, *_linear(fitted, before, predictions)),
@@ -93,14 +103,17 @@ def worth_of_tests(
     worth.write(results, content)
 
 
-def _curvature(fitted: FittedModel) -> FloatArray:
-    posterior = fitted.posterior
-    return curvature(posterior.jacobian, posterior.dispersion, posterior.known)
+def _curvature(fitted: FittedModel, lasting: Lasting) -> FloatArray:
+    """Return the inverse covariance that the data so far leave."""
+    posterior, points = fitted.posterior, fitted.model.points
+    channels = lasting.whiten(posterior.jacobian[:points])
+    jacobian = np.concatenate([channels, posterior.jacobian[points:]])
+    return curvature(jacobian, posterior.dispersion, posterior.known)
 
 
 def _checked(
     study: Study,
-    fitted: FittedModel,
+    drawn: Drawn,
     tests: Sequence[Planned],
     predictions: Mapping[str, Forecast],
     draws: int,
@@ -111,56 +124,10 @@ def _checked(
     if draws == 0:
         return {}
     tell(f"checking {len(tests)} of them by {draws * (len(tests) + 1)} refits of drawn data")
-    drawn = Drawn(fitted, fitted.posterior.dispersion, study.seed)
     records = [None, *(test.record for test in tests)]
     found = spreads(drawn, records, predictions, draws, cores)
     names = ["", *(test.name for test in tests)]
-    return {n: _sds(study, fitted, *one) for n, one in zip(names, found, strict=True)}
-
-
-def best_fit(study: Study, results: Results) -> FittedModel:
-    """Return the best fit to all fitted data: kinetics too, where they are fitted.
-
-    Raises
-    ------
-    DataError
-        The estimates are missing.
-    StudyError
-        An external program simulates a fitted experiment.
-    """
-    estimates = read_csv(
-        results.identification("estimate.csv"),
-        {"parameter": object, "estimate": float},
-        {("parameter",): [(name,) for name in study.imp.estimate]},
-    ).set_index("parameter")["estimate"]
-    likelihood, fixed = _likelihood(study, results)
-    values = {**fixed, **{str(name): float(value) for name, value in estimates.items()}}
-    start = likelihood.scaled(np.array([values[name] for name in likelihood.problem.names]))
-    end = likelihood.descend(start)
-    jacobian = likelihood.jacobian(end.x, end.residuals)
-    base = Base(likelihood, tuple(range(len(likelihood.noise))))
-    return FittedModel(model_of(base, {}), Fit(end.chi2, end.x, end.residuals, jacobian))
-
-
-def _likelihood(study: Study, results: Results) -> tuple[Likelihood, dict[str, float]]:
-    """Return the likelihood of all fitted data, and the values of all known parameters."""
-    fixed = fixed_for_imp(study, results)
-    names, specs = list(study.imp.estimate), list(study.imp.channels)
-    if study.imp.kinetics == "fitted":
-        stage = dependencies.kinetics_of(study)
-        names, specs = [*stage.estimate, *names], [*stage.channels, *specs]
-    outside = {spec.experiment for spec in specs} & set(externals(study))
-    if outside:
-        raise StudyError(f"experiments.{min(outside)}: {OWN_MODEL}")
-    problem = make_problem(
-        study,
-        list(dict.fromkeys(names)),
-        specs,
-        load(study, results),
-        study.material_with(study.imp.kinetics),
-        fixed,
-    )
-    return likelihood_of(problem, prior_of(study, problem)), fixed
+    return {n: _sds(study, drawn.fitted, *one) for n, one in zip(names, found, strict=True)}
 
 
 def _predictions(

@@ -12,7 +12,7 @@ from pyrofit.estimate.likelihood import FAILED
 from pyrofit.parallel import parallel_map
 from pyrofit.seeds import seed_for
 from pyrofit.solver.arrays import FloatArray
-from pyrofit.stages.worth_forecast import Forecast, Record, simulated
+from pyrofit.stages.worth_forecast import Forecast, Lasting, Record, simulated
 
 ENOUGH = 1e-3
 """A refit ends where the next step promises less of chi-square."""
@@ -30,11 +30,14 @@ class Drawn:
         s^2, by which misfit raises the variance of the noise.
     seed
         Seed of all draws.
+    lasting
+        What the apparatus leaves uncertain of the data so far.
     """
 
     fitted: FittedModel
     dispersion: float
     seed: int
+    lasting: Lasting
 
     def refit(self, number: int, record: Record | None) -> FloatArray:
         """Return the parameters fitted to a drawn data set, in distances of their limits.
@@ -46,7 +49,7 @@ class Drawn:
         assert here is not None
         s = np.sqrt(self.dispersion)
         known = likelihood.prior.slopes(likelihood.problem.span) / likelihood.prior.weight
-        J = self.fitted.fit.jacobian[: sum(likelihood.points)] / s
+        J = self.lasting.whiten(self.fitted.fit.jacobian[: sum(likelihood.points)]) / s
         parts = [J, known, *([] if record is None else [record.jacobian / s])]
         begin = np.concatenate(parts)
         rng = np.random.default_rng(seed_for(self.seed, "worth", number))
@@ -57,7 +60,7 @@ class Drawn:
             new = [] if record is None else [record.whitened(likelihood, x)]
             if curves is None or any(part is None for part in new):
                 return np.full(len(begin), FAILED)
-            white = likelihood.whiten(curves - here) / s
+            white = self.lasting.whiten(likelihood.whiten(curves - here)) / s
             extra = [part / s for part in new if part is not None]
             return np.concatenate([white, known @ (x - x0), *extra]) - z
 

@@ -69,17 +69,37 @@ def forecast(
 
 
 @dataclass(frozen=True, eq=False)
+class Lasting:
+    """What lasts over a whole record besides its noise: directions, and what whitening takes.
+
+    The shapes are (points, values) and (values,). By default nothing lasts.
+    """
+
+    directions: FloatArray | None = None
+    shares: FloatArray | None = None
+
+    def whiten(self, white: FloatArray) -> FloatArray:
+        """Whiten what is white but for this, shape (points,) or (points, k)."""
+        if self.directions is None or self.shares is None:
+            return white
+        shares = self.shares if white.ndim == 1 else self.shares[:, None]
+        inside = shares * (self.directions.T @ white)
+        return np.asarray(white - self.directions @ inside)
+
+
+@dataclass(frozen=True, eq=False)
 class Record:
     """A further record: some signals of a forecast, with their noise."""
 
     forecast: Forecast
     noise: Mapping[str, NoiseModel]
+    lasting: Lasting = Lasting()
 
     @property
     def jacobian(self) -> FloatArray:
         """Whitened derivatives, shape (points, parameters)."""
         parts = [n.whiten(self.forecast.slopes[s]) for s, n in self.noise.items()]
-        return np.concatenate(parts)
+        return self.lasting.whiten(np.concatenate(parts))
 
     def whitened(self, likelihood: Likelihood, x: FloatArray) -> FloatArray | None:
         """Return the whitened differences of the curves at x and at the best fit."""
@@ -89,4 +109,5 @@ class Record:
             return None
         ends = np.cumsum([r.time_s.size for r in asked.values()])[:-1]
         parts = zip(self.noise.items(), np.split(there, ends), strict=True)
-        return np.concatenate([n.whiten(c - self.forecast.curves[s]) for (s, n), c in parts])
+        white = [n.whiten(c - self.forecast.curves[s]) for (s, n), c in parts]
+        return self.lasting.whiten(np.concatenate(white))

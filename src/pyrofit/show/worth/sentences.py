@@ -24,9 +24,11 @@ def _best(study: Study, found: Worth) -> str:
     parameters = sorted(study.imp.estimate, key=lambda name: left[name])[:MOST_NAMED]
     names = [*parameters, *found.predictions]
     shares = [f"{left[name]:.0f} % ({label(study, found, name)})" for name in names]
+    exact = "described" if found.apparatus == "exact" else "uncertain"
     return (
-        f"Of {several(len(found.tests), 'planned test')}, {test.words} narrows parameters and "
-        f"predictions most. Of the present standard deviations it leaves {listed(shares)}."
+        f"With the apparatus taken as {exact}, {test.words} narrows parameters and predictions "
+        f"most, of {several(len(found.tests), 'planned test')}. Of the present standard "
+        f"deviations it leaves {listed(shares)}."
     )
 
 

@@ -1,0 +1,71 @@
+"""What the apparatus leaves uncertain of records, which no further point of them averages out.
+
+Each value a of a test's apparatus has a standard deviation, and moves the whitened record by
+U_a = L^-1 (d curve / d a) sd(a) / sd. Together with the noise, of variance s^2, the record's
+covariance is s^2 (I + V V^T), V = U / s; it is whitened by (I + V V^T)^(-1/2).
+"""
+
+from collections.abc import Callable
+from dataclasses import replace
+
+import numpy as np
+
+from pyrofit.diagnose.base.fitted import FittedModel
+from pyrofit.model.experiment import Experiment
+from pyrofit.solver.arrays import FloatArray
+from pyrofit.stages.sensitivity_inputs import PLACES, described, with_value
+from pyrofit.stages.worth_forecast import Lasting, Record
+
+
+def of_record(fitted: FittedModel, record: Record, dispersion: float) -> Record:
+    """Return a record with what the apparatus leaves uncertain of it."""
+
+    def whitened(experiment: Experiment) -> FloatArray | None:
+        made = replace(record, forecast=replace(record.forecast, experiment=experiment))
+        return made.whitened(fitted.model.likelihood, fitted.fit.x)
+
+    moves = _moves(record.forecast.experiment, whitened)
+    return replace(record, lasting=lasting_of(moves, dispersion))
+
+
+def of_fitted(fitted: FittedModel, dispersion: float) -> Lasting:
+    """Return what the apparatus leaves uncertain of the data that are fitted.
+
+    The tests are taken to be independent of each other.
+    """
+    likelihood, x = fitted.model.likelihood, fitted.fit.x
+    problem = likelihood.problem
+    moves: list[FloatArray] = []
+    for name, run in problem.runs.items():
+
+        def whitened(experiment: Experiment, name: str = name) -> FloatArray | None:
+            runs = {**problem.runs, name: replace(problem.runs[name], experiment=experiment)}
+            made = replace(likelihood, problem=replace(problem, runs=runs))
+            curves = made.curves(x)
+            return None if curves is None else likelihood.whiten(curves)
+
+        moves += _moves(run.experiment, whitened)
+    return lasting_of(moves, dispersion)
+
+
+def _moves(
+    experiment: Experiment, whitened: Callable[[Experiment], FloatArray | None]
+) -> list[FloatArray]:
+    """Return the change of a whitened record by one standard deviation of each value."""
+    found = []
+    for place in PLACES.values():
+        if (value := described(experiment, place)) is None:
+            continue
+        ends = [whitened(with_value(experiment, place, value + d)) for d in (place.sd, -place.sd)]
+        if ends[0] is not None and ends[1] is not None:
+            found.append(0.5 * (ends[0] - ends[1]))
+    return found
+
+
+def lasting_of(moves: list[FloatArray], dispersion: float) -> Lasting:
+    """Return what lasts, from whitened changes by one standard deviation and s^2 of the noise."""
+    if not moves:
+        return Lasting()
+    V = np.column_stack(moves) / np.sqrt(dispersion)
+    directions, sizes, _ = np.linalg.svd(V, full_matrices=False)
+    return Lasting(directions, 1.0 - 1.0 / np.sqrt(1.0 + sizes**2))

@@ -1,0 +1,63 @@
+"""The best fit to all data that are fitted, kinetics included."""
+
+import numpy as np
+
+from pyrofit.config import Study
+from pyrofit.config.programs import externals
+from pyrofit.diagnose.base.fitted import FittedModel
+from pyrofit.diagnose.base.model import Base, model_of
+from pyrofit.errors import StudyError
+from pyrofit.estimate.bounded_least_squares import Fit
+from pyrofit.estimate.likelihood import Likelihood, likelihood_of
+from pyrofit.estimate.prior import prior_of
+from pyrofit.estimate.problem import make_problem
+from pyrofit.experiments.external.simulate import OWN_MODEL
+from pyrofit.results import dependencies
+from pyrofit.results.files import Results, read_csv
+from pyrofit.stages.fit import fixed_for_imp
+from pyrofit.stages.measurements import load
+
+
+def best_fit(study: Study, results: Results) -> FittedModel:
+    """Return the best fit to all fitted data: kinetics too, where they are fitted.
+
+    Raises
+    ------
+    DataError
+        The estimates are missing.
+    StudyError
+        An external program simulates a fitted experiment.
+    """
+    estimates = read_csv(
+        results.identification("estimate.csv"),
+        {"parameter": object, "estimate": float},
+        {("parameter",): [(name,) for name in study.imp.estimate]},
+    ).set_index("parameter")["estimate"]
+    likelihood, fixed = _likelihood(study, results)
+    values = {**fixed, **{str(name): float(value) for name, value in estimates.items()}}
+    start = likelihood.scaled(np.array([values[name] for name in likelihood.problem.names]))
+    end = likelihood.descend(start)
+    jacobian = likelihood.jacobian(end.x, end.residuals)
+    base = Base(likelihood, tuple(range(len(likelihood.noise))))
+    return FittedModel(model_of(base, {}), Fit(end.chi2, end.x, end.residuals, jacobian))
+
+
+def _likelihood(study: Study, results: Results) -> tuple[Likelihood, dict[str, float]]:
+    """Return the likelihood of all fitted data, and the values of all known parameters."""
+    fixed = fixed_for_imp(study, results)
+    names, specs = list(study.imp.estimate), list(study.imp.channels)
+    if study.imp.kinetics == "fitted":
+        stage = dependencies.kinetics_of(study)
+        names, specs = [*stage.estimate, *names], [*stage.channels, *specs]
+    outside = {spec.experiment for spec in specs} & set(externals(study))
+    if outside:
+        raise StudyError(f"experiments.{min(outside)}: {OWN_MODEL}")
+    problem = make_problem(
+        study,
+        list(dict.fromkeys(names)),
+        specs,
+        load(study, results),
+        study.material_with(study.imp.kinetics),
+        fixed,
+    )
+    return likelihood_of(problem, prior_of(study, problem)), fixed
