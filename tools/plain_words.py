@@ -44,7 +44,8 @@ def main() -> int:
     if given.check:
         return check(counts, found)
     for name, sentences in found.items():
-        print(*(f"{name}: {why}: {sentence}" for why, sentence in sentences), sep="\n", end="\n")
+        for why, sentence in sentences:
+            print(f"{name}: {why}: {sentence}")
     print(f"{sum(counts.values())} sentences in {len(counts)} files")
     return 0
 
