@@ -29,8 +29,10 @@ def add(commands: Any) -> None:
     )
     command.add_argument("--cores", type=_cores, default=1, help="processes; default: 1")
     command.add_argument("--results", type=Path, help="results folder; default results/<name>")
-    command.add_argument("--digest", help="expected digest of what the step depends on")
-    command.add_argument("--log", type=Path, help="file that keeps what is printed")
+    command.add_argument(
+        "--digest", help="digest of all inputs of the step; another one is refused"
+    )
+    command.add_argument("--log", type=Path, help="file that keeps a copy of the output")
     command.set_defaults(step=_sensitivity)
 
 
