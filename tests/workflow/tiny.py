@@ -15,6 +15,7 @@ import psutil
 import yaml
 
 ROOT = Path(__file__).parents[2]
+KERNELS = Path("src/pyrofit/solver/kernels/__pycache__")
 SCORES = "results/tiny/validation/scores.csv"
 FIT = "results/tiny/kinetics/fit.json"
 COSTS = ("RMSE", "RANGE")
@@ -131,9 +132,17 @@ class Project:
 
     @classmethod
     def copy(cls, source: Path, to: Path) -> "Project":
-        """Copy what a run needs, with the compiled kernels."""
+        """Copy what a run needs; copies share the compiled kernels, which are named by content."""
+        compiled = [path for path in (source / KERNELS).glob("*") if path.is_dir()]
+        own = {path.resolve() for path in compiled}
         for folder in ("src", "workflow", "profiles", "config"):
-            shutil.copytree(source / folder, to / folder)
+            shutil.copytree(
+                source / folder,
+                to / folder,
+                ignore=lambda at, names: [n for n in names if (Path(at) / n).resolve() in own],
+            )
+        for path in compiled:
+            (to / KERNELS / path.name).symlink_to(path.resolve())
         shutil.copy2(source / "Snakefile", to)
         project = cls(to)
         (to / "mine" / "data").mkdir(parents=True)
