@@ -433,3 +433,13 @@ def test_missing_figure_is_named(tmp_path: Path) -> None:
     write_tables(study, results)
     with pytest.raises(DataError, match=r"overview\.svg: cannot be read"):
         write_report(study, results)
+
+
+def test_advice_says_where_the_set_that_predicts_best_fits_clearly_worse(tmp_path: Path) -> None:
+    study, results = fake(tmp_path)
+    write_tables(study, results)
+    facts = facts_of(study, results, tables_of(study, results))
+    assert "fits worse" not in advice(study, facts)
+    better = replace(facts.distances[-1], set="CMA-ES best", chi2_per_freedom=0.5)
+    facts = replace(facts, distances=[*facts.distances, better])
+    assert "(chi-square per degree of freedom 5.00 against 0.500)" in advice(study, facts)

@@ -8,7 +8,7 @@ from pyrofit.show.names import all_scored
 from pyrofit.show.text import several, span
 
 _WORSE = 2.0
-"""Ratio of the errors held out and fitted from which a prediction is not to be trusted."""
+"""Ratio of errors, or of chi-square, from which one is said to be worse than another."""
 
 
 def sentences(study: Study, facts: Facts) -> list[str]:
@@ -50,12 +50,29 @@ def _by_prediction(chosen: Recommended, facts: Facts) -> str:
             f". The error there is more than twice that of the fitted data ({all_scored(fitted)}): "
             "find first which effect the model lacks (snakemake diagnose)"
         )
-    return f"{text}."
+    return f"{text}.{_worse_fit(chosen, facts)}"
+
+
+def _worse_fit(chosen: Recommended, facts: Facts) -> str:
+    """Say where the set that predicts best fits the fitted data clearly worse than another."""
+    mine = _misfit(chosen, facts)
+    least = min(d.chi2_per_freedom for d in facts.distances)
+    if mine < _WORSE * least:
+        return ""
+    return (
+        f" It fits worse than the best fit (chi-square per degree of freedom {span([mine])} "
+        f"against {span([least])}). Either it predicts well by chance, or the model lacks an "
+        "effect."
+    )
+
+
+def _misfit(chosen: Recommended, facts: Facts) -> float:
+    chi2 = {(d.cost_function, d.set): d.chi2_per_freedom for d in facts.distances}
+    return chi2[chosen.cost_function, f"{chosen.found_by} best"]
 
 
 def _by_fit(chosen: Recommended, facts: Facts) -> str:
-    chi2 = {(d.cost_function, d.set): d.chi2_per_freedom for d in facts.distances}
-    mine = chi2[chosen.cost_function, f"{chosen.found_by} best"]
+    mine = _misfit(chosen, facts)
     return (
         f"Of {several(chosen.sets, 'set')} it fits best, each point weighed by its noise "
         f"(chi-square per degree of freedom {span([mine])}). No experiment was held out, so the "
