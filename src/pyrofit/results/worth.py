@@ -35,7 +35,9 @@ class OfTest(Record):
     words: str = Field(description="what it is")
     quantities: list[str] = Field(description="quantities that it records")
     gain_bit: float = Field(description="information gained [bit]")
-    left: float = Field(description="geometric mean of what is left of all standard deviations")
+    left: float = Field(
+        description="geometric mean of all standard deviations over the present ones"
+    )
     sds: Sds = Field(description="with this test, linear")
     checked: Sds | None = Field(description="the same from refits of drawn data; none = not made")
 
@@ -58,7 +60,7 @@ class Worth(Record):
     estimate: dict[str, float] = Field(description="best fit, in the parameters' units")
     now: Sds = Field(description="with the data so far, linear")
     now_checked: Sds | None = Field(description="the same from refits")
-    predictions: dict[str, Predicted] = Field(description="what is predicted, by name")
+    predictions: dict[str, Predicted] = Field(description="predicted curves, by name")
     tests: list[OfTest] = Field(min_length=1, description="the tests, the best first")
     left_out: list[str] = Field(description="tests whose simulation does not finish")
 

@@ -49,7 +49,7 @@ def section(study: Study, results: Results) -> Shown:
     inputs = table_part(study, TABLES["inputs"], read_table(results, "table_inputs", FOLDER))
     return Shown(
         "sensitivity",
-        "What signals and costs depend on",
+        "Sensitivity of signals and costs",
         "Variance-based sensitivity: parameters and values of the apparatus vary together, and "
         "the variance of signals and costs is shared out between them.",
         (*drawn, inputs),

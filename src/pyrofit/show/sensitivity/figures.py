@@ -84,7 +84,7 @@ def first(study: Study, results: Results) -> Canvas:
         {"facecolor": face, "hatch": hatch, "alpha": 0.6, "edgecolor": "white"}
         for face, hatch in zip(faces, hatches, strict=True)
     ]
-    labels = [*(short(found, name) for name in names), "what is not estimated"]
+    labels = [*(short(found, name) for name in names), "not estimated"]
     entries = [style.patch(label, **look) for label, look in zip(labels, looks, strict=True)]
     canvas = _panels(study, results, found, draw, "share of the variance [–]", mean=False)
     together = style.patch("in combination", facecolor="0.93")
@@ -173,7 +173,7 @@ FIGURES = {
         applies=always,
         make=first,
         title="Shares of the variance that inputs make alone",
-        caption="Index of first order, stacked. What is left is made in combination: its causes "
+        caption="Index of first order, stacked. The rest is made in combination: its causes "
         "cannot be told apart from this signal at this time.",
     ),
     "costs": Figure(
@@ -182,7 +182,7 @@ FIGURES = {
         make=costs,
         title="Which cost sees which parameter",
         caption="Total index of every cost. Left of the white line estimated parameters, right of "
-        "it what else is uncertain. Near 0: the cost does not change with the parameter. Costs "
-        "that differ by a factor from one shown are left out.",
+        "it known values and the apparatus. Near 0: the cost does not change with the parameter. "
+        "Costs that differ by a factor from one shown are left out.",
     ),
 }

@@ -82,7 +82,7 @@ def _apparatus(study: Study, found: Sensitivity) -> list[str]:
     most = max(found.signals, key=lambda s: max(s.total[name] for name in names))
     name = max(names, key=lambda name: most.total[name])
     return [
-        f"Of what is not estimated, {short(found, name)} matters most: it takes part in "
+        f"Of the other values, {short(found, name)} matters most: it takes part in "
         f"{100.0 * most.total[name]:.2g} % of the variance of the "
         f"{words(study, (most.experiment, most.signal))}."
     ]

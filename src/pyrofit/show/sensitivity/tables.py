@@ -49,7 +49,7 @@ TABLES = {
         place=10,
         applies=always,
         make=inputs,
-        title="What varies, and its part in the variance of the signals",
+        title="Inputs, and their part in the variance of the signals",
         note="Part: total variance of an input over the record, divided by all variance. Parts add "
         "up to more than 1 where inputs act in combination. 'Over that described': a factor, or a "
         "difference where the unit is not '-'.",

@@ -55,10 +55,10 @@ FIGURES = {
         place=10,
         applies=always,
         make=draw,
-        title="What planned tests leave of the standard deviations",
+        title="Standard deviations that planned tests leave",
         caption="Left of the white line parameters, right of it predicted curves (root mean square "
         "over the record). Dark: the test narrows it much; 100: it tells nothing new. In brackets: "
-        "spread of refits of drawn data, with the test over without it. What none of these tests "
-        "narrows by 5 % is left out; the table has it.",
+        "spread of refits of drawn data, with the test over without it. Columns that none of "
+        "these tests narrows by 5 % are left out; the table has them.",
     ),
 }

@@ -46,10 +46,10 @@ def _check(study: Study, found: Worth) -> list[str]:
     about = f"The best {len(checked)} were checked by refits of {found.draws} drawn data sets"
     if most <= UNLIKE:
         return [
-            f"{about}, which agree: what is left differs by at most {most:.0f} percentage points."
+            f"{about}, which agree: the numbers differ by at most {most:.0f} percentage points."
         ]
     return [
-        f"{about}. What is left differs most for {label(study, found, name)} with {words}, by "
+        f"{about}. Their numbers differ most for {label(study, found, name)} with {words}, by "
         f"{most:.0f} percentage points: the linear numbers are rough there."
     ]
 
