@@ -52,9 +52,9 @@ TABLES = {
         make=tests,
         title="Worth of planned tests",
         note="First row: standard deviations with the data so far, widened by the dispersion. "
-        "Other rows: the share that a test leaves of them. Gain: logarithm to base 2 of the "
-        "factor by which the volume of the parameters' uncertainty falls. Refits: spread of the parameters fitted "
-        "to drawn data with the test, over that without it.",
+        "Other rows: the share that a test leaves of them. Gain: logarithm to base 2 of the factor "
+        "by which the volume of the parameters' uncertainty falls. Refits: spread of the "
+        "parameters fitted to drawn data with the test, over that without it.",
         headings={"gain_bit": "gain [bit]"},
     ),
 }
