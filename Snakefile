@@ -11,6 +11,7 @@ from snakemake.utils import min_version, update_config
 from pyrofit.config import as_study, digest, read_mapping
 from pyrofit.config.programs import externals, program_files
 from pyrofit.config.unmeasured import unmeasured
+from pyrofit.config.unusual import unusual
 from pyrofit.errors import PyrofitError
 from pyrofit.provenance import STUDY as STUDY_MODULES
 from pyrofit.provenance import source_fingerprint
@@ -83,6 +84,8 @@ onstart:
     try:
         if told := start_run(ROOT):
             print(told, file=sys.stderr)
+        for sentence in unusual(study):
+            print(f"warning: {SOURCE}: {sentence}", file=sys.stderr)
         freeze(study, STUDY)
     except PyrofitError as error:
         raise WorkflowError(str(error)) from None

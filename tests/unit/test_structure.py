@@ -246,7 +246,7 @@ def test_reference_and_production_solver_do_not_know_each_other() -> None:
 
 
 def test_only_config_reads_yaml() -> None:
-    assert names_of([p for p in modules() if "yaml" in outside(p)]) == ["config/read.py"]
+    assert names_of([p for p in modules() if "yaml" in outside(p)]) == ["config/yaml_file.py"]
 
 
 def test_only_the_sce_ua_module_imports_spotpy() -> None:

@@ -1,6 +1,7 @@
 """Commands that come before a run: data, a new study, the reference of its keys, a check."""
 
 import argparse
+import sys
 from pathlib import Path
 from typing import Any
 
@@ -166,6 +167,7 @@ _PAGES = {
 def _check(given: argparse.Namespace) -> None:
     from pyrofit.config import read_study
     from pyrofit.config.programs import externals
+    from pyrofit.config.unusual import unusual
     from pyrofit.external.filled import executable_of
     from pyrofit.stages.reading import check_measurements
 
@@ -177,6 +179,8 @@ def _check(given: argparse.Namespace) -> None:
             print(f"experiments.{name}: the program is {executable_of(experiment.program)}")
         except ProgramError as error:
             print(f"experiments.{name}: not here: {error}")
+    for sentence in unusual(study):
+        print(f"warning: {given.study}: {sentence}", file=sys.stderr)
     print(
         f"{given.study}: study '{study.name}' is valid; {read} measured series read; "
         f"{runs} repetitions in all"

@@ -12,7 +12,7 @@ part uses.
 from pyrofit.config.diagnosis import Diagnosis
 from pyrofit.config.effects import true_description
 from pyrofit.config.known import Known
-from pyrofit.config.read import as_study, as_yaml, digest, read_mapping, read_study
+from pyrofit.config.read import as_study, digest, read_study
 from pyrofit.config.resolve import (
     calibration_channels,
     candidate_effects,
@@ -24,6 +24,7 @@ from pyrofit.config.stages import Imp, Kinetics
 from pyrofit.config.study import Study
 from pyrofit.config.terms import TermSpec
 from pyrofit.config.uses import parameters_in
+from pyrofit.config.yaml_file import as_yaml, read_mapping
 
 __all__ = [
     "Diagnosis",

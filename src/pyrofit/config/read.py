@@ -1,16 +1,12 @@
-"""Studies from YAML, and digests of their parts."""
+"""Studies from their files, and digests of their parts."""
 
 import hashlib
 import json
-import re
 from collections.abc import Mapping
 from pathlib import Path
 from typing import Any
 
-import yaml
 from pydantic import ValidationError
-from yaml.composer import ComposerError
-from yaml.reader import ReaderError
 
 from pyrofit.config.checks import check_study
 from pyrofit.config.diagnosis_checks import check_diagnosis
@@ -21,7 +17,8 @@ from pyrofit.config.repeats import expand_repeats
 from pyrofit.config.study import Study, is_own
 from pyrofit.config.tables import with_tables
 from pyrofit.config.words import in_plain_words, refuse_booleans
-from pyrofit.errors import StudyError, suggest
+from pyrofit.config.yaml_file import read_mapping
+from pyrofit.errors import StudyError
 from pyrofit.model.base import Part
 from pyrofit.plugins import use_plugins
 
@@ -98,119 +95,6 @@ def read_study(path: Path) -> Study:
         The file is missing, a directory, not YAML, or breaks a rule.
     """
     return as_study(read_mapping(path), str(path))
-
-
-def read_mapping(path: Path) -> dict[str, Any]:
-    """Read the keys of a study from a YAML or JSON file, unchecked.
-
-    Raises
-    ------
-    StudyError
-        The file is missing, a directory, not UTF-8 or not YAML, or a key stands twice.
-    """
-    text = _read_text(path)
-    try:
-        given = json.loads(text) if path.suffix == ".json" else yaml.load(text, _Loader)
-    except yaml.YAMLError as error:
-        raise StudyError(f"{path}: not valid yaml{_explain(error, text)}") from None
-    except RecursionError:
-        raise StudyError(f"{path}: nested too deep; write it flatter") from None
-    except ValueError as error:
-        if path.suffix == ".json":
-            raise StudyError(f"{path}: not valid json: {error}; correct it there") from None
-        raise StudyError(
-            f"{path}: not valid yaml: a date or number that cannot be ({error}); correct it, or "
-            "put text in quotes"
-        ) from None
-    if not isinstance(given, dict):
-        what = (
-            "this file is empty" if given is None else f"this is {_KIND.get(type(given), 'text')}"
-        )
-        raise StudyError(
-            f"{path}: a study is a mapping of keys; {what}. Start from config/twin.yaml"
-        )
-    return given
-
-
-def _read_text(path: Path) -> str:
-    if path.is_dir():
-        raise StudyError(f"{path}: this is a directory; give the study's YAML file")
-    try:
-        return path.read_text(encoding="utf-8-sig")
-    except FileNotFoundError:
-        near = [p.name for p in path.parent.glob("*.y*ml")] if path.parent.is_dir() else []
-        hint = suggest(path.name, near) if near else "Nor is any other beside it; check the path."
-        raise StudyError(f"{path}: there is no such study file. {hint}") from None
-    except UnicodeDecodeError as error:
-        line = error.object[: error.start].count(b"\n") + 1
-        raise StudyError(
-            f"{path}: cannot be read, line {line}: byte 0x{error.object[error.start]:02x} is not "
-            "UTF-8 text; save the file as text in UTF-8"
-        ) from None
-    except OSError as error:
-        raise StudyError(
-            f"{path}: cannot be read ({error.strerror}); check its permissions and its disk"
-        ) from None
-
-
-_KIND = {list: "a list", int: "a number", float: "a number", bool: "true or false"}
-
-
-class _Loader(yaml.SafeLoader):
-    """YAML in which 1e-3 is a number, as everywhere else, and a key stands once."""
-
-    def compose_mapping_node(self, anchor: Any) -> yaml.MappingNode:
-        # Before aliases are merged: what a merge brings along may be overwritten.
-        node = super().compose_mapping_node(anchor)
-        first: dict[tuple[str, str], yaml.Mark] = {}
-        for key, _ in node.value:
-            if not isinstance(key, yaml.ScalarNode):
-                continue
-            if (word := (key.tag, key.value)) in first:
-                raise ComposerError(
-                    problem=f"the key '{key.value}' stands twice, first in line "
-                    f"{first[word].line + 1}; delete or rename one of the two",
-                    problem_mark=key.start_mark,
-                )
-            first[word] = key.start_mark
-        return node
-
-
-_Loader.add_implicit_resolver(
-    "tag:yaml.org,2002:float",
-    re.compile(r"[-+]?(\d+\.?\d*|\.\d+)[eE][-+]?\d+$"),
-    list("-+.0123456789"),
-)
-
-_WAYS_OUT = {
-    r"character '\t'": "indent with spaces, not with tabs",
-    "stands twice": "",
-    "none of a text file": "delete it",
-    "undefined alias": "mark the repeated part with & further up, or correct its name",
-    "found duplicate anchor": "give every & a name of its own",
-    "could not determine a constructor": "leave the tag out",
-    "unhashable": "a key must be a single word",
-}
-
-
-def _explain(error: yaml.YAMLError, text: str) -> str:
-    """Return line, problem and way out of what YAML complains about."""
-    if isinstance(error, ReaderError):
-        line = text.count("\n", 0, error.position)
-        problem = f"the character #x{ord(text[error.position]):02x} is none of a text file"
-    else:
-        mark = getattr(error, "problem_mark", None)
-        line = mark.line if mark else 0
-        problem = str(getattr(error, "problem", error))
-    known = (way for words, way in _WAYS_OUT.items() if words in problem)
-    way = next(known, "check the indentation, colons, quotes and brackets there and just above")
-    return f", line {line + 1}: {problem}" + (f"; {way}" if way else "")
-
-
-def as_yaml(keys: Mapping[str, Any], comment: str) -> str:
-    """Return a study's keys as YAML, under a comment."""
-    text = yaml.safe_dump(dict(keys), sort_keys=False, allow_unicode=True, width=100)
-    return "".join(f"# {line}\n" for line in comment.splitlines()) + "\n" + text
 
 
 def digest(part: object) -> str:
