@@ -73,7 +73,7 @@ def rmse(target: Target, *, normalisation: str = "none") -> Residuals:
 
 
 def range_(target: Target, *, r: float = 0.05, normalisation: str = "none") -> Residuals:
-    """Eq. 4 with RANGE of Table 2: only what lies outside (1 -+ r) y counts.
+    """Eq. 4 with RANGE of Table 2: only differences outside (1 -+ r) y count.
 
     Parameters, result, source: as `rmse`, and r [-], the half width of the interval.
 
@@ -102,7 +102,7 @@ def bands(
     smooth_s: float | None = None,
     normalisation: str = "none",
 ) -> Residuals:
-    """Eq. 4 with BANDS of Table 2: only what lies outside y_lb .. y_ub counts.
+    """Eq. 4 with BANDS of Table 2: only differences outside y_lb to y_ub count.
 
     Parameters, result, source: as `rmse` and `bands_limits`.
 
