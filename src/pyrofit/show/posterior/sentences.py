@@ -10,7 +10,7 @@ from pyrofit.show.text import listed, several
 CHANCE = 0.05
 """Chance of a chi-square below which noise alone does not explain the data."""
 FAR = 2.0
-"""Chi-square per degree of freedom above which bands of wrong twins held 45 to 78 % of the points."""
+"""Chi-square per degree of freedom from which on bands of wrong twins held half of the points."""
 INSIDE = 0.9
 """Share of the points of a held-out signal that a band of 95 % should hold at least."""
 
