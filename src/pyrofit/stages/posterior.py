@@ -62,7 +62,7 @@ def sample_posterior(
     if programs := sorted(externals(study)):
         raise StudyError(
             f"study '{study.name}': a posterior takes tens of thousands of model calls, and "
-            f"'{programs[0]}' is simulated by an external program; describe it for pyrofit's own "
+            f"'{programs[0]}' is simulated by an external program. Describe it for pyrofit's own "
             "solver, or use the intervals of the step identify"
         )
     likelihood, start = _posed(study, results)

@@ -46,8 +46,8 @@ def _adequate(found: Posterior) -> str:
         said = f"Noise alone does not explain the data ({size}): the model lacks something. "
         if ratio > FAR:
             return said + (
-                "It misses the data by so much that bands of experiments that were not fitted may "
-                "well not hold: find first which effect is missing (snakemake diagnose)."
+                "It misses the data by so much that bands elsewhere may not hold. "
+                "Find first which effect is missing (snakemake diagnose)."
             )
         return said + "The bands count it by the size that the residuals show."
     return (
