@@ -199,7 +199,7 @@ def test_profile_finishes_with_the_bits_of_a_local_run_whatever_happens_to_jobs(
     for cores, memory, limit in groups.values():
         assert cores == 1
         assert memory <= MEMORY_MB
-        assert limit in ("4:00", "30:00", "1:00:00")
+        assert limit in ("10:00", "30:00", "1:00:00")
 
 
 def test_job_that_always_needs_more_memory_than_it_may_have_stops_the_run_with_the_cause(

@@ -20,8 +20,7 @@ STEPS = {
     "predict": ("validation",),
     "identify": ("identification/imp",),
     "compare": ("comparison",),
-    "table --name table4": ("tables/table4.csv",),
-    "figure --name fig3": ("figures/fig3.svg",),
+    "show --subject fit": ("tables/table4.csv", "figures/fig3.svg"),
     "report": ("report.html",),
 }
 """Commands, and results that are deleted before."""
