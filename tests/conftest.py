@@ -45,6 +45,7 @@ FILES = {
     "test_reaction_order": "solver",
     "test_python_page": "solver",
     "test_ready_timing": "solver",
+    "test_posterior_draws": "slow",
     "test_posterior_stage": "solver",
     "test_rescore_stage": "solver",
     "test_robustness": "solver",

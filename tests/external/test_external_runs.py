@@ -157,6 +157,7 @@ def test_a_run_beyond_the_time_limit_is_killed_with_its_children(tmp_path: Path)
     assert failures(tmp_path)[0]["time_limit_s"] == 0.5
 
 
+@pytest.mark.slow
 def test_a_set_that_was_too_slow_is_run_again_with_more_time(
     tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
