@@ -165,8 +165,25 @@ def let_hang(job: str, node: str) -> bool:
     return False
 
 
+@pytest.fixture(scope="module")
+def starved(
+    slurm: None, tmp_path_factory: pytest.TempPathFactory
+) -> "tuple[Project, subprocess.Popen[str]]":
+    """Start a run with too little memory, which goes on beside the other one."""
+    project = Project(tmp_path_factory.mktemp("starved") / "project")
+    project.change_profile(
+        {
+            "default-resources": {"slurm_partition": PARTITION, "mem_mb": LITTLE_MB},
+            "set-resources": {},
+            "slurm-init-seconds-before-status-checks": 2,
+            "retries": 0,
+        }
+    )
+    return project, project.start("--workflow-profile", "profiles/slurm", "kinetics")
+
+
 def test_profile_finishes_with_the_bits_of_a_local_run_whatever_happens_to_jobs(
-    slurm: None, tmp_path: Path
+    starved: "tuple[Project, subprocess.Popen[str]]", tmp_path: Path
 ) -> None:
     """Jobs are cancelled, lose their node, hang, and have too little memory at first."""
     here, there = Project(tmp_path / "here"), Project(tmp_path / "there")
@@ -203,18 +220,9 @@ def test_profile_finishes_with_the_bits_of_a_local_run_whatever_happens_to_jobs(
 
 
 def test_job_that_always_needs_more_memory_than_it_may_have_stops_the_run_with_the_cause(
-    slurm: None, tmp_path: Path
+    starved: "tuple[Project, subprocess.Popen[str]]",
 ) -> None:
-    project = Project(tmp_path / "project")
-    project.change_profile(
-        {
-            "default-resources": {"slurm_partition": PARTITION, "mem_mb": LITTLE_MB},
-            "set-resources": {},
-            "slurm-init-seconds-before-status-checks": 2,
-            "retries": 0,
-        }
-    )
-    run = project.start("--workflow-profile", "profiles/slurm", "kinetics")
+    project, run = starved
     assert run.wait(timeout=300) != 0
     assert "kinetics (Slurm job " in project.said
     assert "needed more memory than it had asked for; raise its mem_mb" in project.said
