@@ -21,7 +21,7 @@ from pyrofit.exchange.sets import parameter_set
 from pyrofit.results import posterior
 from pyrofit.results.files import Results, read_csv, write_csv, write_json
 from pyrofit.show.posterior.sentences import sentences
-from pyrofit.show.posterior_page import draw_and_write, section
+from pyrofit.show.posterior_page import PAGE
 from pyrofit.stages import fit, measurements
 from pyrofit.stages.posterior import sample_posterior
 
@@ -84,7 +84,7 @@ def identified(study: Study, tmp_path_factory: pytest.TempPathFactory) -> Result
 def results(study: Study, identified: Results, tmp_path_factory: pytest.TempPathFactory) -> Results:
     found = copied(identified, tmp_path_factory.mktemp("drawn") / "smoke")
     sample_posterior(study, found, sets=SETS, most_steps=STEPS)
-    draw_and_write(study, found)
+    PAGE.draw_and_write(study, found)
     return found
 
 
@@ -154,7 +154,7 @@ def test_bands_of_all_signals_enclose_their_medians(study: Study, results: Resul
 
 
 def test_page_has_figures_tables_and_the_ensemble(study: Study, results: Results) -> None:
-    shown = section(study, results)
+    shown = PAGE.section(study, results)
     assert [type(part).__name__ for part in shown.parts] == ["Picture"] * 2 + ["Part"] * 3
     assert "use the ensemble of 12 sets" in shown.said[-1]
     assert any("No fitted signal tells what the model lacks" in line for line in shown.said)

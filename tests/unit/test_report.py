@@ -304,7 +304,7 @@ def test_scores_under_other_costs_are_shown_once_they_are_there(tmp_path: Path) 
     matrix = pd.DataFrame({"cost": ["RMSE", "GPYRO"], "RMSE": [1.0, 0.5], "GPYRO": [0.5, 1.0]})
     for name in ("CORRELATION", "AMONG_BEST", "EXCESS", "BETTER"):
         write_csv(results.rescored(getattr(rescored, name)), matrix)
-    rescore_page.draw_and_write(study, results)
+    rescore_page.PAGE.draw_and_write(study, results)
     write_report(study, results)
     page = Page((tmp_path / "report.html").read_text())
     assert {"rescore", "rescore_agreement", "rescore_valleys"} <= set(page.ids)

@@ -17,7 +17,7 @@ from pyrofit.estimate.problem import make_problem
 from pyrofit.results import rescored, searches
 from pyrofit.results.files import Results, read_csv
 from pyrofit.show.rescore.sentences import sentences
-from pyrofit.show.rescore_page import draw_and_write, section
+from pyrofit.show.rescore_page import PAGE
 from pyrofit.stages import fit, measurements, rescore
 
 
@@ -35,7 +35,7 @@ def results(study: Study, tmp_path_factory: pytest.TempPathFactory) -> Results:
     for cost in study.imp.costs:
         fit.repeat(study, results, cost, range(study.imp.repetitions))
     rescore.rescore(study, results, lambda text: None, [], 60)
-    draw_and_write(study, results)
+    PAGE.draw_and_write(study, results)
     return results
 
 
@@ -130,7 +130,7 @@ def test_two_processes_leave_the_same_bytes(
 
 
 def test_page_has_figures_numbers_and_table(study: Study, results: Results) -> None:
-    shown = section(study, results)
+    shown = PAGE.section(study, results)
     assert [type(part).__name__ for part in shown.parts] == ["Picture"] * 3 + ["Part"]
     assert shown.said[0].startswith("60 of ")
     for name in ("agreement", "agreement_best", "regret", "valleys"):

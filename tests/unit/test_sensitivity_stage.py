@@ -16,7 +16,7 @@ from pyrofit.errors import DataError
 from pyrofit.results import sensitivity
 from pyrofit.results.files import Results, read_csv, write_csv
 from pyrofit.show.sensitivity.sentences import sentences
-from pyrofit.show.sensitivity_page import section
+from pyrofit.show.sensitivity_page import PAGE
 from pyrofit.stages import measurements
 from pyrofit.stages import sensitivity as stage
 
@@ -158,7 +158,7 @@ def test_near_and_intervals_lie_about_the_estimates(
 
 
 def test_page_has_figures_numbers_and_table(study: Study, results: Results) -> None:
-    shown = section(study, results)
+    shown = PAGE.section(study, results)
     assert [type(part).__name__ for part in shown.parts] == ["Picture"] * 3 + ["Part"]
     assert "estimated parameters over their limits" in shown.said[0]
     for name in ("total", "apparatus", "first", "costs"):

@@ -21,7 +21,7 @@ from pyrofit.results import worth
 from pyrofit.results.files import Results, write_csv
 from pyrofit.show.worth.facts import remaining
 from pyrofit.show.worth.sentences import sentences
-from pyrofit.show.worth_page import section
+from pyrofit.show.worth_page import PAGE
 from pyrofit.stages import measurements
 from pyrofit.stages.worth import worth_of_tests
 from pyrofit.stages.worth_apparatus import lasting_of
@@ -205,7 +205,7 @@ def test_two_processes_leave_the_same_bytes(study: Study, results: Results, tmp_
 
 
 def test_page_has_figure_table_and_sentences(study: Study, made: tuple[Results, str]) -> None:
-    shown = section(study, made[0])
+    shown = PAGE.section(study, made[0])
     assert [type(part).__name__ for part in shown.parts] == ["Picture", "Part"]
     assert made[1].splitlines() == sentences(study, made[0]) == list(shown.said)
     assert "narrows parameters and predictions most" in shown.said[0]

@@ -1,6 +1,7 @@
 """What the steps of a study share: their options, and how its results are opened."""
 
 import argparse
+import sys
 from collections.abc import Callable
 from pathlib import Path
 from typing import Any
@@ -8,6 +9,7 @@ from typing import Any
 from pyrofit.errors import StudyError, suggest
 
 Step = Callable[[argparse.Namespace], int | None]
+MOST_CORES = 1024
 
 
 def add_step(commands: Any, name: str, text: str, step: Step) -> argparse.ArgumentParser:
@@ -19,6 +21,35 @@ def add_step(commands: Any, name: str, text: str, step: Step) -> argparse.Argume
     parser.add_argument("--log", type=Path, help="file that keeps a copy of the output")
     parser.set_defaults(step=step)
     return parser
+
+
+def add_own_options(command: argparse.ArgumentParser, step: Step) -> None:
+    """Add the options of a step that runs apart from the others, behind its own."""
+    command.add_argument("--cores", type=_cores, default=1, help="processes; default: 1")
+    command.add_argument("--results", type=Path, help="results folder; default results/<name>")
+    command.add_argument(
+        "--digest", help="digest of all inputs of the step; another one is refused"
+    )
+    command.add_argument("--log", type=Path, help="file that keeps a copy of the output")
+    command.set_defaults(step=step)
+
+
+def _cores(text: str) -> int:
+    if not text.isdigit() or not 1 <= int(text) <= MOST_CORES:
+        raise argparse.ArgumentTypeError(f"'{text}' is no number of cores; give 1 to {MOST_CORES}")
+    return int(text)
+
+
+def tell(text: str) -> None:
+    """Tell progress on standard error."""
+    print(text, file=sys.stderr, flush=True)
+
+
+def show(page: Any, study: Any, results: Any) -> None:
+    """Write tables and figures of a step's page, and print its sentences."""
+    page.draw_and_write(study, results)
+    for line in page.sentences(study, results):
+        print(line)
 
 
 def open_study(given: argparse.Namespace, slice_of: Callable[..., Any], *arguments: Any) -> Any:

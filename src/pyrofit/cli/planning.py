@@ -1,11 +1,10 @@
 """Command that tells what planned tests are worth."""
 
 import argparse
-import sys
 from pathlib import Path
 from typing import Any
 
-from pyrofit.cli.common import open_study
+from pyrofit.cli.common import add_own_options, open_study, show, tell
 
 DRAWS = 50
 """Drawn data sets of the check unless told otherwise: half a minute."""
@@ -29,13 +28,7 @@ def add(commands: Any) -> None:
         help="whether flux, thickness, heat losses and temperatures are as described or uncertain "
         "by their standard deviations; default: exact",
     )
-    command.add_argument("--cores", type=_cores, default=1, help="processes; default: 1")
-    command.add_argument("--results", type=Path, help="results folder; default results/<name>")
-    command.add_argument(
-        "--digest", help="digest of all inputs of the step; another one is refused"
-    )
-    command.add_argument("--log", type=Path, help="file that keeps a copy of the output")
-    command.set_defaults(step=_worth)
+    add_own_options(command, _worth)
 
 
 def _draws(text: str) -> int:
@@ -46,24 +39,11 @@ def _draws(text: str) -> int:
     return int(text)
 
 
-def _cores(text: str) -> int:
-    if not text.isdigit() or int(text) < 1:
-        raise argparse.ArgumentTypeError(f"'{text}' is no number of cores; give 1 or more")
-    return int(text)
-
-
-def _tell(text: str) -> None:
-    print(text, file=sys.stderr, flush=True)
-
-
 def _worth(given: argparse.Namespace) -> None:
     from pyrofit.results import worth
-    from pyrofit.show.worth.sentences import sentences
-    from pyrofit.show.worth_page import draw_and_write
+    from pyrofit.show.worth_page import PAGE
     from pyrofit.stages.worth import worth_of_tests
 
     study, results = open_study(given, worth.slice_of)
-    worth_of_tests(study, results, _tell, given.draws, given.cores, given.apparatus)
-    draw_and_write(study, results)
-    for line in sentences(study, results):
-        print(line)
+    worth_of_tests(study, results, tell, given.draws, given.cores, given.apparatus)
+    show(PAGE, study, results)

@@ -1,11 +1,10 @@
 """Command that draws from the posterior of a finished study and predicts with it."""
 
 import argparse
-import sys
 from pathlib import Path
 from typing import Any
 
-from pyrofit.cli.common import open_study
+from pyrofit.cli.common import add_own_options, open_study, show, tell
 from pyrofit.errors import StudyError
 
 SETS = 100
@@ -23,13 +22,7 @@ def add(commands: Any) -> None:
     command.add_argument(
         "--steps", type=_steps, default=STEPS, help=f"steps at most; default: {STEPS}"
     )
-    command.add_argument("--cores", type=_cores, default=1, help="processes; default: 1")
-    command.add_argument("--results", type=Path, help="results folder; default results/<name>")
-    command.add_argument(
-        "--digest", help="digest of all inputs of the step; another one is refused"
-    )
-    command.add_argument("--log", type=Path, help="file that keeps a copy of the output")
-    command.set_defaults(step=_posterior)
+    add_own_options(command, _posterior)
 
 
 def _sets(text: str) -> int:
@@ -40,31 +33,20 @@ def _steps(text: str) -> int:
     return _number(text, 20, 1_000_000, "steps")
 
 
-def _cores(text: str) -> int:
-    return _number(text, 1, 1024, "cores")
-
-
 def _number(text: str, least: int, most: int, what: str) -> int:
     if not text.isdigit() or not least <= int(text) <= most:
         raise argparse.ArgumentTypeError(f"'{text}' is no number of {what}; give {least} to {most}")
     return int(text)
 
 
-def _tell(text: str) -> None:
-    print(text, file=sys.stderr, flush=True)
-
-
 def _posterior(given: argparse.Namespace) -> None:
     from pyrofit.results import posterior
-    from pyrofit.show.posterior.sentences import sentences
-    from pyrofit.show.posterior_page import draw_and_write
+    from pyrofit.show.posterior_page import PAGE
     from pyrofit.stages.posterior import sample_posterior
 
     study, results = open_study(given, posterior.slice_of)
     try:
-        sample_posterior(study, results, _tell, given.sets, given.steps, given.cores)
+        sample_posterior(study, results, tell, given.sets, given.steps, given.cores)
     except StudyError as error:
         raise StudyError(f"{given.study}: {error}") from None
-    draw_and_write(study, results)
-    for line in sentences(study, results):
-        print(line)
+    show(PAGE, study, results)

@@ -29,10 +29,10 @@ from pyrofit.show.sections import SECTIONS, TABLES
 from pyrofit.show.table import Frames, read_table
 
 OWN_STEPS: tuple[tuple[Any, Any], ...] = (
-    (rescored, rescore_page),
-    (sensitivity, sensitivity_page),
-    (posterior, posterior_page),
-    (worth, worth_page),
+    (rescored, rescore_page.PAGE),
+    (sensitivity, sensitivity_page.PAGE),
+    (posterior, posterior_page.PAGE),
+    (worth, worth_page.PAGE),
     (scheme, scheme_page),
 )
 """Results of steps of their own, and their sections."""
