@@ -157,7 +157,7 @@ def test_page_has_figures_tables_and_the_ensemble(study: Study, results: Results
     shown = PAGE.section(study, results)
     assert [type(part).__name__ for part in shown.parts] == ["Picture"] * 2 + ["Part"] * 3
     assert "use the ensemble of 12 sets" in shown.said[-1]
-    assert any("No fitted signal tells what the model lacks" in line for line in shown.said)
+    assert any("No fitted signal determines the model discrepancy" in line for line in shown.said)
     table = results.posterior("table_parameters.md").read_text()
     assert "R-hat" in table
     assert "kg/m3" in table

@@ -49,7 +49,7 @@ def bands(study: Study, results: Results) -> Canvas:
         _draw_bands(ax, study, frame[here])
     label_axes(axes, [_label(study, of) for of in found.bands])
     entries: Entries = [
-        style.patch("95 %, with what the model lacks", color=WIDE),
+        style.patch("95 %, with model discrepancy", color=WIDE),
         style.patch("95 %, parameters alone", color=DARK),
         style.line("median", color=NARROW, linewidth=0.9),
         style.line("data", color=style.MEASURED, linewidth=0.0, marker=".", markersize=2.0),
@@ -118,7 +118,7 @@ FIGURES = {
         make=bands,
         title="Predicted signals with 95 % bands",
         caption="Dark: band of the curve where parameters alone are uncertain. Light: the same "
-        "with what the model lacks, for the curve without noise. In a fitted signal that is the "
+        "with model discrepancy, for the curve without noise. In a fitted signal that is the "
         "narrower one, as the sum of both was measured. 'Held out' experiments took no part in "
         "the fit.",
     ),

@@ -80,7 +80,7 @@ def _missing(found: Posterior) -> list[str]:
     if not names:
         return []
     return [
-        f"No fitted signal tells what the model lacks in {listed(names)}: the band holds the "
+        f"No fitted signal determines the model discrepancy of {listed(names)}: the band holds the "
         "parameters alone, and is too narrow."
     ]
 

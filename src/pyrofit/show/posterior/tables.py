@@ -1,4 +1,4 @@
-"""The posterior in tables: parameters, correlations, what the model lacks, bands."""
+"""The posterior in tables: parameters, correlations, model discrepancy, bands."""
 
 import numpy as np
 import pandas as pd
@@ -35,7 +35,7 @@ def correlations(study: Study, results: Results) -> pd.DataFrame:
 
 
 def lacking(study: Study, results: Results) -> pd.DataFrame:
-    """List what the model lacks in each fitted signal."""
+    """List the model discrepancy of each fitted signal."""
     found = posterior.read(study, results).discrepancies
     return pd.DataFrame(
         [
@@ -95,7 +95,7 @@ TABLES = {
         place=30,
         applies=always,
         make=lacking,
-        title="What the model lacks in each fitted signal",
+        title="Model discrepancy of each fitted signal",
         note="Standard deviations: relative errors of level and time, offset over the range of the "
         "curve; correlation time over the time at which half of all ups and downs have passed.",
         headings={"lasting": "correlation time"},
@@ -105,12 +105,13 @@ TABLES = {
         applies=always,
         make=bands,
         title="Widths of the 95 % bands",
-        note="Mean widths over the range of the curve: of parameters alone, and with what the "
-        "model lacks. Last: measured points within the band of new measurements, noise included. "
-        "Empty: no fitted experiment tells what the model lacks, or nothing was measured.",
+        note="Mean widths over the range of the curve: of parameters alone, and with "
+        "model discrepancy. Last: measured points within the band of new measurements, noise "
+        "included. "
+        "Empty: no fitted experiment determines the discrepancy, or nothing was measured.",
         headings={
             "parameters": "parameters alone",
-            "width": "with what the model lacks",
+            "width": "with model discrepancy",
             "inside": "points inside",
         },
     ),
