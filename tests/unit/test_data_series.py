@@ -92,7 +92,9 @@ def test_line_of_a_wrong_value_counts_the_rows_left_out(tmp_path: Path) -> None:
 
 
 def test_empty_cell_of_the_time_is_refused(tmp_path: Path) -> None:
-    with pytest.raises(DataError, match="line 5, column 'Time': given an empty cell; every row"):
+    with pytest.raises(
+        DataError, match="line 5, column 'Time': given an empty cell or NaN; every row"
+    ):
         read(tmp_path, "heat_release_rate", CONE.replace("2,68", ",68"))
 
 

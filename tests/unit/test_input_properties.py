@@ -19,7 +19,7 @@ from pyrofit.data.series import read_series
 from pyrofit.data.spec import SeriesSpec
 from pyrofit.errors import DataError, StudyError
 from pyrofit.quantities import known_quantities
-from pyrofit.quantities.units import CELSIUS, ICE_POINT_K, SCALES
+from pyrofit.quantities.units import SCALES, ZEROS_K
 
 fixed = settings(
     derandomize=True,
@@ -47,7 +47,7 @@ def units(kind: str) -> st.SearchStrategy[str]:
 
 def written(value: float, unit: str, kind: str, style: str) -> str:
     """Write an SI value in a unit, as a laboratory would."""
-    shift = ICE_POINT_K if unit in CELSIUS else 0.0
+    shift = ZEROS_K.get(unit, 0.0) / SCALES[kind][unit]
     text = style.format(value / SCALES[kind][unit] - shift)
     return text.replace("+-", "-")
 

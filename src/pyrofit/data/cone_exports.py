@@ -5,7 +5,8 @@ from pathlib import Path
 
 import numpy as np
 
-from pyrofit.data.csvheading import Line, is_number
+from pyrofit.data.csvheading import is_number
+from pyrofit.data.line import Line
 from pyrofit.data.oxygen import FloatArray, heat_release_rate
 from pyrofit.quantities.units import ICE_POINT_K
 
@@ -16,31 +17,30 @@ _BEFORE = 10
 """Rows from which the oxygen of the air is taken where nothing tells the start of the test."""
 
 
-def is_ftt(data: bytes) -> bool:
-    r"""Tell whether bytes that are not UTF-8 are an export of FTT, which is in cp1252.
+def is_export(lines: Sequence[Sequence[str]]) -> bool:
+    """Tell whether cells are those of an export of a cone calorimeter.
 
-    >>> is_ftt("Laboratory name,X,Time (s)\nSurface area (cm²),88,0".encode("cp1252"))
+    >>> is_export([["Laboratory name", "X", "Time (s)"], ["Surface area (cm²)", "88", "0"]])
     True
     """
-    text = data.decode("cp1252", errors="replace").casefold()
-    return sum(key in text for key in _FTT_KEYS) >= _FEWEST_KEYS
+    filled = [cells for cells in lines if any(cells)]
+    first = [cell.casefold() for cell in filled[0]]
+    keys = {cells[0].casefold() for cells in filled}
+    ftt = len(keys & _FTT_KEYS) >= _FEWEST_KEYS and "time (s)" in first[2:]
+    return ftt or first[:2] == [_DEATAK, "time"]
 
 
 def unfolded(path: Path, lines: Sequence[Line], notes: list[str]) -> list[Line]:
-    """Return the lines of a cone calorimeter's export as a header and rows; others as they are.
+    """Return the lines of a cone calorimeter's export as a header and rows.
 
     Known are the files of FTT, whose first two columns hold keys and values, and the scans of
     Deatak, with names in the first row and units below; their keys are in a file beside them, named
     `Scalar` instead of `Scan`. Where a file has no heat release rate, it is computed from the
     oxygen, see `pyrofit.data.oxygen`.
     """
-    first = [cell.casefold() for cell in lines[0].cells]
-    keys = {line.cells[0].casefold() for line in lines if line.cells}
-    if len(keys & _FTT_KEYS) >= _FEWEST_KEYS and "time (s)" in first[2:]:
-        return _ftt(lines, notes)
-    if first[:2] == [_DEATAK, "time"]:
+    if lines[0].cells[0].casefold() == _DEATAK:
         return _deatak(path, lines, notes)
-    return list(lines)
+    return _ftt(lines, notes)
 
 
 def _ftt(lines: Sequence[Line], notes: list[str]) -> list[Line]:
@@ -57,6 +57,8 @@ def _ftt(lines: Sequence[Line], notes: list[str]) -> list[Line]:
         rows, places, ("time (s)", "o2 (%)", "dpt (pa)", "stack tc (k)"), (0.0, 0.0, 0.0, 0.0)
     )
     area = _number(known.get("surface area (cm²)"))
+    if area:
+        notes.append(f"exposed area {area * 1e-4:g} m2: give it as `sample_area_m2` where needed")
     facts = (
         None if area is None else area * 1e-4,
         _number(known.get("c-factor (si units)")),

@@ -10,12 +10,11 @@ from pyrofit.data.spec import SeriesSpec
 from pyrofit.errors import DataError, suggest
 from pyrofit.quantities.base import LIMITS
 from pyrofit.quantities.units import (
-    CELSIUS,
-    ICE_POINT_K,
     PER_AREA,
     PER_MASS,
     PER_START,
     SCALES,
+    ZEROS_K,
     unit_key,
 )
 
@@ -71,10 +70,15 @@ def to_si(
         given = f"unknown unit '{unit}' of the {role}. " if unit else f"no unit of the {role}; "
         raise DataError(
             f"{table.path}, column '{header}': {given}{suggest(unit or '', known)} "
-            f"Give it in the study: `units: {{{role}: ...}}`."
+            + (
+                "Convert the column, or correct the unit in the study"
+                if unit
+                else "Give it in the study"
+            )
+            + f": `units: {{{role}: ...}}`."
         )
     kind, word = scales[key]
-    offset = ICE_POINT_K if word in CELSIUS and role != "uncertainty" else 0.0
+    offset = 0.0 if role == "uncertainty" else ZEROS_K.get(word, 0.0)
     return table.columns[header] * SCALES[kind][word] + offset, kind
 
 

@@ -1,26 +1,28 @@
 """Read a table of numbers with a header, in any of the shapes in which laboratories write one."""
 
-import csv
-import math
 import re
-from collections.abc import Sequence
-from dataclasses import dataclass
-from difflib import get_close_matches
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass, field
 from pathlib import Path
 
 import numpy as np
 import numpy.typing as npt
 
-from pyrofit.data.cone_exports import is_ftt, unfolded
-from pyrofit.data.csvheading import Line, is_number, name_columns, ragged, trim
-from pyrofit.data.mend import decoded, mended_lines
-from pyrofit.errors import DataError, suggest
+from pyrofit.data.bulk import bulk_values
+from pyrofit.data.cone_exports import is_export, unfolded
+from pyrofit.data.csvheading import Heading, named_columns
+from pyrofit.data.layout import cells_of, layout_of, usual_delimiter
+from pyrofit.data.line import Line
+from pyrofit.data.numerals import fault_of, numerals_of
+from pyrofit.data.rows import parsed, rows_of, whole_rows, without_footer
+from pyrofit.data.text_file import read_text
+from pyrofit.errors import DataError
 
 FloatArray = npt.NDArray[np.float64]
-
-_DELIMITERS = "\t;,"
-_DECIMAL_COMMA = re.compile(r"[-+]?\d+,\d+([eE][-+]?\d+)?")
-_LISTED_FILES = 12
+MANY_ROWS = 20_000
+"""Files with more lines are read in one piece where that is possible."""
+_LOOKED_AT = 2000
+_CLOCKS = ("hh:mm:ss", "h:mm:ss", "h:min:s", "hms")
 
 
 @dataclass(frozen=True, eq=False)
@@ -32,7 +34,7 @@ class Table:
     path : Path
         The file that was read.
     columns : dict of str to array, shape (n_rows,)
-        The numbers by column name, in the order of the file; NaN where a cell is empty.
+        The numbers by column name, in the order of the file; NaN where a cell holds none.
     units : dict of str to str or None
         The unit by column name as the file writes it, without brackets; None where there is none.
     first_row : int
@@ -40,8 +42,9 @@ class Table:
     left_out : tuple of int
         Rows of the file, from 0, that the columns do not have any more.
     mended : tuple of str
-        What was wrong with the text of the file and was read all the same, and the form of an
-        export that was unfolded.
+        What was read in another way than as a table in UTF-8 with decimal points.
+    faults : dict of str to tuple of int and str
+        Line number and text of the first cell that holds no number, by column that has one.
     """
 
     path: Path
@@ -50,27 +53,43 @@ class Table:
     first_row: int
     left_out: tuple[int, ...] = ()
     mended: tuple[str, ...] = ()
+    faults: dict[str, tuple[int, str]] = field(default_factory=dict)
 
     def line(self, row: int) -> int:
         """Return the line number, from 1, of a row of the columns."""
         rows = len(next(iter(self.columns.values()))) + len(self.left_out)
         return self.first_row + int(np.delete(np.arange(rows), self.left_out)[row])
 
+    def require(self, names: Sequence[str]) -> None:
+        """Refuse columns that are to be used and hold a cell that is no number.
 
-def read_table(path: Path, mend: bool = False) -> Table:
+        Raises
+        ------
+        DataError
+            With file, line, column and text.
+        """
+        for name in names:
+            if name in self.faults:
+                line, cell = self.faults[name]
+                raise DataError(
+                    f"{self.path}, line {line}, column '{name}': given '{cell}'; {fault_of(cell)}"
+                )
+
+
+def read_table(path: Path) -> Table:
     r"""Read a delimited text file: header, units row or units in the header, and numbers.
 
-    The delimiter is a comma, a semicolon or a tab, the decimal sign a point. Units stand in a row
-    below or above the names (`[s],[K]`), or in the names (`Time (s)`, `Mass [mg]`), or nowhere.
+    Read are UTF-8, UTF-16 and Windows-1252; cells set apart by comma, semicolon, tab, bar or
+    blanks; decimal points and commas, and separators of thousands where the file tells which is
+    which; a preamble above the header; times as hh:mm:ss; a few lines of text at the end. What is
+    not UTF-8 with decimal points and a header in the first row is noted. Units stand in a row
+    below or above the names (`[s],[K]`), or in the names (`Time (s)`, `Mass [mg]`, `Mass/%`), or
+    nowhere. A cell that is no number does not matter in a column that nobody uses.
 
     Parameters
     ----------
     path : Path
-        A UTF-8 text file, with or without a byte-order mark.
-    mend : bool
-        Read over other encodings, a preamble, words such as `NaN` for a cell without a value, and
-        rows at the end without a first cell; the table lists them. Measured series of a study are
-        never mended.
+        A text file on a disk.
 
     Returns
     -------
@@ -81,7 +100,7 @@ def read_table(path: Path, mend: bool = False) -> Table:
     ------
     DataError
         The file cannot be read, has no header or no numbers, a row is longer or shorter than the
-        header, two columns share a name, or a cell is neither empty nor a finite number.
+        header, or its numbers can be read in two ways.
 
     Examples
     --------
@@ -90,132 +109,74 @@ def read_table(path: Path, mend: bool = False) -> Table:
     ...     path = Path(folder) / "tga.csv"
     ...     _ = path.write_text("Time,Mass\n[s],[mg]\n0,5.0\n10,4.5\n")
     ...     table = read_table(path)
-    >>> table.columns["Mass"].tolist(), table.units["Mass"], table.first_row
+    >>> table.columns["Mass"].tolist(), table.units["Mass"], table.line(0)
     ([5.0, 4.5], 'mg', 3)
     """
     notes: list[str] = []
-    lines = unfolded(path, _split(path, _read_text(path, notes, mend)), notes)
-    if mend:
-        lines = mended_lines(lines, notes)
-    count = _count_text_lines(path, lines)
-    names, units = name_columns(path, lines[:count])
-    rows = _trim_rows(path, lines[count:], len(names))
-    values = np.array([_parse_row(path, row, names) for row in rows], dtype=np.float64)
-    columns = {name: values[:, i].copy() for i, name in enumerate(names)}
-    named = dict(zip(names, units, strict=True))
-    return Table(path, columns, named, rows[0].number, mended=tuple(notes))
-
-
-def _read_text(path: Path, notes: list[str], mend: bool) -> str:
-    try:
-        data = path.read_bytes()
-        return decoded(data, notes) if mend or is_ftt(data) else data.decode("utf-8-sig")
-    except FileNotFoundError:
-        raise DataError(f"{path}: there is no such file. {_near_files(path)}") from None
-    except IsADirectoryError:
-        raise DataError(f"{path}: this is a folder; give a file in it.") from None
-    except UnicodeDecodeError as error:
-        line = error.object[: error.start].count(b"\n") + 1
-        raise DataError(
-            f"{path}, line {line}: byte 0x{error.object[error.start]:02x} is not UTF-8 text; "
-            "save the file as CSV in UTF-8."
-        ) from None
-    except OSError as error:
-        raise DataError(
-            f"{path}: the file cannot be read ({error.strerror}); "
-            "check its permissions and its disk."
-        ) from None
-    except ValueError:
-        raise DataError(f"{str(path)!r}: this is no name of a file; correct it.") from None
-
-
-def _near_files(path: Path) -> str:
-    if not path.parent.is_dir():
-        return f"Its folder {path.parent} does not exist either; check the path."
-    names = sorted(entry.name for entry in path.parent.iterdir() if entry.is_file())
-    if not names:
-        return f"Its folder {path.parent} holds no files; check the path."
-    if len(names) > _LISTED_FILES:
-        names = get_close_matches(path.name, names, _LISTED_FILES, 0.0)
-    return suggest(path.name, names)
-
-
-def _split(path: Path, text: str) -> list[Line]:
-    """Cut the text in lines and cells, without the blank lines around the header and at the end."""
-    raw = re.split(r"\r\n|\n|\r", text)
-    header = next((line for line in raw if "".join(line.split()).strip(_DELIMITERS + '"')), None)
-    if header is None:
-        raise DataError(f"{path}: the file is empty; a header row and rows of numbers are needed.")
-    delimiter = max(_DELIMITERS, key=header.count)
-    try:
-        cells = [next(csv.reader([line], delimiter=delimiter), []) for line in raw]
-    except csv.Error as error:
-        raise DataError(f"{path}: this is not a delimited text file ({error}).") from None
-    lines = [Line(i, [c.strip() for c in row]) for i, row in enumerate(cells, start=1)]
-    while not any(lines[-1].cells):
-        lines.pop()
-    first_number = next((i for i, line in enumerate(lines) if _has_number(line)), len(lines))
-    return [line for line in lines[:first_number] if any(line.cells)] + lines[first_number:]
-
-
-def _has_number(line: Line) -> bool:
-    return any(is_number(cell) for cell in line.cells)
-
-
-def _count_text_lines(path: Path, lines: Sequence[Line]) -> int:
-    """Count the rows above the numbers: one of names and at most one of units."""
-    count = next((i for i, line in enumerate(lines) if _has_number(line)), len(lines))
-    if count == 0:
-        raise DataError(
-            f"{path}, line {lines[0].number}: the first row holds numbers; "
-            "a header row with the names of the columns must come first."
+    raw = re.split(r"\r\n|\n|\r", read_text(path, notes))
+    while raw and not raw[-1].strip(' \t;,|"'):
+        raw.pop()
+    delimiter = usual_delimiter(path, raw)
+    if is_export([cells_of(path, text, delimiter) for text in raw[:_LOOKED_AT]]):
+        lines = [Line(i, cells_of(path, text, delimiter)) for i, text in enumerate(raw, start=1)]
+        first, *rows = unfolded(path, [line for line in lines if any(line.cells)], notes)
+        return _table(path, named_columns(path, [first], notes), rows, notes)
+    layout = layout_of(path, raw, notes)
+    heading = named_columns(path, layout.heading, notes)
+    raw = without_footer(path, raw, layout, notes)
+    if len(raw) > MANY_ROWS and not layout.marks:
+        some = rows_of(path, raw[: layout.start + _LOOKED_AT], layout)
+        values = bulk_values(
+            raw[layout.start :], layout.delimiter, numerals_of(some), len(heading.names)
         )
-    if count > 2:
-        raise DataError(
-            f"{path}, line {lines[2].number}: given text {lines[2].cells}; above the numbers only "
-            "a row of names and a row of units may stand. Delete the other rows; if they hold "
-            "numbers, set their cells apart by comma, semicolon or tab."
-        )
-    if count == len(lines):
-        raise DataError(
-            f"{path}: the file holds a header and no numbers; rows of numbers must follow it, "
-            "their cells set apart by comma, semicolon or tab."
-        )
-    return count
+        if values is not None:
+            return _as_table(path, heading, values, {}, layout.start + 1, (), notes)
+    return _table(path, heading, rows_of(path, raw, layout), notes, layout.marks)
 
 
-def _trim_rows(path: Path, lines: Sequence[Line], width: int) -> list[Line]:
-    rows = [Line(line.number, trim(line.cells, width)) for line in lines]
-    for row in rows:
-        if not any(row.cells):
-            raise DataError(
-                f"{path}, line {row.number}: this row is blank but numbers follow; delete it."
-            )
-        if len(row.cells) != width:
-            raise ragged(path, row.number, len(row.cells), width)
-    return rows
+def _table(
+    path: Path, heading: Heading, lines: list[Line], notes: list[str], marks: bool = False
+) -> Table:
+    """Return the table of lines of cells."""
+    rows = whole_rows(path, lines, heading, marks, notes)
+    numerals = numerals_of(rows)
+    if numerals.decimal == ",":
+        notes.append("read with decimal commas")
+    if numerals.thousands:
+        notes.append(f"read with '{numerals.thousands}' between thousands")
+    values, faults = parsed(rows, len(heading.names), numerals)
+    first, kept = lines[0].number, {row.number for row in rows}
+    left_out = tuple(line.number - first for line in lines if line.number not in kept)
+    return _as_table(path, heading, values, faults, first, left_out, notes)
 
 
-def _parse_row(path: Path, row: Line, names: Sequence[str]) -> list[float]:
-    return [
-        _parse_cell(path, row.number, name, cell)
-        for name, cell in zip(names, row.cells, strict=True)
+def _as_table(
+    path: Path,
+    heading: Heading,
+    values: FloatArray,
+    faults: Mapping[int, tuple[int, str]],
+    first_row: int,
+    left_out: tuple[int, ...],
+    notes: Sequence[str],
+) -> Table:
+    """Return the table of an array, without columns that have neither name nor numbers."""
+    used = [
+        i
+        for i in range(len(heading.names))
+        if heading.named[i] or i in faults or not np.isnan(values[:, i]).all()
     ]
-
-
-def _parse_cell(path: Path, line: int, name: str, cell: str) -> float:
-    if not cell:
-        return math.nan
-    if is_number(cell) and math.isfinite(value := float(cell)):
-        return value
-    if _DECIMAL_COMMA.fullmatch(cell):
-        raise DataError(
-            f"{path}, line {line}, column '{name}': given '{cell}', a number with a decimal comma; "
-            f"numbers take a decimal point, {cell.replace(',', '.')}. Save the file with points, "
-            "or replace the commas."
-        )
-    raise DataError(
-        f"{path}, line {line}, column '{name}': given '{cell}'; each cell must be a finite "
-        "number with a decimal point. Cells are separated by comma, semicolon or tab. "
-        "Correct the cell or delete its row."
+    names = {i: heading.names[i] for i in used}
+    return Table(
+        path,
+        {name: values[:, i].copy() for i, name in names.items()},
+        {name: _unit(heading.units[i]) for i, name in names.items()},
+        first_row,
+        left_out,
+        tuple(notes),
+        {names[i]: fault for i, fault in faults.items()},
     )
+
+
+def _unit(unit: str | None) -> str | None:
+    """Return the unit of a column; times of a clock are read as seconds."""
+    return "s" if unit is not None and unit.casefold() in _CLOCKS else unit

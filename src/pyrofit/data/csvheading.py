@@ -5,26 +5,32 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 from pathlib import Path
 
+from pyrofit.data.line import Line
+from pyrofit.data.numerals import as_float
 from pyrofit.errors import DataError
+from pyrofit.quantities.units import SCALES, unit_key
 
 _BRACKETED = re.compile(r"\[(.*)\]|\((.*)\)")
 _NAME_AND_UNIT = re.compile(r"(.+?)\s*(?:\[(.*)\]|\((.*)\))")
+_NAME_SLASH_UNIT = re.compile(r"([^/(\[]+)/(.+)")
+_KNOWN = {unit_key(word) for scale in SCALES.values() for word in scale}
 
 
 @dataclass(frozen=True)
-class Line:
-    """A line of the file, from 1, and its cells."""
+class Heading:
+    """Name of each column, each its own; its unit; whether the file gives the name."""
 
-    number: int
-    cells: list[str]
+    names: list[str]
+    units: list[str | None]
+    named: list[bool]
 
 
-def name_columns(path: Path, heading: Sequence[Line]) -> tuple[list[str], list[str | None]]:
+def named_columns(path: Path, heading: Sequence[Line], notes: list[str]) -> Heading:
     """Tell names and units apart, whichever row comes first."""
     rows = list(heading)
     if len(rows) == 2 and all_bracketed(rows[0]) and not all_bracketed(rows[1]):
         rows.reverse()
-    names = trim(rows[0].cells)
+    names = [cell.lstrip("#").strip() for cell in trim(rows[0].cells)]
     units: list[str | None] = [None] * len(names)
     if len(rows) == 2:
         cells = trim(rows[1].cells)
@@ -33,17 +39,12 @@ def name_columns(path: Path, heading: Sequence[Line]) -> tuple[list[str], list[s
         units[: len(cells)] = [_strip_brackets(cell) for cell in cells]
     else:
         names, units = _split_units(names)
-    _check_names(path, rows[0].number, names)
-    return names, units
+    return Heading(_own_names(names, units, notes), units, [bool(name) for name in names])
 
 
 def is_number(cell: str) -> bool:
-    """Tell whether a cell is written as a number."""
-    try:
-        float(cell)
-    except ValueError:
-        return False
-    return "_" not in cell
+    """Tell whether a cell is written as a number with a decimal point, or is not a number."""
+    return as_float(cell) is not None or cell.strip("+-").casefold() == "nan"
 
 
 def trim(cells: Sequence[str], width: int = 0) -> list[str]:
@@ -59,6 +60,20 @@ def all_bracketed(line: Line) -> bool:
     return all(_BRACKETED.fullmatch(cell) for cell in line.cells if cell)
 
 
+def holds_units(line: Line) -> bool:
+    """Tell whether at least half of a line's cells are units, and no names."""
+    filled = [cell for cell in line.cells if cell]
+    units = [c for c in filled if _BRACKETED.fullmatch(c) or unit_key(c) in _KNOWN]
+    return bool(filled) and 2 * len(units) >= len(filled)
+
+
+def holds_names_with_units(line: Line) -> bool:
+    """Tell whether at least half of a line's cells are names with their units."""
+    filled = [cell for cell in line.cells if cell]
+    both = [unit for cell, unit in zip(filled, _split_units(filled)[1], strict=True) if unit]
+    return bool(filled) and 2 * len(both) >= len(filled) and not all_bracketed(line)
+
+
 def _strip_brackets(cell: str) -> str | None:
     match = _BRACKETED.fullmatch(cell)
     inner = (match[1] or match[2] or "") if match else cell
@@ -69,23 +84,39 @@ def _split_units(headers: Sequence[str]) -> tuple[list[str], list[str | None]]:
     names: list[str] = []
     units: list[str | None] = []
     for header in headers:
-        match = _NAME_AND_UNIT.fullmatch(header)
+        match, slash = _NAME_AND_UNIT.fullmatch(header), _NAME_SLASH_UNIT.fullmatch(header)
+        if slash and (unit := _unit_behind_slash(slash[1], slash[2])):
+            names.append(slash[1].strip())
+            units.append(unit)
+            continue
         names.append(match[1] if match else header)
         units.append((match[2] or match[3] or "").strip() or None if match else None)
     return names, units
 
 
-def _check_names(path: Path, line: int, names: Sequence[str]) -> None:
-    for i, name in enumerate(names):
-        if not name:
-            raise DataError(
-                f"{path}, line {line}: column {i + 1} has no name; name it or delete it."
-            )
-        if name in names[:i]:
-            raise DataError(
-                f"{path}, line {line}: columns {names.index(name) + 1} and {i + 1} are both named "
-                f"'{name}'; each column needs its own name. Rename or delete one."
-            )
+def _unit_behind_slash(name: str, text: str) -> str | None:
+    """Return the unit of a header such as `Mass/%` or `DSC/(mW/mg)`; None for `MLR g/s`."""
+    words = re.split(r"[ _]", name)
+    if len(words) > 1 and unit_key(words[-1]) in _KNOWN:
+        return None
+    if _BRACKETED.fullmatch(text) or unit_key(text) in _KNOWN:
+        return _strip_brackets(text)
+    return None
+
+
+def _own_names(names: list[str], units: Sequence[str | None], notes: list[str]) -> list[str]:
+    """Give each column its own name: columns of one name get their unit or a number behind it."""
+    own = [name or f"column {i}" for i, name in enumerate(names, start=1)]
+    for name in dict.fromkeys(own):
+        places = [i for i, other in enumerate(own) if other == name]
+        if len(places) < 2:
+            continue
+        of = [units[i] for i in places]
+        told = None not in of and len(set(of)) == len(of)
+        for count, i in enumerate(places, start=1):
+            own[i] = f"{name} ({units[i] if told else count})"
+        notes.append(f"columns of one name are told apart as {', '.join(own[i] for i in places)}")
+    return own
 
 
 def ragged(path: Path, line: int, given: int, width: int) -> DataError:

@@ -39,8 +39,8 @@ def without_gaps(table: Table, headers: Mapping[str, str]) -> tuple[Table, list[
         if role in empty and empty[role].any():
             raise DataError(
                 f"{table.path}, line {table.line(int(empty[role].argmax()))}, column "
-                f"'{headers[role]}': given an empty cell; every row needs its {role}. Complete "
-                "the row or delete it."
+                f"'{headers[role]}': given an empty cell or NaN; every row needs its {role}. "
+                "Complete the row or delete it."
             )
     gaps = np.any(list(empty.values()), axis=0)
     if not gaps.any():

@@ -1,6 +1,6 @@
 """Turn a table of a laboratory into a checked measured series in SI units."""
 
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 from pathlib import Path
 
@@ -18,6 +18,8 @@ from pyrofit.quantities.base import LIMITS, Quantity
 from pyrofit.quantities.units import header_key
 
 _FEWEST_POINTS = 3
+MOST_POINTS = 20_000
+"""Points of a series; every n-th row of a longer one is used."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -50,18 +52,21 @@ class Measurement:
     notes: tuple[str, ...]
 
 
-def read_series(spec: SeriesSpec) -> Measurement:
+def read_series(spec: SeriesSpec, read: Callable[[Path], Table] = read_table) -> Measurement:
     """Read a measured series, convert it to SI units and check it.
 
     A mass `m` becomes the mass fraction `m / m_0`, with `m_0` the given mass of the sample, else
     the first value; a mass rate becomes the mass loss rate per area, `rate / area`, and a mass the
     mass per area where that is the quantity; a power becomes that per initial mass. Columns that
-    are zero throughout are placeholders and are left out.
+    are zero throughout are placeholders and are left out. Of more than `MOST_POINTS` rows every
+    n-th is used.
 
     Parameters
     ----------
     spec : SeriesSpec
         File, quantity, and what the file does not say itself.
+    read : callable
+        Reader of the file, where it is read once for several series.
 
     Returns
     -------
@@ -88,10 +93,15 @@ def read_series(spec: SeriesSpec) -> Measurement:
        60.0         323.15            1.0
       120.0         333.15            0.8
     """
-    table = read_table(spec.path)
+    table = read(spec.path)
     _check_length(table)
-    dummies = [name for name, column in table.columns.items() if not np.nan_to_num(column).any()]
+    dummies = [
+        name
+        for name, column in table.columns.items()
+        if name not in table.faults and not np.nan_to_num(column).any()
+    ]
     headers = _assign_columns(spec, table, dummies)
+    table.require([*headers.values()])
     table, gaps = without_gaps(table, headers)
     rows = _check_length(table)
     # What overflows here is found there.
@@ -106,6 +116,8 @@ def read_series(spec: SeriesSpec) -> Measurement:
     if negative := int((frame[spec.of.column] < 0.0).sum()):
         notes.append(f"{negative} of {rows} values are negative")
     notes += _remarks(spec.of, frame)
+    frame, thinned = _thinned(frame)
+    notes += thinned
     digest = sha256(spec.path)
     return Measurement(spec.of, frame, spec.path, digest, spec.uncertainty_meaning, tuple(notes))
 
@@ -128,6 +140,16 @@ def _remarks(quantity: Quantity, frame: pd.DataFrame) -> list[str]:
     columns = (frame[c].to_numpy(float) for c in ("temperature_K", quantity.column))
     said = quantity.remark(*columns)
     return [said] if said else []
+
+
+def _thinned(frame: pd.DataFrame) -> tuple[pd.DataFrame, list[str]]:
+    """Return every n-th row of a series with too many points, the first and last included."""
+    rows = len(frame)
+    if rows <= MOST_POINTS:
+        return frame, []
+    kept = np.unique(np.linspace(0, rows - 1, MOST_POINTS).round().astype(int))
+    thin = frame.iloc[kept].reset_index(drop=True)
+    return thin, [f"thinned: {len(thin):,} of {rows:,} rows are used, evenly spread"]
 
 
 def _assign_columns(spec: SeriesSpec, table: Table, dummies: Sequence[str]) -> dict[str, str]:

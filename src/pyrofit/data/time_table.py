@@ -7,7 +7,7 @@ import numpy as np
 
 from pyrofit.data.csvfile import FloatArray, read_table
 from pyrofit.errors import DataError, suggest
-from pyrofit.quantities.units import CELSIUS, ICE_POINT_K, SCALES, header_key, unit_key
+from pyrofit.quantities.units import SCALES, ZEROS_K, header_key, unit_key
 
 ROLES = "time", "value"
 TIME = "Time"
@@ -44,6 +44,7 @@ def read_time_table(
     time = _column(path, names, "time", columns.get("time"), [TIME])
     rest = [name for name in names if name != time]
     value = _column(path, rest, "value", columns.get("value"), rest)
+    table.require([time, value])
     t, y = (
         _to_si(path, table.columns[name], units.get(role, table.units[name]), role, of)
         for name, role, of in ((time, "time", "time"), (value, "value", kind))
@@ -80,4 +81,4 @@ def _to_si(path: Path, given: FloatArray, unit: str | None, role: str, kind: str
             f"Give it in the study: `units: {{{role}: ...}}`."
         )
     word = words[unit_key(unit)]
-    return given * SCALES[kind][word] + (ICE_POINT_K if word in CELSIUS else 0.0)
+    return given * SCALES[kind][word] + ZEROS_K.get(word, 0.0)

@@ -27,7 +27,7 @@ def examine(path: Path, label: Label, facts: Facts) -> Examined:
     """
     seen = Examined(path, label, facts)
     try:
-        seen.table = read_table(path, mend=True)
+        seen.table = read_table(path)
     except DataError as error:
         seen.say("unreadable", "fault", str(error).removeprefix(f"{path}"))
         return seen

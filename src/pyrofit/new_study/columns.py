@@ -7,7 +7,16 @@ import numpy as np
 
 from pyrofit.data.csvfile import Table
 from pyrofit.experiments import measurable
-from pyrofit.new_study.headers import is_abscissa, is_error, is_usual, may_be, root_of
+from pyrofit.new_study.headers import (
+    is_abscissa,
+    is_error,
+    is_of_sample,
+    is_usual,
+    may_be,
+    root_of,
+    stem_of,
+)
+from pyrofit.new_study.reasons import unused
 from pyrofit.new_study.units import (
     guessed_unit,
     kind_of,
@@ -20,6 +29,8 @@ from pyrofit.quantities.units import header_key
 
 _OWN = ("value", "uncertainty")
 """Roles that belong to one signal; the others are shared by all signals of a file."""
+_NAMELESS = ("value", "signal", "y")
+"""Headers of which the unit alone tells the quantity."""
 
 
 @dataclass(frozen=True)
@@ -98,7 +109,7 @@ def recognise(table: Table, kind: str) -> Recognised:
     """
     quantities = sorted(measurable(kind).values(), key=_rank)
     empty = [n for n, numbers in table.columns.items() if not np.nan_to_num(numbers).any()]
-    left = dict.fromkeys(empty, "zero throughout, a placeholder")
+    left = {n: "zero throughout, a placeholder" for n in empty if n not in table.faults}
     shared = {
         role: _shared(table, quantities, role, empty)
         for role in dict.fromkeys(r for q in quantities for r in q.roles)
@@ -110,7 +121,7 @@ def recognise(table: Table, kind: str) -> Recognised:
     signals = signals or {quantities[0].name: (quantities[0], "")}
     found = _all_found(table, signals, shared)
     used = {header for one in found for header in one.columns.values()}
-    reasons = {n: left.get(n, "not recognised") for n in table.columns if n not in used}
+    reasons = {n: left.get(n) or unused(table, n, kind) for n in table.columns if n not in used}
     return Recognised(found, reasons)
 
 
@@ -126,6 +137,9 @@ def _shared(table: Table, quantities: Sequence[Quantity], role: str, empty: Sequ
     matches = [n for n in free if header_key(n) in usual] or [
         n for n in free if is_abscissa(n, role)
     ]
+    if len(matches) > 1 and role == "temperature":
+        # Beside the programme's stands that of the sample.
+        matches = [n for n in matches if is_of_sample(n)]
     return matches[0] if len(matches) == 1 else ""
 
 
@@ -137,6 +151,9 @@ def _signals(
     left = {}
     for name in free:
         usual = [q.name for q in quantities if is_usual(name, q)]
+        if not usual and stem_of(name) in _NAMELESS:
+            unit = table.units[name] or ""
+            usual = [q.name for q in quantities if kind_of(unit, q.scales)]
         owners = usual or [q.name for q in quantities if may_be(name, q)]
         if len(owners) == 1:
             claims.setdefault(owners[0], []).append(name)

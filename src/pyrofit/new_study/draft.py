@@ -9,7 +9,7 @@ from pathlib import Path
 import numpy as np
 import pandas as pd
 
-from pyrofit.data.csvfile import read_table
+from pyrofit.data.csvfile import Table, read_table
 from pyrofit.data.series import read_series
 from pyrofit.data.spec import SeriesSpec
 from pyrofit.errors import DataError, StudyError
@@ -50,6 +50,8 @@ class Measured:
         The series that can be read, in SI units, by quantity.
     repeats
         Its repeats, where it stands for several.
+    mended
+        How its file was read, where that is not as a table in UTF-8 with decimal points.
     """
 
     kind: str
@@ -62,6 +64,7 @@ class Measured:
     left: Mapping[str, str] = field(default_factory=dict)
     frames: Mapping[str, pd.DataFrame] = field(default_factory=dict)
     repeats: tuple["Measured", ...] = ()
+    mended: tuple[str, ...] = ()
 
     @property
     def of(self) -> Kind:
@@ -89,7 +92,7 @@ def measured(kind: str, path: Path) -> Measured:
     """
     table = read_table(path)
     recognised = recognise(table, kind)
-    frames = _frames(path, recognised.signals)
+    frames, thinned = _frames(table, recognised.signals)
     files = files_of(kind)
     number, sure = files.number.find(path.stem)
     recorded = files.recorded(number, frames)
@@ -100,7 +103,16 @@ def measured(kind: str, path: Path) -> Measured:
         name = f"run_{name}".rstrip("_")
     headers = tuple(table.columns)
     return Measured(
-        kind, name, path, number, sure, headers, recognised.signals, recognised.left, frames
+        kind,
+        name,
+        path,
+        number,
+        sure,
+        headers,
+        recognised.signals,
+        recognised.left,
+        frames,
+        mended=(*table.mended, *thinned),
     )
 
 
@@ -150,23 +162,31 @@ def check_names(records: Sequence[Measured]) -> None:
         first[record.name] = record.path
 
 
-def _frames(path: Path, signals: Iterable[Found]) -> dict[str, pd.DataFrame]:
-    """Return the series that can be read; what is wrong with others, `pyrofit check` tells."""
+def _frames(
+    table: Table, signals: Iterable[Found]
+) -> tuple[dict[str, pd.DataFrame], tuple[str, ...]]:
+    """Return the series that can be read, and whether they are thinned.
+
+    What is wrong with others, `pyrofit check` tells.
+    """
     frames: dict[str, pd.DataFrame] = {}
+    thinned: dict[str, None] = {}
     for found in signals:
         if found.missing or found.unread or found.quantity in frames:
             continue
         divisor = dict([given]) if (given := divisor_of(found)) else {}
         spec = SeriesSpec(
             found.quantity,
-            path,
+            table.path,
             found.columns,
             found.units,
             sample_area_m2=divisor.get("sample_area_m2"),
             sample_mass_kg=divisor.get("sample_mass_kg"),
         )
         try:
-            frames[found.quantity] = read_series(spec).frame
+            series = read_series(spec, lambda _: table)
         except DataError:
             continue
-    return frames
+        frames[found.quantity] = series.frame
+        thinned |= dict.fromkeys(note for note in series.notes if note.startswith("thinned"))
+    return frames, tuple(thinned)

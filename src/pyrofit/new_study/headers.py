@@ -10,7 +10,7 @@ from pyrofit.quantities.units import header_key
 _ERROR = re.compile(r"err(or)?|unc(ertainty)?|sigma|std(ev|dev)?|deviation|sd$")
 _WORDS = {
     "time": r"time.*|(elapsed|test)time|zeit",
-    "temperature": r"(sample|program|furnace)?temp.*|ts",
+    "temperature": r"(sample|program|furnace)?temp.*|(proben|ofen)temp.*|ts",
 }
 
 
@@ -25,6 +25,11 @@ def is_abscissa(name: str, role: str) -> bool:
     if stem == "t":  # the symbols: t for time, T for a temperature
         return role == ("time" if name.startswith("t") else "temperature")
     return not _ERROR.search(stem) and bool(re.fullmatch(_WORDS[role], stem))
+
+
+def is_of_sample(name: str) -> bool:
+    """Tell whether a header of a temperature names the sample's, and not that of the furnace."""
+    return bool(re.match(r"sample|probe|ts$", stem_of(name)))
 
 
 def may_be(name: str, quantity: Quantity) -> bool:

@@ -56,7 +56,7 @@ def _signal(run: Measured, found: Found) -> list[str]:
 
 def said(run: Measured) -> list[str]:
     """Say of each signal what was recognised, and of other columns why they are not used."""
-    lines = []
+    lines = [f"{run.path}: {note}" for note in run.mended]
     for found in run.signals:
         parts = []
         for role, header in found.columns.items():

@@ -4,18 +4,34 @@ import re
 
 SCALES: dict[str, dict[str, float]] = {
     "time": {"s": 1.0, "min": 60.0, "h": 3600.0},
-    "temperature": {"K": 1.0, "degC": 1.0, "°C": 1.0, "C": 1.0},
+    "temperature": {
+        "K": 1.0,
+        "degC": 1.0,
+        "°C": 1.0,
+        "C": 1.0,
+        "degF": 5.0 / 9.0,
+        "°F": 5.0 / 9.0,
+    },
     "length": {"m": 1.0, "cm": 1e-2, "mm": 1e-3},
     "mass per area": {"kg/m2": 1.0, "g/m2": 1e-3, "g/cm2": 10.0, "mg/cm2": 1e-2},
-    "mass": {"kg": 1.0, "g": 1e-3, "mg": 1e-6},
+    "mass": {"kg": 1.0, "g": 1e-3, "mg": 1e-6, "ug": 1e-9, "µg": 1e-9},
     "mass flux": {
         "kg/s/m2": 1.0,
         "g/s/m2": 1e-3,
         "mg/s/m2": 1e-6,
         "g/s/cm2": 10.0,
         "mg/s/cm2": 0.01,
+        "kg/min/m2": 1.0 / 60.0,
+        "g/min/m2": 1e-3 / 60.0,
+        "mg/min/cm2": 0.01 / 60.0,
     },
-    "mass rate": {"kg/s": 1.0, "g/s": 1e-3, "mg/s": 1e-6},
+    "mass rate": {
+        "kg/s": 1.0,
+        "g/s": 1e-3,
+        "mg/s": 1e-6,
+        "g/min": 1e-3 / 60.0,
+        "mg/min": 1e-6 / 60.0,
+    },
     "heat flux": {"W/m2": 1.0, "kW/m2": 1e3, "MW/m2": 1e6, "W/cm2": 1e4},
     "heat rate": {"W": 1.0, "kW": 1e3, "MW": 1e6},
     "heat transfer coefficient": {"W/(m2 K)": 1.0, "W/m2/K": 1.0, "kW/(m2 K)": 1e3},
@@ -29,17 +45,29 @@ PER_START = {"mass": "fraction"}
 """What a kind of unit becomes where it is divided by the initial value."""
 PER_MASS = {"power": "specific power"}
 """What a kind of unit becomes where it is divided by the mass of the sample."""
-CELSIUS = {"degC", "°C", "C"}
 ICE_POINT_K = 273.15
+_ZERO_F_K = 459.67 * 5.0 / 9.0
+ZEROS_K = {
+    "degC": ICE_POINT_K,
+    "°C": ICE_POINT_K,
+    "C": ICE_POINT_K,
+    "degF": _ZERO_F_K,
+    "°F": _ZERO_F_K,
+}
+"""Temperature [K] of the zero of a unit; 0 K where it is not listed."""
+
+
+_SIGNS = str.maketrans("²¹−⁻", "21--")
 
 
 def unit_key(unit: str) -> str:
     """Reduce a unit to one spelling: `kg m-2 s-1`, `kg/(m^2 s)` and `kg/m²/s` to `kg/s/m2`."""
-    key = re.sub(r"[\s^*·⋅()\[\]]", "", unit.casefold()).replace("²", "2").replace("−", "-")
+    key = re.sub(r"[\s^*·⋅()\[\]]", "", unit.casefold()).translate(_SIGNS)
     key = re.sub(r"(c?m)-2", r"/\g<1>2", key)
-    key = re.sub(r"([km]?g|s)-1", r"/\1", key)
-    key = re.sub(r"/s-(c?m2)$", r"/s/\1", key)
-    return re.sub(r"/(c?m2)/?s$|/s(c?m2)$", r"/s/\1\2", key)
+    key = re.sub(r"([km]?g|s|min)-1", r"/\1", key)
+    key = re.sub(r"/(s|min)-(c?m2)$", r"/\1/\2", key)
+    key = re.sub(r"/(c?m2)/?(s|min)$", r"/\2/\1", key)
+    return re.sub(r"/(s|min)(c?m2)$", r"/\1/\2", key)
 
 
 def header_key(header: str) -> str:

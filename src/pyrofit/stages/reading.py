@@ -1,6 +1,7 @@
 """Measured files: whether they are there, what they hold, and whether the costs fit them."""
 
-from collections.abc import Iterator
+import functools
+from collections.abc import Callable, Iterator
 from pathlib import Path
 from typing import Any
 
@@ -8,6 +9,7 @@ import pandas as pd
 
 from pyrofit.analysis.agreement import disagreements
 from pyrofit.config import Study, TermSpec
+from pyrofit.data.csvfile import Table, read_table
 from pyrofit.data.download import FOLDER_VARIABLE
 from pyrofit.data.fetch import locate, store
 from pyrofit.data.series import Measurement, read_series
@@ -56,6 +58,7 @@ def read_all(study: Study, macfp: bool = True) -> dict[tuple[str, str], Read]:
         With key, file, row and rule, for every file that is missing or breaks a rule.
     """
     series = {}
+    read = functools.cache(read_table)  # several signals may share a file
     wrong = _missing(study) if macfp else []
     # One line says it of all files of the data base.
     macfp = macfp and not wrong
@@ -63,7 +66,7 @@ def read_all(study: Study, macfp: bool = True) -> dict[tuple[str, str], Read]:
         if signal.file.startswith(MACFP) and not macfp:
             continue
         try:
-            frame, about = _read(study.experiments[name].quantity(label), signal)
+            frame, about = _read(study.experiments[name].quantity(label), signal, read)
             about["notes"] += disagreements(study, name, label, frame, about["source"])
             series[name, label] = frame, about
         except DataError as error:
@@ -133,7 +136,7 @@ def _missing(study: Study) -> list[str]:
     ]
 
 
-def _read(quantity: Quantity, signal: Signal) -> Read:
+def _read(quantity: Quantity, signal: Signal, read: Callable[[Path], Table]) -> Read:
     path = _locate(signal.file)
     found: Measurement = read_series(
         SeriesSpec(
@@ -146,7 +149,8 @@ def _read(quantity: Quantity, signal: Signal) -> Read:
             sample_mass_kg=signal.sample_mass_kg,
             sample_area_m2=signal.sample_area_m2,
             sign=1 if signal.endothermic == "positive" else -1,
-        )
+        ),
+        read,
     )
     frame = found.frame
     if signal.until_K is not None:

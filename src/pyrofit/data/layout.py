@@ -1,0 +1,235 @@
+"""Find the table in the text of a file: its delimiter, its heading, its first row of numbers."""
+
+import csv
+import re
+from collections.abc import Iterator, Sequence
+from dataclasses import dataclass
+from pathlib import Path
+
+from pyrofit.data.csvheading import (
+    all_bracketed,
+    holds_names_with_units,
+    holds_units,
+    is_number,
+    trim,
+)
+from pyrofit.data.line import Line
+from pyrofit.data.numerals import is_numeral
+from pyrofit.errors import DataError
+
+BLANKS = " "
+"""Delimiter of a file whose columns are set apart by any number of blanks."""
+_DELIMITERS = "\t;,"
+_ALL_DELIMITERS = (*_DELIMITERS, "|", BLANKS)
+_SEARCHED = 3000
+"""Lines in which the table begins at the latest."""
+_RUN = 5
+"""Rows of numbers in succession that are taken as the beginning of the table."""
+_SIG = re.compile(r"sig\d+", re.IGNORECASE)
+
+
+@dataclass(frozen=True)
+class Layout:
+    """Where the table of a file is.
+
+    Parameters
+    ----------
+    delimiter
+        What sets its cells apart.
+    heading
+        The row of names, and at most one of units.
+    start
+        Position of the first row of numbers among the lines of the file.
+    marks
+        Whether rows with a negative first number mark events.
+    """
+
+    delimiter: str
+    heading: tuple[Line, ...]
+    start: int
+    marks: bool = False
+
+
+def cells_of(path: Path, text: str, delimiter: str) -> list[str]:
+    """Return the cells of a line.
+
+    Raises
+    ------
+    DataError
+        The line is not that of a delimited text file.
+    """
+    if delimiter == BLANKS:
+        return text.split()
+    try:
+        return [cell.strip() for cell in next(csv.reader([text], delimiter=delimiter), [])]
+    except csv.Error as error:
+        raise DataError(f"{path}: this is not a delimited text file ({error}).") from None
+
+
+def usual_delimiter(path: Path, raw: Sequence[str]) -> str:
+    """Return the delimiter that the first line with text has most.
+
+    Raises
+    ------
+    DataError
+        The file has no text.
+    """
+    header = next((line for line in raw if "".join(line.split()).strip(_DELIMITERS + '"')), None)
+    if header is None:
+        raise DataError(f"{path}: the file is empty; a header row and rows of numbers are needed.")
+    return max(_DELIMITERS, key=header.count)
+
+
+def layout_of(path: Path, raw: Sequence[str], notes: list[str]) -> Layout:
+    """Return where the table is.
+
+    A file that begins with one or two rows of text and goes on with rows as wide is such a table.
+    Else the first run of rows of numbers is, with the text above it that fills its columns.
+
+    Raises
+    ------
+    DataError
+        There is no header, or there are no numbers.
+    """
+    delimiter = usual_delimiter(path, raw)
+    lines = [Line(i, cells_of(path, t, delimiter)) for i, t in enumerate(raw[:_SEARCHED], start=1)]
+    filled = [line for line in lines if any(line.cells)]
+    count = next((i for i, line in enumerate(filled) if any(map(is_number, line.cells))), -1)
+    if _is_plain(filled, count) and _goes_on(filled[count : count + 2 * _RUN]):
+        return Layout(delimiter, tuple(filled[:count]), filled[count].number - 1)
+    located = _located(path, raw, notes)
+    if located is not None:
+        return located
+    _refuse(path, filled, count)
+    return Layout(delimiter, tuple(filled[:count]), filled[count].number - 1)
+
+
+def _is_plain(filled: Sequence[Line], count: int) -> bool:
+    """Tell whether one or two rows of text stand above rows of numbers that are as wide."""
+    if count not in (1, 2):
+        return False
+    names = filled[1] if count == 2 and all_bracketed(filled[0]) else filled[0]
+    width, row = len(trim(names.cells)), filled[count]
+    wide = width == len(trim(row.cells, width)) and all(names.cells[:width]) and width > 1
+    return wide and not (count == 2 and holds_names_with_units(filled[1]) and names is filled[0])
+
+
+def _goes_on(rows: Sequence[Line]) -> bool:
+    """Tell whether most of some lines are rows of numbers, and not keys with values."""
+    if not is_numeral(next((cell for cell in rows[0].cells if cell), "")):
+        return False
+    return 2 * sum(_is_row(row.cells) for row in rows) > len(rows)
+
+
+def _refuse(path: Path, lines: Sequence[Line], count: int) -> None:
+    """Refuse what is no table."""
+    if count == 0:
+        raise DataError(
+            f"{path}, line {lines[0].number}: the first row holds numbers; "
+            "a header row with the names of the columns must come first."
+        )
+    if count > 2:
+        raise DataError(
+            f"{path}, line {lines[2].number}: given text {lines[2].cells}; no rows of numbers "
+            "with a row of names, and at most one of units, right above them are found. Set cells "
+            "apart by comma, semicolon or tab, and give each column its name."
+        )
+    if count < 0:
+        raise DataError(
+            f"{path}: the file holds a header and no numbers; rows of numbers must follow it, "
+            "their cells set apart by comma, semicolon or tab."
+        )
+
+
+def _located(path: Path, raw: Sequence[str], notes: list[str]) -> Layout | None:
+    """Return the table that begins with the first run of rows of numbers; None without one."""
+    best: tuple[int, str, int, list[Line]] = 0, "", 0, []
+    for delimiter in _ALL_DELIMITERS:
+        lines = [
+            Line(i, cells_of(path, text, delimiter)) for i, text in enumerate(raw[:_SEARCHED], 1)
+        ]
+        length, first = _first_run(lines)
+        if length > best[0]:
+            best = length, delimiter, first, lines
+    length, delimiter, first, lines = best
+    if not length:
+        return None
+    signals = _signals(lines[:first])
+    heading = signals or _heading(lines, first, delimiter)
+    if not heading:
+        width = len(lines[first].cells)
+        raise DataError(
+            f"{path}, line {lines[first].number}: the numbers begin here, in {width} columns; a "
+            "row with their names must stand right above them. If commas are both decimal signs "
+            "and between columns, save the file with semicolons or with decimal points."
+        )
+    if before := sum(any(line.cells) for line in lines[: heading[0].number - 1]):
+        notes.append(f"{before} rows before the header")
+    return Layout(delimiter, heading, first, bool(signals))
+
+
+def _first_run(lines: Sequence[Line]) -> tuple[int, int]:
+    """Return length of the longest run of rows of one width, and where the first such run begins.
+
+    A run has five rows; three where the file has no longer ones.
+    """
+    runs = list(_runs(lines))
+    longest = max(runs, key=lambda run: run[0], default=(0, 0, 0))
+    if longest[0] < 3:
+        return 0, 0
+    first = next(run for run in runs if run[2] == longest[2] and run[0] >= min(_RUN, longest[0]))
+    start = first[1]
+    while start and _is_gap(lines[start - 1].cells, longest[2]):
+        start -= 1
+    return longest[0], start
+
+
+def _runs(lines: Sequence[Line]) -> Iterator[tuple[int, int, int]]:
+    """Yield length, first line and width of each run of rows of numbers of one width."""
+    start, width = 0, 0
+    for i, line in enumerate([*lines, Line(0, [])]):
+        wide = len(line.cells) if _is_row(line.cells) else 0
+        if wide != width:
+            if width:
+                yield i - start, start, width
+            start, width = i, wide
+
+
+def _is_gap(cells: Sequence[str], width: int) -> bool:
+    """Tell whether a line is a row of numbers with empty cells."""
+    filled = [cell for cell in cells if cell]
+    return len(cells) == width and bool(filled) and all(map(is_numeral, filled))
+
+
+def _is_row(cells: Sequence[str]) -> bool:
+    """Tell whether at least two of a line's cells, and at least half, are numbers."""
+    filled = [cell for cell in cells if cell]
+    numbers = sum(map(is_numeral, filled))
+    return numbers >= 2 and 2 * numbers >= len(filled)
+
+
+def _heading(lines: Sequence[Line], first: int, delimiter: str) -> tuple[Line, ...]:
+    """Return the rows of names and units right above the rows of numbers."""
+    width = len([cell for cell in lines[first].cells if cell])
+    above = [line for line in lines[:first] if any(line.cells)][-2:]
+    if not above or not _fills(above[-1], width):
+        return ()
+    if len(above) == 2 and _fills(above[0], width) and any(map(holds_units, above)):
+        names, units = above if not all_bracketed(above[0]) else above[::-1]
+        if delimiter == BLANKS and (missing := len(names.cells) - len(units.cells)) > 0:
+            # A counter in the first column has no unit, and blanks do not show it.
+            units = Line(units.number, [*[""] * missing, *units.cells])
+        return names, units
+    return (above[-1],)
+
+
+def _fills(line: Line, width: int) -> bool:
+    """Tell whether text fills the columns of rows; a counter may have no name."""
+    filled = [cell for cell in line.cells if cell]
+    return len(filled) >= max(width - 1, 2) and not any(map(is_number, filled))
+
+
+def _signals(lines: Sequence[Line]) -> tuple[Line, ...]:
+    """Return the names that a preamble lists as `Sig1`, `Sig2` ...; nothing where it does not."""
+    named = [line for line in lines if len(line.cells) > 1 and _SIG.fullmatch(line.cells[0])]
+    return (Line(lines[-1].number, [line.cells[1] for line in named]),) if named else ()

@@ -1,0 +1,11 @@
+"""A line of a delimited text file."""
+
+from dataclasses import dataclass
+
+
+@dataclass(frozen=True)
+class Line:
+    """A line of the file, from 1, and its cells."""
+
+    number: int
+    cells: list[str]

@@ -1,0 +1,114 @@
+"""The rows of a table: from the lines of a file to numbers."""
+
+from collections.abc import Sequence
+from pathlib import Path
+
+import numpy as np
+import numpy.typing as npt
+
+from pyrofit.data.csvheading import Heading, ragged, trim
+from pyrofit.data.layout import Layout, cells_of
+from pyrofit.data.line import Line
+from pyrofit.data.numerals import ABSENT, Numerals, is_numeral, seconds
+from pyrofit.errors import DataError
+
+FloatArray = npt.NDArray[np.float64]
+_FEWEST_ROWS = 3
+
+
+def rows_of(path: Path, raw: Sequence[str], layout: Layout) -> list[Line]:
+    """Return the lines of numbers of a file, as cells."""
+    return [
+        Line(i, cells_of(path, text, layout.delimiter))
+        for i, text in enumerate(raw[layout.start :], start=layout.start + 1)
+    ]
+
+
+def without_footer(path: Path, raw: list[str], layout: Layout, notes: list[str]) -> list[str]:
+    """Return the lines of a file without text below the rows of numbers.
+
+    That are rows at the end whose first cell is empty or text, where that of the first row is a
+    number, and shorter ones that hold text.
+    """
+    end = len(raw)
+    width = len(cells_of(path, raw[layout.start], layout.delimiter))
+    if not _is_of_numbers(path, raw[layout.start], layout, width):
+        return raw
+    while end > layout.start + _FEWEST_ROWS:
+        if _is_of_numbers(path, raw[end - 1], layout, width):
+            break
+        end -= 1
+    left = [text for text in raw[end:] if cells_of(path, text, layout.delimiter)]
+    if left:
+        notes.append(f"{len(left)} rows of text at the end")
+    return raw[:end]
+
+
+def _is_of_numbers(path: Path, text: str, layout: Layout, width: int) -> bool:
+    """Tell whether a line begins with a number, and is whole or holds no text."""
+    cells = cells_of(path, text, layout.delimiter)
+    first = cells[0] if cells else ""
+    if not first or not is_numeral(first) or first.casefold() in ABSENT:
+        return False
+    return len(cells) >= width or all(is_numeral(cell) for cell in cells if cell)
+
+
+def whole_rows(
+    path: Path, rows: Sequence[Line], heading: Heading, marks: bool, notes: list[str]
+) -> list[Line]:
+    """Return the rows, each as wide as the header.
+
+    Left out are those that repeat the header and, where there are ``marks``, those that mark an
+    event by a negative number in the first column.
+
+    Raises
+    ------
+    DataError
+        A row is blank, or longer or shorter than the header.
+    """
+    width = len(heading.names)
+    whole: list[Line] = []
+    left = {"that repeat the header": 0, "that mark events": 0}
+    for row in rows:
+        cells = trim(row.cells, width)
+        if not any(cells):
+            raise DataError(
+                f"{path}, line {row.number}: this row is blank but numbers follow; delete it."
+            )
+        if len(cells) != width:
+            raise ragged(path, row.number, len(cells), width)
+        if _repeats(cells, heading):
+            left["that repeat the header"] += 1
+        elif marks and cells[0].startswith("-"):
+            left["that mark events"] += 1
+        else:
+            whole.append(Line(row.number, cells))
+    notes += [f"{count} rows {why}" for why, count in left.items() if count]
+    return whole
+
+
+def _repeats(cells: Sequence[str], heading: Heading) -> bool:
+    """Tell whether a row holds the names of the columns."""
+    pairs = zip(cells, heading.names, heading.named, strict=True)
+    return all(cell.lstrip("#").startswith(name) for cell, name, named in pairs if named)
+
+
+def parsed(
+    rows: Sequence[Line], width: int, numerals: Numerals
+) -> tuple[FloatArray, dict[int, tuple[int, str]]]:
+    """Return the numbers, and line and text of the first cell of each column that holds none.
+
+    A column of times hh:mm:ss is read in seconds. Words such as `NaN` hold no value.
+    """
+    values = np.full((len(rows), width), np.nan)
+    faults: dict[int, tuple[int, str]] = {}
+    for i in range(width):
+        read = seconds if seconds(rows[0].cells[i]) is not None else numerals.number
+        for j, row in enumerate(rows):
+            cell = row.cells[i]
+            number = read(cell) if cell else None
+            if number is not None:
+                values[j, i] = number
+            elif cell and cell.casefold() not in ABSENT:
+                faults.setdefault(i, (row.number, cell))
+    return values, faults

@@ -1,0 +1,42 @@
+"""Why a new study does not use a column of a file."""
+
+import re
+
+import numpy as np
+
+from pyrofit.data.csvfile import Table
+from pyrofit.experiments import KINDS, OF_FILES, measurable
+from pyrofit.new_study.headers import is_abscissa, is_usual, may_be, stem_of
+
+_DERIVATIVE = re.compile(r"dtg.*|ddsc.*|d[tmw]?/d[tT].*|deriv.*|.*derivative.*")
+
+
+def unused(table: Table, header: str, kind: str) -> str:
+    """Say why a column that is no quantity of a kind of experiment is left out."""
+    if header in table.faults and np.isnan(table.columns[header]).all():
+        return "it holds text"
+    if _DERIVATIVE.fullmatch(stem_of(header)):
+        return "it is the derivative of another column"
+    if any(is_abscissa(header, role) for role in ("time", "temperature")):
+        return "another column is taken for the time or the temperature, or several may be it"
+    others = _other_kinds(header, kind)
+    if others:
+        quantity, kinds = others
+        options = " or ".join(f"--{other}" for other in kinds)
+        return (
+            f"it is a {quantity}, which the model does not predict for a {KINDS[kind].words} test; "
+            f"give the file after {options} if it is one"
+        )
+    return "not recognised"
+
+
+def _other_kinds(header: str, kind: str) -> tuple[str, list[str]] | None:
+    """Return the title of the quantity that a header names, and the kinds that measure it."""
+    own = measurable(kind)
+    found: dict[str, list[str]] = {}
+    for other in (n for n, k in OF_FILES.items() if k.stage == KINDS[kind].stage):
+        for name, quantity in measurable(other).items():
+            known = is_usual(header, quantity) or may_be(header, quantity)
+            if name not in own and known:
+                found.setdefault(quantity.title, []).append(other)
+    return next(iter(found.items())) if len(found) == 1 else None

@@ -1,0 +1,225 @@
+"""Files as instruments export them: read with the right numbers, and said how."""
+
+import os
+from collections.abc import Callable, Sequence
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+from pyrofit import cli
+from pyrofit.data import csvfile, series, text_file
+from pyrofit.data.csvfile import read_table
+from pyrofit.errors import DataError
+from pyrofit.new_study import draft
+
+TIME_S = np.linspace(0.0, 594.0, 100)
+KELVIN = 300.0 + TIME_S
+FRACTION = 1.0 - 0.98 / (1.0 + np.exp((640.0 - KELVIN) / 12.0))
+MLR = 0.012 / (1.0 + np.exp((120.0 - TIME_S) / 15.0)) + 1e-4
+
+
+def rows(sep: str, *columns: Sequence[object], comma: bool = False) -> str:
+    """Return rows of cells; numbers with six decimals."""
+    cells = [
+        [c if isinstance(c, str) else f"{c:.6f}" for c in row] for row in zip(*columns, strict=True)
+    ]
+    text = "\n".join(sep.join(row) for row in cells) + "\n"
+    return text.replace(".", ",") if comma else text
+
+
+CELSIUS, MINUTES, PERCENT, MG = KELVIN - 273.15, TIME_S / 60.0, 100.0 * FRACTION, 5.0 * FRACTION
+COUNT = [str(i) for i in range(TIME_S.size)]
+NETZSCH = "#EXPORTTYPE:;DATA ALL\n#DECIMAL:;{}\n#SAMPLE MASS /mg:;5\n#RANGE:;30/10(K/min)/600\n\n"
+TA = ["Instrument\tTGA Q500", "Size\t5.0\tmg", "Nsig\t3", "Sig1\tTime (min)"]
+TA += ["Sig2\tTemperature (°C)", "Sig3\tWeight (mg)", "StartOfData", ""]
+TRIOS = (
+    "Filename,x.tri\nSample Mass,5.0 mg\n[step]\nRamp 60 °C/min\nTime,Temperature,Weight,Weight\n"
+)
+PYRIS = "Sample Weight:\t5.0 mg\n1)\tHeat to 600 °C\n\n\tTime\tUnsubtracted Weight\tSample "
+PYRIS += "Temperature\tProgram Temperature\n\tmin\tmg\t°C\t°C\n"
+STARE = "Curve Name:\n  TGA\nCurve Values:\n  Index    t     Ts    Value\n    [s]  [°C]   [mg]\n"
+
+TGA: dict[str, tuple[str, str]] = {
+    "NETZSCH, German": (
+        NETZSCH.format("COMMA")
+        + "##Temp./°C;Time/min;Mass/%;Sensit./(uV/mW)\n"
+        + rows(";", CELSIUS, MINUTES, PERCENT, TIME_S, comma=True),
+        "cp1252",
+    ),
+    "NETZSCH, English, text in a column": (
+        NETZSCH.format("POINT").replace(";", ",")
+        + "##Temp./°C,Time/min,Mass/%,Segment\n"
+        + rows(",", CELSIUS, MINUTES, PERCENT, ["S1"] * TIME_S.size),
+        "utf-8",
+    ),
+    "TA Universal Analysis": (
+        "\r\n".join(TA) + rows("\t", MINUTES, CELSIUS, MG) + "-4.0\t0.0\t0.0\n",
+        "utf-16",
+    ),
+    "TRIOS": (TRIOS + "min,°C,mg,%\n" + rows(",", MINUTES, CELSIUS, MG, PERCENT), "utf-8-sig"),
+    "Pyris": (PYRIS + rows("\t", COUNT, MINUTES, MG, CELSIUS, CELSIUS + 2.0), "latin-1"),
+    "STARe": (STARE + rows("  ", COUNT, TIME_S, CELSIUS, MG) + "Results:\n  5 mg\n", "latin-1"),
+    "micrograms, fahrenheit": (
+        "Time [s];T [°F];Mass [µg]\n" + rows(";", TIME_S, KELVIN * 1.8 - 459.67, 1e3 * MG),
+        "latin-1",
+    ),
+}
+
+
+@pytest.mark.parametrize(("text", "encoding"), TGA.values(), ids=TGA)
+def test_tga_export_is_read_in_si_units(text: str, encoding: str, tmp_path: Path) -> None:
+    path = tmp_path / "run.txt"
+    path.write_bytes(text.encode(encoding))
+    run = draft.measured("tga", path)
+    frame = run.frames["mass_fraction"]
+    np.testing.assert_allclose(frame["time_s"], TIME_S, atol=1e-4)
+    np.testing.assert_allclose(frame["temperature_K"], KELVIN, atol=1e-5)
+    np.testing.assert_allclose(frame["mass_fraction"], FRACTION, atol=1e-6)
+    assert run.number == pytest.approx(60.0)
+
+
+CLOCK = [f"{int(t) // 3600}:{int(t) // 60 % 60:02d}:{t % 60:04.1f}" for t in TIME_S]
+GROUPED = [f'"{10 * t:,.2f}"' for t in TIME_S]
+GERMAN = [f"{10 * t:,.2f}".translate(str.maketrans(",.", ".,")) for t in TIME_S]
+SLABS: dict[str, tuple[str, str, float]] = {
+    "mg/cm2/s": ("Time [s],MLR [mg/cm2/s]\n" + rows(",", TIME_S, 100.0 * MLR), "utf-8", 1),
+    "per minute": ("Time (min),MLR (g/m2/min)\n" + rows(",", MINUTES, 6e4 * MLR), "utf-8", 1),
+    "power signs": ("Time/s;MLR/(g m⁻² s⁻¹)\n" + rows(";", TIME_S, 1e3 * MLR), "utf-8", 1),
+    "UTF-16 without a mark": (
+        "Time [s];MLR [g/(m² s)]\n" + rows(";", TIME_S, 1e3 * MLR, comma=True),
+        "utf-16-be",
+        1,
+    ),
+    "preamble and footer": (
+        "Test 7\nMass,5.1\n"
+        + "key,value\n" * 58
+        + "Time (s),MLR (g/m2s),,\n"
+        + rows(",", TIME_S, 1e3 * MLR, [""] * TIME_S.size, [""] * TIME_S.size)
+        + "\nEnd of data\nAverage,5.2\n",
+        "utf-8",
+        1,
+    ),
+    "clock": ("Time (hh:mm:ss),MLR (kg/m2/s)\n" + rows(",", CLOCK, MLR), "utf-8", 1),
+    "thousands": ("Time (s),MLR (kg/m2/s)\n" + rows(",", GROUPED, MLR), "utf-8", 10),
+    "German thousands": (
+        "Zeit [s];Massenverlustrate [g/m²s]\n"
+        + rows(";", GERMAN, [f"{1e3 * m:.5f}".replace(".", ",") for m in MLR]),
+        "cp1252",
+        10,
+    ),
+    "NaN in a column nobody uses": (
+        "Time (s),MLR (kg/m2/s),O2 (%)\n" + rows(",", TIME_S, MLR, ["NaN"] * TIME_S.size),
+        "utf-8",
+        1,
+    ),
+    "blanks": ("Time(s) MLR(kg/m2s)\n" + rows(" ", TIME_S, MLR), "utf-8", 1),
+}
+
+
+@pytest.mark.parametrize(("text", "encoding", "slower"), SLABS.values(), ids=SLABS)
+def test_slab_file_is_read_in_si_units(
+    text: str, encoding: str, slower: float, tmp_path: Path
+) -> None:
+    path = tmp_path / "slab_25kW.csv"
+    path.write_bytes(text.encode(encoding))
+    frame = draft.measured("gasification", path).frames["mlr"]
+    np.testing.assert_allclose(frame["time_s"], slower * TIME_S, atol=1e-3)
+    np.testing.assert_allclose(frame["mlr_kg_m2_s"], MLR, atol=1e-6)
+
+
+def test_new_study_says_how_a_file_was_read_and_what_it_leaves_out(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
+) -> None:
+    monkeypatch.chdir(tmp_path)
+    head = "Test 7\n\nTime (s);Abbrandrate (g/m2/s);HRR (kW/m2);DTG;HRR (kW/m2)\n"
+    body = rows(";", TIME_S, 1e3 * MLR, TIME_S, TIME_S, TIME_S, comma=True)
+    for flux in (25, 50):
+        Path(f"slab_{flux}kW.csv").write_bytes((head + body).encode("utf-16"))
+    assert cli.main(["init", "x", "--gasification", "slab_25kW.csv", "slab_50kW.csv"]) == 0
+    said = capsys.readouterr().out
+    for words in (
+        "slab_25kW.csv: read as UTF-16",
+        "slab_25kW.csv: 1 rows before the header",
+        "slab_25kW.csv: read with decimal commas",
+        "told apart as HRR (1), HRR (2)",
+        "'HRR (1)' is not used: it is a heat release rate, which the model does not predict",
+        "give the file after --cone",
+        "'DTG' is not used: it is the derivative of another column",
+        "Held out: slab_50kW.",
+        "study 'x' is valid; 2 measured series read",
+    ):
+        assert words in said
+
+
+def test_large_file_is_read_in_one_piece_with_the_same_numbers(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    path = tmp_path / "run.csv"
+    numbers = np.random.default_rng(1).lognormal(0.0, 9.0, (500, 2))
+    cells = [[repr(float(x)) for x in column] for column in numbers.T]
+    path.write_text("Time (s),MLR (g/m2/s)\n" + rows(",", *cells), encoding="utf-8")
+    slow = read_table(path)
+    monkeypatch.setattr(csvfile, "MANY_ROWS", 100)
+    monkeypatch.setattr(csvfile, "_table", None)
+    fast = read_table(path)
+    for name, column in slow.columns.items():
+        np.testing.assert_array_equal(fast.columns[name], column)
+    assert (fast.line(7), fast.units) == (slow.line(7), slow.units)
+
+
+@pytest.mark.parametrize("late", ["1,5;2", "x;2", "1", '"1";2', "inf;2"])
+def test_large_file_with_an_odd_row_is_read_as_a_small_one(
+    late: str, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    path = tmp_path / "run.csv"
+    path.write_text("Time (s);m\n" + "0.5;1\n" * 150 + f"{late}\n" + "2;3\n", encoding="utf-8")
+    monkeypatch.setattr(csvfile, "_LOOKED_AT", 100)
+    said = []
+    for many in (100_000, 100):
+        monkeypatch.setattr(csvfile, "MANY_ROWS", many)
+        try:
+            table = read_table(path)
+            said.append(f"{table.columns} {table.faults}")
+        except DataError as error:
+            said.append(str(error))
+    assert said[0] == said[1]
+
+
+def test_long_series_is_thinned_with_a_note(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setattr(series, "MOST_POINTS", 50)
+    path = tmp_path / "slab_25kW.csv"
+    path.write_text("Time (s),MLR (kg/m2/s)\n" + rows(",", TIME_S, MLR), encoding="utf-8")
+    run = draft.measured("gasification", path)
+    times = run.frames["mlr"]["time_s"].to_numpy()
+    assert (len(times), times[0], times[-1]) == (50, TIME_S[0], TIME_S[-1])
+    assert run.mended == ("thinned: 50 of 100 rows are used, evenly spread",)
+
+
+def pipe(path: Path) -> None:
+    os.mkfifo(path)
+
+
+def too_large(path: Path) -> None:
+    with path.open("wb") as file:
+        file.truncate(text_file.LARGEST_BYTES + 1)
+
+
+ODD_FILES: dict[str, tuple[Callable[[Path], object], str]] = {
+    "pipe": (pipe, "this is a pipe, a socket or a device; give a file on a disk"),
+    "device": (lambda path: path.symlink_to("/dev/zero"), "this is a pipe, a socket or a device"),
+    "too large": (too_large, "500 MB; files of at most 500 MB are read"),
+    "compressed": (lambda path: path.write_bytes(b"\x1f\x8b\x08"), "a compressed file, no text"),
+}
+
+
+@pytest.mark.parametrize(("make", "words"), ODD_FILES.values(), ids=ODD_FILES)
+def test_what_is_no_text_file_is_refused_at_once(
+    make: Callable[[Path], object], words: str, tmp_path: Path
+) -> None:
+    path = tmp_path / "run.csv"
+    make(path)
+    with pytest.raises(DataError, match=words):
+        read_table(path)
