@@ -53,12 +53,12 @@ TABLES = rows_of(
         (
             "two columns of one name",
             tga("Temperature", "Time"),
-            ("['Time (1)', 'Time (2)'] may all be the time", "`columns: {time: ...}`"),
+            ("['Time (s)', 'Time (K)'] may all be the time", "`columns: {time: ...}`"),
         ),
         (
             "nameless column",
             tga("Temperature", ""),
-            ("no column is known to be the temperature", "Did you mean", "column 2"),
+            ("no column is known to be the temperature", "Known: Mass, Time, column 2"),
         ),
         (
             "unknown unit of a column",
@@ -94,12 +94,12 @@ TABLES = rows_of(
         (
             "spaces for delimiters",
             write("data/tga.csv", "Time Temperature Mass\n0 300 1\n1 301 1\n"),
-            ("given text ['1 301 1']", "set their cells apart by comma, semicolon or tab"),
+            ("header and no numbers", "their cells set apart by comma, semicolon or tab"),
         ),
         (
             "bars for delimiters",
             write("data/tga.csv", "Time|Temperature|Mass\n0|300|1\n1|301|1\n"),
-            ("given text ['1|301|1']", "set their cells apart by comma, semicolon or tab"),
+            ("header and no numbers", "their cells set apart by comma, semicolon or tab"),
         ),
         (
             "another delimiter from the third row on",
