@@ -1,3 +1,60 @@
-"""Inverse modelling of pyrolysis: from measurements of a solid to the parameters of its model."""
+"""Inverse modelling of pyrolysis: from measurements of a solid to the parameters of its model.
+
+`__all__` lists the stable names of the Python interface; each is imported when it is first used.
+"""
+
+import sys
+from importlib import import_module
+from types import ModuleType
+from typing import Any
 
 __version__ = "0.1.0"
+
+_HOMES = {
+    "Campaign": "api.results",
+    "Comparison": "api.comparison",
+    "Curves": "api.curves",
+    "Diagnosis": "api.diagnosing",
+    "Fit": "api.fitted",
+    "PyrofitError": "errors",
+    "Study": "config",
+    "compare": "api.comparison",
+    "diagnose": "api.diagnosing",
+    "effects": "api.catalogue",
+    "fit": "api.fitting",
+    "new_study": "api.studies",
+    "read_data": "api.measurements",
+    "read_results": "api.results",
+    "read_study": "api.studies",
+    "simulate": "api.simulation",
+}
+__all__ = ["__version__", *_HOMES]  # pyright: ignore; __init__.pyi has the types
+
+
+class _Package(ModuleType):
+    """The package, in which three functions have the names of modules and stand before them.
+
+    The import of a module sets it as an attribute of its package; `from pyrofit.effects import x`
+    does not need that attribute.
+    """
+
+    def __setattr__(self, name: str, value: Any) -> None:
+        if not (name in _HOMES and isinstance(value, ModuleType)):
+            super().__setattr__(name, value)
+
+
+sys.modules[__name__].__class__ = _Package
+
+
+def __getattr__(name: str) -> Any:
+    """Import a name of the interface when it is first used."""
+    if name not in _HOMES:
+        raise AttributeError(f"module 'pyrofit' has no attribute '{name}'")
+    found = getattr(import_module(f"pyrofit.{_HOMES[name]}"), name)
+    globals()[name] = found
+    return found
+
+
+def __dir__() -> list[str]:
+    """List the names of the interface."""
+    return sorted(__all__)

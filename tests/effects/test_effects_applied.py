@@ -2,6 +2,7 @@
 
 import re
 from dataclasses import replace
+from importlib import import_module
 from pathlib import Path
 from typing import Any
 
@@ -20,7 +21,6 @@ from bases import (
     wood,
 )
 
-from pyrofit import effects as package
 from pyrofit.effects import known_effects
 from pyrofit.effects.apply import with_effects
 from pyrofit.effects.base import changed
@@ -190,7 +190,8 @@ def test_documented_effect_needs_nothing_but_its_file(
     text = (DOCS / "adding.md").read_text(encoding="utf-8")
     code = text.split("```python\n")[1].split("```")[0]
     (tmp_path / "natural_convection.py").write_text(code, encoding="utf-8")
-    monkeypatch.setattr(package, "__path__", [*package.__path__, str(tmp_path)])
+    folders = [*import_module("pyrofit.effects").__path__, str(tmp_path)]
+    monkeypatch.setattr(import_module("pyrofit.effects"), "__path__", folders)
     base = BASES["pmma"]
     null = having(base, {"natural_convection": {"C": "c"}}, c=0.0)
     assert_same(curves_of(null), base_curves["pmma"])

@@ -5,12 +5,12 @@ import shutil
 import subprocess
 import sys
 from collections.abc import Iterator
+from importlib import import_module
 from pathlib import Path
 
 import pytest
 
 import pyrofit
-from pyrofit import effects
 from pyrofit.config import Study, digest, read_study
 from pyrofit.effects import known_effects
 from pyrofit.plugins import code_digest
@@ -152,7 +152,8 @@ def test_new_effect_in_the_package_changes_the_digest_of_the_diagnosis_alone(
     before = digests(read_study(SMOKE))
     text = (SOURCE / "effects" / "k_T.py").read_text(encoding="utf-8")
     (tmp_path / "k_T_again.py").write_text(text, encoding="utf-8")
-    monkeypatch.setattr(effects, "__path__", [*effects.__path__, str(tmp_path)])
+    folders = [*import_module("pyrofit.effects").__path__, str(tmp_path)]
+    monkeypatch.setattr(import_module("pyrofit.effects"), "__path__", folders)
     # Read before: a study without plugins knows no other folder.
     study = read_study_with_effects_as_they_are(monkeypatch)
     after = digests(study)

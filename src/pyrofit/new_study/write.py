@@ -57,14 +57,46 @@ def init(name: str, files: Files, parent: Path) -> tuple[Path, list[str]]:
     """
     folder = parent / name
     _check(name, folder, files)
-    records = [draft.measured(kind, path) for kind, paths in files.items() for path in paths]
-    draft.check_names(records)
+    records = _records(files)
     tests = grouped(records) or computed()
     study = _write(folder, study_text(name, tests), records)
     heated, slabs = (part_of(stage, tests) for stage in STAGES)
     lines = [line for run in records for line in said(run)] + said_of_repeats(tests)
     lines += held_out(heated) if heated.held_out else []
     return study, [*lines, *held_out(slabs)]
+
+
+def _records(files: Files) -> list[Measured]:
+    records = [draft.measured(kind, path) for kind, paths in files.items() for path in paths]
+    draft.check_names(records)
+    return records
+
+
+def drafted(name: str, files: Files) -> tuple[str, list[Measured], list[str]]:
+    """Return the text of a study for measured files, without writing it.
+
+    Returns
+    -------
+    tuple of str, list of Measured and list of str
+        The text, in which the files are ``data/<record>.csv``; the records; and, where there are
+        heated samples alone, the names of those that are fitted. As a study needs a slab, the text
+        then has one whose measurement is computed.
+
+    Raises
+    ------
+    StudyError
+        The name is no name, or two files would have one name.
+    DataError
+        A file is no table of numbers.
+    """
+    _check_name(name)
+    records = _records(files)
+    tests = grouped(records)
+    if any(test.of.stage == "imp" for test in tests):
+        return study_text(name, tests), records, []
+    slab = next(test for test in computed() if test.of.stage == "imp")
+    fitted = [run.name for run in part_of("kinetics", tests).fitted]
+    return study_text(name, [*tests, slab]), records, fitted
 
 
 def _write(folder: Path, text: str, records: Sequence[Measured]) -> Path:
@@ -97,7 +129,8 @@ def study_text(name: str, tests: Sequence[Measured]) -> str:
     """Return the study file."""
     synthetic = any(test.path is None for test in tests)
     records = [run for test in tests for run in test.repeats or (test,)]
-    kinetics = Kinetics(550.0, 680.0, 0.02) if synthetic else draft.kinetics_of(records)
+    measured = [run for run in records if run.path is not None]
+    kinetics = draft.kinetics_of(measured) if measured else Kinetics(550.0, 680.0, 0.02)
     heated, slabs = (part_of(stage, tests) for stage in STAGES)
     shown = [_HEATS[key] for key in heats(heated.fitted)]
     burns = _COMBUSTION in heats(records)
@@ -169,11 +202,15 @@ def _words(part: Part) -> str:
     return " and ".join(dict.fromkeys(run.of.words for run in part.fitted))
 
 
-def _check(name: str, folder: Path, files: Files) -> None:
+def _check_name(name: str) -> None:
     if not _NAME.fullmatch(name):
         raise StudyError(
             f"'{name}' is no name; letters, digits and _ make one, a letter first, such as my_wood"
         )
+
+
+def _check(name: str, folder: Path, files: Files) -> None:
+    _check_name(name)
     try:
         there = folder.exists()
     except OSError as error:

@@ -33,9 +33,7 @@ def diagnose(study: Study, results: Results, tell: Tell, processes: int = 1) -> 
     StudyError
         An external program simulates one of its experiments.
     """
-    outside = set(diagnosed(study)) & set(externals(study))
-    if outside:
-        raise StudyError(f"experiments.{min(outside)}: {OWN_MODEL}")
+    refuse_programs(study)
     found = examine(study, load(study, results), tell, processes)
     effects = found.search.end.effects
     path = results.diagnosis(EXTENDED)
@@ -50,3 +48,16 @@ def diagnose(study: Study, results: Results, tell: Tell, processes: int = 1) -> 
     write_csv(results.diagnosis("curves.csv"), found.curves)
     diagnosis.write(results, found.content)
     return found.content
+
+
+def refuse_programs(study: Study) -> None:
+    """Refuse a study of which an external program simulates an experiment.
+
+    Raises
+    ------
+    StudyError
+        With the experiment.
+    """
+    outside = set(diagnosed(study)) & set(externals(study))
+    if outside:
+        raise StudyError(f"experiments.{min(outside)}: {OWN_MODEL}")

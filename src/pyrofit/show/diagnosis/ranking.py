@@ -1,9 +1,11 @@
 """Candidates, drawn."""
 
 import textwrap
+from collections.abc import Sequence
 from typing import Any
 
 import numpy as np
+from matplotlib.axes import Axes
 from matplotlib.figure import Figure as Canvas
 
 from pyrofit.config import Study
@@ -34,13 +36,26 @@ _REJECTED: dict[str, Any] = {**_KEPT, "markerfacecolor": "white"}
 def ranking(study: Study, results: Results) -> Canvas:
     """Draw the penalised chi-square of the candidates above that of the best."""
     found = diagnosis.read(study, results)
-    shown = ranked(found)[:MOST]
-    lowest = float(shown[0]["penalised"])
-    labels = [textwrap.fill(_label(candidate), WRAP) for candidate in shown]
-    reasons = [_reason(found, candidate) for candidate in shown]
+    labels, reasons = _texts(found, ranked(found)[:MOST])
     lines = max(text.count("\n") + 1 for text in (*labels, *reasons))
     height = max(5.2, 0.8 + 2.6 * lines)
-    canvas, (ax,) = style.panels(1, 1, style.TWO_COLUMNS, 26.0 + height * len(shown))
+    canvas, (ax,) = style.panels(1, 1, style.TWO_COLUMNS, 26.0 + height * len(labels))
+    draw_ranking(ax, found)
+    style.legend_below(canvas, ranking_entries(found))
+    return canvas
+
+
+def _texts(found: Found, shown: Sequence[Found]) -> tuple[list[str], list[str]]:
+    """Return the names of candidates, and the remarks on them."""
+    labels = [textwrap.fill(_label(candidate), WRAP) for candidate in shown]
+    return labels, [_reason(found, candidate) for candidate in shown]
+
+
+def draw_ranking(ax: Axes, found: Found) -> None:
+    """Draw the candidates of a diagnosis, the best first."""
+    shown = ranked(found)[:MOST]
+    labels, reasons = _texts(found, shown)
+    lowest = float(shown[0]["penalised"])
     limit = float(found["ambiguity"])
     base, points = float(found["base"]["chi2"]) - lowest, float(found["base"]["points"])
     needed = base - (float(found["needed"]) - np.log(points))
@@ -63,11 +78,10 @@ def ranking(study: Study, results: Results) -> Canvas:
     ax.set_xlim(min(-0.3, 1.3 * needed), right)
     ax.tick_params(axis="y", length=0)
     ax.set_xlabel("penalised χ² above that of the best candidate [–]")
-    style.legend_below(canvas, _entries(found))
-    return canvas
 
 
-def _entries(found: Found) -> list[Any]:
+def ranking_entries(found: Found) -> list[Any]:
+    """Return the entries of the legend."""
     limit = float(found["ambiguity"])
     kept = "in the verdict" if found["verdict"]["kind"] in CLAIMS else "not rejected"
     return [

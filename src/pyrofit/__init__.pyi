@@ -1,0 +1,37 @@
+from pyrofit.api.catalogue import effects as effects
+from pyrofit.api.comparison import Comparison as Comparison
+from pyrofit.api.comparison import compare as compare
+from pyrofit.api.curves import Curves as Curves
+from pyrofit.api.diagnosing import Diagnosis as Diagnosis
+from pyrofit.api.diagnosing import diagnose as diagnose
+from pyrofit.api.fitted import Fit as Fit
+from pyrofit.api.fitting import fit as fit
+from pyrofit.api.measurements import read_data as read_data
+from pyrofit.api.results import Campaign as Campaign
+from pyrofit.api.results import read_results as read_results
+from pyrofit.api.simulation import simulate as simulate
+from pyrofit.api.studies import new_study as new_study
+from pyrofit.api.studies import read_study as read_study
+from pyrofit.config import Study as Study
+from pyrofit.errors import PyrofitError as PyrofitError
+
+__version__: str
+__all__ = [
+    "Campaign",
+    "Comparison",
+    "Curves",
+    "Diagnosis",
+    "Fit",
+    "PyrofitError",
+    "Study",
+    "__version__",
+    "compare",
+    "diagnose",
+    "effects",
+    "fit",
+    "new_study",
+    "read_data",
+    "read_results",
+    "read_study",
+    "simulate",
+]

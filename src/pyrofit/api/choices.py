@@ -1,0 +1,142 @@
+"""Names and numbers that a caller gives, checked: values of parameters, experiments, signals."""
+
+import math
+from collections.abc import Iterable, Mapping, Sequence
+from numbers import Real
+
+from pyrofit.config import Study, parameters_in
+from pyrofit.config.resolve import diagnosed_material
+from pyrofit.config.uses import parameters_of_heated
+from pyrofit.errors import StudyError, suggest
+from pyrofit.experiments import kind_of
+
+Key = tuple[str, str]
+"""Names of an experiment and a signal."""
+Signals = str | Iterable[str] | Mapping[str, str | Iterable[str]]
+"""Experiments with all their signals, or signals by experiment."""
+
+
+def si_values(study: Study, given: Mapping[str, float]) -> dict[str, float]:
+    """Return values in SI units; they are given in the units of the study.
+
+    Raises
+    ------
+    StudyError
+        A name is no parameter, or a value no finite number.
+    """
+    found: dict[str, float] = {}
+    for name, value in given.items():
+        check_parameter(study, name)
+        if not (isinstance(value, Real) and math.isfinite(value)):
+            raise StudyError(f"parameter '{name}': {value!r} is no finite number")
+        found[name] = float(value) * study.parameters[name].factor
+    return found
+
+
+def check_parameter(study: Study, name: str) -> None:
+    """Refuse a name that is no parameter of the study."""
+    if name not in study.parameters:
+        known = suggest(str(name), study.parameters)
+        raise StudyError(f"study '{study.name}' has no parameter '{name}'. {known}")
+
+
+def in_units(study: Study, values: Mapping[str, float]) -> dict[str, float]:
+    """Return SI values in the units of the study."""
+    return {name: value / study.parameters[name].factor for name, value in values.items()}
+
+
+def complete(
+    study: Study, values: Mapping[str, float], experiments: Iterable[str], but: Iterable[str] = ()
+) -> dict[str, float]:
+    """Return all SI values that experiments need, those that the study gives included.
+
+    Parameters
+    ----------
+    study
+        The study.
+    values
+        Values of the caller, SI units.
+    experiments
+        Names of the experiments that are simulated.
+    but
+        Names that need no value, as they are estimated.
+
+    Raises
+    ------
+    StudyError
+        A parameter has no value.
+    """
+    every = {**study.fixed_values(), **values}
+    lacking = sorted(_used(study, experiments) - set(every) - set(but))
+    if lacking:
+        places = ", ".join(_limits(study, name) for name in lacking)
+        raise StudyError(f"study '{study.name}': these parameters have no value: {places}; give it")
+    return every
+
+
+def _used(study: Study, experiments: Iterable[str]) -> set[str]:
+    """Return the names of the parameters that experiments show."""
+    material = diagnosed_material(study)
+    chosen = [study.experiments[name] for name in experiments]
+    heated = [e for e in chosen if kind_of(e).stage == "kinetics"]
+    used = parameters_in(*chosen)
+    if len(heated) < len(chosen):
+        return used | parameters_in(material)
+    quantities = [e.quantity(signal) for e in heated for signal in e.signals]
+    return used | parameters_of_heated(material, quantities)
+
+
+def _limits(study: Study, name: str) -> str:
+    of = study.parameters[name]
+    return f"{name} ({of.lower:g} to {of.upper:g} {of.unit})"
+
+
+def experiments_of(study: Study, given: str | Iterable[str] | None) -> list[str]:
+    """Return names of experiments, by default all."""
+    if given is None:
+        return list(study.experiments)
+    names = [given] if isinstance(given, str) else list(given)
+    for name in names:
+        if name not in study.experiments:
+            known = suggest(str(name), study.experiments)
+            raise StudyError(f"study '{study.name}' has no experiment '{name}'. {known}")
+    return names
+
+
+def signals_of(study: Study, given: Signals) -> list[Key]:
+    """Return the pairs of experiment and signal that a caller names.
+
+    >>> import pyrofit as pf
+    >>> signals_of(pf.read_study("config/smoke.yaml"), {"slab_25": "mlr"})
+    [('slab_25', 'mlr')]
+    """
+    if not isinstance(given, Mapping):
+        return [(n, s) for n in experiments_of(study, given) for s in study.experiments[n].signals]
+    pairs = []
+    for name in experiments_of(study, given):
+        wanted = given[name]
+        wanted = [wanted] if isinstance(wanted, str) else wanted
+        pairs += [key_of(study, (name, signal)) for signal in wanted]
+    return pairs
+
+
+def key_of(study: Study, given: object) -> Key:
+    """Return experiment and signal; the signal may be left out where there is one only."""
+    if isinstance(given, str):
+        [name] = experiments_of(study, given)
+        return name, only(name, list(study.experiments[name].signals))
+    if not (isinstance(given, tuple) and len(given) == 2):
+        raise StudyError(f"{given!r} names no series; write ('experiment', 'signal')")
+    [name] = experiments_of(study, str(given[0]))
+    signals = study.experiments[name].signals
+    if given[1] not in signals:
+        known = suggest(str(given[1]), signals)
+        raise StudyError(f"experiment '{name}' has no signal '{given[1]}'. {known}")
+    return name, str(given[1])
+
+
+def only(name: str, signals: Sequence[str]) -> str:
+    """Return the one signal that there is, or refuse."""
+    if len(signals) != 1:
+        raise StudyError(f"experiment '{name}' has several signals: {', '.join(signals)}; name one")
+    return signals[0]

@@ -1,0 +1,209 @@
+"""The diagnosis of a study: which effect its model lacks."""
+
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass
+from typing import TYPE_CHECKING, Any
+
+import pandas as pd
+
+from pyrofit.api import plots
+from pyrofit.api.choices import Key
+from pyrofit.api.measurements import Data, measured
+from pyrofit.api.studies import Source, merged, read_study
+from pyrofit.api.tables import html_page, text_table
+from pyrofit.config import Study, as_study, calibration_channels, held_out_channels
+from pyrofit.diagnose.diagnosis import Diagnosis as Found
+from pyrofit.diagnose.diagnosis import examine
+from pyrofit.diagnose.result.extended_study import extended_keys
+from pyrofit.errors import StudyError
+from pyrofit.show.diagnosis.ranking import draw_ranking, ranking_entries
+from pyrofit.show.diagnosis.sentences import certainty, facts
+from pyrofit.show.diagnosis.words import ranked, remark
+from pyrofit.stages.diagnose import refuse_programs
+
+if TYPE_CHECKING:
+    from matplotlib.axes import Axes
+
+SHOWN = 8
+"""Candidates that a printed diagnosis lists."""
+
+
+def diagnose(
+    study: Source,
+    data: Data | None = None,
+    *,
+    effects: Sequence[str] | None = None,
+    advise: bool = False,
+    processes: int = 1,
+    tell: Callable[[str], None] | None = None,
+) -> "Diagnosis":
+    """Find where model and measurements disagree, and which effect the model lacks.
+
+    Parameters
+    ----------
+    study
+        A study, its file, or its keys; the key ``diagnosis`` says what is fitted and held out.
+    data
+        Measured series that replace those of the study, as of `read_data`.
+    effects
+        Names of the effects that are tried, by default all that can show; see `effects`.
+    advise
+        Whether to fit free corrections and to propose the next experiment as well; this takes
+        about as long again.
+    processes
+        Processes that share the fits; the result does not depend on their number.
+    tell
+        Is told what goes on, such as ``print``.
+
+    Raises
+    ------
+    StudyError
+        An effect is not known, or the model cannot be diagnosed.
+    DataError
+        A series is missing or too short, or no run within the limits finishes.
+    """
+    changes = {} if effects is None else {"diagnosis.effects": list(effects)}
+    study = read_study(read_study(study), **changes)
+    refuse_programs(study)
+    channels = (*calibration_channels(study), *held_out_channels(study))
+    keys = [(c.experiment, c.signal) for c in channels]
+    series = measured(study, keys, data)
+    _refuse_mixture(study, keys, [] if data is None else list(data.keys()))
+    found = examine(study, series, tell or (lambda text: None), processes, advise)
+    return Diagnosis(study, found)
+
+
+def _refuse_mixture(study: Study, keys: Sequence[Key], given: Sequence[object]) -> None:
+    """Refuse computed series that stand beside measured ones."""
+    computed = [key for key in keys if study.is_computed(*key)]
+    if computed and not given and len(computed) < len(keys):
+        name, signal = computed[0]
+        raise StudyError(
+            f"experiments.{name}.signals.{signal}: computed, but others are measured; a diagnosis "
+            "needs measurements of the same sample. Give files, or set diagnosis.hold_out"
+        )
+
+
+@dataclass(frozen=True, eq=False)
+class Diagnosis:
+    """What a model lacks; print it for the verdict and the candidates.
+
+    Parameters
+    ----------
+    study
+        The study that was diagnosed.
+    found
+        The search and the verdict, as the library holds them; they may change with versions.
+    """
+
+    study: Study
+    found: Found
+
+    @property
+    def content(self) -> dict[str, Any]:
+        """The keys of ``diagnosis.json``, see docs/diagnosis_json.md."""
+        return self.found.content
+
+    @property
+    def kind(self) -> str:
+        """Kind of the verdict, such as 'adequate', 'named' or 'ambiguous'."""
+        return str(self.content["verdict"]["kind"])
+
+    @property
+    def verdict(self) -> str:
+        """The verdict in words."""
+        return str(self.content["verdict"]["words"])
+
+    @property
+    def effects(self) -> list[str]:
+        """Names of the effects that the verdict claims."""
+        return list(self.content["verdict"]["effects"])
+
+    @property
+    def ranking(self) -> pd.DataFrame:
+        """The candidates, the best first.
+
+        Columns: effects, chi2, penalised (chi-square with the price of the parameters), gain (of
+        the last effect), remark.
+        """
+        rows = [
+            {
+                "effects": " + ".join(candidate["effects"]),
+                "chi2": candidate["chi2"],
+                "penalised": candidate["penalised"],
+                "gain": candidate["gain"],
+                "remark": remark(self.content, candidate),
+            }
+            for candidate in ranked(self.content)
+        ]
+        return pd.DataFrame(rows, columns=["effects", "chi2", "penalised", "gain", "remark"])
+
+    @property
+    def windows(self) -> pd.DataFrame:
+        """Intervals of curves that are biased by more than noise explains."""
+        return pd.DataFrame(self.content["windows"])
+
+    @property
+    def curves(self) -> pd.DataFrame:
+        """Measured curves, and simulated ones before and after the effects, SI units."""
+        return self.found.curves
+
+    def extended(self) -> Study:
+        """Return the study with the effects found, at their fitted strengths.
+
+        Raises
+        ------
+        StudyError
+            No effect was found.
+        """
+        end = self.found.search.end
+        if not end.effects:
+            raise StudyError("no effect was found; the study stays as it is")
+        return as_study(merged(extended_keys(self.study, end, {}), {}), f"{self.study.name}.json")
+
+    def report(self) -> str:
+        """Return verdict, misfit, certainty and the best candidates as text."""
+        return "\n".join([*self._lines(), "", text_table(self.ranking.head(SHOWN))])
+
+    def _lines(self) -> list[str]:
+        return [*facts(self.content), certainty(self.study, self.content)]
+
+    def plot_ranking(self, ax: "Axes | None" = None) -> "Axes":
+        """Draw the candidates on ``ax``, by default on a new one."""
+        if not self.content["candidates"]:
+            raise StudyError("no effect was tried: the model leaves only noise")
+        ax = plots.wide_axes(len(self.ranking)) if ax is None else ax
+        draw_ranking(ax, self.content)
+        ax.legend(
+            handles=ranking_entries(self.content),
+            loc="upper left",
+            bbox_to_anchor=(0.0, -0.25),
+            ncols=3,
+            frameon=False,
+            fontsize=7,
+        )
+        return ax
+
+    def plot(
+        self, experiment: str | None = None, signal: str | None = None, ax: "Axes | None" = None
+    ) -> "Axes":
+        """Draw a signal: measured, fitted by the base model, and with the effects found."""
+        pairs = self.curves[["experiment", "signal"]].drop_duplicates()
+        keys = [(str(name), str(of)) for name, of in pairs.itertuples(index=False)]
+        key = plots.chosen(keys, experiment, signal)
+        ax = plots.new_axes() if ax is None else ax
+        here = (self.curves["experiment"] == key[0]) & (self.curves["signal"] == key[1])
+        plots.diagnosed(ax, self.study, key, self.curves[here], bool(self.effects))
+        return ax
+
+    def __str__(self) -> str:
+        """Return the report."""
+        return self.report()
+
+    def __repr__(self) -> str:
+        """Return the report: a notebook without HTML shows it."""
+        return self.report()
+
+    def _repr_html_(self) -> str:
+        title = f"Diagnosis of study '{self.study.name}'"
+        return html_page(title, [("Candidates", self.ranking.head(SHOWN))], self._lines())

@@ -1,0 +1,184 @@
+"""Fits of a study to its measurements."""
+
+from collections.abc import Iterable, Mapping, Sequence
+from dataclasses import dataclass
+from typing import Literal
+
+import numpy as np
+
+from pyrofit.api.choices import (
+    Key,
+    Signals,
+    check_parameter,
+    complete,
+    in_units,
+    si_values,
+    signals_of,
+)
+from pyrofit.api.comparison import compared
+from pyrofit.api.fitted import Fit, correlation_table, estimates_table, signals_table
+from pyrofit.api.measurements import Data, measured
+from pyrofit.api.studies import Source, read_study
+from pyrofit.config import (
+    Study,
+    TermSpec,
+    calibration_channels,
+    diagnosed_material,
+    diagnosed_parameters,
+)
+from pyrofit.errors import StudyError
+from pyrofit.estimate.identify import identify
+from pyrofit.estimate.jumps import with_noise_of_jumps
+from pyrofit.estimate.likelihood import fit as descend
+from pyrofit.estimate.likelihood import likelihood_of
+from pyrofit.estimate.prior import prior_of
+from pyrofit.estimate.problem import Problem, make_problem
+from pyrofit.results.dependencies import kinetics_of
+from pyrofit.seeds import seed_for
+from pyrofit.solver.arrays import FloatArray
+
+Stage = Literal["kinetics", "imp"]
+
+
+@dataclass(frozen=True, eq=False)
+class Task:
+    """What is fitted by which parameters; the others have values, SI units."""
+
+    study: Study
+    channels: tuple[TermSpec, ...]
+    estimate: tuple[str, ...]
+    fixed: Mapping[str, float]
+
+    @property
+    def keys(self) -> list[Key]:
+        """Pairs of experiment and signal."""
+        return [(c.experiment, c.signal) for c in self.channels]
+
+
+def fit(
+    study: Source,
+    data: Data | None = None,
+    *,
+    signals: Signals | None = None,
+    estimate: Sequence[str] | None = None,
+    fixed: Mapping[str, float] | None = None,
+    stage: Stage | None = None,
+    cost: str | None = None,
+    optimiser: str = "least_squares",
+    starts: int = 20,
+) -> Fit:
+    """Fit parameters of a study to measured series.
+
+    By default all signals that the study fits, and all parameters that it estimates, are fitted
+    jointly by maximum likelihood. The noise of each signal is estimated from the series. Intervals
+    follow from the likelihood: linear where chi-square is a parabola, else from profiles.
+
+    Parameters
+    ----------
+    study
+        A study, its file, or its keys.
+    data
+        Measured series that replace those of the study, as of `read_data`.
+    signals
+        Experiments, or signals by experiment, that are fitted.
+    estimate
+        Names of the parameters that are estimated; each needs limits in the study.
+    fixed
+        Values of parameters that are not estimated, in the units of the study.
+    stage
+        'kinetics' or 'imp': the signals and the parameters of one stage.
+    cost
+        Name of a cost function of the study: fit that instead, without intervals. Kinetics that
+        have no value are fitted first.
+    optimiser
+        For a cost: 'least_squares', 'cmaes' or 'sceua', with the settings of the study.
+    starts
+        Points within the limits from which the likelihood is searched: the best four are followed.
+
+    Raises
+    ------
+    StudyError
+        A name is not known, or a parameter has no limits or no value.
+    DataError
+        A measured series is missing, breaks a rule, or is too short to show its noise.
+    """
+    study = read_study(study)
+    values = si_values(study, fixed or {})
+    if cost is not None:
+        if signals is not None or estimate is not None or stage is not None:
+            raise StudyError("a cost has its own signals and parameters; leave out the others")
+        from pyrofit.api.searching import fit_cost  # loads optimisers
+
+        return fit_cost(study, data, cost, optimiser, values)
+    return fit_likelihood(task_of(study, signals, estimate, values, stage), data, starts)
+
+
+def task_of(
+    study: Study,
+    signals: Signals | None,
+    estimate: Iterable[str] | None,
+    fixed: Mapping[str, float],
+    stage: Stage | None,
+) -> Task:
+    """Return what is fitted, checked."""
+    channels, names = calibration_channels(study), diagnosed_parameters(study)
+    if stage == "kinetics":
+        channels, names = kinetics_of(study).channels, kinetics_of(study).estimate
+    elif stage == "imp":
+        channels, names = study.imp.channels, study.imp.estimate
+    elif stage is not None:
+        raise StudyError(f"unknown stage '{stage}'. Known: imp, kinetics.")
+    if signals is not None:
+        pairs = signals_of(study, signals)
+        channels = tuple(TermSpec(experiment=e, signal=s, kind="RMSE") for e, s in pairs)
+    if estimate is None:
+        names = tuple(name for name in names if name not in fixed)
+    else:
+        names = tuple([estimate] if isinstance(estimate, str) else estimate)
+    for name in names:
+        check_parameter(study, name)
+        if study.parameters[name].lower is None:
+            raise StudyError(f"parameter '{name}' has no limits; give `lower` and `upper` to it")
+        if name in fixed:
+            raise StudyError(f"parameter '{name}' is both fixed and estimated; choose one")
+    if not names or not channels:
+        raise StudyError("there is nothing to fit; name signals, and parameters to estimate")
+    experiments = {c.experiment for c in channels}
+    return Task(study, channels, names, complete(study, fixed, experiments, but=names))
+
+
+def fit_likelihood(task: Task, data: Data | None, starts: int) -> Fit:
+    """Return the fit of highest likelihood with its intervals."""
+    study = task.study
+    series = measured(study, task.keys, data)
+    problem = make_problem(
+        study, task.estimate, task.channels, series, diagnosed_material(study), task.fixed
+    )
+    likelihood = likelihood_of(problem, prior_of(study, problem))
+    first = descend(likelihood, starting_points(study, problem, starts)).x
+    likelihood = with_noise_of_jumps(likelihood, [first])
+    found = identify(likelihood, [first])
+    x = likelihood.values(found.optimum.x)
+    values = problem.values(x)
+    scored = compared(study, values, series)
+    return Fit(
+        study=study,
+        method="maximum likelihood",
+        values=in_units(study, {n: v for n, v in values.items() if n in study.parameters}),
+        table=estimates_table(study, likelihood, found),
+        comparison=scored,
+        signals=signals_table(scored, likelihood, found),
+        correlation=correlation_table(problem.names, found.correlation),
+        chi2=found.posterior.chi2,
+        freedom=found.posterior.freedom,
+    )
+
+
+def starting_points(study: Study, problem: Problem, count: int) -> list[FloatArray]:
+    """Return the middle of the limits and points spread over them, as fractions of the limits."""
+    from scipy.stats import qmc
+
+    rng = np.random.default_rng(seed_for(study.seed, "api", "starts"))
+    size = len(problem.names)
+    spread = qmc.LatinHypercube(size, seed=rng).random(max(count - 1, 0))
+    return [np.full(size, 0.5), *(0.05 + 0.9 * spread)]

@@ -1,0 +1,138 @@
+"""Measured series: those that a caller gives, those in files, and computed ones."""
+
+import tempfile
+from collections.abc import Iterable, Mapping
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+import pandas as pd
+
+from pyrofit.api.choices import Key, Signals, key_of, signals_of
+from pyrofit.api.curves import Curves, with_units
+from pyrofit.api.studies import Source, read_study
+from pyrofit.config import Study
+from pyrofit.errors import DataError
+from pyrofit.model.signal import Signal
+from pyrofit.quantities.base import Quantity
+from pyrofit.results.files import write_csv
+from pyrofit.stages.measurements import computed
+from pyrofit.stages.reading import SYNTHETIC, read_all
+
+Data = Mapping[Any, Any] | Curves
+"""Tables or arrays by (experiment, signal), or by experiment where it has one signal."""
+
+
+def read_data(study: Source, signals: Signals | None = None, data: Data | None = None) -> Curves:
+    """Return the measured series of a study in SI units, checked.
+
+    Parameters
+    ----------
+    study
+        A study, its file, or its keys.
+    signals
+        Experiments, or signals by experiment; by default all.
+    data
+        Series that replace those of the study, by (experiment, signal). A table has the columns
+        and units of a measured file, or those that this function returns. An array has the
+        columns time [s], temperature [K] of heated samples, value, and maybe uncertainty, in SI
+        units.
+
+    Raises
+    ------
+    DataError
+        A file or table is missing or breaks a rule.
+    StudyError
+        The study has no such experiment or signal.
+    """
+    study = read_study(study)
+    wanted = signals_of(study, list(study.experiments) if signals is None else signals)
+    return Curves(study, measured(study, wanted, data), "measured")
+
+
+def measured(study: Study, wanted: Iterable[Key], data: Data | None) -> dict[Key, pd.DataFrame]:
+    """Return some measured series; only these are read or computed."""
+    given = {key_of(study, key): table for key, table in (data or {}).items()}
+    keys = list(dict.fromkeys(wanted))
+    with tempfile.TemporaryDirectory() as folder:
+        signals: dict[Key, Signal] = {}
+        labels: dict[str, str] = {}
+        for key in keys:
+            quantity = study.experiments[key[0]].quantity(key[1])
+            signals[key] = study.experiments[key[0]].signals[key[1]]
+            if key in given:
+                path = Path(folder) / f"{'_'.join(key)}.csv"
+                label = f"data of {key[0]}, {key[1]}"
+                table = _table(given[key], quantity, label)
+                write_csv(path, table)
+                labels[str(path)] = label
+                signals[key] = _from_table(signals[key], quantity, path, table)
+        found = _read(_with_signals(study, signals), labels)
+    return {key: with_units(found[key], study.experiments[key[0]].quantity(key[1])) for key in keys}
+
+
+def _table(given: Any, quantity: Quantity, label: str) -> pd.DataFrame:
+    """Return what a caller gives as a table."""
+    if isinstance(given, pd.DataFrame):
+        return given
+    try:
+        columns = np.asarray(given, dtype=float)
+    except (TypeError, ValueError):
+        raise DataError(f"{label}: neither a table nor an array of numbers") from None
+    if isinstance(given, tuple):
+        columns = columns.T
+    names = ["time_s", *(["temperature_K"] if quantity.against_temperature else [])]
+    names += [quantity.column, quantity.uncertainty_column]
+    if columns.ndim != 2 or columns.shape[1] not in (len(names) - 1, len(names)):
+        raise DataError(
+            f"{label}: an array of the shape {columns.shape}; its columns must be "
+            f"{', '.join(names)}, of which the last may be left out"
+        )
+    return pd.DataFrame(columns, columns=names[: columns.shape[1]])
+
+
+def _from_table(signal: Signal, quantity: Quantity, path: Path, table: pd.DataFrame) -> Signal:
+    """Return a signal that is read from a table."""
+    update: dict[str, Any] = {"file": str(path)}
+    if quantity.column in table:  # as `read_data` returns it: no column has to be recognised
+        tidy = quantity.tidy_keys()
+        columns = {role: c for role, c in tidy["columns"].items() if c in table}
+        if signal.uncertainty is not None:
+            columns.pop("uncertainty", None)
+        units = {role: tidy["units"][role] for role in columns}
+        update |= {"columns": columns, "units": units, "endothermic": "positive"}
+        update |= {"sample_mass_kg": None, "sample_area_m2": None}
+    return signal.model_copy(update=update)
+
+
+def _with_signals(study: Study, signals: Mapping[Key, Signal]) -> Study:
+    """Return a study that has these signals only."""
+    of: dict[str, dict[str, Signal]] = {}
+    for (name, label), signal in signals.items():
+        of.setdefault(name, {})[label] = signal
+    experiments = {
+        name: study.experiments[name].model_copy(update={"signals": own})
+        for name, own in of.items()
+    }
+    return study.model_copy(update={"experiments": experiments})
+
+
+def _read(study: Study, labels: Mapping[str, str]) -> dict[Key, pd.DataFrame]:
+    """Return all series of a study; messages name tables by their labels."""
+    try:
+        found = {key: frame for key, (frame, _) in read_all(study).items()}
+    except DataError as error:
+        text = str(error)
+        for path, label in labels.items():
+            text = text.replace(path, label)
+        raise DataError(text) from None
+    lacking = {
+        name
+        for name, experiment in study.experiments.items()
+        for signal in experiment.signals.values()
+        if signal.file == SYNTHETIC
+    }
+    if lacking:
+        own = {name: study.experiments[name] for name in study.experiments if name in lacking}
+        found |= computed(study.model_copy(update={"experiments": own}))
+    return found

@@ -1,0 +1,88 @@
+"""A finished campaign: the tables of its folder of results."""
+
+import os
+from pathlib import Path
+from typing import Any
+
+import pandas as pd
+
+from pyrofit.api.curves import Curves, with_units
+from pyrofit.api.tables import html_page
+from pyrofit.config import Study, read_study
+from pyrofit.errors import DataError, suggest
+from pyrofit.results import diagnosis, recorded
+from pyrofit.results.files import Results
+from pyrofit.show.table import read_table
+
+
+class Campaign:
+    """The results of a campaign, read from their folder when they are asked for.
+
+    ``campaign["table4"]`` is a table of the report.
+
+    Parameters
+    ----------
+    folder
+        Folder of the results, such as ``results/twin``.
+    """
+
+    def __init__(self, folder: Path) -> None:
+        self.folder = folder
+        self._results = Results(folder)
+
+    @property
+    def study(self) -> Study:
+        """The study as it was run, every key completed."""
+        return read_study(self.folder / "study.json")
+
+    @property
+    def tables(self) -> list[str]:
+        """Names of the tables."""
+        return sorted(path.stem for path in (self.folder / "tables").glob("*.csv"))
+
+    def __getitem__(self, name: str) -> pd.DataFrame:
+        """Return a table by its name."""
+        if name not in self.tables:
+            raise DataError(f"{self.folder}: no table '{name}'. {suggest(name, self.tables)}")
+        return read_table(self._results, name)
+
+    @property
+    def data(self) -> Curves:
+        """The measured series as they were read."""
+        study = self.study
+        found = recorded.measured(study, self._results).series
+        units = {
+            key: with_units(frame, study.experiments[key[0]].quantity(key[1]))
+            for key, frame in found.items()
+        }
+        return Curves(study, units, "measured")
+
+    @property
+    def diagnosis(self) -> dict[str, Any]:
+        """The keys of ``diagnosis.json``, see docs/diagnosis_json.md."""
+        return diagnosis.read(self.study, self._results)
+
+    def __repr__(self) -> str:
+        """List the tables."""
+        return f"results in {self.folder}, tables: {', '.join(self.tables)}"
+
+    def _repr_html_(self) -> str:
+        rows = [{"table": name, "rows": len(self[name])} for name in self.tables]
+        return html_page(f"results in {self.folder}", [("", pd.DataFrame(rows))])
+
+
+def read_results(folder: str | os.PathLike[str]) -> Campaign:
+    """Open the results of a campaign that Snakemake has run.
+
+    Raises
+    ------
+    DataError
+        The folder holds no results.
+    """
+    path = Path(folder)
+    if not (path / "study.json").is_file():
+        raise DataError(
+            f"{path}: no results of a campaign; give the folder that holds study.json, such as "
+            "results/twin"
+        )
+    return Campaign(path)

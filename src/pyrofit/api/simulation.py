@@ -1,0 +1,115 @@
+"""Curves of a study's experiments for given values of its parameters."""
+
+from collections.abc import Iterable, Mapping
+
+import pandas as pd
+
+from pyrofit.api.choices import Key, complete, experiments_of, si_values
+from pyrofit.api.curves import Curves, with_units
+from pyrofit.api.measurements import Data, measured
+from pyrofit.api.studies import Source, read_study
+from pyrofit.config import Study
+from pyrofit.config.resolve import diagnosed_material
+from pyrofit.errors import DataError
+from pyrofit.experiments import kind_of
+from pyrofit.solver.curves import Request
+
+
+def simulate(
+    study: Source,
+    values: Mapping[str, float] | None = None,
+    *,
+    experiments: str | Iterable[str] | None = None,
+    data: Data | None = None,
+) -> Curves:
+    """Simulate experiments of a study.
+
+    Parameters
+    ----------
+    study
+        A study, its file, or its keys.
+    values
+        Values of parameters, in the units of the study. Parameters with a ``value`` in the study
+        may be left out.
+    experiments
+        Names of experiments, by default all.
+    data
+        Series at whose times is simulated, such as those of `read_data`. By default times are
+        spaced as the key ``every`` of a signal says, from the start to the end of the experiment.
+
+    Raises
+    ------
+    StudyError
+        A name is not known, or a parameter has no value.
+    DataError
+        A simulation does not finish.
+
+    Examples
+    --------
+    >>> import pyrofit as pf
+    >>> pf.simulate("config/smoke.yaml", {"T_q": 600})
+    Traceback (most recent call last):
+    pyrofit.errors.StudyError: study 'smoke' has no parameter 'T_q'. Did you mean 'T_p'? Known: ...
+    """
+    study = read_study(study)
+    names = experiments_of(study, experiments)
+    every = complete(study, si_values(study, values or {}), names)
+    if data is None:
+        requests = {
+            name: kind_of(study.experiments[name]).synthetic(
+                study.experiments[name], list(study.experiments[name].signals)
+            )
+            for name in names
+        }
+    else:
+        keys = [key for key in _keys(study, data) if key[0] in names]
+        requests = at_times(study, measured(study, keys, data))
+    return Curves(study, simulated(study, every, requests), "simulated")
+
+
+def _keys(study: Study, data: Data) -> list[Key]:
+    from pyrofit.api.choices import key_of
+
+    return [key_of(study, key) for key in data.keys()]  # noqa: SIM118
+
+
+def at_times(study: Study, series: Mapping[Key, pd.DataFrame]) -> dict[str, dict[str, Request]]:
+    """Return requests at the times of measured series, by experiment and signal."""
+    requests: dict[str, dict[str, Request]] = {}
+    for (name, signal), frame in series.items():
+        experiment = study.experiments[name]
+        time = frame["time_s"].to_numpy(float)
+        request = kind_of(experiment).request(experiment, signal, frame, time)
+        requests.setdefault(name, {})[signal] = request
+    return requests
+
+
+def simulated(
+    study: Study, values: Mapping[str, float], requests: Mapping[str, Mapping[str, Request]]
+) -> dict[Key, pd.DataFrame]:
+    """Return simulated series for SI values, by experiment and signal.
+
+    Raises
+    ------
+    DataError
+        A simulation does not finish.
+    """
+    material = diagnosed_material(study)
+    found = {}
+    for name, asked in requests.items():
+        experiment = study.experiments[name]
+        simulate_kind = kind_of(experiment).simulate
+        [[run]] = simulate_kind([experiment], material, values, [asked], study.accuracy)
+        if not run.status.finished:
+            raise DataError(
+                f"experiments.{name}: the simulation failed: {run.status.explanation}; change the "
+                "values of the parameters"
+            )
+        for signal, request in asked.items():
+            quantity = experiment.quantity(signal)
+            columns = {"time_s": request.time_s}
+            if quantity.against_temperature:
+                columns["temperature_K"] = request.programme()[0]
+            columns[quantity.column] = run.signals[signal]
+            found[name, signal] = with_units(pd.DataFrame(columns), quantity)
+    return found

@@ -1,0 +1,134 @@
+"""Studies from files, mappings or other studies, with changes; drafts from measured files."""
+
+import os
+import tempfile
+from collections.abc import Iterable, Mapping
+from pathlib import Path
+from typing import Any
+
+from pyrofit import config
+from pyrofit.config import Study, as_study
+from pyrofit.config.yaml_file import read_mapping
+from pyrofit.errors import StudyError, suggest
+from pyrofit.new_study.write import drafted
+
+Source = Study | str | os.PathLike[str] | Mapping[str, Any]
+"""A study, its file, or its keys."""
+Files = str | os.PathLike[str] | Iterable[str | os.PathLike[str]]
+
+
+def read_study(source: Source, **changes: Any) -> Study:
+    """Read and check a study.
+
+    Parameters
+    ----------
+    source
+        Path of a YAML file, a mapping of the same keys, or a study. Files of measurements are
+        found relative to the folder of the YAML file, or to the working folder.
+    changes
+        Keys that differ from the source. Mappings are merged key by key, all else is replaced.
+        ``**{"parameters.k.upper": 0.5}`` reaches a single key.
+
+    Raises
+    ------
+    StudyError
+        With key, rule and way out for everything that is wrong.
+
+    Examples
+    --------
+    >>> import pyrofit as pf
+    >>> study = pf.read_study("config/smoke.yaml", imp={"repetitions": 3}, seed=1)
+    >>> study.imp.repetitions, study.seed
+    (3, 1)
+    """
+    if isinstance(source, Study):
+        if not changes:
+            return source
+        keys = source.model_dump(mode="json")
+        return as_study(merged(keys, changes), f"{source.name}.json")  # its files are found already
+    if isinstance(source, Mapping):
+        return as_study(merged(source, changes), "study")
+    path = Path(source)
+    if not changes:
+        return config.read_study(path)
+    return as_study(merged(read_mapping(path), changes), str(path))
+
+
+def merged(given: Mapping[str, Any], changes: Mapping[str, Any]) -> dict[str, Any]:
+    """Return keys with changes.
+
+    >>> merged({"a": {"b": 1, "c": 2}}, {"a.b": 3, "d": 4})
+    {'a': {'b': 3, 'c': 2}, 'd': 4}
+    """
+    result = dict(given)
+    for name, new in changes.items():
+        key, _, rest = name.partition(".")
+        new = {rest: new} if rest else new
+        if isinstance(new, Mapping):
+            old = result.get(key)
+            new = merged(old if isinstance(old, Mapping) else {}, new)
+        result[key] = new
+    return result
+
+
+def new_study(name: str, **files: Files) -> Study:
+    """Draft a study from measured files, as `pyrofit init` does, without writing anything.
+
+    Columns and units are recognised; the material has one reaction and wide limits. Check what
+    the files do not tell, such as thickness and flux, and change it with `read_study`. A study of
+    heated samples alone fits the kinetics only.
+
+    Parameters
+    ----------
+    name
+        Name of the study: letters, digits and _.
+    files
+        A file or files by kind of experiment: ``tga``, ``dsc``, ``mcc``, ``gasification``,
+        ``cone``.
+
+    Raises
+    ------
+    StudyError
+        The name is no name, the kind is not known, or there is no file.
+    DataError
+        A file is no table of numbers.
+    """
+    paths = {kind: _paths(of) for kind, of in files.items()}
+    _check_kinds(paths)
+    with tempfile.TemporaryDirectory() as folder:
+        text, records, only = drafted(name, paths)
+        draft = Path(folder) / f"{name}.yaml"
+        draft.write_text(text, encoding="utf-8")
+        keys = read_mapping(draft)
+    where = {f"data/{record.name}.csv": str(record.path) for record in records if record.path}
+    keys = _with_files(keys, where)
+    if only:
+        fitted = {n: sorted(keys["experiments"][n]["signals"]) for n in only}
+        alone = {"calibrate": fitted, "estimate": keys["kinetics"]["estimate"]}
+        keys = merged(keys, {"diagnosis": alone, "validation.experiments": []})
+    return as_study(keys, name)
+
+
+def _paths(given: Files) -> list[Path]:
+    one = isinstance(given, str | os.PathLike)
+    return [Path(given)] if one else [Path(file) for file in given]  # type: ignore[arg-type,union-attr]
+
+
+def _check_kinds(paths: Mapping[str, list[Path]]) -> None:
+    from pyrofit.experiments import OF_FILES
+
+    for kind in paths:
+        if kind not in OF_FILES:
+            raise StudyError(f"unknown kind of experiment '{kind}'. {suggest(kind, OF_FILES)}")
+    if not any(paths.values()):
+        known = ", ".join(OF_FILES)
+        raise StudyError(f"no measured file is given; give files by kind of experiment: {known}")
+
+
+def _with_files(part: Any, where: Mapping[str, str]) -> Any:
+    """Return keys in which the copies of files are the files themselves."""
+    if isinstance(part, Mapping):
+        return {key: _with_files(of, where) for key, of in part.items()}
+    if isinstance(part, list):
+        return [_with_files(of, where) for of in part]
+    return where.get(part, part) if isinstance(part, str) else part
