@@ -37,6 +37,7 @@ ORDER = [
     {"new_study"},
     {"doctor", "ready"},
     {"show"},
+    {"api"},
     {"archive", "archive_crate", "archive_texts", "archive_zip", "blind_test"},
     {"cli"},
 ]

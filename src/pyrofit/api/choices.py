@@ -67,14 +67,14 @@ def complete(
         A parameter has no value.
     """
     every = {**study.fixed_values(), **values}
-    lacking = sorted(_used(study, experiments) - set(every) - set(but))
+    lacking = sorted(used_by(study, experiments) - set(every) - set(but))
     if lacking:
         places = ", ".join(_limits(study, name) for name in lacking)
         raise StudyError(f"study '{study.name}': these parameters have no value: {places}; give it")
     return every
 
 
-def _used(study: Study, experiments: Iterable[str]) -> set[str]:
+def used_by(study: Study, experiments: Iterable[str]) -> set[str]:
     """Return the names of the parameters that experiments show."""
     material = diagnosed_material(study)
     chosen = [study.experiments[name] for name in experiments]

@@ -9,7 +9,7 @@ import pandas as pd
 from pyrofit.api import plots
 from pyrofit.api.choices import Key
 from pyrofit.api.measurements import Data, measured
-from pyrofit.api.studies import Source, merged, read_study
+from pyrofit.api.studies import Source, read_study
 from pyrofit.api.tables import html_page, text_table
 from pyrofit.config import Study, as_study, calibration_channels, held_out_channels
 from pyrofit.diagnose.diagnosis import Diagnosis as Found
@@ -151,6 +151,9 @@ class Diagnosis:
     def extended(self) -> Study:
         """Return the study with the effects found, at their fitted strengths.
 
+        Computed measurements become files in its description, which are not there: give them as
+        ``data``.
+
         Raises
         ------
         StudyError
@@ -159,7 +162,13 @@ class Diagnosis:
         end = self.found.search.end
         if not end.effects:
             raise StudyError("no effect was found; the study stays as it is")
-        return as_study(merged(extended_keys(self.study, end, {}), {}), f"{self.study.name}.json")
+        computed = {
+            (name, signal): {"file": f"{name}_{signal}.csv"}
+            for name, experiment in self.study.experiments.items()
+            for signal in experiment.signals
+            if self.study.is_computed(name, signal)
+        }
+        return as_study(extended_keys(self.study, end, computed), f"{self.study.name}.json")
 
     def report(self) -> str:
         """Return verdict, misfit, certainty and the best candidates as text."""

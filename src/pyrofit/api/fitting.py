@@ -1,6 +1,6 @@
 """Fits of a study to its measurements."""
 
-from collections.abc import Iterable, Mapping, Sequence
+from collections.abc import Collection, Iterable, Mapping, Sequence
 from dataclasses import dataclass
 from typing import Literal
 
@@ -12,12 +12,15 @@ from pyrofit.api.choices import (
     check_parameter,
     complete,
     in_units,
+    key_of,
     si_values,
     signals_of,
+    used_by,
 )
 from pyrofit.api.comparison import compared
 from pyrofit.api.fitted import Fit, correlation_table, estimates_table, signals_table
 from pyrofit.api.measurements import Data, measured
+from pyrofit.api.searching import check_cost, fit_cost
 from pyrofit.api.studies import Source, read_study
 from pyrofit.config import (
     Study,
@@ -70,8 +73,9 @@ def fit(
     """Fit parameters of a study to measured series.
 
     By default all signals that the study fits, and all parameters that it estimates, are fitted
-    jointly by maximum likelihood. The noise of each signal is estimated from the series. Intervals
-    follow from the likelihood: linear where chi-square is a parabola, else from profiles.
+    jointly by maximum likelihood. Computed signals are left out where others are measured. The
+    noise of each signal is estimated from the series. Intervals follow from the likelihood: linear
+    where chi-square is a parabola, else from profiles.
 
     Parameters
     ----------
@@ -86,7 +90,8 @@ def fit(
     fixed
         Values of parameters that are not estimated, in the units of the study.
     stage
-        'kinetics' or 'imp': the signals and the parameters of one stage.
+        'kinetics' or 'imp': the signals and the parameters of one stage. Before 'imp', kinetics
+        that have no value are fitted, and kept.
     cost
         Name of a cost function of the study: fit that instead, without intervals. Kinetics that
         have no value are fitted first.
@@ -107,10 +112,13 @@ def fit(
     if cost is not None:
         if signals is not None or estimate is not None or stage is not None:
             raise StudyError("a cost has its own signals and parameters; leave out the others")
-        from pyrofit.api.searching import fit_cost  # loads optimisers
-
-        return fit_cost(study, data, cost, optimiser, values)
-    return fit_likelihood(task_of(study, signals, estimate, values, stage), data, starts)
+        check_cost(study, cost, optimiser)
+        return fit_cost(study, data, cost, optimiser, with_kinetics(study, data, values, starts))
+    if stage == "imp":
+        values = with_kinetics(study, data, values, starts)
+    given = [key_of(study, key) for key in (data or {}).keys()]  # noqa: SIM118
+    task = task_of(study, signals, estimate, values, stage, given)
+    return fit_likelihood(task, data, starts)
 
 
 def task_of(
@@ -119,9 +127,10 @@ def task_of(
     estimate: Iterable[str] | None,
     fixed: Mapping[str, float],
     stage: Stage | None,
+    given: Collection[Key] = (),
 ) -> Task:
     """Return what is fitted, checked."""
-    channels, names = calibration_channels(study), diagnosed_parameters(study)
+    channels, names = _default(study, given)
     if stage == "kinetics":
         channels, names = kinetics_of(study).channels, kinetics_of(study).estimate
     elif stage == "imp":
@@ -131,8 +140,10 @@ def task_of(
     if signals is not None:
         pairs = signals_of(study, signals)
         channels = tuple(TermSpec(experiment=e, signal=s, kind="RMSE") for e, s in pairs)
+    experiments = {c.experiment for c in channels}
     if estimate is None:
-        names = tuple(name for name in names if name not in fixed)
+        shown = used_by(study, experiments)
+        names = tuple(name for name in names if name in shown and name not in fixed)
     else:
         names = tuple([estimate] if isinstance(estimate, str) else estimate)
     for name in names:
@@ -143,8 +154,21 @@ def task_of(
             raise StudyError(f"parameter '{name}' is both fixed and estimated; choose one")
     if not names or not channels:
         raise StudyError("there is nothing to fit; name signals, and parameters to estimate")
-    experiments = {c.experiment for c in channels}
     return Task(study, channels, names, complete(study, fixed, experiments, but=names))
+
+
+def _default(study: Study, given: Collection[Key]) -> tuple[tuple[TermSpec, ...], tuple[str, ...]]:
+    """Return the signals that a study fits and the parameters that it estimates.
+
+    Computed signals are left out where others are measured: they are of another sample.
+    """
+    channels, names = calibration_channels(study), diagnosed_parameters(study)
+    pairs = [(c.experiment, c.signal) for c in channels]
+    computed = {key for key in pairs if study.is_computed(*key)}
+    if len(computed) < len(channels):
+        computed -= set(given)
+        channels = tuple(c for c, p in zip(channels, pairs, strict=True) if p not in computed)
+    return channels, names
 
 
 def fit_likelihood(task: Task, data: Data | None, starts: int) -> Fit:
@@ -172,6 +196,19 @@ def fit_likelihood(task: Task, data: Data | None, starts: int) -> Fit:
         chi2=found.posterior.chi2,
         freedom=found.posterior.freedom,
     )
+
+
+def with_kinetics(
+    study: Study, data: Data | None, given: Mapping[str, float], starts: int
+) -> dict[str, float]:
+    """Return SI values with those of the kinetics, which are fitted where one is missing."""
+    stage = study.kinetics
+    lacking = set(stage.estimate) - set(given) if stage else set()
+    if stage is None or study.imp.kinetics != "fitted" or not lacking:
+        return dict(given)
+    found = fit_likelihood(task_of(study, None, None, given, "kinetics"), data, starts)
+    kinetics = {name: found.values[name] for name in stage.estimate}
+    return {**si_values(study, kinetics), **given}
 
 
 def starting_points(study: Study, problem: Problem, count: int) -> list[FloatArray]:

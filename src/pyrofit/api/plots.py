@@ -13,13 +13,15 @@ from pyrofit.config import Study
 from pyrofit.errors import StudyError, suggest
 from pyrofit.show import style
 from pyrofit.show.curves import draw_band, label_of
+from pyrofit.show.text import signed
 from pyrofit.show.units import celsius, difference, difference_unit, shown
 
 COLUMNS = 2
 """Panels in a row."""
 PANEL = (4.6, 3.2)
 """Width and height of a panel [inch]."""
-_MEASURED = {"color": style.MEASURED, "linestyle": "none", "marker": ".", "markersize": 3.0}
+_DATA: dict[str, Any] = {"linestyle": "none", "marker": ".", "markersize": 3.0}
+_DATA |= {"color": style.MEASURED, "label": "data"}
 
 
 def chosen(keys: Sequence[Key], experiment: str | None, signal: str | None) -> Key:
@@ -71,7 +73,7 @@ def comparison(
     quantity = study.experiments[key[0]].quantity(key[1])
     x = _abscissa(ax, measured)
     draw_band(ax, measured.assign(time_s=x), quantity)
-    ax.plot(x, shown(quantity, measured[quantity.column]), **_data_look(study, key))
+    ax.plot(x, shown(quantity, measured[quantity.column]), **_DATA)
     ax.plot(
         x, shown(quantity, simulated[quantity.column]), color=style.COLOURS[1], label="simulated"
     )
@@ -119,7 +121,7 @@ def correlation(ax: Axes, table: pd.DataFrame) -> None:
     for i, row in enumerate(values):
         for j, value in enumerate(row):
             colour = "white" if abs(value) > 0.6 else "black"
-            ax.text(j, i, f"{value:.2f}", ha="center", va="center", fontsize=7, color=colour)
+            ax.text(j, i, signed(value), ha="center", va="center", fontsize=7, color=colour)
     ax.set_xticks(range(len(table)), list(table.columns), rotation=45)
     ax.set_yticks(range(len(table)), list(table.index))
 
@@ -133,11 +135,6 @@ def _abscissa(ax: Axes, frame: pd.DataFrame) -> Any:
     return frame["time_s"].to_numpy(float)
 
 
-def _data_look(study: Study, key: Key) -> dict[str, Any]:
-    label = "computed measurement" if study.is_computed(*key) else "measured"
-    return {**_MEASURED, "label": label}
-
-
 def _labels(ax: Axes, study: Study, key: Key) -> None:
     ax.set_ylabel(label_of(study, *key))
     ax.set_title(title_of(study, key[0]), loc="left")
@@ -148,7 +145,7 @@ def diagnosed(ax: Axes, study: Study, key: Key, curves: pd.DataFrame, extended: 
     quantity = study.experiments[key[0]].quantity(key[1])
     frame = curves.dropna(axis="columns", how="all")
     x = _abscissa(ax, frame)
-    ax.plot(x, shown(quantity, frame["measured"]), **_data_look(study, key))
+    ax.plot(x, shown(quantity, frame["measured"]), **_DATA)
     ax.plot(x, shown(quantity, frame["before"]), color=style.colour(1), label="base model")
     if extended:
         look = {"color": style.colour(0), "linestyle": style.dashes(1)}

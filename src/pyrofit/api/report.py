@@ -1,20 +1,48 @@
 """The report of a fit, as text and as HTML."""
 
 from collections.abc import Iterator
-from typing import TYPE_CHECKING
+from typing import Protocol
 
 import numpy as np
 import pandas as pd
 
 from pyrofit.api.tables import html_page, text_table
+from pyrofit.config import Study
 from pyrofit.errors import StudyError
 from pyrofit.show.text import number, several, signed
 
-if TYPE_CHECKING:
-    from pyrofit.api.fitted import Fit
+LARGE = 1.5
+"""Chi-square per degree of freedom above which the report speaks of misfit."""
+MISFIT = (
+    "The misfit is larger than the noise: sd and intervals are {} times wider than the noise "
+    "makes them. `diagnose` looks for the cause."
+)
 
 
-def text(fit: "Fit", above: float) -> str:
+class Reported(Protocol):
+    """A fit, as far as its report tells of it."""
+
+    @property
+    def study(self) -> Study: ...
+    @property
+    def method(self) -> str: ...
+    @property
+    def table(self) -> pd.DataFrame: ...
+    @property
+    def signals(self) -> pd.DataFrame: ...
+    @property
+    def correlation(self) -> pd.DataFrame | None: ...
+    @property
+    def chi2(self) -> float: ...
+    @property
+    def freedom(self) -> float: ...
+    @property
+    def reduced_chi2(self) -> float: ...
+    @property
+    def cost(self) -> float: ...
+
+
+def text(fit: Reported, above: float) -> str:
     """Return the report as text."""
     lines = [_title(fit), *(f"  {line}" for line in _facts(fit))]
     for heading, table in _tables(fit, above):
@@ -22,23 +50,23 @@ def text(fit: "Fit", above: float) -> str:
     return "\n".join(lines)
 
 
-def html(fit: "Fit", above: float = 0.3) -> str:
+def html(fit: Reported, above: float = 0.3) -> str:
     """Return the report as HTML for a notebook."""
     return html_page(_title(fit), _tables(fit, above), _facts(fit))
 
 
-def known_correlation(fit: "Fit") -> pd.DataFrame:
+def known_correlation(fit: Reported) -> pd.DataFrame:
     """Return the correlations, or refuse where there are none."""
     if fit.correlation is None:
         raise StudyError("a fit of a cost has no correlations; leave out `cost`")
     return fit.correlation
 
 
-def _title(fit: "Fit") -> str:
+def _title(fit: Reported) -> str:
     return f"Fit of study '{fit.study.name}': {fit.method}"
 
 
-def _facts(fit: "Fit") -> list[str]:
+def _facts(fit: Reported) -> list[str]:
     points = int(fit.signals["points"].sum())
     counts = (
         f"{several(len(fit.table), 'parameter')}, {several(len(fit.signals), 'signal')}, "
@@ -46,14 +74,16 @@ def _facts(fit: "Fit") -> list[str]:
     )
     if not np.isnan(fit.cost):
         return [counts, f"cost {number(fit.cost)}"]
+    ratio = fit.reduced_chi2
     return [
         counts,
         f"chi-square {number(fit.chi2)}, {number(fit.freedom)} degrees of freedom, ratio "
-        f"{number(fit.reduced_chi2)}",
+        f"{number(ratio)}",
+        *([MISFIT.format(number(ratio**0.5))] if ratio > LARGE else []),
     ]
 
 
-def _tables(fit: "Fit", above: float) -> Iterator[tuple[str, pd.DataFrame]]:
+def _tables(fit: Reported, above: float) -> Iterator[tuple[str, pd.DataFrame]]:
     yield "Parameters", _parameters(fit)
     columns = fit.signals.drop(columns=["cv_rmse", "chi2"], errors="ignore")
     yield "Signals (rmse and noise in the SI unit)", columns
@@ -63,7 +93,7 @@ def _tables(fit: "Fit", above: float) -> Iterator[tuple[str, pd.DataFrame]]:
             yield f"Correlations of {above:g} or more", pairs
 
 
-def _parameters(fit: "Fit") -> pd.DataFrame:
+def _parameters(fit: Reported) -> pd.DataFrame:
     """Return the estimates as they are read."""
     rows = []
     for name, row in fit.table.iterrows():

@@ -23,21 +23,30 @@ from pyrofit.solver.arrays import FloatArray
 SCEUA = "sceua"
 
 
-def fit_cost(
-    study: Study, data: Data | None, cost: str, optimiser: str, given: Mapping[str, float]
-) -> Fit:
-    """Return the parameters of the lowest cost that an optimiser finds."""
+def check_cost(study: Study, cost: str, optimiser: str) -> None:
+    """Refuse a cost function or an optimiser that there is not.
+
+    Raises
+    ------
+    StudyError
+        With the nearest name.
+    """
     if cost not in study.imp.costs:
         known = suggest(cost, study.imp.costs)
         raise StudyError(f"study '{study.name}' has no cost '{cost}'. {known}")
-    if optimiser not in (known_optimisers := [SCEUA, *OPTIMISERS]):
-        raise StudyError(f"unknown optimiser '{optimiser}'. {suggest(optimiser, known_optimisers)}")
+    if optimiser not in (optimisers := [SCEUA, *OPTIMISERS]):
+        raise StudyError(f"unknown optimiser '{optimiser}'. {suggest(optimiser, optimisers)}")
+
+
+def fit_cost(
+    study: Study, data: Data | None, cost: str, optimiser: str, given: Mapping[str, float]
+) -> Fit:
+    """Return the parameters of the lowest cost that an optimiser finds; values in SI units."""
     specs = study.imp.costs[cost]
     keys = list(dict.fromkeys((spec.experiment, spec.signal) for spec in specs))
     series = measured(study, keys, data)
     experiments = {name for name, _ in keys}
-    values = _with_kinetics(study, data, given)
-    fixed = complete(study, values, experiments, but=study.imp.estimate)
+    fixed = complete(study, given, experiments, but=study.imp.estimate)
     material = study.material_with(study.imp.kinetics)
     posed = make_problem(study, study.imp.estimate, specs, series, material, fixed)
     problem = within_known(study, posed)
@@ -55,19 +64,6 @@ def fit_cost(
         cost=lowest,
         history=history,
     )
-
-
-def _with_kinetics(study: Study, data: Data | None, given: Mapping[str, float]) -> dict[str, float]:
-    """Return values with those of the kinetics, which are fitted where a value is missing."""
-    from pyrofit.api.fitting import fit_likelihood, task_of
-
-    stage = study.kinetics
-    lacking = set(stage.estimate) - set(given) if stage else set()
-    if stage is None or study.imp.kinetics != "fitted" or not lacking:
-        return dict(given)
-    found = fit_likelihood(task_of(study, None, None, given, "kinetics"), data, 20)
-    factors = {name: study.parameters[name].factor for name in stage.estimate}
-    return {**{name: found.values[name] * f for name, f in factors.items()}, **given}
 
 
 def _searched(

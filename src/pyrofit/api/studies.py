@@ -75,8 +75,8 @@ def new_study(name: str, **files: Files) -> Study:
     """Draft a study from measured files, as `pyrofit init` does, without writing anything.
 
     Columns and units are recognised; the material has one reaction and wide limits. Check what
-    the files do not tell, such as thickness and flux, and change it with `read_study`. A study of
-    heated samples alone fits the kinetics only.
+    the files do not tell, such as thickness and flux, and change it with `read_study`. Where no
+    slab is measured, the study has one whose measurement is computed; `fit` leaves it out.
 
     Parameters
     ----------
@@ -96,16 +96,12 @@ def new_study(name: str, **files: Files) -> Study:
     paths = {kind: _paths(of) for kind, of in files.items()}
     _check_kinds(paths)
     with tempfile.TemporaryDirectory() as folder:
-        text, records, only = drafted(name, paths)
+        text, records = drafted(name, paths)
         draft = Path(folder) / f"{name}.yaml"
         draft.write_text(text, encoding="utf-8")
         keys = read_mapping(draft)
     where = {f"data/{record.name}.csv": str(record.path) for record in records if record.path}
     keys = _with_files(keys, where)
-    if only:
-        fitted = {n: sorted(keys["experiments"][n]["signals"]) for n in only}
-        alone = {"calibrate": fitted, "estimate": keys["kinetics"]["estimate"]}
-        keys = merged(keys, {"diagnosis": alone, "validation.experiments": []})
     return as_study(keys, name)
 
 

@@ -72,15 +72,11 @@ def _records(files: Files) -> list[Measured]:
     return records
 
 
-def drafted(name: str, files: Files) -> tuple[str, list[Measured], list[str]]:
-    """Return the text of a study for measured files, without writing it.
+def drafted(name: str, files: Files) -> tuple[str, list[Measured]]:
+    """Return the text of a study for measured files, and the records in them; write nothing.
 
-    Returns
-    -------
-    tuple of str, list of Measured and list of str
-        The text, in which the files are ``data/<record>.csv``; the records; and, where there are
-        heated samples alone, the names of those that are fitted. As a study needs a slab, the text
-        then has one whose measurement is computed.
+    In the text the files are ``data/<record>.csv``. A study needs a slab: where there is none, the
+    text has one whose measurement is computed.
 
     Raises
     ------
@@ -92,11 +88,9 @@ def drafted(name: str, files: Files) -> tuple[str, list[Measured], list[str]]:
     _check_name(name)
     records = _records(files)
     tests = grouped(records)
-    if any(test.of.stage == "imp" for test in tests):
-        return study_text(name, tests), records, []
-    slab = next(test for test in computed() if test.of.stage == "imp")
-    fitted = [run.name for run in part_of("kinetics", tests).fitted]
-    return study_text(name, [*tests, slab]), records, fitted
+    if not any(test.of.stage == "imp" for test in tests):
+        tests.append(next(test for test in computed() if test.of.stage == "imp"))
+    return study_text(name, tests), records
 
 
 def _write(folder: Path, text: str, records: Sequence[Measured]) -> Path:

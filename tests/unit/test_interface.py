@@ -1,0 +1,189 @@
+"""The Python interface without the solver: names, studies, series, messages."""
+
+import ast
+import subprocess
+import sys
+from importlib import import_module
+from pathlib import Path
+
+import matplotlib
+import numpy as np
+import pandas as pd
+import pytest
+
+import pyrofit as pf
+from pyrofit.config import digest
+from pyrofit.errors import DataError, StudyError
+
+matplotlib.use("agg")
+ROOT = Path(__file__).parents[2]
+SMOKE = ROOT / "config" / "smoke.yaml"
+TIME = np.arange(2.5, 600.0, 5.0)
+RATE = 0.012 * np.exp(-(((TIME - 300.0) / 90.0) ** 2))
+KEY = ("slab_25", "mlr")
+
+
+@pytest.fixture(scope="module")
+def study() -> pf.Study:
+    return pf.read_study(SMOKE)
+
+
+def test_import_loads_nothing_but_the_package() -> None:
+    large = ("numpy", "pandas", "pydantic")
+    code = f"import sys, pyrofit; print([name for name in {large} if name in sys.modules])"
+    found = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, check=True)
+    assert found.stdout.strip() == "[]"
+
+
+def test_types_have_the_names_of_the_interface() -> None:
+    package = Path(pf.__file__).parent
+    assert (package / "py.typed").exists()
+    tree = ast.parse((package / "__init__.pyi").read_text(encoding="utf-8"))
+    homes = {
+        alias.asname: node.module
+        for node in tree.body
+        if isinstance(node, ast.ImportFrom)
+        for alias in node.names
+    }
+    assert sorted([*homes, "__version__"]) == sorted(pf.__all__) == dir(pf)
+    for name, home in homes.items():
+        assert getattr(pf, name) is getattr(import_module(str(home)), name)
+        assert getattr(pf, name).__doc__
+
+
+@pytest.mark.parametrize("name", ["simulate", "effects", "diagnose"])
+def test_function_stands_before_the_module_of_its_name(name: str) -> None:
+    # In a new process, as the order of imports counts.
+    code = (
+        f"import pyrofit as pf, pyrofit.{name}; from pyrofit.{name} import __doc__ as words; "
+        f"print(callable(pf.{name}), bool(words))"
+    )
+    found = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, check=True)
+    assert found.stdout.split() == ["True", "True"]
+
+
+def test_unknown_name_is_refused() -> None:
+    with pytest.raises(AttributeError, match="no attribute 'fitt'"):
+        pf.fitt  # noqa: B018
+
+
+def test_changes_make_the_study_that_a_file_with_them_would(study: pf.Study) -> None:
+    changes = {"imp": {"repetitions": 3}, "parameters.k.upper": 0.5}
+    one = pf.read_study(SMOKE, **changes)
+    assert (one.imp.repetitions, one.parameters["k"].upper) == (3, 0.5)
+    assert one.imp.estimate == study.imp.estimate
+    again = pf.read_study(study, **changes)
+    assert digest(again.model_dump(mode="json")) == digest(one.model_dump(mode="json"))
+    assert study.imp.repetitions == 2
+
+
+@pytest.mark.parametrize(
+    ("wrong", "message"),
+    [
+        (lambda s: pf.read_study(s, imp={"repetition": 3}), "Did you mean 'repetitions'"),
+        (lambda s: pf.simulate(s, {"kk": 1.0}), "no parameter 'kk'. Did you mean 'k'"),
+        (lambda s: pf.simulate(s, {"k": "high"}), "parameter 'k': 'high' is no finite number"),
+        (lambda s: pf.simulate(s, {"k": 0.2}), r"no value: E_p \(100 to 300 kJ/mol\)"),
+        (lambda s: pf.simulate(s, experiments="slab"), "no experiment 'slab'. Did you mean"),
+        (lambda s: pf.fit(s, signals={"slab_25": "mrl"}), "no signal 'mrl'. Did you mean 'mlr'"),
+        (lambda s: pf.fit(s, stage="tga"), "unknown stage 'tga'"),
+        (lambda s: pf.fit(s, estimate=["k"], fixed={"k": 0.2}), "both fixed and estimated"),
+        (lambda s: pf.fit(s, cost="RMS"), "no cost 'RMS'. Did you mean 'RMSE'"),
+        (lambda s: pf.fit(s, cost="RMSE", stage="imp"), "a cost has its own signals"),
+        (lambda s: pf.diagnose(s, effects=["k_Y"]), "unknown effect 'k_Y'. Did you mean 'k_T'"),
+        (lambda s: pf.read_data(s, data={"slab_25": []}), "several signals: mlr, back_temp"),
+        (lambda s: pf.read_data(s, data={5: []}), "5 names no series"),
+        (lambda s: pf.new_study("wood", tgaa="a.csv"), "'tgaa'. Did you mean 'tga'"),
+        (lambda s: pf.new_study("wood"), "no measured file is given"),
+    ],
+)
+def test_wrong_name_or_value_is_explained(wrong, message: str, study: pf.Study) -> None:
+    with pytest.raises(StudyError, match=message):
+        wrong(study)
+
+
+@pytest.mark.parametrize(
+    "given",
+    [
+        pd.DataFrame({"Time (min)": TIME / 60.0, "MLR (g/m2s)": 1e3 * RATE}),
+        pd.DataFrame({"time_s": TIME, "mlr_kg_m2_s": RATE}),
+        np.column_stack([TIME, RATE]),
+        (TIME, RATE),
+    ],
+)
+def test_series_in_memory_are_read_as_files_are(given: object, study: pf.Study) -> None:
+    found = pf.read_data(study, {"slab_25": "mlr"}, {KEY: given})
+    frame = found["slab_25", "mlr"]
+    assert np.allclose(frame["time_s"], TIME)
+    assert np.allclose(frame["mlr_kg_m2_s"], RATE)
+    assert frame.attrs["units"]["mlr_kg_m2_s"] == "kg/(m2 s)"
+    assert found.frame["unit"].unique().tolist() == ["kg/(m2 s)"]
+    again = pf.read_data(study, {"slab_25": "mlr"}, found)
+    assert np.array_equal(again[KEY], frame)
+
+
+@pytest.mark.parametrize(
+    ("given", "message"),
+    [
+        (np.zeros((5, 7)), r"data of slab_25, mlr: an array of the shape \(5, 7\)"),
+        ("a.csv", "data of slab_25, mlr: neither a table nor"),
+        (pd.DataFrame({"a": [1, 2, 3], "b": [1, 2, 3]}), "data of slab_25, mlr: no column"),
+        ((TIME[::-1], RATE), "data of slab_25, mlr"),
+    ],
+)
+def test_wrong_series_is_named_in_the_message(given: object, message: str, study: pf.Study) -> None:
+    with pytest.raises(DataError, match=message):
+        pf.read_data(study, {"slab_25": "mlr"}, {KEY: given})
+
+
+def test_signals_of_an_experiment_stand_side_by_side(study: pf.Study) -> None:
+    data = {KEY: (TIME, RATE), ("slab_25", "back_temperature"): (TIME[1:], 300.0 + TIME[1:])}
+    frame = pf.read_data(study, "slab_25", data)["slab_25"]
+    assert list(frame) == ["time_s", "mlr_kg_m2_s", "back_temperature_K"]
+    assert frame["back_temperature_K"].isna().tolist() == [True] + [False] * (TIME.size - 1)
+    assert frame.attrs["units"]["back_temperature_K"] == "K"
+
+
+def test_plot_uses_the_axes_that_are_given(study: pf.Study) -> None:
+    from matplotlib.figure import Figure
+
+    ax = Figure().subplots()
+    curves = pf.read_data(study, {"slab_25": "mlr"}, {KEY: (TIME, RATE)})
+    assert curves.plot("slab_25", ax=ax, color="green") is ax
+    (line,) = ax.lines
+    assert np.allclose(line.get_ydata(), 1e3 * RATE)  # g/(m2 s)
+    assert ax.get_ylabel() == "mass loss rate [g/(m² s)]"
+
+
+def test_files_of_heated_samples_alone_make_a_study(tmp_path: Path) -> None:
+    T = np.arange(400.0, 800.0, 5.0)
+    mass = 0.2 + 0.8 / (1.0 + np.exp((T - 640.0) / 12.0))
+    for rate in (5, 20):
+        columns = {"Time (min)": (T - 400.0) / rate, "Temperature (K)": T, "Mass (mg)": 5.0 * mass}
+        pd.DataFrame(columns).to_csv(tmp_path / f"tga_{rate}K.csv", index=False)
+    study = pf.new_study("wood", tga=sorted(tmp_path.glob("*.csv")))
+    data = pf.read_data(study, ["tga_5K", "tga_20K"])
+    assert np.allclose(data["tga_5K"]["mass_fraction"], mass)
+    assert study.experiments["tga_20K"].heating_rate_K_min == 20.0
+    with pytest.raises(StudyError, match="computed, but others are measured"):
+        pf.diagnose(study)
+
+
+def test_effects_are_listed_with_the_reason_for_leaving_one_out(study: pf.Study) -> None:
+    assert pf.effects().loc["k_T", "unit"] == "1/K"
+    few = pf.effects(pf.read_study(study, **{"diagnosis.effects": ["k_T"]}))
+    assert few.index[few["candidate"]].tolist() == ["k_T"]
+    assert few.loc["c_T", "obstacle"] == "diagnosis.effects does not list it"
+
+
+def test_results_are_tables_by_name(tmp_path: Path, study: pf.Study) -> None:
+    with pytest.raises(DataError, match="no results of a campaign"):
+        pf.read_results(tmp_path)
+    (tmp_path / "study.json").write_text(study.model_dump_json(), encoding="utf-8")
+    (tmp_path / "tables").mkdir()
+    pd.DataFrame({"a": [1.0]}).to_csv(tmp_path / "tables" / "table4.csv", index=False)
+    campaign = pf.read_results(tmp_path)
+    assert campaign.study.name == "smoke"
+    assert campaign["table4"]["a"].tolist() == [1.0]
+    with pytest.raises(DataError, match="Did you mean 'table4'"):
+        campaign["tabel4"]

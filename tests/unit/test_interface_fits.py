@@ -1,0 +1,172 @@
+"""Simulations and fits of the Python interface against the truth and the steps of the workflow."""
+
+from html.parser import HTMLParser
+from pathlib import Path
+
+import matplotlib
+import numpy as np
+import pandas as pd
+import pytest
+
+import pyrofit as pf
+from pyrofit.config import diagnosed_material
+from pyrofit.errors import StudyError
+from pyrofit.results.files import Results, write_csv, write_json
+from pyrofit.simulate import simulate_gasification
+from pyrofit.solver.curves import Request
+from pyrofit.stages.identify import identify_kinetics
+from pyrofit.stages.measurements import computed
+
+matplotlib.use("agg")
+ROOT = Path(__file__).parents[2]
+SMOKE = ROOT / "config" / "smoke.yaml"
+MLR = ("slab_25", "mlr")
+
+
+@pytest.fixture(scope="module")
+def study() -> pf.Study:
+    return pf.read_study(SMOKE)
+
+
+@pytest.fixture(scope="module")
+def data(study: pf.Study) -> dict[tuple[str, str], pd.DataFrame]:
+    return computed(study, fast=True)
+
+
+@pytest.fixture(scope="module")
+def fit(study: pf.Study, data: dict[tuple[str, str], pd.DataFrame]) -> pf.Fit:
+    return pf.fit(study, data)
+
+
+def test_simulation_is_that_of_the_solver(study: pf.Study) -> None:
+    truth = study.synthetic.truth
+    curves = pf.simulate(study, truth, experiments="slab_25")
+    times = curves[MLR]["time_s"].to_numpy()
+    material = diagnosed_material(study)
+    run = simulate_gasification(
+        study.experiments["slab_25"],
+        material,
+        study.true_values(),
+        {"mlr": Request(times, average_s=5.0)},
+        study.accuracy,
+    )
+    assert np.array_equal(curves[MLR]["mlr_kg_m2_s"], run.signals["mlr"])
+
+
+def test_fit_finds_the_truth(study: pf.Study, fit: pf.Fit) -> None:
+    truth = pd.Series(study.synthetic.truth)
+    off = (fit.table["value"] - truth) / fit.table["sd"]
+    assert off.abs().max() < 3.5
+    assert set(fit.table.index) == set(truth.index)
+    assert 0.8 < fit.reduced_chi2 < 1.2
+    assert fit.table.loc["dh", "unit"] == "kJ/kg"
+    inside = (fit.table["low"] < fit.table["value"]) & (fit.table["value"] < fit.table["high"])
+    assert inside.all()
+    assert np.allclose(np.diag(fit.correlation), 1.0)
+
+
+def test_stage_has_the_intervals_of_the_workflow(
+    study: pf.Study, data: dict[tuple[str, str], pd.DataFrame], tmp_path: Path
+) -> None:
+    found = pf.fit(study, data, stage="kinetics")
+    results = Results(tmp_path)
+    for (name, signal), frame in data.items():
+        write_csv(results.measurement(name, signal), frame)
+    values = {n: v * study.parameters[n].factor for n, v in found.values.items()}
+    start = {"parameters": values, "cost": 0.0}
+    write_json(results.kinetics("fit.json"), {**start, "least_squares": [start]})
+    identify_kinetics(study, results)
+    theirs = pd.read_csv(results.identification("estimate.csv", "kinetics"), index_col="parameter")
+    factors = pd.Series({n: study.parameters[n].factor for n in theirs.index})
+    for mine, column in (("value", "estimate"), ("sd", "sd"), ("low", "low"), ("high", "high")):
+        expected = theirs[column] / factors
+        assert np.allclose(found.table[mine], expected, rtol=1e-5), column
+
+
+def test_one_curve_is_fitted_by_the_parameters_that_are_named(
+    study: pf.Study, data: dict[tuple[str, str], pd.DataFrame]
+) -> None:
+    truth = study.synthetic.truth
+    fixed = {n: v for n, v in truth.items() if n not in ("k", "cp")}
+    found = pf.fit(
+        study, {MLR: data[MLR]}, signals={"slab_25": "mlr"}, estimate=["k", "cp"], fixed=fixed
+    )
+    assert list(found.table.index) == ["k", "cp"]
+    for name in ("k", "cp"):
+        assert abs(found.table.loc[name, "value"] - truth[name]) < 3.5 * found.table.loc[name, "sd"]
+    assert found.values["rho"] == truth["rho"]
+
+
+def test_cost_is_minimised_by_an_optimiser_of_the_study(
+    study: pf.Study, data: dict[tuple[str, str], pd.DataFrame]
+) -> None:
+    truth = study.synthetic.truth
+    kinetics = {n: truth[n] for n in ("T_p", "E_p")}
+    found = pf.fit(study, data, cost="RMSE", fixed=kinetics)
+    assert found.cost == found.history["cost"].min()
+    assert len(found.history) == study.imp.least_squares.starts
+    # The cost RMSE of the study is normalised by the mean.
+    (score,) = found.signals["cv_rmse"]
+    assert found.cost == pytest.approx(score, rel=1e-9)
+    assert "cost RMSE, Multistart least squares" in str(found)
+    with pytest.raises(StudyError, match="no correlations"):
+        found.plot_correlation()
+
+
+def test_scores_of_a_prediction_are_those_of_its_values(
+    study: pf.Study, data: dict[tuple[str, str], pd.DataFrame], fit: pf.Fit
+) -> None:
+    held_out = fit.predict({"slab_60": "mlr"}, data)
+    y, f = held_out.values(("slab_60", "mlr"))
+    (score,) = held_out.scores.to_dict("records")
+    assert score["rmse"] == pytest.approx(np.sqrt(np.mean((y - f) ** 2)))
+    assert score["r2"] == pytest.approx(1.0 - np.var(y - f) / np.var(y), abs=1e-3)
+    assert score["r2"] > 0.99
+    assert held_out.frame["measured"].size == len(data["slab_60", "mlr"])
+
+
+class Balanced(HTMLParser):
+    """Keeps the open tags."""
+
+    def __init__(self) -> None:
+        super().__init__()
+        self.open: list[str] = []
+
+    def handle_starttag(self, tag: str, attrs: object) -> None:
+        self.open.append(tag)
+
+    def handle_endtag(self, tag: str) -> None:
+        assert self.open.pop() == tag
+
+
+def test_report_and_page_show_values_intervals_and_correlations(fit: pf.Fit) -> None:
+    text = str(fit)
+    for name, row in fit.table.iterrows():
+        assert f"  {name} " in text
+        assert row["unit"] in text
+    assert "95 % interval" in text
+    assert "eps" in text.split("Correlations of 0.3 or more")[1]
+    page = Balanced()
+    page.feed(fit._repr_html_())
+    page.close()
+    assert page.open == []
+
+
+def test_plots_draw_what_was_fitted(fit: pf.Fit, data: object) -> None:
+    from matplotlib.figure import Figure
+
+    ax = Figure().subplots()
+    fit.plot("slab_25", "mlr", ax=ax)
+    measured, simulated = ax.lines
+    y, f = fit.comparison.values(MLR)
+    assert np.allclose(measured.get_ydata(), 1e3 * y)
+    assert np.allclose(simulated.get_ydata(), 1e3 * f)
+    residuals = fit.plot_residuals("slab_25", "mlr", Figure().subplots())
+    assert np.allclose(residuals.lines[0].get_ydata(), 1e3 * (f - y))
+    assert len(fit.plot_all()) == len(fit.signals) == 3
+    intervals = fit.plot_intervals(Figure().subplots())
+    assert [t.get_text() for t in intervals.get_yticklabels()] == list(fit.table.index)
+    matrix = fit.plot_correlation(Figure().subplots())
+    assert np.allclose(matrix.images[0].get_array(), fit.correlation)
+    with pytest.raises(StudyError, match="several series are there"):
+        fit.plot()

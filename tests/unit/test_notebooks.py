@@ -1,0 +1,63 @@
+"""Notebooks of the documentation: stored without results, and run as they stand."""
+
+import json
+from pathlib import Path
+
+import matplotlib
+import pytest
+
+import pyrofit as pf
+
+matplotlib.use("agg")
+FOLDER = Path(__file__).parents[2] / "docs" / "notebooks"
+NOTEBOOKS = sorted(FOLDER.glob("*.ipynb"))
+
+
+def cells(path: Path) -> list[dict]:
+    return json.loads(path.read_text(encoding="utf-8"))["cells"]
+
+
+def run(path: Path, monkeypatch: pytest.MonkeyPatch) -> dict:
+    """Run the code of a notebook in its folder, and return the names that it defines."""
+    import matplotlib.pyplot as plt
+
+    monkeypatch.chdir(FOLDER)
+    names: dict = {"__name__": "__main__"}
+    for cell in cells(path):
+        if cell["cell_type"] == "code":
+            exec(compile("".join(cell["source"]), path.name, "exec"), names)
+    plt.close("all")
+    return names
+
+
+@pytest.mark.parametrize("path", NOTEBOOKS, ids=lambda path: path.stem)
+def test_notebook_is_stored_without_results(path: Path) -> None:
+    for cell in cells(path):
+        if cell["cell_type"] == "code":
+            assert cell["outputs"] == []
+            assert cell["execution_count"] is None
+            assert not any(line.startswith(("%", "!")) for line in cell["source"])
+
+
+def test_simulation_is_fitted(monkeypatch: pytest.MonkeyPatch) -> None:
+    names = run(FOLDER / "simulate_and_fit.ipynb", monkeypatch)
+    assert names["table"]["off [sd]"].abs().max() < 3.5
+    assert names["held_out"].scores["r2"].min() > 0.98
+
+
+def test_own_files_are_fitted(monkeypatch: pytest.MonkeyPatch) -> None:
+    names = run(FOLDER / "own_files.ipynb", monkeypatch)
+    truth = names["other"].synthetic.truth
+    assert abs(names["kinetics"].table.loc["T_p", "value"] - truth["T_p"]) < 1.0
+    for name, row in names["fit"].table.iterrows():
+        assert abs(row["value"] - truth[name]) < 4.0 * row["sd"], name
+    assert names["test"].scores["r2"].min() > 0.98
+
+
+def test_missing_effect_is_named(monkeypatch: pytest.MonkeyPatch) -> None:
+    names = run(FOLDER / "diagnosis.ipynb", monkeypatch)
+    assert isinstance(names["diagnosis"], pf.Diagnosis)
+    assert names["diagnosis"].kind == "named"
+    assert names["diagnosis"].effects == ["k_T"]
+    assert names["fit"].reduced_chi2 > 1.3
+    assert names["again"].reduced_chi2 < 1.1
