@@ -7,11 +7,13 @@ from typing import TYPE_CHECKING
 import numpy as np
 import pandas as pd
 
-from pyrofit.api import plots, report
+from pyrofit.api import plots
 from pyrofit.api.choices import Signals
 from pyrofit.api.comparison import Comparison, compare
 from pyrofit.api.measurements import Data
+from pyrofit.api.report import Report, html_of, text_of
 from pyrofit.config import Study
+from pyrofit.errors import StudyError
 from pyrofit.estimate.identify import Identification
 from pyrofit.estimate.likelihood import Likelihood
 from pyrofit.solver.arrays import FloatArray
@@ -75,7 +77,7 @@ class Fit:
 
     def report(self, correlations_above: float = 0.3) -> str:
         """Return the report as text; it lists correlations above a size."""
-        return report.text(self, correlations_above)
+        return text_of(self._contents(), correlations_above)
 
     def predict(self, signals: Signals | None = None, data: Data | None = None) -> Comparison:
         """Compare the fit with experiments, by default all; see `pyrofit.compare`."""
@@ -111,9 +113,10 @@ class Fit:
         StudyError
             The fit has none, as it is one of a cost function.
         """
-        table = report.known_correlation(self)
+        if self.correlation is None:
+            raise StudyError("a fit of a cost has no correlations; leave out `cost`")
         ax = plots.new_axes() if ax is None else ax
-        plots.correlation(ax, table)
+        plots.correlation(ax, self.correlation)
         return ax
 
     def __str__(self) -> str:
@@ -125,7 +128,19 @@ class Fit:
         return self.report()
 
     def _repr_html_(self) -> str:
-        return report.html(self)
+        return html_of(self._contents())
+
+    def _contents(self) -> Report:
+        return Report(
+            self.study.name,
+            self.method,
+            self.table,
+            self.signals,
+            self.correlation,
+            self.chi2,
+            self.freedom,
+            self.cost,
+        )
 
 
 def estimates_table(study: Study, likelihood: Likelihood, found: Identification) -> pd.DataFrame:

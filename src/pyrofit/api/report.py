@@ -1,14 +1,12 @@
 """The report of a fit, as text and as HTML."""
 
 from collections.abc import Iterator
-from typing import Protocol
+from dataclasses import dataclass
 
 import numpy as np
 import pandas as pd
 
 from pyrofit.api.tables import html_page, text_table
-from pyrofit.config import Study
-from pyrofit.errors import StudyError
 from pyrofit.show.text import number, several, signed
 
 LARGE = 1.5
@@ -19,30 +17,21 @@ MISFIT = (
 )
 
 
-class Reported(Protocol):
-    """A fit, as far as its report tells of it."""
+@dataclass(frozen=True, eq=False)
+class Report:
+    """The contents of a report, as `Fit` describes them."""
 
-    @property
-    def study(self) -> Study: ...
-    @property
-    def method(self) -> str: ...
-    @property
-    def table(self) -> pd.DataFrame: ...
-    @property
-    def signals(self) -> pd.DataFrame: ...
-    @property
-    def correlation(self) -> pd.DataFrame | None: ...
-    @property
-    def chi2(self) -> float: ...
-    @property
-    def freedom(self) -> float: ...
-    @property
-    def reduced_chi2(self) -> float: ...
-    @property
-    def cost(self) -> float: ...
+    study: str
+    method: str
+    table: pd.DataFrame
+    signals: pd.DataFrame
+    correlation: pd.DataFrame | None
+    chi2: float
+    freedom: float
+    cost: float
 
 
-def text(fit: Reported, above: float) -> str:
+def text_of(fit: Report, above: float) -> str:
     """Return the report as text."""
     lines = [_title(fit), *(f"  {line}" for line in _facts(fit))]
     for heading, table in _tables(fit, above):
@@ -50,23 +39,16 @@ def text(fit: Reported, above: float) -> str:
     return "\n".join(lines)
 
 
-def html(fit: Reported, above: float = 0.3) -> str:
+def html_of(fit: Report, above: float = 0.3) -> str:
     """Return the report as HTML for a notebook."""
     return html_page(_title(fit), _tables(fit, above), _facts(fit))
 
 
-def known_correlation(fit: Reported) -> pd.DataFrame:
-    """Return the correlations, or refuse where there are none."""
-    if fit.correlation is None:
-        raise StudyError("a fit of a cost has no correlations; leave out `cost`")
-    return fit.correlation
+def _title(fit: Report) -> str:
+    return f"Fit of study '{fit.study}': {fit.method}"
 
 
-def _title(fit: Reported) -> str:
-    return f"Fit of study '{fit.study.name}': {fit.method}"
-
-
-def _facts(fit: Reported) -> list[str]:
+def _facts(fit: Report) -> list[str]:
     points = int(fit.signals["points"].sum())
     counts = (
         f"{several(len(fit.table), 'parameter')}, {several(len(fit.signals), 'signal')}, "
@@ -74,7 +56,7 @@ def _facts(fit: Reported) -> list[str]:
     )
     if not np.isnan(fit.cost):
         return [counts, f"cost {number(fit.cost)}"]
-    ratio = fit.reduced_chi2
+    ratio = fit.chi2 / fit.freedom
     return [
         counts,
         f"chi-square {number(fit.chi2)}, {number(fit.freedom)} degrees of freedom, ratio "
@@ -83,7 +65,7 @@ def _facts(fit: Reported) -> list[str]:
     ]
 
 
-def _tables(fit: Reported, above: float) -> Iterator[tuple[str, pd.DataFrame]]:
+def _tables(fit: Report, above: float) -> Iterator[tuple[str, pd.DataFrame]]:
     yield "Parameters", _parameters(fit)
     columns = fit.signals.drop(columns=["cv_rmse", "chi2"], errors="ignore")
     yield "Signals (rmse and noise in the SI unit)", columns
@@ -93,7 +75,7 @@ def _tables(fit: Reported, above: float) -> Iterator[tuple[str, pd.DataFrame]]:
             yield f"Correlations of {above:g} or more", pairs
 
 
-def _parameters(fit: Reported) -> pd.DataFrame:
+def _parameters(fit: Report) -> pd.DataFrame:
     """Return the estimates as they are read."""
     rows = []
     for name, row in fit.table.iterrows():
