@@ -14,6 +14,7 @@ ROOT = HERE.parents[1]
 sys.path.insert(0, str(HERE))
 
 from docstrings import literal_formulas  # noqa: E402
+from notebooks import as_markdown  # noqa: E402
 
 import pyrofit  # noqa: E402
 
@@ -28,12 +29,13 @@ include_patterns = [
     "*.md",
     "docs/*.md",
     "docs/verification/*.md",
+    "docs/notebooks/*.ipynb",
     "docs/site/api.md",
     "config/README.md",
     "config/foreign_truth/README.md",
 ]
 exclude_patterns = [".*", "build", "results"]
-source_suffix = {".md": "markdown"}
+source_suffix = {".md": "markdown", ".ipynb": "markdown"}
 myst_heading_anchors = 6
 default_role = "code"
 autodoc_typehints = "none"
@@ -56,7 +58,9 @@ MORE = "```{toctree}\n:caption: More\n:hidden:\n"
 
 
 def prepare(app: Sphinx, page: str, source: list[str]) -> None:
-    """Append the navigation to the first page, and turn anchors of HTML into those of MyST."""
+    """Make Markdown of a notebook; append the navigation to the first page; turn HTML's anchors."""
+    if Path(app.env.doc2path(page)).suffix == ".ipynb":
+        source[0] = as_markdown(source[0])
     if page == root_doc:
         navigation = (HERE / "navigation.md").read_text(encoding="utf-8")
         pages = sorted(p.stem for p in (ROOT / "docs").glob("*.md"))
