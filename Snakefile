@@ -2,11 +2,17 @@
 
 import os
 import shutil
+import signal
 import sys
 from itertools import product
 from pathlib import Path
 
 from snakemake.utils import min_version, update_config
+
+from pyrofit.running.interrupt import end_while_starting, end_with_jobs
+
+if workflow.is_main_process:  # before slow imports: Ctrl-C says one line from here on
+    end_while_starting()
 
 from pyrofit.config import as_study, digest, read_mapping
 from pyrofit.config.programs import externals, program_files
@@ -87,6 +93,10 @@ onstart:
         for sentence in unusual(study):
             print(f"warning: {SOURCE}: {sentence}", file=sys.stderr)
         freeze(study, STUDY)
+        if workflow.local_exec:
+            end_with_jobs(ROOT)
+        else:  # Snakemake cancels the jobs of a cluster
+            signal.signal(signal.SIGINT, signal.default_int_handler)
     except PyrofitError as error:
         raise WorkflowError(str(error)) from None
 

@@ -3,6 +3,11 @@
 from collections.abc import Iterable
 from difflib import get_close_matches
 
+INTERRUPTED = "interrupted; run again to go on, finished parts are kept"
+"""The line that answers Ctrl-C."""
+RUN = "PYROFIT_RUN"
+"""Environment variable by which a run of the workflow passes its token to jobs."""
+
 
 class PyrofitError(Exception):
     """An error the user can repair; the command line shows its message without a traceback."""

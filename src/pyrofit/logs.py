@@ -14,6 +14,11 @@ class Tee:
     def write(self, text: str) -> int:
         """Write to both."""
         self._usual.write(text)
+        self.log(text)
+        return len(text)
+
+    def log(self, text: str) -> None:
+        """Write to the log alone."""
         if self._log is not None:
             try:
                 self._log.write(text)
@@ -22,7 +27,6 @@ class Tee:
                 # What is computed is worth more than its log: go on.
                 self._usual.write(f"{self._log.name}: log cut off here ({error.strerror})\n")
                 self._log = None
-        return len(text)
 
     def flush(self) -> None:
         """Flush standard error; the log is never behind."""

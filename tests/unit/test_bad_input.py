@@ -163,7 +163,7 @@ def test_quoted_numbers_are_numbers(working: Path) -> None:
 def test_log_that_runs_out_of_room_loses_no_result(
     working: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
 ) -> None:
-    monkeypatch.setattr("pyrofit.cli.open_log", lambda path: path.open("w"))
+    monkeypatch.setattr("pyrofit.cli.command.open_log", lambda path: path.open("w"))
     before = contents(working)
     assert run("kinetics --study study.yaml --log /dev/full") == 0
     said = capsys.readouterr().err

@@ -1,7 +1,10 @@
 """The command line."""
 
+import os
+import signal
 import subprocess
 import sys
+import time
 from pathlib import Path
 
 import pytest
@@ -107,6 +110,44 @@ def test_interruption_ends_with_code_130(
     monkeypatch.setattr("pyrofit.config.read_study", interrupt)
     assert cli.main(["check", str(SMOKE)]) == 130
     assert "interrupted; run again to go on" in capsys.readouterr().err
+
+
+def test_interruption_while_modules_are_loaded_is_one_line() -> None:
+    code = """
+import os, signal, sys
+class Finder:
+    def find_spec(self, name, path=None, target=None):
+        if name == "pyrofit.cli.fitting":
+            os.kill(os.getpid(), signal.SIGINT)
+sys.meta_path.insert(0, Finder())
+from pyrofit.cli import main
+sys.exit(main(["check", "none.yaml"]))
+"""
+    ended = subprocess.run(
+        [sys.executable, "-c", code], capture_output=True, text=True, check=False
+    )
+    assert ended.returncode == 130
+    assert ended.stderr == "interrupted; run again to go on, finished parts are kept\n"
+
+
+def test_second_signal_does_not_break_off_the_answer_to_the_first(
+    monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
+) -> None:
+    cleaned = []
+
+    def interrupt(path: Path) -> None:
+        try:
+            os.kill(os.getpid(), signal.SIGINT)
+            time.sleep(1.0)
+        finally:
+            os.kill(os.getpid(), signal.SIGTERM)
+            cleaned.append(path)
+
+    monkeypatch.setattr("pyrofit.config.read_study", interrupt)
+    before = signal.getsignal(signal.SIGINT)
+    assert cli.main(["check", str(SMOKE)]) == 130
+    assert len(cleaned) == 1
+    assert signal.getsignal(signal.SIGINT) is before
 
 
 def test_fault_of_the_program_is_not_hidden(monkeypatch: pytest.MonkeyPatch) -> None:

@@ -14,8 +14,9 @@ from typing import Any
 
 import pytest
 
+from pyrofit.errors import RUN
 from pyrofit.running import lock, processes
-from pyrofit.running.lock import FOLDER, TOKEN, RunError, end_run, job, join_run, start_run
+from pyrofit.running.lock import FOLDER, RunError, end_run, job, join_run, start_run
 from pyrofit.running.processes import this_process
 
 HOLD = """
@@ -29,20 +30,20 @@ try:
 except lock.RunError as error:
     print(error, flush=True)
 """
-RUN = "lock.start_run(Path(sys.argv[1]))"
+START = "lock.start_run(Path(sys.argv[1]))"
 JOB = "held = lock.job(Path(sys.argv[1])); held.__enter__()"
 
 
 @pytest.fixture(autouse=True)
 def _no_run_above(monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setenv(TOKEN, "")  # so that it is restored at the end
-    monkeypatch.delenv(TOKEN)
+    monkeypatch.setenv(RUN, "")  # so that it is restored at the end
+    monkeypatch.delenv(RUN)
 
 
 class Other:
     """Another process that starts a run, or does a job, and says how that went."""
 
-    def __init__(self, root: Path, holds: str = RUN, **environment: str) -> None:
+    def __init__(self, root: Path, holds: str = START, **environment: str) -> None:
         self.process = subprocess.Popen(
             [sys.executable, "-c", HOLD.format(holds=holds), str(root)],
             env={**os.environ, **environment},
@@ -272,7 +273,7 @@ def test_slurm_tells_whether_a_job_lives(
 
 def test_run_does_not_start_beside_a_job_of_a_killed_one(root: Path, run: Other) -> None:
     token = json.loads((root / FOLDER / "run.json").read_text())["token"]
-    left = Other(root, JOB, **{TOKEN: token})
+    left = Other(root, JOB, **{RUN: token})
     assert left.said == "holds\n"
     run.kill()
     with pytest.raises(RunError, match=f"kill {left.process.pid} ") as error:
@@ -289,7 +290,7 @@ def test_job_of_a_run_that_was_replaced_is_refused(
     start_run(root)
     with job(root):
         assert len(list((root / FOLDER).glob("job_*"))) == 1
-    monkeypatch.setenv(TOKEN, "that of the run before")
+    monkeypatch.setenv(RUN, "that of the run before")
     with pytest.raises(RunError, match="the run that this job belongs to is over"), job(root):
         pass
     assert not list((root / FOLDER).glob("job_*"))
@@ -297,7 +298,7 @@ def test_job_of_a_run_that_was_replaced_is_refused(
 
 def test_job_of_a_run_that_has_ended_is_refused(root: Path) -> None:
     start_and_end(root)
-    assert TOKEN in os.environ
+    assert RUN in os.environ
     with pytest.raises(RunError, match="is over; nothing was written"), job(root):
         pass
 
@@ -322,7 +323,7 @@ def test_steps_by_hand_may_go_on_side_by_side(root: Path) -> None:
 
 def test_job_whose_cluster_hands_on_no_variables_finds_its_run(root: Path) -> None:
     start_run(root)
-    del os.environ[TOKEN]
+    del os.environ[RUN]
     join_run(root)
     with job(root):
         pass

@@ -122,8 +122,10 @@ def test_interrupted_run_ends_in_order_and_goes_on(untouched: Project, tmp_path:
             time.sleep(0.01)
         os.killpg(process.pid, signal.SIGINT)
         said, _ = process.communicate(timeout=300)
-    assert process.returncode != 0
+    assert process.returncode == 130
     assert "Traceback" not in said
+    assert said.splitlines()[-1] == "interrupted; run again to go on, finished parts are kept"
+    assert said.count("interrupted") == 1
     assert not running.exists()
     again = project.snakemake("--cores", "1", FIT)
     assert again.code == 0, again.said

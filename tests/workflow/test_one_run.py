@@ -12,8 +12,9 @@ from pathlib import Path
 import pytest
 from tiny import FIT, OWN_FILE, Project
 
+from pyrofit.errors import RUN
 from pyrofit.running.frozen import FROZEN
-from pyrofit.running.lock import TOKEN, end_run, start_run
+from pyrofit.running.lock import end_run, start_run
 
 FOLDER = "results/tiny/running"
 STUDY = "results/tiny/study.json"
@@ -88,7 +89,7 @@ def as_job(
     shutil.copytree(untouched.root, tmp_path / "project")
     project = Project(tmp_path / "project")
     root = project.root / "results" / "tiny"
-    for name in (TOKEN, FROZEN):
+    for name in (RUN, FROZEN):
         monkeypatch.setenv(name, "")  # so that it is restored at the end
     start_run(root)
     monkeypatch.delenv(FROZEN)
@@ -131,7 +132,7 @@ def test_job_of_a_run_that_is_over_removes_no_result(
     as_job: Project, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     fit = as_job.read(FIT)
-    monkeypatch.setenv(TOKEN, "that of the run before")
+    monkeypatch.setenv(RUN, "that of the run before")
     run = as_job.snakemake(*JOB)
     assert run.code != 0
     assert "the run that this job belongs to is over; nothing was written" in run.said

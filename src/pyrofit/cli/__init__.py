@@ -1,104 +1,20 @@
 """The command line: what the workflow's rules call, usable by hand."""
 
-import argparse
-import contextlib
+import importlib
 import os
-import signal
 import sys
-import threading
-from collections.abc import Iterator, Sequence
+from collections.abc import Sequence
 
-from pyrofit.cli import (
-    diagnosing,
-    exchanging,
-    fitting,
-    macfp,
-    planning,
-    rescoring,
-    sampling,
-    scheming,
-    sensing,
-    showing,
-    starting,
-)
-from pyrofit.cli.parser import Parser
-from pyrofit.errors import PyrofitError
-from pyrofit.logs import Tee, open_log
-
-_GROUPS = (
-    starting,
-    fitting,
-    rescoring,
-    sampling,
-    sensing,
-    planning,
-    scheming,
-    diagnosing,
-    showing,
-    exchanging,
-    macfp,
-)
-"""Modules of the commands, in the order of the help."""
+from pyrofit.errors import INTERRUPTED, RUN
 
 
 def main(arguments: Sequence[str] | None = None) -> int:
     """Run a command; return its status, or 2 with a message if the user can correct a mistake."""
-    # Threads of linear algebra would get in the way of the workflow's jobs, and change last bits:
-    # Snakemake asks for as many as a job has cores.
-    os.environ["OPENBLAS_NUM_THREADS"] = "1"
-    given = _parser().parse_args(arguments)
-    if getattr(given, "log", None) is None:
-        return _run(given)
     try:
-        log = open_log(given.log)
-    except OSError as error:
-        print(
-            f"error: {given.log}: cannot be written ({error.strerror}); make room or name "
-            "another file with --log. Everything finished before is kept.",
-            file=sys.stderr,
-        )
-        return 2
-    usual = sys.stderr
-    sys.stderr = Tee(usual, log)
-    try:
-        return _run(given)
-    finally:
-        sys.stderr = usual
-        # Where the disk is full, closing fails once more.
-        with contextlib.suppress(OSError):
-            log.close()
-
-
-def _run(given: argparse.Namespace) -> int:
-    try:
-        with _interruptible(), contextlib.ExitStack() as given.until_end:
-            status: int = given.step(given) or 0
-            return status
-    except PyrofitError as error:
-        print(f"error: {error}", file=sys.stderr)
-        return 2
+        # Not above: Ctrl-C while modules are loaded ends with one line as well.
+        status: int = importlib.import_module("pyrofit.cli.command").run(arguments)
+        return status
     except KeyboardInterrupt:
-        print("interrupted; run again to go on, finished parts are kept", file=sys.stderr)
+        if RUN not in os.environ:  # of a job, the run says it
+            print(INTERRUPTED, file=sys.stderr)
         return 130
-
-
-@contextlib.contextmanager
-def _interruptible() -> Iterator[None]:
-    """Treat SIGTERM, which schedulers send, as Ctrl-C: all that a step has started ends with it."""
-    if threading.current_thread() is not threading.main_thread():
-        yield
-        return
-    before = signal.signal(signal.SIGTERM, signal.default_int_handler)
-    try:
-        yield
-    finally:
-        signal.signal(signal.SIGTERM, before)
-
-
-def _parser() -> argparse.ArgumentParser:
-    parser = Parser(prog="pyrofit", description=__doc__)
-    commands = parser.add_subparsers(dest="command", required=True, metavar="COMMAND")
-    for group in _GROUPS:
-        group.add(commands)
-    parser.set_defaults(program=parser)
-    return parser

@@ -1,6 +1,7 @@
 """Write a study and a folder for a user's own material."""
 
 import re
+import shutil
 from collections.abc import Mapping, Sequence
 from pathlib import Path
 
@@ -103,10 +104,14 @@ def _write(folder: Path, text: str, records: Sequence[Measured]) -> Path:
         raise DataError(
             f"{folder}: cannot be made ({error.strerror}); choose another folder"
         ) from None
-    for record, content in copies.items():
-        write_bytes(folder / "data" / f"{record}.csv", content)
     study = folder / f"{folder.name}.yaml"
-    write_text(study, text)
+    try:
+        for record, content in copies.items():
+            write_bytes(folder / "data" / f"{record}.csv", content)
+        write_text(study, text)
+    except KeyboardInterrupt:
+        shutil.rmtree(folder)  # half a study would be in the way of the next one
+        raise
     return study
 
 

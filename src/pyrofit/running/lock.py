@@ -16,12 +16,10 @@ import uuid
 from collections.abc import Iterator
 from pathlib import Path
 
-from pyrofit.errors import PyrofitError
+from pyrofit.errors import RUN, PyrofitError
 from pyrofit.results.files import PART, write_json
 from pyrofit.running.processes import BEAT_S, Process, is_alive, line_that_ends, this_process
 
-TOKEN = "PYROFIT_RUN"
-"""Environment variable that passes the token of their run to jobs."""
 FOLDER = "running"
 
 
@@ -67,7 +65,7 @@ def start_run(root: Path) -> str:
     for left in root.rglob(f".*{PART}"):
         left.unlink(missing_ok=True)
     threading.Thread(target=_beat, args=(path, token), daemon=True).start()
-    os.environ[TOKEN] = token
+    os.environ[RUN] = token
     return f"{root}: the run of {before.process} was broken off; going on" if before else ""
 
 
@@ -75,7 +73,7 @@ def end_run(root: Path, token: str | None = None) -> None:
     """Delete the lock if this process has it."""
     path = root / FOLDER / "run.json"
     mark = _read(path)
-    if mark is not None and mark.token == (token or os.environ.get(TOKEN)):
+    if mark is not None and mark.token == (token or os.environ.get(RUN)):
         path.unlink(missing_ok=True)
     with contextlib.suppress(OSError):  # where files of jobs are left
         (root / FOLDER).rmdir()
@@ -92,7 +90,7 @@ def job(root: Path) -> Iterator[None]:
     DataError
         The folder cannot be written.
     """
-    token = os.environ.get(TOKEN, "")
+    token = os.environ.get(RUN, "")
     path = root / FOLDER / f"job_{uuid.uuid4().hex}.json"
     _write(path, token)
     try:
@@ -115,8 +113,8 @@ def join_run(root: Path) -> None:
         As `job`.
     """
     run = _read(root / FOLDER / "run.json")
-    if TOKEN not in os.environ and run is not None:  # a cluster that hands on no variables
-        os.environ[TOKEN] = run.token
+    if RUN not in os.environ and run is not None:  # a cluster that hands on no variables
+        os.environ[RUN] = run.token
     here = contextlib.ExitStack()
     here.enter_context(job(root))
     atexit.register(here.close)

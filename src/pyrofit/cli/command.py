@@ -1,0 +1,133 @@
+"""Read the arguments of a command, and run it."""
+
+import argparse
+import contextlib
+import os
+import signal
+import sys
+import threading
+from collections.abc import Iterator, Sequence
+from types import FrameType
+
+from pyrofit.cli import (
+    diagnosing,
+    exchanging,
+    fitting,
+    macfp,
+    planning,
+    rescoring,
+    sampling,
+    scheming,
+    sensing,
+    showing,
+    starting,
+)
+from pyrofit.cli.parser import Parser
+from pyrofit.errors import INTERRUPTED, RUN, PyrofitError
+from pyrofit.logs import Tee, open_log
+
+_GROUPS = (
+    starting,
+    fitting,
+    rescoring,
+    sampling,
+    sensing,
+    planning,
+    scheming,
+    diagnosing,
+    showing,
+    exchanging,
+    macfp,
+)
+"""Modules of the commands, in the order of the help."""
+
+
+def run(arguments: Sequence[str] | None = None) -> int:
+    """Run a command; return its status, or 2 with a message if the user can correct a mistake."""
+    # Threads of linear algebra would get in the way of the workflow's jobs, and change last bits:
+    # Snakemake asks for as many as a job has cores.
+    os.environ["OPENBLAS_NUM_THREADS"] = "1"
+    given = _parser().parse_args(arguments)
+    if getattr(given, "log", None) is None:
+        return _run(given)
+    try:
+        log = open_log(given.log)
+    except OSError as error:
+        print(
+            f"error: {given.log}: cannot be written ({error.strerror}); make room or name "
+            "another file with --log. Everything finished before is kept.",
+            file=sys.stderr,
+        )
+        return 2
+    usual = sys.stderr
+    sys.stderr = Tee(usual, log)
+    try:
+        return _run(given)
+    finally:
+        sys.stderr = usual
+        # Where the disk is full, closing fails once more.
+        with contextlib.suppress(OSError):
+            log.close()
+
+
+def _run(given: argparse.Namespace) -> int:
+    with _interruptible() as signals:
+        try:
+            with contextlib.ExitStack() as given.until_end:
+                status: int = given.step(given) or 0
+                return status
+        except PyrofitError as error:
+            print(f"error: {error}", file=sys.stderr)
+            return 2
+        except KeyboardInterrupt:
+            return _interrupted()
+        except Exception:
+            if signals:  # compiled code may turn the interruption into another error
+                return _interrupted()
+            raise
+
+
+def _interrupted() -> int:
+    """Say how to go on, and return the status; for a job of a run, the run says it."""
+    said = sys.stderr
+    if RUN in os.environ and isinstance(said, Tee):
+        said.log(f"{INTERRUPTED}\n")
+    elif RUN not in os.environ:
+        print(INTERRUPTED, file=said)
+    return 130
+
+
+@contextlib.contextmanager
+def _interruptible() -> Iterator[list[int]]:
+    """Treat SIGTERM, which schedulers send, as Ctrl-C: all that a step has started ends with it.
+
+    Yields the signals that arrive.
+    The first signal counts; a second one, sent by a run to its jobs, would break its answer off.
+    """
+    arrived: list[int] = []
+    if threading.current_thread() is not threading.main_thread():
+        yield arrived
+        return
+    numbers = (signal.SIGINT, signal.SIGTERM)
+
+    def answer(number: int, frame: FrameType | None) -> None:
+        for each in numbers:
+            signal.signal(each, lambda number, frame: None)
+        arrived.append(number)
+        raise KeyboardInterrupt
+
+    before = [(number, signal.signal(number, answer)) for number in numbers]
+    try:
+        yield arrived
+    finally:
+        for number, old in before:
+            signal.signal(number, old)
+
+
+def _parser() -> argparse.ArgumentParser:
+    parser = Parser(prog="pyrofit", description=__doc__)
+    commands = parser.add_subparsers(dest="command", required=True, metavar="COMMAND")
+    for group in _GROUPS:
+        group.add(commands)
+    parser.set_defaults(program=parser)
+    return parser

@@ -1,0 +1,63 @@
+"""Ctrl-C in a run of the workflow: all processes end at once, and one line says how to go on."""
+
+import contextlib
+import importlib
+import os
+import signal
+import sys
+import threading
+from collections.abc import Callable
+from pathlib import Path
+from types import FrameType
+from typing import Any
+
+from pyrofit.errors import INTERRUPTED
+from pyrofit.running.lock import end_run
+
+PATIENCE_S = 10.0
+"""Time that jobs get to end by themselves."""
+
+
+def end_while_starting() -> None:
+    """Let Ctrl-C end a run whose jobs have not started: nothing is to be ended or kept."""
+    _answer(lambda: None)
+
+
+def end_with_jobs(root: Path) -> None:
+    """Let Ctrl-C end a run on this machine with all its jobs, and free the results folder."""
+
+    def end() -> None:
+        _end_jobs()
+        end_run(root)
+
+    _answer(end)
+
+
+def _answer(end: Callable[[], None]) -> None:
+    """Answer Ctrl-C by one line and the end of this process."""
+    if threading.current_thread() is not threading.main_thread():
+        return
+
+    def answer(number: int, frame: FrameType | None) -> None:
+        signal.signal(signal.SIGINT, lambda number, frame: None)
+        sys.stdout.flush()
+        print(INTERRUPTED, file=sys.stderr, flush=True)
+        # Jobs that end would be reported as failed.
+        for stream in (1, 2):
+            os.dup2(os.open(os.devnull, os.O_WRONLY), stream)
+        end()
+        os._exit(130)
+
+    signal.signal(signal.SIGINT, answer)
+
+
+def _end_jobs() -> None:
+    """End all processes that this one started, and wait for them."""
+    psutil: Any = importlib.import_module("psutil")  # Snakemake brings it
+    jobs = psutil.Process().children(recursive=True)
+    for job in jobs:
+        with contextlib.suppress(psutil.NoSuchProcess):
+            job.terminate()
+    for job in psutil.wait_procs(jobs, PATIENCE_S)[1]:
+        with contextlib.suppress(psutil.NoSuchProcess):
+            job.kill()
