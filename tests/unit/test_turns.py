@@ -1,6 +1,5 @@
 """Searches side by side: what they ask, draw and raise, and that none is left behind."""
 
-import threading
 from collections.abc import Callable
 from functools import partial
 
@@ -17,6 +16,14 @@ def adds(times: int, step: int, ask: Ask) -> int:
     for _ in range(times):
         found = ask(found + step)
     return found
+
+
+def adds_until_ended(ended: list[int], ask: Ask) -> int:
+    """Ask nine times, and note the end, however it comes."""
+    try:
+        return adds(9, 1, ask)
+    finally:
+        ended.append(1)
 
 
 def draws(seed: int, ask: Ask) -> list[float]:
@@ -63,24 +70,24 @@ def fails(ask: Ask) -> int:
 
 def test_error_of_a_search_ends_all() -> None:
     generator = RANDOM.get_bit_generator()
-    go_on: Callable[[Ask], int] = partial(adds, 9, 1)
-    before = threading.active_count()
+    ended: list[int] = []
+    go_on = partial(adds_until_ended, ended)
     with pytest.raises(ValueError, match="no cost"):
         in_turns([go_on, fails, go_on], lambda questions: questions)
-    assert threading.active_count() == before
+    assert len(ended) == 2
     assert RANDOM.get_bit_generator() is generator
 
 
 @pytest.mark.parametrize("kind", [RuntimeError, KeyboardInterrupt])
 def test_error_of_the_answer_ends_all(kind: type[BaseException]) -> None:
-    before = threading.active_count()
+    ended: list[int] = []
 
     def answer(questions: list[int]) -> list[int]:
         raise kind
 
     with pytest.raises(kind):
-        in_turns([partial(adds, 9, 1), partial(adds, 9, 1)], answer)
-    assert threading.active_count() == before
+        in_turns([partial(adds_until_ended, ended)] * 2, answer)
+    assert len(ended) == 2
 
 
 def test_nothing_to_search_is_nothing_found() -> None:
