@@ -17,11 +17,11 @@ CORES = 2
 NOTE = (
     f"`snakemake --cores {CORES} --configfile {STUDY}` in an empty folder, compiled code on disk: "
 )
-EIGHT = ("--cost", "RMSE", "--repetition", *map(str, range(8)))
+SIXTEEN = ("--cost", "RMSE", "--repetition", *map(str, range(16)))
 
 
 def campaign() -> str:
-    """Run the study; return its wall time, that of its jobs, and of eight repetitions in parts."""
+    """Return wall times of the study and its jobs, and of sixteen repetitions in parts."""
     with tempfile.TemporaryDirectory() as folder:
         for name in ("workflow", "config", "profiles"):
             shutil.copytree(ROOT / name, Path(folder, name))
@@ -29,11 +29,11 @@ def campaign() -> str:
         took = run(folder)
         results = Path(folder, "results", STUDY.stem)
         jobs = of_jobs(results / "benchmarks")
-        parts = startup.parts(results, ROOT / STUDY, EIGHT)
+        parts = startup.parts(results, ROOT / STUDY, SIXTEEN)
     return (
         f"{NOTE}**{took:.0f} s**. Wall times of its jobs, {CORES} at a time; the rest is planning, "
         f"reading, tables, figures and the page.\n\n{jobs}\n\n"
-        f"Eight repetitions side by side, nothing beside them:\n\n{parts}"
+        f"Sixteen repetitions side by side, nothing beside them:\n\n{parts}"
     )
 
 

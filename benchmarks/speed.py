@@ -11,6 +11,7 @@ from pathlib import Path
 
 import campaign
 import cost
+import lanes
 import scaling
 import startup
 from case import FINE, FLUXES, error, exact, relative_error, setup
@@ -116,6 +117,7 @@ SECTIONS = {
     "curves": curves,
     "cells": lambda: scales("Cells", "Reactions"),
     "sets": lambda: scales("Sets", "Threads"),
+    "lanes": lambda: put_section("Scaling: lanes", lanes.measured()),
     "effects": lambda: scales("Effects"),
     "startup": starts,
     "campaign": lambda: put_section("The campaign", campaign.campaign()),

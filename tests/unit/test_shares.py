@@ -25,16 +25,23 @@ def test_each_repetition_belongs_to_one_job(repetitions: int, wanted: object) ->
     assert [n for job in found for n in job] == list(range(repetitions))
 
 
-def test_eights_share_a_job_and_the_rest_run_alone() -> None:
-    assert [len(job) for job in shares(study_of(25))] == [8, 8, 8, 1]
-    assert [len(job) for job in shares(study_of(2))] == [1, 1]
+@pytest.mark.parametrize(
+    ("repetitions", "jobs"),
+    [(2, [1, 1]), (7, [7]), (9, [8, 1]), (16, [8, 8]), (18, [16, 1, 1]), (25, [16, 9])],
+)
+def test_sixteen_share_a_job_and_few_run_alone(repetitions: int, jobs: list[int]) -> None:
+    assert [len(job) for job in shares(study_of(repetitions))] == jobs
 
 
-def test_thousands_of_repetitions_make_few_jobs_of_whole_eights() -> None:
+def test_more_repetitions_run_no_full_job_again() -> None:
+    assert shares(study_of(50))[0] == shares(study_of(25))[0]
+
+
+def test_thousands_of_repetitions_make_few_jobs_of_whole_sixteens() -> None:
     study = study_of(1000)
     found = shares(study)
     assert len(found) * len(study.imp.costs) <= MOST_JOBS
-    assert {len(job) % 8 for job in found[:-1]} == {0}
+    assert {len(job) % 16 for job in found[:-1]} == {0}
 
 
 def test_number_of_repetitions_in_a_job_may_be_set() -> None:

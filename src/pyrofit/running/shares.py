@@ -6,8 +6,10 @@ from pyrofit.errors import StudyError
 
 KEY = "repetitions_per_job"
 """Key of ``snakemake --config``; it belongs to a run, not to a study."""
-SIDE_BY_SIDE = 8
+SIDE_BY_SIDE = 16
 """Repetitions that run side by side: the solver is then two to three times as fast."""
+FEW = 3
+"""Repetitions that are as fast alone as side by side."""
 MOST_JOBS = 40
 """Jobs of repetitions of a study whose repetitions are shared out automatically, about."""
 
@@ -15,9 +17,10 @@ MOST_JOBS = 40
 def shares(study: Study, wanted: object = None) -> list[list[int]]:
     """Return the repetitions of each job of a cost function.
 
-    By default, eight share a job and the rest run alone: one more runs no other again, unless it
-    completes an eight. Where that makes more than `MOST_JOBS` jobs, jobs hold several eights. Runs
-    of an external program gain nothing side by side: there, each repetition is a job.
+    By default, sixteen share a job, and so does the rest if it is more than `FEW`. Up to sixteen
+    are shared out by eights, so that two cores have work. Where that makes more than `MOST_JOBS`
+    jobs, jobs hold several sixteens. Runs of an external program gain nothing side by side: there,
+    each repetition is a job. More repetitions run no full job again.
 
     Parameters
     ----------
@@ -34,12 +37,13 @@ def shares(study: Study, wanted: object = None) -> list[list[int]]:
     everything = list(range(study.imp.repetitions))
     if wanted is not None:
         return parts(everything, _whole(wanted))
-    each = at_once(study)
-    if each > 1:
-        each *= -(-len(everything) * len(study.imp.costs) // (each * MOST_JOBS))
+    if at_once(study) == 1:
+        return parts(everything, 1)
+    each = SIDE_BY_SIDE if len(everything) > SIDE_BY_SIDE else SIDE_BY_SIDE // 2
+    each *= -(-len(everything) * len(study.imp.costs) // (each * MOST_JOBS))
     full = len(everything) - len(everything) % each
-    rest = parts(everything[full:], each if each > SIDE_BY_SIDE else 1)
-    return parts(everything[:full], each) + rest
+    rest = everything[full:]
+    return parts(everything[:full], each) + parts(rest, each if len(rest) > FEW else 1)
 
 
 def at_once(study: Study) -> int:
