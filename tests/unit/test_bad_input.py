@@ -168,5 +168,5 @@ def test_log_that_runs_out_of_room_loses_no_result(
     assert run("kinetics --study study.yaml --log /dev/full") == 0
     said = capsys.readouterr().err
     assert said.count("/dev/full: log cut off here (No space left on device)") == 1
-    assert "generation 3/3" in said
+    assert "generation 3 of 3" in said
     assert contents(working) == before

@@ -2,6 +2,7 @@
 
 import argparse
 import contextlib
+import logging
 import os
 import signal
 import sys
@@ -48,6 +49,9 @@ def run(arguments: Sequence[str] | None = None) -> int:
     # Snakemake asks for as many as a job has cores.
     os.environ["OPENBLAS_NUM_THREADS"] = "1"
     given = _parser().parse_args(arguments)
+    if not logging.root.handlers and logging.lastResort is not None:
+        # SPOTPY sets one up for all where there is none, with the names of functions.
+        logging.root.addHandler(logging.lastResort)
     if getattr(given, "log", None) is None:
         return _run(given)
     try:

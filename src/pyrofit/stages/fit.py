@@ -1,6 +1,5 @@
 """Steps 2 and 3: the kinetics fit, and the repeated inverse modelling."""
 
-import sys
 from collections.abc import Mapping, Sequence
 from typing import Any
 
@@ -9,7 +8,7 @@ import pandas as pd
 
 from pyrofit.config import Study, digest
 from pyrofit.errors import StudyError, suggest
-from pyrofit.estimate.history import Progress, best_of, convergence
+from pyrofit.estimate.history import best_of, convergence
 from pyrofit.estimate.least_squares import Start, descend, multistart
 from pyrofit.estimate.optimisers import OPTIMISERS
 from pyrofit.estimate.prior import within_known
@@ -25,20 +24,10 @@ from pyrofit.solver.lower import fractions, rate_factor
 from pyrofit.solver.outputs import MASS_FRACTION
 from pyrofit.stages.kinetic_curves import write_curves
 from pyrofit.stages.measurements import load
+from pyrofit.stages.progress import Told
 from pyrofit.stages.unfinished import Unfinished, sweep
 
 Values = Mapping[str, float]
-
-
-def _tell(label: str, generations: int) -> Progress:
-    def tell(generation: int, calls: int, best: float) -> None:
-        print(
-            f"{label}: generation {generation}/{generations}, {calls} model calls, best {best:.6g}",
-            file=sys.stderr,
-            flush=True,
-        )
-
-    return tell
 
 
 def _named(problem: Problem, x: FloatArray) -> dict[str, float]:
@@ -67,11 +56,10 @@ def fit_kinetics(study: Study, results: Results) -> None:
     problem = within_known(study, posed)
     seed = seed_for(study.seed, "kinetics")
     generations = stage.sceua.generations
-    from pyrofit.estimate.sceua import search  # SPOTPY sets up a logger of its own for all
+    from pyrofit.estimate.sceua import search  # takes 0.2 s to import
 
-    history = search(
-        problem, seed, generations, stage.sceua.complexes, _tell("kinetics", generations)
-    )
+    told = Told("kinetics", 1, generations)
+    history = search(problem, seed, generations, stage.sceua.complexes, *told.of_each)
     cost, x = best_of(history, problem)
     starts = multistart(problem, stage.least_squares.starts, seed)
     optimiser = "SCE-UA"
@@ -164,10 +152,11 @@ def _search(
     """Run repetitions side by side; write histories and results."""
     seeds = [seed_for(study.seed, cost, repetition) for repetition in repetitions]
     budget = study.imp.sceua
-    tell = [_tell(f"{cost} {repetition:02d}", budget.generations) for repetition in repetitions]
+    ends = dict.fromkeys(f"{n:02d}" for n in (*repetitions[:1], *repetitions[-1:]))
+    told = Told(f"{cost} {' to '.join(ends)}", len(repetitions), budget.generations)
     from pyrofit.estimate.sceua import search_several  # as above
 
-    found = search_several(problem, seeds, budget.generations, budget.complexes, tell)
+    found = search_several(problem, seeds, budget.generations, budget.complexes, told.of_each)
     for repetition, seed, history in zip(repetitions, seeds, found, strict=True):
         best, x = best_of(history, problem)
         write_csv(results.repetition(cost, repetition, ".csv.gz"), history)

@@ -1,0 +1,67 @@
+"""One line for searches that run side by side: how far they are, and the time left."""
+
+import sys
+import time
+from collections.abc import Callable
+from functools import partial
+
+from pyrofit.estimate.history import Progress
+
+OFTEN_S = 2.0
+"""Shortest time between two lines."""
+
+
+class Told:
+    """Tells how far searches side by side are, on standard error.
+
+    Parameters
+    ----------
+    label
+        Begins each line.
+    searches
+        Their number.
+    generations
+        Number of generations of each.
+    clock
+        Returns the time [s].
+    """
+
+    def __init__(
+        self,
+        label: str,
+        searches: int,
+        generations: int,
+        clock: Callable[[], float] = time.monotonic,
+    ) -> None:
+        self.of_each: list[Progress] = [partial(self._tell, n) for n in range(searches)]
+        """To be called at the start of each generation of each search."""
+        self._label, self._generations, self._clock = label, generations, clock
+        self._calls = [0] * searches
+        self._best = [float("inf")] * searches
+        self._furthest = 1
+        self._began: tuple[float, int] | None = None
+        self._last = -OFTEN_S
+
+    def _tell(self, search: int, generation: int, calls: int, best: float) -> None:
+        self._calls[search], self._best[search] = calls, best
+        if generation <= self._furthest:
+            return
+        self._furthest = generation
+        now = self._clock()
+        self._began = self._began or (now, generation)
+        if now - self._last >= OFTEN_S or generation == self._generations:
+            self._last = now
+            self._print(now)
+
+    def _print(self, now: float) -> None:
+        began, first = self._began or (now, self._furthest)
+        left = ""
+        if first < self._furthest < self._generations:
+            each = (now - began) / (self._furthest - first)
+            left = f", about {each * (self._generations + 1 - self._furthest):.0f} s left"
+        print(
+            f"{self._label}: generation {self._furthest} of {self._generations}, "
+            f"{sum(self._calls):,} model calls, lowest cost {min(self._best):.4g}{left}",
+            file=sys.stderr,
+            flush=True,
+        )
