@@ -57,9 +57,7 @@ def _whole(chosen: Chosen) -> tuple[TermSpec, ...]:
 
 def diagnosed_parameters(study: Study) -> tuple[str, ...]:
     """Return the names of the parameters that the diagnosis estimates beside the effects."""
-    differing = tuple(
-        name for e in diagnosed(study).values() if e.repeat for name in e.repeat.nuisances.values()
-    )
+    differing = nuisances_of_tests(study)
     if study.diagnosis.estimate:
         return tuple(dict.fromkeys(study.diagnosis.estimate + differing))
     kinetics = study.kinetics.estimate if study.kinetics else ()
@@ -68,6 +66,12 @@ def diagnosed_parameters(study: Study) -> tuple[str, ...]:
     names = kinetics + study.imp.estimate + differing + _known_beside(study)
     used = parameters_in(diagnosed_material(study), *diagnosed(study).values())
     return tuple(name for name in dict.fromkeys(names) if name in used)
+
+
+def nuisances_of_tests(study: Study) -> tuple[str, ...]:
+    """Return the parameters by which single tests of the diagnosis differ, as their thickness."""
+    repeats = (e.repeat for e in diagnosed(study).values() if e.repeat)
+    return tuple(name for repeat in repeats for name in repeat.nuisances.values())
 
 
 def _known_beside(study: Study) -> tuple[str, ...]:

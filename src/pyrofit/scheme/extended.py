@@ -4,6 +4,7 @@ from collections.abc import Mapping
 from typing import Any
 
 from pyrofit.config import Study, parameters_in
+from pyrofit.config.resolve import diagnosed_parameters, nuisances_of_tests
 from pyrofit.scheme.fit import FittedScheme
 from pyrofit.scheme.record import values_of
 
@@ -45,8 +46,11 @@ def extended_keys(
     keys["kinetics"].pop("sets", None)
     keys["imp"]["estimate"] = [n for n in study.imp.estimate if n in used]
     keys["imp"]["kinetics"] = "described"
-    rest = study.diagnosis.estimate or study.imp.estimate
-    keys.setdefault("diagnosis", {})["estimate"] = [n for n in rest if n in used - set(values)]
+    # All but the kinetics; what differs between tests is estimated by itself.
+    rest = used - set(values) - set(nuisances_of_tests(study))
+    keys.setdefault("diagnosis", {})["estimate"] = [
+        n for n in diagnosed_parameters(study) if n in rest
+    ]
     keys.get("diagnosis", {}).pop("kinetics", None)
     for (experiment, signal), given in signals.items():
         keys["experiments"][experiment]["signals"][signal] |= given
