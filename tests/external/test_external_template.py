@@ -12,10 +12,10 @@ from pyrofit.config import as_study
 from pyrofit.config.programs import externals
 from pyrofit.errors import StudyError
 from pyrofit.experiments.external.simulate import mean
-from pyrofit.external.expressions import names_of, value_of_expression
 from pyrofit.external.filled import filled, placeholder_values
 from pyrofit.external.output import OutputError, Record, read_output, to_number
 from pyrofit.external.template import bytes_of, fill, text_of
+from pyrofit.model.expressions import names_of, value_of_expression
 from pyrofit.model.program import Program, Reading
 from pyrofit.quantities import known_quantities
 

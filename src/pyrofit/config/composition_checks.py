@@ -2,12 +2,10 @@
 
 from collections.abc import Mapping
 
+from pyrofit.config.derived import check_expression, ends_of
 from pyrofit.config.numbers import check_parameter, require
 from pyrofit.config.stages import KineticSet
 from pyrofit.config.study import Study
-from pyrofit.config.uses import (
-    names_in,
-)
 from pyrofit.effects.base import ADDED
 from pyrofit.effects.substance import main_reaction
 from pyrofit.errors import suggest
@@ -18,10 +16,7 @@ from pyrofit.model.slab import SlabExperiment
 
 def _largest(study: Study, number: float | str) -> float:
     """Return a number, or the most that a parameter can be, in SI units."""
-    if not isinstance(number, str):
-        return number
-    p = study.parameters[number]
-    return max(x for x in (p.value, p.upper) if x is not None) * p.factor
+    return max(ends_of(study, number))
 
 
 def _check_sum(study: Study, shares: Mapping[str, float | str], place: str) -> None:
@@ -75,8 +70,11 @@ def check_compositions(study: Study) -> None:
             check_composition(composition, study.material.components)
         except ValueError as error:
             raise ValueError(f"{place}: {error}") from None
-        for name in sorted(names_in(composition)):
-            check_parameter(study, name, (FRACTION,), place)
+        for share in composition.values():
+            if isinstance(share, str) and share.isidentifier() and share != REST:
+                check_parameter(study, share, (FRACTION,), place)
+            elif isinstance(share, str) and share != REST:
+                check_expression(study, share, (FRACTION,), place)
         _check_sum(study, composition, place)
     for name, reaction in study.material.reactions.items():
         _check_sum(study, reaction.products, f"material.reactions.{name}.products")

@@ -2,6 +2,7 @@
 
 from collections.abc import Sequence
 
+from pyrofit.config.derived import check_expression
 from pyrofit.config.study import Study
 from pyrofit.config.uses import names_in, parameters_in
 from pyrofit.errors import suggest
@@ -58,6 +59,9 @@ def check_numbers(study: Study) -> None:
     }
     for root, part in described.items():
         for place, value, rules in numbers(part, root):
+            if isinstance(value, str) and not value.isidentifier():
+                check_expression(study, value, rules, place)
+                continue
             if isinstance(value, str):
                 check_parameter(study, value, rules, place)
                 continue
@@ -143,7 +147,7 @@ def check_parameters(study: Study) -> None:
     truth = study.synthetic.truth if study.synthetic else {}
     for name, p in study.parameters.items():
         require(
-            name in used,
+            name in used or p.expression is not None,
             f"parameters.{name}",
             "nothing uses it; put its name where its number belongs, or delete it",
         )

@@ -1,5 +1,6 @@
 """Whether the places at which temperatures are measured lie in the sample."""
 
+from pyrofit.config.derived import ends_of
 from pyrofit.config.numbers import require
 from pyrofit.config.study import Study
 from pyrofit.model.slab import SlabExperiment
@@ -47,7 +48,4 @@ def _check_depth(study: Study, experiment: SlabExperiment, depth: float | str, p
 
 def _limits(study: Study, number: float | str) -> list[float]:
     """Return a number, or the values that a parameter can have at least and at most, SI units."""
-    if not isinstance(number, str):
-        return [number]
-    p = study.parameters[number]
-    return [x * p.factor for x in (p.value, p.lower, p.upper) if x is not None]
+    return ends_of(study, number)

@@ -8,10 +8,10 @@ import numpy as np
 from pyrofit.config.numbers import alike_units, require
 from pyrofit.config.study import Study
 from pyrofit.errors import DataError, ProgramError, suggest
-from pyrofit.external.expressions import FUNCTIONS, names_of
 from pyrofit.external.filled import other_files, template_text, used_parameters
 from pyrofit.external.output import in_si
 from pyrofit.external.template import check_template, places
+from pyrofit.model.expressions import FUNCTIONS, names_of
 from pyrofit.model.external import ExternalExperiment
 from pyrofit.model.program import Program
 

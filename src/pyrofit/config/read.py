@@ -9,6 +9,7 @@ from typing import Any
 from pydantic import ValidationError
 
 from pyrofit.config.checks import check_study
+from pyrofit.config.derived import hold_fixed, with_expressions
 from pyrofit.config.diagnosis_checks import check_diagnosis
 from pyrofit.config.effects import apply_effects
 from pyrofit.config.known_checks import check_known
@@ -40,9 +41,10 @@ def as_study(given: Mapping[str, Any], source: str) -> Study:
     try:
         refuse_booleans(given)
         use_plugins([(folder or Path()) / name for name in _plugins(given)])
-        given = expand_repeats(given)
+        given = hold_fixed(expand_repeats(given))
         given = with_tables(given, folder or Path())
         study = with_programs(Study.model_validate(apply_effects(given)), folder)
+        study = with_expressions(study)
         check_study(study)
         check_diagnosis(study)
         check_known(study)

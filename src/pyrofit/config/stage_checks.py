@@ -57,7 +57,8 @@ def check_estimate(study: Study, stage: str, estimate: Sequence[str]) -> None:
         require(
             study.parameters[name].lower is not None,
             f"parameters.{name}",
-            f"{stage} estimates it: give lower and upper limits",
+            f"{stage} estimates it: give lower and upper limits"
+            + (", not an expression" if study.parameters[name].expression else ""),
         )
 
 

@@ -2,6 +2,7 @@
 
 from collections.abc import Iterator
 
+from pyrofit.config.derived import ends_of
 from pyrofit.config.study import Study
 from pyrofit.model.base import numbers
 
@@ -56,6 +57,9 @@ def _in_si(study: Study, value: float | str) -> Iterator[tuple[str, float]]:
     """Yield a number, or value and limits of the parameter that stands for it, in SI units."""
     if not isinstance(value, str):
         yield "", value
+        return
+    if not value.isidentifier():
+        yield from ((f"value of '{value}', ", number) for number in ends_of(study, value))
         return
     parameter = study.parameters[value]
     for word in ("value", "lower", "upper"):

@@ -2,7 +2,7 @@
 
 from collections.abc import Collection, Iterable, Mapping
 
-from pyrofit.model.base import numbers
+from pyrofit.model.base import named_by, numbers
 from pyrofit.model.external import ExternalExperiment
 from pyrofit.model.material import REST, Material
 from pyrofit.model.slab import SlabExperiment
@@ -16,7 +16,7 @@ def parameters_in(*parts: object) -> set[str]:
     """Return the names of the parameters that parts of a description use."""
     found = set()
     for part in parts:
-        found |= {value for _, value, _ in numbers(part) if isinstance(value, str)}
+        found |= {name for _, value, _ in numbers(part) for name in named_by(value)}
         if isinstance(part, Material):
             found |= names_in(part.composition)
         if isinstance(part, ExternalExperiment):
@@ -37,7 +37,7 @@ def parameters_of_heated(material: Material, quantities: Iterable[Quantity] = ()
     cold = {key: 0.0 for key in HEATS if key not in keys}
     kinetics = [reaction.model_copy(update=cold) for reaction in material.reactions.values()]
     used = parameters_in(*kinetics) | names_in(material.composition)
-    return used | {leaf for leaf in numbers_of(material, keys) if isinstance(leaf, str)}
+    return used | {name for leaf in numbers_of(material, keys) for name in named_by(leaf)}
 
 
 def numbers_of(material: Material, keys: Collection[str]) -> list[float | str]:
@@ -48,4 +48,4 @@ def numbers_of(material: Material, keys: Collection[str]) -> list[float | str]:
 
 def names_in(composition: Mapping[str, float | str]) -> set[str]:
     """Return the names of the parameters among mass fractions."""
-    return {f for f in composition.values() if isinstance(f, str) and f != REST}
+    return {name for f in composition.values() if f != REST for name in named_by(f)}

@@ -10,9 +10,9 @@ from pathlib import Path
 from typing import NamedTuple
 
 from pyrofit.errors import ProgramError
-from pyrofit.external.expressions import names_of, value_of_expression
 from pyrofit.external.fds import NO_FDS, fds_environment, find_fds
 from pyrofit.external.template import bytes_of, fill, places, read_bytes, text_of
+from pyrofit.model.expressions import names_of, value_of_expression
 from pyrofit.model.parameters import UNITS
 from pyrofit.model.program import Program
 

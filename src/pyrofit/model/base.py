@@ -5,6 +5,7 @@ from collections.abc import Callable, Iterator, Mapping
 from dataclasses import dataclass
 from typing import Annotated, Any, ClassVar, Self, TypeVar, cast
 
+import numpy as np
 from pydantic import (
     BaseModel,
     BeforeValidator,
@@ -15,6 +16,7 @@ from pydantic import (
 )
 
 from pyrofit.errors import suggest
+from pyrofit.model.expressions import names_of, value_of_expression
 
 Made = TypeVar("Made")
 
@@ -77,14 +79,22 @@ def _number(given: Any) -> Any:
         shown = "an empty value" if given is None else repr(given)
         raise ValueError(f"{shown} is neither a number nor the name of a parameter")
     if isinstance(given, str):
-        if not given.isidentifier():
+        if not given.isidentifier() and not _is_arithmetic(given):
             raise ValueError(f"'{given}' is neither a number nor the name of a parameter")
         return given
     return float(given)
 
 
+def _is_arithmetic(text: str) -> bool:
+    """Tell whether a text is an expression of parameters."""
+    try:
+        return bool(names_of(text))
+    except ValueError:
+        return False
+
+
 Number = Annotated[float | str, BeforeValidator(_number), ANY]
-"""A number, or the name of a parameter."""
+"""A number, the name of a parameter, or an expression of parameters in SI units."""
 AboveZero = Annotated[float, Field(gt=0.0)]
 """A number above zero, which no parameter may stand for."""
 Positive = Annotated[Number, POSITIVE]
@@ -95,8 +105,70 @@ Thickness = Annotated[Number, POSITIVE, THIN]
 
 
 def value_of(number: float | str, values: Mapping[str, Made]) -> float | Made:
-    """Return a number itself, or the value of the parameter it names."""
-    return values[number] if isinstance(number, str) else number
+    """Return a number itself, or the value of the parameter or the expression it names.
+
+    >>> value_of("0.5 * c", {"c": 2000.0})
+    1000.0
+    """
+    if not isinstance(number, str):
+        return number
+    return values[number] if number.isidentifier() else _evaluated(number, values)
+
+
+def _evaluated(expression: str, values: Mapping[str, Any]) -> Any:
+    """Return the value of an expression; for values of several sets, that of each set.
+
+    Each set is computed by itself: the functions of numpy differ in last bits.
+    """
+    names = sorted(names_of(expression))
+    shapes = np.broadcast_shapes(*(np.shape(values[name]) for name in names))
+    if not shapes:
+        return value_of_expression(expression, {name: float(values[name]) for name in names})
+    columns = np.broadcast_arrays(*(values[name] for name in names))
+    rows = (dict(zip(names, map(float, row), strict=True)) for row in zip(*columns, strict=True))
+    return np.array([value_of_expression(expression, row) for row in rows])
+
+
+def named_by(number: object) -> set[str]:
+    """Return the names of the parameters on which a number depends.
+
+    >>> named_by("a"), sorted(named_by("a / (1 - b)")), named_by(1.5)
+    ({'a'}, ['a', 'b'], set())
+    """
+    if not isinstance(number, str):
+        return set()
+    return {number} if number.isidentifier() else names_of(number)
+
+
+def replaced(part: Made, change: Callable[[str], float | str]) -> Made:
+    """Return a description in which every name of a parameter in the place of a number is changed.
+
+    Mass fractions of a composition are such numbers, too.
+    """
+    if not isinstance(part, Part):
+        return part
+    new = {}
+    for name, field in type(part).model_fields.items():
+        is_number = name == "composition" or any(isinstance(m, Rule) for m in field.metadata)
+        old = getattr(part, name)
+        made = _replaced(old, is_number, change)
+        if made is not old:
+            new[name] = made
+    return cast(Made, part.model_copy(update=new)) if new else part
+
+
+def _replaced(value: Any, is_number: bool, change: Callable[[str], float | str]) -> Any:
+    if isinstance(value, Part):
+        return replaced(value, change)
+    if isinstance(value, str):
+        return change(value) if is_number else value
+    if isinstance(value, Mapping):
+        made = {k: _replaced(v, is_number, change) for k, v in value.items()}
+        return made if any(made[k] is not v for k, v in value.items()) else value
+    if isinstance(value, tuple):
+        items = tuple(_replaced(v, is_number, change) for v in value)
+        return items if any(a is not b for a, b in zip(items, value, strict=True)) else value
+    return value
 
 
 def numbers(

@@ -5,6 +5,7 @@ from typing import Self
 from pydantic import Field, model_validator
 
 from pyrofit.model.base import Part
+from pyrofit.model.expressions import names_of
 
 UNITS: dict[str, float] = {
     "-": 1.0,
@@ -46,18 +47,37 @@ class Parameter(Part):
     value: float | None = Field(None, description="value where the parameter is not estimated")
     lower: float | None = Field(None, description="lower sampling limit")
     upper: float | None = Field(None, description="upper sampling limit")
+    fixed: float | None = Field(
+        None,
+        description="holds the parameter at this value: no stage estimates it, whatever its limits "
+        "and the lists `estimate` are",
+    )
+    expression: str | None = Field(
+        None,
+        description="instead of value and limits: arithmetic on other parameters, such as "
+        "`0.5 * cp_a`, each in its own unit; the result is in this parameter's",
+    )
     label: str = Field("", description="the parameter in words")
 
     @model_validator(mode="after")
     def _check(self) -> Self:
         if self.unit not in UNITS:
             raise ValueError(f"unknown unit '{self.unit}'; known: {', '.join(UNITS)}")
+        if self.expression is not None:
+            names_of(self.expression)
+            if (self.value, self.lower, self.upper, self.fixed) != (None,) * 4:
+                raise ValueError(
+                    "an expression stands instead of value, limits and fixed; leave them or it out"
+                )
+            return self
         if (self.lower is None) != (self.upper is None):
             raise ValueError("give both limits, lower and upper, or none")
         if self.lower is not None and self.upper is not None and self.lower >= self.upper:
             raise ValueError(f"lower ({self.lower:g}) must be below upper ({self.upper:g})")
         if self.value is None and self.lower is None:
-            raise ValueError("give a value, or limits to estimate it within, or both")
+            raise ValueError(
+                "give a value, or limits to estimate it within, or both, or an expression"
+            )
         return self
 
     @property

@@ -24,7 +24,10 @@ from pyrofit.results.code_digests import all_terms, code, code_of
 
 
 def _parameters(study: Study, names: set[str]) -> dict[str, Any]:
-    return {n: study.parameters[n].model_dump(exclude={"label"}) for n in sorted(names)}
+    return {
+        n: study.parameters[n].model_dump(exclude={"label", "fixed", "expression"})
+        for n in sorted(names)
+    }
 
 
 def _values(study: Study) -> dict[str, Any]:

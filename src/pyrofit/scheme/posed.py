@@ -4,11 +4,13 @@ from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 
 from pyrofit.config import Study, parameters_in
+from pyrofit.config.derived import ends_of
 from pyrofit.config.uses import parameters_of_heated
 from pyrofit.effects import known_effects
 from pyrofit.effects.base import changed
 from pyrofit.effects.substance import main_reaction
 from pyrofit.errors import StudyError
+from pyrofit.model.base import named_by
 from pyrofit.model.experiment import Experiment
 from pyrofit.model.material import Material, Reaction
 from pyrofit.model.parameters import Parameter
@@ -94,10 +96,7 @@ def template_of(study: Study) -> Template:
 
 
 def _largest(study: Study, number: float | str) -> float:
-    if not isinstance(number, str):
-        return number
-    p = study.parameters[number]
-    return float((p.value if p.upper is None else p.upper) or 0.0) * p.factor
+    return max(ends_of(study, number))
 
 
 def pose(study: Study, scheme: Scheme, records: Sequence[Record], settings: Settings) -> Posed:
@@ -107,7 +106,7 @@ def pose(study: Study, scheme: Scheme, records: Sequence[Record], settings: Sett
     material = _material(scheme, template)
     extra, offsets = _of_records(study, scheme, records, settings)
     limits |= extra
-    yields = [str(y) for y in template.products.values() if isinstance(y, str)]
+    yields = [name for y in template.products.values() for name in sorted(named_by(y))]
     free = [n for n in dict.fromkeys(yields) if study.parameters[n].lower is not None]
     parameters = dict(study.parameters) | {
         PREFIX + name: Parameter(unit=x.unit, lower=x.lower, upper=x.upper, label=x.label)

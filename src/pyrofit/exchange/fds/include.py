@@ -89,6 +89,8 @@ def _about(study: Study, chosen: ParameterSet, name: str) -> tuple[str, ...]:
 
 
 def _value(study: Study, values: Mapping[str, float], name: str) -> str:
+    if not name.isidentifier():
+        return f"{value_of(name, values):.6g} in SI units"
     parameter = study.parameters[name]
     return f"{values[name] / parameter.factor:.6g} {parameter.unit}"
 

@@ -1,4 +1,4 @@
-"""Expressions of placeholders: arithmetic on the values of parameters, and nothing else."""
+"""Expressions: arithmetic on the values of parameters, and nothing else."""
 
 import ast
 import math

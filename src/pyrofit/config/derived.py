@@ -1,0 +1,165 @@
+"""Parameters that are held at a value, and those that are expressions of others."""
+
+import ast
+import itertools
+import math
+from collections.abc import Iterator, Mapping
+from typing import Any
+
+from pyrofit.config.study import Study
+from pyrofit.errors import suggest
+from pyrofit.model.base import named_by, replaced, value_of
+from pyrofit.model.expressions import names_of
+from pyrofit.model.parameters import Parameter
+
+_STAGES = ("kinetics", "imp", "diagnosis")
+_MOST_NAMES = 8
+"""Parameters of an expression of which all ends of their limits are tried."""
+
+
+def hold_fixed(given: Mapping[str, Any]) -> dict[str, Any]:
+    """Return a description in which parameters with the key ``fixed`` have that value alone.
+
+    >>> one = {"parameters": {"k": {"unit": "-", "lower": 1, "upper": 3, "fixed": 2}}}
+    >>> held = hold_fixed(one | {"imp": {"estimate": ["k", "c"]}})
+    >>> held["parameters"]["k"], held["imp"]["estimate"]
+    ({'unit': '-', 'fixed': 2, 'value': 2}, ['c'])
+    """
+    parameters = given.get("parameters")
+    if not isinstance(parameters, Mapping):
+        return dict(given)
+    held = {
+        name: p
+        for name, p in parameters.items()
+        if isinstance(p, Mapping) and isinstance(p.get("fixed"), int | float)
+    }
+    if not held:
+        return dict(given)
+    alone = {
+        name: {k: v for k, v in p.items() if k not in ("lower", "upper")} | {"value": p["fixed"]}
+        for name, p in held.items()
+    }
+    new = {**given, "parameters": {**parameters, **alone}}
+    if isinstance(known := given.get("known"), Mapping):
+        new["known"] = {name: value for name, value in known.items() if name not in held}
+    for stage in _STAGES:
+        of_stage = given.get(stage)
+        listed = of_stage.get("estimate") if isinstance(of_stage, Mapping) else None
+        if isinstance(of_stage, Mapping) and isinstance(listed, list | tuple):
+            new[stage] = {**of_stage, "estimate": [name for name in listed if name not in held]}
+    return new
+
+
+def with_expressions(study: Study) -> Study:
+    """Return a study in which the expressions stand in the places of their parameters, in SI units.
+
+    Raises
+    ------
+    ValueError
+        An expression names an unknown parameter, or leads back to itself.
+    """
+    texts = {n: p.expression for n, p in study.parameters.items() if p.expression is not None}
+    if not texts:
+        return study
+    for name, text in texts.items():
+        for other in sorted(names_of(text)):
+            if other not in study.parameters:
+                raise ValueError(
+                    f"parameters.{name}.expression: unknown parameter '{other}'. "
+                    + suggest(other, study.parameters)
+                )
+    in_si = {
+        name: ast.unparse(_times(_inlined(study.parameters, name, ()), study.parameters[name]))
+        for name in texts
+    }
+    return replaced(study, lambda name: in_si.get(name, name))
+
+
+def _inlined(parameters: Mapping[str, Parameter], name: str, path: tuple[str, ...]) -> ast.expr:
+    """Return the expression of a parameter, in its unit, of parameters in SI units."""
+    if name in path:
+        way = " -> ".join((*path[path.index(name) :], name))
+        raise ValueError(f"parameters.{name}.expression: it leads back to itself: {way}")
+    text = parameters[name].expression
+    assert text is not None
+    tree = ast.parse(text.strip(), mode="eval").body
+    inlined: ast.expr = _Inline(parameters, (*path, name)).visit(tree)
+    return inlined
+
+
+class _Inline(ast.NodeTransformer):
+    def __init__(self, parameters: Mapping[str, Parameter], path: tuple[str, ...]) -> None:
+        self._parameters = parameters
+        self._path = path
+
+    def visit_Call(self, node: ast.Call) -> ast.expr:
+        arguments = [self.visit(argument) for argument in node.args]
+        return ast.Call(func=node.func, args=arguments, keywords=[])
+
+    def visit_Name(self, node: ast.Name) -> ast.expr:
+        of = self._parameters[node.id]
+        if of.expression is not None:
+            return _inlined(self._parameters, node.id, self._path)
+        return node if of.factor == 1.0 else ast.BinOp(node, ast.Div(), ast.Constant(of.factor))
+
+
+def _times(node: ast.expr, parameter: Parameter) -> ast.expr:
+    if parameter.factor == 1.0:
+        return node
+    return ast.BinOp(node, ast.Mult(), ast.Constant(parameter.factor))
+
+
+def ends_of(study: Study, number: float | str) -> list[float]:
+    """Return the values in SI units that a number can have at its ends.
+
+    Of a parameter these are its value and its limits; of an expression, its values at all
+    combinations of the ends of its parameters. NaN stands for no value.
+    """
+    return [value for _, value in _ends(study, number)]
+
+
+def _ends(study: Study, number: float | str) -> Iterator[tuple[dict[str, float], float]]:
+    """Yield the values of the parameters, in SI units, and that of the number."""
+    names = sorted(named_by(number))
+    choices = [_of_parameter(study.parameters[name]) for name in names]
+    if len(names) > _MOST_NAMES:
+        choices = [ends[:1] for ends in choices]
+    for ends in itertools.product(*choices):
+        values = dict(zip(names, ends, strict=True))
+        yield values, value_of(number, values)
+
+
+def _of_parameter(p: Parameter) -> list[float]:
+    return [x * p.factor for x in (p.value, p.lower, p.upper) if x is not None]
+
+
+def check_expression(study: Study, expression: str, rules: Any, place: str) -> None:
+    """Check an expression that stands for a number: its names and its values at the ends.
+
+    Raises
+    ------
+    ValueError
+        A parameter is unknown, or a value breaks a rule of the place.
+    """
+    for name in sorted(named_by(expression)):
+        if name not in study.parameters:
+            known = suggest(name, study.parameters)
+            raise ValueError(f"{place}: unknown parameter '{name}'. {known}")
+    truth = study.synthetic.truth if study.synthetic is not None else {}
+    cases = list(_ends(study, expression))
+    if named_by(expression) <= {*truth, *study.fixed_values()}:
+        values = study.true_values()
+        cases.append(({n: values[n] for n in named_by(expression)}, value_of(expression, values)))
+    for values, value in cases:
+        at = ", ".join(f"{n} = {v / study.parameters[n].factor:g}" for n, v in values.items())
+        if math.isnan(value):
+            raise ValueError(
+                f"{place}: '{expression}' has no value with {at}, as after a division by zero; "
+                "change the expression or the limits"
+            )
+        for rule in rules:
+            if not rule.holds(value):
+                raise ValueError(
+                    f"{place}: {value:g} {rule.text}; this is '{expression}' in SI units with "
+                    f"{at}. Change the expression or the limits"
+                )
