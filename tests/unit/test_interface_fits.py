@@ -83,6 +83,25 @@ def test_stage_has_the_intervals_of_the_workflow(
         assert np.allclose(found.table[mine], expected, rtol=1e-5), column
 
 
+def test_linear_intervals_are_those_of_the_parabola(
+    study: pf.Study, data: dict[tuple[str, str], pd.DataFrame], fit: pf.Fit
+) -> None:
+    found = pf.fit(study, data, profiles=False)
+    assert set(found.table["method"]) == {"linear"}
+    assert np.allclose(found.table["sd"], fit.table["sd"], rtol=0.02)
+    reach = 1.96 * found.table["sd"]
+    assert np.allclose(found.table["high"], found.table["value"] + reach)
+
+
+def test_second_stage_keeps_the_kinetics_of_the_first(
+    study: pf.Study, data: dict[tuple[str, str], pd.DataFrame]
+) -> None:
+    found = pf.fit(study, data, stage="imp", profiles=False)
+    first = pf.fit(study, data, stage="kinetics", profiles=False)
+    assert list(found.table.index) == list(study.imp.estimate)
+    assert {n: found.values[n] for n in first.values} == pytest.approx(first.values, rel=1e-12)
+
+
 def test_one_curve_is_fitted_by_the_parameters_that_are_named(
     study: pf.Study, data: dict[tuple[str, str], pd.DataFrame]
 ) -> None:

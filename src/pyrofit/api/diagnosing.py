@@ -183,14 +183,7 @@ class Diagnosis:
             raise StudyError("no effect was tried: the model leaves only noise")
         ax = plots.wide_axes(len(self.ranking)) if ax is None else ax
         draw_ranking(ax, self.content)
-        ax.legend(
-            handles=ranking_entries(self.content),
-            loc="upper left",
-            bbox_to_anchor=(0.0, -0.25),
-            ncols=3,
-            frameon=False,
-            fontsize=7,
-        )
+        plots.legend_below(ax, ranking_entries(self.content))
         return ax
 
     def plot(

@@ -69,6 +69,7 @@ def fit(
     cost: str | None = None,
     optimiser: str = "least_squares",
     starts: int = 20,
+    profiles: bool = True,
 ) -> Fit:
     """Fit parameters of a study to measured series.
 
@@ -99,6 +100,9 @@ def fit(
         For a cost: 'least_squares', 'cmaes' or 'sceua', with the settings of the study.
     starts
         Points within the limits from which the likelihood is searched: the best four are followed.
+    profiles
+        Whether intervals follow from profiles where chi-square is no parabola. This may take
+        minutes with many parameters, or with some at a limit; linear intervals take seconds.
 
     Raises
     ------
@@ -118,7 +122,7 @@ def fit(
         values = with_kinetics(study, data, values, starts)
     given = [key_of(study, key) for key in (data or {}).keys()]  # noqa: SIM118
     task = task_of(study, signals, estimate, values, stage, given)
-    return fit_likelihood(task, data, starts)
+    return fit_likelihood(task, data, starts, profiles)
 
 
 def task_of(
@@ -171,7 +175,7 @@ def _default(study: Study, given: Collection[Key]) -> tuple[tuple[TermSpec, ...]
     return channels, names
 
 
-def fit_likelihood(task: Task, data: Data | None, starts: int) -> Fit:
+def fit_likelihood(task: Task, data: Data | None, starts: int, profiles: bool = True) -> Fit:
     """Return the fit of highest likelihood with its intervals."""
     study = task.study
     series = measured(study, task.keys, data)
@@ -181,7 +185,7 @@ def fit_likelihood(task: Task, data: Data | None, starts: int) -> Fit:
     likelihood = likelihood_of(problem, prior_of(study, problem))
     first = descend(likelihood, starting_points(study, problem, starts)).x
     likelihood = with_noise_of_jumps(likelihood, [first])
-    found = identify(likelihood, [first])
+    found = identify(likelihood, [first], profiles)
     x = likelihood.values(found.optimum.x)
     values = problem.values(x)
     scored = compared(study, values, series)
@@ -206,7 +210,8 @@ def with_kinetics(
     lacking = set(stage.estimate) - set(given) if stage else set()
     if stage is None or study.imp.kinetics != "fitted" or not lacking:
         return dict(given)
-    found = fit_likelihood(task_of(study, None, None, given, "kinetics"), data, starts)
+    task = task_of(study, None, None, given, "kinetics")
+    found = fit_likelihood(task, data, starts, profiles=False)
     kinetics = {name: found.values[name] for name in stage.estimate}
     return {**si_values(study, kinetics), **given}
 

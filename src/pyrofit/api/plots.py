@@ -6,6 +6,7 @@ from typing import Any
 import numpy as np
 import pandas as pd
 from matplotlib.axes import Axes
+from matplotlib.transforms import offset_copy
 
 from pyrofit.analysis.uses import title_of
 from pyrofit.api.choices import Key
@@ -152,6 +153,20 @@ def diagnosed(ax: Axes, study: Study, key: Key, curves: pd.DataFrame, extended: 
         ax.plot(x, shown(quantity, frame["after"]), label="with the effects found", **look)
     _labels(ax, study, key)
     ax.legend(frameon=False)
+
+
+def legend_below(ax: Axes, entries: Sequence[Any]) -> None:
+    """Put a legend below the label of the abscissa."""
+    place = offset_copy(ax.transAxes, ax.get_figure(root=True), y=-34.0, units="points")
+    ax.legend(
+        handles=entries,
+        loc="upper left",
+        bbox_to_anchor=(0.0, 0.0),
+        bbox_transform=place,
+        ncols=3,
+        frameon=False,
+        fontsize=7,
+    )
 
 
 def wide_axes(rows: int) -> Axes:

@@ -13,7 +13,7 @@ LARGE = 1.5
 """Chi-square per degree of freedom above which the report speaks of misfit."""
 MISFIT = (
     "The misfit is larger than the noise: sd and intervals are {} times wider than the noise "
-    "makes them. `diagnose` looks for the cause."
+    "makes them. pyrofit.diagnose looks for the cause."
 )
 
 

@@ -44,7 +44,7 @@ def _html_table(frame: pd.DataFrame) -> str:
 def _row(tag: str, cells: list[str], right: list[bool]) -> str:
     sides = ("right" if is_right else "left" for is_right in right)
     made = (
-        f'<{tag} style="text-align:{side}">{escape(cell)}</{tag}>'
+        f'<{tag} style="text-align:{side}; padding:1px 8px">{escape(cell)}</{tag}>'
         for side, cell in zip(sides, cells, strict=True)
     )
     return f"<tr>{''.join(made)}</tr>"

@@ -116,11 +116,17 @@ class Identification:
         return values, (rows * np.sign(largest)[:, None]).T
 
 
-def identify(likelihood: Likelihood, starts: Sequence[FloatArray]) -> Identification:
-    """Find the least chi-square from scaled starts, and how far each parameter may be from it."""
+def identify(
+    likelihood: Likelihood, starts: Sequence[FloatArray], profiles: bool = True
+) -> Identification:
+    """Find the least chi-square from scaled starts, and how far each parameter may be from it.
+
+    Without ``profiles`` all intervals are linear: fast, but too narrow or too wide where chi-square
+    is no parabola.
+    """
     weighed, optimum = _weighed(likelihood, fit(likelihood, starts))
     for _ in range(RESTARTS):
-        found, lowest = _around(weighed, optimum, likelihood.prior)
+        found, lowest = _around(weighed, optimum, likelihood.prior, profiles)
         if lowest.chi2 >= optimum.chi2 - LOWER:
             break
         optimum = weighed.descend(lowest.x)
@@ -146,7 +152,9 @@ def _posterior(likelihood: Likelihood, x: FloatArray, slopes: FloatArray) -> Pos
     return Posterior(x, residuals, likelihood.with_known(slopes))
 
 
-def _around(likelihood: Likelihood, optimum: Fit, prior: NormalPrior) -> tuple[Identification, Fit]:
+def _around(
+    likelihood: Likelihood, optimum: Fit, prior: NormalPrior, with_profiles: bool
+) -> tuple[Identification, Fit]:
     """Return the analysis about an optimum, and the lowest point met on the way.
 
     ``prior`` is what is known, as it is stated.
@@ -168,7 +176,8 @@ def _around(likelihood: Likelihood, optimum: Fit, prior: NormalPrior) -> tuple[I
         follow = np.zeros(optimum.x.size)
         follow[free] = covariance[:, at] / covariance[at, at]
         plain = float(np.sqrt(posterior.covariance(free, 1.0)[at, at]))
-        if inside and _parabolic(likelihood, optimum, i, follow, sd, dispersion):
+        straight = inside and _parabolic(likelihood, optimum, i, follow, sd, dispersion)
+        if straight or not with_profiles:
             noise, wide = (Interval(*interval(x, s)) for s in (plain, sd))
             method = "linear"
         else:
