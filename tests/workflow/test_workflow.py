@@ -50,6 +50,14 @@ def test_run_takes_every_step_once(finished: tuple[Project, Run]) -> None:
     assert run.said.count("Finished jobid") == len(run.jobs) + 1  # and that of `all`
 
 
+def test_figures_of_the_kinetics_do_not_wait_for_the_searches(project: Project) -> None:
+    figures = (project.root / "results" / "tiny" / "figures").glob("kinetics_*.svg")
+    names = [f"results/tiny/figures/{path.name}" for path in figures]
+    assert names
+    planned = project.plan("--forceall", *names)
+    assert planned == {PREPARE, KINETICS, "Tables and figures, kinetics"}
+
+
 def test_run_leaves_report_provenance_logs_and_nothing_unfinished(project: Project) -> None:
     results = project.root / "results" / "tiny"
     page = (results / "report.html").read_text(encoding="utf-8")

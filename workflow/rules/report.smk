@@ -23,8 +23,10 @@ for _subject, _part in SUBJECTS.items():
         name:
             f"show_{_subject}"
         input:
-            CALCULATED,
+            # Those of the kinetics are drawn before the searches that follow.
+            FITTED_KINETICS if _subject == "kinetics" else CALCULATED,
             MEASUREMENTS,
+            results.measurements_summary,
         output:
             tables=[
                 reported(ROOT / f"tables/{name}.csv", "table", TABLES, name)
@@ -38,6 +40,7 @@ for _subject, _part in SUBJECTS.items():
             drawn=[ROOT / f"figures/{name}.png" for name in _figures],
         log:
             log_of(f"show_{_subject}"),
+        priority: 1
         params:
             study=STUDY,
             digest=digest(dependencies.presentation(study)),
