@@ -74,8 +74,8 @@ def test_values_of_many_sets_are_those_of_each_to_the_last_bit() -> None:
 
 BAD: dict[str, tuple[dict[str, Any], str]] = {
     "unknown": (
-        c_r("0.5 * e_p"),
-        "c_r.expression: unknown parameter 'e_p'. Did you mean 'E_p'",
+        c_r("0.5 * E_pp"),
+        "c_r.expression: unknown parameter 'E_pp'. Did you mean 'E_p'",
     ),
     "no arithmetic": (c_r("cp if k else 1"), "only numbers, parameters, + - * / ** and"),
     "attribute": (c_r("cp.__class__"), "only numbers, parameters"),

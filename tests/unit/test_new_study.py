@@ -275,6 +275,19 @@ def test_two_heating_rates_are_both_fitted(folder: Path) -> None:
     assert len(study.kinetics.cost) == 2
 
 
+def test_tga_alone_gives_a_study_of_the_kinetics(folder: Path) -> None:
+    for rate in (5, 10, 20):
+        minutes = 10.0 / rate * MINUTES
+        columns = (minutes, TEMPERATURE_K, MASS)
+        write(f"tga_{rate}K.csv", "Time (min),T (K),Mass fraction", *columns)
+    study = made("--tga", "tga_5K.csv", "tga_10K.csv", "tga_20K.csv")
+    assert study.kinetics is None
+    assert study.imp.estimate == ("T_p", "E_p")
+    (terms,) = study.imp.costs.values()
+    assert [term.experiment for term in terms] == ["tga_5K", "tga_20K"]
+    assert study.validation.experiments == ("tga_5K", "tga_10K", "tga_20K")
+
+
 def test_without_files_the_study_computes_its_measurements(folder: Path) -> None:
     study = made()
     assert study.is_synthetic
@@ -568,7 +581,6 @@ BAD = {
     "no number": ("x --gasification text.csv", "text.csv: the file holds a header and no numbers"),
     "no header": ("x --gasification bare.csv", "bare.csv, line 1: the first row holds numbers"),
     "not text": ("x --gasification bytes.csv", "bytes.csv: the file is empty"),
-    "tga alone": ("x --tga tga_10K.csv", "TGA alone makes no study"),
     "one name twice": (
         "x --tga tga_10K.csv --gasification sub/tga_10K.csv",
         "would both be experiment 'tga_10K'; give the files different names",

@@ -17,6 +17,8 @@ OTHER_RATE = 0.2
 """Share by which a measured heating rate may differ from the one given."""
 OTHER_START_K = 3.0
 """Difference from the described initial temperature [K] above which there is a note."""
+OTHER_HOLD_K = 25.0
+"""Difference from the set point that only an error explains."""
 OTHER_MASS, FIRST = 0.05, 5
 """Share by which the median of the first points may differ from the described mass."""
 
@@ -32,6 +34,8 @@ def disagreements(
         With ``source``, the file: the sample was heated at another rate than the experiment gives.
     """
     experiment = study.experiments[name]
+    if isinstance(experiment, HeatedExperiment) and experiment.set_point_K is not None:
+        return _hold_notes(experiment.set_point_K, frame, source)
     if isinstance(experiment, HeatedExperiment):
         rise = np.gradient(frame["temperature_K"].to_numpy(), frame["time_s"].to_numpy())
         found, given = 60.0 * float(np.median(rise)), experiment.heating_rate_K_min
@@ -43,6 +47,24 @@ def disagreements(
     elif isinstance(experiment, SlabExperiment):
         return _start_notes(study, experiment, signal, frame)
     return []
+
+
+def _hold_notes(set_point_K: float, frame: pd.DataFrame, source: str) -> list[str]:
+    """Compare the temperature that is held with the set point.
+
+    Raises
+    ------
+    DataError
+        They differ by more than `OTHER_HOLD_K`.
+    """
+    temperature = frame["temperature_K"].to_numpy()
+    held = float(np.median(temperature[3 * temperature.size // 4 :]))
+    if abs(held - set_point_K) > OTHER_HOLD_K:
+        raise DataError(
+            f"{source}: the last quarter of the record is at {held:.1f} K, set_point_K of the "
+            f"experiment is {set_point_K:g}; correct it, or the unit of the temperatures"
+        )
+    return [] if abs(held - set_point_K) < 2.0 else [f"held at {held:.1f} K"]
 
 
 def _start_notes(

@@ -15,7 +15,6 @@ from pyrofit.config.study import Study
 from pyrofit.config.uses import parameters_in
 from pyrofit.effects import known_effects
 from pyrofit.errors import suggest
-from pyrofit.experiments import kind_of
 
 
 def check_diagnosis(study: Study) -> None:
@@ -36,7 +35,7 @@ def _check_channels(study: Study) -> None:
     check_choice(study, "diagnosis.calibrate", study.diagnosis.calibrate)
     check_choice(study, "diagnosis.hold_out", study.diagnosis.hold_out)
     require(
-        any(kind_of(e).stage == "imp" for e in calibrated(study).values()),
+        any(study.serves(name, "imp") for name in calibrated(study)),
         "diagnosis.calibrate",
         "a TGA alone shows nothing of the slab; add a gasification signal",
     )

@@ -6,7 +6,7 @@ from pyrofit.config.numbers import require
 from pyrofit.config.study import Study
 from pyrofit.config.terms import TermSpec
 from pyrofit.errors import suggest
-from pyrofit.experiments import kind_of, kinds_of
+from pyrofit.experiments import kinds_of
 from pyrofit.experiments.base import Stage
 from pyrofit.quantities.base import LIMITS
 
@@ -124,7 +124,7 @@ def _known(study: Study, names: Iterable[str], place: str, wanted: Stage) -> Non
     for name in names:
         _check_experiment(study, name, place)
         require(
-            kind_of(study.experiments[name]).stage == wanted,
+            study.serves(name, wanted),
             place,
             f"'{name}' is no {_either(kinds_of(wanted))} experiment. "
             + suggest(name, study.of_stage(wanted)),

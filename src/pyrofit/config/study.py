@@ -121,7 +121,18 @@ class Study(Part):
 
     def of_stage(self, stage: Stage) -> dict[str, Any]:
         """Return the experiments that a stage can fit, by name."""
-        return {n: e for n, e in self.experiments.items() if kind_of(e).stage == stage}
+        return {n: e for n, e in self.experiments.items() if self.serves(n, stage)}
+
+    def serves(self, name: str, stage: Stage) -> bool:
+        """Tell whether a stage can fit an experiment.
+
+        Where all experiments are of heated samples and there is no stage for them, as in a study of
+        kinetics alone, the inverse modelling fits them.
+        """
+        own = kind_of(self.experiments[name]).stage
+        if self.kinetics is None and stage == "imp" and own != stage:
+            return all(kind_of(e).stage == own for e in self.experiments.values())
+        return own == stage
 
     def fixed_values(self) -> dict[str, float]:
         """Return the given parameter values in SI units."""

@@ -35,9 +35,14 @@ def convert_columns(
                 f"{table.path}: a unit is given for the {role}, but no column is read for it; "
                 "leave the unit out or name the column."
             )
-    data = {"time_s": to_si(spec, table, headers, "time", ("time",))[0]}
+    data = {}
+    if "time" in headers:
+        data["time_s"] = to_si(spec, table, headers, "time", ("time",))[0]
     if "temperature" in headers:
-        data["temperature_K"] = to_si(spec, table, headers, "temperature", ("temperature",))[0]
+        temperature = to_si(spec, table, headers, "temperature", ("temperature",))[0]
+        if spec.rate_K_s is not None:
+            data["time_s"] = (temperature - temperature[0]) / spec.rate_K_s
+        data["temperature_K"] = temperature
     kinds = spec.of.scales
     value, kind = to_si(spec, table, headers, "value", kinds)
     divisor, notes = _divisor(spec, kind, float(value[0]))

@@ -51,3 +51,36 @@ def without_gaps(table: Table, headers: Mapping[str, str]) -> tuple[Table, list[
         left_out=tuple(np.flatnonzero(gaps).tolist()),
     )
     return left, [f"left out, without a value: {gaps.sum()} of {gaps.size} rows"]
+
+
+def without_stops(table: Table, header: str) -> tuple[Table, list[str]]:
+    """Leave out the rows whose temperature is not above all before: a record without times.
+
+    Returns
+    -------
+    Table, list of str
+        The rows that are left, and a note.
+
+    Raises
+    ------
+    DataError
+        The temperature does not rise over most of the rows.
+    """
+    column = table.columns[header]
+    rising = np.r_[True, column[1:] > np.maximum.accumulate(column)[:-1]]
+    if 2 * rising.sum() < rising.size:
+        raise DataError(
+            f"{table.path}, column '{header}': without times the temperature must rise from row to "
+            f"row, and it does so in {rising.sum()} of {rising.size} only. Give a file with times."
+        )
+    note = ["no times: those of the constant heating rate"]
+    if rising.all():
+        return table, note
+    kept = np.delete(np.arange(rising.size + len(table.left_out)), table.left_out)[rising]
+    every = np.arange(rising.size + len(table.left_out))
+    left = replace(
+        table,
+        columns={name: column[rising] for name, column in table.columns.items()},
+        left_out=tuple(np.setdiff1d(every, kept).tolist()),
+    )
+    return left, [*note, f"left out, the temperature does not rise: {(~rising).sum()} rows"]

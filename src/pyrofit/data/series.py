@@ -11,7 +11,7 @@ from pyrofit.data.checks import check_finite, check_limits, check_order
 from pyrofit.data.convert import convert_columns
 from pyrofit.data.csvfile import Table, read_table
 from pyrofit.data.download import sha256
-from pyrofit.data.gaps import without_gaps
+from pyrofit.data.gaps import without_gaps, without_stops
 from pyrofit.data.spec import SeriesSpec
 from pyrofit.errors import DataError, suggest
 from pyrofit.quantities.base import LIMITS, Quantity
@@ -103,6 +103,9 @@ def read_series(spec: SeriesSpec, read: Callable[[Path], Table] = read_table) ->
     headers = _assign_columns(spec, table, dummies)
     table.require([*headers.values()])
     table, gaps = without_gaps(table, headers)
+    if spec.rate_K_s is not None:
+        table, stops = without_stops(table, headers["temperature"])
+        gaps += stops
     rows = _check_length(table)
     # What overflows here is found there.
     with np.errstate(over="ignore", invalid="ignore"):
@@ -158,6 +161,8 @@ def _assign_columns(spec: SeriesSpec, table: Table, dummies: Sequence[str]) -> d
     free = [name for name in table.columns if name not in asked.values()]
     headers: dict[str, str] = {}
     for role, known in spec.of.roles.items():
+        if role == "time" and spec.rate_K_s is not None:
+            continue
         usable = free if role == "time" else [name for name in free if name not in dummies]
         keys = {header_key(name) for name in known}
         matches = [asked[role]] if role in asked else [n for n in usable if header_key(n) in keys]

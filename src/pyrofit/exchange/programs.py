@@ -41,7 +41,7 @@ def _heated(study: Study) -> dict[str, HeatedExperiment]:
     rates = {
         e.heating_rate_K_min: (n, e)
         for n, e in reversed(study.experiments.items())
-        if isinstance(e, HeatedExperiment)
+        if isinstance(e, HeatedExperiment) and not e.is_isothermal
     }
     return dict(reversed(rates.values()))
 

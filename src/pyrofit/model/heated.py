@@ -24,9 +24,18 @@ class HeatedExperiment(Experiment):
     """A small sample of one temperature that is heated at a constant rate."""
 
     heating_rate_K_min: AboveZero = Field(description="nominal heating rate [K/min]")
-    program: Literal["nominal", "measured"] = Field(
-        "measured", description="temperature over time: the measured one, or T0 + rate t"
+    program: Literal["nominal", "measured", "from_temperature"] = Field(
+        "measured",
+        description="temperature over time: the measured one, or T0 + rate t; `from_temperature`: "
+        "the files have no times, t = (T - T0)/rate",
     )
+    set_point_K: float | None = Field(
+        None,
+        gt=150.0,
+        description="isothermal test: temperature that is held after heating at the nominal rate "
+        "[K]; none = the heating goes on",
+    )
+    hold_s: AboveZero = Field(3600.0, description="synthetic: length of the hold [s]")
     lag_s: Number = Field(
         0.0, description="time by which the sample's temperature lags behind the program's [s]"
     )
@@ -45,7 +54,23 @@ class HeatedExperiment(Experiment):
                     "nor offset. A sample behind its programme has lag_s; one whose recorded "
                     f"temperature is wrong has temperature_offset_K{self._other_way_out}"
                 )
+        if self.set_point_K is not None:
+            self._check_hold()
         return self
+
+    def _check_hold(self) -> None:
+        """Refuse what a hold cannot have."""
+        for key, wrong, why in (
+            ("lag_s", self.lag_s != 0.0, "a lag has no meaning; use temperature_offset_K"),
+            ("program", self.program == "from_temperature", "the files must have times"),
+        ):
+            if wrong:
+                raise ValueError(f"{key}: while a temperature is held (set_point_K), {why}")
+
+    @property
+    def is_isothermal(self) -> bool:
+        """Whether a temperature is held after the heating."""
+        return self.set_point_K is not None
 
     @property
     def _other_way_out(self) -> str:

@@ -3,7 +3,7 @@
 import math
 import re
 from collections.abc import Iterable, Mapping, Sequence
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from pathlib import Path
 
 import numpy as np
@@ -52,6 +52,8 @@ class Measured:
         Its repeats, where it stands for several.
     mended
         How its file was read, where that is not as a table in UTF-8 with decimal points.
+    timeless
+        Whether its file has temperatures without times.
     """
 
     kind: str
@@ -65,6 +67,7 @@ class Measured:
     frames: Mapping[str, pd.DataFrame] = field(default_factory=dict)
     repeats: tuple["Measured", ...] = ()
     mended: tuple[str, ...] = ()
+    timeless: bool = False
 
     @property
     def of(self) -> Kind:
@@ -92,11 +95,15 @@ def measured(kind: str, path: Path) -> Measured:
     """
     table = read_table(path)
     recognised = recognise(table, kind)
-    frames, thinned = _frames(table, recognised.signals)
     files = files_of(kind)
     number, sure = files.number.find(path.stem)
+    signals = recognised.signals
+    timeless = all(found.missing == ("time",) and found.of.against_temperature for found in signals)
+    if timeless:
+        signals = tuple(replace(found, missing=()) for found in signals)
+    frames, thinned = _frames(table, signals, number / 60.0 if timeless else None)
     recorded = files.recorded(number, frames)
-    if recorded is not None:
+    if recorded is not None and not timeless:
         number, sure = recorded, True
     name = re.sub(r"\W+", "_", path.stem, flags=re.ASCII).strip("_")
     if not name[:1].isalpha():
@@ -109,10 +116,11 @@ def measured(kind: str, path: Path) -> Measured:
         number,
         sure,
         headers,
-        recognised.signals,
+        signals,
         recognised.left,
         frames,
         mended=(*table.mended, *thinned),
+        timeless=timeless,
     )
 
 
@@ -163,7 +171,7 @@ def check_names(records: Sequence[Measured]) -> None:
 
 
 def _frames(
-    table: Table, signals: Iterable[Found]
+    table: Table, signals: Iterable[Found], rate_K_s: float | None
 ) -> tuple[dict[str, pd.DataFrame], tuple[str, ...]]:
     """Return the series that can be read, and whether they are thinned.
 
@@ -182,6 +190,7 @@ def _frames(
             found.units,
             sample_area_m2=divisor.get("sample_area_m2"),
             sample_mass_kg=divisor.get("sample_mass_kg"),
+            rate_K_s=rate_K_s,
         )
         try:
             series = read_series(spec, lambda _: table)

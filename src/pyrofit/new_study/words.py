@@ -68,6 +68,9 @@ def said(run: Measured) -> list[str]:
         parts += [f"{role} not recognised: name it in the study" for role in found.missing]
         if (divisor := divisor_of(found)) is not None:
             parts.append(f"divided by {divisor[0]} {divisor[1]:g}, to be changed in the study")
+        if run.timeless:
+            told = "" if run.sure else ", to be changed in the study"
+            parts.insert(0, f"no times: those of a heating rate of {run.number:g} K/min{told}")
         lines.append(f"{run.path}: {found.signal}: {', '.join(parts)}")
         if (remark := _remark(run, found)) != "":
             lines.append(f"{run.path}: {found.signal}: {remark}")
@@ -92,14 +95,14 @@ def _remark(run: Measured, found: Found) -> str:
     return look(frame["temperature_K"].to_numpy(), frame[found.of.column].to_numpy())
 
 
-def held_out(part: Part) -> list[str]:
+def held_out(part: Part, further: str = "a second radiant flux") -> list[str]:
     """Say which experiments test the model, or how to get one that does."""
     if part.held_out:
         use = "them, so they test" if len(part.held_out) > 1 else "it, so it tests"
         return [f"Held out: {', '.join(part.held_out)}. No cost uses {use} the model."]
     return [
         "Nothing is held out: all that is predicted here was fitted, so nothing tests the model.",
-        "Measure at a second radiant flux, add it under `experiments` and name it in `validation`.",
+        f"Measure at {further}, add it under `experiments` and name it in `validation`.",
     ]
 
 

@@ -9,7 +9,7 @@ from jinja2 import Environment, PackageLoader, StrictUndefined
 from jinja2.loaders import ChoiceLoader
 
 from pyrofit.errors import DataError, StudyError
-from pyrofit.experiments import KINDS, OF_FILES, files_of
+from pyrofit.experiments import OF_FILES, files_of
 from pyrofit.experiments.base import Stage
 from pyrofit.new_study import draft
 from pyrofit.new_study.draft import Kinetics, Measured
@@ -25,6 +25,12 @@ _FILM = 0.05
 _COMBUSTION = "heat_of_combustion_J_kg"
 _HEATS = {"heat_of_reaction_J_kg": "dh", "specific_heat_J_kgK": "cp", _COMBUSTION: "dhc"}
 """Parameters of a new study by the key of the material."""
+_OF_HEATED = {
+    "dh": "dh: {unit: kJ/kg, lower: 100, upper: 3000, label: heat of reaction}",
+    "cp": "cp: {unit: kJ/(kg K), lower: 0.8, upper: 3.5, label: specific heat}",
+}
+"""Lines of parameters that calorimeters show."""
+_RATES = "three heating rates or more"
 Files = Mapping[str, Sequence[Path]]
 """Measured files by kind of experiment."""
 
@@ -64,6 +70,8 @@ def init(name: str, files: Files, parent: Path) -> tuple[Path, list[str]]:
     heated, slabs = (part_of(stage, tests) for stage in STAGES)
     lines = [line for run in records for line in said(run)] + said_of_repeats(tests)
     lines += held_out(heated) if heated.held_out else []
+    if not slabs.runs:
+        return study, [*lines, *([] if heated.held_out else held_out(heated, _RATES))]
     return study, [*lines, *held_out(slabs)]
 
 
@@ -133,6 +141,12 @@ def study_text(name: str, tests: Sequence[Measured]) -> str:
     heated, slabs = (part_of(stage, tests) for stage in STAGES)
     shown = [_HEATS[key] for key in heats(heated.fitted)]
     burns = _COMBUSTION in heats(records)
+    estimated = _of_slabs(heated, slabs, shown)
+    alone = None
+    if not slabs.runs:  # kinetics alone: what the first stage does elsewhere
+        heated, slabs = slabs, heated
+        estimated = ["T_p", "E_p", *shown]
+        alone = [_OF_HEATED[name] for name in shown if name in _OF_HEATED]
     return (
         _environment()
         .get_template("study.yaml.j2")
@@ -148,9 +162,10 @@ def study_text(name: str, tests: Sequence[Measured]) -> str:
             burns=burns,
             imp_part=slabs,
             imp_words=_words(slabs),
-            imp_estimate=_of_slabs(heated, slabs, shown),
+            imp_estimate=estimated,
+            alone=alone,
             identified={run.name: identified(run) for run in slabs.fitted if len(run.signals) > 1},
-            tested=held_out(slabs),
+            tested=held_out(slabs) if alone is None else held_out(slabs, _RATES),
         )
     )
 
@@ -217,14 +232,6 @@ def _check(name: str, folder: Path, files: Files) -> None:
     if there:
         raise StudyError(
             f"{folder}: exists already and is left as it is; choose another name, or move it away"
-        )
-    given = [kind for kind, paths in files.items() if paths]
-    if given and not any(KINDS[kind].stage == "imp" for kind in given):
-        words = " and ".join(KINDS[kind].words for kind in given)
-        slabs = " or ".join(f"--{kind}" for kind, of in OF_FILES.items() if of.stage == "imp")
-        raise StudyError(
-            f"{words} alone makes no study, the properties are fitted to slabs. Give a file of "
-            f"one with {slabs}, or no file at all for computed measurements"
         )
 
 

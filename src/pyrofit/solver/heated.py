@@ -98,7 +98,9 @@ def _lags(experiments: Sequence[HeatedExperiment], values: Values, sets: int) ->
     """Return by how much each sample is behind its programme [K], shape (experiments, sets)."""
     return np.array(
         [
-            np.full(sets, value_of(e.lag_s, values)) * e.heating_rate_K_min / 60.0
+            np.full(sets, 0.0 if e.is_isothermal else value_of(e.lag_s, values))
+            * e.heating_rate_K_min
+            / 60.0
             - value_of(e.temperature_offset_K, values)
             for e in experiments
         ]

@@ -16,8 +16,9 @@ from pyrofit.data.series import Measurement, read_series
 from pyrofit.data.spec import SeriesSpec
 from pyrofit.errors import CostError, DataError
 from pyrofit.estimate.targets import Measurements, term_for
+from pyrofit.model.experiment import Experiment
+from pyrofit.model.heated import HeatedExperiment
 from pyrofit.model.signal import Signal
-from pyrofit.quantities.base import Quantity
 
 SYNTHETIC = "synthetic"
 MACFP = "macfp:"
@@ -66,7 +67,7 @@ def read_all(study: Study, macfp: bool = True) -> dict[tuple[str, str], Read]:
         if signal.file.startswith(MACFP) and not macfp:
             continue
         try:
-            frame, about = _read(study.experiments[name].quantity(label), signal, read)
+            frame, about = _read(study.experiments[name], label, read)
             about["notes"] += disagreements(study, name, label, frame, about["source"])
             series[name, label] = frame, about
         except DataError as error:
@@ -136,11 +137,12 @@ def _missing(study: Study) -> list[str]:
     ]
 
 
-def _read(quantity: Quantity, signal: Signal, read: Callable[[Path], Table]) -> Read:
+def _read(experiment: Experiment, label: str, read: Callable[[Path], Table]) -> Read:
+    signal = experiment.signals[label]
     path = _locate(signal.file)
     found: Measurement = read_series(
         SeriesSpec(
-            quantity=quantity.name,
+            quantity=experiment.quantity(label).name,
             path=path,
             columns=signal.columns,
             units=signal.units,
@@ -149,6 +151,7 @@ def _read(quantity: Quantity, signal: Signal, read: Callable[[Path], Table]) -> 
             sample_mass_kg=signal.sample_mass_kg,
             sample_area_m2=signal.sample_area_m2,
             sign=1 if signal.endothermic == "positive" else -1,
+            rate_K_s=_rate_without_times(experiment),
         ),
         read,
     )
@@ -166,6 +169,13 @@ def _read(quantity: Quantity, signal: Signal, read: Callable[[Path], Table]) -> 
         "notes": list(found.notes),
     }
     return frame, about
+
+
+def _rate_without_times(experiment: Experiment) -> float | None:
+    """Return the heating rate [K/s] of an experiment whose files have no times; else None."""
+    if isinstance(experiment, HeatedExperiment) and experiment.program == "from_temperature":
+        return experiment.heating_rate_K_min / 60.0
+    return None
 
 
 def _locate(file: str) -> Path:

@@ -33,6 +33,7 @@ def choose(study: Study, results: Results, tell: Tell) -> Choice:
     measurements = {
         (name, signal): recorded.series(study, results, name, signal)
         for name, experiment in study.of_stage("kinetics").items()
+        if not experiment.is_isothermal  # its records are compared by heating rates
         for signal in experiment.signals
     }
     records = tuple(records_of(study, measurements, settings.points))

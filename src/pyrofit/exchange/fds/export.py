@@ -55,7 +55,7 @@ def decks(study: Study, chosen: ParameterSet, version: Version) -> list[Written]
     for name, experiment in study.experiments.items():
         if isinstance(experiment, SlabExperiment):
             found.append(_slab(study, chosen, version, name, names[name]))
-        elif isinstance(experiment, HeatedExperiment):
+        elif isinstance(experiment, HeatedExperiment) and not experiment.is_isothermal:
             if (rate := experiment.heating_rate_K_min) not in rates:
                 found.append(_heated(study, chosen, version, name, names[name]))
             rates.add(rate)

@@ -18,7 +18,7 @@ def designs(
     recorded: Mapping[str, Collection[str]],
 ) -> Iterator[Idea]:
     """Yield a slower and a faster test than those measured, which record the same."""
-    rates = {name: e.heating_rate_K_min for name, e in own.items()}
+    rates = {name: e.heating_rate_K_min for name, e in own.items() if not e.is_isothermal}
     if not rates:
         return
     slowest, fastest = min(rates, key=lambda n: rates[n]), max(rates, key=lambda n: rates[n])

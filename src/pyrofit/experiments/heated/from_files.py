@@ -6,15 +6,32 @@ import pandas as pd
 from pyrofit.experiments.from_files import Frames, FromFiles, Loss, NamedNumber
 
 RATE_K_MIN = NamedNumber("K", (0.5, 500.0), 10.0)
+HOLD_K = 5.0
+"""Span of temperatures within which one is held."""
 AGREES = 0.1
 """Share by which a named heating rate may differ from the recorded one."""
 
 
 def from_files(help: str, computed: tuple[float, ...] = (), signal: str = "") -> FromFiles:
     """Return what a new study needs of a kind of heated sample."""
-    return FromFiles(
-        help, RATE_K_MIN, recorded_rate, lambda frames: {}, mass_loss, computed, signal
-    )
+    return FromFiles(help, RATE_K_MIN, recorded_rate, held, mass_loss, computed, signal)
+
+
+def held(frames: Frames) -> dict[str, float | None]:
+    """Return the temperature [K] that a record holds over its second half; None where it does not.
+
+    >>> t = np.linspace(0.0, 100.0, 101)
+    >>> T = np.minimum(300.0 + 10.0 * t, 600.0)
+    >>> held({"mass_fraction": pd.DataFrame({"time_s": t, "temperature_K": T})})
+    {'set_point_K': 600.0}
+    """
+    for frame in frames.values():
+        time, temperature = frame["time_s"].to_numpy(), frame["temperature_K"].to_numpy()
+        late = temperature[time > 0.5 * (time[0] + time[-1])]
+        if late.size > 2 and np.ptp(late) < HOLD_K:
+            return {"set_point_K": float(f"{np.median(late):.4g}")}
+        return {"set_point_K": None}
+    return {"set_point_K": None}
 
 
 def recorded_rate(named: float, frames: Frames) -> float | None:
@@ -23,12 +40,21 @@ def recorded_rate(named: float, frames: Frames) -> float | None:
     Where the temperature does not rise, as in a record of several ramps, there is none.
     """
     for frame in frames.values():
+        frame = _heating(frame, held(frames)["set_point_K"])
         rise = np.gradient(frame["temperature_K"].to_numpy(), frame["time_s"].to_numpy())
         rate = 60.0 * float(np.median(rise))
         if rate <= 0.0:
             return None
         return named if abs(rate - named) <= AGREES * abs(named) else float(f"{rate:.3g}")
     return None
+
+
+def _heating(frame: pd.DataFrame, set_point_K: float | None) -> pd.DataFrame:
+    """Return the part of a record before a hold, where there is enough of it."""
+    if set_point_K is None:
+        return frame
+    before = int(np.argmax(frame["temperature_K"].to_numpy() > set_point_K - HOLD_K))
+    return frame if before < 3 else frame.iloc[:before]
 
 
 def mass_loss(frames: Frames) -> Loss | None:

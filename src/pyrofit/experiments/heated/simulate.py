@@ -79,13 +79,21 @@ def request(
 
 
 def programme(experiment: HeatedExperiment, frame: pd.DataFrame, times: FloatArray) -> FloatArray:
-    """Return T [K] at the given times: the measured one, or T0 + rate (t - t0)."""
+    """Return T [K] at the given times: the measured one, or T0 + rate (t - t0).
+
+    Of an isothermal test the latter is at most the set point.
+    """
     measured = frame["time_s"].to_numpy(float)
     temperature = frame["temperature_K"].to_numpy(float)
-    if experiment.program == "measured":
+    if experiment.program != "nominal":
         return np.asarray(np.interp(times, measured, temperature), dtype=np.float64)
     rise = experiment.heating_rate_K_min / 60.0 * (times - measured[0])
-    return np.asarray(temperature[0] + rise, dtype=np.float64)
+    return _held(experiment, np.asarray(temperature[0] + rise, dtype=np.float64))
+
+
+def _held(experiment: HeatedExperiment, heated: FloatArray) -> FloatArray:
+    """Return a nominal programme, cut at the set point where there is one."""
+    return heated if experiment.set_point_K is None else np.minimum(heated, experiment.set_point_K)
 
 
 def heating_rate(
@@ -98,8 +106,11 @@ def heating_rate(
     differences of neighbouring readings would be mostly their rounding.
     """
     nominal = experiment.heating_rate_K_min / 60.0
-    if experiment.program != "measured":
-        return np.full(times.size, nominal)
+    if experiment.program == "nominal":
+        if experiment.set_point_K is None:
+            return np.full(times.size, nominal)
+        below = programme(experiment, frame, times) < experiment.set_point_K
+        return np.where(below, nominal, 0.0)
     measured = frame["time_s"].to_numpy(float)
     half = 0.5 * WINDOW_K / nominal
     ends = [np.clip(times + by, measured[0], measured[-1]) for by in (-half, half)]
@@ -111,6 +122,8 @@ def heating_rate(
 
 def synthetic(experiment: HeatedExperiment, signals: Sequence[str]) -> dict[str, Request]:
     """Return the requests of computed signals: from the first to the last temperature."""
+    if experiment.set_point_K is not None:
+        return _isothermal(experiment, experiment.set_point_K, signals)
     first, last = experiment.start_temperature_K, experiment.end_temperature_K
     rate = experiment.heating_rate_K_min / 60.0
     requests = {}
@@ -121,5 +134,24 @@ def synthetic(experiment: HeatedExperiment, signals: Sequence[str]) -> dict[str,
             temperature_K=temperature,
             output=experiment.quantity(name).curve,
             heating_rate_K_s=np.full(temperature.size, rate),
+        )
+    return requests
+
+
+def _isothermal(
+    experiment: HeatedExperiment, set_point_K: float, signals: Sequence[str]
+) -> dict[str, Request]:
+    """Return the requests of computed signals of an isothermal test, at equal steps of time."""
+    first, rate = experiment.start_temperature_K, experiment.heating_rate_K_min / 60.0
+    end = (set_point_K - first) / rate + experiment.hold_s
+    requests = {}
+    for name in signals:
+        times = np.arange(0.0, end, experiment.signals[name].every / rate)
+        heated = first + rate * times
+        requests[name] = Request(
+            times,
+            temperature_K=np.minimum(heated, set_point_K),
+            output=experiment.quantity(name).curve,
+            heating_rate_K_s=np.where(heated < set_point_K, rate, 0.0),
         )
     return requests

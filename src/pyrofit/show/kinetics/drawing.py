@@ -10,6 +10,7 @@ from matplotlib.patches import Patch
 
 from pyrofit.analysis.uses import mass_signal
 from pyrofit.config import Study
+from pyrofit.model.heated import HeatedExperiment
 from pyrofit.quantities import known_quantities
 from pyrofit.results import recorded
 from pyrofit.results.files import Results
@@ -83,8 +84,12 @@ def sets_of(study: Study, curves: pd.DataFrame, name: str) -> list[tuple[str, pd
 
 
 def rate_of(study: Study, name: str) -> str:
-    """Return the heating rate of an experiment in words."""
-    return f"{study.experiments[name].heating_rate_K_min:g} K/min"  # type: ignore[union-attr]
+    """Return the heating rate of an experiment, or its set point, in words."""
+    experiment = study.experiments[name]
+    assert isinstance(experiment, HeatedExperiment)
+    if experiment.set_point_K is not None:
+        return f"held at {experiment.set_point_K:g} K"
+    return f"{experiment.heating_rate_K_min:g} K/min"
 
 
 def busy_span(curves: pd.DataFrame) -> tuple[float, float]:

@@ -8,6 +8,7 @@ from pyrofit.analysis.uses import all_rates, rates_in_fit
 from pyrofit.config import Study
 from pyrofit.results import kinetics
 from pyrofit.results.files import Results
+from pyrofit.show.kinetics.drawing import rate_of
 from pyrofit.show.table import Table
 from pyrofit.solver.outputs import MASS_FRACTION
 
@@ -56,7 +57,7 @@ def _scores(study: Study, results: Results, sets: list[str]) -> list[dict[str, A
     return [
         {
             "quantity": "RMSE of mass fraction",
-            "of": f"{study.experiments[name].heating_rate_K_min:g} K/min",  # type: ignore[union-attr]
+            "of": rate_of(study, name),
             "unit": "-",
             "used_in_fit": "yes" if name in used else "no",
             **{label: scores.loc[(name, label), "rmse_mass_fraction"] for label in sets},

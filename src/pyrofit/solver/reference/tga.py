@@ -32,7 +32,7 @@ def reference_tga(
     """
     resolution = resolution or Resolution()
     programme, rise = request.programme()
-    lag_min = value_of(experiment.lag_s, values) / 60.0
+    lag_min = 0.0 if experiment.is_isothermal else value_of(experiment.lag_s, values) / 60.0
     off = value_of(experiment.temperature_offset_K, values)
     time, T = request.time_s, programme - lag_min * experiment.heating_rate_K_min + off
     solid = substance(material, values)
