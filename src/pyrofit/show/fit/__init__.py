@@ -8,7 +8,7 @@ FIT = section_of(
     __path__,
     anchor="fit",
     heading="Fit",
-    text="Inverse modelling: parameters from gasification, once per repetition and cost "
-    "function, by SCE-UA.",
+    text="Inverse modelling: parameters fitted to the tests of each cost function, once per "
+    "repetition, by SCE-UA.",
     sentences=sentences,
 )
