@@ -7,6 +7,7 @@ import sys
 from itertools import product
 from pathlib import Path
 
+from snakemake.logging import logger
 from snakemake.utils import min_version, update_config
 
 from pyrofit.running.interrupt import end_while_starting, end_with_jobs
@@ -25,8 +26,10 @@ from pyrofit.results import dependencies
 from pyrofit.results.files import Results
 from pyrofit.results.kinetics import heats_shown
 from pyrofit.running import causes, shares
+from pyrofit.running.calls import calls_of_jobs
 from pyrofit.running.frozen import freeze, frozen_study
 from pyrofit.running.lock import end_run, join_run, start_run
+from pyrofit.running.work import WorkDone
 from pyrofit.show.sections import FIGURES, SUBJECTS, TABLES
 from pyrofit.stages.reading import check_measurements
 
@@ -60,7 +63,10 @@ try:
         study = frozen_study(given, SOURCE)
     ROOT = Path("results") / study.name
     SHARES = [[f"{n:02d}" for n in job] for job in shares.shares(study, per_job)]
-    if not workflow.is_main_process:
+    if workflow.is_main_process:
+        cores = workflow.resource_settings.cores if workflow.local_exec else None
+        logger.addHandler(WorkDone(calls_of_jobs(study, SHARES), cores))
+    else:
         join_run(ROOT)
 except PyrofitError as error:
     raise WorkflowError(str(error)) from None

@@ -7,8 +7,8 @@ from collections.abc import Iterator
 from dataclasses import dataclass
 
 from pyrofit.config import Study
+from pyrofit.running.calls import search_calls
 from pyrofit.running.shares import shares
-from pyrofit.stages.trial import search_calls
 
 BYTES_PER_NUMBER = 11
 """Size of a number in a compressed history; 10.1 to 10.4 were measured."""
@@ -25,7 +25,7 @@ class Part:
     cost
         Name of the cost; "" is the kinetics stage.
     alone, together
-        Model calls one by one, and in batches of eight.
+        Model calls one by one, and in batches.
     jobs
         Number of jobs.
     """

@@ -67,7 +67,7 @@ def _estimate(situation: Situation, timed: list[tuple[Part, float, float]]) -> F
 
 
 def seconds(problem: Problem) -> tuple[float, float]:
-    """Return the time of one model call alone, and in a batch of eight [s].
+    """Return the time of one model call alone, and in a batch [s].
 
     The sets are drawn within the limits. The first calls, which may compile, are not timed.
     """

@@ -8,7 +8,6 @@ import numpy as np
 from pyrofit.analysis.good_sets import SWEEPS, WALKERS
 from pyrofit.config import Study, TermSpec
 from pyrofit.config.programs import externals
-from pyrofit.config.stages import Imp, Kinetics
 from pyrofit.errors import ProgramError
 from pyrofit.estimate.targets import Measurements
 from pyrofit.experiments import kind_of
@@ -18,16 +17,13 @@ from pyrofit.external.filled import executable_digest, executable_of, file_diges
 from pyrofit.external.runs import Outcome, outcomes
 from pyrofit.model.external import ExternalExperiment
 from pyrofit.results.files import Results, write_json
+from pyrofit.running.calls import search_calls
 from pyrofit.seeds import seed_for
 from pyrofit.stages.fit import fixed_for_imp
 from pyrofit.stages.measurements import load
 
 DRAWS = 4
 """Largest number of drawn sets that are tried if the middle of the limits fails."""
-CALLS_PER_ROW = 1.63
-"""Model calls of SCE-UA for each point of a generation after the first."""
-STEPS = 20
-"""Typical number of steps of least squares from one start."""
 ANALYSIS = 200
 """Typical number of calls for each derivative in the analysis of the determined parameters."""
 
@@ -136,14 +132,6 @@ def planned_calls(study: Study) -> Iterator[tuple[str, float, tuple[TermSpec, ..
         yield f"CMA-ES, {cost}", float(stage.cmaes.starts * stage.cmaes.calls), terms
         yield f"good sets, {cost}", float(WALKERS * SWEEPS), terms
     yield "determined parameters", float(ANALYSIS * (2 * n + 1)), stage.channels
-
-
-def search_calls(stage: Imp | Kinetics) -> tuple[float, int]:
-    """Return the approximate number of model calls of a search of SCE-UA, and of least squares."""
-    n = len(stage.estimate)
-    points = (2 * n + 1) * (stage.sceua.complexes or n)
-    sceua = points * (1.0 + CALLS_PER_ROW * (stage.sceua.generations - 1))
-    return sceua, stage.least_squares.starts * STEPS * (2 * n + 1)
 
 
 def _seconds(study: Study, terms: tuple[TermSpec, ...], seconds: Mapping[str, float]) -> float:

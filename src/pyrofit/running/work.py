@@ -1,0 +1,106 @@
+"""The share of a run's work that is done, and the time left, after each step of the workflow.
+
+Snakemake counts steps, of which one lasts a second and another an hour. Here a step counts by its
+time: that of finished steps of its rule, or the time of its model calls. The time of a call is
+learned from finished searches.
+"""
+
+import logging
+import sys
+import time
+from collections import defaultdict
+from collections.abc import Callable, Mapping
+from statistics import median
+from typing import Any
+
+START_S = 2.0
+"""Time of a step besides its model calls [s], until `ENOUGH` steps without a search have ended."""
+ENOUGH = 3
+CALL_S = 4e-4
+"""Time of a model call [s], until the first search has ended."""
+WIDTH = 20
+"""Characters of the bar."""
+
+
+class WorkDone(logging.Handler):
+    """Prints a bar after each step, from the events that Snakemake logs.
+
+    Parameters
+    ----------
+    calls
+        Model calls of a step, by the name of its rule; none where there is no search.
+    cores
+        Steps that run at once; None where nobody knows, as on a cluster: then no time is given.
+    tell
+        Takes a line.
+    clock
+        Returns the time [s].
+    """
+
+    def __init__(
+        self,
+        calls: Mapping[str, float],
+        cores: int | None,
+        tell: Callable[[str], None] = lambda line: print(line, file=sys.stderr, flush=True),
+        clock: Callable[[], float] = time.monotonic,
+    ) -> None:
+        super().__init__()
+        self._calls, self._cores, self._say, self._clock = calls, cores, tell, clock
+        self._planned: dict[str, int] = {}
+        self._running: dict[int, tuple[str, float]] = {}
+        self._took: dict[str, list[float]] = defaultdict(list)
+
+    def emit(self, record: logging.LogRecord) -> None:
+        """Note an event; print the bar where Snakemake tells its progress."""
+        about: dict[str, Any] = vars(record)
+        event = str(getattr(about.get("event"), "value", ""))
+        if event == "run_info":
+            self._planned = {rule: n for rule, n in about["stats"].items() if rule != "total"}
+        elif event == "job_info":
+            self._running[about["jobid"]] = about["rule_name"], self._clock()
+        elif event == "job_finished" and about["job_id"] in self._running:
+            rule, start = self._running.pop(about["job_id"])
+            self._took[rule].append(self._clock() - start)
+        elif event == "progress" and about["done"] < about["total"]:
+            self._say(self._line())
+
+    def _line(self) -> str:
+        now = self._clock()
+        ended = sum(map(sum, self._took.values()))
+        done = ended + sum(
+            min(now - start, self._expected(rule)) for rule, start in self._running.values()
+        )
+        total = ended + sum(
+            (planned - len(self._took[rule])) * self._expected(rule)
+            for rule, planned in self._planned.items()
+        )
+        share = min(done / max(total, 1e-9), 1.0)
+        line = f"work: [{'#' * int(WIDTH * share):.<{WIDTH}}] {100 * share:.0f} %"
+        if self._cores and self._call_s() is not None:
+            line += f", about {_words(max(total - done, 0.0) / self._cores)} left"
+        return line
+
+    def _expected(self, rule: str) -> float:
+        took = self._took[rule]
+        if took:
+            return sum(took) / len(took)
+        return self._start_s() + self._calls.get(rule, 0.0) * (self._call_s() or CALL_S)
+
+    def _start_s(self) -> float:
+        """Return the time of a step without a search [s]."""
+        short = [t for rule, took in self._took.items() if rule not in self._calls for t in took]
+        return median(short) if len(short) >= ENOUGH else START_S
+
+    def _call_s(self) -> float | None:
+        """Return the time of a model call [s] in the searches that have ended; None without one."""
+        searched = {r: took for r, took in self._took.items() if took and self._calls.get(r)}
+        calls = sum(self._calls[r] * len(took) for r, took in searched.items())
+        if not calls:
+            return None
+        return sum(max(t - START_S, 0.0) for took in searched.values() for t in took) / calls
+
+
+def _words(seconds: float) -> str:
+    if seconds < 100.0:
+        return f"{seconds:.0f} s"
+    return f"{seconds / 60.0:.0f} min" if seconds < 6000.0 else f"{seconds / 3600.0:.1f} h"
