@@ -12,6 +12,7 @@ from pyrofit import cli
 from pyrofit.config import as_study
 from pyrofit.constants import GAS_CONSTANT
 from pyrofit.errors import StudyError
+from pyrofit.experiments import files_of
 from pyrofit.experiments.heated.simulate import reference, request, simulate, synthetic
 from pyrofit.experiments.tga import Tga
 from pyrofit.model.accuracy import Accuracy, Resolution
@@ -68,6 +69,9 @@ def test_new_study_recognises_a_hold(tmp_path: Path, monkeypatch: pytest.MonkeyP
     Path("hold.csv").write_text("Time (s),Temperature (K),Mass (mg)\n" + text, encoding="utf-8")
     run = draft.measured("tga", Path("hold.csv"))
     assert run.number == pytest.approx(60.0)
+    loss = files_of("tga").loss(run.frames)
+    assert loss is not None
+    assert loss.residue is None  # the mass still falls
     assert cli.main(["init", "x", "--tga", "hold.csv"]) == 0
     given = yaml.safe_load(Path("x/x.yaml").read_text(encoding="utf-8"))
     assert given["experiments"]["hold"]["set_point_K"] == HELD_K

@@ -136,7 +136,13 @@ def _names(place: str, expression: str) -> set[str]:
 
 
 def _check_units(study: Study, place: str, program: Program, used: set[str]) -> None:
-    """Refuse units of unused parameters, and those of another quantity."""
+    """Refuse units of unused parameters, those of another quantity, and expressions."""
+    for name in sorted(used & set(study.parameters)):
+        require(
+            study.parameters[name].expression is None,
+            f"{place}.template",
+            f"'{name}' is an expression; a program has its own: name it under `placeholders`",
+        )
     for name, unit in program.units.items():
         at = f"{place}.units.{name}"
         require(

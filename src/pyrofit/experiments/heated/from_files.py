@@ -8,6 +8,8 @@ from pyrofit.experiments.from_files import Frames, FromFiles, Loss, NamedNumber
 RATE_K_MIN = NamedNumber("K", (0.5, 500.0), 10.0)
 HOLD_K = 5.0
 """Span of temperatures within which one is held."""
+STILL = 0.02
+"""Share of the loss of mass in the last tenth of a record from which on the end is no residue."""
 AGREES = 0.1
 """Share by which a named heating rate may differ from the recorded one."""
 
@@ -67,4 +69,6 @@ def mass_loss(frames: Frames) -> Loss | None:
     below = np.flatnonzero(mass < 0.5 * (mass[0] + rest))
     if not below.size or rest >= 0.98:
         return None
-    return Loss(float(temperature[below[0]]), rest)
+    late = mass[9 * mass.size // 10]
+    goes_on = late - rest > STILL * (mass[0] - rest)
+    return Loss(float(temperature[below[0]]), None if goes_on else rest)
