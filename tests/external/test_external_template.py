@@ -141,6 +141,14 @@ def test_broken_input_is_refused_before_anything_runs(
         posed(tmp_path, study(**program))
 
 
+def test_expression_in_a_template_is_refused(tmp_path: Path) -> None:
+    write(tmp_path)
+    given = study()
+    given["parameters"]["fall"] = {"unit": "1/s", "expression": "0.5 * height"}
+    with pytest.raises(StudyError, match="'fall' is an expression; a program has its own"):
+        posed(tmp_path, given)
+
+
 AGAINST_TEMPERATURE: dict[str, tuple[str, dict[str, Any], str]] = {
     "rate over time": ("mlr", {}, "mlr is measured over time; name the column of the time"),
     "bins in seconds": ("mass_fraction", {"average_s": 5}, "average_s: .* without a time"),
