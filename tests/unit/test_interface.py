@@ -62,6 +62,18 @@ def test_functions_stand_before_modules_of_their_names() -> None:
     assert found.stdout.split() == ["True"] * 4
 
 
+def test_expression_is_not_given_a_value_and_not_changed_once_read() -> None:
+    eps = {"unit": "-", "expression": "1 - k"}
+    study = pf.read_study(
+        SMOKE, **{"parameters.r": eps, "material.components.residue.emissivity": "r"}
+    )
+    with pytest.raises(StudyError, match="'r' is the expression '1 - k'; give values"):
+        pf.simulate(study, {"r": 0.8})
+    with pytest.raises(StudyError, match=r"parameters\.r\.expression: a study that was read"):
+        pf.read_study(study, **{"parameters.r.expression": "1 - 2 * k"})
+    assert pf.read_study(study, seed=3).parameters["r"].expression == "1 - k"
+
+
 def test_unknown_name_is_refused() -> None:
     with pytest.raises(AttributeError, match="no attribute 'fitt'"):
         pf.fitt  # noqa: B018

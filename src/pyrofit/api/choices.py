@@ -22,11 +22,17 @@ def si_values(study: Study, given: Mapping[str, float]) -> dict[str, float]:
     Raises
     ------
     StudyError
-        A name is no parameter, or a value no finite number.
+        A name is no parameter or that of an expression, or a value is no finite number.
     """
     found: dict[str, float] = {}
     for name, value in given.items():
         check_parameter(study, name)
+        expression = study.parameters[name].expression
+        if expression is not None:
+            raise StudyError(
+                f"parameter '{name}' is the expression '{expression}'; give values of the "
+                "parameters in it"
+            )
         if not (isinstance(value, Real) and math.isfinite(value)):
             raise StudyError(f"parameter '{name}': {value!r} is no finite number")
         found[name] = float(value) * study.parameters[name].factor

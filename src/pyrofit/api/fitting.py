@@ -1,6 +1,6 @@
 """Fits of a study to its measurements."""
 
-from collections.abc import Collection, Iterable, Mapping, Sequence
+from collections.abc import Callable, Collection, Iterable, Mapping, Sequence
 from dataclasses import dataclass
 from typing import Literal
 
@@ -38,9 +38,11 @@ from pyrofit.estimate.prior import prior_of
 from pyrofit.estimate.problem import Problem, make_problem
 from pyrofit.results.dependencies import kinetics_of
 from pyrofit.seeds import seed_for
+from pyrofit.show.text import several
 from pyrofit.solver.arrays import FloatArray
 
 Stage = Literal["kinetics", "imp"]
+Tell = Callable[[str], None]
 
 
 @dataclass(frozen=True, eq=False)
@@ -70,6 +72,7 @@ def fit(
     optimiser: str = "least_squares",
     starts: int = 20,
     profiles: bool = True,
+    tell: Tell | None = None,
 ) -> Fit:
     """Fit parameters of a study to measured series.
 
@@ -103,6 +106,8 @@ def fit(
     profiles
         Whether intervals follow from profiles where chi-square is no parabola. This may take
         minutes with many parameters, or with some at a limit; linear intervals take seconds.
+    tell
+        Is told what goes on with the likelihood, such as ``print``.
 
     Raises
     ------
@@ -122,7 +127,7 @@ def fit(
         values = with_kinetics(study, data, values, starts)
     given = [key_of(study, key) for key in (data or {}).keys()]  # noqa: SIM118
     task = task_of(study, signals, estimate, values, stage, given)
-    return fit_likelihood(task, data, starts, profiles)
+    return fit_likelihood(task, data, starts, profiles, tell or _silent)
 
 
 def task_of(
@@ -175,7 +180,13 @@ def _default(study: Study, given: Collection[Key]) -> tuple[tuple[TermSpec, ...]
     return channels, names
 
 
-def fit_likelihood(task: Task, data: Data | None, starts: int, profiles: bool = True) -> Fit:
+def _silent(text: str) -> None:
+    """Tell nothing."""
+
+
+def fit_likelihood(
+    task: Task, data: Data | None, starts: int, profiles: bool = True, tell: Tell = _silent
+) -> Fit:
     """Return the fit of highest likelihood with its intervals."""
     study = task.study
     series = measured(study, task.keys, data)
@@ -183,7 +194,10 @@ def fit_likelihood(task: Task, data: Data | None, starts: int, profiles: bool = 
         study, task.estimate, task.channels, series, diagnosed_material(study), task.fixed
     )
     likelihood = likelihood_of(problem, prior_of(study, problem))
-    first = descend(likelihood, starting_points(study, problem, starts)).x
+    tell(f"noise of {several(len(series), 'signal')} estimated; {several(starts, 'start')}")
+    best = descend(likelihood, starting_points(study, problem, starts))
+    tell(f"chi-square {best.chi2:.1f} of {sum(likelihood.points)} points; intervals follow")
+    first = best.x
     likelihood = with_noise_of_jumps(likelihood, [first])
     found = identify(likelihood, [first], profiles)
     x = likelihood.values(found.optimum.x)

@@ -45,13 +45,26 @@ def read_study(source: Source, **changes: Any) -> Study:
         if not changes:
             return source
         keys = source.model_dump(mode="json")
-        return as_study(merged(keys, changes), f"{source.name}.json")  # its files are found already
+        new = merged(keys, changes)
+        _check_expressions(keys["parameters"], new["parameters"])
+        return as_study(new, f"{source.name}.json")  # its files are found already
     if isinstance(source, Mapping):
         return as_study(merged(source, changes), "study")
     path = Path(source)
     if not changes:
         return config.read_study(path)
     return as_study(merged(read_mapping(path), changes), str(path))
+
+
+def _check_expressions(old: Mapping[str, Any], new: Mapping[str, Any]) -> None:
+    """Refuse changes of expressions: in a study that was read they stand in all their places."""
+    for name, parameter in new.items():
+        before = old.get(name, {})
+        if parameter.get("expression") != before.get("expression"):
+            raise StudyError(
+                f"parameters.{name}.expression: a study that was read keeps its expressions; "
+                "change it with the study's file or keys"
+            )
 
 
 def merged(given: Mapping[str, Any], changes: Mapping[str, Any]) -> dict[str, Any]:
