@@ -27,6 +27,7 @@ _HOMES = {
     "read_results": "api.results",
     "read_study": "api.studies",
     "simulate": "api.simulation",
+    "write_study": "api.saving",
 }
 __all__ = ["__version__", *_HOMES]  # pyright: ignore; __init__.pyi has the types
 

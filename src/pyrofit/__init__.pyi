@@ -9,6 +9,7 @@ from pyrofit.api.fitting import fit as fit
 from pyrofit.api.measurements import read_data as read_data
 from pyrofit.api.results import Campaign as Campaign
 from pyrofit.api.results import read_results as read_results
+from pyrofit.api.saving import write_study as write_study
 from pyrofit.api.simulation import simulate as simulate
 from pyrofit.api.studies import new_study as new_study
 from pyrofit.api.studies import read_study as read_study
@@ -34,4 +35,5 @@ __all__ = [
     "read_results",
     "read_study",
     "simulate",
+    "write_study",
 ]

@@ -181,6 +181,23 @@ def test_files_of_heated_samples_alone_make_a_study(tmp_path: Path) -> None:
         pf.diagnose(study)
 
 
+def test_study_that_was_written_is_the_same_study(
+    study: pf.Study, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    (tmp_path / "files").mkdir()
+    (tmp_path / "studies").mkdir()
+    monkeypatch.chdir(tmp_path)
+    pd.DataFrame({"Time (s)": TIME, "MLR (g/m2s)": 1e3 * RATE}).to_csv("files/a.csv", index=False)
+    file = {"experiments.slab_25.signals.mlr.file": "files/a.csv"}
+    changed = pf.read_study(study, **file)
+    again = pf.read_study(pf.write_study(changed, "studies/again.yaml"))
+    there = Path(again.experiments["slab_25"].signals["mlr"].file)
+    assert there.resolve() == tmp_path / "files" / "a.csv"
+    assert np.allclose(pf.read_data(again, {"slab_25": "mlr"})[KEY]["mlr_kg_m2_s"], RATE)
+    same = pf.read_study(again, **file)
+    assert digest(same.model_dump(mode="json")) == digest(changed.model_dump(mode="json"))
+
+
 def test_effects_are_listed_with_the_reason_for_leaving_one_out(study: pf.Study) -> None:
     assert pf.effects().loc["k_T", "unit"] == "1/K"
     few = pf.effects(pf.read_study(study, **{"diagnosis.effects": ["k_T"]}))

@@ -1,0 +1,42 @@
+"""Studies as files, so that the workflow runs what was tried in memory."""
+
+import os
+from pathlib import Path
+
+from pyrofit.config import Study, as_yaml
+from pyrofit.config.programs import externals
+from pyrofit.config.study import is_own
+from pyrofit.errors import StudyError
+from pyrofit.results.files import write_text
+from pyrofit.stages.own_files import seen_from
+
+_COMMENT = "Run it: snakemake --cores 2 --configfile {}"
+
+
+def write_study(study: Study, path: str | os.PathLike[str]) -> Path:
+    """Write a study as a YAML file, which the workflow runs; return its path.
+
+    Keys at their defaults are left out. Measured files stay where they are.
+
+    Raises
+    ------
+    StudyError
+        An external program simulates one of its experiments.
+    DataError
+        The file cannot be written.
+    """
+    path = Path(path)
+    if outside := externals(study):
+        raise StudyError(
+            f"experiments.{min(outside)}: an external program simulates it; change the study's "
+            "own file instead"
+        )
+    keys = study.model_dump(mode="json", exclude_defaults=True)
+    for experiment in keys["experiments"].values():
+        for signal in experiment["signals"].values():
+            if is_own(signal["file"]):
+                signal["file"] = seen_from(path.parent, signal["file"])
+    if study.plugins:
+        keys["plugins"] = [seen_from(path.parent, folder) for folder in study.plugins]
+    write_text(path, as_yaml(keys, _COMMENT.format(path.name)))
+    return path
