@@ -6,13 +6,15 @@ from typing import Any
 
 import pandas as pd
 
+from pyrofit.api.choices import in_units
 from pyrofit.api.curves import Curves, with_units
 from pyrofit.api.tables import html_page
 from pyrofit.config import Study, read_study
-from pyrofit.errors import DataError, suggest
+from pyrofit.errors import DataError, StudyError, suggest
 from pyrofit.results import diagnosis, recorded
 from pyrofit.results.files import Results
 from pyrofit.show.table import read_table
+from pyrofit.stages.fit import best_sets, fixed_for_imp
 
 
 class Campaign:
@@ -56,6 +58,17 @@ class Campaign:
             for key, frame in found.items()
         }
         return Curves(study, units, "measured")
+
+    def best(self, cost: str) -> dict[str, float]:
+        """Return the best set that SCE-UA found for a cost, in the units of the study.
+
+        The kinetics and all fixed parameters are in it, so that `pyrofit.simulate` takes it.
+        """
+        study = self.study
+        sets = best_sets(study, self._results)
+        if cost not in sets:
+            raise StudyError(f"study '{study.name}' has no cost '{cost}'. {suggest(cost, sets)}")
+        return in_units(study, {**fixed_for_imp(study, self._results), **sets[cost]})
 
     @property
     def diagnosis(self) -> dict[str, Any]:
