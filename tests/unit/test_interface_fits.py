@@ -132,6 +132,28 @@ def test_cost_is_minimised_by_an_optimiser_of_the_study(
         found.plot_correlation()
 
 
+def test_published_kinetics_are_kept_where_the_study_says_so(
+    study: pf.Study, data: dict[tuple[str, str], pd.DataFrame]
+) -> None:
+    # As in the study of the paper: the diagnosis fits kinetics, the costs take published ones.
+    reaction = {"A_1_s": 1.0e13, "E_J_mol": 190e3, "order": 1.0}
+    published = {"composition": {"polymer": 1.0}, "reactions": {"pyrolysis": reaction}}
+    changes = {"kinetics.sets": {"Book": published}, "imp.kinetics": "Book"}
+    other = pf.read_study(study, **changes, **{"diagnosis.kinetics": "fitted"})
+    found = pf.fit(other, data, cost="RMSE")
+    assert not {"T_p", "E_p"} & set(found.values)
+    rest = {n: v for n, v in found.values.items() if n != "k"}
+    again = pf.compare(other, found.values, signals={"slab_25": "mlr"}, data=data, kinetics="Book")
+    assert found.cost == pytest.approx(again.scores["cv_rmse"][0], rel=1e-9)
+    held = pf.fit(other, data, cost="RMSE", fixed={"k": found.values["k"]})
+    assert list(held.table.index) == list(rest)
+    assert held.cost == pytest.approx(found.cost, rel=1e-3)
+    kinetics = pf.fit(other, data, stage="kinetics", profiles=False)
+    assert set(kinetics.table.index) == {"T_p", "E_p"}
+    with pytest.raises(StudyError, match=r"unknown kinetics 'Bok'\. Did you mean 'Book'"):
+        pf.simulate(other, found.values, kinetics="Bok")
+
+
 def test_scores_of_a_prediction_are_those_of_its_values(
     study: pf.Study, data: dict[tuple[str, str], pd.DataFrame], fit: pf.Fit
 ) -> None:

@@ -13,9 +13,7 @@ def test_results_of_a_campaign_are_simulated_again(untouched: Project) -> None:
     best = campaign["table4"]
     row = best[(best["cost_function"] == cost) & (best["quantity"] == "fit")]
     specs = study.imp.costs[cost]
-    found = pf.compare(
-        study, campaign.best(cost), signals=[specs[0].experiment], data=campaign.data
-    )
+    found = campaign.predict(cost, [specs[0].experiment])
     score = found.scores.set_index("signal").loc[specs[0].signal]
     assert specs[0].kind == "RMSE"
     assert score["cv_rmse"] == pytest.approx(float(row["best"].iloc[0]), rel=1e-6)

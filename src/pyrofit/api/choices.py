@@ -46,6 +46,20 @@ def check_parameter(study: Study, name: str) -> None:
         raise StudyError(f"study '{study.name}' has no parameter '{name}'. {known}")
 
 
+def with_kinetics_of(study: Study, kinetics: str | None) -> Study:
+    """Return a study whose curves have the kinetics 'described', 'fitted' or of a published set.
+
+    None leaves them: those that the diagnosis starts from, by default those of `imp`.
+    """
+    if kinetics is None:
+        return study
+    known = ["described", "fitted", *(study.kinetics.sets if study.kinetics else ())]
+    if kinetics not in known:
+        raise StudyError(f"unknown kinetics '{kinetics}'. {suggest(str(kinetics), known)}")
+    diagnosis = study.diagnosis.model_copy(update={"kinetics": kinetics})
+    return study.model_copy(update={"diagnosis": diagnosis})
+
+
 def in_units(study: Study, values: Mapping[str, float]) -> dict[str, float]:
     """Return SI values in the units of the study."""
     return {name: value / study.parameters[name].factor for name, value in values.items()}

@@ -8,7 +8,7 @@ import numpy as np
 import pandas as pd
 
 from pyrofit.api import plots
-from pyrofit.api.choices import Key, Signals, complete, si_values, signals_of
+from pyrofit.api.choices import Key, Signals, complete, si_values, signals_of, with_kinetics_of
 from pyrofit.api.measurements import Data, measured
 from pyrofit.api.simulation import at_times, simulated
 from pyrofit.api.studies import Source, read_study
@@ -25,6 +25,7 @@ def compare(
     *,
     signals: Signals | None = None,
     data: Data | None = None,
+    kinetics: str | None = None,
 ) -> "Comparison":
     """Simulate experiments at the measured times, and score the agreement.
 
@@ -40,6 +41,8 @@ def compare(
         Experiments, or signals by experiment; by default all.
     data
         Measured series that replace those of the study, as of `read_data`.
+    kinetics
+        'described', 'fitted' or a published set of the study, as of `simulate`.
 
     Raises
     ------
@@ -48,7 +51,7 @@ def compare(
     DataError
         A measured series is missing or breaks a rule, or a simulation does not finish.
     """
-    study = read_study(study)
+    study = with_kinetics_of(read_study(study), kinetics)
     keys = signals_of(study, list(study.experiments) if signals is None else signals)
     every = complete(study, si_values(study, values), {name for name, _ in keys})
     return compared(study, every, measured(study, keys, data))

@@ -16,6 +16,7 @@ from pyrofit.api.choices import (
     si_values,
     signals_of,
     used_by,
+    with_kinetics_of,
 )
 from pyrofit.api.comparison import compared
 from pyrofit.api.fitted import Fit, correlation_table, estimates_table, signals_table
@@ -122,8 +123,12 @@ def fit(
         if signals is not None or estimate is not None or stage is not None:
             raise StudyError("a cost has its own signals and parameters; leave out the others")
         check_cost(study, cost, optimiser)
+        study = with_kinetics_of(study, study.imp.kinetics)
         return fit_cost(study, data, cost, optimiser, with_kinetics(study, data, values, starts))
+    if stage == "kinetics":
+        study = with_kinetics_of(study, "fitted")
     if stage == "imp":
+        study = with_kinetics_of(study, study.imp.kinetics)
         values = with_kinetics(study, data, values, starts)
     given = [key_of(study, key) for key in (data or {}).keys()]  # noqa: SIM118
     task = task_of(study, signals, estimate, values, stage, given)

@@ -6,7 +6,8 @@ from typing import Any
 
 import pandas as pd
 
-from pyrofit.api.choices import in_units
+from pyrofit.api.choices import Signals, in_units
+from pyrofit.api.comparison import Comparison, compare
 from pyrofit.api.curves import Curves, with_units
 from pyrofit.api.tables import html_page
 from pyrofit.config import Study, read_study
@@ -62,13 +63,23 @@ class Campaign:
     def best(self, cost: str) -> dict[str, float]:
         """Return the best set that SCE-UA found for a cost, in the units of the study.
 
-        The kinetics and all fixed parameters are in it, so that `pyrofit.simulate` takes it.
+        The kinetics and all fixed parameters are in it. `pyrofit.simulate` takes it, with
+        ``kinetics=study.imp.kinetics``.
         """
         study = self.study
         sets = best_sets(study, self._results)
         if cost not in sets:
             raise StudyError(f"study '{study.name}' has no cost '{cost}'. {suggest(cost, sets)}")
         return in_units(study, {**fixed_for_imp(study, self._results), **sets[cost]})
+
+    def predict(self, cost: str, signals: Signals | None = None) -> Comparison:
+        """Compare the best set of a cost with the data, by default all of the validation."""
+        study, chosen = self.study, signals
+        if chosen is None:
+            chosen = study.validation.experiments
+        return compare(
+            study, self.best(cost), signals=chosen, data=self.data, kinetics=study.imp.kinetics
+        )
 
     @property
     def diagnosis(self) -> dict[str, Any]:

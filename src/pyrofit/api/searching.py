@@ -10,7 +10,7 @@ from pyrofit.api.choices import complete, in_units
 from pyrofit.api.comparison import compared
 from pyrofit.api.fitted import Fit
 from pyrofit.api.measurements import Data, measured
-from pyrofit.config import Study
+from pyrofit.config import Study, diagnosed_material
 from pyrofit.errors import StudyError, suggest
 from pyrofit.estimate.history import best_of
 from pyrofit.estimate.optimisers import OPTIMISERS
@@ -46,9 +46,11 @@ def fit_cost(
     keys = list(dict.fromkeys((spec.experiment, spec.signal) for spec in specs))
     series = measured(study, keys, data)
     experiments = {name for name, _ in keys}
-    fixed = complete(study, given, experiments, but=study.imp.estimate)
-    material = study.material_with(study.imp.kinetics)
-    posed = make_problem(study, study.imp.estimate, specs, series, material, fixed)
+    estimate = tuple(name for name in study.imp.estimate if name not in given)
+    if not estimate:
+        raise StudyError(f"all parameters of the cost '{cost}' are fixed; leave one out of `fixed`")
+    fixed = complete(study, given, experiments, but=estimate)
+    posed = make_problem(study, estimate, specs, series, diagnosed_material(study), fixed)
     problem = within_known(study, posed)
     lowest, x, history = _searched(study, problem, cost, optimiser)
     words = "SCE-UA" if optimiser == SCEUA else OPTIMISERS[optimiser].title

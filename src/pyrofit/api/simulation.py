@@ -4,7 +4,7 @@ from collections.abc import Iterable, Mapping
 
 import pandas as pd
 
-from pyrofit.api.choices import Key, complete, experiments_of, si_values
+from pyrofit.api.choices import Key, complete, experiments_of, key_of, si_values, with_kinetics_of
 from pyrofit.api.curves import Curves, with_units
 from pyrofit.api.measurements import Data, measured
 from pyrofit.api.studies import Source, read_study
@@ -21,6 +21,7 @@ def simulate(
     *,
     experiments: str | Iterable[str] | None = None,
     data: Data | None = None,
+    kinetics: str | None = None,
 ) -> Curves:
     """Simulate experiments of a study.
 
@@ -36,6 +37,9 @@ def simulate(
     data
         Series at whose times is simulated, such as those of `read_data`. By default times are
         spaced as the key ``every`` of a signal says, from the start to the end of the experiment.
+    kinetics
+        'described', 'fitted' or a published set of the study; by default those that its diagnosis
+        and its fits start from.
 
     Raises
     ------
@@ -51,7 +55,7 @@ def simulate(
     Traceback (most recent call last):
     pyrofit.errors.StudyError: study 'smoke' has no parameter 'T_q'. Did you mean 'T_p'? Known: ...
     """
-    study = read_study(study)
+    study = with_kinetics_of(read_study(study), kinetics)
     names = experiments_of(study, experiments)
     every = complete(study, si_values(study, values or {}), names)
     if data is None:
@@ -68,8 +72,6 @@ def simulate(
 
 
 def _keys(study: Study, data: Data) -> list[Key]:
-    from pyrofit.api.choices import key_of
-
     return [key_of(study, key) for key in data.keys()]  # noqa: SIM118
 
 
