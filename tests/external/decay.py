@@ -28,6 +28,9 @@ if mode == "says":
     print("ERROR: no convergence")
 if mode == "dies":
     os.kill(os.getpid(), 11)
+if mode == "killed" or (mode == "killed once" and not os.path.exists(os.environ["KILLED"])):
+    open(os.environ["KILLED"], "w").close()
+    os.kill(os.getpid(), 9)
 if mode == "ended from outside":
     os.kill(os.getpid(), 15)
 rows = [(t, height * math.exp(-fall * t)) for t in range(101)]

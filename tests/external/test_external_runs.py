@@ -123,6 +123,20 @@ def test_a_failure_is_recorded_and_not_run_again(
 
 
 @pytest.mark.parametrize(
+    ("mode", "why"),
+    [("killed once", ""), ("killed", "it was killed twice, perhaps for lack of memory")],
+)
+def test_a_killed_run_is_repeated_once(
+    mode: str, why: str, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setenv("KILLED", str(tmp_path / "killed"))
+    (found,) = run(opened(tmp_path, mode), (9.0, 0.02))
+    assert found.why == why
+    assert len(runs(tmp_path)) == 2
+    assert bool(failures(tmp_path)) == bool(why)
+
+
+@pytest.mark.parametrize(
     ("mode", "says"),
     [("ended from outside", "from outside by signal 15"), ("no program", "cannot be started")],
 )

@@ -2,6 +2,7 @@
 
 import re
 import shutil
+import signal
 import socket
 from collections.abc import Mapping, Sequence
 from concurrent.futures import ThreadPoolExecutor
@@ -148,10 +149,11 @@ def _run(store: Store, task: _Task, scratch_folder: Path, groups: Groups) -> Out
     """Make a run in a folder of its own, and keep its curves or its failure."""
     program, key = task.program, task.filled.key
     folder = scratch_folder / key
-    lay_out(folder, {program.input_name: task.filled.content, **other_files(program)})
-    ended = run_process(
-        words_of(program), folder, environment_of(program), program.time_limit_s, groups
-    )
+    ended = _ended(task, folder, groups)
+    if ended.status == -signal.SIGKILL:
+        # Memory ran out, or somebody killed it: that says little of the set.
+        shutil.rmtree(folder)
+        ended = _ended(task, folder, groups)
     why = judged(program, ended)
     records: dict[str, Record] = {}
     if not why:
@@ -171,6 +173,15 @@ def _run(store: Store, task: _Task, scratch_folder: Path, groups: Groups) -> Out
     return Outcome({}, why)
 
 
+def _ended(task: _Task, folder: Path, groups: Groups) -> Ended:
+    """Run the program in a new folder until it ends."""
+    program = task.program
+    lay_out(folder, {program.input_name: task.filled.content, **other_files(program)})
+    return run_process(
+        words_of(program), folder, environment_of(program), program.time_limit_s, groups
+    )
+
+
 def _success(known: Known) -> Outcome:
     return Outcome(known.records, "", known.seconds, known.version)
 
@@ -188,6 +199,8 @@ def judged(program: Program, ended: Ended) -> str:
         return ended.why
     if program.dialect == "fds":
         return complaint(ended.err, ended.status)
+    if ended.status == -signal.SIGKILL:
+        return "it was killed twice, perhaps for lack of memory"
     if ended.status is not None and ended.status < 0:
         return f"it was ended by signal {-ended.status}"
     if ended.status:
