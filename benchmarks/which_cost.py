@@ -11,130 +11,36 @@ import argparse
 import os
 import time
 from collections.abc import Iterator, Sequence
-from dataclasses import dataclass, replace
-from functools import partial
 from pathlib import Path
-from typing import Any
 
 os.environ["OPENBLAS_NUM_THREADS"] = "1"
 
 import numpy as np
 import pandas as pd
 from which_cost_cases import FAST, PLANS, SIGNALS, Case, Posed, cases_of, posed
+from which_cost_costs import COSTS, LIKELIHOODS, Fitted, fitted
 from which_cost_report import report
 
 from pyrofit.config import TermSpec
-from pyrofit.cost import WeightedSum
-from pyrofit.cost.term import Term
 from pyrofit.estimate import cmaes
 from pyrofit.estimate.correlation import Correlation
 from pyrofit.estimate.history import best_of
 from pyrofit.estimate.identify import identify
 from pyrofit.estimate.least_squares import Start, descend, multistart
-from pyrofit.estimate.likelihood import Likelihood, likelihood_of
+from pyrofit.estimate.likelihood import Likelihood
 from pyrofit.estimate.noise import NoiseModel
-from pyrofit.estimate.prior import within_known
-from pyrofit.estimate.problem import Problem, make_problem
+from pyrofit.estimate.problem import make_problem
 from pyrofit.estimate.sceua import search_several
 from pyrofit.results.files import write_csv
 from pyrofit.seeds import seed_for
 from pyrofit.solver.arrays import FloatArray
-from pyrofit.stages.rescore_measures import measures_of
 
-SUMS: dict[str, tuple[str, ...]] = {
-    "THR": ("THR_above", "THR_below"),
-    "NRSE+THR": ("NRSE", "THR_above", "THR_below"),
-    "RMSE+NRSE+THR": ("RMSE_mean", "NRSE", "THR_above", "THR_below"),
-}
-"""Eq. 5 with all weights 1."""
-OF_RATE: dict[str, tuple[str, ...]] = {
-    "RMSE": ("RMSE_mean",),
-    "RANGE": ("RANGE_printed",),
-    "RANGE_PROPTI": ("RANGE_PROPTI",),
-    "BANDS": ("BANDS_printed",),
-    "BANDS_PROPTI": ("BANDS_PROPTI",),
-    "GPYRO": ("GPYRO",),
-    "NRSE": ("NRSE",),
-    **SUMS,
-}
-"""Costs of the rate alone, by the names of `pyrofit rescore` that they are made of."""
-OF_BOTH: dict[str, tuple[str, ...]] = {"NRMS_all": ("NRMS_all",), "GPYRO_all": ("GPYRO_all",)}
-"""Costs of rate and back temperature."""
-LIKELIHOODS = {"chi2": SIGNALS[:1], "chi2_all": SIGNALS}
-COSTS = (*OF_RATE, "chi2", *OF_BOTH, "chi2_all")
 SEARCHED = ("RMSE", "RANGE", "BANDS", "chi2", "chi2_all")
 """Costs that SCE-UA minimises as well."""
 GENERATIONS = 12
 CALLS = 1500
 """Calls of a search by SCE-UA are about this many; CMA-ES is given as many."""
 STARTS = {"least squares": 3, "CMA-ES": 1}
-CLOSE = 0.01
-"""A search has found the least cost if it ends above it by less than this share; a sum of squares
-by twice that, a cost that can be zero by 1e-4."""
-
-
-class SumOfSquares(WeightedSum):
-    """The sum of the squares of the costs: chi-square where residuals are whitened."""
-
-    def parts(self, models: Sequence[FloatArray]) -> list[float]:
-        """Give the squares."""
-        return [part**2 for part in super().parts(models)]
-
-
-@dataclass(frozen=True)
-class Fitted:
-    """A cost on a case.
-
-    Parameters
-    ----------
-    name
-        Name of the cost.
-    problem
-        What optimisers minimise.
-    likelihood
-        The likelihood whose intervals belong to it, if there is one.
-    """
-
-    name: str
-    problem: Problem
-    likelihood: Likelihood | None = None
-
-    @property
-    def close(self) -> float:
-        """How far above the least value a search may end."""
-        return CLOSE * (2.0 if isinstance(self.problem.cost, SumOfSquares) else 1.0)
-
-
-def fitted(of: Posed, name: str, accuracy: dict[str, Any]) -> Fitted:
-    """Return a cost as optimisers search it."""
-    study, series = of.study, of.series
-    if name in LIKELIHOODS:
-        terms = [TermSpec(experiment=of.fitted, signal=s, kind="RMSE") for s in LIKELIHOODS[name]]
-    else:
-        names = {**OF_RATE, **OF_BOTH}[name]
-        terms = [t for m in measures_of(study, series, names)[0] for t in m.terms]
-    material = study.material_with(study.imp.kinetics)
-    made = make_problem(study, study.imp.estimate, terms, series, material, of.fixed)
-    problem = replace(
-        within_known(study, made), accuracy=study.accuracy.model_copy(update=accuracy)
-    )
-    if name not in LIKELIHOODS:
-        return Fitted(name, problem)
-    likelihood = likelihood_of(problem)
-    return Fitted(name, replace(problem, cost=_chi2(likelihood)), likelihood)
-
-
-def _chi2(likelihood: Likelihood) -> SumOfSquares:
-    """Return chi-square as a cost."""
-    terms = []
-    for noise, (_, term) in zip(likelihood.noise, likelihood.problem.cost.terms, strict=True):
-        residuals = partial(_whitened, noise, term.target.value)
-        terms.append((1.0, Term("chi2", term.target, {}, residuals)))
-    return SumOfSquares(terms)
-
-
-def _whitened(noise: NoiseModel, value: FloatArray, model: FloatArray) -> FloatArray:
-    return noise.whiten(model - value)
 
 
 def predicted(of: Posed, X: FloatArray) -> pd.DataFrame:

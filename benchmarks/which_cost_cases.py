@@ -239,10 +239,12 @@ def cases_of(plan: str) -> Iterator[Case]:
     """Yield the cases of a plan."""
     truths, effects, repetitions = PLANS[plan]
     hidden = [("wrong", effect, k % 4) for k, effect in enumerate(HIDDEN[:effects])]
-    given = [("measured", name, flux) for name in ("pmma", "paper") for flux in (25, 60)]
+    measured = [("measured", name, flux) for flux in (25, 60) for name in ("pmma", "paper")]
+    given = measured[:2]
     for number in range(truths):
         given += [("right", noise, number) for noise in NOISES]
         given += [("known", "measured", number)]
         given += hidden[number::truths]
+    given += measured[2:]
     for case in given:
         yield Case(*case, repetitions if case in REPEATED else 0)

@@ -1,11 +1,19 @@
 """Tables and figure of docs/which_cost.md, from what `which_cost.py` wrote."""
 
-from collections.abc import Callable, Sequence
 from pathlib import Path
 
 import numpy as np
 import pandas as pd
 from page import table
+from which_cost_numbers import (
+    CASE,
+    REFERENCE,
+    WEAK,
+    bootstrapped,
+    estimates,
+    gathered,
+    ratios,
+)
 
 from pyrofit.blind_test.rates import interval
 from pyrofit.results.files import Results, write_text
@@ -19,14 +27,7 @@ from pyrofit.show.style import (
     save,
     style,
 )
-from pyrofit.solver.arrays import FloatArray
 
-CASE = ["kind", "name", "number"]
-REFERENCE = "chi2"
-"""The cost that others are compared with."""
-WEAK = "k_r"
-"""The parameter that the rate at 25 kW/m2 hardly depends on."""
-DRAWS = 4000
 GROUPS = {
     "white": "white noise",
     "measured": "noise as measured",
@@ -45,62 +46,16 @@ SHOWN = {
 MARKERS = ("o", "s", "D")
 
 
-def gathered(folder: Path, kind: str) -> pd.DataFrame:
-    """Return all files of a kind as one table, with the group of each twin."""
-    frames = [pd.read_csv(path) for path in sorted((folder / kind).glob("*.csv"))]
-    found = pd.concat([frame for frame in frames if len(frame)], ignore_index=True)
-    return found.assign(group=found["kind"].where(found["kind"] != "right", found["name"]))
-
-
-def estimates(ends: pd.DataFrame) -> pd.DataFrame:
-    """Return the best set of each cost and case, and the rms error of its parameters.
-
-    ``error`` leaves out the parameter that is hardly seen, ``weak`` is that one's; fractions of the
-    limits' distance.
-    """
-    best = ends[ends["optimiser"] == "best"].copy()
-    columns = [c for c in best if c.startswith("x_") and c != f"x_{WEAK}"]
-    twins = best["kind"] != "measured"
-    squares = best.loc[twins, columns] ** 2
-    best.loc[twins, "error"] = np.sqrt(squares.mean(axis=1))
-    best["weak"] = best[f"x_{WEAK}"].abs()
-    return best
-
-
-def middle(values: FloatArray) -> float:
-    """Return the geometric mean, which a few bad cases do not rule.
-
-    >>> round(middle(np.array([1.0, 100.0])), 6)
-    10.0
-    """
-    return float(np.exp(np.mean(np.log(values))))
-
-
-def bootstrapped(
-    values: FloatArray, of: Callable[[FloatArray], float] = middle
-) -> tuple[float, float, float]:
-    """Return a number of some cases, and its 95 % interval over resampled cases."""
-    rng = np.random.default_rng(1)
-    draws = [of(values[rng.integers(0, values.size, values.size)]) for _ in range(DRAWS)]
-    low, high = np.quantile(draws, (0.025, 0.975)).tolist()
-    return of(values), low, high
-
-
-def ratios(best: pd.DataFrame, column: str, groups: Sequence[str], cost: str) -> FloatArray:
-    """Return a column of a cost over the reference's, case by case."""
-    of = best[best["group"].isin(groups)].set_index(CASE)
-    mine, other = (of.loc[of["cost"] == name, column] for name in (cost, REFERENCE))
-    return (mine / other).dropna().to_numpy(float)
-
-
-def _percent(values: tuple[float, float, float], digits: int = 1) -> str:
-    at, low, high = (f"{100 * v:.{digits}f}" for v in values)
-    return f"{at} ({low} to {high})"
+def _percent(values: tuple[float, float, float]) -> str:
+    return (
+        "-"
+        if np.isnan(values[0])
+        else "{:.1f} ({:.1f} to {:.1f})".format(*np.multiply(100, values))
+    )
 
 
 def _times(values: tuple[float, float, float]) -> str:
-    at, low, high = (f"{v:.2f}" for v in values)
-    return f"{at} ({low} to {high})"
+    return "-" if np.isnan(values[0]) else "{:.2f} ({:.2f} to {:.2f})".format(*values)
 
 
 def errors(best: pd.DataFrame, column: str) -> str:
@@ -109,7 +64,7 @@ def errors(best: pd.DataFrame, column: str) -> str:
     for cost in best["cost"].unique():
         of = best[best["cost"] == cost]
         cells = [of.loc[of["group"] == g, column].dropna().to_numpy(float) for g in GROUPS]
-        rows.append([f"`{cost}`", *(_percent(bootstrapped(c)) if c.size else "-" for c in cells)])
+        rows.append([f"`{cost}`", *(_percent(bootstrapped(c)) for c in cells)])
     return table(["cost", *GROUPS.values()], rows)
 
 
@@ -118,7 +73,7 @@ def against(best: pd.DataFrame, column: str) -> str:
     rows = []
     for cost in best["cost"].unique():
         cells = [ratios(best, column, groups, cost) for groups in SHOWN.values()]
-        worse = [f"{np.mean(c > 1.0):.0%}" for c in cells]
+        worse = [f"{np.count_nonzero(c > 1.0)} of {c.size}" for c in cells]
         both = zip(cells, worse, strict=True)
         if cost != REFERENCE:
             rows.append([f"`{cost}`", *(f"{_times(bootstrapped(c))}, {w}" for c, w in both)])
@@ -141,7 +96,7 @@ def robustness(best: pd.DataFrame) -> str:
 
 
 def searches(ends: pd.DataFrame) -> str:
-    """Return a table of how often searches find the least cost, and of their calls."""
+    """Return a table of how many searches find the least cost, and of the calls spent for each."""
     rows = []
     twins = ends[ends["kind"] != "measured"]
     for cost in ends["cost"].unique():
@@ -149,10 +104,10 @@ def searches(ends: pd.DataFrame) -> str:
         for optimiser in ("least squares", "CMA-ES", "SCE-UA"):
             of = twins[(twins["cost"] == cost) & (twins["optimiser"] == optimiser)]
             hits, runs = int(of["found"].sum()), len(of)
-            calls = of.loc[of["found"], "calls_to_it"].median() if hits else np.nan
-            spent = of["calls"].sum() / hits if hits else np.nan
-            text = f"{hits}/{runs}, {calls:.0f}, {spent:.0f}" if hits else f"0/{runs}"
-            cells.append(text if runs else "-")
+            spent = f", {of['calls'].sum() / hits:.0f}" if hits else ""
+            if optimiser == "SCE-UA" and hits:
+                spent += f", {of.loc[of['found'], 'calls_to_it'].median():.0f}"
+            cells.append(f"{hits}/{runs}{spent}" if runs else "-")
         rows.append([f"`{cost}`", *cells])
     return table(["cost", "least squares", "CMA-ES", "SCE-UA"], rows)
 
@@ -181,6 +136,7 @@ def coverage(intervals: pd.DataFrame) -> str:
 def spans(ends: pd.DataFrame) -> str:
     """Return a table of how many spans of the repetitions of SCE-UA hold the truth."""
     of = ends[(ends["optimiser"] == "SCE-UA") & (ends["kind"] != "measured")]
+    of = of.dropna(axis="columns", how="all")
     columns = [c for c in of if c.startswith("x_")]
     rows = []
     for cost in of["cost"].unique():
@@ -219,6 +175,18 @@ def measured(best: pd.DataFrame) -> str:
         rows.append([f"`{cost}`", *texts])
     names = [f"`{name}` {f} → {85 - f} kW/m²" for _, name, f in cases]
     return table(["cost", *names], rows)
+
+
+def repeated(ends: pd.DataFrame) -> str:
+    """Return a table of what the repetitions of SCE-UA predict of measured data [%]."""
+    of = ends[(ends["optimiser"] == "SCE-UA") & (ends["kind"] == "measured")]
+    rows = []
+    for cost in of["cost"].unique():
+        errors = 100 * of.loc[of["cost"] == cost, ["unseen_mlr", "unseen_back_temperature"]]
+        low, middle_, high = (errors.quantile(q) for q in (0.0, 0.5, 1.0))
+        cells = [f"{middle_[c]:.1f} ({low[c]:.1f} to {high[c]:.1f})" for c in errors]
+        rows.append([f"`{cost}`", len(errors), *cells])
+    return table(["cost", "repetitions", "rate", "back temperature"], rows)
 
 
 def drawn(best: pd.DataFrame, root: Path) -> None:
@@ -268,6 +236,7 @@ def report(folder: Path) -> None:
         "Spans of 25 repetitions": spans(ends),
         "Searches": searches(ends),
         "Measured": measured(best),
+        "Measured, SCE-UA": repeated(ends),
         "Seconds": f"{ends.groupby([*CASE, 'cost'])['seconds'].first().sum():.0f}",
     }
     text = "\n\n".join(f"## {title}\n\n{body}" for title, body in sections.items())

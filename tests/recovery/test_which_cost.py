@@ -11,6 +11,7 @@ sys.path.insert(0, str(Path(__file__).parents[2] / "benchmarks"))
 
 import which_cost
 import which_cost_cases
+import which_cost_numbers
 import which_cost_report
 from which_cost_cases import ESTIMATED, Case, Posed, cases_of, posed
 
@@ -97,6 +98,6 @@ def test_spans_of_repetitions_that_hold_the_truth_are_counted() -> None:
 
 
 def test_errors_are_compared_case_by_case() -> None:
-    best = which_cost_report.estimates(ends_by_hand())
-    np.testing.assert_allclose(which_cost_report.ratios(best, "error", ["white"], "RMSE"), 2.0)
-    assert which_cost_report.bootstrapped(np.full(3, 2.0)) == pytest.approx((2.0, 2.0, 2.0))
+    best = which_cost_numbers.estimates(ends_by_hand())
+    np.testing.assert_allclose(which_cost_numbers.ratios(best, "error", ["white"], "RMSE"), 2.0)
+    assert which_cost_numbers.bootstrapped(np.full(3, 2.0)) == pytest.approx((2.0, 2.0, 2.0))

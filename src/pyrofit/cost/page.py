@@ -13,6 +13,7 @@ _HEAD = """\
 A term of a cost function compares one simulated curve with its target. A study names the `kind` of
 the term and its options. The equations are those of Lauer et al., *Role of the cost function for
 material parameter estimation*. [Adding a cost](adding.md#a-cost) takes one file.
+[Which of them to use](which_cost.md) was tested on twins and measured data.
 
 `normalisation` is one of {normalisations}.
 
