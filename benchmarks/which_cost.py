@@ -22,6 +22,7 @@ from which_cost_costs import COSTS, LIKELIHOODS, Fitted, fitted
 from which_cost_report import report
 
 from pyrofit.config import TermSpec
+from pyrofit.errors import DataError
 from pyrofit.estimate import cmaes
 from pyrofit.estimate.correlation import Correlation
 from pyrofit.estimate.history import best_of
@@ -164,10 +165,13 @@ def main() -> None:
     parser.add_argument("--plan", choices=PLANS, default="short")
     parser.add_argument("--report", action="store_true", help="run nothing")
     given = parser.parse_args()
-    cases = list(cases_of(given.plan))
-    for case in cases:
-        if not given.report and not _path(given.folder, "ends", case).exists():
+    for case in cases_of(given.plan):
+        if given.report or _path(given.folder, "ends", case).exists():
+            continue
+        try:
             run(case, given.folder)
+        except DataError as error:
+            print(f"{case.id} is left out: {error}", flush=True)
     report(given.folder)
 
 
