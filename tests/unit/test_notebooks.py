@@ -1,12 +1,14 @@
 """Notebooks of the documentation: stored without results, and run as they stand."""
 
 import json
+from functools import partial
 from pathlib import Path
 
 import matplotlib
 import pytest
 
 import pyrofit as pf
+from pyrofit.stages.measurements import computed
 
 matplotlib.use("agg")
 FOLDER = Path(__file__).parents[2] / "docs" / "notebooks"
@@ -22,6 +24,8 @@ def run(path: Path, monkeypatch: pytest.MonkeyPatch) -> dict:
     import matplotlib.pyplot as plt
 
     monkeypatch.chdir(FOLDER)
+    # The reference solver would take most of the time.
+    monkeypatch.setattr("pyrofit.api.measurements.computed", partial(computed, fast=True))
     names: dict = {"__name__": "__main__"}
     for cell in cells(path):
         if cell["cell_type"] == "code":

@@ -2,10 +2,13 @@
 
 import re
 import runpy
+from functools import partial
 from pathlib import Path
 
 import matplotlib
 import pytest
+
+from pyrofit.stages.measurements import computed
 
 matplotlib.use("agg")
 ROOT = Path(__file__).parents[2]
@@ -39,6 +42,8 @@ def test_example_of_the_reference_runs(
 def test_report_on_the_page_is_that_of_its_examples(
     tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
+    # The reference solver would take most of the time.
+    monkeypatch.setattr("pyrofit.api.measurements.computed", partial(computed, fast=True))
     names = run("\n".join(examples("python.md")), tmp_path, monkeypatch)
     page = (ROOT / "docs" / "python.md").read_text(encoding="utf-8")
     shown = re.findall(r"```text\n(.*?)```", page, re.S)[0]
