@@ -30,6 +30,7 @@ def rows(sep: str, *columns: Sequence[object], comma: bool = False) -> str:
 
 CELSIUS, MINUTES, PERCENT, MG = KELVIN - 273.15, TIME_S / 60.0, 100.0 * FRACTION, 5.0 * FRACTION
 COUNT = [str(i) for i in range(TIME_S.size)]
+HALVES = slice(0, 50), slice(50, None)
 NETZSCH = "#EXPORTTYPE:;DATA ALL\n#DECIMAL:;{}\n#SAMPLE MASS /mg:;5\n#RANGE:;30/10(K/min)/600\n\n"
 TA = ["Instrument\tTGA Q500", "Size\t5.0\tmg", "Nsig\t3", "Sig1\tTime (min)"]
 TA += ["Sig2\tTemperature (°C)", "Sig3\tWeight (mg)", "StartOfData", ""]
@@ -150,6 +151,38 @@ def test_new_study_says_how_a_file_was_read_and_what_it_leaves_out(
         "study 'x' is valid; 2 measured series read",
     ):
         assert words in said
+
+
+def test_steps_of_one_record_are_read_as_one(tmp_path: Path) -> None:
+    step = "[step]\nTime,Temperature,Weight,Weight\nmin,°C,mg,%\n"
+    first, last = (rows(",", MINUTES[s], CELSIUS[s], MG[s], PERCENT[s]) for s in HALVES)
+    path = tmp_path / "run.csv"
+    path.write_text(f"Filename,x.tri\n{step}{first}\n{step}{last}", encoding="utf-8")
+    table = read_table(path)
+    np.testing.assert_allclose(table.columns["Weight (%)"], PERCENT, atol=1e-6)
+    lines = path.read_text(encoding="utf-8").splitlines()
+    assert lines[table.line(60) - 1].startswith(f"{MINUTES[60]:.6f},")
+
+
+@pytest.mark.parametrize("between", ["", "pause", "Time,Temperature\n"])
+def test_other_text_between_the_rows_is_refused(between: str, tmp_path: Path) -> None:
+    path = tmp_path / "run.csv"
+    body = [rows(",", MINUTES[s], CELSIUS[s], MG[s]) for s in HALVES]
+    path.write_text(f"Time,Temperature,Mass\n{body[0]}{between}\n{body[1]}", encoding="utf-8")
+    with pytest.raises(DataError, match=r"line 52: (this row is blank|given \d cells)"):
+        read_table(path)
+
+
+def test_measurement_that_can_be_read_in_two_ways_is_not_dropped(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
+) -> None:
+    monkeypatch.chdir(tmp_path)
+    cells = [f"1,{234 - i:03d}" for i in range(TIME_S.size)]
+    Path("a_25kW.csv").write_text("Time (s);Mass (g)\n" + rows(";", COUNT, cells), encoding="utf-8")
+    assert cli.main(["init", "x", "--gasification", "a_25kW.csv"]) == 0
+    said = capsys.readouterr().out
+    assert "a_25kW.csv: mass: time 'Time', value 'Mass'" in said
+    assert "column 'Mass': given '1,234'; it may be 1.234, with a decimal comma, or 1234" in said
 
 
 def test_large_file_is_read_in_one_piece_with_the_same_numbers(

@@ -13,7 +13,7 @@ from pyrofit.data.cone_exports import is_export, unfolded
 from pyrofit.data.csvheading import Heading, named_columns
 from pyrofit.data.layout import cells_of, layout_of, usual_delimiter
 from pyrofit.data.line import Line
-from pyrofit.data.numerals import fault_of, numerals_of
+from pyrofit.data.numerals import fault_of, is_numeral, numerals_of
 from pyrofit.data.rows import parsed, rows_of, whole_rows, without_footer
 from pyrofit.data.text_file import read_text
 from pyrofit.errors import DataError
@@ -132,6 +132,11 @@ def read_table(path: Path) -> Table:
         if values is not None:
             return _as_table(path, heading, values, {}, layout.start + 1, (), notes)
     return _table(path, heading, rows_of(path, raw, layout), notes, layout.marks)
+
+
+def holds_unclear_numbers(table: Table, name: str) -> bool:
+    """Tell whether the first cell of a column that is no number looks like one, such as 4,999."""
+    return name in table.faults and is_numeral(table.faults[name][1])
 
 
 def _table(

@@ -6,7 +6,7 @@ from pathlib import Path
 import numpy as np
 import numpy.typing as npt
 
-from pyrofit.data.csvheading import Heading, ragged, trim
+from pyrofit.data.csvheading import Heading, holds_units, ragged, trim
 from pyrofit.data.layout import Layout, cells_of
 from pyrofit.data.line import Line
 from pyrofit.data.numerals import ABSENT, Numerals, is_numeral, seconds
@@ -58,8 +58,8 @@ def whole_rows(
 ) -> list[Line]:
     """Return the rows, each as wide as the header.
 
-    Left out are those that repeat the header and, where there are ``marks``, those that mark an
-    event by a negative number in the first column.
+    Left out are those that repeat the header, with text right above them and units below, and,
+    where there are ``marks``, those that mark an event by a negative number in the first column.
 
     Raises
     ------
@@ -68,29 +68,54 @@ def whole_rows(
     """
     width = len(heading.names)
     whole: list[Line] = []
-    left = {"that repeat the header": 0, "that mark events": 0}
+    text: list[Line] = []  # rows without a number, which a header may follow
+    headers = events = 0
     for row in rows:
         cells = trim(row.cells, width)
-        if not any(cells):
-            raise DataError(
-                f"{path}, line {row.number}: this row is blank but numbers follow; delete it."
-            )
-        if len(cells) != width:
-            raise ragged(path, row.number, len(cells), width)
         if _repeats(cells, heading):
-            left["that repeat the header"] += 1
+            headers += 1
+            text = []
+        elif not any(is_numeral(cell) for cell in cells if cell):
+            # Right below a header that stands again are its units.
+            if not (headers and not text and _are_units(cells)):
+                text.append(Line(row.number, cells))
+        elif text:
+            break
+        elif len(cells) != width:
+            raise ragged(path, row.number, len(cells), width)
         elif marks and cells[0].startswith("-"):
-            left["that mark events"] += 1
+            events += 1
         else:
             whole.append(Line(row.number, cells))
-    notes += [f"{count} rows {why}" for why, count in left.items() if count]
+    if text:
+        raise _interrupted(path, text[0], width)
+    counts = {"that repeat the header": headers, "that mark events": events}
+    notes += [f"{count} rows {why}" for why, count in counts.items() if count]
     return whole
+
+
+def _interrupted(path: Path, row: Line, width: int) -> DataError:
+    """Return the error of a row without numbers among the others."""
+    if len(row.cells) != width and any(row.cells):
+        return ragged(path, row.number, len(row.cells), width)
+    what = f"holds text, {row.cells}" if any(row.cells) else "is blank but numbers follow"
+    return DataError(f"{path}, line {row.number}: this row {what}; delete it.")
 
 
 def _repeats(cells: Sequence[str], heading: Heading) -> bool:
     """Tell whether a row holds the names of the columns."""
-    pairs = zip(cells, heading.names, heading.named, strict=True)
-    return all(cell.lstrip("#").startswith(name) for cell, name, named in pairs if named)
+    if len(cells) != len(heading.names):
+        return False
+    pairs = zip((cell.lstrip("#") for cell in cells), heading.names, heading.named, strict=True)
+    return all(
+        bool(cell) and (cell.startswith(name) or name.startswith(cell))
+        for cell, name, named in pairs
+        if named
+    )
+
+
+def _are_units(cells: list[str]) -> bool:
+    return holds_units(Line(0, cells))
 
 
 def parsed(

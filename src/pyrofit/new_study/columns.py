@@ -5,7 +5,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from pyrofit.data.csvfile import Table
+from pyrofit.data.csvfile import Table, holds_unclear_numbers
 from pyrofit.experiments import measurable
 from pyrofit.new_study.headers import (
     is_abscissa,
@@ -17,12 +17,7 @@ from pyrofit.new_study.headers import (
     stem_of,
 )
 from pyrofit.new_study.reasons import unused
-from pyrofit.new_study.units import (
-    guessed_unit,
-    kind_of,
-    kinds_of,
-    stated_unit,
-)
+from pyrofit.new_study.units import guessed_unit, kind_of, kinds_of, stated_unit
 from pyrofit.quantities import known_quantities
 from pyrofit.quantities.base import Quantity
 from pyrofit.quantities.units import header_key
@@ -108,7 +103,11 @@ def recognise(table: Table, kind: str) -> Recognised:
     {'time': 'min', 'temperature': 'degC', 'value': '%'}
     """
     quantities = sorted(measurable(kind).values(), key=_rank)
-    empty = [n for n, numbers in table.columns.items() if not np.nan_to_num(numbers).any()]
+    empty = [
+        name
+        for name, numbers in table.columns.items()
+        if not np.nan_to_num(numbers).any() and not holds_unclear_numbers(table, name)
+    ]
     left = {n: "zero throughout, a placeholder" for n in empty if n not in table.faults}
     shared = {
         role: _shared(table, quantities, role, empty)
