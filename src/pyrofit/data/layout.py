@@ -130,9 +130,9 @@ def _refuse(path: Path, lines: Sequence[Line], count: int) -> None:
         )
     if count > 2:
         raise DataError(
-            f"{path}, line {lines[2].number}: given text {lines[2].cells}; no rows of numbers "
-            "with a row of names, and at most one of units, right above them are found. Set cells "
-            "apart by comma, semicolon or tab, and give each column its name."
+            f"{path}, line {lines[2].number}: given text {lines[2].cells}; found no table of "
+            "numbers. A row of names, and at most one of units, must stand right above the numbers. "
+            "Separate cells by comma, semicolon or tab, and give each column its name."
         )
     if count < 0:
         raise DataError(
