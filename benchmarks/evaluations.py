@@ -87,15 +87,15 @@ def evaluations() -> str:
         "scalar kernel 1/s",
         "lanes kernel 1/s",
     )
-    chosen = "; ".join(
-        f"{FLUXES[n]} kW/m²: cells {a.cells}, tolerance {a.tolerance:g}, first_step_s "
-        f"{a.first_step_s:g}, longest_step_s {a.longest_step_s:g}"
+    chosen = " ".join(
+        f"At {FLUXES[n]} kW/m² it has cells {a.cells}, tolerance {a.tolerance:g}, first_step_s "
+        f"{a.first_step_s:g}, longest_step_s {a.longest_step_s:g}."
         for n, a in ((n, cost.cheapest(n)) for n in FLUXES)
     )
     return (
-        f"{table(head, rows)}\n\n0.2 % is the cheapest setting (cells times steps) of a scan with "
-        f"an error of at most 0.2 % of this set: {chosen}. {cost.NEIGHBOURS} sets nearby, each "
-        "value up to a tenth away, show how far such a setting can be trusted.\n\n"
+        f"{table(head, rows)}\n\nThe setting *0.2 %* is the cheapest of a scan (cells times steps) "
+        f"with an error of at most 0.2 % for the published set. {chosen} The error was also "
+        f"computed for {cost.NEIGHBOURS} sets nearby, whose values differ by up to a tenth.\n\n"
         f"{needed(found)}\n\n{share_of_peak(found)}\n\n{peers()}"
     )
 
@@ -114,8 +114,8 @@ def needed(found: dict[tuple[str, str], Rates]) -> str:
         rows.append((FLUXES[name], how, f"{wanted:,}", f"{whole:,.0f}", said, f"{kernel:,.0f}"))
     head = ("kW/m²", "how", "wanted 1/s", "measured 1/s", "reached", "kernel alone 1/s")
     return (
-        f"{table(head, rows)}\n\nIn lanes: the better of {LANES} and {MANY} equal sets in a call, "
-        "one thread."
+        f"{table(head, rows)}\n\nThe rate in lanes is the higher one of {LANES} and {MANY} equal "
+        "sets in a call, with one thread."
     )
 
 
@@ -138,23 +138,24 @@ def share_of_peak(found: dict[tuple[str, str], Rates]) -> str:
                 )
             )
     per = {words: counted["per"].get(name, 0.0) for name, words in WORDS.items()}
-    most_used = ", ".join(f"{count:.0f} {words}" for words, count in per.items() if count >= 0.5)
+    most_used = "\n".join(f"- {count:.0f} {words}" for words, count in per.items() if count >= 0.5)
     head = ("kW/m²", "how", "flops per cell and step", "ns", "Gflop/s", "share of the plain loop")
     return (
         f"{table(head, rows)}\n\nA plain loop of fused multiply-adds in the same registers, twelve "
-        f"independent chains, reaches {most / 1e9:.0f} Gflop/s on this core. The operations are "
-        "counted: the kernels run uncompiled with numbers that note what is done with them "
-        "(`benchmarks/operations.py`). Addition, multiplication, division and root are one, a "
-        "fused multiply-add two; minimum, maximum, comparison, selection, sign, loads and stores "
-        f"are none, but take time as well. Per cell and step at {FLUXES[name]} kW/m²: {most_used}."
+        f"independent chains, reaches {most / 1e9:.0f} Gflop/s on this core. To count "
+        "operations, the kernels run uncompiled with numbers that record each operation "
+        "(`benchmarks/operations.py`). Addition, multiplication, division and root count as one "
+        "operation, a fused multiply-add as two. Minimum, maximum, comparison, selection, sign, "
+        "loads and stores take time but do not count. The operations per cell and step at "
+        f"{FLUXES[name]} kW/m² are:\n\n{most_used}"
     )
 
 
 def peers() -> str:
-    """Return what other solvers take."""
+    """Return the times of other solvers."""
     return (
-        "Other solvers on the 25 kW/m² case, one evaluation, measured once on another machine: "
-        "FDS 6.7.4 in the paper's set-up (625 cells, 0.05 s steps) 9.6 CPU-s; Gpyro 0.82, two of "
-        "its bugs patched, 0.34 s at an error of 0.09 %. Neither can be compared to better than "
+        "Other solvers were timed once on another machine, for one evaluation at 25 kW/m². FDS "
+        "6.7.4 in the paper's set-up (625 cells, 0.05 s steps) takes 9.6 CPU-s. Gpyro 0.82, with "
+        "two of its bugs patched, takes 0.34 s at an error of 0.09 %. The comparison includes "
         "the difference of the machines."
     )

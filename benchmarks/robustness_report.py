@@ -84,9 +84,10 @@ def refined(rows: list[dict[str, Any]]) -> str:
         found.append((*pair, pair[0] / pair[1]))
     coarse, fine, ratio = np.array(found).T
     return (
-        f"The {len(rows)} largest energy errors again, with twice the cells and half the steps: "
-        f"{coarse.max():.2g} becomes {fine.max():.2g}; each falls {np.median(ratio):.1f} times "
-        f"(median; least {ratio.min():.1f})."
+        f"The {len(rows)} sets with the largest energy errors were simulated again with twice the "
+        f"cells and half the steps. The largest error falls from {coarse.max():.2g} to "
+        f"{fine.max():.2g}. Each error falls by a factor of {np.median(ratio):.1f} (median; "
+        f"smallest factor {ratio.min():.1f})."
     )
 
 
@@ -107,20 +108,21 @@ def page(state: dict[str, Any]) -> str:
     boxes = len(state["cases"])
     return "\n\n".join(
         [
-            f"{sets:,} sets drawn from {boxes} boxes: the limits of `config/paper.yaml` (Table 3 "
-            "kinetics, and kinetics within their limits) and of `config/pmma.yaml`, at 25 and "
-            "60 kW/m², as they are and with each effect of the catalogue within its limits. "
+            f"{sets:,} sets were drawn from {boxes} boxes. A box has the limits of "
+            "`config/paper.yaml` (Table 3 kinetics, or kinetics within their limits) or of "
+            "`config/pmma.yaml`, at 25 or 60 kW/m². It has no effect or one effect of the "
+            "catalogue, within its limits. "
             f"Seed {SEED}, default accuracy, batches of {BATCH}; {seconds:.0f} s of run time on "
             "a busy machine. Every other round asks for all signals, so that runs go on after "
-            "burn-out. Energy error: heat stored and used less heat through the surfaces, the "
-            "latter integrated with the weights of the time steps' own formula, over the heat "
-            "that crossed the surfaces.",
+            "burn-out. The energy error is heat stored and used minus heat through the surfaces, "
+            "over the heat that crossed the surfaces. The heat through the surfaces is "
+            "integrated with the weights of the time stepping formula.",
             table(("how it ended", "sets"), counts),
-            "The worst sets, at most a hundred of each kind, and where in their boxes they lie "
-            "(0 lower, 1 upper limit; only parameters whose mean is far from the middle). The last "
-            "column: by how much the number changes (median) where one parameter alone is moved "
-            "to the middle of its limits, those that lower it most. The worst of many fall with "
-            "any change; what tells is which one counts most.",
+            "The table lists the worst sets, at most a hundred of each kind. *Mean place* is the "
+            "place in the box (0 lower, 1 upper limit) of parameters far from the middle. For the "
+            "last column, one parameter alone is moved to the middle of its limits. It gives the "
+            "median factor for the parameters that lower the number most. The worst of many sets "
+            "improve with any change, so only the order of the parameters is meaningful.",
             table(("by", "worst", "sets", "mostly of", "mean place", "lowered by"), rows),
             refined(state["worst"]["energy_error"]),
             "Command: `python benchmarks/robustness.py FOLDER --sets 1000000`, then `--page`.",

@@ -30,18 +30,17 @@ EFFECTS = (
 FIXED = Accuracy(cells=56)
 """Cells that do not change with what is varied."""
 PER_CELL = (
-    f"Lanes: {LANES} equal sets side by side. Evaluations per second of whole evaluations; times "
-    "per cell and step of the kernel alone. The last two columns: that time over the base's."
+    f"Lanes are {LANES} equal sets side by side. Rates are those of whole evaluations, times per "
+    "cell and step those of the kernel alone. The last two columns give this time over the base's."
 )
 NOTES = {
     "Cells": f"25 kW/m², default tolerance; the base is 64 cells. {PER_CELL}",
-    "Sets": "25 kW/m², the setting of 0.2 %, one thread: the published set so many times, and "
-    "sets drawn from the limits of the study, which differ in their steps and end at different "
-    "times; the last column runs "
-    f"these one by one, at most {ALONE}.",
+    "Sets": "25 kW/m², the setting of 0.2 %, one thread. The second column repeats the published "
+    "set. The third column has sets drawn from the limits of the study, which differ in their "
+    f"steps and end times. The last column runs these sets one by one, at most {ALONE} of them.",
     "Threads": "25 kW/m², 256 equal sets in one call.",
-    "Reactions": f"25 kW/m², {FIXED.cells} cells; parallel reactions, those beyond two are B "
-    f"split into equal parts; the base is the paper's two. {PER_CELL}",
+    "Reactions": f"25 kW/m², {FIXED.cells} cells; parallel reactions. Those beyond two are "
+    f"equal parts of reaction B; the base is the paper's two. {PER_CELL}",
     "Effects": f"{FIXED.cells} cells; each effect at a strength often met; the base is the model "
     f"without. {PER_CELL}",
 }

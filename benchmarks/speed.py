@@ -42,12 +42,12 @@ def machine() -> None:
         "Machine and method",
         f"{processor()}, {os.cpu_count()} cores, Python {platform.python_version()}, "
         f"{datetime.datetime.now(tz=datetime.UTC).date()}; load {load:.1f} before the start.\n\n"
-        "`config/paper.yaml` with the kinetics of Table 3 and the published set of the RMSE cost; "
-        "asked for is the mass loss rate in bins of 5 s. An evaluation is a call of "
+        "The case is `config/paper.yaml` with the kinetics of Table 3 and the published set of the "
+        "RMSE cost. The output is the mass loss rate in bins of 5 s. An evaluation is a call of "
         f"`simulate_gasification`, or of `simulate_gasifications` with {LANES} equal sets, with "
-        "lowering and sampling; the kernel alone is what is compiled. A timing is the shortest of "
+        "lowering and sampling; *kernel* is the compiled code alone. A timing is the shortest of "
         "many repeats in a second or more (in the curve half a second), on one core. The error is "
-        "the root mean square of the difference of the bins over their mean, against a solution "
+        "the root mean square difference of the bins over their mean. The reference is a solution "
         "of the same solver with "
         f"{FINE.cells} cells and a tolerance of {FINE.tolerance:g}.\n\n"
         + table(

@@ -131,7 +131,7 @@ def _refuse(path: Path, lines: Sequence[Line], count: int) -> None:
     if count > 2:
         raise DataError(
             f"{path}, line {lines[2].number}: given text {lines[2].cells}; found no table of "
-            "numbers. A row of names, and at most one of units, must stand right above the numbers. "
+            "numbers. A row of names, and at most one of units, must stand right above them. "
             "Separate cells by comma, semicolon or tab, and give each column its name."
         )
     if count < 0:

@@ -11,7 +11,7 @@ Kind = Literal["none", "named", "ambiguous", "multiple", "partly", "unknown"]
 
 
 class OfSuspect(Record):
-    """A candidate for what the verdict leaves unexplained."""
+    """A candidate for the misfit that the verdict does not explain."""
 
     effect: str = Field(description="its name")
     gain: float = Field(description="fall of chi-square that the score test promises")
@@ -183,7 +183,7 @@ class OfExperiment(Record):
 
 
 class Diagnosis(Record):
-    """What a diagnosis found."""
+    """Result of a diagnosis."""
 
     schema_: int = Field(alias="schema", description="1")
     settings: dict[str, float | list[float]] = Field(

@@ -7,7 +7,7 @@ from pyrofit.show.worth.tables import TABLES
 
 PAGE = StepPage(
     folder="worth",
-    heading="What to measure next",
+    heading="Next measurements",
     text="By how much each planned test would narrow parameters and predictions.",
     tables=TABLES,
     figures=FIGURES,

@@ -60,7 +60,7 @@ TABLE = Table(
     place=70,
     applies=always,
     make=next_experiments,
-    title="What to measure next",
+    title="Next experiments",
     note="Separation of the two models that the experiment separates least, in standard "
     "deviations, with the uncertainty of their parameters. Above 3 it distinguishes "
     "them.",
@@ -72,7 +72,7 @@ FIGURE = Figure(
     place=70,
     applies=lambda found: bool(found["next_experiment"]),
     make=draw_next_experiments,
-    title="What to measure next",
+    title="Next experiments",
     caption="Standard deviations by which planned experiments would separate the models that "
     "the data cannot distinguish, or else the two best ones. Bars: the pair that is "
     "separated least; points: each pair.",

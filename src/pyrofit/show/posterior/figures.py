@@ -80,7 +80,7 @@ def _draw_bands(ax: Axes, study: Study, frame: pd.DataFrame) -> None:
 
 
 def parameters(study: Study, results: Results) -> Canvas:
-    """Draw the distribution of each parameter over its limits' part that counts."""
+    """Draw the distribution of each parameter."""
     draws = posterior.samples(study, results)
     found = posterior.read(study, results).parameters
     canvas, axes = style.panels(len(found), 3, style.TWO_COLUMNS, 40.0)
@@ -117,10 +117,10 @@ FIGURES = {
         applies=always,
         make=bands,
         title="Predicted signals with 95 % bands",
-        caption="Dark: band of the curve where parameters alone are uncertain. Light: the same "
-        "with model discrepancy, for the curve without noise. In a fitted signal that is the "
-        "narrower one, as the sum of both was measured. 'Held out' experiments took no part in "
-        "the fit.",
+        caption="The dark band contains the uncertainty of the parameters alone. The light band "
+        "includes the model discrepancy. Both are for the curve without noise. In a fitted signal "
+        "the light band is narrower, because the data determine the sum of curve and discrepancy. "
+        "The fit did not use 'held out' experiments.",
     ),
     "parameters": Figure(
         place=20,

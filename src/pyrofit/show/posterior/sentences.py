@@ -1,4 +1,4 @@
-"""What sampling tells, in sentences."""
+"""Results of the sampling, in sentences."""
 
 from pyrofit.config import Study
 from pyrofit.estimate.convergence import ENOUGH_TIMES, ESS, RHAT
@@ -43,34 +43,35 @@ def _adequate(found: Posterior) -> str:
     ratio = found.chi2 / found.freedom
     size = f"chi-square per degree of freedom {ratio:.3g}, p = {found.probability:.2g}"
     if found.probability < CHANCE:
-        said = f"Noise alone does not explain the data ({size}): the model lacks something. "
+        said = f"Noise alone does not explain the data ({size}): the model lacks an effect. "
         if ratio > FAR:
             return said + (
-                "It misses the data by so much that bands elsewhere may not hold. "
-                "Find first which effect is missing (snakemake diagnose)."
+                "The misfit is so large that bands at other conditions may miss the truth. "
+                "First find the missing effect (snakemake diagnose)."
             )
-        return said + "The bands count it by the size that the residuals show."
+        return said + "The bands include a model discrepancy of the size of the residuals."
     return (
-        f"Noise alone may explain the data ({size}). That does not prove the model: parameters "
-        "can make up for what it lacks. The bands count a discrepancy that the residuals allow."
+        f"Noise alone may explain the data ({size}). This does not prove the model: parameters "
+        "can compensate for a missing effect. The bands include a model discrepancy of a size "
+        "that the residuals allow."
     )
 
 
 def _bands(found: Posterior) -> list[str]:
-    """Say whether bands hold what was measured and not fitted."""
+    """Say whether the bands contain the held-out measurements."""
     held = [of for of in found.bands if of.role == "held out" and of.inside is not None]
     low = [of for of in held if of.inside is not None and of.inside < INSIDE]
     said = [
-        f"The 95 % band of {of.experiment} {of.signal}, which was not fitted, holds only "
-        f"{100.0 * (of.inside or 0.0):.0f} % of the measured points: do not trust it."
+        f"The 95 % band of {of.experiment} {of.signal}, which was not fitted, contains only "
+        f"{100.0 * (of.inside or 0.0):.0f} % of the measured points: do not rely on it."
         for of in low
     ]
     if held and not low:
         names = listed([f"{of.experiment} {of.signal}" for of in held])
         least = min(of.inside for of in held if of.inside is not None)
         said.append(
-            f"The 95 % bands hold {100.0 * least:.0f} % or more of the points that were not "
-            f"fitted ({names})."
+            f"The 95 % bands contain {100.0 * least:.0f} % or more of the held-out points "
+            f"({names})."
         )
     return said
 
@@ -80,8 +81,8 @@ def _missing(found: Posterior) -> list[str]:
     if not names:
         return []
     return [
-        f"No fitted signal determines the model discrepancy of {listed(names)}: the band holds the "
-        "parameters alone, and is too narrow."
+        f"No fitted signal determines the model discrepancy of {listed(names)}. The band contains "
+        "the uncertainty of the parameters alone, and is too narrow."
     ]
 
 

@@ -53,7 +53,7 @@ def lacking(study: Study, results: Results) -> pd.DataFrame:
 
 
 def bands(study: Study, results: Results) -> pd.DataFrame:
-    """List the widths of the bands, and what share of the measured points they hold."""
+    """List the widths of the bands, and the share of the measured points inside."""
     found = posterior.read(study, results).bands
     return pd.DataFrame(
         [
@@ -96,8 +96,9 @@ TABLES = {
         applies=always,
         make=lacking,
         title="Model discrepancy of each fitted signal",
-        note="Standard deviations: relative errors of level and time, offset over the range of the "
-        "curve; correlation time over the time at which half of all ups and downs have passed.",
+        note="Standard deviations of the relative errors of level and time, and of the offset over "
+        "the range of the curve. The correlation time is divided by the time at which the total "
+        "variation of the curve reaches half of its final value.",
         headings={"lasting": "correlation time"},
     ),
     "bands": Table(
@@ -105,10 +106,10 @@ TABLES = {
         applies=always,
         make=bands,
         title="Widths of the 95 % bands",
-        note="Mean widths over the range of the curve: of parameters alone, and with "
-        "model discrepancy. Last: measured points within the band of new measurements, noise "
-        "included. "
-        "Empty: no fitted experiment determines the discrepancy, or nothing was measured.",
+        note="Mean widths over the range of the curve, for parameters alone and with model "
+        "discrepancy. The last column is the share of measured points within the band of new "
+        "measurements, noise included. A cell is empty if no fitted experiment determines the "
+        "discrepancy, or if nothing was measured.",
         headings={
             "parameters": "parameters alone",
             "width": "with model discrepancy",
