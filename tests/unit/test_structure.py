@@ -195,9 +195,9 @@ def test_only_kernels_import_numba() -> None:
     assert all(name.startswith("solver/kernels/") for name in names_of(found))
 
 
-def test_planning_the_workflow_loads_no_optimiser() -> None:
+def test_planning_the_workflow_loads_no_optimiser_and_draws_nothing() -> None:
     planned = "pyrofit.show.sections, pyrofit.results.dependencies, pyrofit.stages.reading"
-    assert loaded(planned, "cma", "spotpy") == "[]"
+    assert loaded(planned, "cma", "spotpy", "matplotlib") == "[]"
 
 
 def test_one_repetition_loads_no_integrator() -> None:

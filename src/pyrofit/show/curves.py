@@ -5,10 +5,6 @@ from itertools import takewhile
 from typing import Any
 
 import pandas as pd
-from matplotlib.axes import Axes
-from matplotlib.figure import Figure as Canvas
-from matplotlib.lines import Line2D
-from matplotlib.patches import Patch
 
 from pyrofit.analysis.uses import (
     PUBLISHED,
@@ -24,6 +20,7 @@ from pyrofit.quantities.base import Quantity
 from pyrofit.results import prediction, recorded
 from pyrofit.results.files import Results
 from pyrofit.show import style
+from pyrofit.show.drawn import Axes, Canvas, Line2D, Patch
 from pyrofit.show.names import data_name
 from pyrofit.show.units import difference, shown
 

@@ -4,14 +4,13 @@ import json
 from typing import Any
 
 import pandas as pd
-from matplotlib.axes import Axes
-from matplotlib.figure import Figure as Canvas
 
 from pyrofit.config import Study
 from pyrofit.errors import DataError
 from pyrofit.quantities import known_quantities
 from pyrofit.results.files import Results, read_csv
 from pyrofit.show import style
+from pyrofit.show.drawn import Axes, Canvas
 from pyrofit.show.parts import Part, Picture, Shown, picture, table_part
 from pyrofit.show.table import Table, write_table
 from pyrofit.show.units import shown

@@ -4,11 +4,10 @@ from collections.abc import Callable
 from dataclasses import dataclass
 from typing import Any
 
-from matplotlib.figure import Figure as Canvas
-
 from pyrofit.config import Study
 from pyrofit.results.files import Results
 from pyrofit.show import style
+from pyrofit.show.drawn import Canvas
 
 
 @dataclass(frozen=True)

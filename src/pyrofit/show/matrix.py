@@ -1,9 +1,9 @@
 """A matrix of correlations."""
 
 import pandas as pd
-from matplotlib.figure import Figure as Canvas
 
 from pyrofit.show import style
+from pyrofit.show.drawn import Canvas
 
 
 def draw_matrix(matrix: pd.DataFrame, label: str) -> Canvas:

@@ -4,16 +4,11 @@ import io
 from collections.abc import Sequence
 from typing import Any
 
-import matplotlib as mpl
 import numpy as np
-from matplotlib.axes import Axes
-from matplotlib.backends.backend_agg import FigureCanvasAgg
-from matplotlib.figure import Figure as Canvas
-from matplotlib.lines import Line2D
-from matplotlib.patches import Patch
 
 from pyrofit.config import Study
 from pyrofit.results.files import Results, write_bytes
+from pyrofit.show.drawn import Axes, Canvas, Line2D, Patch
 
 MM = 1.0 / 25.4
 
@@ -122,11 +117,14 @@ def panels(
 
     Many panels are smaller, three in a row, so that the figure is not too long.
     """
+    from matplotlib.backends.backend_agg import FigureCanvasAgg
+    from matplotlib.figure import Figure
+
     if count > MANY and columns < MOST_COLUMNS:
         columns, height = MOST_COLUMNS, height * columns / MOST_COLUMNS
     columns = min(columns, count)
     rows = -(-count // columns)
-    canvas = Canvas(figsize=(width * MM, rows * height * MM))
+    canvas: Canvas = Figure(figsize=(width * MM, rows * height * MM))
     FigureCanvasAgg(canvas)
     grid = canvas.subplots(rows, columns, squeeze=False, **options)
     axes: list[Axes] = list(grid.flat)
@@ -153,12 +151,16 @@ def letters(i: int) -> str:
 
 def line(label: str, **style: Any) -> Line2D:
     """Return a legend entry for a line."""
-    return Line2D([], [], label=label, **style)
+    from matplotlib.lines import Line2D as Drawn
+
+    return Drawn([], [], label=label, **style)
 
 
 def patch(label: str, **style: Any) -> Patch:
     """Return a legend entry for an area."""
-    return Patch(label=label, linewidth=0.0, **style)
+    from matplotlib.patches import Patch as Drawn
+
+    return Drawn(label=label, linewidth=0.0, **style)
 
 
 def legend_below(canvas: Canvas, entries: Sequence[Line2D | Patch]) -> None:
@@ -187,6 +189,8 @@ def save(canvas: Canvas, results: Results, name: str, folder: str = "figures") -
 
 def style() -> Any:
     """Return a context in which the style holds, and Matplotlib's own settings else."""
+    import matplotlib as mpl
+
     settings: dict[Any, Any] = {**mpl.rcParamsDefault, **STYLE, "backend": "agg"}
     return mpl.rc_context(settings)
 

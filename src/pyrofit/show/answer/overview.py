@@ -3,8 +3,6 @@
 from typing import Any
 
 import pandas as pd
-from matplotlib.axes import Axes
-from matplotlib.figure import Figure as Canvas
 
 from pyrofit.analysis.distances import distances
 from pyrofit.analysis.recommended import recommended
@@ -32,6 +30,7 @@ from pyrofit.show.curves import (
     predicted_curves,
     tests_of,
 )
+from pyrofit.show.drawn import Axes, Canvas
 from pyrofit.show.figure import Figure
 from pyrofit.show.units import shown
 

@@ -1,10 +1,9 @@
 """Correlation of the sets of all repetitions."""
 
-from matplotlib.figure import Figure as Canvas
-
 from pyrofit.analysis.rank_correlation import rank_correlation
 from pyrofit.config import Study
 from pyrofit.results.files import Results
+from pyrofit.show.drawn import Canvas
 from pyrofit.show.figure import Figure
 from pyrofit.show.matrix import draw_matrix
 

@@ -3,10 +3,6 @@
 from typing import Any
 
 import numpy as np
-from matplotlib.axes import Axes
-from matplotlib.figure import Figure as Canvas
-from matplotlib.lines import Line2D
-from matplotlib.patches import Patch
 
 from pyrofit.config import Study
 from pyrofit.cost import FloatArray, Target, WeightedSum, make_term
@@ -19,6 +15,7 @@ from pyrofit.cost.distances import (
 )
 from pyrofit.results.files import Results
 from pyrofit.show import style
+from pyrofit.show.drawn import Axes, Canvas, Line2D, Patch
 from pyrofit.show.figure import Figure
 
 MEAN = {"normalisation": "mean"}
@@ -88,6 +85,8 @@ def fig1(study: Study, results: Results) -> Canvas:
     The curves are the same for every study. Each panel shows the cost that `pyrofit.cost` gives;
     the shaded distances are those of Table 2, the bars the residuals of Eqs 1-3.
     """
+    from matplotlib.patches import Patch as Area
+
     target, model = example()
     canvas, axes = style.panels(6, 3, style.TWO_COLUMNS, 52.0, sharex=True, sharey=True)
     for ax, draw in zip(axes, (_point, _threshold, _rmse, _bands, _range, _sum), strict=True):
@@ -105,7 +104,7 @@ def fig1(study: Study, results: Results) -> Canvas:
     entries: list[Line2D | Patch] = [
         style.line("example target y", **_TARGET),
         style.line("example model ŷ", **_MODEL),
-        Patch(label="distance that counts", hatch=_HATCH, **_COUNTED),
+        Area(label="distance that counts", hatch=_HATCH, **_COUNTED),
         style.patch("target area", **_AREA),
     ]
     style.legend_below(canvas, entries)

@@ -4,8 +4,6 @@ from typing import Any
 
 import numpy as np
 import pandas as pd
-from matplotlib.axes import Axes
-from matplotlib.figure import Figure as Canvas
 
 from pyrofit.analysis.best_sets import ends
 from pyrofit.analysis.uses import SCEUA, STARTED
@@ -15,6 +13,7 @@ from pyrofit.results import searches
 from pyrofit.results.files import Results
 from pyrofit.results.identification import estimates
 from pyrofit.show import style
+from pyrofit.show.drawn import Axes, Canvas
 from pyrofit.show.figure import Figure
 from pyrofit.show.text import typeset
 

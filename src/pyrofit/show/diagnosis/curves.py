@@ -6,8 +6,6 @@ from typing import Any
 
 import numpy as np
 import pandas as pd
-from matplotlib.axes import Axes
-from matplotlib.figure import Figure as Canvas
 
 from pyrofit.analysis.running import running_mean
 from pyrofit.analysis.uses import title_of
@@ -19,6 +17,7 @@ from pyrofit.results.files import Results
 from pyrofit.show import style
 from pyrofit.show.curves import Look
 from pyrofit.show.diagnosis.words import BASE, HELD_OUT, Found, quantity_of, words_of
+from pyrofit.show.drawn import Axes, Canvas
 from pyrofit.show.figure import Figure
 from pyrofit.show.names import data_name
 from pyrofit.show.units import celsius, shown

@@ -4,14 +4,13 @@ from collections.abc import Sequence
 from typing import Any
 
 import numpy as np
-from matplotlib.axes import Axes
-from matplotlib.figure import Figure as Canvas
 
 from pyrofit.config import Study
 from pyrofit.results import diagnosis
 from pyrofit.results.files import Results
 from pyrofit.show import style
 from pyrofit.show.diagnosis.words import Found
+from pyrofit.show.drawn import Axes, Canvas
 from pyrofit.show.figure import Figure
 
 FAMILIES = {"apparatus": "xxxx", "environment": "////", "material": ""}

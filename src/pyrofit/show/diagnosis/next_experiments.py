@@ -4,7 +4,6 @@ from typing import Any
 
 import numpy as np
 import pandas as pd
-from matplotlib.figure import Figure as Canvas
 
 from pyrofit.config import Study
 from pyrofit.results import diagnosis
@@ -12,6 +11,7 @@ from pyrofit.results.files import Results
 from pyrofit.show import style
 from pyrofit.show.diagnosis.effects import LIMIT
 from pyrofit.show.diagnosis.words import MOST
+from pyrofit.show.drawn import Canvas
 from pyrofit.show.figure import Figure
 from pyrofit.show.table import Table, always
 

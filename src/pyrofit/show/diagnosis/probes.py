@@ -4,12 +4,12 @@ import textwrap
 
 import numpy as np
 import pandas as pd
-from matplotlib.figure import Figure as Canvas
 
 from pyrofit.config import Study
 from pyrofit.results import diagnosis
 from pyrofit.results.files import Results
 from pyrofit.show import style
+from pyrofit.show.drawn import Canvas
 from pyrofit.show.figure import Figure
 from pyrofit.show.table import Table, always
 from pyrofit.show.units import celsius

@@ -3,14 +3,13 @@
 from typing import Any
 
 import numpy as np
-from matplotlib.figure import Figure as Canvas
-from matplotlib.ticker import MaxNLocator
 
 from pyrofit.config import Study
 from pyrofit.effects import known_effects
 from pyrofit.results import diagnosis
 from pyrofit.results.files import Results
 from pyrofit.show import style
+from pyrofit.show.drawn import Canvas
 from pyrofit.show.figure import Figure
 
 _LEVEL: dict[str, Any] = {"color": "black", "linewidth": 0.8, "linestyle": (0, (4, 2))}
@@ -24,6 +23,8 @@ _PROFILE: dict[str, Any] = {"color": style.COLOURS[0], "marker": "o", "markersiz
 
 def profiles(study: Study, results: Results) -> Canvas:
     """Draw the rise of chi-square with the strength of each effect of the verdict's model."""
+    from matplotlib.ticker import MaxNLocator
+
     found = diagnosis.read(study, results)["profiles"]
     canvas, axes = style.panels(len(found), 3, style.TWO_COLUMNS, 58.0)
     catalogue = known_effects()

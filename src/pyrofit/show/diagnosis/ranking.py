@@ -5,8 +5,6 @@ from collections.abc import Sequence
 from typing import Any
 
 import numpy as np
-from matplotlib.axes import Axes
-from matplotlib.figure import Figure as Canvas
 
 from pyrofit.config import Study
 from pyrofit.results import diagnosis
@@ -14,6 +12,7 @@ from pyrofit.results.files import Results
 from pyrofit.show import style
 from pyrofit.show.diagnosis.effects import LIMIT
 from pyrofit.show.diagnosis.words import CLAIMS, Found, ranked, remark
+from pyrofit.show.drawn import Axes, Canvas
 from pyrofit.show.figure import Figure
 
 MOST = 20

@@ -1,10 +1,9 @@
 """Correlation of the estimates."""
 
-from matplotlib.figure import Figure as Canvas
-
 from pyrofit.config import Study
 from pyrofit.results.files import Results
 from pyrofit.results.identification import matrix_of
+from pyrofit.show.drawn import Canvas
 from pyrofit.show.figure import Figure
 from pyrofit.show.matrix import draw_matrix
 

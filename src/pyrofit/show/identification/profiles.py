@@ -4,14 +4,12 @@ from typing import Any
 
 import numpy as np
 import pandas as pd
-from matplotlib.axes import Axes
-from matplotlib.figure import Figure as Canvas
-from matplotlib.ticker import MaxNLocator
 
 from pyrofit.config import Study
 from pyrofit.results.files import Results, read_csv
 from pyrofit.results.identification import WITHIN, estimates, noise
 from pyrofit.show import style
+from pyrofit.show.drawn import Axes, Canvas
 from pyrofit.show.figure import Figure
 from pyrofit.show.text import typeset
 
@@ -49,6 +47,8 @@ def profiles(study: Study, results: Results) -> Canvas:
 def _draw_profile(
     ax: Axes, study: Study, row: pd.Series, curve: pd.DataFrame, dispersion: float
 ) -> None:
+    from matplotlib.ticker import MaxNLocator
+
     parameter = study.parameters[str(row["parameter"])]
     lower, upper = (bound / parameter.factor for bound in parameter.bounds_si)
     factor = parameter.factor

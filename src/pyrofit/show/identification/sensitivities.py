@@ -1,12 +1,11 @@
 """Sensitivity of the signals to the parameters."""
 
-from matplotlib.figure import Figure as Canvas
-
 from pyrofit.analysis.uses import title_of
 from pyrofit.config import Study
 from pyrofit.results.files import Results, read_csv
 from pyrofit.results.identification import noise
 from pyrofit.show import style
+from pyrofit.show.drawn import Canvas
 from pyrofit.show.figure import Figure
 from pyrofit.show.units import difference, difference_unit
 

@@ -4,9 +4,6 @@ from collections.abc import Sequence
 
 import numpy as np
 import pandas as pd
-from matplotlib.axes import Axes
-from matplotlib.lines import Line2D
-from matplotlib.patches import Patch
 
 from pyrofit.analysis.uses import mass_signal
 from pyrofit.config import Study
@@ -15,6 +12,7 @@ from pyrofit.quantities import known_quantities
 from pyrofit.results import recorded
 from pyrofit.results.files import Results
 from pyrofit.show import style
+from pyrofit.show.drawn import Axes, Line2D, Patch
 from pyrofit.show.names import data_name
 from pyrofit.solver.arrays import FloatArray
 from pyrofit.solver.outputs import MASS_FRACTION

@@ -1,14 +1,13 @@
 """Fig. 2: the kinetics beside TGA."""
 
 import pandas as pd
-from matplotlib.axes import Axes
-from matplotlib.figure import Figure as Canvas
 
 from pyrofit.analysis.uses import all_rates, rates_in_fit
 from pyrofit.config import Study
 from pyrofit.results import kinetics
 from pyrofit.results.files import Results
 from pyrofit.show import style
+from pyrofit.show.drawn import Axes, Canvas
 from pyrofit.show.figure import Figure
 from pyrofit.show.kinetics.drawing import (
     busy_span,

@@ -1,10 +1,6 @@
 """Heat flow and heat release of heated samples, measured and simulated."""
 
 import pandas as pd
-from matplotlib.axes import Axes
-from matplotlib.figure import Figure as Canvas
-from matplotlib.lines import Line2D
-from matplotlib.patches import Patch
 
 from pyrofit.config import Study
 from pyrofit.quantities.base import Quantity
@@ -12,6 +8,7 @@ from pyrofit.results import kinetics, recorded
 from pyrofit.results.files import Results
 from pyrofit.results.kinetics import heats_shown
 from pyrofit.show import style
+from pyrofit.show.drawn import Axes, Canvas, Line2D, Patch
 from pyrofit.show.figure import Figure
 from pyrofit.show.kinetics.drawing import dash_of, labels_of, rate_of
 from pyrofit.show.names import data_name

@@ -1,12 +1,11 @@
 """The kinetics at all heating rates."""
 
-from matplotlib.figure import Figure as Canvas
-
 from pyrofit.analysis.uses import all_rates, rates_in_fit
 from pyrofit.config import Study
 from pyrofit.results import kinetics
 from pyrofit.results.files import Results
 from pyrofit.show import style
+from pyrofit.show.drawn import Canvas
 from pyrofit.show.figure import Figure
 from pyrofit.show.kinetics.drawing import (
     busy_span,

@@ -4,15 +4,13 @@ from typing import Any
 
 import numpy as np
 import pandas as pd
-from matplotlib.axes import Axes
-from matplotlib.figure import Figure as Canvas
-from matplotlib.ticker import LogLocator, MaxNLocator, NullLocator, StrMethodFormatter
 
 from pyrofit.analysis.running import running_minima
 from pyrofit.config import Study
 from pyrofit.results import searches
 from pyrofit.results.files import Results
 from pyrofit.show import style
+from pyrofit.show.drawn import Axes, Canvas
 from pyrofit.show.figure import Figure
 
 ACROSS = 3
@@ -51,6 +49,8 @@ def fig5(study: Study, results: Results) -> Canvas:
 def _draw(
     ax: Axes, study: Study, results: Results, cost: str, frame: pd.DataFrame, abscissa: str
 ) -> None:
+    from matplotlib.ticker import MaxNLocator
+
     grid, found = running_minima(frame, abscissa)
     by_calls = abscissa == "calls"
     look = style.cost_styles(study)[cost]
@@ -88,6 +88,8 @@ def _steps(by_calls: bool) -> dict[str, Any]:
 
 def _scale(ax: Axes, low: float, high: float) -> None:
     """Set a logarithmic axis with plain numbers; linear within a factor 2, or down to zero."""
+    from matplotlib.ticker import LogLocator, NullLocator, StrMethodFormatter
+
     if low <= 0.0 or high < 2.0 * low:
         margin = 0.06 * (high - low) or 0.1 * abs(high) or 1.0
         ax.set_ylim(low - margin, high + margin)

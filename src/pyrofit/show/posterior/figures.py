@@ -4,10 +4,6 @@ from typing import Any
 
 import numpy as np
 import pandas as pd
-from matplotlib.axes import Axes
-from matplotlib.figure import Figure as Canvas
-from matplotlib.lines import Line2D
-from matplotlib.patches import Patch
 
 from pyrofit.analysis.uses import title_of
 from pyrofit.config import Study
@@ -18,6 +14,7 @@ from pyrofit.results.files import Results
 from pyrofit.results.posterior import OfParameter
 from pyrofit.show import style
 from pyrofit.show.curves import label_axes, label_of
+from pyrofit.show.drawn import Axes, Canvas, Line2D, Patch
 from pyrofit.show.figure import Figure
 from pyrofit.show.table import always
 from pyrofit.show.units import shown

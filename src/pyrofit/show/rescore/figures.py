@@ -1,13 +1,13 @@
 """How the costs agree in ranking the stored sets, and where their valleys lie."""
 
 import numpy as np
-from matplotlib.figure import Figure as Canvas
 
 from pyrofit.analysis.rescoring import GOOD
 from pyrofit.config import Study
 from pyrofit.results import rescored
 from pyrofit.results.files import Results
 from pyrofit.show import style
+from pyrofit.show.drawn import Canvas
 from pyrofit.show.figure import Figure
 from pyrofit.show.matrix import draw_matrix
 from pyrofit.show.rescore.facts import correlation, of_shown, shown

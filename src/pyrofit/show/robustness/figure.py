@@ -4,13 +4,12 @@ from typing import Any
 
 import numpy as np
 import pandas as pd
-from matplotlib.axes import Axes
-from matplotlib.figure import Figure as Canvas
 
 from pyrofit.analysis.twins import NOISE, OUTLIERS, errors
 from pyrofit.config import Study
 from pyrofit.results.files import Results
 from pyrofit.show import style
+from pyrofit.show.drawn import Axes, Canvas
 
 TITLE = "Robustness on twins of known truth"
 

@@ -2,13 +2,12 @@
 
 import numpy as np
 import pandas as pd
-from matplotlib.axes import Axes
-from matplotlib.figure import Figure as Canvas
 
 from pyrofit.config import Study
 from pyrofit.results import scheme
 from pyrofit.results.files import Results
 from pyrofit.show import style
+from pyrofit.show.drawn import Axes, Canvas
 from pyrofit.show.kinetics.drawing import rate_of, slope
 
 TITLE = "Reaction scheme of the study and the chosen one"

@@ -4,14 +4,13 @@ from collections.abc import Callable, Sequence
 from typing import Any
 
 import numpy as np
-from matplotlib.axes import Axes
-from matplotlib.figure import Figure as Canvas
 
 from pyrofit.config import Study
 from pyrofit.results import sensitivity
 from pyrofit.results.files import Results
 from pyrofit.results.sensitivity import OfSignal, Sensitivity
 from pyrofit.show import style, units
+from pyrofit.show.drawn import Axes, Canvas
 from pyrofit.show.figure import Figure
 from pyrofit.show.sensitivity.facts import (
     curve,

@@ -1,11 +1,10 @@
 """Fig. 4: the predicted rates."""
 
-from matplotlib.figure import Figure as Canvas
-
 from pyrofit.analysis.uses import PUBLISHED, SCEUA, fitted_experiments, predicted_signals
 from pyrofit.config import Study
 from pyrofit.results.files import Results
 from pyrofit.show.curves import compare_curves
+from pyrofit.show.drawn import Canvas
 from pyrofit.show.figure import Figure
 
 

@@ -4,8 +4,6 @@ from collections.abc import Mapping
 from typing import Any
 
 import pandas as pd
-from matplotlib.axes import Axes
-from matplotlib.figure import Figure as Canvas
 
 from pyrofit.analysis.uses import title_of
 from pyrofit.config import Study
@@ -16,6 +14,7 @@ from pyrofit.results.comparison import bands as band_curves
 from pyrofit.results.files import Results
 from pyrofit.show import style
 from pyrofit.show.curves import draw_band, label_of
+from pyrofit.show.drawn import Axes, Canvas
 from pyrofit.show.figure import Figure
 from pyrofit.show.names import data_name
 from pyrofit.show.units import shown

@@ -1,7 +1,5 @@
 """Residuals of the predicted rates."""
 
-from matplotlib.figure import Figure as Canvas
-
 from pyrofit.analysis.running import running_mean
 from pyrofit.analysis.uses import SCEUA, predicted_sets, predicted_signals
 from pyrofit.config import Study
@@ -19,6 +17,7 @@ from pyrofit.show.curves import (
     predicted_curves,
     set_entries,
 )
+from pyrofit.show.drawn import Canvas
 from pyrofit.show.figure import Figure
 from pyrofit.show.names import data_name
 from pyrofit.show.units import difference

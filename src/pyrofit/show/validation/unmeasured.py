@@ -1,7 +1,5 @@
 """Predictions of tests that were not made."""
 
-from matplotlib.figure import Figure as Canvas
-
 from pyrofit.analysis.uses import SCEUA, STARTED, predicted_sets
 from pyrofit.config import Study
 from pyrofit.config.unmeasured import unmeasured
@@ -10,6 +8,7 @@ from pyrofit.results import prediction
 from pyrofit.results.files import Results
 from pyrofit.show import style
 from pyrofit.show.curves import curve_of, label_axes, look_of, panels_of, set_entries
+from pyrofit.show.drawn import Canvas
 from pyrofit.show.figure import Figure
 from pyrofit.show.units import shown
 

@@ -3,13 +3,13 @@
 from collections.abc import Sequence
 
 import numpy as np
-from matplotlib.figure import Figure as Canvas
 
 from pyrofit.config import Study
 from pyrofit.results import worth
 from pyrofit.results.files import Results
 from pyrofit.results.worth import OfTest, Worth
 from pyrofit.show import style
+from pyrofit.show.drawn import Canvas
 from pyrofit.show.figure import Figure
 from pyrofit.show.table import always
 from pyrofit.show.worth.facts import LITTLE, remaining, symbol
