@@ -171,7 +171,7 @@ def test_text_that_is_read_in_another_way_is_said(tmp_path: Path) -> None:
     assert notes[0].startswith("not UTF-8 (line 3): read as cp1252")
     assert notes[1:] == [
         "2 rows before the header",
-        "1 rows of text at the end",
+        "1 rows at the end that begin with no number",
     ]
 
 

@@ -149,7 +149,7 @@ def _table(
         notes.append("read with decimal commas")
     if numerals.thousands:
         notes.append(f"read with '{numerals.thousands}' between thousands")
-    values, faults = parsed(rows, len(heading.names), numerals)
+    values, faults = parsed(rows, len(heading.names), numerals, notes)
     first, kept = lines[0].number, {row.number for row in rows}
     left_out = tuple(line.number - first for line in lines if line.number not in kept)
     return _as_table(path, heading, values, faults, first, left_out, notes)

@@ -40,7 +40,7 @@ def without_footer(path: Path, raw: list[str], layout: Layout, notes: list[str])
         end -= 1
     left = [text for text in raw[end:] if cells_of(path, text, layout.delimiter)]
     if left:
-        notes.append(f"{len(left)} rows of text at the end")
+        notes.append(f"{len(left)} rows at the end that begin with no number")
     return raw[:end]
 
 
@@ -119,14 +119,15 @@ def _are_units(cells: list[str]) -> bool:
 
 
 def parsed(
-    rows: Sequence[Line], width: int, numerals: Numerals
+    rows: Sequence[Line], width: int, numerals: Numerals, notes: list[str]
 ) -> tuple[FloatArray, dict[int, tuple[int, str]]]:
     """Return the numbers, and line and text of the first cell of each column that holds none.
 
-    A column of times hh:mm:ss is read in seconds. Words such as `NaN` hold no value.
+    A column of times hh:mm:ss is read in seconds. Words such as `NaN` hold no value, and are noted.
     """
     values = np.full((len(rows), width), np.nan)
     faults: dict[int, tuple[int, str]] = {}
+    absent: list[str] = []
     for i in range(width):
         read = seconds if seconds(rows[0].cells[i]) is not None else numerals.number
         for j, row in enumerate(rows):
@@ -136,4 +137,9 @@ def parsed(
                 values[j, i] = number
             elif cell and cell.casefold() not in ABSENT:
                 faults.setdefault(i, (row.number, cell))
+            elif cell:
+                absent.append(cell)
+    if absent:
+        words = " or ".join(f"'{word}'" for word in sorted(set(absent)))
+        notes.append(f"{len(absent)} cells hold {words}")
     return values, faults
