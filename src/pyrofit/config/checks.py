@@ -1,4 +1,4 @@
-"""What must hold between the parts of a study."""
+"""Rules between the parts of a study."""
 
 from pyrofit.config.composition_checks import check_compositions
 from pyrofit.config.effects import check_true_effects

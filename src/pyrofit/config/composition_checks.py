@@ -1,4 +1,4 @@
-"""What must hold for compositions: sums, shares, layers, published kinetics."""
+"""Rules for compositions: sums, shares, layers, published kinetics."""
 
 from collections.abc import Mapping
 

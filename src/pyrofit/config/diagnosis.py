@@ -1,4 +1,4 @@
-"""What a study says about its diagnosis."""
+"""Keys of the diagnosis of a study."""
 
 from typing import Any
 

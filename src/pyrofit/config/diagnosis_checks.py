@@ -1,4 +1,4 @@
-"""What must hold for the diagnosis of a study."""
+"""Rules for the diagnosis of a study."""
 
 from pyrofit.config.numbers import require
 from pyrofit.config.resolve import (

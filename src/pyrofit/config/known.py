@@ -1,4 +1,4 @@
-"""What is known of parameters before any fit: measured values with standard deviations."""
+"""Known values of parameters: independent measurements with standard deviations."""
 
 from pydantic import Field
 

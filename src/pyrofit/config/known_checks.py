@@ -1,4 +1,4 @@
-"""What must hold for the known values of a study."""
+"""Rules for the known values of a study."""
 
 from pyrofit.config.numbers import require
 from pyrofit.config.resolve import diagnosed_parameters

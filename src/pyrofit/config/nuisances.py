@@ -1,4 +1,4 @@
-"""What differs between the repeats of a test, as parameters with known values."""
+"""Differences between the repeats of a test, as parameters with known values."""
 
 from collections.abc import Mapping
 from dataclasses import dataclass
@@ -21,7 +21,7 @@ SIGNALS = "signals"
 
 @dataclass(frozen=True)
 class Nuisance:
-    """What may differ between repeats.
+    """Possible differences between repeats.
 
     Parameters
     ----------

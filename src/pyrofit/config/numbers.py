@@ -1,4 +1,4 @@
-"""What must hold for the numbers of a study: signs, limits, units, and that each is used."""
+"""Rules for the numbers of a study: signs, limits, units, and that each is used."""
 
 from collections.abc import Sequence
 
@@ -70,7 +70,7 @@ def check_numbers(study: Study) -> None:
 
 
 def check_parameter(study: Study, name: str, rules: Sequence[Rule], place: str) -> None:
-    """Check what stands for a number: that there is one, its value and limits, its unit.
+    """Check the entry for a number: that there is one, its value and limits, its unit.
 
     Raises
     ------

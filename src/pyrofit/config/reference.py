@@ -121,7 +121,7 @@ def _parts(annotation: Any, tail: str = "") -> Iterator[tuple[type[Part], str]]:
 
 
 def _takes(annotation: Any) -> Iterator[str]:
-    """Yield what may stand in a place, in words."""
+    """Yield the allowed values of a place, in words."""
     origin, inside = get_origin(annotation), get_args(annotation)
     if origin is Annotated:
         yield from _takes(inside[0])
@@ -151,7 +151,7 @@ def _takes(annotation: Any) -> Iterator[str]:
 
 
 def _rules(field: FieldInfo) -> Iterator[str]:
-    """Yield what must hold for the value, in words."""
+    """Yield the rules for the value, in words."""
     yield from _said(field.metadata)
     choices = get_args(field.annotation)
     for choice in (field.annotation, *choices):

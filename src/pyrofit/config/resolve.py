@@ -1,4 +1,4 @@
-"""What holds where a study says nothing: signals, parameters and effects of the diagnosis."""
+"""Defaults of the diagnosis: its signals, parameters and effects."""
 
 from collections.abc import Mapping
 

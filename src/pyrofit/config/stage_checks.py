@@ -1,4 +1,4 @@
-"""What must hold for the stages of a study."""
+"""Rules for the stages of a study."""
 
 from collections.abc import Iterable, Mapping, Sequence
 
@@ -12,7 +12,7 @@ from pyrofit.quantities.base import LIMITS
 
 
 def check_stages(study: Study) -> None:
-    """Check what each stage estimates, fits and predicts.
+    """Check the estimated, fitted and predicted items of each stage.
 
     Raises
     ------

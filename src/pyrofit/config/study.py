@@ -1,4 +1,4 @@
-"""What a study is made of: every key with its description and unit."""
+"""Parts of a study: every key with its description and unit."""
 
 from typing import Any
 

@@ -1,4 +1,4 @@
-"""What is uncertain of single experiments, which repeat nothing."""
+"""Uncertain conditions of single experiments without repeats."""
 
 from collections.abc import Mapping
 from typing import Any
@@ -17,7 +17,7 @@ OF_PROGRAMS = (
 
 
 def free_uncertain(keys: Keys) -> Keys:
-    """Return a study's keys with what is uncertain of its experiments as parameters.
+    """Return a study's keys with uncertain conditions of its experiments as parameters.
 
     The diagnosis alone estimates them, where it calibrates the experiment or holds it out: only
     there do known values have weights.

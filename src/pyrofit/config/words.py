@@ -1,4 +1,4 @@
-"""What YAML and pydantic say, in plain words."""
+"""Messages of YAML and pydantic in plain words."""
 
 import re
 from collections.abc import Mapping
@@ -60,7 +60,7 @@ def _place(problem: Any, given: Any) -> str:
 
 
 def _rule(problem: Any) -> str:
-    """Return what is wrong as a rule."""
+    """Return the violated rule."""
     given = problem["input"]
     words = WORDS.get(problem["type"])
     if words is None:
@@ -102,4 +102,4 @@ WORDS = {
     "union_tag_invalid": "unknown {discriminator} '{tag}'; known: {expected_tags}",
     "union_tag_not_found": "{discriminator} is missing, and is required",
 }
-"""What pydantic finds, as rules."""
+"""Errors of pydantic, as rules."""

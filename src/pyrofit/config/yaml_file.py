@@ -142,7 +142,7 @@ _WAYS_OUT = {
 
 
 def _explain(error: yaml.YAMLError, text: str) -> str:
-    """Return line, problem and way out of what YAML complains about."""
+    """Return line, problem and remedy of an error of YAML."""
     if isinstance(error, ReaderError):
         line = text.count("\n", 0, error.position)
         problem = f"the character #x{ord(text[error.position]):02x} is none of a text file"

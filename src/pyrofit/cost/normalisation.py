@@ -1,4 +1,4 @@
-"""Table 1: what an Eq. 4 cost is divided by."""
+"""Table 1: the divisors of an Eq. 4 cost."""
 
 from collections.abc import Callable
 

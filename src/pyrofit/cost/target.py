@@ -146,7 +146,7 @@ class Target:
 
 
 def curve(name: str, given: object) -> FloatArray:
-    """Give a read-only copy of a one-dimensional, finite array, or say what is wrong with it.
+    """Give a read-only copy of a one-dimensional, finite array, or raise an error.
 
     >>> curve("value", [1, 2]).tolist()
     [1.0, 2.0]
@@ -166,7 +166,7 @@ def curve(name: str, given: object) -> FloatArray:
 
 
 def number(name: str, given: object, *, above: float = -math.inf) -> float:
-    """Give a finite number above a limit, or say what is wrong with it.
+    """Give a finite number above a limit, or raise an error.
 
     >>> number("r", "0.05", above=0.0)
     0.05

@@ -1,4 +1,4 @@
-"""Bands of predicted curves: parameters that vary, and what the model lacks."""
+"""Bands of predicted curves: parameters that vary, and model discrepancy."""
 
 from collections.abc import Sequence
 
@@ -39,7 +39,7 @@ def free(covariance: FloatArray, sets: int, rng: np.random.Generator) -> FloatAr
 def measured(
     covariance: FloatArray, noise: NoiseModel, residuals: FloatArray, rng: np.random.Generator
 ) -> FloatArray:
-    """Draw discrepancies of a fitted series, given what it leaves of each set's curve.
+    """Draw discrepancies of a fitted series, given the residuals of each set's curve.
 
     Matheron's rule: with delta_0 of covariance D and e_0 of covariance N,
     delta = delta_0 + D (D + N)^-1 (r - delta_0 - e_0) has the distribution of delta given r.

@@ -1,4 +1,4 @@
-"""Correlation of noise from point to point: what it is, how it is removed, whether any is left."""
+"""Correlation of noise from point to point: its form, its removal, and a test of the rest."""
 
 from dataclasses import dataclass
 

@@ -1,4 +1,4 @@
-"""What a model lacks, as a random curve: its covariance, estimated from the best fit's residuals.
+"""Model discrepancy as a random curve: its covariance, from the best fit's residuals.
 
 y = f(x) + delta + e. A discrepancy (Kennedy and O'Hagan 2001, doi 10.1111/1467-9868.00294) is made
 of relative errors of level and of time, and of an offset:
@@ -31,7 +31,7 @@ from pyrofit.solver.arrays import FloatArray
 MOST_POINTS = 200
 """Points of a series from which a discrepancy is estimated, evenly taken: it lasts over many."""
 USUAL = np.log([0.03, 0.03, 0.01, 0.7])
-"""Middle of what is expected of s_a, s_b, s_c and l, as logarithms ..."""
+"""Mean of the prior of s_a, s_b, s_c and l, as logarithms ..."""
 SPREAD = np.array([1.0, 1.0, 1.0, 0.3])
 """... and its standard deviations."""
 LIMITS = np.log([[1e-5, 1e-5, 1e-5, 0.1], [0.5, 0.5, 0.5, 3.0]])

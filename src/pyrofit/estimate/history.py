@@ -1,4 +1,4 @@
-"""What is read from the histories of searches; needs no optimiser."""
+"""Results read from the histories of searches; needs no optimiser."""
 
 from collections.abc import Callable
 

@@ -1,4 +1,4 @@
-"""What the data determine: intervals of parameters from the likelihood, and the verdict in words.
+"""Identifiability: intervals of parameters from the likelihood, and the verdict in words.
 
 Covariance, dispersion and limits are those of `pyrofit.estimate.posterior`. Known values are rows
 (x - value) / sd of the residuals, and of their derivatives.
@@ -32,7 +32,7 @@ LOWER = 0.01
 
 @dataclass(frozen=True)
 class Estimate:
-    """What the data say about one parameter, in distances of its limits.
+    """Estimate and interval of one parameter, in distances of its limits.
 
     Parameters
     ----------
@@ -134,7 +134,7 @@ def identify(
 
 
 def _weighed(likelihood: Likelihood, optimum: Fit) -> tuple[Likelihood, Fit]:
-    """Return likelihood and optimum where misfit widens the noise, but not what is known.
+    """Return likelihood and optimum where misfit widens the noise, but not known values.
 
     With chi-square counted over the dispersion s^2, known values keep their standard deviations if
     their rows are multiplied by s.

@@ -68,7 +68,7 @@ class Likelihood:
         return [None if c is None or not np.all(np.isfinite(c)) else c for c in found]
 
     def split(self, stacked: FloatArray) -> list[FloatArray]:
-        """Return what belongs to each channel of (points,) or (points, k).
+        """Return the part of each channel of (points,) or (points, k).
 
         Rows behind the points, of what is known, are left out.
         """

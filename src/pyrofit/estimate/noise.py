@@ -1,4 +1,4 @@
-"""The noise of a measured series: what it scatters about a smooth curve, and known errors."""
+"""The noise of a measured series: its scatter about a smooth curve, and known errors."""
 
 import math
 from collections.abc import Mapping
@@ -210,7 +210,7 @@ def smoothed(target: Target) -> FloatArray | None:
 def _floors(
     target: Target, curve: FloatArray, quantity: Quantity, timing_s: float, stated: bool
 ) -> dict[str, FloatArray]:
-    """Return what is added to the standard deviation, shape (n,) each."""
+    """Return the additions to the standard deviation, shape (n,) each."""
     slope = np.abs(np.gradient(curve, target.time_s))
     floors = {
         "timing": timing_s * slope,

@@ -1,4 +1,4 @@
-"""What is known about an optimum: one covariance, one dispersion, one rule for limits.
+"""Statistics of an optimum: one covariance, one dispersion, one rule for limits.
 
 Parameters are counted in distances of their limits, x in [0, 1]. Near its least value chi-square
 is a parabola. With J = d whitened residuals / d x, of the channels and then of what is known (K),
@@ -112,7 +112,7 @@ class Posterior:
 
     @property
     def chi2(self) -> float:
-        """Chi-square of the channels, without what is known."""
+        """Chi-square of the channels, without known values."""
         return float(self.residuals @ self.residuals)
 
     @property

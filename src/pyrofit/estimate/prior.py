@@ -1,4 +1,4 @@
-"""What is known of parameters, as rows of residuals or as limits of a search."""
+"""Known values of parameters, as rows of residuals or as limits of a search."""
 
 from dataclasses import dataclass, replace
 
@@ -20,7 +20,7 @@ class NormalPrior:
     mean: FloatArray
     sd: FloatArray
     weight: float = 1.0
-    """What the standard deviations were divided by, see `over`."""
+    """Divisor of the standard deviations, see `over`."""
 
     def residuals(self, values: FloatArray) -> FloatArray:
         """Return r of parameter sets in SI units: (sets, parameters) to (sets, known)."""
@@ -42,7 +42,7 @@ NO_PRIOR = NormalPrior((), np.empty(0), np.empty(0))
 
 
 def prior_of(study: Study, problem: Problem) -> NormalPrior:
-    """Return what is known of the parameters that a problem estimates."""
+    """Return the known values of the parameters that a problem estimates."""
     found = {name: known for name, known in study.known.items() if name in problem.names}
     factors = {name: study.parameters[name].factor for name in found}
     return NormalPrior(

@@ -1,4 +1,4 @@
-"""The posterior about an optimum: what the model lacks, and draws.
+"""The posterior about an optimum: model discrepancy, and draws.
 
 A discrepancy is always a part of it. Chi-square accepts many a wrong model, as its parameters make
 up for what it lacks; where nothing is lacking, the estimated discrepancy is small.
@@ -20,7 +20,7 @@ ROUNDS = 2
 
 @dataclass(frozen=True, eq=False)
 class Sampled:
-    """Draws from the posterior, and what they rest on.
+    """Draws from the posterior, and their basis.
 
     Parameters
     ----------

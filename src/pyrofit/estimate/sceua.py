@@ -21,7 +21,7 @@ Ask = Callable[[FloatArray], Evaluation]
 
 @dataclass
 class _Setup:
-    """What SPOTPY asks of a model; records every call."""
+    """Interface of a model to SPOTPY; records every call."""
 
     problem: Problem
     ask: Ask

@@ -1,4 +1,4 @@
-"""What the terms of a cost compare a model with: parts of the measured series."""
+"""Targets of the terms of a cost: parts of the measured series."""
 
 from collections.abc import Mapping
 

@@ -1,4 +1,4 @@
-"""What every kind of experiment brings: description, simulation, phases, designs, files."""
+"""Parts of every kind of experiment: description, simulation, phases, designs, files."""
 
 from collections.abc import Callable, Iterator, Mapping, Sequence
 from dataclasses import dataclass

@@ -1,4 +1,4 @@
-"""What a kind of experiment says for a new study, which `pyrofit init` writes from files."""
+"""Entries of a kind of experiment in a new study that `pyrofit init` writes from files."""
 
 import re
 from collections.abc import Callable, Mapping
@@ -52,7 +52,7 @@ class NamedNumber:
 
 @dataclass(frozen=True)
 class Loss:
-    """Where a record loses half of what it loses.
+    """Point of a record at half of its loss.
 
     Parameters
     ----------
@@ -68,7 +68,7 @@ class Loss:
 
 @dataclass(frozen=True)
 class FromFiles:
-    """What a new study needs of a kind of experiment.
+    """Entries of a new study for a kind of experiment.
 
     Its lines of the study file are the template ``new.yaml.j2`` in the folder of the kind.
 

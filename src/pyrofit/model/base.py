@@ -1,4 +1,4 @@
-"""What every part of a description shares: frozen, checked, numbers with rules."""
+"""Base of every part of a description: frozen, checked, numbers with rules."""
 
 import math
 from collections.abc import Callable, Iterator, Mapping

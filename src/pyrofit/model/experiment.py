@@ -1,4 +1,4 @@
-"""What all experiments have: a title and measured signals."""
+"""Base of all experiments: a title and measured signals."""
 
 from collections.abc import Iterable
 from typing import ClassVar, Self
@@ -14,7 +14,7 @@ from pyrofit.quantities.base import Quantity
 
 
 class Experiment(Part):
-    """What all experiments have; a kind of experiment adds what it is made on."""
+    """Base of all experiments; a kind of experiment adds its sample."""
 
     LIKE: ClassVar[str] = ""
     """Another kind of experiment; its quantities are measured in this one, too."""
@@ -75,7 +75,7 @@ class Experiment(Part):
         raise NotImplementedError
 
     def as_simulated(self, signals: Iterable[str]) -> Self:
-        """Return what its curves depend on, with some signals: not how it was recorded."""
+        """Return the inputs of its curves, with some signals: not how it was recorded."""
         shown = {s: self.signals[s].as_simulated() for s in signals}
         return self.model_copy(
             update={"title": "", "laboratory": "", "repeat": None, "signals": shown}

@@ -59,7 +59,7 @@ class HeatedExperiment(Experiment):
         return self
 
     def _check_hold(self) -> None:
-        """Refuse what a hold cannot have."""
+        """Refuse keys that a hold cannot have."""
         for key, wrong, why in (
             ("lag_s", self.lag_s != 0.0, "a lag has no meaning; use temperature_offset_K"),
             ("program", self.program == "from_temperature", "the files must have times"),

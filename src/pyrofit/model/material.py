@@ -120,7 +120,7 @@ class Material(Part):
         return frozenset({*self.composition, *of_reactions})
 
     def reaction_order(self) -> tuple[str, ...]:
-        """Return the reactions sorted so that what one forms reacts after it.
+        """Return the reactions sorted so that products react after they are formed.
 
         Raises
         ------

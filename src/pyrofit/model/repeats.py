@@ -1,4 +1,4 @@
-"""Repeats of a test: several records of one description, and what differs between them."""
+"""Repeats of a test: several records of one description, and their differences."""
 
 from typing import Annotated, Any
 

@@ -125,6 +125,6 @@ class Signal(Part):
     )
 
     def as_simulated(self) -> Self:
-        """Return what its curve depends on: not its file, its units, its noise."""
+        """Return the inputs of its curve: not its file, its units, its noise."""
         update = {name: type(self).model_fields[name].default for name in RECORD}
         return self.model_copy(update={**update, "file": "", "columns": {}, "units": {}})

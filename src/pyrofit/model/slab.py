@@ -161,5 +161,5 @@ class SlabExperiment(Experiment):
         return self.duration_s, "duration_s"
 
     def burning(self) -> Flame | None:
-        """Return the flame; without one, what gas is released burns at once."""
+        """Return the flame; without one, released gas burns at once."""
         return None

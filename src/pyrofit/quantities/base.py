@@ -1,4 +1,4 @@
-"""What every measured quantity states: units, sampling, checks, noise, words."""
+"""Properties of every measured quantity: units, sampling, checks, noise, words."""
 
 from collections.abc import Callable
 from dataclasses import dataclass
@@ -60,7 +60,7 @@ class Quantity:
     guess: Guess
     """Unit of a column without one, as a new study guesses it."""
     largest: tuple[float, float]
-    """Limits of the largest value; what lies outside has a wrong unit."""
+    """Limits of the largest value; a value outside has a wrong unit."""
     solver_error: float
     """Error of a simulated curve at default settings, as a fraction of its largest rise."""
     usual_sd: float
@@ -90,7 +90,7 @@ class Quantity:
     has_sign: bool = False
     """Whether files differ in their sign: heat taken up is positive, or negative."""
     remark: Remark | None = None
-    """What looks wrong with a record against temperature; nothing where it looks right."""
+    """Doubts about a record against temperature; empty if there are none."""
     rests_on: tuple[str, ...] = ()
     """Keys of components and reactions, besides the kinetics, on which a heated sample's values
     depend."""

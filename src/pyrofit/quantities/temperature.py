@@ -1,4 +1,4 @@
-"""What all temperatures of a sample share; no quantity by itself."""
+"""Shared parts of all temperatures of a sample; no quantity by itself."""
 
 from pyrofit.quantities.base import Quantity, Shown
 from pyrofit.quantities.units import ICE_POINT_K

@@ -40,11 +40,11 @@ SCALES: dict[str, dict[str, float]] = {
     "fraction": {"1": 1.0, "-": 1.0, "g/g": 1.0, "kg/kg": 1.0, "mg/mg": 1.0, "%": 0.01},
 }
 PER_AREA = {"mass rate": "mass flux", "mass": "mass per area", "heat rate": "heat flux"}
-"""What a kind of unit becomes where it is divided by the area of the sample."""
+"""The kind of unit after division by the area of the sample."""
 PER_START = {"mass": "fraction"}
-"""What a kind of unit becomes where it is divided by the initial value."""
+"""The kind of unit after division by the initial value."""
 PER_MASS = {"power": "specific power"}
-"""What a kind of unit becomes where it is divided by the mass of the sample."""
+"""The kind of unit after division by the mass of the sample."""
 ICE_POINT_K = 273.15
 _ZERO_F_K = 459.67 * 5.0 / 9.0
 ZEROS_K = {
@@ -71,6 +71,6 @@ def unit_key(unit: str) -> str:
 
 
 def header_key(header: str) -> str:
-    """Reduce a header to what tells it from others: no case, blanks, dashes, points or unit."""
+    """Reduce a header to its distinctive part: no case, blanks, dashes, points or unit."""
     name = re.sub(r"\s*(\[.*\]|\(.*\))$", "", header)
     return re.sub(r"[\s_.-]", "", name).casefold()

@@ -1,1 +1,1 @@
-"""Results of a study: their files, and what each must hold where it is read again."""
+"""Results of a study: their files, and the required contents of each."""

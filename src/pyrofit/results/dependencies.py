@@ -1,4 +1,4 @@
-"""What each step of a study depends on: the workflow reruns a step when its slice changes."""
+"""Inputs of each step of a study: the workflow reruns a step when its slice changes."""
 
 from collections.abc import Iterable
 from typing import Any
@@ -156,7 +156,7 @@ def imp(study: Study, cost: str, optimiser: str) -> dict[str, Any]:
 
 
 def identify(study: Study) -> dict[str, Any]:
-    """Channels, parameters and material of the analysis of what the data determine."""
+    """Channels, parameters and material of the analysis of identifiability."""
     stage = study.imp
     used = sorted({c.experiment for c in stage.channels})
     material = study.material_with(stage.kinetics)
@@ -231,7 +231,7 @@ def robustness(study: Study, cost: str) -> dict[str, Any]:
 
 
 def compare(study: Study) -> dict[str, Any]:
-    """Costs, predicted experiments and material: what all sets are judged by."""
+    """Costs, predicted experiments and material, by which all sets are judged."""
     return {
         "terms": {n: [t.model_dump() for t in terms] for n, terms in study.imp.costs.items()},
         "measured": {n: _experiment(study, n) for n in study.experiments},

@@ -28,13 +28,13 @@ _WRONG = {
 
 
 def write(results: Results, content: Mapping[str, Any]) -> None:
-    """Write what was found; it must be as the schema says."""
+    """Write the results; they must agree with the schema."""
     Diagnosis.model_validate_json(json.dumps(content, allow_nan=False))
     write_json(results.diagnosis("diagnosis.json"), content)
 
 
 def read(study: Study, results: Results) -> dict[str, Any]:
-    """Return what the diagnosis found.
+    """Return the result of the diagnosis.
 
     Raises
     ------

@@ -145,7 +145,7 @@ class Results:
 
     @property
     def measurements_summary(self) -> Path:
-        """What was read: sources, checksums, notes, mass closure."""
+        """Record of the read files: sources, checksums, notes, mass closure."""
         return self.root / "measurements" / "summary.json"
 
     def kinetics(self, name: str) -> Path:
@@ -201,7 +201,7 @@ class Results:
         return self.root / "validation" / name
 
     def diagnosis(self, name: str) -> Path:
-        """Where model and measurement disagree, and what the model lacks."""
+        """Disagreement of model and measurement, and missing effects."""
         return self.root / "diagnosis" / name
 
     def scheme(self, name: str) -> Path:
@@ -213,5 +213,5 @@ class Results:
         return self.root / "programs" / name
 
     def fds(self, name: str) -> Path:
-        """Files for FDS, and what it made of them."""
+        """Files for FDS, and its results."""
         return self.root / "fds" / name

@@ -1,4 +1,4 @@
-"""What the data determine of the parameters, as the analysis left it."""
+"""Stored results of the analysis of identifiability."""
 
 from typing import Any, NamedTuple
 
@@ -49,7 +49,7 @@ def stages_of(study: Study) -> dict[str, tuple[str, ...]]:
 
 
 def estimates(study: Study, results: Results, stage: str = "imp") -> pd.DataFrame:
-    """Return what the analysis says about each parameter, SI units, in the study's order."""
+    """Return the result of the analysis for each parameter, SI units, in the study's order."""
     names = [(name,) for name in stages_of(study)[stage]]
     words = ("bound", "low_open", "high_open", "method", "verdict")
     columns = {**dict.fromkeys(_NUMBERS, float), **dict.fromkeys(words, object)}

@@ -97,7 +97,7 @@ def masses_shown(study: Study) -> dict[str, str]:
 
 
 def heats_shown(study: Study) -> list[tuple[str, str]]:
-    """Return experiment and signal of what else heated samples show, in the study's order."""
+    """Return experiment and signal of the other records of heated samples, in the study's order."""
     return [(name, signal) for name, signal, mass in _shown(study) if not mass]
 
 

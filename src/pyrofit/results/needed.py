@@ -1,4 +1,4 @@
-"""What a file of results must hold, and the refusal of one that does not."""
+"""Required contents of a file of results, and the refusal of one without them."""
 
 import math
 from pathlib import Path

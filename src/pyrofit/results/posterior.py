@@ -27,7 +27,7 @@ _BAND = ("low", "median", "high", "parameters_low", "parameters_median", "parame
 
 
 class OfParameter(Record):
-    """What the draws say about a parameter, SI units."""
+    """Statistics of a parameter's draws, SI units."""
 
     name: str = Field(description="name of the parameter")
     mean: float = Field(description="mean of the draws")
@@ -40,7 +40,7 @@ class OfParameter(Record):
 
 
 class OfDiscrepancy(Record):
-    """What the model lacks in a signal."""
+    """Model discrepancy of a signal."""
 
     experiment: str = Field(description="name of the experiment")
     signal: str = Field(description="signal")
@@ -87,7 +87,7 @@ class Posterior(Record):
 
 
 def slice_of(study: Study) -> dict[str, Any]:
-    """Return what the step depends on: the likelihood, and all predicted experiments."""
+    """Return the inputs of the step: the likelihood, and all predicted experiments."""
     return {
         "likelihood": dependencies.identify(study),
         "validation": dependencies.validation(study),
@@ -96,14 +96,14 @@ def slice_of(study: Study) -> dict[str, Any]:
 
 
 def write(results: Results, content: Mapping[str, Any]) -> None:
-    """Write what was found; it must be as the schema says."""
+    """Write the results; they must agree with the schema."""
     text = json.dumps(content, allow_nan=False)
     Posterior.model_validate_json(text)
     write_json(results.posterior(FILE), json.loads(text))
 
 
 def read(study: Study, results: Results) -> Posterior:
-    """Return what was found.
+    """Return the results.
 
     Raises
     ------

@@ -32,7 +32,7 @@ def scores(study: Study, results: Results, labels: Sequence[str]) -> pd.DataFram
 
 
 def unmeasured_curves(study: Study, results: Results, labels: Sequence[str]) -> pd.DataFrame:
-    """Return the curves of the labelled sets of what nobody measured."""
+    """Return the curves of the labelled sets for unmeasured quantities."""
     rows: list[Keys] = [
         (name, quantity, label)
         for name, quantities in unmeasured(study).items()

@@ -9,11 +9,11 @@ from pyrofit.results.files import Results, read_csv, read_json
 from pyrofit.results.needed import Keys
 
 About = dict[str, dict[str, dict[str, Any]]]
-"""What was read, by experiment and signal: source, checksum, points, notes."""
+"""Records of the read files, by experiment and signal: source, checksum, points, notes."""
 
 
 class Measured(NamedTuple):
-    """All series of a study, and what was read of each."""
+    """All series of a study, and the record of each."""
 
     about: About
     series: dict[tuple[str, str], pd.DataFrame]
@@ -43,7 +43,7 @@ def series(study: Study, results: Results, experiment: str, signal: str) -> pd.D
 
 
 def summary(study: Study, results: Results) -> dict[str, Any]:
-    """Return what was read, by experiment and signal."""
+    """Return the records of the read files, by experiment and signal."""
     needs: dict[Keys, type] = {}
     for name, experiment in study.experiments.items():
         for signal in experiment.signals:

@@ -66,7 +66,7 @@ class Rescored(Record):
 
 
 def slice_of(study: Study) -> dict[str, Any]:
-    """Return what the step depends on: all searches, the likelihood, and all their experiments."""
+    """Return the inputs of the step: all searches, the likelihood, and all their experiments."""
     return {
         "searches": {cost: dependencies.imp(study, cost, "sceua") for cost in study.imp.costs},
         "likelihood": dependencies.identify(study),
@@ -76,14 +76,14 @@ def slice_of(study: Study) -> dict[str, Any]:
 
 
 def write(results: Results, content: Mapping[str, Any]) -> None:
-    """Write what was found; it must be as the schema says."""
+    """Write the results; they must agree with the schema."""
     text = json.dumps(content, allow_nan=False)
     Rescored.model_validate_json(text)
     write_json(results.rescored(FILE), json.loads(text))
 
 
 def read(study: Study, results: Results) -> Rescored:
-    """Return what was found.
+    """Return the results.
 
     Raises
     ------

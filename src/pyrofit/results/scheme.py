@@ -79,14 +79,14 @@ class SchemeChoice(Record):
 
 
 def write(results: Results, content: Mapping[str, Any]) -> None:
-    """Write what was chosen; it must be as the schema says."""
+    """Write the chosen scheme; it must agree with the schema."""
     text = json.dumps(content, allow_nan=False)
     SchemeChoice.model_validate_json(text)
     write_json(results.scheme(FILE), json.loads(text))
 
 
 def read(study: Study, results: Results) -> SchemeChoice:
-    """Return what was chosen.
+    """Return the chosen scheme.
 
     Raises
     ------

@@ -66,7 +66,7 @@ class Worth(Record):
 
 
 def slice_of(study: Study) -> dict[str, Any]:
-    """Return what the step depends on: all data that are fitted, and what is predicted."""
+    """Return the inputs of the step: all data that are fitted, and the predicted signals."""
     kinetics = dependencies.kinetics(study) if study.imp.kinetics == "fitted" else {}
     return {
         "likelihood": dependencies.identify(study),
@@ -79,14 +79,14 @@ def slice_of(study: Study) -> dict[str, Any]:
 
 
 def write(results: Results, content: Mapping[str, Any]) -> None:
-    """Write what was found; it must be as the schema says."""
+    """Write the results; they must agree with the schema."""
     text = json.dumps(content, allow_nan=False)
     Worth.model_validate_json(text)
     write_json(results.worth(FILE), json.loads(text))
 
 
 def read(study: Study, results: Results) -> Worth:
-    """Return what was found.
+    """Return the results.
 
     Raises
     ------

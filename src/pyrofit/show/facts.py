@@ -1,4 +1,4 @@
-"""What the sentences of a report state, read and computed once."""
+"""Facts for the sentences of a report, read and computed once."""
 
 from collections.abc import Mapping
 from dataclasses import dataclass

@@ -22,7 +22,7 @@ MOST_PANELS = 12
 
 
 def entries(results: Results) -> list[dict[str, Any]]:
-    """Return what FDS made of the decks, an entry for each signal.
+    """Return the results of the decks in FDS, an entry for each signal.
 
     Raises
     ------
@@ -106,7 +106,7 @@ def draw_and_write(study: Study, results: Results) -> None:
 
 
 def section(study: Study, results: Results) -> Shown:
-    """Return what FDS made of the decks as a section of the report."""
+    """Return the results of the decks in FDS as a section of the report."""
     found = entries(results)
     about = f"FDS {found[0]['fds']}, set '{found[0]['set']}'."
     parts: list[Part | Picture] = [

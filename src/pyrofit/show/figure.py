@@ -1,4 +1,4 @@
-"""What a figure is, apart from the results in it."""
+"""Definition of a figure, apart from the results in it."""
 
 from collections.abc import Callable
 from dataclasses import dataclass

@@ -1,4 +1,4 @@
-"""What a page is made of: sections of text, tables and figures."""
+"""Parts of a page: sections of text, tables and figures."""
 
 import base64
 import re
@@ -40,7 +40,7 @@ class Picture:
 
 @dataclass(frozen=True)
 class Shown:
-    """A section: heading, what it is about, remarks, tables and figures as they are read."""
+    """A section: heading, subject, remarks, tables and figures as they are read."""
 
     anchor: str
     heading: str

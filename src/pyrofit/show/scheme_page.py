@@ -28,7 +28,7 @@ def draw_and_write(study: Study, results: Results) -> None:
 
 
 def section(study: Study, results: Results) -> Shown:
-    """Return what was chosen as a section of the report.
+    """Return the chosen scheme as a section of the report.
 
     Raises
     ------
@@ -46,7 +46,7 @@ def section(study: Study, results: Results) -> Shown:
         "Reaction scheme",
         "The scheme that predicts heating rates left out of its fit.",
         (
-            Part("What was chosen", note=found.rule, text=found.words),
+            Part("Chosen scheme", note=found.rule, text=found.words),
             *made,
             picture(results.scheme(f"{FOLDER}.svg"), FOLDER, TITLE, CAPTION),
             Part(

@@ -14,7 +14,7 @@ Sentences = Callable[[Study, Facts], list[str]]
 
 @dataclass(frozen=True)
 class Section:
-    """A subject: where it stands on the page, what it is about, its tables and figures.
+    """A subject: its place on the page, its topic, its tables and figures.
 
     Parameters
     ----------

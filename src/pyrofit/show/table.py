@@ -1,4 +1,4 @@
-"""What a table is, and how it is written."""
+"""Definition of a table, and its output."""
 
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass, field

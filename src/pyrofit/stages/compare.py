@@ -1,4 +1,4 @@
-"""Step 5: all sets of all optimisers under all costs and one metric, and what good sets predict."""
+"""Step 5: all sets of all optimisers under all costs and one metric; predictions of good sets."""
 
 from collections.abc import Mapping
 from typing import Any
@@ -73,7 +73,7 @@ def _metric(study: Study, name: str, signal: str) -> TermSpec:
 
 
 def _computable(study: Study, term: TermSpec, measurements: Measurements) -> bool:
-    """Tell whether a term can be computed of what was measured."""
+    """Tell whether a term can be computed from the measurements."""
     if (term.experiment, term.signal) not in measurements:
         return False
     try:

@@ -1,4 +1,4 @@
-"""Which effect the model lacks: the diagnosis of a study, and the study with what it found."""
+"""Which effect the model lacks: the diagnosis of a study, and the extended study."""
 
 from typing import Any
 

@@ -1,4 +1,4 @@
-"""What the data determine: noise of the channels, intervals, profiles, the optimisers beside."""
+"""Identifiability: noise of channels, intervals, profiles, distances of the optimisers' sets."""
 
 from collections.abc import Iterator
 from typing import Any

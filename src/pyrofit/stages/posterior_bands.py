@@ -1,4 +1,4 @@
-"""Every experiment predicted by draws from the posterior, with what the model lacks."""
+"""Every experiment predicted by draws from the posterior, with model discrepancy."""
 
 from collections.abc import Mapping
 from dataclasses import dataclass
@@ -42,7 +42,7 @@ class Predicted:
     lacking: FloatArray | None
     """Drawn discrepancies; None where no fitted experiment tells them."""
     value: FloatArray | None = None
-    """What was measured."""
+    """The measured series."""
     sd: FloatArray | None = None
     """Standard deviation of its noise."""
 

@@ -82,7 +82,7 @@ def robustness(study: Study, results: Results, cost: str) -> None:
 
 
 def plan(study: Study) -> Iterator[tuple[str, float, int]]:
-    """Yield what is added to each twin: kind, level, number of the draw."""
+    """Yield the disturbance of each twin: kind, level, number of the draw."""
     levels = {NOISE: study.robustness.noise, OUTLIERS: study.robustness.outliers}
     for kind, values in levels.items():
         for level in values:

@@ -1,4 +1,4 @@
-"""What signals and costs depend on: variance-based sensitivity, over time."""
+"""Variance-based sensitivity of signals and costs, over time."""
 
 from collections.abc import Callable
 

@@ -1,4 +1,4 @@
-"""What varies in a sensitivity analysis: estimated parameters, known values, the apparatus."""
+"""Inputs of a sensitivity analysis: estimated parameters, known values, the apparatus."""
 
 from collections.abc import Iterable, Mapping
 from dataclasses import dataclass, replace
@@ -42,7 +42,7 @@ PLACES = {
     "start": Place("sample", "initial_temperature_K", "initial temperature", "K", 2.0),
     "back_loss": Place("back", "loss_factor", "loss of the back over that described", "-", 0.1),
 }
-"""What the apparatus leaves uncertain unless the study tells, by the end of the input's name."""
+"""Default uncertainties of the apparatus, by the end of the input's name."""
 
 
 @dataclass(frozen=True)
@@ -78,7 +78,7 @@ class Input:
 def inputs_of(
     study: Study, results: Results, problem: Problem, within: str
 ) -> tuple[list[Input], Problem]:
-    """Return what varies, and the problem with names in its places.
+    """Return the inputs that vary, and the problem with names in their places.
 
     Parameters
     ----------

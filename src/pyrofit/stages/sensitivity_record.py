@@ -1,4 +1,4 @@
-"""What is kept of a sensitivity analysis: indices over time, of costs, and the record."""
+"""Stored results of a sensitivity analysis: indices over time, of costs, and the record."""
 
 from collections.abc import Mapping
 from typing import Any

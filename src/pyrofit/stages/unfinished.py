@@ -58,7 +58,7 @@ class Unfinished:
 
 
 def sweep(results: Results) -> None:
-    """Delete what is left of studies that were changed before their jobs ended."""
+    """Delete the remains of studies that were changed before their jobs ended."""
     shutil.rmtree(results.root / FOLDER, ignore_errors=True)
 
 

@@ -1,4 +1,4 @@
-"""What the apparatus leaves uncertain of records, which no further point of them averages out.
+"""Uncertainty of records by the apparatus, which no further point of them averages out.
 
 Each value a of a test's apparatus has a standard deviation, and moves the whitened record by
 U_a = L^-1 (d curve / d a) sd(a) / sd. Together with the noise, of variance s^2, the record's
@@ -18,7 +18,7 @@ from pyrofit.stages.worth_forecast import Lasting, Record
 
 
 def of_record(fitted: FittedModel, record: Record, dispersion: float) -> Record:
-    """Return a record with what the apparatus leaves uncertain of it."""
+    """Return a record with its uncertainty by the apparatus."""
 
     def whitened(experiment: Experiment) -> FloatArray | None:
         made = replace(record, forecast=replace(record.forecast, experiment=experiment))
@@ -29,7 +29,7 @@ def of_record(fitted: FittedModel, record: Record, dispersion: float) -> Record:
 
 
 def of_fitted(fitted: FittedModel, dispersion: float) -> Lasting:
-    """Return what the apparatus leaves uncertain of the data that are fitted.
+    """Return the uncertainty of the fitted data by the apparatus.
 
     The tests are taken to be independent of each other.
     """
@@ -63,7 +63,7 @@ def _moves(
 
 
 def lasting_of(moves: list[FloatArray], dispersion: float) -> Lasting:
-    """Return what lasts, from whitened changes by one standard deviation and s^2 of the noise."""
+    """Return the lasting part, from whitened changes by one standard deviation and s^2 of noise."""
     if not moves:
         return Lasting()
     V = np.column_stack(moves) / np.sqrt(dispersion)

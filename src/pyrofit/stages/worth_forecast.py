@@ -79,7 +79,7 @@ class Lasting:
     shares: FloatArray | None = None
 
     def whiten(self, white: FloatArray) -> FloatArray:
-        """Whiten what is white but for this, shape (points,) or (points, k)."""
+        """Whiten values that are white except for this, shape (points,) or (points, k)."""
         if self.directions is None or self.shares is None:
             return white
         shares = self.shares if white.ndim == 1 else self.shares[:, None]

@@ -35,7 +35,7 @@ DSC_LEVEL_W_KG, DSC_SLOPE_W_KGK = 100.0, 0.5
 
 @dataclass(frozen=True, eq=False)
 class Planned:
-    """A test with one choice of what it records."""
+    """A test with one choice of its recorded signals."""
 
     name: str
     words: str

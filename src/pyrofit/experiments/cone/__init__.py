@@ -28,7 +28,7 @@ class Cone(SlabExperiment):
         return self.flame is not None
 
     def burning(self) -> Flame | None:
-        """Return the flame; without one, what gas is released burns at once."""
+        """Return the flame; without one, released gas burns at once."""
         return self.flame
 
 

@@ -1,4 +1,4 @@
-"""What files of a cone calorimeter tell."""
+"""Facts that files of a cone calorimeter contain."""
 
 from typing import Any
 
@@ -10,7 +10,7 @@ BURNS = 0.1
 
 
 def facts(frames: Frames) -> dict[str, Any]:
-    """Return what a record tells of a slab, and the time of ignition [s]; None without one."""
+    """Return the facts of a slab's record and the time of ignition [s]; None without one."""
     ignition = None
     if (frame := frames.get("heat_release_rate")) is not None:
         rate = frame["heat_release_rate_W_m2"]

@@ -1,1 +1,1 @@
-"""What all kinds have whose sample follows a temperature programme."""
+"""Shared parts of all kinds whose sample follows a temperature programme."""

@@ -1,4 +1,4 @@
-"""What files of heated samples tell."""
+"""Facts that files of heated samples contain."""
 
 import numpy as np
 import pandas as pd
@@ -15,7 +15,7 @@ AGREES = 0.1
 
 
 def from_files(help: str, computed: tuple[float, ...] = (), signal: str = "") -> FromFiles:
-    """Return what a new study needs of a kind of heated sample."""
+    """Return the entries of a new study for a kind of heated sample."""
     return FromFiles(help, RATE_K_MIN, recorded_rate, held, mass_loss, computed, signal)
 
 

@@ -69,7 +69,7 @@ def reference(
 def request(
     experiment: HeatedExperiment, signal: str, frame: pd.DataFrame, times: FloatArray
 ) -> Request:
-    """Return what a simulation is asked for at the given times of a measured signal."""
+    """Return the request to a simulation at the given times of a measured signal."""
     return Request(
         times,
         temperature_K=programme(experiment, frame, times),

@@ -1,1 +1,1 @@
-"""What all kinds have whose sample is a slab under radiant heat."""
+"""Shared parts of all kinds whose sample is a slab under radiant heat."""

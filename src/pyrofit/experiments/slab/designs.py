@@ -19,7 +19,7 @@ INSULATED: dict[str, float] = {
     "h_cube_root_W_m2K43": 0.0,
     "emissivity": 0.0,
 }
-"""What a back that loses no heat has."""
+"""Keys of a back that loses no heat."""
 RATE, LEVEL, BACK = "mlr", "mass", "back_temperature"
 """Quantities that a new test records: rate, or mass where no rate is, and the back temperature."""
 

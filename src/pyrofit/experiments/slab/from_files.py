@@ -1,4 +1,4 @@
-"""What files of slabs under radiant heat tell."""
+"""Facts that files of slabs under radiant heat contain."""
 
 from collections.abc import Callable
 from typing import Any
@@ -25,7 +25,7 @@ def from_files(
     computed: tuple[float, ...] = (),
     signal: str = "",
 ) -> FromFiles:
-    """Return what a new study needs of a kind of slab."""
+    """Return the entries of a new study for a kind of slab."""
     return FromFiles(
         help, FLUX_KW_M2, lambda named, frames: None, facts, lambda frames: None, computed, signal
     )

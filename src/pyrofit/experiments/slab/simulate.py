@@ -47,12 +47,12 @@ def reference(
 def request(
     experiment: SlabExperiment, signal: str, frame: pd.DataFrame, times: FloatArray
 ) -> Request:
-    """Return what a simulation is asked for at the given times of a signal."""
+    """Return the request to a simulation at the given times of a signal."""
     return request_at(experiment, signal, times)
 
 
 def request_at(experiment: SlabExperiment, signal: str, times: FloatArray) -> Request:
-    """Return what a simulation is asked for at the given times of a signal."""
+    """Return the request to a simulation at the given times of a signal."""
     described, quantity = experiment.signals[signal], experiment.quantity(signal)
     return Request(
         times,

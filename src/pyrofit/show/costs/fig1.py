@@ -1,4 +1,4 @@
-"""Fig. 1: what the cost functions count."""
+"""Fig. 1: quantities that the cost functions measure."""
 
 from typing import Any
 

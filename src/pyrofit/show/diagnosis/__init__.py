@@ -1,1 +1,1 @@
-"""What the diagnosis found, a step of its own."""
+"""Results of the diagnosis, a step of its own."""

@@ -1,4 +1,4 @@
-"""What the diagnosis found, in sentences."""
+"""Results of the diagnosis, in sentences."""
 
 from pyrofit.analysis.uses import title_of
 from pyrofit.config import Study
@@ -39,7 +39,7 @@ def where_off(found: Found) -> str:
 
 
 def missing(found: Found) -> str:
-    """Say what was found, and what was not looked for."""
+    """Return sentences on the findings, and on effects that were not considered."""
     reasons: dict[str, list[str]] = {}
     for one in found["not_tried"]:
         reasons.setdefault(one["reason"], []).append(effect_name(one["effect"]))

@@ -1,4 +1,4 @@
-"""What is missing, and how much of it."""
+"""Missing effects and their strengths."""
 
 import pandas as pd
 

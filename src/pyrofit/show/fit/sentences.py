@@ -1,4 +1,4 @@
-"""What was fitted to which data, and which values are unreliable, in sentences."""
+"""Fitted parameters and data, and unreliable values, in sentences."""
 
 import math
 from collections.abc import Sequence
@@ -11,7 +11,7 @@ from pyrofit.show.text import listed, number, several
 
 
 def sentences(study: Study, facts: Facts) -> list[str]:
-    """Say what was fitted to what, how low the costs are, and which values are unreliable."""
+    """Return sentences on fitted parameters and data, costs, and unreliable values."""
     return [_data(study), _lowest(study, facts.repeated), _parameters(facts.repeated)]
 
 

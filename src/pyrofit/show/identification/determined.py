@@ -1,4 +1,4 @@
-"""Intervals of the parameters, and what the data determine."""
+"""Intervals of the parameters, and their verdicts."""
 
 from typing import Any
 

@@ -1,4 +1,4 @@
-"""What the data determine, in sentences."""
+"""Identifiability of the parameters, in sentences."""
 
 from collections.abc import Sequence
 from itertools import groupby

@@ -65,7 +65,7 @@ def _templates() -> Environment:
 
 
 def provenance(study: Study, measured: Measured) -> dict[str, Any]:
-    """Return what the results rest on; the same for the same study, data and environment."""
+    """Return the basis of the results; the same for the same study, data and environment."""
     return {
         "study": study.name,
         "config_digest": digest(study.model_dump(mode="json")),

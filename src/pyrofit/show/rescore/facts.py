@@ -1,4 +1,4 @@
-"""What tables, figures and sentences of the scores share."""
+"""Facts that tables, figures and sentences of the scores share."""
 
 from collections.abc import Iterable
 

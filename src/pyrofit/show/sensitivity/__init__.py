@@ -1,1 +1,1 @@
-"""What signals and costs depend on, over time, a step of its own."""
+"""Sensitivity of signals and costs over time, a step of its own."""

@@ -1,4 +1,4 @@
-"""What tables, figures and sentences of the sensitivity share."""
+"""Facts that tables, figures and sentences of the sensitivity share."""
 
 from collections.abc import Iterable, Sequence
 

@@ -1,4 +1,4 @@
-"""What signals depend on, what costs see of it, and why, in sentences."""
+"""Sensitivity of signals and costs, with the reasons, in sentences."""
 
 from collections.abc import Iterable
 

@@ -1,4 +1,4 @@
-"""What varies, what the signals depend on, and what the costs see."""
+"""Tables of the inputs, and of the sensitivity of signals and costs."""
 
 from typing import Any
 
@@ -12,7 +12,7 @@ from pyrofit.show.table import Table, always
 
 
 def inputs(study: Study, results: Results) -> pd.DataFrame:
-    """List what varies, and the share of every signal's variance in which it takes part."""
+    """List the inputs, and the share of every signal's variance in which it takes part."""
     found = sensitivity.read(study, results)
     rows = []
     for one in found.inputs:

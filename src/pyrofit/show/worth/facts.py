@@ -1,4 +1,4 @@
-"""What table, figure and sentences of data worth share."""
+"""Facts that table, figure and sentences of data worth share."""
 
 from collections.abc import Iterator
 

@@ -1,4 +1,4 @@
-"""What planned tests leave of the standard deviations of parameters and predictions."""
+"""Standard deviations of parameters and predictions after planned tests."""
 
 from collections.abc import Sequence
 

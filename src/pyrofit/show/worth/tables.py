@@ -1,4 +1,4 @@
-"""The planned tests and what each leaves of the standard deviations."""
+"""The planned tests and the standard deviations after each of them."""
 
 from typing import Any
 
