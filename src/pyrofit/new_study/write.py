@@ -84,8 +84,7 @@ def _records(files: Files) -> list[Measured]:
 def drafted(name: str, files: Files) -> tuple[str, list[Measured]]:
     """Return the text of a study for measured files, and the records in them; write nothing.
 
-    In the text the files are ``data/<record>.csv``. A study needs a slab: where there is none, the
-    text has one whose measurement is computed.
+    In the text the files are ``data/<record>.csv``.
 
     Raises
     ------
@@ -96,10 +95,7 @@ def drafted(name: str, files: Files) -> tuple[str, list[Measured]]:
     """
     _check_name(name)
     records = _records(files)
-    tests = grouped(records)
-    if not any(test.of.stage == "imp" for test in tests):
-        tests.append(next(test for test in computed() if test.of.stage == "imp"))
-    return study_text(name, tests), records
+    return study_text(name, grouped(records)), records
 
 
 def _write(folder: Path, text: str, records: Sequence[Measured]) -> Path:
