@@ -92,12 +92,20 @@ class WorkDone(logging.Handler):
         return median(short) if len(short) >= ENOUGH else START_S
 
     def _call_s(self) -> float | None:
-        """Return the time of a model call [s] in the searches that have ended; None without one."""
-        searched = {r: took for r, took in self._took.items() if took and self._calls.get(r)}
-        calls = sum(self._calls[r] * len(took) for r, took in searched.items())
-        if not calls:
-            return None
-        return sum(max(t - START_S, 0.0) for took in searched.values() for t in took) / calls
+        """Return the time of a model call [s] in the searches that have ended; None without one.
+
+        The shortest: the first searches may have compiled the solver as well.
+        """
+        start = self._start_s()
+        return min(
+            (
+                max(t - start, 0.0) / self._calls[rule]
+                for rule, took in self._took.items()
+                if self._calls.get(rule)
+                for t in took
+            ),
+            default=None,
+        )
 
 
 def _words(seconds: float) -> str:
