@@ -69,7 +69,9 @@ def test_files_of_the_data_base_are_named_by_commit_and_checksum_and_not_copied(
     assert measured == ["results/measurements/summary.json"]
     assert not [n for n in held if n.startswith(("results/", "data/")) and "777" in held[n]]
     assert COMMIT in held["README.txt"]
-    assert f"{len(set(study.needs_macfp))} measured files are of the MaCFP" in held["README.txt"]
+    assert (
+        f"{len(set(study.needs_macfp))} measured files are part of the MaCFP" in held["README.txt"]
+    )
     assert '"sha256": "abc"' in held["results/provenance.json"]
 
 

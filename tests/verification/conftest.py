@@ -4,10 +4,10 @@ import inspect
 from collections.abc import Iterator
 from pathlib import Path
 
-import page
 import pytest
+import verification_page as page
 from evidence import Evidence
-from page import Collected
+from verification_page import Collected
 
 HERE = Path(__file__).parent
 

@@ -2,9 +2,9 @@
 
 import re
 
-import page
 import pytest
-from page import Collected
+import verification_page as page
+from verification_page import Collected
 
 WAY_OUT = "the page is not that of the tests: run 'make verification'"
 
