@@ -58,7 +58,7 @@ from pyrofit.solver.kernels import slab
 spent["numba"] = time.perf_counter() - start - spent["imports"] - spent["library"]
 from pyrofit.stages import fit
 spent["imports"] = time.perf_counter() - start - spent["library"] - spent["numba"]
-problem.simulate_gasifications = timed("solver", problem.simulate_gasifications)
+problem.Problem.simulated = timed("solver", problem.Problem.simulated)
 problem.Problem.evaluate_all = timed("evaluate", problem.Problem.evaluate_all)
 problem.Problem.evaluate = timed("evaluate", problem.Problem.evaluate)
 search = sceua.search_several
