@@ -29,8 +29,8 @@ SETTINGS = {
     "capa_60": Accuracy(cells=56, tolerance=0.006, first_step_s=0.3, longest_step_s=10),
 }
 NOTE = (
-    "Evaluations per second of sets that differ by up to a tenth in each value, in one thread, at "
-    "the setting of 0.2 %, by the number of lanes. Results have the same bits with any number. "
+    "Evaluations per second in one thread, at the setting of 0.2 %, by the number of lanes. The "
+    "sets differ by up to a tenth in each value. Results have the same bits with any number. "
     "*AVX2*: compiled for processors without AVX-512, on the same processor. Times are those of "
     "the processor, the shortest of many."
 )
