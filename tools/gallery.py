@@ -2,8 +2,8 @@
 
 Run: python tools/gallery.py [RESULTS]    default: results
 
-RESULTS holds twin, pine and twin_with_k_T, finished with the commands of the page. Titles and
-captions are those of the report.
+RESULTS holds twin, pmma, paper, pine and twin_with_k_T, finished with the commands of the page.
+Titles and captions are those of the report.
 """
 
 import sys
@@ -46,6 +46,22 @@ GROUPS: tuple[Group, ...] = (
             *("overview", "fig1", "fig2", "fig3", "fig4", "profiles"),
             *("good_sets", "residuals", "fig5", "spread", "optimisers"),
         ),
+    ),
+    (
+        "Measured PMMA",
+        "snakemake --cores 2 --configfile config/pmma.yaml",
+        "pmma",
+        "figures",
+        FIGURES,
+        ("overview", "kinetics_all_rates", "other_signals", "profiles"),
+    ),
+    (
+        "The published campaign",
+        "snakemake --cores 2 --configfile config/paper.yaml",
+        "paper",
+        "figures",
+        FIGURES,
+        ("fig2", "fig3", "fig4", "fig5", "spread"),
     ),
     (
         "Measured pine",
