@@ -202,6 +202,7 @@ def test_command_prints_and_writes_json(tmp_path: Path, capsys: pytest.CaptureFi
 
 
 @pytest.mark.measured
+@pytest.mark.slow
 def test_every_measured_file_of_the_data_base_is_classified() -> None:
     folder = Path(os.environ["PYROFIT_DATA_DIR"])
     if not (folder / "Wood").is_dir():
