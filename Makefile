@@ -1,6 +1,6 @@
 # make campaign   everything from nothing: environment, data, the whole study, report
 # make test       everything from nothing: environment, all tests
-# make test-fast  the tests that neither run the solver nor Snakemake, in 90 s
+# make test-fast  the tests that neither run the solver nor Snakemake, in 100 s
 # make docs       the documentation as a site, build/docs/index.html
 # make test-slurm the study smoke on a Slurm of virtual nodes; needs root, installs Debian's packages
 # STUDY=my.yaml make campaign runs your own study; CORES=n sets the number of cores.

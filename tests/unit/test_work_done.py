@@ -52,7 +52,7 @@ def test_a_long_search_counts_more_than_short_steps() -> None:
     run.log(Event.JOB_INFO, jobid=3, rule_name="imp_B")
     run.now += 200.0
     run.log(Event.PROGRESS, done=2, total=4)
-    assert run.lines[-1].endswith("75 %, about 2 min left")  # 304 s of 408
+    assert run.lines[-1].endswith("75 %, about 104 s left")  # 304 s of 408
     run.log(Event.PROGRESS, done=9, total=9)
     assert len(run.lines) == 3  # nothing is left to say at the end
 

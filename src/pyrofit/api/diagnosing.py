@@ -42,7 +42,7 @@ def diagnose(
     Parameters
     ----------
     study
-        A study, its file, or its keys; the key ``diagnosis`` says what is fitted and held out.
+        A study, its file, or its keys; the key ``diagnosis`` names fitted and held-out signals.
     data
         Measured series that replace those of the study, as of `read_data`.
     effects
@@ -86,7 +86,7 @@ def _refuse_mixture(study: Study, keys: Sequence[Key], given: Sequence[object]) 
 
 @dataclass(frozen=True, eq=False)
 class Diagnosis:
-    """What a model lacks; print it for the verdict and the candidates.
+    """Missing effects of a model; print it for the verdict and the candidates.
 
     Parameters
     ----------

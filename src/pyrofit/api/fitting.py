@@ -48,7 +48,7 @@ Tell = Callable[[str], None]
 
 @dataclass(frozen=True, eq=False)
 class Task:
-    """What is fitted by which parameters; the others have values, SI units."""
+    """Signals to fit and their parameters; all other parameters have values in SI units."""
 
     study: Study
     channels: tuple[TermSpec, ...]
@@ -143,7 +143,7 @@ def task_of(
     stage: Stage | None,
     given: Collection[Key] = (),
 ) -> Task:
-    """Return what is fitted, checked."""
+    """Return the signals to fit and their parameters, checked."""
     channels, names = _default(study, given)
     if stage == "kinetics":
         channels, names = kinetics_of(study).channels, kinetics_of(study).estimate

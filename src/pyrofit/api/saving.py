@@ -1,4 +1,4 @@
-"""Studies as files, so that the workflow runs what was tried in memory."""
+"""Studies as files, for the workflow to run a study that was tried in memory."""
 
 import os
 from pathlib import Path

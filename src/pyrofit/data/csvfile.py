@@ -42,7 +42,7 @@ class Table:
     left_out : tuple of int
         Rows of the file, from 0, that the columns do not have any more.
     mended : tuple of str
-        What was read in another way than as a table in UTF-8 with decimal points.
+        Notes on all that is no table in UTF-8 with decimal points.
     faults : dict of str to tuple of int and str
         Line number and text of the first cell that holds no number, by column that has one.
     """

@@ -122,7 +122,7 @@ def _goes_on(rows: Sequence[Line]) -> bool:
 
 
 def _refuse(path: Path, lines: Sequence[Line], count: int) -> None:
-    """Refuse what is no table."""
+    """Refuse all but tables."""
     if count == 0:
         raise DataError(
             f"{path}, line {lines[0].number}: the first row holds numbers; "

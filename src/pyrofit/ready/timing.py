@@ -12,6 +12,7 @@ from pyrofit.estimate.problem import Problem, make_problem
 from pyrofit.estimate.targets import Measurements
 from pyrofit.ready.finding import Finding, Situation
 from pyrofit.ready.plan import Part, parts_of
+from pyrofit.running.durations import in_words
 from pyrofit.running.shares import SIDE_BY_SIDE
 from pyrofit.stages.measurements import computed
 from pyrofit.stages.reading import read_all
@@ -56,7 +57,7 @@ def _estimate(situation: Situation, timed: list[tuple[Part, float, float]]) -> F
     # No job is divided.
     cores = min(situation.cores, jobs)
     text = (
-        f"about {words(total / cores)} for the fits: ({calls:,.0f} model calls x "
+        f"about {in_words(total / cores)} for the fits: ({calls:,.0f} model calls x "
         f"{1e3 * model / calls:.2g} ms + {jobs} jobs x {start:g} s) / {cores} cores. "
         "Tables, figures and a diagnosis are not included"
     )
@@ -110,14 +111,3 @@ def _values(study: Study) -> dict[str, float]:
         if p.lower is not None and p.upper is not None
     }
     return middle | study.true_values()
-
-
-def words(seconds: float) -> str:
-    """Return a duration in words.
-
-    >>> words(42.0), words(600.0), words(90_000.0)
-    ('42 s', '10 min', '25 h')
-    """
-    if seconds < 120.0:
-        return f"{seconds:.0f} s"
-    return f"{seconds / 60.0:.0f} min" if seconds < 7200.0 else f"{seconds / 3600.0:.0f} h"

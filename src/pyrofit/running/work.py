@@ -13,6 +13,8 @@ from collections.abc import Callable, Mapping
 from statistics import median
 from typing import Any
 
+from pyrofit.running.durations import in_words
+
 START_S = 2.0
 """Time of a step besides its model calls [s], until `ENOUGH` steps without a search have ended."""
 ENOUGH = 3
@@ -77,7 +79,7 @@ class WorkDone(logging.Handler):
         share = min(done / max(total, 1e-9), 1.0)
         line = f"work: [{'#' * int(WIDTH * share):.<{WIDTH}}] {100 * share:.0f} %"
         if self._cores and self._call_s() is not None:
-            line += f", about {_words(max(total - done, 0.0) / self._cores)} left"
+            line += f", about {in_words(max(total - done, 0.0) / self._cores)} left"
         return line
 
     def _expected(self, rule: str) -> float:
@@ -106,9 +108,3 @@ class WorkDone(logging.Handler):
             ),
             default=None,
         )
-
-
-def _words(seconds: float) -> str:
-    if seconds < 100.0:
-        return f"{seconds:.0f} s"
-    return f"{seconds / 60.0:.0f} min" if seconds < 6000.0 else f"{seconds / 3600.0:.1f} h"

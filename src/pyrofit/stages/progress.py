@@ -6,6 +6,7 @@ from collections.abc import Callable
 from functools import partial
 
 from pyrofit.estimate.history import Progress
+from pyrofit.running.durations import in_words
 
 OFTEN_S = 2.0
 """Shortest time between two lines."""
@@ -58,7 +59,7 @@ class Told:
         left = ""
         if first < self._furthest < self._generations:
             each = (now - began) / (self._furthest - first)
-            left = f", about {each * (self._generations + 1 - self._furthest):.0f} s left"
+            left = f", about {in_words(each * (self._generations + 1 - self._furthest))} left"
         print(
             f"{self._label}: generation {self._furthest} of {self._generations}, "
             f"{sum(self._calls):,} model calls, lowest cost {min(self._best):.4g}{left}",

@@ -18,6 +18,7 @@ from pyrofit.external.runs import Outcome, outcomes
 from pyrofit.model.external import ExternalExperiment
 from pyrofit.results.files import Results, write_json
 from pyrofit.running.calls import search_calls
+from pyrofit.running.durations import in_words
 from pyrofit.seeds import seed_for
 from pyrofit.stages.fit import fixed_for_imp
 from pyrofit.stages.measurements import load
@@ -149,18 +150,5 @@ def _sentences(content: Mapping[str, Any], cores: int) -> Iterator[str]:
     total = sum(calls.values())
     yield (
         f"about {total} model calls ({'; '.join(f'{label}: {n}' for label, n in calls.items())}): "
-        f"{_duration(hours)} on one core, {_duration(hours / cores)} on {cores}"
+        f"{in_words(3600.0 * hours)} on one core, {in_words(3600.0 * hours / cores)} on {cores}"
     )
-
-
-def _duration(hours: float) -> str:
-    """Return a time in words.
-
-    >>> _duration(0.001), _duration(0.5), _duration(30.0), _duration(100.0)
-    ('4 s', '30 min', '30 h', '4.2 days')
-    """
-    if hours < 1.0 / 60.0:
-        return f"{3600.0 * hours:.0f} s"
-    if hours < 2.0:
-        return f"{60.0 * hours:.0f} min"
-    return f"{hours:.0f} h" if hours < 72.0 else f"{hours / 24.0:.1f} days"
