@@ -14,7 +14,7 @@ from pyrofit.solver.arrays import FLUX, Description, FloatArray, Numerics, Value
 from pyrofit.solver.backing import lower_backing, with_backing
 from pyrofit.solver.curves import Curves, Request, Runs
 from pyrofit.solver.heated import heated_samples
-from pyrofit.solver.lower import lower_material, lower_network
+from pyrofit.solver.lower import Substance
 from pyrofit.solver.lower_experiment import lower_layers, lower_places, lower_share
 from pyrofit.solver.lower_exposure import lower_exposure
 from pyrofit.solver.observe import observe
@@ -114,8 +114,35 @@ def simulate_gasifications(
     As `simulate_gasification`; each value is a number or has the shape (sets,). A set has the same
     curves to the last bit alone and among others, with one thread and with several.
     """
-    accuracy = accuracy or Accuracy()
-    case = _lower(experiment, material, values, accuracy, sets)
+    substance = Substance(material, values, sets)
+    return _simulated(experiment, substance, requests, accuracy or Accuracy(), threads)
+
+
+def simulate_slabs(
+    experiments: Sequence[SlabExperiment],
+    material: Material,
+    values: Values,
+    requests: Sequence[Mapping[str, Request]],
+    accuracy: Accuracy,
+    sets: int = 1,
+) -> list[list[Curves]]:
+    """Simulate such experiments of one material; the curves are listed by experiment, then set."""
+    substance = Substance(material, values, sets)
+    return [
+        _simulated(experiment, substance, asked, accuracy)
+        for experiment, asked in zip(experiments, requests, strict=True)
+    ]
+
+
+def _simulated(
+    experiment: SlabExperiment,
+    substance: Substance,
+    requests: Mapping[str, Request],
+    accuracy: Accuracy,
+    threads: int = 1,
+) -> list[Curves]:
+    values, sets = substance.values, substance.sets
+    case = _lower(experiment, substance, accuracy)
     located = lower_places(experiment.sample, requests, values, sets)
 
     def run(factors: FloatArray, asked: Mapping[str, Request]) -> Runs:
@@ -136,19 +163,11 @@ def _numerics(accuracy: Accuracy) -> Numerics:
     )
 
 
-def _lower(
-    experiment: SlabExperiment,
-    material: Material,
-    values: Values,
-    accuracy: Accuracy,
-    sets: int,
-) -> Case:
+def _lower(experiment: SlabExperiment, substance: Substance, accuracy: Accuracy) -> Case:
     sample = experiment.sample
-    length, denser = (
-        value_of(x, values) for x in (sample.absorption_length_m, sample.density_factor)
-    )
-    properties = lower_material(material, values, sets, length, denser)
-    network = lower_network(material, values, sets)
+    material, values, sets = substance.material, substance.values, substance.sets
+    properties = substance.properties(sample.absorption_length_m, sample.density_factor)
+    network = substance.network
     share = lower_share(experiment, material, values, sets)
     exposure = lower_exposure(experiment, share, properties, values, sets)
     layers = lower_layers(experiment, material, properties, values, sets)

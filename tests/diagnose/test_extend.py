@@ -53,7 +53,9 @@ def check(described: Study, hidden: str, trial: FittedModel) -> None:
     values = trial.model.likelihood.values(trial.fit.x)[: len(LIMITS)]
     fitted = trial.model.likelihood.curves(trial.fit.x)
     assert fitted is not None
-    again = simulated(described, hidden, values)
+    # The runs of a search may be coarser than those of a study.
+    as_fitted = {"accuracy": trial.model.likelihood.problem.accuracy}
+    again = simulated(described.model_copy(update=as_fitted), hidden, values)
     assert np.all(np.abs(again - fitted) <= 1e-12 * np.abs(fitted))
     without = simulated(study(), hidden, values)
     assert np.any(np.abs(without - fitted) > 1e-3 * np.abs(fitted))

@@ -26,6 +26,7 @@ from pyrofit.config import Study, read_study
 from pyrofit.model.accuracy import Accuracy
 from pyrofit.simulate import _lower, simulate_gasifications, simulate_tgas
 from pyrofit.solver.curves import Curves, Request
+from pyrofit.solver.lower import Substance
 
 SMOKE = Path(__file__).parents[2] / "config" / "smoke.yaml"
 CALLS = {"cells": 1, "one_tga": 1, "eight_tga": 1, "one_slab": 2, "eight_slabs": 2}
@@ -40,7 +41,7 @@ def bits(name: str) -> str:
     values = {n: np.full(sets, x) for n, x in study.true_values().items()}
     if name == "cells":
         experiment = study.experiments["slab_60"]
-        case = _lower(experiment, study.material, study.true_values(), Accuracy(), 1)
+        case = _lower(experiment, Substance(study.material, study.true_values()), Accuracy())
         return str(case.cells)
     found = tga(study, values, sets) if "tga" in name else slab(study, values, sets)
     return hashlib.sha256(

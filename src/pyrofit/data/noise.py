@@ -67,8 +67,12 @@ def lowest_density(lags: Sequence[float]) -> float:
     >>> [round(lowest_density([r]), 12) for r in (-0.5, -0.6)]
     [0.0, -0.2]
     """
+    if len(lags) < 3:
+        one, two = (*lags, 0.0, 0.0)[:2]
+        flat_at = -0.25 * one / two if abs(one) < 4.0 * abs(two) else 1.0
+        return min(1.0 + 2.0 * (one * c + two * (2.0 * c * c - 1.0)) for c in (-1.0, 1.0, flat_at))
     density = Chebyshev([1.0, *(2.0 * r for r in lags)])
-    flat = density.deriv().roots() if len(lags) > 1 else np.empty(0)
+    flat = density.deriv().roots()
     inside = flat.real[(np.abs(flat.imag) < 1e-9) & (np.abs(flat.real) < 1.0)]
     return float(np.min(density(np.concatenate([[-1.0, 1.0], inside]))))
 

@@ -9,7 +9,8 @@ import pandas as pd
 from pyrofit.config import Study
 from pyrofit.diagnose.advise.free_corrections import Probe, probes
 from pyrofit.diagnose.advise.separation import next_experiments
-from pyrofit.diagnose.base.fit import set_up
+from pyrofit.diagnose.base.accuracy import solver_error
+from pyrofit.diagnose.base.fit import Setup, set_up
 from pyrofit.diagnose.base.fitted import FittedModel, up_to_date
 from pyrofit.diagnose.judge.findings import Verdict
 from pyrofit.diagnose.judge.profiles import profiles
@@ -17,6 +18,7 @@ from pyrofit.diagnose.judge.verdict import judge
 from pyrofit.diagnose.result import record
 from pyrofit.diagnose.search.step import SearchContext, Tell, in_order
 from pyrofit.diagnose.search.stepwise import Search, search
+from pyrofit.diagnose.settings import SETTINGS
 from pyrofit.estimate.targets import Measurements
 
 
@@ -57,14 +59,10 @@ def examine(
     DataError
         A channel is too short, or no run within the limits finishes.
     """
-    setup = set_up(study, measurements, processes)
-    tell(f"base model: chi-square {setup.base.fit.chi2:.1f} of {setup.base.model.points} points")
-    rng = np.random.default_rng(study.seed)
-    context = SearchContext(rng, tell, processes, setup.other_starts)
-    found = search(setup.base, setup.candidates, study.diagnosis.most_effects, context)
-    verdict = judge(found, context.rng, processes)
+    found, rng, solver = _searched(study, measurements, tell, processes)
+    verdict = judge(found, rng, processes)
     found = verdict.search
-    content = record.content(study, found, verdict)
+    content = {**record.content(study, found, verdict), "solver": solver}
     content["profiles"] = profiles(found.end, processes) if advise else []
     content["probes"] = [_shown(p) for p in (_probes(found, verdict, processes) if advise else [])]
     designs = next_experiments(_undecided(found, verdict)) if advise else []
@@ -76,6 +74,43 @@ def examine(
 def diagnose(study: Study, measurements: Measurements) -> dict[str, Any]:
     """Return the content of ``diagnosis.json``, without advice."""
     return examine(study, measurements, advise=False).content
+
+
+def _searched(
+    study: Study, measurements: Measurements, tell: Tell, processes: int
+) -> tuple[Search, np.random.Generator, dict[str, Any]]:
+    """Return the search, the generator of its draws, and how accurate its runs are.
+
+    Runs are coarser than the study asks for, unless the difference counts against the noise.
+    """
+    rough = study.model_copy(update={"accuracy": study.accuracy.coarsened()})
+    setup, rng = _based(rough, measurements, tell, processes)
+    error = solver_error(setup.base, study.accuracy)
+    if error <= SETTINGS.most_solver_error:
+        found = _search(rough, setup, rng, tell, processes)
+        error = max(error, solver_error(found.end, study.accuracy))
+        if error <= SETTINGS.most_solver_error:
+            return found, rng, {"coarsened": True, "error_chi2": error}
+    tell(f"once more with finer runs, which change chi-square by {error:.2g}")
+    setup, rng = _based(study, measurements, tell, processes)
+    found = _search(study, setup, rng, tell, processes)
+    return found, rng, {"coarsened": False, "error_chi2": 0.0}
+
+
+def _based(
+    study: Study, measurements: Measurements, tell: Tell, processes: int
+) -> tuple[Setup, np.random.Generator]:
+    """Return the fitted base model, and the generator of the draws that judge it."""
+    setup = set_up(study, measurements, processes)
+    tell(f"base model: chi-square {setup.base.fit.chi2:.1f} of {setup.base.model.points} points")
+    return setup, np.random.default_rng(study.seed)
+
+
+def _search(
+    study: Study, setup: Setup, rng: np.random.Generator, tell: Tell, processes: int
+) -> Search:
+    context = SearchContext(rng, tell, processes, setup.other_starts)
+    return search(setup.base, setup.candidates, study.diagnosis.most_effects, context)
 
 
 def _probes(found: Search, verdict: Verdict, processes: int) -> list[Probe]:

@@ -21,8 +21,8 @@ class Settings:
     """
 
     # Least squares
-    difference_step: float = STEPS[1]
-    """Step in x of a one-sided difference."""
+    difference_step: float = STEPS[2]
+    """Step in x of a central difference."""
     most_steps: int = MOST_STEPS
     """Steps of a descent at most."""
     most_refused: int = MOST_REFUSED
@@ -49,6 +49,8 @@ class Settings:
     """Descents, from the best of these points."""
     most_work: int = 5
     """Largest multiple of the cells and time steps of the fitted base model that a run gets."""
+    most_solver_error: float = 1.0
+    """Runs are as fine as the study asks for if coarser ones change more of chi-square."""
     wide_sd: float = 0.1
     """A parameter whose standard deviation in x is larger is hardly determined."""
     elsewhere: tuple[float, ...] = (0.15, 0.5, 0.85)

@@ -1,9 +1,11 @@
 """Correlation of noise from point to point: its form, its removal, and a test of the rest."""
 
 from dataclasses import dataclass
+from functools import lru_cache
 
 import numpy as np
-from scipy.linalg import cholesky_banded, solve_banded
+from scipy.linalg import cholesky_banded
+from scipy.linalg.lapack import dtbtrs
 
 from pyrofit.data.noise import autoregressive, lowest_density, moving_average
 from pyrofit.solver.arrays import FloatArray
@@ -49,10 +51,9 @@ class Correlation:
             return white, 2.0 * (n - 1) * float(np.log(rest))
         if not self.lags:
             return noise, 0.0
-        bands = np.tile(np.array([[1.0], *([r] for r in self.lags)]), (1, n))
-        factor = cholesky_banded(bands, lower=True, check_finite=False)
-        white = solve_banded((len(self.lags), 0), factor, noise, check_finite=False)
-        return white, 2.0 * float(np.log(factor[0]).sum())
+        factor, log_det = _factor(self.lags, n)
+        white, _ = dtbtrs(factor, noise.reshape(n, -1), uplo="L")
+        return white.reshape(noise.shape), log_det
 
     def describe(self) -> str:
         """Say what it is.
@@ -66,6 +67,14 @@ class Correlation:
             return "uncorrelated"
         at = ", ".join(str(k + 1) for k in range(len(self.lags)))
         return f"correlation {', '.join(f'{r:.2f}' for r in self.lags)} at lag {at}"
+
+
+@lru_cache(maxsize=64)
+def _factor(lags: tuple[float, ...], n: int) -> tuple[FloatArray, float]:
+    """Return the lower bands of L of R = L L^T, shape (lags + 1, n), and log det R."""
+    bands = np.tile(np.array([[1.0], *([r] for r in lags)]), (1, n))
+    factor = cholesky_banded(bands, lower=True, check_finite=False)
+    return np.asfortranarray(factor), 2.0 * float(np.log(factor[0]).sum())
 
 
 def shrunk(lags: tuple[float, ...]) -> Correlation:

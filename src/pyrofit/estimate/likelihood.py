@@ -2,6 +2,8 @@
 
 from collections.abc import Sequence
 from dataclasses import dataclass
+from functools import cached_property
+from itertools import pairwise
 
 import numpy as np
 
@@ -72,8 +74,8 @@ class Likelihood:
 
         Rows behind the points, of what is known, are left out.
         """
-        ends = np.cumsum(self.points)
-        return np.split(stacked[: ends[-1]], ends[:-1])
+        ends = np.cumsum(self.points).tolist()
+        return [stacked[a:b] for a, b in pairwise([0, *ends])]
 
     def whiten(self, stacked: FloatArray) -> FloatArray:
         """Whiten each channel of (points,) or (points, k)."""
@@ -96,8 +98,11 @@ class Likelihood:
     def _of_channels(self, curves: FloatArray | None) -> FloatArray:
         if curves is None:
             return np.full(sum(self.points), FAILED)
-        measured = np.concatenate([term.target.value for _, term in self.problem.cost.terms])
-        return self.whiten(curves - measured)
+        return self.whiten(curves - self._measured)
+
+    @cached_property
+    def _measured(self) -> FloatArray:
+        return np.concatenate([term.target.value for _, term in self.problem.cost.terms])
 
     def chi2(self, x: FloatArray) -> float:
         """Return the sum of the squares of the whitened residuals."""

@@ -82,6 +82,13 @@ class OfExtended(Record):
     )
 
 
+class OfSolver(Record):
+    """How accurate the solver's runs are."""
+
+    coarsened: bool = Field(description="runs are coarser than the study asks for")
+    error_chi2: float = Field(description="what finer runs change of chi-square")
+
+
 class OfWindow(Record):
     """An interval of a curve in which the residuals are biased."""
 
@@ -196,6 +203,7 @@ class Diagnosis(Record):
     windows: list[OfWindow] = Field(description="intervals in which residuals are biased")
     screen: list[OfScreen] = Field(description="score tests, by effect")
     confusability: OfConfusability = Field(description="how alike effects are")
+    solver: OfSolver = Field(description="accuracy of the solver")
     needed: float = Field(description="gain of chi-square that a claim needs")
     ambiguity: float = Field(description="difference of penalised chi-square that decides nothing")
     not_tried: list[OfNotTried] = Field(description="effects that are no candidates")

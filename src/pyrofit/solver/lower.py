@@ -7,6 +7,7 @@ by `lower_property`, experiments lowered by `lower_experiment`.
 
 from collections.abc import Mapping
 from dataclasses import dataclass
+from functools import cached_property
 from typing import Any
 
 import numpy as np
@@ -191,3 +192,26 @@ def lower_network(
         residue=plan.residue,
         residue_yield=yields[np.arange(len(order)), plan.residue],
     )
+
+
+class Substance:
+    """A material with the values of its parameters, lowered once for all experiments."""
+
+    def __init__(self, material: words.Material, values: Values, sets: int = 1) -> None:
+        self.material, self.values, self.sets = material, values, sets
+        self._properties: dict[tuple[float | str, float | str], Material] = {}
+
+    @cached_property
+    def network(self) -> Network:
+        """Return the reactions."""
+        return lower_network(self.material, self.values, self.sets)
+
+    def properties(self, absorption_length: float | str, density_factor: float | str) -> Material:
+        """Return the component properties of a sample with such numbers, see `lower_material`."""
+        key = absorption_length, density_factor
+        if key not in self._properties:
+            length, denser = (value_of(number, self.values) for number in key)
+            self._properties[key] = lower_material(
+                self.material, self.values, self.sets, length, denser
+            )
+        return self._properties[key]

@@ -84,8 +84,8 @@ class Model:
         return self.likelihood.residuals_all(X)
 
     def jacobian(self, x: FloatArray, residuals: FloatArray) -> FloatArray:
-        """Return d residuals / d x by differences of first order."""
-        return self.likelihood.jacobian(x, residuals, 1, SETTINGS.difference_step)
+        """Return d residuals / d x by differences of second order."""
+        return self.likelihood.jacobian(x, residuals, 2, SETTINGS.difference_step)
 
     def finished(self, residuals: FloatArray) -> bool:
         """Tell whether all runs finished that some residuals come from."""

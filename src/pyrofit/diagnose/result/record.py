@@ -91,7 +91,8 @@ def _role(found: Search, channel: int) -> str:
 
 def _not_tried(study: Study) -> list[dict[str, str]]:
     """Return the effects of the catalogue that are no candidates, and why."""
-    others = [name for name in known_effects() if name not in candidate_effects(study)]
+    candidates = candidate_effects(study)
+    others = [name for name in known_effects() if name not in candidates]
     unlisted = "diagnosis.effects does not list it"
     return [{"effect": name, "reason": obstacle(study, name) or unlisted} for name in others]
 

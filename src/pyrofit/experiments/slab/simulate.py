@@ -10,7 +10,7 @@ from pyrofit.model.accuracy import Accuracy, Resolution
 from pyrofit.model.material import Material
 from pyrofit.model.signal import Signal
 from pyrofit.model.slab import SlabExperiment
-from pyrofit.simulate import simulate_gasifications
+from pyrofit.simulate import simulate_slabs
 from pyrofit.solver.arrays import FloatArray, Values
 from pyrofit.solver.curves import Curves, Place, Request
 
@@ -24,10 +24,7 @@ def simulate(
     sets: int = 1,
 ) -> list[list[Curves]]:
     """Return the curves by experiment and set."""
-    return [
-        simulate_gasifications(e, material, values, requests, accuracy, sets=sets)
-        for e, requests in zip(experiments, asked, strict=True)
-    ]
+    return simulate_slabs(experiments, material, values, asked, accuracy, sets)
 
 
 def reference(
