@@ -68,9 +68,9 @@ def test_nothing_planted_is_none() -> None:
     verdict = verdict_on(found)
     assert verdict.kind == "none"
     assert verdict.findings == ()
-    assert verdict.reasons == ("what is left is noise",)
+    assert verdict.reasons == ("the residuals are noise",)
     assert found.trials == []
-    assert "nothing is missing that these data show. What is left is noise." in sentences(verdict)
+    assert "nothing is missing that these data show. The residuals are noise." in sentences(verdict)
 
 
 def test_remarkable_score_without_enough_gain_is_none_and_says_so() -> None:
@@ -324,7 +324,7 @@ def test_claim_that_predicts_what_is_held_out_no_better_is_open_and_says_so() ->
     assert not unsure.predicted
     assert not unsure.sure
     (said,) = _doubts(found, [unsure])
-    assert said.startswith("k_T: the log score of what is held out gains +1.9 only")
+    assert said.startswith("k_T: the log score of the held-out signals gains +1.9 only")
 
 
 def test_verdict_on_two_effects_is_the_same_by_two_processes() -> None:
@@ -341,7 +341,7 @@ def test_claim_that_does_not_explain_what_is_held_out_is_open() -> None:
     y[3 * POINTS + 20 : 3 * POINTS + 30] += 8.0
     verdict = verdict_on(searched(y, calibrated=(0, 1, 2)))
     assert verdict.kind == "ambiguous"
-    assert any("what is held out is not explained" in reason for reason in verdict.reasons)
+    assert any("does not explain held-out signals" in reason for reason in verdict.reasons)
 
 
 def test_next_experiment_tells_apart_the_two_best_models_of_different_effects() -> None:

@@ -86,6 +86,7 @@ def found(study: Study, kind: str) -> dict[str, Any]:
             "suspects": [{"effect": "c_T", "gain": 40.0}] if kind == "partly" else [],
         },
         "noise": [noise_of(c) for c in channels(study)],
+        "solver": {"coarsened": True, "error_chi2": 0.1},
         "not_tried": [{"effect": "tga_lag", "reason": "no calibrated signal can show it"}],
         "extended": {"parameters": {} if quiet else {"k": extended}},
         "base": {

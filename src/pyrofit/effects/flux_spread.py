@@ -20,8 +20,8 @@ EFFECT = Effect(
             upper=0.3,
             value=0.0,
             typical=0.06,
-            source="assumed range; 0.02 to 0.06 is usual; a flux that falls as the radius squared, "
-            "by d to the edge, has d/(2 - d) beside a level of 1 - d/2",
+            source="assumed range; 0.02 to 0.06 is usual. A flux 1 - d (r/R)^2 has the spread "
+            "d/(2 - d) and the mean 1 - d/2",
         )
     },
     experiment=on("front", {"spread": "spread"}),

@@ -16,7 +16,7 @@ EFFECT = Effect(
             upper=4000.0,
             value=0.0,
             typical=1800.0,
-            source="assumed range; ThermaKin and Gpyro count this heat; hydrocarbons of 1 to 8 "
+            source="assumed range; ThermaKin and Gpyro count this heat. Hydrocarbons of 1 to 8 "
             "carbon atoms have about 1880 J/(kg K) at 400 to 500 K",
         )
     },

@@ -18,8 +18,8 @@ EFFECT = Effect(
             upper=1500.0,
             value=0.0,
             typical=400.0,
-            source="MaCFP PMMA: UMD's c(T) is followed to 25 J/(kg K) by 730 J/(kg K) at 361 K, "
-            "w = 24 K, beside a slope of 1.8e-3 1/K",
+            source="MaCFP PMMA: UMD's c(T) to 25 J/(kg K), with 730 J/(kg K) at 361 K, "
+            "w = 24 K, slope 1.8e-3 1/K",
         )
     },
     form={

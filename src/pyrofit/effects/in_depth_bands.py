@@ -20,8 +20,8 @@ EFFECT = Effect(
             upper=1.0,
             value=0.4,
             typical=0.7,
-            source="assumed range; PMMA absorbs the infrared beyond 2.2 um within 0.1 mm, what a "
-            "heater sends below that in millimetres: Linteris et al. 2012, doi:10.1002/fam.1113",
+            source="assumed range. PMMA absorbs infrared beyond 2.2 um within 0.1 mm, below 2.2 um "
+            "within millimetres: Linteris et al. 2012, doi:10.1002/fam.1113",
         )
     },
     material=refuse_translucent,

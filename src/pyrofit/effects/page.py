@@ -8,10 +8,10 @@ from pyrofit.effects.base import FAMILIES, Effect, Quantity
 _HEAD = """\
 # Effects
 
-What a model may lack, by the name a study gives it. At the null value of its strength an effect
-leaves the base model exactly as it is. Form parameters say how the effect looks; left out, they
-take their usual value. Effects that set the same number of the description exclude each other.
-Those of one group are forms of one another.
+The effects that a model may lack, by the name a study gives them. At the null value of its strength
+an effect leaves the base model exactly as it is. Form parameters say how the effect looks; left
+out, they take their usual value. Effects that set the same number of the description exclude each
+other. Those of one group are forms of one another.
 
 {belongs}
 | group | effects |

@@ -86,7 +86,7 @@ class OfSolver(Record):
     """How accurate the solver's runs are."""
 
     coarsened: bool = Field(description="runs are coarser than the study asks for")
-    error_chi2: float = Field(description="what finer runs change of chi-square")
+    error_chi2: float = Field(description="change of chi-square by finer runs")
 
 
 class OfWindow(Record):

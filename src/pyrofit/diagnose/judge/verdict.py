@@ -36,7 +36,7 @@ def judge(found: Search, rng: np.random.Generator, processes: int = 1) -> Verdic
         # The best one fails, another does not: the verdict is about that one.
         found, reasons = ended(found, findings[0].kept[0].trial, rng), []
     if not found.end_lack.adequate:
-        reasons.append("what is left is more than noise, with every effect that gains enough")
+        reasons.append("the residuals exceed the noise, with every effect that gains enough")
     if reasons:
         part = _partly(found, findings, without, rng, processes)
         return part or Verdict("unknown", found, findings, tuple(reasons))
@@ -108,7 +108,7 @@ def _suspects(found: Search, processes: int) -> tuple[Suspect, ...]:
 
 def _without_effects(found: Search) -> Verdict:
     if found.end_lack.passes:
-        return Verdict("none", found, (), ("what is left is noise",))
+        return Verdict("none", found, (), ("the residuals are noise",))
     if found.end_lack.adequate:
         reason = "an effect's score is remarkable, but none gains enough to be claimed"
         return Verdict("none", found, (), (reason,))
@@ -126,7 +126,7 @@ def _doubts(found: Search, findings: Sequence[Finding]) -> list[str]:
     if len(fluxes) == 1 and not any(e.quantity(signal).is_temperature for e, signal in slabs):
         doubts.append(ONE_FLUX)
     if not all(finding.explains for finding in findings):
-        doubts.append("what is held out is not explained, not even if it is fitted, too")
+        doubts.append("the model does not explain held-out signals, even if they are fitted too")
     kept = [judged for finding in findings for judged in finding.kept]
     doubts += [_unconfirmed(judged) for judged in kept if not judged.trust.confirmed]
     open_ones = [finding for finding in findings if not finding.group]
@@ -145,8 +145,8 @@ def _unconfirmed(judged: Judged) -> str:
         return _outvoted(judged)
     gain = sum(judged.trust.held_out.values())
     return (
-        f"{judged.effect}: the log score of what is held out gains {gain:+.1f} only; "
-        f"{SETTINGS.informative_gain:g} at least is asked for"
+        f"{judged.effect}: the log score of the held-out signals gains {gain:+.1f} only; "
+        f"a confirmation needs {SETTINGS.informative_gain:g}"
     )
 
 

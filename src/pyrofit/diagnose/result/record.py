@@ -152,8 +152,8 @@ def _misfits(trial: FittedModel) -> list[dict[str, Any]]:
     curves = model.likelihood.curves(trial.fit.x)
     if curves is None:
         raise DataError(
-            "diagnosis: not every held-out run finishes with the fitted parameters; leave out, by "
-            "diagnosis.hold_out, those that are furthest from what is fitted"
+            "diagnosis: a held-out run does not finish with the fitted parameters; with "
+            "diagnosis.hold_out, leave out those furthest from the fitted experiments"
         )
     white = model.by_channel(model.residuals(trial.fit.x))
     targets = [term.target for _, term in model.likelihood.problem.cost.terms]

@@ -41,7 +41,7 @@ def _named(verdict: Verdict) -> list[str]:
     (finding,) = verdict.findings
     return [
         f"The model lacks: {finding.group} ({form_of(finding)}).",
-        "With it, what is left is noise, and predictions improve.",
+        "With it, the residuals are noise, and predictions improve.",
         _because(verdict),
     ]
 
@@ -88,7 +88,7 @@ def _unknown(verdict: Verdict) -> list[str]:
     if verdict.findings:
         names = " with ".join(form_of(finding) for finding in verdict.findings)
         said = [
-            "Model and measurements disagree, and what is missing is not known.",
+            "Model and measurements disagree; the missing effect is not known.",
             f"Nearest comes {names}, which is not confirmed.",
         ]
     return [*said, _because(verdict)]

@@ -46,7 +46,7 @@ class Search:
 
 
 def search(base: FittedModel, effects: Sequence[str], most: int, context: SearchContext) -> Search:
-    """Add effects to the base until what is left is noise, none gains enough, or there are most.
+    """Add effects to the base until the residuals are noise, none gains enough, or there are most.
 
     Where more than noise is left, or the noise exceeds what is stated, it is estimated about the
     final model. If that explains more, the search is repeated with it, from the models of the first
