@@ -25,6 +25,7 @@ from pyrofit.config.resolve import obstacle
 from pyrofit.effects import known_effects
 from pyrofit.errors import StudyError
 from pyrofit.estimate.likelihood import likelihood_of
+from pyrofit.estimate.noise import NoiseModel
 from pyrofit.estimate.problem import make_problem
 from pyrofit.estimate.targets import Measurements
 from pyrofit.results import dependencies
@@ -253,6 +254,28 @@ def test_error_of_the_clock_counts_where_the_curve_is_steep() -> None:
     (usual,), (right,), (double,) = variances(), variances(**{place: 0}), variances(**{place: 1})
     assert np.ptp(usual - right) > 0.0
     np.testing.assert_allclose(double - right, 4.0 * (usual - right), rtol=1e-6, atol=1e-18)
+
+
+# --- errors that last -----------------------------------------------------------------------
+
+
+def test_lasting_error_of_a_record_replaces_that_of_its_quantity() -> None:
+    def of_tga(**changes: Any) -> NoiseModel:
+        study = study_with(**changes)
+        terms = [TermSpec(experiment="tga_20K", signal="mass_fraction", kind="RMSE")]
+        fixed = study.fixed_values() | study.true_values()
+        return likelihood_of(make_problem(study, SLAB, terms, bare, study.material, fixed)).noise[0]
+
+    bare = {
+        key: frame.drop(columns="mass_fraction_uncertainty", errors="ignore")
+        for key, frame in measured().items()
+    }
+    place = "experiments__tga_20K__signals__mass_fraction__lasting_sd"
+    usual, given = of_tga(), of_tga(**{place: 0.011})
+    assert usual.floors["discrepancy"] == 0.02
+    assert given.floors["discrepancy"] == 0.011
+    assert given.correlation == usual.correlation
+    assert np.all(given.sd < usual.sd)
 
 
 # --- what the step depends on ---------------------------------------------------------------

@@ -1,5 +1,7 @@
 """Noise of a channel: a signal of an experiment that is fitted."""
 
+from dataclasses import replace
+
 from pyrofit.errors import DataError
 from pyrofit.estimate.noise import NoiseModel, estimate_noise
 from pyrofit.estimate.problem import Problem
@@ -17,6 +19,8 @@ def noise_of(problem: Problem, channel: int, about: FloatArray | None = None) ->
     name, measured, _ = problem.picks[channel]
     experiment = problem.runs[name].experiment
     quantity, signal = experiment.quantity(measured), experiment.signals[measured]
+    if signal.lasting_sd is not None:
+        quantity = replace(quantity, discrepancy=signal.lasting_sd)
     target = problem.cost.terms[channel][1].target
     try:
         return estimate_noise(target, quantity, signal.uncertainty_sds, signal.timing_s, about)

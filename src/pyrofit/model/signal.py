@@ -16,6 +16,7 @@ RECORD = (
     "uncertainty",
     "uncertainty_meaning",
     "uncertainty_sds",
+    "lasting_sd",
     "timing_s",
     "sample_mass_kg",
     "sample_area_m2",
@@ -87,6 +88,12 @@ class Signal(Part):
     uncertainty_sds: AboveZero = Field(
         1.0,
         description="standard deviations of a point's noise that the uncertainty is",
+    )
+    lasting_sd: AboveZero | None = Field(
+        None,
+        description="where no uncertainty is given: standard deviation of lasting errors, such as "
+        "scatter between laboratories, SI unit. None = 0.02 for a mass fraction, 2 % of the range "
+        "for a heat flow",
     )
     timing_s: float = Field(
         TIMING_S, ge=0.0, description="error of the clock [s]; it counts where the curve is steep"

@@ -34,9 +34,9 @@ TABLE = Table(
     title="Noise of the signals, and how the optimum fits them",
     note="Estimated from the measured series alone; sd is the standard deviation. Floors "
     "are added to it in squares: 0.5 s of timing and the solver's error. A mass in "
-    "TGA without a stated uncertainty also has 0.02, the model discrepancy of all "
-    "schemes. p: probability that white noise looks as correlated as the whitened "
-    "scatter. Chi-square per point is near 1 where the model fits within the noise.",
+    "TGA without a stated uncertainty also has the model discrepancy of all schemes, "
+    "0.02 or its key lasting_sd. p: probability that white noise looks as correlated as the "
+    "whitened scatter. Chi-square per point is near 1 where the model fits within the noise.",
     headings={"chi2_per_point": "chi-square per point"},
     group_by="fit",
 )
