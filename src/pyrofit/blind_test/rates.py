@@ -72,6 +72,10 @@ def _candidate(among: Mask) -> Mask:
     return lambda t: among(t) & t["is_candidate"]
 
 
+def _again(kind: str) -> Mask:
+    return lambda t: (t["kind"] == kind) & (t["left_out"] != "")
+
+
 def _confirmed(t: pd.DataFrame) -> "pd.Series[bool]":
     return t["confirmed"].astype(bool)
 
@@ -106,9 +110,15 @@ RATES = (
     Rate("no hidden effect: verdict unknown", _of("null"), "unknown"),
     Rate(
         "effect removed from candidates: another group named",
-        lambda t: t["left_out"] != "",
+        _again("effect"),
         "left_out_wrong",
     ),
+    Rate(
+        "pair, the second removed from candidates: another group named",
+        _again("pair"),
+        "left_out_wrong",
+    ),
+    Rate("pair, the second removed from candidates: the first named", _again("pair"), "kept_named"),
     Rate("pair: both in the sets", _of("pair"), "in_set"),
     Rate("pair: both lead", _of("pair"), "all_lead"),
     Rate("pair, claimed: no other effect leads", _claimed(_of("pair")), "right"),

@@ -85,10 +85,18 @@ def run_case(setting: Setting, case: Case, places: Places, diagnose: Diagnose) -
     result |= {key: found[key] for key in KEPT} | {"score_only": largest_score(found)}
     result["left_out"] = None
     if case.left_out:
-        hidden = set().union(*(same_as(name) for name in case.hidden))
+        hidden = set().union(*(same_as(name) for name in removed(case)))
         with _timed(seconds, "left_out"):
             result["left_out"] = diagnose(without_effects(study, hidden), measurements)["verdict"]
     return result | {"seconds": seconds}
+
+
+def removed(case: Case) -> tuple[str, ...]:
+    """Return the hidden effects that a second diagnosis does not consider: of a pair, the second.
+
+    The first of a pair then has an effect beside it that is in no catalogue.
+    """
+    return tuple(case.hidden)[-1:]
 
 
 def largest_score(found: Found) -> str:

@@ -162,15 +162,22 @@ def _location(counts: Mapping[str, int]) -> dict[str, float]:
 
 
 def _left_out(hidden: set[str], verdict: Verdict | None) -> dict[str, Any]:
-    """Judge the diagnosis whose candidates lack the hidden effect.
+    """Judge the diagnosis whose candidates lack a hidden effect.
 
-    It is wrong if it names an effect of another group with certainty.
+    It is wrong if it names an effect of another group with certainty. ``kept_named`` tells whether
+    it names a hidden effect that it considers.
     """
     if verdict is None:
-        return {"left_out": "", "left_out_named": "", "left_out_wrong": False}
+        return {
+            "left_out": "",
+            "left_out_named": "",
+            "left_out_wrong": False,
+            "kept_named": False,
+        }
     named = leading(verdict) if verdict["confirmed"] else []
     return {
         "left_out": verdict["kind"],
         "left_out_named": " + ".join(named),
         "left_out_wrong": not _groups(named) <= _groups(hidden),
+        "kept_named": bool(_one_name(named) & _one_name(hidden)),
     }
