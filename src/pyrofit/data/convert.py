@@ -22,7 +22,7 @@ from pyrofit.quantities.units import (
 def convert_columns(
     spec: SeriesSpec, table: Table, headers: Mapping[str, str]
 ) -> tuple[pd.DataFrame, list[str]]:
-    """Return the columns of a series in SI units, and notes on what was computed.
+    """Return the columns of a series in SI units, and notes on the conversion.
 
     Raises
     ------

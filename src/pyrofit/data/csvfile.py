@@ -81,10 +81,10 @@ def read_table(path: Path) -> Table:
 
     Read are UTF-8, UTF-16 and Windows-1252; cells set apart by comma, semicolon, tab, bar or
     blanks; decimal points and commas, and separators of thousands where the file tells which is
-    which; a preamble above the header; times as hh:mm:ss; a few lines of text at the end. What is
-    not UTF-8 with decimal points and a header in the first row is noted. Units stand in a row
-    below or above the names (`[s],[K]`), or in the names (`Time (s)`, `Mass [mg]`, `Mass/%`), or
-    nowhere. A cell that is no number does not matter in a column that nobody uses.
+    which; a preamble above the header; times as hh:mm:ss; a few lines of text at the end. Any
+    deviation from UTF-8, decimal points and a header in the first row is noted. Units stand in a
+    row below or above the names (`[s],[K]`), or in the names (`Time (s)`, `Mass [mg]`, `Mass/%`),
+    or nowhere. A cell that is no number does not matter in a column that nobody uses.
 
     Parameters
     ----------

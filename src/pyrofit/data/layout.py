@@ -35,7 +35,7 @@ class Layout:
     Parameters
     ----------
     delimiter
-        What sets its cells apart.
+        The separator of its cells.
     heading
         The row of names, and at most one of units.
     start

@@ -1,7 +1,7 @@
 """Noise of measurements: its autocorrelation, and draws that have exactly that.
 
-Stationary noise e has at lag k the autocorrelation r_k = <e_i e_(i+k)> / <e_i^2>, so r_0 = 1. What
-answers slowly makes it positive; a balance whose readings are differenced makes r_1 negative.
+Stationary noise e has at lag k the autocorrelation r_k = <e_i e_(i+k)> / <e_i^2>, so r_0 = 1. A
+slow instrument makes it positive; a balance whose readings are differenced makes r_1 negative.
 """
 
 from collections.abc import Sequence
@@ -80,10 +80,10 @@ def lowest_density(lags: Sequence[float]) -> float:
 def draw(autocorrelation: FloatArray, rng: np.random.Generator) -> FloatArray:
     """Draw normal noise of unit variance with exactly the given autocorrelation.
 
-    Each value is what the values before it predict, plus the white part of the prediction's
+    Each value is its prediction from the values before it, plus white noise of the prediction's
     variance: e_i = sum_k phi_ik e_(i-k) + sqrt(v_i) z_i, with phi and v by the recursion of
-    Levinson and Durbin (1960, doi 10.2307/1401322). Plain sums in a fixed order, so that equal
-    seeds give equal bits whatever number of threads a linear algebra library uses.
+    Levinson and Durbin (1960, doi 10.2307/1401322). The sums are plain and in a fixed order, so
+    equal seeds give equal bits with any number of threads of a linear algebra library.
 
     Parameters
     ----------

@@ -109,7 +109,7 @@ def numerals_of(rows: Iterable[Line]) -> Numerals:
 
 
 def fault_of(cell: str) -> str:
-    """Say why a cell holds no number, and what to do.
+    """Say why a cell holds no number, and how to correct it.
 
     >>> fault_of("4,999")[:49]
     'it may be 4.999, with a decimal comma, or 4999, w'

@@ -1,4 +1,4 @@
-"""Heat release rate by oxygen consumption, from what a cone calorimeter records."""
+"""Heat release rate by oxygen consumption, from the records of a cone calorimeter."""
 
 import numpy as np
 from numpy.typing import NDArray

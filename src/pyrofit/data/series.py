@@ -29,7 +29,7 @@ class Measurement:
     Parameters
     ----------
     quantity : Quantity
-        What is measured.
+        The measured quantity.
     frame : DataFrame
         `time_s`, where the quantity has it `temperature_K`, the value (`quantity.column`) and, if
         known, its uncertainty (`quantity.uncertainty_column`) and the limits of a band
@@ -39,9 +39,9 @@ class Measurement:
     sha256 : str
         Its SHA-256.
     uncertainty_meaning : str
-        What the uncertainty is.
+        The meaning of the uncertainty.
     notes : tuple of str
-        What the reader left out, computed or noticed.
+        The reader's notes: omissions, computations and remarks.
     """
 
     quantity: Quantity
@@ -64,14 +64,14 @@ def read_series(spec: SeriesSpec, read: Callable[[Path], Table] = read_table) ->
     Parameters
     ----------
     spec : SeriesSpec
-        File, quantity, and what the file does not say itself.
+        File, quantity, and the facts that the file does not state itself.
     read : callable
         Reader of the file, where it is read once for several series.
 
     Returns
     -------
     Measurement
-        The series, with notes on what was left out or computed.
+        The series, with notes on omissions and computations.
 
     Raises
     ------
@@ -107,7 +107,7 @@ def read_series(spec: SeriesSpec, read: Callable[[Path], Table] = read_table) ->
         table, stops = without_stops(table, headers["temperature"])
         gaps += stops
     rows = _check_length(table)
-    # What overflows here is found there.
+    # An overflow here is found by `check_finite`.
     with np.errstate(over="ignore", invalid="ignore"):
         frame, notes = convert_columns(spec, table, headers)
     check_finite(spec.path, frame)
@@ -137,7 +137,7 @@ def _check_length(table: Table) -> int:
 
 
 def _remarks(quantity: Quantity, frame: pd.DataFrame) -> list[str]:
-    """Return what looks wrong with the values of a record against temperature."""
+    """Return remarks on suspect values of a record against temperature."""
     if quantity.remark is None:
         return []
     columns = (frame[c].to_numpy(float) for c in ("temperature_K", quantity.column))

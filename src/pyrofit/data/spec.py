@@ -29,7 +29,7 @@ class SeriesSpec:
     uncertainty : float, optional
         One uncertainty for all points, in the SI unit of the quantity; replaces the file's.
     uncertainty_meaning : str
-        What the uncertainty is, such as "two standard deviations of the mean".
+        The meaning of the uncertainty, such as "two standard deviations of the mean".
     sample_mass_kg : float, optional
         Initial mass of the sample [kg]: divides a mass to give a mass fraction, and a power to give
         one per mass.

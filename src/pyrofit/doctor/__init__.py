@@ -1,1 +1,1 @@
-"""What each measured file of a folder is, and what looks wrong in it."""
+"""Identification of each measured file of a folder, and its findings."""

@@ -1,4 +1,4 @@
-"""Tell what a measured file is, and read its signals."""
+"""Identify a measured file, and read its signals."""
 
 from dataclasses import replace
 from pathlib import Path
@@ -20,7 +20,7 @@ _TOTAL = "total"
 
 
 def examine(path: Path, label: Label, facts: Facts) -> Examined:
-    """Read a file as far as it goes; what keeps it from being read is a finding.
+    """Read a file as far as possible; report each obstacle as a finding.
 
     The kind of experiment is that of the name, else the one of whose quantities the file holds
     most. A gasification with a heat release rate is a test in air.
@@ -70,7 +70,7 @@ def _best(table: Table, kind: str) -> tuple[str, Recognised]:
 
 
 def _take(seen: Examined, found: Found) -> None:
-    """Add a signal to what is known of a file, or say why it cannot be read."""
+    """Add a signal to an examined file, or say why it cannot be read."""
     table = seen.table
     assert table is not None
     if found.missing:

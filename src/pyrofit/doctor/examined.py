@@ -1,4 +1,4 @@
-"""A measured file, what it is, and its signals in SI units."""
+"""A measured file, its identification, and its signals in SI units."""
 
 from collections.abc import Mapping
 from dataclasses import dataclass, field
@@ -18,7 +18,7 @@ Weight = Literal["fault", "doubt", "note"]
 
 @dataclass(frozen=True)
 class Finding:
-    """What is wrong with a file, or looks so.
+    """A fault of a file, or an apparent one.
 
     Parameters
     ----------
@@ -27,7 +27,7 @@ class Finding:
     weight
         `fault`: wrong by itself. `doubt`: unusual, to be looked at. `note`: was read all the same.
     text
-        What was found, with numbers.
+        The finding, with numbers.
     column
         Header of the column; nothing where the file as a whole is meant.
     """
@@ -66,16 +66,16 @@ class Signal:
 
 @dataclass(eq=False)
 class Examined:
-    """What is known of a file.
+    """A measured file and the results of its examination.
 
     Parameters
     ----------
     path
         The file.
     label
-        What its name says.
+        The parts of its name.
     facts
-        What the README says of it.
+        The facts that the README states of it.
     table
         Its columns; None where it cannot be read.
     signals
@@ -83,7 +83,7 @@ class Examined:
     left
         Why other columns are not, by header.
     findings
-        What looks wrong.
+        Its faults, doubts and notes.
     """
 
     path: Path
@@ -97,7 +97,7 @@ class Examined:
 
     @property
     def classified(self) -> bool:
-        """Whether it is known what the file is, and every value of a signal can be read."""
+        """Whether the kind of the file is known, and at least one of its signals can be read."""
         return bool(self.kind and self.signals)
 
     def say(self, check: str, weight: Weight, text: str, column: str = "") -> None:

@@ -1,4 +1,4 @@
-"""What the name of a measured file says of the test."""
+"""Facts of a test in the name of its measured file."""
 
 import re
 from dataclasses import dataclass
@@ -27,7 +27,7 @@ _FACING = {"hor": "horizontal", "vert": "vertical"}
 
 @dataclass(frozen=True)
 class Label:
-    """What the name of a file says.
+    """Parts of the name of a measured file.
 
     Parameters
     ----------
@@ -76,13 +76,13 @@ class Label:
 
     @property
     def group(self) -> tuple[object, ...]:
-        """What tests of one kind have in common that may be compared between laboratories."""
+        """The properties that tests must share to be compared between laboratories."""
         gas = "inert" if self.inert else self.gas.upper()
         return self.kind, self.material, gas, self.heating_K_min, self.flux_kW_m2
 
 
 def label_of(stem: str, folder: str = "") -> Label:
-    """Return what the name of a file says, without its ending.
+    """Return the parts of a file's name, which is given without its ending.
 
     Parameters
     ----------

@@ -1,4 +1,4 @@
-"""What a README beside measured files says of each test."""
+"""Facts of each test in a README beside measured files."""
 
 import math
 import re
@@ -36,7 +36,7 @@ _NUMBER = re.compile(r"\d+(\.\d+)?")
 
 @dataclass(frozen=True)
 class Facts:
-    """What is known of a test besides its file; None where it is not.
+    """Facts of a test that come from outside its file; None where unknown.
 
     Parameters
     ----------
@@ -116,7 +116,7 @@ def _values(cells: list[str], heading: Mapping[str, tuple[int, float]]) -> dict[
 
 
 def _same(label: Label, other: Label) -> bool:
-    """Tell whether a line of a README names a file: what both say must agree."""
+    """Tell whether a line of a README names a file: the facts stated by both must agree."""
     ours, theirs = ({*part.other} for part in (label, other))
     numbers = (
         label.repeat == other.repeat

@@ -1,4 +1,4 @@
-"""Examine all files of a folder, and say what they are and what is wrong."""
+"""Examine all files of a folder, and report the kind and the findings of each."""
 
 from collections import Counter
 from collections.abc import Iterable, Iterator, Sequence
@@ -15,12 +15,12 @@ from pyrofit.errors import DataError
 ENDINGS = {".csv", ".txt", ".tsv", ".dat", ".asc"}
 TEXTS = ENDINGS - {".csv", ".tsv"}
 _NOT_MEASURED = ("results", "verification", "predictions")
-"""Words in names of folders that hold what was computed."""
+"""Words in names of folders that hold computed data."""
 _WEIGHTS = "fault", "doubt", "note"
 
 
 def examine_folder(folder: Path) -> list[Examined]:
-    """Return what is known of each measured file below a folder, sorted by path.
+    """Examine each measured file below a folder, and return them sorted by path.
 
     Raises
     ------
@@ -59,7 +59,7 @@ def measured_files(folder: Path) -> Iterator[Path]:
 
 
 def lines_of(files: Sequence[Examined], folder: Path, notes: bool) -> Iterator[str]:
-    """Yield the report: each file, what was found, and the counts."""
+    """Yield the report: each file, the findings, and the counts."""
     for seen in files:
         signals = ", ".join(_signal_words(seen)) or "nothing recognised"
         kind = seen.kind or "unknown"

@@ -1,4 +1,4 @@
-"""Signals of a file by what their quantities state of themselves."""
+"""Signals of a file, found by the properties of their quantities."""
 
 from collections.abc import Callable
 

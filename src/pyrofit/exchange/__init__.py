@@ -1,1 +1,1 @@
-"""Into other programs and back: what of a study they can express, and files that they read."""
+"""Exchange with other programs: the parts of a study that they can express, and their files."""

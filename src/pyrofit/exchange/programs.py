@@ -56,7 +56,7 @@ def _add(said: Said, remarks: Iterable[Remark], name: str) -> None:
 
 
 def export_gpyro(study: Study, chosen: ParameterSet, folder: Path) -> list[str]:
-    """Write ``.data`` files; return what is not exact, one line each."""
+    """Write ``.data`` files; return the inexact terms, one line each."""
     said: Said = {}
     for name, slab in slabs_of(study).items():
         predicted = predict_slab(slab, chosen.material, chosen.values, study.accuracy)
@@ -72,7 +72,7 @@ def export_gpyro(study: Study, chosen: ParameterSet, folder: Path) -> list[str]:
 
 
 def export_thermakin(study: Study, chosen: ParameterSet, folder: Path) -> list[str]:
-    """Write a ``.cmp`` file and ``.cnd`` files; return what is not exact, one line each."""
+    """Write a ``.cmp`` file and ``.cnd`` files; return the inexact terms, one line each."""
     said: Said = {}
     material, values = chosen.material, chosen.values
     slabs = slabs_of(study)
@@ -102,7 +102,7 @@ def export_thermakin(study: Study, chosen: ParameterSet, folder: Path) -> list[s
 def _write_readme(
     folder: Path, study: Study, chosen: ParameterSet, program: str, said: list[str]
 ) -> None:
-    """Write what the files are: their formats have no comments."""
+    """Write a description of the files, whose formats have no comments."""
     first = [f"Study '{study.name}', set '{chosen.label}', for {program}."]
     shown = ["", "Differences to pyrofit:", *said] if said else []
     write_text(folder / "README.txt", "\n".join([*first, *shown]) + "\n")
@@ -184,7 +184,7 @@ def _strongest(flux: OverTime, values: Values) -> float:
 def _measured(
     study: Study, results: Results
 ) -> Callable[[str], tuple[np.ndarray, np.ndarray] | None]:
-    """Return what finds the measured mass loss rate of a test, none where there is none."""
+    """Return a function that finds the measured mass loss rate of a test, or None."""
     series = load(study, results)
 
     def find(name: str) -> tuple[np.ndarray, np.ndarray] | None:

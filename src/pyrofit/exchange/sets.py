@@ -25,13 +25,13 @@ class ParameterSet(NamedTuple):
     Parameters
     ----------
     label
-        What it is called.
+        Its name.
     material
         The material with the kinetics that belong to it.
     values
         All parameter values, SI units.
     notes
-        By parameter: interval, and what determines it, in words.
+        By parameter: its interval and how well it is determined, in words.
     """
 
     label: str
@@ -49,8 +49,8 @@ def parameter_set(study: Study, results: Results, label: str, beside: Path) -> P
         The study and its results.
     label
         A set of the report, 'truth', '<cost> published', 'diagnosis', or the path of a JSON file
-        of values in SI units by name; empty = least squares of the first cost, or what the
-        diagnosis left beside the study file.
+        of values in SI units by name; empty = least squares of the first cost, or else the set
+        of the diagnosis, preferably the one beside the study file.
     beside
         Folder of the study file.
 

@@ -1,4 +1,4 @@
-"""What is looked for in measured files: in each alone, and between those of one test."""
+"""Checks of measured files: of each alone, and between those of one test."""
 
 from collections.abc import Callable, Sequence
 
@@ -33,7 +33,7 @@ BETWEEN: tuple[Callable[[Sequence[Examined]], None], ...] = (
 
 
 def run_checks(files: Sequence[Examined]) -> None:
-    """Add to each file what is found."""
+    """Add the findings to each file."""
     readable = [seen for seen in files if seen.classified]
     for seen in readable:
         for check in ALONE:

@@ -104,7 +104,7 @@ def _compare(
 
 
 def _material(seen: Examined) -> str:
-    """Return the material: the folder above `Calibration_Data`, and what the name adds."""
+    """Return the material: the folder above `Calibration_Data`, and that in the file's name."""
     parts = seen.path.parts
     above = parts[parts.index("Calibration_Data") - 1] if "Calibration_Data" in parts else ""
     return f"{above}/{seen.label.material}"

@@ -28,7 +28,7 @@ class Agreement(NamedTuple):
     largest, rms
         Largest difference and its root mean square, SI units.
     level
-        What of them is compared with the largest that is accepted, and that.
+        Name of the difference that is judged, and its largest accepted value.
     burnout_s
         Burn-out of FDS minus that of pyrofit [s].
     latest_s
@@ -64,7 +64,7 @@ class Levels(NamedTuple):
 
 
 def levels(deck: Deck) -> Levels:
-    """Return what is accepted of a deck: infinite where a term is approximate or left out."""
+    """Return the accepted differences; infinite where a term is approximate or left out."""
     sums = [r for r in deck.remarks if SUM in r.how]
     if any(r.kind != "when read" and r not in sums for r in deck.remarks):
         return Levels(math.inf, math.inf, math.inf, math.inf, math.inf)

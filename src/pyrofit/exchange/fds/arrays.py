@@ -11,7 +11,7 @@ Place = tuple[int, ...]
 
 
 def array(keys: Mapping[str, list[Any]], name: str, rank: int, source: str) -> dict[Place, Any]:
-    """Return what a namelist gives for an array, by place; the first index runs fastest.
+    """Return the values that a namelist gives to an array, by place; the first index runs fastest.
 
     Parameters
     ----------

@@ -28,7 +28,7 @@ from pyrofit.solver.outputs import BACK, MASS_FRACTION, RATE
 
 CHECK, PAGE, CURVES, DECKS = "check.json", "check.md", "curves.csv", "checked"
 ENDS_WITHIN_S, ENDS_WITHIN_K = 2.0, 15.0
-"""What may lack at the end of a complete file; a sample lags behind its furnace."""
+"""Largest gap at the end of a complete file; a sample lags behind its furnace."""
 BURNT = 2e-3
 
 Tell = Callable[[str], None]

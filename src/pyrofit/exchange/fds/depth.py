@@ -7,8 +7,8 @@ from pyrofit.model.material import Material
 from pyrofit.model.slab import Sample
 
 TWO_FLUX = 0.4
-"""FDS's absorption coefficient over 1/l: its two fluxes lose 2 kappa, and what is emitted inside
-conducts heat, which the conductivity is lowered by."""
+"""FDS's absorption coefficient over 1/l. Its two fluxes lose 2 kappa; radiation emitted inside
+conducts heat, and the conductivity is lowered by that."""
 
 
 def absorption(

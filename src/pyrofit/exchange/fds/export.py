@@ -102,7 +102,7 @@ def _heated_curve(T: FloatArray, mass: FloatArray, last: float) -> pd.DataFrame:
 
 
 def text_of(deck: Deck, heading_lines: list[str]) -> str:
-    """Return a file: heading, what is not exact, and the lines."""
+    """Return a file: heading, inexact terms, and the lines."""
     said = [*heading_lines]
     said += ["Differences between FDS and pyrofit:" if deck.remarks else "All terms are exact."]
     said += [f"  {remark.line}" for remark in deck.remarks]
@@ -113,7 +113,7 @@ def text_of(deck: Deck, heading_lines: list[str]) -> str:
 def export(
     study: Study, chosen: ParameterSet, version: Version, folder: Path, proof: list[str]
 ) -> list[str]:
-    """Write all files of a study for FDS; return what is not exact, one line each.
+    """Write all files of a study for FDS; return the inexact terms, one line each.
 
     Parameters
     ----------
@@ -124,7 +124,7 @@ def export(
     folder
         Where they go.
     proof
-        What a comparison with a real FDS gave, for the heading.
+        Result of a comparison with a real FDS, for the heading.
     """
     first = heading(study, chosen, version)
     written = decks(study, chosen, version)

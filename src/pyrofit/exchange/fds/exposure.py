@@ -1,4 +1,4 @@
-"""What acts on a slab: one flux over time, one temperature on each side.
+"""Exposure of a slab: one flux over time, one temperature on each side.
 
 FDS's surroundings are at one temperature T_0 for convection and radiation. With T_0 the gas
 temperature at the start, the external flux
@@ -55,7 +55,7 @@ class Outside(NamedTuple):
     flux
         External flux as FDS takes it.
     heater_W_m2
-        What of it the heater sends, at the same times.
+        The heater's part of it, at the same times.
     h_front, gas_K
         Heat transfer coefficient of the front, and the temperature of all surroundings there.
     h_back, emissivity_back, back_K
@@ -63,7 +63,7 @@ class Outside(NamedTuple):
     cube_root
         C of h = C |dT|^(1/3) behind [W/(m2 K^(4/3))].
     remarks
-        What is not written exactly.
+        The terms that are not written exactly.
     """
 
     flux: Flux
@@ -102,7 +102,7 @@ def surroundings(
     experiment, values
         The description and its numbers.
     predicted
-        The curves of pyrofit, about which what FDS cannot follow is averaged.
+        The curves of pyrofit, along which terms that FDS cannot follow are averaged.
     emissivity
         Of the virgin front.
     has_cube_root
@@ -155,7 +155,7 @@ def _flux(
     end_s: float,
     at: tuple[float, float, float],
 ) -> tuple[Flux, FloatArray]:
-    """Return the flux beside which one temperature is enough, and what the heater sends."""
+    """Return the flux that allows one temperature of gas and walls, and the heater's part."""
     h, gas, emissivity = at
     front = experiment.front
     rise_time = value_of(front.rise_time_s, values)

@@ -36,7 +36,7 @@ class Imported(NamedTuple):
     material
         Keys of a study's ``material``.
     remarks
-        What is not taken over, one line each.
+        The parts that are not taken over, one line each.
     """
 
     material: Keys
@@ -59,7 +59,7 @@ def import_fds(text: str, source: str, old_order: bool, surface: str = "") -> Im
     Raises
     ------
     FdsError
-        The file has no such lines, or what they say is no material.
+        The file has no such lines, or they describe no material.
     """
     matls, ramps, surfs = _sorted(text, source)
     shares = _composition(surfs, matls, source, surface)

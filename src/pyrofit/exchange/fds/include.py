@@ -1,4 +1,4 @@
-"""The file to include in a fire: MATL, RAMP and SURF lines, each value with what is known of it."""
+"""The file to include in a fire: MATL, RAMP and SURF lines, with notes on their parameters."""
 
 from collections.abc import Iterator, Mapping, Sequence
 
@@ -66,7 +66,7 @@ def gas_line(heat: float) -> Namelist:
 
 
 def _described(study: Study, chosen: ParameterSet, lines: Lines) -> Iterator[Namelist]:
-    """Yield MATL and RAMP lines, ahead of each component what its parameters are."""
+    """Yield MATL and RAMP lines, with a comment on its parameters ahead of each component."""
     first = {of[0][0]: name for name, of in lines.parts.items()}
     for namelist in lines.namelists:
         name = first.get(str(namelist.items["ID"])) if namelist.group == "MATL" else None
@@ -122,7 +122,7 @@ def _surface(
 
 
 def heading(study: Study, chosen: ParameterSet, version: Version) -> list[str]:
-    """Return what every file says first: study, set, version, parameters and what is known."""
+    """Return the first lines of every file: study, set, version, and parameters with notes."""
     used = sorted(parameters_in(chosen.material))
     lines = [
         f"pyrofit {__version__}, source {source_fingerprint('pyrofit.exchange.fds.export')}",

@@ -24,7 +24,7 @@ REFERENCE_RATE_1_S = 1e-3
 MOST_RAMP, MOST_ID = 30, 40
 """Characters of an identifier; FDS cuts longer ones without a word."""
 SUM = "first-order parts"
-"""What stands for a reaction of another order."""
+"""The substitute for a reaction of another order."""
 OPAQUE_1_M = 1e7
 """Absorption coefficient behind a translucent sample; FDS's default lets radiation pass a foil."""
 Values = Mapping[str, float]
@@ -42,7 +42,7 @@ class Lines:
         By component the identifiers of its MATL lines and their shares of its mass; several where
         a sum of first-order reactions stands for one of another order.
     remarks
-        What is not written exactly.
+        The terms that are not written exactly.
     """
 
     namelists: tuple[Namelist, ...]
@@ -70,7 +70,7 @@ class Options:
 
 
 def reached(material: Material, names: Iterable[str]) -> list[str]:
-    """Return components and whatever reactions form of them, in the order of the material."""
+    """Return components and their reaction products, in the order of the material."""
     found = set(names)
     for reaction in (material.reactions[n] for n in material.reaction_order()):
         if reaction.reactant in found:
@@ -81,7 +81,7 @@ def reached(material: Material, names: Iterable[str]) -> list[str]:
 def write_materials(
     material: Material, values: Values, names: Collection[str], options: Options
 ) -> Lines:
-    """Return the lines of the named components and of what they form."""
+    """Return the lines of the named components and of their reaction products."""
     chosen = reached(material, names)
     remarks: list[Remark] = []
     split = {name: first_order_parts(material, values, name, remarks) for name in chosen}
@@ -176,7 +176,7 @@ def _thermal(
 def _unwritten(
     name: str, component: Component, values: Values, translucent: bool
 ) -> Iterator[Remark]:
-    """Yield what of a component has no key in FDS."""
+    """Yield the properties of a component that have no key in FDS."""
     if np.any(np.abs(tabulated(component.expansion, values) - 1.0) > 1e-9):
         what = f"swelling of '{name}' (components.{name}.expansion)"
         yield Remark("left out", what, "a layer of FDS does not swell with temperature")

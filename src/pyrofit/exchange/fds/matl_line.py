@@ -13,7 +13,7 @@ from pyrofit.exchange.fds.versions import FdsError
 
 Keys = dict[str, Any]
 DEFAULT_EMISSIVITY, OPAQUE_1_M = 0.9, 5e4
-"""What FDS takes where a MATL line is silent."""
+"""FDS's defaults, where a MATL line is silent."""
 DERIVED = {"REFERENCE_TEMPERATURE", "REFERENCE_RATE", "PYROLYSIS_RANGE", "HEATING_RATE"}
 """Keys from which FDS would make A and E, of the peak of a TGA."""
 

@@ -22,7 +22,7 @@ def read_namelists(text: str, source: str) -> Iterator[Read]:
     Parameters
     ----------
     text
-        Content of the file; what is outside of namelists is a comment.
+        Content of the file; text outside of namelists is a comment.
     source
         Its name, for messages.
 

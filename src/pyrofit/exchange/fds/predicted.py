@@ -1,4 +1,4 @@
-"""What pyrofit computes of the same experiments, to be set beside FDS."""
+"""pyrofit's curves of the same experiments, for comparison with FDS."""
 
 from collections.abc import Callable
 from typing import NamedTuple
@@ -66,7 +66,7 @@ def burn_out(time_s: FloatArray, rate: FloatArray) -> float:
 def predict_slab(
     experiment: SlabExperiment, material: Material, values: Values, accuracy: Accuracy
 ) -> Predicted:
-    """Return pyrofit's curves until 70 s behind burn-out, without what a record adds to them.
+    """Return pyrofit's curves until 70 s behind burn-out, without the effects of recording.
 
     Raises
     ------

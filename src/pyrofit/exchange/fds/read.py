@@ -1,4 +1,4 @@
-"""What FDS has written of a run: ``_devc.csv`` and ``_tga.csv``."""
+"""Output of a run of FDS: ``_devc.csv`` and ``_tga.csv``."""
 
 from collections.abc import Sequence
 from pathlib import Path
@@ -17,7 +17,7 @@ COLUMNS = {
     "T_front": "front_K",
     "mass": "mass_kg_m2",
 }
-"""Our names of what a deck records, without its thickness."""
+"""pyrofit's names of the records of a deck, without its thickness."""
 BURNT = 2e-3
 """Mass fraction below which FDS may end a TGA."""
 

@@ -1,4 +1,4 @@
-"""What a deck of a slab records, and where its surfaces lie."""
+"""Records of a deck of a slab, and the places of its surfaces."""
 
 from pyrofit.exchange.fds.namelists import Item, Items, Namelist
 
@@ -11,11 +11,11 @@ DEVICES: dict[str, dict[str, Item]] = {
     "mass": {"QUANTITY": "SURFACE DENSITY"},
     "thickness": {"QUANTITY": "WALL THICKNESS"},
 }
-"""What a deck records, by the name of its column; means over the second before."""
+"""Records of a deck, by the name of the column; means over the second before."""
 
 
 def closing(spots: int) -> list[Namelist]:
-    """Return surfaces beside each other, open sides, and what is recorded of each surface."""
+    """Return surfaces beside each other, open sides, and the records of each surface."""
     cells = max(3, spots)
     found = []
     for n in range(spots):

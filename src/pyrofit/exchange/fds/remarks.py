@@ -1,4 +1,4 @@
-"""What FDS says otherwise, or not at all."""
+"""Remarks on parts of a description that FDS expresses otherwise, or not at all."""
 
 from collections.abc import Iterable
 from typing import Literal, NamedTuple
@@ -16,7 +16,7 @@ class Remark(NamedTuple):
     what
         The part in words, with its key in the study.
     how
-        What is written instead, or why it is not.
+        The replacement, or the reason why there is none.
     """
 
     kind: Kind

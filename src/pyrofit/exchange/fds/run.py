@@ -17,11 +17,11 @@ class Run(NamedTuple):
     Parameters
     ----------
     why
-        What went wrong; empty where FDS says that it completed.
+        The failure; empty where FDS says that it completed.
     seconds
         Wall time.
     said
-        What it wrote to standard output and error.
+        Its standard output and error.
     """
 
     why: str
@@ -30,14 +30,14 @@ class Run(NamedTuple):
 
 
 def call(executable: Path, arguments: list[str], folder: Path, limit_s: float) -> Run:
-    """Run FDS in a folder; what has not ended in time is killed with all that it started."""
+    """Run FDS in a folder; at the time limit it is killed with all that it started."""
     ended = run_process([str(executable), *arguments], folder, fds_environment(), limit_s)
     why = ended.why or complaint(ended.err, ended.status)
     return Run(why, ended.seconds, ended.said)
 
 
 def version_text(executable: Path, folder: Path) -> str:
-    """Return the version of FDS, such as '6.7.4', from what it says without a deck.
+    """Return the version of FDS, such as '6.7.4', from its output without a deck.
 
     Raises
     ------

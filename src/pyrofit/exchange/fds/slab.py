@@ -37,11 +37,11 @@ class Deck(NamedTuple):
     name
         Identifier of the run.
     title
-        What it is.
+        Its description.
     namelists
         Its lines.
     remarks
-        What is not written exactly.
+        The terms that are not written exactly.
     weights
         Weights of the spots of the surface under different fluxes.
     step_s
@@ -209,7 +209,7 @@ def _fineness(
 
 
 def _under(outside: Outside, multiple: float) -> Flux:
-    """Return the flux at a spot that gets a multiple of what the heater sends."""
+    """Return the flux at a spot that gets a multiple of the heater's flux."""
     heater = outside.heater_W_m2
     return Flux(outside.flux.time_s, outside.flux.value_W_m2 + (multiple - 1.0) * heater)
 

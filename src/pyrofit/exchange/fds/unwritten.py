@@ -1,4 +1,4 @@
-"""What of a slab experiment no version of FDS has, and what is applied to its output."""
+"""Parts of a slab experiment that no version of FDS has, or that are applied to its output."""
 
 from collections.abc import Iterator
 
@@ -10,7 +10,7 @@ from pyrofit.model.slab import SlabExperiment
 
 
 def unwritten(experiment: SlabExperiment, values: Values) -> Iterator[Remark]:
-    """Yield what of a slab experiment is not in its deck."""
+    """Yield the parts of a slab experiment that are not in its deck."""
     sample = experiment.sample
     if sample.edge is not None and value_of(sample.edge.h_W_m2K, values) > 0.0:
         what = "edge loss (sample.edge)"
@@ -32,7 +32,7 @@ def unwritten(experiment: SlabExperiment, values: Values) -> Iterator[Remark]:
 
 
 def unwritten_heated(experiment: HeatedExperiment, values: Values) -> Iterator[Remark]:
-    """Yield what of a heated sample is not in its deck."""
+    """Yield the parts of a heated sample's description that are not in its deck."""
     for key, unit in (("lag_s", "s"), ("temperature_offset_K", "K")):
         if shift := value_of(getattr(experiment, key), values):
             what = f"{key} of {shift:.4g} {unit} ({key})"

@@ -1,4 +1,4 @@
-"""What differs between versions of FDS: names of keys, and defaults that change a curve."""
+"""Differences between versions of FDS: names of keys, and defaults that change a curve."""
 
 import re
 from typing import NamedTuple
@@ -16,7 +16,7 @@ class Version(NamedTuple):
     Parameters
     ----------
     name
-        What it is called on the command line.
+        Its name on the command line.
     back_gas
         Key of the temperature behind the sample. From 6.8 on TMP_BACK fixes the back surface.
     adjusts_heat

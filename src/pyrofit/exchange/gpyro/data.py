@@ -45,7 +45,7 @@ TGA_ENDS_K = 900.0
 
 
 class Data(NamedTuple):
-    """A file of Gpyro: its lines, and what is not exact."""
+    """A file of Gpyro: its lines, and the inexact terms."""
 
     namelists: tuple[Namelist, ...]
     remarks: tuple[Remark, ...]
@@ -145,7 +145,7 @@ def _not_warmer_behind(outside: Outside, start_K: float) -> Outside:
 def _left_out(
     experiment: SlabExperiment, values: Values, outside: Outside, eps: float
 ) -> Iterator[Remark]:
-    """Yield what of a slab Gpyro has not, or another way."""
+    """Yield the parts of a slab that Gpyro lacks or treats otherwise."""
     sample = experiment.sample
     if value_of(experiment.front.spread, values) > 0.0 or experiment.front.profile:
         what = "flux spread (front.spread, front.profile)"
@@ -166,7 +166,7 @@ def _left_out(
 
 
 def _unwritten(experiment: SlabExperiment, values: Values) -> Iterator[Remark]:
-    """Yield what FDS lacks and Gpyro as well; the enthalpy of the gas it has."""
+    """Yield the parts that both FDS and Gpyro lack; Gpyro has the enthalpy of the gas."""
     sample = experiment.sample.model_copy(update={"gas_specific_heat_J_kgK": 0.0})
     yield from unwritten(experiment.model_copy(update={"sample": sample}), values)
 

@@ -42,7 +42,7 @@ def numbered(count: str, parts: Sequence[Items]) -> Items:
 def reactions(steps: list[Step], gas_heat: float) -> list[Namelist]:
     """Return reactions: solid products keep all mass (CHI = 0), heat belongs to the gas.
 
-    ``gas_heat`` [J/(kg K)] is what the gas takes up on its way to the front, per kg and K.
+    ``gas_heat`` [J/(kg K)] is the heat that the gas takes up on its way to the front.
     """
     parts: list[Items] = []
     for step in steps:
@@ -104,7 +104,7 @@ def general(step: float, ambient: float, bodies: Sequence[Items]) -> Namelist:
 
 
 def output(name: str, quantities: list[str], depths: list[float]) -> Namelist:
-    """Return what is recorded, each at a depth [m]."""
+    """Return the recorded quantities, each at a depth [m]."""
     case = unique([name], 40)[name]
     items: Items = {"CASENAME": case, "N_POINT_QUANTITIES": len(quantities)}
     items |= {"N_PROFILE_QUANTITIES": 0, "N_SMOKEVIEW_QUANTITIES": 0, "DTDUMP_GA": 1.0}

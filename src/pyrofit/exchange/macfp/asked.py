@@ -1,10 +1,10 @@
-"""What a submission is asked for."""
+"""Request for a submission."""
 
 from typing import NamedTuple
 
 
 class Asked(NamedTuple):
-    """What is asked for.
+    """A request for a submission.
 
     Parameters
     ----------

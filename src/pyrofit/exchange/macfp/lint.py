@@ -1,4 +1,4 @@
-"""Say what is wrong with parameter sets, and what reading them takes for granted."""
+"""Report the faults of parameter sets, and the assumptions made in reading them."""
 
 from collections.abc import Iterator, Sequence
 from pathlib import Path
@@ -18,7 +18,7 @@ _USUAL = {
 
 
 def lint(paths: Sequence[Path]) -> Iterator[tuple[str, bool]]:
-    """Yield what is said of each file, and whether it is in the strict form."""
+    """Yield the remarks on each file, and whether it is in the strict form."""
     strict = read = 0
     for path in paths:
         try:
@@ -38,7 +38,7 @@ def lint(paths: Sequence[Path]) -> Iterator[tuple[str, bool]]:
 
 
 def remarks(found: ReadSet) -> Iterator[str]:
-    """Yield what is said of a set that was read."""
+    """Yield the remarks on a set that was read."""
     for note in found.mended:
         yield f"no JSON: {note}"
     for note in found.notes:

@@ -26,7 +26,7 @@ _PLACEHOLDER = {
     "conductivity_W_mK": 0.2,
     "specific_heat_J_kgK": 1500.0,
 }
-"""What a component has where a set gives kinetics alone: a TGA does not depend on it."""
+"""Properties of a component where a set gives kinetics alone; a TGA does not depend on them."""
 
 
 def has_heat(given: StrictSet) -> bool:

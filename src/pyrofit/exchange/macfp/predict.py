@@ -1,4 +1,4 @@
-"""What parameter sets predict in the ideal cases of the data base."""
+"""Predictions of parameter sets in the ideal cases of the data base."""
 
 from dataclasses import dataclass
 from typing import NamedTuple

@@ -1,4 +1,4 @@
-"""Proof of calibration: what a set computes of the experiments it was fitted to."""
+"""Proof of calibration: simulations of the experiments that a set was fitted to."""
 
 from collections.abc import Mapping
 from pathlib import Path

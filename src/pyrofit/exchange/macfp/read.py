@@ -1,4 +1,4 @@
-"""Read a parameter set, whatever its dialect, into the strict form."""
+"""Read a parameter set of any dialect into the strict form."""
 
 from collections.abc import Mapping
 from pathlib import Path
@@ -38,9 +38,9 @@ class ReadSet(NamedTuple):
     strict
         The set in the strict form.
     mended
-        What kept the file from being JSON.
+        The mended faults of the file's JSON.
     notes
-        What was read in a way that the file does not state by itself, or cannot be expressed.
+        The parts read with an assumption that the file does not state, or that cannot be expressed.
     is_strict
         Whether the file is in the strict form already.
     """
@@ -58,7 +58,7 @@ def read_set(path: Path) -> ReadSet:
     Raises
     ------
     DataError
-        The file is no JSON even with what is mended, or a part is missing or has an unknown form.
+        The file is no JSON even after mending, or a part is missing or has an unknown form.
     """
     raw, mended = read_json(path)
     try:
@@ -166,7 +166,7 @@ def _per_reaction(given: Any, network: Network, notes: list[str]) -> Single | Pe
 
 
 def _calibration(given: Any, notes: list[str]) -> list[dict[str, Any]]:
-    """Return the list of calibrations; what has another form goes into its data."""
+    """Return the list of calibrations; parts of another form go into their data."""
     made = []
     for one in given if isinstance(given, list) else [given] if given else []:
         if not isinstance(one, Mapping):

@@ -103,7 +103,7 @@ def _proofs(proofs: Sequence[Proof]) -> Iterator[str]:
 
 
 def _absent(strict: StrictSet) -> list[str]:
-    """Return what reacts, but is neither in the virgin material nor made of it, as water."""
+    """Return the reactants that are neither in the virgin material nor made of it, as water."""
     of, k = strict.composition, strict.kinetics
     made = {product for products in k.products for product in products}
     given = sorted({reactant for (reactant,) in k.reactants} - made)

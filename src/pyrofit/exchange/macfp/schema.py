@@ -1,4 +1,4 @@
-"""The strict form of a parameter set: what is written, and what others may rely on."""
+"""The strict form of a parameter set: pyrofit writes it, and others may rely on it."""
 
 import json
 from typing import Annotated, Any, Self
@@ -41,7 +41,7 @@ class Calibration(Strict):
 
 
 class Composition(Strict):
-    """Components and what of them the virgin material consists of."""
+    """Components and their mass fractions in the virgin material."""
 
     count: int = Field(alias="Number of Components", ge=1)
     names: tuple[str, ...] = Field(alias="Component Names")

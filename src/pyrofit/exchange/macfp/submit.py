@@ -31,7 +31,7 @@ _TRANSLUCENT = (
 
 
 def submit(study: Study, chosen: ParameterSet, asked: Asked, folder: Path) -> Iterator[str]:
-    """Write all files of a submission into a folder; yield what was written and what to mind.
+    """Write all files of a submission into a folder; yield their list and the warnings.
 
     Raises
     ------
@@ -114,7 +114,7 @@ def _data(study: Study, names: Sequence[str]) -> dict[str, Any]:
 
 
 def _against_rules(study: Study, asked: Asked) -> Iterator[str]:
-    """Yield what the guidelines ask for and the study does not have."""
+    """Yield the requirements of the guidelines that the study does not meet."""
     stages = [kind_of(study.experiments[name]).stage for name in calibrated(study)]
     if stages.count("imp") < (1 if "kinetics" in stages else 2):
         yield (

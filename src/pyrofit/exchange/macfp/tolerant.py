@@ -1,4 +1,4 @@
-"""Read JSON that is not quite JSON, and say what was mended."""
+"""Read JSON with faults, and list the mended ones."""
 
 import json
 import re
@@ -13,14 +13,14 @@ _WORD = re.compile(r"-?\d[\d.]*[A-Za-z][\w./]*")
 
 
 class Read(NamedTuple):
-    """What a file holds.
+    """The content of a file.
 
     Parameters
     ----------
     content
         The object.
     mended
-        What was mended, with line numbers; nothing where the file is JSON.
+        The mended faults, with line numbers; nothing where the file is JSON.
     """
 
     content: dict[str, Any]
@@ -28,7 +28,7 @@ class Read(NamedTuple):
 
 
 def read_json(path: Path) -> Read:
-    """Read a JSON object; mend what hand-written files have wrong.
+    """Read a JSON object; mend the faults of hand-written files.
 
     Mended are another encoding than UTF-8, a missing comma, a comma before a closing bracket, a
     number with a unit (which becomes text), and text behind the end of the object (left out).

@@ -22,7 +22,7 @@ SOLID_TRANSPORT, NO_TRANSPORT = 2e-5, 1e-30
 
 
 class Components(NamedTuple):
-    """The component file, the parts that stand for components, what is not exact, and the back."""
+    """The component file, the parts that stand for components, the inexact terms, and the back."""
 
     text: str
     parts: dict[str, tuple[tuple[str, float], ...]]

@@ -36,7 +36,7 @@ def slab_conditions(
     components: Components,
     predicted: Predicted,
 ) -> tuple[str, tuple[Remark, ...]]:
-    """Return the conditions of a slab, and what is not exact."""
+    """Return the conditions of a slab, and the inexact terms."""
     sample = experiment.sample
     layers = own_layers(sample, material, values)
     eps = virgin_emissivity(layers[0], material, values)
