@@ -50,7 +50,7 @@ def run(folder: str) -> float:
 
 
 def of_jobs(folder: Path) -> str:
-    """Return a table of the jobs of each kind, from what the workflow has measured."""
+    """Return a table of the jobs of each kind, from the times measured by the workflow."""
     seconds = defaultdict(list)
     for path in folder.glob("*.tsv"):
         kind = re.sub(r"_[A-Z]+(_\d+)?$", "", path.stem)

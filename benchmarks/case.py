@@ -29,7 +29,7 @@ LEAST_S = 1.0
 
 
 class Setup(NamedTuple):
-    """What is simulated."""
+    """Inputs of a simulation."""
 
     experiment: Gasification
     material: Material
@@ -107,11 +107,11 @@ def seconds(run: Callable[[], Any], least: float = LEAST_S) -> float:
 
 
 class _Caught(Exception):  # noqa: N818
-    """Carries what the kernel was called with."""
+    """Carries the arguments of a call of the kernel."""
 
 
 def kernel_arguments(given: Setup, accuracy: Accuracy, sets: int) -> tuple[Any, ...]:
-    """Return what the kernel is called with for one set or several equal ones."""
+    """Return the arguments of the kernel for one set or several equal ones."""
 
     def catch(*arguments: Any) -> None:
         raise _Caught(arguments)

@@ -1,4 +1,4 @@
-"""The table of evaluations per second, and what it is compared with."""
+"""The table of evaluations per second, and the values that it is compared with."""
 
 import json
 import os
@@ -36,7 +36,7 @@ WORDS = {
 }
 """Names of the counted operations in the page."""
 MANY = 256
-"""Sets in a call, where what is done once for all of them does not count."""
+"""Sets in a call, so many that work done once for all of them does not count."""
 
 
 def setting(name: str, label: str) -> Accuracy:

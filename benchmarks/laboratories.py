@@ -1,12 +1,14 @@
-"""What models fitted to one laboratory predict of others: the table of docs/measured_pmma.md.
+"""Predictions of other laboratories by models fitted to one: the table of docs/measured_pmma.md.
 
     python benchmarks/laboratories.py [--loose] [config/pmma.yaml]
 
 A model is fitted to the calibrated signals of the study's diagnosis and predicts those held out,
-three times: with what is uncertain of the other laboratories as described; with that fitted to
-their data, within what is known; and with the material's parameters fitted to them as well.
-``--loose`` forgets what is known of the material and of the calibrated experiments: a constant heat
-capacity, and the limits of the published study.
+three times. First, the uncertain values of the other laboratories are as described. Second, they
+are fitted to these laboratories' data, within the prior knowledge. Third, the material's
+parameters are fitted to them as well.
+
+``--loose`` drops the prior knowledge of material and calibrated experiments. It takes a constant
+heat capacity, and the limits of the published study.
 """
 
 import argparse
@@ -72,7 +74,7 @@ LOOSE = {
 
 
 def loose(keys: dict[str, Any]) -> dict[str, Any]:
-    """Return a study's keys without what is known of material and calibrated experiments."""
+    """Return a study's keys without prior knowledge of material and calibrated experiments."""
     keys = copy.deepcopy(keys)
     keys["parameters"] |= LOOSE
     keys["known"] = {}
@@ -107,7 +109,7 @@ def centre(base: Base) -> FloatArray:
 
 
 def starts(base: Base, seed: int) -> list[FloatArray]:
-    """Return the centre and points about it; what is known of parameters stays."""
+    """Return the centre and points about it; parameters with known values stay."""
     x = centre(base)
     moved = [i for i in range(x.size) if i not in base.likelihood.prior.index]
     found = [x]
@@ -147,8 +149,8 @@ def values_of(trial: FittedModel) -> dict[str, float]:
 def of_laboratory(whole: Base, trial: FittedModel, names: Sequence[str], free: set[str]) -> Model:
     """Return a model of some held-out experiments, with some parameters free.
 
-    Others keep the values of a fit to the calibrated signals; what is uncertain of the
-    experiments, and was not fitted, is as described.
+    Others keep the values of a fit to the calibrated signals; uncertain values of the
+    experiments that were not fitted are as described.
     """
     channels = [i for i in whole.held_out if whole.channels[i][0] in names]
     model = model_of(whole, trial.model.effects, channels)

@@ -1,4 +1,4 @@
-"""Time what gathers and shows many repetitions: collect, figures and tables, report.
+"""Time the steps that gather and show many repetitions: collect, figures and tables, report.
 
     python benchmarks/many_repetitions.py results/twin [--repetitions 1000]
 

@@ -21,7 +21,7 @@ COUNTS: Counter[str] = Counter()
 
 
 class Counted(float):
-    """A number that notes what is done with it."""
+    """A number that counts the operations on it."""
 
 
 def _noting(name: str, function: Any) -> Any:
@@ -123,7 +123,7 @@ FLOPS = {"fma": 2, "add": 1, "mul": 1, "div": 1, "root": 1}
 
 
 def replace_intrinsics() -> None:
-    """Give the kernels plain functions for what is compiled else."""
+    """Give the kernels plain functions in place of the compiled ones."""
     for name, function in PLAIN.items():
         for module in (lanes, functions):
             if hasattr(module, name):
@@ -132,7 +132,7 @@ def replace_intrinsics() -> None:
 
 
 def main() -> None:
-    """Run the set-up once with one set, and print what was done per cell and step."""
+    """Run the set-up once with one set, and print the operations per cell and step."""
     replace_intrinsics()
     from case import kernel_arguments, setup
 

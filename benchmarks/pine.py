@@ -1,4 +1,4 @@
-"""What the study of pine predicts of held-out tests: the tables of docs/measured_pine.md.
+"""Predictions of held-out tests by the study of pine: the tables of docs/measured_pine.md.
 
     snakemake --cores 1 --configfile config/pine.yaml results/pine/kinetics/fit.json
     python benchmarks/pine.py [--thin]
@@ -30,7 +30,7 @@ STEP = 2e-3
 KNOWN_WEIGHT = 0.03
 """Residual of a known value one standard deviation away: a misfit of 3 % of a signal's range."""
 INDEPENDENT = 5
-"""Independent deviations of a signal: what a model leaves of a record has about as many signs."""
+"""Independent deviations of a signal: a model's residuals of a record have about as many signs."""
 STRONG = 0.7
 CALLS = 25
 

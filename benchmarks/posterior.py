@@ -39,7 +39,7 @@ LACKING: dict[str, dict[str, dict[str, float]]] = {
     "back_loss": {"back_loss": {"factor": 0.5}},
     "emissivity_conversion": {"emissivity_conversion": {"change": -0.08}},
 }
-"""What the truth has and the fitted model lacks, as strong as the catalogue calls typical."""
+"""Effects that the truth has and the fitted model lacks, of typical strength by the catalogue."""
 
 
 def study_of(kind: str, number: int) -> Study:
@@ -131,7 +131,7 @@ def _lacking(
 
 
 def judged(kind: str, number: int) -> dict[str, object]:
-    """Return what was found of a twin."""
+    """Return the results of a twin."""
     begun = time.process_time()
     study = study_of(kind, number)
     series = computed(study)

@@ -34,7 +34,7 @@ WORST = ("energy_error", "mass_error", "steps", "cell_steps", "unfinished", "not
 
 
 def asked(batch: int, duration: float) -> dict[str, Request]:
-    """Return what a batch asks for: every other one lets runs end when they are burnt out."""
+    """Return the requests of a batch: every other one lets runs end when they are burnt out."""
     at = np.arange(2.5, duration, 5.0)
     requests = {"mlr": Request(at, 5.0), "mass": Request(at)}
     if batch // len(cases()) % 2:
@@ -44,7 +44,7 @@ def asked(batch: int, duration: float) -> dict[str, Request]:
 
 
 def run_batch(batch: int, sets: int) -> dict[str, Any]:
-    """Return what came of a batch."""
+    """Return the results of a batch."""
     case = cases()[batch % len(cases())]
     experiment, material, box = described(case)
     generator = np.random.default_rng([SEED, batch])

@@ -1,4 +1,4 @@
-"""What came of the random sets, as a section of docs/benchmarks.md."""
+"""Results of the random sets, as a section of docs/benchmarks.md."""
 
 from collections import Counter
 from typing import Any
@@ -13,7 +13,7 @@ from pyrofit.solver.curves import Curves, Request
 
 FAILURES = ("unfinished", "not_a_number")
 FOREMOST = 4
-"""Parameters that are named as what makes sets the worst."""
+"""Number of parameters that are named as causes of the worst sets."""
 
 
 def summed(state: dict[str, Any]) -> Counter[str]:

@@ -28,7 +28,7 @@ EFFECTS = (
     "volatile",
 )
 FIXED = Accuracy(cells=56)
-"""Cells that do not change with what is varied."""
+"""Cells that do not change with the varied quantity."""
 PER_CELL = (
     f"Lanes are {LANES} equal sets side by side. Rates are those of whole evaluations, times per "
     "cell and step those of the kernel alone. The last two columns give this time over the base's."

@@ -59,7 +59,7 @@ def main() -> None:
 
 
 def judged(twin: Twin, scheme: Scheme) -> dict[str, object]:
-    """Return what is chosen for a twin, and the errors of its predictions and the truth's."""
+    """Return the scheme chosen for a twin, and the errors of its predictions and the truth's."""
     choice = choose_scheme(twin.setting, lambda text: None)
     chosen = choice.chosen.fitted
     fitted = {c.fitted.name: c.fitted for c in choice.candidates}

@@ -1,4 +1,4 @@
-"""Evaluations per second of the slab solver at measured error, and what they depend on.
+"""Evaluations per second of the slab solver at measured error, and their dependences.
 
 Run: python benchmarks/speed.py [SECTION ...]    writes docs/benchmarks.md and its figure
 """
@@ -36,7 +36,7 @@ def processor() -> str:
 
 
 def machine() -> None:
-    """Say what is measured, and on what."""
+    """Write the section on machine and method."""
     load = os.getloadavg()[0] if hasattr(os, "getloadavg") else float("nan")
     put_section(
         "Machine and method",
@@ -90,7 +90,7 @@ def curves() -> None:
 
 
 def scales(*wanted: str) -> None:
-    """Measure what the time depends on."""
+    """Measure how the time scales with cells, sets, threads, reactions and effects."""
     name = "capa_25"
     cheap = cost.cheapest(name)
     tables = {
@@ -107,7 +107,7 @@ def scales(*wanted: str) -> None:
 
 
 def starts() -> None:
-    """Measure what is spent beside the solver."""
+    """Measure the time spent beside the solver."""
     put_section("Start-up", f"{startup.first_calls()}\n\n{startup.NOTE}\n\n{startup.job()}")
 
 

@@ -1,4 +1,4 @@
-"""What is spent before and beside the solver: imports, first calls, compiling, a job.
+"""Time spent before and beside the solver: imports, first calls, compiling, a job.
 
 Everything runs in a process of its own.
 """
@@ -76,7 +76,7 @@ sys.exit(code)
 
 
 def child(code: str, *arguments: str, **environment: str) -> tuple[dict[str, float], float]:
-    """Return what a process prints at its end, as JSON, and how long it ran [s]."""
+    """Return the JSON that a process prints at its end, and how long it ran [s]."""
     start = time.perf_counter()
     done = subprocess.run(
         [sys.executable, "-c", code, *arguments],
@@ -113,7 +113,7 @@ def first_calls() -> str:
 
 
 def job() -> str:
-    """Time one repetition of config/smoke.yaml, and what of it is neither solver nor SPOTPY."""
+    """Time one repetition of config/smoke.yaml, and its part outside solver and SPOTPY."""
     with tempfile.TemporaryDirectory() as folder:
         for step in ("prepare", "kinetics"):
             child(JOB_TIMES, step, "--study", str(SMOKE), "--results", folder)
@@ -121,7 +121,7 @@ def job() -> str:
 
 
 def parts(results: Path, study: Path, options: tuple[str, ...]) -> str:
-    """Return what a job of searches spends where, the shortest of three; its inputs are there."""
+    """Return the times of the parts of a job, the shortest of three; its inputs are there."""
     command = ("imp", "--study", str(study), "--results", str(results), *options)
     spent, took = best_of([child(JOB_TIMES, *command) for _ in range(3)])
     library = spent["library"] + spent["search"]

@@ -91,7 +91,7 @@ class Case:
 
 @dataclass(frozen=True)
 class Posed:
-    """What a case gives to fit and to predict.
+    """The data that a case gives to fit and to predict.
 
     Parameters
     ----------

@@ -60,7 +60,7 @@ class Fitted:
     name
         Name of the cost.
     problem
-        What optimisers minimise.
+        The problem that optimisers minimise.
     likelihood
         The likelihood whose intervals belong to it, if there is one.
     """

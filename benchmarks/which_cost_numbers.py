@@ -1,4 +1,4 @@
-"""What `which_cost.py` wrote, and means with their intervals."""
+"""Results of `which_cost.py`, and means with their intervals."""
 
 from collections.abc import Sequence
 from pathlib import Path

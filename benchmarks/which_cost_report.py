@@ -1,4 +1,4 @@
-"""Tables and figure of docs/which_cost.md, from what `which_cost.py` wrote."""
+"""Tables and figure of docs/which_cost.md, from the results of `which_cost.py`."""
 
 from pathlib import Path
 
@@ -195,7 +195,7 @@ def measured(best: pd.DataFrame) -> str:
 
 
 def repeated(ends: pd.DataFrame) -> str:
-    """Return a table of what the repetitions of SCE-UA predict of measured data [%]."""
+    """Return a table of prediction errors of SCE-UA's repetitions for measured data [%]."""
     of = ends[(ends["optimiser"] == "SCE-UA") & (ends["kind"] == "measured")]
     rows = []
     for cost in of["cost"].unique():

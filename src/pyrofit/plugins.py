@@ -21,12 +21,12 @@ HELPER = "_"
 
 @dataclass(frozen=True)
 class Catalogue:
-    """What a subfolder of a plugin folder holds."""
+    """Content of a subfolder of a plugin folder."""
 
     package: str
     """Package of pyrofit that finds its files."""
     attribute: str
-    """What each file defines."""
+    """Name that each file defines."""
     form: str
     """How it is written."""
     fits: Callable[[Any], bool]
@@ -57,7 +57,7 @@ CATALOGUES = {
 
 
 def use_plugins(folders: Sequence[Path]) -> None:
-    """Let what some folders define be known beside the package's own, and nothing else.
+    """Register the definitions of some folders beside the package's own, and no others.
 
     Parameters
     ----------
@@ -68,7 +68,7 @@ def use_plugins(folders: Sequence[Path]) -> None:
     ------
     ValueError
         A folder is missing or has none of the subfolders, a name exists already, or a file cannot
-        be imported or does not define what it should. Nothing of the folders is known then.
+        be imported or lacks its definition. Nothing of the folders is known then.
     """
     try:
         for folder in folders:

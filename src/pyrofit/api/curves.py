@@ -33,7 +33,7 @@ class Curves:
     series
         Tables by experiment and signal.
     words
-        What the series are: 'measured' or 'simulated'.
+        Kind of the series: 'measured' or 'simulated'.
     """
 
     study: Study

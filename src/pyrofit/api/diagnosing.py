@@ -53,7 +53,7 @@ def diagnose(
     processes
         Processes that share the fits; the result does not depend on their number.
     tell
-        Is told what goes on, such as ``print``.
+        Function that receives messages on the progress, such as ``print``.
 
     Raises
     ------

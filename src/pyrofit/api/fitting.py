@@ -108,7 +108,7 @@ def fit(
         Whether intervals follow from profiles where chi-square is no parabola. This may take
         minutes with many parameters, or with some at a limit; linear intervals take seconds.
     tell
-        Is told what goes on with the likelihood, such as ``print``.
+        Function that receives messages on the progress of the likelihood, such as ``print``.
 
     Raises
     ------

@@ -72,7 +72,7 @@ def measured(study: Study, wanted: Iterable[Key], data: Data | None) -> dict[Key
 
 
 def _table(given: Any, quantity: Quantity, label: str) -> pd.DataFrame:
-    """Return what a caller gives as a table."""
+    """Return a caller's data as a table."""
     if isinstance(given, pd.DataFrame):
         return given
     try:

@@ -87,9 +87,10 @@ def merged(given: Mapping[str, Any], changes: Mapping[str, Any]) -> dict[str, An
 def new_study(name: str, **files: Files) -> Study:
     """Draft a study from measured files, as `pyrofit init` does, without writing anything.
 
-    Columns and units are recognised; the material has one reaction and wide limits. Check what
-    the files do not tell, such as thickness and flux, and change it with `read_study`. Where no
-    slab is measured, the study has one whose measurement is computed; `fit` leaves it out.
+    Columns and units are recognised; the material has one reaction and wide limits. Check the
+    facts that the files do not tell, such as thickness and flux, and change them with
+    `read_study`. Where no slab is measured, the study has one whose measurement is computed; `fit`
+    leaves it out.
 
     Parameters
     ----------

@@ -30,7 +30,7 @@ _NAMELESS = ("value", "signal", "y")
 
 @dataclass(frozen=True)
 class Found:
-    """What a file holds of one quantity.
+    """A quantity that was found in a file.
 
     Parameters
     ----------
@@ -69,12 +69,12 @@ class Found:
 
 @dataclass(frozen=True)
 class Recognised:
-    """The signals of a file, what leads to the mass loss first, and columns without a use.
+    """The signals of a file, those that show the mass loss first, and columns without a use.
 
     Parameters
     ----------
     signals
-        What is taken.
+        The recognised signals.
     left
         Why a column is not taken, by header.
     """
@@ -84,7 +84,7 @@ class Recognised:
 
 
 def recognise(table: Table, kind: str) -> Recognised:
-    """Tell which column is what, and in which unit, of the quantities of a kind of experiment.
+    """Assign columns and units to the quantities of a kind of experiment.
 
     Names that the reader knows come before words that hold them. A unit is that of the file, else
     the end of a name as in `time_min`, else guessed from the numbers. Several columns of one
@@ -125,7 +125,7 @@ def recognise(table: Table, kind: str) -> Recognised:
 
 
 def _rank(quantity: Quantity) -> tuple[bool, bool, bool, str]:
-    """Order quantities: rates, then what shows a released mass, temperatures last."""
+    """Order quantities: rates, then others that show a released mass, temperatures last."""
     return not quantity.relative, quantity.released is None, quantity.is_temperature, quantity.name
 
 
@@ -211,7 +211,7 @@ def _columns(
 def _all_found(
     table: Table, signals: Mapping[str, tuple[Quantity, str]], shared: Mapping[str, str]
 ) -> tuple[Found, ...]:
-    """Return what is known of all signals."""
+    """Return all signals with their columns and units."""
     values = [header for _, header in signals.values()]
     return tuple(
         _found(table, signal, quantity, _columns(table, quantity, header, shared, values))
@@ -220,7 +220,7 @@ def _all_found(
 
 
 def _found(table: Table, signal: str, quantity: Quantity, headers: Mapping[str, str]) -> Found:
-    """Return what is known of a signal once its columns are."""
+    """Return a signal with its units, once its columns are known."""
     columns = {role: header for role, header in headers.items() if header}
     missing = tuple(role for role, header in headers.items() if not header)
     units: dict[str, str] = {}

@@ -1,4 +1,4 @@
-"""What a study can say from measured files alone: experiments, and where to look for kinetics."""
+"""Content of a study from measured files alone: experiments, and where to look for kinetics."""
 
 import math
 import re
@@ -43,7 +43,7 @@ class Measured:
     headers
         Its columns.
     signals
-        What was recognised of each quantity.
+        The quantities that were found in it.
     left
         Why a column is not used, by header.
     frames
@@ -125,7 +125,7 @@ def measured(kind: str, path: Path) -> Measured:
 
 
 def divisor_of(found: Found) -> tuple[str, float] | None:
-    """Return key and usual value of what a signal is divided by, where its unit asks for that."""
+    """Return key and usual value of a signal's divisor, where its unit asks for one."""
     wanted = found.of.scales[0]
     if PER_AREA.get(found.scale) == wanted:
         return "sample_area_m2", USUAL_AREA_M2
@@ -175,7 +175,7 @@ def _frames(
 ) -> tuple[dict[str, pd.DataFrame], tuple[str, ...]]:
     """Return the series that can be read, and whether they are thinned.
 
-    What is wrong with others, `pyrofit check` tells.
+    `pyrofit check` reports the faults of the others.
     """
     frames: dict[str, pd.DataFrame] = {}
     thinned: dict[str, None] = {}

@@ -43,11 +43,11 @@ class Part:
 
 
 def part_of(stage: Stage, records: Iterable[Measured]) -> Part:
-    """Return what a stage fits, and what it holds out.
+    """Return the experiments of a stage, those it holds out, and the terms of its cost.
 
     Of each kind the experiments with the largest flux are held out where there are two or more
-    fluxes, and those with the middle heating rate where there are three or more rates: a rate
-    between others is predicted by any kinetics that can be right.
+    fluxes, and those with the middle heating rate where there are three or more rates. Any
+    correct kinetics predict a rate between others.
     """
     runs = tuple(run for run in records if run.of.stage == stage)
     rate = any(_shows_loss(run) for run in runs)
@@ -99,9 +99,9 @@ def _shows_loss(run: Measured) -> bool:
 
 
 def _terms(run: Measured) -> list[tuple[str, str]]:
-    """Return the signals of a cost, and by what each is divided.
+    """Return the signals of a cost, and the divisor of each.
 
-    Those are all rates, and what shows the released mass where no rate of it is recorded; a
+    Those are all rates, and signals of the released mass where no rate of it is recorded; a
     temperature only where there is nothing else.
     """
     if run.path is None:
@@ -114,7 +114,7 @@ def _terms(run: Measured) -> list[tuple[str, str]]:
 
 
 def identified(run: Measured) -> list[str]:
-    """Return the signals from which is found what an experiment determines.
+    """Return the signals of an experiment that the identification uses.
 
     A mass is left out beside its own rate: both are the record of one load cell.
     """
@@ -129,7 +129,7 @@ def heats(runs: Iterable[Measured]) -> tuple[str, ...]:
 
 
 def titles(runs: Sequence[Measured]) -> dict[str, str]:
-    """Return what is added to the title of each experiment where others have the same.
+    """Return the addition to the title of each experiment where others have the same.
 
     >>> titles([Measured("tga", "a", None, 10.0), Measured("tga", "b", None, 10.0)])
     {'a': ' (a)', 'b': ' (b)'}

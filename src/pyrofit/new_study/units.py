@@ -73,7 +73,7 @@ def stated_unit(table: Table, header: str, kinds: tuple[str, ...]) -> tuple[str,
     if not given and (len(end) > 1 or kind_of(end, kinds)):
         given = end
     if not given:
-        # "Mass fraction" says of what it is.
+        # "Mass fraction" implies the unit 1.
         named = "fraction" in kinds and "fraction" in header_key(header)
         return ("1" if named else "", True)
     plain = given.casefold().strip()
@@ -110,7 +110,7 @@ def _time_unit(table: Table, time_column: str, heated: str) -> str:
     time, temperature = columns[:, np.isfinite(columns).all(axis=0)]
     if len(time) < 2 or not (np.diff(time) > 0.0).all():
         return "s"
-    with np.errstate(over="ignore", invalid="ignore"):  # what overflows is refused when it is read
+    with np.errstate(over="ignore", invalid="ignore"):  # an overflow is refused when it is read
         rate = max(float(np.median(np.gradient(temperature, time))), 1e-6)
     off = {
         unit: float(np.abs(np.log(factor * rate / _STANDARD_RATES)).min())

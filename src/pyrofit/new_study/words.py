@@ -1,4 +1,4 @@
-"""What a new study says: the lines of a signal, and what was taken for what."""
+"""Texts of a new study: the lines of a signal, and the columns that were recognised."""
 
 import json
 from collections.abc import Iterable, Mapping
@@ -10,7 +10,7 @@ from pyrofit.quantities.units import SCALES
 
 
 def signal_lines(run: Measured) -> list[str]:
-    """Return the lines of the study file on the signals of an experiment, and on what is left."""
+    """Return the lines of the study file on the signals of an experiment and on unused columns."""
     lines = []
     for repeat in run.repeats:
         lines += [f"        {repeat.name}:", "          signals:"]
@@ -55,7 +55,7 @@ def _signal(run: Measured, found: Found) -> list[str]:
 
 
 def said(run: Measured) -> list[str]:
-    """Say of each signal what was recognised, and of other columns why they are not used."""
+    """Say which columns of each signal were recognised, and why others are not used."""
     lines = [f"{run.path}: {note}" for note in run.mended]
     for found in run.signals:
         parts = []
@@ -88,7 +88,7 @@ def said_of_repeats(tests: Iterable[Measured]) -> list[str]:
 
 
 def _remark(run: Measured, found: Found) -> str:
-    """Return what looks wrong with a record against temperature."""
+    """Return a remark on suspect values of a record against temperature, or nothing."""
     frame, look = run.frames.get(found.quantity), found.of.remark
     if frame is None or look is None:
         return ""
@@ -116,5 +116,5 @@ def _mapping(words: Mapping[str, str]) -> str:
 
 
 def _quoted(word: str) -> str:
-    # Text in JSON's quotes is text in YAML, whatever it holds.
+    # Text in JSON's quotes is text in YAML with any content.
     return json.dumps(word, ensure_ascii=False)

@@ -21,7 +21,7 @@ from pyrofit.results.files import write_bytes, write_text
 _NAME = re.compile(r"[A-Za-z][A-Za-z0-9_]*")
 STAGES: tuple[Stage, Stage] = "kinetics", "imp"
 _FILM = 0.05
-"""Residue up to which what is left is a film, and not a char."""
+"""Largest residue that counts as a film, and not as a char."""
 _COMBUSTION = "heat_of_combustion_J_kg"
 _HEATS = {"heat_of_reaction_J_kg": "dh", "specific_heat_J_kgK": "cp", _COMBUSTION: "dhc"}
 """Parameters of a new study by the key of the material."""
@@ -52,8 +52,8 @@ def init(name: str, files: Files, parent: Path) -> tuple[Path, list[str]]:
     Returns
     -------
     tuple of Path and list of str
-        The study file, and lines for the user: on every signal, which column is what and what is
-        not known; on columns that are not used; on what is held out.
+        The study file, and lines for the user: on every signal, its columns and the unknown ones;
+        on columns that are not used; on held-out experiments.
 
     Raises
     ------
@@ -139,7 +139,7 @@ def study_text(name: str, tests: Sequence[Measured]) -> str:
     burns = _COMBUSTION in heats(records)
     estimated = _of_slabs(heated, slabs, shown)
     alone = None
-    if not slabs.runs:  # kinetics alone: what the first stage does elsewhere
+    if not slabs.runs:  # kinetics alone: as the first stage of other studies
         heated, slabs = slabs, heated
         estimated = ["T_p", "E_p", *shown]
         alone = [_OF_HEATED[name] for name in shown if name in _OF_HEATED]

@@ -66,7 +66,7 @@ def tests_of(study: Study, pairs: Sequence[Pair]) -> list[list[Pair]]:
 
 
 def _title(study: Study, group: Sequence[Pair]) -> str:
-    """Return the title of a test: what the titles of its repeats begin with."""
+    """Return the title of a test: the common beginning of the titles of its repeats."""
     titles = [title_of(study, name) for name, _ in group]
     if len(titles) == 1:
         return titles[0]

@@ -33,7 +33,7 @@ def exists(results: Results) -> bool:
 
 
 def write_page(study: Study, results: Results) -> None:
-    """Write ``diagnosis/report.html`` and the tables, from what was found and the drawn figures.
+    """Write ``diagnosis/report.html`` and the tables, from the results and the drawn figures.
 
     Raises
     ------

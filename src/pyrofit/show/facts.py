@@ -41,7 +41,7 @@ class Facts:
     distances
         How far the optimisers' sets are from the optimum of the likelihood.
     repeated
-        What the repetitions of SCE-UA found.
+        Results of the repetitions of SCE-UA.
     scores
         How well all sets predict; none without validation.
     times

@@ -12,7 +12,7 @@ from pyrofit.show.drawn import Canvas
 
 @dataclass(frozen=True)
 class Figure:
-    """A figure: when a study has it, how it is drawn, and what it shows."""
+    """A figure: when a study has it, how it is drawn, and its title and caption."""
 
     place: int
     """Place in its section, in ascending order."""

@@ -38,7 +38,7 @@ def series(study: Study, measured: Measured) -> list[dict[str, Any]]:
 
 
 def notes(study: Study, about: About) -> list[tuple[str, str]]:
-    """Return what is to be known of series: each note once, and the series that have it."""
+    """Return the notes on series: each note once, and the series that have it."""
     found: dict[str, list[str]] = {}
     for name, signals in about.items():
         for signal, read in signals.items():
@@ -65,7 +65,7 @@ def closure(study: Study, about: About) -> list[str]:
 
 
 def _use(study: Study, name: str, signal: str) -> str:
-    """Say what a series is for."""
+    """Return the use of a series in words."""
     cost = study.kinetics.cost if study.kinetics else ()
     if any((t.experiment, t.signal) == (name, signal) and t.weight > 0.0 for t in cost):
         return "kinetics, fitted"

@@ -16,7 +16,7 @@ def titled(study: Study, title: str, place: str) -> str:
 
 
 def data_name(study: Study, series: Iterable[tuple[str, str]]) -> str:
-    """Return what (experiment, signal) pairs hold: 'measured', or 'synthetic data'."""
+    """Return the kind of data of (experiment, signal) pairs: 'measured', or 'synthetic data'."""
     computed = {study.is_computed(*pair) for pair in series}
     if computed == {True, False}:
         return "measured or synthetic data"

@@ -81,7 +81,7 @@ def tables_of(study: Study, results: Results) -> Frames:
 
 
 def _shown(section: Section, study: Study, results: Results, facts: Facts) -> Shown | None:
-    """Return a section with what the study has of it, none where it has nothing."""
+    """Return a section with the parts that the study has, none where it has no part."""
     parts: list[Part | Picture] = []
     for name in section.items:
         if name in facts.tables:

@@ -21,11 +21,11 @@ class Section:
     package
         Full name of its package.
     anchor, heading, text
-        Identifier on the page, heading, and what the section is about in a sentence.
+        Identifier on the page, heading, and the topic of the section in a sentence.
     tables, figures
         By name; see `section_of`.
     sentences
-        What to say beside them.
+        Function that returns the sentences beside them.
     """
 
     package: str

@@ -12,7 +12,7 @@ from pyrofit.show.table import Table, read_table, write_table
 
 @dataclass(frozen=True)
 class StepPage:
-    """What a step shows that a study may go without.
+    """Tables, figures and sentences of a step that a study may go without.
 
     Parameters
     ----------
@@ -23,7 +23,7 @@ class StepPage:
     tables, figures
         All that are written to the folder, by name.
     sentences
-        What to say beside them.
+        Function that returns the sentences beside them.
     tables_shown, figures_shown
         Names of those in the report.
     """

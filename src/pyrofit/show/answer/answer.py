@@ -16,7 +16,7 @@ from pyrofit.show.table import Table
 
 
 def answer(study: Study, results: Results) -> pd.DataFrame:
-    """List estimate, 95 % interval, best sets and what speaks against a value, by parameter.
+    """List estimate, 95 % interval, best sets and objections to a value, by parameter.
 
     Returns
     -------

@@ -11,7 +11,7 @@ from pyrofit.show.text import listed, several, span
 
 
 def summary(study: Study, facts: Facts) -> list[str]:
-    """Return three items: the fit, which set to predict with, and what the data determine."""
+    """Return three items: the fit, the set for predictions, and the determined parameters."""
     return [_fit(study, facts), advice(study, facts), _determined(facts)]
 
 

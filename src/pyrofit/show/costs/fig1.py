@@ -80,7 +80,7 @@ def _slab(
 
 
 def fig1(study: Study, results: Results) -> Canvas:
-    """Fig. 1: what NRSE, THR, RMSE, BANDS, RANGE and their sum count, on an example.
+    """Fig. 1: the distances that NRSE, THR, RMSE, BANDS, RANGE and their sum count, on an example.
 
     The curves are the same for every study. Each panel shows the cost that `pyrofit.cost` gives;
     the shaded distances are those of Table 2, the bars the residuals of Eqs 1-3.

@@ -40,7 +40,7 @@ def _metric(metric: str, table: pd.DataFrame) -> str:
 
 
 def _tests(tables: Frames) -> list[str]:
-    """Say in what the repetitions of the cost functions differ, and by how much."""
+    """Say in which quantities the repetitions of the cost functions differ, and by how much."""
     table = tables.get("cost_tests")
     if table is None:
         return []

@@ -28,7 +28,7 @@ MOST_DESIGNS = 12
 
 
 def draw_next_experiments(study: Study, results: Results) -> Canvas:
-    """Draw how well each planned experiment would separate what is not told apart."""
+    """Draw how well each planned experiment would separate models that are not told apart."""
     found = diagnosis.read(study, results)
     shown = sorted(found["next_experiment"], key=lambda d: -float(d["separation_sd"]))[
         :MOST_DESIGNS

@@ -93,7 +93,7 @@ def ranking_entries(found: Found) -> list[Any]:
 
 
 def _reason(found: Found, candidate: Found) -> str:
-    """Say what speaks against a candidate, in two lines at most."""
+    """Return the remark on a candidate, in two lines at most."""
     said = textwrap.shorten(remark(found, candidate), 2 * WRAP - 6, placeholder=" …")
     return textwrap.fill(said, WRAP, break_on_hyphens=False)
 

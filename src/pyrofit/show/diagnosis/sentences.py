@@ -99,7 +99,7 @@ def gap_closed(found: Found) -> str:
 
 
 def certainty(study: Study, found: Found) -> str:
-    """Say what speaks for the verdict besides the fit, and what against it."""
+    """State the evidence for the verdict besides the fit, and the evidence against it."""
     chosen = leading(found)
     bound = [name for name, p in found["base"]["parameters"].items() if p["at_limit"]]
     said = [f"Of the base model, {listed(bound)} are at a limit."] if len(bound) > 1 else []

@@ -16,7 +16,7 @@ from pyrofit.show.units import celsius, difference, difference_unit
 
 
 def windows(study: Study, results: Results) -> pd.DataFrame:
-    """List where the simulated curve is off to one side, and what goes on there."""
+    """List the intervals where the simulated curve is off to one side, and the conditions there."""
     return pd.DataFrame([_window(study, w) for w in diagnosis.read(study, results)["windows"]])
 
 

@@ -78,7 +78,7 @@ def leading(found: Found) -> dict[str, Any] | None:
 
 
 def remark(found: Found, candidate: Found) -> str:
-    """Say why a candidate was rejected, or what it is if it was not."""
+    """Say why a candidate was rejected, or whether it is in the verdict if it was not."""
     kept = "in the verdict" if found["verdict"]["kind"] in CLAIMS else "not claimed"
     return candidate["rejected"] or kept
 

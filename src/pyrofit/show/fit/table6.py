@@ -10,7 +10,7 @@ from pyrofit.show.table import Table
 
 
 def table6(study: Study, results: object) -> pd.DataFrame:
-    """Table 6: sampling limits of every estimated parameter, beside what is published of it.
+    """Table 6: sampling limits of every estimated parameter, beside the published values.
 
     Returns
     -------
@@ -49,7 +49,7 @@ def _limits(study: Study, stage: str, name: str) -> dict[str, Any]:
 
 
 def _known(study: Study, name: str) -> str:
-    """Say within what a parameter with a known value is searched; nothing for others."""
+    """State the search range of a parameter with a known value; nothing for others."""
     if name not in study.known:
         return ""
     known = study.known[name]

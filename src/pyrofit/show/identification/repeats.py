@@ -1,4 +1,4 @@
-"""Repeats of tests, and what differs between them beside its stated scatter."""
+"""Repeats of tests, and their differences beside the stated scatter."""
 
 from typing import Any
 
@@ -15,7 +15,7 @@ from pyrofit.show.table import Table
 
 
 def table(study: Study, results: Results) -> pd.DataFrame:
-    """List the repeats of every test with their signals and what differs between them.
+    """List the repeats of every test with their signals and the values that differ.
 
     Returns
     -------

@@ -13,7 +13,7 @@ from pyrofit.show.table import Table, write_table
 
 
 def robustness(study: Study, results: Results) -> pd.DataFrame:
-    """List the errors by what was added and cost function.
+    """List the errors by disturbance and cost function.
 
     Returns
     -------
@@ -58,7 +58,7 @@ def _tests(frame: pd.DataFrame) -> pd.DataFrame:
 
 
 def _words(kind: Any, level: Any) -> str:
-    """Say what was added.
+    """Return the words for a disturbance.
 
     >>> _words("noise", 3.0), _words("outliers", 0.05)
     ('noise × 3', 'outliers, 5 % of the points')

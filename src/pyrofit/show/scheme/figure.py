@@ -1,4 +1,4 @@
-"""Mass and its slope before and after the choice of a scheme, and what is left."""
+"""Mass, its slope and the residuals before and after the choice of a scheme."""
 
 import numpy as np
 import pandas as pd

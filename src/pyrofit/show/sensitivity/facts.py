@@ -39,7 +39,7 @@ def estimated(found: Sensitivity) -> list[str]:
 
 
 def others(found: Sensitivity) -> list[str]:
-    """Return the names of what varies besides."""
+    """Return the names of the inputs that vary without being estimated."""
     return [one.name for one in found.inputs if one.kind != "estimated"]
 
 

@@ -33,7 +33,7 @@ def total(study: Study, results: Results) -> Canvas:
 
 
 def apparatus(study: Study, results: Results) -> Canvas:
-    """Draw the same of what is not estimated."""
+    """Draw the same of the inputs that are not estimated."""
     return _total(study, results, others(sensitivity.read(study, results)))
 
 

@@ -129,7 +129,7 @@ def _elsewhere(study: Study, found: Sensitivity, costs: list[OfCost]) -> list[st
 
 
 def _of_one_time(study: Study, found: Sensitivity, cost: OfCost) -> str:
-    """Say what a cost of a single time loses of its signal."""
+    """Name the parameters that a cost of a single time misses, though its signal shows them."""
     mine = [s for s in found.signals if [s.experiment, s.signal] in cost.signals]
     lost = {
         name: max(mine, key=lambda s: s.most[name])

@@ -17,7 +17,7 @@ from pyrofit.solver.arrays import FloatArray
 
 
 def width_of_bands(study: Study, results: Results) -> pd.DataFrame:
-    """Say how wide the predictions of the good sets are, and what of the data lies within.
+    """Say how wide the predictions of the good sets are, and which share of the data lies within.
 
     Returns
     -------

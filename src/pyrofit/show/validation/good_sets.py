@@ -23,7 +23,7 @@ _BAND: dict[str, Any] = {"color": "#9ecae1", "linewidth": 0.0}
 
 
 def good_sets(study: Study, results: Results) -> Canvas:
-    """Draw what the good sets predict, over time, beside the data."""
+    """Draw the predictions of the good sets over time, beside the data."""
     frame = band_curves(study, results)
     pairs = list(frame[["experiment", "signal"]].drop_duplicates().itertuples(index=False))
     canvas, axes = style.panels(len(pairs), 2, style.TWO_COLUMNS, 62.0)

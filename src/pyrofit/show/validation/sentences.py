@@ -16,7 +16,7 @@ from pyrofit.show.units import difference, difference_unit
 
 
 def sentences(study: Study, facts: Facts) -> list[str]:
-    """Say how well the sets predict what they were not fitted to, and how exact the solver is."""
+    """Say how well the sets predict signals outside their fit, and how exact the solver is."""
     if not study.validation.experiments:
         return []
     found = facts.scores

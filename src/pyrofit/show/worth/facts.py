@@ -10,7 +10,7 @@ LITTLE = 5.0
 
 
 def remaining(found: Worth, test: OfTest, checked: bool = False) -> dict[str, float]:
-    """Return what a test leaves of each standard deviation [%], parameters first."""
+    """Return the share of each standard deviation that a test leaves [%], parameters first."""
     before, after = (found.now_checked, test.checked) if checked else (found.now, test.sds)
     if before is None or after is None:
         return {}

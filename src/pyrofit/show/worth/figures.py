@@ -19,7 +19,7 @@ MOST_TESTS = 18
 
 
 def draw(study: Study, results: Results) -> Canvas:
-    """Draw what the best tests leave of every standard deviation, the check in brackets."""
+    """Draw the share of each standard deviation that the best tests leave, checks in brackets."""
     found = worth.read(study, results)
     tests = found.tests[:MOST_TESTS]
     names = _narrowed(found, tests)

@@ -15,7 +15,7 @@ NOW = "none: standard deviation now"
 
 
 def tests(study: Study, results: Results) -> pd.DataFrame:
-    """List the present standard deviations, then what each test leaves of them [%]."""
+    """List the present standard deviations, then the shares of them that each test leaves [%]."""
     found = worth.read(study, results)
     rows: list[dict[str, Any]] = [_now(study, found)]
     for test in found.tests:
