@@ -2,7 +2,7 @@
 
 Symbols: i component, j reaction, n cell, T temperature node of the property tables. Parameter sets
 that run side by side, each in its lane, share integers and truth values; of every other array the
-last axis is the lanes, and what is a number here is an array of shape (lanes,).
+last axis is the lanes, and every number below is an array of shape (lanes,).
 """
 
 from collections.abc import Mapping
@@ -46,7 +46,7 @@ class Status(IntEnum):
 
     @property
     def explanation(self) -> str:
-        """What happened, in words."""
+        """The explanation in words."""
         return _EXPLANATIONS[self]
 
 
@@ -115,7 +115,7 @@ to the next: heat flux of the flame [W/m2], and whether the gas burns, 1 or 0.""
 
 
 class Surface(NamedTuple):
-    """What does not follow a table in the heat exchange of one side, SI units."""
+    """The parts of the heat exchange of one side that follow no table, SI units."""
 
     h_cube_root: Number
     """C of the part C |T - T_gas|^(1/3) [W/(m2 K^(4/3))]."""
@@ -126,13 +126,13 @@ class Surface(NamedTuple):
 
 
 class Exposure(NamedTuple):
-    """What acts on the sample."""
+    """The surroundings that act on the sample."""
 
     front: Surface
     back: Surface
     schedule: FloatArray
-    """What is given over time, linear between its points, shape (rows, points), see `TIME`; a step
-    is given by two equal times, a constant by one point."""
+    """The quantities given over time, linear between points, shape (rows, points), see `TIME`. A
+    step is given by two equal times, a constant by one point."""
     rise_time: Number
     """Time constant with which the heater comes up [s]; 0 = at once."""
     drift: Number
@@ -145,7 +145,7 @@ class Exposure(NamedTuple):
     contact_resistance: Number
     """Between sample and foil [m2 K/W]."""
     back_absorbs: bool
-    """Whether the foil, or the back face without one, absorbs what passes the sample."""
+    """Whether the foil, or the back face without one, absorbs radiation that passes the sample."""
     surface_share: Number
     """Share of the radiation that a translucent sample absorbs at its surface [-]."""
     gas_heat: Number
@@ -167,7 +167,7 @@ class Exposure(NamedTuple):
 
 
 class Description(NamedTuple):
-    """What a run solves: the substance and its surroundings."""
+    """The problem that a run solves: the substance and its surroundings."""
 
     material: Material
     network: Network

@@ -44,7 +44,10 @@ def lower_backing(
 
 
 def with_backing(exposure: Exposure, layers: tuple[Layer, ...]) -> Exposure:
-    """Return the exposure with what the solver must tell from the sample."""
+    """Return the exposure with mass, thickness and cells of the layers behind the sample.
+
+    The solver must tell these from the sample.
+    """
     if not layers:
         return exposure
     return exposure._replace(

@@ -1,4 +1,4 @@
-"""What is asked of a simulation, and what it returns."""
+"""The requests to a simulation, and its results."""
 
 from collections.abc import Mapping
 from dataclasses import dataclass
@@ -34,7 +34,7 @@ class Place:
 
 @dataclass(frozen=True)
 class Request:
-    """What a signal asks of a run: its times [s] and bin width [s].
+    """The request of a signal to a run: its times [s] and bin width [s].
 
     A heated sample has the programme's temperatures [K] and their rates of change [K/s], by default
     the differences of those. ``output`` names the curve, see `pyrofit.solver.outputs`; without it
@@ -91,7 +91,7 @@ class Runs:
     mass_error: FloatArray
 
     def curves(self) -> list[Curves]:
-        """Return the sets one by one; what did not finish has no signals."""
+        """Return the sets one by one; a run that did not finish has no signals."""
         numbers = self.cells, self.steps, self.energy_error, self.mass_error
         statuses = map(_STATUSES.__getitem__, self.status.tolist())
         books = zip(*(n.tolist() for n in numbers), strict=True)

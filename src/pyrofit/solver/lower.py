@@ -1,7 +1,7 @@
 """From a material in words to the arrays of the kernels.
 
 Parameter values are numbers, or arrays of shape (sets,): then everything is made for all sets at
-once. The last axis of what is made is the sets, also where there is one. Properties are tabulated
+once. The last axis of every result is the sets, also where there is one. Properties are tabulated
 by `lower_property`, experiments lowered by `lower_experiment`.
 """
 
@@ -109,7 +109,7 @@ def rate_factor(reaction: words.Reaction, values: Values) -> Value:
 
 @dataclass(frozen=True)
 class _Plan:
-    """What of a network no parameter changes."""
+    """The part of a network that no parameter changes."""
 
     reactions: tuple[str, ...]
     reactant: IntArray

@@ -37,9 +37,9 @@ def _surface(side: Side, values: Values, sets: int, factor: Value = 1.0) -> Surf
 def lower_exposure(
     experiment: SlabExperiment, share: FloatArray, arrays: Material, values: Values, sets: int = 1
 ) -> Exposure:
-    """Return what acts on the sample, whose front layer has these mass fractions, as arrays.
+    """Return the exposure of a sample, whose front layer has these mass fractions, as arrays.
 
-    What no parameter changes is made once for a set that runs alone.
+    An exposure that no parameter changes is made once for a set that runs alone.
     """
     depth = _mixing_depth(experiment, share, arrays, values)
     fixed = experiment.derived("exposure", _fixed_exposure) if sets == 1 else None

@@ -1,4 +1,4 @@
-"""What the apparatus makes of a run: uneven flux, clocks that differ, a balance that drifts."""
+"""The effects of the apparatus on a run: uneven flux, clocks that differ, a drifting balance."""
 
 from collections.abc import Callable, Mapping
 from dataclasses import replace
@@ -31,8 +31,8 @@ def observe(
     """Return the curves as the apparatus sees them.
 
     y(t) = offset + sum_g w_g y_g(t - delay), y_g the curve under the flux (1 + s x_g) q, with the
-    spread s of the flux, Gauss's points x_g and weights w_g. Of a profile of the flux over the
-    radius it is the mean of that over `rings`.
+    spread s of the flux, Gauss's points x_g and weights w_g. With a profile of the flux over the
+    radius, y is the mean of this over `rings`.
 
     Parameters
     ----------
@@ -42,7 +42,7 @@ def observe(
     values
         Parameter values in SI units by name, each a number or of shape (sets,).
     requests
-        What is asked for, by signal.
+        Requests by signal.
     run
         The solver.
     sets

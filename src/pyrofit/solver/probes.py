@@ -10,7 +10,7 @@ from pyrofit.solver.lower import total
 
 
 def follows_of(request: Request) -> str:
-    """Return what the place of a request follows, nothing without one."""
+    """Return `follows` of a request's place, empty without a place."""
     return "" if request.place is None else request.place.follows
 
 

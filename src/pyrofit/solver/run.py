@@ -1,4 +1,4 @@
-"""Runs of the kernels: parameter sets side by side, and what comes of each."""
+"""Runs of the kernels: parameter sets side by side, and their results."""
 
 from collections.abc import Callable, Mapping
 from concurrent.futures import ThreadPoolExecutor
@@ -104,7 +104,7 @@ def march(case: Case, asked: Mapping[str, Request], numerics: Numerics, threads:
 
 
 class _Work(NamedTuple):
-    """What the kernel needs, of all sets.
+    """The inputs of the kernel, of all sets.
 
     ``at`` are the times asked for, shape (sets, points), ``depths`` those of the probes in the
     virgin sample [m], shape (sets, probes).
@@ -121,7 +121,7 @@ class _Work(NamedTuple):
 
 @cache
 def _asked(signals: tuple[tuple[str, str, float, int], ...]) -> arrays.Asked:
-    """Return as the kernel takes them: names, what probes follow, bin widths [s], points."""
+    """Return signals as the kernel takes them, from names, `follows`, bin widths [s], points."""
     from pyrofit.solver.kernels import trace
 
     columns = {
@@ -213,7 +213,7 @@ def _write(
     outcome: FloatArray,
     cells: IntArray,
 ) -> None:
-    """Write what came of some sets."""
+    """Write the results of some sets."""
     runs.status[index], runs.steps[index] = outcome[:, 0], outcome[:, 1]
     runs.energy_error[index], runs.mass_error[index] = outcome[:, 2], outcome[:, 3]
     runs.cells[index] = cells

@@ -1,4 +1,4 @@
-"""Runs of the kernel of heated samples: parameter sets side by side, and what comes of each."""
+"""Runs of the kernel of heated samples: parameter sets side by side, and their results."""
 
 from functools import partial
 from operator import itemgetter
@@ -24,7 +24,7 @@ class Programs(NamedTuple):
 
 
 class Heated(NamedTuple):
-    """What became of heated samples; the last two axes are sets and points.
+    """The results of heated samples; the last two axes are sets and points.
 
     The last three have no values where no programme wants them.
     """

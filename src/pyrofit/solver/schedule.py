@@ -1,4 +1,4 @@
-"""What the description gives over time as one table: all its quantities at all their times."""
+"""The quantities that a description gives over time as one table, at all their times."""
 
 from collections.abc import Sequence
 
@@ -12,7 +12,7 @@ from pyrofit.solver.arrays import FLAME, FLUX, LIT, TIME, FloatArray, Value, Val
 from pyrofit.solver.lower_property import stack
 
 Point = tuple[float, bool]
-"""A time [s], and whether what holds just before it is meant."""
+"""A time [s], and whether the value just before it is meant."""
 
 
 def lower_schedule(experiment: SlabExperiment, values: Values, sets: int) -> FloatArray:
@@ -45,7 +45,7 @@ def lower_schedule(experiment: SlabExperiment, values: Values, sets: int) -> Flo
 
 
 def _with_flame(schedule: FloatArray, flame: Flame, values: Values) -> FloatArray:
-    """Return the schedule with two points at ignition and at flame-out, and what the flame adds."""
+    """Return the schedule with two points at ignition and at flame-out, and the flame's rows."""
     ends = [] if flame.ends_s is None else [flame.ends_s]
     changes = [value_of(t, values) for t in (flame.ignition_s, *ends)]
     # A flame that would end before it begins does not burn.

@@ -2,7 +2,7 @@
 
 import os
 
-# The kernels say themselves what is done side by side: the compiler's search for more of it takes a
-# third of the time to compile, and gains nothing. Read when numba is imported.
+# The kernels themselves state the operations to run side by side: the compiler's search for more
+# takes a third of the time to compile, and gains nothing. Read when numba is imported.
 os.environ.setdefault("NUMBA_OPT", "2")
 os.environ.setdefault("NUMBA_LOOP_VECTORIZE", "0")

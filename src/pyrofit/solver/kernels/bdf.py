@@ -1,4 +1,4 @@
-"""Time steps: the difference formula, its error control, and what is booked from step to step."""
+"""Time steps: the difference formula, its error control, and the balance from step to step."""
 
 import math
 from typing import NamedTuple
@@ -44,7 +44,7 @@ class Balance(NamedTuple):
     released: Number
     """Gas [kg/m2]."""
     burnt: Number
-    """Heat of combustion of what has burnt of it [J/m2]."""
+    """Heat of combustion of the part of it that has burnt [J/m2]."""
     heat_in: Number
     """Heat through the surfaces [J/m2]."""
     heat_crossed: Number
@@ -173,7 +173,7 @@ def kept(condition, new, old):
 
 @inner
 def energy_error(balance):
-    """Return the heat that is not accounted for, relative to what crossed the surfaces."""
+    """Return the heat that is not accounted for, relative to the heat that crossed the surfaces."""
     crossed = balance.heat_crossed
     off = abs(balance.heat_in - balance.heat_used)
     return where(crossed == 0.0, 0.0, off / max(crossed, 1e-300))

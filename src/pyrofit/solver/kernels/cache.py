@@ -180,7 +180,7 @@ def _write(path, content):
 def folders():
     """Return where compiled code may lie, for every processor, in order of preference.
 
-    All of it is named by the sources, the versions of what compiles them, and their settings.
+    The folders are named by the sources, the versions of the compiling software, and its settings.
     """
     total = hashlib.sha256(b"".join(path.read_bytes() for path in _SOURCES))
     versions = (

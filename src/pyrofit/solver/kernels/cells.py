@@ -67,9 +67,9 @@ def mean_capacity(cell, n):
     """Return the mean of C over the step: logarithmic, and more where gas is released ever faster.
 
     The cubic with the ends C and C_new, and slopes in proportion to the rates r there, has the mean
-    (C + C_new)/2 + (C - C_new) (r_new - r)/(6 (r_new + r)). What is returned is that to first order
-    in r_new/r, and the logarithmic mean m (1 - d^2/3 - 4 d^4/45), d = (C_new - C)/(C_new + C),
-    where C falls exponentially: r_new/r is C_new/C. C that changes with temperature leaves it.
+    (C + C_new)/2 + (C - C_new) (r_new - r)/(6 (r_new + r)). The result is this to first order in
+    r_new/r. Where C falls exponentially, r_new/r = C_new/C, it is the logarithmic mean
+    m (1 - d^2/3 - 4 d^4/45), d = (C_new - C)/(C_new + C), as where C changes with temperature only.
     """
     C, C_new = cell[row.C, n], cell[row.C_new, n]
     both = max(C + C_new, TINY)
@@ -83,7 +83,7 @@ def mean_capacity(cell, n):
 
 @inner
 def add(cell, to, n, value, count):
-    """Add to a row of cell n what is not the first of it, of which there have been ``count``."""
+    """Add a value to a row of cell n; the first one, with ``count`` 0, replaces the old value."""
     if count == 0:
         cell[to, n] = value
     else:
@@ -127,7 +127,7 @@ def correct_rate_constants(work, first, network):
 
 @inner
 def log_mean(root_a, root_b):
-    """Return the mean of what grows exponentially from a to b, and its derivative times b.
+    """Return the mean of an exponential from a to b, and its derivative in b times b.
 
     The logarithmic mean (b - a)/ln(b/a), to fourth order in ln(b/a): (2 sqrt(a b) + (a + b)/2)/3.
     """
@@ -139,7 +139,7 @@ def log_mean(root_a, root_b):
 
 @inner
 def react_over(work, first, dt, room, network, final):
-    """Fill what follows from k_j over a step of the cells: masses, and the rows of `book`."""
+    """Fill the masses and the rows of `book` that follow from k_j over a step of the cells."""
     if network.plain:
         react_alone(work, first, dt, network, final)
         return
@@ -192,7 +192,7 @@ def is_consumed(i, network):
 
 @inner
 def book(work, n, j, used, left, growth, network, final):
-    """Add to heat used and rate of cell n what reaction j gives.
+    """Add the contributions of reaction j to heat used and rate of cell n.
 
     If the step is final also to the gas and its heat of combustion, else to
     sum_j dh_j E_j/R (d x_j / d ln k_j) m_j, which is T^2 times the slope of that heat in T.

@@ -34,7 +34,7 @@ COLDEST_K, HOTTEST_K, FIRST_GUESS_K = 350.0, 1500.0, 650.0
 
 @inner
 def _formed_and_left(share, ever, left, network, s):
-    """Fill the mass of each component ever present, and what is left, per virgin mass.
+    """Fill the mass of each component ever present, and the mass left, per virgin mass.
 
     Competing reactions of one reactant count alike.
     """
@@ -62,7 +62,8 @@ def _formed_and_left(share, ever, left, network, s):
 def _reaction_zone(j, eps, share, T_start, material, network, exposure, s):
     """Return delta [m] of reaction j at the temperature at which its front moves steadily.
 
-    There the zone releases what the net flux can heat and convert: rho delta k_j = q / (c dT + dh).
+    There the zone releases the mass that the net flux can heat and convert:
+    rho delta k_j = q / (c dT + dh).
     """
     E = network.activation_temperature[j, s]
     A = network.root_factor[j, s] * network.root_factor[j, s]

@@ -20,7 +20,7 @@ class Front(NamedTuple):
     gain: Number
     slope: Number
     inside: Number
-    """Radiation that does not stop at the surface, less what leaves at the back."""
+    """Radiation that does not stop at the surface, less the part that leaves at the back."""
 
 
 class Edge(NamedTuple):
@@ -36,13 +36,13 @@ class Edge(NamedTuple):
 
 @inner
 def approach(t, time):
-    """Return 1 - exp(-t/time), what is reached of a value approached with a time constant."""
+    """Return 1 - exp(-t/time), the share reached of a value approached with a time constant."""
     return where(time > 0.0, 1.0 - exp(-t / max(time, TINY)), 1.0)
 
 
 @inner
 def irradiation(given, t, exposure):
-    """Return q_ext(t), what is given with the heater's coming up and drift, and the flame's."""
+    """Return q_ext(t): the given flux with the heater's rise and drift, plus the flame's."""
     rest = exposure.drift_time
     drifted = where(rest > 0.0, rest * approach(t, rest), t)
     heater = given.flux * approach(t, exposure.rise_time) * max(1.0 + exposure.drift * drifted, 0.0)
@@ -83,8 +83,9 @@ def add_at_edge(cell, to, edge, value):
 def absorb(radiation, r_skin, work, edge, material):
     """Add the radiation that each cell absorbs to its source.
 
-    Return what passes through all, and what acts at the front. What skin and first half cell
-    absorb acts at the front and at the first cell's centre as its resistance to these tells.
+    Return the radiation that passes through all, and the part that acts at the front. The part
+    absorbed by skin and first half cell acts at the front and at the first cell's centre, shared
+    according to its resistances to these.
     """
     cell = work.cell
     half = at_edge(cell, row.half_r, edge)
@@ -112,7 +113,7 @@ def edge_of_cell(work, n, exposure):
 
 @inner
 def lose_at_edge(work, first, exposure):
-    """Add to every cell of the sample what its edge exchanges with the gas beside it."""
+    """Add to every cell of the sample the heat its edge exchanges with the gas beside it."""
     cell = work.cell
     for n in live(work.m, first):
         loss = edge_of_cell(work, n, exposure)
@@ -147,7 +148,7 @@ def surface_heat(radiation, eps, front_star, t, given, r_skin, work, edge, mater
 
 @loop
 def heat_gas(work, edge, foil, exposure):
-    """Take from every cell what heats the gas that passes it; return the sum [W/m2].
+    """Take from every cell the heat taken up by the gas that passes; return the sum [W/m2].
 
     A cell with the gas flux G in its middle and the temperature fall dT over it loses c_g G dT.
     """
@@ -195,7 +196,7 @@ def temperature_falls(cell, foil, edge, front_star):
 
 @inner
 def eliminate(cell, n, below, seen, carried, bdf):
-    """Eliminate row n of the system; return what the next one sees."""
+    """Eliminate row n of the system; return ``seen`` and ``carried`` of the next, see `conduct`."""
     C = bdf.b1 * cell[row.C_mean, n]
     alone = C + cell[row.slope, n]
     own = alone + seen

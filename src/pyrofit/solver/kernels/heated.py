@@ -1,4 +1,4 @@
-"""The arrays of heated samples: programmes, state, and what is written."""
+"""The arrays of heated samples: programmes, state, and output."""
 
 from typing import NamedTuple
 
@@ -35,7 +35,7 @@ class Sample(NamedTuple):
 
 
 class Gas(NamedTuple):
-    """What of a sample is wanted beside its mass, and how its gas burns."""
+    """The quantities of a sample wanted beside its mass, and the burning of its gas."""
 
     detailed: bool
     """Whether masses and rates by component and reaction are wanted."""
@@ -48,7 +48,7 @@ class Gas(NamedTuple):
 
 
 class Written(NamedTuple):
-    """What is written of a sample, the points first."""
+    """The output of a sample, the points first."""
 
     mass: FloatArray
     rate: FloatArray
@@ -61,7 +61,7 @@ class Written(NamedTuple):
 
 @making
 def allocate(lanes, components, reactions, points, detailed):
-    """Return arrays for what becomes of the samples, the last axis the lanes."""
+    """Return arrays for the output of the samples, the last axis the lanes."""
     return Written(
         np.empty((points, lanes)),
         np.empty((points, lanes)),

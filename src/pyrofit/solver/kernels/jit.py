@@ -14,7 +14,7 @@ def entry(function):
 
 
 making = njit(error_model="numpy", no_cfunc_wrapper=True, no_cpython_wrapper=True)
-"""For what these call that makes arrays, or hands out views of them."""
+"""For functions that these call and that make arrays, or return views of them."""
 
 inner = njit(
     error_model="numpy",
@@ -23,7 +23,7 @@ inner = njit(
     no_cfunc_wrapper=True,
     no_cpython_wrapper=True,
 )
-"""For what they call, compiled into the caller.
+"""For the functions that these call, compiled into the caller.
 
 Without the private `_nrt=False` numba counts references, atomically, at every access to an array
 held in a tuple: more than half of the time of a run. Such functions must not make arrays.

@@ -1,4 +1,4 @@
-"""The types of numbers and truth values side by side, and what operators do with them."""
+"""The types of numbers and truth values side by side, and the operators on them."""
 
 import operator
 from collections.abc import Callable

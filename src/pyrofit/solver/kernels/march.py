@@ -87,7 +87,7 @@ def burnt_out(taken, now, firsts, flat, network):
 
 @inner
 def conclude(outcome, now, left):
-    """Write what has become of the runs, which have left this mass [kg/m2]."""
+    """Write the outcomes of the runs, of which the mass ``left`` remains [kg/m2]."""
     mass_error = abs(left + now.balance.released - now.mass) / now.mass
     off = energy_error(now.balance)
     for lane in range(outcome.shape[0]):

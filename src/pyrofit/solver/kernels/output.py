@@ -1,4 +1,4 @@
-"""Curves at requested times from what runs hold at their steps."""
+"""Curves at requested times from the values of runs at their steps."""
 
 from typing import NamedTuple
 
@@ -56,7 +56,7 @@ def slope_at(time, value, n, last):
 def piece_from(rows, last, column, n):
     """Return the piece that begins with step n.
 
-    What was released or has burnt goes with its rate, everything else with parabolas' slopes.
+    The columns RELEASED and BURNT have their rates as slopes, all others those of parabolas.
     """
     time, value = rows[:, TIME], rows[:, column]
     if n == last:
@@ -117,7 +117,7 @@ def sampled(rows, last, column, at, out):
 
 @loop
 def sampled_rate(rows, last, column, at, out):
-    """Write the time derivative of what was released or has burnt; after the end it is zero."""
+    """Write the time derivative of column RELEASED or BURNT; after the end it is zero."""
     piece = piece_from(rows, last, column, 0)
     for b in range(at.size):
         piece = piece_at(rows, last, column, piece, at[b])

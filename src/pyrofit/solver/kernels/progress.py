@@ -29,7 +29,7 @@ TOO_MANY_STEPS = float(Status.TOO_MANY_STEPS)
 
 
 class Top(NamedTuple):
-    """What a step starts from, besides the cells."""
+    """The state that a step starts from, besides the cells."""
 
     front: Number
     """Front temperature [K]."""
@@ -42,7 +42,7 @@ class Top(NamedTuple):
 
 
 class Progress(NamedTuple):
-    """Where the runs are; a lane that has ended keeps what it has."""
+    """The progress of the runs; a lane that has ended keeps its values."""
 
     clock: Clock
     top: Top

@@ -35,7 +35,7 @@ def decay(x, exact):
 
 @inner
 def order_factors(u, x, n):
-    """Return what turns x = k dt of a single reaction into that of order n, and k behind the step.
+    """Return the factors that bring x = k dt of one reaction, and k behind the step, to order n.
 
     du/dt = -k u^n is solved exactly: u_new^(1-n) = u^(1-n) (1 - y), y = (1 - n) x u^(n-1). That is
     first order with x u^(n-1) (-ln(1 - y)/y), and u_new^(n-1) = u^(n-1)/(1 - y).
@@ -61,7 +61,7 @@ def order_factors(u, x, n):
 
 @inner
 def ordered(m, ever, x, n):
-    """Return x = k dt brought to order n, and what multiplies k at the end of the step.
+    """Return x = k dt brought to order n, and the factor of k at the end of the step.
 
     The order is that in m over the mass ``ever`` present.
     """
@@ -103,7 +103,7 @@ def react(m, formed, n, room, network, exact, m_new):
     ``m`` and ``m_new`` [kg/m2] have shape (components, cells); ``formed``, same shape, is the mass
     ever present, the reference of reaction order. Of the room, ``x[j]`` is the integral of k_j over
     the step, and becomes that of k_j u^(n-1); ``used[j]`` becomes the mass consumed by each
-    reaction, ``behind[j]`` what its order multiplies k_j with at the end. What earlier reactions
+    reaction, ``behind[j]`` the factor of its order on k_j at the end. Mass that earlier reactions
     form during the step decays with phi.
     """
     for i in range(m.shape[0]):
@@ -152,7 +152,7 @@ def decay_of_order(x, n, curved, exact):
 
 @inner
 def remaining(m, e):
-    """Return what is left of a mass, and what is used."""
+    """Return the part of a mass that is left, and the part used."""
     left = m * e
     left = where(left > LEAST_MASS, left, 0.0)
     return left, m - left
@@ -189,7 +189,7 @@ def consume(m, formed, n, j, end, room, network, exact, m_new):
 
 @inner
 def mix_behind(left, ever, gained, j, end, room, network):
-    """Fill what multiplies k after the step of what was formed in it, or reacts more than once."""
+    """Fill the factor of k after the step for a reactant formed in it, or of several reactions."""
     u = where(left > 0.0, left / max(ever, TINY), 1.0)
     for a in range(j, end):
         mixed = power(u, network.order[a] - 1.0)

@@ -15,7 +15,7 @@ fall = 5
 C, C_new, C_mean = 6, 7, 8
 """Heat capacity per area [J/(m2 K)], and its mean over the step."""
 C_lost = 9
-"""What of C the masses lost in the step make up, at T*."""
+"""The part of C due to the masses lost in the step, at T*."""
 d, d_start = 10, 11
 """Thickness [m]; of the foil: of solid with twice the resistance of the contact."""
 half_r = 12
@@ -23,8 +23,8 @@ half_r = 12
 heat = 13
 """Heat used by the reactions in the step [J/m2]."""
 source, slope = 14, 15
-"""Heat source = source - slope * T_new [W/m2], without conduction; of a cell, with what the formula
-carries over from the step before."""
+"""Heat source = source - slope * T_new [W/m2], without conduction; of a cell, with the heat that
+the formula carries over from the step before."""
 right, upper = 16, 17
 """T_new = right + upper * (T_new of the cell below)."""
 rate, rate_old = 18, 19

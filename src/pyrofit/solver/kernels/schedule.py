@@ -1,4 +1,4 @@
-"""What is given over time: flux, heat transfer coefficients, temperatures of gas and walls."""
+"""Quantities given over time: flux, heat transfer coefficients, temperatures of gas and walls."""
 
 from typing import NamedTuple
 
@@ -21,7 +21,7 @@ from pyrofit.solver.kernels.reactions import TINY
 
 
 class Air(NamedTuple):
-    """What a side exchanges heat with, at one time."""
+    """The surroundings that a side exchanges heat with, at one time."""
 
     h: Number
     """Constant part of the heat transfer coefficient [W/(m2 K)]."""
@@ -71,7 +71,7 @@ def jumps(t, schedule):
 
 @inner
 def given_at(t, piece, schedule):
-    """Return what is given at time t, which lies on a piece of the schedule."""
+    """Return the given quantities at time t, which lies on a piece of the schedule."""
     last = schedule.shape[1] - 1.0
     after = min(piece + 1.0, last)
     part = 0.0 * t

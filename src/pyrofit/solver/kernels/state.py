@@ -1,4 +1,4 @@
-"""The state of a slab: its beginning, from one step to the next, and what leaves the grid."""
+"""The state of a slab: its start, its change by a step, and the cells that leave the grid."""
 
 from pyrofit.solver.kernels import row
 from pyrofit.solver.kernels.cells import describe, layer, rate_constants, reactant_left

@@ -39,7 +39,7 @@ OK, DIVERGED, NON_FINITE = float(Status.OK), float(Status.DIVERGED), float(Statu
 
 
 class Step(NamedTuple):
-    """What a step came to."""
+    """The result of a step."""
 
     status: Number
     """OK, DIVERGED or NON_FINITE."""
@@ -126,7 +126,7 @@ def changed_emissivity(eps, now, released, exposure):
 
 @inner
 def extrapolated(arrays, edge, now, bdf, description):
-    """Fill T* and what follows from it; return that of the front."""
+    """Fill T* and the quantities that follow from it; return T* of the front."""
     work, top = arrays.work, now.top
     block = first_wide(arrays, edge)
     extrapolate(arrays.wide, block, bdf.r)
@@ -138,7 +138,7 @@ def extrapolated(arrays, edge, now, bdf, description):
 
 @inner
 def exchanged(work, edge, now, front_star, t, description):
-    """Fill what the faces and the edge exchange; return that of the front, r_skin, emissivity."""
+    """Fill the heat exchange of faces and edge; return the front's, r_skin and emissivity."""
     cell, first = work.cell, edge.first
     material, network, exposure = description
     eps = top_emissivity(exposure.mixing_depth, work.skin, work.m_new, first, material, now.top.eps)

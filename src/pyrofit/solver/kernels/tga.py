@@ -64,7 +64,7 @@ def _followed(y, mean, x, x_new, dt, tau):
 
 @inner
 def _note(n, sample, network, gas, seen, written):
-    """Write what is wanted of the sample at point n; ``seen`` is its heat release."""
+    """Write the wanted quantities of the sample at point n; ``seen`` is its heat release."""
     m, formed, k = sample.m, sample.formed, sample.k
     written.mass[n] = _mass(m)
     written.rate[n] = _sum(network.gas, m, formed, k, network)
@@ -138,7 +138,7 @@ def _heat(program, longest_rise, network, sample, gas, written):
 
 @entry
 def tga(width, programs, lag, start, network, longest_rise, burning):
-    """Return the mass fraction, its rate of loss [1/s], and what heats are made of.
+    """Return mass fraction, its rate of loss [1/s], the parts of the heat flow, and heat release.
 
     dm_i/dt as in `react`; T(t) is linear between the points, the integral of each k_j over a
     substep of at most ``longest_rise`` [K] is Simpson's. The heat release follows that of the gas

@@ -1,4 +1,4 @@
-"""What is kept of every step: a row for each, lane by lane."""
+"""The trace of a run: a row for every step, lane by lane."""
 
 import math
 from typing import NamedTuple
@@ -12,11 +12,11 @@ from pyrofit.solver.kernels.reactions import TINY
 TIME, RELEASED, RATE, FRONT, BACK, THICKNESS, BURNT, POWER, KINK, PROBES = range(10)
 """Columns of the trace; any number of probes, those that follow the material first."""
 STATUS, STEPS, ENERGY_ERROR, MASS_ERROR = range(4)
-"""Columns of what a run came to."""
+"""Columns of the outcome of a run."""
 
 
 class Written(NamedTuple):
-    """What a run writes."""
+    """The output of a run."""
 
     trace: FloatArray
     """Shape (lanes, steps + 1, columns)."""

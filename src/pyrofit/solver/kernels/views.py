@@ -9,7 +9,7 @@ from pyrofit.solver.kernels.lanes import in_lanes
 
 
 def of_group(array, g):
-    """Return what belongs to a group."""
+    """Return the part of an array that belongs to a group."""
     return array if g is None else array[g]
 
 

@@ -18,12 +18,12 @@ class Work(NamedTuple):
 
     The arrays are looked at in three ways. As *numbers* they have the shapes given here. As plain
     *floats*, in which single lanes are reached, they have an axis more, the lanes. *Wide*, for
-    what is done to all cells alike, an element fills a register: it is a cell in all lanes, or, of
-    a set that runs alone, several cells.
+    operations on all cells alike, an element fills a register: it is a cell in all lanes, or, of a
+    set that runs alone, several cells.
     """
 
     cell: FloatArray
-    """What `row` lists, shape (rows, cells + 1 or more); the foil is behind the last cell."""
+    """Rows listed in `row`, shape (rows, cells + 1 or more); the foil is behind the last cell."""
     m: FloatArray
     """Masses [kg/m2], shape (components, cells), like ``m_new``, ``formed`` and ``formed_new``."""
     m_new: FloatArray
@@ -34,7 +34,7 @@ class Work(NamedTuple):
     """Square root of k_j [1/s^0.5], shape (reactions, cells)."""
     root_new: FloatArray
     skin: FloatArray
-    """What the cells that left the grid have left behind, shape (components, 1)."""
+    """Masses of the cells that left the grid [kg/m2], shape (components, 1)."""
 
 
 class Room(NamedTuple):
@@ -47,7 +47,7 @@ class Room(NamedTuple):
     used: FloatArray
     """Mass consumed by each reaction in the step [kg/m2]."""
     behind: FloatArray
-    """What the reaction's order multiplies k_j with at the end of the step."""
+    """Factor of the reaction's order on k_j at the end of the step."""
 
 
 class Arrays(NamedTuple):

@@ -1,4 +1,4 @@
-"""SlabExperiment of a slab by the reference solver."""
+"""Gasification of a slab by the reference solver."""
 
 import math
 import warnings
@@ -26,7 +26,7 @@ EARLY = {RATE, HEAT, MASS}
 """Curves that do not change any more once the reactant is gone."""
 _UNBURNT = "unburnt"
 _SUMS = {RATE: MASS, HEAT: _UNBURNT}
-"""What is left of what is released, of which a rate is the loss."""
+"""By rate, the remaining amount of which it is the loss."""
 
 
 def reference_gasification(

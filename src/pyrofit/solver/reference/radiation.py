@@ -1,4 +1,4 @@
-"""How elements emit radiation, and absorb what enters a sample."""
+"""Emission of radiation by elements, and absorption of the radiation that enters a sample."""
 
 import numpy as np
 
@@ -22,8 +22,8 @@ def top_average(volume: FloatArray, emissivity: FloatArray, depth: float) -> flo
 def absorbed(radiation: float, tau: FloatArray) -> tuple[FloatArray, float]:
     """Return the radiation [W/m2] that each node absorbs, shape (elements + 1,), and that passing.
 
-    Elements have the optical depths ``tau``, shape (elements,). What one absorbs goes to its nodes
-    by their shape functions: 1/tau - 1/(e^tau - 1) of it to the lower one.
+    Elements have the optical depths ``tau``, shape (elements,). The radiation that one absorbs
+    goes to its nodes by their shape functions: 1/tau - 1/(e^tau - 1) of it to the lower one.
     """
     reaching = radiation * np.exp(-np.concatenate(([0.0], np.cumsum(tau))))
     lost = reaching[:-1] - reaching[1:]

@@ -38,7 +38,7 @@ PERTURBED_K, PERTURBED_EXTENT = 1e-3, -1e-6
 
 @dataclass(frozen=True)
 class Slab:
-    """What does not change in a run. Symbols: e element, n node, front first."""
+    """The constants of a run. Symbols: e element, n node, front first."""
 
     substance: Substance
     virgin: FloatArray
@@ -158,7 +158,7 @@ class Slab:
         return out
 
     def outside(self, t: float, piece: Piece, y: FloatArray) -> Outside:
-        """Return what depends on time, or on the whole state at once."""
+        """Return the quantities that depend on time, or on the whole state at once."""
         T, extent = self.split(y)
         T = np.clip(T, COLDEST_K, HOTTEST_K)
         volume = np.maximum(self.masses(extent), 0.0) / self.substance.density
@@ -205,7 +205,7 @@ class Slab:
         return float(gain.sum() - np.sum(outside.passing * (T[:-1] - T[1:])))
 
     def _rim_gain(self, T: FloatArray, d: FloatArray) -> FloatArray:
-        """Return what the edge gives to the nodes [W/m2]; the inert layers behind have none."""
+        """Return the heat from the edge to the nodes [W/m2]; inert layers behind have no edge."""
         return self.rim.gain(T, np.where(np.arange(self.mass.size) < self.sample, d, 0.0))
 
     def heat_taken(self, y_old: FloatArray, y: FloatArray) -> float:

@@ -1,7 +1,7 @@
 """The description of a material in words, evaluated for given parameter values.
 
-Symbols: i component, j reaction, xi_j extent: what reaction j has consumed, per kg of virgin
-sample.
+Symbols: i component, j reaction, xi_j extent: the mass that reaction j has consumed, per kg of
+virgin sample.
 """
 
 from collections.abc import Mapping
@@ -101,7 +101,7 @@ class Reactions:
     yields: FloatArray
     """nu_ji [kg/kg], shape (reactions, components)."""
     change: FloatArray
-    """What reaction j makes of component i per kg of reactant, same shape."""
+    """Change of component i by reaction j per kg of reactant, same shape."""
 
     @property
     def gas(self) -> FloatArray:
@@ -113,7 +113,7 @@ class Reactions:
         return np.asarray(self.A * np.exp(-self.E_R / np.asarray(T)[..., None]))
 
     def amounts(self, virgin: FloatArray, extent: FloatArray) -> FloatArray:
-        """Return what the rates are proportional to, m_formed (m/m_formed)^n, per kg of sample.
+        """Return the factors of the rate constants, m_formed (m/m_formed)^n, per kg of sample.
 
         ``virgin``: mass fractions of the sample, shape (..., components); ``extent``: xi_j, shape
         (..., reactions), like the result. m_formed is the mass ever present.
@@ -189,7 +189,7 @@ def _absorption(component: words.Component, values: Values, length: float) -> fl
 def mass_fractions(
     composition: Mapping[str, float | str], names: list[str], values: Values
 ) -> FloatArray:
-    """Return the mass fractions of the named components; 'rest' is what the others leave."""
+    """Return the mass fractions of the named components; 'rest' is 1 less the others."""
     given = {n: value_of(f, values) for n, f in composition.items() if f != words.REST}
     rest = 1.0 - sum(given.values())
     return np.array([given.get(n, rest if n in composition else 0.0) for n in names])

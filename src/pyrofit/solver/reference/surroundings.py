@@ -1,4 +1,4 @@
-"""What acts on the slab from outside: its two sides, its edge and the external flux over time."""
+"""The surroundings of the slab: its two sides, its edge and the external flux over time."""
 
 import math
 from collections.abc import Iterator
@@ -112,7 +112,7 @@ def rim(edge: Edge | None, values: Values) -> Rim:
 
 @dataclass(frozen=True)
 class Heater:
-    """What the heater makes of the flux it is set to."""
+    """The response of the heater to the flux it is set to."""
 
     factor: float
     rise_time: float
@@ -188,7 +188,7 @@ def pieces(
 
 
 class Outside(NamedTuple):
-    """What acts on a state from outside, or depends on it as a whole."""
+    """The quantities that act on a state from outside, or depend on it as a whole."""
 
     t: float
     """[s]."""

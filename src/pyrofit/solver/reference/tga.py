@@ -66,7 +66,7 @@ def reference_tga(
 
 @dataclass(frozen=True)
 class _Sample:
-    """What reacts, and what records the heat of its burning gas with the time constant tau."""
+    """A reacting sample; the heat of its burning gas is recorded with the time constant tau."""
 
     reactions: Reactions
     virgin: FloatArray
@@ -76,7 +76,7 @@ class _Sample:
     """[s]; zero = the record has no inertia, and is no part of the state."""
 
     def rates(self, T: FloatArray | float, extent: FloatArray) -> FloatArray:
-        """Return what each reaction consumes per kg of virgin sample [1/s]."""
+        """Return the consumption by each reaction per kg of virgin sample [1/s]."""
         k = self.reactions.rate_constants(T)
         return np.asarray(k * self.reactions.amounts(self.virgin, extent))
 
