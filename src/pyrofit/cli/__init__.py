@@ -1,4 +1,4 @@
-"""The command line: what the workflow's rules call, usable by hand."""
+"""The command line: the commands that the workflow's rules call, usable by hand."""
 
 import importlib
 import os

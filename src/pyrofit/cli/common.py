@@ -1,4 +1,4 @@
-"""What the steps of a study share: their options, and how its results are opened."""
+"""Shared code of the steps of a study: their options, and the opening of its results."""
 
 import argparse
 import sys

@@ -1,4 +1,4 @@
-"""Command that tells what planned tests are worth."""
+"""Command for the worth of planned tests."""
 
 import argparse
 from pathlib import Path

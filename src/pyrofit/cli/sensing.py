@@ -1,4 +1,4 @@
-"""Command that tells what signals and costs of a study depend on."""
+"""Command for the sensitivity of a study's signals and costs to their inputs."""
 
 import argparse
 from pathlib import Path

@@ -1,4 +1,4 @@
-"""Commands that show what was found: tables, figures, the report, an archive."""
+"""Commands that show the results: tables, figures, the report, an archive."""
 
 import argparse
 from pathlib import Path

@@ -1,12 +1,12 @@
 """The study description: the only reader of YAML, and all checks that need no measured data.
 
-`study` says what a study is made of, `known` what is known of its parameters, `stages` its stages,
-`terms` the terms of its costs and `diagnosis` its diagnosis.
+`study` defines the parts of a study, `known` the known values of its parameters, `stages` its
+stages, `terms` the terms of its costs and `diagnosis` its diagnosis.
 `repeats` makes experiments of repeats, with `repeated_names` and `nuisances`.
-`resolve` says what holds where a study says nothing. `checks`, `stage_checks`, `diagnosis_checks`
-and `numbers` say what must hold between its parts and for its numbers. `effects` puts effects in,
-`read` reads and checks it, `words` says in plain words what is wrong, `uses` which parameters a
-part uses.
+`resolve` holds the defaults of a study. `checks`, `stage_checks`, `diagnosis_checks` and `numbers`
+hold the rules between its parts and for its numbers. `effects` puts effects in, `read` reads and
+checks a study, `words` states its errors in plain words, `uses` finds the parameters that a part
+uses.
 """
 
 from pyrofit.config.diagnosis import Diagnosis

@@ -22,7 +22,7 @@ def apply_effects(given: Mapping[str, Any]) -> Mapping[str, Any]:
     """Return a study's keys with its effects in material and experiments.
 
     A strength that is not given becomes a parameter, ``<effect>_<strength>``, with the limits of
-    the catalogue, to be estimated. What is put in moves from ``effects`` to ``with_effects``.
+    the catalogue, to be estimated. The effects move from ``effects`` to ``with_effects``.
 
     Raises
     ------
@@ -37,7 +37,7 @@ def apply_effects(given: Mapping[str, Any]) -> Mapping[str, Any]:
         chosen = {name: dict(numbers or {}) for name, numbers in given["effects"].items()}
         parameters = dict(given["parameters"])
     except (ValidationError, KeyError, TypeError, ValueError, AttributeError):
-        return given  # the checks of the study say what is wrong
+        return given  # the checks of the study report the error
     catalogue = known_effects()
     for name, numbers in chosen.items():
         if name in catalogue:

@@ -77,7 +77,7 @@ NUISANCES = {
 
 
 def free(keys: Keys, name: str, sds: Mapping[str, float], stages: list[str]) -> Keys:
-    """Return a study's keys with what is uncertain of an experiment as parameters of known value.
+    """Return a study's keys with uncertain numbers of an experiment as parameters of known value.
 
     Stages estimate them; where none does, everything is as described.
 
@@ -191,7 +191,7 @@ def _with(experiment: Keys, nuisance: Nuisance, parameter: str) -> Keys:
 
 
 def scattered(keys: Keys, sds: Mapping[str, Mapping[str, float]]) -> Keys:
-    """Return the keys with a truth drawn for what differs between computed repeats.
+    """Return the keys with a truth drawn for the numbers that differ between computed repeats.
 
     Normal with the stated standard deviation, within three of them, by the study's seed.
     """

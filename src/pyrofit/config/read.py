@@ -27,9 +27,9 @@ from pyrofit.plugins import use_plugins
 def as_study(given: Mapping[str, Any], source: str) -> Study:
     """Check a study description.
 
-    Files of the user are found relative to the folder of a YAML ``source``. JSON is what the
-    workflow wrote of a study once checked: there they are found already. The study's plugins
-    are known from then on, those of a study read before are not.
+    Files of the user are found relative to the folder of a YAML ``source``. In JSON, which the
+    workflow wrote of a checked study, they are found already. From then on the study's plugins
+    are known, those of a study read before are not.
 
     Raises
     ------
@@ -65,7 +65,7 @@ def _plugins(given: Mapping[str, Any]) -> list[str]:
     """Return the folders of a study's plugins; none where they are no list of names."""
     names = given.get("plugins")
     if not isinstance(names, list | tuple):
-        return []  # the checks of the study say what is wrong
+        return []  # the checks of the study report the error
     return [name for name in names if isinstance(name, str)]
 
 

@@ -44,7 +44,7 @@ def _at(keys: Keys, place: str, change: Callable[[Any], Any]) -> Keys:
     try:
         return {**keys, stage: {**part, key: change(part[key])}}
     except (AttributeError, TypeError):
-        return keys  # the checks of the study say what is wrong
+        return keys  # the checks of the study report the error
 
 
 def _terms(place: str, terms: Any, repeats: Repeats) -> list[Any]:

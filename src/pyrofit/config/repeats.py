@@ -28,9 +28,9 @@ class _Test:
 def expand_repeats(given: Mapping[str, Any]) -> Mapping[str, Any]:
     """Return a study's keys with each repeat as an experiment of its own.
 
-    What names the test names all repeats that have the signal: costs share the weight of the term
-    equally. What differs between repeats becomes parameters with known values, which every stage
-    estimates that fits the repeat.
+    The name of the test stands for all repeats that have the signal: in costs they share the weight
+    of the term equally. Numbers that differ between repeats become parameters with known values,
+    which every stage estimates that fits the repeat.
 
     Raises
     ------
@@ -39,7 +39,7 @@ def expand_repeats(given: Mapping[str, Any]) -> Mapping[str, Any]:
     """
     experiments = given.get("experiments")
     if not isinstance(experiments, Mapping):
-        return given  # the checks of the study say what is wrong
+        return given  # the checks of the study report the error
     tests = {
         name: _test(name, experiment, experiments)
         for name, experiment in experiments.items()

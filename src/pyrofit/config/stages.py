@@ -65,7 +65,7 @@ class Kinetics(Part):
 
     @property
     def channels(self) -> tuple[TermSpec, ...]:
-        """Signals from which is found what the data determine, each once, all measured points."""
+        """Signals of the analysis of identifiability, each once, all measured points."""
         return channels_of(self.cost)
 
 
@@ -87,7 +87,7 @@ class Imp(Part):
 
     @property
     def channels(self) -> tuple[TermSpec, ...]:
-        """Signals from which is found what the data determine, each once, all measured points.
+        """Signals of the analysis of identifiability, each once, all measured points.
 
         Signals of costs are taken from the first to the last time that any cost compares.
         """

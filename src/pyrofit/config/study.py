@@ -169,7 +169,7 @@ class Study(Part):
             return self.material
         assert self.kinetics is not None
         chosen = self.kinetics.sets[kinetics]
-        # What effects have set stays, too.
+        # Values that effects have set stay, too.
         kept = {key for keys in self.kept_of_kinetics().values() for key in keys}
         main = main_reaction(self.material)[0] if kept else ""
         reactions = {
@@ -183,7 +183,7 @@ class Study(Part):
             for name, reaction in self.material.reactions.items()
             if name in chosen.reactions
         }
-        # What effects have added stays.
+        # Reactions and components that effects have added stay.
         added = {n: r for n, r in self.material.reactions.items() if n not in reactions}
         shares = {n: s for n, s in self.material.composition.items() if n.startswith(ADDED)}
         return self.material.model_copy(

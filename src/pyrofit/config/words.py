@@ -8,7 +8,7 @@ from pydantic import ValidationError
 
 
 def refuse_booleans(given: Any, place: str = "") -> None:
-    """Refuse what YAML 1.1 makes of the words yes, no, on, off, as a value or a key.
+    """Refuse a boolean, as which YAML 1.1 reads yes, no, on, off, as a value or a key.
 
     Raises
     ------
@@ -37,7 +37,7 @@ def in_plain_words(error: ValidationError, given: object) -> list[str]:
         found.setdefault(_place(problem, given), []).append(problem)
     lines = []
     for place, problems in found.items():
-        # What a place takes may have several forms, and each complains; errors inside it, and
+        # The value at a place may have several forms, and each complains. Errors inside it, and
         # the form with keys where keys were given, say more.
         if any(other.startswith(f"{place}.") for other in found):
             continue

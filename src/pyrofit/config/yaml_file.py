@@ -85,7 +85,7 @@ class _Loader(yaml.SafeLoader):
     """YAML in which 1e-3 is a number, as everywhere else, and a key stands once."""
 
     def compose_mapping_node(self, anchor: Any) -> yaml.MappingNode:
-        # Before aliases are merged: what a merge brings along may be overwritten.
+        # Before aliases are merged: keys that a merge brings along may be overwritten.
         node = super().compose_mapping_node(anchor)
         first: dict[tuple[str, str], yaml.Mark] = {}
         for key, _ in node.value:

@@ -114,7 +114,7 @@ class Material(Part):
     def own(self) -> frozenset[str]:
         """Components that the virgin material has, or that react or are formed.
 
-        What is left are inert bodies of experiments: boards, plates, gaps.
+        The remaining ones are inert bodies of experiments: boards, plates, gaps.
         """
         of_reactions = {n for r in self.reactions.values() for n in (r.reactant, *r.products)}
         return frozenset({*self.composition, *of_reactions})

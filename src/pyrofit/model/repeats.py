@@ -14,7 +14,7 @@ Name = Annotated[str, Field(pattern=r"^[A-Za-z][A-Za-z0-9_]*$")]
 class Nuisances(Part):
     """Standard deviations of numbers that differ between repeats or are uncertain.
 
-    What has none is taken as equal, and as described.
+    Numbers without one are taken as equal, and as described.
     """
 
     thickness_sd: Relative | None = Field(

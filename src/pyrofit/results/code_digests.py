@@ -33,7 +33,7 @@ def all_terms(study: Study) -> list[TermSpec]:
 
 
 def code(study: Study) -> Digests:
-    """Return what `pyrofit.provenance` does not count: effects, quantities and own costs.
+    """Return hashes of code outside `pyrofit.provenance`: effects, quantities and own costs.
 
     Candidates of the diagnosis are left out: the other results do not depend on them.
     """

@@ -61,7 +61,7 @@ def read_json(path: Path, needs: Mapping[Keys, type] | None = None) -> dict[str,
     path
         The file.
     needs
-        What it must hold: the type of each value by the keys that lead to it, such as
+        Required content: the type of each value by the keys that lead to it, such as
         ``{("starts", EACH, "cost"): float}``.
 
     Raises

@@ -24,7 +24,7 @@ Judges = dict[str, list[TermSpec]]
 
 
 def compare(study: Study, results: Results) -> None:
-    """Write ``comparison``: every end under every cost, the good sets, and what they predict.
+    """Write ``comparison``: every end under every cost, the good sets, and their predictions.
 
     Raises
     ------
@@ -47,10 +47,10 @@ def compare(study: Study, results: Results) -> None:
 
 
 def places(study: Study, measurements: Measurements) -> dict[str, Judges]:
-    """Return what judges the sets where, the terms of every measure.
+    """Return by place the measures that judge the sets, with the terms of each.
 
-    At `FITTED` every cost as it is; at every predicted experiment the common metric of its signals;
-    where no cost was fitted, also every cost with this experiment in the place of its own, over
+    At `FITTED` every cost as it is; at every predicted experiment the common metric of its signals.
+    Where no cost was fitted, also every cost with this experiment in the place of its own, over
     the whole record, as far as it can be computed there.
     """
     found: dict[str, Judges] = {FITTED: {c: list(t) for c, t in study.imp.costs.items()}}

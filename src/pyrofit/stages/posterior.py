@@ -44,7 +44,7 @@ def sample_posterior(
     study, results
         A study whose step `identify` has run.
     tell
-        Told what has been reached.
+        Receives messages on the progress.
     sets
         Sets of the ensemble to write.
     most_steps

@@ -50,7 +50,7 @@ class Predicted:
 def predicted(
     study: Study, found: Sampled, measurements: Measurements, fixed: Mapping[str, float]
 ) -> tuple[pd.DataFrame, list[dict[str, Any]]]:
-    """Return the bands of all signals over time, and what they are in numbers.
+    """Return the bands of all signals over time, and the numbers that describe them.
 
     Raises
     ------

@@ -33,7 +33,7 @@ def sets_of(study: Study, results: Results) -> dict[str, dict[str, float]]:
 def predict(study: Study, results: Results) -> None:
     """Simulate every set at every experiment to predict; write ``curves.csv``, ``scores.csv``.
 
-    What nobody measured goes to ``unmeasured.csv``.
+    Curves of unmeasured quantities go to ``unmeasured.csv``.
 
     Curves are given at the measured times, as averages over the bins of the measurement; the score
     is the CV(RMSE) of mass loss rates, and the RMSE in K of temperatures. Beside it stands the

@@ -1,4 +1,4 @@
-"""Measured files: whether they are there, what they hold, and whether the costs fit them."""
+"""Measured files: whether they are there, their contents, and whether the costs fit them."""
 
 import functools
 from collections.abc import Callable, Iterator
@@ -24,14 +24,14 @@ SYNTHETIC = "synthetic"
 MACFP = "macfp:"
 
 Read = tuple[pd.DataFrame, dict[str, Any]]
-"""A series in SI units, and what is to be said about it."""
+"""A series in SI units, and facts about it."""
 
 
 def check_measurements(study: Study, source: str, macfp: bool = True) -> int:
     """Read the measured files and try the costs on them; return the number of series.
 
-    The workflow does so before it plans anything, as a step that fails loses what it made before;
-    without the files of the MaCFP data base, whose checksums are known.
+    The workflow does so before it plans anything, as a step that fails loses its earlier results.
+    It leaves out the files of the MaCFP data base, whose checksums are known.
 
     Raises
     ------

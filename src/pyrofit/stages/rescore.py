@@ -90,7 +90,7 @@ def _write(
     scores: pd.DataFrame,
     left_out: Sequence[str],
 ) -> None:
-    """Write sets, scores and what follows from them; sets whose run fails are left out."""
+    """Write sets, scores and results derived from them; sets whose run fails are left out."""
     whole = np.isfinite(scores.to_numpy()).all(axis=1)
     if not whole.any():
         raise DataError(f"{results.root}: no stored set can be simulated now; run the study again")

@@ -28,7 +28,7 @@ class Measure:
     name
         As it is asked for.
     words
-        What it is.
+        Its description.
     terms
         Its terms, Eq. 5; none of the likelihood.
     """

@@ -22,7 +22,7 @@ def content_of(
     Parameters
     ----------
     about
-        What is known of the sample.
+        Facts about the sample.
     study, scorer
         The study and its costs.
     sets

@@ -52,7 +52,7 @@ class Twin:
 def robustness(study: Study, results: Results, cost: str) -> None:
     """Fit twins with one cost function; write ``robustness/<cost>.csv``.
 
-    One row per twin: what was added, the lowest cost and its set, and ``prediction_error``: the
+    One row per twin: the disturbance, the lowest cost and its set, and ``prediction_error``: the
     CV(RMSE) of the mass loss rate at held-out experiments, mean of these, against the truth.
 
     Raises
@@ -125,7 +125,7 @@ def _predicted_rates(study: Study) -> list[tuple[str, str]]:
 def noisy(study: Study, twin: Twin, kind: str, level: float, draw: int) -> Measurements:
     """Return the series of a twin with noise and, perhaps, outliers.
 
-    The noise is white. A stated uncertainty grows with it; outliers are what nobody states.
+    The noise is white. A stated uncertainty grows with it, but not with outliers.
     """
     series = {}
     for (name, signal), frame in twin.clean.items():
@@ -146,7 +146,7 @@ def noisy(study: Study, twin: Twin, kind: str, level: float, draw: int) -> Measu
 def with_values(
     frame: pd.DataFrame, quantity: Quantity, value: FloatArray, wider: float = 1.0
 ) -> pd.DataFrame:
-    """Return a series with other values; what is stated about them moves along.
+    """Return a series with other values; their stated uncertainty and limits move along.
 
     Parameters
     ----------

@@ -167,7 +167,7 @@ def _parameter(
 
 
 def _apparatus(problem: Problem) -> tuple[Problem, list[Input]]:
-    """Return what is uncertain of slabs and of emissivities that are numbers, and its problem."""
+    """Return the problem with uncertain numbers of slabs and uncertain emissivities, and these."""
     runs, found = dict(problem.runs), list[Input]()
     for name, run in problem.runs.items():
         experiment = run.experiment

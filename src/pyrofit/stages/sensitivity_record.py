@@ -36,7 +36,7 @@ def write_found(
     Parameters
     ----------
     about
-        What is known of the sample.
+        Facts about the sample.
     sampler
         Signals, costs and inputs.
     outputs

@@ -19,7 +19,7 @@ class Sampler:
     scorer
         Its first measure are the signals.
     inputs
-        What varies.
+        The varied inputs.
     at
         Positions of the times that count, of each signal.
     """

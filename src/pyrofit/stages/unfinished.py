@@ -1,7 +1,7 @@
 """Repetitions of a job that has not ended: Snakemake removes results of jobs that fail.
 
-A job of many repetitions searches some of them side by side, then the next ones. What is finished
-waits here until all are, and then goes to its place at once. The same job, started again, finds it.
+A job of many repetitions searches some of them side by side, then the next ones. Finished ones wait
+here until all are, and then go to their place at once. The same job, started again, finds them.
 """
 
 import contextlib

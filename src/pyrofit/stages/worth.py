@@ -46,7 +46,7 @@ def worth_of_tests(
     study, results
         A study whose estimates have been analysed.
     tell
-        Told what is done.
+        Receives messages on the progress.
     draws
         Data sets that are drawn and fitted again to check the best tests; 0 = no check.
     cores
@@ -155,7 +155,7 @@ def _ranked(
     tests: Sequence[Planned],
     predictions: Mapping[str, Forecast],
 ) -> list[tuple[Planned, dict[str, Any]]]:
-    """Return the tests with what they leave, the best first."""
+    """Return the tests with the uncertainties they leave, the best first."""
     dispersion = fitted.posterior.dispersion
     found = []
     for test in tests:

@@ -31,7 +31,7 @@ class Drawn:
     seed
         Seed of all draws.
     lasting
-        What the apparatus leaves uncertain of the data so far.
+        Uncertainty of the data so far due to the apparatus.
     """
 
     fitted: FittedModel

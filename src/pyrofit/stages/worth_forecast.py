@@ -70,9 +70,9 @@ def forecast(
 
 @dataclass(frozen=True, eq=False)
 class Lasting:
-    """What lasts over a whole record besides its noise: directions, and what whitening takes.
+    """The lasting errors of a record besides its noise: directions, and shares whitening takes.
 
-    The shapes are (points, values) and (values,). By default nothing lasts.
+    The shapes are (points, values) and (values,). By default there are none.
     """
 
     directions: FloatArray | None = None
