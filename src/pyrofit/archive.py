@@ -1,4 +1,4 @@
-"""One file with all of a study: what was given, what came out, and what it takes to run it again.
+"""One file with all of a study: its inputs, its results, and the software to run it again.
 
 Measured files of the MaCFP data base are not copied: their commit and checksums stand in the
 provenance. Equal results give equal bytes: entries are sorted and carry no date.
@@ -195,7 +195,7 @@ def _signals(study: Study) -> Iterator[tuple[str, str, Signal]]:
 
 
 def _without_macfp(study: Study, path: Path) -> bytes:
-    """Return a result; what it repeats of files of the data base is left empty."""
+    """Return a result; its copies of values from files of the data base are left empty."""
     content = _bytes(path)
     if path.suffix != ".csv" or not study.needs_macfp:
         return content
@@ -213,7 +213,7 @@ def _without_macfp(study: Study, path: Path) -> bytes:
 
 
 def _software(project: Path) -> Iterator[tuple[str, Path]]:
-    """Yield what it takes to run the study, by name in the archive's folder of software."""
+    """Yield the files needed to run the study, by name in the archive's folder of software."""
     for needed in ("Snakefile", "requirements.lock"):
         if not (project / needed).is_file():
             raise DataError(

@@ -7,7 +7,7 @@ from typing import Any
 
 
 def contents(package: str, folders: Iterable[str], attribute: str) -> dict[str, Any]:
-    """Return what the files of a catalogue define, by file name, sorted.
+    """Return the objects that the files of a catalogue define, by file name, sorted.
 
     Parameters
     ----------

@@ -1,4 +1,4 @@
-"""The errors a user can cause, each with what was given, the rule, and the way out."""
+"""The errors a user can cause, each with the input, the rule, and the way out."""
 
 from collections.abc import Iterable
 from difflib import get_close_matches

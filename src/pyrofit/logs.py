@@ -1,4 +1,4 @@
-"""What is printed, kept in a log file as well."""
+"""Printed output, kept in a log file as well."""
 
 from pathlib import Path
 from typing import IO
@@ -24,7 +24,7 @@ class Tee:
                 self._log.write(text)
                 self._log.flush()
             except OSError as error:
-                # What is computed is worth more than its log: go on.
+                # The results are worth more than their log: go on.
                 self._usual.write(f"{self._log.name}: log cut off here ({error.strerror})\n")
                 self._log = None
 

@@ -18,7 +18,7 @@ MOST_PIECES = 4096
 def parallel_map(work: Work[Result], count: int, processes: int = 1) -> list[Result]:
     """Return ``[work(0), ..., work(count - 1)]``, computed by some processes.
 
-    The processes are forks: what ``work`` knows is not copied, what it returns is. Each takes the
+    The processes are forks: the data of ``work`` are not copied, its results are. Each takes the
     next piece when it is free, and ends by itself, even if this process is killed.
 
     Raises

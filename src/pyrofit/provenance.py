@@ -1,4 +1,4 @@
-"""What made a result: fingerprints of the source, versions, checksums."""
+"""The origin of a result: fingerprints of the source, versions, checksums."""
 
 import hashlib
 import importlib.metadata
@@ -70,7 +70,7 @@ CATALOGUES = (
 )
 """Packages whose files are found without being imported by name, and all count.
 
-What a study uses of effects, and of the files of its plugins, `results.dependencies` counts.
+`results.dependencies` counts the effects that a study uses, and the used files of its plugins.
 """
 
 
@@ -150,7 +150,7 @@ def _catalogue(package: str, modules: Iterable[str]) -> list[str]:
 
 @cache
 def _imports(source: bytes) -> frozenset[str]:
-    """Return what a file imports of the package: modules, and names in modules."""
+    """Return a file's imports from the package: modules, and names in modules."""
     names = set()
     # Ten times as fast as the syntax tree, and each job of a cluster reads the source anew.
     for module, names_in, modules in _IMPORT.findall(source.decode()):
