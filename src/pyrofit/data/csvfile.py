@@ -79,12 +79,13 @@ class Table:
 def read_table(path: Path) -> Table:
     r"""Read a delimited text file: header, units row or units in the header, and numbers.
 
-    Read are UTF-8, UTF-16 and Windows-1252; cells set apart by comma, semicolon, tab, bar or
-    blanks; decimal points and commas, and separators of thousands where the file tells which is
-    which; a preamble above the header; times as hh:mm:ss; a few lines of text at the end. Any
-    deviation from UTF-8, decimal points and a header in the first row is noted. Units stand in a
-    row below or above the names (`[s],[K]`), or in the names (`Time (s)`, `Mass [mg]`, `Mass/%`),
-    or nowhere. A cell that is no number does not matter in a column that nobody uses.
+    The encoding is UTF-8, UTF-16 or Windows-1252. Comma, semicolon, tab, bar or blanks separate
+    cells. Decimal points and commas are read, and separators of thousands where the file tells them
+    apart. A preamble above the header, times as hh:mm:ss and a few lines of text at the end are
+    read as well. Any deviation from UTF-8, decimal points and a header in the first row is noted.
+    Units stand in a row below or above the names (`[s],[K]`), or in the names (`Time (s)`, `Mass
+    [mg]`, `Mass/%`), or nowhere. A cell that is no number does not matter in a column that nobody
+    uses.
 
     Parameters
     ----------

@@ -81,9 +81,9 @@ def draw(autocorrelation: FloatArray, rng: np.random.Generator) -> FloatArray:
     """Draw normal noise of unit variance with exactly the given autocorrelation.
 
     Each value is its prediction from the values before it, plus white noise of the prediction's
-    variance: e_i = sum_k phi_ik e_(i-k) + sqrt(v_i) z_i, with phi and v by the recursion of
-    Levinson and Durbin (1960, doi 10.2307/1401322). The sums are plain and in a fixed order, so
-    equal seeds give equal bits with any number of threads of a linear algebra library.
+    variance: e_i = sum_k phi_ik e_(i-k) + sqrt(v_i) z_i. The recursion of Levinson and Durbin
+    (1960, doi 10.2307/1401322) gives phi and v. The sums are plain and in a fixed order, so equal
+    seeds give equal bits with any number of threads of a linear algebra library.
 
     Parameters
     ----------

@@ -49,7 +49,7 @@ def parameter_set(study: Study, results: Results, label: str, beside: Path) -> P
         The study and its results.
     label
         A set of the report, 'truth', '<cost> published', 'diagnosis', or the path of a JSON file
-        of values in SI units by name; empty = least squares of the first cost, or else the set
+        of values in SI units by name. Empty = least squares of the first cost, or else the set
         of the diagnosis, preferably the one beside the study file.
     beside
         Folder of the study file.

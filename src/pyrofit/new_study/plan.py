@@ -45,9 +45,9 @@ class Part:
 def part_of(stage: Stage, records: Iterable[Measured]) -> Part:
     """Return the experiments of a stage, those it holds out, and the terms of its cost.
 
-    Of each kind the experiments with the largest flux are held out where there are two or more
-    fluxes, and those with the middle heating rate where there are three or more rates. Any
-    correct kinetics predict a rate between others.
+    Of two or more fluxes of a kind, the experiments with the largest are held out. Of three or
+    more heating rates, those with the middle one are: any correct kinetics predict a rate between
+    others.
     """
     runs = tuple(run for run in records if run.of.stage == stage)
     rate = any(_shows_loss(run) for run in runs)

@@ -52,8 +52,8 @@ def init(name: str, files: Files, parent: Path) -> tuple[Path, list[str]]:
     Returns
     -------
     tuple of Path and list of str
-        The study file, and lines for the user: on every signal, its columns and the unknown ones;
-        on columns that are not used; on held-out experiments.
+        The study file, and lines for the user: on the recognised and the unknown columns of every
+        signal, on unused columns, and on held-out experiments.
 
     Raises
     ------

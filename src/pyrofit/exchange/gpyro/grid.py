@@ -2,7 +2,7 @@
 
 Gpyro has one distance dz between its N nodes, of which the first and the last belong to half a
 cell. A layer begins and ends at faces of cells, halfway between nodes. All layers are one
-connected body only if no cell lies between them: the first body therefore has the whole depth,
+connected body only if no cell lies between them. The first body therefore has the whole depth,
 and each further one replaces the material behind its front.
 """
 

@@ -22,7 +22,7 @@ _NAMES = ("reactant", "products")
 def numeric(material: Material, values: Mapping[str, float]) -> tuple[Material, list[str]]:
     """Return a material without parameters, and notes on the properties turned into tables.
 
-    A property that the data base has no words for becomes a table at the points that straight
+    A property of a form that the data base lacks becomes a table, with the points that straight
     lines need to follow it within 1e-6.
     """
     notes: list[str] = []

@@ -9,7 +9,7 @@ from pyrofit.errors import DataError
 
 _MOST = 100
 _WORD = re.compile(r"-?\d[\d.]*[A-Za-z][\w./]*")
-"""A number with its unit, which JSON has no words for."""
+"""A number with its unit, which JSON cannot express."""
 
 
 class Read(NamedTuple):
@@ -30,8 +30,8 @@ class Read(NamedTuple):
 def read_json(path: Path) -> Read:
     """Read a JSON object; mend the faults of hand-written files.
 
-    Mended are another encoding than UTF-8, a missing comma, a comma before a closing bracket, a
-    number with a unit (which becomes text), and text behind the end of the object (left out).
+    The faults are an encoding other than UTF-8, a missing comma, and a comma before a closing
+    bracket. A number with a unit becomes text; text behind the end of the object is left out.
 
     Raises
     ------
