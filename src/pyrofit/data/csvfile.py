@@ -83,9 +83,9 @@ def read_table(path: Path) -> Table:
     cells. Decimal points and commas are read, and separators of thousands where the file tells them
     apart. A preamble above the header, times as hh:mm:ss and a few lines of text at the end are
     read as well. Any deviation from UTF-8, decimal points and a header in the first row is noted.
-    Units stand in a row below or above the names (`[s],[K]`), or in the names (`Time (s)`, `Mass
-    [mg]`, `Mass/%`), or nowhere. A cell that is no number does not matter in a column that nobody
-    uses.
+    Units stand in a row below or above the names (`[s],[K]`), or in the names (`Time (s)`,
+    `Mass [mg]`, `Mass/%`), or nowhere. A cell that is no number does not matter in a column that
+    nobody uses.
 
     Parameters
     ----------
