@@ -1,4 +1,4 @@
-"""One file with all of a study: its inputs, its results, and the software to run it again.
+"""One file with all of a study: its inputs, its results, and the files to run it again.
 
 Measured files of the MaCFP data base are not copied: their commit and checksums stand in the
 provenance. Equal results give equal bytes: entries are sorted and carry no date.

@@ -1,7 +1,7 @@
 """The study description: the only reader of YAML, and all checks that need no measured data.
 
-`study` defines the parts of a study, `known` the known values of its parameters, `stages` its
-stages, `terms` the terms of its costs and `diagnosis` its diagnosis.
+`study` defines the parts of a study, `known` the known values of its parameters. `stages` defines
+its stages, `terms` the terms of its costs and `diagnosis` its diagnosis.
 `repeats` makes experiments of repeats, with `repeated_names` and `nuisances`.
 `resolve` holds the defaults of a study. `checks`, `stage_checks`, `diagnosis_checks` and `numbers`
 hold the rules between its parts and for its numbers. `effects` puts effects in, `read` reads and

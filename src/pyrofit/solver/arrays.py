@@ -1,8 +1,8 @@
 """The plain arrays that the kernels work on, and how a run can end.
 
 Symbols: i component, j reaction, n cell, T temperature node of the property tables. Parameter sets
-that run side by side, each in its lane, share integers and truth values; of every other array the
-last axis is the lanes, and every number below is an array of shape (lanes,).
+that run side by side, each in its lane, share integers and truth values. The last axis of every
+other array is the lanes, and every number below is an array of shape (lanes,).
 """
 
 from collections.abc import Mapping

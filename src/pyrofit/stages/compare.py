@@ -50,8 +50,8 @@ def places(study: Study, measurements: Measurements) -> dict[str, Judges]:
     """Return by place the measures that judge the sets, with the terms of each.
 
     At `FITTED` every cost as it is; at every predicted experiment the common metric of its signals.
-    Where no cost was fitted, also every cost with this experiment in the place of its own, over
-    the whole record, as far as it can be computed there.
+    Where no cost was fitted, also every computable cost with this experiment in the place of its
+    own, over the whole record.
     """
     found: dict[str, Judges] = {FITTED: {c: list(t) for c, t in study.imp.costs.items()}}
     fitted = {t.experiment for terms in study.imp.costs.values() for t in terms if t.weight}

@@ -52,8 +52,8 @@ class Twin:
 def robustness(study: Study, results: Results, cost: str) -> None:
     """Fit twins with one cost function; write ``robustness/<cost>.csv``.
 
-    One row per twin: the disturbance, the lowest cost and its set, and ``prediction_error``: the
-    CV(RMSE) of the mass loss rate at held-out experiments, mean of these, against the truth.
+    One row per twin: the disturbance, the lowest cost and its set, and ``prediction_error``. That
+    is the mean CV(RMSE) of the mass loss rate at held-out experiments, against the truth.
 
     Raises
     ------

@@ -111,8 +111,8 @@ def _half_depth(slab: SlabExperiment) -> float:
 def _calorimetry(study: Study, fitted: FittedModel) -> Planned | None:
     """Return a DSC where heats of reaction or heat capacities are estimated and none is fitted.
 
-    ASSUME: the baseline is uncertain by a level and a slope, and the sensitivity of the instrument
-    is known within the share by which records of repeats differ.
+    ASSUME: the baseline is uncertain by a level and a slope. The sensitivity of the instrument is
+    known within the share by which records of repeats differ.
     """
     problem = fitted.model.likelihood.problem
     quantity = known_quantities()[HEAT_FLOW]

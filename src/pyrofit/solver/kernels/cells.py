@@ -69,7 +69,8 @@ def mean_capacity(cell, n):
     The cubic with the ends C and C_new, and slopes in proportion to the rates r there, has the mean
     (C + C_new)/2 + (C - C_new) (r_new - r)/(6 (r_new + r)). The result is this to first order in
     r_new/r. Where C falls exponentially, r_new/r = C_new/C, it is the logarithmic mean
-    m (1 - d^2/3 - 4 d^4/45), d = (C_new - C)/(C_new + C), as where C changes with temperature only.
+    m (1 - d^2/3 - 4 d^4/45), d = (C_new - C)/(C_new + C). The same holds where C changes with
+    temperature only.
     """
     C, C_new = cell[row.C, n], cell[row.C_new, n]
     both = max(C + C_new, TINY)
@@ -195,7 +196,7 @@ def book(work, n, j, used, left, growth, network, final):
     """Add the contributions of reaction j to heat used and rate of cell n.
 
     If the step is final also to the gas and its heat of combustion, else to
-    sum_j dh_j E_j/R (d x_j / d ln k_j) m_j, which is T^2 times the slope of that heat in T.
+    sum_j dh_j E_j/R (d x_j / d ln k_j) m_j. That sum is T^2 times the slope of the heat used in T.
     """
     cell = work.cell
     heat, gas = network.heat[j], network.gas[j]

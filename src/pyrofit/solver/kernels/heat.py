@@ -83,9 +83,9 @@ def add_at_edge(cell, to, edge, value):
 def absorb(radiation, r_skin, work, edge, material):
     """Add the radiation that each cell absorbs to its source.
 
-    Return the radiation that passes through all, and the part that acts at the front. The part
-    absorbed by skin and first half cell acts at the front and at the first cell's centre, shared
-    according to its resistances to these.
+    Return the radiation that passes through all, and the part that acts at the front. The front
+    and the first cell's centre share the part absorbed by skin and first half cell according to
+    its resistances to these.
     """
     cell = work.cell
     half = at_edge(cell, row.half_r, edge)

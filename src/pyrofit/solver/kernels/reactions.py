@@ -102,7 +102,7 @@ def react(m, formed, n, room, network, exact, m_new):
 
     ``m`` and ``m_new`` [kg/m2] have shape (components, cells); ``formed``, same shape, is the mass
     ever present, the reference of reaction order. Of the room, ``x[j]`` is the integral of k_j over
-    the step, and becomes that of k_j u^(n-1); ``used[j]`` becomes the mass consumed by each
+    the step, and becomes that of k_j u^(n-1). ``used[j]`` becomes the mass consumed by each
     reaction, ``behind[j]`` the factor of its order on k_j at the end. Mass that earlier reactions
     form during the step decays with phi.
     """

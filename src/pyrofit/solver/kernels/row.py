@@ -23,8 +23,8 @@ half_r = 12
 heat = 13
 """Heat used by the reactions in the step [J/m2]."""
 source, slope = 14, 15
-"""Heat source = source - slope * T_new [W/m2], without conduction; of a cell, with the heat that
-the formula carries over from the step before."""
+"""Heat source = source - slope * T_new [W/m2], without conduction. That of a cell includes the heat
+that the formula carries over from the step before."""
 right, upper = 16, 17
 """T_new = right + upper * (T_new of the cell below)."""
 rate, rate_old = 18, 19

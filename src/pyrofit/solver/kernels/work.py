@@ -18,7 +18,7 @@ class Work(NamedTuple):
 
     The arrays are looked at in three ways. As *numbers* they have the shapes given here. As plain
     *floats*, in which single lanes are reached, they have an axis more, the lanes. *Wide*, for
-    operations on all cells alike, an element fills a register: it is a cell in all lanes, or, of a
+    operations on all cells alike, an element fills a register. It is a cell in all lanes, or, of a
     set that runs alone, several cells.
     """
 
