@@ -1,4 +1,4 @@
-"""The diagnosis of a study, from its measurements to what is said of it."""
+"""The diagnosis of a study, from its measurements to the verdict."""
 
 from dataclasses import asdict, dataclass
 from typing import Any
@@ -44,11 +44,11 @@ def examine(
     Parameters
     ----------
     study
-        The study; ``diagnosis`` says what is fitted, held out and tried.
+        The study; ``diagnosis`` names the fitted and held-out signals, and the candidate effects.
     measurements
         Measured series by (experiment, signal), SI units.
     tell
-        Is told what goes on.
+        Is told the progress.
     processes
         Processes that share the fits; the result does not depend on their number.
     advise

@@ -126,11 +126,11 @@ class Settings:
     informative_gain: float = 2.0
     """Smallest difference of log scores that counts: odds of 7 to 1."""
     most_suspects: int = 3
-    """Candidates that are named for what a verdict leaves unexplained."""
+    """Candidates that are named for the misfit that a verdict leaves unexplained."""
     most_judged: int = 6
     """Models that are judged in the place of one effect, at most."""
 
-    # What the data determine of an effect
+    # Parameters of an effect that the data determine
     open_sd: float = 0.15
     """A parameter with a larger relative standard deviation is left open by the data."""
     ridge_gain: float = 3.0

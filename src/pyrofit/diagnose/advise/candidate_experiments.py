@@ -13,9 +13,9 @@ def ideas(problem: Problem, measured: Problem) -> Iterator[Idea]:
     Parameters
     ----------
     problem
-        What was calibrated.
+        Problem of the calibrated signals.
     measured
-        That, and what was held out.
+        Problem of the calibrated and the held-out signals.
     """
     recorded = {
         name: {run.experiment.quantity(signal).name for signal in run.requests}

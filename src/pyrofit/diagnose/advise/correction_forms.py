@@ -27,7 +27,7 @@ from pyrofit.solver.lower_property import property_table
 from pyrofit.solver.outputs import FRONT, MASS
 
 LOSS_SD = {"gas_temperature_K": 30.0, "h_change_W_m2K": 6.0, "h_cube_root_W_m2K43": 0.8}
-"""The same of what makes up the front's loss, SI units, by key of the description."""
+"""Prior standard deviations for the front's loss, SI units, by key of the description."""
 PROPERTIES = {
     "conductivity": ("conductivity_W_mK", "W/(m K)", "a conductivity that varies with temperature"),
     "heat_capacity": (
@@ -46,9 +46,9 @@ Values = Mapping[str, float]
 class Correction:
     """A correction before its fit.
 
-    ``sd`` are the standard deviations of the coefficients' priors by name, ``problem`` is the
-    problem with the coefficients in its description, ``shape`` says what to draw of the values of
-    all parameters.
+    ``sd`` are the standard deviations of the coefficients' priors by name. ``problem`` is the
+    problem with the coefficients in its description. ``shape`` returns the curve to draw from the
+    values of all parameters.
     """
 
     probe: str

@@ -1,8 +1,8 @@
-"""Which free correction, put into the model, would absorb what no effect of the catalogue explains.
+"""Free corrections that would absorb the misfit that no effect of the catalogue explains.
 
 Each correction (`pyrofit.diagnose.advise.correction_forms`) is fitted jointly with all other
 parameters. Its coefficients have a normal prior about zero, where the model is unchanged. A probe
-shows the kind and the shape of a missing term; it is not an effect and claims none.
+shows the kind and the shape of a missing term; it is not an effect, nor is one claimed from it.
 """
 
 from dataclasses import dataclass, replace
@@ -34,7 +34,7 @@ class Probe:
     coefficients
         By name, SI units.
     chi2
-        Of the data and of what is known, without the coefficients' priors.
+        Of the data and the known values, without the coefficients' priors.
     absorbed
         Share of the excess of chi-square that it takes away, at most 1.
     shape
@@ -53,10 +53,10 @@ class Probe:
 
 
 def probes(trial: FittedModel, processes: int = 1) -> list[Probe]:
-    """Fit all probes to what a fitted model leaves.
+    """Fit all probes to the misfit of a fitted model.
 
-    The excess is what chi-square has above the noise's: above the degrees of freedom, or above
-    the best probe where that is lower, since the noise is rather over- than underestimated. A
+    The excess is chi-square less that of the noise. That is the degrees of freedom, or chi-square
+    of the best probe where this is lower, since the noise is rather over- than underestimated. A
     probe absorbs nothing where as many useless coefficients would gain as much by chance, with a
     probability above 1 %.
 

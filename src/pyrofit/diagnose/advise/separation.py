@@ -6,8 +6,8 @@ the parameters' covariance after the calibration. The separation in standard dev
 
     sqrt(D^T (I + J_1 C_1 J_1^T + J_2 C_2 J_2^T)^-1 D),
 
-leaves out what a model could make up within what the calibration leaves it (as Buzzi-Ferraris and
-Forzatti 1984, Chem. Eng. Sci. 39, 81).
+leaves out differences that a model could make up for within the uncertainty of its parameters (as
+Buzzi-Ferraris and Forzatti 1984, Chem. Eng. Sci. 39, 81).
 """
 
 import math
@@ -43,7 +43,7 @@ class Design:
     design
         Short name.
     words
-        What it is.
+        The same in words.
     separation_sd
         By how many standard deviations it separates those two models that it separates least.
     pairs
@@ -58,7 +58,7 @@ class Design:
 
 @dataclass(frozen=True, eq=False)
 class _Forecast:
-    """Curve of each signal at a model's fit, and what the parameters' uncertainty makes of it.
+    """Curve of each signal at a model's fit, and its spread by the parameters' uncertainty.
 
     ``spread`` has shape (points, parameters), spread @ spread.T is the curve's covariance.
     """
@@ -128,7 +128,7 @@ def _separation(one: _Forecast, other: _Forecast, noise: Mapping[str, NoiseModel
 
 
 def _forecast(trial: FittedModel, idea: Idea, requests: Mapping[str, Request]) -> _Forecast | None:
-    """Return what a model predicts; None where it does not finish."""
+    """Return the predictions of a model; None where a run does not finish."""
     x = trial.fit.x
     curves = simulated(trial, idea, x, requests)
     if not curves.status.finished:

@@ -10,7 +10,7 @@ from pyrofit.model.accuracy import Accuracy
 
 
 def solver_error(trial: FittedModel, accuracy: Accuracy) -> float:
-    """Return what another accuracy changes of a fitted model, in chi-square.
+    """Return the change of a fitted model by another accuracy, in chi-square.
 
     It is the sum of the squares of the change of the whitened residuals, without the part that the
     fitted parameters make up for. It is infinite where a run does not finish.

@@ -35,7 +35,7 @@ class Stretch:
 
 @dataclass(frozen=True, eq=False)
 class LackOfFit:
-    """What the fit leaves, against what noise would leave."""
+    """The residuals of a fit, against those of noise alone."""
 
     windows: tuple[Stretch, ...]
     scan: float
@@ -63,7 +63,7 @@ def lack_of_fit(
     rng: np.random.Generator,
     processes: int = 1,
 ) -> LackOfFit:
-    """Compare what a fit leaves with draws of the noise, projected as the fit projects it.
+    """Compare the residuals of a fit with draws of the noise, projected as the fit projects it.
 
     ``directions`` holds the unit changes by each candidate, shape (points + known, strengths).
     """

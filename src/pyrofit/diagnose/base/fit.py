@@ -33,7 +33,7 @@ from pyrofit.solver.arrays import FloatArray
 
 @dataclass(frozen=True, eq=False)
 class Setup:
-    """What a diagnosis starts from: the fitted base and the names of the candidates."""
+    """Start of a diagnosis: the fitted base and the names of the candidates."""
 
     base: FittedModel
     candidates: tuple[str, ...]
@@ -44,8 +44,8 @@ class Setup:
 def set_up(study: Study, measurements: Measurements, processes: int = 1) -> Setup:
     """Fit the base model, with the noise of every channel estimated twice.
 
-    First from the series alone; then, as what is steep in a series looks like noise to a smooth
-    curve, about the fitted curve.
+    The first estimate is from the series alone. There steep parts look like noise to a smooth
+    curve, so the second is about the fitted curve.
 
     Raises
     ------

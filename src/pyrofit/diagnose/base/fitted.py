@@ -65,7 +65,7 @@ def up_to_date(trial: FittedModel) -> FittedModel:
 
 
 def polished(trials: Sequence[FittedModel], processes: int = 1) -> list[FittedModel]:
-    """Search from elsewhere for what the data hardly determine; never worse than before.
+    """Fit again from other values of hardly determined parameters; keep the lower fits.
 
     A parameter at a limit, or one of wide uncertainty, may be in the wrong of several valleys.
     """
@@ -95,12 +95,12 @@ def _from(trial: FittedModel, x: FloatArray) -> Fit:
 def _elsewhere(trial: FittedModel) -> Iterator[FloatArray]:
     """Yield the fit with a parameter moved that is hardly determined or rests at a limit.
 
-    A parameter with a known value is not searched elsewhere: what is known says where it is.
+    A parameter with a known value is not searched elsewhere, as that value tells its place.
     """
     best = trial.fit
     wide = np.sqrt(np.diag(covariance(best.jacobian))) > SETTINGS.wide_sd
     resting = (best.x <= 0.0) | (best.x >= 1.0)
-    # What is uncertain of experiments that are held out changes nothing here.
+    # Uncertain parameters of held-out experiments change nothing here.
     shown = np.any(best.jacobian[: trial.model.points] != 0.0, axis=0)
     moved = (wide & shown) | resting
     moved[list(trial.model.likelihood.prior.index)] = False
@@ -121,8 +121,8 @@ def misfits(trial: FittedModel) -> bool:
 def at_limit(trial: FittedModel, effect: str) -> str:
     """Return the name of an effect's strength if it rests at a limit, else nothing.
 
-    Nothing left of what is usually there is no limit but a state, as an insulated back is. A form
-    may be as extreme as its limits allow: a step that is sharper than the data can show.
+    A strength of zero is no limit but a state where its null value is above zero, as an insulated
+    back is. A form may rest at a limit: a step may be sharper than the data can show.
     """
     x = trial.fit.x[trial.model.position(effect)]
     _, quantity = strength_of(effect)

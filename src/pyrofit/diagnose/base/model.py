@@ -20,12 +20,12 @@ Free = Mapping[str, tuple[str, ...]]
 
 @dataclass(frozen=True, eq=False)
 class Base:
-    """What all models on trial share.
+    """The likelihood and the calibrated channels, which all models on trial share.
 
     Parameters
     ----------
     likelihood
-        All channels, calibrated and held out, under the base model, and what is known of its
+        All channels, calibrated and held out, under the base model, and the known values of its
         parameters.
     calibrated
         Positions of the calibrated channels; the others are held out.
@@ -76,7 +76,7 @@ class Model:
         return self.names.index(name_of(effect, strength_of(effect)[0]))
 
     def residuals(self, x: FloatArray) -> FloatArray:
-        """Return the whitened residuals of the channels, then those of what is known."""
+        """Return the whitened residuals of the channels, then those of the known values."""
         return self.residuals_all(x[None])[0]
 
     def residuals_all(self, X: FloatArray) -> list[FloatArray]:
@@ -92,7 +92,7 @@ class Model:
         return self.likelihood.finished(residuals)
 
     def by_channel(self, residuals: FloatArray) -> list[FloatArray]:
-        """Split whitened residuals by channel; what is known is left out."""
+        """Split whitened residuals by channel; those of the known values are left out."""
         return self.likelihood.split(residuals)
 
 
@@ -145,7 +145,7 @@ def laboratories_of(base: Base, effect: str) -> dict[str, tuple[str, ...]]:
 
 
 def _restricted(problem: Problem, channels: Sequence[int]) -> Problem:
-    """Return the problem with some of its terms, in that order, and what they need."""
+    """Return the problem with some of its terms, in that order, and the runs they need."""
     picks = tuple(problem.picks[i] for i in channels)
     wanted = {(name, signal) for name, signal, _ in picks}
     runs = {}

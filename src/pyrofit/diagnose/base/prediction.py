@@ -1,4 +1,4 @@
-"""What fitted models predict: experiments that are left out of the fit, or held out of the study.
+"""Predictions by fitted models, of experiments left out of the fit, or held out of the study.
 
 A prediction is scored by the logarithm of its density (Gneiting and Raftery 2007,
 doi 10.1198/016214506000001437), parameters uncertain as the calibration leaves them:
@@ -39,7 +39,7 @@ class Predictions:
 
 
 def forecast(part: Fit, whole: Fit) -> float:
-    """Return the log score of what a fit to the whole has more than a fit to a part."""
+    """Return the log score of the signals that are fitted in the whole, but not in a part."""
     misfit = whole.chi2 - part.chi2
     return -0.5 * (misfit + _log_det(whole) - _log_det(part))
 
@@ -63,7 +63,7 @@ def predictions(
     held_out: bool = True,
     whole: bool = True,
 ) -> list[Predictions]:
-    """Return what models predict: experiments from the others, and what is held out.
+    """Return the predictions of models: experiments from the others, and held-out signals.
 
     With ``held_out`` false, only calibrated experiments are left out, one by one. With ``whole``
     false, no model is fitted to all held-out tests at once, unless a score needs it.
@@ -91,7 +91,7 @@ def _tasks(trial: FittedModel, held_out: bool, whole: bool) -> list[str]:
 
 
 def _several(trial: FittedModel) -> list[str]:
-    """Return the names of the predictions of what is held out, if there are several.
+    """Return the names of the predictions of held-out signals, if there are several.
 
     Tests of one laboratory are one prediction: an error of its apparatus shows in all of them.
     """

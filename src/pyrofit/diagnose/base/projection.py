@@ -1,4 +1,4 @@
-"""What the fitted parameters cannot make up for of a change of the residuals."""
+"""The part of a change of the residuals that the fitted parameters cannot make up for."""
 
 import numpy as np
 
@@ -8,7 +8,7 @@ from pyrofit.solver.arrays import FloatArray
 
 
 def projector(fit: Fit) -> FloatArray:
-    """Return Q with P w = w - Q Q^T w, up to the limits: what the fitted parameters span.
+    """Return Q with P w = w - Q Q^T w, up to the limits: the span of the fitted parameters.
 
     A parameter that rests at a limit does not move.
     """

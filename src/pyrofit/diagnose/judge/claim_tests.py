@@ -1,4 +1,4 @@
-"""What a claim must pass besides its gain: limits, agreement of experiments, prediction.
+"""Tests of a claim besides its gain: limits, agreement of experiments, prediction.
 
 A model that still misfits makes every test statistic too large. Its dispersion, chi-square per
 degree of freedom, then divides the statistics and the gains of the log scores.
@@ -21,7 +21,7 @@ from pyrofit.solver.arrays import FloatArray
 
 @dataclass(frozen=True)
 class Trust:
-    """What speaks for or against an effect besides the calibration."""
+    """Evidence for or against an effect besides the calibration."""
 
     limit: str
     """The effect's strength if it rests at a limit, or empty."""
@@ -62,7 +62,7 @@ class Trust:
 
     @property
     def confirmed(self) -> bool:
-        """Whether predictions improve and what is held out, if anything, gains enough by itself."""
+        """Whether predictions improve and held-out signals, if any, gain enough by themselves."""
         held_out = self.held_out
         return self.predicts and (
             not held_out or sum(held_out.values()) >= SETTINGS.informative_gain
@@ -70,14 +70,14 @@ class Trust:
 
     @property
     def held_out(self) -> dict[str, float]:
-        """Gains of the log score of what is held out."""
+        """Gains of the log score of held-out signals."""
         return {n: gain for n, gain in self.gains.items() if n.startswith(HELD_OUT)}
 
 
 def disagreement(trial: FittedModel, effect: str, dispersion: float = 1.0) -> float:
     """Return the probability that a strength common to all experiments looks as different.
 
-    Score test: the columns of d w/d strength, one experiment each, against what the fit leaves.
+    Score test: the columns of d w/d strength, one experiment each, against the fit's residuals.
     The statistic is divided by ``dispersion``.
     """
     model, fit = trial.model, trial.fit
@@ -103,10 +103,10 @@ def _size(parts: Sequence[FloatArray], owners: Sequence[str], experiment: str) -
 
 
 def explains(found: Predictions, rng: np.random.Generator) -> bool:
-    """Tell whether a model fits what is held out as well, once that is fitted, too.
+    """Tell whether a model fits held-out signals as well, if they are fitted, too.
 
-    ``rng`` draws the noise that it is compared with. The scores are compared under one noise; this
-    is judged under the one that the fit leaves.
+    ``rng`` draws the noise that the residuals are compared with. The scores are compared under one
+    noise; this is judged under the noise estimated about the fit.
     """
     held_out = found.whole.model.base.held_out
     if not held_out:
@@ -123,14 +123,14 @@ def trust(
     explained: bool | None,
     dispersion: float = 1.0,
 ) -> Trust:
-    """Return what speaks for or against an effect of a model.
+    """Return the evidence for or against an effect of a model.
 
     Parameters
     ----------
     own, without
-        What the model predicts, and what it predicts without the effect.
+        Predictions of the model with and without the effect.
     explained
-        Whether it fits what is held out, too.
+        Whether it fits held-out signals, too.
     dispersion
         Chi-square per degree of freedom that divides test statistics and gains.
     """

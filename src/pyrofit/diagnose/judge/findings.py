@@ -1,4 +1,4 @@
-"""What a verdict consists of: effects, those they cannot be told from, and the reasons."""
+"""Parts of a verdict: effects, those they cannot be told from, and the reasons."""
 
 from dataclasses import dataclass
 from typing import Literal
@@ -9,14 +9,14 @@ from pyrofit.diagnose.search.stepwise import Search
 from pyrofit.effects import known_effects
 
 ORDER = ("apparatus", "environment", "material")
-"""What an experimenter can check comes first."""
+"""The families that an experimenter can check come first."""
 
 Kind = Literal["none", "named", "ambiguous", "multiple", "partly", "unknown"]
 
 
 @dataclass(frozen=True, eq=False)
 class Judged:
-    """A model with an effect in the leading one's place, and what speaks against it."""
+    """A model with an effect in the leading one's place, and the reason against it."""
 
     effect: str
     trial: FittedModel
@@ -53,29 +53,29 @@ class Finding:
 
     @property
     def group(self) -> str:
-        """What is missing, where all agree on it, else nothing."""
+        """Group of the missing effect, where all agree on it, else empty."""
         groups = {known_effects()[name].group for name in self.effects}
         return groups.pop() if len(groups) == 1 else ""
 
     @property
     def predicted(self) -> bool:
-        """Whether predictions improve with each one that is kept, also of what is held out."""
+        """Whether predictions improve with each one that is kept, also of held-out signals."""
         return bool(self.kept) and all(judged.trust.confirmed for judged in self.kept)
 
     @property
     def explains(self) -> bool:
-        """Whether the leading one fits what is held out, too."""
+        """Whether the leading one fits held-out signals, too."""
         return bool(self.kept) and self.kept[0].trust.explains is True
 
     @property
     def sure(self) -> bool:
-        """Whether all agree on what is missing, and it explains and predicts what is not fitted."""
+        """Whether all agree on the group, and it explains and predicts signals not fitted."""
         return bool(self.group) and self.predicted and self.explains
 
 
 @dataclass(frozen=True)
 class Suspect:
-    """A candidate for what a model leaves unexplained.
+    """A candidate for the misfit that a model leaves unexplained.
 
     Parameters
     ----------
@@ -91,7 +91,7 @@ class Suspect:
 
 @dataclass(frozen=True, eq=False)
 class Verdict:
-    """What is claimed, with the findings it rests on and the reasons, in words."""
+    """The claim, with the findings it rests on and the reasons, in words."""
 
     kind: Kind
     search: Search
@@ -103,7 +103,7 @@ class Verdict:
 
     @property
     def confirmed(self) -> bool:
-        """Whether the effects that are claimed predict what was not fitted."""
+        """Whether the claimed effects predict signals that were not fitted."""
         return self.kind == "partly" or (
             self.kind in ("named", "multiple") and all(f.sure for f in self.findings)
         )

@@ -1,4 +1,4 @@
-"""What the calibration leaves of each parameter: 95 % intervals."""
+"""95 % intervals of the parameters after the calibration."""
 
 from collections.abc import Mapping
 from typing import Any

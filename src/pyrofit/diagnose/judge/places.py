@@ -1,4 +1,4 @@
-"""Which effects of the final model are needed, and what speaks for and against each."""
+"""The effects of the final model that are needed, and the evidence for and against each."""
 
 from collections.abc import Sequence
 from dataclasses import replace
@@ -114,7 +114,7 @@ def alternatives(found: Search, effect: str) -> list[tuple[str, FittedModel]]:
 
 
 def _against(gain: float, spare: float, about: Trust) -> str:
-    """Say what speaks against a model, nothing where it passes.
+    """State the reason against a model, empty where it passes.
 
     ``gain`` is that of penalised chi-square over the model without the effect.
     """

@@ -41,7 +41,7 @@ class Ridge:
 def ridge_of(
     effect: str, names: Sequence[str], values: FloatArray, covariance: FloatArray
 ) -> Ridge | None:
-    """Return what the data determine of an effect's parameters, none where each one is known.
+    """Return the best known product of an effect's parameters, None where each one is known.
 
     Only positive parameters with a relative standard deviation of `SETTINGS.open_sd` or more take
     part, and the product must be known `SETTINGS.ridge_gain` times better than the first of them.

@@ -1,4 +1,4 @@
-"""The verdict: what of the search may be claimed, and how surely."""
+"""The verdict: the effects that may be claimed after the search, and how surely."""
 
 from collections.abc import Sequence
 
@@ -18,12 +18,12 @@ ONE_FLUX = "only the mass loss rate at one flux is calibrated"
 
 
 def judge(found: Search, rng: np.random.Generator, processes: int = 1) -> Verdict:
-    """Return what may be claimed of a search's final model.
+    """Return the verdict on a search's final model.
 
     Parameters
     ----------
     rng
-        Source of the draws of noise that what is held out is compared with.
+        Source of the draws of noise that held-out signals are compared with.
     processes
         Processes that share the fits.
     """
@@ -98,7 +98,7 @@ def _supported(finding: Finding) -> bool:
 
 
 def _suspects(found: Search, processes: int) -> tuple[Suspect, ...]:
-    """Return the candidates that promise most for what the final model leaves."""
+    """Return the candidates that promise most for the misfit of the final model."""
     names = [look.effect for look in found.rounds[0].looks if look.effect not in found.end.effects]
     looks = look_at(found.end, names, processes)
     gains = [Suspect(look.effect, found.end.fit.chi2 - float(look.ahead.min())) for look in looks]

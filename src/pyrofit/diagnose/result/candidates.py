@@ -85,12 +85,12 @@ def models(found: Search) -> list[tuple[SearchStep, FittedModel]]:
 
 
 def _key(trial: FittedModel) -> frozenset[tuple[str, tuple[str, ...]]]:
-    """Return what tells a model from others: its effects and what of them is fitted."""
+    """Return the key of a model: its effects and their fitted parameters."""
     return frozenset(trial.model.effects.items())
 
 
 def _judgement(judged: list[Judged]) -> dict[str, Any]:
-    """Return what was found of a model, in all its effects' places."""
+    """Return the findings on a model, in all its effects' places."""
     if not judged:
         return {"disagree": None, "predictions": {}, "explains": None, "rejected": ""}
     against = dict.fromkeys(f"{j.effect}: {j.rejected}" for j in judged if j.rejected)

@@ -1,4 +1,4 @@
-"""The study with what the diagnosis found, as keys that can be written and run."""
+"""The study with the effects that the diagnosis found, as keys that can be written and run."""
 
 from collections.abc import Mapping
 from typing import Any
@@ -35,7 +35,7 @@ def extended_keys(
         keys["diagnosis"]["effects"] = [n for n in study.diagnosis.effects if _fits(trial, n)]
     for (experiment, signal), given in signals.items():
         keys["experiments"][experiment]["signals"][signal] |= given
-    # What was computed once is read from its file now: the truth stays what it was.
+    # Computed signals are read from their files now: the truth stays the same.
     files = [s["file"] for e in keys["experiments"].values() for s in e["signals"].values()]
     if "synthetic" not in files:
         keys.pop("synthetic", None)

@@ -18,7 +18,7 @@ def form_of(finding: Finding) -> str:
 
 
 def sentences(verdict: Verdict) -> str:
-    """Say in a few sentences what is found and how surely."""
+    """State the findings and their certainty in a few sentences."""
     said = {
         "none": _none,
         "named": _named,
@@ -69,7 +69,7 @@ def _multiple(verdict: Verdict) -> list[str]:
 
 
 def _partly(verdict: Verdict) -> list[str]:
-    """Say what is confirmed, and what is suspected of the rest."""
+    """Name the confirmed effects, and those suspected for the rest."""
     catalogue = known_effects()
     number = len(verdict.findings)
     lacks = f"{number} effects: " if number > 1 else ""

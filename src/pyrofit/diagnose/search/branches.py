@@ -1,4 +1,4 @@
-"""Which models a step carries on: those that gain enough and predict what was left out."""
+"""The models that a step carries on: those that gain enough and predict left-out experiments."""
 
 from collections.abc import Sequence
 

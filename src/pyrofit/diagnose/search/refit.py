@@ -136,7 +136,7 @@ def fixed_forms(trial: FittedModel) -> list[tuple[str, str]]:
 
 
 def look_at(trial: FittedModel, effects: Sequence[str], processes: int = 1) -> list[Screening]:
-    """Return what each effect would change of a fitted model that can have it."""
+    """Return the change of a fitted model by each effect that it can have."""
     found = parallel_map(
         lambda i: look(trial.model, trial.fit, effects[i]), len(effects), processes
     )

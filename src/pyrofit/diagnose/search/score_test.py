@@ -1,13 +1,13 @@
-"""What each effect would change, after all that the fitted parameters could make up for.
+"""The change by each effect, without the part that the fitted parameters could make up for.
 
-d(s) = w(theta, s) - w(theta, null) is what strength s of an effect changes in the whitened
-residuals w. With J = dw/dtheta and Pi the inverse variance of a value anywhere within its limits,
+d(s) = w(theta, s) - w(theta, null) is the change of the whitened residuals w by strength s of an
+effect. With J = dw/dtheta and Pi the inverse variance of a value anywhere within its limits,
 the part that no other parameter can imitate is P d, P = I - J (J^T J + Pi)^-1 J^T.
 
 - |P d| is the detectability: by how many standard deviations the effect shows.
 - cos(P d_i, P d_j) tells which effects look alike.
 - z = -(P d)^T w/|P d| is the score: how far the residual points the effect's way. It orders the
-  work and sounds the alarm; it does not name.
+  candidates and raises the alarm; no effect is claimed from it.
 """
 
 from dataclasses import dataclass
@@ -24,7 +24,7 @@ from pyrofit.solver.arrays import FloatArray
 
 @dataclass(frozen=True, eq=False)
 class Screening:
-    """What one effect changes at the strengths that were tried.
+    """Changes by one effect at the strengths that were tried.
 
     ``strengths`` in SI units, shape (tried,); ``raw`` d and ``changes`` P d, both of shape
     (points + known, tried); ``ahead``, shape (tried,), the chi-square that a linear refit of the
@@ -61,7 +61,7 @@ class Screening:
 
 
 def look(model: Model, fit: Fit, effect: str) -> Screening | None:
-    """Return what an effect would change of a fitted model; nothing where it cannot have it."""
+    """Return the change of a fitted model by an effect; None if it cannot have the effect."""
     name, _ = strength_of(effect)
     try:
         more = model_of(model.base, {**model.effects, effect: (name,)}, model.channels)

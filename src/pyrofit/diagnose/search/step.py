@@ -26,7 +26,7 @@ Tell = Callable[[str], None]
 
 @dataclass(frozen=True, eq=False)
 class SearchContext:
-    """What a search works with: draws of noise, someone who is told what goes on, processes."""
+    """Inputs of a search: generator of noise draws, listener to its progress, processes."""
 
     rng: np.random.Generator
     tell: Tell = lambda text: None
@@ -44,9 +44,9 @@ class SearchStep:
     start
         The model that gets one effect more.
     lack
-        What its fit leaves.
+        Lack of fit of that model.
     looks
-        What each effect would change of it.
+        Change of that model by each effect.
     trials
         The fits with one effect more, the best penalised chi-square first.
     """

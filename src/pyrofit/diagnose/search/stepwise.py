@@ -31,7 +31,7 @@ class Search:
     end: FittedModel
     end_lack: LackOfFit
     spare: float
-    """2 log(M): what the penalised chi-square must fall by to claim one of M effects, so that
+    """2 log(M): fall of the penalised chi-square that a claim of one of M effects needs, so that
     chi-square falls by log(n) + 2 log(M) (Chen and Chen 2008, doi 10.1093/biomet/asn034)."""
 
     @property
@@ -48,10 +48,10 @@ class Search:
 def search(base: FittedModel, effects: Sequence[str], most: int, context: SearchContext) -> Search:
     """Add effects to the base until the residuals are noise, none gains enough, or there are most.
 
-    Where more than noise is left, or the noise exceeds what is stated, it is estimated about the
+    Where more than noise is left, or the noise exceeds the stated one, it is estimated about the
     final model. If that explains more, the search is repeated with it, from the models of the first
-    search as well. It is not repeated where as many effects as allowed leave more than noise: a
-    clearer noise leaves them even more.
+    search as well. It is not repeated where as many effects as allowed leave more than noise: with
+    a smaller noise, they leave even more.
 
     Parameters
     ----------
@@ -170,7 +170,7 @@ class _Pass:
         return replace(step, trials=tuple(trials))
 
     def _exchanged(self, found: Search) -> Search:
-        """Try other effects in the place of each of the final model; take what is better."""
+        """Try other effects in the place of each of the final model; take the best model."""
         rounds = list(found.rounds)
         for without in refitted_without(found.end, found.end.effects, self.context.processes):
             step = self._onwards(without)
