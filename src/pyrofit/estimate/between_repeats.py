@@ -7,10 +7,11 @@ time as that of a stated uncertainty does, variance between repeats and covarian
     tau^2 = W (sum_r d_r^2 / (R - 1) - variance of e)
     K = q (S S^T / (R - 1) + tau tau^T * exp(-|t - t'| / l)),    S = W (d_1 ... d_R).
 
-The first term is what the repeats show; it lasts over the whole record, so that a parameter that
-moves the curve alike is uncertain by as much. The second has the same size in all other directions,
-of which few repeats show few. q = (t_(R-1) / 1.96)^2 turns the quantile of a normal distribution
-into Student's: R repeats tell their own scatter with R - 1 degrees of freedom only.
+The first term is the covariance of the repeats; it lasts over the whole record, so that a parameter
+that moves the curve alike is uncertain by as much. The second has the same size in all other
+directions, of which few repeats show only few. q = (t_(R-1) / 1.96)^2 turns the quantile of a
+normal distribution into Student's: R repeats tell their own scatter with R - 1 degrees of freedom
+only.
 """
 
 from collections.abc import Iterator, Sequence
@@ -37,7 +38,7 @@ NORMAL = 1.96
 """Half of a 95 % interval of a normal distribution, in standard deviations."""
 FLOOR = "repeats"
 SIGNIFICANT = 2.0
-"""Standard deviations by which the scatter must exceed what the noise of the points leaves."""
+"""Standard deviations by which the scatter must exceed the smoothed noise of the points."""
 
 
 @dataclass(frozen=True)
@@ -67,8 +68,8 @@ def with_repeats(
 ) -> tuple[NoiseModel, ...]:
     """Return the noise of all channels with the scatter between repeats, where there are any.
 
-    Where parameters stand for what differs between the repeats, only the scatter counts that they
-    leave: about the fitted curves ``about``, or else between the records, aligned.
+    Where parameters describe the differences between repeats, only the remaining scatter counts:
+    about the fitted curves ``about``, or else between the aligned records.
     """
     found = list(noise)
     for channels in _groups(problem):
@@ -185,10 +186,10 @@ def _with_modes(record: _Record, knots: FloatArray, modes: FloatArray) -> NoiseM
 def _aligned(
     grid: FloatArray, values: FloatArray, window: FloatArray, knots: FloatArray
 ) -> FloatArray:
-    """Return what is left of the deviations once amplitude, stretch and start are fitted.
+    """Return the deviations that remain once amplitude, stretch and start are fitted.
 
-    y_r(t) = y_0 + a (m((t - d)/b) - y_0) is fitted to each smoothed record by least squares, m the
-    mean of all, which is made anew from the records with their own a, b, d taken out.
+    y_r(t) = y_0 + a (m((t - d)/b) - y_0) is fitted to each smoothed record by least squares. The
+    mean m of all is made anew from the records with their own a, b, d taken out.
     """
     smooth = values @ window.T
     mean, middle = smooth.mean(axis=0), values.mean(axis=0)

@@ -28,8 +28,8 @@ LIKE_PARABOLA = 0.2
 class Fit:
     """Where a descent ended: chi-square, x, whitened residuals and their derivatives there.
 
-    chi2 counts what is known; ``jacobian`` has shape (points + known, parameters) and is exact at x
-    only where it is ``fresh``. A descent that ``returned`` ended on its way to a known fit.
+    chi2 counts known values, too; ``jacobian`` has shape (points + known, parameters) and is exact
+    at x only where it is ``fresh``. A descent that ``returned`` ended on its way to a known fit.
     """
 
     chi2: float

@@ -20,13 +20,13 @@ LEAST = 1e-300
 def minimise(problem: Problem, starts: int, seed: int, calls: int) -> list[Start]:
     """Minimise a cost by CMA-ES from random starts; best first.
 
-    The search looks at ranks alone, which the logarithm of the cost leaves as they are; with it, a
+    The search uses ranks alone, which the logarithm of the cost does not change; with it, a
     tolerance is a share of the cost. The parameters are scaled to [0, 1] by their limits.
 
     Parameters
     ----------
     problem
-        What to minimise.
+        The cost to minimise.
     starts
         Number of starts, drawn uniformly within the limits.
     seed

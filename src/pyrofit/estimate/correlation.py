@@ -56,7 +56,7 @@ class Correlation:
         return white.reshape(noise.shape), log_det
 
     def describe(self) -> str:
-        """Say what it is.
+        """Describe it in words.
 
         >>> Correlation(lags=(-0.25, -0.2)).describe()
         'correlation -0.25, -0.20 at lag 1, 2'
@@ -78,7 +78,7 @@ def _factor(lags: tuple[float, ...], n: int) -> tuple[FloatArray, float]:
 
 
 def shrunk(lags: tuple[float, ...]) -> Correlation:
-    """Return lags multiplied by what brings the spectral density up to its least value.
+    """Return lags times the factor that brings the spectral density up to its least value.
 
     >>> [round(r, 3) for r in shrunk((-0.12, -0.40)).lags]
     [-0.104, -0.346]

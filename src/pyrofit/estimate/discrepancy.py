@@ -7,14 +7,14 @@ of relative errors of level and of time, and of an offset:
     cov(a, a') = s_a^2 exp(-(t - t')^2 / (2 (l t_half)^2)),  b and c likewise with s_b and s_c.
 
 s_a, s_b, s_c and l have no unit; so they can be carried over to an experiment that was not fitted.
-They have the highest restricted likelihood, which allows for what the parameters take from the
-residuals r: with S = N + D, J = d f / d x, and known values as rows K,
+They have the highest restricted likelihood, which allows for the part of the residuals r that the
+parameters absorb: with S = N + D, J = d f / d x, and known values as rows K,
 
     -2 log L = log det S + log det M + r^T S^-1 r - b^T M^-1 b,
     M = J^T S^-1 J + K^T K + 12 I,    b = J^T S^-1 r.
 
 A smooth discrepancy looks much like a change of parameters: they absorb it, and residuals show
-little of it. What is expected of s and l therefore counts: codes that are given one and the same
+little of it. Expected values of s and l therefore count. Codes that are given one and the same
 material differ by 3 to 5 % in time, and the best sets of the field miss the rate by 4 %.
 """
 
@@ -64,7 +64,7 @@ class Discrepancy:
     def carried_to(
         self, time: FloatArray, curves: FloatArray, rng: np.random.Generator
     ) -> FloatArray:
-        """Draw what curves become where no measurement tells, shape (sets, points).
+        """Draw curves with discrepancy where there is no measurement, shape (sets, points).
 
         y(t) = f_0 + (1 + a) (f(t (1 + b)) - f_0) + c range(f): an error of time moves a steep end,
         and raises nothing above the curve.

@@ -121,7 +121,7 @@ def draw(
     most_steps
         Where an ensemble ends that does not converge.
     tell
-        Told what has been reached.
+        Is told the progress.
     """
     states = [_start(x, covariance, seed_for(seed, "posterior", i)) for i in range(ENSEMBLES)]
     parts: list[FloatArray] = []

@@ -96,7 +96,7 @@ class Identification:
     def correlation(self) -> FloatArray:
         """Correlation of the estimates, shape (parameters, parameters).
 
-        What rests at a limit does not move with the others.
+        A parameter that rests at a limit does not move with the others.
         """
         free = [k for k, v in enumerate(self.optimum.x) if not limit_of(v)]
         covariance = self.posterior.covariance(free)
@@ -157,7 +157,7 @@ def _around(
 ) -> tuple[Identification, Fit]:
     """Return the analysis about an optimum, and the lowest point met on the way.
 
-    ``prior`` is what is known, as it is stated.
+    ``prior`` holds the known values as stated.
     """
     slopes = likelihood.slopes(optimum.x)
     posterior = _posterior(replace(likelihood, prior=prior), optimum.x, slopes)
@@ -168,7 +168,7 @@ def _around(
     estimates = []
     profiles = {}
     for i, (name, x) in enumerate(zip(likelihood.problem.names, optimum.x.tolist(), strict=True)):
-        # What rests at a limit does not move with the others.
+        # A parameter that rests at a limit does not move with the others.
         free = [k for k, v in enumerate(optimum.x) if k == i or not limit_of(v)]
         at = free.index(i)
         covariance = posterior.covariance(free)

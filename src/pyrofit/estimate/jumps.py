@@ -15,7 +15,7 @@ def with_noise_of_jumps(likelihood: Likelihood, sets: Sequence[FloatArray]) -> L
     """Return the likelihood with the noise of signals that jump about a simulated curve.
 
     A smooth curve does not follow a jump: its noise then looks larger than it is. The curve is that
-    of the set with the lowest chi-square. What explains the record less is not taken.
+    of the set with the lowest chi-square. The new noise is used only if its BIC is lower.
 
     Parameters
     ----------

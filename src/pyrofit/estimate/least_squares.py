@@ -29,7 +29,7 @@ def multistart(problem: Problem, starts: int, seed: int) -> list[Start]:
     Parameters
     ----------
     problem
-        What to minimise.
+        The cost to minimise.
     starts
         Number of starts, drawn uniformly within the limits.
     seed
@@ -51,7 +51,7 @@ def multistart(problem: Problem, starts: int, seed: int) -> list[Start]:
 def descend(problem: Problem, values: FloatArray) -> Start:
     """Minimise the residuals of a cost from given values, shape (parameters,), SI units.
 
-    What cannot be lowered from there is a local minimum, as far as the difference quotients see.
+    The end is a local minimum, as far as the difference quotients tell.
     """
     from scipy.optimize import least_squares  # half a second that the other steps do without
 

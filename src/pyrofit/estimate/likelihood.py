@@ -39,7 +39,7 @@ class Likelihood:
     noise
         Noise of each channel.
     prior
-        What is known of parameters.
+        Known values of parameters.
     """
 
     problem: Problem
@@ -72,7 +72,7 @@ class Likelihood:
     def split(self, stacked: FloatArray) -> list[FloatArray]:
         """Return the part of each channel of (points,) or (points, k).
 
-        Rows behind the points, of what is known, are left out.
+        Rows behind the points, of the known values, are left out.
         """
         ends = np.cumsum(self.points).tolist()
         return [stacked[a:b] for a, b in pairwise([0, *ends])]
@@ -83,7 +83,7 @@ class Likelihood:
         return np.concatenate([noise.whiten(part) for noise, part in parts])
 
     def residuals(self, x: FloatArray) -> FloatArray:
-        """Return the whitened residuals of all channels, then those of what is known.
+        """Return the whitened residuals of all channels, then those of the known values.
 
         The shape is (points + known,).
         """
@@ -153,7 +153,7 @@ class Likelihood:
 def likelihood_of(problem: Problem, prior: NormalPrior = NO_PRIOR) -> Likelihood:
     """Return the likelihood of a problem whose terms are channels, with their noise estimated.
 
-    ``prior`` is what is known of its parameters.
+    ``prior`` holds the known values of its parameters.
 
     Raises
     ------

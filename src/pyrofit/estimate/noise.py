@@ -36,7 +36,7 @@ class NoiseModel:
     splines
         Number of splines of the curve it scatters about.
     excess
-        Scatter about that curve over what is stated, 1 where it is not significantly larger.
+        Scatter about that curve over the stated one, 1 where it is not significantly larger.
     whiteness
         Probability that white noise looks as correlated as the whitened scatter (Ljung-Box).
     origin
@@ -44,7 +44,7 @@ class NoiseModel:
     unit
         Unit of the series.
     floors
-        Median of what is added to the standard deviation in squares, by name.
+        Medians of the terms added to the standard deviation in squares, by name.
     """
 
     sd: FloatArray
@@ -93,7 +93,7 @@ class NoiseModel:
 
     @cached_property
     def _lasting(self) -> tuple[FloatArray, FloatArray]:
-        """Directions Q of V = Q S W^T, and what whitening takes of each: 1 - (1 + S^2)^(-1/2)."""
+        """Directions Q of V = Q S W^T, shares that whitening takes: 1 - (1 + S^2)^(-1/2)."""
         assert self.modes is not None
         directions, sizes, _ = np.linalg.svd(self._white_alone(self.modes), full_matrices=False)
         return directions, 1.0 - 1.0 / np.sqrt(1.0 + sizes**2)
@@ -142,8 +142,8 @@ def estimate_noise(
     timing_s
         Error of the clock [s]; it counts where the curve is steep.
     about
-        A simulated curve, shape (n,), where one is at hand: the noise is what the series scatters
-        about that and a smooth one, which then need not follow what is steep.
+        A simulated curve, shape (n,), where one is at hand. The noise is then the scatter about the
+        sum of that and a smooth one, which need not follow steep parts.
 
     Raises
     ------

@@ -16,7 +16,7 @@ class Optimiser(NamedTuple):
     Parameters
     ----------
     words
-        What it is called.
+        Its name in words.
     run
         From problem, its settings of the study, and seed to its ends, best first.
     marker
@@ -29,7 +29,7 @@ class Optimiser(NamedTuple):
 
     @property
     def title(self) -> str:
-        """What its step of the workflow is called.
+        """Name of its step of the workflow.
 
         >>> OPTIMISERS["least_squares"].title
         'Multistart least squares'

@@ -1,12 +1,12 @@
 """Statistics of an optimum: one covariance, one dispersion, one rule for limits.
 
 Parameters are counted in distances of their limits, x in [0, 1]. Near its least value chi-square
-is a parabola. With J = d whitened residuals / d x, of the channels and then of what is known (K),
+is a parabola. With J = d whitened residuals / d x, of the channels and then of known values (K),
 
     C = (J_c^T J_c / s^2 + K^T K + 12 I)^-1,    s^2 = max(1, chi2_c / freedom).
 
-Limits are knowledge as well: a uniform distribution over them has the variance 1/12. Misfit beyond
-the noise widens the noise of the channels by s, but not what is known.
+Limits count as known, too: a uniform distribution over them has the variance 1/12. Misfit beyond
+the noise widens the noise of the channels by s, but not that of known values.
 """
 
 from collections.abc import Sequence
@@ -52,7 +52,7 @@ def curvature(jacobian: FloatArray, dispersion: float = 1.0, known: int = 0) -> 
     dispersion
         s^2, by which misfit raises the variance of the channels.
     known
-        How many of the last rows are what is known.
+        Number of rows of known values, which are the last ones.
     """
     rows = jacobian[len(jacobian) - known :]
     scaled = jacobian.T @ jacobian / dispersion + (1.0 - 1.0 / dispersion) * (rows.T @ rows)
@@ -97,7 +97,7 @@ class Posterior:
     residuals
         Whitened residuals of the channels there, shape (points,).
     jacobian
-        d residuals / d x of the channels, then of what is known, shape (points + known,
+        d residuals / d x of the channels, then of known values, shape (points + known,
         parameters).
     """
 

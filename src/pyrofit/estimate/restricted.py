@@ -1,7 +1,7 @@
 """The restricted likelihood of many correlations for the same splines and series.
 
--2 log L = log det R + log det X^T R^-1 X + q, where q = r^T R^-1 r is what generalised least
-squares leaves, or (n - k) log(q/(n - k)) if the size of the noise is not known (Patterson and
+-2 log L = log det R + log det X^T R^-1 X + q, where q = r^T R^-1 r is the least sum of generalised
+least squares, or (n - k) log(q/(n - k)) if the size of the noise is not known (Patterson and
 Thompson 1971, doi 10.1093/biomet/58.3.545). All of it is in the small matrix Z^T R^-1 Z of
 Z = [X y], for which no R is factorised:
 
@@ -38,7 +38,7 @@ class Restricted:
     def __init__(self, X: FloatArray, y: FloatArray, known: bool) -> None:
         n = len(y)
         self.rest, self.known = n - X.shape[1], known
-        # The likelihood does not see what splines follow; without it, no digits are lost.
+        # The part of y that splines follow does not change the likelihood, but would cost digits.
         Z = np.column_stack([X, y - X @ np.linalg.lstsq(X, y, rcond=None)[0]])
         self.ends = Z[[0, -1]]
         self.square = Z.T @ Z

@@ -1,7 +1,7 @@
 """The posterior about an optimum: model discrepancy, and draws.
 
-A discrepancy is always a part of it. Chi-square accepts many a wrong model, as its parameters make
-up for what it lacks; where nothing is lacking, the estimated discrepancy is small.
+A discrepancy is always a part of it. Chi-square accepts many wrong models, as their parameters make
+up for missing effects; where none is missing, the estimated discrepancy is small.
 """
 
 from dataclasses import dataclass
@@ -27,7 +27,7 @@ class Sampled:
     noise_alone, likelihood
         The likelihood with the noise alone, and the one that was sampled.
     discrepancies
-        What the model lacks, by channel.
+        Discrepancies of the model, by channel.
     chi2, freedom, probability
         Of the noise alone: at its optimum, degrees of freedom, chance that noise exceeds chi2.
     x, curves
@@ -60,7 +60,7 @@ def sample(
     Parameters
     ----------
     likelihood
-        With the noise alone, and what is known.
+        With the noise alone, and the known values.
     start
         Its optimum or a point near it, in distances of the limits.
     seed, cores, most_steps, tell

@@ -2,8 +2,8 @@
 
 y = X b + sd(t) e: X are cubic B-splines, e has unit variance and is correlated over few points. Its
 correlation, and its size where none is stated, are those of the highest restricted likelihood
-(Patterson and Thompson 1971, doi 10.1093/biomet/58.3.545), which allows for what the curve takes
-away from the noise; the number of splines has the lowest BIC.
+(Patterson and Thompson 1971, doi 10.1093/biomet/58.3.545), which allows for the noise that the
+curve absorbs; the number of splines has the lowest BIC.
 """
 
 from dataclasses import dataclass
@@ -58,7 +58,7 @@ def scatter_of(time: FloatArray, value: FloatArray, shape: FloatArray, known: bo
     time, value
         The series, shape (n,).
     shape
-        sd(t), or what it is proportional to, shape (n,).
+        sd(t), or a curve proportional to it, shape (n,).
     known
         Whether ``shape`` is sd(t) itself.
     """

@@ -102,7 +102,7 @@ def search(
     Parameters
     ----------
     problem
-        What to minimise, n parameters.
+        The cost to minimise, of n parameters.
     seed
         Seed of the search; equal seeds give equal bits.
     generations

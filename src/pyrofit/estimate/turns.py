@@ -78,7 +78,7 @@ def in_turns(
     Raises
     ------
     BaseException
-        What a search or the answering raises; all other searches end, too.
+        Any error of a search or of the answering; all other searches end, too.
     """
     turns: list[_Turn[Question, Answer, Result]] = []
     try:
