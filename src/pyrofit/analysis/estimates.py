@@ -23,7 +23,7 @@ _CUT_OFF = {
 
 @dataclass(frozen=True)
 class Estimated:
-    """What the data say of one parameter, in its own unit.
+    """The estimate of one parameter, in its own unit.
 
     Parameters
     ----------

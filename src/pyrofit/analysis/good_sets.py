@@ -1,8 +1,9 @@
 """The family of good sets: those whose cost is near the lowest known one, few that lie far apart.
 
 Data that leave a parameter undetermined leave many sets of nearly the same cost. One best set hides
-that; what all good sets predict shows it (Beven and Binley 1992, doi 10.1002/hyp.3360060305). The
-ends of optimisers are no such family: they crowd at a few places, or stop before the sets are good.
+that; the predictions of all good sets show it (Beven and Binley 1992, doi 10.1002/hyp.3360060305).
+The ends of optimisers are no such family: they crowd at a few places, or stop before the sets are
+good.
 """
 
 from dataclasses import dataclass
@@ -18,7 +19,7 @@ GOOD = 1.05
 the joint 95 % region of least squares (Beale 1960, doi 10.1111/j.2517-6161.1960.tb00353.x) reaches
 to sqrt(1 + p F/(n - p)) of the lowest: 1.094 for p = 9 and n = 100, 1.044 for n = 200."""
 MOST = 60
-"""Most sets of a family: enough to reach all ends of what is good."""
+"""Most sets of a family: enough to reach all ends of the region of good sets."""
 WALKERS = 24
 SWEEPS = 80
 

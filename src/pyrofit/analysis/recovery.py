@@ -15,7 +15,7 @@ KINETICS = "kinetics"
 
 
 def known(study: Study) -> list[str]:
-    """Return what was fitted to computed signals alone: 'kinetics' and names of cost functions."""
+    """Return the fits to computed signals alone: 'kinetics' and names of cost functions."""
     stages: dict[str, Iterable[TermSpec]] = dict(study.imp.costs)
     if study.kinetics is not None:
         stages = {KINETICS: study.kinetics.cost, **stages}
@@ -79,7 +79,7 @@ def _best(starts: list[dict[str, Any]]) -> dict[str, float]:
 
 
 def compared(study: Study, fit: str, name: str, found: Mapping[str, float]) -> dict[str, Any]:
-    """Return one row: the truth of a parameter beside what was found by optimiser, SI units."""
+    """Return one row: the truth of a parameter beside its estimates by optimiser, SI units."""
     assert study.synthetic is not None
     parameter = study.parameters[name]
     assert parameter.lower is not None

@@ -1,4 +1,4 @@
-"""Repeats of tests: their signals, and what differs between them beside its stated scatter."""
+"""Repeats of tests: their signals, and their differences beside the stated scatter."""
 
 from collections.abc import Iterable
 from dataclasses import dataclass
@@ -24,7 +24,7 @@ class Differing:
 
 @dataclass(frozen=True)
 class Repeated:
-    """One repeat of a test: its signals, those of other repeats that it lacks, what differs."""
+    """One repeat of a test: its signals, those of other repeats that it lacks, its differences."""
 
     test: str
     name: str

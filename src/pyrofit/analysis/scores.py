@@ -19,7 +19,7 @@ class Score:
     experiment, signal
         Title of the experiment, and the signal in words.
     quantity
-        What the signal is of.
+        Quantity of the signal.
     cost_function, found_by
         The set: cost function and optimiser.
     use

@@ -41,7 +41,7 @@ class Truth(Part):
 
 
 class Manifest(Part):
-    """What is known of the curves in a folder."""
+    """The code and the truths of the curves in a folder."""
 
     code: str = Field(min_length=1, description="name and version of the code")
     cases: dict[str, Truth] = Field(min_length=1, description="truths by case")

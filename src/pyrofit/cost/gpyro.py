@@ -70,5 +70,5 @@ def _lost(
     away = allowed + np.abs(difference)
     reached = np.divide(allowed, away, out=np.ones_like(away), where=away > 0.0)
     lost = 1.0 - reached**zeta
-    # The norm of these is the mean of what is lost: the fitnesses add up, not their squares.
+    # The norm of these is the mean of the losses: the fitnesses add up, not their squares.
     return np.asarray(np.sign(difference) * np.sqrt(lost * lost.mean() / lost.size))

@@ -1,7 +1,7 @@
 """Eqs 1-3: the costs that compare one point or one time, one function each.
 
-Each function checks its options, computes once what depends on the target alone, and returns a
-function from the model at the target's times to one residual; the cost is its magnitude.
+Each function checks its options and computes once all that depends on the target alone. It returns
+a function from the model at the target's times to one residual; the cost is its magnitude.
 """
 
 from functools import partial

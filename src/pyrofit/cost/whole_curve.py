@@ -1,7 +1,7 @@
 """Eq. 4: the costs that compare the whole curve, one function each.
 
-Each function checks its options, computes once what depends on the target alone, and returns a
-function from the model at the target's times to residuals; the cost is the norm of the residuals.
+Each function checks its options and computes once all that depends on the target alone. It returns
+a function from the model at the target's times to residuals; the cost is the norm of the residuals.
 """
 
 import math

@@ -1,4 +1,4 @@
-"""The sample is glued to what stands behind it, by a layer that decomposes as well."""
+"""The sample is glued to the body behind it, by a layer that decomposes as well."""
 
 from pyrofit.effects.base import ADDED, Effect, Numbers, Quantity, changed
 from pyrofit.effects.substance import (

@@ -37,8 +37,8 @@ def with_effects(
     Raises
     ------
     ValueError
-        If a name is unknown, a strength is missing, no experiment can have the effect, or what the
-        effect sets is set already.
+        If a name is unknown, a strength is missing, no experiment can have the effect, or a value
+        that the effect sets is set already.
     """
     effects = known_effects()
     _refuse_unknown("effect", chosen, effects)

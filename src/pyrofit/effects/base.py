@@ -1,4 +1,4 @@
-"""What every effect states: its parameters, and the change it makes to the description."""
+"""The form of every effect: its parameters, and the change it makes to the description."""
 
 from collections.abc import Callable, Collection, Mapping
 from dataclasses import dataclass, field
@@ -24,7 +24,7 @@ FAMILIES: dict[Family, str] = {
     "apparatus": "the apparatus or the record: one laboratory's",
     "environment": "the surroundings of the sample: one laboratory's",
 }
-"""What an effect belongs to, in words."""
+"""Families that effects belong to, in words."""
 Made = TypeVar("Made", bound=Part)
 
 ASSUMED = "assumed range"
@@ -51,13 +51,13 @@ class Quantity:
 
 @dataclass(frozen=True)
 class Need:
-    """What an experiment must have for an effect, and the same in words."""
+    """Condition on the experiments that can have an effect, and the same in words."""
 
     words: str
     holds: Callable[[Experiment], bool]
 
     def __call__(self, experiment: Experiment) -> bool:
-        """Tell whether an experiment has it."""
+        """Tell whether an experiment meets it."""
         return self.holds(experiment)
 
 
@@ -123,9 +123,9 @@ class Effect:
 
     title: str
     family: Family
-    """What it belongs to, see `FAMILIES`."""
+    """Family that it belongs to, see `FAMILIES`."""
     group: str
-    """What is missing; effects of one group are forms of one another."""
+    """The missing phenomenon; effects of one group are forms of one another."""
     equation: str
     strength: dict[str, Quantity]
     """The one parameter that measures it."""
@@ -135,7 +135,7 @@ class Effect:
     """Change of the named components; by default those of the material, no boards and plates."""
     experiment: ExperimentChange = lambda experiment, at: experiment
     needs: Need = has_slab
-    """What an experiment must have; others are not changed."""
+    """Condition on an experiment; those that do not meet it are not changed."""
     of_sample: bool = False
     """Whether it changes the sample: experiments on inert bodies are left as they are."""
     keeps: tuple[str, ...] = ()
@@ -143,8 +143,8 @@ class Effect:
     same_as: str = ""
     """An effect that these data cannot tell from this one."""
     distinct_in: Need | None = None
-    """What an experiment must have for it to be another model than a form of its group; where none
-    has it, the effect is no candidate. None = it is always a model of its own."""
+    """Condition on an experiment for it to be another model than a form of its group; where none
+    meets it, the effect is no candidate. None = it is always a model of its own."""
     name: str = ""
 
     @property

@@ -1,4 +1,4 @@
-"""Radiation is absorbed in depth instead of at the surface, by the back what passes through."""
+"""Radiation is absorbed in depth instead of at the surface, the transmitted part by the back."""
 
 from pyrofit.effects.base import Effect, Numbers, Quantity, on
 from pyrofit.effects.substance import refuse_translucent
@@ -19,7 +19,7 @@ LENGTH = Quantity(
 
 
 def absorbed_behind(experiment: Experiment, at: Numbers, **takes: str) -> Experiment:
-    """Return the experiment with keys of its sample set, and a back that absorbs what passes.
+    """Return the experiment with keys of its sample set, and a back that absorbs transmission.
 
     Transmission that the description calls lost stays lost.
     """

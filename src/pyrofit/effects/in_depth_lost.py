@@ -1,4 +1,4 @@
-"""Radiation is absorbed in depth instead of at the surface; what passes through is lost."""
+"""Radiation is absorbed in depth instead of at the surface; the transmitted part is lost."""
 
 from pyrofit.effects.base import Effect, has_no_backing, on
 from pyrofit.effects.in_depth import LENGTH

@@ -36,7 +36,7 @@ def effects_page() -> str:
 
 
 def _belongs(effects: Collection[Effect]) -> str:
-    """Return the table of what the effects belong to."""
+    """Return the table of the families of effects."""
     rows = []
     for family, words in FAMILIES.items():
         names = ", ".join(f"`{e.name}`" for e in effects if e.family == family)

@@ -41,7 +41,7 @@ class Idea:
     change
         From the description of that experiment, effects included, to the new one.
     choices
-        Short name, words and quantities of each choice of what is recorded.
+        Short name, words and quantities of each choice of recorded signals.
     """
 
     like: str

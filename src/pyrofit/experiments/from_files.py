@@ -18,7 +18,7 @@ class NamedNumber:
     Parameters
     ----------
     unit
-        Regular expression of what follows the number.
+        Regular expression of the text after the number.
     limits
         A number without unit counts where it lies within these.
     usual
@@ -59,7 +59,7 @@ class Loss:
     temperature_K
         Temperature of half the loss [K].
     residue
-        What is left [kg/kg]; None where the record does not tell it.
+        Residue [kg/kg]; None where the record does not tell it.
     """
 
     temperature_K: float
@@ -81,7 +81,7 @@ class FromFiles:
     recorded
         That number as the record shows it, where it does; the first argument is the named one.
     facts
-        What else the template needs of the record, by name.
+        Other facts of the record that the template needs, by name.
     loss
         Where the record shows the reaction, if it does.
     computed

@@ -1,11 +1,11 @@
 """The choice: the simplest scheme that predicts heating rates left out as well as the best one.
 
-Schemes are compared by the log score of what they predict: the log density of each heating rate
+Schemes are compared by the log score of their predictions: the log density of each heating rate
 given the others, summed over the rates. A scheme predicts as well as the best one if its sum is
-lower by no more than a margin: three units, or the standard error of the difference over the rates
-where that is larger, six at most. Nor is a scheme given up for one of a higher BIC: further
-parameters must pay in the fit and in predictions, both. Of the schemes that are left the one with
-the fewest parameters is chosen; of as many, the one of the least BIC.
+lower by no more than a margin. This is three units, or the standard error of the difference over
+the rates where that is larger, six at most. Nor is a scheme given up for one of a higher BIC:
+further parameters must pay both in the fit and in predictions. Of the remaining schemes, the one
+with the fewest parameters is chosen; of as many, the one of the least BIC.
 """
 
 from collections.abc import Sequence
@@ -23,7 +23,7 @@ from pyrofit.seeds import seed_for
 
 @dataclass(frozen=True, eq=False)
 class Candidate:
-    """A fitted scheme, and what it predicts of heating rates left out; nothing if hopeless."""
+    """A fitted scheme, and its predictions of heating rates left out; none if it is hopeless."""
 
     fitted: FittedScheme
     left_out: tuple[Predicted, ...]

@@ -46,7 +46,7 @@ def extended_keys(
     keys["kinetics"].pop("sets", None)
     keys["imp"]["estimate"] = [n for n in study.imp.estimate if n in used]
     keys["imp"]["kinetics"] = "described"
-    # All but the kinetics; what differs between tests is estimated by itself.
+    # All but the kinetics; differences between tests are estimated by themselves.
     rest = used - set(values) - set(nuisances_of_tests(study))
     keys.setdefault("diagnosis", {})["estimate"] = [
         n for n in diagnosed_parameters(study) if n in rest

@@ -25,7 +25,7 @@ LITTLE = 0.5
 
 @dataclass(frozen=True, eq=False)
 class Setting:
-    """What all fits of a study share."""
+    """Data and settings that all fits of a study share."""
 
     study: Study
     measurements: Measurements
@@ -55,13 +55,13 @@ class FittedScheme:
     posed
         The scheme as a study.
     records
-        What it is fitted to.
+        The records that it is fitted to.
     likelihood
         Of these records.
     x
         The fit, in [0, 1] of the limits' distance.
     size
-        Size s of what the scheme leaves beyond the noise, as a fraction of the initial mass.
+        Size s of the misfit beyond the noise, as a fraction of the initial mass.
     deviance
         -2 log likelihood, priors of nuisance parameters included.
     """
@@ -106,7 +106,7 @@ class FittedScheme:
 def problem_of(
     setting: Setting, posed: Posed, records: Sequence[Record]
 ) -> tuple[Problem, NormalPrior]:
-    """Return the problem of a scheme at some records, and what is known of its parameters."""
+    """Return the problem of a scheme at some records, and the known values of its parameters."""
     study, names = posed.study, posed.names
     terms = [r.term for r in records]
     fixed = study.fixed_values()
@@ -136,13 +136,13 @@ def fit_posed(
     Parameters
     ----------
     setting
-        What all fits share.
+        Data and settings that all fits share.
     posed
         The scheme.
     records
         Records to fit it to.
     starts
-        Values of parameters to start from, SI units; what they lack is drawn.
+        Values of parameters to start from, SI units; missing ones are drawn.
     rng
         Draws the random starts.
     size
@@ -181,7 +181,7 @@ def _likelihood(
 
 
 def _known(likelihood: Likelihood, x: FloatArray) -> float:
-    """Return the squares of what is known of parameters."""
+    """Return the sum of the squared residuals of the known values."""
     rows = likelihood.prior.residuals(likelihood.values(x)[None])[0]
     return float(rows @ rows)
 
@@ -200,7 +200,7 @@ def _points(
     rng: np.random.Generator,
     random: int,
 ) -> list[FloatArray]:
-    """Return starts in [0, 1]: those given, what they lack drawn, and random ones."""
+    """Return starts in [0, 1]: those given, missing values drawn, and random ones."""
     names, known = likelihood.problem.names, likelihood.prior.index
     drawn = []
     for given in [*starts, *({} for _ in range(random))]:

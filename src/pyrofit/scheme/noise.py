@@ -5,8 +5,8 @@ The covariance of a record's points, with T their temperatures and x their conve
     C = scatter^2 I + drift^2 exp(-|T - T'|/L_d) + shift^2 m'(T) m'(T)^T
         + s^2 g g^T exp(-|T - T'|/L),    g = 2 sqrt(x (1 - x)).
 
-The first three terms are what repeats in one laboratory show. The last is what is left beyond them:
-a scheme that is wrong is wrong while the mass changes. Its size s is found by maximum likelihood
+The first three terms are the scatter of repeats in one laboratory. The last is the misfit beyond
+them, which a wrong scheme has while the mass changes. Its size s is found by maximum likelihood
 for each scheme, so that neither the number of points nor a fixed floor decides.
 """
 

@@ -70,7 +70,7 @@ class Posed:
 
 
 def template_of(study: Study) -> Template:
-    """Return what schemes take from the material of a study.
+    """Return the data that schemes take from the material of a study.
 
     Raises
     ------

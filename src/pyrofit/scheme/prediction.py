@@ -1,4 +1,4 @@
-"""What a scheme predicts of records that it was not fitted to."""
+"""Predictions of records that a scheme was not fitted to."""
 
 from collections.abc import Sequence
 from dataclasses import dataclass
@@ -23,7 +23,7 @@ class Predicted:
     curve
         Predicted mass over initial mass at its points.
     log_score
-        Log density of the record given what the scheme was fitted to.
+        Log density of the record given those that the scheme was fitted to.
     """
 
     record: Record

@@ -1,4 +1,4 @@
-"""What was chosen, as it is written: ``scheme.json`` and its curves."""
+"""The choice as it is written: ``scheme.json`` and its curves."""
 
 from collections.abc import Mapping, Sequence
 from dataclasses import asdict

@@ -1,4 +1,4 @@
-"""The schemes: how many reactions in which arrangement, and what else they may have."""
+"""The schemes: number and arrangement of the reactions, and extras that they may have."""
 
 from collections.abc import Iterator
 from dataclasses import dataclass, replace

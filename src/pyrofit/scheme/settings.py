@@ -22,7 +22,7 @@ class Settings:
     laboratory_shift_K: float = 5.0
     """Standard deviation of the temperature between laboratories."""
 
-    # Discrepancy: what a scheme leaves beyond the noise
+    # Discrepancy: the misfit of a scheme beyond the noise
     discrepancy_length_K: float = 15.0
     """Distance in temperature over which the misfit of a scheme lasts."""
     discrepancies: tuple[float, ...] = (

@@ -15,7 +15,7 @@ RULE = (
 
 
 def sentences(choice: Choice, settings: Settings) -> str:
-    """Say which scheme is chosen, what it predicts, and what it leaves."""
+    """State the chosen scheme, its predictions, and its misfit."""
     chosen, own = choice.chosen, choice.own
     said = [
         f"Chosen: {chosen.fitted.posed.words} ({chosen.fitted.posed.count} parameters). It "

@@ -1,4 +1,4 @@
-"""What every arrangement of reactions states."""
+"""The form of every arrangement of reactions."""
 
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
@@ -23,7 +23,7 @@ class Limits:
 
 @dataclass(frozen=True)
 class Template:
-    """What a scheme takes from the study's own material.
+    """Data that a scheme takes from the study's own material.
 
     Parameters
     ----------
