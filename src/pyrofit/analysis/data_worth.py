@@ -69,7 +69,7 @@ def _of(curvature: FloatArray, moving: Sequence[int]) -> FloatArray:
 
 
 def left(before: FloatArray, after: FloatArray) -> float:
-    """Return the geometric mean of standard deviations, after over before; 1 of none.
+    """Return the geometric mean ratio of standard deviations, after over before; 1 of none.
 
     >>> left(np.array([1.0, 2.0]), np.array([0.5, 1.0]))
     0.5

@@ -11,8 +11,8 @@ from pyrofit.results.files import Results
 def rank_correlation(study: Study, results: Results) -> pd.DataFrame:
     """Return Spearman's correlation of the parameters, ranked within each cost function.
 
-    Differences between the cost functions are no correlation. A parameter that always ends at the
-    same value has no correlation; its entry is 0.
+    Differences between cost functions do not count as correlation. A parameter that always ends at
+    the same value has no correlation; its entry is 0.
     """
     names = list(study.imp.estimate)
     summary = searches.summary(study, results)

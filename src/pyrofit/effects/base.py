@@ -1,4 +1,4 @@
-"""The form of every effect: its parameters, and the change it makes to the description."""
+"""The parts of every effect: its parameters, and the change it makes to the description."""
 
 from collections.abc import Callable, Collection, Mapping
 from dataclasses import dataclass, field

@@ -7,7 +7,7 @@ time as that of a stated uncertainty does, variance between repeats and covarian
     tau^2 = W (sum_r d_r^2 / (R - 1) - variance of e)
     K = q (S S^T / (R - 1) + tau tau^T * exp(-|t - t'| / l)),    S = W (d_1 ... d_R).
 
-The first term is the covariance of the repeats; it lasts over the whole record, so that a parameter
+The first term is the covariance of the repeats. It lasts over the whole record, so that a parameter
 that moves the curve alike is uncertain by as much. The second has the same size in all other
 directions, of which few repeats show only few. q = (t_(R-1) / 1.96)^2 turns the quantile of a
 normal distribution into Student's: R repeats tell their own scatter with R - 1 degrees of freedom

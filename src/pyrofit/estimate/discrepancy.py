@@ -8,7 +8,7 @@ of relative errors of level and of time, and of an offset:
 
 s_a, s_b, s_c and l have no unit; so they can be carried over to an experiment that was not fitted.
 They have the highest restricted likelihood, which allows for the part of the residuals r that the
-parameters absorb: with S = N + D, J = d f / d x, and known values as rows K,
+parameters absorb. With S = N + D, J = d f / d x, and known values as rows K, it is
 
     -2 log L = log det S + log det M + r^T S^-1 r - b^T M^-1 b,
     M = J^T S^-1 J + K^T K + 12 I,    b = J^T S^-1 r.

@@ -93,7 +93,7 @@ class NoiseModel:
 
     @cached_property
     def _lasting(self) -> tuple[FloatArray, FloatArray]:
-        """Directions Q of V = Q S W^T, shares that whitening takes: 1 - (1 + S^2)^(-1/2)."""
+        """Directions Q of V = Q S W^T, and the shares whitening takes: 1 - (1 + S^2)^(-1/2)."""
         assert self.modes is not None
         directions, sizes, _ = np.linalg.svd(self._white_alone(self.modes), full_matrices=False)
         return directions, 1.0 - 1.0 / np.sqrt(1.0 + sizes**2)

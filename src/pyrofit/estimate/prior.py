@@ -55,8 +55,8 @@ def prior_of(study: Study, problem: Problem) -> NormalPrior:
 def within_known(study: Study, problem: Problem) -> Problem:
     """Return the problem as optimisers of a cost search it.
 
-    A cost has no term for known values: a parameter with one is searched within three standard
-    deviations of it and the parameter's own limits.
+    A cost has no term for known values. A parameter with one is searched within three standard
+    deviations of it and its own limits.
     """
     limits = np.array([study.search_limits(name) for name in problem.names])
     factors = np.array([study.parameters[name].factor for name in problem.names])

@@ -1,8 +1,8 @@
 """The restricted likelihood of many correlations for the same splines and series.
 
 -2 log L = log det R + log det X^T R^-1 X + q, where q = r^T R^-1 r is the least sum of generalised
-least squares, or (n - k) log(q/(n - k)) if the size of the noise is not known (Patterson and
-Thompson 1971, doi 10.1093/biomet/58.3.545). All of it is in the small matrix Z^T R^-1 Z of
+least squares. If the size of the noise is not known, (n - k) log(q/(n - k)) stands for q (Patterson
+and Thompson 1971, doi 10.1093/biomet/58.3.545). All of it is in the small matrix Z^T R^-1 Z of
 Z = [X y], for which no R is factorised:
 
 - ar^k at lag k: (1 - ar^2) R^-1 = (1 + ar^2) I - ar (S + S^T) - ar^2 (e_1 e_1^T + e_n e_n^T), S the

@@ -1,7 +1,7 @@
 """The posterior about an optimum: model discrepancy, and draws.
 
 A discrepancy is always a part of it. Chi-square accepts many wrong models, as their parameters make
-up for missing effects; where none is missing, the estimated discrepancy is small.
+up for missing parts; where none is missing, the estimated discrepancy is small.
 """
 
 from dataclasses import dataclass

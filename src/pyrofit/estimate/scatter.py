@@ -2,8 +2,8 @@
 
 y = X b + sd(t) e: X are cubic B-splines, e has unit variance and is correlated over few points. Its
 correlation, and its size where none is stated, are those of the highest restricted likelihood
-(Patterson and Thompson 1971, doi 10.1093/biomet/58.3.545), which allows for the noise that the
-curve absorbs; the number of splines has the lowest BIC.
+(Patterson and Thompson 1971, doi 10.1093/biomet/58.3.545). This allows for the noise that the curve
+absorbs. The number of splines has the lowest BIC.
 """
 
 from dataclasses import dataclass

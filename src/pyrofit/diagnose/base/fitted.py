@@ -121,8 +121,8 @@ def misfits(trial: FittedModel) -> bool:
 def at_limit(trial: FittedModel, effect: str) -> str:
     """Return the name of an effect's strength if it rests at a limit, else nothing.
 
-    A strength of zero is no limit but a state where its null value is above zero, as an insulated
-    back is. A form may rest at a limit: a step may be sharper than the data can show.
+    A strength of zero is a state, not a limit, if its null value is above zero: an insulated back
+    is an example. A form may rest at a limit: a step may be sharper than the data can show.
     """
     x = trial.fit.x[trial.model.position(effect)]
     _, quantity = strength_of(effect)

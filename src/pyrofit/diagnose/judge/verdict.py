@@ -98,7 +98,7 @@ def _supported(finding: Finding) -> bool:
 
 
 def _suspects(found: Search, processes: int) -> tuple[Suspect, ...]:
-    """Return the candidates that promise most for the misfit of the final model."""
+    """Return the candidates that promise to explain most of the final model's misfit."""
     names = [look.effect for look in found.rounds[0].looks if look.effect not in found.end.effects]
     looks = look_at(found.end, names, processes)
     gains = [Suspect(look.effect, found.end.fit.chi2 - float(look.ahead.min())) for look in looks]

@@ -31,8 +31,8 @@ class Search:
     end: FittedModel
     end_lack: LackOfFit
     spare: float
-    """2 log(M): fall of the penalised chi-square that a claim of one of M effects needs, so that
-    chi-square falls by log(n) + 2 log(M) (Chen and Chen 2008, doi 10.1093/biomet/asn034)."""
+    """2 log(M): fall of the penalised chi-square that a claim of one of M effects needs. Chi-square
+    then falls by log(n) + 2 log(M) (Chen and Chen 2008, doi 10.1093/biomet/asn034)."""
 
     @property
     def base(self) -> FittedModel:

@@ -1,4 +1,4 @@
-"""The form of every arrangement of reactions."""
+"""The parts of every arrangement of reactions."""
 
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
