@@ -38,7 +38,7 @@ class OfMeasure(Record):
     """A cost, its best stored set, and where its valley lies."""
 
     name: str = Field(description="name of the cost")
-    words: str = Field(description="what it is")
+    words: str = Field(description="name in words")
     signals: list[str] = Field(description="the signals that it compares")
     tells_apart: bool = Field(description="it does not give all sets the same value")
     value: float = Field(description="value of its best set")

@@ -54,7 +54,7 @@ class OfScheme(Record):
 class OfParameter(Record):
     """A parameter of the chosen scheme with its 95 % interval, in its unit."""
 
-    label: str = Field(description="what it is")
+    label: str = Field(description="name in words")
     unit: str = Field(description="unit")
     value: float = Field(description="estimate")
     low: float = Field(description="lower end of the 95 % interval")

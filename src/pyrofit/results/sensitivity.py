@@ -26,7 +26,7 @@ class OfInput(Record):
     """Something that varies."""
 
     name: str = Field(description="a parameter, or a made-up name of a value of the apparatus")
-    label: str = Field(description="what it is")
+    label: str = Field(description="name in words")
     kind: Literal["estimated", "known", "apparatus"] = Field(description="why it varies")
     experiment: str = Field(description="experiment that it belongs to; empty = all")
     unit: str = Field(description="unit, as the study writes it")
@@ -53,7 +53,7 @@ class OfCost(Record):
     """A cost."""
 
     name: str = Field(description="name of the cost")
-    words: str = Field(description="what it is")
+    words: str = Field(description="name in words")
     own: bool = Field(description="a cost function of the study")
     signals: list[list[str]] = Field(description="experiment and signal of all it compares")
     at_s: float | None = Field(description="the one time that it looks at [s]; none = all times")
@@ -71,7 +71,7 @@ class Sensitivity(Record):
     samples: int = Field(description="base points of the sample")
     runs: int = Field(description="model calls")
     unfinished: int = Field(description="base points of which a run did not finish; replaced")
-    inputs: list[OfInput] = Field(min_length=1, description="what varies")
+    inputs: list[OfInput] = Field(min_length=1, description="inputs that vary")
     signals: list[OfSignal] = Field(min_length=1, description="the signals")
     costs: list[OfCost] = Field(min_length=1, description="the costs")
     same: list[list[str]] = Field(description="costs with equal indices: they differ by a factor")

@@ -32,7 +32,7 @@ class OfTest(Record):
     """A planned test."""
 
     name: str = Field(description="short name")
-    words: str = Field(description="what it is")
+    words: str = Field(description="name in words")
     quantities: list[str] = Field(description="quantities that it records")
     gain_bit: float = Field(description="information gained [bit]")
     left: float = Field(
