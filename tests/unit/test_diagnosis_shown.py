@@ -24,6 +24,7 @@ from pyrofit.results.files import Results, write_csv, write_json, write_text
 from pyrofit.results.schema_page import schema_page
 from pyrofit.show import diagnosis_page as report
 from pyrofit.show import style
+from pyrofit.show.diagnosis.curves import _pairs as signal_pairs
 from pyrofit.show.diagnosis.words import leading, prediction_name
 from pyrofit.show.diagnosis_page import (
     diagnosis_tables,
@@ -687,6 +688,16 @@ def test_leading_candidate_is_the_best_that_was_not_rejected(tmp_path: Path) -> 
     assert chosen is not None
     assert (chosen["effects"], chosen["rejected"]) == (["k_T"], "")
     assert leading(found(study, "unknown")) is None
+
+
+@pytest.mark.parametrize("signals", range(1, 20))
+def test_each_signal_has_its_curve_above_its_residuals(signals: int) -> None:
+    _, pairs = signal_pairs(signals)
+    assert len(pairs) == signals
+    for above, below in pairs:
+        over, under = above.get_position(), below.get_position()
+        assert over.x0 == under.x0
+        assert over.y0 > under.y1
 
 
 def test_every_figure_belongs_to_some_verdict(tmp_path: Path) -> None:

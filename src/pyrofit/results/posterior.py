@@ -82,9 +82,7 @@ class Posterior(Record):
     times: float = Field(description="longest autocorrelation time in steps")
     sets: int = Field(description="sets of the ensemble that was written, of equal weight")
     parameters: list[OfParameter] = Field(min_length=1, description="the parameters")
-    discrepancies: list[OfDiscrepancy] = Field(
-        min_length=1, description="discrepancies by signal"
-    )
+    discrepancies: list[OfDiscrepancy] = Field(min_length=1, description="discrepancies by signal")
     bands: list[OfBand] = Field(description="the predicted signals")
 
 

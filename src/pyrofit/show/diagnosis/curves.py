@@ -111,12 +111,13 @@ def _draw_pair(
 
 
 def _pairs(count: int) -> tuple[Canvas, list[tuple[Axes, Axes]]]:
-    """Return a canvas with pairs of panels, two pairs side by side."""
-    columns = min(2, count)
+    """Return a canvas with pairs of panels, two pairs side by side, three of many."""
+    most, height = (2, 45.0) if 4 * -(-count // 2) <= style.MANY else (style.MOST_COLUMNS, 36.0)
+    columns = min(most, count)
     rows = -(-count // columns)
     width = style.TWO_COLUMNS if count > 1 else 130.0
     ratios = [1.7, 1.0] * rows
-    canvas, axes = style.panels(2 * rows * columns, columns, width, 45.0, height_ratios=ratios)
+    canvas, axes = style.panels(2 * rows * columns, columns, width, height, height_ratios=ratios)
     pairs = []
     for i in range(rows * columns):
         at = 2 * columns * (i // columns) + i % columns
