@@ -108,9 +108,10 @@ def drafts(setting: Setting, plan: Plan) -> Iterator[Draft]:
     for i, (name, truth) in enumerate(read_manifest(Path(setting.curves)).cases.items()):
         for k, signals in enumerate(setting.signals):
             for repeat in range(repeats[truth.kind]):
-                hides = truth.kind != "null"
-                left_out = hides and plan.left_out > 0 and count % plan.left_out == 0
-                count += hides
+                single = truth.kind == "effect"
+                left_out = single and plan.left_out > 0 and count % plan.left_out == 0
+                left_out = left_out or (truth.kind == "pair" and plan.left_out == 1)
+                count += single
                 yield {
                     "kind": truth.kind,
                     "hidden": truth.effects,

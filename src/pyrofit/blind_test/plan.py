@@ -166,12 +166,10 @@ def _forms(setting: Setting, plan: Plan, base: Study) -> Iterator[Draft]:
 
 
 def _pairs(setting: Setting, plan: Plan, base: Study) -> Iterator[Draft]:
-    every, count = plan.left_out, 0
     for i, pair in enumerate(setting.pairs):
         more = {"kind": "pair", "hidden": {name: strength_of(setting, name) for name in pair}}
         for draft in _seen(setting, base, more, list(setting.pair_signals), plan.pairs, i):
-            yield {**draft, "left_out": every > 0 and count % every == every - 1}
-            count += 1
+            yield {**draft, "left_out": plan.left_out == 1}
 
 
 def _seen(

@@ -51,8 +51,8 @@ class Plan(Part):
     pairs: Count = Field(description="twins per pair and signals")
     left_out: Count = Field(
         0,
-        description="every n-th effect of full strength, and every n-th pair, is diagnosed again "
-        "without the (second) hidden effect among the candidates; 0 = none",
+        description="every n-th effect of full strength is diagnosed again, without the effect "
+        "among the candidates; 0 = none; 1 = pairs without their second effect as well",
     )
     most: dict[Kind, Count] = Field(
         default_factory=dict, description="largest number of twins, by kind"
