@@ -40,12 +40,17 @@ def _answer(end: Callable[[], None]) -> None:
 
     def answer(number: int, frame: FrameType | None) -> None:
         signal.signal(signal.SIGINT, lambda number, frame: None)
-        sys.stdout.flush()
-        print(INTERRUPTED, file=sys.stderr, flush=True)
+        with contextlib.suppress(RuntimeError):  # the signal came in the middle of a write
+            sys.stdout.flush()
+            sys.stderr.flush()
+        said = os.dup(2)
         # Jobs that end would be reported as failed.
         for stream in (1, 2):
             os.dup2(os.open(os.devnull, os.O_WRONLY), stream)
         end()
+        # Last, because jobs still write until they have ended.
+        with contextlib.suppress(OSError):
+            os.write(said, f"{INTERRUPTED}\n".encode())
         os._exit(130)
 
     signal.signal(signal.SIGINT, answer)
