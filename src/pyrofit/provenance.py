@@ -2,12 +2,13 @@
 
 import hashlib
 import importlib.metadata
+import os
 import platform
 import re
-from collections.abc import Iterable
+from collections.abc import Iterable, Mapping
 from functools import cache
 from pathlib import Path
-from typing import Any
+from typing import Any, NamedTuple
 
 PACKAGES = (
     "cma",
@@ -94,14 +95,17 @@ def source_fingerprint(*modules: str) -> str:
     root = Path(__file__).parent
     total = hashlib.sha256()
     for package in NUMERIC:
-        total.update(f"{package} {importlib.metadata.version(package)}".encode())
-    sources = imported_files(root, modules)
+        total.update(f"{package} {_version(package)}".encode())
+    sources = _reached(_modules_here(root), modules)
     folders = {path.parent for path in sources}
     beside = {p for folder in folders for p in folder.iterdir() if p.suffix in (".j2", ".txt")}
     for path in sorted(sources | beside):
         total.update(path.relative_to(root).as_posix().encode())
-        total.update(path.read_bytes())
+        total.update(_of(path).digest)
     return total.hexdigest()[:16]
+
+
+_version = cache(importlib.metadata.version)
 
 
 def imported_files(root: Path, modules: Iterable[str]) -> set[Path]:
@@ -115,7 +119,10 @@ def imported_files(root: Path, modules: Iterable[str]) -> set[Path]:
     ValueError
         There is no such module.
     """
-    files = _files_by_module(root)
+    return _reached(_files_by_module(root), modules)
+
+
+def _reached(files: Mapping[str, Path], modules: Iterable[str]) -> set[Path]:
     ahead = list(modules)
     if unknown := [name for name in ahead if name not in files]:
         raise ValueError(f"there is no module {', '.join(unknown)}")
@@ -127,7 +134,7 @@ def imported_files(root: Path, modules: Iterable[str]) -> set[Path]:
             continue
         if path is not None:  # else a name in a module
             found.add(path)
-            ahead += _imports(path.read_bytes())
+            ahead += _of(path).imports
             ahead += _catalogue(name, files)
         ahead += [name.rpartition(".")[0]] if "." in name else []
     return found
@@ -135,10 +142,17 @@ def imported_files(root: Path, modules: Iterable[str]) -> set[Path]:
 
 def _files_by_module(root: Path) -> dict[str, Path]:
     files = {}
-    for path in root.rglob("*.py"):
-        parts = (root.name, *path.relative_to(root).with_suffix("").parts)
-        files[".".join(parts[:-1] if parts[-1] == "__init__" else parts)] = path
+    for folder, _, names in os.walk(root):
+        of = ".".join((root.name, *Path(folder).relative_to(root).parts))
+        for name in names:
+            if name.endswith(".py"):
+                module = of if name == "__init__.py" else f"{of}.{name[:-3]}"
+                files[module] = Path(folder, name)
     return files
+
+
+_modules_here = cache(_files_by_module)
+"""Modules of a folder as they are at the first call: a plan takes many fingerprints."""
 
 
 def _catalogue(package: str, modules: Iterable[str]) -> list[str]:
@@ -148,7 +162,26 @@ def _catalogue(package: str, modules: Iterable[str]) -> list[str]:
     return [name for name in modules if name.rpartition(".")[0] == package]
 
 
+class _Source(NamedTuple):
+    """A file of the source as read."""
+
+    digest: bytes
+    imports: frozenset[str]
+
+
+def _of(path: Path) -> _Source:
+    """Return a file, read again only if it was changed."""
+    at = path.stat()
+    return _read(path, at.st_mtime_ns, at.st_size)
+
+
 @cache
+def _read(path: Path, changed_ns: int, size: int) -> _Source:
+    content = path.read_bytes()
+    imports = _imports(content) if path.suffix == ".py" else frozenset()
+    return _Source(hashlib.sha256(content).digest(), imports)
+
+
 def _imports(source: bytes) -> frozenset[str]:
     """Return a file's imports from the package: modules, and names in modules."""
     names = set()
