@@ -14,6 +14,7 @@ from pyrofit.diagnose.base.fitted import at_limit
 from pyrofit.diagnose.base.model import model_of, strength_of
 from pyrofit.diagnose.base.prediction import HELD_OUT, predictions, slabs
 from pyrofit.diagnose.judge.claim_tests import Trust, disagreement, explains, trust
+from pyrofit.diagnose.judge.inflation import by_misfit, none_for
 from pyrofit.diagnose.settings import SETTINGS
 from pyrofit.estimate.posterior import UNIFORM
 from pyrofit.model.repeats import RepeatOf
@@ -34,7 +35,12 @@ def scores(trial: linear.FittedModel) -> dict[str, float]:
 
 def trusted(trial: linear.FittedModel, without: linear.FittedModel) -> Trust:
     own, before = predictions([trial, without])
-    return trust(trial, "k_T", own, before, explains(own, np.random.default_rng(1)))
+    explained = explains(own, np.random.default_rng(1))
+    return trust(trial, "k_T", own, before, explained, none_for(trial))
+
+
+def p_of(trial: linear.FittedModel) -> float:
+    return disagreement(trial, "k_T", none_for(trial))
 
 
 def log_density(J: FloatArray, y: FloatArray, seen: Any, out: Any) -> float:
@@ -109,12 +115,9 @@ def test_strengths_that_differ_between_experiments_disagree() -> None:
     typical = strength_of("k_T")[1].typical
     column = column_of(COLUMNS, "k_T")
     twice = truth(0.2 * typical) + 0.2 * typical * column * SLAB_60
-    assert (
-        disagreement(linear.fit_with(linear.fit(COLUMNS, twice), "k_T"), "k_T")
-        < SETTINGS.agreement_level
-    )
-    once = linear.fit_with(linear.fit(COLUMNS, truth(0.2 * typical)), "k_T")
-    assert disagreement(once, "k_T") > 0.01
+    differing = linear.fit_with(linear.fit(COLUMNS, twice), "k_T")
+    assert p_of(differing) < SETTINGS.agreement_level
+    assert p_of(linear.fit_with(linear.fit(COLUMNS, truth(0.2 * typical)), "k_T")) > 0.01
 
 
 def test_disagreement_of_equal_strengths_is_a_probability() -> None:
@@ -122,14 +125,41 @@ def test_disagreement_of_equal_strengths_is_a_probability() -> None:
     values = []
     for seed in range(100):
         trial = linear.fit_with(linear.fit(COLUMNS, truth(0.2 * typical, seed)), "k_T")
-        values.append(disagreement(trial, "k_T"))
+        values.append(p_of(trial))
     assert kstest(values, "uniform").pvalue > 0.01, sorted(values)
 
 
 def test_effect_that_shows_in_one_experiment_only_cannot_disagree() -> None:
     columns = {**COLUMNS, linear.strength_name("k_T"): column_of(COLUMNS, "k_T") * SLAB_25}
     trial = linear.fit_with(linear.fit(columns, truth()), "k_T")
-    assert disagreement(trial, "k_T") == 1.0
+    assert p_of(trial) == 1.0
+
+
+def test_lasting_misfit_counts_as_lasting_noise_in_the_agreement_of_strengths() -> None:
+    """Misfit of 1.5 standard deviations that lasts over 5 points: its points tell little each."""
+    typical = strength_of("k_T")[1].typical
+    alone, inflated = [], []
+    for seed in range(100):
+        rng = np.random.default_rng([seed, 2])
+        misfit = np.repeat(1.5 * rng.standard_normal(TOTAL // 5), 5)
+        y = truth(0.2 * typical, seed) + misfit
+        trial = linear.fit_with(linear.fit(COLUMNS, y), "k_T")
+        alone.append(p_of(trial))
+        inflated.append(disagreement(trial, "k_T", by_misfit(trial)))
+    assert np.mean(np.array(alone) < 0.01) > 0.25
+    assert np.mean(np.array(inflated) < 0.01) < 0.05
+
+
+def test_inflation_counts_misfit_of_its_own_signal_only() -> None:
+    misfit = np.where(np.arange(TOTAL) < POINTS, 3.0 * np.sin(np.arange(TOTAL) / 4.0), 0.0)
+    trial = linear.fit(COLUMNS, truth() + misfit)
+    first, *others = by_misfit(trial).factors
+    assert first > 10.0
+    assert max(others) < 2.0
+    assert min(others) >= 1.0
+    inflation = by_misfit(trial)
+    assert inflation.chi2(trial) < 0.7 * trial.fit.chi2
+    assert none_for(trial).penalised(trial) == trial.penalised
 
 
 @pytest.mark.parametrize(
@@ -179,6 +209,9 @@ def test_prediction_improves_on_the_whole_and_gets_clearly_worse_nowhere(
         ({"a": 30.0, HELD_OUT: 1.9}, False),
         ({"a": 1.0, HELD_OUT: 30.0}, True),
         ({"a": -2.5, HELD_OUT: 30.0}, False),
+        ({"a": 30.0, "b": 30.0, HELD_OUT: -2.5}, False),
+        ({"a": 30.0, "b": 30.0, f"{HELD_OUT}: A": -30.0, f"{HELD_OUT}: B": 2.0}, True),
+        ({"a": 30.0, "b": 30.0, f"{HELD_OUT}: A": -30.0, f"{HELD_OUT}: B": 1.9}, False),
         ({}, False),
     ],
 )
@@ -186,6 +219,22 @@ def test_what_is_held_out_must_be_predicted_better_for_an_effect_to_be_sure(
     gains: dict[str, float], confirmed: bool
 ) -> None:
     assert Trust("", 1.0, gains, True).confirmed == confirmed
+
+
+def test_gain_counts_in_units_of_the_misfit_of_the_predicted_signals() -> None:
+    """A laboratory that no model follows tells less than one that is simulated well."""
+    typical = strength_of("k_T")[1].typical
+    misfit = 4.0 * np.sin(np.arange(TOTAL) / 4.0) * SLAB_60
+    base = linear.fit(COLUMNS, truth(0.5 * typical) + misfit)
+    trial = linear.fit_with(base, "k_T")
+    own, before = predictions([trial, base])
+    found = trust(trial, "k_T", own, before, None, by_misfit(trial))
+    raw = {name: own.scores[name] - before.scores[name] for name in own.scores}
+    by_signal = by_misfit(trial).factors
+    for name, factors in (("slab_25", by_signal[:2]), ("slab_60", by_signal[2:])):
+        assert found.gains[name] == pytest.approx(raw[name] / max(factors))
+    assert max(by_signal[:2]) < 3.0
+    assert min(by_signal[2:]) > 10.0
 
 
 def test_one_slab_alone_is_not_left_out() -> None:

@@ -4,7 +4,7 @@ from collections.abc import Sequence
 from dataclasses import dataclass, replace
 
 import numpy as np
-from scipy.stats import qmc
+from scipy.stats import chi2, qmc
 
 from pyrofit.config import (
     Study,
@@ -68,18 +68,24 @@ def set_up(study: Study, measurements: Measurements, processes: int = 1) -> Setu
 def weighed(trial: FittedModel) -> FittedModel:
     """Return the fit with known values that a misfitting model cannot overrule.
 
-    Misfit makes every point count for more than it tells. Known values are therefore weighed by the
-    dispersion of the fit.
+    Misfit makes every point count for more than it tells. Known values are therefore weighed by
+    chi-square per point of the signal that misfits most. Signals without misfit do not hide it.
     """
     base = trial.model.base
     prior = base.likelihood.prior
     if not prior.index:
         return trial
-    dispersion = trial.posterior.dispersion
+    dispersion = max(map(_dispersion, trial.model.by_channel(trial.fit.residuals)))
     if dispersion == 1.0:
         return trial
     heavier = replace(base.likelihood, prior=prior.over(float(np.sqrt(dispersion))))
     return refitted(trial, replace(base, likelihood=heavier))
+
+
+def _dispersion(w: FloatArray) -> float:
+    """Return chi-square per point of a signal, 1 where noise may be as large."""
+    critical = float(chi2.isf(SETTINGS.false_alarm_level, w.size))
+    return _chi2(w) / w.size if _chi2(w) > critical else 1.0
 
 
 def _check_held_out(trial: FittedModel) -> None:

@@ -33,7 +33,12 @@ class FittedModel:
     @property
     def penalised(self) -> float:
         """chi2 + log(n) per parameter of an effect (Schwarz 1978, doi 10.1214/aos/1176344136)."""
-        return self.fit.chi2 + self.numbers * float(np.log(self.model.points))
+        return self.fit.chi2 + self.price
+
+    @property
+    def price(self) -> float:
+        """log(n) per parameter of an effect."""
+        return self.numbers * float(np.log(self.model.points))
 
     @property
     def posterior(self) -> Posterior:

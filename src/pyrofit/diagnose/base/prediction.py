@@ -21,6 +21,7 @@ from pyrofit.diagnose.base.model import Base, Model, model_of
 from pyrofit.estimate.posterior import curvature
 from pyrofit.experiments import kind_of
 from pyrofit.parallel import parallel_map
+from pyrofit.solver.arrays import FloatArray
 
 HELD_OUT = "held out"
 
@@ -30,6 +31,8 @@ class Predictions:
     """Log scores by experiment left out, or held out, and the fit to all signals."""
 
     scores: dict[str, float]
+    residuals: dict[str, list[FloatArray]]
+    """Whitened residuals of the predicted signals, if they are fitted too, by prediction."""
     whole: FittedModel
 
     @property
@@ -72,15 +75,23 @@ def predictions(
     fits = parallel_map(
         lambda i: _refit(trials[tasks[i][0]], tasks[i][1]).fit, len(tasks), processes
     )
-    found = [Predictions({}, trial) for trial in trials]
+    found = [Predictions({}, {}, trial) for trial in trials]
     for (k, name), fit in zip(tasks, fits, strict=True):
+        part, joint = trials[k], FittedModel(_model_for(trials[k], name), fit)
         if name == HELD_OUT:
-            found[k] = replace(found[k], whole=FittedModel(_model_for(trials[k], name), fit))
+            found[k] = replace(found[k], whole=joint)
+        if not name.startswith(HELD_OUT):
+            part, joint = joint, part
         if name != HELD_OUT or not _several(trials[k]):
-            out = name.startswith(HELD_OUT)
-            part, joint = (trials[k].fit, fit) if out else (fit, trials[k].fit)
-            found[k].scores[name] = forecast(part, joint)
+            found[k].scores[name] = forecast(part.fit, joint.fit)
+            found[k].residuals[name] = _added(part, joint)
     return found
+
+
+def _added(part: FittedModel, joint: FittedModel) -> list[FloatArray]:
+    """Return the residuals of the signals that only the joint fit has."""
+    channels = zip(joint.model.channels, joint.model.by_channel(joint.fit.residuals), strict=True)
+    return [w for channel, w in channels if channel not in part.model.channels]
 
 
 def _tasks(trial: FittedModel, held_out: bool, whole: bool) -> list[str]:

@@ -1,11 +1,12 @@
 """Tests of a claim besides its gain: limits, agreement of experiments, prediction.
 
-A model that still misfits makes every test statistic too large. Its dispersion, chi-square per
-degree of freedom, then divides the statistics and the gains of the log scores.
+A model that still misfits makes every test statistic too large. Each signal's noise then counts
+with the variance of `inflation`. The largest factor of the predicted signals divides the gain of a
+log score.
 """
 
 from collections.abc import Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 from scipy.stats import chi2 as chi_squared
@@ -15,6 +16,7 @@ from pyrofit.diagnose.base.fit import refitted, with_noise_about
 from pyrofit.diagnose.base.fitted import FittedModel, at_limit
 from pyrofit.diagnose.base.prediction import HELD_OUT, Predictions
 from pyrofit.diagnose.base.projection import project, projector
+from pyrofit.diagnose.judge.inflation import Inflation, factor_of
 from pyrofit.diagnose.settings import SETTINGS
 from pyrofit.solver.arrays import FloatArray
 
@@ -62,11 +64,13 @@ class Trust:
 
     @property
     def confirmed(self) -> bool:
-        """Whether predictions improve and held-out signals, if any, gain enough by themselves."""
-        held_out = self.held_out
-        return self.predicts and (
-            not held_out or sum(held_out.values()) >= SETTINGS.informative_gain
-        )
+        """Whether predictions improve and held-out signals, if any, gain enough by themselves.
+
+        One that is outvoted is left out of this sum: the other ones must gain enough.
+        """
+        out = self.worse if self.outvoted else []
+        gains = [gain for name, gain in self.held_out.items() if name not in out]
+        return self.predicts and (not self.held_out or sum(gains) >= SETTINGS.informative_gain)
 
     @property
     def held_out(self) -> dict[str, float]:
@@ -74,13 +78,19 @@ class Trust:
         return {n: gain for n, gain in self.gains.items() if n.startswith(HELD_OUT)}
 
 
-def disagreement(trial: FittedModel, effect: str, dispersion: float = 1.0) -> float:
+def disagreement(trial: FittedModel, effect: str, inflation: Inflation) -> float:
     """Return the probability that a strength common to all experiments looks as different.
 
     Score test: the columns of d w/d strength, one experiment each, against the fit's residuals.
-    The statistic is divided by ``dispersion``.
+    The noise has the variance of ``inflation``, and the parameters make one step to fit under it.
     """
-    model, fit = trial.model, trial.fit
+    rows = inflation.rows(trial)
+    model = trial.model
+    fit = replace(
+        trial.fit,
+        residuals=rows * trial.fit.residuals,
+        jacobian=rows[:, None] * trial.fit.jacobian,
+    )
     column = fit.jacobian[: model.points, model.position(effect)]
     owners = [model.base.channels[i][0] for i in model.channels]
     parts = np.split(column, np.cumsum(model.likelihood.points)[:-1])
@@ -93,7 +103,7 @@ def disagreement(trial: FittedModel, effect: str, dispersion: float = 1.0) -> fl
         d[: model.points, k] = np.concatenate(own)
     d = project(projector(fit), d)
     found = np.linalg.lstsq(d, fit.residuals, rcond=1e-8)[0]
-    return float(chi_squared.sf(float(fit.residuals @ d @ found) / dispersion, len(moved) - 1))
+    return float(chi_squared.sf(float(fit.residuals @ d @ found), len(moved) - 1))
 
 
 def _size(parts: Sequence[FloatArray], owners: Sequence[str], experiment: str) -> float:
@@ -121,7 +131,7 @@ def trust(
     own: Predictions,
     without: Predictions,
     explained: bool | None,
-    dispersion: float = 1.0,
+    inflation: Inflation,
 ) -> Trust:
     """Return the evidence for or against an effect of a model.
 
@@ -131,11 +141,12 @@ def trust(
         Predictions of the model with and without the effect.
     explained
         Whether it fits held-out signals, too.
-    dispersion
-        Chi-square per degree of freedom that divides test statistics and gains.
+    inflation
+        By how much the end's misfit raises the variance of the noise.
     """
-    gains = {
-        name: (own.scores[name] - before) / dispersion for name, before in without.scores.items()
-    }
-    disagree = disagreement(trial, effect, dispersion)
+    gains = {}
+    for name, before in without.scores.items():
+        factor = max(map(factor_of, own.residuals[name])) if inflation.inflates else 1.0
+        gains[name] = (own.scores[name] - before) / factor
+    disagree = disagreement(trial, effect, inflation)
     return Trust(at_limit(trial, effect), disagree, gains, explained)

@@ -69,8 +69,9 @@ class Finding:
 
     @property
     def sure(self) -> bool:
-        """Whether all agree on the group, and it explains and predicts signals not fitted."""
-        return bool(self.group) and self.predicted and self.explains
+        """Whether all agree on the group, and it explains and predicts all signals not fitted."""
+        outvoted = any(judged.trust.outvoted for judged in self.kept)
+        return bool(self.group) and self.predicted and self.explains and not outvoted
 
 
 @dataclass(frozen=True)

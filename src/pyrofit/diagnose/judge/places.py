@@ -10,6 +10,7 @@ from pyrofit.diagnose.base.fitted import FittedModel, at_limit, up_to_date
 from pyrofit.diagnose.base.prediction import predictions
 from pyrofit.diagnose.judge.claim_tests import Trust, explains, trust
 from pyrofit.diagnose.judge.findings import Finding, Judged
+from pyrofit.diagnose.judge.inflation import inflation_of
 from pyrofit.diagnose.search.restart import refitted_without
 from pyrofit.diagnose.search.step import SearchStep
 from pyrofit.diagnose.search.stepwise import Search
@@ -26,8 +27,9 @@ def needed(
     """
     without = without_each(found, processes)
     while len(without) > 1:
-        least = min(without, key=lambda trial: trial.penalised)
-        if least.penalised - found.end.penalised >= found.spare:
+        penalised = inflation_of(found).penalised
+        least = min(without, key=penalised)
+        if penalised(least) - penalised(found.end) >= found.spare:
             break
         found = ended(found, least, rng)
         without = without_each(found, processes)
@@ -71,7 +73,7 @@ def findings_of(
     may_explain = found.end_lack.adequate or len(effects) == 1
     predicted = predictions([*without, *rivals.values()], processes, whole=may_explain)
     before, own = predicted[: len(without)], predicted[len(without) :]
-    dispersion = 1.0 if found.end_lack.adequate else found.end.posterior.dispersion
+    inflation = inflation_of(found)
     rngs = rng.spawn(len(own))
     explained: list[bool | None] = [None] * len(own)
     if may_explain:
@@ -80,12 +82,11 @@ def findings_of(
 
     def judged(name: str, trial: FittedModel, k: int) -> Judged:
         foreseen, also = known[_key(trial)]
-        about = trust(trial, name, foreseen, before[k], also, dispersion)
+        about = trust(trial, name, foreseen, before[k], also, inflation)
         if trial is not places[k][0][1]:  # the end's other effects have places of their own
             limits = filter(None, (at_limit(trial, effect) for effect in trial.effects))
             about = replace(about, limit=next(limits, ""))
-        gain = (without[k].fit.chi2 - trial.fit.chi2) / dispersion
-        gain -= (trial.numbers - without[k].numbers) * float(np.log(trial.model.points))
+        gain = inflation.penalised(without[k]) - inflation.penalised(trial)
         return Judged(name, trial, about, _against(gain, found.spare, about))
 
     return tuple(
@@ -105,10 +106,11 @@ def alternatives(found: Search, effect: str) -> list[tuple[str, FittedModel]]:
     """
     others = set(found.end.effects) - {effect}
     best = {effect: found.end}
-    for trial in sorted(found.trials, key=lambda trial: trial.penalised):
+    penalised = inflation_of(found).penalised
+    for trial in sorted(found.trials, key=penalised):
         (*rest,) = set(trial.effects) - others
         same = others <= set(trial.effects) and len(rest) == 1
-        if same and trial.penalised <= found.end.penalised + SETTINGS.ambiguous_chi2:
+        if same and penalised(trial) <= penalised(found.end) + SETTINGS.ambiguous_chi2:
             best.setdefault(rest[0], trial)
     return [(name, up_to_date(trial)) for name, trial in list(best.items())[: SETTINGS.most_judged]]
 

@@ -7,6 +7,7 @@ import numpy as np
 from pyrofit.diagnose.base.fitted import FittedModel
 from pyrofit.diagnose.base.prediction import HELD_OUT
 from pyrofit.diagnose.judge.findings import Finding, Judged, Kind, Suspect, Verdict
+from pyrofit.diagnose.judge.inflation import inflation_of
 from pyrofit.diagnose.judge.places import ended, findings_of, needed
 from pyrofit.diagnose.search.refit import look_at
 from pyrofit.diagnose.search.stepwise import Search
@@ -74,7 +75,8 @@ def _partly(
         failed = [k for k, finding in enumerate(findings) if not _supported(finding)]
         if len(findings) == 1:
             return None
-        least = min(failed, key=lambda k: without[k].penalised)
+        penalised = inflation_of(found).penalised
+        least = min(failed, key=lambda k: penalised(without[k]))
         found, without = needed(ended(found, without[least], rng), rng, processes)
         findings = findings_of(found, without, rng, processes)
     if found.end_lack.adequate:
@@ -128,7 +130,8 @@ def _doubts(found: Search, findings: Sequence[Finding]) -> list[str]:
     if not all(finding.explains for finding in findings):
         doubts.append("the model does not explain held-out signals, even if they are fitted too")
     kept = [judged for finding in findings for judged in finding.kept]
-    doubts += [_unconfirmed(judged) for judged in kept if not judged.trust.confirmed]
+    open_to_doubt = (j for j in kept if j.trust.outvoted or not j.trust.confirmed)
+    doubts += map(_unconfirmed, open_to_doubt)
     open_ones = [finding for finding in findings if not finding.group]
     return doubts + [f"these data do not separate {_listed(finding)}" for finding in open_ones]
 
