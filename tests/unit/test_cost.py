@@ -332,13 +332,21 @@ def test_a_term_survives_pickling(kind):
 
 
 @pytest.mark.parametrize("kind", ["RMSE", "RANGE_PROPTI", "BANDS", "THR_above", "GPYRO"])
-def test_a_call_takes_microseconds(kind):
+def test_a_call_costs_a_few_operations_on_the_curve(kind):
     time = np.linspace(0.0, 10.0, 100)
     target = Target(time, np.sin(time) + 2.0, np.full(100, 0.1))
     term = make_term(kind, target, **({"time_s": 5.0} if kind == "THR_above" else {}))
     model = np.cos(time) + 2.0
-    seconds = min(repeat(lambda: term(model), number=200, repeat=20)) / 200
-    assert seconds < 60e-6  # measured 3 to 9 us; the rest is room for a busy machine
+
+    def seconds(call):
+        return min(repeat(call, number=50, repeat=5))
+
+    def plain():
+        return np.sqrt(np.mean((model - target.value) ** 2))
+
+    # Measured in turns, so that a busy machine slows both.
+    ratios = [seconds(lambda: term(model)) / seconds(plain) for _ in range(10)]
+    assert min(ratios) < 4.0
 
 
 def test_eq_5_by_hand():
