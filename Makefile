@@ -1,6 +1,7 @@
 # make campaign   everything from nothing: environment, data, the whole study, report
-# make test       everything from nothing: environment, all tests
-# make test-fast  the tests that neither run the solver nor Snakemake, in 100 s
+# make test       everything from nothing: environment, all tests but those of the workflow
+# make test-workflow  the tests that run Snakemake: whole studies, kills, full disks, the blind test
+# make test-fast  the tests that neither run the solver nor Snakemake
 # make docs       the documentation as a site, build/docs/index.html
 # make test-slurm the study smoke on a Slurm of virtual nodes; needs root, installs Debian's packages
 # STUDY=my.yaml make campaign runs your own study; CORES=n sets the number of cores.
@@ -10,7 +11,7 @@ CORES ?= 2
 VENV := .venv
 export PATH := $(CURDIR)/$(VENV)/bin:$(PATH)
 
-.PHONY: campaign test test-fast test-slurm verification docs data lint bench format lock clean
+.PHONY: campaign test test-fast test-slurm test-workflow verification docs data lint bench format lock clean
 
 $(VENV)/installed: requirements.lock pyproject.toml
 	@echo "Setting up the environment in $(VENV) (about a minute)"
@@ -38,7 +39,10 @@ campaign: $(VENV)/installed
 	pyrofit check "$$study" && snakemake --cores $(CORES) --configfile "$$study"
 
 test: $(VENV)/installed
-	pytest -n $(CORES) --dist loadfile --no-loadscope-reorder
+	pytest -n $(CORES) --dist loadfile --no-loadscope-reorder -m "not workflow"
+
+test-workflow: $(VENV)/installed
+	pytest -n $(CORES) --dist loadfile --no-loadscope-reorder -m workflow
 
 test-fast: $(VENV)/installed
 	pytest -n $(CORES) -m "not (slow or solver or workflow)"

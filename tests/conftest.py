@@ -29,6 +29,7 @@ FOLDERS = {
 FILES = {
     "test_archive_crate": "slow",
     "test_bad_input": "solver",
+    "test_blind_test_short": "workflow",
     "test_comparison": "solver",
     "test_compiled_cache": "solver",
     "test_cost_properties": "slow",
@@ -58,8 +59,8 @@ FILES = {
     "test_unmeasured": "solver",
     "test_worth_stage": "solver",
 }
-"""Files of folders whose other tests are fast."""
-_LONGEST_FIRST = {"workflow": 0, "blind_test": 1}
+"""Files of another class than the others of their folder, which are fast unless it has a class."""
+_LONGEST_FIRST = {"test_blind_test_short": 0, "test_kills": 1}
 
 
 KERNELS = [f"pyrofit.solver.kernels.{name}" for name in ("grid", "slab", "tga", "trace")]
@@ -83,11 +84,11 @@ def pytest_collection_modifyitems(items: list[pytest.Item]) -> None:
         folder = item.path.relative_to(HERE).parts[0]
         if folder == "slurm" and not item.config.getoption("--slurm"):
             item.add_marker(pytest.mark.skip(reason="make test-slurm runs it"))
-        name = FOLDERS.get(folder) or FILES.get(item.path.stem)
+        name = FILES.get(item.path.stem) or FOLDERS.get(folder)
         if name:
             item.add_marker(name)
     # The longest first, so that no process waits for another one at the end.
-    items.sort(key=lambda item: _LONGEST_FIRST.get(item.path.parent.name, 2))
+    items.sort(key=lambda item: _LONGEST_FIRST.get(item.path.stem, 2))
 
 
 def pytest_sessionstart() -> None:

@@ -5,6 +5,7 @@ import re
 import subprocess
 import sys
 from functools import cache
+from graphlib import TopologicalSorter
 from pathlib import Path
 
 import pytest
@@ -45,6 +46,7 @@ RANK = {part: rank for rank, parts in enumerate(ORDER) for part in parts}
 NOT_FOR_COST = {"model", "solver", "simulate", "data"}
 
 
+@cache
 def modules() -> list[Path]:
     return sorted(p for p in SOURCE.rglob("*.py") if p != SOURCE / "__init__.py")
 
@@ -54,10 +56,16 @@ def part_of(path: Path) -> str:
 
 
 @cache
+def parsed(path: Path) -> list[ast.AST]:
+    """Return all nodes of the syntax tree of a file."""
+    return list(ast.walk(ast.parse(path.read_text(encoding="utf-8"))))
+
+
+@cache
 def imported(path: Path) -> set[str]:
     """Return the full names of all modules that a file imports, anywhere in it."""
     names = set()
-    for node in ast.walk(ast.parse(path.read_text(encoding="utf-8"))):
+    for node in parsed(path):
         if isinstance(node, ast.Import):
             names |= {alias.name for alias in node.names}
         elif isinstance(node, ast.ImportFrom):
@@ -104,11 +112,14 @@ def test_module_imports_only_from_its_left(path: Path) -> None:
 
 def modules_imported(path: Path) -> set[str]:
     """Return the modules of the package that a file imports, by their full names."""
-    known = {module_name(p) for p in modules()}
-    found = set()
-    for name in imported(path):
-        found.add(name if name in known else name.rpartition(".")[0])
+    known = module_names()
+    found = {name if name in known else name.rpartition(".")[0] for name in imported(path)}
     return found & known - {module_name(path)}
+
+
+@cache
+def module_names() -> frozenset[str]:
+    return frozenset(map(module_name, modules()))
 
 
 def module_name(path: Path) -> str:
@@ -118,10 +129,7 @@ def module_name(path: Path) -> str:
 
 def test_no_modules_import_each_other_in_a_circle() -> None:
     # Imports for type checks alone are counted: they join two files as much as any other.
-    imports = {module_name(p): modules_imported(p) for p in modules()}
-    while free := {m for m, needed in imports.items() if not needed & set(imports)}:
-        imports = {m: needed for m, needed in imports.items() if m not in free}
-    assert not imports
+    TopologicalSorter({module_name(p): modules_imported(p) for p in modules()}).prepare()
 
 
 def test_no_effect_is_known_by_name_outside_its_file() -> None:
@@ -130,7 +138,7 @@ def test_no_effect_is_known_by_name_outside_its_file() -> None:
     for path in modules():
         if part_of(path) not in ("config", "estimate", "diagnose"):
             continue
-        for node in ast.walk(ast.parse(path.read_text(encoding="utf-8"))):
+        for node in parsed(path):
             literal = isinstance(node, ast.Constant) and isinstance(node.value, str)
             assert not (literal and node.value in effects), f"{path}: '{node.value}'"
 
@@ -148,7 +156,7 @@ def test_no_quantity_is_known_by_name_outside_its_home() -> None:
         name = path.relative_to(SOURCE).as_posix()
         if name.startswith(home):
             continue
-        for node in ast.walk(ast.parse(path.read_text(encoding="utf-8"))):
+        for node in parsed(path):
             literal = isinstance(node, ast.Constant) and isinstance(node.value, str)
             assert not (literal and node.value in quantities), f"{name}: '{node.value}'"
 
@@ -159,7 +167,7 @@ def test_no_kind_of_experiment_is_asked_for_outside_its_home() -> None:
         name = path.relative_to(SOURCE).as_posix()
         if name.startswith("experiments/"):
             continue
-        for node in ast.walk(ast.parse(path.read_text(encoding="utf-8"))):
+        for node in parsed(path):
             if isinstance(node, ast.Call) and ast.unparse(node.func) == "isinstance":
                 asked = {n.id for n in ast.walk(node.args[1]) if isinstance(n, ast.Name)}
                 assert not asked & classes, f"{name}: {ast.unparse(node)}"
@@ -175,7 +183,7 @@ def test_a_new_study_names_no_kind_and_no_quantity() -> None:
     names = {*KINDS, *known_quantities()} - {"mass"}
     folder = SOURCE / "new_study"
     for path in folder.glob("*.py"):
-        for node in ast.walk(ast.parse(path.read_text(encoding="utf-8"))):
+        for node in parsed(path):
             literal = isinstance(node, ast.Constant) and isinstance(node.value, str)
             assert not (literal and node.value in names), f"{path.name}: '{node.value}'"
     words = set(re.findall(r"\w+", (folder / "study.yaml.j2").read_text(encoding="utf-8")))
@@ -263,7 +271,7 @@ def test_library_never_prints_or_exits() -> None:
     for path in modules():
         if part_of(path) == "cli":
             continue
-        for node in ast.walk(ast.parse(path.read_text(encoding="utf-8"))):
+        for node in parsed(path):
             if isinstance(node, ast.Call) and isinstance(node.func, ast.Name):
                 assert node.func.id not in ("exit", "quit"), path
                 if node.func.id == "print":
