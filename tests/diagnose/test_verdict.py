@@ -265,7 +265,7 @@ def test_effect_that_leaves_a_misfit_explains_a_part() -> None:
     verdict = verdict_on(searched(y, ELSEWHERE))
     assert verdict.kind == "partly"
     assert [finding.leading for finding in verdict.findings] == ["k_T"]
-    assert "they explain a part of the misfit only" in sentences(verdict)
+    assert "explains only a part of the misfit" in sentences(verdict)
     assert verdict.suspects == ()
 
 

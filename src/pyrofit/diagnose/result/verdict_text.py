@@ -71,13 +71,13 @@ def _multiple(verdict: Verdict) -> list[str]:
 def _partly(verdict: Verdict) -> list[str]:
     """Name the confirmed effects, and those suspected for the rest."""
     catalogue = known_effects()
-    number = len(verdict.findings)
-    lacks = f"{number} effects: " if number > 1 else ""
-    found = "; and ".join(_listed(finding) for finding in verdict.findings)
     suspects = " or ".join(catalogue[suspect.effect].title for suspect in verdict.suspects)
+    helps = "They improve the fit and the predictions, but explain only a part of the misfit."
+    if len(verdict.findings) == 1:
+        helps = "It improves the fit and the predictions, but explains only a part of the misfit."
     return [
-        f"The model lacks {lacks}{found}.",
-        "They improve the fit and the predictions, but they explain a part of the misfit only.",
+        f"The model lacks {_several(verdict)}.",
+        helps,
         _because(verdict),
         f"Leading candidates for the rest: {suspects}." if suspects else "",
     ]
@@ -95,8 +95,8 @@ def _unknown(verdict: Verdict) -> list[str]:
 
 
 def _several(verdict: Verdict) -> str:
-    found = "; and ".join(_listed(finding) for finding in verdict.findings)
-    return f"{len(verdict.findings)} effects: {found}"
+    *first, last = (_listed(finding) for finding in verdict.findings)
+    return f"{len(verdict.findings)} effects: {', '.join(first)}, and {last}" if first else last
 
 
 def _because(verdict: Verdict) -> str:
