@@ -10,6 +10,8 @@ PYTHON ?= python3
 CORES ?= 2
 VENV := .venv
 export PATH := $(CURDIR)/$(VENV)/bin:$(PATH)
+# Many containers set this; then each process compiles all sources again.
+unexport PYTHONDONTWRITEBYTECODE
 
 .PHONY: campaign test test-fast test-slurm test-workflow verification docs data lint bench format lock clean
 
