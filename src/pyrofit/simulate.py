@@ -142,7 +142,7 @@ def _simulated(
     threads: int = 1,
 ) -> list[Curves]:
     values, sets = substance.values, substance.sets
-    case = _lower(experiment, substance, accuracy)
+    case = _lower(experiment, substance.of(experiment.sample), accuracy)
     located = lower_places(experiment.sample, requests, values, sets)
 
     def run(factors: FloatArray, asked: Mapping[str, Request]) -> Runs:

@@ -240,3 +240,17 @@ def test_sets_with_a_backing_have_the_same_bits_alone_and_side_by_side() -> None
         alone = run(case, matter, requests, values={"k": float(value)})
         for name, curve in alone.signals.items():
             assert np.array_equal(curve, together[n].signals[name])
+
+
+def test_boards_of_other_experiments_change_no_bit() -> None:
+    """A table of one of them would make tables of the properties of all components."""
+    matter = burning(conductivity_W_mK={"temperature_K": [300, 900], "value": [0.05, 0.2]})
+    alone = matter.without_bodies_but(frozenset())
+    assert list(alone.components) == ["V", "C"]
+    requests = {n: Request(np.arange(2.5, 600.0, 5.0)) for n in ("mlr", "back_temperature")}
+    plain = backed(front={"flux_W_m2": 5e4})
+    one, other = (run(plain, m, requests, values={}) for m in (matter, alone))
+    for name, curve in one.signals.items():
+        assert np.array_equal(curve, other.signals[name]), name
+    own = backed(("gap", 0.02), front={"flux_W_m2": 5e4}).sample
+    assert list(matter.without_bodies_but(own.bodies).components) == ["gap", "V", "C"]

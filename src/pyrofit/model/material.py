@@ -119,6 +119,13 @@ class Material(Part):
         of_reactions = {n for r in self.reactions.values() for n in (r.reactant, *r.products)}
         return frozenset({*self.composition, *of_reactions})
 
+    def without_bodies_but(self, bodies: frozenset[str]) -> Self:
+        """Return the material without the inert components that are not among some bodies."""
+        kept = {n: c for n, c in self.components.items() if n in self.own or n in bodies}
+        if len(kept) == len(self.components):
+            return self
+        return self.model_copy(update={"components": kept})
+
     def reaction_order(self) -> tuple[str, ...]:
         """Return the reactions sorted so that products react after they are formed.
 

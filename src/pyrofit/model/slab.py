@@ -127,6 +127,13 @@ class Sample(Part):
     edge: Edge | None = Field(None, description="heat exchange of the edge")
 
     @property
+    def bodies(self) -> frozenset[str]:
+        """Components that layers with a composition of their own, adhesive and backing have."""
+        parts = (*self.backing, *([self.adhesive] if self.adhesive else ()))
+        of_layers = {name for layer in self.layers for name in layer.composition or ()}
+        return frozenset({*of_layers, *(part.component for part in parts)})
+
+    @property
     def back_absorbs(self) -> bool:
         """Whether radiation that passes the sample heats its back, or the foil there."""
         return self.transmitted == "back" or (self.transmitted == "foil" and self.foil is not None)

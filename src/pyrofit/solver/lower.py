@@ -16,6 +16,7 @@ from numpy.typing import NDArray
 from pyrofit.constants import GAS_CONSTANT
 from pyrofit.model import material as words
 from pyrofit.model.base import value_of
+from pyrofit.model.slab import Sample
 from pyrofit.solver.arrays import (
     TABLE_SIZE,
     FloatArray,
@@ -195,11 +196,27 @@ def lower_network(
 
 
 class Substance:
-    """A material with the values of its parameters, lowered once for all experiments."""
+    """A material with the values of its parameters, lowered once for all experiments on it."""
 
     def __init__(self, material: words.Material, values: Values, sets: int = 1) -> None:
         self.material, self.values, self.sets = material, values, sets
         self._properties: dict[tuple[float | str, float | str], Material] = {}
+        self._smaller: dict[frozenset[str], Substance] = {}
+
+    def of(self, sample: Sample) -> "Substance":
+        """Return it without the inert components, such as boards, that a sample does not have.
+
+        Their mass is zero in every cell, so they only cost time.
+        """
+        bodies = sample.bodies
+        material = self.material.derived(
+            f"with {sorted(bodies)}", lambda m: m.without_bodies_but(bodies)
+        )
+        if material is self.material:
+            return self
+        if bodies not in self._smaller:
+            self._smaller[bodies] = Substance(material, self.values, self.sets)
+        return self._smaller[bodies]
 
     @cached_property
     def network(self) -> Network:
