@@ -1,6 +1,6 @@
 # make campaign   everything from nothing: environment, data, the whole study, report
-# make test       everything from nothing: environment, all tests but those of the workflow
-# make test-workflow  the tests that run Snakemake: whole studies, kills, full disks, the blind test
+# make test       everything from nothing: environment, all tests but the long ones
+# make test-long  the tests of whole studies, blind tests, kills, full disks, compilation anew
 # make test-fast  the tests that neither run the solver nor Snakemake
 # make docs       the documentation as a site, build/docs/index.html
 # make test-slurm the study smoke on a Slurm of virtual nodes; needs root, installs Debian's packages
@@ -13,7 +13,7 @@ export PATH := $(CURDIR)/$(VENV)/bin:$(PATH)
 # Many containers set this; then each process compiles all sources again.
 unexport PYTHONDONTWRITEBYTECODE
 
-.PHONY: campaign test test-fast test-slurm test-workflow verification docs data lint bench format lock clean
+.PHONY: campaign test test-fast test-long test-slurm verification docs data lint bench format lock clean
 
 $(VENV)/installed: requirements.lock pyproject.toml
 	@echo "Setting up the environment in $(VENV) (about a minute)"
@@ -41,13 +41,13 @@ campaign: $(VENV)/installed
 	pyrofit check "$$study" && snakemake --cores $(CORES) --configfile "$$study"
 
 test: $(VENV)/installed
-	pytest -n $(CORES) --dist loadfile --no-loadscope-reorder -m "not workflow"
+	pytest -n $(CORES) --dist loadfile --no-loadscope-reorder -m "not long"
 
-test-workflow: $(VENV)/installed
-	pytest -n $(CORES) --dist loadfile --no-loadscope-reorder -m workflow
+test-long: $(VENV)/installed
+	pytest -n $(CORES) --dist loadfile --no-loadscope-reorder -m long
 
 test-fast: $(VENV)/installed
-	pytest -n $(CORES) -m "not (slow or solver or workflow)"
+	pytest -n $(CORES) -m "not (slow or solver or long)"
 
 test-slurm: $(VENV)/installed
 	pytest --slurm -s tests/slurm

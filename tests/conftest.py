@@ -22,16 +22,17 @@ FOLDERS = {
     "exchange": "solver",
     "recovery": "solver",
     "scheme": "solver",
-    "slurm": "workflow",
+    "slurm": "long",
     "verification": "solver",
-    "workflow": "workflow",
+    "workflow": "long",
 }
 FILES = {
     "test_archive_crate": "slow",
     "test_bad_input": "solver",
-    "test_blind_test_short": "workflow",
+    "test_blind_test_parts": "long",
+    "test_blind_test_short": "long",
     "test_comparison": "solver",
-    "test_compiled_cache": "solver",
+    "test_compiled_cache": "long",
     "test_cost_properties": "slow",
     "test_diagnosis_shown": "slow",
     "test_estimate": "solver",
@@ -114,6 +115,6 @@ class Refused(ModuleType):
 def _fast_tests_run_no_solver(
     request: pytest.FixtureRequest, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    if not {mark.name for mark in request.node.iter_markers()} & {"slow", "solver", "workflow"}:
+    if not {mark.name for mark in request.node.iter_markers()} & {"slow", "solver", "long"}:
         for name in KERNELS:
             monkeypatch.setitem(sys.modules, name, Refused(name))
