@@ -74,6 +74,7 @@ def section(study: Study, results: Results, found: Found) -> Shown:
         (
             *parts(where_off(found), "windows", *(n for n in drawn if n not in FIGURES)),
             *parts(missing(found), "strengths", "profiles", "candidates", "ranking"),
+            *parts("", "not_tried"),
             *parts("", "probes"),
             *parts(gap_closed(found), "gap"),
             Part("How sure that is", text=certainty(study, found)),

@@ -84,13 +84,19 @@ def _partly(
     if all_fit or ONE_FLUX in _doubts(found, findings):
         return None
     leading = [finding.kept[0] for finding in findings]
-    rest = [
-        "part of the misfit remains: chi-square is "
-        f"{found.end.fit.chi2 / found.end.model.points:.2f} per point"
-    ]
-    worse = [_outvoted(judged) for judged in leading if judged.trust.outvoted]
     suspects = _suspects(found, processes)
-    return Verdict("partly", found, tuple(findings), (*rest, *worse), suspects)
+    return Verdict("partly", found, tuple(findings), (_rest(found), *_outvoted(leading)), suspects)
+
+
+def _rest(found: Search) -> str:
+    """Say in which signals the final model leaves more than noise."""
+    lack, picks = found.end_lack, found.end.model.likelihood.problem.picks
+    names = dict.fromkeys(" ".join(picks[window.channel][:2]) for window in lack.windows)
+    if not names:
+        return (
+            f"part of the misfit remains: chi-square is {lack.chi2:.4g} of {lack.chi2_critical:.4g}"
+        )
+    return f"part of the misfit remains, in {', '.join(names)}"
 
 
 def _supported(finding: Finding) -> bool:
@@ -130,8 +136,8 @@ def _doubts(found: Search, findings: Sequence[Finding]) -> list[str]:
     if not all(finding.explains for finding in findings):
         doubts.append("the model does not explain held-out signals, even if they are fitted too")
     kept = [judged for finding in findings for judged in finding.kept]
-    open_to_doubt = (j for j in kept if j.trust.outvoted or not j.trust.confirmed)
-    doubts += map(_unconfirmed, open_to_doubt)
+    doubts += map(_unconfirmed, (j for j in kept if not (j.trust.outvoted or j.trust.confirmed)))
+    doubts += _outvoted(kept)
     open_ones = [finding for finding in findings if not finding.group]
     return doubts + [f"these data do not separate {_listed(finding)}" for finding in open_ones]
 
@@ -144,8 +150,6 @@ def _listed(finding: Finding) -> str:
 def _unconfirmed(judged: Judged) -> str:
     if not judged.trust.predicts:
         return f"{judged.effect}: no prediction confirms it clearly"
-    if judged.trust.outvoted:
-        return _outvoted(judged)
     gain = sum(judged.trust.held_out.values())
     return (
         f"{judged.effect}: the log score of the held-out signals gains {gain:+.1f} only; "
@@ -153,10 +157,15 @@ def _unconfirmed(judged: Judged) -> str:
     )
 
 
-def _outvoted(judged: Judged) -> str:
-    """Say that one held-out experiment is predicted worse, against several others."""
-    (name,) = judged.trust.worse
-    return (
-        f"{judged.effect}: the prediction of {name.removeprefix(f'{HELD_OUT}: ')} gets worse "
-        f"(log score {judged.trust.gains[name]:+.1f}), the others improve: check its apparatus"
-    )
+def _outvoted(judged: Sequence[Judged]) -> list[str]:
+    """Say with which effects one held-out experiment is predicted worse, against several others."""
+    by_name: dict[str, list[str]] = {}
+    for one in judged:
+        if one.trust.outvoted:
+            (name,) = one.trust.worse
+            by_name.setdefault(name, []).append(f"{one.effect} ({one.trust.gains[name]:+.1f})")
+    return [
+        f"the prediction of {name.removeprefix(f'{HELD_OUT}: ')} gets worse with "
+        f"{', '.join(worse)} (log score in brackets), others improve: check its apparatus"
+        for name, worse in by_name.items()
+    ]

@@ -110,4 +110,8 @@ def _why_not(found: Search, start: FittedModel, trial: FittedModel, best: float)
     limits = [name for name in (at_limit(trial, effect) for effect in trial.effects) if name]
     if limits:
         return f"{limits[0]} rests at a limit"
-    return f"{trial.penalised - best:.1f} above the best in penalised chi-square"
+    above = trial.penalised - best
+    others = [name for name in trial.effects if name not in found.end.effects]
+    if above < 0.0 and others:
+        return f"{', '.join(others)} not confirmed"
+    return f"{above:.1f} above the verdict's model in penalised chi-square"

@@ -15,7 +15,7 @@ from pyrofit.show.table import Table, always
 def candidates(study: Study, results: Results) -> pd.DataFrame:
     """List the models with effects that were fitted, the best ones, and why each was rejected."""
     found = diagnosis.read(study, results)
-    order = ranked(found)
+    order = ranked(found, MOST)
     lowest = order[0]["penalised"] if order else 0.0
     rows = [
         {
@@ -27,7 +27,7 @@ def candidates(study: Study, results: Results) -> pd.DataFrame:
             "predictions": _predictions(study, c["predictions"]),
             "remark": remark(found, c),
         }
-        for c in order[:MOST]
+        for c in order
     ]
     columns = ("chi2", "gain", "above_best", "fitted", "predictions", "remark")
     return pd.DataFrame(rows, columns=["model", *columns])

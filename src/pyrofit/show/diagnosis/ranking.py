@@ -35,7 +35,7 @@ _REJECTED: dict[str, Any] = {**_KEPT, "markerfacecolor": "white"}
 def ranking(study: Study, results: Results) -> Canvas:
     """Draw the penalised chi-square of the candidates above that of the best."""
     found = diagnosis.read(study, results)
-    labels, reasons = _texts(found, ranked(found)[:MOST])
+    labels, reasons = _texts(found, ranked(found, MOST))
     lines = max(text.count("\n") + 1 for text in (*labels, *reasons))
     height = max(5.2, 0.8 + 2.6 * lines)
     canvas, (ax,) = style.panels(1, 1, style.TWO_COLUMNS, 26.0 + height * len(labels))
@@ -52,7 +52,7 @@ def _texts(found: Found, shown: Sequence[Found]) -> tuple[list[str], list[str]]:
 
 def draw_ranking(ax: Axes, found: Found) -> None:
     """Draw the candidates of a diagnosis, the best first."""
-    shown = ranked(found)[:MOST]
+    shown = ranked(found, MOST)
     labels, reasons = _texts(found, shown)
     lowest = float(shown[0]["penalised"])
     limit = float(found["ambiguity"])
@@ -116,5 +116,5 @@ FIGURE = Figure(
     "best candidate; linear below 1, logarithmic beyond. The fit alone does not "
     "distinguish candidates left of the dashed line from the best one. In the grey "
     "area one effect gains too little to be claimed. In brackets: parameters of the "
-    f"form that were fitted, too. At most {MOST} are shown.",
+    f"form that were fitted, too. At most {MOST} are shown, the model of the verdict among them.",
 )

@@ -39,13 +39,8 @@ def where_off(found: Found) -> str:
 
 
 def missing(found: Found) -> str:
-    """Return sentences on the findings, and on effects that were not considered."""
-    reasons: dict[str, list[str]] = {}
-    for one in found["not_tried"]:
-        reasons.setdefault(one["reason"], []).append(effect_name(one["effect"]))
-    left = [f"{listed(names)} ({reason})" for reason, names in reasons.items()]
-    said = [_found(found), *_determined(found)]
-    return " ".join([*said, *([f"Not tried: {'; '.join(left)}."] if left else [])])
+    """Return sentences on the findings."""
+    return " ".join([_found(found), *_determined(found)])
 
 
 def _determined(found: Found) -> list[str]:
@@ -71,10 +66,10 @@ def _found(found: Found) -> str:
         return "No effect was tried: there is nothing to explain."
     if chosen is None:
         return f"A claim needs a gain of {number(found['needed'])}."
-    names = [f"{effect_name(n)}, {known_effects()[n].equation}" for n in chosen["effects"]]
+    names = listed([effect_name(name) for name in chosen["effects"]])
     return (
         f"Chi-square falls from {number(found['base']['chi2'])} to {number(chosen['chi2'])} with "
-        f"{'; and '.join(names)}. The last effect gains {number(chosen['gain'])}; a claim needs "
+        f"{names}. The last effect gains {number(chosen['gain'])}; a claim needs "
         f"{number(found['needed'])}."
     )
 

@@ -21,6 +21,7 @@ def strengths(study: Study, results: Results) -> pd.DataFrame:
             rows.append(
                 {
                     "effect": effect_name(effect),
+                    "equation": catalogue[effect].equation,
                     "parameter": catalogue[effect].quantities[name].label,
                     "value": p["value"],
                     "low": p["low"],

@@ -83,6 +83,13 @@ def remark(found: Found, candidate: Found) -> str:
     return candidate["rejected"] or kept
 
 
-def ranked(found: Found) -> list[dict[str, Any]]:
-    """Return the candidates, the lowest penalised chi-square first."""
-    return sorted(found["candidates"], key=lambda c: float(c["penalised"]))
+def ranked(found: Found, most: int | None = None) -> list[dict[str, Any]]:
+    """Return all or most candidates, the lowest penalised chi-square first.
+
+    The leading one is always among them, in the last place if it is worse.
+    """
+    order = sorted(found["candidates"], key=lambda c: float(c["penalised"]))
+    chosen = leading(found)
+    if most is None or chosen is None or chosen in order[:most]:
+        return order[:most]
+    return [*order[: most - 1], chosen]
