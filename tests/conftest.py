@@ -32,6 +32,7 @@ FILES = {
     "test_blind_test_parts": "long",
     "test_blind_test_short": "long",
     "test_comparison": "solver",
+    "test_config_diagnosis": "solver",
     "test_compiled_cache": "long",
     "test_cost_properties": "slow",
     "test_diagnosis_shown": "slow",
@@ -51,8 +52,11 @@ FILES = {
     "test_ready_timing": "solver",
     "test_posterior_draws": "slow",
     "test_posterior_stage": "solver",
+    "test_report": "slow",
+    "test_report_steps": "slow",
     "test_rescore_stage": "solver",
     "test_robustness": "solver",
+    "test_running": "slow",
     "test_sensitivity_stage": "solver",
     "test_slab_quantities": "solver",
     "test_sobol": "slow",
@@ -74,19 +78,22 @@ def pytest_addoption(parser: pytest.Parser) -> None:
     parser.addoption("--slurm", action="store_true", help="start a Slurm on this machine, as root")
 
 
+def class_of(path: Path) -> str | None:
+    """Return the speed class of a file's tests; none where they are fast, or examples."""
+    if HERE not in path.parents:
+        return None
+    return FILES.get(path.stem) or FOLDERS.get(path.relative_to(HERE).parts[0])
+
+
 def pytest_collection_modifyitems(items: list[pytest.Item]) -> None:
     """Mark tests with the speed class of their folder or file; skip those that lack their data."""
     no_data = pytest.mark.skip(reason="PYROFIT_DATA_DIR is not set")
     for item in items:
         if item.get_closest_marker("measured") and not os.environ.get("PYROFIT_DATA_DIR"):
             item.add_marker(no_data)
-        if HERE not in item.path.parents:
-            continue  # an example of the source
-        folder = item.path.relative_to(HERE).parts[0]
-        if folder == "slurm" and not item.config.getoption("--slurm"):
+        if item.path.parent == HERE / "slurm" and not item.config.getoption("--slurm"):
             item.add_marker(pytest.mark.skip(reason="make test-slurm runs it"))
-        name = FILES.get(item.path.stem) or FOLDERS.get(folder)
-        if name:
+        if name := class_of(item.path):
             item.add_marker(name)
     # The longest first, so that no process waits for another one at the end.
     items.sort(key=lambda item: _LONGEST_FIRST.get(item.path.stem, 2))
