@@ -70,8 +70,12 @@ class Finding:
     @property
     def sure(self) -> bool:
         """Whether all agree on the group, and it explains and predicts all signals not fitted."""
-        outvoted = any(judged.trust.outvoted for judged in self.kept)
-        return bool(self.group) and self.predicted and self.explains and not outvoted
+        return bool(self.group) and self.predicted and self.explains and not self.outvoted
+
+    @property
+    def outvoted(self) -> bool:
+        """Whether one held-out experiment is against one of them, and the others are for it."""
+        return any(judged.trust.outvoted for judged in self.kept)
 
 
 @dataclass(frozen=True)
@@ -104,7 +108,7 @@ class Verdict:
 
     @property
     def confirmed(self) -> bool:
-        """Whether the claimed effects predict signals that were not fitted."""
-        return self.kind == "partly" or (
-            self.kind in ("named", "multiple") and all(f.sure for f in self.findings)
-        )
+        """Whether the claimed effects predict signals that were not fitted, none of them worse."""
+        if self.kind == "partly":
+            return not any(finding.outvoted for finding in self.findings)
+        return self.kind in ("named", "multiple") and all(f.sure for f in self.findings)

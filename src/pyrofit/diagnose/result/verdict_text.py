@@ -75,8 +75,9 @@ def _partly(verdict: Verdict) -> list[str]:
     helps = "They improve the fit and the predictions, but explain only a part of the misfit."
     if len(verdict.findings) == 1:
         helps = "It improves the fit and the predictions, but explains only a part of the misfit."
+    lacks = "lacks" if verdict.confirmed else "seems to lack"
     return [
-        f"The model lacks {_several(verdict)}.",
+        f"The model {lacks} {_several(verdict)}.",
         helps,
         _because(verdict),
         f"Leading candidates for the rest: {suspects}." if suspects else "",
