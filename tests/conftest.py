@@ -49,6 +49,7 @@ FILES = {
     "test_notebooks": "solver",
     "test_reaction_order": "solver",
     "test_python_page": "solver",
+    "test_random_sets": "long",
     "test_ready_timing": "solver",
     "test_posterior_draws": "slow",
     "test_posterior_stage": "solver",
