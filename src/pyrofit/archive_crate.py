@@ -11,6 +11,7 @@ from typing import Any
 
 from pyrofit import __version__
 from pyrofit.config import Study
+from pyrofit.errors import DataError
 
 METADATA = "ro-crate-metadata.json"
 WORKFLOW = "software/Snakefile"
@@ -46,6 +47,11 @@ def metadata(study: Study, origin: Mapping[str, Any], names: Iterable[str]) -> b
         Its provenance.
     names
         Names of all entries of the archive.
+
+    Raises
+    ------
+    DataError
+        SOURCE_DATE_EPOCH is no number of seconds.
     """
     from rocrate.model.contextentity import ContextEntity
     from rocrate.rocrate import ROCrate
@@ -89,5 +95,11 @@ def metadata(study: Study, origin: Mapping[str, Any], names: Iterable[str]) -> b
 
 def _date() -> str:
     """Return SOURCE_DATE_EPOCH as a date; without it, that of all entries."""
-    seconds = int(os.environ.get("SOURCE_DATE_EPOCH") or NO_DATE)
-    return datetime.fromtimestamp(seconds, UTC).date().isoformat()
+    given = os.environ.get("SOURCE_DATE_EPOCH") or str(NO_DATE)
+    try:
+        return datetime.fromtimestamp(int(given), UTC).date().isoformat()
+    except (ValueError, OverflowError, OSError):
+        raise DataError(
+            f"SOURCE_DATE_EPOCH is '{given}', not a whole number of seconds since 1970; "
+            "correct or unset it"
+        ) from None

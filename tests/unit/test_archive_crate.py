@@ -13,6 +13,7 @@ import pytest
 
 from pyrofit.archive_crate import FOLDERS, LISTED, REPORT, WORKFLOW, metadata
 from pyrofit.config import Study, read_study
+from pyrofit.errors import DataError
 
 ROOT = Path(__file__).parents[2]
 ORIGIN = {"packages": {"snakemake": "9.27.1"}}
@@ -98,3 +99,12 @@ def test_date_is_that_of_the_entries_or_the_given_one(
     assert entity(json.loads(first), "./")["datePublished"] == "1980-01-01"
     monkeypatch.setenv("SOURCE_DATE_EPOCH", "1790000000")
     assert entity(json.loads(metadata(smoke, ORIGIN, NAMES)), "./")["datePublished"] == "2026-09-21"
+
+
+@pytest.mark.parametrize("given", ["today", "1.5", "9" * 30])
+def test_date_that_is_no_number_of_seconds_is_refused(
+    smoke: Study, monkeypatch: pytest.MonkeyPatch, given: str
+) -> None:
+    monkeypatch.setenv("SOURCE_DATE_EPOCH", given)
+    with pytest.raises(DataError, match="SOURCE_DATE_EPOCH is '"):
+        metadata(smoke, ORIGIN, NAMES)
