@@ -2,7 +2,7 @@
 
 from dataclasses import replace
 from types import SimpleNamespace
-from typing import Any
+from typing import Any, cast
 
 import linear
 import numpy as np
@@ -14,7 +14,10 @@ from pyrofit.diagnose.base.fitted import at_limit
 from pyrofit.diagnose.base.model import model_of, strength_of
 from pyrofit.diagnose.base.prediction import HELD_OUT, predictions, slabs
 from pyrofit.diagnose.judge.claim_tests import Trust, disagreement, explains, trust
+from pyrofit.diagnose.judge.findings import Finding, Judged, Verdict
 from pyrofit.diagnose.judge.inflation import by_misfit, none_for
+from pyrofit.diagnose.result.verdict_text import sentences
+from pyrofit.diagnose.search.stepwise import Search
 from pyrofit.diagnose.settings import SETTINGS
 from pyrofit.estimate.posterior import UNIFORM
 from pyrofit.model.repeats import RepeatOf
@@ -297,3 +300,15 @@ def test_misfit_of_what_is_held_out_is_noticed() -> None:
         trial = linear.fit_with(linear.fit(COLUMNS, y, calibrated=(0, 1, 2)), "k_T")
         found = trusted(trial, trial)
         assert found.explains == explained
+
+
+def test_partial_claim_is_confirmed_only_if_no_held_out_laboratory_is_against_it() -> None:
+    trial = linear.fit_with(linear.fit(COLUMNS, truth()), "k_T")
+    good = {"a": 30.0, "b": 30.0, f"{HELD_OUT}: A": 5.0, f"{HELD_OUT}: B": 5.0}
+    for gains, confirmed in ((good, True), ({**good, f"{HELD_OUT}: A": -30.0}, False)):
+        judged = Judged("k_T", trial, Trust("", 1.0, gains, None), "")
+        finding = Finding("k_T", (judged,))
+        verdict = Verdict("partly", cast(Search, None), (finding,), ())
+        assert finding.predicted
+        assert verdict.confirmed == confirmed
+        assert ("seems to lack" in sentences(verdict)) != confirmed

@@ -25,7 +25,7 @@ from pyrofit.results.schema_page import schema_page
 from pyrofit.show import diagnosis_page as report
 from pyrofit.show import style
 from pyrofit.show.diagnosis.curves import _pairs as signal_pairs
-from pyrofit.show.diagnosis.words import leading, prediction_name
+from pyrofit.show.diagnosis.words import leading, prediction_name, ranked
 from pyrofit.show.diagnosis_page import (
     diagnosis_tables,
     draw_all,
@@ -707,3 +707,11 @@ def test_every_figure_belongs_to_some_verdict(tmp_path: Path) -> None:
         shown |= set(figures_of(study, read(study, results)))
     curves = {"mass_loss_rate", "back_temperature", "mass_fraction"}
     assert shown == set(report.FIGURES) | curves
+
+
+def test_model_of_the_verdict_is_shown_among_the_best() -> None:
+    rows = [{"effects": [f"e{i}"], "penalised": float(i), "rejected": "no"} for i in range(5)]
+    rows[4] |= {"effects": ["k_T"], "rejected": ""}
+    given = {"candidates": rows, "verdict": {"effects": ["k_T"]}}
+    assert [c["effects"] for c in ranked(given, 3)] == [["e0"], ["e1"], ["k_T"]]
+    assert ranked(given) == ranked(given, 5) == rows

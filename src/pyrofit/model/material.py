@@ -121,7 +121,8 @@ class Material(Part):
 
     def without_bodies_but(self, bodies: frozenset[str]) -> Self:
         """Return the material without the inert components that are not among some bodies."""
-        kept = {n: c for n, c in self.components.items() if n in self.own or n in bodies}
+        wanted = self.own | bodies
+        kept = {name: of for name, of in self.components.items() if name in wanted}
         if len(kept) == len(self.components):
             return self
         return self.model_copy(update={"components": kept})

@@ -114,4 +114,4 @@ def _why_not(found: Search, start: FittedModel, trial: FittedModel, best: float)
     others = [name for name in trial.effects if name not in found.end.effects]
     if above < 0.0 and others:
         return f"{', '.join(others)} not confirmed"
-    return f"{above:.1f} above the verdict's model in penalised chi-square"
+    return f"{above:.1f} above the final model in penalised chi-square"

@@ -22,5 +22,4 @@ TABLE = Table(
     make=not_tried,
     title="Effects that were not tried",
     note="These effects of the catalogue are no candidates in this study.",
-    headings={},
 )
