@@ -134,6 +134,16 @@ def test_properties_are_in_the_order_of_the_components() -> None:
     assert arrays.absorption.tolist() == [[[0.0]], [[0.0]], [[0.0]]]
 
 
+def test_components_described_alike_share_their_tables() -> None:
+    alike = {"B": VIRGIN | {"density_kg_m3": 700.0}, "char": CHAR}
+    hot = {"conductivity_W_mK": {"value": 0.2, "exponent": 0.7}}
+    components = {"A": VIRGIN, "C": VIRGIN | hot} | alike
+    given = {"components": components, "composition": dict.fromkeys(components, 0.25)}
+    arrays = lower.lower_material(Material.model_validate(given), VALUES)
+    assert arrays.alike.tolist() == [0, 1, 0, 3]
+    assert arrays.constant.tolist() == [True, False, True, True]
+
+
 def test_rate_given_at_a_temperature_is_that_rate_there() -> None:
     given = Reaction(
         reactant="A", E_J_mol="E", reference_temperature_K=600.0, reference_rate_1_s=2e-3

@@ -6,6 +6,7 @@ import numpy as np
 import pytest
 from numba import njit
 
+from pyrofit.solver.kernels.functions import power
 from pyrofit.solver.kernels.lanes import in_lanes
 from pyrofit.solver.kernels.reactions import order_factors
 
@@ -14,7 +15,7 @@ from pyrofit.solver.kernels.reactions import order_factors
 def factors(width, u, x, n, out):
     u, x, n, to = in_lanes(width, u), in_lanes(width, x), in_lanes(width, n), in_lanes(width, out)
     for k in range(u.size):
-        to[0, k], to[1, k] = order_factors(u[k], x[k], n[k])
+        to[0, k], to[1, k] = order_factors(power(u[k], n[k] - 1.0), x[k], n[k])
 
 
 draw = np.random.default_rng(11)

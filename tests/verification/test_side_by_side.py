@@ -363,6 +363,20 @@ def test_power_of_temperature_is_the_same_for_exponents_that_numpy_knows() -> No
     assert all_differ(checked(specimen(), material, values, LANES, SHORT))
 
 
+def test_properties_in_other_words_give_the_same_curves() -> None:
+    # Components described alike are looked up once, and numbers are not looked up at all.
+    def curves(k_char: Any, k_virgin: Any) -> list[dict[str, object]]:
+        material = charring(
+            virgin={"conductivity_W_mK": k_virgin}, char={"conductivity_W_mK": k_char}
+        )
+        return [bits(c) for c in checked(specimen(), material, {"q": q}, LANES, SHORT)]
+
+    q = np.linspace(0.1, 0.3, LANES)
+    plain, law = 0.15, {"value": 0.15, "exponent": 0.0}
+    expected = curves(plain, "q")
+    assert curves(law, "q") == expected == curves(plain, {"value": "q", "exponent": 0.0})
+
+
 def test_sets_that_do_not_react_run_side_by_side() -> None:
     values = {"k": np.linspace(0.1, 0.4, LANES), "T0": np.linspace(280.0, 350.0, LANES)}
     experiment = specimen()

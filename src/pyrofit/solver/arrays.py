@@ -13,6 +13,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 FloatArray = NDArray[np.float64]
+BoolArray = NDArray[np.bool_]
 IntArray = NDArray[np.int64]
 Value = float | FloatArray
 Values = Mapping[str, Value]
@@ -75,6 +76,10 @@ class Material(NamedTuple):
     """eps_i [-], shape (components,)."""
     absorption: FloatArray
     """kappa_i(T) [1/m], shape (components, table nodes or 1); 0 = opaque."""
+    alike: IntArray
+    """The first component with the tables of component i, shape (components,)."""
+    constant: BoolArray
+    """Whether all values of its tables are the same, shape (components,)."""
 
 
 class Network(NamedTuple):

@@ -11,7 +11,6 @@ from functools import cached_property
 from typing import Any
 
 import numpy as np
-from numpy.typing import NDArray
 
 from pyrofit.constants import GAS_CONSTANT
 from pyrofit.model import material as words
@@ -19,6 +18,7 @@ from pyrofit.model.base import value_of
 from pyrofit.model.slab import Sample
 from pyrofit.solver.arrays import (
     TABLE_SIZE,
+    BoolArray,
     FloatArray,
     IntArray,
     Material,
@@ -94,6 +94,30 @@ def lower_material(
         emissivity=stack([value_of(c.emissivity, values) for c in parts], sets),
         absorption=absorption[:, None, :]
         * _tables([c.absorption_factor for c in parts], values, sets),
+        alike=material.derived("alike", _alike),
+        constant=material.derived("constant", _constant),
+    )
+
+
+_TABLES = "expansion", "conductivity_W_mK", "specific_heat_J_kgK", "absorption_factor"
+
+
+def _alike(material: words.Material) -> IntArray:
+    """Return the first component that is described as each one, but for its density."""
+    described = [
+        (name in material.own, c.absorption_1_m, *(getattr(c, table) for table in _TABLES))
+        for name, c in material.components.items()
+    ]
+    return np.array([described.index(d) for d in described])
+
+
+def _constant(material: words.Material) -> BoolArray:
+    """Tell of each component whether no property depends on temperature."""
+    return np.array(
+        [
+            all(isinstance(getattr(c, table), float | str) for table in _TABLES)
+            for c in material.components.values()
+        ]
     )
 
 
@@ -143,7 +167,7 @@ def _plan(material: words.Material) -> _Plan:
     )
 
 
-def is_separate(network: Network) -> NDArray[np.bool_]:
+def is_separate(network: Network) -> BoolArray:
     """Tell whether no reaction feeds or starves another one, shape (sets,)."""
     running = network.root_factor > 0.0
     separate = np.ones(running.shape[1], dtype=bool)

@@ -9,10 +9,11 @@ from pyrofit.solver.kernels.reactions import (
     decay_of_order,
     is_curved,
     ordered,
+    power_of_share,
     react,
     remaining,
 )
-from pyrofit.solver.kernels.tables import at_temperature
+from pyrofit.solver.kernels.tables import at_place, at_temperature, place_of
 
 RATES_FROM_K, RATES_TO_K = 200.0, 2000.0
 """Range in which rates follow T."""
@@ -46,20 +47,28 @@ def describe(work, first, material):
     k is mixed by volume, c by mass.
     """
     cell = work.cell
-    for i in range(work.m.shape[0]):
-        volume = material.specific_volume[i]
-        for n in live(work.m, first):
-            m, T = work.m_new[i, n], cell[row.T_star, n]
-            v = m * volume * at_temperature(material.expansion, i, T)
-            c = at_temperature(material.specific_heat, i, T)
-            add(cell, row.d, n, v, i)
-            add(cell, row.dk, n, v * at_temperature(material.conductivity, i, T), i)
-            add(cell, row.C_new, n, m * c, i)
-            add(cell, row.C_lost, n, (work.m[i, n] - m) * c, i)
     for n in live(work.m, first):
-        d = cell[row.d, n]
-        inverse_dk = nearly_inverse(max(cell[row.dk, n], TINY))
-        cell[row.half_r, n] = fma(0.5 * d * d, inverse_dk, LEAST_RESISTANCE)
+        place = place_of(cell[row.T_star, n])
+        none = 0.0 * place.part
+        d, dk, C, C_lost = none, none, none, none
+        expansion, k, c = none, none, none
+        of = -1
+        for i in range(work.m.shape[0]):
+            if material.alike[i] != of:
+                of, constant = material.alike[i], material.constant[i]
+                expansion = at_place(material.expansion, of, place, constant)
+                k = at_place(material.conductivity, of, place, constant)
+                c = at_place(material.specific_heat, of, place, constant)
+            m = work.m_new[i, n]
+            v = m * material.specific_volume[i] * expansion
+            d += v
+            dk += v * k
+            C += m * c
+            C_lost += (work.m[i, n] - m) * c
+        cell[row.d, n] = d
+        cell[row.C_new, n] = C
+        cell[row.C_lost, n] = C_lost
+        cell[row.half_r, n] = fma(0.5 * d * d, nearly_inverse(max(dk, TINY)), LEAST_RESISTANCE)
 
 
 @inner
@@ -170,16 +179,26 @@ def react_alone(work, first, dt, network, final):
     for j in range(work.root.shape[0]):
         i, residue = network.reactant[j], network.residue[j]
         share, curved = network.residue_yield[j], is_curved(network, j)
+        if curved and not final:
+            hold_powers(work, first, j, network)
         for n in live(work.m, first):
             mean, growth = log_mean(work.root[j, n], work.root_new[j, n])
             x, behind = dt * mean, 1.0
             if curved:
-                x, behind = ordered(work.m[i, n], work.formed[i, n], x, network.order[j])
+                x, behind = ordered(work.m[i, n], work.held[j, n], x, network.order[j])
             e, _ = decay_of_order(x, network.order[j], curved, False)
             left, used = remaining(work.m[i, n], e)
             work.m_new[i, n] = left
             work.m_new[residue, n] += share * used
             book(work, n, j, used, left * behind, dt * growth, network, final)
+
+
+@inner
+def hold_powers(work, first, j, network):
+    """Fill u^(n-1) of the reactant of reaction j at the start of the step."""
+    i, order = network.reactant[j], network.order[j]
+    for n in live(work.m, first):
+        work.held[j, n] = power_of_share(work.m[i, n], work.formed[i, n], order)
 
 
 @inner

@@ -189,36 +189,34 @@ def whole(typing: Any, x: Any) -> Any:
 
 @intrinsic
 def at_node(typing: Any, table: Any, i: Any, node: Any) -> Any:
-    """Return table[i, node], lane by lane where the node has lanes, of its own row or lane."""
+    """Return table[i, node], lane by lane where the node has lanes, of its own row or lane.
+
+    One load per lane: the processor's own instruction for that takes longer. The places count from
+    the row's begin, so that they are found once for all tables.
+    """
     kind = number_like(node)
+    if isinstance(kind, Lanes) and table.layout != "C":
+        return None
 
     def build(context: Any, builder: Any, sig: Any, args: Any) -> Any:
         held = make_array(table)(context, builder, args[0])
         of_row, of_node = cgutils.unpack_tuple(builder, held.strides, 2)
         row = builder.add(builder.ptrtoint(held.data, _BITS), builder.mul(args[1], of_row))
         if not isinstance(kind, Lanes):
-            at = builder.mul(builder.fptosi(args[2], _BITS), of_node)
-            place = builder.inttoptr(builder.add(row, at), _DOUBLE.as_pointer())
-            return builder.load(place, align=8)
+            at = builder.add(row, builder.mul(builder.fptosi(args[2], _BITS), of_node))
+            return builder.load(builder.inttoptr(at, _DOUBLE.as_pointer()), align=8)
         count = kind.count
+        own = isinstance(table.dtype, Lanes)
         places = ir.VectorType(_BITS, count)
-        at = builder.mul(builder.fptosi(args[2], places), splat(builder, of_node, count))
-        at = builder.add(splat(builder, row, count), at)
-        if isinstance(table.dtype, Lanes):
-            at = builder.add(at, ir.Constant(places, [8 * lane for lane in range(count)]))
-        return _gathered(builder, at, count)
+        size = ir.Constant(places, [8 * count if own else 8] * count)
+        at = builder.mul(builder.fptosi(args[2], places), size)
+        found = ir.Constant(ir.VectorType(_DOUBLE, count), ir.Undefined)
+        for k in range(count):
+            lane = ir.Constant(ir.IntType(32), k)
+            begin = builder.add(row, ir.Constant(_BITS, 8 * k if own else 0))
+            place = builder.add(begin, builder.extract_element(at, lane))
+            number = builder.load(builder.inttoptr(place, _DOUBLE.as_pointer()), align=8)
+            found = builder.insert_element(found, number, lane)
+        return found
 
     return signature(kind, table, types.int64, kind), build
-
-
-def _gathered(builder: Any, places: Any, count: int) -> Any:
-    """Return the numbers that lie at several places of the memory."""
-    numbers = ir.VectorType(_DOUBLE, count)
-    truths = ir.VectorType(ir.IntType(1), count)
-    pointers = builder.inttoptr(places, ir.VectorType(_DOUBLE.as_pointer(), count))
-    every, rest = ir.Constant(truths, [1] * count), ir.Constant(numbers, ir.Undefined)
-    align = ir.Constant(ir.IntType(32), 8)
-    kind = ir.FunctionType(numbers, [pointers.type, align.type, truths, numbers])
-    name = f"llvm.masked.gather.v{count}f64.v{count}p0"
-    gather = cgutils.get_or_insert_function(builder.module, kind, name)
-    return builder.call(gather, [pointers, align, every, rest])

@@ -4,7 +4,7 @@ from pyrofit.solver.kernels.functions import exp
 from pyrofit.solver.kernels.jit import inner, live
 from pyrofit.solver.kernels.lanes import opposite, somewhere, where
 from pyrofit.solver.kernels.reactions import TINY
-from pyrofit.solver.kernels.tables import at_temperature
+from pyrofit.solver.kernels.tables import at_place, place_of
 
 LEAST_DEPTH = 1.0e-9
 """Depth [m] from which a surface radiates at least."""
@@ -13,9 +13,15 @@ LEAST_DEPTH = 1.0e-9
 @inner
 def optical_depth(m, n, material, T):
     """Return kappa d [-] of cell n at T, the absorption coefficient mixed by volume."""
+    place = place_of(T)
     optical = 0.0 * m[0, n]
+    absorption = optical
+    of = -1
     for i in range(m.shape[0]):
-        optical += m[i, n] * material.specific_volume[i] * at_temperature(material.absorption, i, T)
+        if material.alike[i] != of:
+            of = material.alike[i]
+            absorption = at_place(material.absorption, of, place, material.constant[i])
+        optical += m[i, n] * material.specific_volume[i] * absorption
     return optical
 
 

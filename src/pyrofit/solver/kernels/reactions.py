@@ -34,13 +34,21 @@ def decay(x, exact):
 
 
 @inner
-def order_factors(u, x, n):
+def power_of_share(m, ever, n):
+    """Return u^(n-1), u = m over the mass ``ever`` present; 1 where nothing is present."""
+    u = m / max(ever, TINY)
+    return power(where(u > 0.0, u, 1.0), n - 1.0)
+
+
+@inner
+def order_factors(held, x, n):
     """Return the factors that bring x = k dt of one reaction, and k behind the step, to order n.
+
+    ``held`` is u^(n-1) at the start of the step.
 
     du/dt = -k u^n is solved exactly: u_new^(1-n) = u^(1-n) (1 - y), y = (1 - n) x u^(n-1). That is
     first order with x u^(n-1) (-ln(1 - y)/y), and u_new^(n-1) = u^(n-1)/(1 - y).
     """
-    held = power(u, n - 1.0)
     y = (1.0 - n) * x * held
     far = abs(y) > NEAR
     near = where(far, 0.0, y)
@@ -60,15 +68,13 @@ def order_factors(u, x, n):
 
 
 @inner
-def ordered(m, ever, x, n):
-    """Return x = k dt brought to order n, and the factor of k at the end of the step.
+def ordered(m, held, x, n):
+    """Return x = k dt of a mass m brought to order n, and the factor of k at the end of the step.
 
-    The order is that in m over the mass ``ever`` present.
+    ``held`` is `power_of_share`.
     """
-    u = m / max(ever, TINY)
-    some = u > 0.0
-    factor, behind = order_factors(where(some, u, 1.0), x, n)
-    return where(some, x * factor, x), behind
+    factor, behind = order_factors(held, x, n)
+    return where(m > 0.0, x * factor, x), behind
 
 
 @inner
@@ -79,7 +85,8 @@ def bring_to_order(m, ever, j, end, room, network):
         return
     room.behind[j] = 1.0
     if is_curved(network, j):
-        room.x[j], room.behind[j] = ordered(m, ever, room.x[j], network.order[j])
+        held = power_of_share(m, ever, network.order[j])
+        room.x[j], room.behind[j] = ordered(m, held, room.x[j], network.order[j])
 
 
 @inner
@@ -128,7 +135,8 @@ def consume_alone(m, formed, n, j, room, network, exact, m_new):
     room.behind[j] = 1.0
     curved = is_curved(network, j)
     if curved:
-        room.x[j], room.behind[j] = ordered(m[i, n], formed[i, n], room.x[j], network.order[j])
+        held = power_of_share(m[i, n], formed[i, n], network.order[j])
+        room.x[j], room.behind[j] = ordered(m[i, n], held, room.x[j], network.order[j])
     e, _ = decay_of_order(room.x[j], network.order[j], curved, exact)
     m_new[i, n], room.used[j] = remaining(m[i, n], e)
     m_new[network.residue[j], n] += network.residue_yield[j] * room.used[j]
@@ -143,10 +151,12 @@ def is_curved(network, j):
 @inner
 def decay_of_order(x, n, curved, exact):
     """Return `decay`: exact where the order is not the first, as its closed form is."""
-    e, phi = decay(x, exact)
-    if curved and not exact:
-        e_exact, phi_exact = decay(x, True)
-        e, phi = where(n == 1.0, e, e_exact), where(n == 1.0, phi, phi_exact)
+    if not curved or exact:
+        return decay(x, exact)
+    e, phi = decay(x, True)
+    if somewhere(n == 1.0):
+        e_first, phi_first = decay(x, False)
+        e, phi = where(n == 1.0, e_first, e), where(n == 1.0, phi_first, phi)
     return e, phi
 
 

@@ -68,6 +68,8 @@ def _material(width, g, material):
         specific_heat=_lanes(width, g, material.specific_heat),
         emissivity=_lanes(width, g, material.emissivity),
         absorption=_lanes(width, g, material.absorption),
+        alike=material.alike,
+        constant=material.constant,
     )
 
 

@@ -33,6 +33,9 @@ class Work(NamedTuple):
     root: FloatArray
     """Square root of k_j [1/s^0.5], shape (reactions, cells)."""
     root_new: FloatArray
+    held: FloatArray
+    """u^(n-1) at the start of the step, u = m over the mass ever present, shape (reactions, cells);
+    where each reaction has its own reactant."""
     skin: FloatArray
     """Masses of the cells that left the grid [kg/m2], shape (components, 1)."""
 
@@ -67,14 +70,14 @@ def allocate(cells, behind, components, reactions, lanes):
     columns = cells + behind
     of_cells = row.COUNT * columns
     of_masses = 4 * components * cells
-    of_rates = 2 * reactions * cells
+    of_rates = 3 * reactions * cells
     raw = np.zeros((of_cells + of_masses + of_rates + components) * lanes + ALIGNED)
     free = raw[-(np.int64(raw.ctypes.data) // 8) % ALIGNED :]
     cell = free[: of_cells * lanes].reshape(row.COUNT, columns, lanes)
     free = free[of_cells * lanes :]
     masses = free[: of_masses * lanes].reshape(4, components, cells, lanes)
     free = free[of_masses * lanes :]
-    rates = free[: of_rates * lanes].reshape(2, reactions, cells, lanes)
+    rates = free[: of_rates * lanes].reshape(3, reactions, cells, lanes)
     free = free[of_rates * lanes :]
     return Work(
         cell=cell,
@@ -84,6 +87,7 @@ def allocate(cells, behind, components, reactions, lanes):
         formed_new=masses[3],
         root=rates[0],
         root_new=rates[1],
+        held=rates[2],
         skin=free[: components * lanes].reshape(components, 1, lanes),
     )
 
@@ -100,6 +104,7 @@ def in_width(width, flat):
         formed_new=in_lanes(width, flat.formed_new.reshape(flat.m.shape[0], -1, w)),
         root=in_lanes(width, flat.root.reshape(flat.root.shape[0], -1, w)),
         root_new=in_lanes(width, flat.root_new.reshape(flat.root.shape[0], -1, w)),
+        held=in_lanes(width, flat.held.reshape(flat.root.shape[0], -1, w)),
         skin=in_lanes(width, flat.skin),
     )
 
