@@ -46,6 +46,42 @@ def describe(work, first, material):
 
     k is mixed by volume, c by mass.
     """
+    if nodes(material) == 1:
+        sum_constant(work, first, material)
+    else:
+        sum_tables(work, first, material)
+    cell = work.cell
+    for n in live(work.m, first):
+        d, dk = cell[row.d, n], cell[row.dk, n]
+        cell[row.half_r, n] = fma(0.5 * d * d, nearly_inverse(max(dk, TINY)), LEAST_RESISTANCE)
+
+
+@inner
+def nodes(material):
+    """Return the number of nodes of the longest table."""
+    longest = max(material.expansion.shape[1], material.conductivity.shape[1])
+    return max(longest, material.specific_heat.shape[1])
+
+
+@inner
+def sum_constant(work, first, material):
+    """Fill thickness, times conductivity, and capacity of cells with constant properties."""
+    cell = work.cell
+    for i in range(work.m.shape[0]):
+        volume, expansion = material.specific_volume[i], material.expansion[i, 0]
+        k, c = material.conductivity[i, 0], material.specific_heat[i, 0]
+        for n in live(work.m, first):
+            m = work.m_new[i, n]
+            v = m * volume * expansion
+            add(cell, row.d, n, v, i)
+            add(cell, row.dk, n, v * k, i)
+            add(cell, row.C_new, n, m * c, i)
+            add(cell, row.C_lost, n, (work.m[i, n] - m) * c, i)
+
+
+@inner
+def sum_tables(work, first, material):
+    """Fill the same at T*; a table is looked up once for the components that share it."""
     cell = work.cell
     for n in live(work.m, first):
         place = place_of(cell[row.T_star, n])
@@ -65,10 +101,8 @@ def describe(work, first, material):
             dk += v * k
             C += m * c
             C_lost += (work.m[i, n] - m) * c
-        cell[row.d, n] = d
-        cell[row.C_new, n] = C
-        cell[row.C_lost, n] = C_lost
-        cell[row.half_r, n] = fma(0.5 * d * d, nearly_inverse(max(dk, TINY)), LEAST_RESISTANCE)
+        cell[row.d, n], cell[row.dk, n] = d, dk
+        cell[row.C_new, n], cell[row.C_lost, n] = C, C_lost
 
 
 @inner

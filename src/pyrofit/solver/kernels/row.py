@@ -33,9 +33,11 @@ gas = 20
 """Gas released in the step [kg/m2]."""
 stored, stored_old = 21, 22
 """Heat stored in the step, and used by the reactions [J/m2]."""
-grows = 23
+dk = 23
+"""Thickness times conductivity [W/K]."""
+grows = 24
 """T^2 times the slope of the reaction heat in T [J K/m2]."""
-burnt, power = 24, 25
+burnt, power = 25, 26
 """Heat of combustion of the gas released in the step [J/m2], and per time at its end [W/m2]."""
 
-COUNT = 26
+COUNT = 27
