@@ -33,6 +33,7 @@ def ends(monkeypatch: pytest.MonkeyPatch) -> Callable[[Iterable[float]], list[Fl
         def descend(
             model: object,
             x: FloatArray,
+            jacobian: FloatArray | None = None,
             enough: float = SETTINGS.converged_gain,
             known: Fit | None = None,
         ) -> Fit:
@@ -123,3 +124,14 @@ def test_effect_whose_start_leads_nowhere_is_fitted_from_where_it_is_absent(
     found = from_best_start(given, seen)
     assert found.fit.chi2 == given.fit.chi2 - 3.0
     assert begun[1] == pytest.approx(extended(given.fit.x, "k_T", strength_of("k_T")[1].value))
+
+
+def test_fit_begins_with_derivatives_at_hand() -> None:
+    # Of a linear model, those at hand are exact, so that none are made before the first step.
+    given = trial()
+    (seen,) = look_at(given, ["k_T"])
+    model = refit.model_with(given, "k_T")
+    for at in range(len(seen.strengths)):
+        x = refit._start(given, seen, at)
+        expected = model.jacobian(x, model.residuals(x))
+        assert refit._derivatives(given, seen, at) == pytest.approx(expected, abs=1e-6)

@@ -74,3 +74,44 @@ def test_idle_parameter_stays_and_keeps_its_derivatives() -> None:
     assert found.jacobian.shape == (41, 4)
     assert found.jacobian[40, 3] == pytest.approx(2.0, rel=1e-6)
     assert not found.jacobian[:40, 3].any()
+
+
+def valley(x: FloatArray) -> FloatArray:
+    """Return the residuals of Rosenbrock's function (doi 10.1093/comjnl/3.3.175) of 4 x - 2."""
+    u, v = 4.0 * x - 2.0
+    return np.array([10.0 * (v - u**2), 1.0 - u])
+
+
+def counted(
+    residuals: Residuals,
+) -> tuple[Callable[[FloatArray, FloatArray], FloatArray], list[FloatArray]]:
+    """Return the derivatives of residuals, and a list of the points where they were made."""
+    made: list[FloatArray] = []
+
+    def jacobian(x: FloatArray, r: FloatArray) -> FloatArray:
+        made.append(x)
+        return differences(residuals)(x, r)
+
+    return jacobian, made
+
+
+def test_derivatives_at_hand_are_confirmed_at_the_end_only() -> None:
+    def straight(x: FloatArray) -> FloatArray:
+        return ROWS @ (x - TRUTH)
+
+    jacobian, made = counted(straight)
+    start = np.array([0.9, 0.1, 0.9])
+    found = minimise(straight, jacobian, start, 1e-6, begin=ROWS)
+    assert found.x == pytest.approx(TRUTH, abs=1e-3)
+    assert len(made) == 1
+    assert found.fresh
+
+
+@pytest.mark.parametrize("start", [[0.2, 0.75], [0.1, 0.1], [0.05, 0.95]])
+def test_refused_steps_are_shortened_before_derivatives_are_made_anew(start: list[float]) -> None:
+    made = {}
+    for most in (0, 2):
+        jacobian, made[most] = counted(valley)
+        found = minimise(valley, jacobian, np.array(start), 1e-6, most_refused_updated=most)
+        assert found.x == pytest.approx([0.75, 0.75], abs=1e-3)
+    assert 3 * len(made[2]) <= len(made[0])

@@ -5,6 +5,7 @@ from dataclasses import dataclass
 from pyrofit.estimate.bounded_least_squares import (
     LIKE_PARABOLA,
     MOST_REFUSED,
+    MOST_REFUSED_UPDATED,
     MOST_STEPS,
     NEAR,
     RIDGE,
@@ -27,6 +28,8 @@ class Settings:
     """Steps of a descent at most."""
     most_refused: int = MOST_REFUSED
     """Refused steps in a row, each with ten times the damping, before a descent ends."""
+    most_refused_updated: int = MOST_REFUSED_UPDATED
+    """The same with updated derivatives, before these are made anew."""
     converged_gain: float = 0.05
     """A descent ends where the next step promises less of chi-square."""
     ridge: float = RIDGE

@@ -16,6 +16,8 @@ MOST_STEPS = 80
 """Steps at most."""
 MOST_REFUSED = 8
 """Refused steps in a row, each with ten times the damping, before a descent ends."""
+MOST_REFUSED_UPDATED = 2
+"""The same with updated derivatives, before these are made anew."""
 RIDGE = 1e-6
 """Added to the curvature, so that a parameter without influence does not move."""
 NEAR = 50.0
@@ -62,6 +64,7 @@ def minimise(
     known: Fit | None = None,
     most_steps: int = MOST_STEPS,
     most_refused: int = MOST_REFUSED,
+    most_refused_updated: int = MOST_REFUSED_UPDATED,
     ridge: float = RIDGE,
 ) -> Fit:
     """Minimise the sum of squares of residuals over x in [0, 1].
@@ -84,7 +87,7 @@ def minimise(
         Positions of parameters without influence, which keep their values.
     known
         A fit at hand: a descent that leads there ends early.
-    most_steps, most_refused, ridge
+    most_steps, most_refused, most_refused_updated, ridge
         As the constants of this module say.
     """
     x = np.clip(x, 0.0, 1.0)
@@ -97,7 +100,7 @@ def minimise(
     damping, refused, returned = 1e-3, 0, False
     for _ in range(most_steps):
         step = np.zeros(x.size)
-        step[moving], promised = _step(J, r, x[moving], damping, ridge)
+        step[moving], promised = _step(J, r, x[moving], damping * 10.0**refused, ridge)
         step[held] = 0.0
         gained = -1.0
         if promised > converged_gain:
@@ -107,23 +110,30 @@ def minimise(
         if gained > 0.0:
             taken = step[moving]
             J = J + np.outer(there - r - J @ taken, taken) / (taken @ taken)
+            damping = _damping(damping * 10.0**refused, gained / promised)
             x, r, fresh, refused = ahead, there, False, 0
-            damping = max(damping * (0.2 if gained > 0.5 * promised else 1.0), 1e-6)
             returned = known is not None and known.leads_here(x, float(r @ r))
         if returned:
             break
         if gained > converged_gain:
             continue
-        if not fresh:
+        is_refused = gained <= 0.0 and promised > converged_gain
+        if is_refused and refused < (most_refused if fresh else most_refused_updated):
+            refused += 1
+        elif not fresh:
             whole, fresh = _without(held, jacobian(x, r)), True
-            J = _columns(whole, moving)
-        elif promised <= converged_gain or refused == most_refused:
-            break
+            J, refused = _columns(whole, moving), 0
         else:
-            damping, refused = 10.0 * damping, refused + 1
+            break
     whole = whole.copy()
     whole[:, moving] = J
     return Fit(float(r @ r), x, r, whole, fresh, returned)
+
+
+def _damping(damping: float, reached: float) -> float:
+    """Return the next damping from the share of the promised fall that a step reached."""
+    factor = 0.2 if reached > 0.5 else 1.0 if reached > 0.1 else 5.0
+    return float(np.clip(factor * damping, 1e-6, 1e3))
 
 
 def _columns(jacobian: FloatArray, moving: list[int]) -> FloatArray:

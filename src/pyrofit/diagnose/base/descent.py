@@ -34,6 +34,7 @@ def descend(
         known=known,
         most_steps=SETTINGS.most_steps,
         most_refused=SETTINGS.most_refused,
+        most_refused_updated=SETTINGS.most_refused_updated,
         ridge=SETTINGS.ridge,
     )
 

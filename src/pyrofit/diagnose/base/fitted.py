@@ -93,7 +93,8 @@ def _ends(begins: Sequence[tuple[FittedModel, FloatArray]], processes: int) -> l
 
 def _from(trial: FittedModel, x: FloatArray) -> Fit:
     """Return where a rough descent from x ends, followed to its end if it ends lower."""
-    end = descend(trial.model, x, enough=SETTINGS.rough_gain, known=trial.fit)
+    begin, rough = trial.fit.jacobian, SETTINGS.rough_gain
+    end = descend(trial.model, x, begin, enough=rough, known=trial.fit)
     return followed(replace(trial, fit=end)).fit if end.chi2 < trial.fit.chi2 else end
 
 

@@ -44,11 +44,13 @@ def from_best_start(
 
     Where that ends higher, from no effect at all.
     """
-    model = model_with(trial, seen.effect)
-    end = descend(model, _start(trial, seen, starts(seen)[0]), enough=enough)
+    model, at = model_with(trial, seen.effect), starts(seen)[0]
+    begin = _derivatives(trial, seen, at)
+    end = descend(model, _start(trial, seen, at), begin, enough=enough)
     if end.chi2 >= trial.fit.chi2:
         _, quantity = strength_of(seen.effect)
-        end = descend(model, extended(trial.fit.x, seen.effect, quantity.value), enough=enough)
+        null = extended(trial.fit.x, seen.effect, quantity.value)
+        end = descend(model, null, begin, enough=enough)
     return FittedModel(model, end)
 
 
@@ -62,7 +64,8 @@ def from_elsewhere(
     """Fit an effect from other starts, too, until two end alike."""
     ends = [best.fit.chi2]
     for at in others:
-        end = descend(best.model, _start(trial, seen, at), enough=enough, known=best.fit)
+        begin = _derivatives(trial, seen, at)
+        end = descend(best.model, _start(trial, seen, at), begin, enough=enough, known=best.fit)
         best = lower_of(best, end)
         if end.returned or any(abs(end.chi2 - other) < SETTINGS.same_valley for other in ends):
             break
@@ -93,6 +96,13 @@ def _start(trial: FittedModel, seen: Screening, at: int) -> FloatArray:
     return x
 
 
+def _derivatives(trial: FittedModel, seen: Screening, at: int) -> FloatArray:
+    """Return derivatives to begin with: those of the model, and the secant to the strength."""
+    _, quantity = strength_of(seen.effect)
+    change = fraction(quantity, float(seen.strengths[at])) - fraction(quantity, quantity.value)
+    return np.column_stack([trial.fit.jacobian, seen.raw[:, at] / change])
+
+
 def model_with_form(trial: FittedModel, effect: str, parameter: str) -> Model:
     """Return the model with a form parameter of an effect free in addition."""
     free = {n: (*f, parameter) if n == effect else f for n, f in trial.model.effects.items()}
@@ -113,8 +123,11 @@ def with_form(trial: FittedModel, effect: str, parameter: str) -> FittedModel:
     spanned = projector(trial.fit)
     there = model.residuals_all(np.array(others))
     ahead = [float(np.sum(project(spanned, residuals) ** 2)) for residuals in there]
-    first = FittedModel(model, descend(model, usual))
-    other = descend(model, others[int(np.argmin(ahead))], known=first.fit)
+    best = int(np.argmin(ahead))
+    secant = (there[best] - trial.fit.residuals) / (others[best][at] - usual[at])
+    begin = np.insert(trial.fit.jacobian, at, secant, axis=1)
+    first = FittedModel(model, descend(model, usual, begin))
+    other = descend(model, others[best], begin, known=first.fit)
     return lower_of(first, other)
 
 

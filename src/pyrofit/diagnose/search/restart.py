@@ -97,6 +97,8 @@ def _reduced(
     def fit(k: int) -> Fit:
         whole = tasks[k][0]
         keep = [name in models[k].names for name in whole.model.names]
-        return refreshed(models[k], descend(models[k], whole.fit.x[keep]))
+        return refreshed(
+            models[k], descend(models[k], whole.fit.x[keep], whole.fit.jacobian[:, keep])
+        )
 
     return list(map(FittedModel, models, parallel_map(fit, len(models), processes)))
