@@ -69,12 +69,24 @@ def up_to_date(trial: FittedModel) -> FittedModel:
     return replace(trial, fit=refreshed(trial.model, trial.fit))
 
 
+def all_up_to_date(trials: Sequence[FittedModel], processes: int = 1) -> list[FittedModel]:
+    """Return trials with derivatives made at their ends."""
+    found = list(trials)
+    old = [k for k, trial in enumerate(trials) if not trial.fit.fresh]
+    fits = parallel_map(
+        lambda i: refreshed(trials[old[i]].model, trials[old[i]].fit), len(old), processes
+    )
+    for k, fit in zip(old, fits, strict=True):
+        found[k] = replace(trials[k], fit=fit)
+    return found
+
+
 def polished(trials: Sequence[FittedModel], processes: int = 1) -> list[FittedModel]:
     """Fit again from other values of hardly determined parameters; keep the lower fits.
 
     A parameter at a limit, or one of wide uncertainty, may be in the wrong of several valleys.
     """
-    found = [up_to_date(trial) for trial in trials]
+    found = all_up_to_date(trials, processes)
     lowered = list(range(len(found)))
     for _ in range(SETTINGS.most_polishing_rounds):
         begins = [(k, x) for k in lowered for x in _elsewhere(found[k])]
@@ -82,7 +94,7 @@ def polished(trials: Sequence[FittedModel], processes: int = 1) -> list[FittedMo
         ends = _ends([(found[k], x) for k, x in begins], processes)
         for (k, _), end in zip(begins, ends, strict=True):
             found[k] = lower_of(found[k], end)
-        found = [up_to_date(trial) for trial in found]
+        found = all_up_to_date(found, processes)
         lowered = [k for k in lowered if found[k].fit.chi2 < before[k] - SETTINGS.same_valley]
     return found
 
