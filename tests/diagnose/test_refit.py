@@ -126,8 +126,7 @@ def test_effect_whose_start_leads_nowhere_is_fitted_from_where_it_is_absent(
     assert begun[1] == pytest.approx(extended(given.fit.x, "k_T", strength_of("k_T")[1].value))
 
 
-def test_fit_begins_with_derivatives_at_hand() -> None:
-    # Of a linear model, those at hand are exact, so that none are made before the first step.
+def test_derivatives_at_hand_are_those_of_a_linear_model() -> None:
     given = trial()
     (seen,) = look_at(given, ["k_T"])
     model = refit.model_with(given, "k_T")

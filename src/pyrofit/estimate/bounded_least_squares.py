@@ -99,8 +99,8 @@ def minimise(
     J = _columns(whole, moving)
     damping, refused, returned = 1e-3, 0, False
     for _ in range(most_steps):
-        step = np.zeros(x.size)
-        step[moving], promised = _step(J, r, x[moving], damping * 10.0**refused, ridge)
+        step, damped = np.zeros(x.size), damping * 10.0**refused
+        step[moving], promised = _step(J, r, x[moving], damped, ridge)
         step[held] = 0.0
         gained = -1.0
         if promised > converged_gain:
@@ -110,7 +110,7 @@ def minimise(
         if gained > 0.0:
             taken = step[moving]
             J = J + np.outer(there - r - J @ taken, taken) / (taken @ taken)
-            damping = _damping(damping * 10.0**refused, gained / promised)
+            damping = _damping(damped, gained / promised)
             x, r, fresh, refused = ahead, there, False, 0
             returned = known is not None and known.leads_here(x, float(r @ r))
         if returned:
