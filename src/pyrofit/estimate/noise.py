@@ -11,6 +11,7 @@ from pyrofit.cost import Target
 from pyrofit.errors import DataError
 from pyrofit.estimate.correlation import Correlation, whiteness
 from pyrofit.estimate.scatter import scatter_of
+from pyrofit.estimate.spikes import spikes
 from pyrofit.model.signal import TIMING_S
 from pyrofit.quantities.base import Quantity
 from pyrofit.solver.arrays import FloatArray
@@ -59,6 +60,8 @@ class NoiseModel:
     """BIC of curve and scatter, the lower the better."""
     stated: bool = False
     """Whether the series has an uncertainty of its own."""
+    spikes: int = 0
+    """Single points far off their neighbours. That distance counts as their noise."""
     modes: FloatArray | None = None
     """Lasting scatter between repeats U, which adds U U^T to the covariance, shape (n, modes)."""
 
@@ -101,6 +104,7 @@ class NoiseModel:
     def describe(self) -> str:
         """Say its size, where that comes from, its correlation, and whether it whitens."""
         more = f"; the scatter is {self.excess:.2g} times that" if self.excess > 1.0 else ""
+        more += f"; {self.spikes} single points far off count little" if self.spikes else ""
         floors = ", ".join(f"{name} {size:.2g}" for name, size in self.floors.items())
         sd = np.median(self.total_sd)
         return (
@@ -145,6 +149,9 @@ def estimate_noise(
         A simulated curve, shape (n,), where one is at hand. The noise is then the scatter about the
         sum of that and a smooth one, which need not follow steep parts.
 
+    Single points far off their neighbours (`spikes`) do not count in this estimate, and get that
+    distance as an additional standard deviation.
+
     Raises
     ------
     DataError
@@ -157,7 +164,8 @@ def estimate_noise(
         return _of_few_points(stated, count, quantity)
     shape = np.ones(count) if stated is None else stated
     near = np.zeros(count) if about is None else about
-    fit = scatter_of(target.time_s, target.value - near, shape, stated is not None)
+    off = spikes(target.value - near)
+    fit = scatter_of(target.time_s, target.value - near - off, shape, stated is not None)
     larger = fit.scale > 1.0 + np.sqrt(2.0 / (count - fit.splines))
     scale = fit.scale if stated is None or larger else 1.0
     floors = _floors(target, near + fit.curve, quantity, timing_s, stated is not None)
@@ -166,7 +174,7 @@ def estimate_noise(
     if "discrepancy" in floors:
         correlation = Correlation(ar=float(np.exp(-1.0 / (LASTING * (count - 1)))))
         origin = "discrepancy of models, lasting over 10 % of the record"
-    squares = (scale * shape) ** 2 + sum(floor**2 for floor in floors.values())
+    squares = (scale * shape) ** 2 + sum(floor**2 for floor in floors.values()) + off**2
     return NoiseModel(
         sd=np.sqrt(squares),
         correlation=correlation,
@@ -178,6 +186,7 @@ def estimate_noise(
         floors={name: float(np.median(floor)) for name, floor in floors.items()},
         criterion=fit.criterion,
         stated=stated is not None,
+        spikes=int(np.count_nonzero(off)),
     )
 
 
