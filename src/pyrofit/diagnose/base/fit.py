@@ -38,7 +38,7 @@ class Setup:
     base: FittedModel
     candidates: tuple[str, ...]
     other_starts: tuple[FloatArray, ...] = ()
-    """Points within the limits of the base model, the lowest chi-square first."""
+    """Other ends of the base's fits, the lowest chi-square first, then points of its limits."""
 
 
 def set_up(study: Study, measurements: Measurements, processes: int = 1) -> Setup:
@@ -114,7 +114,8 @@ def _problem(study: Study, measurements: Measurements) -> Problem:
 def _fitted(base: Base, seed: int, processes: int) -> tuple[FittedModel, list[FloatArray]]:
     """Return the fit of the base from the best of several points spread over the limits.
 
-    The points are returned, too, the lowest chi-square first.
+    Other starts are returned, too: the ends in other valleys, the lowest chi-square first, then the
+    points.
     """
     model = model_of(base, {})
     starts = _starts(base, seed)
@@ -122,13 +123,23 @@ def _fitted(base: Base, seed: int, processes: int) -> tuple[FittedModel, list[Fl
     starts = [starts[k] for k in np.argsort(ahead, kind="stable")]
     first = starts[: SETTINGS.base_descents]
     ends = parallel_map(lambda k: descend(model, first[k]), len(first), processes)
-    best = min(ends, key=lambda end: end.chi2)
+    ends = sorted(ends, key=lambda end: end.chi2)
+    best = ends[0]
     if np.any(best.residuals[: model.points] == FAILED):
         raise DataError(
             "diagnosis: no run within the limits of the parameters finishes; check the limits and "
             "the description of the experiments"
         )
-    return polished([FittedModel(model, best)], processes)[0], starts
+    valleys = _apart([end.chi2 for end in ends])
+    others = [ends[k].x for k in valleys[1:]] + starts
+    return polished([FittedModel(model, best)], processes)[0], others
+
+
+def _apart(chi2: Sequence[float]) -> list[int]:
+    """Return the positions of ends in different valleys, from their chi-squares in order."""
+    found = [0]
+    found += [k for k in range(1, len(chi2)) if chi2[k] - chi2[k - 1] > SETTINGS.same_valley]
+    return found
 
 
 def _starts(base: Base, seed: int) -> list[FloatArray]:

@@ -2,6 +2,7 @@
 
 from collections.abc import Sequence
 from dataclasses import replace
+from itertools import islice
 
 import numpy as np
 
@@ -23,17 +24,26 @@ def best_of_each(trials: Sequence[FittedModel]) -> list[FittedModel]:
 
 
 def restarted(
-    start: FittedModel, trials: Sequence[FittedModel], context: SearchContext
-) -> FittedModel:
-    """Return the model that a step started from, where its followers lead to a lower minimum of it.
+    tasks: Sequence[tuple[FittedModel, Sequence[FittedModel]]], context: SearchContext
+) -> list[FittedModel]:
+    """Return the models that steps started from, where followers lead to a lower minimum of them.
 
-    A further effect may gain only because its fit starts anew. The leading models are therefore
-    fitted again without it, each from where it ended.
+    A further effect may gain only because its fit starts anew. The leading models of each step are
+    therefore fitted again without it, each from where it ended.
     """
-    leading = [t for t in trials if set(t.effects) > set(start.effects)][: SETTINGS.most_restarts]
-    again = _reduced([(trial, start.effects) for trial in leading], context.processes)
-    best = min(again, key=lambda trial: trial.penalised, default=start)
-    return best if best.penalised < start.penalised - SETTINGS.same_valley else start
+    wanted = [
+        [(trial, start.effects) for trial in trials if set(trial.effects) > set(start.effects)]
+        for start, trials in tasks
+    ]
+    wanted = [of_step[: SETTINGS.most_restarts] for of_step in wanted]
+    again = iter(_reduced([task for of_step in wanted for task in of_step], context.processes))
+    found = []
+    for (start, _), of_step in zip(tasks, wanted, strict=True):
+        ends = list(islice(again, len(of_step)))
+        best = min(ends, key=lambda trial: trial.penalised, default=start)
+        lower = best.penalised < start.penalised - SETTINGS.same_valley
+        found.append(best if lower else start)
+    return found
 
 
 def from_other_starts(trials: Sequence[FittedModel], context: SearchContext) -> list[FittedModel]:

@@ -1,12 +1,14 @@
 """One round of the search: every effect more in addition to a model, and in other forms."""
 
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Iterable, Sequence
 from dataclasses import dataclass
+from itertools import islice
 
 import numpy as np
 
 from pyrofit.diagnose.base.adequacy import LackOfFit
 from pyrofit.diagnose.base.fitted import FittedModel, followed, polished
+from pyrofit.diagnose.base.model import Model
 from pyrofit.diagnose.search.refit import (
     fixed_forms,
     from_best_start,
@@ -18,6 +20,7 @@ from pyrofit.diagnose.search.refit import (
 )
 from pyrofit.diagnose.search.score_test import Screening
 from pyrofit.diagnose.settings import SETTINGS
+from pyrofit.effects import known_effects
 from pyrofit.parallel import parallel_map
 from pyrofit.solver.arrays import FloatArray
 
@@ -57,91 +60,161 @@ class SearchStep:
     trials: tuple[FittedModel, ...] = ()
 
 
+Tried = Sequence[tuple[SearchStep, int]]
+"""Steps, each with the largest number of effects that are tried. They share the processes."""
+
+
 def singles(step: SearchStep, context: SearchContext) -> tuple[FittedModel, ...]:
     """Fit every effect alone, then the leading ones that have several forms in these."""
-    trials = _polished(_fitted(step, len(step.looks), context), context)
+    (trials,) = _polished(_fitted([(step, len(step.looks))], context), context)
     leading = [trial for trial in trials if fixed_forms(trial)][: SETTINGS.most_formed]
-    return in_order([*trials, *_forms(leading, context)])
+    (formed,) = _forms([leading], context)
+    return in_order([*trials, *formed])
 
 
-def more(step: SearchStep, most_tried: int, context: SearchContext) -> tuple[FittedModel, ...]:
-    """Fit one effect more, those that promise most, then the best model in other forms."""
-    trials = _polished(_fitted(step, most_tried, context), context)
-    return in_order([*trials, *_forms(trials[:1], context)])
+def more(tried: Tried, context: SearchContext) -> list[tuple[FittedModel, ...]]:
+    """Fit one effect more in each step, those that promise most, then its best model in forms."""
+    trials = _polished(_fitted(tried, context), context)
+    formed = _forms([of_step[:1] for of_step in trials], context)
+    return [in_order([*own, *forms]) for own, forms in zip(trials, formed, strict=True)]
 
 
-def _fitted(step: SearchStep, most: int, context: SearchContext) -> list[FittedModel]:
-    """Fit one effect more, those that promise most.
+@dataclass(frozen=True, eq=False)
+class _Try:
+    """An effect that is fitted in addition, in the step of this number."""
 
-    Roughly first, those that gain next to nothing from a second start as well. Those that come near
+    step: int
+    start: FittedModel
+    seen: Screening
+
+    @property
+    def model(self) -> Model:
+        return model_with(self.start, self.seen.effect)
+
+    @property
+    def group(self) -> tuple[int, str]:
+        return self.step, known_effects()[self.seen.effect].group
+
+
+def _fitted(tried: Tried, context: SearchContext) -> list[list[FittedModel]]:
+    """Fit one effect more in each step, those that promise most.
+
+    Roughly first, one effect of each group, then the others of the groups that come near the best.
+    Those that gain next to nothing are fitted from a second start as well. Those that come near
     the best one are then fitted to the end, from the other starts, too.
     """
-    start, processes = step.start, context.processes
-    looks = sorted(step.looks, key=lambda look: float(look.ahead.min()))[:most]
-    others = [starts(look)[1:] for look in looks]
-    fits = parallel_map(
-        lambda i: from_best_start(start, looks[i], SETTINGS.rough_gain).fit, len(looks), processes
-    )
-    models = [model_with(start, look.effect) for look in looks]
-    found = list(map(FittedModel, models, fits))
+    tries = [
+        _Try(k, step.start, seen)
+        for k, (step, most) in enumerate(tried)
+        for seen in _best(step, most)
+    ]
+    models, rough = [one.model for one in tries], SETTINGS.rough_gain
+    others = [starts(one.seen)[1:] for one in tries]
+    found: dict[int, FittedModel] = {}
 
-    def again(which: list[int], fit: Callable[[int], FittedModel]) -> None:
-        ends = parallel_map(lambda k: fit(which[k]).fit, len(which), processes)
-        for i, end in zip(which, ends, strict=True):
-            found[i] = FittedModel(models[i], end)
+    def fit(which: Iterable[int], how: Callable[[int], FittedModel]) -> None:
+        wanted = list(which)
+        ends = parallel_map(lambda k: how(wanted[k]).fit, len(wanted), context.processes)
+        found.update((i, FittedModel(models[i], end)) for i, end in zip(wanted, ends, strict=True))
+
+    def near(i: int) -> bool:
+        of_step = [trial.fit.chi2 for k, trial in found.items() if tries[k].step == tries[i].step]
+        return found[i].fit.chi2 <= min(of_step) + SETTINGS.hopeless_chi2
+
+    def little(i: int) -> bool:
+        share = 1.0 - SETTINGS.little_gain_share
+        return found[i].fit.chi2 > share * tries[i].start.fit.chi2
+
+    def roughly(i: int) -> FittedModel:
+        return from_best_start(tries[i].start, tries[i].seen, rough)
 
     def once_more(i: int) -> FittedModel:
-        return from_elsewhere(start, looks[i], found[i], others[i][:1], SETTINGS.rough_gain)
+        return from_elsewhere(tries[i].start, tries[i].seen, found[i], others[i][:1], rough)
 
     def to_the_end(i: int) -> FittedModel:
-        return from_elsewhere(start, looks[i], followed(found[i]), others[i])
+        return from_elsewhere(tries[i].start, tries[i].seen, followed(found[i]), others[i])
 
-    little = (1.0 - SETTINGS.little_gain_share) * start.fit.chi2
-    again([i for i, trial in enumerate(found) if trial.fit.chi2 > little], once_more)
-    hopeful = min((trial.fit.chi2 for trial in found), default=0.0) + SETTINGS.hopeless_chi2
-    again([i for i, trial in enumerate(found) if trial.fit.chi2 <= hopeful], to_the_end)
-    return _told(found, context)
+    first: dict[tuple[int, str], int] = {}
+    for i, one in enumerate(tries):
+        first.setdefault(one.group, i)
+    fit(first.values(), roughly)
+    leading = {tries[i].group for i in found if near(i)}
+    fit([i for i, one in enumerate(tries) if i not in found and one.group in leading], roughly)
+    fit([i for i in sorted(found) if little(i)], once_more)
+    fit([i for i in sorted(found) if near(i)], to_the_end)
+    _told([found[i] for i in sorted(found)], context)
+    return [[found[i] for i in sorted(found) if tries[i].step == k] for k in range(len(tried))]
 
 
-def _forms(leading: Sequence[FittedModel], context: SearchContext) -> list[FittedModel]:
-    """Fit each model with one form parameter more, then the best one with a second, if that pays.
+def _best(step: SearchStep, most: int) -> list[Screening]:
+    return sorted(step.looks, key=lambda look: float(look.ahead.min()))[:most]
+
+
+def _forms(
+    leading: Sequence[Sequence[FittedModel]], context: SearchContext
+) -> list[list[FittedModel]]:
+    """Fit models of each step with one form parameter more, the best one with a second, if it pays.
 
     Models whose form parameter lowers the penalised chi-square are searched on from elsewhere:
     otherwise a further effect may gain only because its fit starts anew.
     """
-    found: list[FittedModel] = []
+    found: list[list[FittedModel]] = [[] for _ in leading]
     for _ in range(SETTINGS.most_form_parameters):
-        tasks = [(trial, *form) for trial in leading for form in fixed_forms(trial)]
+        tasks = [
+            (k, trial, *form)
+            for k, trials in enumerate(leading)
+            for trial in trials
+            for form in fixed_forms(trial)
+        ]
         if not tasks:
             break
-        formed = _told(_with_forms(tasks, context.processes), context)
-        paying = [
-            trial
-            for trial, (start, *_) in zip(formed, tasks, strict=True)
-            if trial.penalised < start.penalised
-        ]
-        paying = polished(in_order(paying)[: SETTINGS.most_polished_forms], context.processes)
-        found += [*formed, *paying]
-        leading = in_order(paying)[:1]
+        formed = _told(with_forms([task[1:] for task in tasks], context.processes), context)
+        paying: list[list[FittedModel]] = [[] for _ in leading]
+        for (k, start, *_), trial in zip(tasks, formed, strict=True):
+            found[k].append(trial)
+            if trial.penalised < start.penalised:
+                paying[k].append(trial)
+        chosen = [in_order(trials)[: SETTINGS.most_polished_forms] for trials in paying]
+        better = together(lambda trials: polished(trials, context.processes), chosen)
+        for k, trials in enumerate(better):
+            found[k] += trials
+        leading = [in_order(trials)[:1] for trials in better]
     return found
 
 
-def _with_forms(tasks: Sequence[tuple[FittedModel, str, str]], processes: int) -> list[FittedModel]:
+def with_forms(tasks: Sequence[tuple[FittedModel, str, str]], processes: int) -> list[FittedModel]:
     """Fit a model with a form parameter of an effect more, for each such task."""
     fits = parallel_map(lambda i: with_form(*tasks[i]).fit, len(tasks), processes)
     return list(map(FittedModel, (model_with_form(*task) for task in tasks), fits))
 
 
-def _polished(trials: Sequence[FittedModel], context: SearchContext) -> list[FittedModel]:
-    """Return the trials in order, the leading ones searched on from elsewhere."""
-    order = in_order(trials)
+def _polished(
+    trials: Sequence[Sequence[FittedModel]], context: SearchContext
+) -> list[list[FittedModel]]:
+    """Return the trials of each step in order, the leading ones searched on from elsewhere."""
+    orders = [in_order(of_step) for of_step in trials]
     leading = [
-        t
-        for t in order[: SETTINGS.most_polished]
-        if t.penalised <= order[0].penalised + SETTINGS.hopeless_chi2
+        [
+            trial
+            for trial in order[: SETTINGS.most_polished]
+            if trial.penalised <= order[0].penalised + SETTINGS.hopeless_chi2
+        ]
+        for order in orders
     ]
-    better = polished(leading, context.processes)
-    return list(in_order([*better, *order[len(leading) :]]))
+    better = together(lambda trials: polished(trials, context.processes), leading)
+    return [
+        list(in_order([*of_step, *order[len(of_step) :]]))
+        for of_step, order in zip(better, orders, strict=True)
+    ]
+
+
+def together(
+    work: Callable[[list[FittedModel]], list[FittedModel]],
+    lists: Sequence[Sequence[FittedModel]],
+) -> list[list[FittedModel]]:
+    """Return the lists with each model worked on, all in one call."""
+    ends = iter(work([trial for trials in lists for trial in trials]))
+    return [list(islice(ends, len(trials))) for trials in lists]
 
 
 def _told(trials: list[FittedModel], context: SearchContext) -> list[FittedModel]:

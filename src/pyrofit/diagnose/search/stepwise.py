@@ -7,20 +7,27 @@ import numpy as np
 
 from pyrofit.diagnose.base.adequacy import LackOfFit, lack_of_fit
 from pyrofit.diagnose.base.fit import blurred, clearer, refitted, refitted_all, with_noise_about
-from pyrofit.diagnose.base.fitted import FittedModel, misfits, up_to_date
+from pyrofit.diagnose.base.fitted import FittedModel, misfits, polished, up_to_date
 from pyrofit.diagnose.search.branches import branches
-from pyrofit.diagnose.search.refit import look_at, model_with, with_effect
+from pyrofit.diagnose.search.refit import fixed_forms, look_at, model_with, with_effect
 from pyrofit.diagnose.search.restart import (
     best_of_each,
     from_other_starts,
     refitted_without,
     restarted,
 )
-from pyrofit.diagnose.search.step import SearchContext, SearchStep, in_order, more, singles
+from pyrofit.diagnose.search.step import (
+    SearchContext,
+    SearchStep,
+    in_order,
+    more,
+    singles,
+    with_forms,
+)
 from pyrofit.diagnose.settings import SETTINGS
 from pyrofit.parallel import parallel_map
 
-Fitting = Callable[[SearchStep], Sequence[FittedModel]]
+Fitting = Callable[[Sequence[SearchStep]], Sequence[Sequence[FittedModel]]]
 
 
 @dataclass(frozen=True, eq=False)
@@ -109,7 +116,7 @@ class _Pass:
             first = _sharp(first, self.context)
         if first.lack.passes:
             return Search((first,), first.start, first.lack, self.spare)
-        first = self._fitted(first, lambda step: self._singles(step))
+        (first,) = self._fitted([first], lambda steps: [self._singles(steps[0])])
         best, best_lack, rounds = first.start, first.lack, [first]
         beam = branches([first], self.spare, self.context)
         while beam:
@@ -120,11 +127,13 @@ class _Pass:
             if best_lack.passes or len(beam[0].effects) >= self.most:
                 break
             steps += [self._onwards(trial) for trial in beam[1:]]
-            steps = [self._more(step, first=k == 0) for k, step in enumerate(steps)]
+            steps = self._more(steps)
             rounds += steps
             beam = branches(steps, self.spare, self.context)
         found = self._not_above_carried(Search(tuple(rounds), best, best_lack, self.spare))
-        return self._exchanged(found) if len(found.end.effects) > 1 else found
+        if len(found.end.effects) > 1:
+            found = self._exchanged(found)
+        return self._formed(found)
 
     def _not_above_carried(self, found: Search) -> Search:
         """Return the search ended with the best carried model, where that ranks before its end."""
@@ -147,40 +156,63 @@ class _Pass:
         trials = singles(step, self.context)
         return in_order([*trials, *from_other_starts(trials, self.context)])
 
-    def _more(self, step: SearchStep, first: bool) -> SearchStep:
-        most = (
-            SETTINGS.candidates_of_first_branch if first else SETTINGS.candidates_of_second_branch
+    def _more(self, steps: Sequence[SearchStep]) -> list[SearchStep]:
+        """Fit one effect more to the models that are carried on, the best one first."""
+        first = SETTINGS.candidates_of_first_branch
+        second = SETTINGS.candidates_of_second_branch
+        mosts = [first, *[second] * (len(steps) - 1)]
+        return self._fitted(
+            steps, lambda given: more(list(zip(given, mosts, strict=True)), self.context)
         )
-        return self._fitted(step, lambda given: more(given, most, self.context))
 
-    def _fitted(self, step: SearchStep, fitting: Fitting) -> SearchStep:
+    def _fitted(self, steps: Sequence[SearchStep], fitting: Fitting) -> list[SearchStep]:
         """Fit one effect more; where that leads to a lower start, fit the leading ones from it."""
-        size = len(step.start.effects) + 1
-        own = [
-            trial
-            for trial in self.carried
-            if len(trial.effects) == size and set(step.start.effects) <= set(trial.effects)
+        fits = fitting(steps)
+        trials = [
+            best_of_each([*own, *self._carried(step)])
+            for step, own in zip(steps, fits, strict=True)
         ]
-        trials = best_of_each([*fitting(step), *own])
-        start = restarted(step.start, trials, self.context)
-        if start is not step.start:
-            self.context.tell(f"a lower minimum without the last effect: {start.fit.chi2:.1f}")
-            step = _look(start, [look.effect for look in step.looks], self.context)
-            trials = best_of_each([*trials, *more(step, SETTINGS.most_refitted, self.context)])
-        return replace(step, trials=tuple(trials))
+        tasks = [(step.start, own) for step, own in zip(steps, trials, strict=True)]
+        found = list(steps)
+        lower: list[int] = []
+        for k, start in enumerate(restarted(tasks, self.context)):
+            if start is not found[k].start:
+                self.context.tell(f"a lower minimum without the last effect: {start.fit.chi2:.1f}")
+                found[k] = _look(start, [seen.effect for seen in found[k].looks], self.context)
+                lower.append(k)
+        again = more([(found[k], SETTINGS.most_refitted) for k in lower], self.context)
+        for k, own in zip(lower, again, strict=True):
+            trials[k] = best_of_each([*trials[k], *own])
+        return [replace(step, trials=tuple(own)) for step, own in zip(found, trials, strict=True)]
+
+    def _carried(self, step: SearchStep) -> list[FittedModel]:
+        """Return the models of an earlier pass that have one effect more than a step's start."""
+        size, effects = len(step.start.effects) + 1, set(step.start.effects)
+        return [t for t in self.carried if len(t.effects) == size and effects <= set(t.effects)]
 
     def _exchanged(self, found: Search) -> Search:
         """Try other effects in the place of each of the final model; take the best model."""
-        rounds = list(found.rounds)
-        for without in refitted_without(found.end, found.end.effects, self.context.processes):
-            step = self._onwards(without)
-            trials = more(step, SETTINGS.most_exchanged, self.context)
-            rounds.append(replace(step, trials=tuple(trials)))
+        reduced = refitted_without(found.end, found.end.effects, self.context.processes)
+        steps = [self._onwards(without) for without in reduced]
+        trials = more([(step, SETTINGS.most_exchanged) for step in steps], self.context)
+        tried = [replace(step, trials=own) for step, own in zip(steps, trials, strict=True)]
+        rounds = [*found.rounds, *tried]
         same = [
             t for step in rounds for t in step.trials if len(t.effects) == len(found.end.effects)
         ]
         (best, *_) = in_order([found.end, *same])
         found = replace(found, rounds=tuple(rounds))
+        return found if best is found.end else self._ended(found, best)
+
+    def _formed(self, found: Search) -> Search:
+        """Fit form parameters of the final model that pay, before a test may reject an effect."""
+        best = found.end
+        for _ in range(SETTINGS.most_form_parameters):
+            tasks = [(best, *form) for form in fixed_forms(best)]
+            formed = in_order(with_forms(tasks, self.context.processes))
+            if not formed or formed[0].penalised >= best.penalised:
+                break
+            (best,) = polished(formed[:1], self.context.processes)
         return found if best is found.end else self._ended(found, best)
 
 
