@@ -10,11 +10,12 @@ import pandas as pd
 import pytest
 
 from pyrofit.config import Study, TermSpec, read_study
-from pyrofit.diagnose.advise.correction_forms import corrections
-from pyrofit.diagnose.advise.free_corrections import Probe, probes, with_coefficients
+from pyrofit.diagnose.advise.free_corrections import Probe, probes
 from pyrofit.diagnose.base.descent import descend
 from pyrofit.diagnose.base.fitted import FittedModel
 from pyrofit.diagnose.base.model import Base, model_of
+from pyrofit.diagnose.corrections.fit import with_coefficients
+from pyrofit.diagnose.corrections.forms import corrections
 from pyrofit.diagnose.search.refit import look_at, with_effect
 from pyrofit.effects.base import changed
 from pyrofit.effects.substance import properties_changed

@@ -81,6 +81,10 @@ def found(study: Study, kind: str) -> dict[str, Any]:
             "groups": ["conductivity with temperature"] * len(effects),
             "forms": ["linear in temperature"] * len(effects),
             "sets": SETS.get(kind, [[name] for name in effects]),
+            "other_terms": [
+                [{"words": "another heat loss of the front", "above": 40.0}] * (kind == "named")
+                for _ in effects
+            ],
             "confirmed": kind == "named",
             "words": f"These are the words of {kind}.",
             "reasons": [] if quiet else ["chi-square falls by 400.", "predictions improve"],

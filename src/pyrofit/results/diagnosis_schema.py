@@ -17,6 +17,13 @@ class OfSuspect(Record):
     gain: float = Field(description="fall of chi-square that the score test promises")
 
 
+class OfOtherTerm(Record):
+    """A free correction of another term of the model, in the place of an effect."""
+
+    words: str = Field(description="the correction in words")
+    above: float = Field(description="-2 ln of its marginal likelihood less that of the effect")
+
+
 class OfVerdict(Record):
     """The verdict."""
 
@@ -25,6 +32,9 @@ class OfVerdict(Record):
     groups: list[str] = Field(description="missing items, by effect")
     forms: list[str] = Field(description="in which form each is found, in words")
     sets: list[list[str]] = Field(description="per effect, those that cannot be told from it")
+    other_terms: list[list[OfOtherTerm]] = Field(
+        description="per effect, free corrections in its place, where they were fitted"
+    )
     confirmed: bool = Field(
         description="effects are named, and predictions improve with each, held-out ones included"
     )
@@ -206,7 +216,7 @@ class Diagnosis(Record):
     solver: OfSolver = Field(description="accuracy of the solver")
     needed: float = Field(description="gain of chi-square that a claim needs")
     ambiguity: float = Field(description="difference of penalised chi-square that decides nothing")
-    not_tried: list[OfNotTried] = Field(description="effects that are no candidates")
+    not_tried: list[OfNotTried] = Field(description="effects that were not fitted")
     candidates: list[OfCandidate] = Field(description="models with effects, the best first")
     extended: OfExtended = Field(description="the model that the search ended with")
     gap: list[OfGap] = Field(description="misfit before and after, by signal")

@@ -1,6 +1,6 @@
 """Free corrections that would absorb the misfit that no effect of the catalogue explains.
 
-Each correction (`pyrofit.diagnose.advise.correction_forms`) is fitted jointly with all other
+Each correction (`pyrofit.diagnose.corrections`) is fitted jointly with all other
 parameters. Its coefficients have a normal prior about zero, where the model is unchanged. A probe
 shows the kind and the shape of a missing term; it is not an effect, nor is one claimed from it.
 """
@@ -10,14 +10,12 @@ from dataclasses import dataclass, replace
 import numpy as np
 from scipy.stats import chi2 as chi_squared
 
-from pyrofit.diagnose.advise.correction_forms import Correction, Shape, corrections
-from pyrofit.diagnose.base.descent import Fit, descend
+from pyrofit.diagnose.base.descent import Fit
 from pyrofit.diagnose.base.fitted import FittedModel
-from pyrofit.diagnose.base.model import Model
+from pyrofit.diagnose.corrections.fit import corrected, with_coefficients
+from pyrofit.diagnose.corrections.forms import Correction, Shape, corrections
 from pyrofit.diagnose.settings import SETTINGS
-from pyrofit.estimate.likelihood import Likelihood
 from pyrofit.estimate.posterior import freedom
-from pyrofit.estimate.prior import NormalPrior
 from pyrofit.parallel import parallel_map
 
 
@@ -28,7 +26,7 @@ class Probe:
     Parameters
     ----------
     probe
-        ``flux``, ``conductivity``, ``heat_capacity`` or ``front_loss``.
+        ``flux``, ``conductivity``, ``heat_capacity``, ``front_loss`` or ``back_loss``.
     what
         The same in words.
     coefficients
@@ -67,7 +65,7 @@ def probes(trial: FittedModel, processes: int = 1) -> list[Probe]:
     """
     likelihood = trial.model.likelihood
     wanted = corrections(likelihood.problem, likelihood.values(trial.fit.x))
-    fits = parallel_map(lambda i: _fit(trial, wanted[i]), len(wanted), processes)
+    fits = parallel_map(lambda i: corrected(trial, wanted[i]), len(wanted), processes)
     found = [_probe(trial, *pair) for pair in zip(wanted, fits, strict=True)]
     noise = min([freedom(trial.fit.jacobian, trial.fit.x), *(probe.chi2 for probe in found)])
     judged = [replace(probe, absorbed=_absorbed(trial.fit.chi2, probe, noise)) for probe in found]
@@ -81,12 +79,6 @@ def _absorbed(before: float, probe: Probe, noise: float) -> float:
     if chi_squared.sf(gain, len(probe.coefficients)) > SETTINGS.false_alarm_level:
         return 0.0
     return min(gain / (before - noise), 1.0)
-
-
-def _fit(trial: FittedModel, correction: Correction) -> Fit:
-    """Fit all parameters and the coefficients from the model's fit, where these are zero."""
-    none = np.full(len(correction.sd), 0.5)
-    return descend(with_coefficients(trial.model, correction), np.append(trial.fit.x, none))
 
 
 def _probe(trial: FittedModel, correction: Correction, fit: Fit) -> Probe:
@@ -103,22 +95,3 @@ def _probe(trial: FittedModel, correction: Correction, fit: Fit) -> Probe:
         shape=correction.shape(model.likelihood.problem.values(values)),
         unit=correction.unit,
     )
-
-
-def with_coefficients(model: Model, correction: Correction) -> Model:
-    """Return the model with a correction; its coefficients follow all other parameters."""
-    problem, known = correction.problem, model.likelihood.prior
-    sd = np.array(list(correction.sd.values()))
-    count = len(problem.names)
-    wider = replace(
-        problem,
-        names=(*problem.names, *correction.sd),
-        lower=np.append(problem.lower, -SETTINGS.widest_correction * sd),
-        upper=np.append(problem.upper, SETTINGS.widest_correction * sd),
-    )
-    prior = NormalPrior(
-        index=(*known.index, *range(count, count + sd.size)),
-        mean=np.append(known.mean, np.zeros(sd.size)),
-        sd=np.append(known.sd, sd),
-    )
-    return replace(model, likelihood=Likelihood(wider, model.likelihood.noise, prior))

@@ -5,6 +5,7 @@ from typing import Literal
 
 from pyrofit.diagnose.base.fitted import FittedModel
 from pyrofit.diagnose.judge.claim_tests import Trust
+from pyrofit.diagnose.judge.other_terms import OtherTerm
 from pyrofit.diagnose.search.stepwise import Search
 from pyrofit.effects import known_effects
 
@@ -31,6 +32,8 @@ class Finding:
     effect: str
     judged: tuple[Judged, ...]
     """The best of each effect, the leading one first."""
+    others: tuple[OtherTerm, ...] = ()
+    """Free corrections of other terms in the effect's place, where they were fitted."""
 
     @property
     def kept(self) -> list[Judged]:
@@ -69,8 +72,18 @@ class Finding:
 
     @property
     def sure(self) -> bool:
+        """Whether nothing else explains the data as well, and all other signals are predicted."""
+        return self.agreed and not self.open_terms
+
+    @property
+    def agreed(self) -> bool:
         """Whether all agree on the group, and it explains and predicts all signals not fitted."""
         return bool(self.group) and self.predicted and self.explains and not self.outvoted
+
+    @property
+    def open_terms(self) -> list[str]:
+        """Other terms of the model, in words, that explain the data as well."""
+        return [other.words for other in self.others if other.fits_as_well]
 
     @property
     def outvoted(self) -> bool:
@@ -110,5 +123,5 @@ class Verdict:
     def confirmed(self) -> bool:
         """Whether the claimed effects predict signals that were not fitted, none of them worse."""
         if self.kind == "partly":
-            return not any(finding.outvoted for finding in self.findings)
+            return not any(f.outvoted or f.open_terms for f in self.findings)
         return self.kind in ("named", "multiple") and all(f.sure for f in self.findings)

@@ -1,13 +1,15 @@
 """The verdict: the effects that may be claimed after the search, and how surely."""
 
 from collections.abc import Sequence
+from dataclasses import replace
 
 import numpy as np
 
-from pyrofit.diagnose.base.fitted import FittedModel
+from pyrofit.diagnose.base.fitted import FittedModel, up_to_date
 from pyrofit.diagnose.base.prediction import HELD_OUT
 from pyrofit.diagnose.judge.findings import Finding, Judged, Kind, Suspect, Verdict
 from pyrofit.diagnose.judge.inflation import inflation_of
+from pyrofit.diagnose.judge.other_terms import other_terms
 from pyrofit.diagnose.judge.places import ended, findings_of, needed
 from pyrofit.diagnose.search.refit import look_at
 from pyrofit.diagnose.search.stepwise import Search
@@ -41,16 +43,37 @@ def judge(found: Search, rng: np.random.Generator, processes: int = 1) -> Verdic
     if reasons:
         part = _partly(found, findings, without, rng, processes)
         return part or Verdict("unknown", found, findings, tuple(reasons))
-    return _explained(found, findings)
+    return _explained(found, findings, without, processes)
 
 
-def _explained(found: Search, findings: Sequence[Finding]) -> Verdict:
+def _explained(
+    found: Search,
+    findings: Sequence[Finding],
+    without: Sequence[FittedModel],
+    processes: int,
+) -> Verdict:
     """Return the verdict on effects that leave nothing but noise."""
+    if all(finding.agreed for finding in findings):
+        findings = _with_other_terms(found, findings, without, processes)
     doubts = tuple(_doubts(found, findings))
     kind: Kind = "multiple" if len(findings) > 1 else "named"
     if ONE_FLUX in doubts or (kind == "named" and not findings[0].sure):
         kind = "ambiguous"
     return Verdict(kind, found, tuple(findings), doubts)
+
+
+def _with_other_terms(
+    found: Search,
+    findings: Sequence[Finding],
+    without: Sequence[FittedModel],
+    processes: int,
+) -> list[Finding]:
+    """Return findings with the free corrections that were fitted in their places."""
+    others = other_terms(up_to_date(found.end), without, processes)
+    return [
+        replace(finding, others=tuple(terms))
+        for finding, terms in zip(findings, others, strict=True)
+    ]
 
 
 def _reasons(findings: Sequence[Finding]) -> list[str]:
@@ -80,12 +103,15 @@ def _partly(
         found, without = needed(ended(found, without[least], rng), rng, processes)
         findings = findings_of(found, without, rng, processes)
     if found.end_lack.adequate:
-        return _explained(found, findings)
+        return _explained(found, findings, without, processes)
     if all_fit or ONE_FLUX in _doubts(found, findings):
         return None
     leading = [finding.kept[0] for finding in findings]
+    if not any(judged.trust.outvoted for judged in leading):
+        findings = tuple(_with_other_terms(found, findings, without, processes))
     suspects = _suspects(found, processes)
-    return Verdict("partly", found, tuple(findings), (_rest(found), *_outvoted(leading)), suspects)
+    reasons = (_rest(found), *_outvoted(leading), *_open_terms(findings))
+    return Verdict("partly", found, tuple(findings), reasons, suspects)
 
 
 def _rest(found: Search) -> str:
@@ -138,8 +164,19 @@ def _doubts(found: Search, findings: Sequence[Finding]) -> list[str]:
     kept = [judged for finding in findings for judged in finding.kept]
     doubts += map(_unconfirmed, (j for j in kept if not (j.trust.outvoted or j.trust.confirmed)))
     doubts += _outvoted(kept)
+    doubts += _open_terms(findings)
     open_ones = [finding for finding in findings if not finding.group]
     return doubts + [f"these data do not separate {_listed(finding)}" for finding in open_ones]
+
+
+def _open_terms(findings: Sequence[Finding]) -> list[str]:
+    """Name other terms of the model that explain the data as well as an effect does."""
+    return [
+        f"{finding.leading}: {words} explains the data as well, so that an effect outside the "
+        "catalogue may be the reason"
+        for finding in findings
+        for words in finding.open_terms
+    ]
 
 
 def _listed(finding: Finding) -> str:

@@ -117,7 +117,20 @@ def certainty(study: Study, found: Found) -> str:
     said += [
         f"The log score of predictions changes by {listed(gains)}; a claim needs a rise of 2."
     ] * bool(gains)
-    return " ".join(said)
+    return " ".join([*said, *_other_terms(found)])
+
+
+def _other_terms(found: Found) -> list[str]:
+    """State whether free corrections of other terms explain the data as well."""
+    verdict = found["verdict"]
+    named = zip(verdict["effects"], verdict["other_terms"], strict=True)
+    nearest = [(min(terms, key=lambda term: term["above"]), e) for e, terms in named if terms]
+    return [
+        f"The nearest free correction in the place of {effect_name(effect)} is {term['words']}: "
+        f"-2 ln of its marginal likelihood is {term['above']:+.1f} against the effect; "
+        f"above {found['ambiguity']:g} the data separate them."
+        for term, effect in nearest
+    ]
 
 
 def _of_noise(study: Study, found: Found) -> list[str]:

@@ -1,7 +1,7 @@
 """Free corrections of a description: a handful of coefficients, zero where nothing is corrected.
 
-The flux over time, the conductivity and the heat capacity over temperature, and the loss of the
-front over its temperature, the same for all experiments.
+The flux over time, the conductivity and the heat capacity over temperature, and the losses of front
+and back over their temperatures, the same for all experiments.
 """
 
 from collections.abc import Callable, Mapping
@@ -10,14 +10,14 @@ from typing import Any
 
 import numpy as np
 
-from pyrofit.diagnose.advise.flux_tables import described_at, merged, named, table_of
+from pyrofit.diagnose.corrections.flux_tables import described_at, merged, named, table_of
 from pyrofit.diagnose.settings import SETTINGS
-from pyrofit.effects.base import changed
+from pyrofit.effects.base import changed, has_open_back
 from pyrofit.effects.substance import properties_changed, shares
 from pyrofit.estimate.problem import Outcome, Problem
 from pyrofit.model.base import value_of
 from pyrofit.model.slab import SlabExperiment
-from pyrofit.model.slab_faces import Front
+from pyrofit.model.slab_faces import Side
 from pyrofit.model.time_table import TimeTable, at_start
 from pyrofit.simulate import simulate_gasification
 from pyrofit.solver.arrays import FloatArray
@@ -27,7 +27,7 @@ from pyrofit.solver.lower_property import property_table
 from pyrofit.solver.outputs import FRONT, MASS
 
 LOSS_SD = {"gas_temperature_K": 30.0, "h_change_W_m2K": 6.0, "h_cube_root_W_m2K43": 0.8}
-"""Prior standard deviations for the front's loss, SI units, by key of the description."""
+"""Prior standard deviations for the loss of a side, SI units, by key of the description."""
 PROPERTIES = {
     "conductivity": ("conductivity_W_mK", "W/(m K)", "a conductivity that varies with temperature"),
     "heat_capacity": (
@@ -40,6 +40,15 @@ PROPERTIES = {
 
 Shape = list[tuple[float, float]]
 Values = Mapping[str, float]
+
+SAME_TERM = {
+    "flux": ("flux over time", "amount of flux", "timing"),
+    "conductivity": ("conductivity with temperature",),
+    "heat_capacity": ("heat capacity with temperature",),
+    "front_loss": ("front loss",),
+    "back_loss": ("back loss",),
+}
+"""Groups of effects that change the same term of the model, by correction."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -88,7 +97,10 @@ def corrections(problem: Problem, x: FloatArray) -> list[Correction]:
     values = problem.values(x)
     T = _temperatures(problem, values)
     of_properties = [_property(problem, values, T, probe) for probe in PROPERTIES]
-    return [_flux(problem), *of_properties, _front_loss(problem, T)]
+    found = [_flux(problem), *of_properties, _loss(problem, T, "front")]
+    if any(has_open_back(slab) for slab in _slabs(problem).values()):
+        found.append(_loss(problem, T, "back"))
+    return found
 
 
 def _flux(problem: Problem) -> Correction:
@@ -119,7 +131,7 @@ def _flux(problem: Problem) -> Correction:
         what="a factor on the external flux that varies over time",
         unit="-",
         sd=dict.fromkeys(names, SETTINGS.correction_flux_sd),
-        problem=_derived(problem, fronts, derive),
+        problem=_derived(problem, {n: {"front": own} for n, own in fronts.items()}, derive),
         shape=shape,
     )
 
@@ -155,47 +167,47 @@ def _property(problem: Problem, values: Values, T: tuple[float, float], probe: s
     )
 
 
-def _front_loss(problem: Problem, T: tuple[float, float]) -> Correction:
+def _loss(problem: Problem, T: tuple[float, float], side: str) -> Correction:
     """Make q = (h_0 + c_1)(T_s - T_g) + (C_0 + c_2)(T_s - T_g)^(4/3), with T_g = T_gas + c_0."""
-    names = dict(zip(LOSS_SD, _names("front_loss", len(LOSS_SD)), strict=True))
-    described = {name: slab.front for name, slab in _slabs(problem).items()}
+    names = dict(zip(LOSS_SD, _names(f"{side}_loss", len(LOSS_SD)), strict=True))
+    described = {name: getattr(slab, side) for name, slab in _slabs(problem).items()}
     own = {
-        name: {key: named(getattr(front, key), f"probe_{key}_{i}") for key in LOSS_SD}
-        for i, (name, front) in enumerate(described.items())
+        name: {key: named(getattr(face, key), f"probe_{side}_{key}_{i}") for key in LOSS_SD}
+        for i, (name, face) in enumerate(described.items())
     }
 
     def derive(values: Values) -> dict[str, float]:
         return {
             str(new): value_of(old, values) + values[coefficient]
-            for name, front in described.items()
+            for name, face in described.items()
             for key, coefficient in names.items()
             for new, old in zip(
-                table_of(own[name][key]).value, table_of(getattr(front, key)).value, strict=True
+                table_of(own[name][key]).value, table_of(getattr(face, key)).value, strict=True
             )
         }
 
     def shape(values: Values) -> Shape:
-        name, front = next(iter(described.items()))
+        name, face = next(iter(described.items()))
         at = np.linspace(*T, SETTINGS.correction_points_drawn)
-        before = _convection(front, values, at)
-        after = _convection(changed(front, **own[name]), {**values, **derive(values)}, at)
+        before = _convection(face, values, at)
+        after = _convection(changed(face, **own[name]), {**values, **derive(values)}, at)
         return list(zip(at.tolist(), (after - before).tolist(), strict=True))
 
     return Correction(
-        probe="front_loss",
-        what="another heat loss of the front over its temperature",
+        probe=f"{side}_loss",
+        what=f"another heat loss of the {side} over its temperature",
         unit="W/m2",
         sd=dict(zip(names.values(), LOSS_SD.values(), strict=True)),
-        problem=_derived(problem, own, derive),
+        problem=_derived(problem, {n: {side: o} for n, o in own.items()}, derive),
         shape=shape,
     )
 
 
-def _convection(front: Front, values: Values, T: FloatArray) -> FloatArray:
-    """Return the loss of the front by convection [W/m2], of tables at the start, the gas risen."""
-    h = max(at_start(front.h_W_m2K, values) + value_of(front.h_change_W_m2K, values), 0.0)
-    above = T - at_start(front.gas_temperature_K, values) - value_of(front.gas_rise_K, values)
-    root = value_of(front.h_cube_root_W_m2K43, values) * np.cbrt(np.abs(above))
+def _convection(side: Side, values: Values, T: FloatArray) -> FloatArray:
+    """Return the loss of a side by convection [W/m2], of tables at the start, the gas risen."""
+    h = max(at_start(side.h_W_m2K, values) + value_of(side.h_change_W_m2K, values), 0.0)
+    above = T - at_start(side.gas_temperature_K, values) - value_of(side.gas_rise_K, values)
+    root = value_of(side.h_cube_root_W_m2K43, values) * np.cbrt(np.abs(above))
     return np.asarray((h + root) * above)
 
 
@@ -217,14 +229,15 @@ def _times(problem: Problem) -> dict[str, FloatArray]:
 
 def _derived(
     problem: Problem,
-    fronts: Mapping[str, Mapping[str, Any]],
+    changes: Mapping[str, Mapping[str, Mapping[str, Any]]],
     derive: Callable[[Values], Values],
 ) -> Problem:
-    """Return the problem with names in its fronts, by experiment and key, and their values."""
+    """Return the problem with names in its sides, by experiment, side and key, and their values."""
     runs = dict(problem.runs)
-    for name, update in fronts.items():
+    for name, sides in changes.items():
         slab = _slabs(problem)[name]
-        slab = changed(slab, front=changed(slab.front, **update))
+        for side, update in sides.items():
+            slab = changed(slab, **{side: changed(getattr(slab, side), **update)})
         runs[name] = replace(runs[name], experiment=slab)
     parts = {field.name: getattr(problem, field.name) for field in fields(Problem)}
     return _Derived(**{**parts, "runs": runs}, derive=derive)

@@ -1,0 +1,101 @@
+"""Free corrections that explain the data as well as a claimed effect does.
+
+No catalogue holds all physics: an effect outside it may be mistaken for one inside. In the place of
+a claimed effect, each free correction of another term of the model is therefore fitted. The models
+are compared by the marginal likelihood, in Laplace's approximation (MacKay 2003, chapter 28):
+
+    -2 ln Z = chi2 + log det(J^T J + Pi) - log det Pi
+
+Pi holds the inverse variances of the priors: 12 for a value anywhere within its limits.
+"""
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+
+import numpy as np
+
+from pyrofit.diagnose.base.descent import Fit, refreshed
+from pyrofit.diagnose.base.fitted import FittedModel
+from pyrofit.diagnose.corrections.fit import corrected, with_coefficients
+from pyrofit.diagnose.corrections.forms import SAME_TERM, Correction, corrections
+from pyrofit.diagnose.settings import SETTINGS
+from pyrofit.effects import known_effects
+from pyrofit.estimate.posterior import UNIFORM, curvature
+from pyrofit.parallel import parallel_map
+
+
+@dataclass(frozen=True)
+class OtherTerm:
+    """A free correction that takes the place of an effect.
+
+    Parameters
+    ----------
+    words
+        The correction in words.
+    above
+        Its -2 ln Z less that of the model with the effect.
+    """
+
+    words: str
+    above: float
+
+    @property
+    def fits_as_well(self) -> bool:
+        """Whether the data do not separate it from the effect."""
+        return self.above <= SETTINGS.ambiguous_chi2
+
+
+def other_terms(
+    end: FittedModel, without: Sequence[FittedModel], processes: int = 1
+) -> list[list[OtherTerm]]:
+    """Return the free corrections in the place of each effect of a model.
+
+    Parameters
+    ----------
+    end
+        The model, its derivatives made at the fit.
+    without
+        The same model fitted without each of its effects, in their order.
+    processes
+        Processes that share the fits.
+    """
+    tasks = [
+        (k, correction)
+        for k, reduced in enumerate(without)
+        for correction in _rivals(end, reduced, end.effects[k])
+    ]
+    above = parallel_map(
+        lambda i: _above(end, without[tasks[i][0]], tasks[i][1]), len(tasks), processes
+    )
+    found: list[list[OtherTerm]] = [[] for _ in without]
+    for (k, correction), size in zip(tasks, above, strict=True):
+        found[k].append(OtherTerm(correction.what, size))
+    return found
+
+
+def _rivals(end: FittedModel, reduced: FittedModel, effect: str) -> list[Correction]:
+    """Return the corrections of other terms than the one that an effect changes."""
+    group = known_effects()[effect].group
+    likelihood = reduced.model.likelihood
+    found = corrections(likelihood.problem, likelihood.values(reduced.fit.x))
+    return [correction for correction in found if group not in SAME_TERM[correction.probe]]
+
+
+def _above(end: FittedModel, reduced: FittedModel, correction: Correction) -> float:
+    """Return -2 ln Z of a correction in the place of an effect, less that of the effect.
+
+    The fit starts where the model without the effect has its minimum, and at the parameters of the
+    model with the effect.
+    """
+    model = with_coefficients(reduced.model, correction)
+    kept = [name in reduced.model.names for name in end.model.names]
+    starts = (reduced.fit.x, end.fit.x[kept])
+    fit = min((corrected(reduced, correction, x) for x in starts), key=lambda one: one.chi2)
+    narrow = (2.0 * SETTINGS.widest_correction) ** 2  # inverse variance in x of a coefficient
+    others = reduced.numbers * np.log(UNIFORM) + len(correction.sd) * np.log(UNIFORM + narrow)
+    own = end.numbers * np.log(UNIFORM)
+    return float(_size(refreshed(model, fit)) - others - (_size(end.fit) - own))
+
+
+def _size(fit: Fit) -> float:
+    return fit.chi2 + float(np.linalg.slogdet(curvature(fit.jacobian))[1])
