@@ -80,6 +80,20 @@ def nothing(problem: Problem) -> Problem:
     return problem
 
 
+def backs(**update: Any) -> Change:
+    """Change all backs."""
+
+    def change(problem: Problem) -> Problem:
+        runs = dict(problem.runs)
+        for name, run in runs.items():
+            if isinstance(run.experiment, Gasification):
+                slab = changed(run.experiment, back=changed(run.experiment.back, **update))
+                runs[name] = replace(run, experiment=slab)
+        return replace(problem, runs=runs)
+
+    return change
+
+
 def fronts(**update: Any) -> Change:
     """Change all fronts; a function of a front's flux gives the new one."""
 
@@ -135,6 +149,11 @@ def convected() -> list[Probe]:
     return probes(twin(fronts(h_cube_root_W_m2K43=0.8)))
 
 
+@pytest.fixture(scope="module")
+def cooled() -> list[Probe]:
+    return probes(twin(backs(h_W_m2K=14.0)))
+
+
 @pytest.mark.parametrize(
     ("found", "expected"),
     [
@@ -142,6 +161,7 @@ def convected() -> list[Probe]:
         ("stepped", "conductivity"),
         ("molten", "heat_capacity"),
         ("convected", "front_loss"),
+        ("cooled", "back_loss"),
     ],
 )
 def test_probe_of_the_hidden_kind_absorbs_most(
@@ -156,6 +176,7 @@ def test_probe_of_the_hidden_kind_absorbs_most(
         "conductivity",
         "heat_capacity",
         "front_loss",
+        "back_loss",
     }
 
 
@@ -191,10 +212,10 @@ def test_shape_of_the_loss_rises_with_temperature(convected: list[Probe]) -> Non
 
 def test_nothing_is_absorbed_where_nothing_is_hidden() -> None:
     trial = twin(nothing)
-    assert [probe.absorbed for probe in probes(trial)] == [0.0] * 4
+    assert [probe.absorbed for probe in probes(trial)] == [0.0] * 5
 
 
-@pytest.mark.parametrize("number", range(4))
+@pytest.mark.parametrize("number", range(5))
 def test_zero_coefficients_are_the_base_and_each_other_value_is_not(number: int) -> None:
     trial = twin(nothing, MLR)
     likelihood = trial.model.likelihood
