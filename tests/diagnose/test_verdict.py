@@ -56,7 +56,9 @@ def searched(
 
 
 def verdict_on(found: Search) -> Verdict:
-    return judge(found, np.random.default_rng(2))
+    verdict = judge(found, np.random.default_rng(2))
+    assert verdict.reasons, "every verdict has a reason"
+    return verdict
 
 
 def alike(effect: str, other: str, share: float = 0.01) -> dict[str, FloatArray]:
