@@ -39,7 +39,7 @@ class OfVerdict(Record):
         description="effects are named, and predictions improve with each, held-out ones included"
     )
     words: str = Field(description="the verdict in sentences")
-    reasons: list[str] = Field(description="reasons against a firmer verdict, or the evidence for it")
+    reasons: list[str] = Field(description="reasons against a firmer verdict, or evidence for it")
     suspects: list[OfSuspect] = Field(
         description="leading candidates for the rest, where the verdict explains a part"
     )
