@@ -330,8 +330,13 @@ def test_interrupted_job_goes_on_and_the_page_shows_all(
     assert sorted(case.kind for case in cases) == ["effect", "null", "pair"]
     with pytest.raises(DataError, match=r"0.json: this result is missing"):
         write_results(little, "tiny", places)
-    for chunk in (0, 1):
-        run_chunk(little, "tiny", chunk, places, fake)
+    with pytest.raises(DataError, match="no twin of plan 'tiny' has been diagnosed"):
+        write_results(little, "tiny", places, so_far=True)
+    run_chunk(little, "tiny", 0, places, fake)
+    write_results(little, "tiny", places, so_far=True)
+    first = len(list(tmp_path.glob("cases/*.json")))
+    assert f"{first} of 3 twins" in places.page.read_text()
+    run_chunk(little, "tiny", 1, places, fake)
     # Each once, and effect and pair once more with an effect removed.
     assert len(fake.candidates) == 5
     again = read_json(places.case(cases[0].id))

@@ -7,6 +7,7 @@ import pandas as pd
 from pyrofit.blind_test import foreign
 from pyrofit.blind_test.figures import FIGURES, draw_all
 from pyrofit.blind_test.places import Places
+from pyrofit.blind_test.plan import cases_of
 from pyrofit.blind_test.power import power
 from pyrofit.blind_test.rates import (
     DETECTABLE,
@@ -21,6 +22,7 @@ from pyrofit.blind_test.rates import (
 from pyrofit.blind_test.recovery import parameters, strengths
 from pyrofit.blind_test.setting import Setting
 from pyrofit.blind_test.table import diagnosed, twins
+from pyrofit.errors import DataError
 from pyrofit.results.files import write_csv, write_text
 from pyrofit.show.text import markdown
 
@@ -56,17 +58,21 @@ _WRONG = [
 ]
 
 
-def write_results(setting: Setting, plan: str, places: Places) -> None:
+def write_results(setting: Setting, plan: str, places: Places, so_far: bool = False) -> None:
     """Write tables, figures and page of a plan whose jobs are done.
+
+    With ``so_far``, of the twins that have been diagnosed. Jobs hold twins of all kinds at random.
 
     Raises
     ------
     StudyError
         There is no such plan.
     DataError
-        A job has not been run, or a result is broken.
+        A job has not been run, no twin has been diagnosed, or a result is broken.
     """
-    cases = diagnosed(places, setting.plan(plan).chunks)
+    cases = (
+        _so_far(setting, plan, places) if so_far else diagnosed(places, setting.plan(plan).chunks)
+    )
     found, of_strengths = twins(places, cases), strengths(places, cases)
     of_parameters = parameters(places, cases)
     tables = {
@@ -88,6 +94,16 @@ def write_results(setting: Setting, plan: str, places: Places) -> None:
     write_text(places.page, page(setting, plan, tables))
 
 
+def _so_far(setting: Setting, plan: str, places: Places) -> list[str]:
+    """Return the names of the twins of a plan that have been diagnosed."""
+    found = [case.id for case in cases_of(setting, plan) if places.case(case.id).is_file()]
+    if not found:
+        raise DataError(
+            f"{places.root}: no twin of plan '{plan}' has been diagnosed; run a job first"
+        )
+    return found
+
+
 def page(setting: Setting, plan: str, tables: dict[str, pd.DataFrame]) -> str:
     """Return the page as Markdown."""
     found, all_rates = tables["twins"], tables["rates"]
@@ -98,7 +114,7 @@ def page(setting: Setting, plan: str, tables: dict[str, pd.DataFrame]) -> str:
         for what in ("signals", "noise")
     }
     sections = [
-        f"# {_title(setting, plan)}\n\n{_summary(found, seeds)}",
+        f"# {_title(setting, plan)}\n\n{_summary(found, seeds, len(cases_of(setting, plan)))}",
         _section("Rates", overall, "With 95 % intervals of Clopper and Pearson."),
         *(_section(title, frame) for title, frame in by.items()),
         _section("By detectability", tables["by_detectability"]),
@@ -129,11 +145,12 @@ def _title(setting: Setting, plan: str) -> str:
     return f"Blind test of the diagnosis on curves of {code}, plan {plan}"
 
 
-def _summary(found: pd.DataFrame, seeds: str) -> str:
+def _summary(found: pd.DataFrame, seeds: str, planned: int) -> str:
+    of = f" of {planned}" if len(found) < planned else ""
     count = found["kind"].value_counts()
     kinds = ", ".join(f"{count[kind]} {kind}" for kind in count.index)
     return (
-        f"{len(found)} twins ({kinds}), seeds of the range '{seeds}'. The diagnosis reads the "
+        f"{len(found)}{of} twins ({kinds}), seeds of the range '{seeds}'. The diagnosis reads the "
         "measurements of each twin, not its truth. Detectability is the number of standard "
         "deviations of the noise by which the best base model misses the truth. An effect of "
         f"{DETECTABLE:g} or more should be named. A claim is a verdict that names one effect, an "

@@ -19,6 +19,9 @@ def add(commands: Any) -> None:
     blind.add_argument("--setting", type=Path, default=Path("config/blind_test.yaml"))
     blind.add_argument("--plan", required=True, help="plan of the setting")
     blind.add_argument("--chunk", type=int, help="job to run; without: gather all jobs")
+    blind.add_argument(
+        "--so-far", action="store_true", help="gather the twins that have been diagnosed so far"
+    )
     blind.add_argument("--log", type=Path, help="file that keeps a copy of the output")
     blind.set_defaults(step=_blind_test)
     _add_foreign(commands)
@@ -88,7 +91,7 @@ def _blind_test(given: argparse.Namespace) -> None:
     if given.chunk is None:
         from pyrofit.blind_test.page import write_results
 
-        write_results(setting, given.plan, places)
+        write_results(setting, given.plan, places, given.so_far)
     else:
         from pyrofit.blind_test.run import run_chunk
         from pyrofit.diagnose.diagnosis import diagnose
