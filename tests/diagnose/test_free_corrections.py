@@ -94,6 +94,22 @@ def backs(**update: Any) -> Change:
     return change
 
 
+def foils(**update: Any) -> Change:
+    """Change all foils."""
+
+    def change(problem: Problem) -> Problem:
+        runs = dict(problem.runs)
+        for name, run in runs.items():
+            if isinstance(run.experiment, Gasification):
+                sample = run.experiment.sample
+                foil = changed(sample.foil, **update)
+                slab = changed(run.experiment, sample=changed(sample, foil=foil))
+                runs[name] = replace(run, experiment=slab)
+        return replace(problem, runs=runs)
+
+    return change
+
+
 def fronts(**update: Any) -> Change:
     """Change all fronts; a function of a front's flux gives the new one."""
 
@@ -154,6 +170,11 @@ def cooled() -> list[Probe]:
     return probes(twin(backs(h_W_m2K=14.0)))
 
 
+@pytest.fixture(scope="module")
+def heavy() -> list[Probe]:
+    return probes(twin(foils(mass_factor=6.0)))
+
+
 @pytest.mark.parametrize(
     ("found", "expected"),
     [
@@ -162,6 +183,7 @@ def cooled() -> list[Probe]:
         ("molten", "heat_capacity"),
         ("convected", "front_loss"),
         ("cooled", "back_loss"),
+        ("heavy", "foil"),
     ],
 )
 def test_probe_of_the_hidden_kind_absorbs_most(
@@ -177,6 +199,7 @@ def test_probe_of_the_hidden_kind_absorbs_most(
         "heat_capacity",
         "front_loss",
         "back_loss",
+        "foil",
     }
 
 
@@ -210,12 +233,18 @@ def test_shape_of_the_loss_rises_with_temperature(convected: list[Probe]) -> Non
     assert warm - cool == pytest.approx(1396.0 - 230.0, rel=0.4)
 
 
+def test_heat_capacity_of_the_foil_is_found(heavy: list[Probe]) -> None:
+    # five more times 2.5e-5 m of 8940 kg/m3 and 380 J/(kg K)
+    assert shape_at(heavy[0], 400.0) == pytest.approx([5.0 * 84.9], rel=0.1)
+    assert heavy[0].unit == "J/(m2 K)"
+
+
 def test_nothing_is_absorbed_where_nothing_is_hidden() -> None:
     trial = twin(nothing)
-    assert [probe.absorbed for probe in probes(trial)] == [0.0] * 5
+    assert [probe.absorbed for probe in probes(trial)] == [0.0] * 6
 
 
-@pytest.mark.parametrize("number", range(5))
+@pytest.mark.parametrize("number", range(6))
 def test_zero_coefficients_are_the_base_and_each_other_value_is_not(number: int) -> None:
     trial = twin(nothing, MLR)
     likelihood = trial.model.likelihood

@@ -9,7 +9,8 @@ from linear import column_of, fit_with
 
 from pyrofit.diagnose.base.fitted import FittedModel
 from pyrofit.diagnose.base.model import strength_of
-from pyrofit.diagnose.corrections.forms import SAME_TERM, Correction
+from pyrofit.diagnose.corrections.correction import Correction
+from pyrofit.diagnose.corrections.forms import SAME_TERM
 from pyrofit.diagnose.judge import other_terms as module
 from pyrofit.diagnose.judge.findings import Verdict
 from pyrofit.diagnose.judge.other_terms import other_terms

@@ -12,8 +12,9 @@ from scipy.stats import chi2 as chi_squared
 
 from pyrofit.diagnose.base.descent import Fit
 from pyrofit.diagnose.base.fitted import FittedModel
+from pyrofit.diagnose.corrections.correction import Correction, Shape
 from pyrofit.diagnose.corrections.fit import corrected, with_coefficients
-from pyrofit.diagnose.corrections.forms import Correction, Shape, corrections
+from pyrofit.diagnose.corrections.forms import corrections
 from pyrofit.diagnose.settings import SETTINGS
 from pyrofit.estimate.posterior import freedom
 from pyrofit.parallel import parallel_map
@@ -26,7 +27,7 @@ class Probe:
     Parameters
     ----------
     probe
-        ``flux``, ``conductivity``, ``heat_capacity``, ``front_loss`` or ``back_loss``.
+        ``flux``, ``conductivity``, ``heat_capacity``, ``front_loss``, ``back_loss`` or ``foil``.
     what
         The same in words.
     coefficients

@@ -7,7 +7,7 @@ import numpy as np
 from pyrofit.diagnose.base.descent import Fit, descend
 from pyrofit.diagnose.base.fitted import FittedModel
 from pyrofit.diagnose.base.model import Model
-from pyrofit.diagnose.corrections.forms import Correction
+from pyrofit.diagnose.corrections.correction import Correction
 from pyrofit.diagnose.settings import SETTINGS
 from pyrofit.estimate.likelihood import Likelihood
 from pyrofit.estimate.prior import NormalPrior

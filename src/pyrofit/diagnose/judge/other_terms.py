@@ -16,8 +16,9 @@ import numpy as np
 
 from pyrofit.diagnose.base.descent import Fit, refreshed
 from pyrofit.diagnose.base.fitted import FittedModel
+from pyrofit.diagnose.corrections.correction import Correction
 from pyrofit.diagnose.corrections.fit import corrected, with_coefficients
-from pyrofit.diagnose.corrections.forms import SAME_TERM, Correction, corrections
+from pyrofit.diagnose.corrections.forms import SAME_TERM, corrections
 from pyrofit.diagnose.settings import SETTINGS
 from pyrofit.effects import known_effects
 from pyrofit.estimate.posterior import UNIFORM, curvature

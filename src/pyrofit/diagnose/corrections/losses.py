@@ -1,0 +1,67 @@
+"""Another loss of a side over its temperature."""
+
+import numpy as np
+
+from pyrofit.diagnose.corrections.correction import (
+    Correction,
+    Shape,
+    Values,
+    derived,
+    names_of,
+    slabs_of,
+)
+from pyrofit.diagnose.corrections.flux_tables import named, table_of
+from pyrofit.diagnose.settings import SETTINGS
+from pyrofit.effects.base import changed
+from pyrofit.estimate.problem import Problem
+from pyrofit.model.base import value_of
+from pyrofit.model.slab_faces import Side
+from pyrofit.model.time_table import at_start
+from pyrofit.solver.arrays import FloatArray
+
+LOSS_SD = {"gas_temperature_K": 30.0, "h_change_W_m2K": 6.0, "h_cube_root_W_m2K43": 0.8}
+"""Prior standard deviations for the loss of a side, SI units, by key of the description."""
+
+
+def loss(problem: Problem, T: tuple[float, float], side: str) -> Correction:
+    """Make q = (h_0 + c_1)(T_s - T_g) + (C_0 + c_2)(T_s - T_g)^(4/3), with T_g = T_gas + c_0."""
+    names = dict(zip(LOSS_SD, names_of(f"{side}_loss", len(LOSS_SD)), strict=True))
+    described = {name: getattr(slab, side) for name, slab in slabs_of(problem).items()}
+    own = {
+        name: {key: named(getattr(face, key), f"probe_{side}_{key}_{i}") for key in LOSS_SD}
+        for i, (name, face) in enumerate(described.items())
+    }
+
+    def derive(values: Values) -> dict[str, float]:
+        return {
+            str(new): value_of(old, values) + values[coefficient]
+            for name, face in described.items()
+            for key, coefficient in names.items()
+            for new, old in zip(
+                table_of(own[name][key]).value, table_of(getattr(face, key)).value, strict=True
+            )
+        }
+
+    def shape(values: Values) -> Shape:
+        name, face = next(iter(described.items()))
+        at = np.linspace(*T, SETTINGS.correction_points_drawn)
+        before = _convection(face, values, at)
+        after = _convection(changed(face, **own[name]), {**values, **derive(values)}, at)
+        return list(zip(at.tolist(), (after - before).tolist(), strict=True))
+
+    return Correction(
+        probe=f"{side}_loss",
+        what=f"another heat loss of the {side} over its temperature",
+        unit="W/m2",
+        sd=dict(zip(names.values(), LOSS_SD.values(), strict=True)),
+        problem=derived(problem, {n: {side: o} for n, o in own.items()}, derive),
+        shape=shape,
+    )
+
+
+def _convection(side: Side, values: Values, T: FloatArray) -> FloatArray:
+    """Return the loss of a side by convection [W/m2], of tables at the start, the gas risen."""
+    h = max(at_start(side.h_W_m2K, values) + value_of(side.h_change_W_m2K, values), 0.0)
+    above = T - at_start(side.gas_temperature_K, values) - value_of(side.gas_rise_K, values)
+    root = value_of(side.h_cube_root_W_m2K43, values) * np.cbrt(np.abs(above))
+    return np.asarray((h + root) * above)

@@ -1,0 +1,52 @@
+"""Properties of all components that vary with temperature in another way."""
+
+from dataclasses import replace
+
+import numpy as np
+
+from pyrofit.diagnose.corrections.correction import Correction, Shape, Values, names_of
+from pyrofit.diagnose.settings import SETTINGS
+from pyrofit.effects.substance import properties_changed, shares
+from pyrofit.estimate.problem import Problem
+from pyrofit.solver.lower_property import property_table
+
+PROPERTIES = {
+    "conductivity": ("conductivity_W_mK", "W/(m K)", "a conductivity that varies with temperature"),
+    "heat_capacity": (
+        "specific_heat_J_kgK",
+        "J/(kg K)",
+        "heat taken up or released at certain temperatures, as by a heat capacity that varies",
+    ),
+}
+"""Key of the description, unit and words, by probe."""
+
+
+def of_property(problem: Problem, values: Values, T: tuple[float, float], probe: str) -> Correction:
+    """Make p(T) = p_0(T) + sum_k c_k exp(-((T - T_k)/w)^2/2)/(sqrt(2 pi) w), of all components."""
+    key, unit, what = PROPERTIES[probe]
+    names = names_of(probe, SETTINGS.correction_coefficients)
+    centres = np.linspace(*T, SETTINGS.correction_coefficients)
+    width = 0.5 * float(centres[1] - centres[0])
+    area = width * float(np.sqrt(2.0 * np.pi))
+    peak = properties_changed(key, peak_area="c", peak_temperature_K="T", peak_width_K="w")
+    material = problem.material
+    for name, centre in zip(names, centres.tolist(), strict=True):
+        material = peak(material, {"c": name, "T": centre, "w": width}, material.own)
+    share = shares(problem.material)
+    main = problem.material.components[max(share, key=lambda name: share[name])]
+    size = float(np.median(property_table(getattr(main, key), values)))
+
+    def shape(values: Values) -> Shape:
+        at = np.linspace(*T, SETTINGS.correction_points_drawn)
+        peaks = np.exp(-0.5 * (np.subtract.outer(at, centres) / width) ** 2)
+        change = peaks @ [values[name] / area for name in names]
+        return list(zip(at.tolist(), change.tolist(), strict=True))
+
+    return Correction(
+        probe=probe,
+        what=what,
+        unit=unit,
+        sd=dict.fromkeys(names, SETTINGS.correction_property_sd * size * area),
+        problem=replace(problem, material=material),
+        shape=shape,
+    )
