@@ -16,6 +16,12 @@ BLOCK = re.compile(r"^```sh\n(.*?)^```$", re.M | re.S)
 SHOWN = re.compile(r"^```text\n(.*?)^```$", re.M | re.S)
 
 
+def shown(page: Path) -> list[str]:
+    """Return the lines of output on a page; those that it breaks go on with four blanks."""
+    blocks = SHOWN.findall(page.read_text(encoding="utf-8"))
+    return re.sub(r"\n {4}(?=\S)", " ", "\n".join(blocks)).splitlines()
+
+
 def copy_project(to: Path) -> None:
     """Copy the files of the project that a run needs, without the source."""
     for folder in ("workflow", "profiles", "config"):
