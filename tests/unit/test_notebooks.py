@@ -65,3 +65,14 @@ def test_missing_effect_is_named(monkeypatch: pytest.MonkeyPatch) -> None:
     assert names["diagnosis"].effects == ["k_T"]
     assert names["fit"].reduced_chi2 > 1.3
     assert names["again"].reduced_chi2 < 1.1
+
+
+def test_best_sets_of_a_campaign_are_compared(monkeypatch: pytest.MonkeyPatch) -> None:
+    names = run(FOLDER / "campaign.ipynb", monkeypatch)
+    sets, scores = names["sets"], names["scores"]
+    assert list(sets) == ["RMSE", "RANGE", "BANDS", "truth"]
+    assert (sets.loc["rho"] - sets.loc["rho", "truth"]).abs().max() < 30
+    assert list(scores) == ["RMSE", "RANGE", "BANDS"]
+    # The noise is 2e-4 kg/(m2 s); slab_60 is held out.
+    assert (scores.loc[("slab_25", "mlr")] < 3e-4).all()
+    assert (scores.loc[("slab_60", "mlr")] > scores.loc[("slab_25", "mlr")]).all()

@@ -4,21 +4,15 @@ import hashlib
 import json
 import os
 import re
-import shutil
-import subprocess
-import sys
 import zipfile
 from dataclasses import dataclass
 from pathlib import Path
 
 import pytest
+from pages import BLOCK, LOCK, SOURCE, copy_project, follow, run
 from tiny import ROOT
 
 TUTORIAL = ROOT / "docs" / "tutorial.md"
-LOCK = "requirements.lock"
-# That of the tests: its kernels are compiled.
-SOURCE = ROOT / "src"
-BLOCK = re.compile(r"^```sh\n(.*?)^```$", re.M | re.S)
 
 
 @dataclass(frozen=True)
@@ -33,30 +27,12 @@ class Followed:
         return self.root / "results" / "mypolymer"
 
 
-def run(folder: Path, *command: str, source: Path = SOURCE) -> subprocess.CompletedProcess[str]:
-    """Run a command that imports the package from a folder."""
-    environment = {
-        **os.environ,
-        "PATH": f"{Path(sys.executable).parent}{os.pathsep}{os.environ['PATH']}",
-        "PYTHONPATH": str(source),
-        "OPENBLAS_NUM_THREADS": "1",
-    }
-    return subprocess.run(
-        command, cwd=folder, env=environment, capture_output=True, text=True, check=False
-    )
-
-
 @pytest.fixture(scope="module")
 def followed(tmp_path_factory: pytest.TempPathFactory) -> Followed:
     """Return a copy of the project in which all framed blocks were run, one after the other."""
     root = tmp_path_factory.mktemp("tutorial")
-    for folder in ("workflow", "profiles", "config"):
-        shutil.copytree(ROOT / folder, root / folder)
-    for name in ("Snakefile", "Makefile", "README.md", "LICENSE", "pyproject.toml", LOCK):
-        shutil.copy2(ROOT / name, root)
-    blocks = BLOCK.findall(TUTORIAL.read_text(encoding="utf-8"))
-    assert len(blocks) > 4
-    ran = run(root, "bash", "-eu", "-o", "pipefail", "-c", "\n".join(blocks))
+    copy_project(root)
+    ran = follow(root, TUTORIAL)
     assert ran.returncode == 0, ran.stdout + ran.stderr
     return Followed(root, ran.stdout)
 
