@@ -63,3 +63,10 @@ def test_spikes_hardly_change_the_noise_of_other_points(stated: bool) -> None:
     assert (clean.spikes, spiked.spikes) == (0, 3)
     assert "3 single points far off count little" in spiked.describe()
     assert "far off" not in clean.describe()
+
+
+def test_misfit_of_a_steep_part_is_no_spike() -> None:
+    """Two steep curves a moment apart differ in one point alone."""
+    y = measured(3)
+    late = np.interp(TIME - 4.0, TIME, y)
+    assert estimate_noise(Target(TIME, y, np.full(TIME.size, SD)), MLR, about=late).spikes == 0

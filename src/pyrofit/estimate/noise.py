@@ -164,7 +164,7 @@ def estimate_noise(
         return _of_few_points(stated, count, quantity)
     shape = np.ones(count) if stated is None else stated
     near = np.zeros(count) if about is None else about
-    off = spikes(target.value - near)
+    off = spikes(target.value)
     fit = scatter_of(target.time_s, target.value - near - off, shape, stated is not None)
     larger = fit.scale > 1.0 + np.sqrt(2.0 / (count - fit.splines))
     scale = fit.scale if stated is None or larger else 1.0
