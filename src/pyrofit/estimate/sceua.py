@@ -15,6 +15,7 @@ from pyrofit.estimate.history import Progress
 from pyrofit.estimate.problem import Evaluation, Problem
 from pyrofit.estimate.turns import in_turns
 from pyrofit.solver.arrays import FloatArray
+from pyrofit.solver.run import LANES
 
 Ask = Callable[[FloatArray], Evaluation]
 
@@ -143,7 +144,7 @@ def search_several(
         for seed, told in zip(seeds, progress or [None] * len(seeds), strict=True)
     ]
     with contextlib.redirect_stdout(io.StringIO()):
-        return in_turns(searches, lambda asked: problem.evaluate_all(np.array(asked)))
+        return in_turns(searches, lambda asked: problem.evaluate_all(np.array(asked)), LANES)
 
 
 def _distributions(problem: Problem) -> list[Any]:
