@@ -62,9 +62,11 @@ try:
     else:  # a job of a cluster: the study file may have been edited since the start
         study = frozen_study(given, SOURCE)
     ROOT = Path("results") / study.name
-    SHARES = [[f"{n:02d}" for n in job] for job in shares.shares(study, per_job)]
+    # A job of a cluster must share out as the process that submitted it.
+    local = workflow.is_main_process and workflow.local_exec
+    cores = workflow.resource_settings.cores if local else None
+    SHARES = [[f"{n:02d}" for n in job] for job in shares.shares(study, per_job, cores)]
     if workflow.is_main_process:
-        cores = workflow.resource_settings.cores if workflow.local_exec else None
         logger.addHandler(WorkDone(calls_of_jobs(study, SHARES), cores))
     else:
         join_run(ROOT)

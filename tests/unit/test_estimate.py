@@ -8,6 +8,7 @@ from typing import Any
 import numpy as np
 import pandas as pd
 import pytest
+import spotpy
 
 from pyrofit.config import Study, TermSpec, read_study
 from pyrofit.errors import CostError
@@ -82,12 +83,64 @@ def test_search_depends_on_nothing_drawn_before() -> None:
     pd.testing.assert_frame_equal(first, run(Valley()), check_exact=True)
 
 
+def test_search_leaves_the_generator_of_its_caller_as_it_was() -> None:
+    np.random.seed(5)  # noqa: NPY002
+    expected = np.random.random(2)[1]  # noqa: NPY002
+    np.random.seed(5)  # noqa: NPY002
+    np.random.random()  # noqa: NPY002
+    run(Valley())
+    assert np.random.random() == expected  # noqa: NPY002
+
+
 def test_searches_side_by_side_have_the_bits_of_each_alone() -> None:
     # Some end earlier than others.
     seeds = [1, 2, 3, 1]
     together = search_several(Valley(), seeds, GENERATIONS, COMPLEXES)
     for seed, found in zip(seeds, together, strict=True):
         pd.testing.assert_frame_equal(found, run(Valley(), seed), check_exact=True)
+
+
+class Plain:
+    """A setup as SPOTPY describes it."""
+
+    def __init__(self, problem: Valley) -> None:
+        limits = zip(problem.names, problem.lower.tolist(), problem.upper.tolist(), strict=True)
+        self.problem = problem
+        self.distributions = [
+            spotpy.parameter.Uniform(n, low, high, minbound=low, maxbound=high)
+            for n, low, high in limits
+        ]
+
+    def parameters(self) -> Any:
+        return spotpy.parameter.generate(self.distributions)
+
+    def simulation(self, vector: Any) -> list[float]:
+        return [self.problem.evaluate(np.array(list(vector))).cost]
+
+    def evaluation(self) -> list[float]:
+        return [0.0]
+
+    def objectivefunction(
+        self, simulation: list[float], evaluation: Any, params: Any = None
+    ) -> float:
+        return simulation[0]
+
+
+@pytest.mark.parametrize("optimum", [(0.3, -20.0), (0.0, 10.0)], ids=["inside", "at the limits"])
+def test_search_asks_what_spotpy_asks_with_all_it_makes_for_each_call(
+    optimum: tuple[float, ...],
+) -> None:
+    ours, plain = Valley(optimum), Valley(optimum)
+    run(ours, 7)
+    spotpy.algorithms.sceua(Plain(plain), dbformat="ram", random_state=7).sample(
+        10**9,
+        ngs=COMPLEXES,
+        kstop=GENERATIONS + 1,
+        pcento=1e-12,
+        peps=1e-12,
+        max_loop_inc=GENERATIONS - 1,
+    )
+    assert np.array_equal(ours.asked, plain.asked)
 
 
 def test_history_holds_every_call_in_order() -> None:

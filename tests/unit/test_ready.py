@@ -232,11 +232,14 @@ def test_planned_calls_and_size_are_those_of_a_search(smoke: Study, tmp_path: Pa
     assert planned == pytest.approx((tmp_path / "h.csv.gz").stat().st_size, rel=0.25)
 
 
-def test_jobs_are_grouped_as_the_workflow_groups_them(smoke: Study) -> None:
+@pytest.mark.parametrize(("cores", "jobs"), [(None, 1 + 3), (2, 1), (6, 1 + 3)])
+def test_jobs_are_grouped_as_the_workflow_groups_them(
+    smoke: Study, cores: int | None, jobs: int
+) -> None:
     stage = smoke.imp.model_copy(update={"repetitions": 19})
-    first, *costs = plan.parts_of(smoke.model_copy(update={"imp": stage}))
+    first, *costs = plan.parts_of(smoke.model_copy(update={"imp": stage}), cores)
     assert (first.cost, first.jobs) == ("", 1)
-    assert [c.jobs for c in costs] == [1 + 3 + 2] * 3
+    assert [c.jobs for c in costs] == [jobs + 2] * 3
 
 
 def test_duration_is_calls_times_their_time_and_jobs_over_cores() -> None:

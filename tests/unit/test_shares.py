@@ -7,7 +7,8 @@ import pytest
 
 from pyrofit.config import Study, read_study
 from pyrofit.errors import StudyError
-from pyrofit.running.shares import MOST_JOBS, shares
+from pyrofit.running.shares import LANES, MOST_JOBS, SIDE_BY_SIDE, shares
+from pyrofit.solver import run
 
 CONFIG = Path(__file__).parents[2] / "config"
 
@@ -18,10 +19,13 @@ def study_of(repetitions: int, name: str = "smoke") -> Study:
     return study.model_copy(update={"imp": study.imp.model_copy(update=imp)})
 
 
+@pytest.mark.parametrize("cores", [None, 1, 2, 64])
 @pytest.mark.parametrize("wanted", [None, 1, "3", 8, 1000])
 @pytest.mark.parametrize("repetitions", [1, 8, 25, 107, 1000])
-def test_each_repetition_belongs_to_one_job(repetitions: int, wanted: object) -> None:
-    found = shares(study_of(repetitions), wanted)
+def test_each_repetition_belongs_to_one_job(
+    repetitions: int, wanted: object, cores: int | None
+) -> None:
+    found = shares(study_of(repetitions), wanted, cores)
     assert [n for job in found for n in job] == list(range(repetitions))
 
 
@@ -29,19 +33,56 @@ def test_each_repetition_belongs_to_one_job(repetitions: int, wanted: object) ->
     ("repetitions", "jobs"),
     [(2, [1, 1]), (7, [7]), (9, [8, 1]), (16, [8, 8]), (18, [16, 1, 1]), (25, [16, 9])],
 )
-def test_sixteen_share_a_job_and_few_run_alone(repetitions: int, jobs: list[int]) -> None:
+def test_on_a_cluster_sixteen_share_a_job_and_few_run_alone(
+    repetitions: int, jobs: list[int]
+) -> None:
     assert [len(job) for job in shares(study_of(repetitions))] == jobs
+
+
+@pytest.mark.parametrize(
+    ("repetitions", "cores", "jobs"),
+    [
+        (25, 1, [25]),
+        (25, 2, [25]),
+        (25, 5, [25]),
+        (25, 6, [16, 9]),
+        (25, 12, [8, 8, 8, 1]),
+        (25, 64, [8, 8, 8, 1]),
+        (9, 2, [9]),
+        (9, 6, [8, 1]),
+        (2, 2, [1, 1]),
+        (40, 2, [32, 8]),
+        (66, 2, [32, 32, 1, 1]),
+    ],
+)
+def test_here_three_costs_have_a_job_for_each_core_and_few_run_alone(
+    repetitions: int, cores: int, jobs: list[int]
+) -> None:
+    assert len(study_of(repetitions).imp.costs) == 3
+    assert [len(job) for job in shares(study_of(repetitions), cores=cores)] == jobs
+
+
+def test_full_jobs_fill_the_lanes_of_the_solver() -> None:
+    assert LANES == run.LANES
+    assert SIDE_BY_SIDE % LANES == 0
+
+
+@pytest.mark.parametrize("cores", [None, 1, 2, 64])
+def test_no_job_of_a_study_of_a_usual_size_runs_one_part_after_another(cores: int | None) -> None:
+    found = shares(study_of(100), cores=cores)
+    assert max(map(len, found)) <= SIDE_BY_SIDE
 
 
 def test_more_repetitions_run_no_full_job_again() -> None:
     assert shares(study_of(50))[0] == shares(study_of(25))[0]
 
 
-def test_thousands_of_repetitions_make_few_jobs_of_whole_sixteens() -> None:
+@pytest.mark.parametrize("cores", [None, 2, 64])
+def test_thousands_of_repetitions_make_few_jobs_of_whole_eights(cores: int | None) -> None:
     study = study_of(1000)
-    found = shares(study)
-    assert len(found) * len(study.imp.costs) <= MOST_JOBS
-    assert {len(job) % 16 for job in found[:-1]} == {0}
+    found = shares(study, cores=cores)
+    assert len(found) * len(study.imp.costs) <= max(MOST_JOBS, cores or 0)
+    assert {len(job) % 8 for job in found[:-1]} == {0}
 
 
 def test_number_of_repetitions_in_a_job_may_be_set() -> None:

@@ -46,6 +46,33 @@ def test_what_all_ask_is_answered_together_until_all_have_ended() -> None:
     assert asked == [[1, 2], [22], [222]]
 
 
+@pytest.mark.parametrize("searches", [1, 3, 4, 5, 7, 8, 9, 13])
+def test_whole_fours_are_answered_until_fewer_searches_are_left(searches: int) -> None:
+    asked: list[int] = []
+
+    def answer(questions: list[int]) -> list[int]:
+        asked.append(len(questions))
+        return questions
+
+    found = in_turns([partial(adds, 12, n) for n in range(searches)], answer, 4)
+    assert found == [12 * n for n in range(searches)]
+    assert sum(asked) == 12 * searches
+    ends = [count for count in asked if count % 4]
+    assert asked[len(asked) - len(ends) :] == ends
+    assert max(ends, default=0) < 4
+
+
+def test_those_that_have_waited_longest_are_answered_first() -> None:
+    asked = []
+
+    def answer(questions: list[int]) -> list[int]:
+        asked.append(questions)
+        return questions
+
+    in_turns([partial(adds, 2, step) for step in (1, 10, 100)], answer, 2)
+    assert asked == [[1, 10], [100, 2], [20, 200]]
+
+
 def test_each_draws_what_it_draws_alone() -> None:
     def zeros(questions: list[int]) -> list[int]:
         return [0 for _ in questions]

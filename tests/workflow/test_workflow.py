@@ -124,10 +124,18 @@ def test_change_on_the_command_line_counts_like_one_in_the_file(project: Project
     assert computing(jobs) == sceua(2) | GATHERED
 
 
-def test_eight_repetitions_share_a_job_and_the_rest_run_alone(project: Project) -> None:
-    jobs = project.plan("--config", 'imp={"repetitions": 9}')
+def test_repetitions_of_a_cost_share_a_job_unless_cores_would_stay_idle(project: Project) -> None:
+    nine = ("--config", 'imp={"repetitions": 9}')
+    together = {f"Inverse modelling, {cost}, repetition 00 to 08" for cost in COSTS}
+    assert computing(project.plan(*nine, "--cores", "1")) == together | GATHERED
     eights = {f"Inverse modelling, {cost}, repetition 00 to 07" for cost in COSTS}
+    jobs = project.plan(*nine, "--cores", str(2 * len(COSTS)))
     assert computing(jobs) == eights | sceua(8) | GATHERED
+
+
+def test_another_number_of_cores_runs_nothing_again(project: Project) -> None:
+    assert project.plan("--cores", "1") == set()
+    assert project.plan("--cores", "64") == set()
 
 
 def test_repetitions_of_a_job_are_a_setting_of_the_run_that_runs_nothing_again(

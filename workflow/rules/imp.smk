@@ -18,6 +18,8 @@ for _cost, _together in product(COSTS, SHARES):
             log_of(f"imp_{_cost}_{_together[0]}"),
         benchmark:
             benchmark_of(f"imp_{_cost}_{_together[0]}")
+        # The longest jobs begin first; shorter ones fill the cores beside the last of them.
+        priority: 2
         threads: RUN_CORES
         params:
             study=STUDY,

@@ -15,6 +15,7 @@ from pyrofit.estimate.history import Progress
 from pyrofit.estimate.problem import Evaluation, Problem
 from pyrofit.estimate.turns import in_turns
 from pyrofit.solver.arrays import FloatArray
+from pyrofit.solver.run import LANES
 
 Ask = Callable[[FloatArray], Evaluation]
 
@@ -24,6 +25,7 @@ class _Setup:
     """Interface of a model to SPOTPY; records every call."""
 
     problem: Problem
+    distributions: list[Any]
     ask: Ask
     calls: list[tuple[Any, ...]] = field(default_factory=list)
     generation: int = 1
@@ -31,28 +33,13 @@ class _Setup:
 
     def parameters(self) -> Any:
         """Return one random parameter set with the limits, as SPOTPY wants it."""
-        return spotpy.parameter.generate(self._distributions)
+        return spotpy.parameter.generate(self.distributions)
 
-    def __post_init__(self) -> None:
-        # SPOTPY guesses limits from random draws unless minbound and maxbound are given.
-        self._distributions = [
-            spotpy.parameter.Uniform(name, low, high, minbound=low, maxbound=high, optguess=low)
-            for name, low, high in zip(
-                self.problem.names,
-                self.problem.lower.tolist(),
-                self.problem.upper.tolist(),
-                strict=True,
-            )
-        ]
-
-    def simulation(self, vector: Any) -> list[float]:
+    def simulation(self, x: tuple[float, ...]) -> list[float]:
         """Evaluate a parameter set; the "simulation" that SPOTPY keeps is its cost."""
-        x = np.array(list(vector), dtype=np.float64)
-        result = self.ask(x)
+        result = self.ask(np.array(x))
         self.best = min(self.best, result.cost)
-        self.calls.append(
-            (self.generation, result.cost, int(result.status), *result.parts, *x.tolist())
-        )
+        self.calls.append((self.generation, result.cost, int(result.status), *result.parts, *x))
         return [result.cost]
 
     def evaluation(self) -> list[float]:
@@ -66,13 +53,29 @@ class _Setup:
         return simulation[0]
 
 
+def _as_they_are(*values: Any) -> tuple[float, ...]:
+    """Return the values of a parameter set."""
+    return tuple(map(float, values))
+
+
 class _Search(spotpy.algorithms.sceua):  # type: ignore[misc]
-    """SCE-UA that tells the setup which generation runs."""
+    """SCE-UA that tells the setup which generation runs.
+
+    SPOTPY makes records of parameters and rows of a table for each call, which takes nearly as long
+    as its search. Nobody reads them here, so they are left out.
+    """
 
     def __init__(self, setup: _Setup, seed: int, progress: Progress | None) -> None:
-        super().__init__(setup, dbformat="ram", save_sim=False, random_state=seed)
+        super().__init__(setup, dbformat="noData", save_sim=False, random_state=seed)
+        self.partype = _as_they_are
+        self._limits = {"minbound": setup.problem.lower, "maxbound": setup.problem.upper}
         self._progress = progress
         self._evolved = 0
+
+    def get_parameters(self) -> dict[str, FloatArray]:
+        """Return one random parameter set with the limits: the draws of `_Setup.parameters`."""
+        low, high = self._limits.values()
+        return {"random": np.random.uniform(low, high), **self._limits}  # noqa: NPY002
 
     def simulate(self, id_params_tuple: Any) -> Any:
         """Count generations: the burn-in is the first, each loop over the complexes one more."""
@@ -133,24 +136,37 @@ def search_several(
     They run side by side: the solver is two to three times as fast with eight parameter sets;
     each has the bits of `search` with its seed.
     """
-    one = partial(_search, problem, generations, complexes)
+    # In a turn of its own, for it draws from NumPy's global generator.
+    (distributions,) = in_turns([lambda ask: _distributions(problem)], lambda asked: asked)
+    one = partial(_search, problem, distributions, generations, complexes)
     searches = [
         partial(one, seed, told)
         for seed, told in zip(seeds, progress or [None] * len(seeds), strict=True)
     ]
     with contextlib.redirect_stdout(io.StringIO()):
-        return in_turns(searches, lambda asked: problem.evaluate_all(np.array(asked)))
+        return in_turns(searches, lambda asked: problem.evaluate_all(np.array(asked)), LANES)
+
+
+def _distributions(problem: Problem) -> list[Any]:
+    """Return the distributions of the parameters; SPOTPY draws 100,000 numbers of each."""
+    # It guesses limits from them unless minbound and maxbound are given.
+    limits = zip(problem.names, problem.lower.tolist(), problem.upper.tolist(), strict=True)
+    return [
+        spotpy.parameter.Uniform(name, low, high, minbound=low, maxbound=high, optguess=low)
+        for name, low, high in limits
+    ]
 
 
 def _search(
     problem: Problem,
+    distributions: list[Any],
     generations: int,
     complexes: int | None,
     seed: int,
     progress: Progress | None,
     ask: Ask,
 ) -> pd.DataFrame:
-    setup = _Setup(problem, ask)
+    setup = _Setup(problem, distributions, ask)
     # SPOTPY draws from the global generators while it is built: seed before.
     np.random.seed(seed)  # noqa: NPY002
     _Search(setup, seed, progress).sample(

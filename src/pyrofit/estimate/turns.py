@@ -2,11 +2,14 @@
 
 A search written as one loop asks for one cost after the other. Here several run, one at a time,
 each until it asks; when all wait, their questions are answered together, and they go on in order.
+The solver answers a certain number together, or multiples of it: the questions beyond wait until
+others have asked again, so that none is answered alone while more searches run.
 Each search is a greenlet: to change from one to the next takes less than a microsecond, from one
 thread to the next some thirty. Each finds a generator of its own as numpy's global one, which it
 must seed.
 """
 
+from collections import deque
 from collections.abc import Callable, Sequence
 from typing import Any, Generic, TypeVar
 
@@ -65,6 +68,7 @@ class _Turn(Generic[Question, Answer, Result]):
 def in_turns(
     searches: Sequence[Callable[[Callable[[Question], Answer]], Result]],
     answer: Callable[[list[Question]], Sequence[Answer]],
+    together: int = 1,
 ) -> list[Result]:
     """Run searches side by side and return their results.
 
@@ -73,7 +77,10 @@ def in_turns(
     searches
         Called with the function by which each asks.
     answer
-        Answers the questions of all that have not ended, in the order of the searches.
+        Answers questions of searches, those that have waited longest.
+    together
+        Questions that are answered at once, or a multiple of it. If fewer searches are left, all
+        that they ask.
 
     Raises
     ------
@@ -83,10 +90,14 @@ def in_turns(
     turns: list[_Turn[Question, Answer, Result]] = []
     try:
         turns.extend(map(_Turn, searches))
-        while waiting := [turn for turn in turns if turn.waits]:
-            found = answer([turn.question for turn in waiting])
-            for turn, one in zip(waiting, found, strict=True):
+        waiting = deque(turn for turn in turns if turn.waits)
+        while waiting:
+            beyond = len(waiting) % together if len(waiting) > together else 0
+            first = [waiting.popleft() for _ in range(len(waiting) - beyond)]
+            found = answer([turn.question for turn in first])
+            for turn, one in zip(first, found, strict=True):
                 turn.go_on(one)
+            waiting.extend(turn for turn in first if turn.waits)
         return [turn.result for turn in turns]
     finally:
         for turn in turns:

@@ -62,6 +62,11 @@ class Situation:
     profile: Mapping[str, Any] = field(default_factory=dict)
 
     @property
+    def job_cores(self) -> int | None:
+        """Cores of this machine that run jobs; None where a cluster does."""
+        return None if self.on_slurm else self.cores
+
+    @property
     def on_slurm(self) -> bool:
         """Whether the jobs run on a Slurm cluster."""
         return self.profile.get("executor") == "slurm"

@@ -83,7 +83,8 @@ def cores(situation: Situation) -> Iterator[Finding]:
         text = f"{asked} jobs at once on {there} cores slow each other down; use --cores {there}"
         yield Finding("warning", "cores", text)
         return
-    jobs = sum(part.jobs for part in parts_of(situation.study)) if situation.study else asked
+    study = situation.study
+    jobs = sum(part.jobs for part in parts_of(study, asked)) if study else asked
     if jobs < asked:
         text = f"{asked} of {there} cores; the fits have {jobs} jobs, so that some stay idle"
     else:

@@ -36,13 +36,13 @@ class Part:
     jobs: int
 
 
-def parts_of(study: Study) -> Iterator[Part]:
-    """Yield the searches of a study."""
+def parts_of(study: Study, cores: int | None = None) -> Iterator[Part]:
+    """Yield the searches of a study, on the cores of this machine or, with None, on a cluster."""
     if study.kinetics is not None:
         calls = search_calls(study.kinetics)
         yield Part("", calls[0], calls[1], jobs=1)
     stage = study.imp
-    jobs = shares(study)
+    jobs = shares(study, cores=cores)
     single = sum(len(share) for share in jobs if len(share) == 1)
     grouped = stage.repetitions - single
     sceua, squares = search_calls(stage)

@@ -35,7 +35,8 @@ def duration(situation: Situation) -> Iterator[Finding]:
     start = time.perf_counter()
     try:
         measured = measurements(study)
-        timed = [(part, *seconds(_problem(study, part, measured))) for part in parts_of(study)]
+        planned = parts_of(study, situation.job_cores)
+        timed = [(part, *seconds(_problem(study, part, measured))) for part in planned]
     except PyrofitError as error:
         yield Finding("error", "time", f"the model cannot be timed: {error}")
         return

@@ -6,21 +6,26 @@ from pyrofit.errors import StudyError
 
 KEY = "repetitions_per_job"
 """Key of ``snakemake --config``; it belongs to a run, not to a study."""
-SIDE_BY_SIDE = 16
+SIDE_BY_SIDE = 32
 """Repetitions that run side by side: the solver is then two to three times as fast."""
+ON_A_CLUSTER = 16
+"""Repetitions of a job of a cluster."""
+LANES = 8
+"""Repetitions that fill the lanes of the solver."""
 FEW = 3
 """Repetitions that are as fast alone as side by side."""
 MOST_JOBS = 40
 """Jobs of repetitions of a study whose repetitions are shared out automatically, about."""
 
 
-def shares(study: Study, wanted: object = None) -> list[list[int]]:
+def shares(study: Study, wanted: object = None, cores: int | None = None) -> list[list[int]]:
     """Return the repetitions of each job of a cost function.
 
-    By default, sixteen share a job, and so does the rest if it is more than `FEW`. Up to sixteen
-    are shared out by eights, so that two cores have work. Where that makes more than `MOST_JOBS`
-    jobs, jobs hold several sixteens. Runs of an external program gain nothing side by side: there,
-    each repetition is a job. More repetitions run no full job again.
+    By default a cost has as many jobs as are needed to give every core one, by eights, and at most
+    `SIDE_BY_SIDE` share a job. On a cluster sixteen do; up to sixteen are shared out by eights.
+    Where that makes more than `MOST_JOBS` jobs, jobs hold several times as many. The rest is a job
+    if it is more than `FEW`. Runs of an external program gain nothing side by side: there, each
+    repetition is a job.
 
     Parameters
     ----------
@@ -28,6 +33,8 @@ def shares(study: Study, wanted: object = None) -> list[list[int]]:
         The study.
     wanted
         Repetitions of a job, a whole number; None shares them out by default.
+    cores
+        Cores of this machine that run jobs; None on a cluster.
 
     Raises
     ------
@@ -39,11 +46,24 @@ def shares(study: Study, wanted: object = None) -> list[list[int]]:
         return parts(everything, _whole(wanted))
     if at_once(study) == 1:
         return parts(everything, 1)
-    each = SIDE_BY_SIDE if len(everything) > SIDE_BY_SIDE else SIDE_BY_SIDE // 2
-    each *= -(-len(everything) * len(study.imp.costs) // (each * MOST_JOBS))
+    each = _by_default(len(everything), len(study.imp.costs), cores)
     full = len(everything) - len(everything) % each
     rest = everything[full:]
     return parts(everything[:full], each) + parts(rest, each if len(rest) > FEW else 1)
+
+
+def _by_default(repetitions: int, costs: int, cores: int | None) -> int:
+    """Return how many repetitions share a job, a multiple of `LANES`.
+
+    >>> [_by_default(25, 3, cores) for cores in (1, 2, 5, 6, 12, None)]
+    [32, 32, 32, 16, 8, 16]
+    """
+    if cores is None:
+        each = ON_A_CLUSTER if repetitions > ON_A_CLUSTER else LANES
+    else:
+        per_cost = max(1, cores // costs)
+        each = min(LANES * -(-repetitions // (LANES * per_cost)), SIDE_BY_SIDE)
+    return each * -(-repetitions * costs // (each * MOST_JOBS))
 
 
 def at_once(study: Study) -> int:
