@@ -33,8 +33,8 @@ def check_stages(study: Study) -> None:
         require(
             bool(study.experiments[name].signals),
             "validation.experiments",
-            f"'{name}' has no measured signals to compare; take it off the list. What it lists "
-            "under `predicts` is predicted all the same.",
+            f"'{name}' has no measured signals to compare; take it off the list. Its key "
+            "`predicts` is enough.",
         )
     choices = {"described", *(("fitted", *study.kinetics.sets) if study.kinetics else ())}
     require(
