@@ -55,6 +55,7 @@ FILES = {
     "test_ready_timing": "solver",
     "test_posterior_draws": "slow",
     "test_posterior_stage": "solver",
+    "test_repeats_measured": "slow",
     "test_report": "slow",
     "test_report_steps": "slow",
     "test_rescore_stage": "solver",
