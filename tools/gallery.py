@@ -1,6 +1,6 @@
 """Write docs/gallery.md and its figures from the results of shipped studies.
 
-Run: python tools/gallery.py [RESULTS]    default: results
+Run: python tools/gallery.py [RESULTS [STUDY ...]]    default: results, all studies
 
 RESULTS holds the results of the commands of the page. All figures that they hold are shown, and
 the report as Chromium shows it. The section of a study without results stays as it is.
@@ -183,16 +183,18 @@ GROUPS = (
 def main() -> None:
     """Write the page and its figures."""
     root = Path(sys.argv[1]) if len(sys.argv) > 1 else Path("results")
+    wanted = sys.argv[2:] or [group.study for group in GROUPS]
     (DOCS / "figures" / "gallery").mkdir(parents=True, exist_ok=True)
     page = DOCS / "gallery.md"
     before = sections(page.read_text(encoding="utf-8"))
     parts = [HEAD]
     for group in GROUPS:
-        if list(drawn(group, root)):
+        found = group.study in wanted and any(drawn(group, root))
+        if found:
             parts.append(section(group, root, "".join(parts)))
         elif group.heading in before:
             parts.append(before[group.heading])
-        print(f"{group.heading}: {'from' if list(drawn(group, root)) else 'no'} results")
+        print(f"{group.heading}: {'drawn' if found else 'as before'}")
     page.write_text("\n".join(parts), encoding="utf-8")
     remove_unused(page.read_text(encoding="utf-8"))
 
