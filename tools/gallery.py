@@ -112,7 +112,7 @@ GROUPS = (
         "The published campaign",
         "snakemake --cores 2 --configfile config/paper.yaml",
         "paper",
-        note="The other figures of this study follow below, from a run with a smaller budget.",
+        report="report.html",
         without=("fig1",),
     ),
     Group(
