@@ -84,6 +84,7 @@ def curves() -> None:
     put_section(
         "Error against cost",
         "![error against evaluations per second](figures/benchmarks.svg)\n\n"
+        "`python benchmarks/speed.py curves` measures and draws it.\n\n"
         "Settings that no other one of the grid beats in both, lanes, whole evaluations (first "
         "step 30 s times the tolerance, longest step 40 s):\n\n" + "\n\n".join(parts),
     )

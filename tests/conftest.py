@@ -27,6 +27,7 @@ FOLDERS = {
     "workflow": "long",
 }
 FILES = {
+    "test_archive": "slow",
     "test_archive_crate": "slow",
     "test_bad_input": "solver",
     "test_blind_test_parts": "long",
@@ -37,6 +38,7 @@ FILES = {
     "test_cost_properties": "slow",
     "test_diagnosis_shown": "slow",
     "test_estimate": "solver",
+    "test_external_runs": "slow",
     "test_figures": "slow",
     "test_grid": "solver",
     "test_identify_stage": "solver",
@@ -53,6 +55,7 @@ FILES = {
     "test_ready_timing": "solver",
     "test_posterior_draws": "slow",
     "test_posterior_stage": "solver",
+    "test_repeats_measured": "slow",
     "test_report": "slow",
     "test_report_steps": "slow",
     "test_rescore_stage": "solver",

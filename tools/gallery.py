@@ -1,131 +1,308 @@
 """Write docs/gallery.md and its figures from the results of shipped studies.
 
-Run: python tools/gallery.py [RESULTS]    default: results
+Run: python tools/gallery.py [RESULTS [STUDY ...]]    default: results, all studies
 
-RESULTS holds twin, pmma, paper, pine and twin_with_k_T, finished with the commands of the page.
+RESULTS holds the results of the commands of the page. All figures that they hold are shown, and
+the report as Chromium shows it. The section of a study without results stays as it is.
 Titles and captions are those of the report.
 """
 
+import re
+import shutil
+import subprocess
 import sys
+import tempfile
+from collections.abc import Iterator
+from dataclasses import dataclass
+from io import BytesIO
+from itertools import product
 from pathlib import Path
 
 from PIL import Image
 
+from pyrofit.config.read import read_study
+from pyrofit.results import diagnosis
+from pyrofit.results.files import Results
 from pyrofit.show import diagnosis_page
 from pyrofit.show.figure import Figure
 from pyrofit.show.posterior.figures import FIGURES as POSTERIOR
+from pyrofit.show.rescore.figures import FIGURES as RESCORE
+from pyrofit.show.robustness import figure as robustness
+from pyrofit.show.scheme import figure as scheme
 from pyrofit.show.sections import FIGURES
 from pyrofit.show.sensitivity.figures import FIGURES as SENSITIVITY
+from pyrofit.show.worth.figures import FIGURES as WORTH
 
 DOCS = Path(__file__).resolve().parents[1] / "docs"
-WIDTH = 1100
-COLOURS = 64
+WIDTHS = (1000, 900, 800, 700, 600)
+COLOURS = (64, 16)
+MOST_BYTES = 60_000
+"""Width, then colours are reduced until a picture has no more bytes."""
+SCREEN = (1200, 1500)
+"""Part of a report that is shown [pixels]."""
 HEAD = """\
 # Gallery
 
-Figures of the shipped studies. The command that makes the figures of a section stands above them,
-and the name of the file below each. Titles and captions are those of the report, which has these
-figures as vector graphics.
+All figures and the top of the report of the shipped studies. The command that makes the figures of
+a section stands above them, and the name of the file below each. Titles and captions are those of
+the report, which has these figures as vector graphics. A caption stands below the first figure of
+its kind. A figure that does not depend on the study is shown once. The studies `paper_fds` and
+`pmma_gpyro` need other programs and are not shown.
 
 `python tools/gallery.py` writes this page from the results.
 """
-_HIDDEN = (
-    "snakemake --cores 2 diagnose --config name=twin_with_k_T "
-    """'synthetic={"effects": {"k_T": {"slope_1_K": -0.001}}}'"""
+REPORT = "The top of the report"
+_BROWSER = (
+    *("chromium", "--headless", "--no-sandbox", "--disable-gpu", "--disable-quic"),
+    *("--no-first-run", "--disable-background-networking", "--disable-component-update"),
+    *("--disable-sync", "--hide-scrollbars", f"--window-size={SCREEN[0]},{SCREEN[1]}"),
 )
-Group = tuple[str, str, str, str, dict[str, Figure], tuple[str, ...]]
-"""Heading, command, study, folder of its figures, figures by name, and the names to show."""
-GROUPS: tuple[Group, ...] = (
-    (
+
+
+def single(name: str, title: str, caption: str) -> dict[str, Figure]:
+    """Return the only figure of a step as a mapping."""
+    return {name: Figure(10, bool, lambda study, results: None, title, caption)}  # type: ignore
+
+
+FOLDERS: dict[str, dict[str, Figure]] = {
+    "figures": FIGURES,
+    "posterior": POSTERIOR,
+    "rescore": RESCORE,
+    "robustness": single("robustness", robustness.TITLE, robustness.CAPTION),
+    "scheme": single("scheme", scheme.TITLE, scheme.CAPTION),
+    "sensitivity": SENSITIVITY,
+    "worth": WORTH,
+}
+"""Figures by folder of the results; those of a diagnosis depend on it."""
+
+
+@dataclass(frozen=True)
+class Group:
+    """A section of the page: the figures of one folder of the results of one study."""
+
+    heading: str
+    command: str
+    study: str
+    folder: str = "figures"
+    note: str = ""
+    report: str = ""
+    """Page that is shown as well."""
+    without: tuple[str, ...] = ()
+    """Figures that another section shows."""
+
+
+_K_T = """'synthetic={"effects": {"k_T": {"slope_1_K": -0.001}}}'"""
+_SHORT = """'imp={"repetitions": 3, "sceua": {"generations": 8}, "least_squares": {"starts": 3}}'"""
+_CALORIMETRY = "python tests/recovery/calorimetry_study.py > calorimetry.json"
+GROUPS = (
+    Group(
         "A study on synthetic data",
         "snakemake --cores 2 --configfile config/twin.yaml",
         "twin",
-        "figures",
-        FIGURES,
-        (
-            *("overview", "fig1", "fig2", "fig3", "fig4", "profiles"),
-            *("good_sets", "residuals", "fig5", "spread", "optimisers"),
-        ),
+        report="report.html",
     ),
-    (
+    Group(
         "Measured PMMA",
         "snakemake --cores 2 --configfile config/pmma.yaml",
         "pmma",
-        "figures",
-        FIGURES,
-        ("overview", "kinetics_all_rates", "other_signals", "profiles"),
+        report="report.html",
+        without=("fig1",),
     ),
-    (
+    Group(
         "The published campaign",
         "snakemake --cores 2 --configfile config/paper.yaml",
         "paper",
-        "figures",
-        FIGURES,
-        ("fig2", "fig3", "fig4", "fig5", "spread"),
+        report="report.html",
+        without=("fig1",),
     ),
-    (
+    Group(
+        "The published campaign with a smaller budget",
+        f"snakemake --cores 2 --configfile config/paper.yaml --config name=paper_short {_SHORT}",
+        "paper_short",
+        note="These searches have 3 repetitions of 8 generations instead of 25 of 20. Figures of "
+        "the section above are left out.",
+        report="report.html",
+        without=("fig1", "fig2", "fig3", "fig4", "fig5", "spread"),
+    ),
+    Group(
         "Measured pine",
         "snakemake --cores 2 --configfile config/pine.yaml",
         "pine",
-        "figures",
-        FIGURES,
-        ("kinetics_all_rates", "other_signals"),
+        report="report.html",
+        without=("fig1",),
     ),
-    (
+    Group(
+        "An external program",
+        "snakemake --cores 2 --configfile config/hotplate.yaml",
+        "hotplate",
+        report="report.html",
+        without=("fig1",),
+    ),
+    Group(
+        "A small study",
+        "snakemake --cores 2 --configfile config/smoke.yaml",
+        "smoke",
+        note="It is for tests: two repetitions of six generations show the workflow, no result.",
+        report="report.html",
+        without=("fig1",),
+    ),
+    Group(
+        "Calorimetry, and an experiment without a measurement",
+        f"{_CALORIMETRY}\n    snakemake --cores 2 --configfile calorimetry.json",
+        "calorimetry",
+        note="The study of a test: one repetition of three generations shows the figures, no "
+        "result. Figures that other sections show are left out.",
+        without=tuple(name for name in FIGURES if name not in ("heats", "unmeasured")),
+    ),
+    Group(
         "Diagnosis of a hidden effect",
-        _HIDDEN,
+        f"snakemake --cores 2 diagnose --config name=twin_with_k_T {_K_T}",
         "twin_with_k_T",
         "diagnosis",
-        diagnosis_page.FIGURES,
-        ("ranking", "effects", "next_experiments"),
+        report="diagnosis/report.html",
     ),
-    (
-        "Sensitivity",
-        "pyrofit sensitivity config/twin.yaml",
-        "twin",
-        "sensitivity",
-        SENSITIVITY,
-        ("total",),
+    Group("Sensitivity", "pyrofit sensitivity config/twin.yaml", "twin", "sensitivity"),
+    Group("Posterior", "pyrofit posterior config/twin.yaml", "twin", "posterior"),
+    Group("Worth of planned tests", "pyrofit worth config/twin.yaml", "twin", "worth"),
+    Group("Stored sets under other costs", "pyrofit rescore config/twin.yaml", "twin", "rescore"),
+    Group(
+        "Reaction scheme",
+        "snakemake --cores 2 scheme --configfile config/smoke.yaml",
+        "smoke",
+        "scheme",
     ),
-    (
-        "Posterior",
-        "pyrofit posterior config/twin.yaml",
-        "twin",
-        "posterior",
-        POSTERIOR,
-        ("bands",),
+    Group(
+        "Cost functions on twins with noise and outliers",
+        "snakemake --cores 2 robustness --configfile config/smoke.yaml",
+        "smoke",
+        "robustness",
     ),
 )
 
 
 def main() -> None:
     """Write the page and its figures."""
-    results = Path(sys.argv[1]) if len(sys.argv) > 1 else Path("results")
-    folder = DOCS / "figures" / "gallery"
-    folder.mkdir(parents=True, exist_ok=True)
-    page = [HEAD]
-    for heading, command, study, place, figures, names in GROUPS:
-        page.append(f"## {heading}\n\n    {command}\n")
-        for name in names:
-            source = results / study / place / f"{name}.png"
-            target = folder / f"{study}_{place}_{name}.png"
-            shrink(source, target)
-            page.append(entry(figures[name], target, f"results/{study}/{place}/{name}.svg"))
-    (DOCS / "gallery.md").write_text("\n".join(page), encoding="utf-8")
+    root = Path(sys.argv[1]) if len(sys.argv) > 1 else Path("results")
+    wanted = sys.argv[2:] or [group.study for group in GROUPS]
+    (DOCS / "figures" / "gallery").mkdir(parents=True, exist_ok=True)
+    page = DOCS / "gallery.md"
+    before = sections(page.read_text(encoding="utf-8"))
+    parts = [HEAD]
+    for group in GROUPS:
+        found = group.study in wanted and any(drawn(group, root))
+        if found:
+            parts.append(section(group, root, "".join(parts)))
+        elif group.heading in before:
+            parts.append(before[group.heading])
+        print(f"{group.heading}: {'drawn' if found else 'as before'}")
+    page.write_text("\n".join(parts), encoding="utf-8")
+    remove_unused(page.read_text(encoding="utf-8"))
 
 
-def shrink(source: Path, target: Path) -> None:
-    """Write a figure with fewer pixels and colours."""
-    with Image.open(source) as drawn:
-        flat = drawn.convert("RGB")
-        size = (min(WIDTH, flat.width), round(flat.height * min(WIDTH, flat.width) / flat.width))
-        flat.resize(size, Image.Resampling.LANCZOS).quantize(COLOURS).save(target, optimize=True)
+def sections(text: str) -> dict[str, str]:
+    """Return the sections of a page by heading."""
+    parts = re.split(r"^(?=## )", text, flags=re.M)[1:]
+    return {part.partition("\n")[0].removeprefix("## "): part.rstrip("\n") + "\n" for part in parts}
 
 
-def entry(figure: Figure, target: Path, source: str) -> str:
-    """Return the part of the page for one figure."""
+def section(group: Group, root: Path, above: str) -> str:
+    """Draw the pictures of a group and return its section of the page.
+
+    A caption that stands in a section above is not repeated.
+    """
+    parts = [f"## {group.heading}\n\n    {group.command}\n"]
+    if group.note:
+        parts.append(f"{group.note}\n")
+    for figure, source in drawn(group, root):
+        target = picture(f"{group.study}_{group.folder}_{source.stem}")
+        with Image.open(source) as image:
+            shrink(image, target)
+        name = source.relative_to(root).with_suffix(".svg").as_posix()
+        caption = "" if figure.caption in above else figure.caption
+        parts.append(entry(figure.title, target, caption, f"results/{name}"))
+    page = root / group.study / group.report
+    if group.report and page.is_file():
+        target = picture(
+            f"{group.study}_{Path(group.report).parent.name}_report".replace("__", "_")
+        )
+        shrink(screenshot(page), target)
+        parts.append(entry(REPORT, target, "", f"results/{page.relative_to(root).as_posix()}"))
+    return "\n".join(parts)
+
+
+def drawn(group: Group, root: Path) -> Iterator[tuple[Figure, Path]]:
+    """Yield the figures of a group that its results hold, and their files."""
+    folder = root / group.study / group.folder
+    if group.folder == "figures" and not (root / group.study / "report.html").is_file():
+        return  # not finished
+    figures = of_diagnosis(root / group.study) if group.folder == "diagnosis" else None
+    for name, figure in (FOLDERS[group.folder] if figures is None else figures).items():
+        source = folder / f"{name}.png"
+        if source.is_file() and name not in group.without:
+            yield figure, source
+
+
+def of_diagnosis(root: Path) -> dict[str, Figure]:
+    """Return the figures of a diagnosis; none where there is no diagnosis."""
+    results = Results(root)
+    if not diagnosis_page.exists(results):
+        return {}
+    study = read_study(root / "study.json")
+    return diagnosis_page.figures_of(study, diagnosis.read(study, results))
+
+
+def picture(name: str) -> Path:
+    """Return the file of a picture of the page."""
+    return DOCS / "figures" / "gallery" / f"{name}.png"
+
+
+def shrink(drawn: Image.Image, target: Path) -> None:
+    """Write a picture in few colours, with as many pixels as its size allows."""
+    flat = drawn.convert("RGB")
+    for colours, width in product(COLOURS, WIDTHS):
+        size = min(width, flat.width), round(flat.height * min(width, flat.width) / flat.width)
+        small = flat.resize(size, Image.Resampling.LANCZOS)
+        # This method keeps the colours of thin lines.
+        few = small.quantize(colours, method=Image.Quantize.MAXCOVERAGE, kmeans=3)
+        whiten(few)
+        few.save(target, optimize=True)
+        if target.stat().st_size <= MOST_BYTES:
+            return
+    raise SystemExit(f"{target} is larger than {MOST_BYTES} bytes in the smallest form")
+
+
+def whiten(few: Image.Image) -> None:
+    """Make the lightest grey of a picture white again, which the choice of colours may darken."""
+    palette = few.getpalette() or []
+    colours = [palette[i : i + 3] for i in range(0, len(palette), 3)]
+    lightest = max(colours, key=min)
+    few.putpalette([x for one in colours for x in ([255] * 3 if one == lightest else one)])
+
+
+def screenshot(page: Path) -> Image.Image:
+    """Return the top of a page as a browser shows it."""
+    if shutil.which(_BROWSER[0]) is None:
+        raise SystemExit(f"{_BROWSER[0]} is not there; it takes the pictures of the reports")
+    with tempfile.TemporaryDirectory() as folder:
+        shot = Path(folder) / "shot.png"
+        own = f"--user-data-dir={folder}/user", f"--screenshot={shot}"
+        command = [*_BROWSER, *own, page.resolve().as_uri()]
+        subprocess.run(command, check=True, capture_output=True, timeout=120)
+        return Image.open(BytesIO(shot.read_bytes()))
+
+
+def entry(title: str, target: Path, caption: str, source: str) -> str:
+    """Return the part of the page for one picture."""
     path = target.relative_to(DOCS).as_posix()
-    return f"### {figure.title}\n\n![{figure.title}]({path})\n\n{figure.caption}\n\n`{source}`\n"
+    said = f"{caption}\n\n" if caption else ""
+    return f"### {title}\n\n![{title}]({path})\n\n{said}`{source}`\n"
+
+
+def remove_unused(text: str) -> None:
+    """Delete pictures that the page does not show."""
+    for path in (DOCS / "figures" / "gallery").glob("*.png"):
+        if path.name not in text:
+            path.unlink()
 
 
 if __name__ == "__main__":

@@ -5,7 +5,9 @@ Run: python tools/plain_words.py [FILE ...]   list the sentences of all files, o
      python tools/plain_words.py --lower      lower the allowances to the present counts
 
 Checked are the pages (Markdown), the texts of templates, and the strings of the library that are
-longer than four words; docstrings and comments are not. A question may begin with "what".
+longer than four words. A question may begin with "what". Of the docstrings of public modules,
+classes and functions only the length of sentences is checked. Their symbols, citations and
+examples do not count. Comments are not checked.
 """
 
 import argparse
@@ -27,6 +29,12 @@ _LIBRARY = ("src/pyrofit/**/*.py", "src/pyrofit/**/*.html.j2", "src/pyrofit/**/*
 _LEFT_OUT = ("docs/verification/", "docs/site/")
 _WORD = re.compile(r"[\w°%µ²³·/'’+−-]*[A-Za-z0-9][\w°%µ²³·/'’+−-]*")
 _END = re.compile(r"(?<=[.!?])[\"')*]*\s+(?=\S)|\n\s*\n")
+_EXAMPLE = re.compile(r"^ *>>> .*?(?:\n *\n|\Z)", re.M | re.S)
+_CITATION = re.compile(r"\([^()]*\bdoi [^()]*\)|\bdoi \S+")
+_PLAIN_WORD = re.compile(r"(?<![\w^.])[A-Za-z]{2,}(?:[-'’][A-Za-z]+)*(?![\w^(])")
+"""A word of prose: no symbol of a formula, no name with an underscore, no number."""
+_INDENTED = re.compile(r"^\S.*\n(?= {4}\S)|^ {4}.*\n(?=\S)", re.M)
+"""The end of a line before one of another indentation, as of the terms of a section."""
 _SHORT_FORMS = re.compile(r"\b(e\.g|i\.e|cf|vs|et al|Eqs?|Figs?|No|approx)\.")
 
 
@@ -101,6 +109,17 @@ def findings(path: Path) -> Iterator[tuple[str, str]]:
                 yield f"{len(words)} words", sentence
             elif re.search(r"\bwhat\b", sentence, re.I) and not sentence.rstrip("*_").endswith("?"):
                 yield "what", sentence
+    if path.suffix == ".py":
+        yield from long_docstrings(text)
+
+
+def long_docstrings(source: str) -> Iterator[tuple[str, str]]:
+    """Yield the length and the sentence where a docstring has one that is too long."""
+    for block in docstrings(source):
+        for sentence in sentences(block):
+            words = _PLAIN_WORD.findall(sentence)
+            if len(words) > MOST_WORDS:
+                yield f"{len(words)} words in a docstring", sentence
 
 
 def sentences(block: str) -> list[str]:
@@ -157,6 +176,19 @@ def strings(source: str) -> Iterator[str]:
             isinstance(node, ast.Constant) and isinstance(node.value, str) and id(node) not in inner
         ):
             yield node.value
+
+
+def docstrings(source: str) -> Iterator[str]:
+    """Yield the paragraphs of the docstrings of public parts of a module."""
+    for node in ast.walk(ast.parse(source)):
+        if not isinstance(node, ast.Module | ast.ClassDef | ast.FunctionDef | ast.AsyncFunctionDef):
+            continue
+        if not isinstance(node, ast.Module) and node.name.startswith("_"):
+            continue
+        text = _EXAMPLE.sub("\n\n", ast.get_docstring(node) or "")
+        text = _CITATION.sub("", text).replace("``", "`")
+        text = _INDENTED.sub(r"\g<0>\n", text)
+        yield from re.split(r"\n\s*\n|\n-{3,}\n|\n(?=[-*] )", text)
 
 
 def _name(path: Path) -> str:

@@ -1,5 +1,11 @@
-"""A small study with simultaneous thermal analysis and combustion calorimetry."""
+"""A small study with simultaneous thermal analysis and combustion calorimetry.
 
+Run: python tests/recovery/calorimetry_study.py > calorimetry.json
+
+That file also predicts a slab without a measurement, for the gallery of the documentation.
+"""
+
+import json
 from typing import Any
 
 SLAB = {
@@ -124,3 +130,15 @@ STUDY: dict[str, Any] = {
     "robustness": {"noise": [1], "outliers": [0.1], "draws": 1, "starts": 1},
 }
 """STA at 10 K/min and MCC at 60 K/min determine kinetics and heats; a slab the rest."""
+
+
+def with_prediction() -> dict[str, Any]:
+    """Return the study with the prediction of a slab that was not measured."""
+    kept = {key: value for key, value in SLAB.items() if key != "signals"}
+    front = {"flux_W_m2": 100000, "h_W_m2K": 8}
+    slab = {**kept, "title": "slab 100 kW/m²", "front": front, "predicts": ["mlr"]}
+    return {**STUDY, "experiments": {**STUDY["experiments"], "slab_100": slab}}
+
+
+if __name__ == "__main__":
+    print(json.dumps(with_prediction(), indent=1))

@@ -352,7 +352,7 @@ def test_sentences_say_the_numbers(tmp_path: Path) -> None:
     text = said(*fake(tmp_path))
     for claim in (
         "other optimisers go lower: RMSE by 20 %, 1 of 2 starts of least squares agree",
-        "Under no cost function is a set lower by 1 % than those that were fitted with it.",
+        "For each cost function, no set beats the best one fitted with it by more than 1 %.",
         "not tested: fewer than 5 repetitions",
         "mass loss rate at Slab 25 kW/m² 3 % of the mean, 95 % of the measured points inside",
     ):

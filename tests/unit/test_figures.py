@@ -17,10 +17,27 @@ from pyrofit.show.curves import tests_of as groups_of
 from pyrofit.show.fit.fig3 import fig3
 from pyrofit.show.kinetics.drawing import slope
 from pyrofit.show.kinetics.kinetics_all_rates import kinetics_all_rates
+from pyrofit.show.matrix import draw_matrix
 from pyrofit.show.sections import FIGURES, make_figure, make_named, make_subject
 
 OF_OTHER_STUDIES = {"heats", "unmeasured"}
 """Figures of quantities and experiments that the faked study lacks."""
+
+
+@pytest.mark.parametrize("title", ["", "Correlation of the estimates (synthetic data)"])
+@pytest.mark.parametrize("names", [["a", "b"], ["k_a", "rho_a", "c_a", "eps_a", "dh"]])
+def test_matrix_cuts_no_label_off(names: list[str], title: str) -> None:
+    matrix = pd.DataFrame(np.eye(len(names)), index=names, columns=names)
+    with style.style():
+        canvas = draw_matrix(matrix, "correlation [-]")
+        canvas.suptitle(title)
+        canvas.draw_without_rendering()
+        drawn = canvas.get_tightbbox()
+    width, height = canvas.get_size_inches()
+    assert drawn.x0 >= 0.0
+    assert drawn.y0 >= 0.0
+    assert drawn.x1 <= width
+    assert drawn.y1 <= height
 
 
 @pytest.mark.parametrize("name", sorted(set(FIGURES) - OF_OTHER_STUDIES))

@@ -64,3 +64,10 @@ def test_what_cannot_be_predicted_is_refused(changes: dict[str, Any], said: str)
     with pytest.raises(StudyError, match="slab_40") as error:
         study(**changes)
     assert said in str(error.value)
+
+
+def test_prediction_without_a_measurement_has_no_place_in_the_validation() -> None:
+    given = keys(predicts=["mlr"])
+    given["validation"]["experiments"].append("slab_40")
+    with pytest.raises(StudyError, match="'slab_40' has no measured signals to compare; take it"):
+        as_study(given, "mine.yaml")

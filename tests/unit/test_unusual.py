@@ -9,11 +9,45 @@ import pytest
 import yaml
 
 from pyrofit.config import as_study, read_mapping
-from pyrofit.config.unusual import unusual
+from pyrofit.config.unusual import COUNTS, USUAL, unusual
 from pyrofit.errors import StudyError
 
 ROOT = Path(__file__).parents[2]
 SMOKE = yaml.safe_load((ROOT / "config" / "smoke.yaml").read_text(encoding="utf-8"))
+
+
+SECOND = {
+    "material.components.ash": SMOKE["material"]["components"]["residue"],
+    "material.reactions.second": {
+        "reactant": "residue",
+        "products": {"ash": 0.5},
+        "reference_temperature_K": 700,
+        "reference_rate_1_s": 0.001,
+        "E_J_mol": 2e5,
+        "heat_of_reaction_J_kg": 5e5,
+    },
+}
+"""A reaction without parameters."""
+SLAB = "experiments.slab_25"
+PLACES = {
+    "E_J_mol": "material.reactions.second.E_J_mol",
+    "conductivity_W_mK": "material.components.residue.conductivity_W_mK",
+    "density_kg_m3": "material.components.residue.density_kg_m3",
+    "duration_s": f"{SLAB}.duration_s",
+    "emissivity": "material.components.residue.emissivity",
+    "flux_W_m2": f"{SLAB}.front.flux_W_m2",
+    "foil.thickness_m": f"{SLAB}.sample.foil.thickness_m",
+    "gas_temperature_K": f"{SLAB}.front.gas_temperature_K",
+    "h_W_m2K": f"{SLAB}.back.h_W_m2K",
+    "heat_of_combustion_J_kg": "material.reactions.second.heat_of_combustion_J_kg",
+    "heat_of_reaction_J_kg": "material.reactions.second.heat_of_reaction_J_kg",
+    "heating_rate_K_min": "experiments.tga_5K.heating_rate_K_min",
+    "reference_temperature_K": "material.reactions.second.reference_temperature_K",
+    "specific_heat_J_kgK": "material.components.residue.specific_heat_J_kgK",
+    "thickness_m": f"{SLAB}.sample.layers.0.thickness_m",
+    "wall_temperature_K": f"{SLAB}.back.wall_temperature_K",
+}
+"""A place in the study `smoke` with `SECOND` for each key that has a usual range."""
 
 
 def told(change: dict[str, Any]) -> list[str]:
@@ -32,6 +66,74 @@ def told(change: dict[str, Any]) -> list[str]:
 def test_nothing_is_unusual_in_the_shipped_studies(name: str) -> None:
     path = ROOT / "config" / f"{name}.yaml"
     assert unusual(as_study(read_mapping(path), str(path))) == []
+
+
+def told_or_refused(place: str, value: float) -> str:
+    """Return 'told' or 'refused' for one value, or an empty text for silence."""
+    try:
+        said = told(SECOND | {place: value})
+    except StudyError:
+        return "refused"
+    return "told" if any(f"{place}: " in one for one in said) else ""
+
+
+@pytest.mark.parametrize("key", USUAL)
+def test_value_beyond_each_end_of_a_usual_range_is_told_or_refused(key: str) -> None:
+    low, high, _ = USUAL[key]
+    ends = [told_or_refused(PLACES[key], value) for value in (0.8 * low, 1.25 * high)]
+    assert all(ends)
+    assert "told" in ends
+    within = told(SECOND | {PLACES[key]: (low * high) ** 0.5})
+    assert within == []
+
+
+@pytest.mark.parametrize("key", COUNTS)
+def test_count_beyond_each_usual_one_is_told(key: str) -> None:
+    places = {
+        "generations": ("imp.sceua.generations", "kinetics.sceua.generations"),
+        "repetitions": ("imp.repetitions",),
+    }[key]
+    for place in places:
+        (said,) = told({place: 10**8})
+        assert said == f"{place}: 100,000,000 {key} are unusual; {COUNTS[key][1]} are usual"
+
+
+@pytest.mark.parametrize(
+    ("place", "value", "said"),
+    [
+        ("experiments.tga_5K.heating_rate_K_min", 50000, "50000 K/min is outside the usual range"),
+        (f"{SLAB}.duration_s", 1e9, "1e+09 s is outside the usual range of 10 to 100000 s"),
+        (f"{SLAB}.sample.foil.thickness_m", 0.025, "0.025 m is outside the usual range of 1e-06"),
+        (
+            f"{SLAB}.front.flux_W_m2",
+            {"time_s": [0, 60], "value": [0, 25]},
+            "largest value, 25 W/m2 is outside the usual range of 1000 to 200000 W/m2",
+        ),
+        (
+            "material.components.residue.conductivity_W_mK",
+            {"temperature_K": [300, 600], "value": [0.2, 0.3], "factor": 1e-3},
+            "largest value, 0.0003 W/(m K) is outside the usual range",
+        ),
+        (
+            "parameters.dh",
+            {"unit": "J/kg", "lower": 250, "upper": 1500},
+            "heat_of_reaction_J_kg: upper limit of parameter 'dh', 1500 J/kg is outside",
+        ),
+        (
+            "parameters.eps",
+            {"unit": "-", "lower": 0.0001, "upper": 0.002},
+            "emissivity: upper limit of parameter 'eps', 0.002 - is outside",
+        ),
+    ],
+)
+def test_value_of_a_wrong_unit_is_told(place: str, value: Any, said: str) -> None:
+    truth = SMOKE["synthetic"]["truth"] | ({"eps": 0.001} if place == "parameters.eps" else {})
+    assert any(said in one for one in told({"synthetic.truth": truth} | {place: value}))
+
+
+def test_small_values_at_the_start_of_a_table_are_usual() -> None:
+    table = {"time_s": [0, 5, 60], "value": [0, 200, 25000]}
+    assert told({f"{SLAB}.front.flux_W_m2": table}) == []
 
 
 @pytest.mark.parametrize("flux", [25, 2.5e7])

@@ -25,9 +25,9 @@ NEAR = 0.01
 def cost_tests(study: Study, results: Results) -> pd.DataFrame:
     """Test whether the cost functions differ, in where the repetitions end and how they scatter.
 
-    Kruskal and Wallis's test of place and Brown and Forsythe's of scatter, each with Holm's
-    correction for the number of quantities; the pairs by Mann and Whitney's test with Holm's
-    correction for the number of pairs.
+    Places are compared by Kruskal and Wallis's test, scatter by Brown and Forsythe's, each with
+    Holm's correction for the number of quantities. Pairs are compared by Mann and Whitney's test
+    with Holm's correction for the number of pairs.
 
     Returns
     -------

@@ -30,8 +30,8 @@ def explore(
     """Walk about the region where the cost is at most ``top``, from a set in it.
 
     Hit and run (Smith 1984, doi 10.1287/opre.32.6.1296) by several walkers at once: each takes a
-    direction and a place on its line within the limits; where the cost is too high, the line is
-    cut off there and tried again (Neal 2003, doi 10.1214/aos/1056562461). Directions are those of a
+    direction and a place on its line within the limits. Where the cost is too high, the line is cut
+    off there and tried again (Neal 2003, doi 10.1214/aos/1056562461). Directions are those of a
     parameter, of a random vector, or between two good sets, along which the region is long.
 
     Parameters

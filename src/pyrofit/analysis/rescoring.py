@@ -45,8 +45,8 @@ class Valley:
 def strata(costs: FloatArray, count: int) -> NDArray[np.int64]:
     """Return positions of sets that stand for all quantiles of their own cost.
 
-    The sets, sorted by cost, are cut into ``count`` parts of the same size; the lowest of each part
-    is taken, so that the lowest of all is. Ties keep their order.
+    The sets, sorted by cost, are cut into ``count`` parts of the same size. The lowest of each part
+    is taken, and thus the lowest of all. Ties keep their order.
 
     >>> strata(np.array([5.0, 1.0, 3.0, 2.0, 4.0, 6.0]), 3).tolist()
     [1, 2, 0]

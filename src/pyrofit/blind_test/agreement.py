@@ -16,9 +16,9 @@ from pyrofit.errors import StudyError
 def agreement(setting: Setting) -> pd.DataFrame:
     """Return one row per case: differences of true model and noise-free curves of another code.
 
-    ``at_truth_sd`` is the root of the sum of squared differences over the noise, ``fitted_sd`` that
-    which no parameter of the base takes up, and ``largest_sd`` the largest of its differences.
-    The signals are those of the set that has most; the noise is the first kind.
+    ``at_truth_sd`` is the root of the sum of squared differences over the noise. ``fitted_sd`` is
+    the part that no parameter of the base takes up, and ``largest_sd`` the largest of its
+    differences. The signals are those of the set that has most; the noise is the first kind.
 
     Raises
     ------

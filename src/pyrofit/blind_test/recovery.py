@@ -68,9 +68,9 @@ def _table(columns: tuple[str, ...], rows: Iterator[dict[str, Any]]) -> pd.DataF
 def strength_rows(found: Found) -> Iterator[dict[str, Any]]:
     """Compare the strengths of named effects with the truth, SI units.
 
-    ``low`` to ``high`` is the 95 % interval of the strength in the form that was fitted,
-    ``low_form`` to ``high_form`` that with an uncertain form, where there is one. An effect of the
-    same signature under another name has no true strength.
+    ``low`` to ``high`` is the 95 % interval of the strength in the form that was fitted.
+    ``low_form`` to ``high_form`` is the one with an uncertain form, if any. An effect of the same
+    signature under another name has no true strength.
     """
     case = found["case"]
     for effect in leading(found["verdict"]):

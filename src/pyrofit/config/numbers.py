@@ -50,8 +50,8 @@ def check_numbers(study: Study) -> None:
     Raises
     ------
     ValueError
-        A number, or a value or limit of the parameter in its place, breaks the rule of the place;
-        the parameter is unknown; or its unit is that of another quantity.
+        A number, or a value or limit of the parameter in its place, breaks the rule of the place.
+        The parameter is unknown, or its unit is that of another quantity.
     """
     described = {
         "material": study.material,

@@ -29,6 +29,13 @@ def check_stages(study: Study) -> None:
     _known(study, study.imp.identification, "imp.identification", "imp")
     check_choice(study, "imp.identification", study.imp.identification)
     _known(study, study.validation.experiments, "validation.experiments", "imp")
+    for name in study.validation.experiments:
+        require(
+            bool(study.experiments[name].signals),
+            "validation.experiments",
+            f"'{name}' has no measured signals to compare; take it off the list. Its key "
+            "`predicts` is enough.",
+        )
     choices = {"described", *(("fitted", *study.kinetics.sets) if study.kinetics else ())}
     require(
         study.imp.kinetics in choices,

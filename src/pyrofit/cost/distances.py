@@ -85,8 +85,8 @@ def bands_limits(
     Raises
     ------
     CostError
-        One limit alone, limits together with `n_sigma`, no limits and no uncertainty, a wrong
-        length, a lower limit above the upper, or an option that is not above 0.
+        One limit stands alone, or limits together with `n_sigma`. Limits and uncertainty are
+        absent. A length is wrong, a lower limit is above the upper, or an option is not above 0.
 
     References
     ----------

@@ -89,7 +89,7 @@ class WeightedSum:
 
         One term with a weight above 0: w residuals, whose norm is E. More: sqrt(w_i) residuals_i
         one after the other. E is then a sum of norms, not of squares, and no residuals have it as
-        their norm: the sum of squares is sum of w_i cost_i^2, which has the same zero, but in
+        their norm. The sum of squares is the sum of w_i cost_i^2. It has the same zero, but in
         general another minimum than E.
 
         Parameters, errors: as `value`.

@@ -19,8 +19,8 @@ def bulk_values(
 ) -> FloatArray | None:
     """Return the numbers of the lines of a table, shape (n_rows, width).
 
-    None is returned where a line has another number of cells, a cell is quoted, or holds neither a
-    finite number nor nothing: the lines are then to be read one by one. The numbers are the same.
+    None is returned where a line has another number of cells, or a cell is quoted or holds other
+    text than a finite number. The lines are then to be read one by one. The numbers are the same.
     """
     if numerals.thousands or delimiter == BLANKS:
         return None

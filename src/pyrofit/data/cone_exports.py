@@ -33,10 +33,10 @@ def is_export(lines: Sequence[Sequence[str]]) -> bool:
 def unfolded(path: Path, lines: Sequence[Line], notes: list[str]) -> list[Line]:
     """Return the lines of a cone calorimeter's export as a header and rows.
 
-    Known are the files of FTT, whose first two columns hold keys and values, and the scans of
-    Deatak, with names in the first row and units below; their keys are in a file beside them, named
-    `Scalar` instead of `Scan`. Where a file has no heat release rate, it is computed from the
-    oxygen, see `pyrofit.data.oxygen`.
+    The first two columns of FTT's files hold keys and values. The scans of Deatak have names in the
+    first row and units below. Their keys are in a file beside them, named `Scalar` instead of
+    `Scan`. Where a file has no heat release rate, it is computed from the oxygen, see
+    `pyrofit.data.oxygen`.
     """
     if lines[0].cells[0].casefold() == _DEATAK:
         return _deatak(path, lines, notes)

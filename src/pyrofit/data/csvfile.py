@@ -100,8 +100,8 @@ def read_table(path: Path) -> Table:
     Raises
     ------
     DataError
-        The file cannot be read, has no header or no numbers, a row is longer or shorter than the
-        header, or its numbers can be read in two ways.
+        The file cannot be read, or has no header or no numbers. A row is longer or shorter than the
+        header. The numbers can be read in two ways.
 
     Examples
     --------

@@ -27,8 +27,8 @@ def rows_of(path: Path, raw: Sequence[str], layout: Layout) -> list[Line]:
 def without_footer(path: Path, raw: list[str], layout: Layout, notes: list[str]) -> list[str]:
     """Return the lines of a file without text below the rows of numbers.
 
-    That are rows at the end whose first cell is empty or text, where that of the first row is a
-    number, and shorter ones that hold text.
+    Such text is a row at the end whose first cell is empty or text, where the first row begins with
+    a number. It is also a shorter row that holds text.
     """
     end = len(raw)
     width = len(cells_of(path, raw[layout.start], layout.delimiter))
@@ -58,8 +58,8 @@ def whole_rows(
 ) -> list[Line]:
     """Return the rows, each as wide as the header.
 
-    Left out are those that repeat the header, with text right above them and units below, and,
-    where there are ``marks``, those that mark an event by a negative number in the first column.
+    Rows that repeat the header are left out, with text right above them and units below. Where
+    there are ``marks``, so are rows that mark an event by a negative number in the first column.
 
     Raises
     ------

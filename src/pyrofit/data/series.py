@@ -56,10 +56,10 @@ def read_series(spec: SeriesSpec, read: Callable[[Path], Table] = read_table) ->
     """Read a measured series, convert it to SI units and check it.
 
     A mass `m` becomes the mass fraction `m / m_0`, with `m_0` the given mass of the sample, else
-    the first value; a mass rate becomes the mass loss rate per area, `rate / area`, and a mass the
-    mass per area where that is the quantity; a power becomes that per initial mass. Columns that
-    are zero throughout are placeholders and are left out. Of more than `MOST_POINTS` rows every
-    n-th is used.
+    the first value. Where the quantity is one per area, a mass becomes the mass per area. A mass
+    rate becomes the mass loss rate per area, `rate / area`, and a power that per initial mass.
+    Columns that are zero throughout are placeholders and are left out. Of more than `MOST_POINTS`
+    rows every n-th is used.
 
     Parameters
     ----------
@@ -76,9 +76,9 @@ def read_series(spec: SeriesSpec, read: Callable[[Path], Table] = read_table) ->
     Raises
     ------
     DataError
-        The file cannot be read as a table; a column is absent, ambiguous or all zero; a unit is
-        absent or unknown; there are fewer than 3 points; time does not increase; an uncertainty
-        is negative; or a value is so far off that its unit must be wrong.
+        The file cannot be read as a table. A column is absent, ambiguous or all zero, or a unit is
+        absent or unknown. There are fewer than 3 points, time does not increase, or an uncertainty
+        is negative. A value is so far off that its unit must be wrong.
 
     Examples
     --------

@@ -60,9 +60,8 @@ class Accuracy(Part):
 class Resolution(Part):
     """How finely the reference solver solves the slab and TGA equations.
 
-    By default the mass loss rate is off (rms over mean) by 0.001 % in the paper's case at 25 kW/m2,
-    by 0.02 % at 60 and by 0.4 % for a material of k = 0.06 W/(m K) at 100; the error falls with the
-    square of the element size.
+    The error of the mass loss rate falls with the square of the element size. It is larger at
+    higher flux and for materials of lower conductivity.
     """
 
     elements: int = Field(400, ge=2, le=5000, description="finite elements of the slab")

@@ -13,8 +13,8 @@ LEAST = 1.0
 def remark(temperature: FloatArray, flow: FloatArray) -> str:
     """Say where the largest peak releases heat, or that the values are too small.
 
-    The peak is the largest difference between a value and the mean of those 60 K below and above;
-    a baseline that is curved or far from zero does not count.
+    The peak is the largest difference between a value and the mean of those 60 K below and above. A
+    baseline that is curved or far from zero does not count.
 
     >>> T = np.arange(300.0, 800.0, 10.0)
     >>> remark(T, 300.0 - 2000.0 * np.exp(-(((T - 640.0) / 20.0) ** 2)))[:52]

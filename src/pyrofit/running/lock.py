@@ -2,7 +2,7 @@
 
 Snakemake's own lock stays behind when a run is killed, and does not cover jobs. Here a run and each
 of its jobs write a file that describes their process; files of dead processes are ignored. A job
-writes its file before it reads that of the run, and a run writes its own before it looks for jobs:
+writes its file before it reads that of the run. A run writes its own before it looks for jobs. Thus
 one of the two sees the other.
 """
 

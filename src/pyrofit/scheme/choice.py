@@ -51,8 +51,8 @@ class Choice:
     """All fitted schemes, the chosen one, and the one that predicts best.
 
     ``own`` is the scheme that the study describes, for comparison. ``margins`` are the log scores
-    that each predicting scheme may lose to the best, ``held_out`` the predictions of records that
-    no scheme is fitted to; both by name.
+    that each predicting scheme may lose to the best. ``held_out`` are the predictions of records
+    that no scheme is fitted to. Both are by name.
     """
 
     candidates: tuple[Candidate, ...]

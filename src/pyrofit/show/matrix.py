@@ -9,8 +9,9 @@ from pyrofit.show.drawn import Canvas
 def draw_matrix(matrix: pd.DataFrame, label: str) -> Canvas:
     """Draw a matrix of correlations, with its numbers."""
     names = [str(name) for name in matrix]
-    size = min(style.TWO_COLUMNS, 34.0 + 11.5 * len(names))
+    size = min(style.TWO_COLUMNS, 34.0 + 11.5 * max(len(names), 4))  # the title needs the width
     canvas, (ax,) = style.panels(1, 1, size + 12.0, size - 8.0)
+    canvas.set_layout_engine("compressed")  # the usual one cuts off labels of square panels
     # Blue and red are told apart by every kind of colour vision.
     image = ax.imshow(matrix.to_numpy(), cmap="RdBu_r", vmin=-1.0, vmax=1.0)
     for i, row in enumerate(matrix.to_numpy()):

@@ -54,7 +54,7 @@ class Agreement(NamedTuple):
 
 
 class Levels(NamedTuple):
-    """Largest differences that are accepted; measured ones are a third of them or less."""
+    """Largest differences that are accepted."""
 
     rate: float
     burnout_s: float

@@ -39,8 +39,8 @@ class Lines:
     namelists
         MATL and RAMP lines.
     parts
-        By component the identifiers of its MATL lines and their shares of its mass; several where
-        a sum of first-order reactions stands for one of another order.
+        By component the identifiers of its MATL lines and their shares of its mass. There are
+        several where a sum of first-order reactions stands for one of another order.
     remarks
         The terms that are not written exactly.
     """

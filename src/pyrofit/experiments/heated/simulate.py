@@ -101,8 +101,8 @@ def heating_rate(
 ) -> FloatArray:
     """Return dT/dt [K/s] at the given times: the nominal one, or that of the measured programme.
 
-    The latter is the slope between the temperatures half a window before and after, cut at the
-    ends of the record; a window is the time in which the nominal rate rises by `WINDOW_K`. The
+    The latter is the slope between the temperatures half a window before and after, cut at the ends
+    of the record. A window is the time in which the nominal temperature rises by `WINDOW_K`. The
     differences of neighbouring readings would be mostly their rounding.
     """
     nominal = experiment.heating_rate_K_min / 60.0

@@ -1,9 +1,9 @@
 """Phases of a slab under radiant heat, from the simulated curves.
 
-*Heat-up* until the mass loss rate reaches a tenth of its largest value; *onset* until it reaches
-0.8 of its median between conversions of 0.2 and 0.8; *plateau* until the back has warmed by a tenth
-of the front's rise; *back-effect* until nine tenths of the volatile mass are gone; *burn-out* until
-0.99 are; then *tail*.
+*Heat-up* lasts until the mass loss rate reaches a tenth of its largest value. *Onset* lasts until
+it reaches 0.8 of its median between conversions of 0.2 and 0.8. *Plateau* lasts until the back has
+warmed by a tenth of the front's rise. *Back-effect* lasts until nine tenths of the volatile mass
+are gone, *burn-out* until 0.99 are. The rest is *tail*.
 """
 
 from collections.abc import Mapping

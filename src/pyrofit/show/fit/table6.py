@@ -15,9 +15,9 @@ def table6(study: Study, results: object) -> pd.DataFrame:
     Returns
     -------
     pandas.DataFrame
-        One row per stage and parameter, in the parameter's unit; ``published_lower`` and
-        ``published_upper`` are published limits, ``published_lowest`` and ``published_highest``
-        of the best sets over the cost functions, where any are published.
+        One row per stage and parameter, in the parameter's unit. ``published_lower`` and
+        ``published_upper`` are published limits. ``published_lowest`` and ``published_highest`` are
+        the ends of the published best sets over the cost functions, if any.
     """
     kinetics = study.kinetics.estimate if study.kinetics else ()
     stages = (("kinetics", kinetics), ("inverse modelling", study.imp.estimate))

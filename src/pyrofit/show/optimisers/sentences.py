@@ -57,7 +57,7 @@ def _beaten(tables: Frames) -> str:
                 f"{number(float(own))} at best"
             )
     if not parts:
-        return "Under no cost function is a set lower by 1 % than those that were fitted with it."
+        return "For each cost function, no set beats the best one fitted with it by more than 1 %."
     return f"One search may miss a set that another one finds: {'; '.join(parts)}."
 
 

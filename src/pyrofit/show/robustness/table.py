@@ -18,10 +18,10 @@ def robustness(study: Study, results: Results) -> pd.DataFrame:
     Returns
     -------
     pandas.DataFrame
-        One row per kind, level and cost function: medians over the draws of the error of all
-        parameters and of the prediction, root mean square error of each parameter in per cent of
-        its limits, and Kruskal and Wallis's p that the cost functions' errors lie at the same
-        place, Holm-corrected for the number of levels.
+        One row per kind, level and cost function. Its columns are medians over the draws of the
+        error of all parameters and of the prediction. The error of each parameter is a root mean
+        square in per cent of its limits. The p is Kruskal and Wallis's for errors of the cost
+        functions at the same place, Holm-corrected for the number of levels.
     """
     frame = errors(study, results)
     names = list(study.imp.estimate)

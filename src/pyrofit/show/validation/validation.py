@@ -21,8 +21,8 @@ def validation(study: Study, results: Results) -> pd.DataFrame:
     Returns
     -------
     pandas.DataFrame
-        One row per experiment, signal and set; ``data`` says whether the set's cost was fitted to
-        the signal or predicts it; ``solver_...`` is the solver's own error, estimated by
+        One row per experiment, signal and set. ``data`` says whether the set's cost was fitted to
+        the signal or predicts it. ``solver_...`` is the solver's own error, estimated by
         refinement, in the same measure.
     """
     found = scores(study, prediction.scores(study, results, predicted_labels(study)))
