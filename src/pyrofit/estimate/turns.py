@@ -2,8 +2,8 @@
 
 A search written as one loop asks for one cost after the other. Here several run, one at a time,
 each until it asks; when all wait, their questions are answered together, and they go on in order.
-The solver answers a certain number together, or multiples of it: the questions beyond wait until
-others have asked again, so that none is answered alone while more searches run.
+The solver answers a certain number together, or multiples of it. The questions beyond wait until
+others have asked again: none is answered alone while more searches run.
 Each search is a greenlet: to change from one to the next takes less than a microsecond, from one
 thread to the next some thirty. Each finds a generator of its own as numpy's global one, which it
 must seed.

@@ -1,7 +1,7 @@
 """Free corrections of a description: a handful of coefficients, zero where nothing is corrected.
 
-The flux over time, the conductivity and the heat capacity over temperature, the losses of front and
-back over their temperatures, and the heat capacity of the foil, the same for all experiments.
+They change the flux over time, conductivity and heat capacity over temperature, the losses of front
+and back, or the heat capacity of the foil. They are the same for all experiments.
 """
 
 from pyrofit.diagnose.corrections.correction import Correction, Values, slabs_of, times_of

@@ -126,9 +126,9 @@ def _other_terms(found: Found) -> list[str]:
     named = zip(verdict["effects"], verdict["other_terms"], strict=True)
     nearest = [(min(terms, key=lambda term: term["above"]), e) for e, terms in named if terms]
     return [
-        f"The nearest free correction in the place of {effect_name(effect)} is {term['words']}: "
-        f"-2 ln of its marginal likelihood is {term['above']:+.1f} against the effect; "
-        f"above {found['ambiguity']:g} the data separate them."
+        f"The nearest free correction in the place of {effect_name(effect)} is {term['words']}. "
+        f"Its marginal likelihood differs by {term['above']:+.1f} in -2 ln; "
+        f"above {found['ambiguity']:g} the data separate the two."
         for term, effect in nearest
     ]
 
