@@ -181,9 +181,9 @@ def heavy() -> list[Probe]:
         ("faded", "flux"),
         ("stepped", "conductivity"),
         ("molten", "heat_capacity"),
-        ("convected", "front_loss"),
-        ("cooled", "back_loss"),
-        ("heavy", "foil"),
+        ("convected", "front_heat_loss"),
+        ("cooled", "back_heat_loss"),
+        ("heavy", "foil_heat_capacity"),
     ],
 )
 def test_probe_of_the_hidden_kind_absorbs_most(
@@ -197,9 +197,9 @@ def test_probe_of_the_hidden_kind_absorbs_most(
         "flux",
         "conductivity",
         "heat_capacity",
-        "front_loss",
-        "back_loss",
-        "foil",
+        "front_heat_loss",
+        "back_heat_loss",
+        "foil_heat_capacity",
     }
 
 

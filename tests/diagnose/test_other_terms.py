@@ -41,7 +41,7 @@ class Corrected(linear.Linear):
         return tuple(range(len(self.names)))
 
 
-def correction(problem: Problem, column: FloatArray, probe: str = "front_loss") -> Correction:
+def correction(problem: Problem, column: FloatArray, probe: str = "front_heat_loss") -> Correction:
     """A correction with one coefficient, which adds a column to the curves."""
     assert isinstance(problem, linear.Linear)
     parts = {field.name: getattr(problem, field.name) for field in fields(problem)}
@@ -59,7 +59,7 @@ def like_k_T(share: float) -> FloatArray:
     return np.asarray(share * mine + (1.0 - share) * other)
 
 
-def offered(monkeypatch: pytest.MonkeyPatch, share: float, probe: str = "front_loss") -> None:
+def offered(monkeypatch: pytest.MonkeyPatch, share: float, probe: str = "front_heat_loss") -> None:
     monkeypatch.setattr(
         module, "corrections", lambda problem, x: [correction(problem, like_k_T(share), probe)]
     )

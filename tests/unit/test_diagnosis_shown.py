@@ -282,7 +282,7 @@ def strength(name: str) -> tuple[str, ...]:
 def probes() -> list[dict[str, Any]]:
     shapes = {
         "flux": ("a factor on the external flux that varies over time", "-"),
-        "front_loss": ("another heat loss of the front", "W/m2"),
+        "front_heat_loss": ("another heat loss of the front", "W/m2"),
     }
     return [
         {
@@ -527,7 +527,7 @@ def test_a_probe_is_a_factor_or_a_change_with_a_unit(tmp_path: Path) -> None:
     draw_all(results, study)
     said = words_of(results, "probes")
     assert "factor on the flux" in said
-    assert "change of the front loss" in said
+    assert "change of the front heat loss" in said
     assert {"[–]", "[kW/m²]"} <= set(said)
 
 

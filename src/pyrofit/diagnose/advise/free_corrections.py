@@ -27,7 +27,8 @@ class Probe:
     Parameters
     ----------
     probe
-        ``flux``, ``conductivity``, ``heat_capacity``, ``front_loss``, ``back_loss`` or ``foil``.
+        ``flux``, ``conductivity``, ``heat_capacity``, ``front_heat_loss``, ``back_heat_loss`` or
+        ``foil_heat_capacity``.
     what
         The same in words.
     coefficients

@@ -21,7 +21,7 @@ or 3 % of 6 mm of a polymer."""
 
 def foil_capacity(problem: Problem, T: tuple[float, float]) -> Correction:
     """Make C = C_0 + c, the heat capacity of the foil per area, at least zero."""
-    (name,) = names_of("foil", 1)
+    (name,) = names_of("foil_heat_capacity", 1)
     foils = {n: slab.sample.foil for n, slab in slabs_of(problem).items() if slab.sample.foil}
     own = {n: f"probe_foil_{i}_factor" for i, n in enumerate(foils)}
 
@@ -37,7 +37,7 @@ def foil_capacity(problem: Problem, T: tuple[float, float]) -> Correction:
         return [(at, values[name]) for at in T]
 
     return Correction(
-        probe="foil",
+        probe="foil_heat_capacity",
         what="another heat capacity at the back of the sample",
         unit="J/(m2 K)",
         sd={name: FOIL_SD},

@@ -22,9 +22,9 @@ SAME_TERM = {
     "flux": ("flux over time", "amount of flux", "timing"),
     "conductivity": ("conductivity with temperature",),
     "heat_capacity": ("heat capacity with temperature",),
-    "front_loss": ("front loss",),
-    "back_loss": ("back loss",),
-    "foil": ("heat capacity of the foil",),
+    "front_heat_loss": ("front loss",),
+    "back_heat_loss": ("back loss",),
+    "foil_heat_capacity": ("heat capacity of the foil",),
 }
 """Groups of effects that change the same term of the model, by correction."""
 

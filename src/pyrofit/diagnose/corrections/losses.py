@@ -25,7 +25,7 @@ LOSS_SD = {"gas_temperature_K": 30.0, "h_change_W_m2K": 6.0, "h_cube_root_W_m2K4
 
 def loss(problem: Problem, T: tuple[float, float], side: str) -> Correction:
     """Make q = (h_0 + c_1)(T_s - T_g) + (C_0 + c_2)(T_s - T_g)^(4/3), with T_g = T_gas + c_0."""
-    names = dict(zip(LOSS_SD, names_of(f"{side}_loss", len(LOSS_SD)), strict=True))
+    names = dict(zip(LOSS_SD, names_of(f"{side}_heat_loss", len(LOSS_SD)), strict=True))
     described = {name: getattr(slab, side) for name, slab in slabs_of(problem).items()}
     own = {
         name: {key: named(getattr(face, key), f"probe_{side}_{key}_{i}") for key in LOSS_SD}
@@ -50,7 +50,7 @@ def loss(problem: Problem, T: tuple[float, float], side: str) -> Correction:
         return list(zip(at.tolist(), (after - before).tolist(), strict=True))
 
     return Correction(
-        probe=f"{side}_loss",
+        probe=f"{side}_heat_loss",
         what=f"another heat loss of the {side} over its temperature",
         unit="W/m2",
         sd=dict(zip(names.values(), LOSS_SD.values(), strict=True)),
