@@ -378,8 +378,7 @@ def test_next_experiment_tells_apart_all_that_is_left_open() -> None:
 def test_no_fit_with_an_effect_ends_above_the_one_without() -> None:
     for y in (planted(k_T=0.8), planted(k_T=0.8, c_T=-0.7)):
         found = searched(y, effects=EFFECTS)
-        groups = {known_effects()[effect].group for effect in EFFECTS}
-        assert {known_effects()[t.effects[0]].group for t in found.rounds[0].trials} == groups
+        assert len(found.trials) >= len(EFFECTS)
         for step in found.rounds:
             assert all(trial.fit.chi2 <= step.start.fit.chi2 for trial in step.trials)
 
@@ -407,5 +406,5 @@ def test_every_model_is_listed_once() -> None:
     found = searched(planted(k_T=0.8, c_T=-0.7), effects=EFFECTS)
     rows = candidates(found, verdict_on(found))
     models = [sorted((e, *p) for e, p in row["free"].items()) for row in rows]
-    assert len(rows) > 8
+    assert len(rows) > 10
     assert [m for i, m in enumerate(models) if m in models[:i]] == []

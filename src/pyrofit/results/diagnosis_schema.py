@@ -216,7 +216,7 @@ class Diagnosis(Record):
     solver: OfSolver = Field(description="accuracy of the solver")
     needed: float = Field(description="gain of chi-square that a claim needs")
     ambiguity: float = Field(description="difference of penalised chi-square that decides nothing")
-    not_tried: list[OfNotTried] = Field(description="effects that were not fitted")
+    not_tried: list[OfNotTried] = Field(description="effects that are no candidates")
     candidates: list[OfCandidate] = Field(description="models with effects, the best first")
     extended: OfExtended = Field(description="the model that the search ended with")
     gap: list[OfGap] = Field(description="misfit before and after, by signal")

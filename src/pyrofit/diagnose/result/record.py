@@ -40,7 +40,7 @@ def content(study: Study, found: Search, verdict: Verdict) -> dict[str, Any]:
         "confusability": confusability_of(found),
         "needed": found.spare + float(np.log(found.base.model.points)),
         "ambiguity": SETTINGS.ambiguous_chi2,
-        "not_tried": _not_tried(study, found),
+        "not_tried": _not_tried(study),
         "candidates": candidates(found, verdict),
         "extended": {"parameters": _extended(study, found)},
         "gap": _gap(found),
@@ -90,17 +90,12 @@ def _role(found: Search, channel: int) -> str:
     return CALIBRATION if channel in found.base.model.base.calibrated else HELD_OUT
 
 
-def _not_tried(study: Study, found: Search) -> list[dict[str, str]]:
-    """Return the effects of the catalogue that were not fitted, and why."""
-    candidates, catalogue = candidate_effects(study), known_effects()
+def _not_tried(study: Study) -> list[dict[str, str]]:
+    """Return the effects of the catalogue that are no candidates, and why."""
+    candidates = candidate_effects(study)
+    others = [name for name in known_effects() if name not in candidates]
     unlisted = "diagnosis.effects does not list it"
-    reasons = {n: obstacle(study, n) or unlisted for n in catalogue if n not in candidates}
-    fitted = {effect for trial in found.trials for effect in trial.effects}
-    for name in candidates if fitted else ():
-        if name not in fitted:
-            group = catalogue[name].group
-            reasons[name] = f"another effect of its group ({group}) ends far above the best one"
-    return [{"effect": name, "reason": reason} for name, reason in reasons.items()]
+    return [{"effect": name, "reason": obstacle(study, name) or unlisted} for name in others]
 
 
 def _base(study: Study, found: Search) -> dict[str, Any]:

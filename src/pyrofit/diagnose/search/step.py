@@ -20,7 +20,6 @@ from pyrofit.diagnose.search.refit import (
 )
 from pyrofit.diagnose.search.score_test import Screening
 from pyrofit.diagnose.settings import SETTINGS
-from pyrofit.effects import known_effects
 from pyrofit.parallel import parallel_map
 from pyrofit.solver.arrays import FloatArray
 
@@ -91,16 +90,11 @@ class _Try:
     def model(self) -> Model:
         return model_with(self.start, self.seen.effect)
 
-    @property
-    def group(self) -> tuple[int, str]:
-        return self.step, known_effects()[self.seen.effect].group
-
 
 def _fitted(tried: Tried, context: SearchContext) -> list[list[FittedModel]]:
     """Fit one effect more in each step, those that promise most.
 
-    Roughly first, one effect of each group, then the others of the groups that come near the best.
-    Those that gain next to nothing are fitted from a second start as well. Those that come near
+    Roughly first, those that gain next to nothing from a second start as well. Those that come near
     the best one are then fitted to the end, from the other starts, too.
     """
     tries = [
@@ -134,16 +128,12 @@ def _fitted(tried: Tried, context: SearchContext) -> list[list[FittedModel]]:
     def to_the_end(i: int) -> FittedModel:
         return from_elsewhere(tries[i].start, tries[i].seen, followed(found[i]), others[i])
 
-    first: dict[tuple[int, str], int] = {}
-    for i, one in enumerate(tries):
-        first.setdefault(one.group, i)
-    fit(first.values(), roughly)
-    leading = {tries[i].group for i in found if near(i)}
-    fit([i for i, one in enumerate(tries) if i not in found and one.group in leading], roughly)
-    fit([i for i in sorted(found) if little(i)], once_more)
-    fit([i for i in sorted(found) if near(i)], to_the_end)
-    _told([found[i] for i in sorted(found)], context)
-    return [[found[i] for i in sorted(found) if tries[i].step == k] for k in range(len(tried))]
+    every = range(len(tries))
+    fit(every, roughly)
+    fit([i for i in every if little(i)], once_more)
+    fit([i for i in every if near(i)], to_the_end)
+    _told([found[i] for i in every], context)
+    return [[found[i] for i in every if tries[i].step == k] for k in range(len(tried))]
 
 
 def _best(step: SearchStep, most: int) -> list[Screening]:

@@ -1,4 +1,4 @@
-"""Effects that were not fitted."""
+"""Effects that are no candidates."""
 
 import pandas as pd
 
@@ -10,7 +10,7 @@ from pyrofit.show.table import Table, always
 
 
 def not_tried(study: Study, results: Results) -> pd.DataFrame:
-    """List the effects of the catalogue that were not fitted, and why."""
+    """List the effects of the catalogue that were not tried, and why."""
     rows = diagnosis.read(study, results)["not_tried"]
     shown = [{**row, "effect": effect_name(row["effect"])} for row in rows]
     return pd.DataFrame(shown, columns=["effect", "reason"])
@@ -20,6 +20,6 @@ TABLE = Table(
     place=34,
     applies=always,
     make=not_tried,
-    title="Effects that were not fitted",
-    note="These effects of the catalogue are no candidates here, or far from the best one.",
+    title="Effects that were not tried",
+    note="These effects of the catalogue are no candidates in this study.",
 )
