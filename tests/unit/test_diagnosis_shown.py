@@ -81,6 +81,7 @@ def found(study: Study, kind: str) -> dict[str, Any]:
             "groups": ["conductivity with temperature"] * len(effects),
             "forms": ["linear in temperature"] * len(effects),
             "sets": SETS.get(kind, [[name] for name in effects]),
+            "evidence": [{"agreement": 0.4, "predictions": {"slab_60": 12.0}} for _ in effects],
             "other_terms": [
                 [{"words": "another heat loss of the front", "above": 40.0}] * (kind == "named")
                 for _ in effects

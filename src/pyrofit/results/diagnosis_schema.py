@@ -24,6 +24,17 @@ class OfOtherTerm(Record):
     above: float = Field(description="-2 ln of its marginal likelihood less that of the effect")
 
 
+class OfEvidence(Record):
+    """Tests of an effect besides its gain."""
+
+    agreement: float = Field(
+        description="probability that equal strengths differ as much between experiments"
+    )
+    predictions: dict[str, float] = Field(
+        description="rise of the log score by the effect, by prediction"
+    )
+
+
 class OfVerdict(Record):
     """The verdict."""
 
@@ -32,6 +43,7 @@ class OfVerdict(Record):
     groups: list[str] = Field(description="missing items, by effect")
     forms: list[str] = Field(description="in which form each is found, in words")
     sets: list[list[str]] = Field(description="per effect, those that cannot be told from it")
+    evidence: list[OfEvidence] = Field(description="per effect, tests besides its gain")
     other_terms: list[list[OfOtherTerm]] = Field(
         description="per effect, free corrections in its place, where they were fitted"
     )

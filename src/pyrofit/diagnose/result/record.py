@@ -11,7 +11,7 @@ from pyrofit.config.resolve import obstacle
 from pyrofit.diagnose.base.fitted import FittedModel, up_to_date
 from pyrofit.diagnose.base.model import model_of
 from pyrofit.diagnose.base.prediction import HELD_OUT
-from pyrofit.diagnose.judge.findings import Verdict
+from pyrofit.diagnose.judge.findings import Finding, Verdict
 from pyrofit.diagnose.judge.intervals import interval, values_of
 from pyrofit.diagnose.result.candidates import candidates, confusability_of, screened
 from pyrofit.diagnose.result.phases import describe
@@ -56,12 +56,19 @@ def _verdict(verdict: Verdict) -> dict[str, Any]:
         "groups": [catalogue[name].group for name in leading],
         "forms": [form_of(finding) for finding in verdict.findings],
         "sets": [finding.effects for finding in verdict.findings],
+        "evidence": [_evidence(finding) for finding in verdict.findings],
         "other_terms": [[asdict(o) for o in finding.others] for finding in verdict.findings],
         "confirmed": verdict.confirmed,
         "words": sentences(verdict),
         "reasons": list(verdict.reasons),
         "suspects": [asdict(suspect) for suspect in verdict.suspects],
     }
+
+
+def _evidence(finding: Finding) -> dict[str, Any]:
+    """Return the tests of the leading effect besides its gain."""
+    trust = (finding.kept or list(finding.judged))[0].trust
+    return {"agreement": trust.disagree, "predictions": trust.gains}
 
 
 def _noise(found: Search) -> list[dict[str, Any]]:
