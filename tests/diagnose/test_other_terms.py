@@ -13,6 +13,7 @@ from pyrofit.diagnose.corrections.correction import Correction
 from pyrofit.diagnose.corrections.forms import SAME_TERM
 from pyrofit.diagnose.judge import other_terms as module
 from pyrofit.diagnose.judge.findings import Verdict
+from pyrofit.diagnose.judge.inflation import Inflation, none_for
 from pyrofit.diagnose.judge.other_terms import other_terms
 from pyrofit.diagnose.judge.verdict import judge
 from pyrofit.diagnose.result.verdict_text import sentences
@@ -78,7 +79,7 @@ def verdict() -> Verdict:
 def test_correction_that_does_the_same_fits_as_well(monkeypatch: pytest.MonkeyPatch) -> None:
     offered(monkeypatch, share=1.0)
     end, base = models()
-    ((found,),) = other_terms(end, [base])
+    ((found,),) = other_terms(end, [base], none_for(end))
     assert found.words == WORDS
     assert abs(found.above) < 9.0
     assert found.fits_as_well
@@ -87,7 +88,7 @@ def test_correction_that_does_the_same_fits_as_well(monkeypatch: pytest.MonkeyPa
 def test_correction_that_does_something_else_does_not(monkeypatch: pytest.MonkeyPatch) -> None:
     offered(monkeypatch, share=0.0)
     end, base = models()
-    ((found,),) = other_terms(end, [base])
+    ((found,),) = other_terms(end, [base], none_for(end))
     assert not found.fits_as_well
     assert found.above > 0.9 * (base.fit.chi2 - end.fit.chi2) - 20.0
 
@@ -95,16 +96,16 @@ def test_correction_that_does_something_else_does_not(monkeypatch: pytest.Monkey
 def test_correction_of_the_same_term_is_no_other_one(monkeypatch: pytest.MonkeyPatch) -> None:
     offered(monkeypatch, share=1.0, probe="conductivity")
     end, base = models()
-    assert other_terms(end, [base]) == [[]]
+    assert other_terms(end, [base], none_for(end)) == [[]]
 
 
 def test_marginal_likelihood_of_one_coefficient_by_hand(monkeypatch: pytest.MonkeyPatch) -> None:
     """-2 ln Z of two models that fit alike differs by the widths of their priors alone."""
     offered(monkeypatch, share=1.0)
     end, base = models()
-    ((found,),) = other_terms(end, [base])
+    ((found,),) = other_terms(end, [base], none_for(end))
     q = strength_of("k_T")[1]
-    # Strengths from 0 to the typical one: shares of the prior ranges that the data leave open.
+    # Distance of the limits in typical strengths, which are the unit of the column.
     uniform = (q.upper - q.lower) / abs(q.typical)
     normal = 6.0 / np.sqrt(12.0 + 36.0)  # standard deviation of both priors of the coefficient
     wider = 2.0 * np.log(uniform / np.sqrt(12.0)) - 2.0 * np.log(normal)
@@ -129,6 +130,26 @@ def test_effect_that_no_other_term_replaces_is_certain(monkeypatch: pytest.Monke
     assert found.kind == "named", found.reasons
     assert found.confirmed
     assert [other.words for other in found.findings[0].others] == [WORDS]
+
+
+def test_correction_replaces_the_one_of_two_effects_that_it_is_like(
+    monkeypatch: pytest.MonkeyPatch,
+) -> None:
+    offered(monkeypatch, share=1.0)
+    q = strength_of("c_T")[1]
+    base = linear.fit(COLUMNS, Y + 0.7 * q.typical * column_of(COLUMNS, "c_T"))
+    end = fit_with(base, "c_T", "k_T")
+    without = [fit_with(base, "k_T"), fit_with(base, "c_T")]
+    of_c_T, of_k_T = other_terms(end, without, none_for(end))
+    assert [other.fits_as_well for other in (*of_c_T, *of_k_T)] == [False, True]
+
+
+def test_misfit_makes_differences_count_less(monkeypatch: pytest.MonkeyPatch) -> None:
+    offered(monkeypatch, share=0.0)
+    end, base = models()
+    ((plain,),) = other_terms(end, [base], none_for(end))
+    ((inflated,),) = other_terms(end, [base], Inflation((100.0,) * 4))
+    assert 0.0 < inflated.above < 0.05 * plain.above
 
 
 def test_groups_of_the_same_term_are_those_of_the_catalogue() -> None:

@@ -68,7 +68,8 @@ def write_results(setting: Setting, plan: str, places: Places, so_far: bool = Fa
     StudyError
         There is no such plan.
     DataError
-        A job has not been run, no twin has been diagnosed, or a result is broken.
+        Without ``so_far``, a job has not been run; with it, no twin has been diagnosed; or a result
+        is broken.
     """
     cases = (
         _so_far(setting, plan, places) if so_far else diagnosed(places, setting.plan(plan).chunks)

@@ -6,6 +6,7 @@ from pathlib import Path
 from typing import Any
 
 from pyrofit.cli.common import add_step, open_study
+from pyrofit.errors import StudyError
 
 
 def add(commands: Any) -> None:
@@ -88,6 +89,8 @@ def _blind_test(given: argparse.Namespace) -> None:
 
     setting = read_setting(given.setting)
     places = Places(folder_of(given.setting, given.plan))
+    if given.chunk is not None and given.so_far:
+        raise StudyError("--so-far gathers twins and runs no job; leave out --chunk")
     if given.chunk is None:
         from pyrofit.blind_test.page import write_results
 

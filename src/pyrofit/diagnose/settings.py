@@ -105,7 +105,8 @@ class Settings:
     most_exchanged: int = 4
     """Effects that are tried in the place of each effect of the final model."""
     other_starts: int = 2
-    """Points within the limits from which leading effects are fitted as well, if misfit is left."""
+    """Other ends of the base's fits, or points of its limits, from which leading effects are fitted
+    as well, if misfit is left."""
     noise_leaders: int = 3
     """Effects with which the noise is estimated again."""
     ambiguous_chi2: float = 9.0

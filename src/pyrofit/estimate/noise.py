@@ -104,7 +104,9 @@ class NoiseModel:
     def describe(self) -> str:
         """Say its size, where that comes from, its correlation, and whether it whitens."""
         more = f"; the scatter is {self.excess:.2g} times that" if self.excess > 1.0 else ""
-        more += f"; {self.spikes} single points far off count little" if self.spikes else ""
+        more += f"; points far off their neighbours that count little: {self.spikes}" * (
+            self.spikes > 0
+        )
         floors = ", ".join(f"{name} {size:.2g}" for name, size in self.floors.items())
         sd = np.median(self.total_sd)
         return (

@@ -1,11 +1,15 @@
-"""Single points far off their neighbours, as where a balance is touched."""
+"""Single points far off their neighbours, as where a balance is touched.
+
+A rate that is the difference of such a mass has two opposite spikes side by side, which are not
+found.
+"""
 
 import numpy as np
 
 from pyrofit.solver.arrays import FloatArray
 
 FAR = 8.0
-"""Standard deviations of the distance from the neighbours: normal noise never has as many."""
+"""Standard deviations of the distance from the neighbours; noise is hardly ever so far off."""
 ABOVE_NEIGHBOURS = 3.0
 """Least distance over the range of the neighbours, which is large where the curve is steep."""
 LEAST_SHARE = 0.002
@@ -18,7 +22,8 @@ def spikes(value: FloatArray) -> FloatArray:
     """Return how far spikes are from the median of their four neighbours, zero for other points.
 
     d_i = y_i - median(y_(i-2), y_(i-1), y_(i+1), y_(i+2)) is a spike if |d_i| exceeds 8 robust
-    standard deviations of all d, and 3 times the range of the four neighbours.
+    standard deviations of all d, and 3 times the range of the four neighbours. That standard
+    deviation is at least 0.2 % of the range of the series.
 
     Parameters
     ----------

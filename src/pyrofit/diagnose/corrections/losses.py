@@ -12,10 +12,10 @@ from pyrofit.diagnose.corrections.correction import (
 )
 from pyrofit.diagnose.corrections.flux_tables import named, table_of
 from pyrofit.diagnose.settings import SETTINGS
-from pyrofit.effects.base import changed
+from pyrofit.effects.base import changed, has_open_back
 from pyrofit.estimate.problem import Problem
 from pyrofit.model.base import value_of
-from pyrofit.model.slab_faces import Side
+from pyrofit.model.slab_faces import Back, Side
 from pyrofit.model.time_table import at_start
 from pyrofit.solver.arrays import FloatArray
 
@@ -26,7 +26,8 @@ LOSS_SD = {"gas_temperature_K": 30.0, "h_change_W_m2K": 6.0, "h_cube_root_W_m2K4
 def loss(problem: Problem, T: tuple[float, float], side: str) -> Correction:
     """Make q = (h_0 + c_1)(T_s - T_g) + (C_0 + c_2)(T_s - T_g)^(4/3), with T_g = T_gas + c_0."""
     names = dict(zip(LOSS_SD, names_of(f"{side}_heat_loss", len(LOSS_SD)), strict=True))
-    described = {name: getattr(slab, side) for name, slab in slabs_of(problem).items()}
+    slabs = {n: s for n, s in slabs_of(problem).items() if side == "front" or has_open_back(s)}
+    described = {name: getattr(slab, side) for name, slab in slabs.items()}
     own = {
         name: {key: named(getattr(face, key), f"probe_{side}_{key}_{i}") for key in LOSS_SD}
         for i, (name, face) in enumerate(described.items())
@@ -64,4 +65,5 @@ def _convection(side: Side, values: Values, T: FloatArray) -> FloatArray:
     h = max(at_start(side.h_W_m2K, values) + value_of(side.h_change_W_m2K, values), 0.0)
     above = T - at_start(side.gas_temperature_K, values) - value_of(side.gas_rise_K, values)
     root = value_of(side.h_cube_root_W_m2K43, values) * np.cbrt(np.abs(above))
-    return np.asarray((h + root) * above)
+    factor = value_of(side.loss_factor, values) if isinstance(side, Back) else 1.0
+    return np.asarray(factor * (h + root) * above)

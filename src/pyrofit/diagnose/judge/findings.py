@@ -121,7 +121,7 @@ class Verdict:
 
     @property
     def confirmed(self) -> bool:
-        """Whether the claimed effects predict signals that were not fitted, none of them worse."""
+        """Whether the effects predict signals that were not fitted, and no other term does so."""
         if self.kind == "partly":
             return not any(f.outvoted or f.open_terms for f in self.findings)
         return self.kind in ("named", "multiple") and all(f.sure for f in self.findings)

@@ -6,7 +6,9 @@ are compared by the marginal likelihood, in Laplace's approximation (MacKay 2003
 
     -2 ln Z = chi2 + log det(J^T J + Pi) - log det Pi
 
-Pi holds the inverse variances of the priors: 12 for a value anywhere within its limits.
+Pi holds the inverse variances of the priors: 12 for a value anywhere within its limits, and 36 more
+for a coefficient of a correction, whose prior is normal. Where a model misfits, the variance of the
+noise is that of `inflation`; the corrections are not fitted again under it.
 """
 
 from collections.abc import Sequence
@@ -14,11 +16,12 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from pyrofit.diagnose.base.descent import Fit, refreshed
+from pyrofit.diagnose.base.descent import refreshed
 from pyrofit.diagnose.base.fitted import FittedModel
 from pyrofit.diagnose.corrections.correction import Correction
 from pyrofit.diagnose.corrections.fit import corrected, with_coefficients
 from pyrofit.diagnose.corrections.forms import SAME_TERM, corrections
+from pyrofit.diagnose.judge.inflation import Inflation
 from pyrofit.diagnose.settings import SETTINGS
 from pyrofit.effects import known_effects
 from pyrofit.estimate.posterior import UNIFORM, curvature
@@ -47,7 +50,10 @@ class OtherTerm:
 
 
 def other_terms(
-    end: FittedModel, without: Sequence[FittedModel], processes: int = 1
+    end: FittedModel,
+    without: Sequence[FittedModel],
+    inflation: Inflation,
+    processes: int = 1,
 ) -> list[list[OtherTerm]]:
     """Return the free corrections in the place of each effect of a model.
 
@@ -57,16 +63,18 @@ def other_terms(
         The model, its derivatives made at the fit.
     without
         The same model fitted without each of its effects, in their order.
+    inflation
+        By how much misfit of the model raises the variance of the noise.
     processes
         Processes that share the fits.
     """
     tasks = [
         (k, correction)
         for k, reduced in enumerate(without)
-        for correction in _rivals(end, reduced, end.effects[k])
+        for correction in _rivals(reduced, end.effects[k])
     ]
     above = parallel_map(
-        lambda i: _above(end, without[tasks[i][0]], tasks[i][1]), len(tasks), processes
+        lambda i: _above(end, without[tasks[i][0]], tasks[i][1], inflation), len(tasks), processes
     )
     found: list[list[OtherTerm]] = [[] for _ in without]
     for (k, correction), size in zip(tasks, above, strict=True):
@@ -74,7 +82,7 @@ def other_terms(
     return found
 
 
-def _rivals(end: FittedModel, reduced: FittedModel, effect: str) -> list[Correction]:
+def _rivals(reduced: FittedModel, effect: str) -> list[Correction]:
     """Return the corrections of other terms than the one that an effect changes."""
     group = known_effects()[effect].group
     likelihood = reduced.model.likelihood
@@ -82,21 +90,26 @@ def _rivals(end: FittedModel, reduced: FittedModel, effect: str) -> list[Correct
     return [correction for correction in found if group not in SAME_TERM[correction.probe]]
 
 
-def _above(end: FittedModel, reduced: FittedModel, correction: Correction) -> float:
+def _above(
+    end: FittedModel, reduced: FittedModel, correction: Correction, inflation: Inflation
+) -> float:
     """Return -2 ln Z of a correction in the place of an effect, less that of the effect.
 
     The fit starts where the model without the effect has its minimum, and at the parameters of the
     model with the effect.
     """
     model = with_coefficients(reduced.model, correction)
-    kept = [name in reduced.model.names for name in end.model.names]
+    kept = [end.model.names.index(name) for name in reduced.model.names]
     starts = (reduced.fit.x, end.fit.x[kept])
     fit = min((corrected(reduced, correction, x) for x in starts), key=lambda one: one.chi2)
     narrow = (2.0 * SETTINGS.widest_correction) ** 2  # inverse variance in x of a coefficient
     others = reduced.numbers * np.log(UNIFORM) + len(correction.sd) * np.log(UNIFORM + narrow)
     own = end.numbers * np.log(UNIFORM)
-    return float(_size(refreshed(model, fit)) - others - (_size(end.fit) - own))
+    corrected_model = FittedModel(model, refreshed(model, fit))
+    return float(_size(corrected_model, inflation) - others - (_size(end, inflation) - own))
 
 
-def _size(fit: Fit) -> float:
-    return fit.chi2 + float(np.linalg.slogdet(curvature(fit.jacobian))[1])
+def _size(trial: FittedModel, inflation: Inflation) -> float:
+    """Return chi2 + log det(J^T J + Pi) under the inflated noise."""
+    rows = inflation.rows(trial)[:, None]
+    return inflation.chi2(trial) + float(np.linalg.slogdet(curvature(rows * trial.fit.jacobian))[1])

@@ -76,7 +76,7 @@ def _with_other_terms(
     processes: int,
 ) -> list[Finding]:
     """Return findings with the free corrections that were fitted in their places."""
-    others = other_terms(up_to_date(found.end), without, processes)
+    others = other_terms(up_to_date(found.end), without, inflation_of(found), processes)
     return [
         replace(finding, others=tuple(terms))
         for finding, terms in zip(findings, others, strict=True)
@@ -179,8 +179,8 @@ def _doubts(found: Search, findings: Sequence[Finding]) -> list[str]:
 def _open_terms(findings: Sequence[Finding]) -> list[str]:
     """Name other terms of the model that explain the data as well as an effect does."""
     return [
-        f"{finding.leading}: {words} explains the data as well, so that an effect outside the "
-        "catalogue may be the reason"
+        f"{finding.leading}: {words} explains the data as well. The reason may be an effect "
+        "outside the catalogue"
         for finding in findings
         for words in finding.open_terms
     ]

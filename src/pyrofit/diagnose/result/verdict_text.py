@@ -61,8 +61,9 @@ def _ambiguous(verdict: Verdict) -> list[str]:
 
 
 def _multiple(verdict: Verdict) -> list[str]:
+    lacks = "lacks" if verdict.confirmed else "seems to lack"
     return [
-        f"The model lacks {_several(verdict)}.",
+        f"The model {lacks} {_several(verdict)}.",
         "Each of them is needed with the others there.",
         _because(verdict),
     ]

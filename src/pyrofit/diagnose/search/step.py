@@ -34,7 +34,7 @@ class SearchContext:
     tell: Tell = lambda text: None
     processes: int = 1
     other_starts: tuple[FloatArray, ...] = ()
-    """Points of the base model's limits from which leading models are fitted as well."""
+    """Other ends of the base's fits, or points of its limits: starts of leading models as well."""
 
 
 @dataclass(frozen=True, eq=False)

@@ -127,8 +127,8 @@ def _other_terms(found: Found) -> list[str]:
     nearest = [(min(terms, key=lambda term: term["above"]), e) for e, terms in named if terms]
     return [
         f"The nearest free correction in the place of {effect_name(effect)} is {term['words']}. "
-        f"Its marginal likelihood differs by {term['above']:+.1f} in -2 ln; "
-        f"above {found['ambiguity']:g} the data separate the two."
+        f"-2 ln of its marginal likelihood is {term['above']:+.1f} relative to that of the effect. "
+        f"Above {found['ambiguity']:g} the data prefer the effect."
         for term, effect in nearest
     ]
 
