@@ -80,50 +80,45 @@ def nothing(problem: Problem) -> Problem:
     return problem
 
 
-def backs(**update: Any) -> Change:
-    """Change all backs."""
+def slabs(change_slab: Callable[[Any], Any]) -> Change:
+    """Change all gasification experiments."""
 
     def change(problem: Problem) -> Problem:
-        runs = dict(problem.runs)
-        for name, run in runs.items():
-            if isinstance(run.experiment, Gasification):
-                slab = changed(run.experiment, back=changed(run.experiment.back, **update))
-                runs[name] = replace(run, experiment=slab)
+        runs = {
+            name: replace(run, experiment=change_slab(run.experiment))
+            if isinstance(run.experiment, Gasification)
+            else run
+            for name, run in problem.runs.items()
+        }
         return replace(problem, runs=runs)
 
     return change
+
+
+def backs(**update: Any) -> Change:
+    """Change all backs."""
+    return slabs(lambda slab: changed(slab, back=changed(slab.back, **update)))
 
 
 def foils(**update: Any) -> Change:
     """Change all foils."""
 
-    def change(problem: Problem) -> Problem:
-        runs = dict(problem.runs)
-        for name, run in runs.items():
-            if isinstance(run.experiment, Gasification):
-                sample = run.experiment.sample
-                foil = changed(sample.foil, **update)
-                slab = changed(run.experiment, sample=changed(sample, foil=foil))
-                runs[name] = replace(run, experiment=slab)
-        return replace(problem, runs=runs)
+    def change(slab: Any) -> Any:
+        foil = changed(slab.sample.foil, **update)
+        return changed(slab, sample=changed(slab.sample, foil=foil))
 
-    return change
+    return slabs(change)
 
 
 def fronts(**update: Any) -> Change:
     """Change all fronts; a function of a front's flux gives the new one."""
 
-    def change(problem: Problem) -> Problem:
-        runs = dict(problem.runs)
-        for name, run in runs.items():
-            if isinstance(run.experiment, Gasification):
-                front = run.experiment.front
-                own = {k: v(front.flux_W_m2) if callable(v) else v for k, v in update.items()}
-                slab = changed(run.experiment, front=changed(front, **own))
-                runs[name] = replace(run, experiment=slab)
-        return replace(problem, runs=runs)
+    def change(slab: Any) -> Any:
+        flux = slab.front.flux_W_m2
+        own = {key: value(flux) if callable(value) else value for key, value in update.items()}
+        return changed(slab, front=changed(slab.front, **own))
 
-    return change
+    return slabs(change)
 
 
 def substance(key: str, **numbers: float) -> Change:

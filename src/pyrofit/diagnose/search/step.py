@@ -1,6 +1,6 @@
 """One round of the search: every effect more in addition to a model, and in other forms."""
 
-from collections.abc import Callable, Iterable, Sequence
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 from itertools import islice
 
@@ -8,7 +8,6 @@ import numpy as np
 
 from pyrofit.diagnose.base.adequacy import LackOfFit
 from pyrofit.diagnose.base.fitted import FittedModel, followed, polished
-from pyrofit.diagnose.base.model import Model
 from pyrofit.diagnose.search.refit import (
     fixed_forms,
     from_best_start,
@@ -86,10 +85,6 @@ class _Try:
     start: FittedModel
     seen: Screening
 
-    @property
-    def model(self) -> Model:
-        return model_with(self.start, self.seen.effect)
-
 
 def _fitted(tried: Tried, context: SearchContext) -> list[list[FittedModel]]:
     """Fit one effect more in each step, those that promise most.
@@ -102,14 +97,14 @@ def _fitted(tried: Tried, context: SearchContext) -> list[list[FittedModel]]:
         for k, (step, most) in enumerate(tried)
         for seen in _best(step, most)
     ]
-    models, rough = [one.model for one in tries], SETTINGS.rough_gain
+    models = [model_with(one.start, one.seen.effect) for one in tries]
+    rough = SETTINGS.rough_gain
     others = [starts(one.seen)[1:] for one in tries]
     found: dict[int, FittedModel] = {}
 
-    def fit(which: Iterable[int], how: Callable[[int], FittedModel]) -> None:
-        wanted = list(which)
-        ends = parallel_map(lambda k: how(wanted[k]).fit, len(wanted), context.processes)
-        found.update((i, FittedModel(models[i], end)) for i, end in zip(wanted, ends, strict=True))
+    def fit(which: Sequence[int], how: Callable[[int], FittedModel]) -> None:
+        ends = parallel_map(lambda k: how(which[k]).fit, len(which), context.processes)
+        found.update((i, FittedModel(models[i], end)) for i, end in zip(which, ends, strict=True))
 
     def near(i: int) -> bool:
         of_step = [trial.fit.chi2 for k, trial in found.items() if tries[k].step == tries[i].step]
