@@ -9,7 +9,8 @@ from pyrofit.config import candidate_effects
 from pyrofit.diagnose.base.descent import Fit
 from pyrofit.diagnose.base.model import extended, fraction, model_of, strength_of
 from pyrofit.diagnose.base.projection import project, projector
-from pyrofit.diagnose.search.score_test import Screening, confusability, look, tried
+from pyrofit.diagnose.search.refit import look_at
+from pyrofit.diagnose.search.score_test import Screening, confusability, tried
 from pyrofit.effects import known_effects
 from pyrofit.estimate.posterior import UNIFORM
 from pyrofit.solver.arrays import FloatArray
@@ -69,8 +70,7 @@ def noise(rng: np.random.Generator) -> FloatArray:
 
 def looked(y: FloatArray, effect: str) -> tuple[linear.FittedModel, Screening]:
     trial = linear.fit(COLUMNS, y)
-    found = look(trial.model, trial.fit, effect)
-    assert found is not None
+    (found,) = look_at(trial, [effect])
     return trial, found
 
 
@@ -119,7 +119,7 @@ def test_fall_of_chi_square_ahead_is_what_a_joint_fit_at_that_strength_reaches(
 def test_confusability_is_the_cosine_of_what_is_left(noise: FloatArray) -> None:
     names = ("k_T", "c_T", "heater_ramp")
     trial = linear.fit(COLUMNS, noise)
-    looks = [found for n in names if (found := look(trial.model, trial.fit, n)) is not None]
+    looks = look_at(trial, names)
     cosine = confusability(looks)
     assert np.diag(cosine) == pytest.approx(np.ones(3))
     J = linear.fraction_columns(COLUMNS, trial.model)
@@ -135,8 +135,7 @@ def test_confusability_is_the_cosine_of_what_is_left(noise: FloatArray) -> None:
 
 def test_effect_that_another_one_excludes_is_not_looked_at(noise: FloatArray) -> None:
     trial = linear.fit_with(linear.fit(COLUMNS, noise), "in_depth")
-    assert look(trial.model, trial.fit, "in_depth_lost") is None
-    assert look(trial.model, trial.fit, "k_T") is not None
+    assert [found.effect for found in look_at(trial, ["in_depth_lost", "k_T"])] == ["k_T"]
 
 
 # --- strengths ------------------------------------------------------------------------------

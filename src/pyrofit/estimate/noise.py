@@ -204,8 +204,8 @@ def _of_few_points(stated: FloatArray | None, count: int, quantity: Quantity) ->
 def smoothed(target: Target) -> FloatArray | None:
     """Return the stated uncertainty smoothed over time, None where none is stated.
 
-    The logarithm is averaged with a Gaussian window and the local mean square restored: an
-    uncertainty from two repeats jumps from point to point and means no more than its neighbours'.
+    The logarithm is averaged with a Gaussian window, and the local mean square restored. An
+    uncertainty from two repeats jumps from point to point; one value means no more than the next.
     """
     given = target.uncertainty
     if given is None or not np.any(given > 0.0):

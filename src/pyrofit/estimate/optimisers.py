@@ -1,7 +1,7 @@
 """The optimisers beside SCE-UA: each goes from several random starts on the same cost.
 
-Adding one takes its own module, its settings in `config.stages.Imp` under the same key, and an
-entry here: the workflow runs it, tables and figures show it.
+A new one takes its own module, its settings in `config.stages.Imp` under the same key, and an
+entry here. The workflow then runs it, and tables and figures show it.
 """
 
 from collections.abc import Callable

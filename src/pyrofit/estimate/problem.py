@@ -55,13 +55,13 @@ class Problem:
         """Distance of the limits, SI units, shape (parameters,)."""
         return self.upper - self.lower
 
-    @property
+    @cached_property
     def moving(self) -> tuple[int, ...]:
         """Positions of the parameters that some run uses."""
         used = set().union(*self._used.values())
         return tuple(i for i, name in enumerate(self.names) if name in used)
 
-    @property
+    @cached_property
     def idle(self) -> tuple[int, ...]:
         """Positions of the parameters that no run uses."""
         return tuple(i for i in range(len(self.names)) if i not in self.moving)
@@ -95,8 +95,8 @@ class Problem:
     def simulated(self, values: Values, sets: int) -> dict[str, list[Curves]]:
         """Return the curves by experiment and set; kinds with one solver in one call.
 
-        Repeats that are described alike and recorded at the same times are simulated once, and so
-        are sets that differ only in numbers of other experiments.
+        Repeats that are described alike and recorded at the same times are simulated once. The
+        same holds for sets that differ only in numbers of other experiments.
         """
         together: dict[tuple[Simulate, bytes], list[str]] = {}
         distinct: dict[bytes, tuple[Indices, Indices]] = {}

@@ -133,8 +133,8 @@ def search_several(
 ) -> list[pd.DataFrame]:
     """Return the histories of searches that differ in their seeds.
 
-    They run side by side: the solver is two to three times as fast with eight parameter sets;
-    each has the bits of `search` with its seed.
+    They run side by side: the solver is two to three times as fast with eight parameter sets.
+    Each has the bits of `search` with its seed.
     """
     # In a turn of its own, for it draws from NumPy's global generator.
     (distributions,) = in_turns([lambda ask: _distributions(problem)], lambda asked: asked)

@@ -35,7 +35,7 @@ def predict(study: Study, results: Results) -> None:
 
     Curves of unmeasured quantities go to ``unmeasured.csv``.
 
-    Curves are given at the measured times, as averages over the bins of the measurement; the score
+    Curves are given at the measured times, as averages over the bins of the measurement. The score
     is the CV(RMSE) of mass loss rates, and the RMSE in K of temperatures. Beside it stands the
     solver's own error, estimated by refinement.
     """

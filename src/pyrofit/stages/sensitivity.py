@@ -44,8 +44,8 @@ def sensitivity(
     tell
         Told how many model calls are made.
     within
-        'limits': estimated parameters are uniform over their limits; 'near': uniform over a fifth
-        of them about the estimates; 'intervals': normal about the estimates, with the standard
+        'limits': estimated parameters are uniform over their limits. 'near': uniform over a fifth
+        of them about the estimates. 'intervals': normal about the estimates, with the standard
         deviations of the analysis of the likelihood.
     samples
         Base points, a power of two.

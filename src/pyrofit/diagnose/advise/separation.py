@@ -1,8 +1,8 @@
 """The next experiment: which measurement would separate models that the data cannot tell apart.
 
-D is the difference of the predictions of two fitted models, whitened with the noise of the new
-record, J_i are the predictions' derivatives with respect to the parameters, whitened too, and C_i
-the parameters' covariance after the calibration. The separation in standard deviations,
+D is the difference of the predictions of two fitted models. J_i are the derivatives of the
+predictions with respect to the parameters. Both are whitened with the noise of the new record. C_i
+is the covariance of the parameters after the calibration. The separation in standard deviations,
 
     sqrt(D^T (I + J_1 C_1 J_1^T + J_2 C_2 J_2^T)^-1 D),
 

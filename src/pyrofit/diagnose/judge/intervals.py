@@ -37,9 +37,8 @@ def interval(
 def strengths(trial: FittedModel, wide: Mapping[str, FittedModel]) -> dict[str, Any]:
     """Return the parameters of a model's effects, SI units.
 
-    ``wide`` are the models of `with_all_forms`. They add the interval with an uncertain form: from
-    the lowest to the highest end of the intervals with the form as it is, and with all of them
-    fitted.
+    ``wide`` are the models of `with_all_forms`. They add the interval with an uncertain form. It
+    spans two intervals: with the form as it is, and with all form parameters fitted.
     """
     values, sd = values_of(trial)
     catalogue = known_effects()

@@ -16,8 +16,8 @@ from pyrofit.parallel import parallel_map
 def profiles(trial: FittedModel, processes: int = 1) -> list[dict[str, Any]]:
     """Return the profile of each effect's strength, SI units, and its 95 % interval.
 
-    ``rise`` is that of chi-square over its least value, negative where a profile met a lower one;
-    the interval ends where it is 3.84 times chi-square per degree of freedom (``level``). It is
+    ``rise`` is that of chi-square over its least value, negative where a profile met a lower one.
+    The interval ends where it is 3.84 times chi-square per degree of freedom (``level``). It is
     open where the limit comes before.
     """
     trial = up_to_date(trial)

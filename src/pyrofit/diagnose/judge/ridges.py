@@ -1,10 +1,10 @@
 """The product of an effect's parameters that the data determine where they leave each one open.
 
-A layer of char resists heat by its thickness over its conductivity: a curve determines that ratio,
-not the yield, the density and the conductivity from which it follows. With C the covariance of the
-parameters p, R_ij = C_ij/(p_i p_j) is that of their logarithms. The eigenvector a of its least
-eigenvalue says which product of powers, p_1^a_1 p_2^a_2 ..., is known best; its relative standard
-deviation is sqrt(a^T R a).
+A layer of char resists heat by its thickness over its conductivity. A curve determines that ratio.
+It does not determine yield, density and conductivity, from which the ratio follows. With C the
+covariance of the parameters p, R_ij = C_ij/(p_i p_j) is that of their logarithms. The eigenvector a
+of its least eigenvalue says which product of powers, p_1^a_1 p_2^a_2 ..., is known best. Its
+relative standard deviation is sqrt(a^T R a).
 """
 
 from collections.abc import Sequence
@@ -44,7 +44,7 @@ def ridge_of(
     """Return the best known product of an effect's parameters, None where each one is known.
 
     Only positive parameters with a relative standard deviation of `SETTINGS.open_sd` or more take
-    part, and the product must be known `SETTINGS.ridge_gain` times better than the first of them.
+    part. The product must be known `SETTINGS.ridge_gain` times better than the first of them.
 
     Parameters
     ----------

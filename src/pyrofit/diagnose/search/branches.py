@@ -18,8 +18,8 @@ def branches(
     """Return the models that are carried on, the best first.
 
     Those that gain enough are compared by penalised chi-square. Where several experiments show the
-    slab, each of them is also predicted from the others: the sum of the log scores, doubled, counts
-    as much as chi-square does, and a model whose predictions get worse comes behind all others.
+    slab, each of them is also predicted from the others. The sum of the log scores, doubled, counts
+    as much as chi-square does. A model whose predictions get worse comes behind all others.
     """
     claims = _claims(steps, spare)
     if len(claims) > 1 and slabs(claims[0][0]):

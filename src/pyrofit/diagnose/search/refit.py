@@ -150,7 +150,8 @@ def fixed_forms(trial: FittedModel) -> list[tuple[str, str]]:
 
 def look_at(trial: FittedModel, effects: Sequence[str], processes: int = 1) -> list[Screening]:
     """Return the change of a fitted model by each effect that it can have."""
+    spanned = projector(trial.fit)
     found = parallel_map(
-        lambda i: look(trial.model, trial.fit, effects[i]), len(effects), processes
+        lambda i: look(trial.model, trial.fit, effects[i], spanned), len(effects), processes
     )
     return [seen for seen in found if seen is not None]

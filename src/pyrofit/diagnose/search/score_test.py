@@ -17,7 +17,7 @@ import numpy as np
 from pyrofit.diagnose.base.adequacy import score
 from pyrofit.diagnose.base.descent import Fit
 from pyrofit.diagnose.base.model import Model, extended, model_of, strength_of
-from pyrofit.diagnose.base.projection import project, projector
+from pyrofit.diagnose.base.projection import project
 from pyrofit.diagnose.settings import SETTINGS
 from pyrofit.solver.arrays import FloatArray
 
@@ -26,8 +26,8 @@ from pyrofit.solver.arrays import FloatArray
 class Screening:
     """Changes by one effect at the strengths that were tried.
 
-    ``strengths`` in SI units, shape (tried,); ``raw`` d and ``changes`` P d, both of shape
-    (points + known, tried); ``ahead``, shape (tried,), the chi-square that a linear refit of the
+    ``strengths`` in SI units, shape (tried,). ``raw`` d and ``changes`` P d, both of shape
+    (points + known, tried). ``ahead``, shape (tried,), the chi-square that a linear refit of the
     other parameters would leave.
     """
 
@@ -60,14 +60,16 @@ class Screening:
         return score(residuals, self.directions)
 
 
-def look(model: Model, fit: Fit, effect: str) -> Screening | None:
-    """Return the change of a fitted model by an effect; None if it cannot have the effect."""
+def look(model: Model, fit: Fit, effect: str, spanned: FloatArray) -> Screening | None:
+    """Return the change of a fitted model by an effect; None if it cannot have the effect.
+
+    ``spanned`` is what the fitted parameters span, of `projector`.
+    """
     name, _ = strength_of(effect)
     try:
         more = model_of(model.base, {**model.effects, effect: (name,)}, model.channels)
     except ValueError:  # another effect sets the same number of the description
         return None
-    spanned = projector(fit)
     sets = np.array([extended(fit.x, effect, s) for s in tried(effect)])
     runs = list(zip(tried(effect), more.residuals_all(sets), strict=True))
     runs = [(s, residuals) for s, residuals in runs if more.finished(residuals)]

@@ -1,6 +1,6 @@
 """Compiled code on disk, safe for any number of processes, users, machines and kinds of processor.
 
-numba keeps an index file per function and saves it without a lock: two processes that compile
+numba keeps an index file per function and saves it without a lock. Two processes that compile
 different signatures can leave the index of one with the code of the other. Here each signature has
 a file of its own, in a folder named by all that its code depends on. A file holds its own checksum
 and replaces an older one in one step, so that right code does not depend on a lock. The lock saves

@@ -1,6 +1,6 @@
 """How many cells a slab needs: cells about as thick as the zone in which it reacts.
 
-Behind a surface that takes up the net flux q the temperature falls by q/k per metre, and a rate of
+Behind a surface that takes up the net flux q the temperature falls by q/k per metre. A rate of
 activation energy E falls e-fold within the width of the reaction zone, delta = k R T^2 / (E q). The
 spatial error goes with the square of cell thickness over delta.
 """

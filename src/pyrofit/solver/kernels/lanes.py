@@ -2,7 +2,7 @@
 
 The kernels are written for numbers. Compiled for one set these are plain floats; for more they are
 `Lanes`, on which arithmetic acts lane by lane. No operation mixes lanes, none is contracted or
-reordered, and none is the C library's: a set has the same result to the last bit in any lane,
+reordered, and none is the C library's. So a set has the same result to the last bit in any lane,
 beside any neighbours. Where a branch would depend on a number, both sides are computed and `where`
 chooses.
 """

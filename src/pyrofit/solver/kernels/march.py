@@ -7,8 +7,8 @@ Every cell keeps its masses m_i [kg/m2] and its temperature T. A step from t to 
    linearised about T* (one tridiagonal solve, surface and foil included);
 4. corrects the rates and masses with the T found.
 The difference between predicted and corrected mass loss rate controls dt. A cell whose reactant is
-gone and whose residue is thin leaves the grid and becomes part of the skin: a resistance in front
-of, and a heat capacity on, the first live cell.
+gone and whose residue is thin leaves the grid and becomes part of the skin. The skin is a
+resistance in front of, and a heat capacity on, the first live cell.
 
 Several parameter sets run side by side, each in a lane of its own (`lanes`), with its own steps,
 flux, burn-out and failure. A lane that has ended, or whose step was refused, keeps its state.

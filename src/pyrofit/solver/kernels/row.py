@@ -1,6 +1,6 @@
 """Rows of the table of cells (work array ``cell``): one column per cell, then the foil.
 
-New = after the step that is being taken, old = one step before the current state; rate, heat, gas
+New is after the step that is being taken, old is one step before the current state. Rate, heat, gas
 and stored belong to the step that is being taken, their old ones to the step before.
 """
 

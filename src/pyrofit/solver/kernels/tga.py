@@ -155,8 +155,8 @@ def tga(width, programs, lag, start, network, longest_rise, burning):
 
     Returns
     -------
-    mass, rate, shape (points, lanes); by component and by reaction the same, shape
-    (points, components, lanes) and (points, reactions, lanes); heat release [W per kg], shape
+    mass, rate, shape (points, lanes). By component and by reaction the same, shape
+    (points, components, lanes) and (points, reactions, lanes). Heat release [W per kg], shape
     (points, lanes). The last three have no points where no program wants them.
     """
     components, reactions, points = start.shape[0], network.reactant.size, programs.time_s.size

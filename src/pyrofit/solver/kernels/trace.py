@@ -91,8 +91,8 @@ def record(trace, lane, numbers, flat, first, ahead, probes):
     """Write one row of the trace of a lane.
 
     The numbers: time, mass released, rate, front T, thickness, heat of combustion, that per time,
-    the length of the step that the next one continues, infinite where the flux has a kink, and
-    thickness and resistance of the skin.
+    step length, thickness and resistance of the skin. The step length is that of the step that the
+    next one continues, infinite where the flux has a kink.
     """
     t, released, rate, front, depth, burnt, power, before, d_skin, r_skin = numbers
     cell, foil = flat.cell, flat.m.shape[1]

@@ -9,7 +9,7 @@ element by Gauss's rule of two points, heat capacities are lumped at the nodes:
     C_n dT_n/dt = heat conducted and absorbed - sum_j dh_j r_j, weighted by the shape function of n
 
 An element that has burnt keeps its residue; floors on its heat capacity and thermal resistance keep
-the system regular where there is none. The foil belongs to the last node; behind a contact
+the system regular where there is none. The foil belongs to the last node. Behind a contact
 resistance it has a node of its own, and the contact is an element without mass between the two.
 """
 
