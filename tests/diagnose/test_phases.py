@@ -88,9 +88,9 @@ def test_course_of_a_simulation_runs_through_the_phases_in_order(diagnosed: Diag
 
 def test_windows_say_simulated_less_measured_at_their_place(unexplained: Diagnosis) -> None:
     found = unexplained.search
-    windows = describe(found.base, found.rounds[0].lack.windows, 1.0)
+    windows = describe(found.base, found.rounds[0].lack().windows, 1.0)
     assert windows
-    for w, stretch in zip(windows, found.rounds[0].lack.windows, strict=True):
+    for w, stretch in zip(windows, found.rounds[0].lack().windows, strict=True):
         rows = unexplained.curves.query("experiment == @w['experiment'] and signal == @w['signal']")
         part = rows.iloc[stretch.start : stretch.end]
         assert part["time_s"].iloc[0] == w["start_s"]

@@ -102,8 +102,8 @@ class Settings:
     """Models of each number of effects that a search with a sharper noise starts from."""
     most_predicted: int = 6
     """Models of a step whose predictions are compared."""
-    most_exchanged: int = 4
-    """Effects that are tried in the place of each effect of the final model."""
+    most_exchanged: int = 3
+    """Other effects that are tried in the place of each effect of the final model."""
     other_starts: int = 2
     """Other ends of the base's fits, or points of its limits, from which leading effects are fitted
     as well, if misfit is left."""

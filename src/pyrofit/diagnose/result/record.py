@@ -106,7 +106,7 @@ def _not_tried(study: Study) -> list[dict[str, str]]:
 
 
 def _base(study: Study, found: Search) -> dict[str, Any]:
-    first = found.rounds[0].lack
+    first = found.rounds[0].lack()
     trial = found.base
     return {
         "chi2": trial.fit.chi2,
@@ -143,7 +143,7 @@ def _extended(study: Study, found: Search) -> dict[str, Any]:
 
 
 def _windows(found: Search) -> list[dict[str, Any]]:
-    models = {"base": (found.base, found.rounds[0].lack)}
+    models = {"base": (found.base, found.rounds[0].lack())}
     if found.end is not found.base:
         models["extended"] = (found.end, found.end_lack)
     return [

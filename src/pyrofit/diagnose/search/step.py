@@ -45,7 +45,7 @@ class SearchStep:
     start
         The model that gets one effect more.
     lack
-        Lack of fit of that model.
+        Returns the lack of fit of that model, which is drawn when it is first asked for.
     looks
         Change of that model by each effect.
     trials
@@ -53,7 +53,7 @@ class SearchStep:
     """
 
     start: FittedModel
-    lack: LackOfFit
+    lack: Callable[[], LackOfFit]
     looks: tuple[Screening, ...]
     trials: tuple[FittedModel, ...] = ()
 

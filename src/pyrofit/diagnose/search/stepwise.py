@@ -2,6 +2,7 @@
 
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass, replace
+from functools import cache
 
 import numpy as np
 
@@ -114,8 +115,8 @@ class _Pass:
         """Search from the first look at the base model."""
         if not self.carried:
             first = _sharp(first, self.context)
-        if first.lack.passes:
-            return Search((first,), first.start, first.lack, self.spare)
+        if first.lack().passes:
+            return Search((first,), first.start, first.lack(), self.spare)
         (first,) = self._fitted([first], lambda steps: [self._singles(steps[0])])
         best, best_lack, rounds = first.start, first.lack, [first]
         beam = branches([first], self.spare, self.context)
@@ -124,13 +125,13 @@ class _Pass:
             added = len(beam[0].effects) - len(best.effects)
             if best.penalised - steps[0].start.penalised >= added * self.spare:
                 best, best_lack = steps[0].start, steps[0].lack
-            if best_lack.passes or len(beam[0].effects) >= self.most:
+            if best_lack().passes or len(beam[0].effects) >= self.most:
                 break
             steps += [self._onwards(trial) for trial in beam[1:]]
             steps = self._more(steps)
             rounds += steps
             beam = branches(steps, self.spare, self.context)
-        found = self._not_above_carried(Search(tuple(rounds), best, best_lack, self.spare))
+        found = self._not_above_carried(Search(tuple(rounds), best, best_lack(), self.spare))
         if len(found.end.effects) > 1:
             found = self._exchanged(found)
         return self._formed(found)
@@ -146,7 +147,7 @@ class _Pass:
 
     def _ended(self, found: Search, best: FittedModel) -> Search:
         step = self._onwards(best)
-        return replace(found, end=step.start, end_lack=step.lack)
+        return replace(found, end=step.start, end_lack=step.lack())
 
     def _onwards(self, trial: FittedModel) -> SearchStep:
         rest = [effect for effect in self.effects if effect not in trial.effects]
@@ -193,7 +194,8 @@ class _Pass:
     def _exchanged(self, found: Search) -> Search:
         """Try other effects in the place of each of the final model; take the best model."""
         reduced = refitted_without(found.end, found.end.effects, self.context.processes)
-        steps = [self._onwards(without) for without in reduced]
+        others = [effect for effect in self.effects if effect not in found.end.effects]
+        steps = [_look(up_to_date(without), others, self.context) for without in reduced]
         trials = more([(step, SETTINGS.most_exchanged) for step in steps], self.context)
         tried = [replace(step, trials=own) for step, own in zip(steps, trials, strict=True)]
         rounds = [*found.rounds, *tried]
@@ -221,7 +223,7 @@ def _sharp(step: SearchStep, context: SearchContext) -> SearchStep:
 
     The noise is estimated again about the most promising models with one effect.
     """
-    if step.lack.passes and not blurred(step.start.model.base):
+    if step.lack().passes and not blurred(step.start.model.base):
         return step
     order = sorted(step.looks, key=lambda look: float(look.ahead.min()))[: SETTINGS.noise_leaders]
     if not order:
@@ -240,6 +242,11 @@ def _sharp(step: SearchStep, context: SearchContext) -> SearchStep:
 
 def _look(trial: FittedModel, effects: Sequence[str], context: SearchContext) -> SearchStep:
     looks = look_at(trial, effects, context.processes)
-    directions = [look.directions for look in looks]
-    lack = lack_of_fit(trial.model, trial.fit, directions, context.rng, context.processes)
+    (rng,) = context.rng.spawn(1)
+
+    @cache
+    def lack() -> LackOfFit:
+        directions = [look.directions for look in looks]
+        return lack_of_fit(trial.model, trial.fit, directions, rng, context.processes)
+
     return SearchStep(trial, lack, tuple(looks))
