@@ -42,8 +42,15 @@ from pyrofit.estimate.targets import Measurements
 from pyrofit.solver.arrays import FloatArray
 from pyrofit.stages.reading import read_all
 
+FOUND: Free = {
+    "foil_mass": ("factor",),
+    "reaction_order": ("order",),
+    "bubbling": ("volume", "temperature_K"),
+}
+"""The effects that the diagnosis of `pmma` found."""
 MODELS: dict[str, Free] = {
     "base": {},
+    "effects found": FOUND,
     "three effects": {
         "swelling": ("step", "temperature_K", "width_K"),
         "foil_mass": ("factor",),
@@ -56,7 +63,14 @@ MODELS: dict[str, Free] = {
         "flux_spread": ("spread",),
     },
 }
-STARTS = {"swelling": 1.0, "glass_transition": 200.0, "foil_mass": 15.0, "flux_spread": 0.03}
+STARTS = {
+    "swelling": 1.0,
+    "bubbling": 0.7,
+    "glass_transition": 200.0,
+    "foil_mass": 15.0,
+    "reaction_order": 1.7,
+    "flux_spread": 0.03,
+}
 SPREAD = 5
 """Starts beside the centre of the limits."""
 DEGREES = ("as described", "uncertain fitted", "material fitted")
@@ -134,10 +148,12 @@ def best(model: Model, begins: Sequence[FloatArray]) -> FittedModel:
     return FittedModel(model, descend(model, lowest.x))
 
 
-def fitted(base: Base, effects: Free, seed: int) -> FittedModel:
-    """Return the best fit of the base with effects to the calibrated signals."""
+def fitted(
+    base: Base, effects: Free, seed: int, channels: Sequence[int] | None = None
+) -> FittedModel:
+    """Return the best fit of the base with effects to channels, by default the calibrated ones."""
     begins = [with_starts(effects, x) for x in starts(base, seed)]
-    return best(model_of(base, effects), begins)
+    return best(model_of(base, effects, channels), begins)
 
 
 def values_of(trial: FittedModel) -> dict[str, float]:
@@ -265,14 +281,21 @@ def report(study: Study) -> str:
 
 def chi2_table(trials: Mapping[str, FittedModel]) -> str:
     """Return chi-square of each model, and parameters, as a table."""
-    names = list(dict.fromkeys(n for t in trials.values() for n in t.model.names))
-    lines = ["| | " + " | ".join(trials) + " |", "|---" * (len(trials) + 1) + "|"]
-    lines.append(
-        "| chi-square | " + " | ".join(f"{t.fit.chi2:.0f}" for t in trials.values()) + " |"
+    return table_of(
+        {
+            words: {"chi-square": f"{trial.fit.chi2:.0f}"}
+            | {name: f"{value:.4g}" for name, value in values_of(trial).items()}
+            for words, trial in trials.items()
+        }
     )
-    for name in names:
-        cells = [f"{v[name]:.4g}" if name in v else "" for v in map(values_of, trials.values())]
-        lines.append(f"| {name} | " + " | ".join(cells) + " |")
+
+
+def table_of(columns: Mapping[str, Mapping[str, str]]) -> str:
+    """Return columns of named cells as a table of Markdown."""
+    lines = ["| | " + " | ".join(columns) + " |", "|---" * (len(columns) + 1) + "|"]
+    names = dict.fromkeys(n for cells in columns.values() for n in cells)
+    rows = ([name, *(cells.get(name, "") for cells in columns.values())] for name in names)
+    lines += ["| " + " | ".join(row) + " |" for row in rows]
     return "\n".join(lines)
 
 
