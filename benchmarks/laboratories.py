@@ -1,23 +1,17 @@
 """Predictions of other laboratories by models fitted to one: the table of docs/measured_pmma.md.
 
-    python benchmarks/laboratories.py [--loose] [config/pmma.yaml]
+    python benchmarks/laboratories.py [config/pmma.yaml]
 
 A model is fitted to the calibrated signals of the study's diagnosis and predicts those held out,
 three times. First, the uncertain values of the other laboratories are as described. Second, they
 are fitted to these laboratories' data, within the prior knowledge. Third, the material's
 parameters are fitted to them as well.
-
-``--loose`` drops the prior knowledge of material and calibrated experiments. It takes a constant
-heat capacity, and the limits of the published study.
 """
 
-import argparse
-import copy
 import sys
 from collections.abc import Mapping, Sequence
 from dataclasses import replace
 from pathlib import Path
-from typing import Any
 
 import numpy as np
 
@@ -77,27 +71,6 @@ DEGREES = ("as described", "uncertain fitted", "material fitted")
 """How far a held-out laboratory is fitted."""
 KINETICS = ("T_A", "E_A", "T_B", "E_B", "w_A")
 SHOWN = {"mlr": (1e3, "g/(m2 s)"), "mass": (1.0, "kg/m2"), "mass_fraction": (1.0, "-")}
-
-
-LOOSE = {
-    "rho_a": {"unit": "kg/m3", "lower": 600, "upper": 1500},
-    "k_a": {"unit": "W/(m K)", "lower": 0.09, "upper": 0.35},
-    "c_a": {"unit": "kJ/(kg K)", "lower": 0.875, "upper": 2.725},
-    "eps_a": {"unit": "-", "lower": 0.01, "upper": 0.99},
-}
-
-
-def loose(keys: dict[str, Any]) -> dict[str, Any]:
-    """Return a study's keys without prior knowledge of material and calibrated experiments."""
-    keys = copy.deepcopy(keys)
-    keys["parameters"] |= LOOSE
-    keys["known"] = {}
-    for of in keys["material"]["components"].values():
-        if of["density_kg_m3"] == "rho_a":
-            of["specific_heat_J_kgK"] = "c_a"
-    for name in keys["diagnosis"]["calibrate"]:
-        keys["experiments"][name].pop("uncertain", None)
-    return keys
 
 
 def base_of(study: Study, measurements: Measurements, held_out: bool) -> Base:
@@ -307,9 +280,5 @@ def _joined(
 
 
 if __name__ == "__main__":
-    parser = argparse.ArgumentParser()
-    parser.add_argument("study", nargs="?", default="config/pmma.yaml")
-    parser.add_argument("--loose", action="store_true")
-    given = parser.parse_args()
-    described = read_mapping(Path(given.study))
-    print(report(as_study(loose(described) if given.loose else described, given.study)))
+    named = (sys.argv[1:] or ["config/pmma.yaml"])[0]
+    print(report(as_study(read_mapping(Path(named)), named)))

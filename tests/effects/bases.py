@@ -50,13 +50,14 @@ def pmma() -> Base:
     """Two components that react to the same residue, a foil, an open back."""
     keys = read_mapping(PMMA)
     names = ("capa_25", "capa_60", "tga_10K", "tga_100K")
-    # As described, and without a heat capacity that has a glass transition already.
+    # As described, but opaque, and without a heat capacity that has a glass transition already.
     exact = {"uncertain": None}
     experiments = {n: {**keys["experiments"][n], **exact} for n in names}
     for name in ("tga_10K", "tga_100K"):
         del experiments[name]["temperature_offset_K"]
     components = {n: c for n, c in keys["material"]["components"].items() if n != "wool"}
     for of in components.values():
+        of.pop("absorption_1_m", None)
         if not isinstance(of["specific_heat_J_kgK"], float | int):
             of["specific_heat_J_kgK"] = "cp_a"
     material = Material.model_validate({**keys["material"], "components": components})
