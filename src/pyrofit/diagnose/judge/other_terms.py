@@ -46,7 +46,7 @@ class OtherTerm:
     @property
     def fits_as_well(self) -> bool:
         """Whether the data do not separate it from the effect."""
-        return self.above <= SETTINGS.ambiguous_chi2
+        return self.above <= SETTINGS.certain_evidence
 
 
 def other_terms(

@@ -125,10 +125,11 @@ def _other_terms(found: Found) -> list[str]:
     verdict = found["verdict"]
     named = zip(verdict["effects"], verdict["other_terms"], strict=True)
     nearest = [(min(terms, key=lambda term: term["above"]), e) for e, terms in named if terms]
+    limit = found["settings"].get("certain_evidence", found["ambiguity"])
     return [
         f"The nearest free correction in the place of {effect_name(effect)} is {term['words']}. "
         f"-2 ln of its marginal likelihood is {term['above']:+.1f} relative to that of the effect. "
-        f"Above {found['ambiguity']:g} the data prefer the effect."
+        f"Above {limit:g} the data prefer the effect."
         for term, effect in nearest
     ]
 
