@@ -10,7 +10,7 @@ from pathlib import Path
 
 import pytest
 import yaml
-from tiny import ROOT, Project, Run
+from tiny import ROOT, Project
 
 SLURM = ROOT / "profiles" / "slurm" / "config.yaml"
 CLUSTER = ROOT / "docs" / "cluster.md"
@@ -77,10 +77,7 @@ def test_blind_test_runs_its_full_plan_unless_told_otherwise(
     assert f"{test}, plan {plan}: tables, figures, page" in said
 
 
-def test_report_of_snakemake_shows_every_figure_and_table(
-    finished: tuple[Project, Run],
-) -> None:
-    project, _ = finished
+def test_report_of_snakemake_shows_every_figure_and_table(project: Project) -> None:
     run = project.snakemake("--report", "results/tiny/snakemake.html")
     assert run.code == 0, run.said
     assert "Report created." in run.said
