@@ -120,7 +120,7 @@ def test_effect_that_another_term_replaces_is_not_certain(monkeypatch: pytest.Mo
     assert not found.confirmed
     assert found.findings[0].effects == ["k_T"]
     (reason,) = found.reasons
-    assert reason.startswith(f"k_T: {WORDS} explains the data as well")
+    assert reason.startswith(f"k_T: {WORDS} explains the data nearly as well")
     assert "seems to lack" in sentences(found)
 
 

@@ -132,8 +132,8 @@ class Settings:
     most_suspects: int = 3
     """Candidates that are named for the misfit that a verdict leaves unexplained."""
     certain_evidence: float = 20.0
-    """Largest rise of -2 ln Z at which a free correction counts as explaining the data as well: the
-    odds are then 22,000 to 1."""
+    """Largest rise of -2 ln Z at which a free correction counts as explaining the data nearly as
+    well: the odds are then 22,000 to 1."""
     most_judged: int = 6
     """Models that are judged in the place of one effect, at most."""
 

@@ -49,7 +49,7 @@ class OfVerdict(Record):
     )
     confirmed: bool = Field(
         description="effects are named, predictions improve with each, held-out ones included, "
-        "and no other term of the model explains the data as well"
+        "and no other term of the model explains the data nearly as well"
     )
     words: str = Field(description="the verdict in sentences")
     reasons: list[str] = Field(description="reasons against a firmer verdict, or evidence for it")

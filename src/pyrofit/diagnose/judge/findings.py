@@ -72,7 +72,7 @@ class Finding:
 
     @property
     def sure(self) -> bool:
-        """Whether nothing else explains the data as well, and all other signals are predicted."""
+        """Whether nothing else explains the data nearly as well, and all signals are predicted."""
         return self.agreed and not self.open_terms
 
     @property
@@ -82,7 +82,7 @@ class Finding:
 
     @property
     def open_terms(self) -> list[str]:
-        """Other terms of the model, in words, that explain the data as well."""
+        """Other terms of the model, in words, that explain the data nearly as well."""
         return [other.words for other in self.others if other.fits_as_well]
 
     @property

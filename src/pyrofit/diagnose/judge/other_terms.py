@@ -1,4 +1,4 @@
-"""Free corrections that explain the data as well as a claimed effect does.
+"""Free corrections that explain the data nearly as well as a claimed effect does.
 
 No catalogue holds all physics: an effect outside it may be mistaken for one inside. In the place of
 a claimed effect, each free correction of another term of the model is therefore fitted. The models
@@ -45,7 +45,7 @@ class OtherTerm:
 
     @property
     def fits_as_well(self) -> bool:
-        """Whether the data do not separate it from the effect."""
+        """Whether the data do not exclude it against the effect with high odds."""
         return self.above <= SETTINGS.certain_evidence
 
 

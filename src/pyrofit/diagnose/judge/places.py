@@ -34,7 +34,8 @@ def needed(
         found = ended(found, least, rng)
         without = without_each(found, processes)
     if not any(_same(trial, found.end) for trial in found.trials):
-        step = SearchStep(without[0], lambda: found.end_lack, (), (found.end,))
+        lack = found.end_lack
+        step = SearchStep(without[0], lambda: lack, (), (found.end,))
         found = replace(found, rounds=(*found.rounds, step))
     return found, without
 

@@ -177,10 +177,10 @@ def _doubts(found: Search, findings: Sequence[Finding]) -> list[str]:
 
 
 def _open_terms(findings: Sequence[Finding]) -> list[str]:
-    """Name other terms of the model that explain the data as well as an effect does."""
+    """Name other terms of the model that explain the data nearly as well as an effect does."""
     return [
-        f"{finding.leading}: {words} explains the data as well. The reason may be an effect "
-        "outside the catalogue"
+        f"{finding.leading}: {words} explains the data nearly as well. The reason may be "
+        "an effect outside the catalogue"
         for finding in findings
         for words in finding.open_terms
     ]

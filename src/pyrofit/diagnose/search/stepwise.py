@@ -193,8 +193,10 @@ class _Pass:
 
     def _exchanged(self, found: Search) -> Search:
         """Try other effects in the place of each of the final model; take the best model."""
-        reduced = refitted_without(found.end, found.end.effects, self.context.processes)
         others = [effect for effect in self.effects if effect not in found.end.effects]
+        if not others:
+            return found
+        reduced = refitted_without(found.end, found.end.effects, self.context.processes)
         steps = [_look(up_to_date(without), others, self.context) for without in reduced]
         trials = more([(step, SETTINGS.most_exchanged) for step in steps], self.context)
         tried = [replace(step, trials=own) for step, own in zip(steps, trials, strict=True)]

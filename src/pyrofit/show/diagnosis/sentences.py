@@ -121,7 +121,7 @@ def certainty(study: Study, found: Found) -> str:
 
 
 def _other_terms(found: Found) -> list[str]:
-    """State whether free corrections of other terms explain the data as well."""
+    """State whether free corrections of other terms explain the data nearly as well."""
     verdict = found["verdict"]
     named = zip(verdict["effects"], verdict["other_terms"], strict=True)
     nearest = [(min(terms, key=lambda term: term["above"]), e) for e, terms in named if terms]
@@ -129,7 +129,7 @@ def _other_terms(found: Found) -> list[str]:
     return [
         f"The nearest free correction in the place of {effect_name(effect)} is {term['words']}. "
         f"-2 ln of its marginal likelihood is {term['above']:+.1f} relative to that of the effect. "
-        f"Above {limit:g} the data prefer the effect."
+        f"Only above {limit:g} is the name certain."
         for term, effect in nearest
     ]
 
