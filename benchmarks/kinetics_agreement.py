@@ -3,8 +3,8 @@
     python benchmarks/kinetics_agreement.py [config/pmma.yaml]
 
 The base with the effects that the diagnosis found is fitted three times: to the TGA alone, to the
-slab alone, and to both. The table has the kinetics with their standard deviations, widened by the
-misfit.
+slab alone, and to both. The table has the kinetics with their standard deviations, which are wider
+where chi-square exceeds the number of points.
 """
 
 import sys

@@ -39,18 +39,18 @@ from pyrofit.stages.reading import read_all
 FOUND: Free = {
     "foil_mass": ("factor",),
     "reaction_order": ("order",),
-    "bubbling": ("volume", "temperature_K"),
+    "bubbling": ("volume", "temperature_K", "thinning"),
 }
 """The effects that the diagnosis of `pmma` found."""
 MODELS: dict[str, Free] = {
     "base": {},
     "effects found": FOUND,
-    "three effects": {
+    "three by hand": {
         "swelling": ("step", "temperature_K", "width_K"),
         "foil_mass": ("factor",),
         "flux_spread": ("spread",),
     },
-    "four effects": {
+    "four by hand": {
         "swelling": ("step", "temperature_K", "width_K"),
         "glass_transition": ("step_J_kgK", "temperature_K"),
         "foil_mass": ("factor",),
@@ -97,8 +97,12 @@ def centre(base: Base) -> FloatArray:
 
 def starts(base: Base, seed: int) -> list[FloatArray]:
     """Return the centre and points about it; parameters with known values stay."""
-    x = centre(base)
-    moved = [i for i in range(x.size) if i not in base.likelihood.prior.index]
+    return spread_about(centre(base), base.likelihood.prior, seed)
+
+
+def spread_about(x: FloatArray, known: NormalPrior, seed: int) -> list[FloatArray]:
+    """Return x and points spread over the limits; parameters with known values stay."""
+    moved = [i for i in range(x.size) if i not in known.index]
     found = [x]
     for _ in range(SPREAD):
         other = x.copy()
@@ -183,7 +187,9 @@ def rms(model: Model, x: FloatArray) -> dict[tuple[str, str], float]:
     return found
 
 
-def predictions(whole: Base, trial: FittedModel) -> dict[str, dict[tuple[str, str], float]]:
+def predictions(
+    whole: Base, trial: FittedModel, seed: int
+) -> dict[str, dict[tuple[str, str], float]]:
     """Return the rms of held-out signals, laboratory by laboratory, and three times."""
     runs = whole.likelihood.problem.runs
     names = dict.fromkeys(whole.channels[i][0] for i in whole.held_out)
@@ -197,7 +203,8 @@ def predictions(whole: Base, trial: FittedModel) -> dict[str, dict[tuple[str, st
         for degree, free in zip(DEGREES, (set(), uncertain, uncertain | shared), strict=True):
             model = of_laboratory(whole, trial, own, free)
             x = at_fit(model, trial)
-            found[degree] |= rms(model, descend(model, x).x if free else x)
+            begins = spread_about(x, model.likelihood.prior, seed)
+            found[degree] |= rms(model, best(model, begins).fit.x if free else x)
     return found
 
 
@@ -243,7 +250,7 @@ def report(study: Study) -> str:
     calibration = {words: rms(t.model, t.fit.x) for words, t in trials.items()}
     heads = list(MODELS)
     parts = ["## Calibrated", table(_joined(calibration), heads), chi2_table(trials)]
-    found = {words: predictions(whole, trial) for words, trial in trials.items()}
+    found = {words: predictions(whole, trial, study.seed) for words, trial in trials.items()}
     floor = noise(whole)
     for degree in DEGREES:
         rows = _joined({words: of[degree] for words, of in found.items()})
