@@ -22,7 +22,7 @@ def probes(study: Study, results: Results) -> pd.DataFrame:
     return pd.DataFrame(rows, columns=["probe", "absorbed_percent"])
 
 
-_SHOWN = {"W/m2": ("kW/m²", 1e-3), "-": ("–", 1.0)}
+_SHOWN = {"W/m2": ("kW/m²", 1e-3), "J/(m2 K)": ("J/(m² K)", 1.0), "-": ("–", 1.0)}
 """Unit that is shown, and the factor to it, where another one is shown."""
 
 
@@ -31,7 +31,7 @@ def draw_probes(study: Study, results: Results) -> Canvas:
     found = diagnosis.read(study, results)["probes"]
     canvas, axes = style.panels(len(found), 2, style.TWO_COLUMNS, 55.0)
     titles = [f"{p['what']}: absorbs {100.0 * p['absorbed']:.0f} %" for p in found]
-    style.letter(axes, [textwrap.fill(title, 44) for title in titles])
+    style.letter(axes, [textwrap.fill(title, 40) for title in titles])
     for ax, probe in zip(axes, found, strict=True):
         x, y = np.array(probe["shape"], dtype=float).reshape(-1, 2).T
         unit, factor = _SHOWN.get(probe["unit"], (probe["unit"], 1.0))
