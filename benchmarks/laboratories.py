@@ -104,7 +104,7 @@ def spread_about(x: FloatArray, known: NormalPrior, seed: int) -> list[FloatArra
     """Return x and points spread over the limits; parameters with known values stay."""
     moved = [i for i in range(x.size) if i not in known.index]
     found = [x]
-    for _ in range(SPREAD):
+    for _ in range(SPREAD if moved else 0):
         other = x.copy()
         other[moved] = 0.1 + 0.8 * np.random.default_rng([seed, len(found)]).random(len(moved))
         found.append(other)

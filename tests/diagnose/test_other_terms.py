@@ -14,7 +14,7 @@ from pyrofit.diagnose.corrections.forms import SAME_TERM
 from pyrofit.diagnose.judge import other_terms as module
 from pyrofit.diagnose.judge.findings import Verdict
 from pyrofit.diagnose.judge.inflation import Inflation, none_for
-from pyrofit.diagnose.judge.other_terms import other_terms
+from pyrofit.diagnose.judge.other_terms import OtherTerm, other_terms
 from pyrofit.diagnose.judge.verdict import judge
 from pyrofit.diagnose.result.verdict_text import sentences
 from pyrofit.diagnose.search.step import SearchContext
@@ -91,6 +91,12 @@ def test_correction_that_does_something_else_does_not(monkeypatch: pytest.Monkey
     ((found,),) = other_terms(end, [base], none_for(end))
     assert not found.fits_as_well
     assert found.above > 0.9 * (base.fit.chi2 - end.fit.chi2) - 20.0
+
+
+def test_certainty_needs_odds_of_22_000_to_1() -> None:
+    limit = 2.0 * np.log(22_000.0)
+    assert OtherTerm(WORDS, limit - 0.1).fits_as_well
+    assert not OtherTerm(WORDS, limit + 0.1).fits_as_well
 
 
 def test_correction_of_the_same_term_is_no_other_one(monkeypatch: pytest.MonkeyPatch) -> None:
