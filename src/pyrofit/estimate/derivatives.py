@@ -1,6 +1,6 @@
 """Derivatives of residuals and curves by differences, within limits and beside failed runs."""
 
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Iterator, Sequence
 
 import numpy as np
 from numpy.typing import NDArray
@@ -65,30 +65,28 @@ def derivatives(
     """
     step = STEPS[order] if step is None else step
     J, found = np.zeros((here.size, x.size)), np.zeros(x.size, bool)
-    wanted = np.ones(x.size, bool) if by is None else np.isin(np.arange(x.size), by)
-    for choice in POINTS[order]:
-        places = {
-            i: points
-            for i in np.flatnonzero(wanted & ~found).tolist()
-            if (points := _points(x[i], choice, step))
-        }
+    wanted = np.arange(x.size) if by is None else np.unique(by)
+    choices = {i: iter(_choices(x[i], order, step)) for i in wanted.tolist()}
+    while places := {i: points for i, rest in choices.items() if (points := next(rest, None))}:
         sets = [_with(x, i, point) for i, points in places.items() for point in points]
-        there = iter(curves(np.array(sets).reshape(-1, x.size)) if sets else [])
+        there = iter(curves(np.array(sets)))
         for i, points in places.items():
             ends = [next(there) for _ in points]
             changes = [end - here for end in ends if end is not None]
             if len(changes) == len(points):
                 J[:, i] = _slope([point - x[i] for point in points], changes)
                 found[i] = True
+        choices = {i: choices[i] for i in places if not found[i]}
     return J, found
 
 
-def _points(x: float, choice: Sequence[int], step: float) -> list[float]:
-    """Return the points of a choice within the limits; none where two of them fall together."""
+def _choices(x: float, order: int, step: float) -> Iterator[list[float]]:
+    """Yield the points of each choice that fit between the limits."""
     towards = step if x < 0.5 else -step
-    points = [min(max(x + by * towards, 0.0), 1.0) for by in choice]
-    ordered = np.sort([x, *points])
-    return points if np.all(np.diff(ordered) >= LEAST * step) else []
+    for choice in POINTS[order]:
+        points = [min(max(x + by * towards, 0.0), 1.0) for by in choice]
+        if np.all(np.diff(np.sort([x, *points])) >= LEAST * step):
+            yield points
 
 
 def _with(x: FloatArray, i: int, value: float) -> FloatArray:

@@ -28,7 +28,7 @@ QUANTITY = Quantity(
     # The error of a TGA is below 1e-6.
     solver_error=1e-5,
     usual_sd=0.02,
-    # Models of several heating rates come no nearer than this, though points scatter far less:
-    # without it TGA would outweigh all else.
+    # Between the scatter of laboratories as measured and with aligned temperatures; points scatter
+    # far less (docs/identification.md).
     discrepancy=0.02,
 )

@@ -133,4 +133,20 @@ def _model_for(trial: FittedModel, prediction: str) -> Model:
 
 def _refit(trial: FittedModel, prediction: str) -> FittedModel:
     model = _model_for(trial, prediction)
-    return up_to_date(FittedModel(model, descend(model, trial.fit.x)))
+    begin = _derivatives(trial, model) if trial.fit.fresh else None
+    return up_to_date(FittedModel(model, descend(model, trial.fit.x, begin)))
+
+
+def _derivatives(trial: FittedModel, model: Model) -> FloatArray:
+    """Return the derivatives of the same effects against other channels, where a fit stands.
+
+    Those of the channels that the fit has are at hand.
+    """
+    x, known = trial.fit.x, trial.fit.jacobian[trial.model.points :]
+    rows = dict(zip(trial.model.channels, trial.model.by_channel(trial.fit.jacobian), strict=True))
+    added = [i for i in model.channels if i not in rows]
+    if added:
+        new = model_of(trial.model.base, trial.model.effects, added)
+        slopes = new.jacobian(x, new.residuals(x))
+        rows |= dict(zip(added, new.by_channel(slopes), strict=True))
+    return np.vstack([*(rows[i] for i in model.channels), known])

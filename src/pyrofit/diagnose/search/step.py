@@ -70,10 +70,15 @@ def singles(step: SearchStep, context: SearchContext) -> tuple[FittedModel, ...]
     return in_order([*trials, *formed])
 
 
-def more(tried: Tried, context: SearchContext) -> list[tuple[FittedModel, ...]]:
-    """Fit one effect more in each step, those that promise most, then its best model in forms."""
-    trials = _polished(_fitted(tried, context), context)
-    formed = _forms([of_step[:1] for of_step in trials], context)
+def more(
+    tried: Tried, context: SearchContext, best: float = np.inf
+) -> list[tuple[FittedModel, ...]]:
+    """Fit one effect more in each step, those that promise most, then its best model in forms.
+
+    Fits that end far above ``best``, the penalised chi-square of a model at hand, stay rough.
+    """
+    trials = _polished(_fitted(tried, context, best), context, best)
+    formed = _forms([_near(of_step[:1], best) for of_step in trials], context)
     return [in_order([*own, *forms]) for own, forms in zip(trials, formed, strict=True)]
 
 
@@ -86,7 +91,15 @@ class _Try:
     seen: Screening
 
 
-def _fitted(tried: Tried, context: SearchContext) -> list[list[FittedModel]]:
+def _near(trials: Sequence[FittedModel], best: float) -> list[FittedModel]:
+    """Return the trials that do not end far above the best one, or the best one at hand."""
+    lowest = min([best, *(trial.penalised for trial in trials)])
+    return [t for t in trials if t.penalised <= lowest + SETTINGS.hopeless_chi2]
+
+
+def _fitted(
+    tried: Tried, context: SearchContext, best: float = np.inf
+) -> list[list[FittedModel]]:
     """Fit one effect more in each step, those that promise most.
 
     Roughly first, those that gain next to nothing from a second start as well. Those that come near
@@ -107,8 +120,8 @@ def _fitted(tried: Tried, context: SearchContext) -> list[list[FittedModel]]:
         found.update((i, FittedModel(models[i], end)) for i, end in zip(which, ends, strict=True))
 
     def near(i: int) -> bool:
-        of_step = [trial.fit.chi2 for k, trial in found.items() if tries[k].step == tries[i].step]
-        return found[i].fit.chi2 <= min(of_step) + SETTINGS.hopeless_chi2
+        of_step = [trial for k, trial in found.items() if tries[k].step == tries[i].step]
+        return found[i] in _near(of_step, best)
 
     def little(i: int) -> bool:
         share = 1.0 - SETTINGS.little_gain_share
@@ -174,18 +187,11 @@ def with_forms(tasks: Sequence[tuple[FittedModel, str, str]], processes: int) ->
 
 
 def _polished(
-    trials: Sequence[Sequence[FittedModel]], context: SearchContext
+    trials: Sequence[Sequence[FittedModel]], context: SearchContext, best: float = np.inf
 ) -> list[list[FittedModel]]:
     """Return the trials of each step in order, the leading ones searched on from elsewhere."""
     orders = [in_order(of_step) for of_step in trials]
-    leading = [
-        [
-            trial
-            for trial in order[: SETTINGS.most_polished]
-            if trial.penalised <= order[0].penalised + SETTINGS.hopeless_chi2
-        ]
-        for order in orders
-    ]
+    leading = [_near(order[: SETTINGS.most_polished], best) for order in orders]
     better = together(lambda trials: polished(trials, context.processes), leading)
     return [
         list(in_order([*of_step, *order[len(of_step) :]]))

@@ -198,9 +198,10 @@ class _Pass:
             return found
         reduced = refitted_without(found.end, found.end.effects, self.context.processes)
         steps = [_look(up_to_date(without), others, self.context) for without in reduced]
-        trials = more([(step, SETTINGS.most_exchanged) for step in steps], self.context)
-        tried = [replace(step, trials=own) for step, own in zip(steps, trials, strict=True)]
-        rounds = [*found.rounds, *tried]
+        tried = [(step, SETTINGS.most_exchanged) for step in steps]
+        trials = more(tried, self.context, found.end.penalised)
+        exchanged = [replace(step, trials=own) for step, own in zip(steps, trials, strict=True)]
+        rounds = [*found.rounds, *exchanged]
         same = [
             t for step in rounds for t in step.trials if len(t.effects) == len(found.end.effects)
         ]
