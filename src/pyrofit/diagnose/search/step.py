@@ -97,9 +97,7 @@ def _near(trials: Sequence[FittedModel], best: float) -> list[FittedModel]:
     return [t for t in trials if t.penalised <= lowest + SETTINGS.hopeless_chi2]
 
 
-def _fitted(
-    tried: Tried, context: SearchContext, best: float = np.inf
-) -> list[list[FittedModel]]:
+def _fitted(tried: Tried, context: SearchContext, best: float = np.inf) -> list[list[FittedModel]]:
     """Fit one effect more in each step, those that promise most.
 
     Roughly first, those that gain next to nothing from a second start as well. Those that come near
