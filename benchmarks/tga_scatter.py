@@ -1,10 +1,10 @@
-"""How far laboratories differ in TGA of PMMA: numbers of docs/measured_pmma.md and identification.md.
+"""How far laboratories differ in TGA of PMMA: see docs/measured_pmma.md.
 
     python benchmarks/tga_scatter.py
 
-Reads the tests at 10 K/min in nitrogen below ``PYROFIT_DATA_DIR``. Of each laboratory: the median of
-its repeats. Between laboratories: the root mean square standard deviation of the mass fraction, as
-measured and with the curves aligned at half of the mass.
+Reads tests at 10 K/min in nitrogen below ``PYROFIT_DATA_DIR``. Of each laboratory: the median of
+its repeats. Between laboratories: the root mean square standard deviation of the mass fraction,
+as measured and with the curves aligned at half of the mass.
 """
 
 import os
