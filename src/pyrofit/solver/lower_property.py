@@ -63,20 +63,34 @@ def property_at(prop: object, values: Values, T: FloatArray, sets: int = 1) -> F
 
 
 def _changed(prop: Changed, values: Values, T: FloatArray, sets: int) -> FloatArray:
-    """Return of(T) with its changes; nothing but of(T) where these are zero."""
+    """Return of(T) with its changes; nothing but of(T) where these are zero.
+
+    A change that is zero in all sets is left out: adding zero gives the same bits.
+    """
     at = {
         name: value_of(getattr(prop, name), values) for name in Changed.model_fields if name != "of"
     }
     of = property_at(prop.of, values, T, sets)
-    scale, above = at["scale"], T - at["step_temperature_K"]
-    slope = 1.0 + scale * at["slope_1_K"] * (T - at["reference_temperature_K"])
-    if np.any(np.asarray(at["bend"]) != 0.0):
-        width = at["step_width_K"]
+    scale, above, width = at["scale"], T - at["step_temperature_K"], at["step_width_K"]
+    slope: Value = 1.0
+    if _given(at["slope_1_K"]):
+        slope = slope + scale * at["slope_1_K"] * (T - at["reference_temperature_K"])
+    if _given(at["bend"]):
         slope = slope + scale * at["bend"] * width * np.logaddexp(0.0, above / width)
-    # 1 / (1 + exp(-x)), which would overflow.
-    passed = 0.5 + 0.5 * np.tanh(0.5 * above / at["step_width_K"])
-    away = (T - at["peak_temperature_K"]) / at["peak_width_K"]
-    height = scale * at["peak_area"] / (math.sqrt(2.0 * math.pi) * at["peak_width_K"])
-    changed = of * slope + scale * at["step"] * passed + height * np.exp(-0.5 * away * away)
-    thinner = changed / np.maximum(1.0 + scale * at["thinning"] * passed, LEAST_SHARE)
-    return np.asarray(np.maximum(thinner, LEAST_SHARE * of))
+    changed = of * slope
+    if _given(at["step"]) or _given(at["thinning"]):
+        # 1 / (1 + exp(-x)), which would overflow.
+        passed = 0.5 + 0.5 * np.tanh(0.5 * above / width)
+        changed = changed + scale * at["step"] * passed
+    if _given(at["peak_area"]):
+        away = (T - at["peak_temperature_K"]) / at["peak_width_K"]
+        height = scale * at["peak_area"] / (math.sqrt(2.0 * math.pi) * at["peak_width_K"])
+        changed = changed + height * np.exp(-0.5 * away * away)
+    if _given(at["thinning"]):
+        changed = changed / np.maximum(1.0 + scale * at["thinning"] * passed, LEAST_SHARE)
+    return np.asarray(np.maximum(changed, LEAST_SHARE * of))
+
+
+def _given(change: Value) -> bool:
+    """Tell whether a change differs from zero in any set."""
+    return bool(np.any(change)) if isinstance(change, np.ndarray) else change != 0.0
