@@ -32,6 +32,7 @@ rule diagnosis_page:
         results.diagnosis("report.html"),
     log:
         log_of("diagnosis_page"),
+    threads: 2
     params:
         study=STUDY,
         digest=digest(dependencies.presentation(study)),
@@ -40,6 +41,7 @@ rule diagnosis_page:
         "Diagnosis: {output}"
     shell:
         "pyrofit diagnosis-page --study {params.study} --digest {params.digest} --log {log}"
+        " --cores {threads}"
 
 
 rule diagnose:

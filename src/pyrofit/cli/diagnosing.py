@@ -12,10 +12,10 @@ from pyrofit.errors import StudyError
 def add(commands: Any) -> None:
     """Add these commands."""
     lacks = add_step(commands, "diagnose", "find which effect the model lacks", _diagnose)
-    lacks.add_argument("--cores", type=_cores, default=1, help="processes; default: 1")
-    add_step(
-        commands, "diagnosis-page", "draw and write the page of the diagnosis", _diagnosis_page
-    )
+    words = "draw and write the page of the diagnosis"
+    page = add_step(commands, "diagnosis-page", words, _diagnosis_page)
+    for step in (lacks, page):
+        step.add_argument("--cores", type=_cores, default=1, help="processes; default: 1")
     blind = commands.add_parser("blind-test", help="run the blind test of the diagnosis")
     blind.add_argument("--setting", type=Path, default=Path("config/blind_test.yaml"))
     blind.add_argument("--plan", required=True, help="plan of the setting")
@@ -64,7 +64,7 @@ def _diagnosis_page(given: argparse.Namespace) -> None:
     from pyrofit.show.diagnosis_page import draw_all, write_page
 
     study, results = open_study(given, dependencies.presentation)
-    draw_all(results, study)
+    draw_all(results, study, given.cores)
     write_page(study, results)
 
 

@@ -4,6 +4,7 @@ import pandas as pd
 
 from pyrofit.config import Study
 from pyrofit.discovery import contents
+from pyrofit.parallel import parallel_map
 from pyrofit.results import diagnosis, recorded
 from pyrofit.results.files import Results, write_text
 from pyrofit.show import diagnosis as items
@@ -100,8 +101,10 @@ def _extended(study: Study, results: Results, found: Found) -> list[Part]:
     ]
 
 
-def draw_all(results: Results, study: Study) -> list[str]:
+def draw_all(results: Results, study: Study, processes: int = 1) -> list[str]:
     """Write ``diagnosis/<name>.svg`` and ``.png`` of all figures there are; return their names.
+
+    Some processes share the figures, which do not depend on how many.
 
     Raises
     ------
@@ -109,12 +112,16 @@ def draw_all(results: Results, study: Study) -> list[str]:
         A result is missing or broken.
     """
     figures = figures_of(study, diagnosis.read(study, results))
-    for name, figure in figures.items():
-        draw_figure(figure, name, study, results, FOLDER)
+    names = list(figures)
+    parallel_map(
+        lambda i: draw_figure(figures[names[i]], names[i], study, results, FOLDER),
+        len(names),
+        processes,
+    )
     for path in results.diagnosis("").iterdir():
         if path.suffix in (".svg", ".png") and path.stem not in figures:  # of an earlier diagnosis
             path.unlink()
-    return list(figures)
+    return names
 
 
 def figures_of(study: Study, found: Found) -> dict[str, Figure]:

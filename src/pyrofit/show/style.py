@@ -19,6 +19,8 @@ ONE_COLUMN = 85.0
 TWO_COLUMNS = 170.0
 
 
+LAYOUT_DIGITS = 6
+"""Digits of the places of panels, as fractions of a figure."""
 DPI = 200
 """Resolution of the PNG files [1/inch]."""
 
@@ -181,10 +183,19 @@ def zero_line(ax: Axes) -> None:
 
 def save(canvas: Canvas, results: Results, name: str, folder: str = "figures") -> None:
     """Write ``<folder>/<name>.svg`` and ``.png``; equal results give equal SVG bytes."""
+    _lay_out(canvas)
     for kind, metadata in (("svg", {"Date": None, "Creator": None}), ("png", {"Software": None})):
         buffer = io.BytesIO()
         canvas.savefig(buffer, format=kind, metadata=metadata)
         write_bytes(results.root / folder / f"{name}.{kind}", buffer.getvalue())
+
+
+def _lay_out(canvas: Canvas) -> None:
+    """Give the panels their final places, once and rounded: the last bits of a layout vary."""
+    canvas.draw_without_rendering()
+    canvas.set_layout_engine("none")
+    for ax in canvas.axes:
+        ax.set_position(np.round(ax.get_position(original=True).bounds, LAYOUT_DIGITS))
 
 
 def style() -> Any:
