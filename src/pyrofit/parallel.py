@@ -1,9 +1,11 @@
 """Map a function over numbers in several processes; the results do not depend on how many."""
 
+import mmap
 import multiprocessing
 import os
 import signal
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Iterator, Sequence
+from contextlib import contextmanager
 from multiprocessing.connection import wait
 from typing import Any, TypeVar
 
@@ -13,6 +15,30 @@ NUMBER = 4
 """Bytes of a piece's number."""
 MOST_PIECES = 4096
 """As many numbers a pipe holds everywhere."""
+
+
+class _Crew:
+    """The processes of a map, as one of them sees it."""
+
+    idle: mmap.mmap | bytes = b""
+    """Of each a byte that is 1 once it has no piece left, shared by all."""
+
+
+def spare() -> int:
+    """Return how many processes of the map that this work belongs to have nothing left to do.
+
+    As many threads more may serve the work, if its result does not depend on their number.
+    """
+    return sum(_Crew.idle[:])
+
+
+@contextmanager
+def _alone_of(processes: int) -> Iterator[None]:
+    """Let the work of this process have the threads of several."""
+    before = _Crew.idle
+    _Crew.idle = bytes([1] * (processes - 1)) or before
+    yield
+    _Crew.idle = before
 
 
 def parallel_map(work: Work[Result], count: int, processes: int = 1) -> list[Result]:
@@ -35,16 +61,19 @@ def parallel_map(work: Work[Result], count: int, processes: int = 1) -> list[Res
     """
     forks = "fork" in multiprocessing.get_all_start_methods()
     if processes == 1 or count < 2 or not forks:
-        return [work(i) for i in range(count)]
+        with _alone_of(processes if count == 1 else 1):
+            return [work(i) for i in range(count)]
     context = multiprocessing.get_context("fork")
     pieces = _numbers(count)
     running: dict[Any, multiprocessing.process.BaseProcess] = {}
-    for _ in range(min(processes, count)):
+    idle = mmap.mmap(-1, processes)
+    idle[count:] = bytes([1] * max(processes - count, 0))
+    for k in range(min(processes, count)):
         ours, theirs = context.Pipe(duplex=False)
         # An end held open by a process that reads nothing would keep the writers waiting for ever.
         unread = [*running, ours]
         running[ours] = context.Process(
-            target=_do, args=(work, pieces, theirs, unread), daemon=True
+            target=_do, args=(work, pieces, theirs, unread, idle, k), daemon=True
         )
         running[ours].start()
         theirs.close()
@@ -80,13 +109,18 @@ def _numbers(count: int) -> int:
     return pipe
 
 
-def _do(work: Work[Result], pieces: int, results: Any, unread: Sequence[Any]) -> None:
+def _do(
+    work: Work[Result], pieces: int, results: Any, unread: Sequence[Any], idle: mmap.mmap, own: int
+) -> None:
     signal.signal(signal.SIGINT, signal.SIG_IGN)  # the first process answers it, and ends this one
     for end in unread:
         end.close()
+    _Crew.idle = idle
     try:
         taken = iter(lambda: os.read(pieces, NUMBER), b"")
-        results.send({i: work(i) for i in map(int.from_bytes, taken)})
+        found = {i: work(i) for i in map(int.from_bytes, taken)}
+        idle[own] = 1
+        results.send(found)
     except Exception as error:
         results.send(error)
     results.close()

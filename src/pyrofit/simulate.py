@@ -10,6 +10,7 @@ from pyrofit.model.base import value_of
 from pyrofit.model.heated import HeatedExperiment
 from pyrofit.model.material import Material
 from pyrofit.model.slab import SlabExperiment
+from pyrofit.parallel import spare
 from pyrofit.solver.arrays import FLUX, Description, FloatArray, Numerics, Values
 from pyrofit.solver.backing import lower_backing, with_backing
 from pyrofit.solver.curves import Curves, Request, Runs
@@ -126,10 +127,13 @@ def simulate_slabs(
     accuracy: Accuracy,
     sets: int = 1,
 ) -> list[list[Curves]]:
-    """Simulate such experiments of one material; the curves are listed by experiment, then set."""
+    """Simulate such experiments of one material; the curves are listed by experiment, then set.
+
+    In as many threads as processes would be idle otherwise.
+    """
     substance = Substance(material, values, sets)
     return [
-        _simulated(experiment, substance, asked, accuracy)
+        _simulated(experiment, substance, asked, accuracy, 1 + spare())
         for experiment, asked in zip(experiments, requests, strict=True)
     ]
 

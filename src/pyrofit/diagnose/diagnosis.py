@@ -65,7 +65,7 @@ def examine(
     content = {**record.content(study, found, verdict), "solver": solver}
     content["profiles"] = profiles(found.end, processes) if advise else []
     content["probes"] = [_shown(p) for p in (_probes(found, verdict, processes) if advise else [])]
-    designs = next_experiments(_undecided(found, verdict)) if advise else []
+    designs = next_experiments(_undecided(found, verdict), processes) if advise else []
     content["next_experiment"] = [asdict(design) for design in designs]
     tell(content["verdict"]["words"])
     return Diagnosis(found, verdict, content, record.curves(found))

@@ -30,6 +30,7 @@ from pyrofit.estimate.derivatives import derivatives
 from pyrofit.estimate.noise import NoiseModel
 from pyrofit.estimate.posterior import curvature
 from pyrofit.experiments.base import Idea
+from pyrofit.parallel import parallel_map
 from pyrofit.solver.arrays import FloatArray
 from pyrofit.solver.curves import Curves, Request
 
@@ -67,20 +68,22 @@ class _Forecast:
     spread: dict[str, FloatArray]
 
 
-def next_experiments(trials: Sequence[FittedModel]) -> list[Design]:
+def next_experiments(trials: Sequence[FittedModel], processes: int = 1) -> list[Design]:
     """Return new measurements, that which separates fitted models best first.
 
     Parameters
     ----------
     trials
         Models fitted to the same channels; fewer than two leave nothing to separate.
+    processes
+        Processes that share the simulations.
     """
     if len(trials) < 2:
         return []
-    found: list[Design] = []
     model = trials[0].model
-    for idea in ideas(model.likelihood.problem, model.base.likelihood.problem):
-        found += _designs(trials, idea)
+    tried = list(ideas(model.likelihood.problem, model.base.likelihood.problem))
+    designs = parallel_map(lambda k: _designs(trials, tried[k]), len(tried), processes)
+    found = [design for of_idea in designs for design in of_idea]
     return sorted(found, key=lambda d: (d.separation_sd, sum(d.pairs.values())), reverse=True)
 
 

@@ -72,6 +72,7 @@ def predictions(
     false, no model is fitted to all held-out tests at once, unless a score needs it.
     """
     tasks = [(k, name) for k, trial in enumerate(trials) for name in _tasks(trial, held_out, whole)]
+    tasks.sort(key=lambda task: not task[1].startswith(HELD_OUT))  # the longest ones first
     fits = parallel_map(
         lambda i: _refit(trials[tasks[i][0]], tasks[i][1]).fit, len(tasks), processes
     )

@@ -121,22 +121,18 @@ def _fitted(tried: Tried, context: SearchContext, best: float = np.inf) -> list[
         of_step = [trial for k, trial in found.items() if tries[k].step == tries[i].step]
         return found[i] in _near(of_step, best)
 
-    def little(i: int) -> bool:
-        share = 1.0 - SETTINGS.little_gain_share
-        return found[i].fit.chi2 > share * tries[i].start.fit.chi2
-
     def roughly(i: int) -> FittedModel:
-        return from_best_start(tries[i].start, tries[i].seen, rough)
-
-    def once_more(i: int) -> FittedModel:
-        return from_elsewhere(tries[i].start, tries[i].seen, found[i], others[i][:1], rough)
+        start, seen = tries[i].start, tries[i].seen
+        end = from_best_start(start, seen, rough)
+        if end.fit.chi2 <= (1.0 - SETTINGS.little_gain_share) * start.fit.chi2:
+            return end
+        return from_elsewhere(start, seen, end, others[i][:1], rough)
 
     def to_the_end(i: int) -> FittedModel:
         return from_elsewhere(tries[i].start, tries[i].seen, followed(found[i]), others[i])
 
     every = range(len(tries))
     fit(every, roughly)
-    fit([i for i in every if little(i)], once_more)
     fit([i for i in every if near(i)], to_the_end)
     _told([found[i] for i in every], context)
     return [[found[i] for i in every if tries[i].step == k] for k in range(len(tried))]
