@@ -37,8 +37,10 @@ def _alone_of(processes: int) -> Iterator[None]:
     """Let the work of this process have the threads of several."""
     before = _Crew.idle
     _Crew.idle = bytes([1] * (processes - 1)) or before
-    yield
-    _Crew.idle = before
+    try:
+        yield
+    finally:
+        _Crew.idle = before
 
 
 def parallel_map(work: Work[Result], count: int, processes: int = 1) -> list[Result]:

@@ -10,7 +10,7 @@ from pathlib import Path
 
 import pytest
 
-from pyrofit.parallel import parallel_map
+from pyrofit.parallel import parallel_map, spare
 
 
 @pytest.mark.parametrize("processes", [1, 2, 5])
@@ -31,6 +31,30 @@ def test_process_that_is_free_takes_the_next_piece(tmp_path: Path) -> None:
     assert first not in others
 
 
+def test_processes_without_a_piece_are_spare_for_the_others() -> None:
+    """Four of five at once with one piece, all but one with two as soon as the first has ended."""
+
+    def one_of_two(i: int) -> tuple[int, int]:
+        before, waited = spare(), 0.0
+        while i == 0 and spare() == 0 and waited < 20.0:
+            time.sleep(0.01)
+            waited += 0.01
+        return before, spare()
+
+    assert parallel_map(lambda i: spare(), 1, processes=5) == [4]
+    assert parallel_map(lambda i: spare(), 3, processes=1) == [0, 0, 0]
+    (before, after), (alone, _) = parallel_map(one_of_two, 2, processes=2)
+    assert (before, after, alone) == (0, 1, 0)
+    assert set(parallel_map(lambda i: spare(), 2, processes=4)) <= {2, 3}
+    assert spare() == 0
+
+
+def test_error_of_work_that_has_all_processes_leaves_none_spare() -> None:
+    with pytest.raises(ZeroDivisionError):
+        parallel_map(lambda i: 1 // i, 1, processes=3)
+    assert spare() == 0
+
+
 def test_error_of_a_piece_is_raised_here_at_once(tmp_path: Path) -> None:
     def work(i: int) -> None:
         if i == 1:
@@ -48,7 +72,7 @@ def test_processes_end_even_if_the_one_that_shares_is_killed(tmp_path: Path) -> 
     code = """
 import os, signal, sys, time
 from pathlib import Path
-from pyrofit.parallel import parallel_map
+from pyrofit.parallel import parallel_map, spare
 def work(i):
     Path(sys.argv[1], str(os.getpid())).touch()
     while os.getppid() == parent:

@@ -24,6 +24,8 @@ from pyrofit.parallel import parallel_map
 from pyrofit.solver.arrays import FloatArray
 
 HELD_OUT = "held out"
+Made = dict[tuple[Fit, str], Fit]
+"""Fits made for predictions, by the fit that they start from and the name of the prediction."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -65,19 +67,25 @@ def predictions(
     processes: int = 1,
     held_out: bool = True,
     whole: bool = True,
+    made: Made | None = None,
 ) -> list[Predictions]:
     """Return the predictions of models: experiments from the others, and held-out signals.
 
     With ``held_out`` false, only calibrated experiments are left out, one by one. With ``whole``
-    false, no model is fitted to all held-out tests at once, unless a score needs it.
+    false, no model is fitted to all held-out tests at once, unless a score needs it. Fits that are
+    ``made`` already are not made again; new ones are added to them.
     """
+    made = {} if made is None else made
     tasks = [(k, name) for k, trial in enumerate(trials) for name in _tasks(trial, held_out, whole)]
     tasks.sort(key=lambda task: not task[1].startswith(HELD_OUT))  # the longest ones first
-    fits = parallel_map(
-        lambda i: _refit(trials[tasks[i][0]], tasks[i][1]).fit, len(tasks), processes
-    )
+    new = {(trials[k].fit, name): trials[k] for k, name in tasks}
+    new = {key: trial for key, trial in new.items() if key not in made}
+    todo = [(trial, name) for (_, name), trial in new.items()]
+    fits = parallel_map(lambda i: _refit(*todo[i]).fit, len(todo), processes)
+    made.update(zip(new, fits, strict=True))
     found = [Predictions({}, {}, trial) for trial in trials]
-    for (k, name), fit in zip(tasks, fits, strict=True):
+    for k, name in tasks:
+        fit = made[trials[k].fit, name]
         part, joint = trials[k], FittedModel(_model_for(trials[k], name), fit)
         if name == HELD_OUT:
             found[k] = replace(found[k], whole=joint)

@@ -1,13 +1,13 @@
 """The effects of the final model that are needed, and the evidence for and against each."""
 
 from collections.abc import Sequence
-from dataclasses import replace
+from dataclasses import dataclass, field, replace
 
 import numpy as np
 
 from pyrofit.diagnose.base.adequacy import lack_of_fit
 from pyrofit.diagnose.base.fitted import FittedModel, at_limit, up_to_date
-from pyrofit.diagnose.base.prediction import predictions
+from pyrofit.diagnose.base.prediction import Made, predictions
 from pyrofit.diagnose.judge.claim_tests import Trust, explains, trust
 from pyrofit.diagnose.judge.findings import Finding, Judged
 from pyrofit.diagnose.judge.inflation import inflation_of
@@ -18,21 +18,28 @@ from pyrofit.diagnose.settings import SETTINGS
 from pyrofit.parallel import parallel_map
 
 
-def needed(
-    found: Search, rng: np.random.Generator, processes: int
-) -> tuple[Search, list[FittedModel]]:
+@dataclass(frozen=True, eq=False)
+class JudgeContext:
+    """Inputs of a judgement: generator of noise draws, processes, predictions made before."""
+
+    rng: np.random.Generator
+    processes: int = 1
+    made: Made = field(default_factory=dict)
+
+
+def needed(found: Search, context: JudgeContext) -> tuple[Search, list[FittedModel]]:
     """End a search without the effects that others make superfluous, the least one first.
 
     Returns the search, and the best model without each of the effects that are left.
     """
-    without = without_each(found, processes)
+    without = without_each(found, context.processes)
     while len(without) > 1:
         penalised = inflation_of(found).penalised
         least = min(without, key=penalised)
         if penalised(least) - penalised(found.end) >= found.spare:
             break
-        found = ended(found, least, rng)
-        without = without_each(found, processes)
+        found = ended(found, least, context.rng)
+        without = without_each(found, context.processes)
     if not any(_same(trial, found.end) for trial in found.trials):
         lack = found.end_lack
         step = SearchStep(without[0], lambda: lack, (), (found.end,))
@@ -60,24 +67,29 @@ def ended(found: Search, end: FittedModel, rng: np.random.Generator) -> Search:
 
 
 def findings_of(
-    found: Search, without: Sequence[FittedModel], rng: np.random.Generator, processes: int
+    found: Search,
+    without: Sequence[FittedModel],
+    context: JudgeContext,
+    which: Sequence[int] | None = None,
 ) -> tuple[Finding, ...]:
-    """Judge each effect of a search's end, and those that it cannot be told from.
+    """Judge effects of a search's end, all or which ones, and those they cannot be told from.
 
-    ``without`` are the models without each of them.
+    ``without`` are the models without each effect of the end.
     """
-    effects = found.end.effects
-    places = [alternatives(found, effect) for effect in effects]
+    effects, processes = found.end.effects, context.processes
+    which = range(len(effects)) if which is None else which
+    places = {k: alternatives(found, effects[k]) for k in which}
     # The end of the search has a place among the rivals of each of its effects.
-    rivals = {_key(trial): trial for place in places for _, trial in place}
+    rivals = {_key(trial): trial for place in places.values() for _, trial in place}
     # A model that leaves misfit explains no held-out signal, unless the effect is replaced.
     may_explain = found.end_lack.adequate or len(effects) == 1
-    predicted = predictions([*without, *rivals.values()], processes, whole=may_explain)
-    before, own = predicted[: len(without)], predicted[len(without) :]
+    models = [*(without[k] for k in which), *rivals.values()]
+    predicted = predictions(models, processes, whole=may_explain, made=context.made)
+    before, own = dict(zip(which, predicted, strict=False)), predicted[len(which) :]
     inflation = inflation_of(found)
-    rngs = rng.spawn(len(own))
     explained: list[bool | None] = [None] * len(own)
     if may_explain:
+        rngs = context.rng.spawn(len(own))
         explained[:] = parallel_map(lambda i: explains(own[i], rngs[i]), len(own), processes)
     known = dict(zip(rivals, zip(own, explained, strict=True), strict=True))
 
@@ -91,8 +103,8 @@ def findings_of(
         return Judged(name, trial, about, _against(gain, found.spare, about))
 
     return tuple(
-        Finding(effect, tuple(judged(name, trial, k) for name, trial in places[k]))
-        for k, effect in enumerate(effects)
+        Finding(effects[k], tuple(judged(name, trial, k) for name, trial in place))
+        for k, place in places.items()
     )
 
 

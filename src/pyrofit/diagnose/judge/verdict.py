@@ -10,7 +10,7 @@ from pyrofit.diagnose.base.prediction import HELD_OUT
 from pyrofit.diagnose.judge.findings import Finding, Judged, Kind, Suspect, Verdict
 from pyrofit.diagnose.judge.inflation import inflation_of
 from pyrofit.diagnose.judge.other_terms import other_terms
-from pyrofit.diagnose.judge.places import ended, findings_of, needed
+from pyrofit.diagnose.judge.places import JudgeContext, ended, findings_of, needed
 from pyrofit.diagnose.search.refit import look_at
 from pyrofit.diagnose.search.stepwise import Search
 from pyrofit.diagnose.settings import SETTINGS
@@ -32,8 +32,13 @@ def judge(found: Search, rng: np.random.Generator, processes: int = 1) -> Verdic
     """
     if not found.end.effects:
         return _without_effects(found)
-    found, without = needed(found, rng, processes)
-    findings = findings_of(found, without, rng, processes)
+    context = JudgeContext(rng, processes)
+    found, without = needed(found, context)
+    partial = not found.end_lack.adequate and len(without) > 1
+    part = _partly(found, without, context) if partial else None
+    if part:
+        return part
+    findings = findings_of(found, without, context)
     reasons = _reasons(findings)
     if len(findings) == 1 and reasons and findings[0].kept:
         # The best one fails, another does not: the verdict is about that one.
@@ -41,7 +46,7 @@ def judge(found: Search, rng: np.random.Generator, processes: int = 1) -> Verdic
     if not found.end_lack.adequate:
         reasons.append("the residuals exceed the noise, with every effect that gains enough")
     if reasons:
-        part = _partly(found, findings, without, rng, processes)
+        part = None if partial else _partly(found, without, context)
         return part or Verdict("unknown", found, findings, tuple(reasons))
     return _explained(found, findings, without, processes)
 
@@ -87,28 +92,19 @@ def _reasons(findings: Sequence[Finding]) -> list[str]:
     return [f"{f.effect}: {j.rejected}" for f in findings for j in f.judged[:1] if j.rejected]
 
 
-def _partly(
-    found: Search,
-    findings: Sequence[Finding],
-    without: Sequence[FittedModel],
-    rng: np.random.Generator,
-    processes: int,
-) -> Verdict | None:
+def _partly(found: Search, without: Sequence[FittedModel], context: JudgeContext) -> Verdict | None:
     """Return the verdict on the effects that pass every test, if there are any.
 
     Effects that fail a test are taken away one by one, the one that gains least first; the others
     are judged again. They usually explain a part only. None is claimed where all together leave
     nothing but noise: if one of these fails, the others may stand for a missing effect as well.
     """
-    all_fit = found.end_lack.adequate
-    while not all(_supported(finding) for finding in findings):
-        failed = [k for k, finding in enumerate(findings) if not _supported(finding)]
-        if len(findings) == 1:
+    all_fit, processes = found.end_lack.adequate, context.processes
+    while (failed := _first_failed(found, without, context)) is not None:
+        if len(without) == 1:
             return None
-        penalised = inflation_of(found).penalised
-        least = min(failed, key=lambda k: penalised(without[k]))
-        found, without = needed(ended(found, without[least], rng), rng, processes)
-        findings = findings_of(found, without, rng, processes)
+        found, without = needed(ended(found, without[failed], context.rng), context)
+    findings = findings_of(found, without, context)
     if found.end_lack.adequate:
         return _explained(found, findings, without, processes)
     if all_fit or ONE_FLUX in _doubts(found, findings):
@@ -119,6 +115,21 @@ def _partly(
     suspects = _suspects(found, processes)
     reasons = (_rest(found), *_outvoted(leading), *_open_terms(findings))
     return Verdict("partly", found, tuple(findings), reasons, suspects)
+
+
+def _first_failed(
+    found: Search, without: Sequence[FittedModel], context: JudgeContext
+) -> int | None:
+    """Return the position of the effect that fails a test, of several the one that gains least.
+
+    The effects are judged in this order, as predictions of the others may not be needed.
+    """
+    penalised = inflation_of(found).penalised
+    for k in sorted(range(len(without)), key=lambda k: penalised(without[k])):
+        (finding,) = findings_of(found, without, context, [k])
+        if not _supported(finding):
+            return k
+    return None
 
 
 def _rest(found: Search) -> str:

@@ -59,7 +59,7 @@ def _by_prediction(claims: Sequence[Claim], context: SearchContext) -> list[Clai
     """Return claims in the order of penalised chi-square less twice the log scores."""
     starts = {id(start): start for _, start in claims}
     models = [*(trial for trial, _ in claims), *starts.values()]
-    found = predictions(models, context.processes, held_out=False)
+    found = predictions(models, context.processes, held_out=False, made=context.made)
     own = found[: len(claims)]
     before = dict(zip(starts, found[len(claims) :], strict=True))
 

@@ -1,13 +1,14 @@
 """One round of the search: every effect more in addition to a model, and in other forms."""
 
 from collections.abc import Callable, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from itertools import islice
 
 import numpy as np
 
 from pyrofit.diagnose.base.adequacy import LackOfFit
 from pyrofit.diagnose.base.fitted import FittedModel, followed, polished
+from pyrofit.diagnose.base.prediction import Made
 from pyrofit.diagnose.search.refit import (
     fixed_forms,
     from_best_start,
@@ -34,6 +35,8 @@ class SearchContext:
     processes: int = 1
     other_starts: tuple[FloatArray, ...] = ()
     """Other ends of the base's fits, or points of its limits: starts of leading models as well."""
+    made: Made = field(default_factory=dict)
+    """Fits of the predictions of models that were compared before."""
 
 
 @dataclass(frozen=True, eq=False)

@@ -1,0 +1,132 @@
+"""A step of the search: which fits are rough only, and which predictions are made again."""
+
+from collections.abc import Sequence
+from typing import Any
+
+import linear
+import numpy as np
+import pytest
+from linear import TOTAL, column_of, fit_with
+
+from pyrofit.diagnose.base import prediction
+from pyrofit.diagnose.base.fitted import FittedModel, up_to_date
+from pyrofit.diagnose.base.model import strength_of
+from pyrofit.diagnose.base.prediction import Made, predictions
+from pyrofit.diagnose.judge import places, verdict
+from pyrofit.diagnose.judge.inflation import inflation_of
+from pyrofit.diagnose.judge.places import JudgeContext, needed
+from pyrofit.diagnose.search import step
+from pyrofit.diagnose.search.step import SearchContext, more
+from pyrofit.diagnose.search.stepwise import Search, _look, search
+from pyrofit.diagnose.settings import SETTINGS
+from pyrofit.solver.arrays import FloatArray
+
+EFFECTS = ("c_T", "heater_ramp", "k_T")
+COLUMNS = linear.random_columns(6, *EFFECTS, size=60.0)
+CONTEXT = SearchContext(np.random.default_rng(1))
+
+
+def planted(*effects: str) -> FloatArray:
+    y = np.random.default_rng(1).standard_normal(TOTAL)
+    y = y + 2.0 * COLUMNS["rho"] - COLUMNS["k"]
+    for effect in effects:
+        quantity = strength_of(effect)[1]
+        y = y + quantity.typical * column_of(COLUMNS, effect)
+    return np.asarray(y)
+
+
+@pytest.fixture(scope="module")
+def base() -> FittedModel:
+    return linear.fit(COLUMNS, planted("k_T"))
+
+
+@pytest.mark.parametrize(("above", "refined"), [(0.9, True), (1.1, False)])
+def test_fits_far_above_a_model_at_hand_stay_rough(
+    base: FittedModel, monkeypatch: pytest.MonkeyPatch, above: float, refined: bool
+) -> None:
+    """One that ends more than `hopeless_chi2` above it is neither refined nor polished."""
+    followed: list[str] = []
+    polished: list[str] = []
+
+    def followed_up(trial: FittedModel) -> FittedModel:
+        followed.append(trial.effects[-1])
+        return trial
+
+    def searched_on(trials: Sequence[FittedModel], processes: int) -> list[FittedModel]:
+        polished.extend(trial.effects[-1] for trial in trials)
+        return list(trials)
+
+    monkeypatch.setattr(step, "followed", followed_up)
+    monkeypatch.setattr(step, "polished", searched_on)
+    best = fit_with(base, "k_T").penalised - above * SETTINGS.hopeless_chi2
+    (trials,) = more([(_look(base, EFFECTS, CONTEXT), 3)], CONTEXT, best)
+    assert {trial.effects[-1] for trial in trials} == set(EFFECTS), "rough fits are kept"
+    assert ("k_T" in followed, "k_T" in polished) == (refined, refined)
+
+
+def test_predictions_begin_with_the_derivatives_at_hand(
+    base: FittedModel, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """Those of the channels that remain; the scores are those of a start without derivatives."""
+    trial, begun = fit_with(base, "k_T"), []
+
+    def descend(model: Any, x: FloatArray, begin: FloatArray | None) -> Any:
+        begun.append(None if begin is None else begin - model.jacobian(x, model.residuals(x)))
+        return real(model, x, None)
+
+    real = prediction.descend
+    (own,) = predictions([trial])
+    monkeypatch.setattr(prediction, "descend", descend)
+    (anew,) = predictions([trial])
+    assert len(begun) == 2
+    assert all(wrong is not None and float(np.abs(wrong).max()) < 1e-6 for wrong in begun)
+    assert own.scores == pytest.approx(anew.scores, abs=SETTINGS.converged_gain)
+
+
+def test_predictions_made_before_are_not_made_again(
+    base: FittedModel, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """They are known by the fit that they start from, whatever model holds it."""
+    made: Made = {}
+    trial = fit_with(base, "k_T")
+    (first,) = predictions([trial], made=made)
+    monkeypatch.setattr(prediction, "_refit", None)
+    same, again = predictions([trial, up_to_date(trial)], made=made)
+    assert first.scores == same.scores == again.scores
+    with pytest.raises(TypeError):
+        predictions([base], made=made)
+
+
+def two_effects_and_a_misfit(c_T_share: float) -> Search:
+    """Return a search that ends with k_T and c_T, on whose strength the experiments disagree."""
+    strengths = np.where(np.arange(TOTAL) < TOTAL // 2, 1.0 - c_T_share, 1.0)
+    size = 2.0 * strength_of("c_T")[1].typical
+    y = planted("k_T") + strengths * size * column_of(COLUMNS, "c_T")
+    start = linear.fit(COLUMNS, y)
+    context = SearchContext(np.random.default_rng(1))
+    return search(start, ("c_T", "k_T"), 2, context)
+
+
+@pytest.mark.parametrize(("share", "needed_judgements"), [(0.4, 2), (1.5, 1)])
+def test_effects_are_judged_until_one_fails_the_one_that_gains_least_first(
+    monkeypatch: pytest.MonkeyPatch, share: float, needed_judgements: int
+) -> None:
+    """The predictions of the others are then not needed."""
+    judged: list[int] = []
+
+    def findings_of(found: Search, without: Any, context: Any, which: list[int]) -> Any:
+        judged.extend(which)
+        return places.findings_of(found, without, context, which)
+
+    monkeypatch.setattr(verdict, "findings_of", findings_of)
+    context = JudgeContext(np.random.default_rng(2))
+    found, without = needed(two_effects_and_a_misfit(share), context)
+    assert set(found.end.effects) == {"c_T", "k_T"}
+    failed = verdict._first_failed(found, without, context)
+    penalised = inflation_of(found).penalised
+    order = sorted((0, 1), key=lambda k: penalised(without[k]))
+    findings = places.findings_of(found, without, context)
+    unsupported = [k for k in order if not verdict._supported(findings[k])]
+    assert failed == unsupported[0]
+    assert judged == order[:needed_judgements]
+    assert len(unsupported) == 1, "the other effect passes"
