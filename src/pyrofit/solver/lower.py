@@ -7,7 +7,7 @@ by `lower_property`, experiments lowered by `lower_experiment`.
 
 from collections.abc import Mapping
 from dataclasses import dataclass
-from functools import cached_property
+from functools import cached_property, partial
 from typing import Any
 
 import numpy as np
@@ -53,13 +53,25 @@ def total(rows: FloatArray) -> FloatArray:
     return np.asarray(sum(rows))
 
 
-def _tables(properties: list[Any], values: Values, sets: int) -> FloatArray:
-    """Return one table per component, of one node where no property depends on temperature."""
+def _tables(material: words.Material, name: str, values: Values, sets: int) -> FloatArray:
+    """Return one table per component, of one node where no property depends on temperature.
+
+    A property that several components have alike is tabulated once.
+    """
+    properties, same = material.derived(name, partial(_properties, name))
     if all(isinstance(p, float | str) for p in properties):
         return stack([value_of(p, values) for p in properties], sets)[:, None, :]
-    shape = TABLE_SIZE, sets
-    tables = [np.broadcast_to(property_table(p, values, sets), shape) for p in properties]
-    return np.stack(tables)
+    tables = np.empty((len(properties), TABLE_SIZE, sets))
+    for i, first in enumerate(same):
+        table = property_table(properties[i], values, sets) if first == i else tables[first]
+        tables[i] = table
+    return tables
+
+
+def _properties(name: str, material: words.Material) -> tuple[list[Any], list[int]]:
+    """Return a property of each component, and the first component with the same one."""
+    found = [getattr(c, name) for c in material.components.values()]
+    return found, [found.index(p) for p in found]
 
 
 def lower_material(
@@ -88,12 +100,12 @@ def lower_material(
     denser = np.where(own, density_factor, 1.0)
     return Material(
         specific_volume=1.0 / (denser * density),
-        expansion=_tables([c.expansion for c in parts], values, sets),
-        conductivity=denser[:, None] * _tables([c.conductivity_W_mK for c in parts], values, sets),
-        specific_heat=_tables([c.specific_heat_J_kgK for c in parts], values, sets),
+        expansion=_tables(material, "expansion", values, sets),
+        conductivity=denser[:, None] * _tables(material, "conductivity_W_mK", values, sets),
+        specific_heat=_tables(material, "specific_heat_J_kgK", values, sets),
         emissivity=stack([value_of(c.emissivity, values) for c in parts], sets),
         absorption=absorption[:, None, :]
-        * _tables([c.absorption_factor for c in parts], values, sets),
+        * _tables(material, "absorption_factor", values, sets),
         alike=material.derived("alike", _alike),
         constant=material.derived("constant", _constant),
     )
