@@ -104,8 +104,7 @@ def lower_material(
         conductivity=denser[:, None] * _tables(material, "conductivity_W_mK", values, sets),
         specific_heat=_tables(material, "specific_heat_J_kgK", values, sets),
         emissivity=stack([value_of(c.emissivity, values) for c in parts], sets),
-        absorption=absorption[:, None, :]
-        * _tables(material, "absorption_factor", values, sets),
+        absorption=absorption[:, None, :] * _tables(material, "absorption_factor", values, sets),
         alike=material.derived("alike", _alike),
         constant=material.derived("constant", _constant),
     )
