@@ -14,7 +14,7 @@ from pyrofit.diagnose.base.model import strength_of
 from pyrofit.diagnose.base.prediction import Made, predictions
 from pyrofit.diagnose.judge import places, verdict
 from pyrofit.diagnose.judge.inflation import inflation_of
-from pyrofit.diagnose.judge.places import JudgeContext, needed
+from pyrofit.diagnose.judge.places import needed
 from pyrofit.diagnose.search import step
 from pyrofit.diagnose.search.step import SearchContext, more
 from pyrofit.diagnose.search.stepwise import Search, _look, search
@@ -119,7 +119,7 @@ def test_effects_are_judged_until_one_fails_the_one_that_gains_least_first(
         return places.findings_of(found, without, context, which)
 
     monkeypatch.setattr(verdict, "findings_of", findings_of)
-    context = JudgeContext(np.random.default_rng(2))
+    context = SearchContext(np.random.default_rng(2))
     found, without = needed(two_effects_and_a_misfit(share), context)
     assert set(found.end.effects) == {"c_T", "k_T"}
     failed = verdict._first_failed(found, without, context)

@@ -1,16 +1,19 @@
 """Every kind of verdict, from searches on linear models whose truth is planted; and its words."""
 
 from dataclasses import replace
+from typing import Any
 
 import linear
 import numpy as np
 import pytest
 from linear import POINTS, TOTAL, column_of, fit_with, moved
 
+from pyrofit.diagnose.base.fitted import FittedModel
 from pyrofit.diagnose.base.model import strength_of
 from pyrofit.diagnose.base.prediction import HELD_OUT
 from pyrofit.diagnose.diagnosis import _undecided
-from pyrofit.diagnose.judge import other_terms
+from pyrofit.diagnose.judge import other_terms, places
+from pyrofit.diagnose.judge.claim_tests import Trust
 from pyrofit.diagnose.judge.findings import Judged, Verdict
 from pyrofit.diagnose.judge.places import _against, alternatives, without_each
 from pyrofit.diagnose.judge.verdict import ONE_FLUX, _doubts, judge
@@ -276,6 +279,31 @@ def test_effect_that_leaves_a_misfit_explains_a_part() -> None:
     assert [finding.leading for finding in verdict.findings] == ["k_T"]
     assert "explains only a part of the misfit" in sentences(verdict)
     assert verdict.suspects == ()
+
+
+def test_effect_behind_a_rejected_one_is_not_claimed_where_misfit_is_left(
+    monkeypatch: pytest.MonkeyPatch,
+) -> None:
+    """It may take the place of the rejected one only if nothing but noise is left."""
+
+    def against(gain: float, spare: float, about: Trust) -> str:
+        return "rejected" if about.limit == "k_T" else ""
+
+    def trusted(trial: FittedModel, effect: str, *given: Any) -> Trust:
+        return replace(real(trial, effect, *given), limit=effect)
+
+    real = places.trust
+    monkeypatch.setattr(places, "trust", trusted)
+    monkeypatch.setattr(places, "_against", against)
+    monkeypatch.setattr(places, "at_limit", lambda trial, effect: effect)
+    unknown = np.tile(np.repeat([1.5, -1.5], POINTS // 2), 4)
+    columns = alike("k_T", "c_T", share=0.001)
+    found = searched(planted(k_T=1.0) + unknown, columns, ("c_T", "k_T"), most=1)
+    assert not found.end_lack.adequate
+    verdict = verdict_on(found)
+    (finding,) = verdict.findings
+    assert [(j.effect, bool(j.rejected)) for j in finding.judged] == [("k_T", True), ("c_T", False)]
+    assert verdict.kind == "unknown"
 
 
 def test_effects_that_leave_only_noise_are_unknown_where_one_of_them_fails() -> None:

@@ -72,7 +72,7 @@ def test_processes_end_even_if_the_one_that_shares_is_killed(tmp_path: Path) -> 
     code = """
 import os, signal, sys, time
 from pathlib import Path
-from pyrofit.parallel import parallel_map, spare
+from pyrofit.parallel import parallel_map
 def work(i):
     Path(sys.argv[1], str(os.getpid())).touch()
     while os.getppid() == parent:

@@ -78,10 +78,9 @@ def predictions(
     made = {} if made is None else made
     tasks = [(k, name) for k, trial in enumerate(trials) for name in _tasks(trial, held_out, whole)]
     tasks.sort(key=lambda task: not task[1].startswith(HELD_OUT))  # the longest ones first
-    new = {(trials[k].fit, name): trials[k] for k, name in tasks}
-    new = {key: trial for key, trial in new.items() if key not in made}
-    todo = [(trial, name) for (_, name), trial in new.items()]
-    fits = parallel_map(lambda i: _refit(*todo[i]).fit, len(todo), processes)
+    wanted = {(trials[k].fit, name): trials[k] for k, name in tasks}
+    new = [key for key in wanted if key not in made]
+    fits = parallel_map(lambda i: _refit(wanted[new[i]], new[i][1]).fit, len(new), processes)
     made.update(zip(new, fits, strict=True))
     found = [Predictions({}, {}, trial) for trial in trials]
     for k, name in tasks:

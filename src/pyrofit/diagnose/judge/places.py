@@ -1,33 +1,24 @@
 """The effects of the final model that are needed, and the evidence for and against each."""
 
 from collections.abc import Sequence
-from dataclasses import dataclass, field, replace
+from dataclasses import replace
 
 import numpy as np
 
 from pyrofit.diagnose.base.adequacy import lack_of_fit
 from pyrofit.diagnose.base.fitted import FittedModel, at_limit, up_to_date
-from pyrofit.diagnose.base.prediction import Made, predictions
+from pyrofit.diagnose.base.prediction import predictions
 from pyrofit.diagnose.judge.claim_tests import Trust, explains, trust
 from pyrofit.diagnose.judge.findings import Finding, Judged
 from pyrofit.diagnose.judge.inflation import inflation_of
 from pyrofit.diagnose.search.restart import refitted_without
-from pyrofit.diagnose.search.step import SearchStep
+from pyrofit.diagnose.search.step import SearchContext, SearchStep
 from pyrofit.diagnose.search.stepwise import Search
 from pyrofit.diagnose.settings import SETTINGS
 from pyrofit.parallel import parallel_map
 
 
-@dataclass(frozen=True, eq=False)
-class JudgeContext:
-    """Inputs of a judgement: generator of noise draws, processes, predictions made before."""
-
-    rng: np.random.Generator
-    processes: int = 1
-    made: Made = field(default_factory=dict)
-
-
-def needed(found: Search, context: JudgeContext) -> tuple[Search, list[FittedModel]]:
+def needed(found: Search, context: SearchContext) -> tuple[Search, list[FittedModel]]:
     """End a search without the effects that others make superfluous, the least one first.
 
     Returns the search, and the best model without each of the effects that are left.
@@ -69,7 +60,7 @@ def ended(found: Search, end: FittedModel, rng: np.random.Generator) -> Search:
 def findings_of(
     found: Search,
     without: Sequence[FittedModel],
-    context: JudgeContext,
+    context: SearchContext,
     which: Sequence[int] | None = None,
 ) -> tuple[Finding, ...]:
     """Judge effects of a search's end, all or which ones, and those they cannot be told from.
@@ -85,7 +76,8 @@ def findings_of(
     may_explain = found.end_lack.adequate or len(effects) == 1
     models = [*(without[k] for k in which), *rivals.values()]
     predicted = predictions(models, processes, whole=may_explain, made=context.made)
-    before, own = dict(zip(which, predicted, strict=False)), predicted[len(which) :]
+    before = dict(zip(which, predicted[: len(which)], strict=True))
+    own = predicted[len(which) :]
     inflation = inflation_of(found)
     explained: list[bool | None] = [None] * len(own)
     if may_explain:

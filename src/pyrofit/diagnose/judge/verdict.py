@@ -10,8 +10,9 @@ from pyrofit.diagnose.base.prediction import HELD_OUT
 from pyrofit.diagnose.judge.findings import Finding, Judged, Kind, Suspect, Verdict
 from pyrofit.diagnose.judge.inflation import inflation_of
 from pyrofit.diagnose.judge.other_terms import other_terms
-from pyrofit.diagnose.judge.places import JudgeContext, ended, findings_of, needed
+from pyrofit.diagnose.judge.places import ended, findings_of, needed
 from pyrofit.diagnose.search.refit import look_at
+from pyrofit.diagnose.search.step import SearchContext
 from pyrofit.diagnose.search.stepwise import Search
 from pyrofit.diagnose.settings import SETTINGS
 from pyrofit.model.slab import SlabExperiment
@@ -32,22 +33,21 @@ def judge(found: Search, rng: np.random.Generator, processes: int = 1) -> Verdic
     """
     if not found.end.effects:
         return _without_effects(found)
-    context = JudgeContext(rng, processes)
+    context = SearchContext(rng, processes=processes)
     found, without = needed(found, context)
-    partial = not found.end_lack.adequate and len(without) > 1
-    part = _partly(found, without, context) if partial else None
-    if part:
+    if not found.end_lack.adequate and (part := _partly(found, without, context)):
         return part
     findings = findings_of(found, without, context)
     reasons = _reasons(findings)
     if len(findings) == 1 and reasons and findings[0].kept:
         # The best one fails, another does not: the verdict is about that one.
         found, reasons = ended(found, findings[0].kept[0].trial, rng), []
+    elif reasons and found.end_lack.adequate and (part := _partly(found, without, context)):
+        return part
     if not found.end_lack.adequate:
         reasons.append("the residuals exceed the noise, with every effect that gains enough")
     if reasons:
-        part = None if partial else _partly(found, without, context)
-        return part or Verdict("unknown", found, findings, tuple(reasons))
+        return Verdict("unknown", found, findings, tuple(reasons))
     return _explained(found, findings, without, processes)
 
 
@@ -92,7 +92,9 @@ def _reasons(findings: Sequence[Finding]) -> list[str]:
     return [f"{f.effect}: {j.rejected}" for f in findings for j in f.judged[:1] if j.rejected]
 
 
-def _partly(found: Search, without: Sequence[FittedModel], context: JudgeContext) -> Verdict | None:
+def _partly(
+    found: Search, without: Sequence[FittedModel], context: SearchContext
+) -> Verdict | None:
     """Return the verdict on the effects that pass every test, if there are any.
 
     Effects that fail a test are taken away one by one, the one that gains least first; the others
@@ -118,7 +120,7 @@ def _partly(found: Search, without: Sequence[FittedModel], context: JudgeContext
 
 
 def _first_failed(
-    found: Search, without: Sequence[FittedModel], context: JudgeContext
+    found: Search, without: Sequence[FittedModel], context: SearchContext
 ) -> int | None:
     """Return the position of the effect that fails a test, of several the one that gains least.
 

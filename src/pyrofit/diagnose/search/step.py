@@ -28,7 +28,7 @@ Tell = Callable[[str], None]
 
 @dataclass(frozen=True, eq=False)
 class SearchContext:
-    """Inputs of a search: generator of noise draws, listener to its progress, processes."""
+    """Inputs of a search, or of the judgement: generator of noise draws, listener, processes."""
 
     rng: np.random.Generator
     tell: Tell = lambda text: None
