@@ -571,6 +571,21 @@ def test_page_says_what_was_not_tried_and_whose_noise_is_uncertain(tmp_path: Pat
     assert "hold less surely: Slab 25 kW/m², mass loss rate" in page.words
 
 
+def test_use_of_a_series_is_that_in_the_diagnosis(tmp_path: Path) -> None:
+    study, results = diagnosed(tmp_path, "named")
+    chosen = {"calibrate": {"slab_60": ("mlr",)}, "hold_out": {"slab_25": ("mlr",)}}
+    study = study.model_copy(update={"diagnosis": study.diagnosis.model_copy(update=chosen)})
+    rectangles(study, results)
+    report.write_page(study, results)
+    text = results.diagnosis("report.html").read_text().split('id="data"')[1].split("</table>")[0]
+    rows = (re.findall(r"<td[^>]*>(.*?)</td>", row)[:3] for row in text.split("<tr>")[2:])
+    uses = {(row[0], row[1]): row[2] for row in rows if len(row) == 3}
+    assert uses["slab_60", "mass loss rate"] == "fitted"
+    assert uses["Slab 25 kW/m²", "mass loss rate"] == "held out"
+    assert uses["slab_60", "back temperature"] == "not used"
+    assert uses["slow", "mass fraction"] == "kinetics, fitted"
+
+
 def test_page_says_the_numbers(tmp_path: Path) -> None:
     page, _ = page_of(tmp_path, "named")
     words = " ".join(page.words.split())

@@ -19,6 +19,7 @@ from pyrofit.show.diagnosis.sentences import (
 )
 from pyrofit.show.diagnosis.words import Found
 from pyrofit.show.figure import Figure, draw_figure
+from pyrofit.show.measured import use_in_diagnosis
 from pyrofit.show.page import page_of
 from pyrofit.show.parts import Part, Picture, Shown, picture, table_part
 from pyrofit.show.table import Table, write_table
@@ -45,7 +46,8 @@ def write_page(study: Study, results: Results) -> None:
     found = diagnosis.read(study, results)
     shown = section(study, results, found)
     title = f"{study.title or study.name}: diagnosis"
-    text = page_of(study, recorded.measured(study, results), title, facts(found), [shown])
+    measured = recorded.measured(study, results)
+    text = page_of(study, measured, title, facts(found), [shown], use=use_in_diagnosis)
     write_text(results.diagnosis("report.html"), text)
 
 

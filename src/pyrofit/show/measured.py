@@ -1,13 +1,13 @@
 """The measured series, their use, range and uncertainty, and the mass closure."""
 
-from collections.abc import Mapping
+from collections.abc import Callable, Mapping
 from typing import Any
 
 import pandas as pd
 
 from pyrofit.analysis.closure import closure_lines
 from pyrofit.analysis.uses import FITTED, HELD_OUT, title_of, use_of
-from pyrofit.config import Study
+from pyrofit.config import Study, calibration_channels, held_out_channels
 from pyrofit.model.signal import Signal
 from pyrofit.quantities.base import Quantity
 from pyrofit.quantities.units import ICE_POINT_K
@@ -16,8 +16,12 @@ from pyrofit.results.recorded import About, Measured
 from pyrofit.show.names import signal_words
 from pyrofit.show.units import difference, difference_unit, shown
 
+KINETICS, NOT_USED = "kinetics, fitted", "not used"
+Use = Callable[[Study, str, str], str]
+"""Returns the use of a series in words, given a study, an experiment and a signal."""
 
-def series(study: Study, measured: Measured) -> list[dict[str, Any]]:
+
+def series(study: Study, measured: Measured, use: Use) -> list[dict[str, Any]]:
     """Return a row for each measured series."""
     rows = []
     for name, signals in measured.about.items():
@@ -27,7 +31,7 @@ def series(study: Study, measured: Measured) -> list[dict[str, Any]]:
                 {
                     "experiment": title_of(study, name),
                     "signal": signal_words(study, name, signal),
-                    "use": _use(study, name, signal),
+                    "use": use(study, name, signal),
                     "points": about["points"],
                     "over": _over(frame),
                     "values": _values(frame, study.experiments[name].quantity(signal)),
@@ -64,19 +68,32 @@ def closure(study: Study, about: About) -> list[str]:
     return lines
 
 
-def _use(study: Study, name: str, signal: str) -> str:
-    """Return the use of a series in words."""
-    cost = study.kinetics.cost if study.kinetics else ()
-    if any((t.experiment, t.signal) == (name, signal) and t.weight > 0.0 for t in cost):
-        return "kinetics, fitted"
+def use_in_campaign(study: Study, name: str, signal: str) -> str:
+    """Return the use of a series in kinetics, inverse modelling and validation."""
+    if _fits_kinetics(study, name, signal):
+        return KINETICS
     if name in masses_shown(study) or (name, signal) in heats_shown(study):
         return "kinetics, compared"
     uses = [use_of(study, cost, name, signal) for cost in study.imp.costs]
     if FITTED in uses:
         return FITTED
     if name not in study.validation.experiments:
-        return "not used"
+        return NOT_USED
     return uses[0] if len(set(uses)) == 1 else HELD_OUT
+
+
+def use_in_diagnosis(study: Study, name: str, signal: str) -> str:
+    """Return the use of a series in the diagnosis, or in the kinetics that it starts from."""
+    if any((c.experiment, c.signal) == (name, signal) for c in calibration_channels(study)):
+        return FITTED
+    if any((c.experiment, c.signal) == (name, signal) for c in held_out_channels(study)):
+        return HELD_OUT
+    return KINETICS if _fits_kinetics(study, name, signal) else NOT_USED
+
+
+def _fits_kinetics(study: Study, name: str, signal: str) -> bool:
+    cost = study.kinetics.cost if study.kinetics else ()
+    return any((t.experiment, t.signal) == (name, signal) and t.weight > 0.0 for t in cost)
 
 
 def _over(frame: pd.DataFrame) -> str:

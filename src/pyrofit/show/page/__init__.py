@@ -27,18 +27,19 @@ def page_of(
     pictures: Sequence[Picture] = (),
     answer: Part | None = None,
     lacks: str = "",
+    use: measurements.Use = measurements.use_in_campaign,
 ) -> str:
     """Return a page as HTML: sentences of the summary, the data, sections, provenance.
 
     ``pictures`` and the table ``answer`` end the summary, ``lacks`` names the missing effects; each
-    is left out where there is none.
+    is left out where there is none. ``use`` returns the use of each series in words.
     """
     template = _templates().get_template("report.html.j2")
     return template.render(
         study=study,
         title=title,
         summary=summary,
-        series=measurements.series(study, measured),
+        series=measurements.series(study, measured, use),
         notes=measurements.notes(study, measured.about),
         pictures=pictures,
         answer=answer,
