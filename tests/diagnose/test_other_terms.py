@@ -126,7 +126,7 @@ def test_effect_that_another_term_replaces_is_not_certain(monkeypatch: pytest.Mo
     assert not found.confirmed
     assert found.findings[0].effects == ["k_T"]
     (reason,) = found.reasons
-    assert reason.startswith(f"k_T: {WORDS} explains the data nearly as well")
+    assert reason.startswith(f"{WORDS} explains the data nearly as well as slope of the")
     assert "seems to lack" in sentences(found)
 
 

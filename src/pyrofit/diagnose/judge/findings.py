@@ -61,6 +61,12 @@ class Finding:
         return groups.pop() if len(groups) == 1 else ""
 
     @property
+    def open_words(self) -> str:
+        """The reason that leaves open which of the effects is missing."""
+        titles = (known_effects()[name].title for name in self.effects)
+        return f"these data do not separate: {', '.join(titles)}"
+
+    @property
     def predicted(self) -> bool:
         """Whether predictions improve with each one that is kept, also of held-out signals."""
         return bool(self.kept) and all(judged.trust.confirmed for judged in self.kept)

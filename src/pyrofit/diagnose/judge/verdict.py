@@ -15,6 +15,7 @@ from pyrofit.diagnose.search.refit import look_at
 from pyrofit.diagnose.search.step import SearchContext
 from pyrofit.diagnose.search.stepwise import Search
 from pyrofit.diagnose.settings import SETTINGS
+from pyrofit.effects import known_effects
 from pyrofit.model.slab import SlabExperiment
 
 ONE_FLUX = "only the mass loss rate at one flux is calibrated"
@@ -71,7 +72,7 @@ def _support(finding: Finding) -> str:
     """State the evidence for an effect that no doubt is left about."""
     rise = sum(finding.kept[0].trust.gains.values())
     said = f", and the log score of predictions rises by {rise:.1f}" if rise else ""
-    return f"{finding.leading}: passes every test of a claim{said}"
+    return f"{_title(finding.leading)} passes every test of a claim{said}"
 
 
 def _with_other_terms(
@@ -136,13 +137,17 @@ def _first_failed(
 
 def _rest(found: Search) -> str:
     """Say in which signals the final model leaves more than noise."""
-    lack, picks = found.end_lack, found.end.model.likelihood.problem.picks
-    names = dict.fromkeys(" ".join(picks[window.channel][:2]) for window in lack.windows)
-    if not names:
+    lack, problem = found.end_lack, found.end.model.likelihood.problem
+    signals: dict[str, list[str]] = {}
+    for name, signal in dict.fromkeys(problem.picks[window.channel][:2] for window in lack.windows):
+        experiment = problem.runs[name].experiment
+        signals.setdefault(experiment.title or name, []).append(experiment.words(signal))
+    if not signals:
         return (
             f"part of the misfit remains: chi-square is {lack.chi2:.4g} of {lack.chi2_critical:.4g}"
         )
-    return f"part of the misfit remains, in {', '.join(names)}"
+    places = (f"{title} ({', '.join(words)})" for title, words in signals.items())
+    return f"part of the misfit remains: {'; '.join(places)}"
 
 
 def _supported(finding: Finding) -> bool:
@@ -186,30 +191,29 @@ def _doubts(found: Search, findings: Sequence[Finding]) -> list[str]:
     doubts += _outvoted(kept)
     doubts += _open_terms(findings)
     open_ones = [finding for finding in findings if not finding.group]
-    return doubts + [f"these data do not separate {_listed(finding)}" for finding in open_ones]
+    return doubts + [finding.open_words for finding in open_ones]
 
 
 def _open_terms(findings: Sequence[Finding]) -> list[str]:
     """Name other terms of the model that explain the data nearly as well as an effect does."""
     return [
-        f"{finding.leading}: {words} explains the data nearly as well. The reason may be "
+        f"{words} explains the data nearly as well as {_title(finding.leading)}. The reason may be "
         "an effect outside the catalogue"
         for finding in findings
         for words in finding.open_terms
     ]
 
 
-def _listed(finding: Finding) -> str:
-    *first, last = finding.effects
-    return f"{', '.join(first)} and {last}" if first else last
+def _title(effect: str) -> str:
+    return known_effects()[effect].title
 
 
 def _unconfirmed(judged: Judged) -> str:
     if not judged.trust.predicts:
-        return f"{judged.effect}: no prediction confirms it clearly"
+        return f"no prediction clearly confirms {_title(judged.effect)}"
     gain = sum(judged.trust.held_out.values())
     return (
-        f"{judged.effect}: the log score of the held-out signals gains {gain:+.1f} only; "
+        f"with {_title(judged.effect)}, the log score of held-out signals gains {gain:+.1f} only; "
         f"a confirmation needs {SETTINGS.informative_gain:g}"
     )
 
@@ -220,7 +224,9 @@ def _outvoted(judged: Sequence[Judged]) -> list[str]:
     for one in judged:
         if one.trust.outvoted:
             (name,) = one.trust.worse
-            by_name.setdefault(name, []).append(f"{one.effect} ({one.trust.gains[name]:+.1f})")
+            by_name.setdefault(name, []).append(
+                f"{_title(one.effect)} ({one.trust.gains[name]:+.1f})"
+            )
     return [
         f"the prediction of {name.removeprefix(f'{HELD_OUT}: ')} gets worse with "
         f"{', '.join(worse)} (log score in brackets), others improve: check its apparatus"

@@ -1,5 +1,7 @@
 """The verdict in plain words."""
 
+from collections.abc import Sequence
+
 from pyrofit.diagnose.judge.findings import Finding, Verdict
 from pyrofit.effects import known_effects
 
@@ -33,7 +35,7 @@ def sentences(verdict: Verdict) -> str:
 def _none(verdict: Verdict) -> list[str]:
     return [
         "Model and measurements agree within the noise: nothing is missing that these data show.",
-        _because(verdict),
+        _because(verdict.reasons),
     ]
 
 
@@ -42,14 +44,14 @@ def _named(verdict: Verdict) -> list[str]:
     return [
         f"The model lacks: {finding.group} ({form_of(finding)}).",
         "With it, the residuals are noise, and predictions improve.",
-        _because(verdict),
+        _because(verdict.reasons),
     ]
 
 
 def _ambiguous(verdict: Verdict) -> list[str]:
     if len(verdict.findings) > 1:
         several = f"The model seems to lack {_several(verdict)}, but that is not confirmed."
-        return [several, _because(verdict)]
+        return [several, _because(verdict.reasons)]
     (finding,) = verdict.findings
     said = [f"The model lacks an effect; these data leave open which: {_listed(finding)}."]
     if len(finding.effects) == 1:
@@ -57,7 +59,8 @@ def _ambiguous(verdict: Verdict) -> list[str]:
     families = {known_effects()[name].family for name in finding.effects}
     if len(families) > 1 and "apparatus" in families:
         said.append("Check the apparatus first.")
-    return [*said, _because(verdict)]
+    told = [reason for reason in verdict.reasons if reason != finding.open_words]
+    return [*said, _because(told)]
 
 
 def _multiple(verdict: Verdict) -> list[str]:
@@ -65,7 +68,7 @@ def _multiple(verdict: Verdict) -> list[str]:
     return [
         f"The model {lacks} {_several(verdict)}.",
         "Each of them is needed with the others there.",
-        _because(verdict),
+        _because(verdict.reasons),
     ]
 
 
@@ -80,7 +83,7 @@ def _partly(verdict: Verdict) -> list[str]:
     return [
         f"The model {lacks} {_several(verdict)}.",
         helps,
-        _because(verdict),
+        _because(verdict.reasons),
         f"Leading candidates for the rest: {suspects}." if suspects else "",
     ]
 
@@ -93,7 +96,7 @@ def _unknown(verdict: Verdict) -> list[str]:
             "Model and measurements disagree; the missing effect is not known.",
             f"Nearest comes {names}, which is not confirmed.",
         ]
-    return [*said, _because(verdict)]
+    return [*said, _because(verdict.reasons)]
 
 
 def _several(verdict: Verdict) -> str:
@@ -101,14 +104,8 @@ def _several(verdict: Verdict) -> str:
     return f"{len(verdict.findings)} effects: {', '.join(first)}, and {last}" if first else last
 
 
-def _because(verdict: Verdict) -> str:
-    return " ".join(f"{_begun(reason)}." for reason in verdict.reasons)
-
-
-def _begun(reason: str) -> str:
-    """Return a reason with its first letter large, unless it begins with an effect's name."""
-    named = reason.partition(":")[0] in known_effects()
-    return reason if named else f"{reason[0].upper()}{reason[1:]}"
+def _because(reasons: Sequence[str]) -> str:
+    return " ".join(f"{reason[0].upper()}{reason[1:]}." for reason in reasons)
 
 
 def _listed(finding: Finding) -> str:
