@@ -23,6 +23,7 @@ from cases import (
 )
 from evidence import MLR, RMS_K, RMS_OVER_MEAN, TIME, Axis, Evidence, Line
 from exact import slab_with_foil
+from terms import charring, specimen
 
 from pyrofit.model.accuracy import Accuracy
 from pyrofit.solver.curves import Request
@@ -36,6 +37,7 @@ TOLERANCE = Axis("tolerance", "-")
 KELVIN = Axis("error of the temperature", "K")
 SHARE = Axis("rms error / mean", "%", 100.0)
 THICKNESS = 5.8e-3
+BINS = np.arange(2.5, 900.0, 5.0)
 LATE = np.arange(20.0, 401.0, 20.0)
 """Times [s] at which temperatures without reactions are compared."""
 FOIL = {"thickness_m": 2e-4, "density_kg_m3": 8940.0, "specific_heat_J_kgK": 380.0}
@@ -113,6 +115,25 @@ def test_mlr_error_falls_with_the_square_of_the_cell_size(evidence: Evidence) ->
     lines = {f"{flux} kW/m²": errors(flux) for flux in (25, 60)}
     title = "mass loss rate, order in space"
     evidence.order(title, CELL, SHARE, lines, "pyrofit on 1600 cells: same tolerance")
+
+
+def darkening(accuracy: Accuracy) -> Curve:
+    """Mass loss rate in bins of a wood whose char absorbs better."""
+    wood = {"density_kg_m3": 600.0, "emissivity": 0.7}
+    material = charring(virgin=wood, char={"density_kg_m3": 150.0, "emissivity": 0.95})
+    return run(specimen(30.0), material, {"mlr": Request(BINS, 5.0)}, accuracy, {}).signals["mlr"]
+
+
+def test_mlr_error_with_a_changing_emissivity_is_of_second_order(evidence: Evidence) -> None:
+    cells = np.array([50, 100, 200, 400])
+    right = darkening(Accuracy(cells=1600, **TIGHT))
+    found = [rms_over_mean(darkening(Accuracy(cells=n, **TIGHT)), right) for n in cells]
+    lines = {"emissivity 0.7 to 0.95, 30 kW/m²": (5e-3 / cells, np.array(found))}
+    title = "mass loss rate of a darkening char, order in space"
+    evidence.order(title, CELL, SHARE, lines, "pyrofit on 1600 cells: same tolerance", 0.5)
+    title, source = "darkening char, default settings", "pyrofit on 1600 cells"
+    error = rms_over_mean(darkening(Accuracy()), right)
+    evidence.number(title, error, 3e-3, "rms error / mean", source, "%")
 
 
 def test_temperature_error_of_a_reacting_slab_is_of_second_order(evidence: Evidence) -> None:

@@ -54,11 +54,42 @@ def emitting_layer(m, n, material):
 
 
 @inner
+def differ(emissivity):
+    """Tell whether components differ in emissivity."""
+    found = emissivity[0] != emissivity[0]
+    for i in range(1, emissivity.shape[0]):
+        found = found | (emissivity[i] != emissivity[0])
+    return found
+
+
+@inner
+def emissivity_of_top(part, m, n, material):
+    """Return the emissivity of the topmost ``part`` [m] of cell n.
+
+    The volume fractions are linear over the depth, with the means of this cell and the next one.
+    Those below zero are set to zero.
+    """
+    d, _ = emitting_layer(m, n, material)
+    d_below, _ = emitting_layer(m, n + 1, material)
+    ahead = (d - part) / max(d + d_below, TINY)
+    volume = 0.0 * d
+    shine = 0.0 * d
+    for i in range(m.shape[0]):
+        own = m[i, n] * material.specific_volume[i] / max(d, TINY)
+        below = m[i, n + 1] * material.specific_volume[i] / max(d_below, TINY)
+        fraction = max(own + ahead * (own - below), 0.0)
+        volume += fraction
+        shine += fraction * material.emissivity[i]
+    return shine / max(volume, TINY)
+
+
+@inner
 def top_emissivity(depth, skin, m, first, material, before):
     """Return the volume-averaged emissivity of the top ``depth`` of the current sample.
 
     A sample that has vanished keeps the value it had ``before``.
     """
+    varies = differ(material.emissivity)
     depth = max(depth, LEAST_DEPTH)
     z, total = emitting_layer(skin, 0, material)
     found = z >= depth
@@ -68,7 +99,11 @@ def top_emissivity(depth, skin, m, first, material, before):
             return eps
         d, e = emitting_layer(m, n, material)
         here = opposite(found) & (d >= depth - z)
-        eps = where(here, (total + (depth - z) / max(d, TINY) * e) / depth, eps)
+        part = depth - z
+        shine = part / max(d, TINY) * e
+        if n + 1 < m.shape[1] and somewhere(varies):
+            shine = where(varies, part * emissivity_of_top(part, m, n, material), shine)
+        eps = where(here, (total + shine) / depth, eps)
         found = found | here
         total += e
         z += d

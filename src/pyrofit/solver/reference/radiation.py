@@ -11,12 +11,19 @@ LEAST_DEPTH = 1e-9
 def top_average(volume: FloatArray, emissivity: FloatArray, depth: float) -> float:
     """Return the emissivity averaged over the top ``depth`` [m] of a sample, or all of it.
 
-    ``volume`` [m], shape (elements, components), is that of the elements, front first.
+    ``volume`` [m], shape (elements, components), is that of the elements, front first. Volume
+    fractions are linear through the means of the element that ends the depth and the next one.
     """
-    below = np.concatenate(([0.0], np.cumsum(volume.sum(axis=-1))))
-    filled = np.concatenate(([0.0], np.cumsum(volume @ emissivity)))
+    d = volume.sum(axis=-1)
+    below = np.concatenate(([0.0], np.cumsum(d)))
     to = min(max(depth, LEAST_DEPTH), below[-1])
-    return float(np.interp(to, below, filled) / to)
+    k = int(np.searchsorted(below, to)) - 1
+    part, fraction = to - below[k], volume[k] / d[k]
+    if k + 1 < d.size and d[k + 1] > 0.0:
+        rise = fraction - volume[k + 1] / d[k + 1]
+        fraction = np.maximum(fraction + rise * (d[k] - part) / (d[k] + d[k + 1]), 0.0)
+    total = volume[:k].sum(axis=0) + part * fraction / fraction.sum()
+    return float(total @ emissivity / to)
 
 
 def absorbed(radiation: float, tau: FloatArray) -> tuple[FloatArray, float]:
