@@ -196,12 +196,12 @@ def _doubts(found: Search, findings: Sequence[Finding]) -> list[str]:
 
 def _open_terms(findings: Sequence[Finding]) -> list[str]:
     """Name other terms of the model that explain the data nearly as well as an effect does."""
-    return [
-        f"{words} explains the data nearly as well as {_title(finding.leading)}. The reason may be "
-        "an effect outside the catalogue"
+    said = [
+        f"nearly as well as {_title(finding.leading)} fits: {', or '.join(finding.open_terms)}"
         for finding in findings
-        for words in finding.open_terms
+        if finding.open_terms
     ]
+    return [*said, "the reason may be an effect outside the catalogue"] if said else []
 
 
 def _title(effect: str) -> str:
