@@ -82,7 +82,7 @@ def test_nothing_planted_is_none() -> None:
     assert verdict.findings == ()
     assert verdict.reasons == ("the residuals are noise",)
     assert found.trials == []
-    assert "nothing is missing that these data show. The residuals are noise." in sentences(verdict)
+    assert "these data show no missing effect. The residuals are noise." in sentences(verdict)
 
 
 def test_remarkable_score_without_enough_gain_is_none_and_says_so() -> None:
@@ -135,7 +135,7 @@ def test_effects_of_two_groups_that_look_alike_are_ambiguous_apparatus_first() -
     assert finding.effects == ["heater_ramp", "k_T"]
     assert finding.group == ""
     said = sentences(verdict)
-    assert "heater coming up (apparatus) or slope of the conductivity (material)" in said
+    assert "slow heater (apparatus) or slope of the conductivity (material)" in said
     assert "Check the apparatus first." in said
     assert not verdict.confirmed
 

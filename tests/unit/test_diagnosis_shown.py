@@ -589,16 +589,17 @@ def test_use_of_a_series_is_that_in_the_diagnosis(tmp_path: Path) -> None:
 def test_page_says_the_numbers(tmp_path: Path) -> None:
     page, _ = page_of(tmp_path, "named")
     words = " ".join(page.words.split())
-    assert "The base model leaves chi-square 2000 on 320 points" in words
-    assert "in 7 stretches: heat-up, onset, plateau, burn-out and tail" in words
+    assert "Chi-square of the base model is 2000 on 320 points, above the critical" in words
+    phases = "heat-up, onset, plateau, burn-out and tail"
+    assert f"7 intervals have significant residuals of one sign: {phases}" in words
     assert known_effects()["k_T"].equation in words
     assert (
         "Chi-square falls from 2000 to 350 with slope of the conductivity (k_T). "
         "The last effect gains 1650; a claim needs 12.4."
     ) in words
-    assert "goes from 5 to 1 (fitted) and from 5 to 1 (held out)" in words
+    assert "residuals goes from 5 to 1 (fitted) and from 5 to 1 (held out), in" in words
     assert "cp is at a limit" in words
-    assert "+12.0 (slab_60 from the others) and -1.5 (all held-out tests)" in words
+    assert "changes by +12.0 (slab_60 from the others); the test of equal" in words
 
 
 def test_predictions_are_named_by_title_and_laboratory(tmp_path: Path) -> None:

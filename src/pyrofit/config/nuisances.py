@@ -45,29 +45,30 @@ class Nuisance:
 
 NUISANCES = {
     "thickness_sd": Nuisance(
-        1.0, "-", "thickness over that described", SlabExperiment, "sample", "thickness_factor"
+        1.0,
+        "-",
+        "factor on the thickness",
+        SlabExperiment,
+        "sample",
+        "thickness_factor",
     ),
-    "flux_sd": Nuisance(
-        1.0, "-", "flux over that described", SlabExperiment, "front", "flux_factor"
-    ),
+    "flux_sd": Nuisance(1.0, "-", "factor on the flux", SlabExperiment, "front", "flux_factor"),
     "h_sd_W_m2K": Nuisance(
         0.0,
         "W/(m2 K)",
-        "front's heat transfer coefficient over that described",
+        "change of the heat transfer coefficient of the front",
         SlabExperiment,
         "front",
         "h_change_W_m2K",
     ),
-    "clock_sd_s": Nuisance(
-        0.0, "s", "time by which the records are late", SlabExperiment, SIGNALS, "delay_s"
-    ),
+    "clock_sd_s": Nuisance(0.0, "s", "delay of the records", SlabExperiment, SIGNALS, "delay_s"),
     "lag_sd_s": Nuisance(
         0.0, "s", "lag of the sample's temperature", HeatedExperiment, "", "lag_s"
     ),
     "temperature_sd_K": Nuisance(
         0.0,
         "K",
-        "sample's temperature over that recorded",
+        "temperature of the sample less the recorded one",
         HeatedExperiment,
         "",
         "temperature_offset_K",

@@ -13,7 +13,7 @@ EFFECT = Effect(
     strength={
         "volume": Quantity(
             symbol="s",
-            label="volume of the bubbles over that of the solid",
+            label="volume of the bubbles divided by that of the solid",
             unit="-",
             lower=0.0,
             upper=3.0,
@@ -44,7 +44,7 @@ EFFECT = Effect(
         ),
         "thinning": Quantity(
             symbol="a",
-            label="fall of the conductivity over that of the share of solid",
+            label="coefficient of the conductivity (0: unchanged, 1: as the share of solid)",
             unit="-",
             lower=0.0,
             upper=1.5,

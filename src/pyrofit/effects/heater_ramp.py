@@ -3,7 +3,7 @@
 from pyrofit.effects.base import Effect, Quantity, on
 
 EFFECT = Effect(
-    title="heater coming up",
+    title="slow heater",
     family="apparatus",
     group="timing",
     equation="q(t) = q_0(t) (1 - exp(-t/tau))",

@@ -18,7 +18,7 @@ EFFECT = Effect(
     strength={
         "delay_s": Quantity(
             symbol="t_0",
-            label="time by which the records are late",
+            label="delay of the records",
             unit="s",
             lower=-25.0,
             upper=25.0,

@@ -17,7 +17,8 @@ from pyrofit.solver.curves import Curves, Request
 Stage = Literal["kinetics", "imp"]
 Asked = Mapping[str, Request]
 """Requests by signal."""
-PHASES = ("heat-up", "onset", "plateau", "back-effect", "burn-out", "tail")
+PHASES = ("heat-up", "onset", "plateau", "heated back", "burn-out", "tail")
+"""Phases of a slab."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -27,7 +28,8 @@ class Course:
     conversion: FloatArray
     surface_temperature_K: FloatArray | None
     phase: NDArray[Any]
-    """Position among `PHASES`."""
+    """Position among `phases`."""
+    phases: tuple[str, ...] = PHASES
 
 
 @dataclass(frozen=True, eq=False)

@@ -72,7 +72,7 @@ def section(study: Study, results: Results, found: Found) -> Shown:
 
     return Shown(
         "diagnosis",
-        "What the model lacks",
+        "Missing effects",
         "The misfit of the model, the effects that explain it, and how certain that is.",
         (
             *parts(where_off(found), "windows", *(n for n in drawn if n not in FIGURES)),
@@ -80,7 +80,7 @@ def section(study: Study, results: Results, found: Found) -> Shown:
             *parts("", "not_tried"),
             *parts("", "probes"),
             *parts(gap_closed(found), "gap"),
-            Part("How sure that is", text=certainty(study, found)),
+            Part("Confidence in the result", text=certainty(study, found)),
             *parts("", "parameters", "noise", "effects"),
             *parts(next_measured(found), "next_experiments"),
             *_extended(study, results, found),

@@ -35,12 +35,12 @@ class Place:
 
 
 PLACES = {
-    "flux": Place("front", "flux_factor", "flux over that described", "-", 0.03),
-    "thickness": Place("sample", "thickness_factor", "thickness over that described", "-", 0.02),
-    "h": Place("front", "h_change_W_m2K", "front's h over that described", "W/(m2 K)", 2.0),
-    "gas": Place("front", "gas_rise_K", "gas temperature over that described", "K", 10.0),
+    "flux": Place("front", "flux_factor", "factor on the flux", "-", 0.03),
+    "thickness": Place("sample", "thickness_factor", "factor on the thickness", "-", 0.02),
+    "h": Place("front", "h_change_W_m2K", "change of h at the front", "W/(m2 K)", 2.0),
+    "gas": Place("front", "gas_rise_K", "change of the gas temperature", "K", 10.0),
     "start": Place("sample", "initial_temperature_K", "initial temperature", "K", 2.0),
-    "back_loss": Place("back", "loss_factor", "loss of the back over that described", "-", 0.1),
+    "back_loss": Place("back", "loss_factor", "factor on the back loss", "-", 0.1),
 }
 """Default uncertainties of the apparatus, by the end of the input's name."""
 

@@ -6,7 +6,7 @@ from pyrofit.diagnose.base.adequacy import Stretch
 from pyrofit.diagnose.base.fitted import FittedModel
 from pyrofit.diagnose.base.model import Model
 from pyrofit.experiments import kind_of
-from pyrofit.experiments.base import PHASES, Course
+from pyrofit.experiments.base import Course
 from pyrofit.solver.arrays import FloatArray
 
 
@@ -43,7 +43,7 @@ def _window(trial: FittedModel, w: Stretch, of: Course, critical: float) -> dict
         "end_K": None if T is None else float(T[-1]),
         "conversion": _ends(of.conversion[part]),
         "surface_temperature_K": None if surface is None else _ends(surface[part]),
-        "phase": PHASES[int(np.sort(of.phase[part])[(w.end - w.start) // 2])],
+        "phase": of.phases[int(np.sort(of.phase[part])[(w.end - w.start) // 2])],
         "sign": 1 if mean > 0.0 else -1,
         "mean": mean,
         "relative": mean / level if level > 0.0 else None,

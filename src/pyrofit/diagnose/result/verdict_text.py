@@ -34,7 +34,7 @@ def sentences(verdict: Verdict) -> str:
 
 def _none(verdict: Verdict) -> list[str]:
     return [
-        "Model and measurements agree within the noise: nothing is missing that these data show.",
+        "Model and measurements agree within the noise: these data show no missing effect.",
         _because(verdict.reasons),
     ]
 
@@ -76,9 +76,11 @@ def _partly(verdict: Verdict) -> list[str]:
     """Name the confirmed effects, and those suspected for the rest."""
     catalogue = known_effects()
     suspects = " or ".join(catalogue[suspect.effect].title for suspect in verdict.suspects)
-    helps = "They improve the fit and the predictions, but explain only a part of the misfit."
+    worse = any(finding.outvoted for finding in verdict.findings)
+    gains = f"the fit and {'most' if worse else 'the'} predictions of data left out"
+    helps = f"They improve {gains}, but explain only a part of the misfit."
     if len(verdict.findings) == 1:
-        helps = "It improves the fit and the predictions, but explains only a part of the misfit."
+        helps = f"It improves {gains}, but explains only a part of the misfit."
     lacks = "lacks" if verdict.confirmed else "seems to lack"
     return [
         f"The model {lacks} {_several(verdict)}.",

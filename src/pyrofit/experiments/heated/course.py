@@ -1,6 +1,6 @@
 """Phases of a sample that follows a temperature programme, from the simulated conversion.
 
-*Heat-up* to 0.02, *onset* to 0.2, *plateau* to 0.9, *burn-out* to 0.99, then *tail*.
+*Heat-up* to 0.02, *onset* to 0.2, *main reaction* to 0.9, *end of reaction* to 0.99, *residue*.
 """
 
 from collections.abc import Mapping
@@ -17,7 +17,8 @@ from pyrofit.solver.arrays import FloatArray
 from pyrofit.solver.curves import Request
 from pyrofit.solver.outputs import MASS_FRACTION
 
-ENDS = (0.02, 0.2, 0.9, 0.9, 0.99)
+PHASES = ("heat-up", "onset", "main reaction", "end of reaction", "residue")
+ENDS = (0.02, 0.2, 0.9, 0.99)
 
 
 def course(
@@ -35,4 +36,4 @@ def course(
 def of_mass(mass: FloatArray) -> Course:
     """Return the course of a heated sample from its mass, shape (n,)."""
     converted = conversion(mass)
-    return Course(converted, None, np.searchsorted(ENDS, converted).astype(float))
+    return Course(converted, None, np.searchsorted(ENDS, converted).astype(float), PHASES)

@@ -50,8 +50,9 @@ TABLE = Table(
     applies=always,
     make=probes,
     title="Free corrections that absorb the misfit",
-    note="A free curve in one place of the model; absorbed: share of the chi-square above that "
-    "of noise which it removes. It tells where the missing effect acts, not its name.",
+    note="Each is a free curve in one place of the model, added to the model with the effects "
+    "found. Absorbed: share of the excess chi-square that it removes. It tells where a missing "
+    "effect acts, not its name.",
     headings={"absorbed_percent": "absorbed [%]"},
 )
 

@@ -27,15 +27,16 @@ def where_off(found: Found) -> str:
     """Say how large the misfit of the base model is, and where."""
     here = [w for w in found["windows"] if w["model"] == "base"]
     base = found["base"]
+    side = "above" if base["chi2"] > base["chi2_critical"] else "below"
     text = (
-        f"The base model leaves chi-square {number(base['chi2'])} on {int(base['points'])} points; "
-        f"noise leaves more than {number(base['chi2_critical'])} in 1 % of studies."
+        f"Chi-square of the base model is {number(base['chi2'])} on {int(base['points'])} points, "
+        f"{side} the critical value of {number(base['chi2_critical'])} (1 %)."
     )
     if not here:
-        return f"{text} No stretch of a curve is off by more than noise would be."
+        return f"{text} No interval of a curve has significant residuals of one sign."
     phases = list(dict.fromkeys(str(w["phase"]) for w in here))
-    stretches = "one stretch" if len(here) == 1 else f"{len(here)} stretches"
-    return f"{text} Curves are off by more than noise in {stretches}: {listed(phases)}."
+    where = "One interval has" if len(here) == 1 else f"{len(here)} intervals have"
+    return f"{text} {where} significant residuals of one sign: {listed(phases)}."
 
 
 def missing(found: Found) -> str:
@@ -88,8 +89,8 @@ def gap_closed(found: Found) -> str:
         parts.append(f"{start}{before:.3g}{change} ({ROLES.get(role, role)})")
     verb = "goes" if found["verdict"]["effects"] else "is"
     return (
-        f"The gap, root mean square in standard deviations of the noise, {verb} {listed(parts)}; "
-        "1 is noise alone."
+        f"The root mean square of the residuals {verb} {listed(parts)}, in standard deviations of "
+        "the noise; 1 is noise alone."
     )
 
 
@@ -106,18 +107,25 @@ def certainty(study: Study, found: Found) -> str:
     if chosen.get("adequate") is not None:
         left = "noise" if chosen["adequate"] else "more than noise"
         said.append(f"With the effects found the model leaves {left}.")
-    if chosen.get("disagree") is not None:
-        said.append(
-            "If the strength were equal in all experiments, differences as large as those found "
-            f"would occur with probability {number(chosen['disagree'])}."
-        )
-    gains = [
-        f"{gain:+.1f} ({_predicted(study, name)})" for name, gain in chosen["predictions"].items()
-    ]
-    said += [
-        f"The log score of predictions changes by {listed(gains)}; a claim needs a rise of 2."
-    ] * bool(gains)
+    said += _of_predictions(study, found)
     return " ".join([*said, *_other_terms(found)])
+
+
+def _of_predictions(study: Study, found: Found) -> list[str]:
+    """State how predictions change with each effect, and how its strengths agree."""
+    said = []
+    for effect, evidence in zip(
+        found["verdict"]["effects"], found["verdict"]["evidence"], strict=True
+    ):
+        gains = [f"{g:+.1f} ({_predicted(study, n)})" for n, g in evidence["predictions"].items()]
+        tests = [f"the log score of predictions changes by {listed(gains)}"] * bool(gains)
+        if evidence["agreement"] is not None:
+            tests.append(f"the test of equal strengths has p = {number(evidence['agreement'])}")
+        if tests:
+            said.append(f"With {effect_name(effect)}, {'; '.join(tests)}.")
+    level = found["settings"].get("agreement_level", 0.001)
+    needs = f"A claim needs a rise of the log score of 2, and p above {number(level)}."
+    return [*said, needs] if said else []
 
 
 def _other_terms(found: Found) -> list[str]:

@@ -40,9 +40,9 @@ TABLE = Table(
     applies=always,
     make=strengths,
     title="Missing effects and their strengths",
-    note="95 % intervals; with form: including that the effect may look otherwise than its "
-    "equation says. Without: the value at which the effect is absent, or the usual value of a "
-    "parameter that says how it looks.",
+    note="95 % intervals, linear about the fit; those of the profiles may differ. With form: the "
+    "true form of the effect may differ from its equation. Without: the value at which the effect "
+    "is absent, or the usual value of a form parameter.",
     headings={
         "low": "95 % low",
         "high": "95 % high",

@@ -23,6 +23,7 @@ def windows(study: Study, results: Results) -> pd.DataFrame:
 def _window(study: Study, w: Found) -> dict[str, Any]:
     quantity = quantity_of(study, w)
     unit = difference_unit(quantity).replace("–", "")
+    relative = None if quantity.is_temperature else w["relative"]
     off = float(difference(quantity, w["mean"]))
     programme = None if w["start_K"] is None else (w["start_K"], w["end_K"])
     kelvin = programme or w["surface_temperature_K"]
@@ -35,7 +36,7 @@ def _window(study: Study, w: Found) -> dict[str, Any]:
         "temperature_C": None if kelvin is None else between(celsius(kelvin), ".0f"),
         "conversion": between(w["conversion"], ".2f"),
         "difference": f"{off:+.3g} {unit}".strip(),
-        "relative_percent": np.nan if w["relative"] is None else 100.0 * w["relative"],
+        "relative_percent": np.nan if relative is None else 100.0 * relative,
     }
 
 
@@ -56,7 +57,8 @@ TABLE = Table(
     note="Intervals in which the residuals are biased more strongly than by noise: 1 % of studies "
     "without misfit have such an interval. Temperature: of the surface, in TGA of the programme. "
     "Conversion: share of the whole release in the record. Difference: mean of simulated minus "
-    "measured, also in per cent of the measured mean.",
+    "measured, also in per cent of the measured mean. It may be near zero, as the test allows for "
+    "correlated noise. docs/diagnosis_method.md defines the phases.",
     headings={
         "time_s": "time [s]",
         "temperature_C": "temperature [°C]",
