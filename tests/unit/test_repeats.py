@@ -339,7 +339,7 @@ def test_table_gives_estimates_beside_their_stated_scatter(
     frame = table(study, Results(tmp_path))
     assert frame["stated_sd"].tolist() == [0.02, 0.02]
     assert frame["away_sd"].tolist() == pytest.approx([2.5, -0.5])
-    assert frame["differs"].tolist() == ["thickness over that described"] * 2
+    assert frame["differs"].tolist() == ["factor on the thickness"] * 2
 
 
 # --- mistakes -------------------------------------------------------------------------------

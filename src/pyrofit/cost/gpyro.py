@@ -10,7 +10,7 @@ from pyrofit.cost.target import FloatArray, Residuals, Target, number
 def gpyro(
     target: Target, *, eps: float = 0.1, zeta: float = 2.0, reference: float = 0.0
 ) -> Residuals:
-    """Gpyro's objective: the share of the largest fitness that a model does not reach.
+    """Gpyro's objective: 1 - eps^zeta mean((|y| / (|model - y| + eps |y|))^zeta).
 
     Gpyro maximises, over the times of a curve,
 

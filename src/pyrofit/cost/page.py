@@ -15,7 +15,15 @@ the term and its options. The equations are those of Lauer et al., *Role of the 
 material parameter estimation*. [Adding a cost](adding.md#a-cost) takes one file.
 [Which of them to use](which_cost.md) was tested on twins and measured data.
 
-`normalisation` is one of {normalisations}.
+- `y` is the measured curve, `model` the simulated one at the same times. `y_lb` and `y_ub` are the
+  limits of the band.
+- `y_N` is the normalisation, one of {normalisations}: 1, the range, the mean, or the
+  interquartile range of `y`.
+- The band is `lower` to `upper`, columns of the file. Or it is `y` with `n_sigma` stated standard
+  deviations on each side, smoothed over `smooth_s`.
+- `THR` is a threshold, not the total heat release. `t0` is `time_s`, and `y(t0)` the measured value
+  at that time.
+- PROPTI is the program with which the paper computed its costs.
 
 This page is generated: `pyrofit reference --of costs > docs/costs.md`.
 

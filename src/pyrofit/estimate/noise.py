@@ -118,8 +118,8 @@ class NoiseModel:
         """Say whether the scatter is white once whitened, where that correlation is taken."""
         if "discrepancy" in self.floors:
             return ""
-        test = "white" if self.white else "not white"
-        return f"; whitened: {test} (p = {self.whiteness:.2g})"
+        left = "no correlation" if self.white else "correlation"
+        return f"; {left} is left after that (Ljung-Box, p = {self.whiteness:.2g})"
 
     @property
     def white(self) -> bool:

@@ -97,10 +97,9 @@ def gap_closed(found: Found) -> str:
 def certainty(study: Study, found: Found) -> str:
     """State the evidence for the verdict besides the fit, and the evidence against it."""
     chosen = leading(found)
-    bound = [name for name, p in found["base"]["parameters"].items() if p["at_limit"]]
-    said = [f"Of the base model, {listed(bound)} are at a limit."] if len(bound) > 1 else []
-    said += [f"Of the base model, {bound[0]} is at a limit."] if len(bound) == 1 else []
-    said += [] if bound else ["No parameter of the base model is at a limit."]
+    said = [_at_limits("base model", found["base"]["parameters"])]
+    if chosen is not None:
+        said.append(_at_limits("model with the effects", found["extended"]["parameters"]))
     said += _of_noise(study, found)
     if chosen is None:
         return " ".join(said)
@@ -109,6 +108,13 @@ def certainty(study: Study, found: Found) -> str:
         said.append(f"With the effects found the model leaves {left}.")
     said += _of_predictions(study, found)
     return " ".join([*said, *_other_terms(found)])
+
+
+def _at_limits(model: str, parameters: Found) -> str:
+    bound = [name for name, p in parameters.items() if p["at_limit"]]
+    if not bound:
+        return f"No parameter of the {model} is at a limit."
+    return f"Of the {model}, {listed(bound)} {'is' if len(bound) == 1 else 'are'} at a limit."
 
 
 def _of_predictions(study: Study, found: Found) -> list[str]:
