@@ -1,5 +1,7 @@
 """How cells absorb and emit radiation."""
 
+import math
+
 from pyrofit.solver.kernels.functions import exp
 from pyrofit.solver.kernels.jit import inner, live
 from pyrofit.solver.kernels.lanes import opposite, somewhere, where
@@ -54,12 +56,16 @@ def emitting_layer(m, n, material):
 
 
 @inner
-def differ(emissivity):
-    """Tell whether components differ in emissivity."""
-    found = emissivity[0] != emissivity[0]
-    for i in range(1, emissivity.shape[0]):
-        found = found | (emissivity[i] != emissivity[0])
-    return found
+def differ(m, n, material):
+    """Tell whether the components of cell n and of the next one differ in emissivity."""
+    lowest = math.inf + 0.0 * m[0, n]
+    highest = -lowest
+    for i in range(m.shape[0]):
+        e = material.emissivity[i]
+        there = m[i, n] + m[i, n + 1] > 0.0
+        lowest = where(there, min(lowest, e), lowest)
+        highest = where(there, max(highest, e), highest)
+    return highest > lowest
 
 
 @inner
@@ -89,7 +95,6 @@ def top_emissivity(depth, skin, m, first, material, before):
 
     A sample that has vanished keeps the value it had ``before``.
     """
-    varies = differ(material.emissivity)
     depth = max(depth, LEAST_DEPTH)
     z, total = emitting_layer(skin, 0, material)
     found = z >= depth
@@ -101,8 +106,10 @@ def top_emissivity(depth, skin, m, first, material, before):
         here = opposite(found) & (d >= depth - z)
         part = depth - z
         shine = part / max(d, TINY) * e
-        if n + 1 < m.shape[1] and somewhere(varies):
-            shine = where(varies, part * emissivity_of_top(part, m, n, material), shine)
+        if n + 1 < m.shape[1]:
+            varies = here & differ(m, n, material)
+            if somewhere(varies):
+                shine = where(varies, part * emissivity_of_top(part, m, n, material), shine)
         eps = where(here, (total + shine) / depth, eps)
         found = found | here
         total += e
