@@ -351,7 +351,7 @@ def said(study: Study, results: Results) -> str:
 def test_sentences_say_the_numbers(tmp_path: Path) -> None:
     text = said(*fake(tmp_path))
     for claim in (
-        "other optimisers go lower: RMSE by 20 %, 1 of 2 starts of least squares agree",
+        "find lower values of the same costs: RMSE by 20 %, 1 of 2 starts of least squares agree",
         "For each cost function, no set beats the best one fitted with it by more than 1 %.",
         "not tested: fewer than 5 repetitions",
         "mass loss rate at Slab 25 kW/m² 3 % of the mean, 95 % of the measured points inside",

@@ -214,7 +214,8 @@ def test_sections_say_the_numbers(tmp_path: Path) -> None:
         "0.1 for RMSE (published 0.1) and 0.1 for BANDS.",
         "RMSE by 20 %, 1 of 2 starts of least squares agree (k at a limit); BANDS by 20 %, 1 of "
         "2 starts of least squares agree (k at a limit). SCE-UA stopped at a local optimum for "
-        "RMSE. SCE-UA had not converged for BANDS: least squares goes on there.",
+        "RMSE. SCE-UA had not converged for BANDS: least squares from its "
+        "best set finds a lower cost.",
         "at a limit: k (RMSE, BANDS); scattered (spread above 20 % of the limits): cp",
         "with CV(RMSE) 0.250 to 1.25 (fitted data: CV(RMSE) 0.250 to 1.25), those of least "
         "squares with CV(RMSE) 2.25 to 3.25, those of CMA-ES with CV(RMSE) 4.25 to 5.25.",
@@ -402,7 +403,7 @@ def test_section_on_what_the_data_determine_says_correlation_misfit_and_optimise
     page, _ = written(tmp_path)
     for claim in (
         "The strongest correlation is that of k and cp, −0.80.",
-        "The optimum of the kinetics fits within the noise: chi-square per point is 1.0 (slow,",
+        "The misfit of the kinetics is within the noise, assumed model discrepancy included: ",
         "of the inverse modelling does not fit within the noise: chi-square per point is 3.6 (Slab",
         "kW/m², mass loss rate); the intervals are widened",
         "SCE-UA best 1.00 sd (chi-square 5.00); SCE-UA mean 2.00 sd (chi-square 10.0); least "

@@ -14,7 +14,7 @@ LOWER = 0.01
 LOCAL_OPTIMUM = "SCE-UA stopped at a local optimum"
 
 
-NOT_A_MINIMUM = "SCE-UA had not converged: least squares goes on from its best set"
+NOT_A_MINIMUM = "SCE-UA had not converged: least squares from its best set finds a lower cost"
 
 
 AGREE = "all agree within 1 %"

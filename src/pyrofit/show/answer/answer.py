@@ -70,7 +70,8 @@ TABLE = Table(
     title="The answer: estimate, 95 % interval, and the best set of each cost function",
     note="Estimate: the optimum of the likelihood, which weighs each point by its noise. "
     "The 95 % interval holds for a correct model. Best sets: lowest cost of all "
-    "optimisers. Values of one column belong together.",
+    "optimisers that used this cost. Use the values of one column together, within one part of "
+    "the table.",
     headings={"low": "95 % low", "high": "95 % high"},
     group_by="fit",
 )

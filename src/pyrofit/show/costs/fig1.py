@@ -211,7 +211,7 @@ FIGURE = Figure(
     paper="Figure 1",
     caption="An example, the same for every study: target (solid) and model (dashed). Green, "
     "hatched: the difference that counts; green bars: a single point and a threshold. "
-    "Light blue: the area in which a model costs nothing. The numbers are the costs "
+    "Light blue: the tolerance within which the cost is zero. The numbers are the costs "
     "of this example. a) Relative difference at one time. b) Time at which the model "
     "passes a level that the target passes at the dot. c) to e) Root mean square of "
     "the shaded differences divided by the mean of the target. The differences are "

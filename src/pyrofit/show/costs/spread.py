@@ -110,7 +110,7 @@ FIGURE = Figure(
     caption="Each dot is the best set of one repetition of SCE-UA, in their order from left "
     "to right. Beside them are the best sets of the other optimisers, to the left "
     "those of the literature, if any. The axis ends at the limits. Dots over the "
-    "whole height: the repetitions find different values. Dots at one height but off "
-    "the grey area, or off the truth: the searches agree, but the data do not support "
-    "their value.",
+    "whole height: the repetitions find different values. Dots at one height outside "
+    "the grey area (95 % interval), or off the truth: the searches agree on a value that the "
+    "likelihood does not support.",
 )

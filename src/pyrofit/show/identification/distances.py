@@ -26,12 +26,12 @@ TABLE = Table(
     make=table,
     title="The optimisers' sets beside the optimum of the likelihood",
     note="The optimum weighs each point by its noise, the costs do not: their own minima, "
-    "found by least squares, are off it as well. 'Inside': parameters less than 1.96 standard "
-    "deviations off.",
+    "found by least squares, differ from it as well. At a limit, distances in standard deviations "
+    "are only indicative.",
     headings={
         "cost_function": "cost function",
         "chi2_per_freedom": "chi-square per degree of freedom",
-        "within": "parameters inside their interval",
+        "within": "parameters within 1.96 sd",
         "farthest": "farthest parameter",
         "distance_sd": "its distance [sd]",
     },

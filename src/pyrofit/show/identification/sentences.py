@@ -97,7 +97,10 @@ def _misfit(study: Study, fit: str, found: Sequence[Misfit]) -> str:
         ]
     )
     if fits:
-        return f"The optimum of the {fit} fits within the noise: chi-square per point is {said}."
+        return (
+            f"The misfit of the {fit} is within the noise, assumed model discrepancy included: "
+            f"chi-square per point is {said}."
+        )
     text = f"The optimum of the {fit} does not fit within the noise: chi-square per point is {said}"
     if sum(one.chi2 for one in found) > sum(one.points for one in found):
         text += "; the intervals are widened by the root of chi-square per degree of freedom"

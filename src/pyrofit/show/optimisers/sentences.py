@@ -26,11 +26,14 @@ def ahead(tables: Frames) -> str:
         bound = f" ({r[f'{by}_at_bound']} at a limit)" if r[f"{by}_at_bound"] else ""
         agree = f"{r[f'{by}_starts_at_best']} of {r[f'{by}_starts']} starts of {name} agree"
         parts.append(f"{r['cost_function']} by {100 * (1 - r['ratio']):.0f} %, {agree}{bound}")
-    text = f"On the same costs other optimisers go lower: {'; '.join(parts)}"
+    text = f"Other optimisers find lower values of the same costs: {'; '.join(parts)}"
     if stuck:
         text += f". SCE-UA stopped at a local optimum for {costs_of(stuck)}"
     if short:
-        text += f". SCE-UA had not converged for {costs_of(short)}: least squares goes on there"
+        text += (
+            f". SCE-UA had not converged for {costs_of(short)}: least squares from its best set "
+            "finds a lower cost"
+        )
     return text + "."
 
 

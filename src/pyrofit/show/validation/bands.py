@@ -77,7 +77,7 @@ TABLE = Table(
     make=width_of_bands,
     title="Predictions of the good sets",
     note=f"Good sets: their cost is at most {GOOD:g} of the lowest known one. A random walk "
-    f"from there within the limits meets them. At most {MOST} are simulated for each "
+    f"that starts from the best set samples them. At most {MOST} are simulated for each "
     "cost function, those that lie farthest apart. Width: highest minus lowest "
     "prediction, mean over time. Within: share of the measured points inside the "
     "band, and inside the band widened by their stated uncertainty. The band is the "

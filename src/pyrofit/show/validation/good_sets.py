@@ -71,7 +71,7 @@ FIGURE = Figure(
     make=good_sets,
     title="Predictions of the good sets",
     caption="Lowest and highest prediction of all sets whose cost is near the lowest known "
-    "one (blue). The lines are the sets of the lowest cost of each cost function. All sets that "
-    "fit well miss the data outside the blue area. There the model or its given "
-    "values are wrong, not the choice of a set.",
+    "one (blue). The lines are the sets of the lowest cost of each cost function. The blue "
+    "area does not include the noise of the measurement. If data lie outside it by more than "
+    "their uncertainty, no choice of a set helps: the model or its given values are wrong.",
 )
