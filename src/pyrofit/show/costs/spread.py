@@ -111,6 +111,6 @@ FIGURE = Figure(
     "to right. Beside them are the best sets of the other optimisers, to the left "
     "those of the literature, if any. The axis ends at the limits. Dots over the "
     "whole height: the repetitions find different values. Dots at one height outside "
-    "the grey area (95 % interval), or off the truth: the searches agree on a value that the "
-    "likelihood does not support.",
+    "the grey area (95 % interval): the data do not support the value on which the searches "
+    "agree.",
 )
