@@ -126,7 +126,7 @@ def test_effect_that_another_term_replaces_is_not_certain(monkeypatch: pytest.Mo
     assert not found.confirmed
     assert found.findings[0].effects == ["k_T"]
     assert found.reasons == (
-        f"nearly as well as slope of the conductivity fits: {WORDS}",
+        f"slope of the conductivity may be replaced by {WORDS}, with nearly as good a fit",
         "the reason may be an effect outside the catalogue",
     )
     assert "seems to lack" in sentences(found)

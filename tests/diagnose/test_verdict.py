@@ -198,10 +198,10 @@ def test_one_of_two_planted_effects_explains_a_part_where_one_is_the_most() -> N
     assert verdict.confirmed
     (effect,) = (finding.effect for finding in verdict.findings)
     assert {effect, verdict.suspects[0].effect} == {"k_T", "c_T"}
-    places = verdict.reasons[0].removeprefix("part of the misfit remains: ").split("; ")
-    assert places
-    assert all(place.startswith("slab_") and place.endswith(")") for place in places)
-    assert any("(mass loss rate" in place for place in places)
+    assert verdict.reasons[0].startswith("part of the misfit remains: slab_")
+    signals = verdict.reasons[0].removeprefix("part of the misfit remains: ").split("; ")
+    assert all(one.startswith("slab_") and one.endswith(")") for one in signals)
+    assert any("(mass loss rate" in one for one in signals)
 
 
 def test_alternatives_of_one_of_two_effects_keep_the_other() -> None:

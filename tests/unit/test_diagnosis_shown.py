@@ -81,7 +81,10 @@ def found(study: Study, kind: str) -> dict[str, Any]:
             "groups": ["conductivity with temperature"] * len(effects),
             "forms": ["linear in temperature"] * len(effects),
             "sets": SETS.get(kind, [[name] for name in effects]),
-            "evidence": [{"agreement": 0.4, "predictions": {"slab_60": 12.0}} for _ in effects],
+            "evidence": [
+                {"agreement": 0.4, "predictions": {"slab_60": 12.0, "held out": -1.5}}
+                for _ in effects
+            ],
             "other_terms": [
                 [{"words": "another heat loss of the front", "above": 40.0}] * (kind == "named")
                 for _ in effects
@@ -599,7 +602,8 @@ def test_page_says_the_numbers(tmp_path: Path) -> None:
     ) in words
     assert "residuals goes from 5 to 1 (fitted) and from 5 to 1 (held out), in" in words
     assert "cp is at a limit" in words
-    assert "changes by +12.0 (slab_60 from the others); the test of equal" in words
+    assert "+12.0 (slab_60 from the others) and -1.5 (all held-out tests)" in words
+    assert "the test of equal strengths has p = 0.4" in words
 
 
 def test_predictions_are_named_by_title_and_laboratory(tmp_path: Path) -> None:

@@ -403,7 +403,8 @@ def test_section_on_what_the_data_determine_says_correlation_misfit_and_optimise
     page, _ = written(tmp_path)
     for claim in (
         "The strongest correlation is that of k and cp, −0.80.",
-        "The misfit of the kinetics is within the noise, assumed model discrepancy included: ",
+        "The misfit of the kinetics is within the noise, assumed model discrepancy included: "
+        "chi-square per point is 1.0 (slow,",
         "of the inverse modelling does not fit within the noise: chi-square per point is 3.6 (Slab",
         "kW/m², mass loss rate); the intervals are widened",
         "SCE-UA best 1.00 sd (chi-square 5.00); SCE-UA mean 2.00 sd (chi-square 10.0); least "

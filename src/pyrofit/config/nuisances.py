@@ -45,12 +45,7 @@ class Nuisance:
 
 NUISANCES = {
     "thickness_sd": Nuisance(
-        1.0,
-        "-",
-        "factor on the thickness",
-        SlabExperiment,
-        "sample",
-        "thickness_factor",
+        1.0, "-", "factor on the thickness", SlabExperiment, "sample", "thickness_factor"
     ),
     "flux_sd": Nuisance(1.0, "-", "factor on the flux", SlabExperiment, "front", "flux_factor"),
     "h_sd_W_m2K": Nuisance(

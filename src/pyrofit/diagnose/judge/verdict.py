@@ -197,7 +197,8 @@ def _doubts(found: Search, findings: Sequence[Finding]) -> list[str]:
 def _open_terms(findings: Sequence[Finding]) -> list[str]:
     """Name other terms of the model that explain the data nearly as well as an effect does."""
     said = [
-        f"nearly as well as {_title(finding.leading)} fits: {', or '.join(finding.open_terms)}"
+        f"{_title(finding.leading)} may be replaced by {', or '.join(finding.open_terms)}, with "
+        "nearly as good a fit"
         for finding in findings
         if finding.open_terms
     ]

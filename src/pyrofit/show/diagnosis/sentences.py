@@ -129,8 +129,9 @@ def _of_predictions(study: Study, found: Found) -> list[str]:
             tests.append(f"the test of equal strengths has p = {number(evidence['agreement'])}")
         if tests:
             said.append(f"With {effect_name(effect)}, {'; '.join(tests)}.")
-    level = found["settings"].get("agreement_level", 0.001)
-    needs = f"A claim needs a rise of the log score of 2, and p above {number(level)}."
+    settings = found["settings"]
+    gain, level = settings.get("informative_gain", 2.0), settings.get("agreement_level", 0.001)
+    needs = f"A claim needs a rise of the log score of {gain:g}, and p above {number(level)}."
     return [*said, needs] if said else []
 
 
