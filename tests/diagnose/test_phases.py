@@ -1,6 +1,7 @@
 """Phases of synthetic courses, and windows of disagreement in physical terms."""
 
 from collections.abc import Sequence
+from types import SimpleNamespace
 from typing import Any
 
 import numpy as np
@@ -9,6 +10,7 @@ from conftest import Diagnosed
 from small import TIMES
 
 from pyrofit.diagnose.diagnosis import Diagnosis
+from pyrofit.diagnose.result import phases
 from pyrofit.diagnose.result.phases import course, describe
 from pyrofit.experiments.base import PHASES
 from pyrofit.experiments.heated.course import of_mass
@@ -28,9 +30,9 @@ def slab(back_warms_at: float) -> dict[str, np.ndarray[Any, Any]]:
 
 
 def starts(
-    phase: np.ndarray[Any, Any], time: np.ndarray[Any, Any], phases: Sequence[str] = PHASES
+    phase: np.ndarray[Any, Any], time: np.ndarray[Any, Any], called: Sequence[str] = PHASES
 ) -> dict[str, float]:
-    names = [phases[int(p)] for p in phase]
+    names = [called[int(p)] for p in phase]
     assert list(phase) == sorted(phase)
     return {name: float(time[names.index(name)]) for name in dict.fromkeys(names)}
 
@@ -88,7 +90,19 @@ def test_course_of_a_simulation_runs_through_the_phases_in_order(diagnosed: Diag
         assert one.phase.size == TIMES[name].size
         assert list(one.phase) == sorted(one.phase)
         assert one.phase[0] == 0
-        assert one.phases[int(one.phase[-1])] == one.phases[-1]
+        assert one.phases[int(one.phase[-1])] == "tail"
+
+
+def test_course_at_the_times_of_a_channel_keeps_the_phases_of_its_kind(
+    diagnosed: Diagnosed, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    found = diagnosed("nothing").search.base
+    heated = of_mass(np.linspace(1.0, 0.1, 1000))
+    kind = SimpleNamespace(course=lambda *given: heated)
+    monkeypatch.setattr(phases, "kind_of", lambda experiment: kind)
+    one = phases.course(found.model, found.fit.x, 0)
+    assert one.phase.size < heated.phase.size
+    assert one.phases == heated.phases
 
 
 def test_windows_say_simulated_less_measured_at_their_place(unexplained: Diagnosis) -> None:

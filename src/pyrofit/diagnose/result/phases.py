@@ -1,5 +1,7 @@
 """Windows of disagreement as a fire researcher names them: conversion, temperatures, phase."""
 
+from dataclasses import replace
+
 import numpy as np
 
 from pyrofit.diagnose.base.adequacy import Stretch
@@ -67,6 +69,9 @@ def course(model: Model, x: FloatArray, channel: int) -> Course:
     kind = kind_of(run.experiment)
     full = kind.course(run.experiment, problem.material, values, request, problem.accuracy)
     surface = full.surface_temperature_K
-    return Course(
-        full.conversion[index], None if surface is None else surface[index], full.phase[index]
+    return replace(
+        full,
+        conversion=full.conversion[index],
+        surface_temperature_K=None if surface is None else surface[index],
+        phase=full.phase[index],
     )
