@@ -111,7 +111,7 @@ def fit_with(trial: FittedModel, *effects: str) -> FittedModel:
 
 
 def fraction_columns(columns: Columns, model: Model) -> FloatArray:
-    """Return d curves / d x of the calibrated channels, x in fractions of the limits' distance."""
+    """Return d curves / d x of the calibrated channels, x in fractions of the search range."""
     problem = model.likelihood.problem
     span = problem.upper - problem.lower
     every = np.column_stack([columns[name] for name in problem.names]) * span

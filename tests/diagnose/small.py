@@ -124,7 +124,7 @@ def base_of(described: Study, curves: list[FloatArray] | None = None) -> Base:
 
 
 def truth_of(base: Base, hidden: Mapping[str, float]) -> FloatArray:
-    """Return the truth as fractions of the limits' distances, effects last."""
+    """Return the truth as fractions of the search range, effects last."""
     likelihood = base.likelihood
     x = likelihood.scaled(np.array([TRUTH[name] for name in likelihood.problem.names]))
     for effect, strength in hidden.items():

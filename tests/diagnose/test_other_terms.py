@@ -111,7 +111,7 @@ def test_marginal_likelihood_of_one_coefficient_by_hand(monkeypatch: pytest.Monk
     end, base = models()
     ((found,),) = other_terms(end, [base], none_for(end))
     q = strength_of("k_T")[1]
-    # Distance of the limits in typical strengths, which are the unit of the column.
+    # Search range in typical strengths, which are the unit of the column.
     uniform = (q.upper - q.lower) / abs(q.typical)
     normal = 6.0 / np.sqrt(12.0 + 36.0)  # standard deviation of both priors of the coefficient
     wider = 2.0 * np.log(uniform / np.sqrt(12.0)) - 2.0 * np.log(normal)

@@ -121,14 +121,14 @@ def found(likelihood: Likelihood) -> Identification:
 
 
 def truth_of(name: str) -> float:
-    """The truth in distances of the limits."""
+    """The truth in units of the search range."""
     _, lower, upper = LIMITS[name]
     return (TRUTH[name] - lower) / (upper - lower)
 
 
 @pytest.mark.parametrize("name", LIMITS)
 def test_heat_release_and_mass_determine_every_parameter(found: Identification, name: str) -> None:
-    # Widths of the 95 % intervals are 1 to 3 % of the limits' distance.
+    # Widths of the 95 % intervals are 1 to 3 % of the search range.
     estimate = found.estimates[list(LIMITS).index(name)]
     assert estimate.verdict == "determined"
     assert estimate.noise.low <= truth_of(name) <= estimate.noise.high

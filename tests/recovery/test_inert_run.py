@@ -80,7 +80,7 @@ def identified(study: Study) -> Identification:
 def test_inert_run_narrows_h_flux_and_board_in_the_joint_fit() -> None:
     alone = {e.name: e for e in identified(twin("sample")).estimates}
     joint = {e.name: e for e in identified(twin("sample", "plate")).estimates}
-    # Measured, over the limits' range: h 0.063 and 0.013, q 0.016 and 0.010, k_board 0.049 and
+    # Measured, over the search range: h 0.063 and 0.013, q 0.016 and 0.010, k_board 0.049 and
     # 0.0006, k of the sample 0.015 and 0.009.
     for name, share in {"h": 0.35, "q": 0.8, "k_board": 0.05, "k": 0.8, "eps": 1.0}.items():
         assert joint[name].sd < share * alone[name].sd, name

@@ -40,7 +40,7 @@ CHANNELS = ("mlr", "back_temperature")
 
 @dataclass(frozen=True, eq=False)
 class Twin:
-    """A truth in distances of the limits, its likelihood, and what was found."""
+    """A truth in units of the search range, its likelihood, and what was found."""
 
     truth: FloatArray
     likelihood: Likelihood
@@ -48,7 +48,7 @@ class Twin:
 
 
 def given(number: int) -> tuple[dict[str, Any], FloatArray]:
-    """Return the study of a twin, and its truth in distances of the limits."""
+    """Return the study of a twin, and its truth in units of the search range."""
     study: dict[str, Any] = yaml.safe_load(TWIN.read_text(encoding="utf-8"))
     truth = study["synthetic"]["truth"]
     for name, parameter in study["parameters"].items():
@@ -56,7 +56,7 @@ def given(number: int) -> tuple[dict[str, Any], FloatArray]:
             parameter.update(value=truth.get(name, parameter.get("value")))
             parameter.pop("lower", None), parameter.pop("upper", None)
     study["parameters"]["eps_a"].update(EMISSIVITY)
-    # The middle 60 % of the limits.
+    # The middle 60 % of the search range.
     x = np.random.default_rng([2026, number]).uniform(0.2, 0.8, len(ESTIMATED))
     limits = [study["parameters"][name] for name in ESTIMATED]
     drawn = [p["lower"] + u * (p["upper"] - p["lower"]) for p, u in zip(limits, x, strict=True)]

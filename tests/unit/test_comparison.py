@@ -46,7 +46,7 @@ def test_walk_meets_good_sets_alone_and_the_best_first() -> None:
 
 
 def test_walk_reaches_all_ends_of_what_is_good() -> None:
-    # The good sets of a valley are an ellipse of half axes 0.1 of the limits' distances.
+    # The good sets of a valley are an ellipse of half axes 0.1 of the search range.
     _, sets = explored(0.1)
     assert 0.9 * 0.2 < np.ptp(sets[:, 0]) <= 0.2
     assert 0.9 * 12.0 < np.ptp(sets[:, 1]) <= 12.0
@@ -354,7 +354,7 @@ def test_sentences_say_the_numbers(tmp_path: Path) -> None:
         "find lower values of the same costs: RMSE by 20 %, 1 of 2 starts of least squares agree",
         "For each cost function, no set beats the best one fitted with it by more than 1 %.",
         "not tested: fewer than 5 repetitions",
-        "mass loss rate at Slab 25 kW/m² 3 % of the mean, 95 % of the measured points inside",
+        "mass loss rate at Slab 25 kW/m² 3 % of the mean (95 % of the measured points lie inside)",
     ):
         assert claim in text
     assert "Wall times" not in text
@@ -374,9 +374,9 @@ def test_sentences_name_a_set_that_is_better_under_another_cost(tmp_path: Path) 
 
 def test_sentences_say_differences_with_their_sizes(tmp_path: Path) -> None:
     text = said(*with_repetitions(tmp_path, 0.02))
-    assert "the cost functions differ in k (medians 0.0" in text
-    assert "% of the limits, " in text
-    assert "They scatter differently in cp (Brown and Forsythe's test)." in text
+    assert "Holm-corrected): k (medians 0.0" in text
+    assert "% of the search range, " in text
+    assert "Their scatter differs in cp (Brown and Forsythe's test)." in text
 
 
 def test_wall_times_are_those_of_the_benchmarks(tmp_path: Path) -> None:

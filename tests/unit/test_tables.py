@@ -491,7 +491,7 @@ def test_distances_by_hand(tmp_path: Path) -> None:
 
 def test_verdicts_are_flags_of_table4(tmp_path: Path) -> None:
     table = made("table4", *fake(tmp_path)).set_index(["cost_function", "quantity"])
-    words = "undetermined by the data; pushed to its upper bound by the data"
+    words = "undetermined by the data; estimate at its upper bound"
     assert table.loc[("RMSE", "cp"), "flags"] == f"spread > 20 % of limits; {words}"
     assert table.loc[("RMSE", "k"), "flags"] == "at bound (upper)"
 
@@ -502,7 +502,7 @@ def test_flag_of_a_parameter_at_its_bound() -> None:
     none = dict.fromkeys(("cut_off", "noise_low", "noise_high", "correlation"))
     low = Estimated(stage="imp", name="k", bound="lower", **words, **numbers, **none)
     assert low.grade == "at a bound"
-    assert flag(low) == "pushed to its lower bound by the data"
+    assert flag(low) == "estimate at its lower bound"
 
 
 def test_flags_at_their_limits() -> None:

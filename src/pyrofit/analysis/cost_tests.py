@@ -34,7 +34,7 @@ def cost_tests(study: Study, results: Results) -> pd.DataFrame:
     pandas.DataFrame
         One row per quantity: the estimated parameters, the metrics of all repetitions' sets, how
         long the searches take. Medians by cost function; their largest difference, for parameters
-        also in per cent of the limits' distance and of the 95 % interval that the data leave.
+        also in per cent of the search range and of the 95 % interval that the data leave.
     """
     rows = []
     tested = list(_samples(study, results))

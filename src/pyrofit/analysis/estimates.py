@@ -32,7 +32,7 @@ class Estimated:
     name, unit, value, low, high
         The parameter, its estimate, and the 95 % interval.
     width
-        Width of the interval as a fraction of the limits' distance.
+        Width of the interval as a fraction of the search range.
     cut_off
         Which ends a limit cuts off: 'lower', 'upper', 'both', or none.
     noise_low, noise_high

@@ -114,7 +114,7 @@ def thinned(scaled: FloatArray) -> NDArray[np.int64]:
     Parameters
     ----------
     scaled
-        The sets in [0, 1] of the limits' distance, shape (n, parameters).
+        The sets in [0, 1] of the search range, shape (n, parameters).
 
     Returns
     -------

@@ -11,7 +11,7 @@ from pyrofit.config import Study
 FIT = "fit"
 """Name under which the cost itself stands."""
 WIDE_SPREAD = 0.20
-"""A sigma above this fraction of the limits' distance says that the data do not determine it."""
+"""A sigma above this fraction of the search range says that the data do not determine it."""
 
 
 @dataclass(frozen=True)
@@ -46,7 +46,7 @@ class Repeated:
 
     @property
     def is_wide(self) -> bool:
-        """Whether sigma exceeds `WIDE_SPREAD` of the limits' distance."""
+        """Whether sigma exceeds `WIDE_SPREAD` of the search range."""
         if self.lower is None or self.upper is None:
             return False
         return self.sigma > WIDE_SPREAD * (self.upper - self.lower)

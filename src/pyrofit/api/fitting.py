@@ -236,7 +236,7 @@ def with_kinetics(
 
 
 def starting_points(study: Study, problem: Problem, count: int) -> list[FloatArray]:
-    """Return the middle of the limits and points spread over them, as fractions of the limits."""
+    """Return the middle of the search range and points spread over it, as fractions of it."""
     from scipy.stats import qmc
 
     rng = np.random.default_rng(seed_for(study.seed, "api", "starts"))

@@ -18,7 +18,7 @@ from pyrofit.estimate.posterior import AT_LIMIT
 class Settings:
     """Numbers of the fits, the search, the tests of a claim, and the advice.
 
-    Chi-square counts misfit in units of the noise. x is a fraction of the limits' distance.
+    Chi-square counts misfit in units of the noise. x is a fraction of the search range.
     """
 
     # Least squares
@@ -81,7 +81,7 @@ class Settings:
     tried_strengths: tuple[float, ...] = (0.1, 0.3, 1.0, 3.0)
     """Tried strengths as fractions of the typical distance from the null value, on both sides."""
     near_limit: float = 0.02
-    """Tried strengths stay this fraction of the limits' distance inside."""
+    """Tried strengths keep this fraction of the search range to either limit."""
     most_formed: int = 5
     """Effects whose form parameters are tried after the first step."""
     hopeless_chi2: float = 50.0

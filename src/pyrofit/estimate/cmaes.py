@@ -8,7 +8,7 @@ from pyrofit.estimate.least_squares import Start, at_limits
 from pyrofit.estimate.problem import Problem
 
 SPREAD = 0.3
-"""First standard deviation, as a fraction of the limits' distance."""
+"""First standard deviation, as a fraction of the search range."""
 NEAR = 1e-4
 """The search ends where its standard deviations are smaller, as fractions of the same."""
 FLAT = 1e-6

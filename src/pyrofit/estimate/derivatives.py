@@ -14,7 +14,7 @@ POINTS = {1: ((1,), (-1,)), 2: ((1, -1), (1, 2), (-1, -2))}
 """By order, the points beside x in steps towards the farther limit. The next choice serves where
 one does not fit between the limits or a run does not finish."""
 STEPS = {1: 3e-3, 2: 1e-3}
-"""By order, the distance of the points, as a fraction of the limits' distance. Of second order, no
+"""By order, the distance of the points, as a fraction of the search range. Of second order, no
 standard deviation changes by 0.3 % from 1e-4 to 5e-3: neither solver noise nor curvature shows."""
 LEAST = 0.1
 """Two points nearer to each other than this share of a step are one: rounding would show."""
@@ -42,13 +42,13 @@ def derivatives(
     curves
         Simulates several sets at once.
     x
-        Parameters as fractions of the limits' distance, shape (parameters,).
+        Parameters as fractions of the search range, shape (parameters,).
     here
         The curve at x, shape (points,).
     order
         1 or 2.
     step
-        Distance of the points, as a fraction of the limits' distance; default `STEPS`.
+        Distance of the points, as a fraction of the search range; default `STEPS`.
     by
         Positions of the parameters, all by default; the other derivatives are zero.
 

@@ -163,7 +163,7 @@ def estimated(
     likelihood
         With the noise alone.
     x
-        Optimum, in distances of the limits.
+        Optimum, in units of the search range.
     slopes, curves
         d curves / d x and the curves there, shapes (points, parameters) and (points,).
     """

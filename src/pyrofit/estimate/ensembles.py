@@ -113,7 +113,7 @@ def draw(
     likelihood
         chi-square, known values included.
     x, covariance
-        Optimum and covariance about it, from which walkers start, in distances of the limits.
+        Optimum and covariance about it, from which walkers start, in units of the search range.
     seed
         The draws are a function of it alone, not of the number of processes.
     cores

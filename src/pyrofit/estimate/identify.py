@@ -19,7 +19,7 @@ from pyrofit.solver.arrays import FloatArray
 
 DETERMINED = 0.20
 WEAKLY = 0.50
-"""Widest 95 % intervals of a determined, of a weakly determined parameter [limits' distance]."""
+"""Widest 95 % intervals of a determined, of a weakly determined parameter [search range]."""
 PARABOLIC = 0.2
 """Departure of chi-square from its parabola that is tolerated at the ends of an interval."""
 WEIGHINGS = 3

@@ -22,7 +22,7 @@ def with_noise_of_jumps(likelihood: Likelihood, sets: Sequence[FloatArray]) -> L
     likelihood
         With the noise of every channel estimated about a smooth curve.
     sets
-        Known sets that fit well, as fractions of the limits' distance, shape (parameters,) each.
+        Known sets that fit well, as fractions of the search range, shape (parameters,) each.
     """
     problem = likelihood.problem
     jumps = [problem.runs[name].experiment.jumps for name, _, _ in problem.picks]

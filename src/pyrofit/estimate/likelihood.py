@@ -21,7 +21,7 @@ ENOUGH = 1e-4
 DESCENTS = 4
 """Starts that are followed."""
 APART = 0.02
-"""Starts nearer than this fraction of the limits in every parameter count as one."""
+"""Starts nearer than this fraction of the search range in every parameter count as one."""
 FAILED = 1e4
 """Whitened residual of a run that did not finish: worse than that of any run that did."""
 
@@ -56,7 +56,7 @@ class Likelihood:
         return self.problem.lower + x * self.problem.span
 
     def scaled(self, values: FloatArray) -> FloatArray:
-        """Return SI values as fractions of the limits' distance, brought within the limits."""
+        """Return SI values as fractions of the search range, brought within the limits."""
         return np.clip((values - self.problem.lower) / self.problem.span, 0.0, 1.0)
 
     def curves(self, x: FloatArray) -> FloatArray | None:
@@ -114,7 +114,7 @@ class Likelihood:
         return not bool(np.all(residuals[: sum(self.points)] == FAILED))
 
     def slopes(self, x: FloatArray) -> FloatArray:
-        """Return d curves / d x per limits' distance, shape (points, parameters).
+        """Return d curves / d x per search range, shape (points, parameters).
 
         Differences of second order; zero where no run beside x finishes, or the one at x does not.
         """

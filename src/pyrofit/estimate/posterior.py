@@ -21,7 +21,7 @@ UNIFORM = 12.0
 QUANTILE = 1.96
 """Half of a 95 % interval in standard deviations; chi-square rises by its square, 3.84."""
 AT_LIMIT = 0.005
-"""A value this near to a limit, as a fraction of the limits' distance, is at it."""
+"""A value this near to a limit, as a fraction of the search range, is at it."""
 
 
 def limit_of(x: float) -> str:

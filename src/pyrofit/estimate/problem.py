@@ -52,7 +52,7 @@ class Problem:
 
     @property
     def span(self) -> FloatArray:
-        """Distance of the limits, SI units, shape (parameters,)."""
+        """Search range (upper less lower limit), SI units, shape (parameters,)."""
         return self.upper - self.lower
 
     @cached_property

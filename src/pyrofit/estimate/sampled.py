@@ -62,7 +62,7 @@ def sample(
     likelihood
         With the noise alone, and the known values.
     start
-        Its optimum or a point near it, in distances of the limits.
+        Its optimum or a point near it, in units of the search range.
     seed, cores, most_steps, tell
         See `pyrofit.estimate.ensembles.draw`.
     """

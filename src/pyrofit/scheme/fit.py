@@ -59,7 +59,7 @@ class FittedScheme:
     likelihood
         Of these records.
     x
-        The fit, in [0, 1] of the limits' distance.
+        The fit, in [0, 1] of the search range.
     size
         Size s of the misfit beyond the noise, as a fraction of the initial mass.
     deviance

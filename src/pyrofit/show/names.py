@@ -29,9 +29,10 @@ STAGES = {"kinetics": "kinetics", "imp": "inverse modelling"}
 
 def flag(estimate: Estimated) -> str:
     """Return the flag of a parameter that the data do not determine, empty for one they do."""
-    words: list[str] = [] if estimate.grade in ("determined", "at a bound") else [estimate.grade]
-    words += [f"pushed to its {estimate.bound} bound"] if estimate.bound else []
-    return "; ".join(f"{word} by the data" for word in words)
+    graded = estimate.grade not in ("determined", "at a bound")
+    words = [f"{estimate.grade} by the data"] if graded else []
+    words += [f"estimate at its {estimate.bound} bound"] if estimate.bound else []
+    return "; ".join(words)
 
 
 def named(estimate: Estimated) -> str:

@@ -93,7 +93,7 @@ def _known_sets(study: Study, results: Results) -> Iterator[FloatArray]:
 
 
 def _estimates(likelihood: Likelihood, found: Identification) -> pd.DataFrame:
-    """Return estimate and intervals in SI units, widths as fractions of the limits' distance."""
+    """Return estimate and intervals in SI units, widths as fractions of the search range."""
     lower = likelihood.problem.lower
     span = likelihood.problem.upper - lower
     return pd.DataFrame(
@@ -120,7 +120,7 @@ def _estimates(likelihood: Likelihood, found: Identification) -> pd.DataFrame:
 
 
 def _sensitivities(likelihood: Likelihood, found: Identification) -> pd.DataFrame:
-    """Return d curve / d parameter * distance of the limits: in the signal's unit, and whitened."""
+    """Return d curve / d parameter * search range: in the signal's unit, and whitened."""
     problem = likelihood.problem
     parts = []
     for (experiment, signal, _), (_, term), slopes, whitened in zip(

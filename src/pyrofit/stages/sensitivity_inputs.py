@@ -17,7 +17,7 @@ from pyrofit.solver.arrays import FloatArray
 REACH = 3.0
 """Standard deviations from the mean to the farthest value of a normal distribution."""
 NEAR = 0.1
-"""Half of the range about an estimate, of the limits' distance."""
+"""Half of the width about an estimate, as a fraction of the search range."""
 ESTIMATED, KNOWN, APPARATUS = "estimated", "known", "apparatus"
 EMISSIVITY_SD = 0.02
 """Of a component whose emissivity is a number of the description."""
@@ -111,7 +111,7 @@ def _within_limits(study: Study, results: Results, problem: Problem) -> list[Inp
 
 
 def _near(study: Study, results: Results, problem: Problem) -> list[Input]:
-    """Return uniform distributions about the estimates, over a fifth of the limits' distance."""
+    """Return uniform distributions about the estimates, over a fifth of the search range."""
     searched = within_known(study, problem)
     reach = NEAR * searched.span
     found = []

@@ -82,7 +82,7 @@ def spreads(
 ) -> list[tuple[FloatArray, dict[str, float]]]:
     """Return the spread of parameters and predictions over refits, for each record.
 
-    The first is in distances of the limits, shape (parameters,); that of a prediction is the root
+    The first is in units of the search range, shape (parameters,); that of a prediction is the root
     mean square over its record.
     """
     jobs = [(record, number) for record in records for number in range(draws)]

@@ -48,7 +48,7 @@ class Base:
 
 @dataclass(frozen=True, eq=False)
 class Model:
-    """Base and effects against some channels; x are fractions of the limits' distance."""
+    """Base and effects against some channels; x are fractions of the search range."""
 
     base: Base
     effects: Free
@@ -169,7 +169,7 @@ def strength_of(effect: str) -> tuple[str, Quantity]:
 
 
 def fraction(quantity: Quantity, value: float) -> float:
-    """Return a value as a fraction of the limits' distance, within them."""
+    """Return a value as a fraction of the search range, within them."""
     share = (value - quantity.lower) / (quantity.upper - quantity.lower)
     return float(np.clip(share, 0.0, 1.0))
 

@@ -1,7 +1,8 @@
 """Which set to predict with, in sentences."""
 
+from pyrofit.analysis.optimisers import LOCAL_OPTIMUM, NOT_A_MINIMUM
 from pyrofit.analysis.recommended import Recommended, recommended
-from pyrofit.analysis.uses import FITTED
+from pyrofit.analysis.uses import FITTED, SCEUA
 from pyrofit.config import Study
 from pyrofit.show.facts import Facts
 from pyrofit.show.names import all_scored
@@ -29,9 +30,8 @@ def advice(study: Study, facts: Facts) -> str:
             f"To predict, use the ensemble of {facts.ensemble} sets (posterior/ensemble.csv): its "
             f"bands tell how certain the prediction is. If one set has to do, use {one}"
         )
-    if chosen.held_out:
-        return text + _by_prediction(chosen, facts)
-    return text + _by_fit(chosen, facts)
+    reason = _by_prediction if chosen.held_out else _by_fit
+    return text + reason(chosen, facts) + _not_lowest(chosen, facts)
 
 
 def _by_prediction(chosen: Recommended, facts: Facts) -> str:
@@ -64,6 +64,15 @@ def _worse_fit(chosen: Recommended, facts: Facts) -> str:
         f"against {span([least])}). Either it predicts well by chance, or the model lacks an "
         "effect."
     )
+
+
+def _not_lowest(chosen: Recommended, facts: Facts) -> str:
+    """Say where another optimiser lowers the cost that a set of SCE-UA was fitted with."""
+    rows = facts.tables["costs"]
+    mine = rows[rows["cost_function"] == chosen.cost_function]
+    if chosen.found_by != SCEUA or not mine["remark"].isin([LOCAL_OPTIMUM, NOT_A_MINIMUM]).any():
+        return ""
+    return f" Another optimiser finds a set with a lower {chosen.cost_function}."
 
 
 def _misfit(chosen: Recommended, facts: Facts) -> float:

@@ -40,8 +40,8 @@ def _determined(facts: Facts) -> str:
     known = facts.estimates
     groups = by_grade(known)
     sure = groups.pop("determined", [])
-    text = f"The data determine {len(sure)} of {several(len(known), 'parameter')} to within 20 % "
-    text += "of the limits (95 % interval)"
+    text = f"The data determine {len(sure)} of {several(len(known), 'parameter')} (95 % interval "
+    text += "narrower than 20 % of the search range)"
     parts = [f"{grade}: {listed([named(e) for e in found])}" for grade, found in groups.items()]
     text = f"{text}; {'; '.join(parts)}." if parts else f"{text}."
     loose = [e.name for e in known if e.grade in ("weakly determined", "undetermined")]

@@ -14,11 +14,11 @@ TABLE = Table(
     "to 1. Pairs, where places differ: by Mann and Whitney's test, Holm-corrected, "
     "with Cliff's delta: +1, all values of the first are above those of the second. "
     "Scatter ratio: largest over smallest mean distance from the median. A "
-    "significant difference may be small. It is given in per cent of the limits' "
-    "distance and of the width of the 95 % interval.",
+    "significant difference may be small. It is given in per cent of the search "
+    "range and of the width of the 95 % interval.",
     headings={
         "difference": "largest difference of medians",
-        "of_limits": "in % of limits",
+        "of_limits": "in % of search range",
         "of_interval": "in % of the 95 % interval",
         "p_place": "p, place",
         "effect": "effect",

@@ -32,11 +32,11 @@ def _metric(metric: str, table: pd.DataFrame) -> str:
         by_cost = ours.groupby("found_by")[metric].agg(lambda v: v.max() / v.min())
         by_optimiser = ours.groupby("fitted_with")[metric].agg(lambda v: v.max() / v.min())
         parts.append(
-            f"at {place} {span(ours[metric])}: highest over lowest is {span(by_cost)} among the "
-            f"cost functions of one optimiser, {span(by_optimiser)} among the optimisers of one "
-            "cost function"
+            f"{metric} of the best sets at {place} is {span(ours[metric])}. Its ratio of highest "
+            f"to lowest is {span(by_cost)} among the cost functions of one optimiser, and "
+            f"{span(by_optimiser)} among the optimisers of one cost function."
         )
-    return f"{metric} of the best sets {'; '.join(parts)}." if parts else ""
+    return " ".join(parts)
 
 
 def _tests(tables: Frames) -> list[str]:
@@ -53,14 +53,13 @@ def _places(table: pd.DataFrame) -> str:
     apart = table[table["p_place"] <= SIGNIFICANT]
     if apart.empty:
         return (
-            "Over the repetitions the cost functions do not differ in the ends, the "
-            "predictions and the durations of their searches (Kruskal and Wallis's test)."
+            "The repetitions of the cost functions show no difference in estimates, predictions "
+            "and durations (Kruskal and Wallis's test)."
         )
     parts = [_difference(row) for row in apart.to_dict("records")]
-    rest = len(table) - len(apart)
     return (
-        f"Over the repetitions the cost functions differ in {listed(parts)}; in the other {rest} "
-        "quantities no difference is shown (Kruskal and Wallis's test, Holm-corrected)."
+        f"The repetitions of the cost functions differ in {len(apart)} of {len(table)} quantities "
+        f"(Kruskal and Wallis's test, Holm-corrected): {'; '.join(parts)}."
     )
 
 
@@ -68,7 +67,7 @@ def _difference(row: Mapping[Any, Any]) -> str:
     size = f"{number(float(row['difference']))} {row['unit'] if row['unit'] != '-' else ''}".strip()
     text = f"{row['quantity']} (medians {size} apart"
     if pd.notna(row["of_limits"]):
-        text += f", {span([row['of_limits']])} % of the limits"
+        text += f", {span([row['of_limits']])} % of the search range"
     if pd.notna(row["of_interval"]):
         text += f", {span([row['of_interval']])} % of the 95 % interval"
     return text + ")"
@@ -78,4 +77,4 @@ def _scatter(table: pd.DataFrame) -> str:
     apart = list(table.loc[table["p_scatter"] <= SIGNIFICANT, "quantity"])
     if not apart:
         return "No difference in scatter is shown (Brown and Forsythe's test)."
-    return f"They scatter differently in {listed(apart)} (Brown and Forsythe's test)."
+    return f"Their scatter differs in {listed(apart)} (Brown and Forsythe's test)."

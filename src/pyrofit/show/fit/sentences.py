@@ -41,9 +41,9 @@ def _parameters(found: Sequence[Repeated]) -> str:
     wide = _costs_by_name([one for one in found if one.is_wide])
     if not bound and not wide:
         once = " (no spread from one repetition)" if math.isnan(found[0].sigma) else ""
-        return f"No best set is at a limit, no spread above 20 % of the limits{once}."
+        return f"No best set is at a limit, no spread above 20 % of the search range{once}."
     parts = [f"at a limit: {bound}"] if bound else []
-    parts += [f"scattered (spread above 20 % of the limits): {wide}"] if wide else []
+    parts += [f"scattered (spread above 20 % of the search range): {wide}"] if wide else []
     return f"Unreliable values in SCE-UA's best sets: {'; '.join(parts)}."
 
 

@@ -66,7 +66,7 @@ TABLE = Table(
     paper="Table 4",
     note="sigma is the standard deviation over the n repetitions with n − 1 as divisor: "
     "the scatter of the optimiser, not the uncertainty of the parameter. 'At bound': "
-    "the best value lies within 0.5 % of the limits' distance from a limit. 'Spread > "
+    "the best value lies within 0.5 % of the search range from a limit. 'Spread > "
     "20 % of limits': sigma exceeds this share of it, so the repetitions disagree. "
     "'By the data': from the 95 % interval, see the table of these intervals.",
     headings={

@@ -37,7 +37,7 @@ def sensitivities(study: Study, results: Results) -> Canvas:
         ax.set_xlabel("time [s]")
         title = experiment.words(signal["signal"]).replace(" (", "\n(")
         unit = difference_unit(quantity)
-        ax.set_ylabel(f"change of {title}\nper limits' distance [{unit}]")
+        ax.set_ylabel(f"change of {title}\nper search range [{unit}]")
     style.legend_below(
         canvas,
         [

@@ -52,7 +52,7 @@ def verdicts(known: Sequence[Estimated]) -> str:
         grades = by_grade(list(members)).items()
         said = ", ".join(f"{grade} {listed([named(e) for e in found])}" for grade, found in grades)
         parts.append(f"of the {STAGES[stage]} {said}")
-    return f"By the data (width of the 95 % interval, % of the limits): {'; '.join(parts)}."
+    return f"By the data (width of the 95 % interval, % of the search range): {'; '.join(parts)}."
 
 
 def _correlation(known: Sequence[Estimated]) -> str:

@@ -51,7 +51,7 @@ TABLE = Table(
     "lowest cost of the others over the best of SCE-UA. 'From SCE-UA's best': end of "
     "least squares started there. If it is lower, SCE-UA did not reach a minimum. The "
     "solver's error is 4/3 of the change with twice the cells and half the steps. 'At "
-    "bound': within 0.5 % of the limits' distance.",
+    "bound': within 0.5 % of the search range.",
     headings={
         "cost_function": "cost function",
         "sceua_best": "SCE-UA best",

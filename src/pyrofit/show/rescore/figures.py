@@ -60,7 +60,7 @@ def valleys(study: Study, results: Results) -> Canvas:
         ax.set_yticks(places, [measure.name for measure in measures])
         ax.tick_params(axis="y", length=0)
     style.letter(axes, names)
-    canvas.supxlabel("fraction of the limits [–]", fontsize=8)
+    canvas.supxlabel("fraction of the search range [–]", fontsize=8)
     return canvas
 
 

@@ -146,7 +146,7 @@ def _valleys(measures: Sequence[OfMeasure], found: Rescored) -> list[str]:
     named = [f"{words} ({-100.0 * size:.2g} %)" for size, words in apart[:MOST_APART]]
     return [
         f"Some valleys ({best}) lie apart in {several(len(apart), 'parameter')}; farthest, in per "
-        f"cent of the limits: {listed(named)}."
+        f"cent of the search range: {listed(named)}."
     ]
 
 

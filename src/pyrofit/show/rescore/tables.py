@@ -43,7 +43,7 @@ def correlations(study: Study, results: Results) -> pd.DataFrame:
 
 
 def valleys(study: Study, results: Results) -> pd.DataFrame:
-    """List where the valley of each cost lies, per cent of the limits."""
+    """List where the valley of each cost lies, per cent of the search range."""
     found = rescored.read(study, results)
     rows = [
         {

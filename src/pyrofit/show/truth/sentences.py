@@ -34,7 +34,7 @@ def errors(table: pd.DataFrame) -> list[str]:
     """
     costs = table[table["fit"] != KINETICS]
     said = [
-        f"Of the distance between the limits, the best sets of {name} are off the truth by: "
+        f"Errors of the best sets of {name}, largest per fit, in per cent of the search range: "
         + "; ".join(f"{_worst(part, by)} ({fit})" for fit, part in costs.groupby("fit", sort=False))
         + "."
         for by, name in _found_by(costs).items()

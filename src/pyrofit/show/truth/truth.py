@@ -19,8 +19,8 @@ TABLE = Table(
     applies=lambda study: bool(known(study)),
     make=truth,
     title="Truth and the best sets",
-    note="Errors are estimate minus truth, in per cent of the truth and of the distance "
-    "between the limits. An inverse modelling with fitted kinetics takes those of the "
+    note="Errors are estimate minus truth, in per cent of the truth and of the "
+    "search range. An inverse modelling with fitted kinetics takes those of the "
     "optimiser with the lower cost.",
     headings={
         **_HEADINGS,

@@ -61,8 +61,8 @@ def reach_of_good_sets(tables: Frames) -> str:
     names = table["cost_function"]
     table = table[names == (ALL if ALL in set(names) else names.iloc[0])]
     parts = [
-        f"{row['signal']} at {row['experiment']} {_width(row)}, {row['within_percent']:.0f} % of "
-        "the measured points inside"
+        f"{row['signal']} at {row['experiment']} {_width(row)} ({row['within_percent']:.0f} % "
+        "of the measured points lie inside)"
         for _, row in table.iterrows()
     ]
     return f"Mean width of the predictions of the good sets: {'; '.join(parts)}."
