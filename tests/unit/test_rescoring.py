@@ -139,12 +139,12 @@ def test_sentences_name_who_agrees_and_who_does_not() -> None:
 def test_sentences_on_regret_name_row_and_column() -> None:
     table = rescoring.excess(SCORES)
     assert _own(table.loc[["a", "c"], ["a", "c"]]) == [
-        "Among the cost functions of the study, the best set of one is at most 300 % higher under "
-        "another (a under c)."
+        "Among the cost functions of the study, the set with the lowest value of one is at most "
+        "300 % above the lowest value of another (a under c)."
     ]
     assert _own(table.loc[["a"], ["a"]]) == []
     assert _own(rescoring.excess(SCORES.assign(a=0.0, b=0.0, c=0.0))) == []
     assert _regret(rescoring.better(SCORES[["b", "c"]])) == [
-        "Of all, the best set of b does worst under another cost: c finds 75 % of the sets better."
+        "The largest disagreement: c finds 75 % of the sets better than the set with the lowest b."
     ]
     assert _regret(rescoring.better(SCORES[["a", "b"]])) == []

@@ -2,7 +2,7 @@
 
 import numpy as np
 
-from pyrofit.analysis.rescoring import GOOD
+from pyrofit.analysis.rescoring import GOOD, VALLEY
 from pyrofit.config import Study
 from pyrofit.results import rescored
 from pyrofit.results.files import Results
@@ -78,26 +78,26 @@ FIGURES = {
         place=15,
         applies=always,
         make=agreement_best,
-        title="How the costs agree in ranking the best sets",
+        title=f"How the costs agree in ranking the best {100.0 * GOOD:g} % of the sets",
         caption=f"Rank correlation of two costs over the best {100.0 * GOOD:g} % of the sets of "
-        "the cost in the row. Over all sets most costs agree on which are bad; here they have to "
-        "agree on which of the good ones are better. 0 also where a cost does not tell them apart.",
+        "the cost in the row. Over all sets, most costs agree on which are bad. Here they have to "
+        "agree on the order of the good ones. The value is also 0 where a cost ranks them equal.",
     ),
     "regret": Figure(
         place=20,
         applies=always,
         make=regret,
-        title="The best set of one cost under another",
-        caption="Share of the stored sets that the cost of the column finds better than the best "
-        "set of the cost of the row. 0 means that both costs choose the same set.",
+        title="The stored set with the lowest value of one cost, under another cost",
+        caption="Share of the stored sets that the cost of the column finds better than the "
+        "set with the lowest cost of the row. 0 means that both costs choose the same set.",
     ),
     "valleys": Figure(
         place=30,
         applies=always,
         make=valleys,
         title="Where the valleys of the costs lie",
-        caption="Bars: range of each parameter over the best stored sets of a cost; marks: its "
-        "best set. A long bar tells that the cost does not settle the parameter; bars apart tell "
-        "that two costs ask for different values.",
+        caption=f"Bars: range of each parameter over the best {100.0 * VALLEY:g} % of the stored sets of "
+        "a cost. Marks: the set with its lowest value. With a long bar, the cost does not determine "
+        "the parameter. Where bars lie apart, two costs ask for different values.",
     ),
 }

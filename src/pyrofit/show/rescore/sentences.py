@@ -99,7 +99,7 @@ def undecided(found: Rescored) -> dict[str, float]:
 
 def _undecided(found: Rescored) -> list[str]:
     return [
-        f"{name} does not choose among {share:.0f} % of the sets, which share its lowest values."
+        f"{name} has its lowest value for {share:.0f} % of the sets and does not rank these."
         for name, share in undecided(found).items()
     ]
 
@@ -118,8 +118,8 @@ def _own(higher: pd.DataFrame) -> list[str]:
     column = str(higher.T[row].idxmax())
     most = 100.0 * float(higher.T[row].max())
     return [
-        "Among the cost functions of the study, the best set of one is at most "
-        f"{span([most])} % higher under another ({row} under {column})."
+        "Among the cost functions of the study, the set with the lowest value of one is at most "
+        f"{span([most])} % above the lowest value of another ({row} under {column})."
     ]
 
 
@@ -131,8 +131,8 @@ def _regret(better: pd.DataFrame) -> list[str]:
     column = str(better.T[row].idxmax())
     share = 100.0 * float(better.T[row].max())
     return [
-        f"Of all, the best set of {row} does worst under another cost: {column} finds "
-        f"{share:.2g} % of the sets better."
+        f"The largest disagreement: {column} finds {share:.2g} % of the sets better than the set "
+        f"with the lowest {row}."
     ]
 
 

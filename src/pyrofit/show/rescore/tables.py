@@ -4,6 +4,7 @@ from typing import Any
 
 import pandas as pd
 
+from pyrofit.analysis.rescoring import VALLEY
 from pyrofit.config import Study
 from pyrofit.results import rescored
 from pyrofit.results.files import Results
@@ -85,8 +86,9 @@ TABLES = {
         place=30,
         applies=always,
         make=excess,
-        title="How much higher the best set of one cost is under another",
-        note="In per cent of the lowest value of the cost in the column; empty where that is 0.",
+        title="The stored set with the lowest value of one cost, under another cost",
+        note="Excess over the lowest value of the cost in the column, in per cent of that value. "
+        "Empty where that is 0.",
         headings={"best_of": "best set of"},
     ),
     "valleys": Table(
@@ -94,8 +96,8 @@ TABLES = {
         applies=always,
         make=valleys,
         title="Where the valley of every cost lies",
-        note="Range of each parameter over the best sets of a cost, and the best of them. Both "
-        "in per cent of the distance between the parameter's limits.",
+        note=f"Range of each parameter over the best {100.0 * VALLEY:g} % of the sets of a cost, "
+        "and the set with its lowest value. Both in per cent of the search range.",
         group_by="cost",
     ),
 }
