@@ -117,9 +117,7 @@ def base_of(described: Study, curves: list[FloatArray] | None = None) -> Base:
         )
     terms = [TermSpec(experiment=e, signal=q, kind="RMSE") for e, q in CHANNELS]
     problem = make_problem(described, tuple(LIMITS), terms, frames, described.material, {})
-    noise = tuple(
-        NoiseModel(np.full(TIMES[e].size, SD[q]), Correlation(), unit="SI") for e, q in CHANNELS
-    )
+    noise = tuple(NoiseModel(np.full(TIMES[e].size, SD[q]), Correlation()) for e, q in CHANNELS)
     return Base(Likelihood(problem, noise), tuple(range(len(CHANNELS))))
 
 

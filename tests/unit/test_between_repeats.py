@@ -1,7 +1,6 @@
 """The scatter between repeats as a part of their noise."""
 
 import sys
-from dataclasses import replace
 from pathlib import Path
 
 import numpy as np
@@ -63,7 +62,7 @@ def test_scatter_between_repeats_is_a_floor_of_its_size() -> None:
         expected = student_factor(2) * np.sqrt(2.0) * d * curve(TRUTH)[plateau]
         assert between == pytest.approx(expected, rel=0.3)
         assert noise.floors["repeats"] > 0.0
-        assert "repeats" in replace(noise, unit="-").describe()
+        assert "repeats" in noise.describe()
 
 
 def test_records_on_other_times_scatter_alike() -> None:

@@ -139,8 +139,8 @@ def test_sentences_name_who_agrees_and_who_does_not() -> None:
 def test_sentences_on_regret_name_row_and_column() -> None:
     table = rescoring.excess(SCORES)
     assert _own(table.loc[["a", "c"], ["a", "c"]]) == [
-        "Among the cost functions of the study, the set with the lowest value of one is at most "
-        "300 % above the lowest value of another (a under c)."
+        "The set with the lowest a is 300 % above the lowest c, the largest excess among the cost "
+        "functions of the study."
     ]
     assert _own(table.loc[["a"], ["a"]]) == []
     assert _own(rescoring.excess(SCORES.assign(a=0.0, b=0.0, c=0.0))) == []

@@ -4,6 +4,7 @@ import math
 from collections.abc import Mapping
 from dataclasses import dataclass, field
 from functools import cached_property
+from typing import Any
 
 import numpy as np
 
@@ -13,7 +14,7 @@ from pyrofit.estimate.correlation import Correlation, whiteness
 from pyrofit.estimate.scatter import scatter_of
 from pyrofit.estimate.spikes import spikes
 from pyrofit.model.signal import TIMING_S
-from pyrofit.quantities.base import Quantity
+from pyrofit.quantities.base import Quantity, Shown
 from pyrofit.solver.arrays import FloatArray
 
 LASTING = 0.1
@@ -22,6 +23,14 @@ however many points are measured."""
 SMOOTHING = 0.1
 """Window over which a stated uncertainty is smoothed, as a fraction of the record."""
 FEWEST_POINTS = 8
+UNITLESS = Shown("–")
+TERMS = {
+    "timing": "error of the clock",
+    "solver": "error of the solver",
+    "discrepancy": "model discrepancy",
+    "repeats": "scatter between repeats",
+}
+"""Terms that are added to a standard deviation, in words."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -42,8 +51,8 @@ class NoiseModel:
         Probability that white noise looks as correlated as the whitened scatter (Ljung-Box).
     origin
         Where the standard deviation comes from, in words.
-    unit
-        Unit of the series.
+    shown
+        Unit of the series in words, and its factor.
     floors
         Medians of the terms added to the standard deviation in squares, by name.
     """
@@ -54,7 +63,7 @@ class NoiseModel:
     excess: float = 1.0
     whiteness: float = 1.0
     origin: str = "given"
-    unit: str = "-"
+    shown: Shown = UNITLESS
     floors: Mapping[str, float] = field(default_factory=dict)
     criterion: float = math.inf
     """BIC of curve and scatter, the lower the better."""
@@ -103,16 +112,19 @@ class NoiseModel:
 
     def describe(self) -> str:
         """Say its size, where that comes from, its correlation, and whether it whitens."""
+        unit = {"°C": " K", "–": ""}.get(self.shown.unit, f" {self.shown.unit}")
         more = f"; the scatter is {self.excess:.2g} times that" if self.excess > 1.0 else ""
-        more += f"; points far off their neighbours that count little: {self.spikes}" * (
-            self.spikes > 0
-        )
-        floors = ", ".join(f"{name} {size:.2g}" for name, size in self.floors.items())
-        sd = np.median(self.total_sd)
+        more += f"; outliers that count little: {self.spikes}" if self.spikes else ""
+        parts = [f"{TERMS[name]} {self._shown(size)}" for name, size in self.floors.items()]
+        terms = f". Included, as squares: {', '.join(parts)}" if parts else ""
         return (
-            f"sd {sd:.2g} {self.unit} ({self.origin}{more}; with {floors}; medians)"
-            f", {self.correlation.describe()}{self._tested()}"
+            f"Median standard deviation {self._shown(np.median(self.total_sd))}{unit}, "
+            f"{self.origin}{more}{terms}. {self.correlation.describe().capitalize()}"
+            f"{self._tested()}."
         )
+
+    def _shown(self, size: Any) -> str:
+        return f"{self.shown.factor * float(size):.2g}"
 
     def _tested(self) -> str:
         """Say whether the scatter is white once whitened, where that correlation is taken."""
@@ -184,7 +196,7 @@ def estimate_noise(
         excess=1.0 if stated is None else scale,
         whiteness=whiteness(fit.scatter, fit.basis),
         origin=origin,
-        unit=quantity.unit_text,
+        shown=quantity.shown,
         floors={name: float(np.median(floor)) for name, floor in floors.items()},
         criterion=fit.criterion,
         stated=stated is not None,
@@ -198,7 +210,7 @@ def _of_few_points(stated: FloatArray | None, count: int, quantity: Quantity) ->
             f"{quantity.name}: {count} points tell nothing of their noise, at least "
             f"{FEWEST_POINTS} do; give an uncertainty, or do not fit the signal"
         )
-    return NoiseModel(stated, Correlation(), origin="stated", unit=quantity.unit_text, stated=True)
+    return NoiseModel(stated, Correlation(), origin="stated", shown=quantity.shown, stated=True)
 
 
 def smoothed(target: Target) -> FloatArray | None:

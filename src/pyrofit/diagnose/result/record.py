@@ -9,7 +9,7 @@ import pandas as pd
 from pyrofit.config import Study, candidate_effects
 from pyrofit.config.resolve import obstacle
 from pyrofit.diagnose.base.fitted import FittedModel, up_to_date
-from pyrofit.diagnose.base.model import model_of
+from pyrofit.diagnose.base.model import Base, model_of
 from pyrofit.diagnose.base.prediction import HELD_OUT
 from pyrofit.diagnose.judge.findings import Finding, Verdict
 from pyrofit.diagnose.judge.intervals import interval, values_of
@@ -80,7 +80,7 @@ def _noise(found: Search) -> list[dict[str, Any]]:
             "signal": signal,
             "role": _role(found, i),
             "points": noise.sd.size,
-            "unit": noise.unit,
+            "unit": _unit(base, i),
             "sd_median": float(np.median(noise.total_sd)),
             "words": noise.describe(),
             "stated": noise.stated,
@@ -172,6 +172,11 @@ def _misfits(trial: FittedModel) -> list[dict[str, Any]]:
     ]
 
 
+def _unit(base: Base, channel: int) -> str:
+    name, signal = base.channels[channel]
+    return base.likelihood.problem.runs[name].experiment.quantity(signal).unit_text
+
+
 def _gap(found: Search) -> list[dict[str, Any]]:
     base = found.base.model.base
     rows = []
@@ -184,7 +189,7 @@ def _gap(found: Search) -> list[dict[str, Any]]:
             "signal": signal,
             "role": _role(found, i),
             "points": noise.sd.size,
-            "unit": noise.unit,
+            "unit": _unit(base, i),
             "noise_sd": float(np.median(noise.total_sd)),
         }
         for key in ("rms", "chi2"):

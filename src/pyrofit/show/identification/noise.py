@@ -32,8 +32,8 @@ TABLE = Table(
     applies=lambda study: True,
     make=noise_of_signals,
     title="Noise of the signals, and how the optimum fits them",
-    note="sd: the stated uncertainty, or else the standard deviation of the scatter about a smooth "
-    "curve. Floors are added to it in squares: 0.5 s of timing and the solver's error. A mass in "
+    note="The standard deviation is the stated uncertainty, or else that of the scatter about a "
+    "smooth curve. Errors of the clock, 0.5 s, and of the solver are added as squares. A mass in "
     "TGA without a stated uncertainty also has an assumed model discrepancy, "
     "0.02 or its key lasting_sd. p: probability that white noise looks as correlated as the "
     "whitened scatter. Chi-square per point is near 1 where the model fits within the noise.",

@@ -96,8 +96,8 @@ FIGURES = {
         applies=always,
         make=valleys,
         title="Where the valleys of the costs lie",
-        caption=f"Bars: range of each parameter over the best {100.0 * VALLEY:g} % of the stored sets of "
-        "a cost. Marks: the set with its lowest value. With a long bar, the cost does not determine "
-        "the parameter. Where bars lie apart, two costs ask for different values.",
+        caption=f"Bars: range of each parameter over the best {100.0 * VALLEY:g} % of the stored "
+        "sets of a cost. Marks: the set with its lowest value. With a long bar, the cost does not "
+        "determine the parameter. Where bars lie apart, two costs ask for different values.",
     ),
 }

@@ -118,8 +118,8 @@ def _own(higher: pd.DataFrame) -> list[str]:
     column = str(higher.T[row].idxmax())
     most = 100.0 * float(higher.T[row].max())
     return [
-        "Among the cost functions of the study, the set with the lowest value of one is at most "
-        f"{span([most])} % above the lowest value of another ({row} under {column})."
+        f"The set with the lowest {row} is {span([most])} % above the lowest {column}, the largest "
+        "excess among the cost functions of the study."
     ]
 
 
