@@ -1,6 +1,7 @@
 """A step of the search: which fits are rough only, and which predictions are made again."""
 
 from collections.abc import Sequence
+from dataclasses import replace
 from typing import Any
 
 import linear
@@ -9,6 +10,7 @@ import pytest
 from linear import TOTAL, column_of, fit_with
 
 from pyrofit.diagnose.base import prediction
+from pyrofit.diagnose.base.adequacy import LackOfFit
 from pyrofit.diagnose.base.fitted import FittedModel, up_to_date
 from pyrofit.diagnose.base.model import strength_of
 from pyrofit.diagnose.base.prediction import Made, predictions
@@ -17,7 +19,7 @@ from pyrofit.diagnose.judge.inflation import inflation_of
 from pyrofit.diagnose.judge.places import needed
 from pyrofit.diagnose.search import step
 from pyrofit.diagnose.search.step import SearchContext, more
-from pyrofit.diagnose.search.stepwise import Search, _look, search
+from pyrofit.diagnose.search.stepwise import Search, _look, search, settled
 from pyrofit.diagnose.settings import SETTINGS
 from pyrofit.solver.arrays import FloatArray
 
@@ -130,3 +132,33 @@ def test_effects_are_judged_until_one_fails_the_one_that_gains_least_first(
     assert failed == unsupported[0]
     assert judged == order[:needed_judgements]
     assert len(unsupported) == 1, "the other effect passes"
+
+
+@pytest.mark.parametrize(
+    ("excess", "misfit", "effects", "most", "ends"),
+    [
+        (1.0, 1.0, ("k_T",), 6, True),  # The residuals are noise.
+        (1.0, 3.0, ("k_T",), 6, True),  # A misfit beside noise of the stated size.
+        (3.8, 3.0, ("k_T",), 6, False),  # A misfit where a signal scatters more than stated.
+        (3.8, 1.0, ("k_T",), 6, False),
+        (3.8, 3.0, ("k_T",), 1, True),  # No effect more is allowed.
+        (3.8, 3.0, (), 6, True),
+    ],
+)
+def test_search_is_repeated_where_a_larger_noise_than_stated_may_hide_misfit(
+    base: FittedModel,
+    excess: float,
+    misfit: float,
+    effects: tuple[str, ...],
+    most: int,
+    ends: bool,
+) -> None:
+    end = fit_with(base, *effects)
+    likelihood = end.model.base.likelihood
+    noise = (replace(likelihood.noise[0], excess=excess), *likelihood.noise[1:])
+    wider = replace(end.model.base, likelihood=replace(likelihood, noise=noise))
+    residuals = end.fit.residuals.copy()
+    residuals[linear.POINTS : 2 * linear.POINTS] *= misfit
+    end = FittedModel(replace(end.model, base=wider), replace(end.fit, residuals=residuals))
+    lack = LackOfFit((), 0.0, 1.0, 0.0, 1.0, misfit, 2.0)
+    assert settled(Search((), end, lack, 0.0), most) == ends

@@ -58,8 +58,7 @@ def search(base: FittedModel, effects: Sequence[str], most: int, context: Search
 
     Where more than noise is left, or the noise exceeds the stated one, it is estimated about the
     final model. If that explains more, the search is repeated with it, from the models of the first
-    search as well. It is not repeated where as many effects as allowed leave more than noise: with
-    a smaller noise, they leave even more.
+    search as well.
 
     Parameters
     ----------
@@ -73,9 +72,7 @@ def search(base: FittedModel, effects: Sequence[str], most: int, context: Search
         Noise, listener, processes, other starts.
     """
     found = _Pass(effects, most, context).run(_look(base, effects, context))
-    settled = found.end_lack.adequate and not blurred(found.end.model.base)
-    used_up = len(found.end.effects) >= most and not found.end_lack.adequate
-    if settled or used_up or not found.end.effects or misfits(found.end):
+    if settled(found, most):
         return found
     sharper = with_noise_about(found.end, processes=context.processes)
     if clearer(found.end.model.base, sharper) < SETTINGS.clearer_bic:
@@ -84,6 +81,23 @@ def search(base: FittedModel, effects: Sequence[str], most: int, context: Search
     carried = refitted_all([found.base, *_leading(found)], sharper, context.processes)
     start = _look(carried[0], effects, context)
     return _Pass(effects, most, context, tuple(carried[1:])).run(start)
+
+
+def settled(found: Search, most: int) -> bool:
+    """Tell whether a sharper noise cannot change the result of a search with at most some effects.
+
+    As many effects as allowed that leave more than noise leave even more with a smaller noise.
+    Where a signal scatters more than stated, that may be misfit. Its noise is then too large, and
+    may have led the search to the misfit of another signal.
+    """
+    end = found.end
+    if not end.effects:
+        return True
+    if len(end.effects) >= most and not found.end_lack.adequate:
+        return True
+    if blurred(end.model.base):
+        return False
+    return found.end_lack.adequate or misfits(end)
 
 
 def _leading(found: Search) -> list[FittedModel]:
