@@ -6,8 +6,12 @@ import pytest
 from small import study
 
 from pyrofit.diagnose.base.descent import descend, refreshed
+from pyrofit.diagnose.base.fit import weighed
 from pyrofit.diagnose.base.fitted import FittedModel
+from pyrofit.diagnose.base.model import strength_of
 from pyrofit.diagnose.judge.intervals import values_of
+from pyrofit.diagnose.search.step import SearchContext
+from pyrofit.diagnose.search.stepwise import search
 from pyrofit.estimate.prior import NO_PRIOR, NormalPrior, within_known
 from pyrofit.solver.arrays import FloatArray
 
@@ -60,3 +64,20 @@ def test_search_is_narrowed_to_what_is_known_and_its_limits() -> None:
     k = described.parameters["k"]
     assert narrowed.lower.tolist() == [1170.0, k.lower]
     assert narrowed.upper.tolist() == [1230.0, k.upper]
+
+
+def test_misfit_that_an_effect_explains_no_longer_weighs_known_values() -> None:
+    """The base misfits, so known values count for more; the right model takes them as stated."""
+    found = linear.random_columns(6, "k_T", size=60.0)
+    quantity = strength_of("k_T")[1]
+    k = 0.3
+    y = np.random.default_rng(1).standard_normal(linear.TOTAL) + k * found["k"]
+    y = y + quantity.typical * linear.column_of(found, "k_T")
+    known = NormalPrior((1,), np.array([k + 0.2]), np.array([0.1]))
+    start = weighed(linear.fit(found, y, known=known))
+    assert start.model.base.likelihood.prior.weight > 2.0
+    end = search(start, ["k_T"], 6, SearchContext(np.random.default_rng(1))).end
+    assert end.effects == ("k_T",)
+    assert end.model.base.likelihood.prior.weight == 1.0
+    value, sd = (part[1] for part in values_of(end))
+    assert abs(value - k) < 2.0 * sd

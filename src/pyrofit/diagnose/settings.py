@@ -121,6 +121,8 @@ class Settings:
     """Effects that are added to the second best model of a step."""
     clearer_bic: float = 6.0
     """Gain in BIC that a new estimate of the noise must bring to be used."""
+    lighter_known: float = 0.8
+    """Ratio of weights of known values below which a search with the lower one is made."""
     misfit_chi2_per_point: float = 2.0
     """Above this chi-square per point of a signal, its misfit was not mistaken for noise."""
 

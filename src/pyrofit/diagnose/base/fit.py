@@ -30,6 +30,9 @@ from pyrofit.estimate.targets import Measurements
 from pyrofit.parallel import parallel_map
 from pyrofit.solver.arrays import FloatArray
 
+WEIGHINGS = 2
+"""How often known values are weighed by a misfit that they change."""
+
 
 @dataclass(frozen=True, eq=False)
 class Setup:
@@ -73,13 +76,11 @@ def weighed(trial: FittedModel) -> FittedModel:
     """
     base = trial.model.base
     prior = base.likelihood.prior
-    if not prior.index:
+    weight = float(np.sqrt(max(map(_dispersion, trial.model.by_channel(trial.fit.residuals)))))
+    if not prior.index or weight == prior.weight:
         return trial
-    dispersion = max(map(_dispersion, trial.model.by_channel(trial.fit.residuals)))
-    if dispersion == 1.0:
-        return trial
-    heavier = replace(base.likelihood, prior=prior.over(float(np.sqrt(dispersion))))
-    return refitted(trial, replace(base, likelihood=heavier))
+    other = replace(base.likelihood, prior=prior.over(weight / prior.weight))
+    return refitted(trial, replace(base, likelihood=other))
 
 
 def _dispersion(w: FloatArray) -> float:
@@ -189,6 +190,23 @@ def with_noise_about(
     return replace(base, likelihood=replace(base.likelihood, noise=scattered))
 
 
+def sharpened(trial: FittedModel, processes: int = 1) -> Base:
+    """Return the base with noise and known values weighed as a model with effects has them.
+
+    That is, the noise about its curves, where that explains more, and known values over its misfit,
+    which is smaller than that of the base.
+    """
+    base = with_noise_about(trial, processes=processes)
+    found = refitted(trial, base) if base.likelihood.prior.weight > 1.0 else trial
+    for _ in range(WEIGHINGS if found is not trial else 0):
+        found = weighed(found)
+    lighter = found.model.base.likelihood.prior
+    heavier = lighter.weight >= base.likelihood.prior.weight
+    if found is trial or heavier:
+        return base
+    return replace(base, likelihood=replace(base.likelihood, prior=lighter))
+
+
 def refitted(trial: FittedModel, base: Base) -> FittedModel:
     """Return the same effects fitted with another noise."""
     model = model_of(base, trial.model.effects, trial.model.channels)
@@ -208,12 +226,22 @@ def _refit(model: Model, x: FloatArray) -> Fit:
     return refreshed(model, descend(model, x))
 
 
-def clearer(base: Base, other: Base) -> float:
-    """Return by how much the noise of the calibrated channels explains more, in BIC."""
+def is_clearer(other: Base, base: Base) -> bool:
+    """Tell whether the noise of the calibrated channels explains more than that of a base.
+
+    Or whether known values count for less, as the misfit is smaller.
+    """
     pairs = ((base.likelihood.noise[i], other.likelihood.noise[i]) for i in base.calibrated)
-    return sum(b.criterion - o.criterion for b, o in pairs if b is not o)
+    gain = sum(b.criterion - o.criterion for b, o in pairs if b is not o)
+    lighter = other.likelihood.prior.weight / base.likelihood.prior.weight
+    return gain >= SETTINGS.clearer_bic or lighter < SETTINGS.lighter_known
 
 
 def blurred(base: Base) -> bool:
-    """Tell whether a calibrated channel scatters more than is stated: that may be misfit."""
+    """Tell whether a calibrated channel scatters more than is stated: that may be misfit.
+
+    Or whether known values are weighed by a misfit of the base.
+    """
+    if base.likelihood.prior.weight > 1.0:
+        return True
     return any(base.likelihood.noise[i].excess > 1.0 for i in base.calibrated)

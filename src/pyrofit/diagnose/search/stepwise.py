@@ -7,7 +7,7 @@ from functools import cache
 import numpy as np
 
 from pyrofit.diagnose.base.adequacy import LackOfFit, lack_of_fit
-from pyrofit.diagnose.base.fit import blurred, clearer, refitted, refitted_all, with_noise_about
+from pyrofit.diagnose.base.fit import blurred, is_clearer, refitted, refitted_all, sharpened
 from pyrofit.diagnose.base.fitted import FittedModel, misfits, polished, up_to_date
 from pyrofit.diagnose.search.branches import branches
 from pyrofit.diagnose.search.refit import fixed_forms, look_at, model_with, with_effect
@@ -74,8 +74,8 @@ def search(base: FittedModel, effects: Sequence[str], most: int, context: Search
     found = _Pass(effects, most, context).run(_look(base, effects, context))
     if settled(found, most):
         return found
-    sharper = with_noise_about(found.end, processes=context.processes)
-    if clearer(found.end.model.base, sharper) < SETTINGS.clearer_bic:
+    sharper = sharpened(found.end, context.processes)
+    if not is_clearer(sharper, found.end.model.base):
         return found
     context.tell("once more, with the noise about the best model")
     carried = refitted_all([found.base, *_leading(found)], sharper, context.processes)
@@ -88,7 +88,8 @@ def settled(found: Search, most: int) -> bool:
 
     As many effects as allowed that leave more than noise leave even more with a smaller noise.
     Where a signal scatters more than stated, that may be misfit. Its noise is then too large, and
-    may have led the search to the misfit of another signal.
+    may have led the search to the misfit of another signal. The same holds for known values that a
+    misfit of the base weighs too much.
     """
     end = found.end
     if not end.effects:
@@ -250,8 +251,8 @@ def _sharp(step: SearchStep, context: SearchContext) -> SearchStep:
     )
     at = int(np.argmin([fit.chi2 for fit in fits]))
     best = FittedModel(model_with(step.start, order[at].effect), fits[at])
-    base = with_noise_about(best, processes=context.processes)
-    if clearer(best.model.base, base) < SETTINGS.clearer_bic:
+    base = sharpened(best, context.processes)
+    if not is_clearer(base, best.model.base):
         return step
     start = refitted(step.start, base)
     return _look(start, [look.effect for look in step.looks], context)
