@@ -17,7 +17,7 @@ from pyrofit.diagnose.base.prediction import Made, predictions
 from pyrofit.diagnose.judge import places, verdict
 from pyrofit.diagnose.judge.inflation import inflation_of
 from pyrofit.diagnose.judge.places import needed
-from pyrofit.diagnose.search import step
+from pyrofit.diagnose.search import step, stepwise
 from pyrofit.diagnose.search.step import SearchContext, more
 from pyrofit.diagnose.search.stepwise import Search, _look, search, settled
 from pyrofit.diagnose.settings import SETTINGS
@@ -162,3 +162,20 @@ def test_search_is_repeated_where_a_larger_noise_than_stated_may_hide_misfit(
     end = FittedModel(replace(end.model, base=wider), replace(end.fit, residuals=residuals))
     lack = LackOfFit((), 0.0, 1.0, 0.0, 1.0, misfit, 2.0)
     assert settled(Search((), end, lack, 0.0), most) == ends
+
+
+@pytest.mark.parametrize(
+    ("bad", "end"), [(("k_T",), ("c_T",)), (("k_T", "c_T"), ())], ids=["one", "all"]
+)
+def test_model_whose_held_out_runs_do_not_finish_is_left_out(
+    monkeypatch: pytest.MonkeyPatch, bad: tuple[str, ...], end: tuple[str, ...]
+) -> None:
+    """The best of the others ends the search, the base at last."""
+    columns = linear.random_columns(6, "c_T", "k_T", size=60.0)
+    y = planted("k_T") + strength_of("c_T")[1].typical * column_of(columns, "c_T") / 3.0
+    start = linear.fit(columns, y)
+    monkeypatch.setattr(stepwise, "finishes", lambda trial: not set(trial.effects) & set(bad))
+    told: list[str] = []
+    context = SearchContext(np.random.default_rng(1), tell=told.append)
+    assert search(start, ["c_T", "k_T"], 6, context).end.effects == end
+    assert any("held-out runs do not finish" in text for text in told)

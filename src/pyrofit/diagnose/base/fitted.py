@@ -6,7 +6,7 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from pyrofit.diagnose.base.descent import Fit, descend, refreshed
-from pyrofit.diagnose.base.model import Model, strength_of
+from pyrofit.diagnose.base.model import Model, model_of, strength_of
 from pyrofit.diagnose.settings import SETTINGS
 from pyrofit.estimate.posterior import Posterior, covariance, limit_of
 from pyrofit.parallel import parallel_map
@@ -128,6 +128,15 @@ def _elsewhere(trial: FittedModel) -> Iterator[FloatArray]:
                 x = best.x.copy()
                 x[i] = value
                 yield x
+
+
+def finishes(trial: FittedModel) -> bool:
+    """Tell whether the runs of all held-out signals finish with a fitted model."""
+    base = trial.model.base
+    if not base.held_out:
+        return True
+    held_out = model_of(base, trial.model.effects, base.held_out)
+    return held_out.likelihood.curves(trial.fit.x) is not None
 
 
 def misfits(trial: FittedModel) -> bool:

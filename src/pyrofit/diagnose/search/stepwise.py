@@ -8,7 +8,7 @@ import numpy as np
 
 from pyrofit.diagnose.base.adequacy import LackOfFit, lack_of_fit
 from pyrofit.diagnose.base.fit import blurred, is_clearer, refitted, refitted_all, sharpened
-from pyrofit.diagnose.base.fitted import FittedModel, misfits, polished, up_to_date
+from pyrofit.diagnose.base.fitted import FittedModel, finishes, misfits, polished, up_to_date
 from pyrofit.diagnose.search.branches import branches
 from pyrofit.diagnose.search.refit import fixed_forms, look_at, model_with, with_effect
 from pyrofit.diagnose.search.restart import (
@@ -149,16 +149,26 @@ class _Pass:
         found = self._not_above_carried(Search(tuple(rounds), best, best_lack(), self.spare))
         if len(found.end.effects) > 1:
             found = self._exchanged(found)
-        return self._formed(found)
+        return self._finishing(self._formed(found))
 
     def _not_above_carried(self, found: Search) -> Search:
         """Return the search ended with the best carried model, where that ranks before its end."""
-
-        def rank(trial: FittedModel) -> float:
-            return trial.penalised + self.spare * len(trial.effects)
-
-        best = min([found.end, *self.carried], key=rank)
+        best = min([found.end, *self.carried], key=self._rank)
         return found if best is found.end else self._ended(found, best)
+
+    def _rank(self, trial: FittedModel) -> float:
+        return trial.penalised + self.spare * len(trial.effects)
+
+    def _finishing(self, found: Search) -> Search:
+        """Return the search ended with the best model whose held-out runs finish.
+
+        A property that an effect changes may leave its physical range outside the fitted data.
+        """
+        if finishes(found.end):
+            return found
+        self.context.tell("held-out runs do not finish with the final model; it is left out")
+        ranked = sorted(found.trials, key=self._rank)
+        return self._ended(found, next(filter(finishes, ranked), found.base))
 
     def _ended(self, found: Search, best: FittedModel) -> Search:
         step = self._onwards(best)
