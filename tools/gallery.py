@@ -92,7 +92,6 @@ class Group:
 
 
 _K_T = """'synthetic={"effects": {"k_T": {"slope_1_K": -0.001}}}'"""
-_SHORT = """'imp={"repetitions": 3, "sceua": {"generations": 8}, "least_squares": {"starts": 3}}'"""
 _CALORIMETRY = "python tests/recovery/calorimetry_study.py > calorimetry.json"
 GROUPS = (
     Group(
@@ -114,15 +113,6 @@ GROUPS = (
         "paper",
         report="report.html",
         without=("fig1",),
-    ),
-    Group(
-        "The published campaign with a smaller budget",
-        f"snakemake --cores 2 --configfile config/paper.yaml --config name=paper_short {_SHORT}",
-        "paper_short",
-        note="These searches have 3 repetitions of 8 generations instead of 25 of 20. Figures of "
-        "the section above are left out.",
-        report="report.html",
-        without=("fig1", "fig2", "fig3", "fig4", "fig5", "spread"),
     ),
     Group(
         "Measured pine",
