@@ -17,6 +17,7 @@ from pyrofit.diagnose.base.prediction import Made, predictions
 from pyrofit.diagnose.judge import places, verdict
 from pyrofit.diagnose.judge.inflation import inflation_of
 from pyrofit.diagnose.judge.places import needed
+from pyrofit.diagnose.result import candidates
 from pyrofit.diagnose.search import step, stepwise
 from pyrofit.diagnose.search.step import SearchContext, more
 from pyrofit.diagnose.search.stepwise import Search, _look, search, settled
@@ -174,8 +175,13 @@ def test_model_whose_held_out_runs_do_not_finish_is_left_out(
     columns = linear.random_columns(6, "c_T", "k_T", size=60.0)
     y = planted("k_T") + strength_of("c_T")[1].typical * column_of(columns, "c_T") / 3.0
     start = linear.fit(columns, y)
-    monkeypatch.setattr(stepwise, "finishes", lambda trial: not set(trial.effects) & set(bad))
+    for module in (stepwise, candidates):
+        monkeypatch.setattr(module, "finishes", lambda trial: not set(trial.effects) & set(bad))
     told: list[str] = []
     context = SearchContext(np.random.default_rng(1), tell=told.append)
-    assert search(start, ["c_T", "k_T"], 6, context).end.effects == end
+    found = search(start, ["c_T", "k_T"], 6, context)
+    assert found.end.effects == end
+    best = min(found.trials, key=lambda trial: trial.penalised)
+    why = candidates._why_not(found, found.base, best, found.end.penalised)
+    assert why == "held-out runs do not finish with it"
     assert any("held-out runs do not finish" in text for text in told)

@@ -5,7 +5,7 @@ from typing import Any
 
 import numpy as np
 
-from pyrofit.diagnose.base.fitted import FittedModel, at_limit
+from pyrofit.diagnose.base.fitted import FittedModel, at_limit, finishes
 from pyrofit.diagnose.base.model import strength_of
 from pyrofit.diagnose.judge.findings import Judged, Verdict
 from pyrofit.diagnose.judge.intervals import ridges, strengths, with_all_forms
@@ -104,6 +104,8 @@ def _judgement(judged: list[Judged]) -> dict[str, Any]:
 
 
 def _why_not(found: Search, start: FittedModel, trial: FittedModel, best: float) -> str:
+    if trial.penalised < best and not finishes(trial):
+        return "held-out runs do not finish with it"
     gain = start.penalised - trial.penalised
     if gain < found.spare:
         return f"gains {gain:.1f} of penalised chi-square, {found.spare:.1f} are asked for"
