@@ -30,21 +30,22 @@ def candidates(study: Study, results: Results) -> pd.DataFrame:
         for c in order
     ]
     columns = ("chi2", "gain", "above_best", "fitted", "predictions", "remark")
-    return pd.DataFrame(rows, columns=["model", *columns])
+    table = pd.DataFrame(rows, columns=["model", *columns])
+    return table if table["predictions"].any() else table.drop(columns="predictions")
 
 
 def _fitted(candidate: Found) -> list[str]:
-    """Write value and interval of each parameter of a candidate's effects."""
+    """Write symbol, value and interval of each parameter of a candidate, by effect."""
     catalogue, free = known_effects(), candidate["free"]
     said = []
     for effect, names in free.items():
+        parts = []
         for name in names:
-            strength = name in catalogue[effect].strength
-            label = effect if strength else catalogue[effect].quantities[name].label
             p = candidate["parameters"][f"{effect}_{name}"]
             low, high = _widest(p)
             text = f"{p['value']:.3g} ({low:.3g} to {high:.3g}) {p['unit']}".rstrip(" -")
-            said.append(text if strength and len(free) == 1 else f"{label} {text}")
+            parts.append(f"{catalogue[effect].quantities[name].symbol} {text}")
+        said.append(f"{effect}: " * (len(free) > 1) + ", ".join(parts))
     return said
 
 
@@ -64,10 +65,10 @@ TABLE = Table(
     make=candidates,
     title="Candidates, the best first",
     note="Each is the base model with one effect more, or several, all parameters fitted "
-    "anew. Gain: fall of chi-square below that of the model with one effect less. "
-    "Above best: penalised chi-square, log(points) for each parameter of an effect. "
-    "Predictions: gain of the log score for experiments left out or held out. Above 0 "
-    "the effect improves them, and 2 is needed.",
+    "anew. Fitted: parameters by the symbols of the effect's equation. Gain: fall of chi-square "
+    "below that of the model with one effect less. Above best: penalised chi-square, log(points) "
+    "for each parameter of an effect. Predictions: gain of the log score for experiments left out "
+    "or held out. Above 0 the effect improves them, and 2 is needed.",
     headings={
         "chi2": "chi-square",
         "above_best": "above best",
