@@ -121,6 +121,8 @@ class Settings:
     """Effects that are added to the second best model of a step."""
     clearer_bic: float = 6.0
     """Gain in BIC that a new estimate of the noise must bring to be used."""
+    weighings: int = 2
+    """How often known values are weighed by a misfit that they change."""
     lighter_known: float = 0.8
     """Ratio of weights of known values below which a search with the lower one is made."""
     misfit_chi2_per_point: float = 2.0

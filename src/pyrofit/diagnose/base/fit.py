@@ -30,9 +30,6 @@ from pyrofit.estimate.targets import Measurements
 from pyrofit.parallel import parallel_map
 from pyrofit.solver.arrays import FloatArray
 
-WEIGHINGS = 2
-"""How often known values are weighed by a misfit that they change."""
-
 
 @dataclass(frozen=True, eq=False)
 class Setup:
@@ -197,14 +194,14 @@ def sharpened(trial: FittedModel, processes: int = 1) -> Base:
     which is smaller than that of the base.
     """
     base = with_noise_about(trial, processes=processes)
-    found = refitted(trial, base) if base.likelihood.prior.weight > 1.0 else trial
-    for _ in range(WEIGHINGS if found is not trial else 0):
-        found = weighed(found)
-    lighter = found.model.base.likelihood.prior
-    heavier = lighter.weight >= base.likelihood.prior.weight
-    if found is trial or heavier:
+    weight = base.likelihood.prior.weight
+    if weight <= 1.0:
         return base
-    return replace(base, likelihood=replace(base.likelihood, prior=lighter))
+    found = refitted(trial, base)
+    for _ in range(SETTINGS.weighings):
+        found = weighed(found)
+    other = found.model.base
+    return other if other.likelihood.prior.weight < weight else base
 
 
 def refitted(trial: FittedModel, base: Base) -> FittedModel:
