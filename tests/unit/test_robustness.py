@@ -159,7 +159,7 @@ def test_table_tests_the_cost_functions_level_by_level(study: Study, tmp_path: P
     row = rows.loc[("outliers, 20 % of the points", "RANGE")]
     assert row["error_percent"] == pytest.approx(5.25 / 2.0)
     assert row["prediction_percent"] == pytest.approx(2.0)
-    assert row["k [% of limits]"] == pytest.approx(30.0)
+    assert row["k [% of search range]"] == pytest.approx(30.0)
     assert (tmp_path / "robustness" / "table.md").read_text().count("(synthetic data)") == 1
 
 

@@ -370,7 +370,7 @@ def test_table4_by_hand(tmp_path: Path) -> None:
     # J/(kg K) become kJ/(kg K); the best is that of the best cost, not the mean's neighbour.
     cp = table.loc[("RMSE", "cp")]
     assert [cp["best"], cp["mean"], cp["sigma"]] == pytest.approx([1.0, 2.0, 1.0], rel=1e-14)
-    assert cp["flags"].startswith("spread > 20 % of limits; undetermined")
+    assert cp["flags"].startswith("spread > 20 % of search range; undetermined")
     # 0.4985 is 0.0015 below 0.5, and 0.5 % of 0.4 is 0.002; sigma = sqrt(0.004852/2) < 0.08.
     k = table.loc[("BANDS", "k")]
     assert k["flags"] == "at bound (upper)"
@@ -492,7 +492,7 @@ def test_distances_by_hand(tmp_path: Path) -> None:
 def test_verdicts_are_flags_of_table4(tmp_path: Path) -> None:
     table = made("table4", *fake(tmp_path)).set_index(["cost_function", "quantity"])
     words = "undetermined by the data; estimate at its upper bound"
-    assert table.loc[("RMSE", "cp"), "flags"] == f"spread > 20 % of limits; {words}"
+    assert table.loc[("RMSE", "cp"), "flags"] == f"spread > 20 % of search range; {words}"
     assert table.loc[("RMSE", "k"), "flags"] == "at bound (upper)"
 
 
@@ -511,9 +511,9 @@ def test_flags_at_their_limits() -> None:
 
     assert said(0.009, 0.0) == "at bound (lower)"
     assert said(0.011, 0.0) == ""
-    assert said(1.0, 0.41) == "spread > 20 % of limits"
+    assert said(1.0, 0.41) == "spread > 20 % of search range"
     assert said(1.0, float("nan")) == ""
-    assert said(1.999, 0.5) == "at bound (upper); spread > 20 % of limits"
+    assert said(1.999, 0.5) == "at bound (upper); spread > 20 % of search range"
 
 
 def test_table4_of_synthetic_data_shows_nothing_published(tmp_path: Path) -> None:

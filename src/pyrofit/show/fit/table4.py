@@ -54,7 +54,7 @@ def _row(study: Study, found: Repeated, by_data: str) -> dict[str, Any]:
 def flags(found: Repeated) -> str:
     """Say in words why an estimate is unreliable."""
     said = [f"at bound ({found.bound})"] if found.bound else []
-    said += ["spread > 20 % of limits"] if found.is_wide else []
+    said += ["spread > 20 % of search range"] if found.is_wide else []
     return "; ".join(said)
 
 
@@ -67,7 +67,7 @@ TABLE = Table(
     note="sigma is the standard deviation over the n repetitions with n − 1 as divisor: "
     "the scatter of the optimiser, not the uncertainty of the parameter. 'At bound': "
     "the best value lies within 0.5 % of the search range from a limit. 'Spread > "
-    "20 % of limits': sigma exceeds this share of it, so the repetitions disagree. "
+    "20 % of search range': sigma exceeds this share of it, so the repetitions disagree. "
     "'By the data': from the 95 % interval, see the table of these intervals.",
     headings={
         "published_best": "published best",

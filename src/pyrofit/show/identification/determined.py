@@ -60,7 +60,7 @@ TABLE = Table(
     headings={
         "low": "95 % low",
         "high": "95 % high",
-        "width_percent": "width [% of limits]",
+        "width_percent": "width [% of search range]",
         "ends": "cut off",
         "noise_low": "noise alone, low",
         "noise_high": "noise alone, high",

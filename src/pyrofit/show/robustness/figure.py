@@ -36,7 +36,7 @@ def robustness(study: Study, results: Results) -> Canvas:
     frame = errors(study, results)
     frame["prediction"] = 100.0 * frame["prediction_error"].astype(float)
     held_out = bool(frame["prediction"].notna().any())
-    shown = [("error", "error of the recovered\nparameters [% of limits]")]
+    shown = [("error", "error of the recovered\nparameters [% of search range]")]
     shown += [("prediction", "error of the prediction\n[CV(RMSE), %]")] if held_out else []
     canvas, axes = style.panels(2 * len(shown), 2, style.TWO_COLUMNS, 55.0)
     style.letter(axes, ["noise", "outliers"] * len(shown))

@@ -35,7 +35,9 @@ def robustness(study: Study, results: Results) -> pd.DataFrame:
                 "twins": len(part),
                 "error_percent": float(part["error"].median()),
                 "prediction_percent": 100.0 * float(predicted.median()),
-                **{f"{n} [% of limits]": float(np.sqrt(np.mean(part[n] ** 2))) for n in names},
+                **{
+                    f"{n} [% of search range]": float(np.sqrt(np.mean(part[n] ** 2))) for n in names
+                },
             }
         )
     table = pd.DataFrame(rows)
@@ -81,7 +83,7 @@ TABLE = Table(
     "Wallis's test of equal errors of the cost functions, Holm-corrected.",
     headings={
         "cost_function": "cost function",
-        "error_percent": "error [% of limits]",
+        "error_percent": "error [% of search range]",
         "prediction_percent": "prediction [%]",
     },
     group_by="added",

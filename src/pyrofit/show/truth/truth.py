@@ -10,7 +10,7 @@ _HEADINGS = {
     for column, text in {
         "best": "best",
         "error_truth_percent": "error [% of truth]",
-        "error_limits_percent": "error [% of limits]",
+        "error_limits_percent": "error [% of search range]",
     }.items()
 }
 
