@@ -129,6 +129,7 @@ localrules:
     collect,
     report,
     robustness,
+    stability,
     archive,
     diagnosis_page,
     diagnose,
@@ -153,6 +154,7 @@ include: "workflow/rules/worth.smk"
 include: "workflow/rules/scheme.smk"
 include: "workflow/rules/fds.smk"
 include: "workflow/rules/diagnosis.smk"
+include: "workflow/rules/stability.smk"
 
 
 # Everything, not the report alone: what is deleted or was removed with a failed run is made again.

@@ -40,6 +40,7 @@ STUDY = (
             "worth",
             "scheme",
             "diagnose",
+            "stability",
         )
     ),
     "pyrofit.show.report",
@@ -63,6 +64,7 @@ CATALOGUES = (
             "robustness",
             "scheme",
             "sensitivity",
+            "stability",
             "truth",
             "validation",
             "worth",

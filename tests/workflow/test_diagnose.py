@@ -189,6 +189,23 @@ def test_killed_diagnosis_goes_on_to_the_same_bytes(diagnosed: Diagnosed) -> Non
     assert [p.name for p in (diagnosed.project.root / "results").rglob(".*")] == []
 
 
+def test_stability_has_a_job_for_each_draw_and_runs_only_new_ones(diagnosed: Diagnosed) -> None:
+    job, gathered = (
+        "Diagnosis of disturbed data, draw {}",
+        "Stability of the diagnosis: tables and figure",
+    )
+    diagnosed.project.write(changed("diagnosis.draws", 2))
+    assert diagnosed.again("2", "stability").jobs == {job.format(0), job.format(1), gathered}
+    first = diagnosed.project.read("results/tiny/stability/draw_0.json")
+    table = diagnosed.project.read("results/tiny/stability/table_effects.md").decode()
+    assert "heater_ramp" in table
+    assert diagnosed.now() == diagnosed.left
+    assert diagnosed.again("2", "stability").jobs == set()
+    diagnosed.project.write(changed("diagnosis.draws", 3))
+    assert diagnosed.again("2", "stability").jobs == {job.format(2), gathered}
+    assert diagnosed.project.read("results/tiny/stability/draw_0.json") == first
+
+
 def test_wrong_candidate_is_told_and_the_results_stay(diagnosed: Diagnosed) -> None:
     diagnosed.project.write(changed("diagnosis.effects", ["k_T", "heater_rampp"]))
     run = diagnosed.project.snakemake("--cores", "2", "diagnose")

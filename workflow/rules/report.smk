@@ -75,6 +75,7 @@ rule report:
                 results.posterior("parameters.svg"),
                 results.worth("worth.svg"),
                 results.scheme("scheme.svg"),
+                results.stability("stability.svg"),
             )
             if page.exists()
         ],

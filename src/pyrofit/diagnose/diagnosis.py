@@ -38,6 +38,7 @@ def examine(
     tell: Tell = lambda text: None,
     processes: int = 1,
     advise: bool = True,
+    draw: int | None = None,
 ) -> Diagnosis:
     """Find where a study's model and measurements disagree, and which effect the model lacks.
 
@@ -53,13 +54,15 @@ def examine(
         Processes that share the fits; the result does not depend on their number.
     advise
         Whether to look for free corrections and the next experiment as well.
+    draw
+        Number of the draw of noise that disturbs the data, see `disturbed`; by default none does.
 
     Raises
     ------
     DataError
         A channel is too short, or no run within the limits finishes.
     """
-    found, rng, solver = _searched(study, measurements, tell, processes)
+    found, rng, solver = _searched(study, measurements, tell, processes, draw)
     verdict = judge(found, rng, processes)
     found = verdict.search
     content = {**record.content(study, found, verdict), "solver": solver}
@@ -77,14 +80,14 @@ def diagnose(study: Study, measurements: Measurements) -> dict[str, Any]:
 
 
 def _searched(
-    study: Study, measurements: Measurements, tell: Tell, processes: int
+    study: Study, measurements: Measurements, tell: Tell, processes: int, draw: int | None
 ) -> tuple[Search, np.random.Generator, dict[str, Any]]:
     """Return the search, the generator of its draws, and how accurate its runs are.
 
     Runs are coarser than the study asks for, unless the difference counts against the noise.
     """
     rough = study.model_copy(update={"accuracy": study.accuracy.coarsened()})
-    setup, rng = _based(rough, measurements, tell, processes)
+    setup, rng = _based(rough, measurements, tell, processes, draw)
     error = solver_error(setup.base, study.accuracy)
     if error <= SETTINGS.most_solver_error:
         found = _search(rough, setup, rng, tell, processes)
@@ -92,16 +95,16 @@ def _searched(
         if error <= SETTINGS.most_solver_error:
             return found, rng, {"coarsened": True, "error_chi2": error}
     tell(f"once more with finer runs, which change chi-square by {error:.2g}")
-    setup, rng = _based(study, measurements, tell, processes)
+    setup, rng = _based(study, measurements, tell, processes, draw)
     found = _search(study, setup, rng, tell, processes)
     return found, rng, {"coarsened": False, "error_chi2": 0.0}
 
 
 def _based(
-    study: Study, measurements: Measurements, tell: Tell, processes: int
+    study: Study, measurements: Measurements, tell: Tell, processes: int, draw: int | None
 ) -> tuple[Setup, np.random.Generator]:
     """Return the fitted base model, and the generator of the draws that judge it."""
-    setup = set_up(study, measurements, processes)
+    setup = set_up(study, measurements, processes, draw)
     tell(f"base model: chi-square {setup.base.fit.chi2:.1f} of {setup.base.model.points} points")
     return setup, np.random.default_rng(study.seed)
 

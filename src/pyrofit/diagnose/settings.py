@@ -125,6 +125,8 @@ class Settings:
     """How often known values are weighed by a misfit that they change."""
     lighter_known: float = 0.8
     """Ratio of weights of known values below which a search with the lower one is made."""
+    disturbance: float = 0.1
+    """Part of the noise by which measured values are changed to test the stability of a result."""
     misfit_chi2_per_point: float = 2.0
     """Above this chi-square per point of a signal, its misfit was not mistaken for noise."""
 

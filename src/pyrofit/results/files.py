@@ -204,6 +204,10 @@ class Results:
         """Disagreement of model and measurement, and missing effects."""
         return self.root / "diagnosis" / name
 
+    def stability(self, name: str) -> Path:
+        """Diagnoses of disturbed data, and how often they name each effect."""
+        return self.root / "stability" / name
+
     def scheme(self, name: str) -> Path:
         """Choice of the reaction scheme."""
         return self.root / "scheme" / name

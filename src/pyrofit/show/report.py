@@ -3,7 +3,16 @@
 from typing import Any
 
 from pyrofit.config import Study
-from pyrofit.results import diagnosis, posterior, recorded, rescored, scheme, sensitivity, worth
+from pyrofit.results import (
+    diagnosis,
+    posterior,
+    recorded,
+    rescored,
+    scheme,
+    sensitivity,
+    stability,
+    worth,
+)
 from pyrofit.results.files import Results, write_json, write_text
 from pyrofit.show import (
     diagnosis_page,
@@ -13,6 +22,7 @@ from pyrofit.show import (
     rescore_page,
     scheme_page,
     sensitivity_page,
+    stability_page,
     worth_page,
 )
 from pyrofit.show.answer import ANSWER
@@ -69,6 +79,8 @@ def write_report(study: Study, results: Results) -> None:
         found = diagnosis.read(study, results)
         lacks = found["verdict"]["words"]
         shown.append(diagnosis_page.section(study, results, found))
+    if stability.exists(results):
+        shown.append(stability_page.PAGE.section(study, results))
     said = summary(study, facts)
     text = page_of(study, measured, study.title or study.name, said, shown, *answer, lacks)
     write_json(results.root / "provenance.json", made)

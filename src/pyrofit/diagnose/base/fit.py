@@ -15,6 +15,7 @@ from pyrofit.config import (
     held_out_channels,
 )
 from pyrofit.diagnose.base.descent import Fit, descend, refreshed
+from pyrofit.diagnose.base.disturbed import disturbed
 from pyrofit.diagnose.base.fitted import FittedModel, polished
 from pyrofit.diagnose.base.model import Base, Model, model_of
 from pyrofit.diagnose.base.work import within_work
@@ -28,6 +29,7 @@ from pyrofit.estimate.prior import prior_of
 from pyrofit.estimate.problem import Problem, make_problem
 from pyrofit.estimate.targets import Measurements
 from pyrofit.parallel import parallel_map
+from pyrofit.seeds import seed_for
 from pyrofit.solver.arrays import FloatArray
 
 
@@ -41,11 +43,14 @@ class Setup:
     """Other ends of the base's fits, the lowest chi-square first, then points of its limits."""
 
 
-def set_up(study: Study, measurements: Measurements, processes: int = 1) -> Setup:
+def set_up(
+    study: Study, measurements: Measurements, processes: int = 1, draw: int | None = None
+) -> Setup:
     """Fit the base model, with the noise of every channel estimated twice.
 
     The first estimate is from the series alone. There steep parts look like noise to a smooth
-    curve, so the second is about the fitted curve.
+    curve, so the second is about the fitted curve. With a ``draw``, a number, the data are then
+    disturbed by a draw of this noise.
 
     Raises
     ------
@@ -60,6 +65,8 @@ def set_up(study: Study, measurements: Measurements, processes: int = 1) -> Setu
     first = within_work(first)
     _check_held_out(first)
     base = with_noise_about(first, processes=processes)
+    if draw is not None:
+        base = disturbed(base, seed_for(study.seed, "stability", draw))
     others = tuple(starts[: SETTINGS.other_starts])
     fitted = weighed(refitted(first, base))
     return Setup(fitted, candidate_effects(study), others)

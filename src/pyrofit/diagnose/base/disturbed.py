@@ -1,0 +1,52 @@
+"""Disturbed data: measured values changed by a small part of their noise."""
+
+from dataclasses import replace
+
+import numpy as np
+
+from pyrofit.cost import WeightedSum, make_term
+from pyrofit.cost.term import Term
+from pyrofit.data.noise import draw
+from pyrofit.diagnose.base.model import Base
+from pyrofit.diagnose.settings import SETTINGS
+from pyrofit.estimate.noise import NoiseModel
+from pyrofit.solver.arrays import FloatArray
+
+
+def disturbed(base: Base, seed: int) -> Base:
+    """Return the base with y + s e in the place of the measured values y of all channels.
+
+    e is a draw of the noise as it is estimated, correlation included, and s is
+    ``SETTINGS.disturbance``. The variance of the noise rises by the factor 1 + s^2 only, so that
+    the tests of a diagnosis keep their levels.
+
+    Parameters
+    ----------
+    base
+        The base with its noise.
+    seed
+        Seed of the draw.
+    """
+    rng = np.random.default_rng(seed)
+    problem = base.likelihood.problem
+    pairs = zip(problem.cost.terms, base.likelihood.noise, strict=True)
+    terms = [(weight, _disturbed(term, noise, rng)) for (weight, term), noise in pairs]
+    problem = replace(problem, cost=WeightedSum(terms))
+    return replace(base, likelihood=replace(base.likelihood, problem=problem))
+
+
+def _disturbed(term: Term, noise: NoiseModel, rng: np.random.Generator) -> Term:
+    value = term.target.value + SETTINGS.disturbance * drawn(noise, rng)
+    return make_term(term.kind, replace(term.target, value=value), **term.options)
+
+
+def drawn(noise: NoiseModel, rng: np.random.Generator) -> FloatArray:
+    """Return a draw of the noise of a series, shape (n,), in its unit.
+
+    e = sd L z + U u, with the autocorrelation L L^T, the lasting scatter U between repeats, and
+    standard normal z and u.
+    """
+    e = noise.sd * draw(noise.correlation.sequence(noise.sd.size), rng)
+    if noise.modes is not None:
+        e = e + noise.modes @ rng.standard_normal(noise.modes.shape[1])
+    return np.asarray(e)

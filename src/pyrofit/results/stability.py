@@ -1,0 +1,81 @@
+"""Stability of a diagnosis: written by draw, read by tables, figure and sentences."""
+
+import json
+from collections.abc import Mapping
+from typing import Any
+
+from pydantic import Field, ValidationError
+
+from pyrofit.config import Study
+from pyrofit.errors import DataError
+from pyrofit.results import dependencies
+from pyrofit.results.diagnosis_candidates import OfStrength
+from pyrofit.results.diagnosis_schema import Kind, OfGap
+from pyrofit.results.files import Results, read_json, write_json
+from pyrofit.results.record import Record
+
+LAST = "stability.svg"
+"""File that is written last, so that all others are there when it is."""
+
+
+class OfDraw(Record):
+    """The diagnosis of the measured data, disturbed by one draw of their noise."""
+
+    study: str = Field(description="name of the study")
+    draw: int = Field(description="number of the draw, from 0")
+    disturbance: float = Field(description="part of the noise by which the data are changed [-]")
+    kind: Kind = Field(description="kind of verdict")
+    confirmed: bool = Field(description="the verdict is confirmed, as in `diagnosis.json`")
+    effects: list[str] = Field(description="effects that the verdict names, the leading ones")
+    final: list[str] = Field(description="effects of the final model of the search")
+    chi2: float = Field(description="chi-square of the final model")
+    strengths: dict[str, OfStrength] = Field(
+        description="parameters of these effects, by effect and name"
+    )
+    gap: list[OfGap] = Field(description="misfit before and after, by signal")
+
+
+def draw_file(number: int) -> str:
+    """Return the name of the file of a draw."""
+    return f"draw_{number}.json"
+
+
+def slice_of(study: Study) -> dict[str, Any]:
+    """Return the inputs of a draw, which are those of the diagnosis."""
+    return dependencies.diagnose(study)
+
+
+def write(results: Results, content: Mapping[str, Any]) -> None:
+    """Write the result of a draw; it must agree with the schema."""
+    text = json.dumps(content, allow_nan=False)
+    found = OfDraw.model_validate_json(text)
+    write_json(results.stability(draw_file(found.draw)), json.loads(text))
+
+
+def read(study: Study, results: Results) -> list[OfDraw]:
+    """Return the results of all draws of a study.
+
+    Raises
+    ------
+    DataError
+        One is missing, broken, or that of another study.
+    """
+    return [_read(study, results, number) for number in range(study.diagnosis.draws)]
+
+
+def _read(study: Study, results: Results, number: int) -> OfDraw:
+    path = results.stability(draw_file(number))
+    try:
+        found = OfDraw.model_validate(read_json(path))
+    except ValidationError as error:
+        first = error.errors()[0]
+        place = ".".join(str(key) for key in first["loc"])
+        raise DataError(f"{path}: '{place}': {first['msg']}; delete it and run again") from None
+    if found.study != study.name or found.draw != number:
+        raise DataError(f"{path}: this is the result of another study; delete it and run again")
+    return found
+
+
+def exists(results: Results) -> bool:
+    """Tell whether the stability of a diagnosis was tested and its page drawn."""
+    return results.stability(LAST).is_file()

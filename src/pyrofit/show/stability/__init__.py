@@ -1,0 +1,1 @@
+"""How stable the result of a diagnosis is."""

@@ -1,0 +1,90 @@
+"""How often diagnoses of disturbed data find each effect, and with which strengths."""
+
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
+from typing import Any
+
+import numpy as np
+
+from pyrofit.config import Study
+from pyrofit.effects import known_effects
+from pyrofit.results import diagnosis, stability
+from pyrofit.results.files import Results
+from pyrofit.results.stability import OfDraw
+from pyrofit.show.diagnosis.words import HELD_OUT, leading
+
+
+@dataclass(frozen=True)
+class Stability:
+    """The diagnosis of the measured data, and those of disturbed data."""
+
+    measured: Mapping[str, Any]
+    draws: Sequence[OfDraw]
+
+    @property
+    def named(self) -> list[str]:
+        """Effects that the verdict on the measured data names."""
+        return list(self.measured["verdict"]["effects"])
+
+    @property
+    def effects(self) -> list[str]:
+        """All effects that are found: those of the measured data first, then the most frequent."""
+        found = {effect for draw in self.draws for effect in (*draw.effects, *draw.final)}
+        others = [effect for effect in found if effect not in self.named]
+        order = sorted(others, key=lambda e: (-self.times_named(e), -self.times_final(e), e))
+        return [*self.named, *order]
+
+    def times_named(self, effect: str) -> int:
+        """Return how many draws have a verdict that names an effect."""
+        return sum(effect in draw.effects for draw in self.draws)
+
+    def times_final(self, effect: str) -> int:
+        """Return how many draws have a final model with an effect."""
+        return sum(effect in draw.final for draw in self.draws)
+
+    def strengths(self, effect: str) -> list[float]:
+        """Return the strengths of an effect in the final models that have it."""
+        key = _strength(effect)
+        return [draw.strengths[key].value for draw in self.draws if effect in draw.final]
+
+    def measured_strength(self, effect: str) -> float | None:
+        """Return the strength that the measured data give, if their verdict names the effect."""
+        chosen = leading(self.measured)
+        if chosen is None or effect not in chosen["effects"]:
+            return None
+        return float(chosen["parameters"][_strength(effect)]["value"])
+
+
+def unit_of(effect: str) -> str:
+    """Return the unit of an effect's strength."""
+    catalogue = known_effects()[effect]
+    return catalogue.quantities[_first(effect)].unit
+
+
+def held_out_closed(gap: Sequence[Mapping[str, Any]]) -> float:
+    """Return the median over held-out signals of 1 - rms after / rms before; NaN without any."""
+    closed = [
+        1.0 - row["rms_after"] / row["rms_before"]
+        for row in gap
+        if row["role"] == HELD_OUT and row["rms_before"] > 0.0
+    ]
+    return float(np.median(closed)) if closed else float("nan")
+
+
+def read(study: Study, results: Results) -> Stability:
+    """Return the diagnosis of the measured data, and those of all draws.
+
+    Raises
+    ------
+    DataError
+        A result is missing, broken, or that of another study.
+    """
+    return Stability(diagnosis.read(study, results), stability.read(study, results))
+
+
+def _first(effect: str) -> str:
+    return next(iter(known_effects()[effect].strength))
+
+
+def _strength(effect: str) -> str:
+    return f"{effect}_{_first(effect)}"

@@ -1,0 +1,59 @@
+"""The stability of a diagnosis in sentences."""
+
+from collections import Counter
+
+from pyrofit.config import Study
+from pyrofit.results.files import Results
+from pyrofit.show.diagnosis.words import effect_name
+from pyrofit.show.stability.facts import Stability, read
+from pyrofit.show.text import listed, several
+
+
+def sentences(study: Study, results: Results) -> list[str]:
+    """Return the sentences on the stability of a diagnosis."""
+    found = read(study, results)
+    return [_of_draws(found), _of_verdicts(found), *_of_named(found), *_of_others(found)]
+
+
+def _of_draws(found: Stability) -> str:
+    part = 100.0 * found.draws[0].disturbance
+    return (
+        f"The diagnosis was repeated on {several(len(found.draws), 'disturbed data set')}: "
+        f"measured values plus {part:g} % of a draw of their noise."
+    )
+
+
+def _of_verdicts(found: Stability) -> str:
+    kinds = Counter(draw.kind for draw in found.draws)
+    shown = listed([f"'{kind}' ({n})" for kind, n in kinds.most_common()])
+    same = sum(set(draw.effects) == set(found.named) for draw in found.draws)
+    kind = found.measured["verdict"]["kind"]
+    return (
+        f"The verdict on the measured data is '{kind}', those on the disturbed data are {shown}. "
+        f"{_of(same, found)} of them name exactly the same effects."
+    )
+
+
+def _of(times: int, found: Stability) -> str:
+    return f"{times} of {len(found.draws)}"
+
+
+def _of_named(found: Stability) -> list[str]:
+    """Tell how often the effects of the measured data are named again."""
+    times = {effect: found.times_named(effect) for effect in found.named}
+    every = [effect_name(e) for e, n in times.items() if n == len(found.draws)]
+    rest = [f"{effect_name(e)} ({_of(n, found)})" for e, n in times.items() if n < len(found.draws)]
+    said = [f"Named from all data sets: {listed(every)}."] if every else []
+    if rest:
+        said.append(
+            "A disturbance this small should not change a verdict. These effects of the measured "
+            f"data depend on it: {listed(rest)}."
+        )
+    return said
+
+
+def _of_others(found: Stability) -> list[str]:
+    """Tell which effects only disturbed data name."""
+    others = [e for e in found.effects if e not in found.named and found.times_named(e)]
+    shares = [f"{effect_name(e)} ({_of(found.times_named(e), found)})" for e in others]
+    return [f"Named from disturbed data only: {listed(shares)}."] if others else []

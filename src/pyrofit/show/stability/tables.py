@@ -1,0 +1,97 @@
+"""Effects by how often they are found, and the verdict on each disturbed data set."""
+
+from typing import Any
+
+import numpy as np
+import pandas as pd
+
+from pyrofit.config import Study
+from pyrofit.results.files import Results
+from pyrofit.show.diagnosis.words import effect_name
+from pyrofit.show.stability.facts import held_out_closed, read, unit_of
+from pyrofit.show.table import Table, always
+
+COLUMNS = (
+    "effect",
+    "measured",
+    "named_percent",
+    "final_percent",
+    "strength",
+    "lowest",
+    "highest",
+    "unit",
+)
+
+
+def effects(study: Study, results: Results) -> pd.DataFrame:
+    """List the effects that are found, those of the measured data first."""
+    found = read(study, results)
+    count = len(found.draws)
+    rows: list[dict[str, Any]] = []
+    for effect in found.effects:
+        strengths = found.strengths(effect)
+        rows.append(
+            {
+                "effect": effect_name(effect),
+                "measured": "named" if effect in found.named else "–",
+                "named_percent": 100.0 * found.times_named(effect) / count,
+                "final_percent": 100.0 * found.times_final(effect) / count,
+                "strength": found.measured_strength(effect),
+                "lowest": min(strengths, default=None),
+                "highest": max(strengths, default=None),
+                "unit": unit_of(effect),
+            }
+        )
+    return pd.DataFrame(rows, columns=list(COLUMNS))
+
+
+def draws(study: Study, results: Results) -> pd.DataFrame:
+    """List the verdict on the measured data and on each disturbed data set."""
+    found = read(study, results)
+    verdict = found.measured["verdict"]
+    rows = [_row("as measured", verdict, found.measured["gap"])]
+    for draw in found.draws:
+        gap = [row.model_dump() for row in draw.gap]
+        rows.append(_row(f"draw {draw.draw}", draw.model_dump(), gap))
+    frame = pd.DataFrame(rows)
+    return frame.dropna(axis="columns", how="all")
+
+
+def _row(data: str, verdict: Any, gap: Any) -> dict[str, Any]:
+    closed = held_out_closed(gap)
+    return {
+        "data": data,
+        "kind": verdict["kind"],
+        "confirmed": "yes" if verdict["confirmed"] else "no",
+        "effects": ", ".join(effect_name(effect) for effect in verdict["effects"]) or "–",
+        "closed_percent": None if np.isnan(closed) else 100.0 * closed,
+    }
+
+
+TABLES = {
+    "effects": Table(
+        place=10,
+        applies=always,
+        make=effects,
+        title="Effects found in disturbed data",
+        note="Named: share of the disturbed data sets whose verdict names the effect. Final model: "
+        "share whose search ends with it. Strengths are those of the final models.",
+        headings={
+            "measured": "measured data",
+            "named_percent": "named [%]",
+            "final_percent": "in the final model [%]",
+            "strength": "strength, measured data",
+            "lowest": "lowest strength",
+            "highest": "highest strength",
+        },
+    ),
+    "draws": Table(
+        place=20,
+        applies=always,
+        make=draws,
+        title="Verdict on each disturbed data set",
+        note="Closed: by how much the effects lower the root mean square error of a held-out "
+        "signal; the median over these signals.",
+        headings={"kind": "verdict", "closed_percent": "closed, held out [%]"},
+    ),
+}
