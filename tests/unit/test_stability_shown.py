@@ -25,7 +25,7 @@ from pyrofit.show.stability_page import PAGE
 VERDICTS: tuple[tuple[str, list[str], list[str]], ...] = (
     ("named", ["k_T"], ["k_T"]),
     ("multiple", ["k_T", "melting"], ["k_T", "melting"]),
-    ("unknown", [], ["c_T", "melting"]),
+    ("unknown", ["c_T"], ["c_T", "melting"]),
 )
 
 
@@ -76,8 +76,8 @@ def test_each_draw_has_a_row_behind_the_measured_data(tmp_path: Path) -> None:
     frame = PAGE.tables["draws"].make(study, results)
     assert frame["data"].tolist() == ["as measured", "draw 0", "draw 1", "draw 2"]
     assert frame["kind"].tolist() == ["named", "named", "multiple", "unknown"]
-    # The held-out signal is 4 sd off before, and 1 sd with effects, 5 without.
-    assert frame["closed_percent"].tolist() == pytest.approx([75.0, 75.0, 75.0, -25.0])
+    assert frame["effects"].iloc[-1] == "–"  # `unknown` claims none
+    assert frame["closed_percent"].tolist() == pytest.approx([75.0] * 4)
 
 
 def test_sentences_tell_which_effects_depend_on_the_disturbance(tmp_path: Path) -> None:

@@ -26,7 +26,7 @@ class OfDraw(Record):
     disturbance: float = Field(description="part of the noise by which the data are changed [-]")
     kind: Kind = Field(description="kind of verdict")
     confirmed: bool = Field(description="the verdict is confirmed, as in `diagnosis.json`")
-    effects: list[str] = Field(description="effects that the verdict names, the leading ones")
+    effects: list[str] = Field(description="effects as in `verdict.effects` of `diagnosis.json`")
     final: list[str] = Field(description="effects of the final model of the search")
     chi2: float = Field(description="chi-square of the final model")
     strengths: dict[str, OfStrength] = Field(

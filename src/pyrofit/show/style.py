@@ -126,7 +126,8 @@ def panels(
         columns, height = MOST_COLUMNS, height * columns / MOST_COLUMNS
     columns = min(columns, count)
     rows = -(-count // columns)
-    canvas: Canvas = Figure(figsize=(width * MM, rows * height * MM))
+    # Text widths do not scale exactly: the layout needs the resolution of the output.
+    canvas: Canvas = Figure(figsize=(width * MM, rows * height * MM), dpi=DPI)
     FigureCanvasAgg(canvas)
     grid = canvas.subplots(rows, columns, squeeze=False, **options)
     axes: list[Axes] = list(grid.flat)

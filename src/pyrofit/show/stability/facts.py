@@ -11,7 +11,7 @@ from pyrofit.effects import known_effects
 from pyrofit.results import diagnosis, stability
 from pyrofit.results.files import Results
 from pyrofit.results.stability import OfDraw
-from pyrofit.show.diagnosis.words import HELD_OUT, leading
+from pyrofit.show.diagnosis.words import CLAIMS, HELD_OUT, leading
 
 
 @dataclass(frozen=True)
@@ -24,19 +24,20 @@ class Stability:
     @property
     def named(self) -> list[str]:
         """Effects that the verdict on the measured data names."""
-        return list(self.measured["verdict"]["effects"])
+        verdict = self.measured["verdict"]
+        return list(verdict["effects"]) if verdict["kind"] in CLAIMS else []
 
     @property
     def effects(self) -> list[str]:
         """All effects that are found: those of the measured data first, then the most frequent."""
-        found = {effect for draw in self.draws for effect in (*draw.effects, *draw.final)}
+        found = {effect for draw in self.draws for effect in (*named_by(draw), *draw.final)}
         others = [effect for effect in found if effect not in self.named]
         order = sorted(others, key=lambda e: (-self.times_named(e), -self.times_final(e), e))
         return [*self.named, *order]
 
     def times_named(self, effect: str) -> int:
         """Return how many draws have a verdict that names an effect."""
-        return sum(effect in draw.effects for draw in self.draws)
+        return sum(effect in named_by(draw) for draw in self.draws)
 
     def times_final(self, effect: str) -> int:
         """Return how many draws have a final model with an effect."""
@@ -53,6 +54,11 @@ class Stability:
         if chosen is None or effect not in chosen["effects"]:
             return None
         return float(chosen["parameters"][_strength(effect)]["value"])
+
+
+def named_by(draw: OfDraw) -> list[str]:
+    """Return the effects that the verdict on a draw names; `unknown` and `none` name none."""
+    return draw.effects if draw.kind in CLAIMS else []
 
 
 def unit_of(effect: str) -> str:

@@ -5,7 +5,7 @@ from collections import Counter
 from pyrofit.config import Study
 from pyrofit.results.files import Results
 from pyrofit.show.diagnosis.words import effect_name
-from pyrofit.show.stability.facts import Stability, read
+from pyrofit.show.stability.facts import Stability, named_by, read
 from pyrofit.show.text import listed, several
 
 
@@ -26,7 +26,7 @@ def _of_draws(found: Stability) -> str:
 def _of_verdicts(found: Stability) -> str:
     kinds = Counter(draw.kind for draw in found.draws)
     shown = listed([f"'{kind}' ({n})" for kind, n in kinds.most_common()])
-    same = sum(set(draw.effects) == set(found.named) for draw in found.draws)
+    same = sum(set(named_by(draw)) == set(found.named) for draw in found.draws)
     kind = found.measured["verdict"]["kind"]
     return (
         f"The verdict on the measured data is '{kind}', those on the disturbed data are {shown}. "

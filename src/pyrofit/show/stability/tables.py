@@ -8,7 +8,7 @@ import pandas as pd
 from pyrofit.config import Study
 from pyrofit.results.files import Results
 from pyrofit.show.diagnosis.words import effect_name
-from pyrofit.show.stability.facts import held_out_closed, read, unit_of
+from pyrofit.show.stability.facts import held_out_closed, named_by, read, unit_of
 from pyrofit.show.table import Table, always
 
 COLUMNS = (
@@ -49,21 +49,21 @@ def draws(study: Study, results: Results) -> pd.DataFrame:
     """List the verdict on the measured data and on each disturbed data set."""
     found = read(study, results)
     verdict = found.measured["verdict"]
-    rows = [_row("as measured", verdict, found.measured["gap"])]
+    rows = [_row("as measured", verdict, found.named, found.measured["gap"])]
     for draw in found.draws:
         gap = [row.model_dump() for row in draw.gap]
-        rows.append(_row(f"draw {draw.draw}", draw.model_dump(), gap))
+        rows.append(_row(f"draw {draw.draw}", draw.model_dump(), named_by(draw), gap))
     frame = pd.DataFrame(rows)
     return frame.dropna(axis="columns", how="all")
 
 
-def _row(data: str, verdict: Any, gap: Any) -> dict[str, Any]:
+def _row(data: str, verdict: Any, named: list[str], gap: Any) -> dict[str, Any]:
     closed = held_out_closed(gap)
     return {
         "data": data,
         "kind": verdict["kind"],
         "confirmed": "yes" if verdict["confirmed"] else "no",
-        "effects": ", ".join(effect_name(effect) for effect in verdict["effects"]) or "–",
+        "effects": ", ".join(effect_name(effect) for effect in named) or "–",
         "closed_percent": None if np.isnan(closed) else 100.0 * closed,
     }
 
@@ -90,7 +90,7 @@ TABLES = {
         applies=always,
         make=draws,
         title="Verdict on each disturbed data set",
-        note="Closed: by how much the effects lower the root mean square error of a held-out "
+        note="Closed: by how much the final model lowers the root mean square error of a held-out "
         "signal; the median over these signals.",
         headings={"kind": "verdict", "closed_percent": "closed, held out [%]"},
     ),
