@@ -31,6 +31,7 @@ from pyrofit.show.robustness import figure as robustness
 from pyrofit.show.scheme import figure as scheme
 from pyrofit.show.sections import FIGURES
 from pyrofit.show.sensitivity.figures import FIGURES as SENSITIVITY
+from pyrofit.show.stability.figures import FIGURES as STABILITY
 from pyrofit.show.worth.figures import FIGURES as WORTH
 
 DOCS = Path(__file__).resolve().parents[1] / "docs"
@@ -71,6 +72,7 @@ FOLDERS: dict[str, dict[str, Figure]] = {
     "robustness": single("robustness", robustness.TITLE, robustness.CAPTION),
     "scheme": single("scheme", scheme.TITLE, scheme.CAPTION),
     "sensitivity": SENSITIVITY,
+    "stability": STABILITY,
     "worth": WORTH,
 }
 """Figures by folder of the results; those of a diagnosis depend on it."""
@@ -150,6 +152,12 @@ GROUPS = (
         "twin_with_k_T",
         "diagnosis",
         report="diagnosis/report.html",
+    ),
+    Group(
+        "Stability of a diagnosis",
+        "snakemake --cores 2 stability --configfile config/pmma.yaml",
+        "pmma",
+        "stability",
     ),
     Group("Sensitivity", "pyrofit sensitivity config/twin.yaml", "twin", "sensitivity"),
     Group("Posterior", "pyrofit posterior config/twin.yaml", "twin", "posterior"),
