@@ -14,7 +14,7 @@ from pyrofit.config import Study
 from pyrofit.errors import DataError
 from pyrofit.results import stability
 from pyrofit.results.files import Results, write_text
-from pyrofit.show import style
+from pyrofit.show import diagnosis_page, style
 from pyrofit.show.report import write_report
 from pyrofit.show.sections import FIGURES
 from pyrofit.show.stability.facts import read
@@ -41,6 +41,7 @@ def of_draw(study: Study, number: int) -> dict[str, Any]:
     names = {"k_T": "slope_1_K", "c_T": "slope_1_K", "melting": "heat_J_kg"}
     return {
         "study": study.name,
+        "origin": stability.origin(study),
         "draw": number,
         "disturbance": 0.1,
         "kind": kind,
@@ -141,6 +142,29 @@ def test_report_shows_the_stability_once_it_is_there(tmp_path: Path) -> None:
     page = Page((tmp_path / "report.html").read_text())
     assert {"stability", "stability_stability"} <= set(page.ids)
     assert "1 of 3 of them name exactly the same effects." in page.words.replace("\xa0", " ")
+
+
+def test_page_of_the_diagnosis_shows_the_stability_as_well(tmp_path: Path) -> None:
+    study, results = stable_or_not(tmp_path)
+    diagnosis_page.draw_all(results, study)
+    diagnosis_page.write_page(study, results)
+    assert "stability" not in Page(results.diagnosis("report.html").read_text()).ids
+    PAGE.draw_and_write(study, results)
+    diagnosis_page.write_page(study, results)
+    page = Page(results.diagnosis("report.html").read_text())
+    assert {"diagnosis", "stability", "stability_stability"} <= set(page.ids)
+
+
+def test_report_leaves_out_the_stability_of_another_version_of_the_study(tmp_path: Path) -> None:
+    study, results = stable_or_not(tmp_path)
+    PAGE.draw_and_write(study, results)
+    assert stability.is_current(study, results)
+    stability.write(results, {**of_draw(study, 1), "origin": "before"})
+    assert not stability.is_current(study, results)
+    results.stability("draw_1.json").unlink()
+    assert not stability.is_current(study, results)
+    page = Page(section_text(study, results))
+    assert "stability" not in page.ids
 
 
 def test_missing_draw_names_the_file(tmp_path: Path) -> None:

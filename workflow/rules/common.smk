@@ -1,6 +1,7 @@
 """What several files of rules share."""
 
 from pyrofit.estimate.optimisers import OPTIMISERS
+from pyrofit.results import stability as stability_results
 from pyrofit.show.names import titled
 
 

@@ -37,6 +37,7 @@ rule diagnosis_page:
         study=STUDY,
         digest=digest(dependencies.presentation(study)),
         source=source_fingerprint("pyrofit.show.diagnosis_page"),
+        stability=stability_results.version(study, results),
     message:
         "Diagnosis: {output}"
     shell:

@@ -75,7 +75,6 @@ rule report:
                 results.posterior("parameters.svg"),
                 results.worth("worth.svg"),
                 results.scheme("scheme.svg"),
-                results.stability("stability.svg"),
             )
             if page.exists()
         ],
@@ -93,6 +92,7 @@ rule report:
         study=STUDY,
         digest=digest(dependencies.presentation(study)),
         source=SHOWS,
+        stability=stability_results.version(study, results),
     message:
         "Report: {output.page}"
     shell:

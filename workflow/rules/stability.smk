@@ -1,7 +1,5 @@
 """The diagnosis on disturbed data; a target of its own, one job for each draw."""
 
-from pyrofit.results import stability as stability_results
-
 
 rule stability_of_draw:
     input:

@@ -6,8 +6,9 @@ from typing import Any
 
 from pydantic import Field, ValidationError
 
-from pyrofit.config import Study
+from pyrofit.config import Study, digest
 from pyrofit.errors import DataError
+from pyrofit.provenance import source_fingerprint
 from pyrofit.results import dependencies
 from pyrofit.results.diagnosis_candidates import OfStrength
 from pyrofit.results.diagnosis_schema import Kind, OfGap
@@ -22,6 +23,7 @@ class OfDraw(Record):
     """The diagnosis of the measured data, disturbed by one draw of their noise."""
 
     study: str = Field(description="name of the study")
+    origin: str = Field(description="digest of its inputs and of the source code")
     draw: int = Field(description="number of the draw, from 0")
     disturbance: float = Field(description="part of the noise by which the data are changed [-]")
     kind: Kind = Field(description="kind of verdict")
@@ -76,6 +78,26 @@ def _read(study: Study, results: Results, number: int) -> OfDraw:
     return found
 
 
-def exists(results: Results) -> bool:
-    """Tell whether the stability of a diagnosis was tested and its page drawn."""
-    return results.stability(LAST).is_file()
+def origin(study: Study) -> str:
+    """Return the digest of all that a draw depends on."""
+    return digest([slice_of(study), source_fingerprint("pyrofit.stages.stability")])
+
+
+def is_current(study: Study, results: Results) -> bool:
+    """Tell whether the stability of a diagnosis was tested, and of the study as it is now.
+
+    Its draws take long: after a change they are not repeated unless they are asked for.
+    """
+    if not results.stability(LAST).is_file():
+        return False
+    try:
+        return {draw.origin for draw in read(study, results)} == {origin(study)}
+    except DataError:
+        return False
+
+
+def version(study: Study, results: Results) -> str:
+    """Return the digest of the draws that are shown, empty if there are none of this study."""
+    if not is_current(study, results):
+        return ""
+    return digest([draw.model_dump() for draw in read(study, results)])

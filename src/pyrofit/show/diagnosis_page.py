@@ -8,6 +8,7 @@ from pyrofit.parallel import parallel_map
 from pyrofit.results import diagnosis, recorded
 from pyrofit.results.files import Results, write_text
 from pyrofit.show import diagnosis as items
+from pyrofit.show import stability_page
 from pyrofit.show.diagnosis.curves import curve_figures
 from pyrofit.show.diagnosis.sentences import (
     certainty,
@@ -47,7 +48,8 @@ def write_page(study: Study, results: Results) -> None:
     shown = section(study, results, found)
     title = f"{study.title or study.name}: diagnosis"
     measured = recorded.measured(study, results)
-    text = page_of(study, measured, title, facts(found), [shown], use=use_in_diagnosis)
+    parts = [shown, *stability_page.sections(study, results)]
+    text = page_of(study, measured, title, facts(found), parts, use=use_in_diagnosis)
     write_text(results.diagnosis("report.html"), text)
 
 

@@ -10,7 +10,6 @@ from pyrofit.results import (
     rescored,
     scheme,
     sensitivity,
-    stability,
     worth,
 )
 from pyrofit.results.files import Results, write_json, write_text
@@ -79,8 +78,7 @@ def write_report(study: Study, results: Results) -> None:
         found = diagnosis.read(study, results)
         lacks = found["verdict"]["words"]
         shown.append(diagnosis_page.section(study, results, found))
-    if stability.exists(results):
-        shown.append(stability_page.PAGE.section(study, results))
+    shown += stability_page.sections(study, results)
     said = summary(study, facts)
     text = page_of(study, measured, study.title or study.name, said, shown, *answer, lacks)
     write_json(results.root / "provenance.json", made)

@@ -1,5 +1,9 @@
 """Stability of a diagnosis: tables and figure, and a section of the report."""
 
+from pyrofit.config import Study
+from pyrofit.results import stability
+from pyrofit.results.files import Results
+from pyrofit.show.parts import Shown
 from pyrofit.show.stability.figures import FIGURES
 from pyrofit.show.stability.sentences import sentences
 from pyrofit.show.stability.tables import TABLES
@@ -15,3 +19,8 @@ PAGE = StepPage(
     tables_shown=tuple(TABLES),
     figures_shown=tuple(FIGURES),
 )
+
+
+def sections(study: Study, results: Results) -> list[Shown]:
+    """Return the section, or none where there are no draws of the study as it is."""
+    return [PAGE.section(study, results)] if stability.is_current(study, results) else []

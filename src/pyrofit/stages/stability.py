@@ -46,6 +46,7 @@ def _content(study: Study, draw: int, found: Diagnosis) -> dict[str, Any]:
     verdict, end = found.content["verdict"], found.search.end
     return {
         "study": study.name,
+        "origin": stability.origin(study),
         "draw": draw,
         "disturbance": SETTINGS.disturbance,
         "kind": verdict["kind"],
