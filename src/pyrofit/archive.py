@@ -22,6 +22,7 @@ from pyrofit.errors import DataError
 from pyrofit.model.signal import Signal
 from pyrofit.plugins import folder_names, plugin_files
 from pyrofit.provenance import STUDY, source_fingerprint
+from pyrofit.results import stability
 from pyrofit.results.code_digests import code
 from pyrofit.results.files import Results, read_json, write_bytes
 from pyrofit.show.sections import FIGURES, TABLES
@@ -161,8 +162,11 @@ def _results(study: Study, results: Results) -> Iterator[Path]:
         for name, quantity, signal in _signals(study)
         if signal.file.startswith(MACFP)
     }
+    stable = bool(stability.version(study, results))
     for path in results.root.rglob("*"):
         parts = path.relative_to(results.root).parts
+        if parts[0] == "stability" and not stable:
+            continue
         if path.is_file() and path not in measured and _belongs(study, *parts):
             yield path
 
@@ -180,6 +184,8 @@ def _belongs(study: Study, folder: str, *inside: str) -> bool:
         return stem in TABLES and TABLES[stem].applies(study)
     if folder == "figures":
         return stem in FIGURES and FIGURES[stem].applies(study)
+    if folder == "stability" and (draw := re.fullmatch(r"draw_(\d+)\.json", name)):
+        return int(draw[1]) < study.diagnosis.draws
     if folder == "imp" and len(inside) > 1:
         number = re.match(r"\d+", name)
         current = number is None or int(number[0]) < study.imp.repetitions

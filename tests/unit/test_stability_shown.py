@@ -1,6 +1,8 @@
 """Tables, figure, sentences and section of the stability of a diagnosis, from hand-made results."""
 
 import json
+import re
+from collections.abc import Callable
 from pathlib import Path
 from typing import Any
 
@@ -9,11 +11,12 @@ from test_diagnosis_shown import channels, diagnosed, gap_of
 from test_report import Page, write_tables, written
 from test_tables import described
 
+from pyrofit.archive import _results as archived
 from pyrofit.cli import main
 from pyrofit.config import Study
 from pyrofit.errors import DataError
 from pyrofit.results import stability
-from pyrofit.results.files import Results, write_text
+from pyrofit.results.files import Results, write_json, write_text
 from pyrofit.show import diagnosis_page, style
 from pyrofit.show.report import write_report
 from pyrofit.show.sections import FIGURES
@@ -22,10 +25,10 @@ from pyrofit.show.stability.figures import draw
 from pyrofit.show.stability.sentences import sentences
 from pyrofit.show.stability_page import PAGE
 
-VERDICTS: tuple[tuple[str, list[str], list[str]], ...] = (
-    ("named", ["k_T"], ["k_T"]),
-    ("multiple", ["k_T", "melting"], ["k_T", "melting"]),
-    ("unknown", ["c_T"], ["c_T", "melting"]),
+VERDICTS: tuple[tuple[str, list[list[str]], list[str]], ...] = (
+    ("named", [["k_T"]], ["k_T"]),
+    ("multiple", [["k_T"], ["melting"]], ["k_T", "melting"]),
+    ("unknown", [["c_T"]], ["c_T", "melting"]),
 )
 
 
@@ -35,22 +38,20 @@ def with_draws(count: int = 3) -> dict[str, Any]:
     return given
 
 
-def of_draw(study: Study, number: int) -> dict[str, Any]:
-    kind, effects, final = VERDICTS[number]
-    strength = {"low": 0.0, "high": 1.0, "unit": "1/K", "low_form": None, "high_form": None}
-    names = {"k_T": "slope_1_K", "c_T": "slope_1_K", "melting": "heat_J_kg"}
+def of_draw(study: Study, results: Results, number: int) -> dict[str, Any]:
+    kind, sets, final = VERDICTS[number]
     return {
         "study": study.name,
-        "origin": stability.origin(study),
+        "origin": stability.origin(study, results),
         "draw": number,
         "disturbance": 0.1,
         "kind": kind,
         "confirmed": kind == "named",
-        "effects": effects,
+        "sets": sets,
         "final": final,
         "chi2": 300.0,
-        "strengths": {f"{e}_{names[e]}": {**strength, "value": 0.1 + number} for e in final},
-        "gap": [gap_of(c, effects) for c in channels(study)],
+        "strengths": dict.fromkeys(final, 0.1 + number),
+        "gap": [gap_of(c, final) for c in channels(study)],
     }
 
 
@@ -58,7 +59,7 @@ def stable_or_not(root: Path) -> tuple[Study, Results]:
     """Write a diagnosis and those of three disturbed data sets."""
     study, results = diagnosed(root, "named", with_draws())
     for number in range(3):
-        stability.write(results, of_draw(study, number))
+        stability.write(results, of_draw(study, results, number))
     return study, results
 
 
@@ -86,9 +87,9 @@ def test_sentences_tell_which_effects_depend_on_the_disturbance(tmp_path: Path) 
     said = " ".join(sentences(study, results))
     for words in (
         "repeated on 3 disturbed data sets: measured values plus 10 % of a draw of their noise.",
-        "The verdict on the measured data is 'named'",
-        "1 of 3 of them name exactly the same effects.",
-        "depend on it: slope of the conductivity (k_T) (2 of 3).",
+        "Verdict on the measured data: 'named'. Verdicts on the disturbed data: 'named' (1),",
+        "The same effects are named from 1 of 3 disturbed data sets.",
+        "Not named from every disturbed data set: slope of the conductivity (k_T) (2 of 3).",
         "Named from disturbed data only:",
     ):
         assert words in said, (words, said)
@@ -97,20 +98,20 @@ def test_sentences_tell_which_effects_depend_on_the_disturbance(tmp_path: Path) 
 def test_a_stable_result_is_said_to_be_stable(tmp_path: Path) -> None:
     study, results = stable_or_not(tmp_path)
     for number in (1, 2):
-        stability.write(results, {**of_draw(study, 0), "draw": number})
+        stability.write(results, {**of_draw(study, results, 0), "draw": number})
     said = " ".join(sentences(study, results))
     assert "Named from all data sets: slope of the conductivity (k_T)." in said
-    assert "depend on it" not in said
+    assert "Not named" not in said
     assert "disturbed data only" not in said
 
 
 def test_without_any_effect_there_is_a_table_and_an_empty_figure(tmp_path: Path) -> None:
     study, results = diagnosed(tmp_path, "none", with_draws())
-    nothing = {"kind": "none", "confirmed": False, "effects": [], "final": [], "strengths": {}}
+    nothing = {"kind": "none", "confirmed": False, "sets": [], "final": [], "strengths": {}}
     for number in range(3):
-        stability.write(results, {**of_draw(study, 0), **nothing, "draw": number})
-    PAGE.draw_and_write(study, results)
-    assert "3 of 3 of them name exactly the same effects." in " ".join(sentences(study, results))
+        stability.write(results, {**of_draw(study, results, 0), **nothing, "draw": number})
+    gathered(study, results)
+    assert "No data set leads to a named effect." in " ".join(sentences(study, results))
     page = Page(section_text(study, results))
     assert "stability_stability" in page.ids
 
@@ -137,11 +138,11 @@ def test_report_shows_the_stability_once_it_is_there(tmp_path: Path) -> None:
     page, _ = written(tmp_path, with_draws())
     assert "stability" not in page.ids
     study, results = stable_or_not(tmp_path)
-    PAGE.draw_and_write(study, results)
+    gathered(study, results)
     write_report(study, results)
     page = Page((tmp_path / "report.html").read_text())
     assert {"stability", "stability_stability"} <= set(page.ids)
-    assert "1 of 3 of them name exactly the same effects." in page.words.replace("\xa0", " ")
+    assert "are named from 1 of 3 disturbed data sets." in page.words.replace("\xa0", " ")
 
 
 def test_page_of_the_diagnosis_shows_the_stability_as_well(tmp_path: Path) -> None:
@@ -149,22 +150,85 @@ def test_page_of_the_diagnosis_shows_the_stability_as_well(tmp_path: Path) -> No
     diagnosis_page.draw_all(results, study)
     diagnosis_page.write_page(study, results)
     assert "stability" not in Page(results.diagnosis("report.html").read_text()).ids
-    PAGE.draw_and_write(study, results)
+    gathered(study, results)
     diagnosis_page.write_page(study, results)
     page = Page(results.diagnosis("report.html").read_text())
     assert {"diagnosis", "stability", "stability_stability"} <= set(page.ids)
 
 
-def test_report_leaves_out_the_stability_of_another_version_of_the_study(tmp_path: Path) -> None:
-    study, results = stable_or_not(tmp_path)
+def gathered(study: Study, results: Results) -> None:
+    """Do as the commands that draw the diagnosis and gather all draws."""
+    diagnosis_page.draw_all(results, study)
+    diagnosis_page.write_page(study, results)
     PAGE.draw_and_write(study, results)
-    assert stability.is_current(study, results)
-    stability.write(results, {**of_draw(study, 1), "origin": "before"})
-    assert not stability.is_current(study, results)
+    stability.write_gathered(study, results)
+
+
+def of_data(study: Study, results: Results) -> None:
+    path = results.measurement("slab_25", "mlr")
+    path.write_text(path.read_text().replace("95.0", "95.5"))
+
+
+def of_a_draw(study: Study, results: Results) -> None:
+    stability.write(results, {**of_draw(study, results, 1), "chi2": 301.0})
+
+
+def of_the_source(study: Study, results: Results) -> None:
+    stability.write(results, {**of_draw(study, results, 1), "origin": "before"})
+
+
+def of_the_diagnosis(study: Study, results: Results) -> None:
+    path = results.diagnosis("diagnosis.json")
+    found = json.loads(path.read_text())
+    found["verdict"]["words"] = "Other words."
+    path.write_text(json.dumps(found))
+
+
+def no_draw(study: Study, results: Results) -> None:
     results.stability("draw_1.json").unlink()
-    assert not stability.is_current(study, results)
-    page = Page(section_text(study, results))
-    assert "stability" not in page.ids
+
+
+@pytest.mark.parametrize(
+    "change",
+    [of_data, of_a_draw, of_the_source, of_the_diagnosis, no_draw],
+    ids=lambda f: f.__name__,
+)
+def test_report_leaves_out_a_stability_that_is_not_up_to_date(
+    change: Callable[[Study, Results], None], tmp_path: Path
+) -> None:
+    study, results = stable_or_not(tmp_path)
+    gathered(study, results)
+    assert stability.version(study, results)
+    change(study, results)
+    assert stability.version(study, results) == ""
+    assert "stability" not in Page(section_text(study, results)).ids
+
+
+def test_fewer_draws_need_new_tables(tmp_path: Path) -> None:
+    study, results = stable_or_not(tmp_path)
+    gathered(study, results)
+    fewer, _ = diagnosed(tmp_path, "named", with_draws(2))
+    assert stability.version(fewer, results) == ""
+
+
+def test_archive_has_the_draws_of_the_study_if_they_are_up_to_date(tmp_path: Path) -> None:
+    study, results = stable_or_not(tmp_path)
+    gathered(study, results)
+    write_json(results.stability("draw_7.json"), {"of": "more draws"})
+    kept = {path.name for path in archived(study, results) if path.parent.name == "stability"}
+    assert {"draw_0.json", "draw_2.json", "stability.json", "stability.svg"} <= kept
+    assert "draw_7.json" not in kept
+    of_a_draw(study, results)
+    assert not any(path.parent.name == "stability" for path in archived(study, results))
+
+
+def test_an_effect_counts_as_named_wherever_it_stands_in_a_set(tmp_path: Path) -> None:
+    study, results = stable_or_not(tmp_path)
+    for number, one in enumerate((["k_T", "c_T"], ["c_T", "k_T"], ["k_T", "c_T"])):
+        draw = {**of_draw(study, results, 0), "kind": "ambiguous", "sets": [one], "draw": number}
+        stability.write(results, draw)
+    found = read(study, results)
+    assert [found.times_named(effect) for effect in ("k_T", "c_T")] == [3, 3]
 
 
 def test_missing_draw_names_the_file(tmp_path: Path) -> None:
@@ -177,10 +241,10 @@ def test_missing_draw_names_the_file(tmp_path: Path) -> None:
 @pytest.mark.parametrize(
     ("change", "words"),
     [
-        ({"study": "other"}, "this is the result of another study"),
+        ({"origin": "before"}, "it was made from another version"),
         ({"kind": "sure"}, "'kind'"),
         ({"chi2": "many"}, "'chi2'"),
-        ({"draw": 2}, "this is the result of another study"),
+        ({"draw": 2}, "it was made from another version"),
     ],
 )
 def test_broken_draw_names_file_and_key(change: dict[str, Any], words: str, tmp_path: Path) -> None:
@@ -190,7 +254,7 @@ def test_broken_draw_names_file_and_key(change: dict[str, Any], words: str, tmp_
     with pytest.raises(DataError, match="draw_1") as error:
         read(study, results)
     assert words in str(error.value)
-    assert "delete it and run again" in str(error.value)
+    assert re.search("run (`snakemake stability` )?again", str(error.value))
 
 
 def test_command_refuses_a_draw_beyond_those_of_the_study(

@@ -14,7 +14,7 @@ rule stability_of_draw:
         draw=r"\d+",
     params:
         study=STUDY,
-        digest=digest(stability_results.slice_of(study)),
+        digest=digest(dependencies.diagnose(study)),
         source=source_fingerprint("pyrofit.stages.stability"),
     message:
         "Diagnosis of disturbed data, draw {wildcards.draw}"
@@ -37,6 +37,7 @@ rule stability:
                 "table_draws.md",
                 "stability.svg",
                 "stability.png",
+                stability_results.GATHERED,
             )
         ],
     log:

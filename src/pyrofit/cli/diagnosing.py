@@ -17,7 +17,7 @@ def add(commands: Any) -> None:
     words = "diagnose disturbed data: how stable the result is"
     stable = add_step(commands, "stability", words, _stability)
     stable.add_argument(
-        "--draw", type=int, help="data set to diagnose, from 0; without: gather all of them"
+        "--draw", type=int, help="data set to diagnose, from 0; without: gather all, on one core"
     )
     for step in (lacks, page, stable):
         step.add_argument("--cores", type=_cores, default=1, help="processes; default: 1")
@@ -76,17 +76,22 @@ def _diagnosis_page(given: argparse.Namespace) -> None:
 def _stability(given: argparse.Namespace) -> None:
     from pyrofit.results import dependencies, stability
     from pyrofit.show.stability_page import PAGE
+    from pyrofit.stages import measurements
     from pyrofit.stages.stability import repeat_disturbed
 
     if given.draw is None:
-        show(PAGE, *open_study(given, dependencies.presentation))
+        study, results = open_study(given, dependencies.presentation)
+        show(PAGE, study, results)
+        stability.write_gathered(study, results)
         return
-    study, results = open_study(given, stability.slice_of)
+    study, results = open_study(given, dependencies.diagnose)
     if not 0 <= given.draw < study.diagnosis.draws:
         raise StudyError(
             f"--draw {given.draw}: study '{study.name}' has draws 0 to "
             f"{study.diagnosis.draws - 1}; raise diagnosis.draws for more"
         )
+    if given.digest is None:  # by hand, without the workflow that has read the measurements
+        measurements.prepare(study, results)
     repeat_disturbed(study, results, given.draw, tell, given.cores)
 
 

@@ -6,17 +6,17 @@ from typing import Any
 
 from pydantic import Field, ValidationError
 
-from pyrofit.config import Study, digest
+from pyrofit.config import Study, calibration_channels, digest, held_out_channels
+from pyrofit.data.download import sha256
 from pyrofit.errors import DataError
 from pyrofit.provenance import source_fingerprint
-from pyrofit.results import dependencies
-from pyrofit.results.diagnosis_candidates import OfStrength
+from pyrofit.results import dependencies, diagnosis
 from pyrofit.results.diagnosis_schema import Kind, OfGap
 from pyrofit.results.files import Results, read_json, write_json
 from pyrofit.results.record import Record
 
-LAST = "stability.svg"
-"""File that is written last, so that all others are there when it is."""
+GATHERED = "stability.json"
+"""File that is written last; it tells from which draws tables and figure are made."""
 
 
 class OfDraw(Record):
@@ -28,12 +28,14 @@ class OfDraw(Record):
     disturbance: float = Field(description="part of the noise by which the data are changed [-]")
     kind: Kind = Field(description="kind of verdict")
     confirmed: bool = Field(description="the verdict is confirmed, as in `diagnosis.json`")
-    effects: list[str] = Field(description="effects as in `verdict.effects` of `diagnosis.json`")
-    final: list[str] = Field(description="effects of the final model of the search")
-    chi2: float = Field(description="chi-square of the final model")
-    strengths: dict[str, OfStrength] = Field(
-        description="parameters of these effects, by effect and name"
+    sets: list[list[str]] = Field(
+        description="per effect of the verdict, those that cannot be told from it"
     )
+    final: list[str] = Field(
+        description="effects that the tests of a claim leave; for `unknown`, those of the search"
+    )
+    chi2: float = Field(description="chi-square of the model with these effects")
+    strengths: dict[str, float] = Field(description="strengths of these effects, SI units")
     gap: list[OfGap] = Field(description="misfit before and after, by signal")
 
 
@@ -42,9 +44,13 @@ def draw_file(number: int) -> str:
     return f"draw_{number}.json"
 
 
-def slice_of(study: Study) -> dict[str, Any]:
-    """Return the inputs of a draw, which are those of the diagnosis."""
-    return dependencies.diagnose(study)
+def origin(study: Study, results: Results) -> str:
+    """Return the digest of all that a draw depends on: study, measurements, source code."""
+    channels = (*calibration_channels(study), *held_out_channels(study))
+    files = {results.measurement(c.experiment, c.signal) for c in channels}
+    measured = [sha256(path) for path in sorted(files) if path.is_file()]
+    source = source_fingerprint("pyrofit.stages.stability")
+    return digest([dependencies.diagnose(study), measured, source])
 
 
 def write(results: Results, content: Mapping[str, Any]) -> None:
@@ -60,12 +66,13 @@ def read(study: Study, results: Results) -> list[OfDraw]:
     Raises
     ------
     DataError
-        One is missing, broken, or that of another study.
+        One is missing, broken, or that of another version of study, data or source code.
     """
-    return [_read(study, results, number) for number in range(study.diagnosis.draws)]
+    expected = origin(study, results)
+    return [_read(results, number, expected) for number in range(study.diagnosis.draws)]
 
 
-def _read(study: Study, results: Results, number: int) -> OfDraw:
+def _read(results: Results, number: int, expected: str) -> OfDraw:
     path = results.stability(draw_file(number))
     try:
         found = OfDraw.model_validate(read_json(path))
@@ -73,31 +80,31 @@ def _read(study: Study, results: Results, number: int) -> OfDraw:
         first = error.errors()[0]
         place = ".".join(str(key) for key in first["loc"])
         raise DataError(f"{path}: '{place}': {first['msg']}; delete it and run again") from None
-    if found.study != study.name or found.draw != number:
-        raise DataError(f"{path}: this is the result of another study; delete it and run again")
+    if found.origin != expected or found.draw != number:
+        raise DataError(
+            f"{path}: it was made from another version of the study, its data or pyrofit; run "
+            "`snakemake stability` again"
+        )
     return found
 
 
-def origin(study: Study) -> str:
-    """Return the digest of all that a draw depends on."""
-    return digest([slice_of(study), source_fingerprint("pyrofit.stages.stability")])
-
-
-def is_current(study: Study, results: Results) -> bool:
-    """Tell whether the stability of a diagnosis was tested, and of the study as it is now.
-
-    Its draws take long: after a change they are not repeated unless they are asked for.
-    """
-    if not results.stability(LAST).is_file():
-        return False
-    try:
-        return {draw.origin for draw in read(study, results)} == {origin(study)}
-    except DataError:
-        return False
+def write_gathered(study: Study, results: Results) -> None:
+    """Write from which draws the tables and the figure were made."""
+    write_json(results.stability(GATHERED), {"made_of": _version(study, results)})
 
 
 def version(study: Study, results: Results) -> str:
-    """Return the digest of the draws that are shown, empty if there are none of this study."""
-    if not is_current(study, results):
+    """Return the digest of the draws in tables and figure, empty unless they are up to date.
+
+    Draws take long: after a change they are not repeated unless they are asked for.
+    """
+    try:
+        made_of = str(read_json(results.stability(GATHERED)).get("made_of"))
+        return made_of if made_of == _version(study, results) else ""
+    except DataError:
         return ""
-    return digest([draw.model_dump() for draw in read(study, results)])
+
+
+def _version(study: Study, results: Results) -> str:
+    draws = [draw.model_dump() for draw in read(study, results)]
+    return digest([draws, diagnosis.read(study, results)])

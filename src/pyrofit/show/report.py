@@ -3,15 +3,7 @@
 from typing import Any
 
 from pyrofit.config import Study
-from pyrofit.results import (
-    diagnosis,
-    posterior,
-    recorded,
-    rescored,
-    scheme,
-    sensitivity,
-    worth,
-)
+from pyrofit.results import diagnosis, posterior, recorded, rescored, scheme, sensitivity, worth
 from pyrofit.results.files import Results, write_json, write_text
 from pyrofit.show import (
     diagnosis_page,
@@ -78,7 +70,7 @@ def write_report(study: Study, results: Results) -> None:
         found = diagnosis.read(study, results)
         lacks = found["verdict"]["words"]
         shown.append(diagnosis_page.section(study, results, found))
-    shown += stability_page.sections(study, results)
+        shown += stability_page.sections(study, results)
     said = summary(study, facts)
     text = page_of(study, measured, study.title or study.name, said, shown, *answer, lacks)
     write_json(results.root / "provenance.json", made)

@@ -22,5 +22,5 @@ PAGE = StepPage(
 
 
 def sections(study: Study, results: Results) -> list[Shown]:
-    """Return the section, or none where there are no draws of the study as it is."""
-    return [PAGE.section(study, results)] if stability.is_current(study, results) else []
+    """Return the section, or none where tables and figure are not up to date."""
+    return [PAGE.section(study, results)] if stability.version(study, results) else []

@@ -3,9 +3,7 @@
 from typing import Any
 
 from pyrofit.config import Study
-from pyrofit.diagnose.base.fitted import up_to_date
 from pyrofit.diagnose.diagnosis import Diagnosis, examine
-from pyrofit.diagnose.judge.intervals import strengths
 from pyrofit.diagnose.search.step import Tell
 from pyrofit.diagnose.settings import SETTINGS
 from pyrofit.results import stability
@@ -39,21 +37,21 @@ def repeat_disturbed(
     """
     refuse_programs(study)
     found = examine(study, load(study, results), tell, processes, advise=False, draw=draw)
-    stability.write(results, _content(study, draw, found))
+    stability.write(results, _content(study, results, draw, found))
 
 
-def _content(study: Study, draw: int, found: Diagnosis) -> dict[str, Any]:
+def _content(study: Study, results: Results, draw: int, found: Diagnosis) -> dict[str, Any]:
     verdict, end = found.content["verdict"], found.search.end
     return {
         "study": study.name,
-        "origin": stability.origin(study),
+        "origin": stability.origin(study, results),
         "draw": draw,
         "disturbance": SETTINGS.disturbance,
         "kind": verdict["kind"],
         "confirmed": verdict["confirmed"],
-        "effects": verdict["effects"],
+        "sets": verdict["sets"],
         "final": list(end.effects),
         "chi2": end.fit.chi2,
-        "strengths": strengths(up_to_date(end), {}) if end.effects else {},
+        "strengths": {effect: end.strength(effect) for effect in end.effects},
         "gap": found.content["gap"],
     }

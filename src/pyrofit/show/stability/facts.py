@@ -23,9 +23,9 @@ class Stability:
 
     @property
     def named(self) -> list[str]:
-        """Effects that the verdict on the measured data names."""
+        """Effects that the verdict on the measured data names, all of each set."""
         verdict = self.measured["verdict"]
-        return list(verdict["effects"]) if verdict["kind"] in CLAIMS else []
+        return _named(verdict["kind"], verdict["sets"])
 
     @property
     def effects(self) -> list[str]:
@@ -45,26 +45,30 @@ class Stability:
 
     def strengths(self, effect: str) -> list[float]:
         """Return the strengths of an effect in the final models that have it."""
-        key = _strength(effect)
-        return [draw.strengths[key].value for draw in self.draws if effect in draw.final]
+        return [draw.strengths[effect] for draw in self.draws if effect in draw.final]
 
     def measured_strength(self, effect: str) -> float | None:
-        """Return the strength that the measured data give, if their verdict names the effect."""
+        """Return the strength that the measured data give to an effect that leads its set."""
         chosen = leading(self.measured)
-        if chosen is None or effect not in chosen["effects"]:
+        if effect not in self.named or chosen is None or effect not in chosen["effects"]:
             return None
-        return float(chosen["parameters"][_strength(effect)]["value"])
+        (strength,) = known_effects()[effect].strength
+        return float(chosen["parameters"][f"{effect}_{strength}"]["value"])
 
 
 def named_by(draw: OfDraw) -> list[str]:
     """Return the effects that the verdict on a draw names; `unknown` and `none` name none."""
-    return draw.effects if draw.kind in CLAIMS else []
+    return _named(draw.kind, draw.sets)
+
+
+def _named(kind: str, sets: Sequence[Sequence[str]]) -> list[str]:
+    return [effect for one in sets for effect in one] if kind in CLAIMS else []
 
 
 def unit_of(effect: str) -> str:
     """Return the unit of an effect's strength."""
-    catalogue = known_effects()[effect]
-    return catalogue.quantities[_first(effect)].unit
+    (quantity,) = known_effects()[effect].strength.values()
+    return quantity.unit
 
 
 def held_out_closed(gap: Sequence[Mapping[str, Any]]) -> float:
@@ -86,11 +90,3 @@ def read(study: Study, results: Results) -> Stability:
         A result is missing, broken, or that of another study.
     """
     return Stability(diagnosis.read(study, results), stability.read(study, results))
-
-
-def _first(effect: str) -> str:
-    return next(iter(known_effects()[effect].strength))
-
-
-def _strength(effect: str) -> str:
-    return f"{effect}_{_first(effect)}"

@@ -20,7 +20,7 @@ WRAP = 44
 
 
 def draw(study: Study, results: Results) -> Canvas:
-    """Draw the shares of the draws whose verdict names an effect, or whose final model has it."""
+    """Draw the shares of the draws whose verdict names an effect, or whose model has it."""
     found = read(study, results)
     shown = found.effects[:MOST]
     count = len(found.draws)
@@ -28,8 +28,8 @@ def draw(study: Study, results: Results) -> Canvas:
     final = np.array([100.0 * found.times_final(e) / count for e in shown])
     canvas, (ax,) = style.panels(1, 1, style.TWO_COLUMNS, 28.0 + 7.0 * max(len(shown), 1))
     at = np.arange(len(shown), dtype=float)
-    ax.barh(at, final, height=0.62, color=style.COLOURS[5], label="final")
-    ax.barh(at, named, height=0.34, color=style.COLOURS[0], label="named")
+    ax.barh(at, final, height=0.62, color=style.COLOURS[5])
+    ax.barh(at, named, height=0.34, color=style.COLOURS[0])
     labels = [textwrap.fill(effect_name(effect), WRAP) for effect in shown]
     ax.set_yticks(at, labels, fontsize=6.5)
     for label, effect in zip(ax.get_yticklabels(), shown, strict=True):
@@ -42,7 +42,7 @@ def draw(study: Study, results: Results) -> Canvas:
     ax.set_xlabel(f"share of {count} disturbed data sets [%]")
     entries = [
         style.patch("verdict names it", color=style.COLOURS[0]),
-        style.patch("in the final model", color=style.COLOURS[5]),
+        style.patch("in the model, verdict 'unknown'", color=style.COLOURS[5]),
     ]
     style.legend_below(canvas, entries)
     return canvas
@@ -54,7 +54,8 @@ FIGURES = {
         applies=always,
         make=draw,
         title="How often disturbed data lead to each effect",
-        caption="Share of the disturbed data sets whose verdict names an effect (dark), and whose "
-        "final model has it (light). Bold: named from the measured data.",
+        caption="Share of the disturbed data sets whose verdict names an effect (dark). Light: its "
+        "model has the effect, but the verdict `unknown` names none. Bold: named from the measured "
+        f"data. The figure shows {MOST} effects at most, the table all.",
     ),
 }

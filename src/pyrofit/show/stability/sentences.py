@@ -26,12 +26,12 @@ def _of_draws(found: Stability) -> str:
 def _of_verdicts(found: Stability) -> str:
     kinds = Counter(draw.kind for draw in found.draws)
     shown = listed([f"'{kind}' ({n})" for kind, n in kinds.most_common()])
-    same = sum(set(named_by(draw)) == set(found.named) for draw in found.draws)
     kind = found.measured["verdict"]["kind"]
-    return (
-        f"The verdict on the measured data is '{kind}', those on the disturbed data are {shown}. "
-        f"{_of(same, found)} of them name exactly the same effects."
-    )
+    verdicts = f"Verdict on the measured data: '{kind}'. Verdicts on the disturbed data: {shown}. "
+    if not any([found.named, *map(named_by, found.draws)]):
+        return f"{verdicts}No data set leads to a named effect."
+    same = sum(set(named_by(draw)) == set(found.named) for draw in found.draws)
+    return f"{verdicts}The same effects are named from {_of(same, found)} disturbed data sets."
 
 
 def _of(times: int, found: Stability) -> str:
@@ -46,8 +46,7 @@ def _of_named(found: Stability) -> list[str]:
     said = [f"Named from all data sets: {listed(every)}."] if every else []
     if rest:
         said.append(
-            "A disturbance this small should not change a verdict. These effects of the measured "
-            f"data depend on it: {listed(rest)}."
+            f"Not named from every disturbed data set: {listed(rest)}. Such a claim is not firm."
         )
     return said
 

@@ -74,12 +74,13 @@ TABLES = {
         applies=always,
         make=effects,
         title="Effects found in disturbed data",
-        note="Named: share of the disturbed data sets whose verdict names the effect. Final model: "
-        "share whose search ends with it. Strengths are those of the final models.",
+        note="Named: share of the disturbed data sets whose verdict names the effect. In the "
+        "model: share in which it is among the effects that the tests of a claim leave. The "
+        "verdict `unknown` names none of these. Strengths are those of these models.",
         headings={
             "measured": "measured data",
             "named_percent": "named [%]",
-            "final_percent": "in the final model [%]",
+            "final_percent": "in the model [%]",
             "strength": "strength, measured data",
             "lowest": "lowest strength",
             "highest": "highest strength",
@@ -90,8 +91,8 @@ TABLES = {
         applies=always,
         make=draws,
         title="Verdict on each disturbed data set",
-        note="Closed: by how much the final model lowers the root mean square error of a held-out "
-        "signal; the median over these signals.",
+        note="Closed: by how much the effects lower the root mean square error of a held-out "
+        "signal, the median over these signals. Without such signals the column is left out.",
         headings={"kind": "verdict", "closed_percent": "closed, held out [%]"},
     ),
 }
