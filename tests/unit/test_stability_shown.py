@@ -8,7 +8,7 @@ from typing import Any
 
 import pytest
 from test_diagnosis_shown import channels, diagnosed, gap_of
-from test_report import Page, write_tables, written
+from test_report import Page, written
 from test_tables import described
 
 from pyrofit.archive import _results as archived
@@ -16,14 +16,13 @@ from pyrofit.cli import main
 from pyrofit.config import Study
 from pyrofit.errors import DataError
 from pyrofit.results import stability
-from pyrofit.results.files import Results, write_json, write_text
+from pyrofit.results.files import Results, write_json
 from pyrofit.show import diagnosis_page, style
 from pyrofit.show.report import write_report
-from pyrofit.show.sections import FIGURES
 from pyrofit.show.stability.facts import read
 from pyrofit.show.stability.figures import draw
 from pyrofit.show.stability.sentences import sentences
-from pyrofit.show.stability_page import PAGE
+from pyrofit.show.stability_page import PAGE, sections
 
 VERDICTS: tuple[tuple[str, list[list[str]], list[str]], ...] = (
     ("named", [["k_T"]], ["k_T"]),
@@ -112,18 +111,8 @@ def test_without_any_effect_there_is_a_table_and_an_empty_figure(tmp_path: Path)
         stability.write(results, {**of_draw(study, results, 0), **nothing, "draw": number})
     gathered(study, results)
     assert "No data set leads to a named effect." in " ".join(sentences(study, results))
-    page = Page(section_text(study, results))
-    assert "stability_stability" in page.ids
-
-
-def section_text(study: Study, results: Results) -> str:
-    """Return the report, with an empty figure for each of the other sections."""
-    for name, figure in FIGURES.items():
-        if figure.applies(study):
-            write_text(results.root / "figures" / f"{name}.svg", '<svg width="24pt"><rect/></svg>')
-    write_tables(study, results)
-    write_report(study, results)
-    return (results.root / "report.html").read_text()
+    (shown,) = sections(study, results)
+    assert len(shown.parts) == 3
 
 
 def test_figure_has_a_bar_of_each_kind_for_each_effect(tmp_path: Path) -> None:
@@ -138,6 +127,8 @@ def test_report_shows_the_stability_once_it_is_there(tmp_path: Path) -> None:
     page, _ = written(tmp_path, with_draws())
     assert "stability" not in page.ids
     study, results = stable_or_not(tmp_path)
+    diagnosis_page.draw_all(results, study)
+    diagnosis_page.write_page(study, results)
     gathered(study, results)
     write_report(study, results)
     page = Page((tmp_path / "report.html").read_text())
@@ -157,9 +148,7 @@ def test_page_of_the_diagnosis_shows_the_stability_as_well(tmp_path: Path) -> No
 
 
 def gathered(study: Study, results: Results) -> None:
-    """Do as the commands that draw the diagnosis and gather all draws."""
-    diagnosis_page.draw_all(results, study)
-    diagnosis_page.write_page(study, results)
+    """Do as the command that gathers all draws."""
     PAGE.draw_and_write(study, results)
     stability.write_gathered(study, results)
 
@@ -193,7 +182,7 @@ def no_draw(study: Study, results: Results) -> None:
     [of_data, of_a_draw, of_the_source, of_the_diagnosis, no_draw],
     ids=lambda f: f.__name__,
 )
-def test_report_leaves_out_a_stability_that_is_not_up_to_date(
+def test_pages_leave_out_a_stability_that_is_not_up_to_date(
     change: Callable[[Study, Results], None], tmp_path: Path
 ) -> None:
     study, results = stable_or_not(tmp_path)
@@ -201,7 +190,7 @@ def test_report_leaves_out_a_stability_that_is_not_up_to_date(
     assert stability.version(study, results)
     change(study, results)
     assert stability.version(study, results) == ""
-    assert "stability" not in Page(section_text(study, results)).ids
+    assert sections(study, results) == []
 
 
 def test_fewer_draws_need_new_tables(tmp_path: Path) -> None:
