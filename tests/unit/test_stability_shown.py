@@ -7,7 +7,7 @@ from pathlib import Path
 from typing import Any
 
 import pytest
-from test_diagnosis_shown import channels, diagnosed, gap_of
+from test_diagnosis_shown import diagnosed
 from test_report import Page, written
 from test_tables import described
 
@@ -50,7 +50,6 @@ def of_draw(study: Study, results: Results, number: int) -> dict[str, Any]:
         "final": final,
         "chi2": 300.0,
         "strengths": dict.fromkeys(final, 0.1 + number),
-        "gap": [gap_of(c, final) for c in channels(study)],
     }
 
 
@@ -77,15 +76,16 @@ def test_each_draw_has_a_row_behind_the_measured_data(tmp_path: Path) -> None:
     frame = PAGE.tables["draws"].make(study, results)
     assert frame["data"].tolist() == ["as measured", "draw 0", "draw 1", "draw 2"]
     assert frame["kind"].tolist() == ["named", "named", "multiple", "unknown"]
-    assert frame["effects"].iloc[-1] == "–"  # `unknown` claims none
-    assert frame["closed_percent"].tolist() == pytest.approx([75.0] * 4)
+    assert frame["named"].tolist() == ["k_T", "k_T", "k_T, melting", "–"]
+    assert frame["final"].tolist()[1:] == ["k_T", "k_T, melting", "c_T, melting"]
 
 
 def test_sentences_tell_which_effects_depend_on_the_disturbance(tmp_path: Path) -> None:
     study, results = stable_or_not(tmp_path)
     said = " ".join(sentences(study, results))
     for words in (
-        "repeated on 3 disturbed data sets: measured values plus 10 % of a draw of their noise.",
+        "Random noise with 10 % of the estimated standard deviation was added to the data",
+        "repeated: 3 times.",
         "Verdict on the measured data: 'named'. Verdicts on the disturbed data: 'named' (1),",
         "The same effects are named from 1 of 3 disturbed data sets.",
         "Not named from every disturbed data set: slope of the conductivity (k_T) (2 of 3).",

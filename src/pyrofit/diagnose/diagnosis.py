@@ -24,8 +24,13 @@ from pyrofit.estimate.targets import Measurements
 
 @dataclass(frozen=True, eq=False)
 class Diagnosis:
-    """A search, the verdict on it, and both as tidy results."""
+    """A search, the verdict on it, and both as tidy results.
 
+    ``searched`` is the model that the search ended with, ``search`` ends with the one that the
+    tests of a claim leave.
+    """
+
+    searched: FittedModel
     search: Search
     verdict: Verdict
     content: dict[str, Any]
@@ -63,6 +68,7 @@ def examine(
         A channel is too short, or no run within the limits finishes.
     """
     found, rng, solver = _searched(study, measurements, tell, processes, draw)
+    searched = found.end
     verdict = judge(found, rng, processes)
     found = verdict.search
     content = {**record.content(study, found, verdict), "solver": solver}
@@ -71,7 +77,7 @@ def examine(
     designs = next_experiments(_undecided(found, verdict), processes) if advise else []
     content["next_experiment"] = [asdict(design) for design in designs]
     tell(content["verdict"]["words"])
-    return Diagnosis(found, verdict, content, record.curves(found))
+    return Diagnosis(searched, found, verdict, content, record.curves(found))
 
 
 def diagnose(study: Study, measurements: Measurements) -> dict[str, Any]:

@@ -11,7 +11,7 @@ from pyrofit.data.download import sha256
 from pyrofit.errors import DataError
 from pyrofit.provenance import source_fingerprint
 from pyrofit.results import dependencies, diagnosis
-from pyrofit.results.diagnosis_schema import Kind, OfGap
+from pyrofit.results.diagnosis_schema import Kind
 from pyrofit.results.files import Results, read_json, write_json
 from pyrofit.results.record import Record
 
@@ -31,12 +31,9 @@ class OfDraw(Record):
     sets: list[list[str]] = Field(
         description="per effect of the verdict, those that cannot be told from it"
     )
-    final: list[str] = Field(
-        description="effects that the tests of a claim leave; for `unknown`, those of the search"
-    )
-    chi2: float = Field(description="chi-square of the model with these effects")
-    strengths: dict[str, float] = Field(description="strengths of these effects, SI units")
-    gap: list[OfGap] = Field(description="misfit before and after, by signal")
+    final: list[str] = Field(description="effects of the model that the search ended with")
+    chi2: float = Field(description="chi-square of this model")
+    strengths: dict[str, float] = Field(description="strengths of its effects, SI units")
 
 
 def draw_file(number: int) -> str:

@@ -41,7 +41,7 @@ def repeat_disturbed(
 
 
 def _content(study: Study, results: Results, draw: int, found: Diagnosis) -> dict[str, Any]:
-    verdict, end = found.content["verdict"], found.search.end
+    verdict, end = found.content["verdict"], found.searched
     return {
         "study": study.name,
         "origin": stability.origin(study, results),
@@ -53,5 +53,4 @@ def _content(study: Study, results: Results, draw: int, found: Diagnosis) -> dic
         "final": list(end.effects),
         "chi2": end.fit.chi2,
         "strengths": {effect: end.strength(effect) for effect in end.effects},
-        "gap": found.content["gap"],
     }

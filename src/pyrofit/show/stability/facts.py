@@ -4,14 +4,12 @@ from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from typing import Any
 
-import numpy as np
-
 from pyrofit.config import Study
 from pyrofit.effects import known_effects
 from pyrofit.results import diagnosis, stability
 from pyrofit.results.files import Results
 from pyrofit.results.stability import OfDraw
-from pyrofit.show.diagnosis.words import CLAIMS, HELD_OUT, leading
+from pyrofit.show.diagnosis.words import CLAIMS, leading
 
 
 @dataclass(frozen=True)
@@ -69,16 +67,6 @@ def unit_of(effect: str) -> str:
     """Return the unit of an effect's strength."""
     (quantity,) = known_effects()[effect].strength.values()
     return quantity.unit
-
-
-def held_out_closed(gap: Sequence[Mapping[str, Any]]) -> float:
-    """Return the median over held-out signals of 1 - rms after / rms before; NaN without any."""
-    closed = [
-        1.0 - row["rms_after"] / row["rms_before"]
-        for row in gap
-        if row["role"] == HELD_OUT and row["rms_before"] > 0.0
-    ]
-    return float(np.median(closed)) if closed else float("nan")
 
 
 def read(study: Study, results: Results) -> Stability:

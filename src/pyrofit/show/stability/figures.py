@@ -42,7 +42,7 @@ def draw(study: Study, results: Results) -> Canvas:
     ax.set_xlabel(f"share of {count} disturbed data sets [%]")
     entries = [
         style.patch("verdict names it", color=style.COLOURS[0]),
-        style.patch("in the model, verdict 'unknown'", color=style.COLOURS[5]),
+        style.patch("the model of the search has it", color=style.COLOURS[5]),
     ]
     style.legend_below(canvas, entries)
     return canvas
@@ -54,8 +54,9 @@ FIGURES = {
         applies=always,
         make=draw,
         title="How often disturbed data lead to each effect",
-        caption="Share of the disturbed data sets whose verdict names an effect (dark). Light: its "
-        "model has the effect, but the verdict `unknown` names none. Bold: named from the measured "
-        f"data. The figure shows {MOST} effects at most, the table all.",
+        caption="Share of the disturbed data sets whose verdict names an effect (dark), and whose "
+        "search ends with a model that has it (light). The tests of a claim may reject it "
+        f"afterwards. Bold: named from the measured data. The figure shows {MOST} effects at "
+        "most, the table all.",
     ),
 }

@@ -18,8 +18,8 @@ def sentences(study: Study, results: Results) -> list[str]:
 def _of_draws(found: Stability) -> str:
     part = 100.0 * found.draws[0].disturbance
     return (
-        f"The diagnosis was repeated on {several(len(found.draws), 'disturbed data set')}: "
-        f"measured values plus {part:g} % of a draw of their noise."
+        f"Random noise with {part:g} % of the estimated standard deviation was added to the data, "
+        f"and the diagnosis repeated: {several(len(found.draws), 'time')}."
     )
 
 

@@ -2,13 +2,12 @@
 
 from typing import Any
 
-import numpy as np
 import pandas as pd
 
 from pyrofit.config import Study
 from pyrofit.results.files import Results
 from pyrofit.show.diagnosis.words import effect_name
-from pyrofit.show.stability.facts import held_out_closed, named_by, read, unit_of
+from pyrofit.show.stability.facts import named_by, read, unit_of
 from pyrofit.show.table import Table, always
 
 COLUMNS = (
@@ -49,23 +48,25 @@ def draws(study: Study, results: Results) -> pd.DataFrame:
     """List the verdict on the measured data and on each disturbed data set."""
     found = read(study, results)
     verdict = found.measured["verdict"]
-    rows = [_row("as measured", verdict, found.named, found.measured["gap"])]
+    rows = [_row("as measured", verdict, found.named)]
     for draw in found.draws:
-        gap = [row.model_dump() for row in draw.gap]
-        rows.append(_row(f"draw {draw.draw}", draw.model_dump(), named_by(draw), gap))
-    frame = pd.DataFrame(rows)
-    return frame.dropna(axis="columns", how="all")
+        row = _row(f"draw {draw.draw}", draw.model_dump(), named_by(draw))
+        rows.append({**row, "final": _listed(draw.final), "chi2": draw.chi2})
+    return pd.DataFrame(rows)
 
 
-def _row(data: str, verdict: Any, named: list[str], gap: Any) -> dict[str, Any]:
-    closed = held_out_closed(gap)
+def _row(data: str, verdict: Any, named: list[str]) -> dict[str, Any]:
+    confirmed = "yes" if verdict["confirmed"] else "no"
     return {
         "data": data,
         "kind": verdict["kind"],
-        "confirmed": "yes" if verdict["confirmed"] else "no",
-        "effects": ", ".join(effect_name(effect) for effect in named) or "–",
-        "closed_percent": None if np.isnan(closed) else 100.0 * closed,
+        "confirmed": confirmed,
+        "named": _listed(named),
     }
+
+
+def _listed(effects: list[str]) -> str:
+    return ", ".join(effects) or "–"
 
 
 TABLES = {
@@ -75,8 +76,8 @@ TABLES = {
         make=effects,
         title="Effects found in disturbed data",
         note="Named: share of the disturbed data sets whose verdict names the effect. In the "
-        "model: share in which it is among the effects that the tests of a claim leave. The "
-        "verdict `unknown` names none of these. Strengths are those of these models.",
+        "model: share whose search ends with a model that has it. The tests of a claim may reject "
+        "it afterwards. Strengths are those of these models.",
         headings={
             "measured": "measured data",
             "named_percent": "named [%]",
@@ -91,8 +92,8 @@ TABLES = {
         applies=always,
         make=draws,
         title="Verdict on each disturbed data set",
-        note="Closed: by how much the effects lower the root mean square error of a held-out "
-        "signal, the median over these signals. Without such signals the column is left out.",
-        headings={"kind": "verdict", "closed_percent": "closed, held out [%]"},
+        note="Named: effects in the verdict. Model: those of the model that the search ended "
+        "with, and its chi-square.",
+        headings={"kind": "verdict", "final": "model", "chi2": "chi-square"},
     ),
 }
