@@ -80,17 +80,17 @@ def test_nothing_planted_is_none() -> None:
     verdict = verdict_on(found)
     assert verdict.kind == "none"
     assert verdict.findings == ()
-    assert verdict.reasons == ("the residuals are noise",)
+    assert verdict.reasons == ("no test of the residuals shows a lack of fit",)
     assert found.trials == []
-    assert "these data show no missing effect. The residuals are noise." in sentences(verdict)
+    assert "These data show no missing effect. No test of the residuals" in sentences(verdict)
 
 
-def test_remarkable_score_without_enough_gain_is_none_and_says_so() -> None:
+def test_significant_score_without_enough_gain_is_none_and_says_so() -> None:
     found = searched(planted())
     alarm = replace(found.end_lack, score=found.end_lack.score_critical + 1.0)
     verdict = verdict_on(replace(found, end_lack=alarm))
     assert verdict.kind == "none"
-    assert "none gains enough to be claimed" in sentences(verdict)
+    assert "no effect lowers chi-square enough for a claim" in sentences(verdict)
 
 
 # --- named ----------------------------------------------------------------------------------
@@ -136,7 +136,7 @@ def test_effects_of_two_groups_that_look_alike_are_ambiguous_apparatus_first() -
     assert finding.group == ""
     said = sentences(verdict)
     assert "slow heater (apparatus) or slope of the conductivity (material)" in said
-    assert "Check the apparatus first." in said
+    assert "Check the apparatus first: it may cause the same misfit." in said
     assert not verdict.confirmed
 
 
@@ -328,7 +328,7 @@ def test_effect_at_its_limit_is_not_claimed() -> None:
     verdict = verdict_on(searched(planted(k_T=beyond)))
     assert verdict.kind == "unknown"
     assert "k_T: k_T_slope_1_K rests at a limit" in verdict.reasons
-    assert "Nearest comes " in sentences(verdict)
+    assert "fits best, but does not pass the tests of a claim." in sentences(verdict)
 
 
 def test_effect_whose_strength_differs_between_experiments_is_not_claimed() -> None:

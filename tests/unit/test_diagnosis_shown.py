@@ -571,7 +571,7 @@ def test_page_says_what_was_not_tried_and_whose_noise_is_uncertain(tmp_path: Pat
     assert (
         "No uncertainty is given, so that the noise is estimated: slow, mass fraction" in page.words
     )
-    assert "hold less surely: Slab 25 kW/m², mass loss rate" in page.words
+    assert "less reliable: Slab 25 kW/m², mass loss rate" in page.words
 
 
 def test_use_of_a_series_is_that_in_the_diagnosis(tmp_path: Path) -> None:
@@ -598,7 +598,7 @@ def test_page_says_the_numbers(tmp_path: Path) -> None:
     assert known_effects()["k_T"].equation in words
     assert (
         "Chi-square falls from 2000 to 350 with slope of the conductivity (k_T). "
-        "The last effect gains 1650; a claim needs 12.4."
+        "The effect added last lowers it by 1650; a claim needs 12.4."
     ) in words
     assert "residuals goes from 5 to 1 (fitted) and from 5 to 1 (held out), in" in words
     assert "cp is at a limit" in words

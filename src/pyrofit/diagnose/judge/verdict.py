@@ -167,9 +167,9 @@ def _suspects(found: Search, processes: int) -> tuple[Suspect, ...]:
 
 def _without_effects(found: Search) -> Verdict:
     if found.end_lack.passes:
-        return Verdict("none", found, (), ("the residuals are noise",))
+        return Verdict("none", found, (), ("no test of the residuals shows a lack of fit",))
     if found.end_lack.adequate:
-        reason = "an effect's score is remarkable, but none gains enough to be claimed"
+        reason = "a score test is significant, but no effect lowers chi-square enough for a claim"
         return Verdict("none", found, (), (reason,))
     return Verdict("unknown", found, (), ("no effect of the catalogue gains enough",))
 
@@ -230,6 +230,7 @@ def _outvoted(judged: Sequence[Judged]) -> list[str]:
             )
     return [
         f"the prediction of {name.removeprefix(f'{HELD_OUT}: ')} gets worse with "
-        f"{', '.join(worse)} (log score in brackets), others improve: check its apparatus"
+        f"{', '.join(worse)} (log score in brackets), others improve: check how its "
+        "apparatus is described"
         for name, worse in by_name.items()
     ]

@@ -34,7 +34,7 @@ def sentences(verdict: Verdict) -> str:
 
 def _none(verdict: Verdict) -> list[str]:
     return [
-        "Model and measurements agree within the noise: these data show no missing effect.",
+        "These data show no missing effect.",
         _because(verdict.reasons),
     ]
 
@@ -43,7 +43,7 @@ def _named(verdict: Verdict) -> list[str]:
     (finding,) = verdict.findings
     return [
         f"The model lacks: {finding.group} ({form_of(finding)}).",
-        "With it, the residuals are noise, and predictions improve.",
+        "With it, no test shows a lack of fit, and predictions improve.",
         _because(verdict.reasons),
     ]
 
@@ -58,7 +58,7 @@ def _ambiguous(verdict: Verdict) -> list[str]:
         said = [f"The model seems to lack {_listed(finding)}, but that is not confirmed."]
     families = {known_effects()[name].family for name in finding.effects}
     if len(families) > 1 and "apparatus" in families:
-        said.append("Check the apparatus first.")
+        said.append("Check the apparatus first: it may cause the same misfit.")
     told = [reason for reason in verdict.reasons if reason != finding.open_words]
     return [*said, _because(told)]
 
@@ -67,7 +67,7 @@ def _multiple(verdict: Verdict) -> list[str]:
     lacks = "lacks" if verdict.confirmed else "seems to lack"
     return [
         f"The model {lacks} {_several(verdict)}.",
-        "Each of them is needed with the others there.",
+        "Without any one of them, the fit is significantly worse.",
         _because(verdict.reasons),
     ]
 
@@ -96,7 +96,7 @@ def _unknown(verdict: Verdict) -> list[str]:
         names = " with ".join(form_of(finding) for finding in verdict.findings)
         said = [
             "Model and measurements disagree; the missing effect is not known.",
-            f"Nearest comes {names}, which is not confirmed.",
+            f"The model with {names} fits best, but does not pass the tests of a claim.",
         ]
     return [*said, _because(verdict.reasons)]
 

@@ -55,8 +55,9 @@ def _determined(found: Found) -> list[str]:
         ]
         alone = listed([f"{100.0 * sd:.2g} %" for sd in ridge["alone"].values()])
         said.append(
-            f"Of {effect_name(ridge['effect'])}, the data determine {' '.join(factors)} with a "
-            f"standard deviation of {100.0 * ridge['relative_sd']:.2g} %, each factor with {alone}."
+            f"Of {effect_name(ridge['effect'])}, the data determine the product "
+            f"{' '.join(factors)} to {100.0 * ridge['relative_sd']:.2g} % (standard deviation), "
+            f"each factor to {alone}."
         )
     return said
 
@@ -64,13 +65,13 @@ def _determined(found: Found) -> list[str]:
 def _found(found: Found) -> str:
     chosen = leading(found)
     if not found["candidates"]:
-        return "No effect was tried: there is nothing to explain."
+        return "No effect was fitted: the base model agrees with the data within the noise."
     if chosen is None:
-        return f"A claim needs a gain of {number(found['needed'])}."
+        return f"An effect must lower chi-square by {number(found['needed'])} to be claimed."
     names = listed([effect_name(name) for name in chosen["effects"]])
     return (
         f"Chi-square falls from {number(found['base']['chi2'])} to {number(chosen['chi2'])} with "
-        f"{names}. The last effect gains {number(chosen['gain'])}; a claim needs "
+        f"{names}. The effect added last lowers it by {number(chosen['gain'])}; a claim needs "
         f"{number(found['needed'])}."
     )
 
@@ -90,7 +91,7 @@ def gap_closed(found: Found) -> str:
     verb = "goes" if found["verdict"]["effects"] else "is"
     return (
         f"The root mean square of the residuals {verb} {listed(parts)}, in standard deviations of "
-        "the noise; 1 is noise alone."
+        "the noise; noise alone gives 1."
     )
 
 
@@ -104,8 +105,8 @@ def certainty(study: Study, found: Found) -> str:
     if chosen is None:
         return " ".join(said)
     if chosen.get("adequate") is not None:
-        left = "noise" if chosen["adequate"] else "more than noise"
-        said.append(f"With the effects found the model leaves {left}.")
+        left = "agrees with the data within" if chosen["adequate"] else "still differs by more than"
+        said.append(f"With the effects found, the model {left} the noise.")
     said += _of_predictions(study, found)
     return " ".join([*said, *_other_terms(found)])
 
@@ -114,7 +115,7 @@ def _at_limits(model: str, parameters: Found) -> str:
     bound = [name for name, p in parameters.items() if p["at_limit"]]
     if not bound:
         return f"No parameter of the {model} is at a limit."
-    return f"Of the {model}, {listed(bound)} {'is' if len(bound) == 1 else 'are'} at a limit."
+    return f"In the {model}, {listed(bound)} {'is' if len(bound) == 1 else 'are'} at a limit."
 
 
 def _of_predictions(study: Study, found: Found) -> list[str]:
@@ -131,7 +132,10 @@ def _of_predictions(study: Study, found: Found) -> list[str]:
             said.append(f"With {effect_name(effect)}, {'; '.join(tests)}.")
     settings = found["settings"]
     gain, level = settings.get("informative_gain", 2.0), settings.get("agreement_level", 0.001)
-    needs = f"A claim needs a rise of the log score of {gain:g}, and p above {number(level)}."
+    needs = (
+        f"A claim needs a rise of {gain:g} in total, and no single fall by {gain:g}; one held-out "
+        f"laboratory may be an exception. p must be above {number(level)}."
+    )
     return [*said, needs] if said else []
 
 
@@ -142,9 +146,9 @@ def _other_terms(found: Found) -> list[str]:
     nearest = [(min(terms, key=lambda term: term["above"]), e) for e, terms in named if terms]
     limit = found["settings"].get("certain_evidence", found["ambiguity"])
     return [
-        f"The nearest free correction in the place of {effect_name(effect)} is {term['words']}. "
-        f"-2 ln of its marginal likelihood is {term['above']:+.1f} relative to that of the effect. "
-        f"Only above {limit:g} is the name certain."
+        f"Free corrections were fitted in the place of {effect_name(effect)}. The best one is "
+        f"{term['words']}. Its -2 ln marginal likelihood is {term['above']:+.1f} relative to the "
+        f"effect. A certain name needs more than {limit:g}."
         for term, effect in nearest
     ]
 
@@ -160,8 +164,8 @@ def _of_noise(study: Study, found: Found) -> list[str]:
     estimated, lasting = those("stated"), those("white")
     said = [f"No uncertainty is given, so that the noise is estimated: {estimated}."]
     return said * bool(estimated) + [
-        "The noise of these series remains correlated after the estimated correlation is "
-        f"removed, so that the critical values hold less surely: {lasting}."
+        "Some correlation remains in the noise of these series, so that the tests are less "
+        f"reliable: {lasting}."
     ] * bool(lasting)
 
 
