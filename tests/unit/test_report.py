@@ -113,11 +113,11 @@ def test_summary_says_the_numbers_in_three_items(tmp_path: Path) -> None:
         "With 2 parameters fitted to Slab 25 kW/m² by 2 cost functions, the best sets reproduce "
         "the mass loss rate with CV(RMSE) 0.250 to 5.25; weighed by the noise, the best fit of all "
         "leaves chi-square 3.60 per point, where noise alone leaves 1.",
-        "To predict, use the set of RMSE (SCE-UA) as a whole. Of 6 sets it predicts held-out "
-        "experiments best: the mass loss rate with CV(RMSE) 0.250 and the back temperature with "
+        "To predict, use all values of the best set of RMSE (SCE-UA). Of 6 sets, this one "
+        "predicts the held-out experiments best: the mass loss rate with CV(RMSE) 0.250 and the back temperature with "
         "RMSE 7.00 K (all sets: the mass loss rate with CV(RMSE) 0.250 to 5.25 and the back "
-        "temperature with RMSE 7.00 to 12.0 K). These data selected it, so they are no independent "
-        "test of it. Another optimiser finds a set with a lower RMSE.",
+        "temperature with RMSE 7.00 to 12.0 K). The choice used these data, so they do not "
+        "validate it. Another optimiser finds a set with a lower RMSE.",
         "The data determine 2 of 3 parameters (95 % interval narrower than 20 % of the search "
         "range); undetermined: cp (70.0 %, upper bound). Do not quote cp alone: other values fit "
         "as well.",
@@ -133,7 +133,8 @@ def test_summary_of_one_cost_and_nothing_held_out_recommends_by_the_fit(tmp_path
     assert len(said) == 3
     # SCE-UA's set has chi-square 90 over 18.
     assert said[1] == (
-        "To predict, use the set of RMSE (SCE-UA) as a whole. Of 3 sets it fits best, each "
+        "To predict, use all values of the best set of RMSE (SCE-UA). Of 3 sets, this one "
+        "fits best, each "
         "point weighed by its noise (chi-square per degree of freedom 5.00). No experiment was "
         "held out, so the prediction of other experiments is untested. Another optimiser finds a "
         "set with a lower RMSE."
@@ -201,7 +202,7 @@ def test_advice_warns_of_a_set_that_predicts_worse_than_it_fits(tmp_path: Path) 
     path = results.identification("estimate.csv")
     bound = read_csv(path).assign(verdict="at its upper bound", bound="upper")
     write_csv(path, bound)
-    said = " k and cp are at a limit; the data would push them beyond it."
+    said = " k and cp are at a limit: the best fit lies outside the limits."
     assert summary(study, facts_of(study, results, tables_of(study, results)))[2].endswith(said)
 
 
@@ -326,7 +327,7 @@ def test_scores_under_other_costs_are_shown_once_they_are_there(tmp_path: Path) 
 def test_ensemble_is_recommended_once_it_is_there_and_has_converged(tmp_path: Path) -> None:
     study, results = fake(tmp_path)
     write_tables(study, results)
-    one = "use the set of RMSE (SCE-UA) as a whole. Of 6 sets"
+    one = "use all values of the best set of RMSE (SCE-UA). Of 6 sets"
     for converged, words in ((True, "ensemble of 100 sets"), (False, f"To predict, {one}")):
         write_posterior(study, results, converged)
         said = advice(study, facts_of(study, results, tables_of(study, results)))

@@ -23,12 +23,12 @@ def advice(study: Study, facts: Facts) -> str:
     Experiments that were held out tell which set predicts best.
     """
     chosen = recommended(facts.scores, facts.distances)
-    one = f"the set of {chosen.cost_function} ({chosen.found_by}) as a whole. "
+    one = f"all values of the best set of {chosen.cost_function} ({chosen.found_by}). "
     text = f"To predict, use {one}"
     if facts.ensemble:
         text = (
             f"To predict, use the ensemble of {facts.ensemble} sets (posterior/ensemble.csv): its "
-            f"bands tell how certain the prediction is. If one set has to do, use {one}"
+            f"bands tell how certain the prediction is. If you need one set, use {one}"
         )
     reason = _by_prediction if chosen.held_out else _by_fit
     return text + reason(chosen, facts) + _not_lowest(chosen, facts)
@@ -36,12 +36,12 @@ def advice(study: Study, facts: Facts) -> str:
 
 def _by_prediction(chosen: Recommended, facts: Facts) -> str:
     mine = chosen.of(chosen.held_out)
-    text = f"It predicts {all_scored(mine)}, where no cost function was fitted"
+    text = f"It predicts data that no cost function was fitted to: {all_scored(mine)}"
     if chosen.sets > 1:
         text = (
-            f"Of {several(chosen.sets, 'set')} it predicts held-out experiments best: "
-            f"{all_scored(mine)} (all sets: {all_scored(chosen.held_out)}). These data selected "
-            "it, so they are no independent test of it"
+            f"Of {several(chosen.sets, 'set')}, this one predicts the held-out experiments best: "
+            f"{all_scored(mine)} (all sets: {all_scored(chosen.held_out)}). The choice used these "
+            "data, so they do not validate it"
         )
     fitted = [s for s in chosen.of(facts.scores) if s.use == FITTED and s.quantity.relative]
     held_out = [s.value for s in mine if s.quantity.relative]
@@ -61,8 +61,8 @@ def _worse_fit(chosen: Recommended, facts: Facts) -> str:
         return ""
     return (
         f" It fits worse than the best fit (chi-square per degree of freedom {span([mine])} "
-        f"against {span([least])}). Either it predicts well by chance, or the model lacks an "
-        "effect."
+        f"against {span([least])}). Possible reasons are chance, a missing effect, or a wrong "
+        "noise model."
     )
 
 
@@ -83,7 +83,7 @@ def _misfit(chosen: Recommended, facts: Facts) -> float:
 def _by_fit(chosen: Recommended, facts: Facts) -> str:
     mine = _misfit(chosen, facts)
     return (
-        f"Of {several(chosen.sets, 'set')} it fits best, each point weighed by its noise "
+        f"Of {several(chosen.sets, 'set')}, this one fits best, each point weighed by its noise "
         f"(chi-square per degree of freedom {span([mine])}). No experiment was held out, so the "
         "prediction of other experiments is untested."
     )

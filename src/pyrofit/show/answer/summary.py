@@ -53,5 +53,5 @@ def _determined(facts: Facts) -> str:
 def _at_limits(names: list[str]) -> str:
     if not names:
         return ""
-    are, them = ("is", "it") if len(names) == 1 else ("are", "them")
-    return f" {listed(names)} {are} at a limit; the data would push {them} beyond it."
+    are = "is" if len(names) == 1 else "are"
+    return f" {listed(names)} {are} at a limit: the best fit lies outside the limits."
