@@ -114,8 +114,8 @@ def test_summary_says_the_numbers_in_three_items(tmp_path: Path) -> None:
         "the mass loss rate with CV(RMSE) 0.250 to 5.25; weighed by the noise, the best fit of all "
         "leaves chi-square 3.60 per point, where noise alone leaves 1.",
         "To predict, use all values of the best set of RMSE (SCE-UA). Of 6 sets, this one "
-        "predicts the held-out experiments best: the mass loss rate with CV(RMSE) 0.250 and the back temperature with "
-        "RMSE 7.00 K (all sets: the mass loss rate with CV(RMSE) 0.250 to 5.25 and the back "
+        "predicts the held-out experiments best: the mass loss rate with CV(RMSE) 0.250 and the "
+        "back temperature with RMSE 7.00 K (all sets: the mass loss rate with CV(RMSE) 0.250 to 5.25 and the back "
         "temperature with RMSE 7.00 to 12.0 K). The choice used these data, so they do not "
         "validate it. Another optimiser finds a set with a lower RMSE.",
         "The data determine 2 of 3 parameters (95 % interval narrower than 20 % of the search "
