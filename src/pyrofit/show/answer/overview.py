@@ -57,7 +57,7 @@ def overview(study: Study, results: Results) -> Canvas:
         [
             *measured_entries(study, results, pairs, with_line=True),
             style.line(f"set of {chosen.cost} ({chosen.origin})", **_LINE),
-            style.patch("reach of the good sets", color=_REACH["color"]),
+            style.patch("range of all good sets", color=_REACH["color"]),
         ],
     )
     return canvas
