@@ -47,7 +47,9 @@ class Correlation:
         n = len(noise)
         if self.ar:
             rest = np.sqrt(1.0 - self.ar**2)
-            white = np.concatenate([noise[:1], (noise[1:] - self.ar * noise[:-1]) / rest])
+            white = noise.copy()
+            white[1:] -= self.ar * noise[:-1]
+            white[1:] /= rest
             return white, 2.0 * (n - 1) * float(np.log(rest))
         if not self.lags:
             return noise, 0.0

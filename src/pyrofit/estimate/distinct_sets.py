@@ -27,9 +27,10 @@ def distinct_sets(columns: Sequence[Value], sets: int) -> tuple[Indices, Indices
     rows = [column for column in columns if isinstance(column, np.ndarray)]
     if sets == 1 or not rows:
         return every[:1], np.zeros(sets, dtype=np.int64)
-    _, first, of_set = np.unique(np.array(rows), axis=1, return_index=True, return_inverse=True)
-    order = np.argsort(first)
-    return first[order], np.argsort(order)[of_set.ravel()]
+    known: dict[bytes, int] = {}
+    table = np.array(rows).T.copy()
+    of_set = np.array([known.setdefault(one.tobytes(), len(known)) for one in table])
+    return np.unique(of_set, return_index=True)[1], of_set
 
 
 def taken(values: Values, first: Indices, sets: int) -> Values:

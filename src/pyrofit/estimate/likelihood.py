@@ -74,13 +74,20 @@ class Likelihood:
 
         Rows behind the points, of the known values, are left out.
         """
-        ends = np.cumsum(self.points).tolist()
-        return [stacked[a:b] for a, b in pairwise([0, *ends])]
+        return [stacked[a:b] for a, b in self._ranges]
+
+    @cached_property
+    def _ranges(self) -> list[tuple[int, int]]:
+        """Where each channel begins and ends."""
+        return list(pairwise([0, *np.cumsum(self.points).tolist()]))
 
     def whiten(self, stacked: FloatArray) -> FloatArray:
         """Whiten each channel of (points,) or (points, k)."""
+        return np.concatenate(self._whitened(stacked))
+
+    def _whitened(self, stacked: FloatArray) -> list[FloatArray]:
         parts = zip(self.noise, self.split(stacked), strict=True)
-        return np.concatenate([noise.whiten(part) for noise, part in parts])
+        return [noise.whiten(part) for noise, part in parts]
 
     def residuals(self, x: FloatArray) -> FloatArray:
         """Return the whitened residuals of all channels, then those of the known values.
@@ -93,12 +100,12 @@ class Likelihood:
         """Return the same for several sets at once, shape (sets, parameters)."""
         channels = [self._of_channels(curves) for curves in self.curves_all(X)]
         known = self.prior.residuals(self.values(X))
-        return [np.concatenate(both) for both in zip(channels, known, strict=True)]
+        return [np.concatenate([*parts, own]) for parts, own in zip(channels, known, strict=True)]
 
-    def _of_channels(self, curves: FloatArray | None) -> FloatArray:
+    def _of_channels(self, curves: FloatArray | None) -> list[FloatArray]:
         if curves is None:
-            return np.full(sum(self.points), FAILED)
-        return self.whiten(curves - self._measured)
+            return [np.full(sum(self.points), FAILED)]
+        return self._whitened(curves - self._measured)
 
     @cached_property
     def _measured(self) -> FloatArray:

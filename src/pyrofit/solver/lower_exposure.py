@@ -122,10 +122,8 @@ def at_temperature(tables: FloatArray, T: Value) -> FloatArray:
     """Return the properties of all components at T, shape (components, sets)."""
     if tables.shape[1] == 1:
         return tables[:, 0]
-    at = np.broadcast_to(T, tables.shape[2:])
-    return np.array(
-        [
-            [np.interp(x, TABLE_TEMPERATURES_K, table[:, s]) for s, x in enumerate(at)]
-            for table in tables
-        ]
-    )
+    nodes, sets = TABLE_TEMPERATURES_K, np.arange(tables.shape[2])
+    at = np.clip(np.broadcast_to(T, sets.shape), nodes[0], nodes[-1])
+    k = np.clip(np.searchsorted(nodes, at, side="right") - 1, 0, nodes.size - 2)
+    low, high = tables[:, k, sets], tables[:, k + 1, sets]
+    return np.asarray((high - low) / (nodes[k + 1] - nodes[k]) * (at - nodes[k]) + low)
