@@ -92,6 +92,7 @@ def test_sentences_tell_which_effects_depend_on_the_disturbance(tmp_path: Path) 
         "Named from disturbed data only:",
     ):
         assert words in said, (words, said)
+    assert "Every search" not in said
 
 
 def test_a_stable_result_is_said_to_be_stable(tmp_path: Path) -> None:
@@ -100,6 +101,7 @@ def test_a_stable_result_is_said_to_be_stable(tmp_path: Path) -> None:
         stability.write(results, {**of_draw(study, results, 0), "draw": number})
     said = " ".join(sentences(study, results))
     assert "Named from all data sets: slope of the conductivity (k_T)." in said
+    assert "Every search ends with slope of the conductivity (k_T)." in said
     assert "Not named" not in said
     assert "disturbed data only" not in said
 

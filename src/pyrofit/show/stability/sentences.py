@@ -12,7 +12,13 @@ from pyrofit.show.text import listed, several
 def sentences(study: Study, results: Results) -> list[str]:
     """Return the sentences on the stability of a diagnosis."""
     found = read(study, results)
-    return [_of_draws(found), _of_verdicts(found), *_of_named(found), *_of_others(found)]
+    return [
+        _of_draws(found),
+        _of_verdicts(found),
+        *_of_searches(found),
+        *_of_named(found),
+        *_of_others(found),
+    ]
 
 
 def _of_draws(found: Stability) -> str:
@@ -36,6 +42,12 @@ def _of_verdicts(found: Stability) -> str:
 
 def _of(times: int, found: Stability) -> str:
     return f"{times} of {len(found.draws)}"
+
+
+def _of_searches(found: Stability) -> list[str]:
+    """Tell which effects every search finds, whatever the tests of a claim say of them."""
+    every = [e for e in found.effects if found.times_final(e) == len(found.draws)]
+    return [f"Every search ends with {listed(list(map(effect_name, every)))}."] if every else []
 
 
 def _of_named(found: Stability) -> list[str]:
