@@ -18,7 +18,7 @@ def disturbed(base: Base, seed: int) -> Base:
 
     e is a draw of the noise as it is estimated, correlation included, and s is
     ``SETTINGS.disturbance``. The variance of the noise rises by the factor 1 + s^2 only, so that
-    the tests of a diagnosis keep their levels.
+    the error rates of the tests hardly change.
 
     Parameters
     ----------
