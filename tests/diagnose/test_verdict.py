@@ -8,8 +8,9 @@ import numpy as np
 import pytest
 from linear import POINTS, TOTAL, column_of, fit_with, moved
 
+from pyrofit.diagnose.base.adequacy import lack_of_fit
 from pyrofit.diagnose.base.fitted import FittedModel
-from pyrofit.diagnose.base.model import strength_of
+from pyrofit.diagnose.base.model import name_of, strength_of
 from pyrofit.diagnose.base.prediction import HELD_OUT
 from pyrofit.diagnose.diagnosis import _undecided
 from pyrofit.diagnose.judge import other_terms, places
@@ -250,6 +251,64 @@ def test_model_without_an_effect_is_the_best_one_at_hand() -> None:
         for searched in (found, replace(found, rounds=rounds))
     )
     assert after == pytest.approx(before - 40.0, abs=0.1)
+
+
+# --- one effect or two ----------------------------------------------------------------------
+
+SLOPES = ("c_T", "glass_transition", "k_T")
+
+
+def like_two(share: float) -> dict[str, FloatArray]:
+    """Return columns in which a glass transition with a fitted bend looks like two slopes.
+
+    It differs from them by a share of the heater's column.
+    """
+    strength, bend = (
+        known_effects()["glass_transition"].quantities[name] for name in ("step_J_kgK", "bend_kg_J")
+    )
+    scales = {"c_T": strength.typical, "k_T": bend.typical}
+    of_c, of_k = (
+        column_of(COLUMNS, name) * strength_of(name)[1].typical / scales[name] for name in scales
+    )
+    apart = share * column_of(COLUMNS, "heater_ramp") * strength_of("heater_ramp")[1].typical
+    return {
+        **COLUMNS,
+        linear.strength_name("glass_transition"): of_c + apart / strength.typical,
+        name_of("glass_transition", "bend_kg_J"): of_k,
+    }
+
+
+def test_two_effects_are_found_where_one_with_free_forms_leaves_only_noise() -> None:
+    found = searched(planted(k_T=0.8, c_T=0.7), like_two(0.1), SLOPES)
+    whole = [t for t in found.rounds[0].trials if t.effects == ("glass_transition",)]
+    alone = min(whole, key=lambda trial: trial.penalised)
+    assert alone.numbers == 2
+    assert lack_of_fit(alone.model, alone.fit, [], np.random.default_rng(1)).adequate
+    assert set(found.end.effects) == {"c_T", "k_T"}
+    verdict = verdict_on(found)
+    assert verdict.kind == "multiple", verdict.reasons
+    assert verdict.confirmed
+
+
+def test_effect_that_two_others_replace_as_well_is_not_certain() -> None:
+    found = searched(planted(k_T=0.8, c_T=0.7), like_two(0.0), SLOPES)
+    assert found.end.effects == ("glass_transition",)
+    verdict = verdict_on(found)
+    assert verdict.kind == "ambiguous", verdict.reasons
+    assert not verdict.confirmed
+    (said,) = verdict.reasons
+    assert "slope of the specific heat" in said
+    assert "slope of the conductivity" in said
+    assert said.endswith("explain the data as well as glass transition")
+
+
+def test_two_effects_that_one_replaces_as_well_are_not_certain() -> None:
+    found = searched(planted(k_T=0.8, c_T=0.7), like_two(0.0), SLOPES)
+    (pair, *_) = (t for t in found.trials if set(t.effects) == {"c_T", "k_T"})
+    verdict = verdict_on(replace(found, end=pair))
+    assert verdict.kind == "multiple", verdict.reasons
+    assert not verdict.confirmed
+    assert verdict.reasons[0].startswith("glass transition explains the data as well as ")
 
 
 # --- unknown --------------------------------------------------------------------------------

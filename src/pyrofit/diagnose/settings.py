@@ -104,6 +104,10 @@ class Settings:
     """Models of a step whose predictions are compared."""
     most_exchanged: int = 3
     """Other effects that are tried in the place of each effect of the final model."""
+    most_split: int = 5
+    """Effects beside which a second one is tried, in the place of an effect with free forms."""
+    most_beside: int = 2
+    """Second effects that are tried beside each of them."""
     other_starts: int = 2
     """Other ends of the base's fits, or points of its limits, from which leading effects are fitted
     as well, if misfit is left."""

@@ -25,6 +25,14 @@ class Judged:
     rejected: str
 
 
+@dataclass(frozen=True)
+class Instead:
+    """Effects that explain the data as well as those of the final model that they replace."""
+
+    replaced: tuple[str, ...]
+    by: tuple[str, ...]
+
+
 @dataclass(frozen=True, eq=False)
 class Finding:
     """One effect of the model that the search ended with, and those it cannot be told from."""
@@ -34,6 +42,8 @@ class Finding:
     """The best of each effect, the leading one first."""
     others: tuple[OtherTerm, ...] = ()
     """Free corrections of other terms in the effect's place, where they were fitted."""
+    instead: tuple[Instead, ...] = ()
+    """Exchanges of one effect for two, or of two for one, that the data do not exclude."""
 
     @property
     def kept(self) -> list[Judged]:
@@ -79,7 +89,7 @@ class Finding:
     @property
     def sure(self) -> bool:
         """Whether nothing else explains the data nearly as well, and all signals are predicted."""
-        return self.agreed and not self.open_terms
+        return self.agreed and not self.open_terms and not self.instead
 
     @property
     def agreed(self) -> bool:
@@ -129,5 +139,5 @@ class Verdict:
     def confirmed(self) -> bool:
         """Whether the effects predict signals that were not fitted, and no other term does so."""
         if self.kind == "partly":
-            return not any(f.outvoted or f.open_terms for f in self.findings)
+            return not any(f.outvoted or f.open_terms or f.instead for f in self.findings)
         return self.kind in ("named", "multiple") and all(f.sure for f in self.findings)

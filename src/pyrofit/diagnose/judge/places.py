@@ -9,7 +9,7 @@ from pyrofit.diagnose.base.adequacy import lack_of_fit
 from pyrofit.diagnose.base.fitted import FittedModel, at_limit, up_to_date
 from pyrofit.diagnose.base.prediction import predictions
 from pyrofit.diagnose.judge.claim_tests import Trust, explains, trust
-from pyrofit.diagnose.judge.findings import Finding, Judged
+from pyrofit.diagnose.judge.findings import Finding, Instead, Judged
 from pyrofit.diagnose.judge.inflation import inflation_of
 from pyrofit.diagnose.search.restart import refitted_without
 from pyrofit.diagnose.search.step import SearchContext, SearchStep
@@ -95,7 +95,11 @@ def findings_of(
         return Judged(name, trial, about, _against(gain, found.spare, about))
 
     return tuple(
-        Finding(effects[k], tuple(judged(name, trial, k) for name, trial in place))
+        Finding(
+            effects[k],
+            tuple(judged(name, trial, k) for name, trial in place),
+            instead=instead_of(found, effects[k]),
+        )
         for k, place in places.items()
     )
 
@@ -118,6 +122,24 @@ def alternatives(found: Search, effect: str) -> list[tuple[str, FittedModel]]:
         if same and penalised(trial) <= penalised(found.end) + SETTINGS.ambiguous_chi2:
             best.setdefault(rest[0], trial)
     return [(name, up_to_date(trial)) for name, trial in list(best.items())[: SETTINGS.most_judged]]
+
+
+def instead_of(found: Search, effect: str) -> tuple[Instead, ...]:
+    """Return the exchanges of an effect for two others, or of it and another one for one.
+
+    Only those to models that cannot be told from the end of the search, the best of each exchange.
+    A strength at a limit speaks against such a model.
+    """
+    penalised, end = inflation_of(found).penalised, found.end
+    near = penalised(end) + SETTINGS.ambiguous_chi2
+    best: dict[tuple[str, ...], Instead] = {}
+    for trial in sorted(found.trials, key=penalised):
+        replaced = tuple(name for name in end.effects if name not in trial.effects)
+        by = tuple(name for name in trial.effects if name not in end.effects)
+        exchanged = effect in replaced and {len(replaced), len(by)} == {1, 2}
+        if exchanged and penalised(trial) <= near and not any(at_limit(trial, one) for one in by):
+            best.setdefault(replaced, Instead(replaced, by))
+    return tuple(best.values())
 
 
 def _against(gain: float, spare: float, about: Trust) -> str:

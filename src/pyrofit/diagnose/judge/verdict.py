@@ -116,7 +116,7 @@ def _partly(
     if not any(judged.trust.outvoted for judged in leading):
         findings = tuple(_with_other_terms(found, findings, without, processes))
     suspects = _suspects(found, processes)
-    reasons = (_rest(found), *_outvoted(leading), *_open_terms(findings))
+    reasons = (_rest(found), *_outvoted(leading), *_open_terms(findings), *_instead(findings))
     return Verdict("partly", found, tuple(findings), reasons, suspects)
 
 
@@ -190,6 +190,7 @@ def _doubts(found: Search, findings: Sequence[Finding]) -> list[str]:
     doubts += map(_unconfirmed, (j for j in kept if not (j.trust.outvoted or j.trust.confirmed)))
     doubts += _outvoted(kept)
     doubts += _open_terms(findings)
+    doubts += _instead(findings)
     open_ones = [finding for finding in findings if not finding.group]
     return doubts + [finding.open_words for finding in open_ones]
 
@@ -203,6 +204,20 @@ def _open_terms(findings: Sequence[Finding]) -> list[str]:
         if finding.open_terms
     ]
     return [*said, "the reason may be an effect outside the catalogue"] if said else []
+
+
+def _instead(findings: Sequence[Finding]) -> list[str]:
+    """Name two effects that explain the data as well as one of the model, or one as two."""
+    exchanges = dict.fromkeys(one for finding in findings for one in finding.instead)
+    return [
+        f"{_joined(one.by)} {'explain' if len(one.by) > 1 else 'explains'} the data as well as "
+        f"{_joined(one.replaced)}"
+        for one in exchanges
+    ]
+
+
+def _joined(effects: Sequence[str]) -> str:
+    return " with ".join(map(_title, effects))
 
 
 def _title(effect: str) -> str:

@@ -8,7 +8,14 @@ import numpy as np
 
 from pyrofit.diagnose.base.adequacy import LackOfFit, lack_of_fit
 from pyrofit.diagnose.base.fit import blurred, is_clearer, refitted, refitted_all, sharpened
-from pyrofit.diagnose.base.fitted import FittedModel, finishes, misfits, polished, up_to_date
+from pyrofit.diagnose.base.fitted import (
+    FittedModel,
+    at_limit,
+    finishes,
+    misfits,
+    polished,
+    up_to_date,
+)
 from pyrofit.diagnose.search.branches import branches
 from pyrofit.diagnose.search.refit import fixed_forms, look_at, model_with, with_effect
 from pyrofit.diagnose.search.restart import (
@@ -149,11 +156,17 @@ class _Pass:
         found = self._not_above_carried(Search(tuple(rounds), best, best_lack(), self.spare))
         if len(found.end.effects) > 1:
             found = self._exchanged(found)
-        return self._finishing(self._formed(found))
+        whole = self._formed(found)
+        found = self._split(whole)
+        return self._finishing(found if found.end is whole.end else self._formed(found))
 
     def _not_above_carried(self, found: Search) -> Search:
         """Return the search ended with the best carried model, where that ranks before its end."""
-        best = min([found.end, *self.carried], key=self._rank)
+        return self._ended_best(found, self.carried)
+
+    def _ended_best(self, found: Search, trials: Sequence[FittedModel]) -> Search:
+        """Return the search ended with the best of some models, where that ranks before its end."""
+        best = min([found.end, *trials], key=self._rank)
         return found if best is found.end else self._ended(found, best)
 
     def _rank(self, trial: FittedModel) -> float:
@@ -175,8 +188,7 @@ class _Pass:
         return replace(found, end=step.start, end_lack=step.lack())
 
     def _onwards(self, trial: FittedModel) -> SearchStep:
-        rest = [effect for effect in self.effects if effect not in trial.effects]
-        return _look(up_to_date(trial), rest, self.context)
+        return _look(up_to_date(trial), self._others(trial), self.context)
 
     def _singles(self, step: SearchStep) -> Sequence[FittedModel]:
         trials = singles(step, self.context)
@@ -218,21 +230,47 @@ class _Pass:
 
     def _exchanged(self, found: Search) -> Search:
         """Try other effects in the place of each of the final model; take the best model."""
-        others = [effect for effect in self.effects if effect not in found.end.effects]
+        others = self._others(found.end)
         if not others:
             return found
         reduced = refitted_without(found.end, found.end.effects, self.context.processes)
         steps = [_look(up_to_date(without), others, self.context) for without in reduced]
-        tried = [(step, SETTINGS.most_exchanged) for step in steps]
-        trials = more(tried, self.context, found.end.penalised)
-        exchanged = [replace(step, trials=own) for step, own in zip(steps, trials, strict=True)]
-        rounds = [*found.rounds, *exchanged]
-        same = [
-            t for step in rounds for t in step.trials if len(t.effects) == len(found.end.effects)
+        found = self._with_more(found, steps, SETTINGS.most_exchanged)
+        size = len(found.end.effects)
+        same = [t for step in found.rounds for t in step.trials if len(t.effects) == size]
+        return self._ended_best(found, same)
+
+    def _split(self, found: Search) -> Search:
+        """Try two effects in the place of each one with free forms; take the best model.
+
+        An effect with free forms may look like two others. Where it leaves nothing but noise, no
+        second effect was tried beside one of these.
+        """
+        if not found.end_lack.adequate:
+            return found
+        steps = [
+            _look(up_to_date(first), self._others(found.end, first), self.context)
+            for effect, free in found.end.model.effects.items()
+            if len(free) > 1
+            for first in in_the_place(found, effect)[: SETTINGS.most_split]
         ]
-        (best, *_) = in_order([found.end, *same])
-        found = replace(found, rounds=tuple(rounds))
-        return found if best is found.end else self._ended(found, best)
+        before = len(found.rounds)
+        found = self._with_more(found, steps, SETTINGS.most_beside)
+        pairs = [t for step in found.rounds[before:] for t in step.trials]
+        return self._ended_best(
+            found, [t for t in pairs if not any(at_limit(t, e) for e in t.effects)]
+        )
+
+    def _others(self, *models: FittedModel) -> list[str]:
+        """Return the candidates that none of some models has."""
+        had = {effect for model in models for effect in model.effects}
+        return [effect for effect in self.effects if effect not in had]
+
+    def _with_more(self, found: Search, steps: Sequence[SearchStep], most: int) -> Search:
+        """Return the search with further steps, each fitted with one effect more."""
+        trials = more([(step, most) for step in steps], self.context, found.end.penalised)
+        tried = [replace(step, trials=own) for step, own in zip(steps, trials, strict=True)]
+        return replace(found, rounds=(*found.rounds, *tried))
 
     def _formed(self, found: Search) -> Search:
         """Fit form parameters of the final model that pay, before a test may reject an effect."""
@@ -244,6 +282,18 @@ class _Pass:
                 break
             (best,) = polished(formed[:1], self.context.processes)
         return found if best is found.end else self._ended(found, best)
+
+
+def in_the_place(found: Search, effect: str) -> list[FittedModel]:
+    """Return the models with the strength of another effect in one's place, the best first."""
+    others = set(found.end.effects) - {effect}
+    rivals: dict[str, FittedModel] = {}
+    for trial in best_of_each(found.trials):
+        (*rest,) = set(trial.effects) - others
+        same = others <= set(trial.effects) and len(rest) == 1 and effect not in rest
+        if same and len(trial.model.effects[rest[0]]) == 1:
+            rivals.setdefault(rest[0], trial)
+    return list(rivals.values())
 
 
 def _sharp(step: SearchStep, context: SearchContext) -> SearchStep:
