@@ -48,8 +48,8 @@ class OfVerdict(Record):
         description="per effect, free corrections in its place, where they were fitted"
     )
     confirmed: bool = Field(
-        description="effects are named, predictions improve with each, held-out ones included, "
-        "and no other term of the model explains the data nearly as well"
+        description="effects are named, and predictions improve with each, held-out ones included. "
+        "No other term of the model, and no exchange of one effect for two, fits nearly as well"
     )
     words: str = Field(description="the verdict in sentences")
     reasons: list[str] = Field(description="reasons against a firmer verdict, or evidence for it")
