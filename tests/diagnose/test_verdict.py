@@ -8,7 +8,6 @@ import numpy as np
 import pytest
 from linear import POINTS, TOTAL, column_of, fit_with, moved
 
-from pyrofit.diagnose.base.adequacy import lack_of_fit
 from pyrofit.diagnose.base.fitted import FittedModel
 from pyrofit.diagnose.base.model import name_of, strength_of
 from pyrofit.diagnose.base.prediction import HELD_OUT
@@ -16,7 +15,7 @@ from pyrofit.diagnose.diagnosis import _undecided
 from pyrofit.diagnose.judge import other_terms, places
 from pyrofit.diagnose.judge.claim_tests import Trust
 from pyrofit.diagnose.judge.findings import Judged, Verdict
-from pyrofit.diagnose.judge.places import _against, alternatives, without_each
+from pyrofit.diagnose.judge.places import _against, alternatives, exchanges, without_each
 from pyrofit.diagnose.judge.verdict import ONE_FLUX, _doubts, judge
 from pyrofit.diagnose.result.candidates import candidates
 from pyrofit.diagnose.result.verdict_text import form_of, sentences
@@ -24,6 +23,7 @@ from pyrofit.diagnose.search.step import SearchContext
 from pyrofit.diagnose.search.stepwise import Search, search
 from pyrofit.diagnose.search.stepwise import _look as look_first
 from pyrofit.diagnose.search.stepwise import _Pass as Pass
+from pyrofit.diagnose.settings import SETTINGS
 from pyrofit.effects import known_effects
 from pyrofit.solver.arrays import FloatArray
 
@@ -259,35 +259,41 @@ SLOPES = ("c_T", "glass_transition", "k_T")
 
 
 def like_two(share: float) -> dict[str, FloatArray]:
-    """Return columns in which a glass transition with a fitted bend looks like two slopes.
+    """Return columns in which a glass transition with fitted forms looks like two slopes.
 
-    It differs from them by a share of the heater's column.
+    The bend adds a slope of the conductivity. A share of the heater's column differs from a slope
+    of the heat capacity; the width takes it back.
     """
-    strength, bend = (
-        known_effects()["glass_transition"].quantities[name] for name in ("step_J_kgK", "bend_kg_J")
+    forms = known_effects()["glass_transition"].quantities
+    step, bend = forms["step_J_kgK"].typical, forms["bend_kg_J"].typical
+    of_c, of_k, apart = (
+        column_of(COLUMNS, name) * strength_of(name)[1].typical
+        for name in ("c_T", "k_T", "heater_ramp")
     )
-    scales = {"c_T": strength.typical, "k_T": bend.typical}
-    of_c, of_k = (
-        column_of(COLUMNS, name) * strength_of(name)[1].typical / scales[name] for name in scales
-    )
-    apart = share * column_of(COLUMNS, "heater_ramp") * strength_of("heater_ramp")[1].typical
     return {
         **COLUMNS,
-        linear.strength_name("glass_transition"): of_c + apart / strength.typical,
-        name_of("glass_transition", "bend_kg_J"): of_k,
+        linear.strength_name("glass_transition"): (of_c + share * apart) / step,
+        name_of("glass_transition", "bend_kg_J"): of_k / bend,
+        name_of("glass_transition", "width_K"): -0.7 * share * apart / 20.0,
     }
 
 
-def test_two_effects_are_found_where_one_with_free_forms_leaves_only_noise() -> None:
-    found = searched(planted(k_T=0.8, c_T=0.7), like_two(0.1), SLOPES)
-    whole = [t for t in found.rounds[0].trials if t.effects == ("glass_transition",)]
-    alone = min(whole, key=lambda trial: trial.penalised)
-    assert alone.numbers == 2
-    assert lack_of_fit(alone.model, alone.fit, [], np.random.default_rng(1)).adequate
+def test_two_effects_are_found_where_one_with_free_forms_leaves_only_noise(
+    monkeypatch: pytest.MonkeyPatch,
+) -> None:
+    y, columns = planted(k_T=0.8, c_T=0.7), like_two(0.5)
+    with monkeypatch.context() as patched:
+        patched.setattr(Pass, "_split", lambda self, found: found)
+        before = searched(y, columns, SLOPES)
+    assert before.end.effects == ("glass_transition",)
+    assert before.end.numbers == 3
+    assert before.end_lack.adequate
+    found = searched(y, columns, SLOPES)
     assert set(found.end.effects) == {"c_T", "k_T"}
-    verdict = verdict_on(found)
-    assert verdict.kind == "multiple", verdict.reasons
-    assert verdict.confirmed
+    assert any(trial.fit.chi2 == before.end.fit.chi2 for trial in found.trials)
+    assert verdict_on(found).kind == "multiple"
+    alone = searched(y, columns, SLOPES, most=1)
+    assert alone.end.effects == ("glass_transition",), "no more effects than allowed"
 
 
 def test_effect_that_two_others_replace_as_well_is_not_certain() -> None:
@@ -297,9 +303,13 @@ def test_effect_that_two_others_replace_as_well_is_not_certain() -> None:
     assert verdict.kind == "ambiguous", verdict.reasons
     assert not verdict.confirmed
     (said,) = verdict.reasons
-    assert "slope of the specific heat" in said
-    assert "slope of the conductivity" in said
-    assert said.endswith("explain the data as well as glass transition")
+    slopes = {"slope of the specific heat", "slope of the conductivity"}
+    start, end = "glass transition may be replaced by ", ", with nearly as good a fit"
+    assert said.startswith(start)
+    assert said.endswith(end)
+    assert set(said[len(start) : -len(end)].split(" together with ")) == slopes
+    tried = {frozenset(trial.effects) for trial in _undecided(verdict.search, verdict)}
+    assert tried == {frozenset({"glass_transition"}), frozenset({"c_T", "k_T"})}
 
 
 def test_two_effects_that_one_replaces_as_well_are_not_certain() -> None:
@@ -308,7 +318,21 @@ def test_two_effects_that_one_replaces_as_well_are_not_certain() -> None:
     verdict = verdict_on(replace(found, end=pair))
     assert verdict.kind == "multiple", verdict.reasons
     assert not verdict.confirmed
-    assert verdict.reasons[0].startswith("glass transition explains the data as well as ")
+    assert " may be replaced by glass transition, with nearly as good a fit" in verdict.reasons[0]
+
+
+def test_superfluous_second_effect_is_no_exchange() -> None:
+    """One that fits as well alone is an alternative, with any other effect beside it."""
+    found = searched(planted(k_T=0.8), alike("k_T", "heater_ramp"))
+    assert found.end.effects == ("k_T",)
+    both = fit_with(found.base, "heater_ramp", "c_T")
+    assert both.penalised <= found.end.penalised + SETTINGS.ambiguous_chi2
+    step = replace(found.rounds[0], trials=(*found.rounds[0].trials, both))
+    assert exchanges(replace(found, rounds=(step,)), "k_T") == []
+    alone = [t for t in step.trials if "heater_ramp" not in t.effects or t is both]
+    without = replace(found, rounds=(replace(step, trials=tuple(alone)),))
+    (one,) = exchanges(without, "k_T")
+    assert one.by == ("heater_ramp", "c_T")
 
 
 # --- unknown --------------------------------------------------------------------------------

@@ -136,6 +136,8 @@ def _undecided(found: Search, verdict: Verdict) -> list[FittedModel]:
     for finding in verdict.findings:
         if len(finding.kept) > 1:
             return [judged.trial for judged in finding.kept]
+        if finding.instead:
+            return [found.end, finding.instead[0].trial]
     best: dict[frozenset[str], FittedModel] = {}
     for trial in in_order(found.trials):
         best.setdefault(frozenset(trial.effects), trial)

@@ -49,7 +49,7 @@ class OfVerdict(Record):
     )
     confirmed: bool = Field(
         description="effects are named, and predictions improve with each, held-out ones included. "
-        "No other term of the model, and no exchange of one effect for two, fits nearly as well"
+        "No other term of the model, and no exchange of one effect and two, fits nearly as well"
     )
     words: str = Field(description="the verdict in sentences")
     reasons: list[str] = Field(description="reasons against a firmer verdict, or evidence for it")

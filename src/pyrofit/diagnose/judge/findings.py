@@ -25,12 +25,13 @@ class Judged:
     rejected: str
 
 
-@dataclass(frozen=True)
-class Instead:
-    """Effects that explain the data as well as those of the final model that they replace."""
+@dataclass(frozen=True, eq=False)
+class Exchange:
+    """A model with two effects in the place of one of the final model's, or one in that of two."""
 
     replaced: tuple[str, ...]
     by: tuple[str, ...]
+    trial: FittedModel
 
 
 @dataclass(frozen=True, eq=False)
@@ -42,8 +43,8 @@ class Finding:
     """The best of each effect, the leading one first."""
     others: tuple[OtherTerm, ...] = ()
     """Free corrections of other terms in the effect's place, where they were fitted."""
-    instead: tuple[Instead, ...] = ()
-    """Exchanges of one effect for two, or of two for one, that the data do not exclude."""
+    instead: tuple[Exchange, ...] = ()
+    """Exchanges of one effect for two, or of two for one, that nothing speaks against."""
 
     @property
     def kept(self) -> list[Judged]:
@@ -137,7 +138,7 @@ class Verdict:
 
     @property
     def confirmed(self) -> bool:
-        """Whether the effects predict signals that were not fitted, and no other term does so."""
+        """Whether the effects predict signals that were not fitted, and nothing else does so."""
         if self.kind == "partly":
             return not any(f.outvoted or f.open_terms or f.instead for f in self.findings)
         return self.kind in ("named", "multiple") and all(f.sure for f in self.findings)

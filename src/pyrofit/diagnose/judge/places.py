@@ -6,10 +6,10 @@ from dataclasses import replace
 import numpy as np
 
 from pyrofit.diagnose.base.adequacy import lack_of_fit
-from pyrofit.diagnose.base.fitted import FittedModel, at_limit, up_to_date
+from pyrofit.diagnose.base.fitted import FittedModel, at_limit, finishes, up_to_date
 from pyrofit.diagnose.base.prediction import predictions
 from pyrofit.diagnose.judge.claim_tests import Trust, explains, trust
-from pyrofit.diagnose.judge.findings import Finding, Instead, Judged
+from pyrofit.diagnose.judge.findings import Exchange, Finding, Judged
 from pyrofit.diagnose.judge.inflation import inflation_of
 from pyrofit.diagnose.search.restart import refitted_without
 from pyrofit.diagnose.search.step import SearchContext, SearchStep
@@ -70,8 +70,10 @@ def findings_of(
     effects, processes = found.end.effects, context.processes
     which = range(len(effects)) if which is None else which
     places = {k: alternatives(found, effects[k]) for k in which}
+    exchanged = {k: exchanges(found, effects[k]) for k in which}
     # The end of the search has a place among the rivals of each of its effects.
     rivals = {_key(trial): trial for place in places.values() for _, trial in place}
+    rivals |= {_key(one.trial): one.trial for place in exchanged.values() for one in place}
     # A model that leaves misfit explains no held-out signal, unless the effect is replaced.
     may_explain = found.end_lack.adequate or len(effects) == 1
     models = [*(without[k] for k in which), *rivals.values()]
@@ -94,11 +96,14 @@ def findings_of(
         gain = inflation.penalised(without[k]) - inflation.penalised(trial)
         return Judged(name, trial, about, _against(gain, found.spare, about))
 
+    def passes(one: Exchange, k: int) -> bool:
+        return not any(judged(name, rivals[_key(one.trial)], k).rejected for name in one.by)
+
     return tuple(
         Finding(
             effects[k],
             tuple(judged(name, trial, k) for name, trial in place),
-            instead=instead_of(found, effects[k]),
+            instead=tuple(one for one in exchanged[k] if passes(one, k)),
         )
         for k, place in places.items()
     )
@@ -124,22 +129,31 @@ def alternatives(found: Search, effect: str) -> list[tuple[str, FittedModel]]:
     return [(name, up_to_date(trial)) for name, trial in list(best.items())[: SETTINGS.most_judged]]
 
 
-def instead_of(found: Search, effect: str) -> tuple[Instead, ...]:
+def exchanges(found: Search, effect: str) -> list[Exchange]:
     """Return the exchanges of an effect for two others, or of it and another one for one.
 
-    Only those to models that cannot be told from the end of the search, the best of each exchange.
-    A strength at a limit speaks against such a model.
+    Only those to models that cannot be told from the best, the best one of each. Of two others both
+    must be needed.
     """
-    penalised, end = inflation_of(found).penalised, found.end
+    end, penalised = found.end, inflation_of(found).penalised
     near = penalised(end) + SETTINGS.ambiguous_chi2
-    best: dict[tuple[str, ...], Instead] = {}
+    best: dict[tuple[str, ...], Exchange] = {}
     for trial in sorted(found.trials, key=penalised):
         replaced = tuple(name for name in end.effects if name not in trial.effects)
         by = tuple(name for name in trial.effects if name not in end.effects)
-        exchanged = effect in replaced and {len(replaced), len(by)} == {1, 2}
-        if exchanged and penalised(trial) <= near and not any(at_limit(trial, one) for one in by):
-            best.setdefault(replaced, Instead(replaced, by))
-    return tuple(best.values())
+        if effect not in replaced or {len(replaced), len(by)} != {1, 2} or replaced in best:
+            continue
+        if penalised(trial) <= near and _all_needed(found, trial, by) and finishes(trial):
+            best[replaced] = Exchange(replaced, by, up_to_date(trial))
+    return list(best.values())
+
+
+def _all_needed(found: Search, trial: FittedModel, by: Sequence[str]) -> bool:
+    """Tell whether no fit without one of several effects is nearly as good."""
+    penalised = inflation_of(found).penalised
+    smaller = [set(trial.effects) - {name} for name in by if len(by) > 1]
+    enough = penalised(trial) + found.spare
+    return not any(set(t.effects) in smaller and penalised(t) < enough for t in found.trials)
 
 
 def _against(gain: float, spare: float, about: Trust) -> str:

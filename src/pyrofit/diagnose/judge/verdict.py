@@ -43,6 +43,8 @@ def judge(found: Search, rng: np.random.Generator, processes: int = 1) -> Verdic
     if len(findings) == 1 and reasons and findings[0].kept:
         # The best one fails, another does not: the verdict is about that one.
         found, reasons = ended(found, findings[0].kept[0].trial, rng), []
+        (of_end,) = findings_of(found, without, context)
+        findings = (replace(findings[0], instead=of_end.instead),)
     elif reasons and found.end_lack.adequate and (part := _partly(found, without, context)):
         return part
     if not found.end_lack.adequate:
@@ -207,17 +209,16 @@ def _open_terms(findings: Sequence[Finding]) -> list[str]:
 
 
 def _instead(findings: Sequence[Finding]) -> list[str]:
-    """Name two effects that explain the data as well as one of the model, or one as two."""
-    exchanges = dict.fromkeys(one for finding in findings for one in finding.instead)
+    """Name two effects that explain the data nearly as well as one, or one as two."""
+    exchanges = {one.replaced: one for finding in findings for one in finding.instead}
     return [
-        f"{_joined(one.by)} {'explain' if len(one.by) > 1 else 'explains'} the data as well as "
-        f"{_joined(one.replaced)}"
-        for one in exchanges
+        f"{_joined(one.replaced)} may be replaced by {_joined(one.by)}, with nearly as good a fit"
+        for one in exchanges.values()
     ]
 
 
 def _joined(effects: Sequence[str]) -> str:
-    return " with ".join(map(_title, effects))
+    return " together with ".join(map(_title, effects))
 
 
 def _title(effect: str) -> str:

@@ -16,6 +16,7 @@ from pyrofit.diagnose.base.fitted import (
     polished,
     up_to_date,
 )
+from pyrofit.diagnose.base.prediction import predictions, slabs
 from pyrofit.diagnose.search.branches import branches
 from pyrofit.diagnose.search.refit import fixed_forms, look_at, model_with, with_effect
 from pyrofit.diagnose.search.restart import (
@@ -243,10 +244,10 @@ class _Pass:
     def _split(self, found: Search) -> Search:
         """Try two effects in the place of each one with free forms; take the best model.
 
-        An effect with free forms may look like two others. Where it leaves nothing but noise, no
-        second effect was tried beside one of these.
+        An effect with free forms may look like two others. Where it leaves nothing but noise, the
+        search has hardly tried a second effect beside one of these.
         """
-        if not found.end_lack.adequate:
+        if not found.end_lack.adequate or len(found.end.effects) >= self.most:
             return found
         steps = [
             _look(up_to_date(first), self._others(found.end, first), self.context)
@@ -254,12 +255,23 @@ class _Pass:
             if len(free) > 1
             for first in in_the_place(found, effect)[: SETTINGS.most_split]
         ]
+        lack = found.end_lack
+        whole = SearchStep(found.base, lambda: lack, (), (found.end,))
         before = len(found.rounds)
         found = self._with_more(found, steps, SETTINGS.most_beside)
         pairs = [t for step in found.rounds[before:] for t in step.trials]
-        return self._ended_best(
-            found, [t for t in pairs if not any(at_limit(t, e) for e in t.effects)]
-        )
+        inside = [t for t in pairs if not any(at_limit(t, e) for e in t.effects) and finishes(t)]
+        split = self._ended_best(found, inside)
+        if split.end is found.end or not self._predicts_better(split.end, found.end):
+            return found
+        return replace(split, rounds=(*split.rounds, whole)) if split.end_lack.adequate else found
+
+    def _predicts_better(self, trial: FittedModel, end: FittedModel) -> bool:
+        """Tell whether a model is better with its predictions of experiments left out as well."""
+        if not slabs(end):
+            return True
+        scores = predictions([trial, end], self.context.processes, False, made=self.context.made)
+        return self._rank(trial) - self._rank(end) < 2.0 * (scores[0].total - scores[1].total)
 
     def _others(self, *models: FittedModel) -> list[str]:
         """Return the candidates that none of some models has."""
