@@ -1,6 +1,6 @@
 """Predictions of held-out tests by the study of pine: the tables of docs/measured_pine.md.
 
-    snakemake --cores 1 --configfile config/pine.yaml results/pine/kinetics/fit.json
+    snakemake --cores 1 results/pine/kinetics/fit.json --configfile config/pine.yaml
     python benchmarks/pine.py [--thin]
 
 Least squares of the study's cost from the known values and the middle of the limits, with the
