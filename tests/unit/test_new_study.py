@@ -129,6 +129,16 @@ def test_written_study_passes_check_and_says_what_it_took(
     assert "tga_10K.csv: mass_fraction: time 'Time', temperature 'Temperature', value 'M" in said
     assert "study 'wood' is valid; 2 measured series read" in said
     assert cli.main(["check", "wood/wood.yaml"]) == 0
+    marked = capsys.readouterr().err
+    lines = Path("wood/wood.yaml").read_text("utf-8").splitlines()
+    (numbers,) = re.findall(
+        r"set the values marked CHANGE and delete this word: lines (.*)", marked
+    )
+    assert all("CHANGE" in lines[int(number) - 1] for number in numbers.split(", "))
+    text = "\n".join(line.replace("CHANGE", "") for line in lines)
+    Path("wood/wood.yaml").write_text(text, encoding="utf-8")
+    assert cli.main(["check", "wood/wood.yaml"]) == 0
+    assert "CHANGE" not in capsys.readouterr().err
     after = contents(folder)
     assert {name: after[name] for name in before} == before
     assert after["wood/data/tga_10K.csv"] == before["tga_10K.csv"]

@@ -24,7 +24,7 @@ class Followed:
 
     @property
     def results(self) -> Path:
-        return self.root / "results" / "mypolymer"
+        return self.root / "results" / "mypolymer_quick"
 
 
 @pytest.fixture(scope="module")
@@ -41,7 +41,7 @@ def followed(tmp_path_factory: pytest.TempPathFactory) -> Followed:
 def unpacked(followed: Followed, tmp_path_factory: pytest.TempPathFactory) -> Path:
     """Return a folder with what the tutorial's archive holds."""
     folder = tmp_path_factory.mktemp("unpacked")
-    with zipfile.ZipFile(followed.results / "mypolymer.zip") as archive:
+    with zipfile.ZipFile(followed.results / "mypolymer_quick.zip") as archive:
         archive.extractall(folder)
     return folder
 
@@ -111,7 +111,7 @@ def test_archive_holds_study_files_results_and_software(followed: Followed, unpa
         assert (unpacked / "as_given" / Path(name).name).read_bytes() == given
     for name in ("tga_20K.csv", "slab_25kW.csv", "slab_60kW.csv"):
         assert (unpacked / "data" / name).read_bytes() == (followed.root / name).read_bytes()
-    left_out = {"logs", "benchmarks", "mypolymer.zip"}
+    left_out = {"logs", "benchmarks", "mypolymer_quick.zip"}
     for path in followed.results.rglob("*"):
         place = path.relative_to(followed.results)
         if path.is_file() and place.parts[0] not in left_out:
@@ -126,14 +126,14 @@ def test_unpacked_study_passes_check_with_the_software_of_the_archive(unpacked: 
     software = unpacked / "software"
     ran = run(software, "pyrofit", "check", "../study.yaml", source=software / "src")
     assert ran.returncode == 0, ran.stderr
-    assert "study 'mypolymer' is valid; 3 measured series read; 1 repetitions" in ran.stdout
+    assert "study 'mypolymer_quick' is valid; 3 measured series read; 1 repetitions" in ran.stdout
 
 
 def test_unpacked_study_gives_the_same_results_again(unpacked: Path) -> None:
     study = ("--configfile", "../study.yaml")
     ran = run(unpacked / "software", "snakemake", "--cores", "2", *study)
     assert ran.returncode == 0, ran.stdout + ran.stderr
-    again = unpacked / "software" / "results" / "mypolymer"
+    again = unpacked / "software" / "results" / "mypolymer_quick"
     # These name the files that were read, which lie elsewhere now; the report tells wall times.
     places = {"study.json", "report.html", "provenance.json", "measurements/summary.json"}
     compared = 0
@@ -154,7 +154,7 @@ def _without_digest(path: Path) -> bytes:
 
 
 def test_archive_of_the_same_results_has_the_same_bytes(followed: Followed) -> None:
-    archive = followed.results / "mypolymer.zip"
+    archive = followed.results / "mypolymer_quick.zip"
     before = archive.read_bytes()
     for path in followed.results.rglob("*.csv"):
         os.utime(path, (2e9, 2e9))
@@ -167,6 +167,7 @@ def test_archive_of_the_same_results_has_the_same_bytes(followed: Followed) -> N
 
 def test_results_of_another_study_are_not_archived(followed: Followed) -> None:
     command = ["pyrofit", "archive", "--study", "mypolymer/mypolymer.yaml"]
+    command += ["--results", "results/mypolymer_quick"]
     ran = run(followed.root, *command)
     assert ran.returncode == 2
     assert "the study has changed since these results were made; run the workflow" in ran.stderr

@@ -169,6 +169,7 @@ def _check(given: argparse.Namespace) -> None:
     from pyrofit.config.programs import externals
     from pyrofit.config.unusual import unusual
     from pyrofit.external.filled import executable_of
+    from pyrofit.new_study.marks import MARK, marked_lines
     from pyrofit.stages.reading import check_measurements
 
     study = read_study(given.study)
@@ -179,7 +180,12 @@ def _check(given: argparse.Namespace) -> None:
             print(f"experiments.{name}: the program is {executable_of(experiment.program)}")
         except ProgramError as error:
             print(f"experiments.{name}: not here: {error}")
-    for sentence in unusual(study):
+    marked = marked_lines(given.study.read_text(encoding="utf-8"))
+    sentences = unusual(study)
+    if marked:
+        lines = f"{'lines' if len(marked) > 1 else 'line'} {', '.join(map(str, marked))}"
+        sentences.append(f"set the values marked {MARK} and delete this word: {lines}")
+    for sentence in sentences:
         print(f"warning: {given.study}: {sentence}", file=sys.stderr)
     print(
         f"{given.study}: study '{study.name}' is valid; {read} measured series read; "
