@@ -32,7 +32,7 @@ def _signal(run: Measured, found: Found) -> list[str]:
             f"  # CHANGE: no one column is recognised as {' or as '.join(found.missing)}.",
             f"  # The file has: {', '.join(map(_quoted, run.headers))}. Name them, and their",
             "  # units where the file does not: columns: {time: ..., value: ...},",
-            "  # units: {time: min, value: ...}; docs/adding.md has an example.",
+            "  # units: {time: min, value: ...}; docs/own_study.md has an example.",
         ]
     if found.columns:
         lines.append(f"  columns: {_mapping(found.columns)}")
