@@ -52,7 +52,7 @@ def _left(chosen: Candidate, settings: Settings) -> str:
         else "It leaves nothing but noise."
     )
     if scheme.reactions == settings.most_reactions and size > 0.0:
-        text += " It is the largest that was tried: a larger one may predict better."
+        text += " It has as many reactions as are tried: more may predict better."
     return text
 
 
