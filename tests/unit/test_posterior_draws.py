@@ -8,7 +8,7 @@ import pytest
 
 from pyrofit.estimate import discrepancy, ensembles
 from pyrofit.estimate.bands import band, carried, free, measured
-from pyrofit.estimate.convergence import rhat
+from pyrofit.estimate.convergence import autocorrelation_times, rhat
 from pyrofit.estimate.correlation import Correlation
 from pyrofit.estimate.discrepancy import Discrepancy, factor_of, half_time, noise_covariance
 from pyrofit.estimate.ensembles import Drawn, draw
@@ -87,6 +87,15 @@ def test_rhat_tells_ensembles_apart_by_place_and_by_spread() -> None:
 
 TIME = np.linspace(0.0, 1000.0, 150)
 CURVE = 1e-2 * np.exp(-(((TIME - 500.0) / 180.0) ** 2))
+
+
+def test_walker_that_never_moved_makes_its_parameter_unsettled() -> None:
+    samples = np.random.default_rng(4).random((2, 60, 5, 2))
+    moving = autocorrelation_times(samples)
+    samples[1, :, 3, 0] = 0.5
+    times = autocorrelation_times(samples)
+    assert times[0] == 60.0
+    assert times[1] == moving[1] < 10.0
 
 
 def noise(sd: float) -> NoiseModel:

@@ -52,10 +52,12 @@ def _of_groups(groups: FloatArray) -> float:
 def autocorrelation_times(samples: FloatArray) -> FloatArray:
     """Return the integrated autocorrelation time of each parameter in steps.
 
-    ``samples`` has the shape (ensembles, steps, walkers, parameters).
+    ``samples`` has the shape (ensembles, steps, walkers, parameters). Where a walker has never
+    moved, the time is unknown and at least the number of steps, which is returned.
     """
     from emcee.autocorr import integrated_time
 
     together = np.concatenate(list(samples), axis=1)
-    times = np.asarray(integrated_time(together, quiet=True, tol=0), dtype=np.float64)
-    return np.maximum(times, 1.0)
+    with np.errstate(invalid="ignore"):
+        times = np.asarray(integrated_time(together, quiet=True, tol=0), dtype=np.float64)
+    return np.maximum(np.where(np.isnan(times), len(together), times), 1.0)
