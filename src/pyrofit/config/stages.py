@@ -55,9 +55,11 @@ class Kinetics(Part):
     """Stage 1: fit of the kinetics to TGA."""
 
     estimate: tuple[str, ...] = Field(min_length=1, description="parameters to estimate")
-    cost: Terms = Field(description="terms of the fitness, Eq. 5")
+    cost: Terms = Field(description="terms of the cost, a weighted sum, Eq. 5 of Lauer et al.")
     sceua: Sceua = Field(default_factory=Sceua, description="budget of SCE-UA")
-    least_squares: LeastSquares = Field(default_factory=LeastSquares, description="beside it")
+    least_squares: LeastSquares = Field(
+        default_factory=LeastSquares, description="least squares, in addition to SCE-UA"
+    )
     compare: tuple[str, ...] = Field((), description="further experiments to draw and score")
     sets: dict[str, KineticSet] = Field(
         default_factory=dict, description="published kinetics, drawn and scored beside the fit"
@@ -77,11 +79,13 @@ class Imp(Part):
     costs: dict[Name, Terms] = Field(min_length=1, description="cost functions by name")
     repetitions: int = Field(25, ge=1, description="repetitions per cost")
     sceua: Sceua = Field(default_factory=Sceua, description="budget of SCE-UA")
-    least_squares: LeastSquares = Field(default_factory=LeastSquares, description="beside it")
-    cmaes: Cmaes = Field(default_factory=Cmaes, description="beside both")
+    least_squares: LeastSquares = Field(
+        default_factory=LeastSquares, description="least squares, in addition to SCE-UA"
+    )
+    cmaes: Cmaes = Field(default_factory=Cmaes, description="CMA-ES, in addition to both")
     identification: dict[str, tuple[str, ...]] = Field(
         default_factory=dict,
-        description="signals by gasification experiment for the analysis of identifiability; "
+        description="signals by experiment for the analysis of identifiability; "
         "none = those that the costs compare",
     )
 
@@ -116,4 +120,8 @@ class Robustness(Part):
 class Validation(Part):
     """Stage 3: prediction of experiments that were not fitted."""
 
-    experiments: tuple[str, ...] = Field(min_length=1, description="gasification experiments")
+    experiments: tuple[str, ...] = Field(
+        min_length=1,
+        description="experiments to predict: slabs or external ones; TGA, DSC or MCC in a study "
+        "without slabs",
+    )

@@ -20,7 +20,10 @@ class Accuracy(Part):
         2000, ge=50, le=5000, description="largest number of cells, if the reaction zone needs more"
     )
     tolerance: float = Field(
-        2e-3, gt=0.0, le=0.1, description="bound on the scaled predictor-corrector difference"
+        2e-3,
+        gt=0.0,
+        le=0.1,
+        description="allowed error of a time step; smaller is slower and more accurate",
     )
     first_step_s: float = Field(0.01, gt=0.0, description="first time step [s]")
     longest_step_s: float = Field(10.0, gt=0.0, description="longest time step [s]")
