@@ -114,8 +114,9 @@ def needed(found: dict[tuple[str, str], Rates]) -> str:
         rows.append((FLUXES[name], how, f"{wanted:,}", f"{whole:,.0f}", said, f"{kernel:,.0f}"))
     head = ("kW/m²", "how", "wanted 1/s", "measured 1/s", "reached", "kernel alone 1/s")
     return (
-        f"{table(head, rows)}\n\nThe rate in lanes is the higher one of {LANES} and {MANY} equal "
-        "sets in a call, with one thread."
+        f"{table(head, rows)}\n\n*Wanted* is the aim set before the measurement. "
+        f"The rate in lanes is the higher one of {LANES} and {MANY} equal sets in a call, with one "
+        "thread."
     )
 
 

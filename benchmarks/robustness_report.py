@@ -117,6 +117,7 @@ def page(state: dict[str, Any]) -> str:
             "burn-out. The energy error is heat stored and used minus heat through the surfaces, "
             "over the heat that crossed the surfaces. The heat through the surfaces is "
             "integrated with the weights of the time stepping formula.",
+            "*ok*: the sample has burnt out. *unburnt*: reactant was left at the end.",
             table(("how it ended", "sets"), counts),
             "The table lists the worst sets, at most a hundred of each kind. *Mean place* is the "
             "place in the box (0 lower, 1 upper limit) of parameters far from the middle. For the "

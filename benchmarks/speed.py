@@ -45,10 +45,11 @@ def machine() -> None:
         "The case is `config/paper.yaml` with the kinetics of Table 3 and the published set of the "
         "RMSE cost. The output is the mass loss rate in bins of 5 s. An evaluation is a call of "
         f"`simulate_gasification`, or of `simulate_gasifications` with {LANES} equal sets, with "
-        "lowering and sampling; *kernel* is the compiled code alone. A timing is the shortest of "
-        "many repeats in a second or more (in the curve half a second), on one core. The error is "
-        "the root mean square difference of the bins over their mean. The reference is a solution "
-        "of the same solver with "
+        "lowering and sampling. *Scalar* simulates one parameter set, *lanes* simulate "
+        f"{LANES} side by side on one core; *kernel* is the compiled code alone. A timing is the "
+        "shortest of many repeats in a second or more (in the curve half a second), on one core. "
+        "The error is the root mean square difference of the bins over their mean. The reference "
+        "is a solution of the same solver with "
         f"{FINE.cells} cells and a tolerance of {FINE.tolerance:g}.\n\n"
         + table(
             ("fine solution", "its difference from half its cells, four times its tolerance"),
@@ -85,8 +86,9 @@ def curves() -> None:
         "Error against cost",
         "![error against evaluations per second](figures/benchmarks.svg)\n\n"
         "`python benchmarks/speed.py curves` measures and draws it.\n\n"
-        "Settings that no other one of the grid beats in both, lanes, whole evaluations (first "
-        "step 30 s times the tolerance, longest step 40 s):\n\n" + "\n\n".join(parts),
+        "Settings for which no other one of the grid is both faster and more accurate. Rates are "
+        "whole evaluations in lanes (first step 30 s times the tolerance, longest step 40 s):\n\n"
+        + "\n\n".join(parts),
     )
 
 
