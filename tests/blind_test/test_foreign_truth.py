@@ -192,7 +192,9 @@ def quick(study: Study, measurements: Measurements) -> dict[str, Any]:
 def test_effect_in_curves_of_another_code_is_named_with_its_strength(
     setting: Setting, cases: tuple[Case, ...], tmp_path: Path
 ) -> None:
-    case = case_of(cases, "d02", "mlr+back").model_copy(update={"left_out": False})
+    # One draw of the noise: how often others lead to the name is counted in docs/blind_test.md.
+    fixed = {"left_out": False, "seed": 5692711}
+    case = case_of(cases, "d02", "mlr+back").model_copy(update=fixed)
     found = run_case(setting, case, Places(tmp_path), quick)
     row = row_of({"id": "twin", **found})
     assert (row["verdict"], row["named"]) == ("named", "foil_mass")
