@@ -13,7 +13,7 @@ from pyrofit.diagnose.judge.findings import Exchange, Finding, Judged
 from pyrofit.diagnose.judge.inflation import inflation_of
 from pyrofit.diagnose.search.restart import refitted_without
 from pyrofit.diagnose.search.step import SearchContext, SearchStep
-from pyrofit.diagnose.search.stepwise import Search
+from pyrofit.diagnose.search.stepwise import Search, replacing
 from pyrofit.diagnose.settings import SETTINGS
 from pyrofit.parallel import parallel_map
 
@@ -118,14 +118,11 @@ def alternatives(found: Search, effect: str) -> list[tuple[str, FittedModel]]:
 
     Of each effect the best form; the end of the search itself first.
     """
-    others = set(found.end.effects) - {effect}
     best = {effect: found.end}
     penalised = inflation_of(found).penalised
-    for trial in sorted(found.trials, key=penalised):
-        (*rest,) = set(trial.effects) - others
-        same = others <= set(trial.effects) and len(rest) == 1
-        if same and penalised(trial) <= penalised(found.end) + SETTINGS.ambiguous_chi2:
-            best.setdefault(rest[0], trial)
+    for name, trial in sorted(replacing(found, effect), key=lambda one: penalised(one[1])):
+        if penalised(trial) <= penalised(found.end) + SETTINGS.ambiguous_chi2:
+            best.setdefault(name, trial)
     return [(name, up_to_date(trial)) for name, trial in list(best.items())[: SETTINGS.most_judged]]
 
 

@@ -1,6 +1,6 @@
 """The search: every effect alone, the leading ones in other forms, then pairs, then more."""
 
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass, replace
 from functools import cache
 
@@ -296,15 +296,21 @@ class _Pass:
         return found if best is found.end else self._ended(found, best)
 
 
+def replacing(found: Search, effect: str) -> Iterator[tuple[str, FittedModel]]:
+    """Yield the models with one effect in the place of one of the end's, and its name."""
+    others = set(found.end.effects) - {effect}
+    for trial in found.trials:
+        (*rest,) = set(trial.effects) - others
+        if others <= set(trial.effects) and len(rest) == 1:
+            yield rest[0], trial
+
+
 def in_the_place(found: Search, effect: str) -> list[FittedModel]:
     """Return the models with the strength of another effect in one's place, the best first."""
-    others = set(found.end.effects) - {effect}
     rivals: dict[str, FittedModel] = {}
-    for trial in best_of_each(found.trials):
-        (*rest,) = set(trial.effects) - others
-        same = others <= set(trial.effects) and len(rest) == 1 and effect not in rest
-        if same and len(trial.model.effects[rest[0]]) == 1:
-            rivals.setdefault(rest[0], trial)
+    for name, trial in sorted(replacing(found, effect), key=lambda one: one[1].penalised):
+        if name != effect and len(trial.model.effects[name]) == 1:
+            rivals.setdefault(name, trial)
     return list(rivals.values())
 
 
