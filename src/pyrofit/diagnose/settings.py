@@ -88,6 +88,9 @@ class Settings:
     """A fit that ends this far above the best one is not refined."""
     little_gain_share: float = 0.005
     """An effect that lowers chi-square by a smaller share is fitted from a second start."""
+    weak_share: float = 0.3
+    """An effect whose strength ends below this share of the typical one is fitted from a second
+    start as well."""
     most_polished: int = 5
     """Models of a step that are searched again from other values of uncertain parameters."""
     most_form_parameters: int = 2
@@ -103,7 +106,8 @@ class Settings:
     most_predicted: int = 6
     """Models of a step whose predictions are compared."""
     most_exchanged: int = 3
-    """Other effects that are tried in the place of each effect of the final model."""
+    """Other effects that are tried in the place of each effect of the final model, besides those of
+    its group."""
     most_split: int = 5
     """Effects beside which a second one is tried, in the place of an effect with free forms."""
     most_beside: int = 2

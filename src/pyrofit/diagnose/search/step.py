@@ -8,6 +8,7 @@ import numpy as np
 
 from pyrofit.diagnose.base.adequacy import LackOfFit
 from pyrofit.diagnose.base.fitted import FittedModel, followed, polished
+from pyrofit.diagnose.base.model import strength_of
 from pyrofit.diagnose.base.prediction import Made
 from pyrofit.diagnose.search.refit import (
     fixed_forms,
@@ -103,13 +104,13 @@ def _near(trials: Sequence[FittedModel], best: float) -> list[FittedModel]:
 def _fitted(tried: Tried, context: SearchContext, best: float = np.inf) -> list[list[FittedModel]]:
     """Fit one effect more in each step, those that promise most.
 
-    Roughly first, those that gain next to nothing from a second start as well. Those that come near
-    the best one are then fitted to the end, from the other starts, too.
+    Roughly first, weak ones from a second start as well. Those that come near the best one are then
+    fitted to the end, from the other starts, too.
     """
     tries = [
         _Try(k, step.start, seen)
         for k, (step, most) in enumerate(tried)
-        for seen in _best(step, most)
+        for seen in most_promising(step, most)
     ]
     models = [model_with(one.start, one.seen.effect) for one in tries]
     rough = SETTINGS.rough_gain
@@ -127,9 +128,9 @@ def _fitted(tried: Tried, context: SearchContext, best: float = np.inf) -> list[
     def roughly(i: int) -> FittedModel:
         start, seen = tries[i].start, tries[i].seen
         end = from_best_start(start, seen, rough)
-        if end.fit.chi2 <= (1.0 - SETTINGS.little_gain_share) * start.fit.chi2:
-            return end
-        return from_elsewhere(start, seen, end, others[i][:1], rough)
+        if _is_weak(end, seen, start):
+            return from_elsewhere(start, seen, end, others[i][:1], rough)
+        return end
 
     def to_the_end(i: int) -> FittedModel:
         return from_elsewhere(tries[i].start, tries[i].seen, followed(found[i]), others[i])
@@ -141,7 +142,20 @@ def _fitted(tried: Tried, context: SearchContext, best: float = np.inf) -> list[
     return [[found[i] for i in every if tries[i].step == k] for k in range(len(tried))]
 
 
-def _best(step: SearchStep, most: int) -> list[Screening]:
+def _is_weak(end: FittedModel, seen: Screening, start: FittedModel) -> bool:
+    """Tell whether an effect ends near its null value, or gains next to nothing.
+
+    Chi-square may have a minimum there, and a lower one at the effect's usual strength.
+    """
+    _, quantity = strength_of(seen.effect)
+    share = (end.strength(seen.effect) - quantity.value) / (quantity.typical - quantity.value)
+    if abs(share) < SETTINGS.weak_share:
+        return True
+    return end.fit.chi2 > (1.0 - SETTINGS.little_gain_share) * start.fit.chi2
+
+
+def most_promising(step: SearchStep, most: int) -> list[Screening]:
+    """Return at most some looks of a step, the lowest linearised chi-square first."""
     return sorted(step.looks, key=lambda look: float(look.ahead.min()))[:most]
 
 

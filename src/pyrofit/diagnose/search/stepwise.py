@@ -25,15 +25,18 @@ from pyrofit.diagnose.search.restart import (
     refitted_without,
     restarted,
 )
+from pyrofit.diagnose.search.score_test import Screening
 from pyrofit.diagnose.search.step import (
     SearchContext,
     SearchStep,
     in_order,
     more,
+    most_promising,
     singles,
     with_forms,
 )
 from pyrofit.diagnose.settings import SETTINGS
+from pyrofit.effects import known_effects
 from pyrofit.parallel import parallel_map
 
 Fitting = Callable[[Sequence[SearchStep]], Sequence[Sequence[FittedModel]]]
@@ -231,13 +234,17 @@ class _Pass:
 
     def _exchanged(self, found: Search) -> Search:
         """Try other effects in the place of each of the final model; take the best model."""
-        others = self._others(found.end)
+        others, effects = self._others(found.end), found.end.effects
         if not others:
             return found
-        reduced = refitted_without(found.end, found.end.effects, self.context.processes)
+        reduced = refitted_without(found.end, effects, self.context.processes)
         steps = [_look(up_to_date(without), others, self.context) for without in reduced]
-        found = self._with_more(found, steps, SETTINGS.most_exchanged)
-        size = len(found.end.effects)
+        chosen = [
+            replace(step, looks=tuple(_in_place(step, effect)))
+            for step, effect in zip(steps, effects, strict=True)
+        ]
+        found = self._with_more(found, chosen, len(others))
+        size = len(effects)
         same = [t for step in found.rounds for t in step.trials if len(t.effects) == size]
         return self._ended_best(found, same)
 
@@ -296,6 +303,17 @@ class _Pass:
         return found if best is found.end else self._ended(found, best)
 
 
+def _in_place(step: SearchStep, effect: str) -> list[Screening]:
+    """Return the most promising effects in the place of one, and all others of its group."""
+    catalogue = known_effects()
+    looks = most_promising(step, len(step.looks))
+    return [
+        look
+        for k, look in enumerate(looks)
+        if k < SETTINGS.most_exchanged or catalogue[look.effect].group == catalogue[effect].group
+    ]
+
+
 def replacing(found: Search, effect: str) -> Iterator[tuple[str, FittedModel]]:
     """Yield the models with one effect in the place of one of the end's, and its name."""
     others = set(found.end.effects) - {effect}
@@ -321,7 +339,7 @@ def _sharp(step: SearchStep, context: SearchContext) -> SearchStep:
     """
     if step.lack().passes and not blurred(step.start.model.base):
         return step
-    order = sorted(step.looks, key=lambda look: float(look.ahead.min()))[: SETTINGS.noise_leaders]
+    order = most_promising(step, SETTINGS.noise_leaders)
     if not order:
         return step
     fits = parallel_map(
