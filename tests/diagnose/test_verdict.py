@@ -1,5 +1,6 @@
 """Every kind of verdict, from searches on linear models whose truth is planted; and its words."""
 
+import sys
 from dataclasses import replace
 from typing import Any
 
@@ -81,9 +82,27 @@ def test_nothing_planted_is_none() -> None:
     verdict = verdict_on(found)
     assert verdict.kind == "none"
     assert verdict.findings == ()
-    assert verdict.reasons == ("no test of the residuals shows a lack of fit",)
-    assert found.trials == []
+    assert found.end_lack.passes
+    assert {trial.effects for trial in found.trials} == {("c_T",), ("heater_ramp",), ("k_T",)}
     assert "These data show no missing effect. No test of the residuals" in sentences(verdict)
+
+
+def test_claim_that_fails_where_the_base_fits_is_none() -> None:
+    found = searched(planted())
+    (best, *_) = found.trials
+    verdict = verdict_on(replace(found, end=best))
+    assert verdict.kind == "none"
+    assert verdict.search.end is found.base
+    assert "no effect passes every test of a claim" in sentences(verdict)
+
+
+def test_effect_that_no_test_of_the_residuals_shows_is_found(
+    monkeypatch: pytest.MonkeyPatch,
+) -> None:
+    found = searched(planted(k_T=0.8))
+    passing = replace(found.rounds[0].lack(), windows=(), score=0.0, chi2=0.0)
+    monkeypatch.setattr(sys.modules[search.__module__], "lack_of_fit", lambda *_: passing)
+    assert searched(planted(k_T=0.8)).end.effects == ("k_T",)
 
 
 def test_significant_score_without_enough_gain_is_none_and_says_so() -> None:

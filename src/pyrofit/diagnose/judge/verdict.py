@@ -21,6 +21,8 @@ from pyrofit.model.slab import SlabExperiment
 ONE_FLUX = "only the mass loss rate at one flux is calibrated"
 """A reason that leaves every claim open."""
 
+FITS = "no test of the residuals shows a lack of fit"
+
 
 def judge(found: Search, rng: np.random.Generator, processes: int = 1) -> Verdict:
     """Return the verdict on a search's final model.
@@ -47,6 +49,9 @@ def judge(found: Search, rng: np.random.Generator, processes: int = 1) -> Verdic
         findings = (replace(findings[0], instead=of_end.instead),)
     elif reasons and found.end_lack.adequate and (part := _partly(found, without, context)):
         return part
+    if reasons and found.rounds[0].lack().passes:
+        found = ended(found, found.base, rng)
+        return Verdict("none", found, (), (f"{FITS}, and no effect passes every test of a claim",))
     if not found.end_lack.adequate:
         reasons.append("the residuals exceed the noise, with every effect that gains enough")
     if reasons:
@@ -168,10 +173,9 @@ def _suspects(found: Search, processes: int) -> tuple[Suspect, ...]:
 
 
 def _without_effects(found: Search) -> Verdict:
-    if found.end_lack.passes:
-        return Verdict("none", found, (), ("no test of the residuals shows a lack of fit",))
     if found.end_lack.adequate:
-        reason = "a score test is significant, but no effect lowers chi-square enough for a claim"
+        tests = f"{FITS}, and" if found.end_lack.passes else "a score test is significant, but"
+        reason = f"{tests} no effect lowers chi-square enough for a claim"
         return Verdict("none", found, (), (reason,))
     return Verdict("unknown", found, (), ("no effect of the catalogue gains enough",))
 

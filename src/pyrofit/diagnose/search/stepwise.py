@@ -141,8 +141,6 @@ class _Pass:
         """Search from the first look at the base model."""
         if not self.carried:
             first = _sharp(first, self.context)
-        if first.lack().passes:
-            return Search((first,), first.start, first.lack(), self.spare)
         (first,) = self._fitted([first], lambda steps: [self._singles(steps[0])])
         best, best_lack, rounds = first.start, first.lack, [first]
         beam = branches([first], self.spare, self.context)
