@@ -156,3 +156,8 @@ def at_limit(trial: FittedModel, effect: str) -> str:
     side = limit_of(x)
     absent = side == "lower" and quantity.lower == 0.0 < quantity.value
     return trial.model.names[trial.model.position(effect)] if side and not absent else ""
+
+
+def strengths_at_limit(trial: FittedModel) -> list[str]:
+    """Return the names of all strengths that rest at a limit."""
+    return [name for effect in trial.effects if (name := at_limit(trial, effect))]

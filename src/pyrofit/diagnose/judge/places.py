@@ -6,7 +6,7 @@ from dataclasses import replace
 import numpy as np
 
 from pyrofit.diagnose.base.adequacy import lack_of_fit
-from pyrofit.diagnose.base.fitted import FittedModel, at_limit, finishes, up_to_date
+from pyrofit.diagnose.base.fitted import FittedModel, finishes, strengths_at_limit, up_to_date
 from pyrofit.diagnose.base.prediction import predictions
 from pyrofit.diagnose.judge.claim_tests import Trust, explains, trust
 from pyrofit.diagnose.judge.findings import Exchange, Finding, Judged
@@ -91,8 +91,7 @@ def findings_of(
         foreseen, also = known[_key(trial)]
         about = trust(trial, name, foreseen, before[k], also, inflation)
         if trial is not places[k][0][1]:  # the end's other effects have places of their own
-            limits = filter(None, (at_limit(trial, effect) for effect in trial.effects))
-            about = replace(about, limit=next(limits, ""))
+            about = replace(about, limit="".join(strengths_at_limit(trial)[:1]))
         gain = inflation.penalised(without[k]) - inflation.penalised(trial)
         return Judged(name, trial, about, _against(gain, found.spare, about))
 

@@ -5,7 +5,7 @@ from typing import Any
 
 import numpy as np
 
-from pyrofit.diagnose.base.fitted import FittedModel, at_limit, finishes
+from pyrofit.diagnose.base.fitted import FittedModel, finishes, strengths_at_limit
 from pyrofit.diagnose.base.model import strength_of
 from pyrofit.diagnose.judge.findings import Judged, Verdict
 from pyrofit.diagnose.judge.intervals import ridges, strengths, with_all_forms
@@ -109,7 +109,7 @@ def _why_not(found: Search, start: FittedModel, trial: FittedModel, best: float)
     gain = start.penalised - trial.penalised
     if gain < found.spare:
         return f"gains {gain:.1f} of penalised chi-square, {found.spare:.1f} are asked for"
-    limits = [name for name in (at_limit(trial, effect) for effect in trial.effects) if name]
+    limits = strengths_at_limit(trial)
     if limits:
         return f"{limits[0]} rests at a limit"
     above = trial.penalised - best

@@ -2,7 +2,7 @@
 
 from collections.abc import Sequence
 
-from pyrofit.diagnose.base.fitted import FittedModel, at_limit
+from pyrofit.diagnose.base.fitted import FittedModel, strengths_at_limit
 from pyrofit.diagnose.base.prediction import predictions, slabs
 from pyrofit.diagnose.search.step import SearchContext, SearchStep, in_order
 from pyrofit.diagnose.settings import SETTINGS
@@ -42,7 +42,7 @@ def _claims(steps: Sequence[SearchStep], spare: float) -> list[Claim]:
         for trial in step.trials
         if step.start.penalised - trial.penalised >= spare
     ]
-    inside = [c for c in found if not any(at_limit(c[0], e) for e in c[0].effects)]
+    inside = [c for c in found if not strengths_at_limit(c[0])]
     start = {id(trial): start for trial, start in inside or found}
     best: dict[frozenset[str], FittedModel] = {}
     for trial in in_order([trial for trial, _ in inside or found]):

@@ -10,10 +10,10 @@ from pyrofit.diagnose.base.adequacy import LackOfFit, lack_of_fit
 from pyrofit.diagnose.base.fit import blurred, is_clearer, refitted, refitted_all, sharpened
 from pyrofit.diagnose.base.fitted import (
     FittedModel,
-    at_limit,
     finishes,
     misfits,
     polished,
+    strengths_at_limit,
     up_to_date,
 )
 from pyrofit.diagnose.base.prediction import predictions, slabs
@@ -265,7 +265,7 @@ class _Pass:
         before = len(found.rounds)
         found = self._with_more(found, steps, SETTINGS.most_beside)
         pairs = [t for step in found.rounds[before:] for t in step.trials]
-        inside = [t for t in pairs if not any(at_limit(t, e) for e in t.effects) and finishes(t)]
+        inside = [t for t in pairs if not strengths_at_limit(t) and finishes(t)]
         split = self._ended_best(found, inside)
         if split.end is found.end or not self._predicts_better(split.end, found.end):
             return found
