@@ -12,14 +12,16 @@ from linear import TOTAL, column_of, fit_with
 from pyrofit.diagnose.base import prediction
 from pyrofit.diagnose.base.adequacy import LackOfFit
 from pyrofit.diagnose.base.fitted import FittedModel, up_to_date
-from pyrofit.diagnose.base.model import strength_of
+from pyrofit.diagnose.base.model import extended, strength_of
 from pyrofit.diagnose.base.prediction import Made, predictions
 from pyrofit.diagnose.judge import places, verdict
 from pyrofit.diagnose.judge.inflation import inflation_of
 from pyrofit.diagnose.judge.places import needed
 from pyrofit.diagnose.result import candidates
 from pyrofit.diagnose.search import step, stepwise
-from pyrofit.diagnose.search.step import SearchContext, more
+from pyrofit.diagnose.search.refit import model_with
+from pyrofit.diagnose.search.score_test import Screening
+from pyrofit.diagnose.search.step import SearchContext, more, most_promising
 from pyrofit.diagnose.search.stepwise import Search, _look, search, settled
 from pyrofit.diagnose.settings import SETTINGS
 from pyrofit.solver.arrays import FloatArray
@@ -65,6 +67,47 @@ def test_fits_far_above_a_model_at_hand_stay_rough(
     (trials,) = more([(_look(base, EFFECTS, CONTEXT), 3)], CONTEXT, best)
     assert {trial.effects[-1] for trial in trials} == set(EFFECTS), "rough fits are kept"
     assert ("k_T" in followed, "k_T" in polished) == (refined, refined)
+
+
+@pytest.mark.parametrize(("share", "again"), [(0.2, True), (-0.2, True), (0.5, False)])
+def test_effect_that_ends_near_its_null_value_is_fitted_from_a_second_start(
+    base: FittedModel, monkeypatch: pytest.MonkeyPatch, share: float, again: bool
+) -> None:
+    """Even where it gains much: chi-square may be lower at the usual strength."""
+    quantity = strength_of("k_T")[1]
+    value = quantity.value + share * (quantity.typical - quantity.value)
+    begun: list[str] = []
+
+    def near_null(trial: FittedModel, seen: Screening, enough: float) -> FittedModel:
+        x = extended(trial.fit.x, seen.effect, value)
+        fit = replace(trial.fit, x=x, chi2=0.5 * trial.fit.chi2)
+        return FittedModel(model_with(trial, seen.effect), fit)
+
+    def from_elsewhere(
+        trial: FittedModel, seen: Screening, end: FittedModel, others: object, enough: float = 0.0
+    ) -> FittedModel:
+        if enough == SETTINGS.rough_gain:
+            begun.append(seen.effect)
+        return end
+
+    monkeypatch.setattr(step, "from_best_start", near_null)
+    monkeypatch.setattr(step, "from_elsewhere", from_elsewhere)
+    monkeypatch.setattr(step, "followed", lambda trial: trial)
+    monkeypatch.setattr(step, "polished", lambda trials, processes: list(trials))
+    more([(_look(base, ["k_T"], CONTEXT), 1)], CONTEXT)
+    assert begun == (["k_T"] if again else [])
+
+
+def test_all_effects_of_a_group_are_tried_in_the_place_of_one(base: FittedModel) -> None:
+    effects = ("c_T", "heater_ramp", "k_T", "time_offset")
+    columns = linear.random_columns(9, *effects, size=60.0)
+    looks = _look(linear.fit(columns, planted("k_T")), effects, CONTEXT)
+    first = [look.effect for look in most_promising(looks, 4)]
+    assert first[-1] in ("heater_ramp", "time_offset"), "one of a group promises least"
+    kin = {"heater_ramp": "time_offset", "time_offset": "heater_ramp"}
+    for effect in ("k_T", *kin):
+        wanted = [e for k, e in enumerate(first) if k < 3 or e == kin.get(effect) or e == effect]
+        assert [look.effect for look in stepwise._in_place(looks, effect)] == wanted
 
 
 def test_predictions_begin_with_the_derivatives_at_hand(
