@@ -86,6 +86,8 @@ class Settings:
     """Effects whose form parameters are tried after the first step."""
     hopeless_chi2: float = 50.0
     """A fit that ends this far above the best one is not refined."""
+    hopeless_gain: float = 3.0
+    """A fit that lowers chi-square by less is not refined. A claim needs several times as much."""
     little_gain_share: float = 0.005
     """An effect that lowers chi-square by a smaller share is fitted from a second start."""
     weak_share: float = 0.3

@@ -68,7 +68,7 @@ Tried = Sequence[tuple[SearchStep, int]]
 
 def singles(step: SearchStep, context: SearchContext) -> tuple[FittedModel, ...]:
     """Fit every effect alone, then the leading ones that have several forms in these."""
-    (trials,) = _polished(_fitted([(step, len(step.looks))], context), context)
+    (trials,) = _polished([step], _fitted([(step, len(step.looks))], context), context)
     leading = [trial for trial in trials if fixed_forms(trial)][: SETTINGS.most_formed]
     (formed,) = _forms([leading], context)
     return in_order([*trials, *formed])
@@ -81,8 +81,12 @@ def more(
 
     Fits that end far above ``best``, the penalised chi-square of a model at hand, stay rough.
     """
-    trials = _polished(_fitted(tried, context, best), context, best)
-    formed = _forms([_near(of_step[:1], best) for of_step in trials], context)
+    steps = [step for step, _ in tried]
+    trials = _polished(steps, _fitted(tried, context, best), context, best)
+    leading = [
+        _promising(step, of_step[:1], best) for step, of_step in zip(steps, trials, strict=True)
+    ]
+    formed = _forms(leading, context)
     return [in_order([*own, *forms]) for own, forms in zip(trials, formed, strict=True)]
 
 
@@ -95,10 +99,16 @@ class _Try:
     seen: Screening
 
 
-def _near(trials: Sequence[FittedModel], best: float) -> list[FittedModel]:
-    """Return the trials that do not end far above the best one, or the best one at hand."""
+def _promising(step: SearchStep, trials: Sequence[FittedModel], best: float) -> list[FittedModel]:
+    """Return the trials of a step that may become its best: those worth a closer fit.
+
+    They do not end far above the best one, or the best one at hand, and gain more than nothing.
+    """
     lowest = min([best, *(trial.penalised for trial in trials)])
-    return [t for t in trials if t.penalised <= lowest + SETTINGS.hopeless_chi2]
+    most = step.start.fit.chi2 - SETTINGS.hopeless_gain
+    return [
+        t for t in trials if t.penalised <= lowest + SETTINGS.hopeless_chi2 and t.fit.chi2 <= most
+    ]
 
 
 def _fitted(tried: Tried, context: SearchContext, best: float = np.inf) -> list[list[FittedModel]]:
@@ -121,9 +131,9 @@ def _fitted(tried: Tried, context: SearchContext, best: float = np.inf) -> list[
         ends = parallel_map(lambda k: how(which[k]).fit, len(which), context.processes)
         found.update((i, FittedModel(models[i], end)) for i, end in zip(which, ends, strict=True))
 
-    def near(i: int) -> bool:
+    def promises(i: int) -> bool:
         of_step = [trial for k, trial in found.items() if tries[k].step == tries[i].step]
-        return found[i] in _near(of_step, best)
+        return found[i] in _promising(tried[tries[i].step][0], of_step, best)
 
     def roughly(i: int) -> FittedModel:
         start, seen = tries[i].start, tries[i].seen
@@ -137,7 +147,7 @@ def _fitted(tried: Tried, context: SearchContext, best: float = np.inf) -> list[
 
     every = range(len(tries))
     fit(every, roughly)
-    fit([i for i in every if near(i)], to_the_end)
+    fit([i for i in every if promises(i)], to_the_end)
     _told([found[i] for i in every], context)
     return [[found[i] for i in every if tries[i].step == k] for k in range(len(tried))]
 
@@ -198,15 +208,21 @@ def with_forms(tasks: Sequence[tuple[FittedModel, str, str]], processes: int) ->
 
 
 def _polished(
-    trials: Sequence[Sequence[FittedModel]], context: SearchContext, best: float = np.inf
+    steps: Sequence[SearchStep],
+    trials: Sequence[Sequence[FittedModel]],
+    context: SearchContext,
+    best: float = np.inf,
 ) -> list[list[FittedModel]]:
     """Return the trials of each step in order, the leading ones searched on from elsewhere."""
     orders = [in_order(of_step) for of_step in trials]
-    leading = [_near(order[: SETTINGS.most_polished], best) for order in orders]
+    leading = [
+        _promising(step, order[: SETTINGS.most_polished], best)
+        for step, order in zip(steps, orders, strict=True)
+    ]
     better = together(lambda trials: polished(trials, context.processes), leading)
     return [
-        list(in_order([*of_step, *order[len(of_step) :]]))
-        for of_step, order in zip(better, orders, strict=True)
+        list(in_order([*of_step, *(t for t in order if t not in chosen)]))
+        for of_step, chosen, order in zip(better, leading, orders, strict=True)
     ]
 
 
