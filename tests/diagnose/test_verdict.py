@@ -400,7 +400,7 @@ def test_effect_behind_a_rejected_one_is_not_claimed_where_misfit_is_left(
     real = places.trust
     monkeypatch.setattr(places, "trust", trusted)
     monkeypatch.setattr(places, "_against", against)
-    monkeypatch.setattr(places, "at_limit", lambda trial, effect: effect)
+    monkeypatch.setattr(places, "strengths_at_limit", lambda trial: list(trial.effects))
     unknown = np.tile(np.repeat([1.5, -1.5], POINTS // 2), 4)
     columns = alike("k_T", "c_T", share=0.001)
     found = searched(planted(k_T=1.0) + unknown, columns, ("c_T", "k_T"), most=1)
