@@ -10,7 +10,7 @@ from small import measured, study, truth_of
 from pyrofit.diagnose.base.descent import descend
 from pyrofit.diagnose.base.fit import set_up
 from pyrofit.diagnose.base.model import model_of, strength_of
-from pyrofit.diagnose.diagnosis import Diagnosis, examine
+from pyrofit.diagnose.diagnosis import Diagnosis, _undecided, examine
 from pyrofit.diagnose.search.step import SearchContext
 from pyrofit.diagnose.search.stepwise import search
 from pyrofit.effects import known_effects
@@ -66,6 +66,12 @@ def test_fit_of_the_base_is_as_good_as_a_descent_from_the_truth() -> None:
         base = trial.model.base
         oracle = descend(model_of(base, {}), truth_of(base, {}))
         assert trial.fit.chi2 <= oracle.chi2 + 1.0
+
+
+def test_no_experiment_is_proposed_where_nothing_is_missing(diagnosed: Diagnosed) -> None:
+    nothing = diagnosed("nothing")
+    assert len(nothing.search.trials) > 1
+    assert _undecided(nothing.search, nothing.verdict) == []
 
 
 def test_twin_that_hides_nothing_lacks_nothing(diagnosed: Diagnosed) -> None:

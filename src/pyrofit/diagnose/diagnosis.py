@@ -133,6 +133,8 @@ def _shown(probe: Probe) -> dict[str, Any]:
 
 def _undecided(found: Search, verdict: Verdict) -> list[FittedModel]:
     """Return the models that are not told apart, or else the two best of different effects."""
+    if verdict.kind == "none":
+        return []
     for finding in verdict.findings:
         if len(finding.kept) > 1:
             return [judged.trial for judged in finding.kept]
