@@ -27,7 +27,7 @@ from pyrofit.diagnose.settings import SETTINGS
 from pyrofit.solver.arrays import FloatArray
 
 EFFECTS = ("c_T", "heater_ramp", "k_T")
-COLUMNS = linear.random_columns(6, *EFFECTS, size=60.0)
+COLUMNS = linear.random_columns(6, *EFFECTS, "back_loss", size=60.0)
 CONTEXT = SearchContext(np.random.default_rng(1))
 
 
@@ -69,12 +69,15 @@ def test_fits_far_above_a_model_at_hand_stay_rough(
     assert ("k_T" in followed, "k_T" in polished) == (refined, refined)
 
 
-@pytest.mark.parametrize(("share", "again"), [(0.2, True), (-0.2, True), (0.5, False)])
+@pytest.mark.parametrize(
+    ("effect", "share", "again"),
+    [("k_T", 0.2, True), ("k_T", -0.2, True), ("k_T", 0.5, False), ("back_loss", 0.2, True)],
+)
 def test_effect_that_ends_near_its_null_value_is_fitted_from_a_second_start(
-    base: FittedModel, monkeypatch: pytest.MonkeyPatch, share: float, again: bool
+    base: FittedModel, monkeypatch: pytest.MonkeyPatch, effect: str, share: float, again: bool
 ) -> None:
     """Even where it gains much: chi-square may be lower at the usual strength."""
-    quantity = strength_of("k_T")[1]
+    quantity = strength_of(effect)[1]
     value = quantity.value + share * (quantity.typical - quantity.value)
     begun: list[str] = []
 
@@ -94,8 +97,64 @@ def test_effect_that_ends_near_its_null_value_is_fitted_from_a_second_start(
     monkeypatch.setattr(step, "from_elsewhere", from_elsewhere)
     monkeypatch.setattr(step, "followed", lambda trial: trial)
     monkeypatch.setattr(step, "polished", lambda trials, processes: list(trials))
+    more([(_look(base, [effect], CONTEXT), 1)], CONTEXT)
+    assert begun == ([effect] if again else [])
+
+
+@pytest.mark.parametrize(("share", "left"), [(0.2, [2]), (0.5, [1, 2])])
+def test_start_that_was_tried_is_not_tried_again(
+    base: FittedModel, monkeypatch: pytest.MonkeyPatch, share: float, left: list[int]
+) -> None:
+    """Else it would agree with itself, and the other starts would be left out."""
+    quantity = strength_of("k_T")[1]
+    given: list[Sequence[int]] = []
+
+    def rough(trial: FittedModel, seen: Screening, enough: float) -> FittedModel:
+        x = extended(trial.fit.x, seen.effect, share * quantity.typical)
+        fit = replace(trial.fit, x=x, chi2=0.5 * trial.fit.chi2)
+        return FittedModel(model_with(trial, seen.effect), fit)
+
+    def from_elsewhere(
+        trial: FittedModel, seen: Screening, end: FittedModel, others: Sequence[int], *enough: float
+    ) -> FittedModel:
+        given.append(others)
+        return end
+
+    monkeypatch.setattr(step, "from_best_start", rough)
+    monkeypatch.setattr(step, "from_elsewhere", from_elsewhere)
+    monkeypatch.setattr(step, "followed", lambda trial: trial)
+    monkeypatch.setattr(step, "starts", lambda seen: [0, 1, 2])
+    monkeypatch.setattr(step, "polished", lambda trials, processes: list(trials))
     more([(_look(base, ["k_T"], CONTEXT), 1)], CONTEXT)
-    assert begun == (["k_T"] if again else [])
+    assert given[-1] == left
+
+
+@pytest.mark.parametrize(("share", "refined"), [(0.9, False), (1.1, True)])
+def test_fits_that_gain_next_to_nothing_stay_rough(
+    base: FittedModel, monkeypatch: pytest.MonkeyPatch, share: float, refined: bool
+) -> None:
+    followed: list[str] = []
+    polished: list[str] = []
+
+    def rough(trial: FittedModel, seen: Screening, enough: float) -> FittedModel:
+        x = extended(trial.fit.x, seen.effect, strength_of(seen.effect)[1].typical)
+        chi2 = trial.fit.chi2 - share * SETTINGS.hopeless_gain
+        return FittedModel(model_with(trial, seen.effect), replace(trial.fit, x=x, chi2=chi2))
+
+    def followed_up(trial: FittedModel) -> FittedModel:
+        followed.append(trial.effects[-1])
+        return trial
+
+    def searched_on(trials: Sequence[FittedModel], processes: int) -> list[FittedModel]:
+        polished.extend(trial.effects[-1] for trial in trials)
+        return list(trials)
+
+    monkeypatch.setattr(step, "from_best_start", rough)
+    monkeypatch.setattr(step, "from_elsewhere", lambda trial, seen, end, *given: end)
+    monkeypatch.setattr(step, "followed", followed_up)
+    monkeypatch.setattr(step, "polished", searched_on)
+    more([(_look(base, ["k_T"], CONTEXT), 1)], CONTEXT)
+    assert (bool(followed), bool(polished)) == (refined, refined)
 
 
 def test_all_effects_of_a_group_are_tried_in_the_place_of_one(base: FittedModel) -> None:
@@ -108,6 +167,27 @@ def test_all_effects_of_a_group_are_tried_in_the_place_of_one(base: FittedModel)
     for effect in ("k_T", *kin):
         wanted = [e for k, e in enumerate(first) if k < 3 or e == kin.get(effect) or e == effect]
         assert [look.effect for look in stepwise._in_place(looks, effect)] == wanted
+
+
+def test_exchange_fits_all_that_are_chosen(
+    base: FittedModel, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    given: list[tuple[Any, int]] = []
+
+    def noted(tried: Any, context: Any, best: float) -> list[tuple[()]]:
+        given.extend(tried)
+        return [() for _ in tried]
+
+    monkeypatch.setattr(stepwise, "more", noted)
+    monkeypatch.setattr(stepwise, "_in_place", lambda step, effect: list(step.looks))
+    others = ("back_loss", "heater_ramp")
+    monkeypatch.setattr(stepwise, "SETTINGS", replace(SETTINGS, most_exchanged=1))
+    end = fit_with(base, "c_T", "k_T")
+    lack = LackOfFit((), 0.0, 1.0, 0.0, 1.0, 0.0, 1.0)
+    found = Search((_look(base, [], CONTEXT),), end, lack, 0.0)
+    stepwise._Pass(("c_T", "k_T", *others), 3, CONTEXT)._exchanged(found)
+    assert [len(step.looks) for step, _ in given] == [len(others)] * 2
+    assert all(most >= len(others) for _, most in given)
 
 
 def test_predictions_begin_with_the_derivatives_at_hand(

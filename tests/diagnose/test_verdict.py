@@ -1,6 +1,5 @@
 """Every kind of verdict, from searches on linear models whose truth is planted; and its words."""
 
-import sys
 from dataclasses import replace
 from typing import Any
 
@@ -20,6 +19,7 @@ from pyrofit.diagnose.judge.places import _against, alternatives, exchanges, wit
 from pyrofit.diagnose.judge.verdict import ONE_FLUX, _doubts, judge
 from pyrofit.diagnose.result.candidates import candidates
 from pyrofit.diagnose.result.verdict_text import form_of, sentences
+from pyrofit.diagnose.search import stepwise
 from pyrofit.diagnose.search.step import SearchContext
 from pyrofit.diagnose.search.stepwise import Search, search
 from pyrofit.diagnose.search.stepwise import _look as look_first
@@ -101,7 +101,7 @@ def test_effect_that_no_test_of_the_residuals_shows_is_found(
 ) -> None:
     found = searched(planted(k_T=0.8))
     passing = replace(found.rounds[0].lack(), windows=(), score=0.0, chi2=0.0)
-    monkeypatch.setattr(sys.modules[search.__module__], "lack_of_fit", lambda *_: passing)
+    monkeypatch.setattr(stepwise, "lack_of_fit", lambda *_: passing)
     assert searched(planted(k_T=0.8)).end.effects == ("k_T",)
 
 

@@ -106,7 +106,7 @@ class Diagnosis:
 
     @property
     def kind(self) -> str:
-        """Kind of the verdict, such as 'adequate', 'named' or 'ambiguous'."""
+        """Kind of the verdict, such as 'none', 'named' or 'ambiguous'."""
         return str(self.content["verdict"]["kind"])
 
     @property
@@ -180,7 +180,7 @@ class Diagnosis:
     def plot_ranking(self, ax: "Axes | None" = None) -> "Axes":
         """Draw the candidates on ``ax``, by default on a new one."""
         if not self.content["candidates"]:
-            raise StudyError("no effect was tried: the model leaves only noise")
+            raise StudyError("no effect was fitted: there is nothing to rank")
         ax = plots.wide_axes(len(self.ranking)) if ax is None else ax
         draw_ranking(ax, self.content)
         plots.legend_below(ax, ranking_entries(self.content))

@@ -87,12 +87,12 @@ class Settings:
     hopeless_chi2: float = 50.0
     """A fit that ends this far above the best one is not refined."""
     hopeless_gain: float = 3.0
-    """A fit that lowers chi-square by less is not refined. A claim needs several times as much."""
+    """A fit that lowers chi-square by less is not refined. A claim needs log(points) at least."""
     little_gain_share: float = 0.005
     """An effect that lowers chi-square by a smaller share is fitted from a second start."""
     weak_share: float = 0.3
-    """An effect whose strength ends below this share of the typical one is fitted from a second
-    start as well."""
+    """An effect that ends within this share of the typical distance from its null value is fitted
+    from a second start as well."""
     most_polished: int = 5
     """Models of a step that are searched again from other values of uncertain parameters."""
     most_form_parameters: int = 2
@@ -108,8 +108,8 @@ class Settings:
     most_predicted: int = 6
     """Models of a step whose predictions are compared."""
     most_exchanged: int = 3
-    """Other effects that are tried in the place of each effect of the final model, besides those of
-    its group."""
+    """Other effects that are tried in the place of each effect of the final model: those that
+    promise most. All others of its group are tried as well."""
     most_split: int = 5
     """Effects beside which a second one is tried, in the place of an effect with free forms."""
     most_beside: int = 2

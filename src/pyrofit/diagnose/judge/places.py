@@ -91,7 +91,7 @@ def findings_of(
         foreseen, also = known[_key(trial)]
         about = trust(trial, name, foreseen, before[k], also, inflation)
         if trial is not places[k][0][1]:  # the end's other effects have places of their own
-            about = replace(about, limit="".join(strengths_at_limit(trial)[:1]))
+            about = replace(about, limit=next(iter(strengths_at_limit(trial)), ""))
         gain = inflation.penalised(without[k]) - inflation.penalised(trial)
         return Judged(name, trial, about, _against(gain, found.spare, about))
 

@@ -22,6 +22,7 @@ ONE_FLUX = "only the mass loss rate at one flux is calibrated"
 """A reason that leaves every claim open."""
 
 FITS = "no test of the residuals shows a lack of fit"
+"""Start of the reason for the verdict `none`."""
 
 
 def judge(found: Search, rng: np.random.Generator, processes: int = 1) -> Verdict:
@@ -49,11 +50,13 @@ def judge(found: Search, rng: np.random.Generator, processes: int = 1) -> Verdic
         findings = (replace(findings[0], instead=of_end.instead),)
     elif reasons and found.end_lack.adequate and (part := _partly(found, without, context)):
         return part
-    if reasons and found.rounds[0].lack().passes:
-        found = ended(found, found.base, rng)
-        return Verdict("none", found, (), (f"{FITS}, and no effect passes every test of a claim",))
     if not found.end_lack.adequate:
         reasons.append("the residuals exceed the noise, with every effect that gains enough")
+    of_base = found.rounds[0].lack()
+    if reasons and of_base.passes:
+        found = replace(found, end=found.base, end_lack=of_base)
+        said = f"{FITS}, and no effect passes every test of a claim"
+        return Verdict("none", found, (), (said, *reasons))
     if reasons:
         return Verdict("unknown", found, findings, tuple(reasons))
     return _explained(found, findings, without, processes)
@@ -176,6 +179,9 @@ def _without_effects(found: Search) -> Verdict:
     if found.end_lack.adequate:
         tests = f"{FITS}, and" if found.end_lack.passes else "a score test is significant, but"
         reason = f"{tests} no effect lowers chi-square enough for a claim"
+        gains = [s.start.penalised - t.penalised for s in found.rounds for t in s.trials]
+        if max(gains, default=0.0) >= found.spare:
+            reason = "held-out runs do not finish with any effect that gains enough"
         return Verdict("none", found, (), (reason,))
     return Verdict("unknown", found, (), ("no effect of the catalogue gains enough",))
 

@@ -68,7 +68,7 @@ Tried = Sequence[tuple[SearchStep, int]]
 
 def singles(step: SearchStep, context: SearchContext) -> tuple[FittedModel, ...]:
     """Fit every effect alone, then the leading ones that have several forms in these."""
-    (trials,) = _polished([step], _fitted([(step, len(step.looks))], context), context)
+    (trials,) = _polished([step.start], _fitted([(step, len(step.looks))], context), context)
     leading = [trial for trial in trials if fixed_forms(trial)][: SETTINGS.most_formed]
     (formed,) = _forms([leading], context)
     return in_order([*trials, *formed])
@@ -79,12 +79,13 @@ def more(
 ) -> list[tuple[FittedModel, ...]]:
     """Fit one effect more in each step, those that promise most, then its best model in forms.
 
-    Fits that end far above ``best``, the penalised chi-square of a model at hand, stay rough.
+    Fits that gain next to nothing, or end far above ``best``, the penalised chi-square of a model
+    at hand, stay rough.
     """
-    steps = [step for step, _ in tried]
-    trials = _polished(steps, _fitted(tried, context, best), context, best)
+    begun = [step.start for step, _ in tried]
+    trials = _polished(begun, _fitted(tried, context, best), context, best)
     leading = [
-        _promising(step, of_step[:1], best) for step, of_step in zip(steps, trials, strict=True)
+        _promising(start, of_step[:1], best) for start, of_step in zip(begun, trials, strict=True)
     ]
     formed = _forms(leading, context)
     return [in_order([*own, *forms]) for own, forms in zip(trials, formed, strict=True)]
@@ -99,13 +100,13 @@ class _Try:
     seen: Screening
 
 
-def _promising(step: SearchStep, trials: Sequence[FittedModel], best: float) -> list[FittedModel]:
-    """Return the trials of a step that may become its best: those worth a closer fit.
+def _promising(start: FittedModel, trials: Sequence[FittedModel], best: float) -> list[FittedModel]:
+    """Return the trials from a start that may become its best: those worth a closer fit.
 
-    They do not end far above the best one, or the best one at hand, and gain more than nothing.
+    They do not end far above the best one, or the best one at hand, and gain enough over the start.
     """
     lowest = min([best, *(trial.penalised for trial in trials)])
-    most = step.start.fit.chi2 - SETTINGS.hopeless_gain
+    most = start.fit.chi2 - SETTINGS.hopeless_gain
     return [
         t for t in trials if t.penalised <= lowest + SETTINGS.hopeless_chi2 and t.fit.chi2 <= most
     ]
@@ -114,7 +115,7 @@ def _promising(step: SearchStep, trials: Sequence[FittedModel], best: float) -> 
 def _fitted(tried: Tried, context: SearchContext, best: float = np.inf) -> list[list[FittedModel]]:
     """Fit one effect more in each step, those that promise most.
 
-    Roughly first, weak ones from a second start as well. Those that come near the best one are then
+    Roughly first, weak ones from a second start as well. Those that may become the best are then
     fitted to the end, from the other starts, too.
     """
     tries = [
@@ -133,35 +134,38 @@ def _fitted(tried: Tried, context: SearchContext, best: float = np.inf) -> list[
 
     def promises(i: int) -> bool:
         of_step = [trial for k, trial in found.items() if tries[k].step == tries[i].step]
-        return found[i] in _promising(tried[tries[i].step][0], of_step, best)
+        return found[i] in _promising(tries[i].start, of_step, best)
 
-    def roughly(i: int) -> FittedModel:
-        start, seen = tries[i].start, tries[i].seen
-        end = from_best_start(start, seen, rough)
-        if _is_weak(end, seen, start):
-            return from_elsewhere(start, seen, end, others[i][:1], rough)
-        return end
+    def first(i: int) -> FittedModel:
+        return from_best_start(tries[i].start, tries[i].seen, rough)
+
+    def second(i: int) -> FittedModel:
+        return from_elsewhere(tries[i].start, tries[i].seen, found[i], others[i][:1], rough)
 
     def to_the_end(i: int) -> FittedModel:
-        return from_elsewhere(tries[i].start, tries[i].seen, followed(found[i]), others[i])
+        left = others[i][1:] if i in weak else others[i]
+        return from_elsewhere(tries[i].start, tries[i].seen, followed(found[i]), left)
 
     every = range(len(tries))
-    fit(every, roughly)
+    fit(every, first)
+    weak = [i for i in every if _is_weak(found[i], tries[i])]
+    fit(weak, second)
     fit([i for i in every if promises(i)], to_the_end)
     _told([found[i] for i in every], context)
     return [[found[i] for i in every if tries[i].step == k] for k in range(len(tried))]
 
 
-def _is_weak(end: FittedModel, seen: Screening, start: FittedModel) -> bool:
+def _is_weak(end: FittedModel, one: _Try) -> bool:
     """Tell whether an effect ends near its null value, or gains next to nothing.
 
     Chi-square may have a minimum there, and a lower one at the effect's usual strength.
     """
-    _, quantity = strength_of(seen.effect)
-    share = (end.strength(seen.effect) - quantity.value) / (quantity.typical - quantity.value)
+    effect = one.seen.effect
+    _, quantity = strength_of(effect)
+    share = (end.strength(effect) - quantity.value) / (quantity.typical - quantity.value)
     if abs(share) < SETTINGS.weak_share:
         return True
-    return end.fit.chi2 > (1.0 - SETTINGS.little_gain_share) * start.fit.chi2
+    return end.fit.chi2 > (1.0 - SETTINGS.little_gain_share) * one.start.fit.chi2
 
 
 def most_promising(step: SearchStep, most: int) -> list[Screening]:
@@ -208,7 +212,7 @@ def with_forms(tasks: Sequence[tuple[FittedModel, str, str]], processes: int) ->
 
 
 def _polished(
-    steps: Sequence[SearchStep],
+    begun: Sequence[FittedModel],
     trials: Sequence[Sequence[FittedModel]],
     context: SearchContext,
     best: float = np.inf,
@@ -216,8 +220,8 @@ def _polished(
     """Return the trials of each step in order, the leading ones searched on from elsewhere."""
     orders = [in_order(of_step) for of_step in trials]
     leading = [
-        _promising(step, order[: SETTINGS.most_polished], best)
-        for step, order in zip(steps, orders, strict=True)
+        _promising(start, order[: SETTINGS.most_polished], best)
+        for start, order in zip(begun, orders, strict=True)
     ]
     better = together(lambda trials: polished(trials, context.processes), leading)
     return [

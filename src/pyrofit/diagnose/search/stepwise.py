@@ -65,8 +65,9 @@ class Search:
 
 
 def search(base: FittedModel, effects: Sequence[str], most: int, context: SearchContext) -> Search:
-    """Add effects to the base until the residuals are noise, none gains enough, or there are most.
+    """Add effects to the base until one leaves only noise, none gains enough, or there are most.
 
+    The first is tried even where the base leaves only noise.
     Where more than noise is left, or the noise exceeds the stated one, it is estimated about the
     final model. If that explains more, the search is repeated with it, from the models of the first
     search as well.

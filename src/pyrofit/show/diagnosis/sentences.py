@@ -65,7 +65,7 @@ def _determined(found: Found) -> list[str]:
 def _found(found: Found) -> str:
     chosen = leading(found)
     if not found["candidates"]:
-        return "No effect was fitted: the base model agrees with the data within the noise."
+        return "No effect was fitted."
     if chosen is None:
         return f"An effect must lower chi-square by {number(found['needed'])} to be claimed."
     names = listed([effect_name(name) for name in chosen["effects"]])
