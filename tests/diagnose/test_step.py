@@ -1,7 +1,7 @@
 """A step of the search: which fits are rough only, and which predictions are made again."""
 
 from collections.abc import Sequence
-from dataclasses import replace
+from dataclasses import dataclass, field, replace
 from typing import Any
 
 import linear
@@ -21,7 +21,7 @@ from pyrofit.diagnose.result import candidates
 from pyrofit.diagnose.search import step, stepwise
 from pyrofit.diagnose.search.refit import model_with
 from pyrofit.diagnose.search.score_test import Screening
-from pyrofit.diagnose.search.step import SearchContext, more, most_promising
+from pyrofit.diagnose.search.step import SearchContext, more, most_promising, promising_or_kin
 from pyrofit.diagnose.search.stepwise import Search, _look, search, settled
 from pyrofit.diagnose.settings import SETTINGS
 from pyrofit.solver.arrays import FloatArray
@@ -45,28 +45,82 @@ def base() -> FittedModel:
     return linear.fit(COLUMNS, planted("k_T"))
 
 
-@pytest.mark.parametrize(("above", "refined"), [(0.9, True), (1.1, False)])
-def test_fits_far_above_a_model_at_hand_stay_rough(
-    base: FittedModel, monkeypatch: pytest.MonkeyPatch, above: float, refined: bool
-) -> None:
-    """One that ends more than `hopeless_chi2` above it is neither refined nor polished."""
-    followed: list[str] = []
-    polished: list[str] = []
+@dataclass
+class Refined:
+    """Effects of the fits that a step works on: followed to the end, polished, and from where."""
 
-    def followed_up(trial: FittedModel) -> FittedModel:
-        followed.append(trial.effects[-1])
+    followed: list[str] = field(default_factory=list)
+    polished: list[str] = field(default_factory=list)
+    starts: list[tuple[float, Sequence[int]]] = field(default_factory=list)
+    """Tolerance and other starts of each fit from elsewhere."""
+
+
+@pytest.fixture
+def refined(monkeypatch: pytest.MonkeyPatch) -> Refined:
+    """Note what would be refined, and leave each fit as it is."""
+    noted = Refined()
+
+    def followed(trial: FittedModel) -> FittedModel:
+        noted.followed.append(trial.effects[-1])
         return trial
 
-    def searched_on(trials: Sequence[FittedModel], processes: int) -> list[FittedModel]:
-        polished.extend(trial.effects[-1] for trial in trials)
+    def polished(trials: Sequence[FittedModel], processes: int) -> list[FittedModel]:
+        noted.polished.extend(trial.effects[-1] for trial in trials)
         return list(trials)
 
-    monkeypatch.setattr(step, "followed", followed_up)
-    monkeypatch.setattr(step, "polished", searched_on)
+    def from_elsewhere(
+        trial: FittedModel,
+        seen: Screening,
+        end: FittedModel,
+        others: Sequence[int],
+        enough: float = SETTINGS.converged_gain,
+    ) -> FittedModel:
+        noted.starts.append((enough, others))
+        return end
+
+    monkeypatch.setattr(step, "followed", followed)
+    monkeypatch.setattr(step, "polished", polished)
+    monkeypatch.setattr(step, "from_elsewhere", from_elsewhere)
+    monkeypatch.setattr(step, "starts", lambda seen: [0, 1, 2])
+    return noted
+
+
+def step_from(
+    base: FittedModel, monkeypatch: pytest.MonkeyPatch, effect: str, share: float, chi2: float
+) -> None:
+    """Try an effect whose first fit ends at this share of the typical strength."""
+    quantity = strength_of(effect)[1]
+    value = quantity.value + share * (quantity.typical - quantity.value)
+
+    def rough(trial: FittedModel, seen: Screening, enough: float) -> FittedModel:
+        fit = replace(trial.fit, x=extended(trial.fit.x, seen.effect, value), chi2=chi2)
+        return FittedModel(model_with(trial, seen.effect), fit)
+
+    monkeypatch.setattr(step, "from_best_start", rough)
+    more([(_look(base, [effect], CONTEXT), 1)], CONTEXT)
+
+
+@pytest.mark.parametrize(("above", "closer"), [(0.9, True), (1.1, False)])
+def test_fits_far_above_a_model_at_hand_stay_rough(
+    base: FittedModel, refined: Refined, above: float, closer: bool
+) -> None:
+    """One that ends more than `hopeless_chi2` above it is neither refined nor polished."""
     best = fit_with(base, "k_T").penalised - above * SETTINGS.hopeless_chi2
     (trials,) = more([(_look(base, EFFECTS, CONTEXT), 3)], CONTEXT, best)
     assert {trial.effects[-1] for trial in trials} == set(EFFECTS), "rough fits are kept"
-    assert ("k_T" in followed, "k_T" in polished) == (refined, refined)
+    assert ("k_T" in refined.followed, "k_T" in refined.polished) == (closer, closer)
+
+
+@pytest.mark.parametrize(("share", "closer"), [(0.9, False), (1.1, True)])
+def test_fits_that_gain_next_to_nothing_stay_rough(
+    base: FittedModel,
+    refined: Refined,
+    monkeypatch: pytest.MonkeyPatch,
+    share: float,
+    closer: bool,
+) -> None:
+    step_from(base, monkeypatch, "k_T", 1.0, base.fit.chi2 - share * SETTINGS.hopeless_gain)
+    assert (bool(refined.followed), bool(refined.polished)) == (closer, closer)
 
 
 @pytest.mark.parametrize(
@@ -74,87 +128,18 @@ def test_fits_far_above_a_model_at_hand_stay_rough(
     [("k_T", 0.2, True), ("k_T", -0.2, True), ("k_T", 0.5, False), ("back_loss", 0.2, True)],
 )
 def test_effect_that_ends_near_its_null_value_is_fitted_from_a_second_start(
-    base: FittedModel, monkeypatch: pytest.MonkeyPatch, effect: str, share: float, again: bool
+    base: FittedModel,
+    refined: Refined,
+    monkeypatch: pytest.MonkeyPatch,
+    effect: str,
+    share: float,
+    again: bool,
 ) -> None:
-    """Even where it gains much: chi-square may be lower at the usual strength."""
-    quantity = strength_of(effect)[1]
-    value = quantity.value + share * (quantity.typical - quantity.value)
-    begun: list[str] = []
-
-    def near_null(trial: FittedModel, seen: Screening, enough: float) -> FittedModel:
-        x = extended(trial.fit.x, seen.effect, value)
-        fit = replace(trial.fit, x=x, chi2=0.5 * trial.fit.chi2)
-        return FittedModel(model_with(trial, seen.effect), fit)
-
-    def from_elsewhere(
-        trial: FittedModel, seen: Screening, end: FittedModel, others: object, enough: float = 0.0
-    ) -> FittedModel:
-        if enough == SETTINGS.rough_gain:
-            begun.append(seen.effect)
-        return end
-
-    monkeypatch.setattr(step, "from_best_start", near_null)
-    monkeypatch.setattr(step, "from_elsewhere", from_elsewhere)
-    monkeypatch.setattr(step, "followed", lambda trial: trial)
-    monkeypatch.setattr(step, "polished", lambda trials, processes: list(trials))
-    more([(_look(base, [effect], CONTEXT), 1)], CONTEXT)
-    assert begun == ([effect] if again else [])
-
-
-@pytest.mark.parametrize(("share", "left"), [(0.2, [2]), (0.5, [1, 2])])
-def test_start_that_was_tried_is_not_tried_again(
-    base: FittedModel, monkeypatch: pytest.MonkeyPatch, share: float, left: list[int]
-) -> None:
-    """Else it would agree with itself, and the other starts would be left out."""
-    quantity = strength_of("k_T")[1]
-    given: list[Sequence[int]] = []
-
-    def rough(trial: FittedModel, seen: Screening, enough: float) -> FittedModel:
-        x = extended(trial.fit.x, seen.effect, share * quantity.typical)
-        fit = replace(trial.fit, x=x, chi2=0.5 * trial.fit.chi2)
-        return FittedModel(model_with(trial, seen.effect), fit)
-
-    def from_elsewhere(
-        trial: FittedModel, seen: Screening, end: FittedModel, others: Sequence[int], *enough: float
-    ) -> FittedModel:
-        given.append(others)
-        return end
-
-    monkeypatch.setattr(step, "from_best_start", rough)
-    monkeypatch.setattr(step, "from_elsewhere", from_elsewhere)
-    monkeypatch.setattr(step, "followed", lambda trial: trial)
-    monkeypatch.setattr(step, "starts", lambda seen: [0, 1, 2])
-    monkeypatch.setattr(step, "polished", lambda trials, processes: list(trials))
-    more([(_look(base, ["k_T"], CONTEXT), 1)], CONTEXT)
-    assert given[-1] == left
-
-
-@pytest.mark.parametrize(("share", "refined"), [(0.9, False), (1.1, True)])
-def test_fits_that_gain_next_to_nothing_stay_rough(
-    base: FittedModel, monkeypatch: pytest.MonkeyPatch, share: float, refined: bool
-) -> None:
-    followed: list[str] = []
-    polished: list[str] = []
-
-    def rough(trial: FittedModel, seen: Screening, enough: float) -> FittedModel:
-        x = extended(trial.fit.x, seen.effect, strength_of(seen.effect)[1].typical)
-        chi2 = trial.fit.chi2 - share * SETTINGS.hopeless_gain
-        return FittedModel(model_with(trial, seen.effect), replace(trial.fit, x=x, chi2=chi2))
-
-    def followed_up(trial: FittedModel) -> FittedModel:
-        followed.append(trial.effects[-1])
-        return trial
-
-    def searched_on(trials: Sequence[FittedModel], processes: int) -> list[FittedModel]:
-        polished.extend(trial.effects[-1] for trial in trials)
-        return list(trials)
-
-    monkeypatch.setattr(step, "from_best_start", rough)
-    monkeypatch.setattr(step, "from_elsewhere", lambda trial, seen, end, *given: end)
-    monkeypatch.setattr(step, "followed", followed_up)
-    monkeypatch.setattr(step, "polished", searched_on)
-    more([(_look(base, ["k_T"], CONTEXT), 1)], CONTEXT)
-    assert (bool(followed), bool(polished)) == (refined, refined)
+    """Even where it gains much. The start that was tried then is not tried again."""
+    step_from(base, monkeypatch, effect, share, 0.5 * base.fit.chi2)
+    rough, converged = SETTINGS.rough_gain, SETTINGS.converged_gain
+    wanted = [(rough, [1]), (converged, [2])] if again else [(converged, [1, 2])]
+    assert refined.starts == wanted
 
 
 def test_all_effects_of_a_group_are_tried_in_the_place_of_one(base: FittedModel) -> None:
@@ -166,7 +151,7 @@ def test_all_effects_of_a_group_are_tried_in_the_place_of_one(base: FittedModel)
     kin = {"heater_ramp": "time_offset", "time_offset": "heater_ramp"}
     for effect in ("k_T", *kin):
         wanted = [e for k, e in enumerate(first) if k < 3 or e == kin.get(effect) or e == effect]
-        assert [look.effect for look in stepwise._in_place(looks, effect)] == wanted
+        assert [look.effect for look in promising_or_kin(looks, effect)] == wanted
 
 
 def test_exchange_fits_all_that_are_chosen(
@@ -179,7 +164,7 @@ def test_exchange_fits_all_that_are_chosen(
         return [() for _ in tried]
 
     monkeypatch.setattr(stepwise, "more", noted)
-    monkeypatch.setattr(stepwise, "_in_place", lambda step, effect: list(step.looks))
+    monkeypatch.setattr(stepwise, "promising_or_kin", lambda step, effect: list(step.looks))
     others = ("back_loss", "heater_ramp")
     monkeypatch.setattr(stepwise, "SETTINGS", replace(SETTINGS, most_exchanged=1))
     end = fit_with(base, "c_T", "k_T")

@@ -113,6 +113,14 @@ def test_significant_score_without_enough_gain_is_none_and_says_so() -> None:
     assert "no effect lowers chi-square enough for a claim" in sentences(verdict)
 
 
+def test_effects_whose_held_out_runs_do_not_finish_are_said() -> None:
+    found = searched(planted(k_T=0.8))
+    quiet = replace(found.rounds[0].lack(), windows=(), score=0.0, chi2=0.0)
+    verdict = verdict_on(replace(found, end=found.base, end_lack=quiet))
+    assert verdict.kind == "none"
+    assert verdict.reasons == ("held-out runs do not finish with any effect that gains enough",)
+
+
 # --- named ----------------------------------------------------------------------------------
 
 

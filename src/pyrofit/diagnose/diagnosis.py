@@ -132,7 +132,10 @@ def _shown(probe: Probe) -> dict[str, Any]:
 
 
 def _undecided(found: Search, verdict: Verdict) -> list[FittedModel]:
-    """Return the models that are not told apart, or else the two best of different effects."""
+    """Return the models that are not told apart, or else the two best of different effects.
+
+    None where nothing is missing.
+    """
     if verdict.kind == "none":
         return []
     for finding in verdict.findings:

@@ -21,6 +21,7 @@ from pyrofit.diagnose.search.refit import (
 )
 from pyrofit.diagnose.search.score_test import Screening
 from pyrofit.diagnose.settings import SETTINGS
+from pyrofit.effects import known_effects
 from pyrofit.parallel import parallel_map
 from pyrofit.solver.arrays import FloatArray
 
@@ -171,6 +172,16 @@ def _is_weak(end: FittedModel, one: _Try) -> bool:
 def most_promising(step: SearchStep, most: int) -> list[Screening]:
     """Return at most some looks of a step, the lowest linearised chi-square first."""
     return sorted(step.looks, key=lambda look: float(look.ahead.min()))[:most]
+
+
+def promising_or_kin(step: SearchStep, effect: str) -> list[Screening]:
+    """Return the looks to try in the place of an effect: the leading ones, and all of its group."""
+    catalogue = known_effects()
+    return [
+        look
+        for k, look in enumerate(most_promising(step, len(step.looks)))
+        if k < SETTINGS.most_exchanged or catalogue[look.effect].group == catalogue[effect].group
+    ]
 
 
 def _forms(

@@ -25,18 +25,17 @@ from pyrofit.diagnose.search.restart import (
     refitted_without,
     restarted,
 )
-from pyrofit.diagnose.search.score_test import Screening
 from pyrofit.diagnose.search.step import (
     SearchContext,
     SearchStep,
     in_order,
     more,
     most_promising,
+    promising_or_kin,
     singles,
     with_forms,
 )
 from pyrofit.diagnose.settings import SETTINGS
-from pyrofit.effects import known_effects
 from pyrofit.parallel import parallel_map
 
 Fitting = Callable[[Sequence[SearchStep]], Sequence[Sequence[FittedModel]]]
@@ -239,7 +238,7 @@ class _Pass:
         reduced = refitted_without(found.end, effects, self.context.processes)
         steps = [_look(up_to_date(without), others, self.context) for without in reduced]
         chosen = [
-            replace(step, looks=tuple(_in_place(step, effect)))
+            replace(step, looks=tuple(promising_or_kin(step, effect)))
             for step, effect in zip(steps, effects, strict=True)
         ]
         found = self._with_more(found, chosen, len(others))
@@ -300,17 +299,6 @@ class _Pass:
                 break
             (best,) = polished(formed[:1], self.context.processes)
         return found if best is found.end else self._ended(found, best)
-
-
-def _in_place(step: SearchStep, effect: str) -> list[Screening]:
-    """Return the most promising effects in the place of one, and all others of its group."""
-    catalogue = known_effects()
-    looks = most_promising(step, len(step.looks))
-    return [
-        look
-        for k, look in enumerate(looks)
-        if k < SETTINGS.most_exchanged or catalogue[look.effect].group == catalogue[effect].group
-    ]
 
 
 def replacing(found: Search, effect: str) -> Iterator[tuple[str, FittedModel]]:
