@@ -7,6 +7,7 @@ rho and k from -10 to 10; effects of the catalogue have columns of the test's ow
 
 from collections.abc import Mapping
 from dataclasses import dataclass, replace
+from functools import cached_property
 
 import numpy as np
 from small import CHANNELS, base_of, study
@@ -36,6 +37,17 @@ class Linear(Problem):
     """A problem whose curves are sums of columns."""
 
     columns: Columns
+
+    @cached_property
+    def moving(self) -> tuple[int, ...]:
+        """Positions of the parameters that change a picked channel."""
+        parts = {name: np.split(column, len(CHANNELS)) for name, column in self.columns.items()}
+        picked = [CHANNELS.index((name, signal)) for name, signal, _ in self.picks]
+        return tuple(
+            i
+            for i, name in enumerate(self.names)
+            if any(np.any(parts[name][k]) for k in picked if name in parts)
+        )
 
     def simulate_all(self, X: FloatArray) -> list[Outcome]:
         """Return the curves of the channels."""

@@ -20,6 +20,7 @@ from pyrofit.diagnose.result.verdict_text import sentences
 from pyrofit.diagnose.search.stepwise import Search
 from pyrofit.diagnose.settings import SETTINGS
 from pyrofit.estimate.posterior import UNIFORM
+from pyrofit.estimate.prior import NormalPrior
 from pyrofit.model.repeats import RepeatOf
 from pyrofit.solver.arrays import FloatArray
 
@@ -76,6 +77,21 @@ def test_log_score_of_an_experiment_left_out_is_the_exact_log_density(
     exact = log_density(J, at_zero(J, y, trial), ~out, out)
     # The fit is that without the prior; descents end within 0.05 of the least chi-square.
     assert scores(trial)[experiment] == pytest.approx(exact, abs=0.05)
+
+
+def test_known_value_of_a_parameter_of_the_experiment_left_out_is_met_without_it() -> None:
+    """A pull of that experiment against the known value counts in its prediction."""
+    columns = {"rho": COLUMNS["rho"], "k": COLUMNS["k"] * SLAB_60}
+    y = np.random.default_rng(1).standard_normal(TOTAL) + 2.0 * columns["rho"] - columns["k"]
+    known = NormalPrior((1,), np.array([-0.5]), np.array([0.1]))
+    trial = linear.fit(columns, y, known=known)
+    J = linear.fraction_columns(columns, trial.model)
+    z = at_zero(J, y, trial)
+    # The known value is one more point that is seen.
+    J = np.vstack([J, [0.0, linear.SPAN / 0.1]])
+    z = np.append(z, (-0.5 + 0.5 * linear.SPAN) / 0.1)
+    exact = log_density(J, z, np.append(~SLAB_60, True), np.append(SLAB_60, False))
+    assert scores(trial)["slab_60"] == pytest.approx(exact, abs=0.05)
 
 
 def test_log_score_of_what_is_held_out_is_the_exact_log_density() -> None:

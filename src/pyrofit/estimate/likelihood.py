@@ -151,9 +151,17 @@ class Likelihood:
         known = self.prior.slopes(self.problem.span)
         return np.vstack([self.whiten(slopes), known])
 
+    def with_idle_known(self, x: FloatArray, fixed: int | None = None) -> FloatArray:
+        """Return x with known values of parameters that no run uses; ``fixed`` keeps its value."""
+        x, idle = x.copy(), self.problem.idle
+        for i, mean in zip(self.prior.index, self.prior.mean, strict=True):
+            if i in idle and i != fixed:
+                x[i] = (mean - self.problem.lower[i]) / self.problem.span[i]
+        return x
+
     def descend(self, x: FloatArray, fixed: int | None = None) -> Fit:
         """Minimise chi-square from x within the limits; parameter ``fixed`` keeps its value."""
-        idle = self.problem.idle
+        x, idle = self.with_idle_known(x, fixed), self.problem.idle
         return minimise(self.residuals, self.jacobian, x, ENOUGH, fixed=fixed, idle=idle)
 
 

@@ -21,12 +21,13 @@ def descend(
     """Minimise chi-square from x, with derivatives to begin with if some are at hand.
 
     It ends where fresh derivatives promise less than ``enough``, or where it leads to a fit that is
-    ``known``. The parameter at position ``fixed`` keeps its value.
+    ``known``. The parameter at position ``fixed`` keeps its value. Parameters that no run uses, as
+    those of an experiment left out, take their known values.
     """
     return minimise(
         model.residuals,
         model.jacobian,
-        x,
+        model.with_idle_known(x, fixed),
         enough,
         begin=jacobian,
         fixed=fixed,

@@ -71,6 +71,10 @@ class Model:
         """Positions of the parameters that no run of these channels uses."""
         return self.likelihood.problem.idle
 
+    def with_idle_known(self, x: FloatArray, fixed: int | None = None) -> FloatArray:
+        """Return x with known values of the idle ones; ``fixed`` keeps its value."""
+        return self.likelihood.with_idle_known(x, fixed)
+
     def position(self, effect: str) -> int:
         """Return the position of an effect's strength among the parameters."""
         return self.names.index(name_of(effect, strength_of(effect)[0]))
