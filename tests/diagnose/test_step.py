@@ -22,7 +22,8 @@ from pyrofit.diagnose.search import step, stepwise
 from pyrofit.diagnose.search.refit import model_with
 from pyrofit.diagnose.search.score_test import Screening
 from pyrofit.diagnose.search.step import SearchContext, more, most_promising, promising_or_kin
-from pyrofit.diagnose.search.stepwise import Search, _look, search, settled
+from pyrofit.diagnose.search.step_start import step_from as look_first
+from pyrofit.diagnose.search.stepwise import Search, search, settled
 from pyrofit.diagnose.settings import SETTINGS
 from pyrofit.solver.arrays import FloatArray
 
@@ -97,7 +98,7 @@ def step_from(
         return FittedModel(model_with(trial, seen.effect), fit)
 
     monkeypatch.setattr(step, "from_best_start", rough)
-    more([(_look(base, [effect], CONTEXT), 1)], CONTEXT)
+    more([(look_first(base, [effect], CONTEXT), 1)], CONTEXT)
 
 
 @pytest.mark.parametrize(("above", "closer"), [(0.9, True), (1.1, False)])
@@ -106,7 +107,7 @@ def test_fits_far_above_a_model_at_hand_stay_rough(
 ) -> None:
     """One that ends more than `hopeless_chi2` above it is neither refined nor polished."""
     best = fit_with(base, "k_T").penalised - above * SETTINGS.hopeless_chi2
-    (trials,) = more([(_look(base, EFFECTS, CONTEXT), 3)], CONTEXT, best)
+    (trials,) = more([(look_first(base, EFFECTS, CONTEXT), 3)], CONTEXT, best)
     assert {trial.effects[-1] for trial in trials} == set(EFFECTS), "rough fits are kept"
     assert ("k_T" in refined.followed, "k_T" in refined.polished) == (closer, closer)
 
@@ -145,7 +146,7 @@ def test_effect_that_ends_near_its_null_value_is_fitted_from_a_second_start(
 def test_all_effects_of_a_group_are_tried_in_the_place_of_one(base: FittedModel) -> None:
     effects = ("c_T", "heater_ramp", "k_T", "time_offset")
     columns = linear.random_columns(9, *effects, size=60.0)
-    looks = _look(linear.fit(columns, planted("k_T")), effects, CONTEXT)
+    looks = look_first(linear.fit(columns, planted("k_T")), effects, CONTEXT)
     first = [look.effect for look in most_promising(looks, 4)]
     assert first[-1] in ("heater_ramp", "time_offset"), "one of a group promises least"
     kin = {"heater_ramp": "time_offset", "time_offset": "heater_ramp"}
@@ -169,7 +170,7 @@ def test_exchange_fits_all_that_are_chosen(
     monkeypatch.setattr(stepwise, "SETTINGS", replace(SETTINGS, most_exchanged=1))
     end = fit_with(base, "c_T", "k_T")
     lack = LackOfFit((), 0.0, 1.0, 0.0, 1.0, 0.0, 1.0)
-    found = Search((_look(base, [], CONTEXT),), end, lack, 0.0)
+    found = Search((look_first(base, [], CONTEXT),), end, lack, 0.0)
     stepwise._Pass(("c_T", "k_T", *others), 3, CONTEXT)._exchanged(found)
     assert [len(step.looks) for step, _ in given] == [len(others)] * 2
     assert all(most >= len(others) for _, most in given)

@@ -19,10 +19,10 @@ from pyrofit.diagnose.judge.places import _against, alternatives, exchanges, wit
 from pyrofit.diagnose.judge.verdict import ONE_FLUX, _doubts, judge
 from pyrofit.diagnose.result.candidates import candidates
 from pyrofit.diagnose.result.verdict_text import form_of, sentences
-from pyrofit.diagnose.search import stepwise
+from pyrofit.diagnose.search import step_start
 from pyrofit.diagnose.search.step import SearchContext
+from pyrofit.diagnose.search.step_start import step_from as look_first
 from pyrofit.diagnose.search.stepwise import Search, search
-from pyrofit.diagnose.search.stepwise import _look as look_first
 from pyrofit.diagnose.search.stepwise import _Pass as Pass
 from pyrofit.diagnose.settings import SETTINGS
 from pyrofit.effects import known_effects
@@ -101,7 +101,7 @@ def test_effect_that_no_test_of_the_residuals_shows_is_found(
 ) -> None:
     found = searched(planted(k_T=0.8))
     passing = replace(found.rounds[0].lack(), windows=(), score=0.0, chi2=0.0)
-    monkeypatch.setattr(stepwise, "lack_of_fit", lambda *_: passing)
+    monkeypatch.setattr(step_start, "lack_of_fit", lambda *_: passing)
     assert searched(planted(k_T=0.8)).end.effects == ("k_T",)
 
 

@@ -2,12 +2,11 @@
 
 from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass, replace
-from functools import cache
 
 import numpy as np
 
-from pyrofit.diagnose.base.adequacy import LackOfFit, lack_of_fit
-from pyrofit.diagnose.base.fit import blurred, is_clearer, refitted, refitted_all, sharpened
+from pyrofit.diagnose.base.adequacy import LackOfFit
+from pyrofit.diagnose.base.fit import blurred, is_clearer, refitted_all, sharpened
 from pyrofit.diagnose.base.fitted import (
     FittedModel,
     finishes,
@@ -18,7 +17,7 @@ from pyrofit.diagnose.base.fitted import (
 )
 from pyrofit.diagnose.base.prediction import predictions, slabs
 from pyrofit.diagnose.search.branches import branches
-from pyrofit.diagnose.search.refit import fixed_forms, look_at, model_with, with_effect
+from pyrofit.diagnose.search.refit import fixed_forms
 from pyrofit.diagnose.search.restart import (
     best_of_each,
     from_other_starts,
@@ -30,13 +29,12 @@ from pyrofit.diagnose.search.step import (
     SearchStep,
     in_order,
     more,
-    most_promising,
     promising_or_kin,
     singles,
     with_forms,
 )
+from pyrofit.diagnose.search.step_start import step_from, with_sharp_noise
 from pyrofit.diagnose.settings import SETTINGS
-from pyrofit.parallel import parallel_map
 
 Fitting = Callable[[Sequence[SearchStep]], Sequence[Sequence[FittedModel]]]
 
@@ -82,7 +80,7 @@ def search(base: FittedModel, effects: Sequence[str], most: int, context: Search
     context
         Noise, listener, processes, other starts.
     """
-    found = _Pass(effects, most, context).run(_look(base, effects, context))
+    found = _Pass(effects, most, context).run(step_from(base, effects, context))
     if settled(found, most):
         return found
     sharper = sharpened(found.end, context.processes)
@@ -90,7 +88,7 @@ def search(base: FittedModel, effects: Sequence[str], most: int, context: Search
         return found
     context.tell("once more, with the noise about the best model")
     carried = refitted_all([found.base, *_leading(found)], sharper, context.processes)
-    start = _look(carried[0], effects, context)
+    start = step_from(carried[0], effects, context)
     return _Pass(effects, most, context, tuple(carried[1:])).run(start)
 
 
@@ -140,7 +138,7 @@ class _Pass:
     def run(self, first: SearchStep) -> Search:
         """Search from the first look at the base model."""
         if not self.carried:
-            first = _sharp(first, self.context)
+            first = with_sharp_noise(first, self.context)
         (first,) = self._fitted([first], lambda steps: [self._singles(steps[0])])
         best, best_lack, rounds = first.start, first.lack, [first]
         beam = branches([first], self.spare, self.context)
@@ -190,7 +188,7 @@ class _Pass:
         return replace(found, end=step.start, end_lack=step.lack())
 
     def _onwards(self, trial: FittedModel) -> SearchStep:
-        return _look(up_to_date(trial), self._others(trial), self.context)
+        return step_from(up_to_date(trial), self._others(trial), self.context)
 
     def _singles(self, step: SearchStep) -> Sequence[FittedModel]:
         trials = singles(step, self.context)
@@ -218,7 +216,7 @@ class _Pass:
         for k, start in enumerate(restarted(tasks, self.context)):
             if start is not found[k].start:
                 self.context.tell(f"a lower minimum without the last effect: {start.fit.chi2:.1f}")
-                found[k] = _look(start, [seen.effect for seen in found[k].looks], self.context)
+                found[k] = step_from(start, [seen.effect for seen in found[k].looks], self.context)
                 lower.append(k)
         again = more([(found[k], SETTINGS.most_refitted) for k in lower], self.context)
         for k, own in zip(lower, again, strict=True):
@@ -236,7 +234,7 @@ class _Pass:
         if not others:
             return found
         reduced = refitted_without(found.end, effects, self.context.processes)
-        steps = [_look(up_to_date(without), others, self.context) for without in reduced]
+        steps = [step_from(up_to_date(without), others, self.context) for without in reduced]
         chosen = [
             replace(step, looks=tuple(promising_or_kin(step, effect)))
             for step, effect in zip(steps, effects, strict=True)
@@ -255,7 +253,7 @@ class _Pass:
         if not found.end_lack.adequate or len(found.end.effects) >= self.most:
             return found
         steps = [
-            _look(up_to_date(first), self._others(found.end, first), self.context)
+            step_from(up_to_date(first), self._others(found.end, first), self.context)
             for effect, free in found.end.model.effects.items()
             if len(free) > 1
             for first in in_the_place(found, effect)[: SETTINGS.most_split]
@@ -317,37 +315,3 @@ def in_the_place(found: Search, effect: str) -> list[FittedModel]:
         if name != effect and len(trial.model.effects[name]) == 1:
             rivals.setdefault(name, trial)
     return list(rivals.values())
-
-
-def _sharp(step: SearchStep, context: SearchContext) -> SearchStep:
-    """Return the first look with a noise that does not count the misfit of the base as noise.
-
-    The noise is estimated again about the most promising models with one effect.
-    """
-    if step.lack().passes and not blurred(step.start.model.base):
-        return step
-    order = most_promising(step, SETTINGS.noise_leaders)
-    if not order:
-        return step
-    fits = parallel_map(
-        lambda i: with_effect(step.start, order[i]).fit, len(order), context.processes
-    )
-    at = int(np.argmin([fit.chi2 for fit in fits]))
-    best = FittedModel(model_with(step.start, order[at].effect), fits[at])
-    base = sharpened(best, context.processes)
-    if not is_clearer(base, best.model.base):
-        return step
-    start = refitted(step.start, base)
-    return _look(start, [look.effect for look in step.looks], context)
-
-
-def _look(trial: FittedModel, effects: Sequence[str], context: SearchContext) -> SearchStep:
-    looks = look_at(trial, effects, context.processes)
-    (rng,) = context.rng.spawn(1)
-
-    @cache
-    def lack() -> LackOfFit:
-        directions = [look.directions for look in looks]
-        return lack_of_fit(trial.model, trial.fit, directions, rng, context.processes)
-
-    return SearchStep(trial, lack, tuple(looks))
