@@ -18,11 +18,12 @@ from pyrofit.blind_test.run import run_case, run_chunk
 from pyrofit.blind_test.setting import Setting, read_setting
 from pyrofit.blind_test.table import row_of
 from pyrofit.blind_test.twin import describe, make_twin, read_twin, write_twin
-from pyrofit.config import Study, candidate_effects
+from pyrofit.config import Study, candidate_effects, diagnosed_parameters
 from pyrofit.effects import known_effects, same_as
 from pyrofit.errors import DataError, StudyError
 from pyrofit.estimate.targets import Measurements
 from pyrofit.model.accuracy import Resolution
+from pyrofit.model.parameters import Parameter
 from pyrofit.results.files import read_json, write_json
 
 FILE = Path(__file__).parents[2] / "config" / "blind_test.yaml"
@@ -275,7 +276,16 @@ class Fake:
 
     def __call__(self, study: Study, measurements: Measurements) -> Mapping[str, Any]:
         self.candidates.append(candidate_effects(study))
-        return verdict("named", ["k_T"]) | {"next_experiment": []}
+        base = {name: at_middle(study.parameters[name]) for name in diagnosed_parameters(study)}
+        return verdict("named", ["k_T"]) | {"base": {"parameters": base}, "next_experiment": []}
+
+
+def at_middle(parameter: Parameter) -> dict[str, Any]:
+    """Return a parameter as a fit that ended in the middle of its limits."""
+    low, high = parameter.lower, parameter.upper
+    assert low is not None
+    assert high is not None
+    return {"value": 0.5 * (low + high), "low": low, "high": high, "unit": parameter.unit}
 
 
 def verdict(kind: str, effects: list[str], sets: list[list[str]] | None = None) -> dict[str, Any]:
@@ -408,6 +418,29 @@ def test_detectability_is_nil_without_effect_and_grows_with_its_strength(
     assert strong == pytest.approx(2 * weak, rel=0.1)
     # Its size in sd does not depend on a parameter that is free to make up for it.
     assert of({"thickness": {"factor": 1.02}}) < 0.1 * of({"edge_loss": {"h_W_m2K": 10.0}})
+
+
+def test_detectability_is_searched_from_a_fitted_base_as_well(setting: Setting) -> None:
+    hidden = {"flux_level": {"factor": 1.03}}
+    given = {"signals": "mlr+back", "noise": "measured", "seed": 7246807}
+    twin = make_twin(setting, Case(**{**FORM, "kind": "effect", "hidden": hidden, **given}))
+    fitted = {
+        "T_A": 461.1,
+        "E_A": 85.62,
+        "T_B": 612.3,
+        "E_B": 173.9,
+        "w_A": 0.03488,
+        "rho_a": 1223,
+        "k_a": 0.2118,
+        "cp_a": 2.249,
+        "eps_a": 0.9881,
+        "k_r": 0.1658,
+        "dh": 653.3,
+    }
+    from_truth = detectability(twin.truth, twin.series, setting.known).size
+    from_both = detectability(twin.truth, twin.series, setting.known, fitted).size
+    assert from_truth > 8.0
+    assert from_both < 3.0
 
 
 # Scoring

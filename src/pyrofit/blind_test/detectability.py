@@ -47,13 +47,18 @@ class Misfit:
     differences: Mapping[Channel, tuple[FloatArray, FloatArray]]
 
 
-def detectability(truth: Study, series: Measurements, known: Mapping[str, float]) -> Misfit:
+def detectability(
+    truth: Study,
+    series: Measurements,
+    known: Mapping[str, float],
+    fitted: Mapping[str, float] | None = None,
+) -> Misfit:
     """Return by how many standard deviations of the noise the best base model misses the truth.
 
     sqrt(min over x of |L^-1 (base(x) - y) / sd|^2 + |(x_k - truth) / sd_k|^2). y are the noise-free
     curves of the truth, computed by the solver of the fitted model. L and sd are the correlation
     and size of the true noise, the error of the clock included. x are the base parameters, searched
-    from the truth; x_k are those with a known value.
+    from the truth and from those of a fit; x_k are those with a known value.
 
     Parameters
     ----------
@@ -63,13 +68,15 @@ def detectability(truth: Study, series: Measurements, known: Mapping[str, float]
         Measurements, for their times, by (experiment, signal).
     known
         Standard deviations of the parameters with a known value, in their units.
+    fitted
+        Parameters of the base that was fitted to the measurements, in their units.
 
     Raises
     ------
     DataError
         A simulation of the truth does not finish.
     """
-    return _least(truth, _base(truth, _noise_free(truth, series)), known)
+    return _least(truth, _base(truth, _noise_free(truth, series)), known, fitted)
 
 
 def unexplained(truth: Study, curves: Measurements, known: Mapping[str, float]) -> Misfit:
@@ -105,15 +112,26 @@ def located(windows: Iterable[Mapping[str, Any]], misfit: Misfit) -> dict[str, i
     return counts
 
 
-def _least(truth: Study, problem: Problem, known: Mapping[str, float]) -> Misfit:
-    """Return the least misfit of a problem with noise-free targets, searched from the truth."""
+def _least(
+    truth: Study,
+    problem: Problem,
+    known: Mapping[str, float],
+    fitted: Mapping[str, float] | None = None,
+) -> Misfit:
+    """Return the least misfit of a problem with noise-free targets.
+
+    It is searched from the truth, and from fitted parameters if there are some.
+    """
     values = _true_values(truth, problem)
     index = tuple(problem.names.index(name) for name in known)
     sd = np.array([sd * truth.parameters[name].factor for name, sd in known.items()])
     prior = NormalPrior(index, values[list(index)], sd)
     likelihood = Likelihood(problem, _noise_models(truth, problem), prior)
     start = likelihood.scaled(values)
-    end = likelihood.descend(start)
+    starts = [start]
+    if fitted is not None:
+        starts.append(likelihood.scaled(_values(truth, problem, fitted)))
+    end = min((likelihood.descend(x) for x in starts), key=lambda found: found.chi2)
     size, first = (math.sqrt(chi2) for chi2 in (end.chi2, likelihood.chi2(start)))
     return Misfit(size, first, sum(likelihood.points), _differences(likelihood, end.x))
 
@@ -162,8 +180,12 @@ def _noise_free(truth: Study, series: Measurements) -> Measurements:
 
 def _true_values(truth: Study, problem: Problem) -> FloatArray:
     assert truth.synthetic is not None
-    values = truth.synthetic.truth
-    return np.array([values[name] * truth.parameters[name].factor for name in problem.names])
+    return _values(truth, problem, truth.synthetic.truth)
+
+
+def _values(truth: Study, problem: Problem, given: Mapping[str, float]) -> FloatArray:
+    """Return the parameters of a problem, SI units, from those in the units of a study."""
+    return np.array([given[name] * truth.parameters[name].factor for name in problem.names])
 
 
 def _noise_models(truth: Study, base: Problem) -> tuple[NoiseModel, ...]:

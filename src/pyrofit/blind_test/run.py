@@ -74,10 +74,11 @@ def run_case(setting: Setting, case: Case, places: Places, diagnose: Diagnose) -
         write_twin(places, twin)
     study, measurements = read_twin(places, case.id)
     known = {name: prior.sd for name, prior in study.known.items()}
-    with _timed(seconds, "detectability"):
-        misfit = detectability(twin.truth, twin.series, known)
     with _timed(seconds, "diagnosis"):
         found = diagnose(study, measurements)
+    base = {name: one["value"] for name, one in found["base"]["parameters"].items()}
+    with _timed(seconds, "detectability"):
+        misfit = detectability(twin.truth, twin.series, known, base)
     assert twin.truth.synthetic is not None
     result: dict[str, Any] = {"case": case.model_dump(mode="json")}
     result |= {"truth": twin.truth.synthetic.truth}
