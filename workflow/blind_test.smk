@@ -1,7 +1,7 @@
 """The blind tests of the diagnosis, apart from all studies.
 
 Targets: full (the plan full of blind_test.yaml), short (a few of its twins), foreign (the plan full
-of foreign_truth.yaml), foreign_part (a part of it).
+of foreign_truth.yaml), foreign_part (a part of it), gpyro (the plan full of gpyro_truth.yaml).
 """
 
 from pathlib import Path
@@ -20,7 +20,8 @@ min_version("9.27")
 
 
 TESTS = {
-    name: Path("config") / f"{name}.yaml" for name in ("blind_test", "foreign_truth")
+    name: Path("config") / f"{name}.yaml"
+    for name in ("blind_test", "foreign_truth", "gpyro_truth")
 }
 try:
     SETTINGS = {name: read_setting(path) for name, path in TESTS.items()}
@@ -44,6 +45,7 @@ localrules:
     short,
     foreign,
     foreign_part,
+    gpyro,
     page,
 
 
@@ -66,6 +68,11 @@ rule foreign:
 rule foreign_part:
     input:
         folder_of(TESTS["foreign_truth"], "part") / "page.md",
+
+
+rule gpyro:
+    input:
+        folder_of(TESTS["gpyro_truth"], "full") / "page.md",
 
 
 # Each diagnosed twin is a file of its own, which no rule removes: after a stop, a job goes on with

@@ -29,6 +29,7 @@ def found(**changes: Any) -> dict[str, Any]:
             "hidden": {"k_T": {"slope_1_K": -1e-3}},
             "signals": "mlr",
             "noise": "white",
+            "curves": "",
         },
         "truth": {"rho_a": 1000.0},
         "verdict": {"kind": "named", "effects": ["k_T"], "sets": [["k_T"]]},
@@ -67,6 +68,12 @@ def test_effect_of_the_same_signature_has_no_true_strength() -> None:
     late = {"kind": "named", "effects": ["heater_ramp"], "sets": [["heater_ramp"]]}
     hidden = found()["case"] | {"hidden": {"time_offset": {"delay_s": 5.0}}}
     assert list(strength_rows(found(verdict=late, case=hidden))) == []
+
+
+def test_other_form_of_another_code_has_no_true_strength() -> None:
+    case = found()["case"]
+    assert list(strength_rows(found(case={**case, "kind": "form"})))
+    assert not list(strength_rows(found(case={**case, "kind": "form", "curves": "g22"})))
 
 
 def test_base_parameter_is_compared_before_and_after() -> None:

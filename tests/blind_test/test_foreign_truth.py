@@ -2,6 +2,7 @@
 
 import json
 import shutil
+from collections import Counter
 from pathlib import Path
 from typing import Any
 
@@ -25,7 +26,13 @@ from pyrofit.effects import known_effects
 from pyrofit.errors import DataError, StudyError
 from pyrofit.estimate.targets import Measurements
 
-FILE = Path(__file__).parents[2] / "config" / "foreign_truth.yaml"
+CONFIG = Path(__file__).parents[2] / "config"
+FILE = CONFIG / "foreign_truth.yaml"
+KINDS = {
+    "foreign_truth": {"null": 1, "effect": 11, "pair": 2},
+    "gpyro_truth": {"null": 2, "effect": 16, "pair": 3, "form": 3},
+}
+"""Number of cases of each kind, by code."""
 MLR = "mlr_kg_m2_s"
 
 
@@ -47,24 +54,25 @@ def case_of(cases: tuple[Case, ...], curves: str, signals: str, noise: str = "wh
 # Files
 
 
-def test_manifest_names_effects_of_the_catalogue_and_parameters_of_the_study(
-    setting: Setting,
-) -> None:
-    manifest = foreign.read_manifest(Path(setting.curves))
+@pytest.mark.parametrize("name", KINDS)
+def test_manifest_names_effects_of_the_catalogue_and_parameters_of_the_study(name: str) -> None:
+    setting = read_setting(CONFIG / f"{name}.yaml")
+    cases = foreign.read_manifest(Path(setting.curves)).cases
     study, catalogue = read_study(Path(setting.base)), known_effects()
-    assert len(manifest.cases) == 14
-    assert [t.kind for t in manifest.cases.values()].count("null") == 1
-    for truth in manifest.cases.values():
+    assert Counter(truth.kind for truth in cases.values()) == KINDS[name]
+    for truth in cases.values():
         assert set(truth.values) == set(study.parameters)
         for effect, values in truth.effects.items():
             assert set(values) <= set(catalogue[effect].quantities)
             assert set(catalogue[effect].strength) <= set(values)
 
 
-def test_every_case_has_the_curves_of_the_study(setting: Setting) -> None:
+@pytest.mark.parametrize("name", KINDS)
+def test_every_case_has_the_curves_of_the_study(name: str) -> None:
+    setting = read_setting(CONFIG / f"{name}.yaml")
     folder, study = Path(setting.curves), read_study(Path(setting.base))
-    for name in foreign.read_manifest(folder).cases:
-        for (experiment, _), curve in foreign.clean(folder, name, study).items():
+    for case in foreign.read_manifest(folder).cases:
+        for (experiment, _), curve in foreign.clean(folder, case, study).items():
             time = curve["time_s"].to_numpy()
             assert np.array_equal(np.diff(time), np.full(time.size - 1, SPACING_S))
             assert time[-1] < study.experiments[experiment].duration_s
@@ -79,23 +87,37 @@ def test_study_describes_the_bins_that_the_files_have(setting: Setting) -> None:
             assert signal.average_s == widths[experiment.quantity(name).column]
 
 
-def test_thinned_curves_keep_mass_and_mean(tmp_path: Path) -> None:
+@pytest.mark.parametrize(
+    ("code", "name"),
+    [({"fds_version": "6.7.4"}, "FDS 6.7.4"), ({"code": "Gpyro 0.82"}, "Gpyro 0.82")],
+)
+def test_thinned_curves_keep_mass_and_mean(tmp_path: Path, code: dict[str, str], name: str) -> None:
     source, target = tmp_path / "source", tmp_path / "target"
-    source.mkdir()
+    write_full_curves(source, code)
+    assert len(thin(source, target)) == 2
+    assert foreign.read_manifest(target).code == name
+    mlr = foreign.read_curve(target, "d01", "slab_25", MLR)
+    assert mlr["time_s"].tolist() == np.arange(2.5, 100.0, 5.0).tolist()
+    given = pd.read_csv(source / "d01_25.csv")
+    assert mlr[MLR].sum() * SPACING_S == pytest.approx(given["mlr_kg_m2s"].sum(), rel=1e-4)
+    back = foreign.read_curve(target, "d01", "slab_25", "back_temperature_K")
+    assert back["back_temperature_K"].tolist() == pytest.approx(300.0 + mlr["time_s"])
+
+
+def test_full_curves_without_the_name_of_the_code_are_refused(tmp_path: Path) -> None:
+    write_full_curves(tmp_path / "source", {})
+    with pytest.raises(DataError, match=r"manifest.json: lacks `code`; give the name and version"):
+        thin(tmp_path / "source", tmp_path / "target")
+
+
+def write_full_curves(folder: Path, code: dict[str, str]) -> None:
+    folder.mkdir()
     case = {"base_values_SI": {"rho_a": 1100.0}, "effects": {}, "experiments": {"25": {}}}
-    given = {"fds_version": "6.7.4", "cases": {"d01": case}}
-    (source / "manifest.json").write_text(json.dumps(given))
+    (folder / "manifest.json").write_text(json.dumps({**code, "cases": {"d01": case}}))
     time = np.arange(0.5, 100.0)
     rate = 0.01 * np.sin(np.pi * time / 100.0) ** 2
     full = {"time_s": time, "mlr_kg_m2s": rate, "T_back_K": 300.0 + time}
-    pd.DataFrame(full).to_csv(source / "d01_25.csv", index=False)
-    assert len(thin(source, target)) == 2
-    assert foreign.read_manifest(target).code == "FDS 6.7.4"
-    mlr = foreign.read_curve(target, "d01", "slab_25", MLR)
-    assert mlr["time_s"].tolist() == np.arange(2.5, 100.0, 5.0).tolist()
-    assert mlr[MLR].sum() * SPACING_S == pytest.approx(rate.sum(), rel=1e-4)
-    back = foreign.read_curve(target, "d01", "slab_25", "back_temperature_K")
-    assert back["back_temperature_K"].tolist() == pytest.approx(300.0 + mlr["time_s"])
+    pd.DataFrame(full).to_csv(folder / "d01_25.csv", index=False)
 
 
 def test_what_is_missing_in_the_files_is_named(setting: Setting, tmp_path: Path) -> None:
@@ -171,13 +193,20 @@ def test_study_that_is_diagnosed_holds_no_truth(setting: Setting, cases: tuple[C
 # The exam is fair, and an easy case is passed
 
 
-def test_true_model_explains_the_curves_of_the_other_code(setting: Setting, tmp_path: Path) -> None:
+@pytest.mark.parametrize(
+    ("name", "null", "others"),
+    [("foreign_truth", "d13", ("d06", "d07")), ("gpyro_truth", "g01", ("g08", "g11", "g15"))],
+)
+def test_true_model_explains_the_curves_of_the_other_code(
+    name: str, null: str, others: tuple[str, ...], tmp_path: Path
+) -> None:
+    setting = read_setting(CONFIG / f"{name}.yaml")
     folder = shutil.copytree(setting.curves, tmp_path / "curves")
     given = json.loads((folder / "manifest.json").read_text())
-    given["cases"] = {name: given["cases"][name] for name in ("d06", "d07", "d13")}
+    given["cases"] = {case: given["cases"][case] for case in (null, *others)}
     (folder / "manifest.json").write_text(json.dumps(given))
     table = agreement(setting.model_copy(update={"curves": str(folder)})).set_index("case")
-    assert table.loc["d13", "effects"] == ""
+    assert table.loc[null, "effects"] == ""
     # In standard deviations of the noise, over 470 to 850 points; a claim needs about 3.5.
     assert (table["fitted_sd"] < 1.0).all()
     assert (table["fitted_sd"] <= table["at_truth_sd"]).all()

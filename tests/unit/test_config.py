@@ -16,7 +16,7 @@ from pyrofit.config.uses import parameters_of_heated
 from pyrofit.errors import StudyError
 
 CONFIG = Path(__file__).parents[2] / "config"
-BLIND_TESTS = ("blind_test", "foreign_truth")
+BLIND_TESTS = ("blind_test", "foreign_truth", "gpyro_truth")
 SHIPPED = [p for p in sorted(CONFIG.glob("*.yaml")) if p.stem not in BLIND_TESTS]
 SMOKE = json.dumps(yaml.safe_load((CONFIG / "smoke.yaml").read_text(encoding="utf-8")))
 GONE = object()

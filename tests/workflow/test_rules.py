@@ -64,6 +64,7 @@ def test_broken_blind_test_stops_no_study(tmp_path: Path) -> None:
         (("short",), "blind_test", "short", 2),
         (("foreign",), "foreign_truth", "full", 20),
         (("foreign_part",), "foreign_truth", "part", 2),
+        (("gpyro",), "gpyro_truth", "full", 8),
     ],
 )
 def test_blind_test_runs_its_full_plan_unless_told_otherwise(

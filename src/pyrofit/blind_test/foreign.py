@@ -33,11 +33,16 @@ class Truth(Part):
         max_length=2,
         description="values of the effects' parameters, SI units, by effect and parameter",
     )
+    other_form: bool = Field(
+        False,
+        description="the code computes the effect by another equation than the catalogue; the "
+        "parameters are the nearest ones",
+    )
 
     @property
     def kind(self) -> Kind:
         """Kind of a twin with these effects."""
-        return KINDS[len(self.effects)]
+        return "form" if self.other_form else KINDS[len(self.effects)]
 
 
 class Manifest(Part):
@@ -103,7 +108,12 @@ def drafts(setting: Setting, plan: Plan) -> Iterator[Draft]:
         The manifest is missing or breaks a rule.
     """
     noises = list(setting.noise)
-    repeats = {"effect": plan.effects, "null": plan.nulls * len(noises), "pair": plan.pairs}
+    repeats = {
+        "effect": plan.effects,
+        "null": plan.nulls * len(noises),
+        "pair": plan.pairs,
+        "form": plan.forms,
+    }
     count = 0
     for i, (name, truth) in enumerate(read_manifest(Path(setting.curves)).cases.items()):
         for k, signals in enumerate(setting.signals):

@@ -70,9 +70,12 @@ def strength_rows(found: Found) -> Iterator[dict[str, Any]]:
 
     ``low`` to ``high`` is the 95 % interval of the strength in the form that was fitted.
     ``low_form`` to ``high_form`` is the one with an uncertain form, if any. An effect of the same
-    signature under another name has no true strength.
+    signature under another name has no true strength, nor has one that another code computes in
+    another form.
     """
     case = found["case"]
+    if case["curves"] and case["kind"] == "form":
+        return
     for effect in leading(found["verdict"]):
         if effect not in case["hidden"]:
             continue

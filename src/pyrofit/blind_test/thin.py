@@ -1,5 +1,6 @@
-"""Make the files of `pyrofit.blind_test.foreign` from curves of FDS in full."""
+"""Make the files of `pyrofit.blind_test.foreign` from curves of another code in full."""
 
+from collections.abc import Mapping
 from pathlib import Path
 
 import numpy as np
@@ -18,7 +19,7 @@ KEPT = {
     "T_back_K": ("back_temperature_K", 1.0, "%.2f"),
 }
 """Column, width of the mean [s] and digits kept, by column of the originals."""
-_NEEDS: dict[Keys, type] = {("fds_version",): str, ("cases",): dict}
+_NEEDS: dict[Keys, type] = {("cases",): dict}
 
 
 def thin(source: Path, target: Path) -> list[Path]:
@@ -36,11 +37,24 @@ def thin(source: Path, target: Path) -> list[Path]:
         parts = [_curves(source, name, flux) for flux in case["experiments"]]
         path = target / f"{name}.csv"
         write_csv(path, pd.concat(parts, ignore_index=True))
-        truths[name] = Truth(values=case["base_values_SI"], effects=case["effects"])
+        truths[name] = Truth(
+            values=case["base_values_SI"],
+            effects=case["effects"],
+            other_form=case.get("other_form", False),
+        )
         written.append(path)
-    manifest = Manifest(code=f"FDS {given['fds_version']}", cases=truths)
+    manifest = Manifest(code=_code(source, given), cases=truths)
     write_json(target / MANIFEST, manifest.model_dump(mode="json"))
     return [*written, target / MANIFEST]
+
+
+def _code(source: Path, given: Mapping[str, object]) -> str:
+    """Return name and version of the code."""
+    if "code" in given:
+        return str(given["code"])
+    if "fds_version" in given:
+        return f"FDS {given['fds_version']}"
+    raise DataError(f"{source / MANIFEST}: lacks `code`; give the name and version of the code")
 
 
 def _curves(source: Path, case: str, flux: str) -> pd.DataFrame:

@@ -35,7 +35,7 @@ def add(commands: Any) -> None:
 
 def _add_foreign(commands: Any) -> None:
     """Add the commands of the blind test on curves of another code."""
-    words = "make the files of the foreign blind test from curves of FDS"
+    words = "make the files of the foreign blind test from curves of another code"
     thin = commands.add_parser("foreign-curves", help=words)
     thin.add_argument("source", type=Path, help="folder of the curves in full and their manifest")
     thin.add_argument("target", type=Path, help="folder of the files that are made")
