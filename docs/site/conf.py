@@ -33,6 +33,7 @@ include_patterns = [
     "docs/site/api.md",
     "config/README.md",
     "config/foreign_truth/README.md",
+    "config/gpyro_truth/README.md",
 ]
 exclude_patterns = [".*", "build", "results"]
 source_suffix = {".md": "markdown", ".ipynb": "markdown"}
