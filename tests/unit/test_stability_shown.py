@@ -24,6 +24,7 @@ from pyrofit.show.stability.figures import draw
 from pyrofit.show.stability.sentences import sentences
 from pyrofit.show.stability_page import PAGE, sections
 
+REASON = "its strength rests at a limit"
 VERDICTS: tuple[tuple[str, list[list[str]], list[str]], ...] = (
     ("named", [["k_T"]], ["k_T"]),
     ("multiple", [["k_T"], ["melting"]], ["k_T", "melting"]),
@@ -47,6 +48,7 @@ def of_draw(study: Study, results: Results, number: int) -> dict[str, Any]:
         "kind": kind,
         "confirmed": kind == "named",
         "sets": sets,
+        "reasons": [f"{final[0]}: {REASON}"],
         "final": final,
         "chi2": 300.0,
         "strengths": dict.fromkeys(final, 0.1 + number),
@@ -65,8 +67,8 @@ def test_effects_are_counted_by_verdict_and_by_final_model(tmp_path: Path) -> No
     study, results = stable_or_not(tmp_path)
     frame = PAGE.tables["effects"].make(study, results).set_index("effect")
     assert [name.split("(")[-1].rstrip(")") for name in frame.index] == ["k_T", "melting", "c_T"]
-    assert frame["measured"].tolist() == ["named", "–", "–"]
-    assert frame["named_percent"].tolist() == pytest.approx([200 / 3, 100 / 3, 0.0])
+    assert frame["measured"].tolist() == ["claimed", "–", "–"]
+    assert frame["claimed_percent"].tolist() == pytest.approx([200 / 3, 100 / 3, 0.0])
     assert frame["final_percent"].tolist() == pytest.approx([200 / 3, 200 / 3, 100 / 3])
     assert (frame["lowest"].iloc[0], frame["highest"].iloc[0]) == (0.1, 1.1)
 
@@ -76,7 +78,8 @@ def test_each_draw_has_a_row_behind_the_measured_data(tmp_path: Path) -> None:
     frame = PAGE.tables["draws"].make(study, results)
     assert frame["data"].tolist() == ["as measured", "draw 0", "draw 1", "draw 2"]
     assert frame["kind"].tolist() == ["named", "named", "multiple", "unknown"]
-    assert frame["named"].tolist() == ["k_T", "k_T", "k_T, melting", "–"]
+    assert frame["claimed"].tolist() == ["k_T", "k_T", "k_T, melting", "–"]
+    assert frame["reasons"].tolist() == ["", "", "", f"c_T: {REASON}"]
     assert frame["final"].tolist()[1:] == ["k_T", "k_T, melting", "c_T, melting"]
 
 
@@ -87,8 +90,8 @@ def test_sentences_tell_which_effects_depend_on_the_disturbance(tmp_path: Path) 
         "Random noise with 10 % of the estimated standard deviation was added to the data",
         "repeated: 3 times.",
         "Verdict on the measured data: 'named'. Verdicts on the disturbed data: 'named' (1),",
-        "The same effects are named from 1 of 3 disturbed data sets.",
-        "Not named from every disturbed data set: slope of the conductivity (k_T) (2 of 3).",
+        "The same effects are claimed from 1 of 3 disturbed data sets.",
+        "Not claimed from every disturbed data set: slope of the conductivity (k_T) (2 of 3).",
         "Named from disturbed data only:",
     ):
         assert words in said, (words, said)
@@ -102,7 +105,7 @@ def test_a_stable_result_is_said_to_be_stable(tmp_path: Path) -> None:
     said = " ".join(sentences(study, results))
     assert "Named from all data sets: slope of the conductivity (k_T)." in said
     assert "Every search ends with slope of the conductivity (k_T)." in said
-    assert "Not named" not in said
+    assert "Not claimed" not in said
     assert "disturbed data only" not in said
 
 
@@ -112,7 +115,7 @@ def test_without_any_effect_there_is_a_table_and_an_empty_figure(tmp_path: Path)
     for number in range(3):
         stability.write(results, {**of_draw(study, results, 0), **nothing, "draw": number})
     gathered(study, results)
-    assert "No data set leads to a named effect." in " ".join(sentences(study, results))
+    assert "No data set leads to a claimed effect." in " ".join(sentences(study, results))
     (shown,) = sections(study, results)
     assert len(shown.parts) == 3
 
@@ -135,7 +138,7 @@ def test_report_shows_the_stability_once_it_is_there(tmp_path: Path) -> None:
     write_report(study, results)
     page = Page((tmp_path / "report.html").read_text())
     assert {"stability", "stability_stability"} <= set(page.ids)
-    assert "are named from 1 of 3 disturbed data sets." in page.words.replace("\xa0", " ")
+    assert "are claimed from 1 of 3 disturbed data sets." in page.words.replace("\xa0", " ")
 
 
 def test_page_of_the_diagnosis_shows_the_stability_as_well(tmp_path: Path) -> None:
@@ -213,13 +216,13 @@ def test_archive_has_the_draws_of_the_study_if_they_are_up_to_date(tmp_path: Pat
     assert not any(path.parent.name == "stability" for path in archived(study, results))
 
 
-def test_an_effect_counts_as_named_wherever_it_stands_in_a_set(tmp_path: Path) -> None:
+def test_an_effect_counts_as_claimed_wherever_it_stands_in_a_set(tmp_path: Path) -> None:
     study, results = stable_or_not(tmp_path)
     for number, one in enumerate((["k_T", "c_T"], ["c_T", "k_T"], ["k_T", "c_T"])):
         draw = {**of_draw(study, results, 0), "kind": "ambiguous", "sets": [one], "draw": number}
         stability.write(results, draw)
     found = read(study, results)
-    assert [found.times_named(effect) for effect in ("k_T", "c_T")] == [3, 3]
+    assert [found.times_claimed(effect) for effect in ("k_T", "c_T")] == [3, 3]
 
 
 def test_missing_draw_names_the_file(tmp_path: Path) -> None:

@@ -31,6 +31,7 @@ class OfDraw(Record):
     sets: list[list[str]] = Field(
         description="per effect of the verdict, those that cannot be told from it"
     )
+    reasons: list[str] = Field(description="reasons against a firmer verdict, or evidence for it")
     final: list[str] = Field(description="effects of the model that the search ended with")
     chi2: float = Field(description="chi-square of this model")
     strengths: dict[str, float] = Field(description="strengths of its effects, SI units")

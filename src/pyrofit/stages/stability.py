@@ -50,6 +50,7 @@ def _content(study: Study, results: Results, draw: int, found: Diagnosis) -> dic
         "kind": verdict["kind"],
         "confirmed": verdict["confirmed"],
         "sets": verdict["sets"],
+        "reasons": verdict["reasons"],
         "final": list(end.effects),
         "chi2": end.fit.chi2,
         "strengths": {effect: end.strength(effect) for effect in end.effects},

@@ -20,22 +20,22 @@ class Stability:
     draws: Sequence[OfDraw]
 
     @property
-    def named(self) -> list[str]:
+    def claimed(self) -> list[str]:
         """Effects that the verdict on the measured data names, all of each set."""
         verdict = self.measured["verdict"]
-        return _named(verdict["kind"], verdict["sets"])
+        return _claimed(verdict["kind"], verdict["sets"])
 
     @property
     def effects(self) -> list[str]:
         """All effects that are found: those of the measured data first, then the most frequent."""
-        found = {effect for draw in self.draws for effect in (*named_by(draw), *draw.final)}
-        others = [effect for effect in found if effect not in self.named]
-        order = sorted(others, key=lambda e: (-self.times_named(e), -self.times_final(e), e))
-        return [*self.named, *order]
+        found = {effect for draw in self.draws for effect in (*claimed_by(draw), *draw.final)}
+        others = [effect for effect in found if effect not in self.claimed]
+        order = sorted(others, key=lambda e: (-self.times_claimed(e), -self.times_final(e), e))
+        return [*self.claimed, *order]
 
-    def times_named(self, effect: str) -> int:
+    def times_claimed(self, effect: str) -> int:
         """Return how many draws have a verdict that names an effect."""
-        return sum(effect in named_by(draw) for draw in self.draws)
+        return sum(effect in claimed_by(draw) for draw in self.draws)
 
     def times_final(self, effect: str) -> int:
         """Return how many draws have a final model with an effect."""
@@ -48,18 +48,18 @@ class Stability:
     def measured_strength(self, effect: str) -> float | None:
         """Return the strength that the measured data give to an effect that leads its set."""
         chosen = leading(self.measured)
-        if effect not in self.named or chosen is None or effect not in chosen["effects"]:
+        if effect not in self.claimed or chosen is None or effect not in chosen["effects"]:
             return None
         (strength,) = known_effects()[effect].strength
         return float(chosen["parameters"][f"{effect}_{strength}"]["value"])
 
 
-def named_by(draw: OfDraw) -> list[str]:
+def claimed_by(draw: OfDraw) -> list[str]:
     """Return the effects that the verdict on a draw names; `unknown` and `none` name none."""
-    return _named(draw.kind, draw.sets)
+    return _claimed(draw.kind, draw.sets)
 
 
-def _named(kind: str, sets: Sequence[Sequence[str]]) -> list[str]:
+def _claimed(kind: str, sets: Sequence[Sequence[str]]) -> list[str]:
     return [effect for one in sets for effect in one] if kind in CLAIMS else []
 
 

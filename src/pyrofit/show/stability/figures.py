@@ -24,16 +24,16 @@ def draw(study: Study, results: Results) -> Canvas:
     found = read(study, results)
     shown = found.effects[:MOST]
     count = len(found.draws)
-    named = np.array([100.0 * found.times_named(e) / count for e in shown])
+    claimed = np.array([100.0 * found.times_claimed(e) / count for e in shown])
     final = np.array([100.0 * found.times_final(e) / count for e in shown])
     canvas, (ax,) = style.panels(1, 1, style.TWO_COLUMNS, 28.0 + 7.0 * max(len(shown), 1))
     at = np.arange(len(shown), dtype=float)
     ax.barh(at, final, height=0.62, color=style.COLOURS[5])
-    ax.barh(at, named, height=0.34, color=style.COLOURS[0])
+    ax.barh(at, claimed, height=0.34, color=style.COLOURS[0])
     labels = [textwrap.fill(effect_name(effect), WRAP) for effect in shown]
     ax.set_yticks(at, labels, fontsize=6.5)
     for label, effect in zip(ax.get_yticklabels(), shown, strict=True):
-        if effect in found.named:
+        if effect in found.claimed:
             label.set_fontweight("bold")
     ax.set_ylim(max(len(shown), 1) - 0.5, -0.5)
     if not shown:
@@ -41,7 +41,7 @@ def draw(study: Study, results: Results) -> Canvas:
     ax.set_xlim(0.0, 100.0)
     ax.set_xlabel(f"share of {count} disturbed data sets [%]")
     entries = [
-        style.patch("verdict names it", color=style.COLOURS[0]),
+        style.patch("verdict claims it", color=style.COLOURS[0]),
         style.patch("the model of the search has it", color=style.COLOURS[5]),
     ]
     style.legend_below(canvas, entries)
@@ -54,9 +54,9 @@ FIGURES = {
         applies=always,
         make=draw,
         title="How often disturbed data lead to each effect",
-        caption="Share of the disturbed data sets whose verdict names an effect (dark), and whose "
+        caption="Share of the disturbed data sets whose verdict claims an effect (dark), and whose "
         "search ends with a model that has it (light). The tests of a claim may reject it "
-        f"afterwards. Bold: named from the measured data. The figure shows {MOST} effects at "
+        f"afterwards. Bold: claimed from the measured data. The figure shows {MOST} effects at "
         "most, the table all.",
     ),
 }

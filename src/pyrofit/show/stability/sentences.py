@@ -5,7 +5,7 @@ from collections import Counter
 from pyrofit.config import Study
 from pyrofit.results.files import Results
 from pyrofit.show.diagnosis.words import effect_name
-from pyrofit.show.stability.facts import Stability, named_by, read
+from pyrofit.show.stability.facts import Stability, claimed_by, read
 from pyrofit.show.text import listed, several
 
 
@@ -16,7 +16,7 @@ def sentences(study: Study, results: Results) -> list[str]:
         _of_draws(found),
         _of_verdicts(found),
         *_of_searches(found),
-        *_of_named(found),
+        *_of_claimed(found),
         *_of_others(found),
     ]
 
@@ -34,10 +34,10 @@ def _of_verdicts(found: Stability) -> str:
     shown = listed([f"'{kind}' ({n})" for kind, n in kinds.most_common()])
     kind = found.measured["verdict"]["kind"]
     verdicts = f"Verdict on the measured data: '{kind}'. Verdicts on the disturbed data: {shown}. "
-    if not any([found.named, *map(named_by, found.draws)]):
-        return f"{verdicts}No data set leads to a named effect."
-    same = sum(set(named_by(draw)) == set(found.named) for draw in found.draws)
-    return f"{verdicts}The same effects are named from {_of(same, found)} disturbed data sets."
+    if not any([found.claimed, *map(claimed_by, found.draws)]):
+        return f"{verdicts}No data set leads to a claimed effect."
+    same = sum(set(claimed_by(draw)) == set(found.claimed) for draw in found.draws)
+    return f"{verdicts}The same effects are claimed from {_of(same, found)} disturbed data sets."
 
 
 def _of(times: int, found: Stability) -> str:
@@ -50,21 +50,21 @@ def _of_searches(found: Stability) -> list[str]:
     return [f"Every search ends with {listed(list(map(effect_name, every)))}."] if every else []
 
 
-def _of_named(found: Stability) -> list[str]:
-    """Tell how often the effects of the measured data are named again."""
-    times = {effect: found.times_named(effect) for effect in found.named}
+def _of_claimed(found: Stability) -> list[str]:
+    """Tell how often the effects of the measured data are claimed again."""
+    times = {effect: found.times_claimed(effect) for effect in found.claimed}
     every = [effect_name(e) for e, n in times.items() if n == len(found.draws)]
     rest = [f"{effect_name(e)} ({_of(n, found)})" for e, n in times.items() if n < len(found.draws)]
     said = [f"Named from all data sets: {listed(every)}."] if every else []
     if rest:
         said.append(
-            f"Not named from every disturbed data set: {listed(rest)}. Such a claim is not firm."
+            f"Not claimed from every disturbed data set: {listed(rest)}. Such a claim is not firm."
         )
     return said
 
 
 def _of_others(found: Stability) -> list[str]:
     """Tell which effects only disturbed data name."""
-    others = [e for e in found.effects if e not in found.named and found.times_named(e)]
-    shares = [f"{effect_name(e)} ({_of(found.times_named(e), found)})" for e in others]
+    others = [e for e in found.effects if e not in found.claimed and found.times_claimed(e)]
+    shares = [f"{effect_name(e)} ({_of(found.times_claimed(e), found)})" for e in others]
     return [f"Named from disturbed data only: {listed(shares)}."] if others else []

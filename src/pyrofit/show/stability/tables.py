@@ -7,19 +7,20 @@ import pandas as pd
 from pyrofit.config import Study
 from pyrofit.results.files import Results
 from pyrofit.show.diagnosis.words import effect_name
-from pyrofit.show.stability.facts import named_by, read, unit_of
+from pyrofit.show.stability.facts import claimed_by, read, unit_of
 from pyrofit.show.table import Table, always
 
 COLUMNS = (
     "effect",
     "measured",
-    "named_percent",
+    "claimed_percent",
     "final_percent",
     "strength",
     "lowest",
     "highest",
     "unit",
 )
+OF_DRAWS = ("data", "kind", "confirmed", "claimed", "final", "chi2", "reasons")
 
 
 def effects(study: Study, results: Results) -> pd.DataFrame:
@@ -32,8 +33,8 @@ def effects(study: Study, results: Results) -> pd.DataFrame:
         rows.append(
             {
                 "effect": effect_name(effect),
-                "measured": "named" if effect in found.named else "–",
-                "named_percent": 100.0 * found.times_named(effect) / count,
+                "measured": "claimed" if effect in found.claimed else "–",
+                "claimed_percent": 100.0 * found.times_claimed(effect) / count,
                 "final_percent": 100.0 * found.times_final(effect) / count,
                 "strength": found.measured_strength(effect),
                 "lowest": min(strengths, default=None),
@@ -48,20 +49,21 @@ def draws(study: Study, results: Results) -> pd.DataFrame:
     """List the verdict on the measured data and on each disturbed data set."""
     found = read(study, results)
     verdict = found.measured["verdict"]
-    rows = [_row("as measured", verdict, found.named)]
+    rows = [_row("as measured", verdict, found.claimed)]
     for draw in found.draws:
-        row = _row(f"draw {draw.draw}", draw.model_dump(), named_by(draw))
+        row = _row(f"draw {draw.draw}", draw.model_dump(), claimed_by(draw))
         rows.append({**row, "final": _listed(draw.final), "chi2": draw.chi2})
-    return pd.DataFrame(rows)
+    return pd.DataFrame(rows, columns=list(OF_DRAWS))
 
 
-def _row(data: str, verdict: Any, named: list[str]) -> dict[str, Any]:
+def _row(data: str, verdict: Any, claimed: list[str]) -> dict[str, Any]:
     confirmed = "yes" if verdict["confirmed"] else "no"
     return {
         "data": data,
         "kind": verdict["kind"],
         "confirmed": confirmed,
-        "named": _listed(named),
+        "claimed": _listed(claimed),
+        "reasons": "" if claimed else "; ".join(verdict["reasons"]),
     }
 
 
@@ -75,12 +77,12 @@ TABLES = {
         applies=always,
         make=effects,
         title="Effects found in disturbed data",
-        note="Named: share of the disturbed data sets whose verdict names the effect. In the "
+        note="Claimed: share of the disturbed data sets whose verdict claims the effect. In the "
         "model: share whose search ends with a model that has it. The tests of a claim may reject "
         "it afterwards. Strengths are those of these models.",
         headings={
             "measured": "measured data",
-            "named_percent": "named [%]",
+            "claimed_percent": "claimed [%]",
             "final_percent": "in the model [%]",
             "strength": "strength, measured data",
             "lowest": "lowest strength",
@@ -92,8 +94,13 @@ TABLES = {
         applies=always,
         make=draws,
         title="Verdict on each disturbed data set",
-        note="Named: effects in the verdict. Model: those of the model that the search ended "
+        note="Claimed: effects in the verdict. Model: those of the model that the search ended "
         "with, and its chi-square.",
-        headings={"kind": "verdict", "final": "model", "chi2": "chi-square"},
+        headings={
+            "kind": "verdict",
+            "final": "model",
+            "chi2": "chi-square",
+            "reasons": "why nothing is claimed",
+        },
     ),
 }
