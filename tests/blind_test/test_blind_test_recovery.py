@@ -11,7 +11,7 @@ from pyrofit.blind_test.power import power, thresholds
 from pyrofit.blind_test.rates import bias, coverage, interval, times, windows
 from pyrofit.blind_test.recovery import parameter_rows, strength_rows
 
-SLOPE = {"value": -1.1e-3, "low": -1.2e-3, "high": -1.05e-3, "low_form": None, "high_form": None}
+SLOPE = {"value": -1.1e-3, "low": -1.2e-3, "high": -1.05e-3, "low_wide": None, "high_wide": None}
 
 
 def density(value: float, low: float, high: float) -> dict[str, Any]:
@@ -46,16 +46,16 @@ def test_strength_is_compared_in_the_model_of_the_verdict() -> None:
     assert (row["truth"], row["value"]) == (-1e-3, -1.1e-3)
     assert row["right"]
     assert not row["covered"]
-    assert not row["covered_form"]
-    assert np.isnan(row["low_form"])
+    assert not row["covered_wide"]
+    assert np.isnan(row["low_wide"])
 
 
 def test_interval_with_the_form_counts_where_there_is_one() -> None:
-    wide = SLOPE | {"low_form": -1.3e-3, "high_form": -0.9e-3}
+    wide = SLOPE | {"low_wide": -1.3e-3, "high_wide": -0.9e-3}
     fitted = {"effects": ["k_T"], "rejected": "", "parameters": {"k_T_slope_1_K": wide}}
     (row,) = strength_rows(found(candidates=[fitted]))
     assert not row["covered"]
-    assert row["covered_form"]
+    assert row["covered_wide"]
 
 
 @pytest.mark.parametrize("kind", ["unknown", "none"])
@@ -92,7 +92,7 @@ def test_coverage_is_counted_with_its_interval() -> None:
     table = coverage(pd.DataFrame([row for one in results for row in strength_rows(one)]))
     first = table.iloc[0]
     assert (first["interval"], first["by"], first["hits"], first["twins"]) == (
-        "fitted form",
+        "fitted model",
         "all",
         3,
         4,

@@ -14,6 +14,7 @@ from pyrofit.diagnose.base.prediction import HELD_OUT
 from pyrofit.diagnose.diagnosis import _undecided
 from pyrofit.diagnose.judge import other_terms, places
 from pyrofit.diagnose.judge.claim_tests import Trust
+from pyrofit.diagnose.judge.final_fits import final_fits
 from pyrofit.diagnose.judge.findings import Judged, Verdict
 from pyrofit.diagnose.judge.places import _against, alternatives, exchanges, without_each
 from pyrofit.diagnose.judge.verdict import ONE_FLUX, _doubts, judge
@@ -64,6 +65,12 @@ def verdict_on(found: Search) -> Verdict:
     verdict = judge(found, np.random.default_rng(2))
     assert verdict.reasons, "every verdict has a reason"
     return verdict
+
+
+def listed(found: Search) -> list[dict[str, Any]]:
+    """Return the rows of the candidates that the verdict on a search leaves."""
+    verdict = verdict_on(found)
+    return candidates(found, verdict, final_fits(verdict, None))
 
 
 def alike(effect: str, other: str, share: float = 0.01) -> dict[str, FloatArray]:
@@ -246,7 +253,7 @@ def test_effect_that_another_makes_superfluous_is_dropped() -> None:
     verdict = verdict_on(replace(found, end=both))
     assert verdict.kind == "named", verdict.reasons
     assert verdict.search.end.effects == ("k_T",)
-    rows = candidates(verdict.search, verdict)
+    rows = candidates(verdict.search, verdict, final_fits(verdict, None))
     (row,) = [row for row in rows if row["free"] == {"k_T": ["slope_1_K"]}]
     assert row["rejected"] == ""
 
@@ -529,7 +536,7 @@ def test_no_fit_with_an_effect_ends_above_the_one_without() -> None:
 
 def test_claims_gain_as_much_as_is_asked_for() -> None:
     found = searched(planted(k_T=0.8, c_T=-0.7))
-    rows = candidates(found, verdict_on(found))
+    rows = listed(found)
     assert found.spare == pytest.approx(2.0 * np.log(3.0))
     best = min(rows, key=lambda row: row["penalised"])
     assert set(best["effects"]) == {"k_T", "c_T"}
@@ -539,7 +546,7 @@ def test_claims_gain_as_much_as_is_asked_for() -> None:
 
 def test_every_candidate_that_is_not_claimed_says_why() -> None:
     found = searched(planted(k_T=0.8), effects=EFFECTS)
-    rows = candidates(found, verdict_on(found))
+    rows = listed(found)
     reasons = {tuple(row["effects"]): row["rejected"] for row in rows}
     assert reasons.pop(("k_T",)) == ""
     assert reasons
@@ -548,7 +555,7 @@ def test_every_candidate_that_is_not_claimed_says_why() -> None:
 
 def test_every_model_is_listed_once() -> None:
     found = searched(planted(k_T=0.8, c_T=-0.7), effects=EFFECTS)
-    rows = candidates(found, verdict_on(found))
+    rows = listed(found)
     models = [sorted((e, *p) for e, p in row["free"].items()) for row in rows]
     assert len(rows) > 10
     assert [m for i, m in enumerate(models) if m in models[:i]] == []

@@ -262,8 +262,8 @@ def candidates(kind: str) -> list[dict[str, Any]]:
                 "parameters": {
                     f"{effect}_{name}": {
                         **parameter(-0.00123, "1/K"),
-                        "low_form": -0.005,
-                        "high_form": 0.004,
+                        "low_wide": -0.005,
+                        "high_wide": 0.004,
                     }
                     for effect, names in free.items()
                     for name in names
@@ -414,7 +414,7 @@ def test_strengths_have_both_intervals(tmp_path: Path) -> None:
     frame = table(tmp_path, "multiple", "strengths")
     assert list(frame["effect"]) == ["slope of the conductivity (k_T)", "melting"]
     row = frame.iloc[0]
-    assert row[["low_form", "high_form"]].tolist() == [-0.005, 0.004]
+    assert row[["low_wide", "high_wide"]].tolist() == [-0.005, 0.004]
     assert row["high"] == pytest.approx(1.1 * -0.00123)
 
 

@@ -159,7 +159,7 @@ class Diagnosis:
         StudyError
             No effect was found.
         """
-        end = self.found.search.end
+        end = self.found.end
         if not end.effects:
             raise StudyError("no effect was found; the study stays as it is")
         computed = {

@@ -178,8 +178,8 @@ def _missed(found: pd.DataFrame) -> pd.DataFrame:
 
 
 def _uncovered(strengths: pd.DataFrame) -> pd.DataFrame:
-    columns = ["id", "effect", "signals", "truth", "value", "low", "high", "low_form", "high_form"]
-    missed = strengths[~strengths["covered_form"].astype(bool)]
+    columns = ["id", "effect", "signals", "truth", "value", "low", "high", "low_wide", "high_wide"]
+    missed = strengths[~strengths["covered_wide"].astype(bool)]
     return missed[columns].sort_values(["effect", "id"])
 
 

@@ -224,11 +224,11 @@ def windows(twins: pd.DataFrame) -> pd.DataFrame:
 def coverage(strengths: pd.DataFrame) -> pd.DataFrame:
     """Return how often the 95 % intervals of the strengths hold the truth.
 
-    ``fitted form`` is the interval in the form that was fitted, ``uncertain form`` the wider one
-    where the verdict states it.
+    ``fitted model`` is the interval in the model that was fitted, ``uncertain model`` the wider one
+    over other forms and models.
     """
     rows = []
-    for what, hit in (("fitted form", "covered"), ("uncertain form", "covered_form")):
+    for what, hit in (("fitted model", "covered"), ("uncertain model", "covered_wide")):
         for by in ("all", "signals", "noise", "effect"):
             for of, part in [("", strengths)] if by == "all" else strengths.groupby(by):
                 if len(part):

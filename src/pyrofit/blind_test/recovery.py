@@ -15,7 +15,7 @@ from pyrofit.results.needed import Keys
 Found = Mapping[str, Any]
 STRENGTHS = (
     *("id", "kind", "signals", "noise", "effect", "parameter", "right", "truth", "value"),
-    *("low", "high", "covered", "low_form", "high_form", "covered_form"),
+    *("low", "high", "covered", "low_wide", "high_wide", "covered_wide"),
 )
 PARAMETERS = (
     *("id", "kind", "signals", "right", "parameter", "unit", "truth"),
@@ -68,10 +68,10 @@ def _table(columns: tuple[str, ...], rows: Iterator[dict[str, Any]]) -> pd.DataF
 def strength_rows(found: Found) -> Iterator[dict[str, Any]]:
     """Compare the strengths of named effects with the truth, SI units.
 
-    ``low`` to ``high`` is the 95 % interval of the strength in the form that was fitted.
-    ``low_form`` to ``high_form`` is the one with an uncertain form, if any. An effect of the same
-    signature under another name has no true strength, nor has one that another code computes in
-    another form.
+    ``low`` to ``high`` is the 95 % interval of the strength in the model that was fitted.
+    ``low_wide`` to ``high_wide`` is the one over other forms and models, if any. An effect of the
+    same signature under another name has no true strength, nor has one that another code computes
+    in another form.
     """
     case = found["case"]
     if case["curves"] and case["kind"] == "form":
@@ -84,8 +84,8 @@ def strength_rows(found: Found) -> Iterator[dict[str, Any]]:
         given = _fitted(found).get(f"{effect}_{parameter}")
         if given is None:
             continue
-        with_form = given.get("low_form") is not None
-        low, high = (given[key + ("_form" if with_form else "")] for key in ("low", "high"))
+        is_wide = given.get("low_wide") is not None
+        low, high = (given[key + ("_wide" if is_wide else "")] for key in ("low", "high"))
         yield {
             "id": found["id"],
             **{key: case[key] for key in ("kind", "signals", "noise")},
@@ -95,9 +95,9 @@ def strength_rows(found: Found) -> Iterator[dict[str, Any]]:
             "truth": truth,
             **{key: given[key] for key in ("value", "low", "high")},
             "covered": given["low"] <= truth <= given["high"],
-            "low_form": low if with_form else np.nan,
-            "high_form": high if with_form else np.nan,
-            "covered_form": low <= truth <= high,
+            "low_wide": low if is_wide else np.nan,
+            "high_wide": high if is_wide else np.nan,
+            "covered_wide": low <= truth <= high,
         }
 
 

@@ -12,6 +12,7 @@ from pyrofit.diagnose.advise.separation import next_experiments
 from pyrofit.diagnose.base.accuracy import solver_error
 from pyrofit.diagnose.base.fit import Setup, set_up
 from pyrofit.diagnose.base.fitted import FittedModel, up_to_date
+from pyrofit.diagnose.judge.final_fits import final_fits
 from pyrofit.diagnose.judge.findings import Verdict
 from pyrofit.diagnose.judge.profiles import profiles
 from pyrofit.diagnose.judge.verdict import judge
@@ -27,11 +28,12 @@ class Diagnosis:
     """A search, the verdict on it, and both as tidy results.
 
     ``searched`` is the model that the search ended with, ``search`` ends with the one that the
-    tests of a claim leave.
+    tests of a claim leave. ``end`` is that model, fitted with runs as fine as the study asks for.
     """
 
     searched: FittedModel
     search: Search
+    end: FittedModel
     verdict: Verdict
     content: dict[str, Any]
     curves: pd.DataFrame
@@ -71,13 +73,15 @@ def examine(
     searched = found.end
     verdict = judge(found, rng, processes)
     found = verdict.search
-    content = {**record.content(study, found, verdict), "solver": solver}
-    content["profiles"] = profiles(found.end, processes) if advise else []
+    final = final_fits(verdict, study.accuracy if solver["coarsened"] else None, processes)
+    content = {**record.content(study, found, verdict, final, processes), "solver": solver}
+    end = final.of(found.end)
+    content["profiles"] = profiles(end, processes) if advise else []
     content["probes"] = [_shown(p) for p in (_probes(found, verdict, processes) if advise else [])]
     designs = next_experiments(_undecided(found, verdict), processes) if advise else []
     content["next_experiment"] = [asdict(design) for design in designs]
     tell(content["verdict"]["words"])
-    return Diagnosis(searched, found, verdict, content, record.curves(found))
+    return Diagnosis(searched, found, end, verdict, content, record.curves(found, final))
 
 
 def diagnose(study: Study, measurements: Measurements) -> dict[str, Any]:

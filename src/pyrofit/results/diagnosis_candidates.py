@@ -12,8 +12,12 @@ class OfStrength(Record):
     low: float = Field(description="lower end of the 95 % interval")
     high: float = Field(description="upper end of the 95 % interval")
     unit: str = Field(description="unit")
-    low_form: float | None = Field(description="lower end, all form parameters fitted as well")
-    high_form: float | None = Field(description="upper end, all form parameters fitted as well")
+    low_wide: float | None = Field(
+        description="lower end over other forms and models that fit as well; null if the same"
+    )
+    high_wide: float | None = Field(
+        description="upper end over other forms and models that fit as well; null if the same"
+    )
 
 
 class OfRidge(Record):

@@ -108,7 +108,7 @@ class OfExtended(Record):
 class OfSolver(Record):
     """How accurate the solver's runs are."""
 
-    coarsened: bool = Field(description="runs are coarser than the study asks for")
+    coarsened: bool = Field(description="runs of the search are coarser than the study asks for")
     error_chi2: float = Field(description="change of chi-square by finer runs")
 
 

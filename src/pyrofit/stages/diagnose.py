@@ -35,12 +35,12 @@ def diagnose(study: Study, results: Results, tell: Tell, processes: int = 1) -> 
     """
     refuse_programs(study)
     found = examine(study, load(study, results), tell, processes)
-    effects = found.search.end.effects
+    effects = found.end.effects
     path = results.diagnosis(EXTENDED)
     path.unlink(missing_ok=True)  # that of an earlier diagnosis
     if effects:
         signals = dict(files_seen_from(study, results, path.parent))
-        keys = extended_keys(study, found.search.end, signals)
+        keys = extended_keys(study, found.end, signals)
         if study.plugins:
             keys["plugins"] = [seen_from(path.parent, folder) for folder in study.plugins]
         write_text(path, as_yaml(keys, _COMMENT))

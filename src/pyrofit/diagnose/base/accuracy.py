@@ -1,11 +1,15 @@
-"""The solver's own error, against the noise of the measurements."""
+"""The solver's own error, against the noise of the measurements, and fits without most of it."""
 
+from collections.abc import Sequence
 from dataclasses import replace
 
 import numpy as np
 
+from pyrofit.diagnose.base.fit import refitted_all
 from pyrofit.diagnose.base.fitted import FittedModel
+from pyrofit.diagnose.base.model import model_of
 from pyrofit.diagnose.base.projection import project, projector
+from pyrofit.diagnose.base.work import within_work
 from pyrofit.model.accuracy import Accuracy
 
 
@@ -22,3 +26,22 @@ def solver_error(trial: FittedModel, accuracy: Accuracy) -> float:
         return float("inf")
     change = project(projector(trial.fit), residuals - trial.fit.residuals)
     return float(np.sum(change**2))
+
+
+def with_accuracy(
+    base: FittedModel, trials: Sequence[FittedModel], accuracy: Accuracy, processes: int = 1
+) -> list[FittedModel]:
+    """Return trials fitted with another accuracy, a trial itself where its run does not finish.
+
+    The work of a run is bounded by that of the fitted base model.
+    """
+    likelihood = base.model.base.likelihood
+    other = replace(likelihood, problem=replace(likelihood.problem, accuracy=accuracy))
+    bounded = within_work(
+        replace(base, model=model_of(replace(base.model.base, likelihood=other), {}))
+    )
+    fits = refitted_all(trials, bounded.model.base, processes)
+    return [
+        fit if fit.model.finished(fit.fit.residuals) else trial
+        for trial, fit in zip(trials, fits, strict=True)
+    ]

@@ -1,17 +1,20 @@
 """95 % intervals of the parameters after the calibration."""
 
-from collections.abc import Mapping
+from collections.abc import Iterable, Mapping, Sequence
 from typing import Any
 
 import numpy as np
 
-from pyrofit.diagnose.base.descent import descend, refreshed
+from pyrofit.diagnose.base.descent import Fit, descend, refreshed
 from pyrofit.diagnose.base.fitted import FittedModel
-from pyrofit.diagnose.base.model import fraction, model_of, name_of
+from pyrofit.diagnose.base.model import Model, fraction, model_of, name_of
 from pyrofit.diagnose.judge.ridges import Ridge, ridge_of
 from pyrofit.effects import known_effects
 from pyrofit.estimate.posterior import interval as interval_of
+from pyrofit.parallel import parallel_map
 from pyrofit.solver.arrays import FloatArray
+
+Interval = tuple[float, float]
 
 
 def values_of(trial: FittedModel) -> tuple[FloatArray, FloatArray]:
@@ -34,11 +37,10 @@ def interval(
     }
 
 
-def strengths(trial: FittedModel, wide: Mapping[str, FittedModel]) -> dict[str, Any]:
+def strengths(trial: FittedModel, wide: Mapping[str, Interval]) -> dict[str, Any]:
     """Return the parameters of a model's effects, SI units.
 
-    ``wide`` are the models of `with_all_forms`. They add the interval with an uncertain form. It
-    spans two intervals: with the form as it is, and with all form parameters fitted.
+    ``wide`` are `wide_intervals`. They are stated where they are wider than those of the model.
     """
     values, sd = values_of(trial)
     catalogue = known_effects()
@@ -47,19 +49,38 @@ def strengths(trial: FittedModel, wide: Mapping[str, FittedModel]) -> dict[str, 
         for parameter in free:
             name = name_of(effect, parameter)
             own = interval(trial, trial.model.names.index(name), values, sd)
-            found[name] = {
-                **own,
-                "unit": catalogue[effect].quantities[parameter].unit,
-                **_with_form(own, wide.get(effect), name),
-            }
+            ends = own["low"], own["high"]
+            wider = wide.get(name, ends)
+            low, high = (None, None) if wider == ends else wider
+            unit = catalogue[effect].quantities[parameter].unit
+            found[name] = {**own, "unit": unit, "low_wide": low, "high_wide": high}
     return found
 
 
-def ridges(trial: FittedModel, wide: Mapping[str, FittedModel]) -> list[Ridge]:
-    """Return the products of parameters that the data determine, by effect with several."""
+def wide_intervals(models: Iterable[FittedModel]) -> dict[str, Interval]:
+    """Return the 95 % intervals of effects' parameters over several models, SI units.
+
+    Each spans the intervals in all models that have the parameter. One model alone is as certain as
+    if it were the true one (Draper 1995, doi 10.1111/j.2517-6161.1995.tb02015.x).
+    """
+    found: dict[str, Interval] = {}
+    for model in models:
+        values, sd = values_of(model)
+        for i in range(len(values) - model.numbers, len(values)):
+            own, name = interval(model, i, values, sd), model.model.names[i]
+            low, high = found.get(name, (np.inf, -np.inf))
+            found[name] = (min(low, own["low"]), max(high, own["high"]))
+    return found
+
+
+def ridges(trial: FittedModel, formed: Mapping[str, FittedModel]) -> list[Ridge]:
+    """Return the products of parameters that the data determine, by effect with several.
+
+    ``formed`` are the models of `with_all_forms`.
+    """
     found = []
     for effect in trial.effects:
-        model = wide.get(effect, trial)
+        model = formed.get(effect, trial)
         free = model.model.effects[effect]
         problem = model.model.likelihood.problem
         at = [model.model.names.index(name_of(effect, parameter)) for parameter in free]
@@ -69,27 +90,33 @@ def ridges(trial: FittedModel, wide: Mapping[str, FittedModel]) -> list[Ridge]:
     return [ridge for ridge in found if ridge is not None]
 
 
-def with_all_forms(trial: FittedModel) -> dict[str, FittedModel]:
-    """Return, by effect, the model fitted with all its form parameters free, if it has others."""
-    found = {effect: _formed(trial, effect) for effect in trial.effects}
-    return {effect: model for effect, model in found.items() if model is not None}
+def with_all_forms(
+    trials: Sequence[FittedModel], processes: int = 1
+) -> list[dict[str, FittedModel]]:
+    """Return of each trial, by effect, the model fitted with all form parameters of the effect.
+
+    Effects without other form parameters are left out.
+    """
+    begins = [
+        (k, effect, *begin)
+        for k, trial in enumerate(trials)
+        for effect in trial.effects
+        if (begin := _formed(trial, effect)) is not None
+    ]
+
+    def fitted(i: int) -> Fit:
+        _, _, model, x = begins[i]
+        return refreshed(model, descend(model, x))
+
+    found: list[dict[str, FittedModel]] = [{} for _ in trials]
+    fits = parallel_map(fitted, len(begins), processes)
+    for (k, effect, model, _), fit in zip(begins, fits, strict=True):
+        found[k][effect] = FittedModel(model, fit)
+    return found
 
 
-def _with_form(
-    own: dict[str, float], wide: FittedModel | None, name: str
-) -> dict[str, float | None]:
-    """Return the ends of both intervals together, nothing where the effect has no other form."""
-    if wide is None:
-        return {"low_form": None, "high_form": None}
-    other = interval(wide, wide.model.names.index(name), *values_of(wide))
-    return {
-        "low_form": min(own["low"], other["low"]),
-        "high_form": max(own["high"], other["high"]),
-    }
-
-
-def _formed(trial: FittedModel, effect: str) -> FittedModel | None:
-    """Return the model fitted with all form parameters of an effect free, if it has others."""
+def _formed(trial: FittedModel, effect: str) -> tuple[Model, FloatArray] | None:
+    """Return a model with all form parameters of an effect, and where its fit begins."""
     form = [p for p in known_effects()[effect].form if p not in trial.model.effects[effect]]
     if not form:
         return None
@@ -102,4 +129,4 @@ def _formed(trial: FittedModel, effect: str) -> FittedModel | None:
     for parameter in form:
         at = model.names.index(name_of(effect, parameter))
         x[at] = fraction(quantities[parameter], quantities[parameter].value)
-    return FittedModel(model, refreshed(model, descend(model, x)))
+    return model, x

@@ -7,8 +7,9 @@ import numpy as np
 
 from pyrofit.diagnose.base.fitted import FittedModel, finishes, strengths_at_limit
 from pyrofit.diagnose.base.model import strength_of
+from pyrofit.diagnose.judge.final_fits import FinalFits, Key, key_of
 from pyrofit.diagnose.judge.findings import Judged, Verdict
-from pyrofit.diagnose.judge.intervals import ridges, strengths, with_all_forms
+from pyrofit.diagnose.judge.intervals import ridges, strengths, wide_intervals, with_all_forms
 from pyrofit.diagnose.search.score_test import confusability
 from pyrofit.diagnose.search.step import SearchStep
 from pyrofit.diagnose.search.stepwise import Search
@@ -43,27 +44,33 @@ def confusability_of(found: Search) -> dict[str, Any]:
     return {"effects": [look.effect for look in looks], "cosine": cosine.tolist()}
 
 
-def candidates(found: Search, verdict: Verdict) -> list[dict[str, Any]]:
+def candidates(
+    found: Search, verdict: Verdict, final: FinalFits, processes: int = 1
+) -> list[dict[str, Any]]:
     """Return every fitted model with its effects, and why it is not the verdict's."""
-    judged: dict[Any, list[Judged]] = {}
+    judged: dict[Key, list[Judged]] = {}
     for finding in verdict.findings:
         for one in finding.judged:
-            judged.setdefault(_key(one.trial), []).append(one)
+            judged.setdefault(key_of(one.trial), []).append(one)
+    kept = [final.fits[key] for key in final.kept]
+    formed = dict(zip(final.kept, with_all_forms(kept, processes), strict=True))
+    wide = wide_intervals([*kept, *(model for of in formed.values() for model in of.values())])
     best = found.end.penalised
     rows = []
     for step, trial in models(found):
-        here = judged.get(_key(trial), [])
+        key = key_of(trial)
+        here = judged.get(key, [])
         trial = here[0].trial if here else trial
-        wide = with_all_forms(trial) if here else {}
+        fit = final.of(trial)
         row = {
             "effects": list(trial.effects),
             "free": {name: list(free) for name, free in trial.model.effects.items()},
             "chi2": trial.fit.chi2,
             "gain": step.start.fit.chi2 - trial.fit.chi2,
             "penalised": trial.penalised,
-            "parameters": strengths(trial, wide),
-            "ridges": [asdict(ridge) for ridge in ridges(trial, wide)] if here else [],
-            "adequate": found.end_lack.adequate if _key(trial) == _key(found.end) else None,
+            "parameters": strengths(fit, wide if key in formed else {}),
+            "ridges": [asdict(ridge) for ridge in ridges(fit, formed.get(key, {}))] if here else [],
+            "adequate": found.end_lack.adequate if key == key_of(found.end) else None,
             **_judgement(here),
         }
         if not here:
@@ -78,15 +85,10 @@ def models(found: Search) -> list[tuple[SearchStep, FittedModel]]:
     Two effects are fitted twice, where each of them was carried on.
     """
     fits = [(step, trial) for step in found.rounds for trial in step.trials]
-    models: dict[Any, tuple[SearchStep, FittedModel]] = {}
+    models: dict[Key, tuple[SearchStep, FittedModel]] = {}
     for step, trial in sorted(fits, key=lambda fit: fit[1].penalised):
-        models.setdefault(_key(trial), (step, trial))
+        models.setdefault(key_of(trial), (step, trial))
     return list(models.values())
-
-
-def _key(trial: FittedModel) -> frozenset[tuple[str, tuple[str, ...]]]:
-    """Return the key of a model: its effects and their fitted parameters."""
-    return frozenset(trial.model.effects.items())
 
 
 def _judgement(judged: list[Judged]) -> dict[str, Any]:

@@ -8,9 +8,10 @@ import pandas as pd
 
 from pyrofit.config import Study, candidate_effects
 from pyrofit.config.resolve import obstacle
-from pyrofit.diagnose.base.fitted import FittedModel, up_to_date
+from pyrofit.diagnose.base.fitted import FittedModel
 from pyrofit.diagnose.base.model import Base, model_of
 from pyrofit.diagnose.base.prediction import HELD_OUT
+from pyrofit.diagnose.judge.final_fits import FinalFits
 from pyrofit.diagnose.judge.findings import Finding, Verdict
 from pyrofit.diagnose.judge.intervals import interval, values_of
 from pyrofit.diagnose.result.candidates import candidates, confusability_of, screened
@@ -26,7 +27,9 @@ SCHEMA = 1
 CALIBRATION = "calibration"
 
 
-def content(study: Study, found: Search, verdict: Verdict) -> dict[str, Any]:
+def content(
+    study: Study, found: Search, verdict: Verdict, final: FinalFits, processes: int = 1
+) -> dict[str, Any]:
     """Return all but the probes and the next experiment."""
     return {
         "schema": SCHEMA,
@@ -34,16 +37,16 @@ def content(study: Study, found: Search, verdict: Verdict) -> dict[str, Any]:
         "study": study.name,
         "verdict": _verdict(verdict),
         "noise": _noise(found),
-        "base": _base(study, found),
+        "base": _base(study, found, final),
         "windows": _windows(found),
         "screen": screened(found),
         "confusability": confusability_of(found),
         "needed": found.spare + float(np.log(found.base.model.points)),
         "ambiguity": SETTINGS.ambiguous_chi2,
         "not_tried": _not_tried(study),
-        "candidates": candidates(found, verdict),
-        "extended": {"parameters": _extended(study, found)},
-        "gap": _gap(found),
+        "candidates": candidates(found, verdict, final, processes),
+        "extended": {"parameters": _extended(study, found, final)},
+        "gap": _gap(found, final),
     }
 
 
@@ -105,7 +108,7 @@ def _not_tried(study: Study) -> list[dict[str, str]]:
     return [{"effect": name, "reason": obstacle(study, name) or unlisted} for name in others]
 
 
-def _base(study: Study, found: Search) -> dict[str, Any]:
+def _base(study: Study, found: Search, final: FinalFits) -> dict[str, Any]:
     first = found.rounds[0].lack()
     trial = found.base
     return {
@@ -117,7 +120,7 @@ def _base(study: Study, found: Search) -> dict[str, Any]:
         "score": first.score,
         "score_critical": first.score_critical,
         "adequate": first.adequate,
-        "parameters": _parameters(study, trial),
+        "parameters": _parameters(study, final.of(trial)),
     }
 
 
@@ -137,9 +140,9 @@ def _parameters(study: Study, trial: FittedModel) -> dict[str, Any]:
     return found
 
 
-def _extended(study: Study, found: Search) -> dict[str, Any]:
+def _extended(study: Study, found: Search, final: FinalFits) -> dict[str, Any]:
     """Return the base's parameters beside the effects that the search ended with, if any."""
-    return _parameters(study, up_to_date(found.end)) if found.end.effects else {}
+    return _parameters(study, final.of(found.end)) if found.end.effects else {}
 
 
 def _windows(found: Search) -> list[dict[str, Any]]:
@@ -172,16 +175,23 @@ def _misfits(trial: FittedModel) -> list[dict[str, Any]]:
     ]
 
 
+def _before_and_after(
+    found: Search, final: FinalFits
+) -> list[tuple[dict[str, Any], dict[str, Any]]]:
+    """Return the misfit of every channel with the base and with the final model."""
+    ends = (_misfits(final.of(trial)) for trial in (found.base, found.end))
+    return list(zip(*ends, strict=True))
+
+
 def _unit(base: Base, channel: int) -> str:
     name, signal = base.channels[channel]
     return base.likelihood.problem.runs[name].experiment.quantity(signal).unit_text
 
 
-def _gap(found: Search) -> list[dict[str, Any]]:
+def _gap(found: Search, final: FinalFits) -> list[dict[str, Any]]:
     base = found.base.model.base
     rows = []
-    pairs = zip(_misfits(found.base), _misfits(found.end), strict=True)
-    for i, (before, after) in enumerate(pairs):
+    for i, (before, after) in enumerate(_before_and_after(found, final)):
         noise = base.likelihood.noise[i]
         name, signal = base.channels[i]
         row = {
@@ -198,13 +208,14 @@ def _gap(found: Search) -> list[dict[str, Any]]:
     return rows
 
 
-def curves(found: Search) -> pd.DataFrame:
+def curves(found: Search, final: FinalFits) -> pd.DataFrame:
     """Return measured and simulated curves of all channels before and after, SI units."""
     base = found.base.model.base
     problem = base.likelihood.problem
     parts = []
-    before, after = _misfits(found.base), _misfits(found.end)
+    misfits = _before_and_after(found, final)
     for i, (name, signal, index) in enumerate(problem.picks):
+        before, after = misfits[i]
         target = problem.cost.terms[i][1].target
         T = problem.runs[name].requests[signal].temperature_K
         columns = {
@@ -215,8 +226,8 @@ def curves(found: Search) -> pd.DataFrame:
             "temperature_K": np.nan if T is None else T[index],
             "measured": target.value,
             "sd": base.likelihood.noise[i].total_sd,
-            "before": before[i]["curve"],
-            "after": after[i]["curve"],
+            "before": before["curve"],
+            "after": after["curve"],
         }
         parts.append(pd.DataFrame(columns))
     return pd.concat(parts, ignore_index=True)

@@ -50,8 +50,8 @@ def _fitted(candidate: Found) -> list[str]:
 
 
 def _widest(p: Found) -> tuple[float, float]:
-    """Return the interval, with the uncertainty of the form where it is known."""
-    low, high = p.get("low_form"), p.get("high_form")
+    """Return the interval, over other forms and models where that is wider."""
+    low, high = p.get("low_wide"), p.get("high_wide")
     return (p["low"] if low is None else low, p["high"] if high is None else high)
 
 

@@ -26,8 +26,8 @@ def strengths(study: Study, results: Results) -> pd.DataFrame:
                     "value": p["value"],
                     "low": p["low"],
                     "high": p["high"],
-                    "low_form": p["low_form"],
-                    "high_form": p["high_form"],
+                    "low_wide": p["low_wide"],
+                    "high_wide": p["high_wide"],
                     "unit": p["unit"],
                     "without": catalogue[effect].quantities[name].value,
                 }
@@ -40,13 +40,14 @@ TABLE = Table(
     applies=always,
     make=strengths,
     title="Missing effects and their strengths",
-    note="95 % intervals, linear about the fit; those of the profiles may differ. With form: the "
-    "true form of the effect may differ from its equation. Without: the value at which the effect "
-    "is absent, or the usual value of a form parameter.",
+    note="95 % intervals, linear about the fit; those of the profiles may differ. Wide: the "
+    "interval over other forms of the effect, and over other models that the data do not separate "
+    "from this one. Without: the value at which the effect is absent, or the usual value of a form "
+    "parameter.",
     headings={
         "low": "95 % low",
         "high": "95 % high",
-        "low_form": "low, with form",
-        "high_form": "high, with form",
+        "low_wide": "wide low",
+        "high_wide": "wide high",
     },
 )
