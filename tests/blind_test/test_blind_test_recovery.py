@@ -50,7 +50,7 @@ def test_strength_is_compared_in_the_model_of_the_verdict() -> None:
     assert np.isnan(row["low_wide"])
 
 
-def test_interval_with_the_form_counts_where_there_is_one() -> None:
+def test_wide_interval_counts_where_there_is_one() -> None:
     wide = SLOPE | {"low_wide": -1.3e-3, "high_wide": -0.9e-3}
     fitted = {"effects": ["k_T"], "rejected": "", "parameters": {"k_T_slope_1_K": wide}}
     (row,) = strength_rows(found(candidates=[fitted]))

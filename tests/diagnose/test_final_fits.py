@@ -1,18 +1,22 @@
 """The fits of a verdict: runs as fine as the study asks for, and intervals over several models."""
 
+import sys
 from dataclasses import replace
 
 import linear
 import numpy as np
 import pytest
-from linear import POINTS, TOTAL, column_of, fit_with
-from small import base_of, clean, study, truth_of
+from linear import TOTAL, column_of, fit_with
+from small import base_of, clean, measured, study, truth_of
 
+from pyrofit.diagnose.base import accuracy
 from pyrofit.diagnose.base.accuracy import with_accuracy
 from pyrofit.diagnose.base.descent import descend, refreshed
 from pyrofit.diagnose.base.fitted import FittedModel
 from pyrofit.diagnose.base.model import model_of, name_of, strength_of
-from pyrofit.diagnose.judge.final_fits import final_fits, key_of
+from pyrofit.diagnose.diagnosis import examine
+from pyrofit.diagnose.judge.final_fits import final_fits
+from pyrofit.diagnose.judge.findings import Exchange
 from pyrofit.diagnose.judge.intervals import (
     interval,
     strengths,
@@ -24,6 +28,7 @@ from pyrofit.diagnose.judge.verdict import judge
 from pyrofit.diagnose.result.candidates import candidates
 from pyrofit.diagnose.search.step import SearchContext
 from pyrofit.diagnose.search.stepwise import Search, search
+from pyrofit.diagnose.settings import SETTINGS
 from pyrofit.model.accuracy import Accuracy
 from pyrofit.solver.arrays import FloatArray
 
@@ -42,8 +47,8 @@ def coarse_fit() -> tuple[FittedModel, Accuracy]:
 
 
 def test_finer_runs_take_back_the_shift_of_coarse_ones() -> None:
-    trial, accuracy = coarse_fit()
-    (found,) = with_accuracy(trial, [trial], accuracy)
+    trial, of_study = coarse_fit()
+    (found,) = with_accuracy(trial, [trial], of_study)
     truth = truth_of(trial.model.base, {})
     sd = np.sqrt(np.diag(trial.posterior.covariance()))
     assert np.abs((trial.fit.x - truth) / sd).max() > 0.3
@@ -52,17 +57,23 @@ def test_finer_runs_take_back_the_shift_of_coarse_ones() -> None:
 
 
 def test_work_of_finer_runs_is_bounded() -> None:
-    trial, accuracy = coarse_fit()
-    (found,) = with_accuracy(trial, [trial], accuracy)
+    trial, of_study = coarse_fit()
+    (found,) = with_accuracy(trial, [trial], of_study)
     of = found.model.likelihood.problem.accuracy
-    assert of.tolerance == accuracy.tolerance
-    assert of.most_steps < accuracy.most_steps
+    assert of.tolerance == of_study.tolerance
+    assert of.most_steps < of_study.most_steps
 
 
 def test_trial_whose_fine_run_does_not_finish_stays() -> None:
-    trial, accuracy = coarse_fit()
-    few = accuracy.model_copy(update={"most_steps": 5, "first_step_s": 1e-6})
+    trial, of_study = coarse_fit()
+    few = of_study.model_copy(update={"most_steps": 5, "first_step_s": 1e-6})
     assert with_accuracy(trial, [trial], few) == [trial]
+
+
+def test_trial_whose_held_out_run_does_not_finish_stays(monkeypatch: pytest.MonkeyPatch) -> None:
+    trial, of_study = coarse_fit()
+    monkeypatch.setattr(accuracy, "finishes", lambda fit: False)
+    assert with_accuracy(trial, [trial], of_study) == [trial]
 
 
 def looks_like(effect: str, other: str) -> dict[str, FloatArray]:
@@ -87,7 +98,7 @@ def test_wide_interval_spans_the_models_that_are_not_separated() -> None:
     found = two_effects()
     verdict = judge(found, np.random.default_rng(2))
     final = final_fits(verdict, None)
-    assert len(final.kept) == 2
+    assert len(final.leading) == 2
     rows = [row for row in candidates(found, verdict, final) if not row["rejected"]]
     assert {tuple(sorted(row["effects"])) for row in rows} == {
         ("c_T", "k_T"),
@@ -114,14 +125,12 @@ def test_interval_of_a_single_model_is_stated_once() -> None:
 def test_final_fits_hold_base_and_end_and_leave_other_trials() -> None:
     found = two_effects()
     final = final_fits(judge(found, np.random.default_rng(2)), None)
-    assert {key_of(found.base), key_of(found.end)} <= set(final.fits)
+    assert {found.base.key, found.end.key} <= set(final.fits)
     other = fit_with(found.base, "heater_ramp")
     assert final.of(other) is other
 
 
-def test_models_with_all_forms_are_those_of_their_effects(
-    monkeypatch: pytest.MonkeyPatch,
-) -> None:
+def test_models_with_all_forms_are_those_of_their_effects() -> None:
     columns = {**COLUMNS, **linear.random_columns(7, "glass_transition", size=60.0)}
     for form in ("bend_kg_J", "width_K", "temperature_K"):
         wave = np.sin(np.linspace(0.0, 7.0 + len(form), TOTAL))
@@ -138,4 +147,45 @@ def test_models_with_all_forms_are_those_of_their_effects(
     name = linear.strength_name("glass_transition")
     own = interval(model, model.model.names.index(name), values, sd)
     assert wide_intervals([model])[name] == (own["low"], own["high"])
-    assert model.model.points == TOTAL == len(linear.CHANNELS) * POINTS
+
+
+def test_unknown_rests_on_the_final_model_alone() -> None:
+    found = two_effects()
+    verdict = replace(judge(found, np.random.default_rng(2)), kind="unknown")
+    final = final_fits(verdict, None)
+    assert final.leading == (found.end.key,)
+    rows = candidates(found, verdict, final)
+    stated = [row for row in rows if any(p["low_wide"] for p in row["parameters"].values())]
+    assert stated == [], "none of these effects has another form"
+
+
+def test_two_effects_in_the_place_of_one_widen_the_interval_of_the_others() -> None:
+    found = two_effects()
+    verdict = judge(found, np.random.default_rng(2))
+    other = fit_with(found.base, "c_T", "heater_ramp", "k_T")
+    one = Exchange(("k_T",), ("heater_ramp", "k_T"), other)
+    first = replace(verdict.findings[0], instead=(one,))
+    final = final_fits(replace(verdict, findings=(first, *verdict.findings[1:])), None)
+    assert other.key in final.leading
+
+
+def test_result_is_that_of_the_final_fits(monkeypatch: pytest.MonkeyPatch) -> None:
+    # However large the error of coarse runs, the search takes them.
+    settings = replace(SETTINGS, most_solver_error=1e9)
+    monkeypatch.setattr(sys.modules[examine.__module__], "SETTINGS", settings)
+    described = study(effects=["k_T"])
+    found = examine(described, measured({"k_T": -1e-3}, 1), advise=False)
+    assert found.content["solver"]["coarsened"]
+    assert found.end.effects == ("k_T",)
+    searched, end = (fit.model.likelihood.problem.accuracy for fit in (found.search.end, found.end))
+    assert (searched.cells, end.cells) == (12, 20)
+    (best, *_) = found.content["candidates"]
+    value = best["parameters"]["k_T_slope_1_K"]["value"]
+    assert value == found.end.strength("k_T") != found.search.end.strength("k_T")
+    values, _ = values_of(found.end)
+    extended = found.content["extended"]["parameters"]
+    assert extended["rho"]["value"] == values[found.end.model.names.index("rho")]
+    likelihood = found.end.model.likelihood
+    curves = likelihood.curves(found.end.fit.x)
+    assert curves is not None
+    assert np.array_equal(found.curves["after"], np.concatenate(likelihood.split(curves)))

@@ -224,11 +224,11 @@ def windows(twins: pd.DataFrame) -> pd.DataFrame:
 def coverage(strengths: pd.DataFrame) -> pd.DataFrame:
     """Return how often the 95 % intervals of the strengths hold the truth.
 
-    ``fitted model`` is the interval in the model that was fitted, ``uncertain model`` the wider one
-    over other forms and models.
+    ``fitted model`` is the interval in the model that was fitted, ``wide`` the one over other forms
+    and models.
     """
     rows = []
-    for what, hit in (("fitted model", "covered"), ("uncertain model", "covered_wide")):
+    for what, hit in (("fitted model", "covered"), ("wide", "covered_wide")):
         for by in ("all", "signals", "noise", "effect"):
             for of, part in [("", strengths)] if by == "all" else strengths.groupby(by):
                 if len(part):

@@ -84,7 +84,7 @@ def strength_rows(found: Found) -> Iterator[dict[str, Any]]:
         given = _fitted(found).get(f"{effect}_{parameter}")
         if given is None:
             continue
-        is_wide = given.get("low_wide") is not None
+        is_wide = given["low_wide"] is not None
         low, high = (given[key + ("_wide" if is_wide else "")] for key in ("low", "high"))
         yield {
             "id": found["id"],

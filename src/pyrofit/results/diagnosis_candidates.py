@@ -13,10 +13,10 @@ class OfStrength(Record):
     high: float = Field(description="upper end of the 95 % interval")
     unit: str = Field(description="unit")
     low_wide: float | None = Field(
-        description="lower end over other forms and models that fit as well; null if the same"
+        description="lower end over other forms and models, of a leading model; null if the same"
     )
     high_wide: float | None = Field(
-        description="upper end over other forms and models that fit as well; null if the same"
+        description="upper end over other forms and models, of a leading model; null if the same"
     )
 
 

@@ -1,4 +1,4 @@
-"""The solver's own error, against the noise of the measurements, and fits without most of it."""
+"""The solver's own error, against the noise of the measurements, and fits with finer runs."""
 
 from collections.abc import Sequence
 from dataclasses import replace
@@ -6,10 +6,9 @@ from dataclasses import replace
 import numpy as np
 
 from pyrofit.diagnose.base.fit import refitted_all
-from pyrofit.diagnose.base.fitted import FittedModel
-from pyrofit.diagnose.base.model import model_of
+from pyrofit.diagnose.base.fitted import FittedModel, finishes
 from pyrofit.diagnose.base.projection import project, projector
-from pyrofit.diagnose.base.work import within_work
+from pyrofit.diagnose.base.work import bounded
 from pyrofit.model.accuracy import Accuracy
 
 
@@ -31,17 +30,17 @@ def solver_error(trial: FittedModel, accuracy: Accuracy) -> float:
 def with_accuracy(
     base: FittedModel, trials: Sequence[FittedModel], accuracy: Accuracy, processes: int = 1
 ) -> list[FittedModel]:
-    """Return trials fitted with another accuracy, a trial itself where its run does not finish.
+    """Return trials fitted with another accuracy, a trial itself where a run does not finish.
 
-    The work of a run is bounded by that of the fitted base model.
+    Held-out runs must finish as well. The work of a run is bounded by that of the fitted base
+    model.
     """
     likelihood = base.model.base.likelihood
-    other = replace(likelihood, problem=replace(likelihood.problem, accuracy=accuracy))
-    bounded = within_work(
-        replace(base, model=model_of(replace(base.model.base, likelihood=other), {}))
-    )
-    fits = refitted_all(trials, bounded.model.base, processes)
+    problem = replace(likelihood.problem, accuracy=accuracy)
+    problem = bounded(problem, likelihood.values(base.fit.x))
+    other = replace(base.model.base, likelihood=replace(likelihood, problem=problem))
+    fits = refitted_all(trials, other, processes)
     return [
-        fit if fit.model.finished(fit.fit.residuals) else trial
+        fit if fit.model.finished(fit.fit.residuals) and finishes(fit) else trial
         for trial, fit in zip(trials, fits, strict=True)
     ]

@@ -12,6 +12,9 @@ from pyrofit.estimate.posterior import Posterior, covariance, limit_of
 from pyrofit.parallel import parallel_map
 from pyrofit.solver.arrays import FloatArray
 
+Key = frozenset[tuple[str, tuple[str, ...]]]
+"""Names a model: its effects, each with its fitted parameters."""
+
 
 @dataclass(frozen=True, eq=False)
 class FittedModel:
@@ -24,6 +27,11 @@ class FittedModel:
     def effects(self) -> tuple[str, ...]:
         """Names of its effects."""
         return tuple(self.model.effects)
+
+    @property
+    def key(self) -> Key:
+        """Its effects and their fitted parameters."""
+        return frozenset(self.model.effects.items())
 
     @property
     def numbers(self) -> int:

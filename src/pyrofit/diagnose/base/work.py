@@ -16,12 +16,12 @@ def within_work(trial: FittedModel) -> FittedModel:
     """
     base = trial.model.base
     likelihood = base.likelihood
-    bounded = _bounded(likelihood.problem, likelihood.values(trial.fit.x))
-    base = replace(base, likelihood=replace(likelihood, problem=bounded))
+    problem = bounded(likelihood.problem, likelihood.values(trial.fit.x))
+    base = replace(base, likelihood=replace(likelihood, problem=problem))
     return replace(trial, model=model_of(base, trial.model.effects, trial.model.channels))
 
 
-def _bounded(problem: Problem, x: FloatArray) -> Problem:
+def bounded(problem: Problem, x: FloatArray) -> Problem:
     """Return a problem whose runs get at most a multiple of the cells and steps of that at x [SI].
 
     A run that needs more cells gets fewer; one that needs more steps does not finish.

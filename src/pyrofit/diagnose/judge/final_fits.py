@@ -9,36 +9,29 @@ from collections.abc import Mapping
 from dataclasses import dataclass
 
 from pyrofit.diagnose.base.accuracy import with_accuracy
-from pyrofit.diagnose.base.fitted import FittedModel, all_up_to_date
-from pyrofit.diagnose.judge.findings import Judged, Verdict
+from pyrofit.diagnose.base.fitted import FittedModel, Key, all_up_to_date
+from pyrofit.diagnose.judge.findings import Verdict
 from pyrofit.model.accuracy import Accuracy
-
-Key = frozenset[tuple[str, tuple[str, ...]]]
 
 
 @dataclass(frozen=True, eq=False)
 class FinalFits:
-    """Base, final model, and all other models that nothing speaks against.
+    """The fits of base, final model, and of all models that a claim rests on.
 
     Parameters
     ----------
     fits
-        By the key of the model.
-    kept
-        Keys of those that nothing speaks against.
+        By the key of the model. A model whose fine runs do not finish has its coarse fit.
+    leading
+        Keys of `leading_models`.
     """
 
     fits: Mapping[Key, FittedModel]
-    kept: tuple[Key, ...]
+    leading: tuple[Key, ...]
 
     def of(self, trial: FittedModel) -> FittedModel:
         """Return the final fit of a model, the trial itself if there is none."""
-        return self.fits.get(key_of(trial), trial)
-
-
-def key_of(trial: FittedModel) -> Key:
-    """Return the key of a model: its effects and their fitted parameters."""
-    return frozenset(trial.model.effects.items())
+        return self.fits.get(trial.key, trial)
 
 
 def final_fits(verdict: Verdict, accuracy: Accuracy | None, processes: int = 1) -> FinalFits:
@@ -47,27 +40,32 @@ def final_fits(verdict: Verdict, accuracy: Accuracy | None, processes: int = 1) 
     Parameters
     ----------
     verdict
-        Base, final model, and models that nothing speaks against are fitted.
+        Its base and `leading_models` are fitted.
     accuracy
-        Of their runs; by default that of the search.
+        Of the runs. With None, the fits of the search are the final ones.
     """
-    base, kept = verdict.search.base, kept_models(verdict)
-    models = kept | {key_of(trial): trial for trial in (base, verdict.search.end)}
+    base, leading = verdict.search.base, leading_models(verdict)
+    models = {base.key: base, **leading}
     trials = list(models.values())
     fits = (
         all_up_to_date(trials, processes)
         if accuracy is None
         else with_accuracy(base, trials, accuracy, processes)
     )
-    return FinalFits(dict(zip(models, fits, strict=True)), tuple(kept))
+    return FinalFits(dict(zip(models, fits, strict=True)), tuple(leading))
 
 
-def kept_models(verdict: Verdict) -> dict[Key, FittedModel]:
-    """Return the models that nothing speaks against in any of their effects' places."""
-    judged: dict[Key, list[Judged]] = {}
-    for finding in verdict.findings:
-        for one in finding.judged:
-            judged.setdefault(key_of(one.trial), []).append(one)
-    return {
-        key: ones[0].trial for key, ones in judged.items() if not any(one.rejected for one in ones)
-    } | {key_of(one.trial): one.trial for finding in verdict.findings for one in finding.instead}
+def leading_models(verdict: Verdict) -> dict[Key, FittedModel]:
+    """Return the final model, and if there is a claim all others that nothing speaks against.
+
+    None if the final model has no effects.
+    """
+    end = verdict.search.end
+    if not end.effects:
+        return {}
+    found = {end.key: end}
+    if verdict.kind != "unknown":
+        judged = verdict.judged.items()
+        found |= {k: ones[0].trial for k, ones in judged if not any(one.rejected for one in ones)}
+        found |= {one.trial.key: one.trial for f in verdict.findings for one in f.instead}
+    return found

@@ -3,7 +3,7 @@
 from dataclasses import dataclass
 from typing import Literal
 
-from pyrofit.diagnose.base.fitted import FittedModel
+from pyrofit.diagnose.base.fitted import FittedModel, Key
 from pyrofit.diagnose.judge.claim_tests import Trust
 from pyrofit.diagnose.judge.other_terms import OtherTerm
 from pyrofit.diagnose.search.stepwise import Search
@@ -135,6 +135,15 @@ class Verdict:
     reasons: tuple[str, ...]
     suspects: tuple[Suspect, ...] = ()
     """Where the findings explain a part only: the leading candidates for the rest."""
+
+    @property
+    def judged(self) -> dict[Key, list[Judged]]:
+        """The judgements on each model, one for each effect in whose place it was judged."""
+        found: dict[Key, list[Judged]] = {}
+        for finding in self.findings:
+            for one in finding.judged:
+                found.setdefault(one.trial.key, []).append(one)
+        return found
 
     @property
     def confirmed(self) -> bool:

@@ -60,8 +60,9 @@ def strengths(trial: FittedModel, wide: Mapping[str, Interval]) -> dict[str, Any
 def wide_intervals(models: Iterable[FittedModel]) -> dict[str, Interval]:
     """Return the 95 % intervals of effects' parameters over several models, SI units.
 
-    Each spans the intervals in all models that have the parameter. One model alone is as certain as
-    if it were the true one (Draper 1995, doi 10.1111/j.2517-6161.1995.tb02015.x).
+    Each spans the intervals in all models that have the parameter. An effect may replace one effect
+    of the final model in one of them, and two in another. The interval in one model takes this
+    model as the true one (Draper 1995, doi 10.1111/j.2517-6161.1995.tb02015.x).
     """
     found: dict[str, Interval] = {}
     for model in models:

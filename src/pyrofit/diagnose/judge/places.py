@@ -31,7 +31,7 @@ def needed(found: Search, context: SearchContext) -> tuple[Search, list[FittedMo
             break
         found = ended(found, least, context.rng)
         without = without_each(found, context.processes)
-    if not any(_same(trial, found.end) for trial in found.trials):
+    if not any(trial.key == found.end.key for trial in found.trials):
         lack = found.end_lack
         step = SearchStep(without[0], lambda: lack, (), (found.end,))
         found = replace(found, rounds=(*found.rounds, step))
@@ -43,13 +43,9 @@ def without_each(found: Search, processes: int) -> list[FittedModel]:
     reduced = refitted_without(found.end, found.end.effects, processes)
     at_hand = [found.base, *found.trials]
     return [
-        up_to_date(min([one, *(t for t in at_hand if _same(t, one))], key=lambda t: t.fit.chi2))
+        up_to_date(min([one, *(t for t in at_hand if t.key == one.key)], key=lambda t: t.fit.chi2))
         for one in reduced
     ]
-
-
-def _same(trial: FittedModel, other: FittedModel) -> bool:
-    return dict(trial.model.effects) == dict(other.model.effects)
 
 
 def ended(found: Search, end: FittedModel, rng: np.random.Generator) -> Search:

@@ -5,9 +5,9 @@ from typing import Any
 
 import numpy as np
 
-from pyrofit.diagnose.base.fitted import FittedModel, finishes, strengths_at_limit
+from pyrofit.diagnose.base.fitted import FittedModel, Key, finishes, strengths_at_limit
 from pyrofit.diagnose.base.model import strength_of
-from pyrofit.diagnose.judge.final_fits import FinalFits, Key, key_of
+from pyrofit.diagnose.judge.final_fits import FinalFits
 from pyrofit.diagnose.judge.findings import Judged, Verdict
 from pyrofit.diagnose.judge.intervals import ridges, strengths, wide_intervals, with_all_forms
 from pyrofit.diagnose.search.score_test import confusability
@@ -48,29 +48,26 @@ def candidates(
     found: Search, verdict: Verdict, final: FinalFits, processes: int = 1
 ) -> list[dict[str, Any]]:
     """Return every fitted model with its effects, and why it is not the verdict's."""
-    judged: dict[Key, list[Judged]] = {}
-    for finding in verdict.findings:
-        for one in finding.judged:
-            judged.setdefault(key_of(one.trial), []).append(one)
-    kept = [final.fits[key] for key in final.kept]
-    formed = dict(zip(final.kept, with_all_forms(kept, processes), strict=True))
-    wide = wide_intervals([*kept, *(model for of in formed.values() for model in of.values())])
+    judged = verdict.judged
+    leading = [final.fits[key] for key in final.leading]
+    formed = dict(zip(final.leading, with_all_forms(leading, processes), strict=True))
+    wide = wide_intervals([*leading, *(model for of in formed.values() for model in of.values())])
     best = found.end.penalised
     rows = []
     for step, trial in models(found):
-        key = key_of(trial)
-        here = judged.get(key, [])
+        here = judged.get(trial.key, [])
         trial = here[0].trial if here else trial
-        fit = final.of(trial)
+        fit = final.of(trial) if here else trial
+        is_leading = bool(here) and trial.key in formed
         row = {
             "effects": list(trial.effects),
             "free": {name: list(free) for name, free in trial.model.effects.items()},
             "chi2": trial.fit.chi2,
             "gain": step.start.fit.chi2 - trial.fit.chi2,
             "penalised": trial.penalised,
-            "parameters": strengths(fit, wide if key in formed else {}),
-            "ridges": [asdict(ridge) for ridge in ridges(fit, formed.get(key, {}))] if here else [],
-            "adequate": found.end_lack.adequate if key == key_of(found.end) else None,
+            "parameters": strengths(fit, wide if is_leading else {}),
+            "ridges": [asdict(r) for r in ridges(fit, formed[trial.key])] if is_leading else [],
+            "adequate": found.end_lack.adequate if trial.key == found.end.key else None,
             **_judgement(here),
         }
         if not here:
@@ -87,7 +84,7 @@ def models(found: Search) -> list[tuple[SearchStep, FittedModel]]:
     fits = [(step, trial) for step in found.rounds for trial in step.trials]
     models: dict[Key, tuple[SearchStep, FittedModel]] = {}
     for step, trial in sorted(fits, key=lambda fit: fit[1].penalised):
-        models.setdefault(key_of(trial), (step, trial))
+        models.setdefault(trial.key, (step, trial))
     return list(models.values())
 
 

@@ -36,7 +36,7 @@ def content(
         "settings": asdict(SETTINGS),
         "study": study.name,
         "verdict": _verdict(verdict),
-        "noise": _noise(found),
+        "noise": _noise(found, final),
         "base": _base(study, found, final),
         "windows": _windows(found),
         "screen": screened(found),
@@ -74,9 +74,9 @@ def _evidence(finding: Finding) -> dict[str, Any]:
     return {"agreement": trust.disagree, "predictions": trust.gains}
 
 
-def _noise(found: Search) -> list[dict[str, Any]]:
+def _noise(found: Search, final: FinalFits) -> list[dict[str, Any]]:
     base = found.base.model.base
-    misfit = _misfits(found.base)
+    misfit = _misfits(final.of(found.base))
     return [
         {
             "experiment": name,

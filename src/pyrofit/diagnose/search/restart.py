@@ -19,7 +19,7 @@ def best_of_each(trials: Sequence[FittedModel]) -> list[FittedModel]:
     """Return the lowest fit of each model, the best penalised chi-square first."""
     best: dict[object, FittedModel] = {}
     for trial in in_order(trials):
-        best.setdefault(frozenset(trial.model.effects.items()), trial)
+        best.setdefault(trial.key, trial)
     return list(best.values())
 
 

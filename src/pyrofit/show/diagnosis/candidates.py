@@ -51,7 +51,7 @@ def _fitted(candidate: Found) -> list[str]:
 
 def _widest(p: Found) -> tuple[float, float]:
     """Return the interval, over other forms and models where that is wider."""
-    low, high = p.get("low_wide"), p.get("high_wide")
+    low, high = p["low_wide"], p["high_wide"]
     return (p["low"] if low is None else low, p["high"] if high is None else high)
 
 

@@ -41,9 +41,9 @@ TABLE = Table(
     make=strengths,
     title="Missing effects and their strengths",
     note="95 % intervals, linear about the fit; those of the profiles may differ. Wide: the "
-    "interval over other forms of the effect, and over other models that the data do not separate "
-    "from this one; empty where it is the same. Without: the value at which the effect is absent, "
-    "or the usual value of a form parameter.",
+    "interval over other forms of the effect and over other models that fit as well; empty where "
+    "it is the same. Without: the value at which the effect is absent, or the usual value of a "
+    "form parameter.",
     headings={
         "low": "95 % low",
         "high": "95 % high",
