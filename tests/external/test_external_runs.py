@@ -166,7 +166,7 @@ def test_a_run_beyond_the_time_limit_is_killed_with_its_children(tmp_path: Path)
     (found,) = run(opened(tmp_path, "hangs", time_limit_s=0.5), (9.0, 0.02))
     assert found.why == "it did not end within 0.5 s"
     assert time.monotonic() - begin < 10.0
-    assert not processes_in(tmp_path)
+    assert not processes_left_in(tmp_path)
     write(tmp_path / "my study")
     assert failures(tmp_path)[0]["time_limit_s"] == 0.5
 
@@ -183,7 +183,18 @@ def test_a_set_that_was_too_slow_is_run_again_with_more_time(
     assert failures(tmp_path) == []
 
 
-def processes_in(folder: Path) -> list[int]:
+def processes_left_in(folder: Path) -> list[int]:
+    """Return the processes whose working folder lies below one and that do not end soon.
+
+    A killed process may need a moment to end.
+    """
+    until = time.monotonic() + 5.0
+    while (found := _processes_in(folder)) and time.monotonic() < until:
+        time.sleep(0.05)
+    return found
+
+
+def _processes_in(folder: Path) -> list[int]:
     """Return the processes whose working folder lies below one."""
     found = []
     for process in Path("/proc").glob("[0-9]*"):
@@ -212,7 +223,7 @@ def test_what_a_killed_process_left_is_ended_and_removed(tmp_path: Path) -> None
             assert sweep() == 1
             assert mine.is_dir()
     time.sleep(0.1)
-    assert not processes_in(tmp_path / "scratch")
+    assert not processes_left_in(tmp_path / "scratch")
     assert not list((tmp_path / "scratch").glob(f"{PREFIX}*"))
 
 
@@ -280,7 +291,7 @@ def test_an_interruption_ends_the_program_and_keeps_no_failure(
         _, said = process.communicate()
     assert process.returncode == 130
     assert b"run again to go on" in said
-    assert not processes_in(tmp_path / "scratch")
+    assert not processes_left_in(tmp_path / "scratch")
     assert not list(tmp_path.glob("results/*/programs/*/failed/*.json"))
 
 
@@ -309,7 +320,7 @@ def test_an_interruption_ends_all_runs_at_once_and_keeps_no_failure(tmp_path: Pa
         process.send_signal(signal.SIGINT)
         _, said = process.communicate(timeout=20)
     assert b"KeyboardInterrupt" in said
-    assert not processes_in(tmp_path / "scratch")
+    assert not processes_left_in(tmp_path / "scratch")
     assert len(runs(tmp_path)) == 3
     assert not list(tmp_path.glob("programs/*/failed/*.json"))
 
