@@ -167,6 +167,12 @@ def test_two_effects_in_the_place_of_one_widen_the_interval_of_the_others() -> N
     first = replace(verdict.findings[0], instead=(one,))
     final = final_fits(replace(verdict, findings=(first, *verdict.findings[1:])), None)
     assert other.key in final.leading
+    rows = candidates(found, replace(verdict, findings=(first, *verdict.findings[1:])), final)
+    (end,) = [row for row in rows if set(row["effects"]) == set(found.end.effects)]
+    name = linear.strength_name("c_T")
+    own = interval(other, other.model.names.index(name), *values_of(other))
+    assert end["parameters"][name]["low_wide"] <= own["low"]
+    assert end["parameters"][name]["high_wide"] >= own["high"]
 
 
 def test_result_is_that_of_the_final_fits(monkeypatch: pytest.MonkeyPatch) -> None:

@@ -25,18 +25,21 @@ from pyrofit.estimate.posterior import limit_of
 
 SCHEMA = 1
 CALIBRATION = "calibration"
+Misfits = list[tuple[dict[str, Any], dict[str, Any]]]
+"""Misfit of every channel with the base and with the final model."""
 
 
 def content(
     study: Study, found: Search, verdict: Verdict, final: FinalFits, processes: int = 1
 ) -> dict[str, Any]:
     """Return all but the probes and the next experiment."""
+    misfits = _before_and_after(found, final)
     return {
         "schema": SCHEMA,
         "settings": asdict(SETTINGS),
         "study": study.name,
         "verdict": _verdict(verdict),
-        "noise": _noise(found, final),
+        "noise": _noise(found, misfits),
         "base": _base(study, found, final),
         "windows": _windows(found),
         "screen": screened(found),
@@ -46,7 +49,7 @@ def content(
         "not_tried": _not_tried(study),
         "candidates": candidates(found, verdict, final, processes),
         "extended": {"parameters": _extended(study, found, final)},
-        "gap": _gap(found, final),
+        "gap": _gap(found, misfits),
     }
 
 
@@ -74,9 +77,8 @@ def _evidence(finding: Finding) -> dict[str, Any]:
     return {"agreement": trust.disagree, "predictions": trust.gains}
 
 
-def _noise(found: Search, final: FinalFits) -> list[dict[str, Any]]:
+def _noise(found: Search, misfits: Misfits) -> list[dict[str, Any]]:
     base = found.base.model.base
-    misfit = _misfits(final.of(found.base))
     return [
         {
             "experiment": name,
@@ -88,7 +90,7 @@ def _noise(found: Search, final: FinalFits) -> list[dict[str, Any]]:
             "words": noise.describe(),
             "stated": noise.stated,
             "white": noise.white,
-            "chi2_base": misfit[i]["chi2"],
+            "chi2_base": misfits[i][0]["chi2"],
         }
         for i, ((name, signal), noise) in enumerate(
             zip(base.channels, base.likelihood.noise, strict=True)
@@ -175,9 +177,7 @@ def _misfits(trial: FittedModel) -> list[dict[str, Any]]:
     ]
 
 
-def _before_and_after(
-    found: Search, final: FinalFits
-) -> list[tuple[dict[str, Any], dict[str, Any]]]:
+def _before_and_after(found: Search, final: FinalFits) -> Misfits:
     """Return the misfit of every channel with the base and with the final model."""
     ends = (_misfits(final.of(trial)) for trial in (found.base, found.end))
     return list(zip(*ends, strict=True))
@@ -188,10 +188,10 @@ def _unit(base: Base, channel: int) -> str:
     return base.likelihood.problem.runs[name].experiment.quantity(signal).unit_text
 
 
-def _gap(found: Search, final: FinalFits) -> list[dict[str, Any]]:
+def _gap(found: Search, misfits: Misfits) -> list[dict[str, Any]]:
     base = found.base.model.base
     rows = []
-    for i, (before, after) in enumerate(_before_and_after(found, final)):
+    for i, (before, after) in enumerate(misfits):
         noise = base.likelihood.noise[i]
         name, signal = base.channels[i]
         row = {

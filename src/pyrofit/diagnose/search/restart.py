@@ -7,7 +7,7 @@ from itertools import islice
 import numpy as np
 
 from pyrofit.diagnose.base.descent import Fit, descend, refreshed
-from pyrofit.diagnose.base.fitted import FittedModel, followed, lower_of, misfits
+from pyrofit.diagnose.base.fitted import FittedModel, Key, followed, lower_of, misfits
 from pyrofit.diagnose.base.model import extended, model_of, strength_of
 from pyrofit.diagnose.search.step import SearchContext, in_order
 from pyrofit.diagnose.settings import SETTINGS
@@ -17,7 +17,7 @@ from pyrofit.solver.arrays import FloatArray
 
 def best_of_each(trials: Sequence[FittedModel]) -> list[FittedModel]:
     """Return the lowest fit of each model, the best penalised chi-square first."""
-    best: dict[object, FittedModel] = {}
+    best: dict[Key, FittedModel] = {}
     for trial in in_order(trials):
         best.setdefault(trial.key, trial)
     return list(best.values())
