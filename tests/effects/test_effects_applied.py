@@ -150,7 +150,7 @@ def test_lag_moves_tga_by_rate_times_time() -> None:
         ({"melting": {"width_K": 9.0}}, "'melting': give its strength 'heat_J_kg'"),
         (
             {"gas_heating": {"rise_K": 9.0}, "gas_temperature": {"rise_K": 9.0}},
-            "'gas_temperature': gas_rise_K is 9.0 already",
+            "'gas_temperature': the study or another effect already sets gas_rise_K",
         ),
     ],
 )

@@ -148,7 +148,7 @@ DIAGNOSIS = rows_of(
         (
             "candidate whose number is set",
             put(experiments__slab_25__front__rise_time_s=5, diagnosis={"effects": ["heater_ramp"]}),
-            ("'heater_ramp' cannot be a candidate: rise_time_s is 5.0 already",),
+            ("'heater_ramp' cannot be a candidate", "already sets rise_time_s (5.0)"),
         ),
         ("no effect at most", put(diagnosis={"most_effects": 0}), ("0 must be at least 1",)),
         ("seven effects at most", put(diagnosis={"most_effects": 7}), ("7 must be at most 6",)),

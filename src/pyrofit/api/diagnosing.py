@@ -121,7 +121,7 @@ class Diagnosis:
 
     @property
     def ranking(self) -> pd.DataFrame:
-        """The candidates, the best first.
+        """The candidates, the best first; of fits with the same effects, the best.
 
         Columns: effects, chi2, penalised (chi-square with the price of the parameters), gain (of
         the last effect), remark.

@@ -129,7 +129,11 @@ def _interruptible() -> Iterator[list[int]]:
 
 
 def _parser() -> argparse.ArgumentParser:
-    parser = Parser(prog="pyrofit", description=__doc__)
+    parser = Parser(
+        prog="pyrofit",
+        description="Estimate the parameters of a pyrolysis model from measurements. A whole study "
+        "runs by Snakemake: snakemake --cores 2 --configfile STUDY.",
+    )
     commands = parser.add_subparsers(dest="command", required=True, metavar="COMMAND")
     for group in _GROUPS:
         group.add(commands)

@@ -14,10 +14,11 @@ MOST_CORES = 1024
 
 def add_step(commands: Any, name: str, text: str, step: Step) -> argparse.ArgumentParser:
     """Add a command that takes a study, and return its parser for further options."""
-    parser: argparse.ArgumentParser = commands.add_parser(name, help=text)
+    said = f"{text[0].upper()}{text[1:]}. Snakemake usually runs this step."
+    parser: argparse.ArgumentParser = commands.add_parser(name, help=text, description=said)
     parser.add_argument("--study", type=Path, required=True, help="study file (YAML or JSON)")
     parser.add_argument("--results", type=Path, help="results folder; default results/<name>")
-    parser.add_argument("--digest", help="digest of all inputs of the step; another one is refused")
+    parser.add_argument("--digest", help="checksum of the inputs, set by Snakemake")
     parser.add_argument("--log", type=Path, help="file that keeps a copy of the output")
     parser.set_defaults(step=step)
     return parser
@@ -27,9 +28,7 @@ def add_own_options(command: argparse.ArgumentParser, step: Step) -> None:
     """Add the options of a step that runs apart from the others, behind its own."""
     command.add_argument("--cores", type=_cores, default=1, help="processes; default: 1")
     command.add_argument("--results", type=Path, help="results folder; default results/<name>")
-    command.add_argument(
-        "--digest", help="digest of all inputs of the step; another one is refused"
-    )
+    command.add_argument("--digest", help="checksum of the inputs, set by Snakemake")
     command.add_argument("--log", type=Path, help="file that keeps a copy of the output")
     command.set_defaults(step=step)
 

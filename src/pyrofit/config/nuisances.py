@@ -96,10 +96,11 @@ def free(keys: Keys, name: str, sds: Mapping[str, float], stages: list[str]) -> 
         described[key] = _described(experiment, name, NUISANCES[key])
         experiment = _with(experiment, NUISANCES[key], parameter)
     experiment = {**experiment, "repeat": {**experiment["repeat"], "nuisances": made}}
+    added = _parameters(experiment.get("title") or name, sds, made, described)
     keys = {
         **keys,
         "experiments": {**keys["experiments"], name: experiment},
-        "parameters": {**keys["parameters"], **_parameters(name, sds, made, described)},
+        "parameters": {**keys["parameters"], **added},
         "known": {**(keys.get("known") or {}), **_known(sds, made, described)},
     }
     for stage in stages:
@@ -110,14 +111,14 @@ def free(keys: Keys, name: str, sds: Mapping[str, float], stages: list[str]) -> 
 
 
 def _parameters(
-    name: str, sds: Mapping[str, float], made: Mapping[str, str], described: Mapping[str, float]
+    title: str, sds: Mapping[str, float], made: Mapping[str, str], described: Mapping[str, float]
 ) -> Keys:
     found = {}
     for key, parameter in made.items():
         n, value = NUISANCES[key], described[key]
         reach = REACH * sds[key]
         limits = {"lower": value - reach, "upper": value + reach}
-        label = f"{n.label}, repeat {name}"
+        label = f"{n.label}, {title}"
         found[parameter] = {"unit": n.unit, "value": value, **limits, "label": label}
     return found
 

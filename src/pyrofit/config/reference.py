@@ -59,7 +59,7 @@ def _sections(root: type[Part]) -> list[str]:
 def _section(part: type[Part], places: list[str]) -> str:
     title = ", ".join(f"`{place}`" for place in places if place) or "The whole file"
     lines = [f"## {part.__name__}", "", f"{title}: {_sentence(part)}", ""]
-    lines += ["| key | meaning | unit | takes | usual |", "|---|---|---|---|---|"]
+    lines += ["| key | meaning | unit | takes | default |", "|---|---|---|---|---|"]
     lines += [_row(name, field) for name, field in part.model_fields.items()]
     return "\n".join([*lines, ""])
 
@@ -74,7 +74,7 @@ def _row(name: str, field: FieldInfo) -> str:
     text, unit = _unit(field.description or "")
     words = " or ".join(dict.fromkeys(_takes(field.annotation)))
     rules = ", ".join(dict.fromkeys(_rules(field)))
-    cells = [f"`{name}`", text, unit, f"{words}; {rules}" if rules else words, _usual(field)]
+    cells = [f"`{name}`", text, unit, f"{words}; {rules}" if rules else words, _default(field)]
     return "| " + " | ".join(cell.replace("|", "\\|").replace("<", "\\<") for cell in cells) + " |"
 
 
@@ -90,7 +90,7 @@ def _unit(description: str) -> tuple[str, str]:
     return re.sub(r"\s*\[[^\]]+\]", "", description), units[0]
 
 
-def _usual(field: FieldInfo) -> str:
+def _default(field: FieldInfo) -> str:
     if field.is_required():
         return "*required*"
     value = field.get_default(call_default_factory=True)

@@ -20,9 +20,9 @@ ComponentsChange = Callable[[Material, Numbers, Collection[str]], Material]
 ExperimentChange = Callable[[Experiment, Numbers], Experiment]
 Family = Literal["apparatus", "environment", "material"]
 FAMILIES: dict[Family, str] = {
-    "material": "the material: the same for all experiments on it, in every laboratory",
-    "apparatus": "the apparatus or the record: one laboratory's",
-    "environment": "the surroundings of the sample: one laboratory's",
+    "material": "the material; all experiments on it share it, in every laboratory",
+    "apparatus": "the apparatus or the record; each laboratory has its own",
+    "environment": "the surroundings of the sample; each laboratory has its own",
 }
 """Families that effects belong to, in words."""
 Made = TypeVar("Made", bound=Part)
@@ -43,9 +43,9 @@ class Quantity:
     lower: float
     upper: float
     value: float
-    """Where the effect vanishes; of a form parameter, its usual value."""
+    """Where the effect vanishes; of a form parameter, its default."""
     typical: float
-    """A value often met; of a form parameter, another than the usual one."""
+    """A value often met; of a form parameter, another than the default."""
     source: str = ASSUMED
 
 
@@ -187,8 +187,9 @@ def _set(part: Any, path: list[str], update: dict[str, Any]) -> Any:
     for key in update:
         present = getattr(part, key)
         if present != type(part).model_fields[key].default:
+            how = "estimates" if isinstance(present, str) else "sets"
             raise ValueError(
-                f"{key} is {present!r} already, by the description or another effect; "
-                "leave out one of the two"
+                f"the study or another effect already {how} {key} ({present}); leave out one of "
+                "the two"
             )
     return changed(part, **update)

@@ -1,16 +1,16 @@
-"""The foil on the back is heavier or lighter than described."""
+"""The foil on the back, and all that moves with its temperature, has more or less heat capacity."""
 
 from pyrofit.effects.base import Effect, Quantity, has_foil, on
 
 EFFECT = Effect(
-    title="mass of the foil",
+    title="heat capacity behind the sample",
     family="apparatus",
     group="heat capacity of the foil",
     equation="s rho c delta dT/dt = q_in - q_out",
     strength={
         "factor": Quantity(
             symbol="s",
-            label="factor on the mass of the foil",
+            label="factor on the heat capacity of the foil",
             unit="-",
             lower=0.0,
             upper=40.0,

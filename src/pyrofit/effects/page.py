@@ -3,14 +3,14 @@
 from collections.abc import Collection
 
 from pyrofit.effects import known_effects
-from pyrofit.effects.base import FAMILIES, Effect, Quantity
+from pyrofit.effects.base import FAMILIES, Effect, Quantity, reacts
 
 _HEAD = """\
 # Effects
 
 The effects that a model may lack, by the name a study gives them. At the null value of its strength
 an effect leaves the base model exactly as it is. Form parameters say how the effect looks; left
-out, they take their usual value. Effects that set the same number of the description exclude each
+out, they take their default. Effects that set the same number of the description exclude each
 other. Those of one group are forms of one another.
 
 {belongs}
@@ -47,15 +47,15 @@ def _belongs(effects: Collection[Effect]) -> str:
 def _section(effect: Effect) -> str:
     lines = [f"## `{effect.name}`", "", f"{effect.title[0].upper()}{effect.title[1:]}:", ""]
     lines += [f"    {effect.equation}", ""]
-    lines += [f"Group: {effect.group}. Needs {effect.needs.words}.", ""]
-    lines += [f"Belongs to {FAMILIES[effect.family]}.", ""]
+    needs = "" if effect.needs is reacts else f" Needs {effect.needs.words}."
+    lines += [f"Group: {effect.group}. Family: {effect.family}.{needs}", ""]
     if effect.distinct_in:
         lines += [f"A candidate only where there is {effect.distinct_in.words}.", ""]
     if effect.same_as:
         lines += [f"Measurements hardly tell it from `{effect.same_as}`.", ""]
     lines += [_COLUMNS.format("null, typical"), *_rows(effect.strength)]
     if effect.form:
-        lines += ["", "Form:", "", _COLUMNS.format("usual, another"), *_rows(effect.form)]
+        lines += ["", "Form:", "", _COLUMNS.format("default, alternative"), *_rows(effect.form)]
     return "\n".join([*lines, ""])
 
 

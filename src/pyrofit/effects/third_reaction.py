@@ -21,7 +21,7 @@ def _change(material: Material, at: Numbers) -> Material:
 
 
 EFFECT = Effect(
-    title="third reaction",
+    title="competing reaction",
     family="material",
     group="reactions",
     equation="r = (k_main + k) m, k(600 K) = k_600, E_c; same products, same heat",

@@ -116,7 +116,7 @@ class NoiseModel:
         more = f"; the scatter is {self.excess:.2g} times that" if self.excess > 1.0 else ""
         more += f"; outliers that count little: {self.spikes}" if self.spikes else ""
         parts = [f"{TERMS[name]} {self._shown(size)}" for name, size in self.floors.items()]
-        terms = f". Included, as squares: {', '.join(parts)}" if parts else ""
+        terms = f". Standard deviations added in quadrature: {', '.join(parts)}" if parts else ""
         return (
             f"Median standard deviation {self._shown(np.median(self.total_sd))}{unit}, "
             f"{self.origin}{more}{terms}. {self.correlation.describe().capitalize()}"

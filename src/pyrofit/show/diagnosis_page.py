@@ -75,14 +75,14 @@ def section(study: Study, results: Results, found: Found) -> Shown:
     return Shown(
         "diagnosis",
         "Missing effects",
-        "The misfit of the model, the effects that explain it, and how certain that is.",
+        "The misfit of the model, the effects that explain it, and the confidence in them.",
         (
             *parts(where_off(found), "windows", *(n for n in drawn if n not in FIGURES)),
             *parts(missing(found), "strengths", "profiles", "candidates", "ranking"),
             *parts("", "not_tried"),
             *parts("", "probes"),
             *parts(gap_closed(found), "gap"),
-            Part("Confidence in the result", text=certainty(study, found)),
+            *parts(certainty(study, found), "evidence"),
             *parts("", "parameters", "noise", "effects"),
             *parts(next_measured(found), "next_experiments"),
             *_extended(study, results, found),

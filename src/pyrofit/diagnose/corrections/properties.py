@@ -15,7 +15,7 @@ PROPERTIES = {
     "heat_capacity": (
         "specific_heat_J_kgK",
         "J/(kg K)",
-        "heat taken up or released at certain temperatures, as by a heat capacity that varies",
+        "a heat capacity that varies with temperature",
     ),
 }
 """Key of the description, unit and words, by probe."""

@@ -104,15 +104,15 @@ def _judgement(judged: list[Judged]) -> dict[str, Any]:
 
 def _why_not(found: Search, start: FittedModel, trial: FittedModel, best: float) -> str:
     if trial.penalised < best and not finishes(trial):
-        return "held-out runs do not finish with it"
+        return "the simulation of a held-out test fails"
     gain = start.penalised - trial.penalised
     if gain < found.spare:
-        return f"gains {gain:.1f} of penalised chi-square, {found.spare:.1f} are asked for"
+        return f"lowers penalised chi-square by {gain:.1f}; {found.spare:.1f} are needed"
     limits = strengths_at_limit(trial)
     if limits:
-        return f"{limits[0]} rests at a limit"
+        return f"{limits[0]} is at a limit"
     above = trial.penalised - best
     others = [name for name in trial.effects if name not in found.end.effects]
     if above < 0.0 and others:
-        return f"{', '.join(others)} not confirmed"
+        return f"fits better, but fails the tests of a claim with {', '.join(others)}"
     return f"{above:.1f} above the final model in penalised chi-square"

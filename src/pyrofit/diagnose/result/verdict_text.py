@@ -77,7 +77,7 @@ def _partly(verdict: Verdict) -> list[str]:
     catalogue = known_effects()
     suspects = " or ".join(catalogue[suspect.effect].title for suspect in verdict.suspects)
     worse = any(finding.outvoted for finding in verdict.findings)
-    gains = f"the fit and {'most' if worse else 'the'} predictions of data left out"
+    gains = f"the fit and {'most' if worse else 'the'} log scores of predictions"
     helps = f"They improve {gains}, but explain only a part of the misfit."
     if len(verdict.findings) == 1:
         helps = f"It improves {gains}, but explains only a part of the misfit."

@@ -28,7 +28,7 @@ def advice(study: Study, facts: Facts) -> str:
     if facts.ensemble:
         text = (
             f"To predict, use the ensemble of {facts.ensemble} sets (posterior/ensemble.csv): its "
-            f"bands tell how certain the prediction is. If you need one set, use {one}"
+            f"bands show the uncertainty of the prediction. If you need one set, use {one}"
         )
     reason = _by_prediction if chosen.held_out else _by_fit
     return text + reason(chosen, facts) + _not_lowest(chosen, facts)

@@ -64,9 +64,10 @@ TABLE = Table(
     applies=always,
     make=candidates,
     title="Candidates, the best first",
-    note="Each is the base model with one effect more, or several, all parameters fitted "
-    "anew. Fitted: parameters by the symbols of the effect's equation. Gain: fall of chi-square "
-    "below that of the model with one effect less. Above best: penalised chi-square, log(points) "
+    note="Each is the base model with one effect more, or several, all parameters refitted. Of "
+    "fits with the same effects, the best is listed. Fitted: parameters by the symbols of the "
+    "effect's equation. Gain: fall of chi-square below the model with one effect less from which "
+    "the search went on. Above best: penalised chi-square, log(points) "
     "for each parameter of an effect. Predictions: gain of the log score for experiments left out "
     "or held out. Above 0 the effect improves them, and 2 is needed.",
     headings={

@@ -47,9 +47,10 @@ _ROWS = 3
 
 CAPTION = (
     "Above: measured with twice the standard deviation of its noise, the base model, and the model "
-    "with the effects found, if any. Below: simulated minus measured in standard deviations, every "
-    "point (thin) and the running mean over 3 % of the points (bold). Shaded stretches are those "
-    "where the base model is off to one side by more than noise would be, with their phase."
+    "with the effects found, if any. Below: simulated minus measured, divided by the standard "
+    "deviation; the correlation is not removed. Thin: every point; bold: the running mean over 3 % "
+    "of the points. Shaded: intervals with significant residuals of the base model, and "
+    "their phase."
 )
 
 
@@ -202,5 +203,5 @@ def _entries(data: str, after: bool, windows: bool) -> list[Any]:
         entries.append(style.line("with the effects found", **AFTER))
     if windows:
         look = {"facecolor": _WINDOW["facecolor"], "alpha": _WINDOW["alpha"]}
-        entries.append(style.patch("the base model is off", **look))
+        entries.append(style.patch("significant residuals of the base model", **look))
     return entries

@@ -31,7 +31,7 @@ def effects(study: Study, results: Results) -> Canvas:
     canvas, (bars, image) = style.panels(
         2, 2, style.TWO_COLUMNS, max(75.0, 34.0 + 3.5 * len(names)), width_ratios=[1.0, 1.55]
     )
-    style.letter([bars, image], ["how well each would show", "which look alike"])
+    style.letter([bars, image], ["detectability", "confusability"])
     _bars(bars, [screen[name] for name in names], float(found["base"]["score_critical"]))
     # Both signs of a cosine mean alike: a strength of the other sign.
     drawn = image.imshow(np.abs(cosine), cmap="Greys", vmin=0.0, vmax=1.0, aspect="auto")
@@ -49,7 +49,7 @@ def effects(study: Study, results: Results) -> Canvas:
     score = style.line(
         "score z of the residuals", marker="D", markersize=3, color="black", linestyle="none"
     )
-    level = style.line("its critical value", **LIMIT)
+    level = style.line("critical value of z", **LIMIT)
     style.legend_below(canvas, [*entries, score, level])
     return canvas
 

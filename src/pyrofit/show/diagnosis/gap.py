@@ -1,4 +1,4 @@
-"""How much the gap shrank."""
+"""Errors before and after the effects of the verdict were added."""
 
 import numpy as np
 import pandas as pd
@@ -47,17 +47,17 @@ TABLE = Table(
     place=50,
     applies=always,
     make=gap,
-    title="How much the gap shrank",
+    title="Errors before and after",
     note="Root mean square of simulated minus measured, before and after the effects of "
-    "the verdict were added. The same in standard deviations of the noise, with its "
-    "correlation: 1 is noise alone. Held-out signals were not fitted.",
+    "the verdict were added. Whitened: divided by the standard deviation of the noise, with its "
+    "correlation removed; 1 is noise alone. Held-out signals were not fitted.",
     headings={
         "rms_before": "rms before",
         "rms_after": "rms after",
         "noise_sd": "sd of the noise",
-        "closed_percent": "closed [%]",
-        "before_sd": "before [sd]",
-        "after_sd": "after [sd]",
+        "closed_percent": "reduction [%]",
+        "before_sd": "whitened rms before",
+        "after_sd": "whitened rms after",
     },
     group_by="role",
 )

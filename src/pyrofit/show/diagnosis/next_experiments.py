@@ -28,18 +28,20 @@ MOST_DESIGNS = 12
 
 
 def draw_next_experiments(study: Study, results: Results) -> Canvas:
-    """Draw how well each planned experiment would separate models that are not told apart."""
+    """Draw how well each planned experiment would separate models that are not distinguished."""
     found = diagnosis.read(study, results)
     shown = sorted(found["next_experiment"], key=lambda d: -float(d["separation_sd"]))[
         :MOST_DESIGNS
     ]
     canvas, (ax,) = style.panels(1, 1, style.TWO_COLUMNS, 24.0 + 5.5 * len(shown))
-    longest = 0.0
+    longest, several = 0.0, False
     for i, design in enumerate(shown):
         ax.barh(i, float(design["separation_sd"]), height=0.62, color=style.COLOURS[0])
         pairs = design.get("pairs")
         sizes = [float(v) for v in pairs.values()] if isinstance(pairs, dict) else []
-        ax.plot(sizes, [i] * len(sizes), "o", color="black", markersize=3, clip_on=False)
+        if len(sizes) > 1:
+            several = True
+            ax.plot(sizes, [i] * len(sizes), "o", color="black", markersize=3, clip_on=False)
         longest = max([longest, float(design["separation_sd"]), *sizes])
     ax.axvline(np.sqrt(found["ambiguity"]), **LIMIT)
     ax.set_yticks(range(len(shown)), [d["words"] for d in shown], fontsize=6.5)
@@ -49,9 +51,11 @@ def draw_next_experiments(study: Study, results: Results) -> Canvas:
     ax.set_xlabel("separation [standard deviations]")
     entries: list[Any] = [
         style.patch("the two models separated least", color=style.COLOURS[0]),
-        style.line("each two models", marker="o", color="black", markersize=3, linestyle="none"),
-        style.line("told apart", **LIMIT),
+        style.line("distinguished (3 sd)", **LIMIT),
     ]
+    if several:
+        look = {"marker": "o", "color": "black", "markersize": 3, "linestyle": "none"}
+        entries.append(style.line("every pair", **look))
     style.legend_below(canvas, entries)
     return canvas
 

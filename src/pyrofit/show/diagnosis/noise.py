@@ -36,8 +36,9 @@ TABLE = Table(
     applies=always,
     make=noise,
     title="Noise of the signals, and how the base fits them",
-    note="Estimated from the scatter of the series; sd is the median standard deviation. "
-    "Chi-square per point is near 1 where the base model is off by noise only.",
+    note="Stated with the data or estimated from their scatter, as the column noise says; sd is "
+    "the median standard deviation. Chi-square per point is near 1 where the base model misses "
+    "the data by noise alone.",
     headings={"sd_median": "sd", "chi2_per_point": "chi-square per point"},
     group_by="role",
 )

@@ -9,6 +9,7 @@ from pyrofit.config import Study
 from pyrofit.results import diagnosis
 from pyrofit.results.files import Results
 from pyrofit.show import style
+from pyrofit.show.diagnosis.words import Found
 from pyrofit.show.drawn import Canvas
 from pyrofit.show.figure import Figure
 from pyrofit.show.table import Table, always
@@ -26,9 +27,17 @@ _SHOWN = {"W/m2": ("kW/m²", 1e-3), "J/(m2 K)": ("J/(m² K)", 1.0), "-": ("–",
 """Unit that is shown, and the factor to it, where another one is shown."""
 
 
+_LEAST = 0.005
+"""Share of the excess that a correction must absorb to be drawn."""
+
+
+def _absorbing(found: Found) -> list[Found]:
+    return [p for p in found["probes"] if p["shape"] and p["absorbed"] >= _LEAST]
+
+
 def draw_probes(study: Study, results: Results) -> Canvas:
     """Draw the free corrections that were put into the model."""
-    found = diagnosis.read(study, results)["probes"]
+    found = _absorbing(diagnosis.read(study, results))
     canvas, axes = style.panels(len(found), 2, style.TWO_COLUMNS, 55.0)
     titles = [f"{p['what']}: absorbs {100.0 * p['absorbed']:.0f} %" for p in found]
     style.letter(axes, [textwrap.fill(title, 40) for title in titles])
@@ -59,10 +68,10 @@ TABLE = Table(
 
 FIGURE = Figure(
     place=40,
-    applies=lambda found: any(p["shape"] for p in found["probes"]),
+    applies=lambda found: bool(_absorbing(found)),
     make=draw_probes,
     title="Free corrections that absorb the misfit",
     caption="Free curves, each put into the model in one place and fitted with all "
-    "parameters. The share of the excess chi-square that each absorbs is given. Grey "
-    "lines: no correction.",
+    "parameters. The share of the excess chi-square that each absorbs is given; those that "
+    "absorb nothing are not drawn. Grey lines: no correction.",
 )

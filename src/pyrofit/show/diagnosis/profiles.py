@@ -48,7 +48,7 @@ def profiles(study: Study, results: Results) -> Canvas:
         ax.ticklabel_format(axis="x", scilimits=(-3, 4))
         ax.set_xlabel(f"{quantity.symbol} [{quantity.unit.replace('-', '–')}]")
     axes[0].set_ylabel("rise of χ² [–]")
-    entries = [style.line("fitted anew", **_PROFILE), style.line("95 %", **_LEVEL)]
+    entries = [style.line("all else refitted", **_PROFILE), style.line("95 %", **_LEVEL)]
     style.legend_below(canvas, [*entries, *absent])
     return canvas
 
@@ -57,8 +57,8 @@ FIGURE = Figure(
     place=31,
     applies=lambda found: bool(found["profiles"]),
     make=profiles,
-    title="How sure the strengths are",
-    caption="Rise of chi-square with the strength of each effect found, all else fitted anew "
+    title="Profile likelihood of the strengths",
+    caption="Rise of chi-square with the strength of each effect found, all else refitted "
     "at every point. The 95 % interval lies below the dashed line, at 3.84 times chi-square "
-    "per degree of freedom.",
+    "per degree of freedom. Below zero: the refit found a lower chi-square than the fit.",
 )

@@ -7,6 +7,7 @@ from typing import Any
 import numpy as np
 
 from pyrofit.config import Study
+from pyrofit.effects import known_effects
 from pyrofit.results import diagnosis
 from pyrofit.results.files import Results
 from pyrofit.show import style
@@ -86,9 +87,9 @@ def ranking_entries(found: Found) -> list[Any]:
     return [
         style.line(kept, **_KEPT, markersize=4.5),
         style.line("rejected", **_REJECTED, markersize=4.5),
-        style.line(f"not told apart below {limit:g}", **LIMIT),
+        style.line(f"not distinguished (< {limit:g})", **LIMIT),
         style.line("base model", **_BASE),
-        style.patch("an effect gains too little", color=style.BAND),
+        style.patch("gain too small for a claim", color=style.BAND),
     ]
 
 
@@ -102,8 +103,9 @@ def _label(candidate: Found) -> str:
     """Name a candidate: its effects, and the form parameters that were free."""
     parts = []
     for effect in candidate["effects"]:
-        forms = candidate["free"].get(effect, ())[1:]
-        parts.append(f"{effect} ({', '.join(forms)})" if forms else str(effect))
+        known = known_effects()[effect]
+        forms = [known.quantities[n].symbol for n in candidate["free"].get(effect, ())[1:]]
+        parts.append(f"{known.title} ({', '.join(forms)})" if forms else known.title)
     return " + ".join(parts)
 
 
@@ -115,6 +117,7 @@ FIGURE = Figure(
     caption="Chi-square with log(points) for each parameter of an effect, above that of the "
     "best candidate; linear below 1, logarithmic beyond. The fit alone does not "
     "distinguish candidates left of the dashed line from the best one. In the grey "
-    "area one effect gains too little to be claimed. In brackets: parameters of the "
-    f"form that were fitted, too. At most {MOST} are shown, the model of the verdict among them.",
+    "area one effect gains too little to be claimed. In brackets: symbols of the form "
+    "parameters that were fitted, too. Of fits with the same effects, the best is shown. "
+    f"At most {MOST} are shown, the model of the verdict among them.",
 )

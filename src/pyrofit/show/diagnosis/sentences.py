@@ -1,5 +1,7 @@
 """Results of the diagnosis, in sentences."""
 
+import math
+
 from pyrofit.analysis.uses import title_of
 from pyrofit.config import Study
 from pyrofit.effects import known_effects
@@ -9,12 +11,11 @@ from pyrofit.show.diagnosis.words import (
     Found,
     effect_name,
     leading,
-    prediction_name,
     words_of,
 )
 from pyrofit.show.text import listed, number
 
-_TOO_FEW = ", too few to tell them apart"
+_TOO_FEW = ", too few to distinguish them"
 
 
 def facts(found: Found) -> list[str]:
@@ -36,7 +37,10 @@ def where_off(found: Found) -> str:
         return f"{text} No interval of a curve has significant residuals of one sign."
     phases = list(dict.fromkeys(str(w["phase"]) for w in here))
     where = "One interval has" if len(here) == 1 else f"{len(here)} intervals have"
-    return f"{text} {where} significant residuals of one sign: {listed(phases)}."
+    said = f"{text} {where} significant residuals of one sign: {listed(phases)}."
+    if side == "above":
+        return said
+    return f"{said} Chi-square shows no lack of fit; the test of intervals does."
 
 
 def missing(found: Found) -> str:
@@ -71,13 +75,30 @@ def _found(found: Found) -> str:
     names = listed([effect_name(name) for name in chosen["effects"]])
     return (
         f"Chi-square falls from {number(found['base']['chi2'])} to {number(chosen['chi2'])} with "
-        f"{names}. The effect added last lowers it by {number(chosen['gain'])}; a claim needs "
-        f"{number(found['needed'])}."
+        f"{names}.{_without_one(found, chosen)} An effect must lower it by "
+        f"{number(found['needed'])} to be claimed."
     )
 
 
+def _without_one(found: Found, chosen: Found) -> str:
+    """Say how much higher chi-square is without one of several effects, where that was fitted."""
+    effects = set(chosen["effects"])
+    if len(effects) == 1:
+        return ""
+    lowest: dict[str, float] = {}
+    for candidate in found["candidates"]:
+        left = effects - set(candidate["effects"])
+        if len(left) == 1 and set(candidate["effects"]) < effects:
+            (name,) = left
+            lowest[name] = min(lowest.get(name, math.inf), float(candidate["chi2"]))
+    rises = [
+        f"{number(chi2 - chosen['chi2'])} without {name}" for name, chi2 in sorted(lowest.items())
+    ]
+    return f" It is higher by {listed(rises)}." if rises else ""
+
+
 def gap_closed(found: Found) -> str:
-    """Say how far curves are apart in standard deviations, fitted and held out."""
+    """Say how large the residuals are, fitted and held out, and where predictions get worse."""
     parts = []
     for role in dict.fromkeys(g["role"] for g in found["gap"]):
         rows = [g for g in found["gap"] if g["role"] == role]
@@ -90,8 +111,22 @@ def gap_closed(found: Found) -> str:
         parts.append(f"{start}{before:.3g}{change} ({ROLES.get(role, role)})")
     verb = "goes" if found["verdict"]["effects"] else "is"
     return (
-        f"The root mean square of the residuals {verb} {listed(parts)}, in standard deviations of "
-        "the noise; noise alone gives 1."
+        f"The root mean square of the whitened residuals {verb} {listed(parts)}. Noise alone gives "
+        f"1; less is usual where the noise includes a lasting error.{_larger_errors(found)}"
+    )
+
+
+def _larger_errors(found: Found) -> str:
+    """Say of how many held-out signals the error rises, which the log score may hide."""
+    rows = [g for g in found["gap"] if g["role"] == HELD_OUT]
+    rising = sum(float(g["rms_after"]) > float(g["rms_before"]) for g in rows)
+    if not found["verdict"]["effects"] or not rising:
+        return ""
+    verb = "rises" if rising == 1 else "rise"
+    return (
+        f" The root mean square errors of {rising} of {len(rows)} held-out signals {verb} with the "
+        "effects. The log score may improve all the same: it weighs errors by the uncertainty of "
+        "the prediction and by correlated noise."
     )
 
 
@@ -107,8 +142,7 @@ def certainty(study: Study, found: Found) -> str:
     if chosen.get("adequate") is not None:
         left = "agrees with the data within" if chosen["adequate"] else "still differs by more than"
         said.append(f"With the effects found, the model {left} the noise.")
-    said += _of_predictions(study, found)
-    return " ".join([*said, *_other_terms(found)])
+    return " ".join([*said, *_thresholds(found)])
 
 
 def _at_limits(model: str, parameters: Found) -> str:
@@ -118,39 +152,26 @@ def _at_limits(model: str, parameters: Found) -> str:
     return f"In the {model}, {listed(bound)} {'is' if len(bound) == 1 else 'are'} at a limit."
 
 
-def _of_predictions(study: Study, found: Found) -> list[str]:
-    """State how predictions change with each effect, and how its strengths agree."""
+def _thresholds(found: Found) -> list[str]:
+    """State the thresholds of the tests whose results are listed for each effect."""
+    verdict, settings = found["verdict"], found["settings"]
     said = []
-    for effect, evidence in zip(
-        found["verdict"]["effects"], found["verdict"]["evidence"], strict=True
-    ):
-        gains = [f"{g:+.1f} ({_predicted(study, n)})" for n, g in evidence["predictions"].items()]
-        tests = [f"the log score of predictions changes by {listed(gains)}"] * bool(gains)
-        if evidence["agreement"] is not None:
-            tests.append(f"the test of equal strengths has p = {number(evidence['agreement'])}")
-        if tests:
-            said.append(f"With {effect_name(effect)}, {'; '.join(tests)}.")
-    settings = found["settings"]
-    gain, level = settings.get("informative_gain", 2.0), settings.get("agreement_level", 0.001)
-    needs = (
-        f"A claim needs a rise of {gain:g} in total, and no single fall by {gain:g}; one held-out "
-        f"laboratory may be an exception. p must be above {number(level)}."
-    )
-    return [*said, needs] if said else []
-
-
-def _other_terms(found: Found) -> list[str]:
-    """State whether free corrections of other terms explain the data nearly as well."""
-    verdict = found["verdict"]
-    named = zip(verdict["effects"], verdict["other_terms"], strict=True)
-    nearest = [(min(terms, key=lambda term: term["above"]), e) for e, terms in named if terms]
-    limit = found["settings"].get("certain_evidence", found["ambiguity"])
-    return [
-        f"Free corrections were fitted in the place of {effect_name(effect)}. The best one is "
-        f"{term['words']}. Its -2 ln marginal likelihood is {term['above']:+.1f} relative to the "
-        f"effect. A certain name needs more than {limit:g}."
-        for term, effect in nearest
-    ]
+    if any(evidence["predictions"] for evidence in verdict["evidence"]):
+        gain = settings.get("informative_gain", 2.0)
+        said.append(
+            f"A claim needs a total rise of the log score by {gain:g}, and no single fall by "
+            f"{gain:g}; one held-out laboratory may be an exception."
+        )
+    if any(evidence["agreement"] is not None for evidence in verdict["evidence"]):
+        level = number(settings.get("agreement_level", 0.001))
+        said.append(f"The test of equal strengths needs a p above {level}.")
+    if any(verdict["other_terms"]):
+        limit = settings.get("certain_evidence", found["ambiguity"])
+        said.append(
+            "A confirmed name needs a -2 ln marginal likelihood of the best free correction that "
+            f"is more than {limit:g} above that of the effect."
+        )
+    return said
 
 
 def _of_noise(study: Study, found: Found) -> list[str]:
@@ -169,15 +190,10 @@ def _of_noise(study: Study, found: Found) -> list[str]:
     ] * bool(lasting)
 
 
-def _predicted(study: Study, name: str) -> str:
-    title = prediction_name(study, name)
-    return title if name.startswith(HELD_OUT) else f"{title} from the others"
-
-
 def next_measured(found: Found) -> str:
     """Say which experiment would separate competing models best."""
     if not found["next_experiment"]:
-        return "No experiment is proposed: there are no two models to tell apart."
+        return "No experiment is proposed: there are no two models to distinguish."
     best = max(found["next_experiment"], key=lambda d: float(d["separation_sd"]))
     short = best["separation_sd"] ** 2 < found["ambiguity"]
     return (

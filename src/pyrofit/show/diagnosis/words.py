@@ -73,8 +73,12 @@ def leading(found: Found) -> dict[str, Any] | None:
     """Return the candidate that the verdict rests on, if any: the best with just its effects."""
     effects = set(found["verdict"]["effects"])
     same = [c for c in found["candidates"] if effects and set(c["effects"]) == effects]
-    best = sorted(same, key=lambda c: (bool(c["rejected"]), float(c["penalised"])))
-    return best[0] if best else None
+    return min(same, key=_rank) if same else None
+
+
+def _rank(candidate: Found) -> tuple[bool, float]:
+    """Put fits that were not rejected first, then those with a lower penalised chi-square."""
+    return bool(candidate["rejected"]), float(candidate["penalised"])
 
 
 def remark(found: Found, candidate: Found) -> str:
@@ -84,11 +88,14 @@ def remark(found: Found, candidate: Found) -> str:
 
 
 def ranked(found: Found, most: int | None = None) -> list[dict[str, Any]]:
-    """Return all or most candidates, the lowest penalised chi-square first.
+    """Return the best fit of each set of effects, the lowest penalised chi-square first.
 
     The leading one is always among them, in the last place if it is worse.
     """
-    order = sorted(found["candidates"], key=lambda c: float(c["penalised"]))
+    best: dict[frozenset[str], dict[str, Any]] = {}
+    for c in sorted(found["candidates"], key=_rank):
+        best.setdefault(frozenset(c["effects"]), c)
+    order = sorted(best.values(), key=lambda c: float(c["penalised"]))
     chosen = leading(found)
     if most is None or chosen is None or chosen in order[:most]:
         return order[:most]
