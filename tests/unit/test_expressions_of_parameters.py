@@ -136,5 +136,8 @@ def test_one_key_holds_a_parameter_at_a_value(change: Callable[[dict[str, Any]],
 def test_fixed_value_keeps_the_rules_of_its_place() -> None:
     given = copy.deepcopy(GIVEN)
     given["parameters"]["cp"]["fixed"] = -1.0
+    with pytest.raises(StudyError, match=r"parameters.cp.fixed: -1.0 lies outside the limits 1 to"):
+        as_study(given, "x.yaml")
+    del given["parameters"]["cp"]["lower"], given["parameters"]["cp"]["upper"]
     with pytest.raises(StudyError, match=r"parameters.cp.value: -1.0 must be above 0"):
         as_study(given, "x.yaml")

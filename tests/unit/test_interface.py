@@ -107,6 +107,19 @@ def test_changes_make_the_study_that_a_file_with_them_would(study: pf.Study) -> 
         (lambda s: pf.read_data(s, data={5: []}), "5 names no series"),
         (lambda s: pf.new_study("wood", tgaa="a.csv"), "'tgaa'. Did you mean 'tga'"),
         (lambda s: pf.new_study("wood"), "no measured file is given"),
+        (lambda s: pf.new_study("wood", tga=pd.DataFrame()), "needs paths of files; write a table"),
+        (lambda s: pf.new_study("wood", tga=np.ones(3)), "needs paths of files"),
+        (lambda s: pf.simulate(s, {"k": -0.2}), "'k': -0.2 must be above 0 .it is used as"),
+        (lambda s: pf.fit(s, fixed={"eps": 1.5}), "'eps': 1.5 must lie within 0 and 1"),
+        (lambda s: pf.fit(s, fixed=["k"]), "values by name are needed.* this is a list"),
+        (lambda s: pf.fit(s, estimate=["k", "k"]), "estimate: 'k' stands twice"),
+        (lambda s: pf.fit(s, signals=["tga_5K", "tga_5K"]), "'tga_5K, mass_fraction' stands twice"),
+        (lambda s: pf.fit(s, starts=-1), "starts: -1 is no count"),
+        (lambda s: pf.fit(s, optimiser="cmaes"), "chosen for a cost only"),
+        (lambda s: pf.simulate(s, experiments=5), "names of experiments are needed"),
+        (lambda s: pf.diagnose(s, effects=[]), "no effect is named"),
+        (lambda s: pf.diagnose(s, effects="k_Y"), "study 'smoke': .*\n.*unknown effect 'k_Y'"),
+        (lambda s: pf.read_study(s, **{"parameters.k.fixed": 0.9}), "outside the limits 0.1 to"),
     ],
 )
 def test_wrong_name_or_value_is_explained(wrong, message: str, study: pf.Study) -> None:
@@ -165,6 +178,42 @@ def test_plot_uses_the_axes_that_are_given(study: pf.Study) -> None:
     (line,) = ax.lines
     assert np.allclose(line.get_ydata(), 1e3 * RATE)  # g/(m2 s)
     assert ax.get_ylabel() == "mass loss rate [g/(m² s)]"
+
+
+def test_parameter_that_was_fixed_needs_limits_to_be_free(study: pf.Study) -> None:
+    held = pf.read_study(study, **{"parameters.k.fixed": 0.2})
+    assert "k" not in held.imp.estimate
+    with pytest.raises(StudyError, match=r"parameters\.k\.fixed: .* give `lower` and `upper`"):
+        pf.read_study(held, **{"parameters.k.fixed": None})
+    limits = {"fixed": None, "lower": 0.1, "upper": 0.4}
+    free = pf.read_study(held, **{"parameters.k": limits, "imp.estimate": study.imp.estimate})
+    assert free.imp.estimate == study.imp.estimate
+
+
+def test_unusual_value_gives_a_warning(study: pf.Study) -> None:
+    with pytest.warns(UserWarning, match="study 'smoke': .*'cp'.* outside the usual range"):
+        pf.read_study(study, **{"parameters.cp.upper": 3000})
+
+
+def test_study_shows_its_parameters_and_experiments(study: pf.Study) -> None:
+    assert "parameter k: 0.1 to 0.4 W/(m K)" in repr(study)
+    assert "experiment slab_25: gasification; mlr, back_temperature" in repr(study)
+    assert study._repr_html_().startswith("<pre>study")
+
+
+def test_record_without_times_is_read_with_the_rate_that_is_warned_of(tmp_path: Path) -> None:
+    T = np.arange(400.0, 800.0, 5.0)
+    mass = 0.2 + 0.8 / (1.0 + np.exp((T - 640.0) / 12.0))
+    pd.DataFrame({"Temperature (K)": T, "Mass (-)": mass}).to_csv(
+        tmp_path / "wood.csv", index=False
+    )
+    with pytest.warns(UserWarning, match=r"wood\.csv: no heating rate is given; 10 K/min is"):
+        study = pf.new_study("wood", tga=tmp_path / "wood.csv")
+    read = pf.read_data(study)
+    again = pf.read_data(study, data=read)
+    short = pf.read_data(study, data={"wood": (T, mass)})
+    for other in (again, short):
+        assert np.allclose(other["wood"], read["wood"])
 
 
 def test_files_of_heated_samples_alone_make_a_study(tmp_path: Path) -> None:

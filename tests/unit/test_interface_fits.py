@@ -7,6 +7,7 @@ import matplotlib
 import numpy as np
 import pandas as pd
 import pytest
+from matplotlib.figure import Figure
 
 import pyrofit as pf
 from pyrofit.config import diagnosed_material
@@ -116,6 +117,70 @@ def test_one_curve_is_fitted_by_the_parameters_that_are_named(
     assert found.values["rho"] == truth["rho"]
 
 
+def test_isothermal_record_is_drawn_over_time() -> None:
+    held = {"experiments.tga_5K.set_point_K": 620, "experiments.tga_5K.hold_s": 3000}
+    study = pf.read_study(SMOKE, **held)
+    curves = pf.simulate(study, {"T_p": 605, "E_p": 190}, experiments=["tga_5K", "tga_20K"])
+    assert curves.plot("tga_5K", ax=Figure().subplots()).get_xlabel() == "time [s]"
+    assert curves.plot("tga_20K", ax=Figure().subplots()).get_xlabel() == "temperature [°C]"
+    assert "tga_5K" in curves
+    assert ("tga_5K", "mass_fraction") in curves
+    assert "slab_25" not in curves
+    assert curves.get("slab_25") is None
+    assert [len(t) for t in curves.values()] == [len(t) for _, t in curves.items()]
+    with pytest.raises(StudyError, match="give Axes as `ax=`"):
+        curves.plot(Figure().subplots())
+
+
+def test_measured_curve_is_fitted_without_computed_ones(
+    study: pf.Study, data: dict[tuple[str, str], pd.DataFrame]
+) -> None:
+    key = ("tga_20K", "mass_fraction")
+    found = pf.fit(study, {key: data[key]})
+    assert found.signals[["experiment", "signal"]].to_numpy().tolist() == [list(key)]
+    assert list(found.table.index) == ["T_p", "E_p"]
+    named = pf.fit(study, data, signals=[key])
+    assert np.array_equal(named.table["value"], found.table["value"])
+
+
+def test_fit_has_covariance_criteria_and_intervals_at_other_levels(fit: pf.Fit) -> None:
+    assert np.allclose(np.sqrt(np.diag(fit.covariance)), fit.table["sd"])
+    points = fit.signals["points"].sum()
+    assert fit.aic == fit.chi2 + 2 * len(fit.table)
+    assert fit.bic == pytest.approx(fit.chi2 + len(fit.table) * np.log(points))
+    assert np.allclose(fit.intervals(0.95), fit.table[["low", "high"]])
+    narrow = fit.intervals(0.6827)
+    linear = fit.table["method"] == "linear"
+    width = (narrow["high"] - narrow["low"])[linear]
+    assert np.allclose(width, 2.0 * fit.table["sd"][linear], rtol=1e-3)
+    with pytest.raises(StudyError, match="not between 0 and 1"):
+        fit.intervals(1.5)
+    assert fit.history["chi2"].is_monotonic_increasing
+    assert fit.history["cp"].between(1.0, 3.0).all()
+
+
+def test_expression_has_a_value_and_the_sd_of_its_parameters(
+    data: dict[tuple[str, str], pd.DataFrame],
+) -> None:
+    keys = {"parameters.E_h": {"unit": "kJ/mol", "expression": "0.5 * E_p"}}
+    study = pf.read_study(SMOKE, **keys)
+    found = pf.fit(study, data, signals="tga_5K")
+    row, of = found.derived.loc["E_h"], found.table.loc["E_p"]
+    assert row["value"] == pytest.approx(0.5 * of["value"])
+    assert row["sd"] == pytest.approx(0.5 * of["sd"], rel=1e-6)
+    assert "Expressions\n" in str(found)
+
+
+def test_report_writes_values_to_their_sd_and_lists_fixed_parameters(
+    study: pf.Study, data: dict[tuple[str, str], pd.DataFrame]
+) -> None:
+    found = pf.fit(study, data, signals="tga_5K", fixed={"E_p": 190.0})
+    text = str(found)
+    value, sd = found.table.loc["T_p", ["value", "sd"]]
+    assert f"{value:.3f}  {sd:.3f}" in text
+    assert "Fixed\n  name  value  unit\n  E_p   190    kJ/mol" in text
+
+
 def test_cost_is_minimised_by_an_optimiser_of_the_study(
     study: pf.Study, data: dict[tuple[str, str], pd.DataFrame]
 ) -> None:
@@ -124,6 +189,7 @@ def test_cost_is_minimised_by_an_optimiser_of_the_study(
     found = pf.fit(study, data, cost="RMSE", fixed=kinetics)
     assert found.cost == found.history["cost"].min()
     assert len(found.history) == study.imp.least_squares.starts
+    assert found.history["cp"].iloc[0] == pytest.approx(found.values["cp"])  # in its unit
     # The cost RMSE of the study is normalised by the mean.
     (score,) = found.signals["cv_rmse"]
     assert found.cost == pytest.approx(score, rel=1e-9)
@@ -194,8 +260,6 @@ def test_report_and_page_show_values_intervals_and_correlations(fit: pf.Fit) -> 
 
 
 def test_plots_draw_what_was_fitted(fit: pf.Fit, data: object) -> None:
-    from matplotlib.figure import Figure
-
     ax = Figure().subplots()
     fit.plot("slab_25", "mlr", ax=ax)
     measured, simulated = ax.lines

@@ -9,11 +9,12 @@ from pyrofit.config.resolve import diagnosed_material
 from pyrofit.config.uses import parameters_of_heated
 from pyrofit.errors import StudyError, suggest
 from pyrofit.experiments import kind_of
+from pyrofit.model.base import numbers
 
 Key = tuple[str, str]
 """Names of an experiment and a signal."""
-Signals = str | Iterable[str] | Mapping[str, str | Iterable[str]]
-"""Experiments with all their signals, or signals by experiment."""
+Signals = str | Iterable[str | Key] | Mapping[str, str | Iterable[str]]
+"""Experiments with all their signals, pairs of experiment and signal, or signals by experiment."""
 
 
 def si_values(study: Study, given: Mapping[str, float]) -> dict[str, float]:
@@ -22,8 +23,14 @@ def si_values(study: Study, given: Mapping[str, float]) -> dict[str, float]:
     Raises
     ------
     StudyError
-        A name is no parameter or that of an expression, or a value is no finite number.
+        A name is no parameter or that of an expression, or a value is no finite number, or breaks
+        a rule of a place where it is used.
     """
+    if not hasattr(given, "items"):
+        raise StudyError(
+            "values by name are needed, such as {'k': 0.2} or the `values` of a fit; this is "
+            f"{_kind(given)}"
+        )
     found: dict[str, float] = {}
     for name, value in given.items():
         check_parameter(study, name)
@@ -36,7 +43,26 @@ def si_values(study: Study, given: Mapping[str, float]) -> dict[str, float]:
         if not (isinstance(value, Real) and math.isfinite(value)):
             raise StudyError(f"parameter '{name}': {value!r} is no finite number")
         found[name] = float(value) * study.parameters[name].factor
+    _check_rules(study, found)
     return found
+
+
+def _check_rules(study: Study, si: Mapping[str, float]) -> None:
+    """Refuse SI values that break a rule of a place, such as a negative density."""
+    for part in (study.material, *study.experiments.values()):
+        for place, number, rules in numbers(part):
+            if not isinstance(number, str) or number not in si:
+                continue
+            broken = [rule.text for rule in rules if not rule.holds(si[number])]
+            if broken:
+                value = si[number] / study.parameters[number].factor
+                raise StudyError(
+                    f"parameter '{number}': {value:g} {broken[0]} (it is used as {place})"
+                )
+
+
+def _kind(given: object) -> str:
+    return f"a {type(given).__name__}"
 
 
 def check_parameter(study: Study, name: str) -> None:
@@ -115,9 +141,12 @@ def experiments_of(study: Study, given: str | Iterable[str] | None) -> list[str]
     """Return names of experiments, by default all."""
     if given is None:
         return list(study.experiments)
-    names = [given] if isinstance(given, str) else list(given)
+    try:
+        names = [given] if isinstance(given, str) else list(given)
+    except TypeError:
+        raise StudyError(f"names of experiments are needed; this is {_kind(given)}") from None
     for name in names:
-        if name not in study.experiments:
+        if not isinstance(name, str) or name not in study.experiments:
             known = suggest(str(name), study.experiments)
             raise StudyError(f"study '{study.name}' has no experiment '{name}'. {known}")
     return names
@@ -131,13 +160,28 @@ def signals_of(study: Study, given: Signals) -> list[Key]:
     [('slab_25', 'mlr')]
     """
     if not isinstance(given, Mapping):
-        return [(n, s) for n in experiments_of(study, given) for s in study.experiments[n].signals]
-    pairs = []
+        listed = [given] if isinstance(given, str) or _is_key(study, given) else list(given)
+        return [pair for one in listed for pair in _pairs(study, one)]
+    pairs: list[Key] = []
     for name in experiments_of(study, given):
         wanted = given[name]
         wanted = [wanted] if isinstance(wanted, str) else wanted
         pairs += [key_of(study, (name, signal)) for signal in wanted]
     return pairs
+
+
+def _is_key(study: Study, given: object) -> bool:
+    """Tell whether a tuple is a pair of experiment and signal rather than two experiments."""
+    pair = isinstance(given, tuple) and len(given) == 2
+    return pair and given[1] not in study.experiments  # type: ignore[index]
+
+
+def _pairs(study: Study, one: object) -> list[Key]:
+    """Return a pair, or all pairs of an experiment."""
+    if isinstance(one, tuple):
+        return [key_of(study, one)]
+    [name] = experiments_of(study, [one])  # type: ignore[list-item]
+    return [(name, signal) for signal in study.experiments[name].signals]
 
 
 def key_of(study: Study, given: object) -> Key:

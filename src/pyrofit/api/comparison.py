@@ -122,7 +122,10 @@ class Comparison:
         return pd.concat(parts, ignore_index=True)
 
     def plot(
-        self, experiment: str | None = None, signal: str | None = None, ax: "Axes | None" = None
+        self,
+        experiment: str | Key | None = None,
+        signal: str | None = None,
+        ax: "Axes | None" = None,
     ) -> "Axes":
         """Draw measured and simulated curve on ``ax``, by default on a new one."""
         key = plots.chosen(list(self.measured), experiment, signal)
@@ -131,7 +134,10 @@ class Comparison:
         return ax
 
     def plot_residuals(
-        self, experiment: str | None = None, signal: str | None = None, ax: "Axes | None" = None
+        self,
+        experiment: str | Key | None = None,
+        signal: str | None = None,
+        ax: "Axes | None" = None,
     ) -> "Axes":
         """Draw simulated less measured values on ``ax``, by default on a new one."""
         key = plots.chosen(list(self.measured), experiment, signal)
@@ -149,6 +155,10 @@ class Comparison:
     def __str__(self) -> str:
         """Return the scores as text."""
         return text_table(self.scores, "")
+
+    def __repr__(self) -> str:
+        """Return the scores: a notebook without HTML shows them."""
+        return str(self)
 
     def _repr_html_(self) -> str:
         return html_page(f"measured and simulated: {self.study.name}", [("", self.scores)])

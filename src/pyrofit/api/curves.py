@@ -57,6 +57,10 @@ class Curves:
         """Go through the pairs of experiment and signal."""
         return iter(self.series)
 
+    def __contains__(self, key: object) -> bool:
+        """Tell whether there is a pair of experiment and signal, or any signal of an experiment."""
+        return key in self.series or any(name == key for name, _ in self.series)
+
     def __len__(self) -> int:
         """Return the number of series."""
         return len(self.series)
@@ -64,6 +68,14 @@ class Curves:
     def keys(self) -> list[Key]:
         """Return the pairs of experiment and signal."""
         return list(self.series)
+
+    def values(self) -> list[pd.DataFrame]:
+        """Return the tables."""
+        return list(self.series.values())
+
+    def get(self, key: str | Key, default: Any = None) -> Any:
+        """Return a signal, or all signals of an experiment; ``default`` where there is none."""
+        return self[key] if key in self else default  # noqa: SIM401, it is no dictionary
 
     def items(self) -> list[tuple[Key, pd.DataFrame]]:
         """Return the pairs of experiment and signal with their tables."""
@@ -90,7 +102,11 @@ class Curves:
         return pd.concat(parts, ignore_index=True)
 
     def plot(
-        self, experiment: str, signal: str | None = None, ax: "Axes | None" = None, **style: Any
+        self,
+        experiment: str | Key,
+        signal: str | None = None,
+        ax: "Axes | None" = None,
+        **style: Any,
     ) -> "Axes":
         """Draw a signal on ``ax``, by default on a new one; ``style`` goes to Matplotlib."""
         key = plots.chosen(list(self.series), experiment, signal)

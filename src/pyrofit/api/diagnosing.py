@@ -32,7 +32,7 @@ def diagnose(
     study: Source,
     data: Data | None = None,
     *,
-    effects: Sequence[str] | None = None,
+    effects: str | Sequence[str] | None = None,
     advise: bool = False,
     processes: int = 1,
     tell: Callable[[str], None] | None = None,
@@ -62,7 +62,10 @@ def diagnose(
     DataError
         A series is missing or too short, or no run within the limits finishes.
     """
-    changes = {} if effects is None else {"diagnosis.effects": list(effects)}
+    names = [effects] if isinstance(effects, str) else effects
+    if names is not None and not len(names):
+        raise StudyError("no effect is named; leave `effects` out to try all that can show")
+    changes = {} if names is None else {"diagnosis.effects": list(names)}
     study = read_study(read_study(study), **changes)
     refuse_programs(study)
     channels = (*calibration_channels(study), *held_out_channels(study))
@@ -168,7 +171,8 @@ class Diagnosis:
             for signal in experiment.signals
             if self.study.is_computed(name, signal)
         }
-        return as_study(extended_keys(self.study, end, computed), f"{self.study.name}.json")
+        keys = extended_keys(self.study, end, computed)
+        return as_study(keys, f"study '{self.study.name}'", located=True)
 
     def report(self) -> str:
         """Return verdict, misfit, certainty and the best candidates as text."""
@@ -187,7 +191,10 @@ class Diagnosis:
         return ax
 
     def plot(
-        self, experiment: str | None = None, signal: str | None = None, ax: "Axes | None" = None
+        self,
+        experiment: str | Key | None = None,
+        signal: str | None = None,
+        ax: "Axes | None" = None,
     ) -> "Axes":
         """Draw a signal: measured, fitted by the base model, and with the effects found."""
         pairs = self.curves[["experiment", "signal"]].drop_duplicates()

@@ -1,21 +1,25 @@
 """A fit: values, intervals, correlations, scores, curves."""
 
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
 import numpy as np
 import pandas as pd
+from scipy.stats import norm
 
 from pyrofit.api import plots
-from pyrofit.api.choices import Signals
+from pyrofit.api.choices import Key, Signals, used_by
 from pyrofit.api.comparison import Comparison, compare
 from pyrofit.api.measurements import Data
 from pyrofit.api.report import Report, html_of, text_of
 from pyrofit.config import Study
 from pyrofit.errors import StudyError
+from pyrofit.estimate.bounded_least_squares import Fit as End
 from pyrofit.estimate.identify import Identification
 from pyrofit.estimate.likelihood import Likelihood
+from pyrofit.model.base import value_of
+from pyrofit.model.expressions import names_of
 from pyrofit.solver.arrays import FloatArray
 
 if TYPE_CHECKING:
@@ -50,7 +54,9 @@ class Fit:
     cost
         Value of the cost function; NaN with likelihood.
     history
-        Calls of SCE-UA, or the ends of all starts, best first; None with likelihood.
+        Calls of SCE-UA, or the ends of the followed starts, best first; in the units of the study.
+    derived
+        Expressions of the study. Columns: value, sd (from the covariance), unit, expression.
     """
 
     study: Study
@@ -64,11 +70,54 @@ class Fit:
     freedom: float = np.nan
     cost: float = np.nan
     history: pd.DataFrame | None = None
+    derived: pd.DataFrame | None = None
 
     @property
     def reduced_chi2(self) -> float:
         """Chi-square per degree of freedom; above 1 it widens sd and intervals."""
         return self.chi2 / self.freedom
+
+    @property
+    def covariance(self) -> pd.DataFrame | None:
+        """Covariance of the estimates in the units of the study; None without likelihood.
+
+        Like sd it is widened by misfit: r_ij sd_i sd_j.
+        """
+        if self.correlation is None:
+            return None
+        sd = self.table["sd"].to_numpy(float)
+        return self.correlation * np.outer(sd, sd)
+
+    @property
+    def aic(self) -> float:
+        """Akaike's criterion: chi2 + 2 k for k estimates; NaN without likelihood.
+
+        As `bic`, it compares fits of the same data with equal noise, see ``signals["noise_sd"]``.
+        """
+        return self.chi2 + 2.0 * len(self.table)
+
+    @property
+    def bic(self) -> float:
+        """Criterion of Schwarz: chi2 + k ln n for k estimates and n points."""
+        return self.chi2 + len(self.table) * float(np.log(self.signals["points"].sum()))
+
+    def intervals(self, level: float = 0.95) -> pd.DataFrame:
+        """Return low and high of intervals at another level than 95 %, cut at the limits.
+
+        The distances of the 95 % interval from the estimate are multiplied by the ratio of the
+        normal quantiles. This is exact for linear intervals, approximate for those of profiles.
+
+        Raises
+        ------
+        StudyError
+            The level is not between 0 and 1.
+        """
+        if not 0.0 < level < 1.0:
+            raise StudyError(f"level: {level!r} is not between 0 and 1")
+        ratio = float(norm.isf(0.5 * (1.0 - level)) / norm.isf(0.025))
+        t = self.table
+        low, high = (t["value"] + ratio * (t[end] - t["value"]) for end in ("low", "high"))
+        return pd.DataFrame({"low": low.clip(t["lower"]), "high": high.clip(upper=t["upper"])})
 
     @property
     def curves(self) -> pd.DataFrame:
@@ -84,13 +133,19 @@ class Fit:
         return compare(self.study, self.values, signals=signals, data=data)
 
     def plot(
-        self, experiment: str | None = None, signal: str | None = None, ax: "Axes | None" = None
+        self,
+        experiment: str | Key | None = None,
+        signal: str | None = None,
+        ax: "Axes | None" = None,
     ) -> "Axes":
         """Draw a fitted signal with its measurement on ``ax``, by default on a new one."""
         return self.comparison.plot(experiment, signal, ax)
 
     def plot_residuals(
-        self, experiment: str | None = None, signal: str | None = None, ax: "Axes | None" = None
+        self,
+        experiment: str | Key | None = None,
+        signal: str | None = None,
+        ax: "Axes | None" = None,
     ) -> "Axes":
         """Draw simulated less measured values on ``ax``, by default on a new one."""
         return self.comparison.plot_residuals(experiment, signal, ax)
@@ -130,11 +185,23 @@ class Fit:
     def _repr_html_(self) -> str:
         return html_of(self._contents())
 
+    def _fixed(self) -> pd.DataFrame:
+        """Return the parameters that the fit uses and does not estimate."""
+        used = used_by(self.study, dict.fromkeys(self.signals["experiment"]))
+        rows = [
+            {"name": name, "value": value, "unit": self.study.parameters[name].unit}
+            for name, value in self.values.items()
+            if name in used and name not in self.table.index
+        ]
+        return pd.DataFrame(rows, columns=["name", "value", "unit"])
+
     def _contents(self) -> Report:
         return Report(
             self.study.name,
             self.method,
             self.table,
+            self._fixed(),
+            self.derived,
             self.signals,
             self.correlation,
             self.chi2,
@@ -166,6 +233,66 @@ def estimates_table(study: Study, likelihood: Likelihood, found: Identification)
             }
         )
     return pd.DataFrame(rows).set_index("parameter")
+
+
+def ends_table(study: Study, likelihood: Likelihood, ends: Sequence[End]) -> pd.DataFrame:
+    """Return chi-square and parameters at the ends of descents, in the units of the study."""
+    names = likelihood.problem.names
+    rows = [
+        {"chi2": end.chi2, **dict(zip(names, likelihood.values(end.x).tolist(), strict=True))}
+        for end in ends
+    ]
+    return table_in_units(study, pd.DataFrame(rows))
+
+
+def table_in_units(study: Study, table: pd.DataFrame) -> pd.DataFrame:
+    """Return a table whose columns of parameters have SI units in the units of the study."""
+    return table.assign(
+        **{n: table[n] / study.parameters[n].factor for n in table.columns if n in study.parameters}
+    )
+
+
+def derived_table(
+    study: Study, values: Mapping[str, float], covariance: pd.DataFrame | None
+) -> pd.DataFrame:
+    """Return the expressions of a study at values in its units.
+
+    The variance is g^T C g, g the derivatives by the estimates of covariance C, from differences.
+    """
+    rows = []
+    for name, parameter in study.parameters.items():
+        if parameter.expression is None or not _names(study, name) <= set(values):
+            continue
+        at = _value(study, name, values)
+        variance = np.nan
+        if covariance is not None:
+            steps = np.sqrt(np.diag(covariance)) * 1e-3
+            moved = [
+                _value(study, name, {**values, other: values[other] + step}) - at
+                for other, step in zip(covariance.index, steps, strict=True)
+            ]
+            slopes = np.divide(moved, steps, out=np.zeros(len(steps)), where=steps > 0.0)
+            variance = float(slopes @ covariance.to_numpy() @ slopes)
+        row = {"parameter": name, "value": at, "sd": float(np.sqrt(variance))}
+        rows.append({**row, "unit": parameter.unit, "expression": parameter.expression})
+    columns = ["parameter", "value", "sd", "unit", "expression"]
+    return pd.DataFrame(rows, columns=columns).set_index("parameter")
+
+
+def _names(study: Study, name: str) -> set[str]:
+    """Return the parameters that a parameter rests on: itself, or those of its expression."""
+    text = study.parameters[name].expression
+    if text is None:
+        return {name}
+    return set().union(*(_names(study, other) for other in names_of(text)))
+
+
+def _value(study: Study, name: str, values: Mapping[str, float]) -> float:
+    """Return a parameter in its unit, from those that are no expressions."""
+    text = study.parameters[name].expression
+    if text is None:
+        return values[name]
+    return float(value_of(text, {n: _value(study, n, values) for n in names_of(text)}))
 
 
 def signals_table(

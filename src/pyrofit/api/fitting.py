@@ -1,7 +1,7 @@
 """Fits of a study to its measurements."""
 
 from collections.abc import Callable, Collection, Iterable, Mapping, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import Literal
 
 import numpy as np
@@ -12,15 +12,21 @@ from pyrofit.api.choices import (
     check_parameter,
     complete,
     in_units,
-    key_of,
     si_values,
     signals_of,
     used_by,
     with_kinetics_of,
 )
 from pyrofit.api.comparison import compared
-from pyrofit.api.fitted import Fit, correlation_table, estimates_table, signals_table
-from pyrofit.api.measurements import Data, measured
+from pyrofit.api.fitted import (
+    Fit,
+    correlation_table,
+    derived_table,
+    ends_table,
+    estimates_table,
+    signals_table,
+)
+from pyrofit.api.measurements import Data, given_keys, measured
 from pyrofit.api.searching import check_cost, fit_cost
 from pyrofit.api.studies import Source, read_study
 from pyrofit.config import (
@@ -33,8 +39,7 @@ from pyrofit.config import (
 from pyrofit.errors import StudyError
 from pyrofit.estimate.identify import identify
 from pyrofit.estimate.jumps import with_noise_of_jumps
-from pyrofit.estimate.likelihood import fit as descend
-from pyrofit.estimate.likelihood import likelihood_of
+from pyrofit.estimate.likelihood import descents, likelihood_of
 from pyrofit.estimate.prior import prior_of
 from pyrofit.estimate.problem import Problem, make_problem
 from pyrofit.results.dependencies import kinetics_of
@@ -43,6 +48,7 @@ from pyrofit.show.text import several
 from pyrofit.solver.arrays import FloatArray
 
 Stage = Literal["kinetics", "imp"]
+Optimiser = Literal["least_squares", "cmaes", "sceua"]
 Tell = Callable[[str], None]
 
 
@@ -70,7 +76,7 @@ def fit(
     fixed: Mapping[str, float] | None = None,
     stage: Stage | None = None,
     cost: str | None = None,
-    optimiser: str = "least_squares",
+    optimiser: Optimiser = "least_squares",
     starts: int = 20,
     profiles: bool = True,
     tell: Tell | None = None,
@@ -79,7 +85,8 @@ def fit(
 
     By default all signals that the study fits, and all parameters that it estimates, are fitted
     jointly by maximum likelihood. Computed signals are left out where others are measured. The
-    noise of each signal is estimated from the series. Intervals follow from the likelihood: linear
+    noise of each signal is estimated from the series, unless the study states it. A TGA mass also
+    has a lasting error, see `docs/own_study.md`. Intervals follow from the likelihood: linear
     where chi-square is a parabola, else from profiles.
 
     Parameters
@@ -118,7 +125,11 @@ def fit(
         A measured series is missing, breaks a rule, or is too short to show its noise.
     """
     study = read_study(study)
-    values = si_values(study, fixed or {})
+    values = si_values(study, {} if fixed is None else fixed)
+    if not (isinstance(starts, int) and starts >= 1):
+        raise StudyError(f"starts: {starts!r} is no count; give a whole number from 1 on")
+    if cost is None and optimiser != "least_squares":
+        raise StudyError("an optimiser is chosen for a cost only; give `cost`, or leave it out")
     if cost is not None:
         if signals is not None or estimate is not None or stage is not None:
             raise StudyError("a cost has its own signals and parameters; leave out the others")
@@ -130,7 +141,7 @@ def fit(
     if stage == "imp":
         study = with_kinetics_of(study, study.imp.kinetics)
         values = with_kinetics(study, data, values, starts)
-    given = [key_of(study, key) for key in (data or {}).keys()]  # noqa: SIM118
+    given = given_keys(study, data)
     task = task_of(study, signals, estimate, values, stage, given)
     return fit_likelihood(task, data, starts, profiles, tell or _silent)
 
@@ -153,6 +164,7 @@ def task_of(
         raise StudyError(f"unknown stage '{stage}'. Known: imp, kinetics.")
     if signals is not None:
         pairs = signals_of(study, signals)
+        _refuse_twice("signals", [", ".join(pair) for pair in pairs])
         channels = tuple(TermSpec(experiment=e, signal=s, kind="RMSE") for e, s in pairs)
     experiments = {c.experiment for c in channels}
     if estimate is None:
@@ -160,6 +172,7 @@ def task_of(
         names = tuple(name for name in names if name in shown and name not in fixed)
     else:
         names = tuple([estimate] if isinstance(estimate, str) else estimate)
+        _refuse_twice("estimate", names)
     for name in names:
         check_parameter(study, name)
         if study.parameters[name].lower is None:
@@ -171,6 +184,12 @@ def task_of(
     return Task(study, channels, names, complete(study, fixed, experiments, but=names))
 
 
+def _refuse_twice(key: str, names: Sequence[str]) -> None:
+    twice = [name for name in dict.fromkeys(names) if names.count(name) > 1]
+    if twice:
+        raise StudyError(f"{key}: '{twice[0]}' stands twice; name it once")
+
+
 def _default(study: Study, given: Collection[Key]) -> tuple[tuple[TermSpec, ...], tuple[str, ...]]:
     """Return the signals that a study fits and the parameters that it estimates.
 
@@ -178,9 +197,8 @@ def _default(study: Study, given: Collection[Key]) -> tuple[tuple[TermSpec, ...]
     """
     channels, names = calibration_channels(study), diagnosed_parameters(study)
     pairs = [(c.experiment, c.signal) for c in channels]
-    computed = {key for key in pairs if study.is_computed(*key)}
+    computed = {key for key in pairs if study.is_computed(*key)} - set(given)
     if len(computed) < len(channels):
-        computed -= set(given)
         channels = tuple(c for c, p in zip(channels, pairs, strict=True) if p not in computed)
     return channels, names
 
@@ -200,7 +218,8 @@ def fit_likelihood(
     )
     likelihood = likelihood_of(problem, prior_of(study, problem))
     tell(f"noise of {several(len(series), 'signal')} estimated; {several(starts, 'start')}")
-    best = descend(likelihood, starting_points(study, problem, starts))
+    ends = descents(likelihood, starting_points(study, problem, starts))
+    best = ends[0]
     tell(f"chi-square {best.chi2:.1f} of {sum(likelihood.points)} points; intervals follow")
     first = best.x
     likelihood = with_noise_of_jumps(likelihood, [first])
@@ -208,17 +227,20 @@ def fit_likelihood(
     x = likelihood.values(found.optimum.x)
     values = problem.values(x)
     scored = compared(study, values, series)
-    return Fit(
+    own = in_units(study, {n: v for n, v in values.items() if n in study.parameters})
+    made = Fit(
         study=study,
         method="maximum likelihood",
-        values=in_units(study, {n: v for n, v in values.items() if n in study.parameters}),
+        values=own,
         table=estimates_table(study, likelihood, found),
         comparison=scored,
         signals=signals_table(scored, likelihood, found),
         correlation=correlation_table(problem.names, found.correlation),
         chi2=found.posterior.chi2,
         freedom=found.posterior.freedom,
+        history=ends_table(study, likelihood, ends),
     )
+    return replace(made, derived=derived_table(study, own, made.covariance))
 
 
 def with_kinetics(

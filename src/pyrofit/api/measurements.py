@@ -36,7 +36,7 @@ def read_data(study: Source, signals: Signals | None = None, data: Data | None =
         Series that replace those of the study, by (experiment, signal). A table has the columns
         and units of a measured file, or those that this function returns. An array has the
         columns time [s], temperature [K] of heated samples, value, and maybe uncertainty, in SI
-        units.
+        units. Those of a heated sample may be temperature and value alone. A tuple holds columns.
 
     Raises
     ------
@@ -52,13 +52,14 @@ def read_data(study: Source, signals: Signals | None = None, data: Data | None =
 
 def measured(study: Study, wanted: Iterable[Key], data: Data | None) -> dict[Key, pd.DataFrame]:
     """Return some measured series; only these are read or computed."""
-    given = {key_of(study, key): table for key, table in (data or {}).items()}
+    given = dict(zip(given_keys(study, data), [] if data is None else data.values(), strict=True))
     keys = list(dict.fromkeys(wanted))
     with tempfile.TemporaryDirectory() as folder:
         signals: dict[Key, Signal] = {}
         labels: dict[str, str] = {}
         for key in keys:
             quantity = study.experiments[key[0]].quantity(key[1])
+            timeless = getattr(study.experiments[key[0]], "program", "") == "from_temperature"
             signals[key] = study.experiments[key[0]].signals[key[1]]
             if key in given:
                 path = Path(folder) / f"{'_'.join(key)}.csv"
@@ -66,9 +67,27 @@ def measured(study: Study, wanted: Iterable[Key], data: Data | None) -> dict[Key
                 table = _table(given[key], quantity, label)
                 write_csv(path, table)
                 labels[str(path)] = label
-                signals[key] = _from_table(signals[key], quantity, path, table)
+                signals[key] = _from_table(signals[key], quantity, path, table, timeless)
         found = _read(_with_signals(study, signals), labels)
     return {key: with_units(found[key], study.experiments[key[0]].quantity(key[1])) for key in keys}
+
+
+def given_keys(study: Study, data: Data | None) -> list[Key]:
+    """Return experiment and signal of each series that a caller gives.
+
+    Raises
+    ------
+    DataError
+        The series have no names.
+    """
+    if data is None:
+        return []
+    if isinstance(data, pd.DataFrame) or not isinstance(data, Mapping | Curves):
+        raise DataError(
+            "data: series are given by experiment, such as {'tga_10K': table}; this is a "
+            f"{type(data).__name__}"
+        )
+    return [key_of(study, key) for key in data.keys()]  # noqa: SIM118
 
 
 def _table(given: Any, quantity: Quantity, label: str) -> pd.DataFrame:
@@ -83,6 +102,8 @@ def _table(given: Any, quantity: Quantity, label: str) -> pd.DataFrame:
         columns = columns.T
     names = ["time_s", *(["temperature_K"] if quantity.against_temperature else [])]
     names += [quantity.column, quantity.uncertainty_column]
+    if quantity.against_temperature and columns.ndim == 2 and columns.shape[1] == 2:
+        names = names[1:]
     if columns.ndim != 2 or columns.shape[1] not in (len(names) - 1, len(names)):
         raise DataError(
             f"{label}: an array of the shape {columns.shape}; its columns must be "
@@ -91,14 +112,18 @@ def _table(given: Any, quantity: Quantity, label: str) -> pd.DataFrame:
     return pd.DataFrame(columns, columns=names[: columns.shape[1]])
 
 
-def _from_table(signal: Signal, quantity: Quantity, path: Path, table: pd.DataFrame) -> Signal:
-    """Return a signal that is read from a table."""
+def _from_table(
+    signal: Signal, quantity: Quantity, path: Path, table: pd.DataFrame, timeless: bool
+) -> Signal:
+    """Return a signal that is read from a table, without the times that follow from its rate."""
     update: dict[str, Any] = {"file": str(path)}
     if quantity.column in table:  # as `read_data` returns it: no column has to be recognised
         tidy = quantity.tidy_keys()
         columns = {role: c for role, c in tidy["columns"].items() if c in table}
         if signal.uncertainty is not None:
             columns.pop("uncertainty", None)
+        if timeless:
+            columns.pop("time", None)
         units = {role: tidy["units"][role] for role in columns}
         update |= {"columns": columns, "units": units, "endothermic": "positive"}
         update |= {"sample_mass_kg": None, "sample_area_m2": None}

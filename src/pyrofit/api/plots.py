@@ -12,6 +12,7 @@ from pyrofit.analysis.uses import title_of
 from pyrofit.api.choices import Key
 from pyrofit.config import Study
 from pyrofit.errors import StudyError, suggest
+from pyrofit.model.heated import HeatedExperiment
 from pyrofit.show import style
 from pyrofit.show.curves import draw_band, label_of
 from pyrofit.show.text import signed
@@ -25,12 +26,16 @@ _DATA: dict[str, Any] = {"linestyle": "none", "marker": ".", "markersize": 3.0}
 _DATA |= {"color": style.MEASURED, "label": "data"}
 
 
-def chosen(keys: Sequence[Key], experiment: str | None, signal: str | None) -> Key:
+def chosen(keys: Sequence[Key], experiment: str | Key | None, signal: str | None) -> Key:
     """Return the one series that a caller means.
 
     >>> chosen([("a", "mlr"), ("b", "mlr")], "b", None)
     ('b', 'mlr')
     """
+    if isinstance(experiment, tuple) and len(experiment) == 2 and signal is None:
+        experiment, signal = experiment
+    if not isinstance(experiment, str | None) or not isinstance(signal, str | None):
+        raise StudyError("experiment and signal are names; give Axes as `ax=`")
     fitting = [key for key in keys if experiment in (None, key[0]) and signal in (None, key[1])]
     if len(fitting) == 1:
         return fitting[0]
@@ -63,7 +68,7 @@ def new_panels(count: int) -> list[Axes]:
 def series(ax: Axes, study: Study, key: Key, frame: pd.DataFrame, look: Mapping[str, Any]) -> None:
     """Draw a series over time, or over the temperature of a heated sample."""
     quantity = study.experiments[key[0]].quantity(key[1])
-    ax.plot(_abscissa(ax, frame), shown(quantity, frame[quantity.column]), **look)
+    ax.plot(_abscissa(ax, study, key, frame), shown(quantity, frame[quantity.column]), **look)
     _labels(ax, study, key)
 
 
@@ -72,7 +77,7 @@ def comparison(
 ) -> None:
     """Draw a measured series with its uncertainty, and the simulated one."""
     quantity = study.experiments[key[0]].quantity(key[1])
-    x = _abscissa(ax, measured)
+    x = _abscissa(ax, study, key, measured)
     draw_band(ax, measured.assign(time_s=x), quantity)
     ax.plot(x, shown(quantity, measured[quantity.column]), **_DATA)
     ax.plot(
@@ -87,7 +92,7 @@ def residuals(
 ) -> None:
     """Draw simulated less measured values; grey: the uncertainty of the measurement."""
     quantity = study.experiments[key[0]].quantity(key[1])
-    x = _abscissa(ax, measured)
+    x = _abscissa(ax, study, key, measured)
     draw_band(ax, measured.assign(time_s=x), quantity, about_zero=True)
     off = simulated[quantity.column].to_numpy(float) - measured[quantity.column].to_numpy(float)
     ax.plot(x, difference(quantity, off), color=style.COLOURS[1], linewidth=0.8)
@@ -127,9 +132,11 @@ def correlation(ax: Axes, table: pd.DataFrame) -> None:
     ax.set_yticks(range(len(table)), list(table.index))
 
 
-def _abscissa(ax: Axes, frame: pd.DataFrame) -> Any:
-    """Return times, or temperatures in °C of a heated sample; label the axis."""
-    if "temperature_K" in frame:
+def _abscissa(ax: Axes, study: Study, key: Key, frame: pd.DataFrame) -> Any:
+    """Return times, or temperatures in °C of a sample with a heating rate; label the axis."""
+    experiment = study.experiments[key[0]]
+    isothermal = isinstance(experiment, HeatedExperiment) and experiment.is_isothermal
+    if "temperature_K" in frame and not isothermal:
         ax.set_xlabel("temperature [°C]")
         return celsius(frame["temperature_K"])
     ax.set_xlabel("time [s]")
@@ -145,7 +152,7 @@ def diagnosed(ax: Axes, study: Study, key: Key, curves: pd.DataFrame, extended: 
     """Draw a measured series, the base model's curve, and that with the effects found."""
     quantity = study.experiments[key[0]].quantity(key[1])
     frame = curves.dropna(axis="columns", how="all")
-    x = _abscissa(ax, frame)
+    x = _abscissa(ax, study, key, frame)
     ax.plot(x, shown(quantity, frame["measured"]), **_DATA)
     ax.plot(x, shown(quantity, frame["before"]), color=style.colour(1), label="base model")
     if extended:

@@ -1,7 +1,9 @@
 """The report of a fit, as text and as HTML."""
 
+import math
 from collections.abc import Iterator
 from dataclasses import dataclass
+from functools import partial
 
 import numpy as np
 import pandas as pd
@@ -24,6 +26,8 @@ class Report:
     study: str
     method: str
     table: pd.DataFrame
+    fixed: pd.DataFrame
+    derived: pd.DataFrame | None
     signals: pd.DataFrame
     correlation: pd.DataFrame | None
     chi2: float
@@ -67,6 +71,10 @@ def _facts(fit: Report) -> list[str]:
 
 def _tables(fit: Report, above: float) -> Iterator[tuple[str, pd.DataFrame]]:
     yield "Parameters", _parameters(fit)
+    if fit.derived is not None and len(fit.derived):
+        yield "Expressions", _derived(fit.derived)
+    if len(fit.fixed):
+        yield "Fixed", fit.fixed
     columns = fit.signals.drop(columns=["cv_rmse", "chi2"], errors="ignore")
     yield "Signals (rmse and noise in the SI unit)", columns
     if fit.correlation is not None:
@@ -80,13 +88,14 @@ def _parameters(fit: Report) -> pd.DataFrame:
     rows = []
     for name, row in fit.table.iterrows():
         known = not np.isnan(row["sd"])
+        write = partial(to_sd, sd=row["sd"]) if known else number
         at = f"at its {row['at_limit']} limit" if row["at_limit"] else ""
         rows.append(
             {
                 "name": name,
-                "value": number(row["value"]),
-                "sd": number(row["sd"]),
-                "95 % interval": f"{number(row['low'])} to {number(row['high'])}" if known else "",
+                "value": write(row["value"]),
+                "sd": write(row["sd"]) if known else "",
+                "95 % interval": f"{write(row['low'])} to {write(row['high'])}" if known else "",
                 "unit": row["unit"],
                 "limits": f"{number(row['lower'])} to {number(row['upper'])}",
                 "remark": row["verdict"] or at,
@@ -95,6 +104,34 @@ def _parameters(fit: Report) -> pd.DataFrame:
     frame = pd.DataFrame(rows)
     empty = [c for c in ("sd", "95 % interval", "remark") if not any(frame[c])]
     return frame.drop(columns=empty)
+
+
+def _derived(table: pd.DataFrame) -> pd.DataFrame:
+    """Return the expressions as they are read."""
+    rows = [
+        {
+            "name": name,
+            "value": to_sd(row["value"], row["sd"]),
+            "sd": to_sd(row["sd"], row["sd"]),
+            "unit": row["unit"],
+            "expression": row["expression"],
+        }
+        for name, row in table.iterrows()
+    ]
+    frame = pd.DataFrame(rows)
+    return frame if any(frame["sd"]) else frame.drop(columns="sd")
+
+
+def to_sd(value: float, sd: float) -> str:
+    """Write a number to two digits of its standard deviation.
+
+    >>> to_sd(604.99831, 0.03759), to_sd(23512.4, 812.0), to_sd(1.5e-9, 2.2e-11)
+    ('604.998', '23512', '1.500e-09')
+    """
+    size = abs(value)
+    if not sd > 0.0 or not np.isfinite(sd) or not (size == 0.0 or 1e-4 <= size < 1e6):
+        return number(value)
+    return f"{value:.{max(0, 1 - math.floor(math.log10(sd)))}f}"
 
 
 def correlations(table: pd.DataFrame, above: float) -> pd.DataFrame:

@@ -3,7 +3,8 @@
 import os
 from pathlib import Path
 
-from pyrofit.config import Study, as_yaml
+from pyrofit.api.studies import Source, read_study
+from pyrofit.config import as_yaml
 from pyrofit.config.programs import externals
 from pyrofit.config.study import is_own
 from pyrofit.errors import StudyError
@@ -13,7 +14,7 @@ from pyrofit.stages.own_files import seen_from
 _COMMENT = "Run it: snakemake --cores 2 --configfile {}"
 
 
-def write_study(study: Study, path: str | os.PathLike[str]) -> Path:
+def write_study(study: Source, path: str | os.PathLike[str]) -> Path:
     """Write a study as a YAML file, which the workflow runs; return its path.
 
     Keys at their defaults are left out. Measured files stay where they are.
@@ -25,7 +26,7 @@ def write_study(study: Study, path: str | os.PathLike[str]) -> Path:
     DataError
         The file cannot be written.
     """
-    path = Path(path)
+    path, study = Path(path), read_study(study)
     if outside := externals(study):
         raise StudyError(
             f"experiments.{min(outside)}: an external program simulates it; change the study's "

@@ -8,7 +8,7 @@ import pandas as pd
 
 from pyrofit.api.choices import complete, in_units
 from pyrofit.api.comparison import compared
-from pyrofit.api.fitted import Fit
+from pyrofit.api.fitted import Fit, derived_table, table_in_units
 from pyrofit.api.measurements import Data, measured
 from pyrofit.config import Study, diagnosed_material
 from pyrofit.errors import StudyError, suggest
@@ -56,15 +56,17 @@ def fit_cost(
     words = "SCE-UA" if optimiser == SCEUA else OPTIMISERS[optimiser].title
     scored = compared(study, problem.values(x), series)
     own = {n: v for n, v in problem.values(x).items() if n in study.parameters}
+    values = in_units(study, own)
     return Fit(
         study=study,
         method=f"cost {cost}, {words}",
-        values=in_units(study, own),
+        values=values,
         table=_table(study, problem, x),
         comparison=scored,
         signals=scored.scores,
         cost=lowest,
-        history=history,
+        history=table_in_units(study, history),
+        derived=derived_table(study, values, None),
     )
 
 

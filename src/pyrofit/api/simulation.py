@@ -4,9 +4,9 @@ from collections.abc import Iterable, Mapping
 
 import pandas as pd
 
-from pyrofit.api.choices import Key, complete, experiments_of, key_of, si_values, with_kinetics_of
+from pyrofit.api.choices import Key, complete, experiments_of, si_values, with_kinetics_of
 from pyrofit.api.curves import Curves, with_units
-from pyrofit.api.measurements import Data, measured
+from pyrofit.api.measurements import Data, given_keys, measured
 from pyrofit.api.studies import Source, read_study
 from pyrofit.config import Study
 from pyrofit.config.resolve import diagnosed_material
@@ -57,7 +57,7 @@ def simulate(
     """
     study = with_kinetics_of(read_study(study), kinetics)
     names = experiments_of(study, experiments)
-    every = complete(study, si_values(study, values or {}), names)
+    every = complete(study, si_values(study, {} if values is None else values), names)
     if data is None:
         requests = {
             name: kind_of(study.experiments[name]).synthetic(
@@ -66,13 +66,9 @@ def simulate(
             for name in names
         }
     else:
-        keys = [key for key in _keys(study, data) if key[0] in names]
+        keys = [key for key in given_keys(study, data) if key[0] in names]
         requests = at_times(study, measured(study, keys, data))
     return Curves(study, simulated(study, every, requests), "simulated")
-
-
-def _keys(study: Study, data: Data) -> list[Key]:
-    return [key_of(study, key) for key in data.keys()]  # noqa: SIM118
 
 
 def at_times(study: Study, series: Mapping[Key, pd.DataFrame]) -> dict[str, dict[str, Request]]:

@@ -2,14 +2,20 @@
 
 import os
 import tempfile
+import warnings
 from collections.abc import Iterable, Mapping
 from pathlib import Path
 from typing import Any
 
+import numpy as np
+import pandas as pd
+
 from pyrofit import config
 from pyrofit.config import Study, as_study
+from pyrofit.config.unusual import unusual
 from pyrofit.config.yaml_file import read_mapping
 from pyrofit.errors import StudyError, suggest
+from pyrofit.new_study.words import assumed
 from pyrofit.new_study.write import drafted
 
 Source = Study | str | os.PathLike[str] | Mapping[str, Any]
@@ -34,6 +40,11 @@ def read_study(source: Source, **changes: Any) -> Study:
     StudyError
         With key, rule and way out for everything that is wrong.
 
+    Warns
+    -----
+    UserWarning
+        Of unusual values, most often because of a wrong unit.
+
     Examples
     --------
     >>> import pyrofit as pf
@@ -46,20 +57,33 @@ def read_study(source: Source, **changes: Any) -> Study:
             return source
         keys = source.model_dump(mode="json")
         new = merged(keys, changes)
-        _check_expressions(keys["parameters"], new["parameters"])
-        return as_study(new, f"{source.name}.json")  # its files are found already
+        _check_kept(keys["parameters"], new["parameters"])
+        return _told(as_study(new, f"study '{source.name}'", located=True))
     if isinstance(source, Mapping):
-        return as_study(merged(source, changes), "study")
+        return _told(as_study(merged(source, changes), "study"))
     path = Path(source)
     if not changes:
-        return config.read_study(path)
-    return as_study(merged(read_mapping(path), changes), str(path))
+        return _told(config.read_study(path))
+    return _told(as_study(merged(read_mapping(path), changes), str(path)))
 
 
-def _check_expressions(old: Mapping[str, Any], new: Mapping[str, Any]) -> None:
-    """Refuse changes of expressions: in a study that was read they stand in all their places."""
+def _told(study: Study) -> Study:
+    """Return the study; warn of its unusual values and names."""
+    for line in unusual(study):
+        warnings.warn(f"study '{study.name}': {line}", stacklevel=3)
+    return study
+
+
+def _check_kept(old: Mapping[str, Any], new: Mapping[str, Any]) -> None:
+    """Refuse changes of expressions, which stand in all their places, and of parameters held."""
     for name, parameter in new.items():
         before = old.get(name, {})
+        held = before.get("fixed") is not None and parameter.get("fixed") is None
+        if held and (parameter.get("lower") is None or parameter.get("upper") is None):
+            raise StudyError(
+                f"parameters.{name}.fixed: a study that was read has no limits of a fixed "
+                "parameter; give `lower` and `upper` as well, and name it under `estimate`"
+            )
         if parameter.get("expression") != before.get("expression"):
             raise StudyError(
                 f"parameters.{name}.expression: a study that was read keeps its expressions; "
@@ -88,9 +112,8 @@ def new_study(name: str, **files: Files) -> Study:
     """Draft a study from measured files, as `pyrofit init` does, without writing anything.
 
     Columns and units are recognised; the material has one reaction and wide limits. Check the
-    facts that the files do not tell, such as thickness and flux, and change them with
-    `read_study`. Where no slab is measured, the study has one whose measurement is computed; `fit`
-    leaves it out.
+    facts that the files do not tell, such as the thickness, and change them with `read_study`. A
+    study of TGA alone has no slab.
 
     Parameters
     ----------
@@ -106,6 +129,11 @@ def new_study(name: str, **files: Files) -> Study:
         The name is no name, the kind is not known, or there is no file.
     DataError
         A file is no table of numbers.
+
+    Warns
+    -----
+    UserWarning
+        Of a heating rate, flux or unit that neither a file nor its name tells.
     """
     paths = {kind: _paths(of) for kind, of in files.items()}
     _check_kinds(paths)
@@ -115,13 +143,20 @@ def new_study(name: str, **files: Files) -> Study:
         draft.write_text(text, encoding="utf-8")
         keys = read_mapping(draft)
     where = {f"data/{record.name}.csv": str(record.path) for record in records if record.path}
-    keys = _with_files(keys, where)
-    return as_study(keys, name)
+    for line in assumed(records):
+        warnings.warn(f"study '{name}': {line}", stacklevel=2)
+    return as_study(_with_files(keys, where), name)
 
 
 def _paths(given: Files) -> list[Path]:
-    one = isinstance(given, str | os.PathLike)
-    return [Path(given)] if one else [Path(file) for file in given]  # type: ignore[arg-type,union-attr]
+    files = [given] if isinstance(given, str | os.PathLike) else given
+    wrong = [f for f in files if not isinstance(f, str | os.PathLike)] if files is not None else [0]
+    if isinstance(files, pd.DataFrame | np.ndarray) or wrong:
+        raise StudyError(
+            "a new study needs paths of files; write a table to a file first, such as "
+            "table.to_csv('tga_10K.csv', index=False)"
+        )
+    return [Path(file) for file in files]
 
 
 def _check_kinds(paths: Mapping[str, list[Path]]) -> None:

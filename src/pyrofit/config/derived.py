@@ -35,6 +35,16 @@ def hold_fixed(given: Mapping[str, Any]) -> dict[str, Any]:
     }
     if not held:
         return dict(given)
+    for name, p in held.items():
+        ends = p.get("lower"), p.get("upper")
+        if (
+            all(isinstance(end, int | float) for end in ends)
+            and not ends[0] <= p["fixed"] <= ends[1]
+        ):
+            raise ValueError(
+                f"parameters.{name}.fixed: {p['fixed']} lies outside the limits {ends[0]:g} to "
+                f"{ends[1]:g}; correct it or delete the limits"
+            )
     alone = {
         name: {k: v for k, v in p.items() if k not in ("lower", "upper")} | {"value": p["fixed"]}
         for name, p in held.items()

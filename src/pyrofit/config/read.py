@@ -24,12 +24,12 @@ from pyrofit.model.base import Part
 from pyrofit.plugins import use_plugins
 
 
-def as_study(given: Mapping[str, Any], source: str) -> Study:
+def as_study(given: Mapping[str, Any], source: str, located: bool = False) -> Study:
     """Check a study description.
 
     Files of the user are found relative to the folder of a YAML ``source``. In JSON, which the
-    workflow wrote of a checked study, they are found already. From then on the study's plugins
-    are known, those of a study read before are not.
+    workflow wrote of a checked study, they are found already, as in keys that are ``located``. From
+    then on the study's plugins are known, those of a study read before are not.
 
     Raises
     ------
@@ -37,7 +37,7 @@ def as_study(given: Mapping[str, Any], source: str) -> Study:
         With source, key, rule and way out for everything that is wrong.
     """
     path = Path(source)
-    folder = None if path.suffix == ".json" else path.parent
+    folder = None if located or path.suffix == ".json" else path.parent
     try:
         refuse_booleans(given)
         use_plugins([(folder or Path()) / name for name in _plugins(given)])

@@ -1,5 +1,6 @@
 """Parts of a study: every key with its description and unit."""
 
+from html import escape
 from typing import Any
 
 from pydantic import Field
@@ -118,6 +119,21 @@ class Study(Part):
         """Measured files of the user that the study reads."""
         files = [s.file for e in self.experiments.values() for s in e.signals.values()]
         return tuple(dict.fromkeys(f for f in files if is_own(f)))
+
+    def __repr__(self) -> str:
+        """List parameters and experiments; the keys of the file are in ``model_dump()``."""
+        lines = [f"study '{self.name}'"]
+        lines += [f"  parameter {n}: {p.words}" for n, p in self.parameters.items()]
+        lines += [
+            f"  experiment {n}: {kind_of(e).words}; {', '.join(e.signals)}"
+            for n, e in self.experiments.items()
+        ]
+        return "\n".join(lines)
+
+    __str__ = __repr__
+
+    def _repr_html_(self) -> str:
+        return f"<pre>{escape(repr(self))}</pre>"
 
     def of_stage(self, stage: Stage) -> dict[str, Any]:
         """Return the experiments that a stage can fit, by name."""

@@ -181,10 +181,15 @@ def likelihood_of(problem: Problem, prior: NormalPrior = NO_PRIOR) -> Likelihood
 
 def fit(likelihood: Likelihood, starts: Sequence[FloatArray]) -> Fit:
     """Descend from the best of several scaled starts that differ; return the lowest end."""
+    return descents(likelihood, starts)[0]
+
+
+def descents(likelihood: Likelihood, starts: Sequence[FloatArray]) -> list[Fit]:
+    """Return the ends of these descents, the lowest chi-square first."""
     chosen: list[FloatArray] = []
     ahead = [float(r @ r) for r in likelihood.residuals_all(np.array(starts))]
     for _, x in sorted(zip(ahead, starts, strict=True), key=lambda pair: pair[0]):
         if all(np.max(np.abs(x - other)) > APART for other in chosen):
             chosen.append(x)
     ends = [likelihood.descend(x) for x in chosen[:DESCENTS]]
-    return min(ends, key=lambda end: end.chi2)
+    return sorted(ends, key=lambda end: end.chi2)

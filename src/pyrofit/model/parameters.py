@@ -81,6 +81,15 @@ class Parameter(Part):
         return self
 
     @property
+    def words(self) -> str:
+        """Value, limits or expression, with the unit."""
+        parts = [] if self.value is None else [f"{self.value:g}"]
+        if self.lower is not None and self.upper is not None:
+            parts.append(f"{self.lower:g} to {self.upper:g}")
+        said = self.expression or ", ".join(parts)
+        return said if self.unit == "-" else f"{said} {self.unit}"
+
+    @property
     def factor(self) -> float:
         """Factor from ``unit`` to SI."""
         return UNITS[self.unit]

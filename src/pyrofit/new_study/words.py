@@ -77,6 +77,21 @@ def said(run: Measured) -> list[str]:
     return lines + [f"{run.path}: '{n}' is not used: {why}" for n, why in run.left.items()]
 
 
+def assumed(records: Iterable[Measured]) -> list[str]:
+    """Say which numbers and units of records are assumed: neither file nor name tells them."""
+    lines = []
+    for run in records:
+        if not run.sure:
+            what = "heating rate" if run.of.stage == "kinetics" else "flux"
+            unit = "K/min" if run.of.stage == "kinetics" else "kW/m2"
+            lines.append(f"{run.path}: no {what} is given; {run.number:g} {unit} is assumed")
+        for found in run.signals:
+            for role in found.guessed:
+                unit = found.units.get(role, "")
+                lines.append(f"{run.path}: the unit of the {role} is guessed: {unit}")
+    return lines
+
+
 def said_of_repeats(tests: Iterable[Measured]) -> list[str]:
     """Say which files are taken as repeats of one test."""
     return [

@@ -1,7 +1,7 @@
 """The start of a step of the search: a fitted model, and its change by each effect."""
 
 from collections.abc import Sequence
-from functools import cache
+from dataclasses import dataclass
 
 import numpy as np
 
@@ -9,6 +9,7 @@ from pyrofit.diagnose.base.adequacy import LackOfFit, lack_of_fit
 from pyrofit.diagnose.base.fit import blurred, is_clearer, refitted, sharpened
 from pyrofit.diagnose.base.fitted import FittedModel
 from pyrofit.diagnose.search.refit import look_at, model_with, with_effect
+from pyrofit.diagnose.search.score_test import Screening
 from pyrofit.diagnose.search.step import SearchContext, SearchStep, most_promising
 from pyrofit.diagnose.settings import SETTINGS
 from pyrofit.parallel import parallel_map
@@ -16,15 +17,28 @@ from pyrofit.parallel import parallel_map
 
 def step_from(trial: FittedModel, effects: Sequence[str], context: SearchContext) -> SearchStep:
     """Return a step from a fitted model: its change by each effect, and its lack of fit."""
-    looks = look_at(trial, effects, context.processes)
+    looks = tuple(look_at(trial, effects, context.processes))
     (rng,) = context.rng.spawn(1)
+    return SearchStep(trial, Lack(trial, looks, rng, context.processes), looks)
 
-    @cache
-    def lack() -> LackOfFit:
-        directions = [look.directions for look in looks]
-        return lack_of_fit(trial.model, trial.fit, directions, rng, context.processes)
 
-    return SearchStep(trial, lack, tuple(looks))
+@dataclass(eq=False)
+class Lack:
+    """Draws the lack of fit of a model when it is first asked for."""
+
+    trial: FittedModel
+    looks: Sequence[Screening]
+    rng: np.random.Generator
+    processes: int
+    found: LackOfFit | None = None
+
+    def __call__(self) -> LackOfFit:
+        """Return the lack of fit."""
+        if self.found is None:
+            directions = [look.directions for look in self.looks]
+            model, fit = self.trial.model, self.trial.fit
+            self.found = lack_of_fit(model, fit, directions, self.rng, self.processes)
+        return self.found
 
 
 def with_sharp_noise(step: SearchStep, context: SearchContext) -> SearchStep:

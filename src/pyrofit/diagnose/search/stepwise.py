@@ -33,7 +33,7 @@ from pyrofit.diagnose.search.step import (
     singles,
     with_forms,
 )
-from pyrofit.diagnose.search.step_start import step_from, with_sharp_noise
+from pyrofit.diagnose.search.step_start import Lack, step_from, with_sharp_noise
 from pyrofit.diagnose.settings import SETTINGS
 
 Fitting = Callable[[Sequence[SearchStep]], Sequence[Sequence[FittedModel]]]
@@ -259,7 +259,9 @@ class _Pass:
             for first in in_the_place(found, effect)[: SETTINGS.most_split]
         ]
         lack = found.end_lack
-        whole = SearchStep(found.base, lambda: lack, (), (found.end,))
+        whole = SearchStep(
+            found.base, Lack(found.end, (), self.context.rng, 1, lack), (), (found.end,)
+        )
         before = len(found.rounds)
         found = self._with_more(found, steps, SETTINGS.most_beside)
         pairs = [t for step in found.rounds[before:] for t in step.trials]
