@@ -9,6 +9,7 @@ from pyrofit.data.csvfile import read_table
 from pyrofit.data.oxygen import heat_release_rate
 from pyrofit.data.series import read_series
 from pyrofit.data.spec import SeriesSpec
+from pyrofit.errors import DataError
 from pyrofit.new_study.draft import measured
 
 TIME = np.arange(0.0, 120.0)
@@ -25,7 +26,8 @@ def oxygen() -> np.ndarray:
     return np.interp(TIME - DELAY, TIME, x)
 
 
-def ftt(path: Path, with_hrr: bool = False) -> Path:
+def ftt(path: Path, with_hrr: bool = False, sep: str = ",", digits: str = ".9g") -> Path:
+    """Write an export of FTT; one with semicolons has decimal commas."""
     keys = {
         "Test": "7",
         "Laboratory name": "Own",
@@ -39,12 +41,13 @@ def ftt(path: Path, with_hrr: bool = False) -> Path:
     columns = [TIME, 70.0 - 0.5 * TIME, 100 * oxygen(), PRESSURE, STACK]
     if with_hrr:
         names, columns = [*names, "HRR (kW/m²)"], [*columns, TRUE]
-    rows = [",".join(f"{x:.9g}" for x in row) for row in zip(*columns, strict=True)]
-    left = [",".join(pair) for pair in keys.items()] + [","] * (len(rows) + 2 - len(keys))
-    text = [",".join(names), "," * (len(names) - 1), *rows]
-    path.write_bytes(
-        "\n".join(f"{a},{b}" for a, b in zip(left, text, strict=True)).encode("cp1252")
-    )
+    rows = [sep.join(f"{x:{digits}}" for x in row) for row in zip(*columns, strict=True)]
+    left = [sep.join(pair) for pair in keys.items()] + [sep] * (len(rows) + 2 - len(keys))
+    text = [sep.join(names), sep * (len(names) - 1), *rows]
+    lines = [f"{a}{sep}{b}" for a, b in zip(left, text, strict=True)]
+    if sep == ";":
+        lines = [line.replace(".", ",") for line in lines]
+    path.write_bytes("\n".join(lines).encode("cp1252"))
     return path
 
 
@@ -83,6 +86,24 @@ def test_ftt_export_is_a_cone_test_with_mass_and_heat_release(tmp_path: Path) ->
     assert any("HRR computed from oxygen" in note for note in series.notes)
     assert {f.quantity for f in run.signals} == {"heat_release_rate", "mass"}
     assert run.number == 50.0
+
+
+@pytest.mark.parametrize("digits", [".9g", ".6f"])
+def test_ftt_export_with_decimal_commas_has_the_same_numbers(tmp_path: Path, digits: str) -> None:
+    path = ftt(tmp_path / "A_Cone_50kW_1.csv", sep=";", digits=digits)
+    table = read_table(path)
+    assert table.columns["Time"].tolist() == TIME.tolist()
+    assert np.allclose(table.columns["Mass"], 70.0 - 0.5 * TIME)
+    assert np.allclose(table.columns["HRR"][:-10] * AREA * 1e3, TRUE[:-10], atol=3.0)
+    assert "exposed area 0.00884 m2: give it as `sample_area_m2` where needed" in table.mended
+    assert "read with decimal commas" in table.mended
+
+
+def test_ftt_export_without_rows_is_refused(tmp_path: Path) -> None:
+    path = tmp_path / "A_Cone_50kW_1.csv"
+    path.write_text("Laboratory name,X,Time (s),Mass (g)\nDate of test,1/2/2024,,\n", "utf-8")
+    with pytest.raises(DataError, match=r"A_Cone_50kW_1.csv: this export .* holds a header and no"):
+        read_table(path)
 
 
 def test_heat_release_of_an_ftt_export_is_kept(tmp_path: Path) -> None:

@@ -5,9 +5,11 @@ from pathlib import Path
 
 import numpy as np
 
-from pyrofit.data.csvheading import is_number
+from pyrofit.data.csvheading import is_number, trim
 from pyrofit.data.line import Line
+from pyrofit.data.numerals import ABSENT, Numerals, is_numeral, numerals_of
 from pyrofit.data.oxygen import FloatArray, heat_release_rate
+from pyrofit.errors import DataError
 from pyrofit.quantities.units import ICE_POINT_K
 
 _FTT_KEYS = {"laboratory name", "c-factor (si units)", "surface area (cm²)", "date of test"}
@@ -37,35 +39,40 @@ def unfolded(path: Path, lines: Sequence[Line], notes: list[str]) -> list[Line]:
     first row and units below. Their keys are in a file beside them, named `Scalar` instead of
     `Scan`. Where a file has no heat release rate, it is computed from the oxygen, see
     `pyrofit.data.oxygen`.
+
+    Raises
+    ------
+    DataError
+        No row holds a number.
     """
     if lines[0].cells[0].casefold() == _DEATAK:
         return _deatak(path, lines, notes)
-    return _ftt(lines, notes)
+    return _ftt(path, lines, notes)
 
 
-def _ftt(lines: Sequence[Line], notes: list[str]) -> list[Line]:
+def _ftt(path: Path, lines: Sequence[Line], notes: list[str]) -> list[Line]:
     known = {line.cells[0].casefold(): line.cells[1] for line in lines if len(line.cells) > 1}
-    names = [cell for cell in lines[0].cells[2:] if cell]
+    names = trim(lines[0].cells[2:])
     rows = [Line(line.number, line.cells[2 : 2 + len(names)]) for line in lines[1:]]
-    rows = [row for row in rows if any(map(is_number, row.cells))]
+    rows = [row for row in rows if any(map(_counts, row.cells))]
+    numerals = _numerals(path, rows)
     notes.append(f"FTT export with {len(known)} keys")
     places = {name.casefold(): i for i, name in enumerate(names)}
-    start = _number(known.get("test start time (s)"))
+    start = _number(known.get("test start time (s)"), numerals)
     if start:
         notes.append(f"the test starts at {start:g} s of the record: give `delay_s: {start:g}`")
-    columns = _columns(
-        rows, places, ("time (s)", "o2 (%)", "dpt (pa)", "stack tc (k)"), (0.0, 0.0, 0.0, 0.0)
-    )
-    area = _number(known.get("surface area (cm²)"))
+    wanted = ("time (s)", "o2 (%)", "dpt (pa)", "stack tc (k)")
+    columns = _columns(rows, places, wanted, (0.0, 0.0, 0.0, 0.0), numerals)
+    area = _number(known.get("surface area (cm²)"), numerals)
     if area:
         notes.append(f"exposed area {area * 1e-4:g} m2: give it as `sample_area_m2` where needed")
     facts = (
         None if area is None else area * 1e-4,
-        _number(known.get("c-factor (si units)")),
-        _number(known.get("o2 delay time (s)")),
+        _number(known.get("c-factor (si units)"), numerals),
+        _number(known.get("o2 delay time (s)"), numerals),
     )
     header = Line(lines[0].number, names)
-    return _with_heat_release([header, *rows], columns, facts, start, notes)
+    return _with_heat_release([header, *rows], columns, facts, start, numerals, notes)
 
 
 def _deatak(path: Path, lines: Sequence[Line], notes: list[str]) -> list[Line]:
@@ -77,14 +84,16 @@ def _deatak(path: Path, lines: Sequence[Line], notes: list[str]) -> list[Line]:
         f"{n} ({words.get(u, u)})" if u else n for n, u in zip(names, units, strict=False) if n
     ]
     rows = [Line(row.number, row.cells[1:]) for row in lines if is_number(row.cells[0])]
+    numerals = _numerals(path, rows)
     notes.append("Deatak scan")
     places = {name.casefold(): i for i, name in enumerate(names)}
-    columns = _columns(
-        rows, places, ("time", "o2 meter", "exh press", "stack tc"), (0.0, 0.0, 0.0, ICE_POINT_K)
-    )
+    wanted = ("time", "o2 meter", "exh press", "stack tc")
+    columns = _columns(rows, places, wanted, (0.0, 0.0, 0.0, ICE_POINT_K), numerals)
     scalars = _scalars(path)
-    facts = tuple(_number(scalars.get(k)) for k in ("surf area", "c factor", "o2 delay time"))
-    return _with_heat_release([Line(lines[0].number, header), *rows], columns, facts, None, notes)
+    keys = ("surf area", "c factor", "o2 delay time")
+    facts = tuple(_number(scalars.get(key), numerals) for key in keys)
+    table = [Line(lines[0].number, header), *rows]
+    return _with_heat_release(table, columns, facts, None, numerals, notes)
 
 
 def _scalars(path: Path) -> dict[str, str]:
@@ -102,6 +111,7 @@ def _columns(
     places: Mapping[str, int],
     names: Sequence[str],
     offsets: Sequence[float],
+    numerals: Numerals,
 ) -> list[FloatArray] | None:
     """Return time, oxygen [%], pressure [Pa] and temperature [K]; None where one is missing."""
     if any(name not in places for name in names):
@@ -110,7 +120,8 @@ def _columns(
     for name, offset in zip(names, offsets, strict=True):
         i = places[name]
         cells = [row.cells[i] if i < len(row.cells) else "" for row in rows]
-        columns.append(np.array([float(c) if is_number(c) else np.nan for c in cells]) + offset)
+        numbers = [numerals.number(cell) for cell in cells]
+        columns.append(np.array([np.nan if x is None else x for x in numbers]) + offset)
     return columns
 
 
@@ -119,6 +130,7 @@ def _with_heat_release(
     columns: list[FloatArray] | None,
     facts: Sequence[float | None],
     start: float | None,
+    numerals: Numerals,
     notes: list[str],
 ) -> list[Line]:
     """Add the heat release rate per area, where the file has none and tells all that it needs."""
@@ -138,7 +150,10 @@ def _with_heat_release(
     width = len(lines[0].cells)
     header = Line(lines[0].number, [*lines[0].cells, "HRR (kW/m2)"])
     rows = [
-        Line(row.number, [*_filled(row.cells, width), f"{x / area / 1e3:.6g}"])
+        Line(
+            row.number,
+            [*_filled(row.cells, width), f"{x / area / 1e3:.6g}".replace(".", numerals.decimal)],
+        )
         for row, x in zip(lines[1:], q, strict=True)
     ]
     return [header, *rows]
@@ -148,5 +163,24 @@ def _filled(cells: Sequence[str], width: int) -> list[str]:
     return [*cells[:width], *[""] * (width - len(cells))]
 
 
-def _number(cell: str | None) -> float | None:
-    return float(cell) if cell is not None and is_number(cell) else None
+def _numerals(path: Path, rows: Sequence[Line]) -> Numerals:
+    """Return how the rows write numbers."""
+    if not rows:
+        raise DataError(
+            f"{path}: this export of a cone calorimeter holds a header and no numbers; the record "
+            "must follow below the names of its columns. Export it again with its rows."
+        )
+    return numerals_of(rows)
+
+
+def _counts(cell: str) -> bool:
+    """Tell whether a cell makes its line a row: a number in any form, or `NaN`."""
+    return is_number(cell) or (is_numeral(cell) and cell.casefold() not in ABSENT)
+
+
+def _number(cell: str | None, numerals: Numerals) -> float | None:
+    """Return the number of a key, in the form of the rows, else in its own."""
+    if cell is None:
+        return None
+    number = numerals.number(cell)
+    return numerals_of([Line(0, [cell])]).number(cell) if number is None else number
