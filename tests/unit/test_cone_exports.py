@@ -11,6 +11,7 @@ from pyrofit.data.series import read_series
 from pyrofit.data.spec import SeriesSpec
 from pyrofit.errors import DataError
 from pyrofit.new_study.draft import measured
+from pyrofit.new_study.words import said, signal_lines
 
 TIME = np.arange(0.0, 120.0)
 C, AREA, AMBIENT, DELAY = 0.042, 0.00884, 0.2095, 8.0
@@ -26,17 +27,26 @@ def oxygen() -> np.ndarray:
     return np.interp(TIME - DELAY, TIME, x)
 
 
-def ftt(path: Path, with_hrr: bool = False, sep: str = ",", digits: str = ".9g") -> Path:
+def ftt(
+    path: Path,
+    with_hrr: bool = False,
+    sep: str = ",",
+    digits: str = ".9g",
+    area: str = "Surface area (cm²)",
+    without: str = "",
+) -> Path:
     """Write an export of FTT; one with semicolons has decimal commas."""
     keys = {
         "Test": "7",
         "Laboratory name": "Own",
         "Date of test": "01/02/2024",
-        "Surface area (cm²)": f"{AREA * 1e4}",
+        area: f"{AREA * 1e4}",
         "C-factor (SI units)": f"{C}",
         "O2 delay time (s)": f"{DELAY}",
         "Test start time (s)": "6",
     }
+    if without:
+        keys[without] = ""
     names = ["Time (s)", "Mass (g)", "O2 (%)", "DPT (Pa)", "Stack TC (K)"]
     columns = [TIME, 70.0 - 0.5 * TIME, 100 * oxygen(), PRESSURE, STACK]
     if with_hrr:
@@ -97,6 +107,26 @@ def test_ftt_export_with_decimal_commas_has_the_same_numbers(tmp_path: Path, dig
     assert np.allclose(table.columns["HRR"][:-10] * AREA * 1e3, TRUE[:-10], atol=3.0)
     assert "exposed area 0.00884 m2: give it as `sample_area_m2` where needed" in table.mended
     assert "read with decimal commas" in table.mended
+
+
+def test_area_of_an_ftt_export_may_be_in_cm2(tmp_path: Path) -> None:
+    table = read_table(ftt(tmp_path / "A_Cone_50kW_1.csv", area="Surface area (cm2)"))
+    assert table.area_m2 == pytest.approx(AREA)
+    assert "HRR" in table.columns
+
+
+@pytest.mark.parametrize("key", ["Surface area (cm²)", "C-factor (SI units)"])
+def test_key_without_which_no_heat_release_is_computed_is_told(tmp_path: Path, key: str) -> None:
+    table = read_table(ftt(tmp_path / "A_Cone_50kW_1.csv", without=key))
+    assert "HRR" not in table.columns
+    assert f"no HRR is computed from the oxygen: {key} not given" in table.mended
+
+
+def test_area_of_an_export_divides_the_mass_in_a_new_study(tmp_path: Path) -> None:
+    run = measured("cone", ftt(tmp_path / "A_Cone_50kW_1.csv"))
+    assert run.frames["mass"]["mass_kg_m2"].iloc[0] == pytest.approx(0.07 / AREA)
+    assert "        sample_area_m2: 0.00884 # of the file" in signal_lines(run)
+    assert any("divided by sample_area_m2 0.00884, of the file" in line for line in said(run))
 
 
 def test_ftt_export_without_rows_is_refused(tmp_path: Path) -> None:

@@ -12,7 +12,8 @@ from pyrofit.data.oxygen import FloatArray, heat_release_rate
 from pyrofit.errors import DataError
 from pyrofit.quantities.units import ICE_POINT_K
 
-_FTT_KEYS = {"laboratory name", "c-factor (si units)", "surface area (cm²)", "date of test"}
+_AREA, _C_FACTOR = "surface area (cm2)", "c-factor (si units)"
+_FTT_KEYS = {"laboratory name", _C_FACTOR, _AREA, "date of test"}
 _DEATAK = "names"
 _FEWEST_KEYS = 2
 _BEFORE = 10
@@ -27,13 +28,15 @@ def is_export(lines: Sequence[Sequence[str]]) -> bool:
     """
     filled = [cells for cells in lines if any(cells)]
     first = [cell.casefold() for cell in filled[0]]
-    keys = {cells[0].casefold() for cells in filled}
+    keys = {_key(cells[0]) for cells in filled}
     ftt = len(keys & _FTT_KEYS) >= _FEWEST_KEYS and "time (s)" in first[2:]
     return ftt or first[:2] == [_DEATAK, "time"]
 
 
-def unfolded(path: Path, lines: Sequence[Line], notes: list[str]) -> list[Line]:
-    """Return the lines of a cone calorimeter's export as a header and rows.
+def unfolded(
+    path: Path, lines: Sequence[Line], notes: list[str]
+) -> tuple[list[Line], float | None]:
+    """Return a cone calorimeter's export as a header and rows, and the exposed area [m2].
 
     The first two columns of FTT's files hold keys and values. The scans of Deatak have names in the
     first row and units below. Their keys are in a file beside them, named `Scalar` instead of
@@ -50,8 +53,8 @@ def unfolded(path: Path, lines: Sequence[Line], notes: list[str]) -> list[Line]:
     return _ftt(path, lines, notes)
 
 
-def _ftt(path: Path, lines: Sequence[Line], notes: list[str]) -> list[Line]:
-    known = {line.cells[0].casefold(): line.cells[1] for line in lines if len(line.cells) > 1}
+def _ftt(path: Path, lines: Sequence[Line], notes: list[str]) -> tuple[list[Line], float | None]:
+    known = {_key(line.cells[0]): line.cells[1] for line in lines if len(line.cells) > 1}
     names = trim(lines[0].cells[2:])
     rows = [Line(line.number, line.cells[2 : 2 + len(names)]) for line in lines[1:]]
     rows = [row for row in rows if any(map(_counts, row.cells))]
@@ -63,19 +66,20 @@ def _ftt(path: Path, lines: Sequence[Line], notes: list[str]) -> list[Line]:
         notes.append(f"the test starts at {start:g} s of the record: give `delay_s: {start:g}`")
     wanted = ("time (s)", "o2 (%)", "dpt (pa)", "stack tc (k)")
     columns = _columns(rows, places, wanted, (0.0, 0.0, 0.0, 0.0), numerals)
-    area = _number(known.get("surface area (cm²)"), numerals)
+    square_cm = _number(known.get(_AREA), numerals)
+    area = square_cm * 1e-4 if square_cm else None
     if area:
-        notes.append(f"exposed area {area * 1e-4:g} m2: give it as `sample_area_m2` where needed")
-    facts = (
-        None if area is None else area * 1e-4,
-        _number(known.get("c-factor (si units)"), numerals),
-        _number(known.get("o2 delay time (s)"), numerals),
-    )
+        notes.append(f"exposed area {area:g} m2: give it as `sample_area_m2` where needed")
+    facts = {
+        "Surface area (cm²)": area,
+        "C-factor (SI units)": _number(known.get(_C_FACTOR), numerals),
+    }
+    delay = _number(known.get("o2 delay time (s)"), numerals)
     header = Line(lines[0].number, names)
-    return _with_heat_release([header, *rows], columns, facts, start, numerals, notes)
+    return _with_heat_release([header, *rows], columns, facts, delay, start, numerals, notes), area
 
 
-def _deatak(path: Path, lines: Sequence[Line], notes: list[str]) -> list[Line]:
+def _deatak(path: Path, lines: Sequence[Line], notes: list[str]) -> tuple[list[Line], float | None]:
     by_key = {line.cells[0].casefold(): line.cells[1:] for line in lines[:8]}
     names, units = by_key[_DEATAK], by_key.get("units", [])
     units = [*units, *[""] * (len(names) - len(units))]
@@ -90,10 +94,11 @@ def _deatak(path: Path, lines: Sequence[Line], notes: list[str]) -> list[Line]:
     wanted = ("time", "o2 meter", "exh press", "stack tc")
     columns = _columns(rows, places, wanted, (0.0, 0.0, 0.0, ICE_POINT_K), numerals)
     scalars = _scalars(path)
-    keys = ("surf area", "c factor", "o2 delay time")
-    facts = tuple(_number(scalars.get(key), numerals) for key in keys)
+    numbers = {key: _number(cell, numerals) for key, cell in scalars.items()}
+    facts = {key: numbers.get(key.casefold()) for key in ("SURF AREA", "C FACTOR")}
+    delay, area = numbers.get("o2 delay time"), facts["SURF AREA"] or None
     table = [Line(lines[0].number, header), *rows]
-    return _with_heat_release(table, columns, facts, None, numerals, notes)
+    return _with_heat_release(table, columns, facts, delay, None, numerals, notes), area
 
 
 def _scalars(path: Path) -> dict[str, str]:
@@ -128,15 +133,36 @@ def _columns(
 def _with_heat_release(
     lines: list[Line],
     columns: list[FloatArray] | None,
-    facts: Sequence[float | None],
+    facts: Mapping[str, float | None],
+    delay: float | None,
     start: float | None,
     numerals: Numerals,
     notes: list[str],
 ) -> list[Line]:
-    """Add the heat release rate per area, where the file has none and tells all that it needs."""
-    area, c_factor, delay = facts
-    has = any("hrr" in name.casefold() for name in lines[0].cells)
-    if has or columns is None or not area or not c_factor:
+    """Add the heat release rate per area, where the file has none and tells all that it needs.
+
+    Parameters
+    ----------
+    lines
+        Header and rows.
+    columns
+        Time, oxygen, pressure and temperature; None where one is missing.
+    facts
+        Exposed area [m2] and C factor, by the file's words for them.
+    delay, start
+        Delay of the oxygen, and start of the test [s].
+    numerals
+        How the file writes numbers.
+    notes
+        Notes on the file, to which those on the heat release rate are added.
+    """
+    area, c_factor = facts.values()
+    if any("hrr" in name.casefold() for name in lines[0].cells):
+        return lines
+    if columns is None or not area or not c_factor:
+        missing = [key for key, number in facts.items() if not number]
+        missing += [] if columns else ["a column of oxygen, pressure or temperature of the duct"]
+        notes.append(f"no HRR is computed from the oxygen: {' and '.join(missing)} not given")
         return lines
     time, percent, pressure, stack = columns
     before = time < start if start else np.arange(time.size) < _BEFORE
@@ -176,6 +202,11 @@ def _numerals(path: Path, rows: Sequence[Line]) -> Numerals:
 def _counts(cell: str) -> bool:
     """Tell whether a cell makes its line a row: a number in any form, or `NaN`."""
     return is_number(cell) or (is_numeral(cell) and cell.casefold() not in ABSENT)
+
+
+def _key(cell: str) -> str:
+    """Return a key in one spelling: `Surface area (cm²)` and `(cm2)` are the same."""
+    return cell.casefold().replace("²", "2").replace("^", "")
 
 
 def _number(cell: str | None, numerals: Numerals) -> float | None:

@@ -2,7 +2,7 @@
 
 import re
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from pathlib import Path
 
 import numpy as np
@@ -45,6 +45,8 @@ class Table:
         Notes on all that is no table in UTF-8 with decimal points.
     faults : dict of str to tuple of int and str
         Line number and text of the first cell that holds no number, by column that has one.
+    area_m2 : float, optional
+        Exposed area of the sample [m2], where the file tells it.
     """
 
     path: Path
@@ -54,6 +56,7 @@ class Table:
     left_out: tuple[int, ...] = ()
     mended: tuple[str, ...] = ()
     faults: dict[str, tuple[int, str]] = field(default_factory=dict)
+    area_m2: float | None = None
 
     def line(self, row: int) -> int:
         """Return the line number, from 1, of a row of the columns."""
@@ -120,8 +123,9 @@ def read_table(path: Path) -> Table:
     delimiter = usual_delimiter(path, raw)
     if is_export([cells_of(path, text, delimiter) for text in raw[:_LOOKED_AT]]):
         lines = [Line(i, cells_of(path, text, delimiter)) for i, text in enumerate(raw, start=1)]
-        first, *rows = unfolded(path, [line for line in lines if any(line.cells)], notes)
-        return _table(path, named_columns(path, [first], notes), rows, notes)
+        (first, *rows), area = unfolded(path, [line for line in lines if any(line.cells)], notes)
+        table = _table(path, named_columns(path, [first], notes), rows, notes)
+        return replace(table, area_m2=area)
     layout = layout_of(path, raw, notes)
     heading = named_columns(path, layout.heading, notes)
     raw = without_footer(path, raw, layout, notes)

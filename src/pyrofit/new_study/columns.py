@@ -50,6 +50,8 @@ class Found:
         Unit by role that the file states and that is not known.
     scale
         Kind of unit of the value, see `pyrofit.quantities.units`; nothing where it is unknown.
+    area_m2
+        Exposed area of the sample [m2], where the file tells it.
     """
 
     signal: str
@@ -60,6 +62,7 @@ class Found:
     missing: tuple[str, ...]
     unread: Mapping[str, str]
     scale: str
+    area_m2: float | None = None
 
     @property
     def of(self) -> Quantity:
@@ -243,4 +246,14 @@ def _found(table: Table, signal: str, quantity: Quantity, headers: Mapping[str, 
         for role in columns
         if role in units and not kind_of(table.units[columns[role]] or "", kinds_of(quantity, role))
     }
-    return Found(signal, quantity.name, columns, written, tuple(guessed), missing, unread, scale)
+    return Found(
+        signal,
+        quantity.name,
+        columns,
+        written,
+        tuple(guessed),
+        missing,
+        unread,
+        scale,
+        table.area_m2,
+    )

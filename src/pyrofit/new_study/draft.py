@@ -125,13 +125,21 @@ def measured(kind: str, path: Path) -> Measured:
 
 
 def divisor_of(found: Found) -> tuple[str, float] | None:
-    """Return key and usual value of a signal's divisor, where its unit asks for one."""
+    """Return key and value of a signal's divisor, where its unit asks for one.
+
+    The value is that of the file, else the usual one, see `is_told`.
+    """
     wanted = found.of.scales[0]
     if PER_AREA.get(found.scale) == wanted:
-        return "sample_area_m2", USUAL_AREA_M2
+        return "sample_area_m2", float(f"{found.area_m2 or USUAL_AREA_M2:.6g}")
     if PER_MASS.get(found.scale) == wanted:
         return "sample_mass_kg", USUAL_MASS_KG
     return None
+
+
+def is_told(found: Found, key: str) -> bool:
+    """Tell whether the file gives the divisor of a signal."""
+    return key == "sample_area_m2" and found.area_m2 is not None
 
 
 def kinetics_of(records: Iterable[Measured]) -> Kinetics:

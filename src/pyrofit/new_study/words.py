@@ -4,7 +4,7 @@ import json
 from collections.abc import Iterable, Mapping
 
 from pyrofit.new_study.columns import Found
-from pyrofit.new_study.draft import Measured, divisor_of
+from pyrofit.new_study.draft import Measured, divisor_of, is_told
 from pyrofit.new_study.plan import Part
 from pyrofit.quantities.units import SCALES
 
@@ -46,7 +46,9 @@ def _signal(run: Measured, found: Found) -> list[str]:
         note = f" # CHANGE where wrong: guessed from the numbers: {guess}" if guess else ""
         lines.append(f"  units: {_mapping(found.units)}{note}")
     if (divisor := divisor_of(found)) is not None:
-        lines.append(f"  {divisor[0]}: {divisor[1]:g} # CHANGE: the values are divided by it")
+        told = is_told(found, divisor[0])
+        why = "of the file" if told else "CHANGE: the values are divided by it"
+        lines.append(f"  {divisor[0]}: {divisor[1]:g} # {why}")
     if found.of.has_sign:
         lines.append("  endothermic: positive # CHANGE to negative where heat released points up")
     if "uncertainty" not in found.columns:
@@ -67,7 +69,8 @@ def said(run: Measured) -> list[str]:
             parts.append(f"{role} '{header}'{how}")
         parts += [f"{role} not recognised: name it in the study" for role in found.missing]
         if (divisor := divisor_of(found)) is not None:
-            parts.append(f"divided by {divisor[0]} {divisor[1]:g}, to be changed in the study")
+            whose = "of the file" if is_told(found, divisor[0]) else "to be changed in the study"
+            parts.append(f"divided by {divisor[0]} {divisor[1]:g}, {whose}")
         if run.timeless:
             told = "" if run.sure else ", to be changed in the study"
             parts.insert(0, f"no times: those of a heating rate of {run.number:g} K/min{told}")
