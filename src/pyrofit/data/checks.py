@@ -13,6 +13,12 @@ from pyrofit.quantities.base import Quantity
 _TOO_LARGE = 1e30
 TEMPERATURES_K = (150.0, 2500.0)
 """Limits of a temperature that is recorded beside a quantity."""
+_NEAR_ZERO = 0.1
+"""Largest first value of a change of mass, as a fraction of its fall."""
+_FAR_BELOW_ZERO = 0.5
+"""A mass that falls further below zero, as a fraction of its largest value, has a wrong zero."""
+_WHOLE = {"%": "100", "1": "1", "-": "1"}
+"""The initial mass in units of a fraction."""
 
 
 def check_finite(path: Path, frame: pd.DataFrame) -> None:
@@ -73,6 +79,43 @@ def check_limits(
                     "(degrees Celsius: degC), else check the mass and area of the sample."
                 )
                 raise _refusal(table, headers[role], row, rule)
+
+
+def check_zero(
+    quantity: Quantity, table: Table, headers: Mapping[str, str], unit: str | None, sign: int = 1
+) -> None:
+    """Refuse the change of a mass, and a mass far below zero; noise about zero is allowed.
+
+    Parameters
+    ----------
+    quantity
+        The quantity; only masses and their fractions are checked.
+    table, headers
+        The file, without rows that hold no value, and its columns by role.
+    unit
+        Unit of the value.
+    sign
+        Sign of the file's values.
+    """
+    if "mass" not in quantity.scales:
+        return
+    mass = sign * table.columns[headers["value"]]
+    row = int(mass.argmin())
+    first, lowest, largest = float(mass[0]), float(mass[row]), float(mass.max())
+    if -lowest <= _FAR_BELOW_ZERO * largest or lowest >= 0.0:
+        return
+    if abs(first) <= -_NEAR_ZERO * lowest:
+        whole = _WHOLE.get(unit or "", f"the initial mass in {unit}" if unit else "that at first")
+        rule = (
+            f"the column starts near 0, at {first:g}, and falls: this looks like a change of "
+            f"mass. Add {whole} to the column, or give a column of the mass itself."
+        )
+    else:
+        rule = (
+            f"a mass is not that far below 0; its largest value is {largest:g}. Subtract the "
+            "blank curve or correct the zero of the balance."
+        )
+    raise _refusal(table, headers["value"], row, rule)
 
 
 def _refusal(table: Table, header: str, row: int, rule: str) -> DataError:

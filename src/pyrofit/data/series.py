@@ -7,7 +7,7 @@ from pathlib import Path
 import numpy as np
 import pandas as pd
 
-from pyrofit.data.checks import check_finite, check_limits, check_order
+from pyrofit.data.checks import check_finite, check_limits, check_order, check_zero
 from pyrofit.data.convert import convert_columns
 from pyrofit.data.csvfile import Table, read_table
 from pyrofit.data.download import sha256
@@ -107,6 +107,8 @@ def read_series(spec: SeriesSpec, read: Callable[[Path], Table] = read_table) ->
         table, stops = without_stops(table, headers["temperature"])
         gaps += stops
     rows = _check_length(table)
+    unit = spec.units.get("value", table.units[headers["value"]])
+    check_zero(spec.of, table, headers, unit, spec.sign)
     # An overflow here is found by `check_finite`.
     with np.errstate(over="ignore", invalid="ignore"):
         frame, notes = convert_columns(spec, table, headers)
