@@ -48,3 +48,13 @@ def test_mass_far_below_zero_is_refused_and_noise_about_zero_is_not(tmp_path: Pa
         read(tmp_path, "mass_fraction", text.format(-12))
     frame = read(tmp_path, "mass_fraction", text.format(-0.2)).frame
     assert frame["mass_fraction"].iloc[-1] == pytest.approx(-0.025)
+
+
+def test_unit_of_the_study_that_differs_from_that_of_the_file_is_noted(tmp_path: Path) -> None:
+    text = "Time (s),MLR [g/m²·s]\n0,1\n1,2\n2,3\n"
+    series = read(tmp_path, "mlr", text, units={"value": "g/m2/min", "time": "s"})
+    assert series.frame["mlr_kg_m2_s"].iloc[0] == pytest.approx(1e-3 / 60.0)
+    said = "the value is read in g/m2/min, as the study says; the file says g/m²·s"
+    assert [note for note in series.notes if "as the study says" in note] == [said]
+    same = read(tmp_path, "mlr", text, units={"value": "g/(m2 s)"})
+    assert not any("as the study says" in note for note in same.notes)

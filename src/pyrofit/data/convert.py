@@ -46,6 +46,7 @@ def convert_columns(
     kinds = spec.of.scales
     value, kind = to_si(spec, table, headers, "value", kinds)
     divisor, notes = _divisor(spec, kind, float(value[0]))
+    notes += _overridden(spec, table, headers)
     data[spec.of.column] = spec.sign * value / divisor
     if spec.sign < 0:
         notes.append("the sign is changed")
@@ -61,6 +62,27 @@ def convert_columns(
         limit, _ = to_si(spec, table, headers, role, (kind,))
         data[spec.of.limit_columns[role]] = limit / divisor
     return pd.DataFrame(data), notes
+
+
+def _overridden(spec: SeriesSpec, table: Table, headers: Mapping[str, str]) -> list[str]:
+    """Note units of the study that convert a column otherwise than the file's own would."""
+    notes = []
+    for role, unit in spec.units.items():
+        stated = table.units[headers[role]]
+        kinds = spec.of.scales if role not in ("time", "temperature") else (role,)
+        of_file, of_study = _meaning(stated or "", kinds), _meaning(unit, kinds)
+        if of_file and of_study and of_file != of_study:
+            notes.append(f"the {role} is read in {unit}, as the study says; the file says {stated}")
+    return notes
+
+
+def _meaning(unit: str, kinds: Sequence[str]) -> tuple[str, float, float] | None:
+    """Return kind, factor and zero of a unit; None where it is unknown."""
+    for kind in kinds:
+        for word, factor in SCALES[kind].items():
+            if unit_key(word) == unit_key(unit):
+                return kind, factor, ZEROS_K.get(word, 0.0)
+    return None
 
 
 def to_si(
