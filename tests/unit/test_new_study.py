@@ -335,6 +335,47 @@ def test_two_columns_that_may_have_one_role_are_left_to_the_user(
     assert "value not recognised" in capsys.readouterr().out
 
 
+TWO_TIMES = {
+    "seconds first": ("Time (s),Time (min),Temperature (C),Mass (mg)", 60.0, 1.0, "Time (s)"),
+    "minutes first": ("Time (min),Time (s),Temperature (C),Mass (mg)", 1.0, 60.0, "Time (min)"),
+    "other words": ("Elapsed (min),t [s],Elapsed time [h],T [C],m [mg]", 1.0, 60.0, "t"),
+}
+
+
+@pytest.mark.parametrize(("header", "one", "other", "taken"), TWO_TIMES.values(), ids=TWO_TIMES)
+def test_one_of_two_columns_of_the_same_times_is_taken(
+    header: str, one: float, other: float, taken: str, folder: Path
+) -> None:
+    times = [one * MINUTES, other * MINUTES, *[MINUTES / 60.0] * header.count("[h]")]
+    write("tga_20K.csv", header, *times, TEMPERATURE_K - 273.15, 5.0 * MASS)
+    run = draft.measured("tga", Path("tga_20K.csv"))
+    assert not run.timeless
+    assert run.signals[0].columns["time"] == taken
+    np.testing.assert_allclose(run.frames["mass_fraction"]["time_s"], 60.0 * MINUTES, rtol=1e-8)
+    assert run.number == pytest.approx(RATE_K_MIN)
+
+
+def test_two_columns_of_different_times_are_asked_for(
+    folder: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    header = "Time (min),Time (s),Temperature (C),Mass (mg)"
+    write("tga_20K.csv", header, MINUTES, 60.0 * MINUTES + 300.0, TEMPERATURE_K - 273.15, MASS)
+    assert cli.main(["init", "wood", "--tga", "tga_20K.csv"]) == 0
+    said, text = capsys.readouterr().out, Path("wood/wood.yaml").read_text("utf-8")
+    assert "no times" not in said
+    assert "time not recognised: name it in the study" in said
+    assert "# CHANGE: no one column is recognised as time." in text
+    assert "from_temperature" not in text
+
+
+def test_temperature_of_the_sample_comes_before_another(folder: Path) -> None:
+    columns = (MINUTES, TEMPERATURE_K - 250.0, TEMPERATURE_K - 273.15, 5.0 * MASS)
+    write("tga_10K.csv", "Time (min),Temp. (°C),Sample temp. (°C),Mass (mg)", *columns)
+    run = draft.measured("tga", Path("tga_10K.csv"))
+    assert run.signals[0].columns["temperature"] == "Sample temp."
+    np.testing.assert_allclose(run.frames["mass_fraction"]["temperature_K"], TEMPERATURE_K)
+
+
 def test_guessed_unit_is_told_and_marked(folder: Path, capsys: pytest.CaptureFixture[str]) -> None:
     write("run_25.csv", "t,MLR", SECONDS, 1e3 * MLR)
     made("--gasification", "run_25.csv")

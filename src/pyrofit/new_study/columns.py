@@ -7,10 +7,9 @@ import numpy as np
 
 from pyrofit.data.csvfile import Table, holds_unclear_numbers
 from pyrofit.experiments import measurable
+from pyrofit.new_study.abscissae import candidates
 from pyrofit.new_study.headers import (
-    is_abscissa,
     is_error,
-    is_of_sample,
     is_usual,
     may_be,
     root_of,
@@ -80,10 +79,13 @@ class Recognised:
         The recognised signals.
     left
         Why a column is not taken, by header.
+    timeless
+        Whether no column may be the time.
     """
 
     signals: tuple[Found, ...]
     left: Mapping[str, str]
+    timeless: bool = False
 
 
 def recognise(table: Table, kind: str) -> Recognised:
@@ -112,11 +114,9 @@ def recognise(table: Table, kind: str) -> Recognised:
         if not np.nan_to_num(numbers).any() and not holds_unclear_numbers(table, name)
     ]
     left = {n: "zero throughout, a placeholder" for n in empty if n not in table.faults}
-    shared = {
-        role: _shared(table, quantities, role, empty)
-        for role in dict.fromkeys(r for q in quantities for r in q.roles)
-        if role not in _OWN
-    }
+    roles = dict.fromkeys(r for q in quantities for r in q.roles if r not in _OWN)
+    possible = {role: candidates(table, quantities, role, empty) for role in roles}
+    shared = {role: names[0] if len(names) == 1 else "" for role, names in possible.items()}
     taken = {*empty, *shared.values()}
     signals, unclear = _signals(table, [n for n in table.columns if n not in taken], quantities)
     left |= unclear
@@ -124,25 +124,12 @@ def recognise(table: Table, kind: str) -> Recognised:
     found = _all_found(table, signals, shared)
     used = {header for one in found for header in one.columns.values()}
     reasons = {n: left.get(n) or unused(table, n, kind) for n in table.columns if n not in used}
-    return Recognised(found, reasons)
+    return Recognised(found, reasons, timeless=not possible.get("time"))
 
 
 def _rank(quantity: Quantity) -> tuple[bool, bool, bool, str]:
     """Order quantities: rates, then others that show a released mass, temperatures last."""
     return not quantity.relative, quantity.released is None, quantity.is_temperature, quantity.name
-
-
-def _shared(table: Table, quantities: Sequence[Quantity], role: str, empty: Sequence[str]) -> str:
-    """Return the column of time or temperature; nothing where none, or more than one, may be it."""
-    free = [n for n in table.columns if role == "time" or n not in empty]
-    usual = {header_key(name) for q in quantities for name in q.roles.get(role, ())}
-    matches = [n for n in free if header_key(n) in usual] or [
-        n for n in free if is_abscissa(n, role)
-    ]
-    if len(matches) > 1 and role == "temperature":
-        # Beside the programme's stands that of the sample.
-        matches = [n for n in matches if is_of_sample(n)]
-    return matches[0] if len(matches) == 1 else ""
 
 
 def _signals(

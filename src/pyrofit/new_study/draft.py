@@ -98,7 +98,9 @@ def measured(kind: str, path: Path) -> Measured:
     files = files_of(kind)
     number, sure = files.number.find(path.stem)
     signals = recognised.signals
-    timeless = all(found.missing == ("time",) and found.of.against_temperature for found in signals)
+    timeless = recognised.timeless and all(
+        found.missing == ("time",) and found.of.against_temperature for found in signals
+    )
     if timeless:
         signals = tuple(replace(found, missing=()) for found in signals)
     frames, thinned = _frames(table, signals, number / 60.0 if timeless else None)

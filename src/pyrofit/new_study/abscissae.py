@@ -1,0 +1,49 @@
+"""The columns of time and temperature, which the signals of a file share."""
+
+from collections.abc import Sequence
+
+import numpy as np
+
+from pyrofit.data.csvfile import Table
+from pyrofit.new_study.headers import is_abscissa, is_of_sample
+from pyrofit.new_study.units import kind_of, stated_unit
+from pyrofit.quantities.base import Quantity
+from pyrofit.quantities.units import SCALES, header_key, unit_key
+
+_SAME = 1e-3
+"""Largest difference of two columns of the same times, as a fraction of the last one."""
+
+
+def candidates(
+    table: Table, quantities: Sequence[Quantity], role: str, empty: Sequence[str]
+) -> list[str]:
+    """Return the columns that may be the time or the temperature; one where it is clear.
+
+    Of several times that agree, one is taken; of several temperatures, that of the sample.
+    """
+    free = [n for n in table.columns if role == "time" or n not in empty]
+    usual = {header_key(name) for q in quantities for name in q.roles.get(role, ())}
+    known = [n for n in free if header_key(n) in usual]
+    named = [n for n in free if is_abscissa(n, role)]
+    if role == "temperature":
+        # Beside the programme's or the furnace's stands that of the sample.
+        of_sample = [n for n in named if is_of_sample(n)]
+        return of_sample if len(of_sample) == 1 else known or of_sample or named
+    numbers = [n for n in known or named if not np.isnan(table.columns[n]).all()]
+    if len(numbers) > 1 and _agree(table, numbers):
+        return numbers[:1]
+    return numbers or known or named
+
+
+def _agree(table: Table, names: Sequence[str]) -> bool:
+    """Tell whether columns hold the same times, each in its own unit."""
+    seconds = []
+    for name in names:
+        unit, read = stated_unit(table, name, ("time",))
+        factor = next((f for w, f in SCALES["time"].items() if unit_key(w) == unit_key(unit)), None)
+        if not read or factor is None or not kind_of(unit, ("time",)):
+            return False
+        seconds.append(factor * table.columns[name])
+    span = float(np.nanmax(np.abs(seconds[0])))
+    first, *others = seconds
+    return all(np.allclose(other, first, 0.0, _SAME * span, equal_nan=True) for other in others)
