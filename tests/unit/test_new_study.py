@@ -586,6 +586,42 @@ def test_every_column_that_is_not_used_is_told_with_the_reason(
         assert f'# Not used: column "{name}": {why}' in text
 
 
+APPARATUS = {
+    "flow of a gas": ("mdot_N2 (g/s)", "gasification"),
+    "exhaust": ("Temp exhaust (C)", "gasification"),
+    "heater": ("Heater surface temperature (C)", "gasification"),
+    "gas over the sample": ("T_top_gas (C)", "gasification"),
+    "purge of the sample": ("Sample purge flow (mL/min)", "gasification"),
+    "air": ("Temp. air [°C]", "cone"),
+    "duct": ("DuctTemp (K)", "cone"),
+}
+
+
+@pytest.mark.parametrize(("header", "kind"), APPARATUS.values(), ids=APPARATUS)
+def test_column_of_a_gas_or_the_apparatus_is_not_taken_for_the_sample(
+    header: str, kind: str, folder: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    write("slab_25.csv", f"Time [s],Mass [g],{header}", SECONDS, 70.0 - SECONDS / 20.0, BACK_K)
+    made(f"--{kind}", "slab_25.csv")
+    assert "is not used: it is of a gas or the apparatus, not of the" in capsys.readouterr().out
+    assert [f.quantity for f in draft.measured(kind, Path("slab_25.csv")).signals] == ["mass"]
+
+
+def test_rate_measured_in_nitrogen_is_that_of_the_sample(folder: Path) -> None:
+    write("slab_25.csv", "Time [s],MLR N2 [g/m2/s],T_back N2 probe [K]", SECONDS, 1e3 * MLR, BACK_K)
+    run = draft.measured("gasification", Path("slab_25.csv"))
+    assert [f.quantity for f in run.signals] == ["mlr", "back_temperature"]
+
+
+@pytest.mark.parametrize("kind", ["cone", "mcc"])
+def test_total_of_the_heat_release_is_no_rate(kind: str, folder: Path) -> None:
+    header = "Time [s],Temperature [C],Total Heat Release"
+    write("run_25.csv", header, SECONDS, SECONDS, SECONDS)
+    run = draft.measured(kind, Path("run_25.csv"))
+    assert all(header != "Total Heat Release" for f in run.signals for header in f.columns.values())
+    assert run.left["Total Heat Release"] == "it is a total over the test, not a rate"
+
+
 def test_flux_that_no_name_tells_is_marked(folder: Path) -> None:
     write("slab.csv", "Time [s],MLR [g/m2/s]", SECONDS, 1e3 * MLR)
     made("--gasification", "slab.csv")

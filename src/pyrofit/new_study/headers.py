@@ -8,6 +8,21 @@ from pyrofit.quantities.base import Quantity
 from pyrofit.quantities.units import header_key
 
 _ERROR = re.compile(r"err(or)?|unc(ertainty)?|sigma|std(ev|dev)?|deviation|sd$")
+_PLACES = (
+    *("exhaust", "duct", "stack", "flue", "chimney", "hood", "heater", "furnace", "oven"),
+    *("ambient", "room", "surround", "environment", "purge", "carrier", "coolant"),
+    *("abluft", "ofen", "heizer", "raum", "umgebung"),
+)
+_GASES = ("air", "luft", "n2", "o2", "ar", "he", "nitrogen", "oxygen", "argon", "stickstoff")
+_KINDS_OF_GAS = ("off", "flue", "exhaust", "purge", "carrier", "process", "ab", "spül")
+_APPARATUS = re.compile(
+    rf"t?({'|'.join(_KINDS_OF_GAS)})?gas(es|temp.*|flow.*)?|({'|'.join(_PLACES)}).*"
+    rf"|{'|'.join(_GASES)}"
+)
+"""Words for parts of the apparatus and for gases, of which flows and temperatures are recorded."""
+_OF_SAMPLE = re.compile(
+    r"sample(?!purge|gas)|specimen|probe|mlr|massloss|massenverlust|abbrand|hrr|heatrelease"
+)
 _WORDS = {
     "time": r"time.*|(elapsed|test)time|zeit",
     "temperature": r"(sample|program|furnace)?temp.*|(proben|ofen)temp.*|ts",
@@ -32,10 +47,21 @@ def is_of_sample(name: str) -> bool:
     return bool(re.match(r"sample|probe|ts$", stem_of(name)))
 
 
+def is_foreign(name: str) -> bool:
+    """Tell whether a header names a gas or a part of the apparatus, and not the sample.
+
+    >>> [is_foreign(name) for name in ("Temp exhaust", "mdot_N2", "MLR_N2", "T_back")]
+    [True, True, False, False]
+    """
+    words = re.split(r"[\W_]+", re.sub(r"(?<=[a-z])(?=[A-Z])", " ", split_unit(name)[0]))
+    foreign = any(_APPARATUS.fullmatch(word.casefold()) for word in words)
+    return foreign and not _OF_SAMPLE.search(stem_of(name))
+
+
 def may_be(name: str, quantity: Quantity) -> bool:
     """Tell whether the words of a header are those of a quantity."""
     stem = stem_of(name)
-    if _ERROR.search(stem):
+    if _ERROR.search(stem) or is_foreign(name):
         return False
     if stem == "t":  # the symbol of a temperature
         return name.startswith("T") and quantity.is_temperature

@@ -6,9 +6,11 @@ import numpy as np
 
 from pyrofit.data.csvfile import Table
 from pyrofit.experiments import KINDS, OF_FILES, measurable
-from pyrofit.new_study.headers import is_abscissa, is_usual, may_be, stem_of
+from pyrofit.new_study.headers import is_abscissa, is_foreign, is_usual, may_be, stem_of
 
 _DERIVATIVE = re.compile(r"dtg.*|ddsc.*|d[tmw]?/d[tT].*|deriv.*|.*derivative.*")
+_TOTAL = re.compile(r"thr|(total|cumul|integr)(?!.*rate).*heat.*|.*heatreleased.*")
+_MEASURED = re.compile(r"t|t[^a-z].*|t(gas|top|front|back|surf).*|.*temp.*|.*(flow|mdot|flux).*")
 
 
 def unused(table: Table, header: str, kind: str) -> str:
@@ -17,6 +19,10 @@ def unused(table: Table, header: str, kind: str) -> str:
         return "it holds text"
     if _DERIVATIVE.fullmatch(stem_of(header)):
         return "it is the derivative of another column"
+    if _TOTAL.fullmatch(stem_of(header)):
+        return "it is a total over the test, not a rate"
+    if _is_of_apparatus(header, kind):
+        return "it is of a gas or the apparatus, not of the sample"
     if any(is_abscissa(header, role) for role in ("time", "temperature")):
         return "another column is taken for the time or the temperature, or several may be it"
     others = _other_kinds(header, kind)
@@ -28,6 +34,17 @@ def unused(table: Table, header: str, kind: str) -> str:
             f"give the file after {options} if it is one"
         )
     return "not recognised"
+
+
+def _is_of_apparatus(header: str, kind: str) -> bool:
+    """Tell whether a header names a flow or a temperature of a gas or of the apparatus.
+
+    The temperature of a furnace may stand for that of a heated sample.
+    """
+    if not is_foreign(header) or not _MEASURED.fullmatch(stem_of(header)):
+        return False
+    heated = any(quantity.against_temperature for quantity in measurable(kind).values())
+    return not (heated and is_abscissa(header, "temperature"))
 
 
 def _other_kinds(header: str, kind: str) -> tuple[str, list[str]] | None:
