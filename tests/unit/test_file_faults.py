@@ -58,3 +58,12 @@ def test_unit_of_the_study_that_differs_from_that_of_the_file_is_noted(tmp_path:
     assert [note for note in series.notes if "as the study says" in note] == [said]
     same = read(tmp_path, "mlr", text, units={"value": "g/(m2 s)"})
     assert not any("as the study says" in note for note in same.notes)
+
+
+def test_column_without_values_is_not_called_zero(tmp_path: Path) -> None:
+    text = "Time (s),MLR (kg/m2/s),Temp\n0,{0},NaN\n1,{0},NaN\n2,{0},NaN\n"
+    assert "left out, without values: Temp" in read(tmp_path, "mlr", text.format(1)).notes
+    with pytest.raises(DataError, match=r"value of mlr; .* Without values: MLR, Temp"):
+        read(tmp_path, "mlr", text.format("NaN"))
+    with pytest.raises(DataError, match="column 'MLR': it holds no values; the value must be"):
+        read(tmp_path, "mlr", text.format("NaN"), columns={"value": "MLR"})

@@ -572,8 +572,10 @@ def test_file_of_a_real_laboratory_gives_a_study_that_is_valid(file: str, folder
 def test_every_column_that_is_not_used_is_told_with_the_reason(
     folder: Path, capsys: pytest.CaptureFixture[str]
 ) -> None:
-    header = "Time [s],MLR [g/m2/s],Smoothed mass loss rate [g/m2/s],Oxygen [%],TC back 1 [K]"
-    columns = (SECONDS, 1e3 * MLR, 1e3 * MLR, 20.0 + 0.0 * MLR, 0.0 * MLR)
+    header = (
+        "Time [s],MLR [g/m2/s],Smoothed mass loss rate [g/m2/s],Oxygen [%],TC back 1 [K],CO [%]"
+    )
+    columns = (SECONDS, 1e3 * MLR, 1e3 * MLR, 20.0 + 0.0 * MLR, 0.0 * MLR, np.nan * MLR)
     write("slab_25.csv", header, *columns)
     made("--gasification", "slab_25.csv")
     said, text = capsys.readouterr().out, Path("wood/wood.yaml").read_text("utf-8")
@@ -581,6 +583,7 @@ def test_every_column_that_is_not_used_is_told_with_the_reason(
         "Smoothed mass loss rate": "may be mlr as well",
         "Oxygen": "not recognised",
         "TC back 1": "zero throughout",
+        "CO": "it holds no values",
     }.items():
         assert f"'{name}' is not used: {why}" in said
         assert f'# Not used: column "{name}": {why}' in text
@@ -620,6 +623,15 @@ def test_total_of_the_heat_release_is_no_rate(kind: str, folder: Path) -> None:
     run = draft.measured(kind, Path("run_25.csv"))
     assert all(header != "Total Heat Release" for f in run.signals for header in f.columns.values())
     assert run.left["Total Heat Release"] == "it is a total over the test, not a rate"
+
+
+def test_derivative_of_the_mass_is_the_rate_of_a_slab_that_has_no_other(folder: Path) -> None:
+    write("slab_25.csv", "Time [s],dm/dt (g/s)", SECONDS, 1e3 * MLR * 0.01)
+    run = draft.measured("gasification", Path("slab_25.csv"))
+    np.testing.assert_allclose(run.frames["mlr"]["mlr_kg_m2_s"], MLR, rtol=1e-8)
+    write("slab_25.csv", "Time [s],dm/dt (g/s),MLR [g/m2/s]", SECONDS, MLR, 1e3 * MLR)
+    (found,) = draft.measured("gasification", Path("slab_25.csv")).signals
+    assert found.columns["value"] == "MLR"
 
 
 def test_flux_that_no_name_tells_is_marked(folder: Path) -> None:

@@ -117,7 +117,7 @@ def read_series(spec: SeriesSpec, read: Callable[[Path], Table] = read_table) ->
     check_limits(spec.of, table, headers, frame)
     notes = [*table.mended, *notes, *gaps]
     if unread := [name for name in dummies if name not in headers.values()]:
-        notes.append(f"left out, zero throughout: {', '.join(unread)}")
+        notes += [f"left out, {words}" for words in _absent(table, unread)]
     if negative := int((frame[spec.of.column] < 0.0).sum()):
         notes.append(f"{negative} of {rows} values are negative")
     notes += _remarks(spec.of, frame)
@@ -125,6 +125,14 @@ def read_series(spec: SeriesSpec, read: Callable[[Path], Table] = read_table) ->
     notes += thinned
     digest = sha256(spec.path)
     return Measurement(spec.of, frame, spec.path, digest, spec.uncertainty_meaning, tuple(notes))
+
+
+def _absent(table: Table, names: Sequence[str]) -> list[str]:
+    """Say which of some columns are zero throughout, and which hold no values."""
+    empty = [name for name in names if np.isnan(table.columns[name]).all()]
+    zero = [name for name in names if name not in empty]
+    given = {"zero throughout": zero, "without values": empty}
+    return [f"{why}: {', '.join(those)}" for why, those in given.items() if those]
 
 
 def _check_length(table: Table) -> int:
@@ -175,11 +183,13 @@ def _assign_columns(spec: SeriesSpec, table: Table, dummies: Sequence[str]) -> d
             raise DataError(
                 f"{table.path}: {problem} the {role} of {spec.quantity}; name the right one in "
                 f"the study: `columns: {{{role}: ...}}`. {suggest(known[0], usable)}"
-                + (f" Zero throughout: {', '.join(dummies)}." if dummies else "")
+                + "".join(f" {words[0].upper()}{words[1:]}." for words in _absent(table, dummies))
             )
         if matches[0] in dummies and role != "time":
+            empty = np.isnan(table.columns[matches[0]]).all()
+            what = "it holds no values" if empty else "zero throughout, a placeholder"
             raise DataError(
-                f"{table.path}, column '{matches[0]}': zero throughout, a placeholder; the {role} "
+                f"{table.path}, column '{matches[0]}': {what}; the {role} "
                 "must be measured. Give another column or another file."
             )
         if matches[0] in headers.values():

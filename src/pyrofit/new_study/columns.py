@@ -5,7 +5,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from pyrofit.data.csvfile import Table, holds_unclear_numbers
+from pyrofit.data.csvfile import Table
 from pyrofit.experiments import measurable
 from pyrofit.new_study.abscissae import candidates
 from pyrofit.new_study.headers import (
@@ -15,7 +15,7 @@ from pyrofit.new_study.headers import (
     root_of,
     stem_of,
 )
-from pyrofit.new_study.reasons import unused
+from pyrofit.new_study.reasons import is_empty, unused
 from pyrofit.new_study.units import guessed_unit, kind_of, kinds_of, stated_unit
 from pyrofit.quantities import known_quantities
 from pyrofit.quantities.base import Quantity
@@ -108,18 +108,12 @@ def recognise(table: Table, kind: str) -> Recognised:
     {'time': 'min', 'temperature': 'degC', 'value': '%'}
     """
     quantities = sorted(measurable(kind).values(), key=_rank)
-    empty = [
-        name
-        for name, numbers in table.columns.items()
-        if not np.nan_to_num(numbers).any() and not holds_unclear_numbers(table, name)
-    ]
-    left = {n: "zero throughout, a placeholder" for n in empty if n not in table.faults}
+    empty = [name for name in table.columns if is_empty(table, name)]
     roles = dict.fromkeys(r for q in quantities for r in q.roles if r not in _OWN)
     possible = {role: candidates(table, quantities, role, empty) for role in roles}
     shared = {role: names[0] if len(names) == 1 else "" for role, names in possible.items()}
     taken = {*empty, *shared.values()}
-    signals, unclear = _signals(table, [n for n in table.columns if n not in taken], quantities)
-    left |= unclear
+    signals, left = _signals(table, [n for n in table.columns if n not in taken], quantities)
     signals = signals or {quantities[0].name: (quantities[0], "")}
     found = _all_found(table, signals, shared)
     used = {header for one in found for header in one.columns.values()}

@@ -4,17 +4,28 @@ import re
 
 import numpy as np
 
-from pyrofit.data.csvfile import Table
+from pyrofit.data.csvfile import Table, holds_unclear_numbers
 from pyrofit.experiments import KINDS, OF_FILES, measurable
 from pyrofit.new_study.headers import is_abscissa, is_foreign, is_usual, may_be, stem_of
 
+NO_VALUES = "it holds no values"
+PLACEHOLDER = "zero throughout, a placeholder"
 _DERIVATIVE = re.compile(r"dtg.*|ddsc.*|d[tmw]?/d[tT].*|deriv.*|.*derivative.*")
 _TOTAL = re.compile(r"thr|(total|cumul|integr)(?!.*rate).*heat.*|.*heatreleased.*")
 _MEASURED = re.compile(r"t|t[^a-z].*|t(gas|top|front|back|surf).*|.*temp.*|.*(flow|mdot|flux).*")
 
 
+def is_empty(table: Table, header: str) -> bool:
+    """Tell whether a column holds nothing but zeros and cells without a value, or text."""
+    return not np.nan_to_num(table.columns[header]).any() and not holds_unclear_numbers(
+        table, header
+    )
+
+
 def unused(table: Table, header: str, kind: str) -> str:
     """Say why a column that is no quantity of a kind of experiment is left out."""
+    if is_empty(table, header) and header not in table.faults:
+        return NO_VALUES if np.isnan(table.columns[header]).all() else PLACEHOLDER
     if header in table.faults and np.isnan(table.columns[header]).all():
         return "it holds text"
     if _DERIVATIVE.fullmatch(stem_of(header)):

@@ -4,6 +4,7 @@ import numpy as np
 
 from pyrofit.doctor.examined import Examined
 from pyrofit.doctor.signals import in_time
+from pyrofit.new_study.reasons import NO_VALUES, PLACEHOLDER
 
 _ROWS = 10
 _SHARE = 0.02
@@ -14,9 +15,9 @@ def check_placeholders(seen: Examined) -> None:
     table = seen.table
     assert table is not None
     for header, why in seen.left.items():
-        if "placeholder" in why:
-            empty = np.isnan(table.columns[header]).all()
-            seen.say("placeholder", "note", "empty" if empty else "zero throughout", header)
+        if why in (NO_VALUES, PLACEHOLDER):
+            text = "empty" if why == NO_VALUES else "zero throughout"
+            seen.say("placeholder", "note", text, header)
     for signal in seen.signals.values():
         cells = table.columns.get(signal.header)
         if cells is not None and (absent := int(np.isnan(cells).sum())):
