@@ -3,10 +3,12 @@
 from pathlib import Path
 from typing import Any
 
+import numpy as np
 import pytest
 
 from pyrofit.data.series import Measurement, read_series
 from pyrofit.data.spec import SeriesSpec
+from pyrofit.doctor.report import examine_folder
 from pyrofit.errors import DataError
 
 TGA = """Time,Temperature,Mass
@@ -21,6 +23,15 @@ def read(folder: Path, quantity: str, text: str, **options: Any) -> Measurement:
     path = folder / "run.csv"
     path.write_text(text, encoding="utf-8")
     return read_series(SeriesSpec(quantity, path, **options))
+
+
+def heated(path: Path, mass: np.ndarray) -> Path:
+    """Write a record of a heated sample."""
+    T = np.linspace(300.0, 900.0, mass.size)
+    rows = [f"{6.0 * (x - 300.0):.7g},{x:.7g},{m:.7g}" for x, m in zip(T, mass, strict=True)]
+    text = "\n".join(["Time (s),Temperature (K),Mass (mg)", *rows])
+    path.write_text(text, encoding="utf-8")
+    return path
 
 
 CHANGES = {
@@ -67,3 +78,50 @@ def test_column_without_values_is_not_called_zero(tmp_path: Path) -> None:
         read(tmp_path, "mlr", text.format("NaN"))
     with pytest.raises(DataError, match="column 'MLR': it holds no values; the value must be"):
         read(tmp_path, "mlr", text.format("NaN"), columns={"value": "MLR"})
+
+
+def test_file_of_one_column_has_no_further_one_to_name(tmp_path: Path) -> None:
+    text = "Time (s),\n0,\n1,\n2,\n"
+    with pytest.raises(DataError, match=r"value of mlr; .* The file has no further column\.$"):
+        read(tmp_path, "mlr", text, columns={"time": "Time"})
+
+
+@pytest.mark.parametrize(
+    ("times", "masses", "said"),
+    [
+        ("2024-03-01 10:00:{:02d}", "{}", "line 2, column 'Time': given '2024-03-01 10:00:00'"),
+        ("{}", "4,9{:02d}", "line 2, column 'Mass': given '4,900'; it may be 4.900"),
+    ],
+)
+def test_used_column_of_text_alone_is_a_fault_of_its_file(
+    times: str, masses: str, said: str, tmp_path: Path
+) -> None:
+    rows = [f"{times.format(i)};{300 + i};{masses.format(i)}" for i in range(20)]
+    text = "\n".join(["Time (s);Temperature (K);Mass (mg)", *rows])
+    (tmp_path / "A_TGA_N2_10K_1.csv").write_text(text, encoding="utf-8")
+    heated(tmp_path / "A_TGA_N2_10K_2.csv", np.linspace(5.0, 1.0, 60))
+    files = {seen.path.stem: seen for seen in examine_folder(tmp_path)}
+    assert files["A_TGA_N2_10K_2"].classified
+    (fault,) = (f for f in files["A_TGA_N2_10K_1"].findings if f.check == "unreadable")
+    assert fault.text.startswith(said)
+
+
+@pytest.mark.filterwarnings("error")
+@pytest.mark.parametrize("start", [0.0, -0.01])
+def test_mass_that_begins_at_zero_is_a_fault_and_no_warning(start: float, tmp_path: Path) -> None:
+    heated(tmp_path / "A_TGA_N2_10K_1.csv", np.linspace(start, -4.0, 60))
+    (seen,) = examine_folder(tmp_path)
+    assert ("mass level", "fault") in {(f.check, f.weight) for f in seen.findings}
+
+
+def test_text_file_whose_name_tells_no_test_is_named(tmp_path: Path) -> None:
+    (tmp_path / "STARe_pp.txt").write_text("Time,Mass\n0,1\n", encoding="utf-8")
+    with pytest.raises(DataError, match=r"text files such as STARe_pp.txt .* Put one of CONE, "):
+        examine_folder(tmp_path)
+
+
+def test_reason_why_a_file_is_unreadable_begins_without_a_comma(tmp_path: Path) -> None:
+    path = tmp_path / "A_TGA_N2_10K_1.csv"
+    path.write_text("0,1\n1,2\n", encoding="utf-8")
+    (fault,) = (f for seen in examine_folder(tmp_path) for f in seen.findings)
+    assert fault.text.startswith("line 1: the first row holds numbers")

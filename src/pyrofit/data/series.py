@@ -182,7 +182,8 @@ def _assign_columns(spec: SeriesSpec, table: Table, dummies: Sequence[str]) -> d
             problem = f"columns {matches} may all be" if matches else "no column is known to be"
             raise DataError(
                 f"{table.path}: {problem} the {role} of {spec.quantity}; name the right one in "
-                f"the study: `columns: {{{role}: ...}}`. {suggest(known[0], usable)}"
+                f"the study: `columns: {{{role}: ...}}`. "
+                + (suggest(known[0], usable) if usable else "The file has no further column.")
                 + "".join(f" {words[0].upper()}{words[1:]}." for words in _absent(table, dummies))
             )
         if matches[0] in dummies and role != "time":

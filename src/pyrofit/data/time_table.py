@@ -67,7 +67,7 @@ def _column(path: Path, names: list[str], role: str, asked: str | None, known: l
         what = f"there is no column '{asked}'" if asked else f"{len(found)} columns may be"
         raise DataError(
             f"{path}: {what} the {role}; name the right one: `columns: {{{role}: ...}}`. "
-            f"{suggest(asked or role, names)}"
+            + (suggest(asked or role, names) if names else "The file has no further column.")
         )
     return found[0]
 

@@ -1,5 +1,6 @@
 """Identify a measured file, and read its signals."""
 
+from collections.abc import Iterable
 from dataclasses import replace
 from pathlib import Path
 
@@ -29,7 +30,7 @@ def examine(path: Path, label: Label, facts: Facts) -> Examined:
     try:
         seen.table = read_table(path)
     except DataError as error:
-        seen.say("unreadable", "fault", str(error).removeprefix(f"{path}"))
+        seen.say("unreadable", "fault", _without_path(error, path))
         return seen
     for note in seen.table.mended:
         seen.say("mended", "note", note)
@@ -88,16 +89,38 @@ def _take(seen: Examined, found: Found) -> None:
         seen.say("unit", "doubt", text, found.columns[role])
     spec = SeriesSpec(found.quantity, seen.path, found.columns, found.units)
     columns = found.columns
+    if text := _without_numbers(table, columns.values()):
+        seen.say("unreadable", "fault", text, header)
+        return
     arrays = [to_si(spec, table, columns, "time", ("time",))[0]]
     y, scale = to_si(spec, table, columns, "value", found.of.scales)
     arrays.append(y)
     if "temperature" in columns:
         arrays.append(to_si(spec, table, columns, "temperature", ("temperature",))[0])
     known = np.isfinite(arrays).all(axis=0)
+    if not known.any():
+        seen.say("gaps", "fault", "no row holds all of its cells", header)
+        return
     x, y, *T = (array[known] for array in arrays)
     unit = table.units[header] or ""
     heated = T[0] if T else None
     seen.signals[found.signal] = Signal(found.quantity, header, unit, scale, x, y, heated)
+
+
+def _without_path(error: DataError, path: Path) -> str:
+    """Return the words of an error behind the name of the file."""
+    return str(error).removeprefix(f"{path}").lstrip(",: ")
+
+
+def _without_numbers(table: Table, names: Iterable[str]) -> str:
+    """Return the fault of the first column that holds text alone; nothing where there is none."""
+    for name in names:
+        if np.isnan(table.columns[name]).all() and name in table.faults:
+            try:
+                table.require([name])
+            except DataError as error:
+                return _without_path(error, table.path)
+    return ""
 
 
 def _used(seen: Examined, name: str) -> bool:

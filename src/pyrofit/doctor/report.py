@@ -11,6 +11,7 @@ from pyrofit.doctor.examined import Examined
 from pyrofit.doctor.names import Label, label_of
 from pyrofit.doctor.readme import Facts, facts_of, read_readme
 from pyrofit.errors import DataError
+from pyrofit.experiments import OF_FILES
 
 ENDINGS = {".csv", ".txt", ".tsv", ".dat", ".asc"}
 TEXTS = ENDINGS - {".csv", ".tsv"}
@@ -31,10 +32,7 @@ def examine_folder(folder: Path) -> list[Examined]:
         raise DataError(f"{folder}: there is no such folder; give the folder of measured files.")
     paths = sorted(measured_files(folder))
     if not paths:
-        raise DataError(
-            f"{folder}: it holds no measured files ({', '.join(sorted(ENDINGS))}); "
-            "give another folder."
-        )
+        raise DataError(f"{folder}: it holds no measured files ({_why_none(folder)}")
     readmes: dict[Path, dict[Label, Facts]] = {}
     files = []
     for path in paths:
@@ -43,6 +41,19 @@ def examine_folder(folder: Path) -> list[Examined]:
         files.append(examine(path, label, facts_of(label, known)))
     run_checks(files)
     return files
+
+
+def _why_none(folder: Path) -> str:
+    """Say which files are looked for, and which text file is left out for its name."""
+    texts = (path for path in sorted(folder.rglob("*")) if path.suffix.casefold() in TEXTS)
+    left_out = next((path for path in texts if path.is_file()), None)
+    if left_out is None:
+        return f"{', '.join(sorted(ENDINGS))}); give another folder."
+    kinds = ", ".join(kind.upper() for kind in OF_FILES)
+    return (
+        f"text files such as {left_out.name} are read where their name tells the kind of test). "
+        f"Put one of {kinds} in the name, as in UMD_TGA_N2_10K{left_out.suffix}."
+    )
 
 
 def measured_files(folder: Path) -> Iterator[Path]:

@@ -47,6 +47,10 @@ def check_course(seen: Examined) -> None:
     signal = _mass_of(seen)
     if signal is None:
         return
+    if signal.y[0] <= 0.0:
+        text = "begins at 0 or below: a change of mass, or tared with the sample?"
+        seen.say("mass level", "fault", text, signal.header)
+        return
     m = signal.y / signal.y[0]
     end, largest = float(np.median(m[-5:])), float(m.max())
     if end > 1.0 + _RISE:
