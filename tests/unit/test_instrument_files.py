@@ -58,6 +58,11 @@ TGA: dict[str, tuple[str, str]] = {
         "\r\n".join(TA) + rows("\t", MINUTES, CELSIUS, MG) + "-4.0\t0.0\t0.0\n",
         "utf-16",
     ),
+    "savetxt of numpy": ("# time_s T_K mass_mg\n" + rows(" ", TIME_S, KELVIN, MG), "utf-8"),
+    "blanks around units": (
+        "Time (min) Sample Temperature (°C) Weight (%)\n" + rows(" ", MINUTES, CELSIUS, PERCENT),
+        "utf-8",
+    ),
     "TRIOS": (TRIOS + "min,°C,mg,%\n" + rows(",", MINUTES, CELSIUS, MG, PERCENT), "utf-8-sig"),
     "Pyris": (PYRIS + rows("\t", COUNT, MINUTES, MG, CELSIUS, CELSIUS + 2.0), "latin-1"),
     "STARe": (STARE + rows("  ", COUNT, TIME_S, CELSIUS, MG) + "Results:\n  5 mg\n", "latin-1"),
@@ -78,6 +83,19 @@ def test_tga_export_is_read_in_si_units(text: str, encoding: str, tmp_path: Path
     np.testing.assert_allclose(frame["temperature_K"], KELVIN, atol=1e-5)
     np.testing.assert_allclose(frame["mass_fraction"], FRACTION, atol=1e-6)
     assert run.number == pytest.approx(60.0)
+
+
+@pytest.mark.parametrize("sep", ["\t", " "])
+def test_units_of_signals_of_a_preamble_hold_for_any_separator(sep: str, tmp_path: Path) -> None:
+    # A sample that has lost a tenth of its mass before the record: the numbers look like mg.
+    path = tmp_path / "run.txt"
+    head = "\n".join(TA).replace("(mg)", "(%)")
+    path.write_text(head + rows(sep, MINUTES, CELSIUS, 90.0 * FRACTION), encoding="utf-8")
+    table = read_table(path)
+    assert table.units == {"Time": "min", "Temperature": "°C", "Weight": "%"}
+    run = draft.measured("tga", path)
+    lost = run.frames["mass_fraction"]["mass_fraction"]
+    np.testing.assert_allclose(lost, 0.9 * FRACTION, atol=1e-7)
 
 
 CLOCK = [f"{int(t) // 3600}:{int(t) // 60 % 60:02d}:{t % 60:04.1f}" for t in TIME_S]

@@ -7,7 +7,7 @@ import numpy as np
 import numpy.typing as npt
 import pandas as pd
 
-from pyrofit.data.layout import BLANKS
+from pyrofit.data.line import BLANKS
 from pyrofit.data.numerals import Numerals
 
 FloatArray = npt.NDArray[np.float64]

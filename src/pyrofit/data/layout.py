@@ -1,31 +1,22 @@
 """Find the table in the text of a file: its delimiter, its heading, its first row of numbers."""
 
 import csv
-import re
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 from pathlib import Path
 
-from pyrofit.data.csvheading import (
-    all_bracketed,
-    holds_names_with_units,
-    holds_units,
-    is_number,
-    trim,
-)
-from pyrofit.data.line import Line
+from pyrofit.data.csvheading import all_bracketed, holds_names_with_units, is_number, trim
+from pyrofit.data.heading_rows import heading_above, signals_in
+from pyrofit.data.line import BLANKS, Line
 from pyrofit.data.numerals import is_numeral
 from pyrofit.errors import DataError
 
-BLANKS = " "
-"""Delimiter of a file whose columns are set apart by any number of blanks."""
 _DELIMITERS = "\t;,"
 _ALL_DELIMITERS = (*_DELIMITERS, "|", BLANKS)
 _SEARCHED = 3000
 """Lines in which the table begins at the latest."""
 _RUN = 5
 """Rows of numbers in succession that are taken as the beginning of the table."""
-_SIG = re.compile(r"sig\d+", re.IGNORECASE)
 
 
 @dataclass(frozen=True)
@@ -42,12 +33,15 @@ class Layout:
         Position of the first row of numbers among the lines of the file.
     marks
         Whether rows with a negative first number mark events.
+    export
+        Whether other text than names and units stands around the table.
     """
 
     delimiter: str
     heading: tuple[Line, ...]
     start: int
     marks: bool = False
+    export: bool = False
 
 
 def cells_of(path: Path, text: str, delimiter: str) -> list[str]:
@@ -154,8 +148,8 @@ def _located(path: Path, raw: Sequence[str], notes: list[str]) -> Layout | None:
     length, delimiter, first, lines = best
     if not length:
         return None
-    signals = _signals(lines[:first])
-    heading = signals or _heading(lines, first, delimiter)
+    signals = signals_in(raw[:first])
+    heading = signals or heading_above(lines, first, delimiter)
     if not heading:
         width = len(lines[first].cells)
         raise DataError(
@@ -165,7 +159,7 @@ def _located(path: Path, raw: Sequence[str], notes: list[str]) -> Layout | None:
         )
     if before := sum(any(line.cells) for line in lines[: heading[0].number - 1]):
         notes.append(f"{before} rows before the header")
-    return Layout(delimiter, heading, first, bool(signals))
+    return Layout(delimiter, heading, first, bool(signals), export=True)
 
 
 def _first_run(lines: Sequence[Line]) -> tuple[int, int]:
@@ -206,30 +200,3 @@ def _is_row(cells: Sequence[str]) -> bool:
     filled = [cell for cell in cells if cell]
     numbers = sum(map(is_numeral, filled))
     return numbers >= 2 and 2 * numbers >= len(filled)
-
-
-def _heading(lines: Sequence[Line], first: int, delimiter: str) -> tuple[Line, ...]:
-    """Return the rows of names and units right above the rows of numbers."""
-    width = len([cell for cell in lines[first].cells if cell])
-    above = [line for line in lines[:first] if any(line.cells)][-2:]
-    if not above or not _fills(above[-1], width):
-        return ()
-    if len(above) == 2 and _fills(above[0], width) and any(map(holds_units, above)):
-        names, units = above if not all_bracketed(above[0]) else above[::-1]
-        if delimiter == BLANKS and (missing := len(names.cells) - len(units.cells)) > 0:
-            # A counter in the first column has no unit, and blanks do not show it.
-            units = Line(units.number, [*[""] * missing, *units.cells])
-        return names, units
-    return (above[-1],)
-
-
-def _fills(line: Line, width: int) -> bool:
-    """Tell whether text fills the columns of rows; a counter may have no name."""
-    filled = [cell for cell in line.cells if cell]
-    return len(filled) >= max(width - 1, 2) and not any(map(is_number, filled))
-
-
-def _signals(lines: Sequence[Line]) -> tuple[Line, ...]:
-    """Return the names that a preamble lists as `Sig1`, `Sig2` ...; nothing where it does not."""
-    named = [line for line in lines if len(line.cells) > 1 and _SIG.fullmatch(line.cells[0])]
-    return (Line(lines[-1].number, [line.cells[1] for line in named]),) if named else ()

@@ -2,6 +2,9 @@
 
 from dataclasses import dataclass
 
+BLANKS = " "
+"""Delimiter of a file whose columns are set apart by any number of blanks."""
+
 
 @dataclass(frozen=True)
 class Line:
