@@ -63,6 +63,22 @@ def test_nested_parentheses_stay_in_the_unit(tmp_path: Path) -> None:
     assert table.units["MLR"] == "kg/(m2 s)"
 
 
+LAST = {
+    "Heat Flow (Normalized) (W/g)": ("Heat Flow (Normalized)", "W/g"),
+    "Gas Flow (purge)/(ml/min)": ("Gas Flow (purge)", "ml/min"),
+    "MLR [dry] [kg/(m2 s)]": ("MLR [dry]", "kg/(m2 s)"),
+    "MLR (g/(m² s)": ("MLR", "g/(m² s"),
+}
+
+
+@pytest.mark.parametrize(("header", "both"), LAST.items(), ids=LAST)
+def test_last_of_several_brackets_is_the_unit(
+    tmp_path: Path, header: str, both: tuple[str, str]
+) -> None:
+    table = read_table(write(tmp_path, f"Time (s),{header}\n0,1\n"))
+    assert list(table.units.items())[1] == both
+
+
 BROKEN = {
     "empty": ("", "the file is empty"),
     "blank": ("\n , ,\n", "the file is empty"),

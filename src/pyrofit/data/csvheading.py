@@ -84,14 +84,33 @@ def _split_units(headers: Sequence[str]) -> tuple[list[str], list[str | None]]:
     names: list[str] = []
     units: list[str | None] = []
     for header in headers:
-        match, slash = _NAME_AND_UNIT.fullmatch(header), _NAME_SLASH_UNIT.fullmatch(header)
+        slash = _NAME_SLASH_UNIT.fullmatch(header)
         if slash and (unit := _unit_behind_slash(slash[1], slash[2])):
             names.append(slash[1].strip())
             units.append(unit)
             continue
-        names.append(match[1] if match else header)
-        units.append((match[2] or match[3] or "").strip() or None if match else None)
+        name, inner = _last_bracket(header)
+        names.append(name)
+        units.append(inner or None)
     return names, units
+
+
+def _last_bracket(header: str) -> tuple[str, str]:
+    """Return a name, and the text of the bracket at its end; nothing where there is none.
+
+    >>> _last_bracket("MLR (kg/(m2 s))"), _last_bracket("Heat Flow (Normalized) (W/g)")
+    (('MLR', 'kg/(m2 s)'), ('Heat Flow (Normalized)', 'W/g'))
+    """
+    depth = 0
+    for i in range(len(header) - 1, 0, -1):
+        depth += (header[i] in ")]") - (header[i] in "([")
+        if depth <= 0:
+            break
+    inner = _BRACKETED.fullmatch(header[i:]) if len(header) > 1 and depth == 0 else None
+    if inner is None or header[:i].count("(") > header[:i].count(")"):
+        match = _NAME_AND_UNIT.fullmatch(header)
+        return (match[1], (match[2] or match[3] or "").strip()) if match else (header, "")
+    return header[:i].rstrip(" /"), (inner[1] or inner[2] or "").strip()
 
 
 def _unit_behind_slash(name: str, text: str) -> str | None:

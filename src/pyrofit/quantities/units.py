@@ -57,12 +57,13 @@ ZEROS_K = {
 """Temperature [K] of the zero of a unit; 0 K where it is not listed."""
 
 
-_SIGNS = str.maketrans("²¹−⁻", "21--")
+_SIGNS = str.maketrans({"²": "2", "¹": "1", "−": "-", "⁻": "-", "º": "°", "℃": "°c", "℉": "°f"})
 
 
 def unit_key(unit: str) -> str:
     """Reduce a unit to one spelling: `kg m-2 s-1`, `kg/(m^2 s)` and `kg/m²/s` to `kg/s/m2`."""
     key = re.sub(r"[\s^*·⋅()\[\]]", "", unit.casefold()).translate(_SIGNS)
+    key = re.sub(r"^(cel|celsius)$", "°c", key)
     key = re.sub(r"(c?m)-2", r"/\g<1>2", key)
     key = re.sub(r"([km]?g|s|min)-1", r"/\1", key)
     key = re.sub(r"/(s|min)-(c?m2)$", r"/\1/\2", key)
