@@ -86,7 +86,7 @@ def test_file_of_one_column_has_no_further_one_to_name(tmp_path: Path) -> None:
         read(tmp_path, "mlr", text, columns={"time": "Time"})
 
 
-@pytest.mark.parametrize("unit", ["ºC", "℃", "Cel", "°C"])
+@pytest.mark.parametrize("unit", ["ºC", "℃", "Cel", "°C", "\ufffdC"])
 def test_every_sign_of_degrees_celsius_is_known(unit: str, tmp_path: Path) -> None:
     text = TGA.replace("[K]", f"[{unit}]")
     assert read(tmp_path, "mass_fraction", text).frame["temperature_K"].iloc[0] == 310.0 + 273.15

@@ -41,6 +41,29 @@ PYRIS = "Sample Weight:\t5.0 mg\n1)\tHeat to 600 °C\n\n\tTime\tUnsubtracted Wei
 PYRIS += "Temperature\tProgram Temperature\n\tmin\tmg\t°C\t°C\n"
 STARE = "Curve Name:\n  TGA\nCurve Values:\n  Index    t     Ts    Value\n    [s]  [°C]   [mg]\n"
 
+# Pyris writes names in two rows, and a title above each step of the run.
+RUN = "Sample Weight:\t5.0 mg \n1)\tHold for 1.0 min at 27.00°C \n \n1) TGA Isothermal \n"
+RUN += "\tTime     \tUnsubtracted\tBaseline     \tProgram     \tSample     \tSample     \n"
+RUN += "\t          \tWeight     \tWeight     \tTemperature\tTemperature\tPurge Flow \n"
+SCAN = "2) TGA Temperature Scan \n"
+CALIBRATION = "\n\tWEIGHT CALIBRATION INPUTS: \nNickel    \t\t 355.3\t\t 354.1\t\t 2.3\n"
+CALIBRATION += " 62.5\t\t 68.4\t\t-6.1e-005 \n\nSoftware Version\t13.4\n"
+
+
+def pyris(part: slice) -> str:
+    """Return rows of Pyris, which begin with a tabulator."""
+    zero = 0.0 * TIME_S[part]
+    return rows(
+        "\t", [""] * zero.size, MINUTES[part], MG[part], zero, zero + 27.0, CELSIUS[part], zero
+    )
+
+
+# STARe writes the evaluation and further curves below the first one.
+AGAIN = "\n\nResults:\n  ? Step\t-98.0 %\n  \t-4.9 mg\n\nCurve Name:\n  Heat Flow\nCurve Values:\n"
+AGAIN += "  Index    t     Ts    Value\n    [s]  [°C]   [mW]\n"
+POWER = rows("  ", COUNT, TIME_S, CELSIUS, 3.0 + 0.0 * TIME_S)
+SIGNED = "\n\nUser:\n  me\n________\nNot signed     STARe SW 16.00"
+
 TGA: dict[str, tuple[str, str]] = {
     "NETZSCH, German": (
         NETZSCH.format("COMMA")
@@ -66,6 +89,16 @@ TGA: dict[str, tuple[str, str]] = {
     "TRIOS": (TRIOS + "min,°C,mg,%\n" + rows(",", MINUTES, CELSIUS, MG, PERCENT), "utf-8-sig"),
     "Pyris": (PYRIS + rows("\t", COUNT, MINUTES, MG, CELSIUS, CELSIUS + 2.0), "latin-1"),
     "STARe": (STARE + rows("  ", COUNT, TIME_S, CELSIUS, MG) + "Results:\n  5 mg\n", "latin-1"),
+    "Pyris, one step": (RUN + pyris(slice(None)), "latin-1"),
+    "Pyris, two steps": (RUN + pyris(HALVES[0]) + SCAN + pyris(HALVES[1]) + CALIBRATION, "latin-1"),
+    "STARe, two curves": (
+        STARE + rows("  ", COUNT, TIME_S, CELSIUS, MG) + AGAIN + POWER + SIGNED,
+        "latin-1",
+    ),
+    "STARe, the same curve again": (
+        2 * (STARE + rows("  ", COUNT, TIME_S, CELSIUS, MG) + "\n"),
+        "latin-1",
+    ),
     "micrograms, fahrenheit": (
         "Time [s];T [°F];Mass [µg]\n" + rows(";", TIME_S, KELVIN * 1.8 - 459.67, 1e3 * MG),
         "latin-1",
@@ -180,6 +213,40 @@ def test_steps_of_one_record_are_read_as_one(tmp_path: Path) -> None:
     np.testing.assert_allclose(table.columns["Weight (%)"], PERCENT, atol=1e-6)
     lines = path.read_text(encoding="utf-8").splitlines()
     assert lines[table.line(60) - 1].startswith(f"{MINUTES[60]:.6f},")
+
+
+def test_further_curves_and_text_below_the_first_are_noted(tmp_path: Path) -> None:
+    path = tmp_path / "run.txt"
+    path.write_bytes(TGA["STARe, two curves"][0].encode("latin-1"))
+    table = read_table(path)
+    line = table.line(99) + 10
+    assert f"another table begins in line {line}, in s, °C, mW; it is not read: save" in "".join(
+        table.mended
+    )
+    assert any(note.endswith("rows below the table are not read") for note in table.mended)
+
+
+def test_lines_are_counted_across_the_steps_of_a_run(tmp_path: Path) -> None:
+    path = tmp_path / "run.txt"
+    path.write_bytes(TGA["Pyris, two steps"][0].encode("latin-1"))
+    table = read_table(path)
+    assert list(table.columns)[1:4] == [
+        "Unsubtracted Weight",
+        "Baseline Weight",
+        "Program Temperature",
+    ]
+    lines = path.read_text(encoding="latin-1").splitlines()
+    assert lines[table.line(60) - 1].startswith(f"\t{MINUTES[60]:.6f}\t")
+    assert "1 rows that begin a step of the run" in table.mended
+
+
+def test_rows_below_a_blank_one_of_an_export_are_not_dropped(tmp_path: Path) -> None:
+    path = tmp_path / "run.txt"
+    first, last = (rows(";", MINUTES[s], CELSIUS[s], MG[s]) for s in HALVES)
+    head = "Test 7\n\nTime (min);Temperature (°C);Mass (mg)\n"
+    path.write_text(f"{head}{first}\n{last}", encoding="utf-8")
+    with pytest.raises(DataError, match="line 54: this row is blank but numbers follow"):
+        read_table(path)
 
 
 @pytest.mark.parametrize("between", ["", "pause", "Time,Temperature\n"])

@@ -15,6 +15,7 @@ from pyrofit.data.layout import cells_of, layout_of, usual_delimiter
 from pyrofit.data.line import Line
 from pyrofit.data.numerals import fault_of, is_numeral, numerals_of
 from pyrofit.data.rows import parsed, rows_of, whole_rows, without_footer
+from pyrofit.data.sections import first_table
 from pyrofit.data.text_file import read_text
 from pyrofit.errors import DataError
 
@@ -136,7 +137,9 @@ def read_table(path: Path) -> Table:
         )
         if values is not None:
             return _as_table(path, heading, values, {}, layout.start + 1, (), notes)
-    return _table(path, heading, rows_of(path, raw, layout), notes, layout.marks)
+    lines = rows_of(path, raw, layout)
+    whole = first_table(lines, heading, notes) if layout.export else lines
+    return _table(path, heading, whole, notes, layout.marks)
 
 
 def holds_unclear_numbers(table: Table, name: str) -> bool:
@@ -156,7 +159,8 @@ def _table(
         notes.append(f"read with '{numerals.thousands}' between thousands")
     values, faults = parsed(rows, len(heading.names), numerals, notes)
     first, kept = lines[0].number, {row.number for row in rows}
-    left_out = tuple(line.number - first for line in lines if line.number not in kept)
+    between = range(first, rows[-1].number)
+    left_out = tuple(number - first for number in between if number not in kept)
     return _as_table(path, heading, values, faults, first, left_out, notes)
 
 

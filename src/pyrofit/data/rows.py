@@ -72,7 +72,7 @@ def whole_rows(
     headers = events = 0
     for row in rows:
         cells = trim(row.cells, width)
-        if _repeats(cells, heading):
+        if repeats(cells, heading):
             headers += 1
             text = []
         elif not any(is_numeral(cell) for cell in cells if cell):
@@ -89,6 +89,8 @@ def whole_rows(
             whole.append(Line(row.number, cells))
     if text:
         raise _interrupted(path, text[0], width)
+    if not whole:
+        raise DataError(f"{path}: no row of numbers stands below the header; give a longer file.")
     counts = {"that repeat the header": headers, "that mark events": events}
     notes += [f"{count} rows {why}" for why, count in counts.items() if count]
     return whole
@@ -102,7 +104,7 @@ def _interrupted(path: Path, row: Line, width: int) -> DataError:
     return DataError(f"{path}, line {row.number}: this row {what}; delete it.")
 
 
-def _repeats(cells: Sequence[str], heading: Heading) -> bool:
+def repeats(cells: Sequence[str], heading: Heading) -> bool:
     """Tell whether a row holds the names of the columns."""
     if len(cells) != len(heading.names):
         return False

@@ -57,7 +57,10 @@ ZEROS_K = {
 """Temperature [K] of the zero of a unit; 0 K where it is not listed."""
 
 
-_SIGNS = str.maketrans({"²": "2", "¹": "1", "−": "-", "⁻": "-", "º": "°", "℃": "°c", "℉": "°f"})
+_SIGNS = str.maketrans(
+    {"²": "2", "¹": "1", "−": "-", "⁻": "-", "º": "°", "℃": "°c", "℉": "°f", "\ufffd": "°"}
+)
+"""Signs of one meaning; a sign that was lost in an encoding, before C, was that of degrees."""
 
 
 def unit_key(unit: str) -> str:
