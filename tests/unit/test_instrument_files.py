@@ -270,23 +270,34 @@ def test_measurement_that_can_be_read_in_two_ways_is_not_dropped(
     assert "column 'Mass': given '1,234'; it may be 1.234, with a decimal comma, or 1234" in said
 
 
+LARGE = {
+    "commas": ("{}", ",", ""),
+    "decimal commas": ("{}", ";", "read with decimal commas"),
+    "blanks": ("{}", "  ", ""),
+    "quotes": ('"{}"', ",", ""),
+}
+
+
+@pytest.mark.parametrize(("cell", "sep", "note"), LARGE.values(), ids=LARGE)
 def test_large_file_is_read_in_one_piece_with_the_same_numbers(
-    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+    cell: str, sep: str, note: str, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     path = tmp_path / "run.csv"
     numbers = np.random.default_rng(1).lognormal(0.0, 9.0, (500, 2))
-    cells = [[repr(float(x)) for x in column] for column in numbers.T]
-    path.write_text("Time (s),MLR (g/m2/s)\n" + rows(",", *cells), encoding="utf-8")
+    cells = [[cell.format(repr(float(x))) for x in column] for column in numbers.T]
+    body = rows(sep, *cells, comma=sep == ";")
+    path.write_text(sep.join(["time_s", "mlr_g_m2_s"]) + "\n" + body, encoding="utf-8")
     slow = read_table(path)
     monkeypatch.setattr(csvfile, "MANY_ROWS", 100)
     monkeypatch.setattr(csvfile, "_table", None)
     fast = read_table(path)
     for name, column in slow.columns.items():
         np.testing.assert_array_equal(fast.columns[name], column)
-    assert (fast.line(7), fast.units) == (slow.line(7), slow.units)
+    assert (fast.line(7), fast.units, fast.mended) == (slow.line(7), slow.units, slow.mended)
+    assert note in " ".join(fast.mended)
 
 
-@pytest.mark.parametrize("late", ["1,5;2", "x;2", "1", '"1";2', "inf;2"])
+@pytest.mark.parametrize("late", ["1,5;2", "x;2", "1", '"1";2', '"1;2', '"1""2";3', "inf;2"])
 def test_large_file_with_an_odd_row_is_read_as_a_small_one(
     late: str, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:

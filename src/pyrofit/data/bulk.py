@@ -19,21 +19,16 @@ def bulk_values(
 ) -> FloatArray | None:
     """Return the numbers of the lines of a table, shape (n_rows, width).
 
-    None is returned where a line has another number of cells, or a cell is quoted or holds other
-    text than a finite number. The lines are then to be read one by one. The numbers are the same.
+    None is returned where a line has another number of cells, or a cell holds other text than a
+    finite number. The lines are then to be read one by one. The numbers are the same.
     """
-    if numerals.thousands or delimiter == BLANKS:
-        return None
-    separators = rows[0].count(delimiter)
-    if separators < width - 1 or any(row.count(delimiter) != separators for row in rows):
+    if numerals.thousands or not _are_alike(rows, delimiter, width):
         return None
     text = "\n".join(rows)
-    if '"' in text:
-        return None
     try:
         frame = pd.read_csv(
             io.StringIO(text),
-            sep=delimiter,
+            sep=r"\s+" if delimiter == BLANKS else delimiter,
             header=None,
             dtype=np.float64,
             decimal=numerals.decimal,
@@ -48,3 +43,13 @@ def bulk_values(
     if len(values) != len(rows) or np.isinf(values).any() or not np.isnan(values[:, width:]).all():
         return None
     return np.ascontiguousarray(values[:, :width])
+
+
+def _are_alike(rows: Sequence[str], delimiter: str, width: int) -> bool:
+    """Tell whether all lines have as many cells, and every quoted one ends in its line."""
+    if delimiter == BLANKS:
+        return all(len(row.split()) == width and '"' not in row for row in rows)
+    separators = rows[0].count(delimiter)
+    return separators >= width - 1 and all(
+        row.count(delimiter) == separators and row.count('"') % 2 == 0 for row in rows
+    )

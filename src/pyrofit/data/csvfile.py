@@ -13,7 +13,7 @@ from pyrofit.data.cone_exports import is_export, unfolded
 from pyrofit.data.csvheading import Heading, named_columns
 from pyrofit.data.layout import cells_of, layout_of, usual_delimiter
 from pyrofit.data.line import Line
-from pyrofit.data.numerals import fault_of, is_numeral, numerals_of
+from pyrofit.data.numerals import Numerals, fault_of, is_numeral, numerals_of
 from pyrofit.data.rows import parsed, rows_of, whole_rows, without_footer
 from pyrofit.data.sections import first_table
 from pyrofit.data.text_file import read_text
@@ -131,11 +131,11 @@ def read_table(path: Path) -> Table:
     heading = named_columns(path, layout.heading, notes)
     raw = without_footer(path, raw, layout, notes)
     if len(raw) > MANY_ROWS and not layout.marks:
-        some = rows_of(path, raw[: layout.start + _LOOKED_AT], layout)
-        values = bulk_values(
-            raw[layout.start :], layout.delimiter, numerals_of(some), len(heading.names)
-        )
+        numerals = numerals_of(rows_of(path, raw[: layout.start + _LOOKED_AT], layout))
+        width = len(heading.names)
+        values = bulk_values(raw[layout.start :], layout.delimiter, numerals, width)
         if values is not None:
+            notes += _notes_on(numerals)
             return _as_table(path, heading, values, {}, layout.start + 1, (), notes)
     lines = rows_of(path, raw, layout)
     whole = first_table(lines, heading, notes) if layout.export else lines
@@ -153,15 +153,20 @@ def _table(
     """Return the table of lines of cells."""
     rows = whole_rows(path, lines, heading, marks, notes)
     numerals = numerals_of(rows)
-    if numerals.decimal == ",":
-        notes.append("read with decimal commas")
-    if numerals.thousands:
-        notes.append(f"read with '{numerals.thousands}' between thousands")
+    notes += _notes_on(numerals)
     values, faults = parsed(rows, len(heading.names), numerals, notes)
     first, kept = lines[0].number, {row.number for row in rows}
     between = range(first, rows[-1].number)
     left_out = tuple(number - first for number in between if number not in kept)
     return _as_table(path, heading, values, faults, first, left_out, notes)
+
+
+def _notes_on(numerals: Numerals) -> list[str]:
+    """Note another form of the numbers than decimal points."""
+    notes = ["read with decimal commas"] if numerals.decimal == "," else []
+    if numerals.thousands:
+        notes.append(f"read with '{numerals.thousands}' between thousands")
+    return notes
 
 
 def _as_table(
