@@ -384,6 +384,19 @@ def test_guessed_unit_is_told_and_marked(folder: Path, capsys: pytest.CaptureFix
     assert "# CHANGE where wrong: guessed from the numbers: value and time" in text
 
 
+def test_minutes_are_told_from_seconds_where_most_of_the_record_is_a_hold(folder: Path) -> None:
+    held = np.arange(1.0, 101.0)
+    minutes = np.r_[MINUTES, MINUTES[-1] + held]
+    columns = (
+        minutes,
+        np.r_[TEMPERATURE_K, 795.0 + 0.01 * (held % 2)],
+        np.r_[MASS, 0.2 + 0 * held],
+    )
+    write("tga_10K.csv", "Time,Temperature (K),Mass fraction", *columns)
+    (found,) = draft.measured("tga", Path("tga_10K.csv")).signals
+    assert found.units["time"] == "min"
+
+
 def test_stated_unit_per_square_centimetre_is_kept(folder: Path) -> None:
     # The numbers look like g/m2/s, which would be ten times less.
     for name, header in {

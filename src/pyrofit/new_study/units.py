@@ -5,7 +5,7 @@ from collections.abc import Mapping
 
 import numpy as np
 
-from pyrofit.data.csvfile import Table
+from pyrofit.data.csvfile import FloatArray, Table
 from pyrofit.quantities.base import Quantity
 from pyrofit.quantities.units import SCALES, header_key, unit_key
 
@@ -35,6 +35,8 @@ _CUT = re.compile(r"[ _](?=[A-Za-z%°µ])")
 _PER_AREA = re.compile(r"([A-Za-zµ]+/)?(ft|in|[cm]?m)\^?-?2(/(s|sec|min|h)(-1)?)?", re.IGNORECASE)
 """A unit per area, known or not."""
 _STANDARD_RATES = np.array([1, 2, 3, 5, 10, 15, 20, 25, 30, 40, 50, 80, 100.0])
+_INTERVALS, _HELD = 50, 0.05
+"""Parts of a record with a slope each; below that share of the largest slope it is held."""
 
 
 def kinds_of(quantity: Quantity, role: str) -> tuple[str, ...]:
@@ -111,9 +113,19 @@ def _time_unit(table: Table, time_column: str, heated: str) -> str:
     if len(time) < 2 or not (np.diff(time) > 0.0).all():
         return "s"
     with np.errstate(over="ignore", invalid="ignore"):  # an overflow is refused when it is read
-        rate = max(float(np.median(np.gradient(temperature, time))), 1e-6)
+        rate = max(_heating_rate(time, temperature), 1e-6)
     off = {
         unit: float(np.abs(np.log(factor * rate / _STANDARD_RATES)).min())
         for unit, factor in (("s", 60.0), ("min", 1.0))
     }
     return min(off, key=lambda unit: off[unit])
+
+
+def _heating_rate(time: FloatArray, temperature: FloatArray) -> float:
+    """Return the usual slope of a record, that of its heating where it is held for the most."""
+    usual = float(np.median(np.gradient(temperature, time)))
+    some = np.unique(np.linspace(0, time.size - 1, _INTERVALS).astype(int))
+    slopes = np.diff(temperature[some]) / np.diff(time[some])
+    if slopes.max() <= 0.0 or usual > _HELD * slopes.max():
+        return usual
+    return float(np.median(slopes[slopes >= 0.5 * slopes.max()]))
