@@ -265,6 +265,11 @@ KEYS = rows_of(
         ),
         ("name with dots", put(name="../up"), ("name: '../up' is no name",)),
         ("negative seed", put(seed=-1), ("seed: -1 must be at least 0",)),
+        (
+            "repetitions without end",
+            put(imp__repetitions=10**9),
+            ("imp.repetitions: 1000000000 must be at most 1e+06",),
+        ),
         ("0 repetitions", put(imp__repetitions=0), ("imp.repetitions: 0 must be at least 1",)),
         (
             "2 generations",

@@ -82,6 +82,8 @@ BAD: dict[str, tuple[dict[str, Any], str]] = {
     "call": (c_r("open(cp)"), "unknown function 'open'"),
     "no expression": (c_r("0.5 *"), "'0.5 *' is no expression"),
     "itself": (c_r("c_r + cp"), "it leads back to itself: c_r -> c_r"),
+    "endless": (c_r(" + ".join(["cp"] * 500)), "an expression of 2497 characters"),
+    "infinite": (c_r("9 ** 9 ** 9 ** 9"), "has no value with these numbers"),
     "circle": (
         c_r("2 * a", a={"unit": "-", "expression": "b"}, b={"unit": "-", "expression": "c_r"}),
         "it leads back to itself: c_r -> a -> b -> c_r",

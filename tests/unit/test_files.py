@@ -124,6 +124,15 @@ def test_broken_result_is_told(name: str, content: bytes, words: str, tmp_path: 
     assert str(caught.value).startswith(f"{path}: ")
 
 
+def test_name_that_reads_like_a_missing_value_is_kept(tmp_path: Path) -> None:
+    path = tmp_path / "table.csv"
+    frame = pd.DataFrame({"parameter": ["NA", "nan", "k"], "value": [1.0, np.nan, 3.0]})
+    write_csv(path, frame)
+    found = read_csv(path, rows={("parameter",): [("NA",), ("nan",), ("k",)]})
+    assert found["parameter"].tolist() == ["NA", "nan", "k"]
+    assert np.array_equal(found["value"], frame["value"], equal_nan=True)
+
+
 def test_missing_result_is_told(tmp_path: Path) -> None:
     for read in (read_json, read_csv):
         with pytest.raises(DataError, match="this result is missing; run the workflow to make it"):

@@ -162,6 +162,7 @@ def check_expression(study: Study, expression: str, rules: Any, place: str) -> N
         cases.append(({n: values[n] for n in named_by(expression)}, value_of(expression, values)))
     for values, value in cases:
         at = ", ".join(f"{n} = {v / study.parameters[n].factor:g}" for n, v in values.items())
+        at = at or "these numbers"
         if math.isnan(value):
             raise ValueError(
                 f"{place}: '{expression}' has no value with {at}, as after a division by zero; "

@@ -53,7 +53,9 @@ def as_study(given: Mapping[str, Any], source: str, located: bool = False) -> St
     except ValueError as error:
         lines = [str(error)]
     except RecursionError:
-        lines = ["an anchor (&) is used inside itself (*); write it out"]
+        lines = [
+            "an anchor (&) is used inside itself (*), or an expression is too long; write it out"
+        ]
     else:
         return study if folder is None else _located(study, folder)
     rules = "a rule" if len(lines) == 1 else f"{len(lines)} rules"

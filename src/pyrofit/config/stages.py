@@ -10,6 +10,10 @@ from pyrofit.model.base import Part
 Name = Annotated[str, Field(pattern=r"^[A-Za-z][A-Za-z0-9_]*$")]
 
 
+MOST = 1_000_000
+"""Largest count of repetitions or starts."""
+
+
 class Sceua(Part):
     """Budget of SPOTPY's SCE-UA."""
 
@@ -24,13 +28,13 @@ class Sceua(Part):
 class LeastSquares(Part):
     """Multistart bounded least squares beside it."""
 
-    starts: int = Field(8, ge=1, description="random starts within the limits")
+    starts: int = Field(8, ge=1, le=MOST, description="random starts within the limits")
 
 
 class Cmaes(Part):
     """CMA-ES beside it."""
 
-    starts: int = Field(2, ge=1, description="random starts within the limits")
+    starts: int = Field(2, ge=1, le=MOST, description="random starts within the limits")
     calls: int = Field(
         3000, ge=10, description="model calls after which a start begins no further generation"
     )
@@ -77,7 +81,7 @@ class Imp(Part):
     estimate: tuple[str, ...] = Field(min_length=1, description="parameters to estimate")
     kinetics: str = Field("described", description="'described', 'fitted', or one of kinetics.sets")
     costs: dict[Name, Terms] = Field(min_length=1, description="cost functions by name")
-    repetitions: int = Field(25, ge=1, description="repetitions per cost")
+    repetitions: int = Field(25, ge=1, le=MOST, description="repetitions per cost")
     sceua: Sceua = Field(default_factory=Sceua, description="budget of SCE-UA")
     least_squares: LeastSquares = Field(
         default_factory=LeastSquares, description="least squares, in addition to SCE-UA"
@@ -114,7 +118,7 @@ class Robustness(Part):
         0.5, gt=0.0, description="size of an outlier, share of the signal's range"
     )
     draws: int = Field(10, ge=1, description="twins of each level")
-    starts: int = Field(3, ge=1, description="random starts of least squares for each")
+    starts: int = Field(3, ge=1, le=MOST, description="random starts of least squares for each")
 
 
 class Validation(Part):

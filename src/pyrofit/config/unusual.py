@@ -33,10 +33,11 @@ A key with a dot is one of the part before the dot."""
 COUNTS: dict[str, tuple[int, str]] = {
     "generations": (10_000, "20 to 500"),
     "repetitions": (10_000, "5 to 1000"),
+    "starts": (1000, "2 to 50"),
 }
 """The largest count that gives no warning, and the usual counts, by key of a search."""
 LONGEST_NAME = 60
-CONFUSING = ("nan", "inf", "none", "null", "rest", "true", "false")
+CONFUSING = ("nan", "na", "inf", "none", "null", "rest", "true", "false")
 """Names that read like something else in tables and files."""
 _WITHIN = ("value", "of")
 """Keys of a property or a table below which its number stands."""

@@ -40,6 +40,18 @@ UNITS: dict[str, float] = {
 """Factor that takes a value in each unit to SI."""
 
 
+LONGEST = 300
+"""Characters of an expression that a study gives."""
+
+
+def _check_length(expression: str) -> None:
+    if len(expression) > LONGEST:
+        raise ValueError(
+            f"an expression of {len(expression)} characters; it has at most {LONGEST}. Give parts "
+            "of it as parameters with expressions of their own"
+        )
+
+
 class Parameter(Part):
     """A named number; bounds and value are in ``unit``."""
 
@@ -64,6 +76,7 @@ class Parameter(Part):
         if self.unit not in UNITS:
             raise ValueError(f"unknown unit '{self.unit}'; known: {', '.join(UNITS)}")
         if self.expression is not None:
+            _check_length(self.expression)
             names_of(self.expression)
             if (self.value, self.lower, self.upper, self.fixed) != (None,) * 4:
                 raise ValueError(

@@ -114,7 +114,8 @@ def read_csv(
         The file is missing or broken, or something is missing in it.
     """
     try:
-        frame = pd.read_csv(path)
+        # A parameter may be named NA; only an empty cell holds nothing.
+        frame = pd.read_csv(path, keep_default_na=False, na_values=[""])
     except FileNotFoundError:
         raise DataError(f"{path}: this result is missing; run the workflow to make it") from None
     except (OSError, ValueError, EOFError, zlib.error) as error:
