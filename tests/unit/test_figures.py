@@ -190,7 +190,7 @@ def test_uncertainty_of_the_mass_is_a_band_where_it_is_known(name: str, tmp_path
             canvas = FIGURES[name].make(study, results)
         assert sum(len(ax.collections) for ax in canvas.axes) == bands
         entries = [text.get_text() for text in canvas.legends[0].get_texts()]
-        assert entries.count("uncertainty") == bands
+        assert entries.count("stated uncertainty") == bands
         with_uncertain_mass(results)
 
 

@@ -125,7 +125,7 @@ def test_estimate_that_the_data_push_out_of_its_limits_is_at_its_bound() -> None
     (estimate,) = identify(posed, [np.array([0.5])]).estimates
     assert estimate.x == 1.0
     assert estimate.bound == "upper"
-    assert estimate.verdict == "at its upper bound"
+    assert estimate.verdict == "at its upper limit"
     assert estimate.interval.high_open
     # (d + 2 sd)^2 - (2 sd)^2 = 3.84 sd^2 at d = (sqrt(7.84) - 2) sd
     assert 1.0 - estimate.noise.low == pytest.approx((np.sqrt(7.8416) - 2.0) * sd, rel=0.02)
@@ -224,4 +224,4 @@ def test_profile_interpolates_the_root_of_the_rise() -> None:
 def test_verdict_at_its_limits() -> None:
     assert verdict(0.2, "") == "determined"
     assert verdict(0.21, "") == "weakly determined"
-    assert verdict(0.51, "lower") == "undetermined, at its lower bound"
+    assert verdict(0.51, "lower") == "undetermined, at its lower limit"

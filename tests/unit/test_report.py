@@ -111,15 +111,15 @@ def test_summary_says_the_numbers_in_three_items(tmp_path: Path) -> None:
     _, text = written(tmp_path)
     assert summary_of(text) == [
         "With 2 parameters fitted to Slab 25 kW/m² by 2 cost functions, the best sets reproduce "
-        "the mass loss rate with CV(RMSE) 0.250 to 5.25; weighed by the noise, the best fit of all "
-        "leaves chi-square 3.60 per point, where noise alone leaves 1.",
+        "the mass loss rate with CV(RMSE) 0.250 to 5.25. The best fit of all has a chi-square "
+        "of 3.60 per point; noise alone gives 1.",
         "To predict, use all values of the best set of RMSE (SCE-UA). Of 6 sets, this one "
         "predicts the held-out experiments best: the mass loss rate with CV(RMSE) 0.250 and the "
         "back temperature with RMSE 7.00 K (all sets: the mass loss rate with CV(RMSE) 0.250 to "
         "5.25 and the back temperature with RMSE 7.00 to 12.0 K). The choice used these data, "
         "so they do not validate it. Another optimiser finds a set with a lower RMSE.",
         "The data determine 2 of 3 parameters (95 % interval narrower than 20 % of the search "
-        "range); undetermined: cp (70.0 %, upper bound). Do not quote cp alone: other values fit "
+        "range); undetermined: cp (70.0 %, upper limit). Do not quote cp alone: other values fit "
         "as well.",
     ]
 
@@ -185,7 +185,7 @@ def test_answer_by_hand(tmp_path: Path) -> None:
     assert k[ours].tolist() == [0.5, 0.5]
     assert k["flags"] == "at a limit: RMSE, BANDS"
     assert cp[["estimate", *ours]].tolist() == [3.5, 1.5, 1.5]
-    assert cp["flags"] == "undetermined by the data; estimate at its upper bound"
+    assert cp["flags"] == "undetermined by the data; estimate at its upper limit"
     assert table.loc["T_p", ours].isna().all()
     assert pd.isna(table.loc["T_p", "flags"])
 
@@ -199,7 +199,7 @@ def test_advice_warns_of_a_set_that_predicts_worse_than_it_fits(tmp_path: Path) 
     said = "twice that of the fitted data (the mass loss rate with CV(RMSE) 0.250): find first"
     assert said in advice(study, facts_of(study, results, tables_of(study, results)))
     path = results.identification("estimate.csv")
-    bound = read_csv(path).assign(verdict="at its upper bound", bound="upper")
+    bound = read_csv(path).assign(verdict="at its upper limit", bound="upper")
     write_csv(path, bound)
     said = " k and cp are at a limit: the best fit lies outside the limits."
     assert summary(study, facts_of(study, results, tables_of(study, results)))[2].endswith(said)
@@ -224,7 +224,7 @@ def test_sections_say_the_numbers(tmp_path: Path) -> None:
         "sets predict the back temperature of slab_60 with RMSE 7.00 to 8.00 K",
         "By the data (width of the 95 % interval, % of the search range): of the kinetics "
         "determined T_p (10.0 %); of the inverse modelling determined k (10.0 %), undetermined cp "
-        "(70.0 %, upper bound).",
+        "(70.0 %, upper limit).",
     ):
         assert claim in page.words
     assert "Slab 25 kW/m²: released 4.000 of " in page.words

@@ -236,7 +236,7 @@ def _identification(study: Study, results: Results) -> None:
     k |= {"noise_low": 0.29, "noise_high": 0.31, "high_open": False, "method": "linear"}
     cp = {"parameter": "cp", "estimate": 3500.0, "sd": 800.0, "low": 1400.0, "high": 3500.0}
     cp |= {"width": 0.7, "noise_low": 2450.0, "noise_high": 3500.0, "high_open": True}
-    cp |= {"method": "profile", "bound": "upper", "verdict": "undetermined, at its upper bound"}
+    cp |= {"method": "profile", "bound": "upper", "verdict": "undetermined, at its upper limit"}
     rows = [{**common, **k, "verdict": "determined"}, {**common, **cp}]
     write_csv(results.identification("estimate.csv"), pd.DataFrame(rows))
     matrix = {"parameter": ["k", "cp"], "k": [1.0, -0.8], "cp": [-0.8, 1.0]}
@@ -373,7 +373,7 @@ def test_table4_by_hand(tmp_path: Path) -> None:
     assert cp["flags"].startswith("spread > 20 % of search range; undetermined")
     # 0.4985 is 0.0015 below 0.5, and 0.5 % of 0.4 is 0.002; sigma = sqrt(0.004852/2) < 0.08.
     k = table.loc[("BANDS", "k")]
-    assert k["flags"] == "at bound (upper)"
+    assert k["flags"] == "at limit (upper)"
     assert np.isnan(k["published_best"])
 
 
@@ -491,29 +491,29 @@ def test_distances_by_hand(tmp_path: Path) -> None:
 
 def test_verdicts_are_flags_of_table4(tmp_path: Path) -> None:
     table = made("table4", *fake(tmp_path)).set_index(["cost_function", "quantity"])
-    words = "undetermined by the data; estimate at its upper bound"
+    words = "undetermined by the data; estimate at its upper limit"
     assert table.loc[("RMSE", "cp"), "flags"] == f"spread > 20 % of search range; {words}"
-    assert table.loc[("RMSE", "k"), "flags"] == "at bound (upper)"
+    assert table.loc[("RMSE", "k"), "flags"] == "at limit (upper)"
 
 
 def test_flag_of_a_parameter_at_its_bound() -> None:
-    words = {"unit": "-", "method": "linear", "partner": "", "verdict": "at its lower bound"}
+    words = {"unit": "-", "method": "linear", "partner": "", "verdict": "at its lower limit"}
     numbers = dict.fromkeys(("value", "low", "high", "width"), 0.1)
     none = dict.fromkeys(("cut_off", "noise_low", "noise_high", "correlation"))
     low = Estimated(stage="imp", name="k", bound="lower", **words, **numbers, **none)
-    assert low.grade == "at a bound"
-    assert flag(low) == "estimate at its lower bound"
+    assert low.grade == "at a limit"
+    assert flag(low) == "estimate at its lower limit"
 
 
 def test_flags_at_their_limits() -> None:
     def said(best: float, sigma: float) -> str:
         return flags(Repeated("RMSE", "k", best, best, sigma, 0.0, 2.0))
 
-    assert said(0.009, 0.0) == "at bound (lower)"
+    assert said(0.009, 0.0) == "at limit (lower)"
     assert said(0.011, 0.0) == ""
     assert said(1.0, 0.41) == "spread > 20 % of search range"
     assert said(1.0, float("nan")) == ""
-    assert said(1.999, 0.5) == "at bound (upper); spread > 20 % of search range"
+    assert said(1.999, 0.5) == "at limit (upper); spread > 20 % of search range"
 
 
 def test_table4_of_synthetic_data_shows_nothing_published(tmp_path: Path) -> None:

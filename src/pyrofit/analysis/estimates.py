@@ -9,8 +9,8 @@ import pandas as pd
 from pyrofit.config import Study
 from pyrofit.results.identification import Identified
 
-Grade = Literal["determined", "weakly determined", "at a bound", "undetermined"]
-GRADES: tuple[Grade, ...] = ("determined", "weakly determined", "at a bound", "undetermined")
+Grade = Literal["determined", "weakly determined", "at a limit", "undetermined"]
+GRADES: tuple[Grade, ...] = ("determined", "weakly determined", "at a limit", "undetermined")
 """How well the data determine a parameter, the best first."""
 
 _CUT_OFF = {
@@ -65,11 +65,11 @@ class Estimated:
 
     @property
     def grade(self) -> Grade:
-        """How well the data determine it; at a bound, only whether it is undetermined."""
+        """How well the data determine it; at a limit, only whether it is undetermined."""
         if self.verdict.startswith("undetermined"):
             return "undetermined"
         if self.bound:
-            return "at a bound"
+            return "at a limit"
         return "determined" if self.verdict == "determined" else "weakly determined"
 
 

@@ -67,15 +67,15 @@ class Estimate:
 def verdict(width: float, bound: str) -> str:
     """Say whether the data determine a parameter, from the width of its interval.
 
-    At a bound a narrow interval is the limit's doing: the parameter is not called determined.
+    At a limit a narrow interval is the limit's doing: the parameter is not called determined.
 
     >>> verdict(0.2, ""), verdict(0.2, "lower"), verdict(0.9, "upper")
-    ('determined', 'at its lower bound', 'undetermined, at its upper bound')
+    ('determined', 'at its lower limit', 'undetermined, at its upper limit')
     """
     if width > WEAKLY:
-        return f"undetermined, at its {bound} bound" if bound else "undetermined"
+        return f"undetermined, at its {bound} limit" if bound else "undetermined"
     if bound:
-        return f"at its {bound} bound"
+        return f"at its {bound} limit"
     return "determined" if width <= DETERMINED else "weakly determined"
 
 

@@ -178,7 +178,7 @@ def measured_entries(
     )
     entries: list[Line2D | Patch] = []
     entries += [style.line(data_name(study, pairs), **_MEASURED)] if with_line else []
-    return entries + ([style.patch("uncertainty", color=style.BAND)] if known else [])
+    return entries + ([style.patch("stated uncertainty", color=style.BAND)] if known else [])
 
 
 def set_entries(study: Study, shown: Sequence[PredictedSet]) -> list[Line2D | Patch]:

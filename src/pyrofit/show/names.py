@@ -29,15 +29,15 @@ STAGES = {"kinetics": "kinetics", "imp": "inverse modelling"}
 
 def flag(estimate: Estimated) -> str:
     """Return the flag of a parameter that the data do not determine, empty for one they do."""
-    graded = estimate.grade not in ("determined", "at a bound")
+    graded = estimate.grade not in ("determined", "at a limit")
     words = [f"{estimate.grade} by the data"] if graded else []
-    words += [f"estimate at its {estimate.bound} bound"] if estimate.bound else []
+    words += [f"estimate at its {estimate.bound} limit"] if estimate.bound else []
     return "; ".join(words)
 
 
 def named(estimate: Estimated) -> str:
     """Return a parameter with the width of its interval and the bound that it is at."""
-    bound = f", {estimate.bound} bound" if estimate.bound else ""
+    bound = f", {estimate.bound} limit" if estimate.bound else ""
     return f"{estimate.name} ({span([100.0 * estimate.width])} %{bound})"
 
 

@@ -56,8 +56,8 @@ def overview(study: Study, results: Results) -> Canvas:
         canvas,
         [
             *measured_entries(study, results, pairs, with_line=True),
-            style.line(f"set of {chosen.cost} ({chosen.origin})", **_LINE),
-            style.patch("range of all good sets", color=_REACH["color"]),
+            style.line(f"recommended set ({chosen.cost}, {chosen.origin})", **_LINE),
+            style.patch("sets near the lowest cost", color=_REACH["color"]),
         ],
     )
     return canvas
@@ -113,6 +113,6 @@ FIGURE = Figure(
     applies=lambda study: bool(_pairs(study)),
     make=overview,
     title="Measured, fitted and predicted",
-    caption="The set to predict with, and the lowest and highest curve of all sets whose cost is "
-    "near the lowest known one. 'Predicted': no cost function was fitted to this test.",
+    caption="The recommended set, and the lowest and highest curve of all sets whose cost is near "
+    "the lowest known one. 'Predicted': no cost function was fitted to this test.",
 )

@@ -9,6 +9,9 @@ from pyrofit.show.facts import Facts
 from pyrofit.show.names import all_scored, named
 from pyrofit.show.text import listed, several, span
 
+_MOST_NAMES = 4
+"""Experiments that a sentence names."""
+
 
 def summary(study: Study, facts: Facts) -> list[str]:
     """Return three items: the fit, the set for predictions, and the determined parameters."""
@@ -17,7 +20,8 @@ def summary(study: Study, facts: Facts) -> list[str]:
 
 def _fit(study: Study, facts: Facts) -> str:
     used = fitted_experiments(study)
-    where = listed([title_of(study, name) for name in study.experiments if name in used])
+    names = [title_of(study, name) for name in study.experiments if name in used]
+    where = listed(names) if len(names) <= _MOST_NAMES else several(len(names), "experiment")
     fitted = [score for score in _ours(facts) if score.use == FITTED]
     text = (
         f"With {several(len(study.imp.estimate), 'parameter')} fitted to {where} by "
@@ -26,8 +30,8 @@ def _fit(study: Study, facts: Facts) -> str:
     text += all_scored(fitted) if fitted else "the fitted data"
     chi2 = [found.per_point for found in facts.misfits if found.stage == "imp"]
     return (
-        f"{text}; weighed by the noise, the best fit of all leaves chi-square {span(chi2)} per "
-        "point, where noise alone leaves 1."
+        f"{text}. The best fit of all has a chi-square of {span(chi2)} per point; noise alone "
+        "gives 1."
     )
 
 
@@ -47,7 +51,7 @@ def _determined(facts: Facts) -> str:
     loose = [e.name for e in known if e.grade in ("weakly determined", "undetermined")]
     if loose:
         text += f" Do not quote {listed(loose)} alone: other values fit as well."
-    return text + _at_limits([e.name for e in known if e.grade == "at a bound"])
+    return text + _at_limits([e.name for e in known if e.grade == "at a limit"])
 
 
 def _at_limits(names: list[str]) -> str:

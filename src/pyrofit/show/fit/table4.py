@@ -53,7 +53,7 @@ def _row(study: Study, found: Repeated, by_data: str) -> dict[str, Any]:
 
 def flags(found: Repeated) -> str:
     """Say in words why an estimate is unreliable."""
-    said = [f"at bound ({found.bound})"] if found.bound else []
+    said = [f"at limit ({found.bound})"] if found.bound else []
     said += ["spread > 20 % of search range"] if found.is_wide else []
     return "; ".join(said)
 

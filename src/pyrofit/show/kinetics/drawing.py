@@ -116,4 +116,4 @@ def data_entries(study: Study, results: Results, names: Sequence[str]) -> list[L
     label = data_name(study, [(name, mass_signal(study, name)) for name in names])
     line = style.line(label, color="0.6", linewidth=2.0)
     known = any(_UNCERTAINTY in mass_series(study, results, n) for n in names)
-    return [line, style.patch("uncertainty", color=style.BAND)] if known else [line]
+    return [line, style.patch("stated uncertainty", color=style.BAND)] if known else [line]

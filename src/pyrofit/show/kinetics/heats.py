@@ -72,7 +72,7 @@ def _entries(study: Study, stated: bool) -> list[Line2D | Patch]:
         style.line(data_name(study, heats_shown(study)), color="0.6", linewidth=2.0)
     ]
     if stated:
-        entries.append(style.patch("uncertainty", color=style.BAND))
+        entries.append(style.patch("stated uncertainty", color=style.BAND))
     return entries + [
         style.line(label, color=style.colour(k), linestyle=dash_of(k))
         for k, label in enumerate(labels_of(study))

@@ -37,7 +37,7 @@ _HEADINGS = {
         "starts_at_best": "of these within 1 % of its best",
         "best": "{} best",
         "calls": "{} model calls",
-        "at_bound": "{} at bound",
+        "at_bound": "{} at a limit",
     }.items()
 }
 

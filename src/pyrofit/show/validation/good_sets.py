@@ -48,8 +48,8 @@ def good_sets(study: Study, results: Results) -> Canvas:
         ax.set_ylabel(label_of(study, name, signal))
     data = data_name(study, [(name, signal) for name, signal in pairs])
     entries: list[Any] = [style.line(data, color=style.MEASURED, linewidth=0.7)]
-    entries += [style.patch("uncertainty", color=style.BAND)] if stated else []
-    entries.append(style.patch("range of all good sets", color=_BAND["color"]))
+    entries += [style.patch("stated uncertainty", color=style.BAND)] if stated else []
+    entries.append(style.patch("sets near the lowest cost", color=_BAND["color"]))
     entries += [style.line(f"{c}, lowest cost known", **look) for c, look in looks.items()]
     style.legend_below(canvas, entries)
     return canvas
