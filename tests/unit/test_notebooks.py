@@ -1,6 +1,7 @@
-"""Notebooks of the documentation: stored without results, and run as they stand."""
+"""Notebooks of the documentation: they hold their results, and run as they stand."""
 
 import json
+import runpy
 from functools import partial
 from pathlib import Path
 
@@ -35,12 +36,35 @@ def run(path: Path, monkeypatch: pytest.MonkeyPatch) -> dict:
 
 
 @pytest.mark.parametrize("path", NOTEBOOKS, ids=lambda path: path.stem)
-def test_notebook_is_stored_without_results(path: Path) -> None:
-    for cell in cells(path):
-        if cell["cell_type"] == "code":
-            assert cell["outputs"] == []
-            assert cell["execution_count"] is None
-            assert not any(line.startswith(("%", "!")) for line in cell["source"])
+def test_notebook_holds_results_of_one_run(path: Path) -> None:
+    code = [cell for cell in cells(path) if cell["cell_type"] == "code"]
+    assert [cell["execution_count"] for cell in code] == list(range(1, len(code) + 1))
+    kinds = {output["output_type"] for cell in code for output in cell["outputs"]}
+    assert kinds >= {"execute_result", "display_data"}
+    assert "error" not in kinds
+    assert not any(line.startswith(("%", "!")) for cell in code for line in cell["source"])
+    text = path.read_text(encoding="utf-8")
+    assert len(text) < 200_000
+    assert str(Path.home()) not in text
+    assert str(FOLDER.parents[1]) not in text
+
+
+def test_cells_run_as_in_jupyter() -> None:
+    tool = runpy.run_path(str(FOLDER.parents[1] / "tools" / "run_notebooks.py"))
+    source = [
+        "import matplotlib.pyplot as plt\nimport pandas as pd\nprint('said')",
+        "pd.DataFrame({'a': [1]})",
+        "plt.plot([1, 2]);",
+        "b = 2",
+    ]
+    code = [{"cell_type": "code", "source": [text]} for text in source]
+    found = tool["executed"]({"cells": [{"cell_type": "markdown", "source": ["x"]}, *code]})
+    said, table, drawn, nothing = (cell["outputs"] for cell in found["cells"][1:])
+    assert [(o["output_type"], o["text"]) for o in said] == [("stream", ["said\n"])]
+    assert set(table[0]["data"]) == {"text/html", "text/plain"}
+    assert [o["output_type"] for o in drawn] == ["display_data"]
+    assert nothing == []
+    assert found["cells"][-1]["execution_count"] == 4
 
 
 def test_simulation_is_fitted(monkeypatch: pytest.MonkeyPatch) -> None:

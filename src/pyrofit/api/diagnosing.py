@@ -16,6 +16,7 @@ from pyrofit.diagnose.diagnosis import Diagnosis as Found
 from pyrofit.diagnose.diagnosis import examine
 from pyrofit.diagnose.result.extended_study import extended_keys
 from pyrofit.errors import StudyError
+from pyrofit.show.diagnosis.evidence import evidence_of
 from pyrofit.show.diagnosis.ranking import draw_ranking, ranking_entries
 from pyrofit.show.diagnosis.sentences import certainty, facts
 from pyrofit.show.diagnosis.words import ranked, remark
@@ -142,6 +143,16 @@ class Diagnosis:
         return pd.DataFrame(rows, columns=["effects", "chi2", "penalised", "gain", "remark"])
 
     @property
+    def evidence(self) -> pd.DataFrame:
+        """Evidence for each effect of the verdict besides the fit, in words and numbers.
+
+        Columns, without those of which there is no test: effect; predictions, changes of the log
+        score; agreement, p of equal strengths; correction, the best free one. The column above is
+        its -2 ln marginal likelihood relative to the effect.
+        """
+        return evidence_of(self.study, self.content)
+
+    @property
     def windows(self) -> pd.DataFrame:
         """Intervals of curves that are biased by more than noise explains."""
         return pd.DataFrame(self.content["windows"])
@@ -176,7 +187,12 @@ class Diagnosis:
 
     def report(self) -> str:
         """Return verdict, misfit, certainty and the best candidates as text."""
-        return "\n".join([*self._lines(), "", text_table(self.ranking.head(SHOWN))])
+        tables = (line for _, table in self._tables() for line in ("", text_table(table)))
+        return "\n".join([*self._lines(), *tables])
+
+    def _tables(self) -> list[tuple[str, pd.DataFrame]]:
+        evidence = [("Evidence", self.evidence)] if len(self.evidence) else []
+        return [*evidence, ("Candidates", self.ranking.head(SHOWN))]
 
     def _lines(self) -> list[str]:
         return [*facts(self.content), certainty(self.study, self.content)]
@@ -215,4 +231,4 @@ class Diagnosis:
 
     def _repr_html_(self) -> str:
         title = f"Diagnosis of study '{self.study.name}'"
-        return html_page(title, [("Candidates", self.ranking.head(SHOWN))], self._lines())
+        return html_page(title, self._tables(), self._lines())
