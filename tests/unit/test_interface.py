@@ -190,6 +190,15 @@ def test_parameter_that_was_fixed_needs_limits_to_be_free(study: pf.Study) -> No
     assert free.imp.estimate == study.imp.estimate
 
 
+def test_notes_of_the_reader_stand_below_a_series(study: pf.Study) -> None:
+    rate = RATE.copy()
+    rate[-2:] = np.nan
+    found = pf.read_data(study, {"slab_25": "mlr"}, {KEY: (TIME, rate)})
+    (note,) = [note for note in found[KEY].attrs["notes"] if "without" in note or "empty" in note]
+    assert f"    {note}" in repr(found)
+    assert note in found._repr_html_()
+
+
 def test_unusual_value_gives_a_warning(study: pf.Study) -> None:
     with pytest.warns(UserWarning, match="study 'smoke': .*'cp'.* outside the usual range"):
         pf.read_study(study, **{"parameters.cp.upper": 3000})

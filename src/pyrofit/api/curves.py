@@ -116,7 +116,10 @@ class Curves:
 
     def __repr__(self) -> str:
         """List the series."""
-        rows = [f"  {n}, {s}: {len(f)} points" for (n, s), f in self.series.items()]
+        rows = []
+        for (name, signal), frame in self.series.items():
+            rows.append(f"  {name}, {signal}: {len(frame)} points")
+            rows += [f"    {note}" for note in frame.attrs.get("notes", [])]
         return "\n".join([f"{self.words} series of study '{self.study.name}'", *rows])
 
     def _repr_html_(self) -> str:
@@ -127,10 +130,13 @@ class Curves:
                 "points": len(frame),
                 "to [s]": float(frame["time_s"].max()),
                 "columns": ", ".join(frame.columns),
+                "notes": "; ".join(frame.attrs.get("notes", [])),
             }
             for (name, signal), frame in self.series.items()
         ]
-        return html_page(f"{self.words} series of {self.study.name}", [("", pd.DataFrame(rows))])
+        table = pd.DataFrame(rows)
+        table = table if any(table["notes"]) else table.drop(columns="notes")
+        return html_page(f"{self.words} series of {self.study.name}", [("", table)])
 
 
 def with_units(frame: pd.DataFrame, quantity: Quantity) -> pd.DataFrame:

@@ -38,6 +38,12 @@ def read_data(study: Source, signals: Signals | None = None, data: Data | None =
         columns time [s], temperature [K] of heated samples, value, and maybe uncertainty, in SI
         units. Those of a heated sample may be temperature and value alone. A tuple holds columns.
 
+    Returns
+    -------
+    Curves
+        The notes of the reader, such as on cells without a value, are in ``table.attrs["notes"]``,
+        and stand below the list of the series.
+
     Raises
     ------
     DataError
@@ -145,7 +151,10 @@ def _with_signals(study: Study, signals: Mapping[Key, Signal]) -> Study:
 def _read(study: Study, labels: Mapping[str, str]) -> dict[Key, pd.DataFrame]:
     """Return all series of a study; messages name tables by their labels."""
     try:
-        found = {key: frame for key, (frame, _) in read_all(study).items()}
+        found = {}
+        for key, (frame, about) in read_all(study).items():
+            frame.attrs["notes"] = about["notes"]
+            found[key] = frame
     except DataError as error:
         text = str(error)
         for path, label in labels.items():
