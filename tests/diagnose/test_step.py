@@ -292,5 +292,5 @@ def test_model_whose_held_out_runs_do_not_finish_is_left_out(
     assert found.end.effects == end
     best = min(found.trials, key=lambda trial: trial.penalised)
     why = candidates._why_not(found, found.base, best, found.end.penalised)
-    assert why == "held-out runs do not finish with it"
+    assert why == "the simulation of a held-out test fails"
     assert any("held-out runs do not finish" in text for text in told)

@@ -129,7 +129,7 @@ TABLES = rows_of(
         (
             "negative first mass",
             tga("5.00000", "-5"),
-            ("the first mass is", "Give `sample_mass_kg`"),
+            ("given -5; a mass is not that far below 0", "correct the zero of the balance"),
         ),
         (
             "mass fraction of 9",

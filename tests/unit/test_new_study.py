@@ -619,7 +619,7 @@ def test_column_of_a_gas_or_the_apparatus_is_not_taken_for_the_sample(
 ) -> None:
     write("slab_25.csv", f"Time [s],Mass [g],{header}", SECONDS, 70.0 - SECONDS / 20.0, BACK_K)
     made(f"--{kind}", "slab_25.csv")
-    assert "is not used: it is of a gas or the apparatus, not of the" in capsys.readouterr().out
+    assert "is not used: it belongs to a gas or the apparatus, not to" in capsys.readouterr().out
     assert [f.quantity for f in draft.measured(kind, Path("slab_25.csv")).signals] == ["mass"]
 
 

@@ -33,7 +33,7 @@ def unused(table: Table, header: str, kind: str) -> str:
     if _TOTAL.fullmatch(stem_of(header)):
         return "it is a total over the test, not a rate"
     if _is_of_apparatus(header, kind):
-        return "it is of a gas or the apparatus, not of the sample"
+        return "it belongs to a gas or the apparatus, not to the sample"
     if any(is_abscissa(header, role) for role in ("time", "temperature")):
         return "another column is taken for the time or the temperature, or several may be it"
     others = _other_kinds(header, kind)

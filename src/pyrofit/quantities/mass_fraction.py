@@ -4,7 +4,7 @@ from pyrofit.quantities.base import Quantity, Shown
 
 
 def _guess(first: float, largest: float) -> str:
-    if largest <= 1.5:
+    if 0.9 < first < 1.1 and largest <= 1.5:
         return "1"
     return "%" if 95.0 < first < 105.0 else "mg"
 
