@@ -24,7 +24,7 @@ from pyrofit.show.stability.figures import draw
 from pyrofit.show.stability.sentences import sentences
 from pyrofit.show.stability_page import PAGE, sections
 
-REASON = "its strength rests at a limit"
+REASON = "its strength is at a limit"
 VERDICTS: tuple[tuple[str, list[list[str]], list[str]], ...] = (
     ("named", [["k_T"]], ["k_T"]),
     ("multiple", [["k_T"], ["melting"]], ["k_T", "melting"]),

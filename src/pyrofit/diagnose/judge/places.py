@@ -154,9 +154,9 @@ def _against(gain: float, spare: float, about: Trust) -> str:
     ``gain`` is that of penalised chi-square over the model without the effect.
     """
     if gain < spare:
-        return f"gains {gain:.1f} of penalised chi-square, {spare:.1f} are asked for"
+        return f"penalised gain {gain:.1f}; {spare:.1f} needed"
     if about.limit:
-        return f"{about.limit} rests at a limit"
+        return f"{about.limit} is at a limit"
     if about.disagree < SETTINGS.agreement_level:
         return f"the experiments ask for different strengths (p = {about.disagree:.1g})"
     if about.informative and not about.predicts:

@@ -107,7 +107,7 @@ def _why_not(found: Search, start: FittedModel, trial: FittedModel, best: float)
         return "the simulation of a held-out test fails"
     gain = start.penalised - trial.penalised
     if gain < found.spare:
-        return f"lowers penalised chi-square by {gain:.1f}; {found.spare:.1f} are needed"
+        return f"penalised gain {gain:.1f}; {found.spare:.1f} needed"
     limits = strengths_at_limit(trial)
     if limits:
         return f"{limits[0]} is at a limit"
