@@ -115,4 +115,4 @@ def _why_not(found: Search, start: FittedModel, trial: FittedModel, best: float)
     others = [name for name in trial.effects if name not in found.end.effects]
     if above < 0.0 and others:
         return f"fits better, but fails the tests of a claim with {', '.join(others)}"
-    return f"{above:.1f} above the final model in penalised chi-square"
+    return f"{above:.1f} above the final model"

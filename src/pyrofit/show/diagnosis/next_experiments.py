@@ -50,7 +50,10 @@ def draw_next_experiments(study: Study, results: Results) -> Canvas:
     ax.tick_params(axis="y", length=0)
     ax.set_xlabel("separation [standard deviations]")
     entries: list[Any] = [
-        style.patch("the two models separated least", color=style.COLOURS[0]),
+        style.patch(
+            "the two models separated least" if several else "the two models",
+            color=style.COLOURS[0],
+        ),
         style.line("distinguished (3 sd)", **LIMIT),
     ]
     if several:
