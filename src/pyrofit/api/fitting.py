@@ -18,14 +18,14 @@ from pyrofit.api.choices import (
     with_kinetics_of,
 )
 from pyrofit.api.comparison import compared
-from pyrofit.api.fitted import (
-    Fit,
+from pyrofit.api.fit_tables import (
     correlation_table,
     derived_table,
     ends_table,
     estimates_table,
     signals_table,
 )
+from pyrofit.api.fitted import Fit
 from pyrofit.api.measurements import Data, given_keys, measured
 from pyrofit.api.searching import check_cost, fit_cost
 from pyrofit.api.studies import Source, read_study

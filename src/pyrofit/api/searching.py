@@ -8,7 +8,8 @@ import pandas as pd
 
 from pyrofit.api.choices import complete, in_units
 from pyrofit.api.comparison import compared
-from pyrofit.api.fitted import Fit, derived_table, table_in_units
+from pyrofit.api.fit_tables import derived_table, table_in_units
+from pyrofit.api.fitted import Fit
 from pyrofit.api.measurements import Data, measured
 from pyrofit.config import Study, diagnosed_material
 from pyrofit.errors import StudyError, suggest
