@@ -168,7 +168,8 @@ def test_limits_of_the_kinetics_hold_the_truth_of_a_record(folder: Path) -> None
     assert limits.lower is not None
     assert limits.upper is not None
     assert limits.lower + 50.0 < 605.0 < limits.upper - 20.0
-    assert study.material.reactions["pyrolysis"].products == {"residue": 0.05}
+    assert study.material.reactions["pyrolysis"].products == {"residue": "y"}
+    assert study.parameters["y"].bounds_si == pytest.approx((0.0, 0.1), abs=1e-3)
 
 
 def not_in_costs(study: Study) -> set[str]:
@@ -292,7 +293,7 @@ def test_tga_alone_gives_a_study_of_the_kinetics(folder: Path) -> None:
         write(f"tga_{rate}K.csv", "Time (min),T (K),Mass fraction", *columns)
     study = made("--tga", "tga_5K.csv", "tga_10K.csv", "tga_20K.csv")
     assert study.kinetics is None
-    assert study.imp.estimate == ("T_p", "E_p")
+    assert study.imp.estimate == ("T_p", "E_p", "y")
     (terms,) = study.imp.costs.values()
     assert [term.experiment for term in terms] == ["tga_5K", "tga_20K"]
     assert study.validation.experiments == ("tga_5K", "tga_10K", "tga_20K")
@@ -459,7 +460,7 @@ def test_calorimeter_file_joins_the_kinetics(
         ("a_10K", quantity),
     }
     heats = {"dsc": {"dh", "cp"}, "mcc": {"dhc"}}[kind]
-    assert set(study.kinetics.estimate) == {"T_p", "E_p"} | heats
+    assert set(study.kinetics.estimate) == {"T_p", "E_p", "y"} | heats
     assert not (heats - {"cp"}) & set(study.imp.estimate)
 
 

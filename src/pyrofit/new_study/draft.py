@@ -84,6 +84,11 @@ class Kinetics:
     residue: float = 0.1
     known_residue: bool = False
 
+    @property
+    def residues(self) -> tuple[float, float]:
+        """Limits of the residue: the end of a record shows it but for noise."""
+        return max(round(self.residue - 0.05, 3), 0.0), min(round(self.residue + 0.05, 3), 0.99)
+
 
 def measured(kind: str, path: Path) -> Measured:
     """Read a file of a kind of experiment as far as it goes.
@@ -158,7 +163,7 @@ def kinetics_of(records: Iterable[Measured]) -> Kinetics:
     rests = [loss.residue for loss in losses if loss.residue is not None]
     residue = float(np.mean(rests)) if rests else Kinetics.residue
     return Kinetics(
-        max(lower, 300.0), upper + 30.0, min(max(round(residue, 3), 0.001), 0.95), bool(rests)
+        max(lower, 300.0), upper + 30.0, min(max(round(residue, 4), 0.001), 0.95), bool(rests)
     )
 
 

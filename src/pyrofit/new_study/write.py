@@ -137,11 +137,12 @@ def study_text(name: str, tests: Sequence[Measured]) -> str:
     heated, slabs = (part_of(stage, tests) for stage in STAGES)
     shown = [_HEATS[key] for key in heats(heated.fitted)]
     burns = _COMBUSTION in heats(records)
+    of_kinetics = ["T_p", "E_p", *(["y"] if kinetics.known_residue else []), *shown]
     estimated = _of_slabs(heated, slabs, shown)
     alone = None
     if not slabs.runs:  # kinetics alone: as the first stage of other studies
         heated, slabs = slabs, heated
-        estimated = ["T_p", "E_p", *shown]
+        estimated = of_kinetics
         alone = [_OF_HEATED[name] for name in shown if name in _OF_HEATED]
     return (
         _environment()
@@ -154,7 +155,7 @@ def study_text(name: str, tests: Sequence[Measured]) -> str:
             experiments=_experiments([*heated.runs, *slabs.runs]),
             kinetics_part=heated,
             kinetics_words=_words(heated),
-            kinetics_estimate=["T_p", "E_p", *shown],
+            kinetics_estimate=of_kinetics,
             burns=burns,
             imp_part=slabs,
             imp_words=_words(slabs),

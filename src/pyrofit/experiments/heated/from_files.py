@@ -4,12 +4,15 @@ import numpy as np
 import pandas as pd
 
 from pyrofit.experiments.from_files import Frames, FromFiles, Loss, NamedNumber
+from pyrofit.solver.arrays import FloatArray
 
 RATE_K_MIN = NamedNumber("K", (0.5, 500.0), 10.0)
 HOLD_K = 5.0
 """Span of temperatures within which one is held."""
 STILL = 0.02
 """Share of the loss of mass in the last tenth of a record from which on the end is no residue."""
+LEVEL = 0.01
+"""Share of the loss of mass above the end up to which a record counts as level."""
 AGREES = 0.1
 """Share by which a named heating rate may differ from the recorded one."""
 
@@ -59,13 +62,24 @@ def _heating(frame: pd.DataFrame, set_point_K: float | None) -> pd.DataFrame:
     return frame if before < 3 else frame.iloc[:before]
 
 
+def _rest(mass: FloatArray) -> float:
+    """Return the mass at the end: the mean of the second half of the level part, 5 points at least.
+
+    A mean of few points would differ from the level by their noise, which a fit shows as misfit.
+    """
+    rest = float(np.median(mass[-max(mass.size // 10, 5) :]))
+    falling = np.flatnonzero(mass > rest + LEVEL * (mass[0] - rest))
+    level = mass.size - 1 - int(falling[-1]) if falling.size else mass.size
+    return float(np.mean(mass[-max(level // 2, 5) :]))
+
+
 def mass_loss(frames: Frames) -> Loss | None:
     """Return the temperature [K] of half the loss of mass, and the residue [kg/kg]."""
     frame: pd.DataFrame | None = frames.get("mass_fraction")
     if frame is None:
         return None
     mass, temperature = frame["mass_fraction"].to_numpy(), frame["temperature_K"].to_numpy()
-    rest = float(np.median(mass[-5:]))
+    rest = _rest(mass)
     below = np.flatnonzero(mass < 0.5 * (mass[0] + rest))
     if not below.size or rest >= 0.98:
         return None
