@@ -95,8 +95,9 @@ def _usual(study: Study, results: Results, beside: Path) -> str:
     if _diagnosis_of(results, beside) is not None:
         return DIAGNOSIS
     raise StudyError(
-        f"{results.root}: study '{study.name}' has no fitted values there; run the workflow, or "
-        "choose a set that needs none: --set truth, --set '<cost> published', --set values.json"
+        f"{results.root}: study '{study.name}' has no fitted values there. Run the workflow, or "
+        "name the folder of another run by --results. Sets that need no run: --set truth, "
+        "--set '<cost> published', --set values.json"
     )
 
 
@@ -107,19 +108,22 @@ def _of_report(study: Study, results: Results, label: str) -> ParameterSet:
             f"study '{study.name}' has no set '{label}'. "
             + suggest(label, [*known, DIAGNOSIS, *([TRUTH] if study.synthetic else [])])
         )
-    try:
-        notes = {e.name: _note(e) for e in estimated(study, identification.read(study, results))}
-    except DataError:
-        notes = {}  # the analysis has not run
     values = fixed_for_imp(study, results) | known[label]
+    try:
+        found = estimated(study, identification.read(study, results))
+    except DataError:
+        found = []  # the analysis has not run
+    notes = {e.name: _note(e, values[e.name] / study.parameters[e.name].factor) for e in found}
     return ParameterSet(label, _fitted(study), values, notes)
 
 
-def _note(found: Estimated) -> str:
+def _note(found: Estimated, value: float) -> str:
     partner = (
         f", correlated with {found.partner} ({found.correlation:.2f})" if found.partner else ""
     )
-    return f"95 % interval {found.low:.5g} to {found.high:.5g}, {found.grade}{partner}"
+    outside = "" if found.low <= value <= found.high else ", which does not hold this value"
+    interval = f"95 % interval {found.low:.5g} to {found.high:.5g}{outside}"
+    return f"{interval}, {found.grade}{partner}"
 
 
 def _file(label: str) -> dict[str, float]:

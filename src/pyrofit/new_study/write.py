@@ -216,7 +216,8 @@ def _words(part: Part) -> str:
 def _check_name(name: str) -> None:
     if not _NAME.fullmatch(name):
         raise StudyError(
-            f"'{name}' is no name; letters, digits and _ make one, a letter first, such as my_wood"
+            f"'{name}' is no name; letters, digits and _ make one, a letter first, as my_wood. "
+            "The study is made in the current folder"
         )
 
 

@@ -8,7 +8,6 @@ import pandas as pd
 
 from pyrofit.analysis.uses import (
     PUBLISHED,
-    SCEUA,
     STARTED,
     PredictedSet,
     predicted_sets,
@@ -183,10 +182,6 @@ def measured_entries(
 
 def set_entries(study: Study, shown: Sequence[PredictedSet]) -> list[Line2D | Patch]:
     """Return the legend entries of the sets, those of one cost together."""
-    several = {s.origin for s in shown} != {SCEUA}
     order = [s.cost for s in shown]
     together = sorted(shown, key=lambda s: order.index(s.cost))
-    return [
-        style.line(f"{s.cost} {s.origin}" if several else s.cost, **look_of(study, s))
-        for s in together
-    ]
+    return [style.line(f"{s.cost} {s.origin}", **look_of(study, s)) for s in together]

@@ -57,7 +57,7 @@ def scored(found: Sequence[Score]) -> str:
     if quantity.relative:
         return f"CV(RMSE) {span([score.value for score in found])}"
     values = [float(difference(quantity, score.value)) for score in found]
-    return f"RMSE {span(values)} {difference_unit(quantity)}"
+    return f"RMSE {span(values)} {difference_unit(quantity)}".removesuffix(" –")
 
 
 def all_scored(found: Iterable[Score]) -> str:

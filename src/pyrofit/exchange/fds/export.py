@@ -104,7 +104,11 @@ def _heated_curve(T: FloatArray, mass: FloatArray, last: float) -> pd.DataFrame:
 def text_of(deck: Deck, heading_lines: list[str]) -> str:
     """Return a file: heading, inexact terms, and the lines."""
     said = [*heading_lines]
-    said += ["Differences between FDS and pyrofit:" if deck.remarks else "All terms are exact."]
+    said += [
+        "Differences between FDS and pyrofit:"
+        if deck.remarks
+        else "All terms of this file are exact."
+    ]
     said += [f"  {remark.line}" for remark in deck.remarks]
     comment = "".join(f"{comment_line(line)}\n" for line in said)
     return comment + "\n" + write_all(deck.namelists)

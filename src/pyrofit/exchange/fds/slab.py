@@ -154,7 +154,8 @@ def _head(
     if version.locks_step:
         time["LOCK_TIME_STEP"] = True
     # Some readers of input files take a slash for the end of a namelist, quoted or not.
-    ascii_title = title.replace("/", " per ").encode("ascii", "ignore").decode() or name
+    plain = title.replace("/", " per ").replace("²", "2").replace("³", "3")
+    ascii_title = plain.encode("ascii", "ignore").decode() or name
     corners = [-width, width, -0.15, 0.15, 0.0, 0.3]
     return [
         Namelist("HEAD", {"CHID": name, "TITLE": ascii_title[:60]}),

@@ -5,12 +5,13 @@ from typing import Any
 
 import pandas as pd
 
-from pyrofit.analysis.best_sets import at_bound, best_sets
+from pyrofit.analysis.best_sets import at_bound, best_sets, ends
 from pyrofit.analysis.estimates import Estimated, estimated
 from pyrofit.config import Study
 from pyrofit.estimate.optimisers import OPTIMISERS
 from pyrofit.results import identification, searches
 from pyrofit.results.files import Results
+from pyrofit.show.answer.chosen import chosen_set
 from pyrofit.show.names import STAGES, flag
 from pyrofit.show.table import Table
 
@@ -22,10 +23,11 @@ def answer(study: Study, results: Results) -> pd.DataFrame:
     -------
     pandas.DataFrame
         One row per parameter, in its own unit. A column for each cost function holds the set of
-        the lowest cost that any optimiser found, and names the optimiser.
+        the lowest cost that any optimiser found, and names the optimiser. The recommended set has a
+        column, too.
     """
     known = estimated(study, identification.read(study, results))
-    best = best_sets(study, searches.read(study, results, OPTIMISERS))
+    best = _sets(study, results)
     frame = pd.DataFrame([_row(study, estimate) for estimate in known])
     for row in best.to_dict("records"):
         frame[column_of(row)] = [
@@ -36,6 +38,17 @@ def answer(study: Study, results: Results) -> pd.DataFrame:
     # None where there is nothing: a column without any is not shown.
     frame["flags"] = ["; ".join(filter(None, said)) or None for said in flags]
     return frame
+
+
+def _sets(study: Study, results: Results) -> pd.DataFrame:
+    """Return the best set of each cost function, and the recommended one if it is another."""
+    searched = searches.read(study, results, OPTIMISERS)
+    best, chosen = best_sets(study, searched), chosen_set(study, results)
+    every = ends(study, searched)
+    mine = every[every["best"] & (every["cost_function"] == chosen.cost_function)]
+    mine = mine[mine["found_by"] == chosen.found_by]
+    sets = pd.concat([best, mine], ignore_index=True)
+    return sets.drop_duplicates(["cost_function", "found_by"], ignore_index=True)
 
 
 def _row(study: Study, e: Estimated) -> dict[str, Any]:
@@ -55,11 +68,11 @@ def _at_limit(study: Study, name: str, best: pd.DataFrame) -> str:
     """Name the cost functions whose best set has a parameter at a limit."""
     factor = study.parameters[name].factor
     lower, upper = (limit * factor for limit in study.search_limits(name))
-    names = [
+    names = dict.fromkeys(
         str(row["cost_function"])
         for row in best.to_dict("records")
         if at_bound(float(row[name]), lower, upper)
-    ]
+    )
     return f"at a limit: {', '.join(names)}" if names else ""
 
 
@@ -70,8 +83,8 @@ TABLE = Table(
     title="The answer: estimate, 95 % interval, and the best set of each cost function",
     note="Estimate: the optimum of the likelihood, which weighs each point by its noise. "
     "The 95 % interval holds for a correct model. Best sets: lowest cost of all "
-    "optimisers that used this cost. Use the values of one column together, within one part of "
-    "the table.",
+    "optimisers that used this cost; the recommended set has a column as well. Use the values of "
+    "one column together, within one part of the table.",
     headings={"low": "95 % low", "high": "95 % high"},
     group_by="fit",
 )

@@ -4,22 +4,19 @@ from typing import Any
 
 import pandas as pd
 
-from pyrofit.analysis.distances import distances
-from pyrofit.analysis.recommended import recommended
-from pyrofit.analysis.scores import scores
 from pyrofit.analysis.uses import (
     FITTED,
     HELD_OUT,
     PredictedSet,
-    predicted_labels,
     predicted_sets,
     title_of,
     use_of,
 )
 from pyrofit.config import Study
-from pyrofit.results import comparison, identification, prediction, recorded
+from pyrofit.results import comparison, recorded
 from pyrofit.results.files import Results
 from pyrofit.show import style
+from pyrofit.show.answer.chosen import chosen_set
 from pyrofit.show.curves import (
     Pair,
     curve_of,
@@ -81,8 +78,7 @@ def _draw(
 
 
 def _recommended(study: Study, results: Results) -> PredictedSet:
-    found = scores(study, prediction.scores(study, results, predicted_labels(study)))
-    chosen = recommended(found, distances(study, identification.read(study, results)))
+    chosen = chosen_set(study, results)
     mine = (chosen.cost_function, chosen.found_by)
     return next(one for one in predicted_sets(study) if (one.cost, one.origin) == mine)
 

@@ -1,5 +1,7 @@
 """The summary of a report in three items."""
 
+from collections.abc import Sequence
+
 from pyrofit.analysis.estimates import by_grade
 from pyrofit.analysis.scores import Score
 from pyrofit.analysis.uses import FITTED, PUBLISHED, fitted_experiments, title_of
@@ -9,6 +11,8 @@ from pyrofit.show.facts import Facts
 from pyrofit.show.names import all_scored, named
 from pyrofit.show.text import listed, several, span
 
+_LEAST = 0.7
+"""Chi-square per point below which independent noise is unlikely."""
 _MOST_NAMES = 4
 """Experiments that a sentence names."""
 
@@ -31,7 +35,17 @@ def _fit(study: Study, facts: Facts) -> str:
     chi2 = [found.per_point for found in facts.misfits if found.stage == "imp"]
     return (
         f"{text}. The best fit of all has a chi-square of {span(chi2)} per point; noise alone "
-        "gives 1."
+        f"gives 1.{_lasting(chi2)}"
+    )
+
+
+def _lasting(chi2: Sequence[float]) -> str:
+    """Say what a chi-square well below 1 means."""
+    if min(chi2) >= _LEAST:
+        return ""
+    return (
+        " Below that, the noise includes a lasting error or scatter between repeats, which may "
+        "hide misfit: look at the residuals."
     )
 
 

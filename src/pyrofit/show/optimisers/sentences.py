@@ -2,6 +2,8 @@
 
 from collections.abc import Mapping, Sequence
 
+import pandas as pd
+
 from pyrofit.analysis.optimisers import LOCAL_OPTIMUM, NOT_A_MINIMUM
 from pyrofit.analysis.uses import FITTED, PUBLISHED
 from pyrofit.config import Study
@@ -23,7 +25,8 @@ def ahead(tables: Frames) -> str:
     for r in stuck + short:
         name = r["lowest_by"]
         by = next(key for key, one in OPTIMISERS.items() if one.words == name)
-        bound = f" ({r[f'{by}_at_bound']} at a limit)" if r[f"{by}_at_bound"] else ""
+        limits = r[f"{by}_at_bound"]
+        bound = f" ({limits} at a limit)" if limits and not pd.isna(limits) else ""
         agree = f"{r[f'{by}_starts_at_best']} of {r[f'{by}_starts']} starts of {name} agree"
         parts.append(f"{r['cost_function']} by {100 * (1 - r['ratio']):.0f} %, {agree}{bound}")
     text = f"Other optimisers find lower values of the same costs: {'; '.join(parts)}"
