@@ -84,5 +84,5 @@ def mass_loss(frames: Frames) -> Loss | None:
     if not below.size or rest >= 0.98:
         return None
     late = mass[9 * mass.size // 10]
-    goes_on = late - rest > STILL * (mass[0] - rest)
+    goes_on = late - float(np.median(mass[-5:])) > STILL * (mass[0] - rest)
     return Loss(float(temperature[below[0]]), None if goes_on else rest)
