@@ -18,5 +18,6 @@ FIGURE = Figure(
     applies=lambda study: True,
     make=correlation,
     title="Correlation of the estimates",
-    caption="Near ±1 the data determine a combination of two parameters and not each of them.",
+    caption="Near ±1 the data determine a combination of two parameters and not each of them. A "
+    "parameter at a limit is held there; its correlations are shown as 0.",
 )
