@@ -17,6 +17,7 @@ from pathlib import Path
 from typing import Any
 
 import matplotlib
+import matplotlib.pyplot as plt
 from PIL import Image
 
 FOLDER = Path(__file__).resolve().parents[1] / "docs" / "notebooks"
@@ -27,6 +28,7 @@ Output = dict[str, Any]
 
 def executed(notebook: dict[str, Any]) -> dict[str, Any]:
     """Return a notebook with the results of its cells, run one after the other."""
+    plt.close("all")
     names: dict[str, Any] = {"__name__": "__main__"}
     cells, count = [], 0
     for cell in notebook["cells"]:
@@ -68,8 +70,6 @@ def data_of(value: object) -> dict[str, list[str]]:
 
 def figures() -> list[Output]:
     """Return the figures that were drawn, and close them."""
-    import matplotlib.pyplot as plt
-
     outputs = []
     for number in plt.get_fignums():
         drawn, few = io.BytesIO(), io.BytesIO()

@@ -1,6 +1,7 @@
 """Notebooks of the documentation: they hold their results, and run as they stand."""
 
 import json
+import pickle
 import runpy
 from functools import partial
 from pathlib import Path
@@ -87,6 +88,7 @@ def test_missing_effect_is_named(monkeypatch: pytest.MonkeyPatch) -> None:
     assert isinstance(names["diagnosis"], pf.Diagnosis)
     assert names["diagnosis"].kind == "named"
     assert names["diagnosis"].effects == ["k_T"]
+    assert pickle.loads(pickle.dumps(names["diagnosis"])).content == names["diagnosis"].content
     assert names["fit"].reduced_chi2 > 1.3
     assert names["again"].reduced_chi2 < 1.1
 

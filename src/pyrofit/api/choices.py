@@ -3,8 +3,10 @@
 import math
 from collections.abc import Iterable, Mapping, Sequence
 from numbers import Real
+from typing import Any
 
 from pyrofit.config import Study, parameters_in
+from pyrofit.config.numbers import described
 from pyrofit.config.resolve import diagnosed_material
 from pyrofit.config.uses import parameters_of_heated
 from pyrofit.errors import StudyError, suggest
@@ -49,8 +51,8 @@ def si_values(study: Study, given: Mapping[str, float]) -> dict[str, float]:
 
 def _check_rules(study: Study, si: Mapping[str, float]) -> None:
     """Refuse SI values that break a rule of a place, such as a negative density."""
-    for part in (study.material, *study.experiments.values()):
-        for place, number, rules in numbers(part):
+    for root, part in described(study).items():
+        for place, number, rules in numbers(part, root):
             if not isinstance(number, str) or number not in si:
                 continue
             broken = [rule.text for rule in rules if not rule.holds(si[number])]
@@ -172,15 +174,14 @@ def signals_of(study: Study, given: Signals) -> list[Key]:
 
 def _is_key(study: Study, given: object) -> bool:
     """Tell whether a tuple is a pair of experiment and signal rather than two experiments."""
-    pair = isinstance(given, tuple) and len(given) == 2
-    return pair and given[1] not in study.experiments  # type: ignore[index]
+    return isinstance(given, tuple) and len(given) == 2 and given[1] not in study.experiments
 
 
-def _pairs(study: Study, one: object) -> list[Key]:
+def _pairs(study: Study, one: Any) -> list[Key]:
     """Return a pair, or all pairs of an experiment."""
     if isinstance(one, tuple):
         return [key_of(study, one)]
-    [name] = experiments_of(study, [one])  # type: ignore[list-item]
+    [name] = experiments_of(study, [one])
     return [(name, signal) for signal in study.experiments[name].signals]
 
 

@@ -75,7 +75,9 @@ class Curves:
 
     def get(self, key: str | Key, default: Any = None) -> Any:
         """Return a signal, or all signals of an experiment; ``default`` where there is none."""
-        return self[key] if key in self else default  # noqa: SIM401, it is no dictionary
+        if key in self:
+            return self[key]
+        return default
 
     def items(self) -> list[tuple[Key, pd.DataFrame]]:
         """Return the pairs of experiment and signal with their tables."""

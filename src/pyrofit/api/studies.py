@@ -7,7 +7,6 @@ from collections.abc import Iterable, Mapping
 from pathlib import Path
 from typing import Any
 
-import numpy as np
 import pandas as pd
 
 from pyrofit import config
@@ -149,9 +148,12 @@ def new_study(name: str, **files: Files) -> Study:
 
 
 def _paths(given: Files) -> list[Path]:
-    files = [given] if isinstance(given, str | os.PathLike) else given
-    wrong = [f for f in files if not isinstance(f, str | os.PathLike)] if files is not None else [0]
-    if isinstance(files, pd.DataFrame | np.ndarray) or wrong:
+    if isinstance(given, str | os.PathLike):
+        return [Path(given)]
+    # Going through a table yields its headers, which would be taken for names of files.
+    is_table = isinstance(given, pd.DataFrame) or not isinstance(given, Iterable)
+    files = [] if is_table else list(given)
+    if is_table or not all(isinstance(file, str | os.PathLike) for file in files):
         raise StudyError(
             "a new study needs paths of files; write a table to a file first, such as "
             "table.to_csv('tga_10K.csv', index=False)"

@@ -6,7 +6,7 @@ from pyrofit.config.derived import check_expression
 from pyrofit.config.study import Study
 from pyrofit.config.uses import names_in, parameters_in
 from pyrofit.errors import suggest
-from pyrofit.model.base import Rule, numbers
+from pyrofit.model.base import Part, Rule, numbers
 from pyrofit.model.parameters import UNITS
 
 # By the end of a key, longest first where one end is that of another.
@@ -44,6 +44,12 @@ def require(ok: bool, place: str, message: str) -> None:
         raise ValueError(f"{place}: {message}")
 
 
+def described(study: Study) -> dict[str, Part]:
+    """Return the parts of a study that hold numbers, by their place."""
+    experiments = {f"experiments.{name}": e for name, e in study.experiments.items()}
+    return {"material": study.material, **experiments}
+
+
 def check_numbers(study: Study) -> None:
     """Check every number of material and experiments, and every parameter that stands for one.
 
@@ -53,11 +59,7 @@ def check_numbers(study: Study) -> None:
         A number, or a value or limit of the parameter in its place, breaks the rule of the place.
         The parameter is unknown, or its unit is that of another quantity.
     """
-    described = {
-        "material": study.material,
-        **{f"experiments.{n}": e for n, e in study.experiments.items()},
-    }
-    for root, part in described.items():
+    for root, part in described(study).items():
         for place, value, rules in numbers(part, root):
             if isinstance(value, str) and not value.isidentifier():
                 check_expression(study, value, rules, place)

@@ -2,6 +2,7 @@
 
 from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass, replace
+from functools import partial
 
 import numpy as np
 
@@ -33,7 +34,7 @@ from pyrofit.diagnose.search.step import (
     singles,
     with_forms,
 )
-from pyrofit.diagnose.search.step_start import Lack, step_from, with_sharp_noise
+from pyrofit.diagnose.search.step_start import step_from, with_sharp_noise
 from pyrofit.diagnose.settings import SETTINGS
 
 Fitting = Callable[[Sequence[SearchStep]], Sequence[Sequence[FittedModel]]]
@@ -258,10 +259,7 @@ class _Pass:
             if len(free) > 1
             for first in in_the_place(found, effect)[: SETTINGS.most_split]
         ]
-        lack = found.end_lack
-        whole = SearchStep(
-            found.base, Lack(found.end, (), self.context.rng, 1, lack), (), (found.end,)
-        )
+        whole = SearchStep(found.base, partial(getattr, found, "end_lack"), (), (found.end,))
         before = len(found.rounds)
         found = self._with_more(found, steps, SETTINGS.most_beside)
         pairs = [t for step in found.rounds[before:] for t in step.trials]

@@ -110,7 +110,6 @@ FIGURE = Figure(
     make=overview,
     title="Measured, fitted and predicted",
     caption="The recommended set, and the lowest and highest curve of all sets whose cost is near "
-    "the lowest known one. The recommended set is chosen by held-out tests, if there are any; "
-    "it may lie outside. "
-    "'Predicted': no cost function was fitted to this test.",
+    "the lowest known one. The recommended set is chosen by held-out tests, if there are any; it "
+    "may lie outside. 'Predicted': no cost function was fitted to this test.",
 )

@@ -34,13 +34,13 @@ def draw_next_experiments(study: Study, results: Results) -> Canvas:
         :MOST_DESIGNS
     ]
     canvas, (ax,) = style.panels(1, 1, style.TWO_COLUMNS, 24.0 + 5.5 * len(shown))
-    longest, several = 0.0, False
+    longest = 0.0
+    several = any(len(design.get("pairs") or ()) > 1 for design in shown)
     for i, design in enumerate(shown):
         ax.barh(i, float(design["separation_sd"]), height=0.62, color=style.COLOURS[0])
         pairs = design.get("pairs")
         sizes = [float(v) for v in pairs.values()] if isinstance(pairs, dict) else []
-        if len(sizes) > 1:
-            several = True
+        if several:
             ax.plot(sizes, [i] * len(sizes), "o", color="black", markersize=3, clip_on=False)
         longest = max([longest, float(design["separation_sd"]), *sizes])
     ax.axvline(np.sqrt(found["ambiguity"]), **LIMIT)
