@@ -258,6 +258,17 @@ def test_only_config_reads_yaml() -> None:
     assert names_of([p for p in modules() if "yaml" in outside(p)]) == ["config/yaml_file.py"]
 
 
+def test_only_pose_poses_problems_and_their_likelihood() -> None:
+    posing = {
+        "pyrofit.estimate.problem.make_problem",
+        "pyrofit.estimate.likelihood.likelihood_of",
+        "pyrofit.estimate.prior.within_known",
+    }
+    found = names_of([p for p in modules() if imported(p) & posing])
+    limits = ["stages/rescore_record.py", "stages/sensitivity_inputs.py"]
+    assert found == ["estimate/pose.py", "estimate/pose_likelihood.py", *limits]
+
+
 def test_only_the_sce_ua_module_imports_spotpy() -> None:
     assert names_of([p for p in modules() if "spotpy" in outside(p)]) == ["estimate/sceua.py"]
 

@@ -33,16 +33,16 @@ from pyrofit.config import (
     Study,
     TermSpec,
     calibration_channels,
-    diagnosed_material,
     diagnosed_parameters,
+    kinetics_of,
 )
 from pyrofit.errors import StudyError
 from pyrofit.estimate.identify import identify
 from pyrofit.estimate.jumps import with_noise_of_jumps
-from pyrofit.estimate.likelihood import descents, likelihood_of
-from pyrofit.estimate.prior import prior_of
-from pyrofit.estimate.problem import Problem, make_problem
-from pyrofit.results.dependencies import kinetics_of
+from pyrofit.estimate.likelihood import descents
+from pyrofit.estimate.pose import of_diagnosis
+from pyrofit.estimate.pose_likelihood import pose_likelihood
+from pyrofit.estimate.problem import Problem
 from pyrofit.seeds import seed_for
 from pyrofit.show.text import several
 from pyrofit.solver.arrays import FloatArray
@@ -213,10 +213,9 @@ def fit_likelihood(
     """Return the fit of highest likelihood with its intervals."""
     study = task.study
     series = measured(study, task.keys, data)
-    problem = make_problem(
-        study, task.estimate, task.channels, series, diagnosed_material(study), task.fixed
-    )
-    likelihood = likelihood_of(problem, prior_of(study, problem))
+    asked = of_diagnosis(study, task.channels, task.estimate)
+    likelihood = pose_likelihood(study, asked, series, task.fixed)
+    problem = likelihood.problem
     tell(f"noise of {several(len(series), 'signal')} estimated; {several(starts, 'start')}")
     ends = descents(likelihood, starting_points(study, problem, starts))
     best = ends[0]

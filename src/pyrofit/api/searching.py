@@ -11,13 +11,13 @@ from pyrofit.api.comparison import compared
 from pyrofit.api.fit_tables import derived_table, table_in_units
 from pyrofit.api.fitted import Fit
 from pyrofit.api.measurements import Data, measured
-from pyrofit.config import Study, diagnosed_material
+from pyrofit.config import Study
 from pyrofit.errors import StudyError, suggest
 from pyrofit.estimate.history import best_of
 from pyrofit.estimate.optimisers import OPTIMISERS
+from pyrofit.estimate.pose import of_diagnosis, pose_search
 from pyrofit.estimate.posterior import limit_of
-from pyrofit.estimate.prior import within_known
-from pyrofit.estimate.problem import Problem, make_problem
+from pyrofit.estimate.problem import Problem
 from pyrofit.seeds import seed_for
 from pyrofit.solver.arrays import FloatArray
 
@@ -51,8 +51,7 @@ def fit_cost(
     if not estimate:
         raise StudyError(f"all parameters of the cost '{cost}' are fixed; leave one out of `fixed`")
     fixed = complete(study, given, experiments, but=estimate)
-    posed = make_problem(study, estimate, specs, series, diagnosed_material(study), fixed)
-    problem = within_known(study, posed)
+    problem = pose_search(study, of_diagnosis(study, specs, estimate), series, fixed)
     lowest, x, history = _searched(study, problem, cost, optimiser)
     words = "SCE-UA" if optimiser == SCEUA else OPTIMISERS[optimiser].title
     scored = compared(study, problem.values(x), series)

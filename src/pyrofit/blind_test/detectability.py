@@ -2,19 +2,20 @@
 
 import math
 from collections.abc import Iterable, Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import Any
 
 import numpy as np
 
-from pyrofit.config import Study, calibration_channels, diagnosed_parameters, true_description
+from pyrofit.config import Study, calibration_channels, true_description
 from pyrofit.cost import Target
 from pyrofit.errors import DataError
 from pyrofit.estimate.correlation import Correlation
 from pyrofit.estimate.likelihood import Likelihood
 from pyrofit.estimate.noise import NoiseModel
+from pyrofit.estimate.pose import of_diagnosis, pose
 from pyrofit.estimate.prior import NormalPrior
-from pyrofit.estimate.problem import Problem, make_problem
+from pyrofit.estimate.problem import Problem
 from pyrofit.estimate.targets import Measurements
 from pyrofit.model.signal import Noise
 from pyrofit.solver.arrays import FloatArray
@@ -155,13 +156,13 @@ def _true(truth: Study, series: Measurements) -> Problem:
     """Return the problem of the model with the effects of the truth."""
     material, experiments = true_description(truth)
     described = truth.model_copy(update={"experiments": experiments})
-    names, channels = diagnosed_parameters(truth), calibration_channels(truth)
-    return make_problem(described, names, channels, series, material, truth.fixed_values())
+    asked = replace(of_diagnosis(truth), material=material)
+    return pose(described, asked, series, truth.fixed_values())
 
 
 def _base(truth: Study, series: Measurements) -> Problem:
-    names, channels = diagnosed_parameters(truth), calibration_channels(truth)
-    return make_problem(truth, names, channels, series, truth.material, truth.fixed_values())
+    asked = replace(of_diagnosis(truth), material=truth.material)
+    return pose(truth, asked, series, truth.fixed_values())
 
 
 def _noise_free(truth: Study, series: Measurements) -> Measurements:

@@ -19,6 +19,7 @@ from pyrofit.config.resolve import (
     diagnosed_material,
     diagnosed_parameters,
     held_out_channels,
+    kinetics_of,
 )
 from pyrofit.config.stages import Imp, Kinetics
 from pyrofit.config.study import Study
@@ -41,6 +42,7 @@ __all__ = [
     "diagnosed_parameters",
     "digest",
     "held_out_channels",
+    "kinetics_of",
     "parameters_in",
     "read_mapping",
     "read_study",

@@ -2,11 +2,13 @@
 
 from collections.abc import Mapping
 
+from pyrofit.config.stages import Kinetics
 from pyrofit.config.study import Study
 from pyrofit.config.terms import TermSpec
 from pyrofit.config.uses import parameters_in
 from pyrofit.effects import known_effects
 from pyrofit.effects.apply import own_laboratories, with_effects
+from pyrofit.errors import StudyError
 from pyrofit.experiments import kind_of
 from pyrofit.model.experiment import Experiment
 from pyrofit.model.external import ExternalExperiment
@@ -15,6 +17,19 @@ from pyrofit.model.material import Material
 Chosen = Mapping[str, tuple[str, ...]]
 """Signals by experiment."""
 Experiments = dict[str, Experiment]
+
+
+def kinetics_of(study: Study) -> Kinetics:
+    """Return the kinetics stage.
+
+    Raises
+    ------
+    StudyError
+        The study has none.
+    """
+    if study.kinetics is None:
+        raise StudyError(f"study '{study.name}' has no kinetics stage; add `kinetics:` to it")
+    return study.kinetics
 
 
 def diagnosed_material(study: Study) -> Material:

@@ -1,6 +1,6 @@
 """Noise of signals that jump, as a heat release rate does at ignition."""
 
-from collections.abc import Sequence
+from collections.abc import Iterable
 from dataclasses import replace
 
 import numpy as np
@@ -11,7 +11,7 @@ from pyrofit.estimate.likelihood import Likelihood
 from pyrofit.solver.arrays import FloatArray
 
 
-def with_noise_of_jumps(likelihood: Likelihood, sets: Sequence[FloatArray]) -> Likelihood:
+def with_noise_of_jumps(likelihood: Likelihood, sets: Iterable[FloatArray]) -> Likelihood:
     """Return the likelihood with the noise of signals that jump about a simulated curve.
 
     A smooth curve does not follow a jump: its noise then looks larger than it is. The curve is that
@@ -26,9 +26,10 @@ def with_noise_of_jumps(likelihood: Likelihood, sets: Sequence[FloatArray]) -> L
     """
     problem = likelihood.problem
     jumps = [problem.runs[name].experiment.jumps for name, _, _ in problem.picks]
-    if not sets or not any(jumps):
+    known = list(sets) if any(jumps) else []
+    if not known:
         return likelihood
-    best = min(sets, key=likelihood.chi2)
+    best = min(known, key=likelihood.chi2)
     curves = likelihood.curves(np.asarray(best))
     if curves is None:
         return likelihood

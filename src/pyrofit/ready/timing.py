@@ -5,10 +5,11 @@ from collections.abc import Iterator
 
 import numpy as np
 
-from pyrofit.config import Study
+from pyrofit.config import Study, kinetics_of
 from pyrofit.config.programs import externals
 from pyrofit.errors import PyrofitError
-from pyrofit.estimate.problem import Problem, make_problem
+from pyrofit.estimate.pose import of_imp, of_kinetics, pose
+from pyrofit.estimate.problem import Problem
 from pyrofit.estimate.targets import Measurements
 from pyrofit.ready.finding import Finding, Situation
 from pyrofit.ready.plan import Part, parts_of
@@ -94,14 +95,11 @@ def measurements(study: Study) -> Measurements:
 
 
 def _problem(study: Study, part: Part, measured: Measurements) -> Problem:
-    stage = study.imp
     if part.cost:
-        estimate, cost = stage.estimate, stage.costs[part.cost]
-        material = study.material_with(stage.kinetics)
+        asked = of_imp(study, study.imp.costs[part.cost])
     else:
-        assert study.kinetics is not None
-        estimate, cost, material = study.kinetics.estimate, study.kinetics.cost, study.material
-    return make_problem(study, estimate, cost, measured, material, _values(study))
+        asked = of_kinetics(study, kinetics_of(study).cost)
+    return pose(study, asked, measured, _values(study))
 
 
 def _values(study: Study) -> dict[str, float]:

@@ -4,18 +4,17 @@ from collections.abc import Iterable
 from typing import Any
 
 from pyrofit.config import (
-    Kinetics,
     Study,
     calibration_channels,
     candidate_effects,
     diagnosed_material,
     diagnosed_parameters,
     held_out_channels,
+    kinetics_of,
     parameters_in,
 )
 from pyrofit.config.programs import externals
 from pyrofit.config.uses import names_in
-from pyrofit.errors import StudyError
 from pyrofit.external.filled import file_digests
 from pyrofit.model.external import ExternalExperiment
 from pyrofit.plugins import code_digest
@@ -91,19 +90,6 @@ def data(study: Study) -> dict[str, Any]:
         "code": code_of(study, more=study.synthetic.effects if study.synthetic else ()),
         "seed": study.seed,
     }
-
-
-def kinetics_of(study: Study) -> Kinetics:
-    """Return the kinetics stage.
-
-    Raises
-    ------
-    StudyError
-        The study has none.
-    """
-    if study.kinetics is None:
-        raise StudyError(f"study '{study.name}' has no kinetics stage; add `kinetics:` to it")
-    return study.kinetics
 
 
 def kinetics(study: Study) -> dict[str, Any]:

@@ -9,9 +9,10 @@ import numpy as np
 from pyrofit.config import Study
 from pyrofit.errors import DataError
 from pyrofit.estimate.likelihood import Likelihood, fit
+from pyrofit.estimate.pose import Estimation, pose
 from pyrofit.estimate.posterior import covariance
 from pyrofit.estimate.prior import NormalPrior, prior_of
-from pyrofit.estimate.problem import Problem, make_problem
+from pyrofit.estimate.problem import Problem
 from pyrofit.estimate.targets import Measurements
 from pyrofit.scheme.noise import Scatter, deviance, most_likely
 from pyrofit.scheme.posed import Posed
@@ -108,9 +109,8 @@ def problem_of(
 ) -> tuple[Problem, NormalPrior]:
     """Return the problem of a scheme at some records, and the known values of its parameters."""
     study, names = posed.study, posed.names
-    terms = [r.term for r in records]
-    fixed = study.fixed_values()
-    problem = make_problem(study, names, terms, setting.measurements, study.material, fixed)
+    asked = Estimation(names, [r.term for r in records], study.material)
+    problem = pose(study, asked, setting.measurements, study.fixed_values())
     known = prior_of(study, problem)
     sd = setting.settings.laboratory_shift_K
     at = tuple(names.index(name) for name in posed.offsets)

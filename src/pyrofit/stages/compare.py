@@ -12,7 +12,8 @@ from pyrofit.analysis.uses import FITTED
 from pyrofit.config import Study, TermSpec
 from pyrofit.errors import CostError
 from pyrofit.estimate.optimisers import OPTIMISERS
-from pyrofit.estimate.problem import Problem, make_problem
+from pyrofit.estimate.pose import of_imp, pose
+from pyrofit.estimate.problem import Problem
 from pyrofit.estimate.targets import Measurements, term_for
 from pyrofit.results import searches
 from pyrofit.results.files import Results, write_csv
@@ -86,9 +87,7 @@ def _computable(study: Study, term: TermSpec, measurements: Measurements) -> boo
 def _problem(study: Study, results: Results, measurements: Measurements, judges: Judges) -> Problem:
     """Return one problem of all terms, so that a set is simulated once."""
     specs = [term for terms in judges.values() for term in terms]
-    material = study.material_with(study.imp.kinetics)
-    fixed = fixed_for_imp(study, results)
-    return make_problem(study, study.imp.estimate, specs, measurements, material, fixed)
+    return pose(study, of_imp(study, specs), measurements, fixed_for_imp(study, results))
 
 
 def _scores(found: pd.DataFrame, problem: Problem, place: str, judges: Judges) -> pd.DataFrame:

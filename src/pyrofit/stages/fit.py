@@ -6,13 +6,13 @@ from typing import Any
 import numpy as np
 import pandas as pd
 
-from pyrofit.config import Study, digest
+from pyrofit.config import Study, digest, kinetics_of
 from pyrofit.errors import StudyError, suggest
 from pyrofit.estimate.history import best_of, convergence
 from pyrofit.estimate.least_squares import Start, descend, multistart
 from pyrofit.estimate.optimisers import OPTIMISERS
-from pyrofit.estimate.prior import within_known
-from pyrofit.estimate.problem import Problem, make_problem
+from pyrofit.estimate.pose import of_imp, of_kinetics, pose_search
+from pyrofit.estimate.problem import Problem
 from pyrofit.model.base import value_of
 from pyrofit.model.material import Material
 from pyrofit.results import dependencies, kinetics, searches
@@ -48,12 +48,10 @@ def fit_kinetics(study: Study, results: Results) -> None:
 
     SCE-UA searches and least squares starts beside it; the lower cost of the two is the fit.
     """
-    stage = dependencies.kinetics_of(study)
+    stage = kinetics_of(study)
     measurements = load(study, results)
-    posed = make_problem(
-        study, stage.estimate, stage.cost, measurements, study.material, study.fixed_values()
-    )
-    problem = within_known(study, posed)
+    asked = of_kinetics(study, stage.cost)
+    problem = pose_search(study, asked, measurements, study.fixed_values())
     seed = seed_for(study.seed, "kinetics")
     generations = stage.sceua.generations
     from pyrofit.estimate.sceua import search  # takes 0.2 s to import
@@ -117,15 +115,8 @@ def imp_problem(study: Study, results: Results, cost: str) -> Problem:
         raise StudyError(
             f"study '{study.name}' has no cost '{cost}'. {suggest(cost, study.imp.costs)}"
         )
-    posed = make_problem(
-        study,
-        study.imp.estimate,
-        study.imp.costs[cost],
-        load(study, results),
-        study.material_with(study.imp.kinetics),
-        fixed_for_imp(study, results),
-    )
-    return within_known(study, posed)
+    asked = of_imp(study, study.imp.costs[cost])
+    return pose_search(study, asked, load(study, results), fixed_for_imp(study, results))
 
 
 def repeat(study: Study, results: Results, cost: str, repetitions: Sequence[int]) -> None:

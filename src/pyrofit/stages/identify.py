@@ -8,14 +8,12 @@ import pandas as pd
 
 from pyrofit.config import Study
 from pyrofit.estimate.identify import Identification, identify
-from pyrofit.estimate.jumps import with_noise_of_jumps
-from pyrofit.estimate.likelihood import Likelihood, likelihood_of
+from pyrofit.estimate.likelihood import Likelihood
 from pyrofit.estimate.optimisers import OPTIMISERS
-from pyrofit.estimate.prior import prior_of
-from pyrofit.estimate.problem import make_problem
-from pyrofit.results import dependencies, kinetics, searches
+from pyrofit.estimate.pose import of_imp, of_kinetics
+from pyrofit.estimate.pose_likelihood import pose_likelihood
+from pyrofit.results import kinetics, searches
 from pyrofit.results.files import Results, write_csv, write_json
-from pyrofit.solver.arrays import FloatArray
 from pyrofit.stages.fit import fixed_for_imp
 from pyrofit.stages.measurements import load
 
@@ -32,15 +30,10 @@ def identify_kinetics(study: Study, results: Results) -> None:
     DataError
         A result is missing, or a channel is too short to show its noise.
     """
-    stage = dependencies.kinetics_of(study)
-    measurements = load(study, results)
-    fixed = study.fixed_values()
-    problem = make_problem(
-        study, stage.estimate, stage.channels, measurements, study.material, fixed
-    )
-    likelihood = likelihood_of(problem, prior_of(study, problem))
+    asked, fixed = of_kinetics(study), study.fixed_values()
+    likelihood = pose_likelihood(study, asked, load(study, results), fixed)
     known = kinetics.ends(study, results)
-    starts = [likelihood.scaled(np.array([end[n] for n in stage.estimate])) for end in known]
+    starts = [likelihood.scaled(np.array([end[n] for n in asked.names])) for end in known]
     _write(results, "kinetics", likelihood, identify(likelihood, starts))
 
 
@@ -54,17 +47,11 @@ def identify_imp(study: Study, results: Results) -> None:
     DataError
         A result is missing, or a channel is too short to show its noise.
     """
-    problem = make_problem(
-        study,
-        study.imp.estimate,
-        study.imp.channels,
-        load(study, results),
-        study.material_with(study.imp.kinetics),
-        fixed_for_imp(study, results),
-    )
-    likelihood = likelihood_of(problem, prior_of(study, problem))
-    starts = [likelihood.scaled(values) for values in _known_sets(study, results)]
-    likelihood = with_noise_of_jumps(likelihood, starts)
+    asked, measurements = of_imp(study), load(study, results)
+    fixed = fixed_for_imp(study, results)
+    known = list(_known_sets(study, results))
+    likelihood = pose_likelihood(study, asked, measurements, fixed, known)
+    starts = [likelihood.scaled(np.array([end[n] for n in asked.names])) for end in known]
     found = identify(likelihood, starts)
     _write(results, "imp", likelihood, found)
     write_csv(results.identification("sets.csv"), _sets(study, results, likelihood, found))
@@ -83,13 +70,14 @@ def _write(results: Results, stage: str, likelihood: Likelihood, found: Identifi
     write_json(results.identification("noise.json", stage), _noise(likelihood, found))
 
 
-def _known_sets(study: Study, results: Results) -> Iterator[FloatArray]:
+def _known_sets(study: Study, results: Results) -> Iterator[dict[str, float]]:
     names = list(study.imp.estimate)
     for cost in study.imp.costs:
         for optimiser in OPTIMISERS:
             for start in searches.starts(study, results, cost, optimiser):
-                yield np.array([start["parameters"][name] for name in names])
-    yield from searches.summary(study, results)[names].to_numpy(float)
+                yield {name: start["parameters"][name] for name in names}
+    for values in searches.summary(study, results)[names].to_numpy(float).tolist():
+        yield dict(zip(names, values, strict=True))
 
 
 def _estimates(likelihood: Likelihood, found: Identification) -> pd.DataFrame:

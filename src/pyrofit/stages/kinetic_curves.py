@@ -6,12 +6,11 @@ from typing import Any
 import numpy as np
 import pandas as pd
 
-from pyrofit.config import Study
+from pyrofit.config import Study, kinetics_of
 from pyrofit.estimate.targets import Measurements
 from pyrofit.experiments.heated.simulate import request
 from pyrofit.model.heated import HeatedExperiment
 from pyrofit.model.material import Material
-from pyrofit.results import dependencies
 from pyrofit.results.files import Results, write_csv
 from pyrofit.results.kinetics import FITTED, heats_shown, masses_shown
 from pyrofit.simulate import simulate_tga
@@ -82,7 +81,7 @@ def _simulated(
     experiment = study.experiments[name]
     assert isinstance(experiment, HeatedExperiment)
     asked = request(experiment, signal, frame, _times(frame))
-    for chosen in (FITTED, *dependencies.kinetics_of(study).sets):
+    for chosen in (FITTED, *kinetics_of(study).sets):
         material: Material = study.material_with(chosen)
         yield chosen, simulate_tga(experiment, material, values, asked, study.accuracy)
 
@@ -100,7 +99,7 @@ def _curve(
 def _about(study: Study, name: str, signal: str) -> dict[str, Any]:
     experiment = study.experiments[name]
     assert isinstance(experiment, HeatedExperiment)
-    cost = dependencies.kinetics_of(study).cost
+    cost = kinetics_of(study).cost
     return {
         "experiment": name,
         "heating_rate_K_min": experiment.heating_rate_K_min,

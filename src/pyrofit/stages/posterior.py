@@ -9,10 +9,9 @@ from pyrofit.config import Study
 from pyrofit.config.programs import externals
 from pyrofit.errors import DataError, StudyError
 from pyrofit.estimate.ensembles import ENSEMBLES, MOST_STEPS, Tell
-from pyrofit.estimate.jumps import with_noise_of_jumps
-from pyrofit.estimate.likelihood import Likelihood, likelihood_of
-from pyrofit.estimate.prior import prior_of
-from pyrofit.estimate.problem import make_problem
+from pyrofit.estimate.likelihood import Likelihood
+from pyrofit.estimate.pose import of_imp
+from pyrofit.estimate.pose_likelihood import pose_likelihood
 from pyrofit.estimate.sampled import Sampled, sample, spread
 from pyrofit.results import identification, posterior
 from pyrofit.results.files import Results, write_csv, write_json
@@ -82,17 +81,11 @@ def _posed(study: Study, results: Results) -> tuple[Likelihood, FloatArray]:
             f"{path}: this result is missing; the draws start from it. Run the study first: "
             "snakemake --cores 2 --configfile <the study>"
         )
-    problem = make_problem(
-        study,
-        study.imp.estimate,
-        study.imp.channels,
-        load(study, results),
-        study.material_with(study.imp.kinetics),
-        fixed_for_imp(study, results),
-    )
-    likelihood = likelihood_of(problem, prior_of(study, problem))
-    start = likelihood.scaled(identification.estimates(study, results)["estimate"].to_numpy(float))
-    likelihood = with_noise_of_jumps(likelihood, [start])
+    optimum = identification.estimates(study, results)["estimate"].to_numpy(float)
+    fits = [dict(zip(study.imp.estimate, optimum.tolist(), strict=True))]
+    measurements, fixed = load(study, results), fixed_for_imp(study, results)
+    likelihood = pose_likelihood(study, of_imp(study), measurements, fixed, fits)
+    start = likelihood.scaled(optimum)
     known = float(identification.noise(results)["chi2"])
     residuals = likelihood.residuals(start)[: sum(likelihood.points)]
     if abs(float(residuals @ residuals) - known) > CHANGED * known:

@@ -13,7 +13,8 @@ from pyrofit.errors import DataError
 from pyrofit.estimate.bands import band, carried, measured
 from pyrofit.estimate.channel_noise import noise_of
 from pyrofit.estimate.discrepancy import Discrepancy
-from pyrofit.estimate.problem import Problem, make_problem
+from pyrofit.estimate.pose import of_imp, pose
+from pyrofit.estimate.problem import Problem
 from pyrofit.estimate.sampled import Sampled, spread
 from pyrofit.estimate.targets import Measurements
 from pyrofit.quantities import known_quantities
@@ -81,10 +82,7 @@ def _of_measured(
         for signal in study.experiments[name].signals
         if (name, signal) not in pairs
     ]
-    material = study.material_with(study.imp.kinetics)
-    problem = make_problem(
-        study, study.imp.estimate, [*fitted, *more], measurements, material, fixed
-    )
+    problem = pose(study, of_imp(study, [*fitted, *more]), measurements, fixed)
     models = _simulated(problem, X)
     signals = []
     for k, (name, signal, _) in enumerate(problem.picks):

@@ -7,9 +7,10 @@ import numpy as np
 
 from pyrofit.config import Study, TermSpec
 from pyrofit.errors import DataError
-from pyrofit.estimate.likelihood import Likelihood, likelihood_of
-from pyrofit.estimate.prior import prior_of
-from pyrofit.estimate.problem import Outcome, Problem, make_problem
+from pyrofit.estimate.likelihood import Likelihood
+from pyrofit.estimate.pose import of_imp, pose
+from pyrofit.estimate.pose_likelihood import pose_likelihood
+from pyrofit.estimate.problem import Outcome, Problem
 from pyrofit.estimate.targets import Measurements
 from pyrofit.parallel import MOST_PIECES, parallel_map
 from pyrofit.results.files import Results
@@ -73,17 +74,16 @@ def scorer_of(
     study: Study, results: Results, measurements: Measurements, measures: Sequence[Measure]
 ) -> tuple[Scorer, list[str]]:
     """Return the scorer of some costs, and which cannot be computed and why."""
-    material, fixed = study.material_with(study.imp.kinetics), fixed_for_imp(study, results)
+    fixed = fixed_for_imp(study, results)
 
     def posed(specs: Sequence[TermSpec]) -> Problem:
-        return make_problem(study, study.imp.estimate, specs, measurements, material, fixed)
+        return pose(study, of_imp(study, specs), measurements, fixed)
 
     specs = [term for measure in measures for term in measure.terms]
     if all(measure.terms for measure in measures):
         return Scorer(posed(specs), tuple(measures), None), []
-    own = posed(study.imp.channels)
     try:
-        likelihood = likelihood_of(own, prior_of(study, own))
+        likelihood = pose_likelihood(study, of_imp(study), measurements, fixed)
     except DataError as error:
         rest = tuple(measure for measure in measures if measure.terms)
         if not rest:

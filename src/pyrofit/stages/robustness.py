@@ -17,8 +17,8 @@ from pyrofit.config import Study, TermSpec
 from pyrofit.errors import DataError, StudyError
 from pyrofit.estimate.least_squares import multistart
 from pyrofit.estimate.noise import estimate_noise
-from pyrofit.estimate.prior import within_known
-from pyrofit.estimate.problem import Problem, make_problem
+from pyrofit.estimate.pose import of_imp, pose_search
+from pyrofit.estimate.problem import Problem
 from pyrofit.estimate.targets import Measurements, target_of
 from pyrofit.quantities.base import Quantity
 from pyrofit.results.files import Results, write_csv
@@ -180,7 +180,4 @@ def _held_out(study: Study, results: Results, twin: Twin) -> list[Problem]:
 
 
 def _problem(study: Study, results: Results, specs: Any, series: Measurements) -> Problem:
-    material = study.material_with(study.imp.kinetics)
-    fixed = fixed_for_imp(study, results)
-    posed = make_problem(study, study.imp.estimate, specs, series, material, fixed)
-    return within_known(study, posed)
+    return pose_search(study, of_imp(study, specs), series, fixed_for_imp(study, results))

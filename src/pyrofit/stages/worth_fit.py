@@ -8,11 +8,10 @@ from pyrofit.diagnose.base.fitted import FittedModel
 from pyrofit.diagnose.base.model import Base, model_of
 from pyrofit.errors import StudyError
 from pyrofit.estimate.bounded_least_squares import Fit
-from pyrofit.estimate.likelihood import Likelihood, likelihood_of
-from pyrofit.estimate.prior import prior_of
-from pyrofit.estimate.problem import make_problem
+from pyrofit.estimate.likelihood import Likelihood
+from pyrofit.estimate.pose import of_both
+from pyrofit.estimate.pose_likelihood import pose_likelihood
 from pyrofit.experiments.external.simulate import OWN_MODEL
-from pyrofit.results import dependencies
 from pyrofit.results.files import Results, read_csv
 from pyrofit.stages.fit import fixed_for_imp
 from pyrofit.stages.measurements import load
@@ -45,19 +44,8 @@ def best_fit(study: Study, results: Results) -> FittedModel:
 def _likelihood(study: Study, results: Results) -> tuple[Likelihood, dict[str, float]]:
     """Return the likelihood of all fitted data, and the values of all known parameters."""
     fixed = fixed_for_imp(study, results)
-    names, specs = list(study.imp.estimate), list(study.imp.channels)
-    if study.imp.kinetics == "fitted":
-        stage = dependencies.kinetics_of(study)
-        names, specs = [*stage.estimate, *names], [*stage.channels, *specs]
-    outside = {spec.experiment for spec in specs} & set(externals(study))
+    asked = of_both(study)
+    outside = {term.experiment for term in asked.terms} & set(externals(study))
     if outside:
         raise StudyError(f"experiments.{min(outside)}: {OWN_MODEL}")
-    problem = make_problem(
-        study,
-        list(dict.fromkeys(names)),
-        specs,
-        load(study, results),
-        study.material_with(study.imp.kinetics),
-        fixed,
-    )
-    return likelihood_of(problem, prior_of(study, problem)), fixed
+    return pose_likelihood(study, asked, load(study, results), fixed), fixed

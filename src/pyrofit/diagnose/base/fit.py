@@ -6,14 +6,7 @@ from dataclasses import dataclass, replace
 import numpy as np
 from scipy.stats import chi2, qmc
 
-from pyrofit.config import (
-    Study,
-    calibration_channels,
-    candidate_effects,
-    diagnosed_material,
-    diagnosed_parameters,
-    held_out_channels,
-)
+from pyrofit.config import Study, calibration_channels, candidate_effects, held_out_channels
 from pyrofit.diagnose.base.descent import Fit, descend, refreshed
 from pyrofit.diagnose.base.disturbed import disturbed
 from pyrofit.diagnose.base.fitted import FittedModel, polished
@@ -23,10 +16,10 @@ from pyrofit.diagnose.settings import SETTINGS
 from pyrofit.errors import DataError
 from pyrofit.estimate.between_repeats import with_repeats
 from pyrofit.estimate.channel_noise import noise_of
-from pyrofit.estimate.likelihood import FAILED, likelihood_of
+from pyrofit.estimate.likelihood import FAILED
 from pyrofit.estimate.noise import NoiseModel
-from pyrofit.estimate.prior import prior_of
-from pyrofit.estimate.problem import Problem, make_problem
+from pyrofit.estimate.pose import of_diagnosis
+from pyrofit.estimate.pose_likelihood import pose_likelihood
 from pyrofit.estimate.targets import Measurements
 from pyrofit.parallel import parallel_map
 from pyrofit.seeds import seed_for
@@ -57,8 +50,9 @@ def set_up(
     DataError
         A channel is too short; no run within the limits finishes, or one that is held out does not.
     """
-    problem = _problem(study, measurements)
-    likelihood = likelihood_of(problem, prior_of(study, problem))
+    channels = (*calibration_channels(study), *held_out_channels(study))
+    asked = of_diagnosis(study, channels)
+    likelihood = pose_likelihood(study, asked, measurements, study.fixed_values())
     calibrated = tuple(range(len(calibration_channels(study))))
     base = Base(likelihood, calibrated)
     first, starts = _fitted(base, study.seed, processes)
@@ -102,18 +96,6 @@ def _check_held_out(trial: FittedModel) -> None:
                 f"diagnosis.hold_out: {base.channels[i][0]} does not finish with the parameters "
                 "that are fitted to the calibrated signals; leave it out"
             )
-
-
-def _problem(study: Study, measurements: Measurements) -> Problem:
-    channels = (*calibration_channels(study), *held_out_channels(study))
-    return make_problem(
-        study,
-        diagnosed_parameters(study),
-        channels,
-        measurements,
-        diagnosed_material(study),
-        study.fixed_values(),
-    )
 
 
 def _fitted(base: Base, seed: int, processes: int) -> tuple[FittedModel, list[FloatArray]]:
