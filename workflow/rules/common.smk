@@ -40,6 +40,10 @@ STARTED = expand(
     ROOT / "imp/{cost}/{optimiser}.json", cost=COSTS, optimiser=list(OPTIMISERS)
 )
 
+# Their ends and SCE-UA's best sets: signals that jump have their noise about the best of them.
+JUMPS = any(study.experiments[c.experiment].jumps for c in study.imp.channels)
+FITS_FOR_NOISE = [results.imp("summary.csv"), STARTED] if JUMPS else []
+
 
 def repetitions_in(files):
     """Return the repetitions whose results are among some files."""

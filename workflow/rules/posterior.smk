@@ -7,6 +7,7 @@ rule posterior:
     input:
         MEASUREMENTS,
         KINETICS_FOR_IMP,
+        FITS_FOR_NOISE,
         results.identification("estimate.csv"),
         results.identification("noise.json"),
     output:

@@ -8,6 +8,7 @@ rule rescore:
         MEASUREMENTS,
         KINETICS_FOR_IMP,
         OUTSIDE,
+        FITS_FOR_NOISE,
         expand(
             ROOT / "imp/{cost}/{repetition}{suffix}",
             cost=COSTS,

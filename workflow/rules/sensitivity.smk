@@ -8,6 +8,7 @@ rule sensitivity:
         MEASUREMENTS,
         KINETICS_FOR_IMP,
         OUTSIDE,
+        FITS_FOR_NOISE,
     output:
         [
             results.sensitivity(name)

@@ -7,6 +7,7 @@ rule worth:
     input:
         MEASUREMENTS,
         KINETICS_FOR_IMP,
+        FITS_FOR_NOISE,
         results.identification("estimate.csv"),
     output:
         [results.worth(name) for name in ("worth.json", "worth.svg")],

@@ -1,6 +1,5 @@
 """Identifiability: noise of channels, intervals, profiles, distances of the optimisers' sets."""
 
-from collections.abc import Iterator
 from typing import Any
 
 import numpy as np
@@ -14,7 +13,7 @@ from pyrofit.estimate.pose import of_imp, of_kinetics
 from pyrofit.estimate.pose_likelihood import pose_likelihood
 from pyrofit.results import kinetics, searches
 from pyrofit.results.files import Results, write_csv, write_json
-from pyrofit.stages.fit import fixed_for_imp
+from pyrofit.stages.imp_likelihood import ends_of_searches, imp_likelihood
 from pyrofit.stages.measurements import load
 
 BEST, MEAN = "SCE-UA best", "SCE-UA mean"
@@ -47,11 +46,10 @@ def identify_imp(study: Study, results: Results) -> None:
     DataError
         A result is missing, or a channel is too short to show its noise.
     """
-    asked, measurements = of_imp(study), load(study, results)
-    fixed = fixed_for_imp(study, results)
-    known = list(_known_sets(study, results))
-    likelihood = pose_likelihood(study, asked, measurements, fixed, known)
-    starts = [likelihood.scaled(np.array([end[n] for n in asked.names])) for end in known]
+    asked = of_imp(study)
+    likelihood = imp_likelihood(study, results, asked)
+    ends = ends_of_searches(study, results)
+    starts = [likelihood.scaled(np.array([end[n] for n in asked.names])) for end in ends]
     found = identify(likelihood, starts)
     _write(results, "imp", likelihood, found)
     write_csv(results.identification("sets.csv"), _sets(study, results, likelihood, found))
@@ -68,16 +66,6 @@ def _write(results: Results, stage: str, likelihood: Likelihood, found: Identifi
     for name, frame in tables.items():
         write_csv(results.identification(f"{name}.csv", stage), frame)
     write_json(results.identification("noise.json", stage), _noise(likelihood, found))
-
-
-def _known_sets(study: Study, results: Results) -> Iterator[dict[str, float]]:
-    names = list(study.imp.estimate)
-    for cost in study.imp.costs:
-        for optimiser in OPTIMISERS:
-            for start in searches.starts(study, results, cost, optimiser):
-                yield {name: start["parameters"][name] for name in names}
-    for values in searches.summary(study, results)[names].to_numpy(float).tolist():
-        yield dict(zip(names, values, strict=True))
 
 
 def _estimates(likelihood: Likelihood, found: Identification) -> pd.DataFrame:

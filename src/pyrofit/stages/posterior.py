@@ -11,12 +11,12 @@ from pyrofit.errors import DataError, StudyError
 from pyrofit.estimate.ensembles import ENSEMBLES, MOST_STEPS, Tell
 from pyrofit.estimate.likelihood import Likelihood
 from pyrofit.estimate.pose import of_imp
-from pyrofit.estimate.pose_likelihood import pose_likelihood
 from pyrofit.estimate.sampled import Sampled, sample, spread
 from pyrofit.results import identification, posterior
 from pyrofit.results.files import Results, write_csv, write_json
 from pyrofit.solver.arrays import FloatArray
 from pyrofit.stages.fit import fixed_for_imp
+from pyrofit.stages.imp_likelihood import imp_likelihood
 from pyrofit.stages.measurements import load
 from pyrofit.stages.posterior_bands import predicted
 
@@ -64,7 +64,7 @@ def sample_posterior(
             f"'{programs[0]}' is simulated by an external program. Describe it for pyrofit's own "
             "solver, or use the intervals of the step identify"
         )
-    likelihood, start = _posed(study, results)
+    likelihood, start = likelihood_and_optimum(study, results)
     found = sample(likelihood, start, study.seed, cores, most_steps, tell)
     measurements, fixed = load(study, results), fixed_for_imp(study, results)
     bands, of_bands = predicted(study, found, measurements, fixed)
@@ -73,19 +73,22 @@ def sample_posterior(
     posterior.write(results, _content(study, found, of_bands, sets))
 
 
-def _posed(study: Study, results: Results) -> tuple[Likelihood, FloatArray]:
-    """Return the likelihood of the inverse modelling, and the optimum that was found."""
+def likelihood_and_optimum(study: Study, results: Results) -> tuple[Likelihood, FloatArray]:
+    """Return the likelihood of the inverse modelling, and the optimum that `identify` found.
+
+    Raises
+    ------
+    DataError
+        `identify` has not run. Or chi-square there is another one: the study or its data changed.
+    """
     path = results.identification("estimate.csv")
     if not path.is_file():
         raise DataError(
             f"{path}: this result is missing; the draws start from it. Run the study first: "
             "snakemake --cores 2 --configfile <the study>"
         )
-    optimum = identification.estimates(study, results)["estimate"].to_numpy(float)
-    fits = [dict(zip(study.imp.estimate, optimum.tolist(), strict=True))]
-    measurements, fixed = load(study, results), fixed_for_imp(study, results)
-    likelihood = pose_likelihood(study, of_imp(study), measurements, fixed, fits)
-    start = likelihood.scaled(optimum)
+    likelihood = imp_likelihood(study, results, of_imp(study))
+    start = likelihood.scaled(identification.estimates(study, results)["estimate"].to_numpy(float))
     known = float(identification.noise(results)["chi2"])
     residuals = likelihood.residuals(start)[: sum(likelihood.points)]
     if abs(float(residuals @ residuals) - known) > CHANGED * known:

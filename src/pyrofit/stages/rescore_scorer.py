@@ -9,13 +9,13 @@ from pyrofit.config import Study, TermSpec
 from pyrofit.errors import DataError
 from pyrofit.estimate.likelihood import Likelihood
 from pyrofit.estimate.pose import of_imp, pose
-from pyrofit.estimate.pose_likelihood import pose_likelihood
 from pyrofit.estimate.problem import Outcome, Problem
 from pyrofit.estimate.targets import Measurements
 from pyrofit.parallel import MOST_PIECES, parallel_map
 from pyrofit.results.files import Results
 from pyrofit.solver.arrays import FloatArray
 from pyrofit.stages.fit import fixed_for_imp
+from pyrofit.stages.imp_likelihood import imp_likelihood
 from pyrofit.stages.rescore_measures import LIKELIHOOD, Measure
 
 AT_ONCE = 128
@@ -83,7 +83,7 @@ def scorer_of(
     if all(measure.terms for measure in measures):
         return Scorer(posed(specs), tuple(measures), None), []
     try:
-        likelihood = pose_likelihood(study, of_imp(study), measurements, fixed)
+        likelihood = imp_likelihood(study, results, of_imp(study))
     except DataError as error:
         rest = tuple(measure for measure in measures if measure.terms)
         if not rest:

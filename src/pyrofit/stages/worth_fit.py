@@ -10,11 +10,10 @@ from pyrofit.errors import StudyError
 from pyrofit.estimate.bounded_least_squares import Fit
 from pyrofit.estimate.likelihood import Likelihood
 from pyrofit.estimate.pose import of_both
-from pyrofit.estimate.pose_likelihood import pose_likelihood
 from pyrofit.experiments.external.simulate import OWN_MODEL
 from pyrofit.results.files import Results, read_csv
 from pyrofit.stages.fit import fixed_for_imp
-from pyrofit.stages.measurements import load
+from pyrofit.stages.imp_likelihood import imp_likelihood
 
 
 def best_fit(study: Study, results: Results) -> FittedModel:
@@ -32,8 +31,11 @@ def best_fit(study: Study, results: Results) -> FittedModel:
         {"parameter": object, "estimate": float},
         {("parameter",): [(name,) for name in study.imp.estimate]},
     ).set_index("parameter")["estimate"]
-    likelihood, fixed = _likelihood(study, results)
-    values = {**fixed, **{str(name): float(value) for name, value in estimates.items()}}
+    likelihood = _likelihood(study, results)
+    values = {
+        **fixed_for_imp(study, results),
+        **{str(name): float(value) for name, value in estimates.items()},
+    }
     start = likelihood.scaled(np.array([values[name] for name in likelihood.problem.names]))
     end = likelihood.descend(start)
     jacobian = likelihood.jacobian(end.x, end.residuals)
@@ -41,11 +43,10 @@ def best_fit(study: Study, results: Results) -> FittedModel:
     return FittedModel(model_of(base, {}), Fit(end.chi2, end.x, end.residuals, jacobian))
 
 
-def _likelihood(study: Study, results: Results) -> tuple[Likelihood, dict[str, float]]:
-    """Return the likelihood of all fitted data, and the values of all known parameters."""
-    fixed = fixed_for_imp(study, results)
+def _likelihood(study: Study, results: Results) -> Likelihood:
+    """Return the likelihood of all fitted data."""
     asked = of_both(study)
     outside = {term.experiment for term in asked.terms} & set(externals(study))
     if outside:
         raise StudyError(f"experiments.{min(outside)}: {OWN_MODEL}")
-    return pose_likelihood(study, asked, load(study, results), fixed), fixed
+    return imp_likelihood(study, results, asked)
