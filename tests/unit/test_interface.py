@@ -95,7 +95,7 @@ def test_changes_make_the_study_that_a_file_with_them_would(study: pf.Study) -> 
         (lambda s: pf.read_study(s, imp={"repetition": 3}), "Did you mean 'repetitions'"),
         (lambda s: pf.simulate(s, {"kk": 1.0}), "no parameter 'kk'. Did you mean 'k'"),
         (lambda s: pf.simulate(s, {"k": "high"}), "parameter 'k': 'high' is no finite number"),
-        (lambda s: pf.simulate(s, {"k": 0.2}), r"no value: E_p \(100 to 300 kJ/mol\)"),
+        (lambda s: pf.simulate(s, {"k": 0.2}), r"no value for E_p \(100 to 300 kJ/mol\)"),
         (lambda s: pf.simulate(s, experiments="slab"), "no experiment 'slab'. Did you mean"),
         (lambda s: pf.fit(s, signals={"slab_25": "mrl"}), "no signal 'mrl'. Did you mean 'mlr'"),
         (lambda s: pf.fit(s, stage="tga"), "unknown stage 'tga'"),

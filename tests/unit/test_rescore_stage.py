@@ -176,7 +176,7 @@ def test_cost_that_cannot_be_computed_is_told(
     path.write_text(frame.to_csv(index=False))
     assert main(command(there, tmp_path, "--cost", "NRSE")) == 2
     said = capsys.readouterr().err
-    assert "cost 'NRSE' cannot be computed of slab_25.mlr: NRSE: the target is 0" in said
+    assert "cost 'NRSE' cannot be computed for slab_25.mlr: NRSE: the target is 0" in said
 
 
 def test_study_that_has_not_run_is_told(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:

@@ -27,8 +27,8 @@ def narrowed(curvature: FloatArray, jacobian: FloatArray, dispersion: float) -> 
 def sds(curvature: FloatArray, free: Sequence[int]) -> FloatArray:
     """Return the standard deviations of the parameters, shape (parameters,).
 
-    ``free`` are the positions of those that do not rest at a limit. One that does does not move
-    with the others; its own number is that of its leaving the limit.
+    ``free`` are the positions of those that do not rest at a limit. Parameters at a limit stay
+    there for the others. Their own numbers are computed as if they were free.
 
     >>> sds(np.array([[2.0, 1.0], [1.0, 1.0]]), [0, 1]).tolist()
     [1.0, 1.4142135623730951]

@@ -118,7 +118,9 @@ def complete(
     lacking = sorted(used_by(study, experiments) - set(every) - set(but))
     if lacking:
         places = ", ".join(_limits(study, name) for name in lacking)
-        raise StudyError(f"study '{study.name}': these parameters have no value: {places}; give it")
+        raise StudyError(
+            f"study '{study.name}': no value for {places}; give it, or set `value` in the study"
+        )
     return every
 
 

@@ -15,7 +15,7 @@ Keys = dict[str, Any]
 REACH = 4.0
 """Standard deviations from the value of no difference to the limits."""
 DRAWN = 3.0
-"""The same, to the farthest value that is drawn for a twin."""
+"""Standard deviations from that value to the farthest one that is drawn for a twin."""
 SIGNALS = "signals"
 
 

@@ -58,7 +58,7 @@ def _fills(line: Line, width: int) -> bool:
 
 
 def _in_columns(line: Line, width: int) -> Line:
-    """Return a line that blanks separate with a name a cell, where brackets tell its columns.
+    """Split a heading that blanks separate into one name a column; brackets end a column.
 
     A sign of a comment at its beginning is no name.
     """

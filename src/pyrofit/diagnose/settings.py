@@ -29,7 +29,7 @@ class Settings:
     most_refused: int = MOST_REFUSED
     """Refused steps in a row, each with ten times the damping, before a descent ends."""
     most_refused_updated: int = MOST_REFUSED_UPDATED
-    """The same with updated derivatives, before these are made anew."""
+    """Refused steps in a row with updated derivatives, before these are made anew."""
     converged_gain: float = 0.05
     """A descent ends where the next step promises less of chi-square."""
     ridge: float = RIDGE
@@ -165,7 +165,7 @@ class Settings:
     correction_flux_sd: float = 0.15
     """Prior standard deviation of the relative change of the flux."""
     correction_property_sd: float = 0.2
-    """The same for a property, relative to its median over temperature."""
+    """Prior standard deviation of a property's change, relative to its median over temperature."""
     correction_points_drawn: int = 60
     """Points of a correction over temperature that are recorded."""
     widest_correction: float = 3.0

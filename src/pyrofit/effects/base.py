@@ -13,7 +13,7 @@ from pyrofit.model.slab import SlabExperiment
 Numbers = Mapping[str, float | str]
 """A number in SI units, or the name of a parameter, by the effect's own names."""
 Chosen = Mapping[str, float | str | tuple[str, ...]]
-"""The same as a study gives it, with ``of``: the names of the components that change, and
+"""Numbers of an effect as a study gives them, with ``of``: the components that change, and
 ``laboratories``: those that have the effect."""
 MaterialChange = Callable[[Material, Numbers], Material]
 ComponentsChange = Callable[[Material, Numbers, Collection[str]], Material]

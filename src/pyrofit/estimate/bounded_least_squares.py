@@ -17,7 +17,7 @@ MOST_STEPS = 80
 MOST_REFUSED = 8
 """Refused steps in a row, each with ten times the damping, before a descent ends."""
 MOST_REFUSED_UPDATED = 2
-"""The same with updated derivatives, before these are made anew."""
+"""Refused steps in a row with updated derivatives, before these are made anew."""
 RIDGE = 1e-6
 """Added to the curvature, so that a parameter without influence does not move."""
 NEAR = 50.0

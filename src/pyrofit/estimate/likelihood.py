@@ -64,7 +64,10 @@ class Likelihood:
         return self.curves_all(x[None])[0]
 
     def curves_all(self, X: FloatArray) -> list[FloatArray | None]:
-        """Return the same for several sets at once, shape (sets, parameters)."""
+        """Return the simulated channels of several sets, X of shape (sets, parameters).
+
+        They stand one after the other; None where a run does not finish.
+        """
         outcomes = self.problem.simulate_all(self.values(X))
         found = [np.concatenate(models) if status.finished else None for status, models in outcomes]
         return [None if c is None or not np.all(np.isfinite(c)) else c for c in found]
@@ -97,7 +100,10 @@ class Likelihood:
         return self.residuals_all(x[None])[0]
 
     def residuals_all(self, X: FloatArray) -> list[FloatArray]:
-        """Return the same for several sets at once, shape (sets, parameters)."""
+        """Return the whitened residuals of several sets, X of shape (sets, parameters).
+
+        Each is of shape (points + known,), as those of `residuals`.
+        """
         channels = [self._of_channels(curves) for curves in self.curves_all(X)]
         known = self.prior.residuals(self.values(X))
         return [np.concatenate([*parts, own]) for parts, own in zip(channels, known, strict=True)]

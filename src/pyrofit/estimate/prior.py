@@ -33,7 +33,7 @@ class NormalPrior:
         return rows
 
     def over(self, factor: float) -> "NormalPrior":
-        """Return the same knowledge with its standard deviations over a factor."""
+        """Return this knowledge with its standard deviations divided by a factor."""
         return replace(self, sd=self.sd / factor, weight=self.weight * factor)
 
 

@@ -78,14 +78,20 @@ class Problem:
         return self.simulate_all(x[None])[0]
 
     def simulate_all(self, X: FloatArray) -> list[Outcome]:
-        """Return the same for several sets at once, shape (sets, parameters)."""
+        """Return for several sets how each ended, and the model at each term's target.
+
+        ``X`` has the shape (sets, parameters), SI units.
+        """
         if len(X) == 0:
             return []
         columns = X[0].tolist() if len(X) == 1 else X.T
         return self.outcomes({**self.fixed, **dict(zip(self.names, columns, strict=True))}, len(X))
 
     def outcomes(self, values: Values, sets: int) -> list[Outcome]:
-        """Return the same for values by name, each a number or of shape (sets,)."""
+        """Return for several sets how each ended, and the model at each term's target.
+
+        ``values`` holds each parameter by name, SI units: a number or shape (sets,).
+        """
         simulated = self.simulated(values, sets)
         return [
             self._picked({name: curves[s] for name, curves in simulated.items()})
@@ -158,7 +164,7 @@ class Problem:
         return self._evaluation(*self.simulate(x))
 
     def evaluate_all(self, X: FloatArray) -> list[Evaluation]:
-        """Return the same for several sets at once, shape (sets, parameters)."""
+        """Return the cost of several sets, X of shape (sets, parameters), SI units."""
         return [self._evaluation(*outcome) for outcome in self.simulate_all(X)]
 
     def _evaluation(self, status: Status, models: list[FloatArray]) -> Evaluation:
@@ -171,7 +177,7 @@ class Problem:
         return Evaluation(FAILED_COST, (FAILED_COST,) * len(self.picks), status)
 
     def refined(self) -> "Problem":
-        """Return the same problem with a quarter of the solver's error."""
+        """Return this problem with a quarter of the solver's error."""
         return replace(self, accuracy=self.accuracy.refined())
 
     def residuals(self, x: FloatArray) -> FloatArray:
@@ -179,7 +185,7 @@ class Problem:
         return self._residuals(*self.simulate(x))
 
     def residuals_all(self, X: FloatArray) -> list[FloatArray]:
-        """Return the same for several sets at once, shape (sets, parameters)."""
+        """Return the residuals of the cost for several sets, X of shape (sets, parameters)."""
         return [self._residuals(*outcome) for outcome in self.simulate_all(X)]
 
     def _residuals(self, status: Status, models: list[FloatArray]) -> FloatArray:

@@ -129,7 +129,7 @@ def heats(runs: Iterable[Measured]) -> tuple[str, ...]:
 
 
 def titles(runs: Sequence[Measured]) -> dict[str, str]:
-    """Return the addition to the title of each experiment where others have the same.
+    """Return by experiment what makes its title unique; empty where it is so already.
 
     >>> titles([Measured("tga", "a", None, 10.0), Measured("tga", "b", None, 10.0)])
     {'a': ' (a)', 'b': ' (b)'}

@@ -86,7 +86,7 @@ class Quantity:
     released: Released | None = None
     """Mass per area that a record shows to be released [kg/m2]; none = it does not show that."""
     discrepancy_share: float = 0.0
-    """The same as a fraction of the record's range."""
+    """Least standard deviation of a record without an uncertainty, as a fraction of its range."""
     has_sign: bool = False
     """Whether files differ in their sign: heat taken up is positive, or negative."""
     remark: Remark | None = None

@@ -55,7 +55,7 @@ class Scatter:
         return np.asarray(self._lasting(size) + self.settings.scatter**2 * np.eye(points))
 
     def noise(self, size: float) -> NoiseModel:
-        """Return the same as the noise of a channel."""
+        """Return the noise of a channel that has this covariance."""
         values, vectors = np.linalg.eigh(self._lasting(size))
         kept = values > 1e-4 * self.settings.scatter**2
         return NoiseModel(

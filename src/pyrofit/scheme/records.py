@@ -59,7 +59,7 @@ class Record:
 
     @property
     def slope(self) -> FloatArray:
-        """D m / d T [1/K] at the points; 0 where the temperature does not rise."""
+        """Slope of the mass, dm/dT [1/K], at the points; 0 where the temperature does not rise."""
         rise = np.gradient(self.temperature_K)
         safe = np.where(np.abs(rise) > 1e-9, rise, np.inf)
         return np.asarray(np.gradient(self.mass) / safe)

@@ -193,5 +193,5 @@ def _check(study: Study, measure: Measure, measurements: Measurements) -> None:
         except CostError as error:
             place = f"{term.experiment}.{term.signal}"
             raise CostError(
-                f"cost '{measure.name}' cannot be computed of {place}: {error}"
+                f"cost '{measure.name}' cannot be computed for {place}: {error}"
             ) from None

@@ -194,7 +194,7 @@ def sharpened(trial: FittedModel, processes: int = 1) -> Base:
 
 
 def refitted(trial: FittedModel, base: Base) -> FittedModel:
-    """Return the same effects fitted with another noise."""
+    """Return a fitted model with its effects fitted with another noise."""
     model = model_of(base, trial.model.effects, trial.model.channels)
     return FittedModel(model, _refit(model, trial.fit.x))
 
@@ -212,8 +212,8 @@ def _refit(model: Model, x: FloatArray) -> Fit:
     return refreshed(model, descend(model, x))
 
 
-def is_clearer(other: Base, base: Base) -> bool:
-    """Tell whether the noise of the calibrated channels explains more than that of a base.
+def has_better_noise(other: Base, base: Base) -> bool:
+    """Tell whether the noise of the calibrated channels has a clearly lower BIC than a base's.
 
     Or whether known values count for less, as the misfit is smaller.
     """

@@ -84,7 +84,7 @@ class Model:
         return self.residuals_all(x[None])[0]
 
     def residuals_all(self, X: FloatArray) -> list[FloatArray]:
-        """Return the same for several sets at once, shape (sets, parameters)."""
+        """Return the whitened residuals of several sets, X of shape (sets, parameters)."""
         return self.likelihood.residuals_all(X)
 
     def jacobian(self, x: FloatArray, residuals: FloatArray) -> FloatArray:

@@ -39,7 +39,10 @@ def needed(found: Search, context: SearchContext) -> tuple[Search, list[FittedMo
 
 
 def without_each(found: Search, processes: int) -> list[FittedModel]:
-    """Return the best model without each effect of a search's end: as dropped, or as at hand."""
+    """Return for each effect of the final model the best fit without it.
+
+    It is fitted now, or was found by the search.
+    """
     reduced = refitted_without(found.end, found.end.effects, processes)
     at_hand = [found.base, *found.trials]
     return [

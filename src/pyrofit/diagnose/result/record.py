@@ -1,4 +1,4 @@
-"""The results of a diagnosis as plain numbers and words, keys as in docs/diagnosis.md."""
+"""The results of a diagnosis as plain numbers and words, keys as in docs/diagnosis_json.md."""
 
 from dataclasses import asdict
 from typing import Any

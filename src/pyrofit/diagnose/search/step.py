@@ -245,7 +245,7 @@ def together(
     work: Callable[[list[FittedModel]], list[FittedModel]],
     lists: Sequence[Sequence[FittedModel]],
 ) -> list[list[FittedModel]]:
-    """Return the lists with each model worked on, all in one call."""
+    """Apply ``work`` to all lists in one call; return lists of the same lengths."""
     ends = iter(work([trial for trials in lists for trial in trials]))
     return [list(islice(ends, len(trials))) for trials in lists]
 

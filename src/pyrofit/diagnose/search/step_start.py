@@ -6,7 +6,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from pyrofit.diagnose.base.adequacy import LackOfFit, lack_of_fit
-from pyrofit.diagnose.base.fit import blurred, is_clearer, refitted, sharpened
+from pyrofit.diagnose.base.fit import blurred, has_better_noise, refitted, sharpened
 from pyrofit.diagnose.base.fitted import FittedModel
 from pyrofit.diagnose.search.refit import look_at, model_with, with_effect
 from pyrofit.diagnose.search.score_test import Screening
@@ -57,7 +57,7 @@ def with_sharp_noise(step: SearchStep, context: SearchContext) -> SearchStep:
     at = int(np.argmin([fit.chi2 for fit in fits]))
     best = FittedModel(model_with(step.start, order[at].effect), fits[at])
     base = sharpened(best, context.processes)
-    if not is_clearer(base, best.model.base):
+    if not has_better_noise(base, best.model.base):
         return step
     start = refitted(step.start, base)
     return step_from(start, [look.effect for look in step.looks], context)

@@ -7,7 +7,7 @@ from functools import partial
 import numpy as np
 
 from pyrofit.diagnose.base.adequacy import LackOfFit
-from pyrofit.diagnose.base.fit import blurred, is_clearer, refitted_all, sharpened
+from pyrofit.diagnose.base.fit import blurred, has_better_noise, refitted_all, sharpened
 from pyrofit.diagnose.base.fitted import (
     FittedModel,
     finishes,
@@ -85,7 +85,7 @@ def search(base: FittedModel, effects: Sequence[str], most: int, context: Search
     if settled(found, most):
         return found
     sharper = sharpened(found.end, context.processes)
-    if not is_clearer(sharper, found.end.model.base):
+    if not has_better_noise(sharper, found.end.model.base):
         return found
     context.tell("once more, with the noise about the best model")
     carried = refitted_all([found.base, *_leading(found)], sharper, context.processes)

@@ -27,7 +27,7 @@ def tabulated(prop: Property, values: Values, change: Change | None = None) -> F
 
 
 def needed(T: FloatArray, p: FloatArray) -> list[int]:
-    """Return the points that lines through them replace all others by, the first and last too.
+    """Return the positions of the points that straight lines between them need.
 
     >>> needed(np.array([0.0, 1.0, 2.0, 3.0]), np.array([1.0, 2.0, 3.0, 3.0]))
     [0, 2, 3]

@@ -42,13 +42,15 @@ def version_text(executable: Path, folder: Path) -> str:
     Raises
     ------
     FdsError
-        It does not say its version.
+        Its version cannot be read.
     """
     run = call(executable, [], folder, 60.0)
     found = version_in(run.said)
     if not found:
         why = run.why or "no Revision line"
-        raise FdsError(f"{executable}: it does not say its version ({why}); is it FDS?")
+        raise FdsError(
+            f"{executable}: its version cannot be read ({why}); check that this is FDS's executable"
+        )
     return found
 
 

@@ -19,6 +19,6 @@ FIGURE = Figure(
     make=correlation_of_sets,
     title="Correlation of the sets of all repetitions",
     caption="Spearman's correlation over the repetitions of SCE-UA, ranked within each cost "
-    "function. It tells along which combinations of parameters the searches come to rest, and "
-    "need not be that of the likelihood.",
+    "function. It shows the directions along which the searches end; the likelihood may have other "
+    "correlations.",
 )

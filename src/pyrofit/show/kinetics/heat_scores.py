@@ -45,7 +45,7 @@ TABLE = Table(
     applies=lambda study: bool(heats_shown(study)),
     make=heat_scores,
     title="How well heat flow and heat release are reproduced",
-    note="The RMSE is over all measured points. Published sets bring kinetics only; heats, "
+    note="The RMSE is over all measured points. Published sets contain kinetics only; heats, "
     "specific heats and baselines are those of our fit.",
     headings={"used_in_fit": "used in fit"},
 )
