@@ -1,7 +1,11 @@
 """Printed output, kept in a log file as well."""
 
+from collections.abc import Callable
 from pathlib import Path
 from typing import IO
+
+Tell = Callable[[str], None]
+"""Receives messages on the progress of a step."""
 
 
 class Tee:

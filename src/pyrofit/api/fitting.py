@@ -1,6 +1,6 @@
 """Fits of a study to its measurements."""
 
-from collections.abc import Callable, Collection, Iterable, Mapping, Sequence
+from collections.abc import Collection, Iterable, Mapping, Sequence
 from dataclasses import dataclass, replace
 from typing import Literal
 
@@ -43,13 +43,13 @@ from pyrofit.estimate.likelihood import descents
 from pyrofit.estimate.pose import of_diagnosis
 from pyrofit.estimate.pose_likelihood import pose_likelihood
 from pyrofit.estimate.problem import Problem
+from pyrofit.logs import Tell
 from pyrofit.seeds import seed_for
 from pyrofit.show.text import several
 from pyrofit.solver.arrays import FloatArray
 
 Stage = Literal["kinetics", "imp"]
 Optimiser = Literal["least_squares", "cmaes", "sceua"]
-Tell = Callable[[str], None]
 
 
 @dataclass(frozen=True, eq=False)

@@ -17,10 +17,11 @@ from pyrofit.diagnose.judge.findings import Verdict
 from pyrofit.diagnose.judge.profiles import profiles
 from pyrofit.diagnose.judge.verdict import judge
 from pyrofit.diagnose.result import record
-from pyrofit.diagnose.search.step import SearchContext, Tell, in_order
+from pyrofit.diagnose.search.step import SearchContext, in_order
 from pyrofit.diagnose.search.stepwise import Search, search
 from pyrofit.diagnose.settings import SETTINGS
 from pyrofit.estimate.targets import Measurements
+from pyrofit.logs import Tell
 
 
 @dataclass(frozen=True, eq=False)

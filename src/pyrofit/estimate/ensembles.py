@@ -6,7 +6,7 @@ the runs of a half are independent. A fifth of the moves is snooker (ter Braak a
 doi 10.1007/s11222-008-9104-9), which goes through the ensemble's far ends.
 """
 
-from collections.abc import Callable, Sequence
+from collections.abc import Sequence
 from dataclasses import dataclass
 from functools import partial
 from typing import Any
@@ -15,6 +15,7 @@ import numpy as np
 
 from pyrofit.estimate.convergence import ENOUGH_TIMES, ESS, RHAT, autocorrelation_times, rhat
 from pyrofit.estimate.likelihood import Likelihood
+from pyrofit.logs import Tell
 from pyrofit.parallel import parallel_map
 from pyrofit.seeds import seed_for
 from pyrofit.solver.arrays import FloatArray
@@ -32,7 +33,6 @@ LEFT_OUT = 1.0 / 3.0
 WIDER = 1.5
 """Walkers start wider than the parabola by this factor, so that R-hat can tell."""
 SNOOKER = 0.2
-Tell = Callable[[str], None]
 State = tuple[FloatArray, FloatArray | None, Any]
 """Walkers, their log density if it is known, and the state of the random numbers."""
 

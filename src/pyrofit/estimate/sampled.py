@@ -9,9 +9,10 @@ from dataclasses import dataclass
 import numpy as np
 
 from pyrofit.estimate.discrepancy import Discrepancy, estimated, with_discrepancy
-from pyrofit.estimate.ensembles import MOST_STEPS, Drawn, Tell, draw
+from pyrofit.estimate.ensembles import MOST_STEPS, Drawn, draw
 from pyrofit.estimate.likelihood import Likelihood
 from pyrofit.estimate.posterior import Posterior
+from pyrofit.logs import Tell
 from pyrofit.solver.arrays import FloatArray
 
 ROUNDS = 2

@@ -13,10 +13,11 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from pyrofit.logs import Tell
 from pyrofit.scheme.fit import FittedScheme, Setting
 from pyrofit.scheme.prediction import Predicted, leave_rates_out, predict
 from pyrofit.scheme.records import rates_of
-from pyrofit.scheme.search import Tell, fit_own, search
+from pyrofit.scheme.search import fit_own, search
 from pyrofit.scheme.settings import Settings
 from pyrofit.seeds import seed_for
 

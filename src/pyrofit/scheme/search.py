@@ -1,16 +1,16 @@
 """The search: schemes are extended feature by feature, the best of each round further."""
 
-from collections.abc import Callable, Mapping
+from collections.abc import Mapping
 
 import numpy as np
 
+from pyrofit.logs import Tell
 from pyrofit.scheme.arrangements.base import PREFIX
 from pyrofit.scheme.fit import FittedScheme, Setting, fit_posed
 from pyrofit.scheme.posed import Posed, may_lag, own, pose
 from pyrofit.scheme.schemes import PARALLEL, Scheme
 from pyrofit.seeds import seed_for
 
-Tell = Callable[[str], None]
 Values = Mapping[str, float]
 
 NEW: dict[str, tuple[float, ...]] = {

@@ -7,9 +7,9 @@ from pyrofit.config.programs import externals
 from pyrofit.config.resolve import diagnosed
 from pyrofit.diagnose.diagnosis import examine
 from pyrofit.diagnose.result.extended_study import extended_keys
-from pyrofit.diagnose.search.step import Tell
 from pyrofit.errors import StudyError
 from pyrofit.experiments.external.simulate import OWN_MODEL
+from pyrofit.logs import Tell
 from pyrofit.results import diagnosis
 from pyrofit.results.files import Results, write_csv, write_text
 from pyrofit.stages.measurements import load

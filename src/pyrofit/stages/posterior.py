@@ -8,10 +8,11 @@ import pandas as pd
 from pyrofit.config import Study
 from pyrofit.config.programs import externals
 from pyrofit.errors import DataError, StudyError
-from pyrofit.estimate.ensembles import ENSEMBLES, MOST_STEPS, Tell
+from pyrofit.estimate.ensembles import ENSEMBLES, MOST_STEPS
 from pyrofit.estimate.likelihood import Likelihood
 from pyrofit.estimate.pose import of_imp
 from pyrofit.estimate.sampled import Sampled, sample, spread
+from pyrofit.logs import Tell
 from pyrofit.results import identification, posterior
 from pyrofit.results.files import Results, write_csv, write_json
 from pyrofit.solver.arrays import FloatArray

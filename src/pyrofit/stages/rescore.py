@@ -1,6 +1,6 @@
 """Every stored call scored again under any cost: which costs rank the sets alike."""
 
-from collections.abc import Callable, Sequence
+from collections.abc import Sequence
 from dataclasses import dataclass
 
 import numpy as np
@@ -9,6 +9,7 @@ import pandas as pd
 from pyrofit.analysis import rescoring
 from pyrofit.config import Study, digest
 from pyrofit.errors import DataError
+from pyrofit.logs import Tell
 from pyrofit.results import dependencies, rescored, searches
 from pyrofit.results.files import Results, write_csv
 from pyrofit.solver.arrays import Status
@@ -19,7 +20,6 @@ from pyrofit.stages.rescore_scorer import Scorer, scored, scorer_of
 
 SETS = 3000
 """Sets that are scored unless told otherwise."""
-Tell = Callable[[str], None]
 
 
 @dataclass(frozen=True, eq=False)

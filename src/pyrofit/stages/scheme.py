@@ -1,6 +1,7 @@
 """Which reaction scheme the thermogravimetric records support, and the study with it."""
 
 from pyrofit.config import Study, as_yaml
+from pyrofit.logs import Tell
 from pyrofit.results import recorded, scheme
 from pyrofit.results.files import Results, write_csv, write_text
 from pyrofit.scheme.choice import Choice, choose_scheme
@@ -8,7 +9,6 @@ from pyrofit.scheme.extended import extended_keys
 from pyrofit.scheme.fit import Setting
 from pyrofit.scheme.record import content_of, curves_of
 from pyrofit.scheme.records import records_of
-from pyrofit.scheme.search import Tell
 from pyrofit.scheme.settings import Settings
 from pyrofit.stages.own_files import files_seen_from, seen_from
 

@@ -1,12 +1,11 @@
 """Variance-based sensitivity of signals and costs, over time."""
 
-from collections.abc import Callable
-
 import numpy as np
 
 from pyrofit.analysis import sobol
 from pyrofit.config import Study, TermSpec
 from pyrofit.errors import DataError
+from pyrofit.logs import Tell
 from pyrofit.parallel import MOST_PIECES, parallel_map
 from pyrofit.results.files import Results
 from pyrofit.seeds import seed_for
@@ -24,7 +23,6 @@ MOST_TIMES = 120
 """Times of a signal at which indices are computed."""
 LITERAL = "_literal"
 """End of the names of costs that give nearly all sets the same value; they are left out."""
-Tell = Callable[[str], None]
 
 
 def sensitivity(

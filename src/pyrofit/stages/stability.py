@@ -4,8 +4,8 @@ from typing import Any
 
 from pyrofit.config import Study
 from pyrofit.diagnose.diagnosis import Diagnosis, examine
-from pyrofit.diagnose.search.step import Tell
 from pyrofit.diagnose.settings import SETTINGS
+from pyrofit.logs import Tell
 from pyrofit.results import stability
 from pyrofit.results.files import Results
 from pyrofit.stages.diagnose import refuse_programs

@@ -1,6 +1,6 @@
 """Which measurement would narrow parameters and predictions most: the worth of planned tests."""
 
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import replace
 from typing import Any
 
@@ -14,6 +14,7 @@ from pyrofit.errors import DataError
 from pyrofit.estimate.posterior import curvature, limit_of
 from pyrofit.estimate.targets import Measurements
 from pyrofit.experiments import kind_of
+from pyrofit.logs import Tell
 from pyrofit.results import worth
 from pyrofit.results.files import Results
 from pyrofit.solver.arrays import FloatArray
@@ -28,7 +29,6 @@ DRAWS = 50
 """Drawn data sets of the check unless told otherwise."""
 CHECKED = 3
 """Tests that are checked."""
-Tell = Callable[[str], None]
 
 
 def worth_of_tests(

@@ -22,10 +22,9 @@ from pyrofit.diagnose.search.refit import (
 from pyrofit.diagnose.search.score_test import Screening
 from pyrofit.diagnose.settings import SETTINGS
 from pyrofit.effects import known_effects
+from pyrofit.logs import Tell
 from pyrofit.parallel import parallel_map
 from pyrofit.solver.arrays import FloatArray
-
-Tell = Callable[[str], None]
 
 
 @dataclass(frozen=True, eq=False)

@@ -3,7 +3,7 @@
 import json
 import math
 import tempfile
-from collections.abc import Callable, Iterable
+from collections.abc import Iterable
 from pathlib import Path
 from typing import Any, NamedTuple
 
@@ -23,6 +23,7 @@ from pyrofit.exchange.fds.run import LIMIT_S, run_deck, version_text
 from pyrofit.exchange.fds.versions import FdsError, version_of
 from pyrofit.exchange.sets import ParameterSet
 from pyrofit.external.fds import NO_FDS
+from pyrofit.logs import Tell
 from pyrofit.results.files import write_csv, write_text
 from pyrofit.solver.outputs import BACK, MASS_FRACTION, RATE
 
@@ -31,7 +32,6 @@ ENDS_WITHIN_S, ENDS_WITHIN_K = 2.0, 15.0
 """Largest gap at the end of a complete file; a sample lags behind its furnace."""
 BURNT = 2e-3
 
-Tell = Callable[[str], None]
 Entry = dict[str, Any]
 
 
