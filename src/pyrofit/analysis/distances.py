@@ -5,7 +5,8 @@ from dataclasses import dataclass
 import numpy as np
 
 from pyrofit.config import Study
-from pyrofit.results.identification import WITHIN, Identified
+from pyrofit.constants import QUANTILE
+from pyrofit.results.identification import Identified
 
 
 @dataclass(frozen=True)
@@ -44,7 +45,7 @@ def distances(study: Study, identified: Identified) -> list[Distance]:
                 cost_function=row["cost_function"],
                 set=row["set"],
                 chi2_per_freedom=float(row["chi2"]) / freedom,
-                within=int((away <= WITHIN).sum()),
+                within=int((away <= QUANTILE).sum()),
                 farthest=names[int(away.argmax())],
                 distance_sd=float(away.max()),
             )

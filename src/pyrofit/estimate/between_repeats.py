@@ -21,6 +21,7 @@ import numpy as np
 from scipy.optimize import least_squares
 from scipy.special import stdtrit
 
+from pyrofit.constants import QUANTILE
 from pyrofit.estimate.correlation import Correlation
 from pyrofit.estimate.noise import FEWEST_POINTS, NoiseModel
 from pyrofit.estimate.problem import Problem
@@ -34,8 +35,6 @@ KNOTS = 81
 LASTING = 0.05
 """Time l over which the second term lasts, as a fraction of the record. From 0.02 to 0.1 the
 coverage of 95 % intervals changes by 0.05 at most."""
-NORMAL = 1.96
-"""Half of a 95 % interval of a normal distribution, in standard deviations."""
 FLOOR = "repeats"
 SIGNIFICANT = 2.0
 """Standard deviations by which the scatter must exceed the smoothed noise of the points."""
@@ -173,7 +172,7 @@ def student_factor(freedom: int) -> float:
     >>> round(student_factor(2), 2)
     2.2
     """
-    return float(stdtrit(freedom, 0.975)) / NORMAL
+    return float(stdtrit(freedom, 0.975)) / QUANTILE
 
 
 def _with_modes(record: _Record, knots: FloatArray, modes: FloatArray) -> NoiseModel:

@@ -10,9 +10,10 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
+from pyrofit.constants import QUANTILE
 from pyrofit.estimate.bounded_least_squares import Fit
 from pyrofit.estimate.likelihood import Likelihood, fit
-from pyrofit.estimate.posterior import QUANTILE, Posterior, interval, limit_of
+from pyrofit.estimate.posterior import Posterior, interval, limit_of
 from pyrofit.estimate.prior import NormalPrior
 from pyrofit.estimate.profile import Interval, Profile, profile_of
 from pyrofit.solver.arrays import FloatArray

@@ -14,12 +14,11 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from pyrofit.constants import QUANTILE
 from pyrofit.solver.arrays import FloatArray
 
 UNIFORM = 12.0
 """Inverse variance of a value that is anywhere between its limits."""
-QUANTILE = 1.96
-"""Half of a 95 % interval in standard deviations; chi-square rises by its square, 3.84."""
 AT_LIMIT = 0.005
 """A value this near to a limit, as a fraction of the search range, is at it."""
 

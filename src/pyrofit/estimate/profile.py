@@ -6,8 +6,8 @@ from typing import Protocol
 
 import numpy as np
 
+from pyrofit.constants import QUANTILE
 from pyrofit.estimate.bounded_least_squares import Fit
-from pyrofit.estimate.posterior import QUANTILE
 from pyrofit.solver.arrays import FloatArray
 
 MOST_POINTS = 12

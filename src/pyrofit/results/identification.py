@@ -8,9 +8,6 @@ from pyrofit.config import Study
 from pyrofit.results.files import Results, read_csv, read_json
 from pyrofit.results.needed import EACH
 
-WITHIN = 1.96
-"""Standard deviations that a value within a 95 % interval is away at most."""
-
 _SETS: dict[str, type] = {"set": object, "chi2": float}
 _NUMBERS = ("estimate", "sd", "low", "high", "width", "noise_low", "noise_high", "noise_width")
 

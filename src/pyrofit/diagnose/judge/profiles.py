@@ -5,10 +5,10 @@ from typing import Any
 
 import numpy as np
 
+from pyrofit.constants import QUANTILE
 from pyrofit.diagnose.base.descent import descend
 from pyrofit.diagnose.base.fitted import FittedModel, up_to_date
 from pyrofit.diagnose.base.model import strength_of
-from pyrofit.estimate.posterior import QUANTILE
 from pyrofit.estimate.profile import profile_of
 from pyrofit.parallel import parallel_map
 

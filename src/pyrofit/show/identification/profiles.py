@@ -6,8 +6,9 @@ import numpy as np
 import pandas as pd
 
 from pyrofit.config import Study
+from pyrofit.constants import QUANTILE
 from pyrofit.results.files import Results, read_csv
-from pyrofit.results.identification import WITHIN, estimates, noise
+from pyrofit.results.identification import estimates, noise
 from pyrofit.show import style
 from pyrofit.show.drawn import Axes, Canvas
 from pyrofit.show.figure import Figure
@@ -52,7 +53,7 @@ def _draw_profile(
     parameter = study.parameters[str(row["parameter"])]
     lower, upper = (bound / parameter.factor for bound in parameter.bounds_si)
     factor = parameter.factor
-    top = WITHIN**2 * dispersion
+    top = QUANTILE**2 * dispersion
     low, high, at, sd = (float(row[c]) / factor for c in ("low", "high", "estimate", "sd"))
     margin = 0.25 * (high - low)
     x = np.linspace(max(lower, low - margin), min(upper, high + margin), 200)
@@ -68,7 +69,7 @@ def _draw_profile(
         ax.plot(points, root**power, **{**_PROFILE, "linestyle": "none"})
     ax.axhline(top, **_LEVEL)
     if dispersion > 1.0:
-        ax.axhline(WITHIN**2, **_NOISE_LEVEL)
+        ax.axhline(QUANTILE**2, **_NOISE_LEVEL)
     ax.set_xlim(x[0], x[-1])
     ax.set_ylim(0.0, 1.6 * top)
     for bound in (lower, upper):
