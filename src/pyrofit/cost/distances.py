@@ -5,11 +5,21 @@ distance of a model from them is `to_limit` (Table 2) or `to_target` (PROPTI's R
 """
 
 import numpy as np
+from numpy.typing import ArrayLike
 
 from pyrofit.cost.target import FloatArray, Target, curve, number
 from pyrofit.errors import CostError
 
 Limits = tuple[FloatArray, FloatArray]
+
+
+def root_mean_square(values: ArrayLike) -> float:
+    """Return the root of the mean of squares.
+
+    >>> root_mean_square([3.0, -3.0, 3.0, 3.0])
+    3.0
+    """
+    return float(np.sqrt(np.mean(np.square(values))))
 
 
 def to_limit(model: FloatArray, lower: FloatArray, upper: FloatArray) -> FloatArray:

@@ -5,6 +5,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from pyrofit.cost.distances import root_mean_square
 from pyrofit.estimate.likelihood import Likelihood
 from pyrofit.scheme.fit import FittedScheme, Setting, fit_posed, problem_of
 from pyrofit.scheme.noise import log_density
@@ -33,7 +34,7 @@ class Predicted:
     @property
     def rms(self) -> float:
         """Root mean square of predicted minus measured mass fraction."""
-        return float(np.sqrt(np.mean((self.curve - self.record.mass) ** 2)))
+        return root_mean_square(self.curve - self.record.mass)
 
 
 def leave_rates_out(setting: Setting, fitted: FittedScheme, seed: int) -> list[Predicted]:

@@ -7,6 +7,7 @@ from typing import Any
 import numpy as np
 import pandas as pd
 
+from pyrofit.cost.distances import root_mean_square
 from pyrofit.estimate.posterior import interval, limit_of
 from pyrofit.scheme.choice import Candidate, Choice
 from pyrofit.scheme.fit import FittedScheme
@@ -48,9 +49,9 @@ def _scheme(choice: Choice, candidate: Candidate) -> Keys:
         "parameters": fitted.posed.count,
         "bic": fitted.bic,
         "discrepancy": fitted.size,
-        "rms": root_mean([_rms(r) for r in fitted.residuals()]),
+        "rms": root_mean_square([root_mean_square(r) for r in fitted.residuals()]),
         "predicted_rms": candidate.left_out_rms if candidate.left_out else None,
-        "held_out_rms": root_mean([p.rms for p in held_out]) if held_out else None,
+        "held_out_rms": root_mean_square([p.rms for p in held_out]) if held_out else None,
         "log_score": candidate.log_score if candidate.left_out else None,
         "margin": choice.margins.get(fitted.name),
         "records": [*_fitted_records(candidate), *(_record(p, p.rms, None) for p in held_out)],
@@ -137,19 +138,6 @@ def _curves(
     pairs = zip(fitted.records, fitted.residuals(), strict=True)
     found = {r.experiment: Predicted(r, r.mass + residual, 0.0) for r, residual in pairs}
     return found | {p.record.experiment: p for p in held_out[fitted.name]}
-
-
-def root_mean(errors: Sequence[float]) -> float:
-    """Return the root mean square.
-
-    >>> root_mean([3.0, -3.0, 3.0, 3.0])
-    3.0
-    """
-    return float(np.sqrt(np.mean(np.square(errors))))
-
-
-def _rms(residual: Any) -> float:
-    return root_mean(residual)
 
 
 def values_of(posed: Posed, fitted: FittedScheme) -> dict[str, float]:

@@ -3,10 +3,10 @@
 from collections.abc import Iterator, Mapping
 from typing import Any
 
-import numpy as np
 import pandas as pd
 
 from pyrofit.config import Study, kinetics_of
+from pyrofit.cost.distances import root_mean_square
 from pyrofit.estimate.targets import Measurements
 from pyrofit.experiments.heated.simulate import request
 from pyrofit.model.heated import HeatedExperiment
@@ -39,7 +39,7 @@ def write_curves(
             columns = {MASS_FRACTION: mass, "mass_loss_rate_1_s": found.signals[FRACTION_RATE]}
             curves.append(_curve(study, name, signal, frame, columns).assign(set=chosen))
             about = _about(study, name, signal) | {"set": chosen}
-            scores.append(about | {"rmse_mass_fraction": _rms(mass - measured)})
+            scores.append(about | {"rmse_mass_fraction": root_mean_square(mass - measured)})
     columns_of_curves = ["time_s", "temperature_K", MASS_FRACTION, "mass_loss_rate_1_s"]
     _write(results, "curves.csv", curves, [*columns_of_curves, "experiment", "set"])
     columns_of_scores = ["experiment", "heating_rate_K_min", "used_in_fit", "set"]
@@ -61,7 +61,7 @@ def _write_heats(
             curve = found.signals[quantity.curve]
             labels = {"signal": signal, "set": chosen}
             curves.append(_curve(study, name, signal, frame, {"value": curve}).assign(**labels))
-            error = _rms(curve - frame[quantity.column].to_numpy(float))
+            error = root_mean_square(curve - frame[quantity.column].to_numpy(float))
             scores.append(_about(study, name, signal) | labels | {"rmse": error})
     write_csv(results.kinetics("heats.csv"), pd.concat(curves, ignore_index=True))
     write_csv(results.kinetics("heat_scores.csv"), pd.DataFrame(scores))
@@ -109,7 +109,3 @@ def _about(study: Study, name: str, signal: str) -> dict[str, Any]:
 
 def _times(frame: pd.DataFrame) -> FloatArray:
     return frame["time_s"].to_numpy(float)
-
-
-def _rms(difference: FloatArray) -> float:
-    return float(np.sqrt(np.mean(difference**2)))

@@ -6,6 +6,7 @@ import pandas as pd
 from pyrofit.analysis.best_sets import published_sets
 from pyrofit.config import Study
 from pyrofit.config.unmeasured import unmeasured
+from pyrofit.cost.distances import root_mean_square
 from pyrofit.estimate.optimisers import OPTIMISERS
 from pyrofit.experiments import kind_of
 from pyrofit.quantities.base import Quantity
@@ -95,7 +96,7 @@ def _curve(
 def _score(
     quantity: Quantity, value: FloatArray, measured: FloatArray, solver_rmse: float
 ) -> dict[str, object]:
-    rmse = float(np.sqrt(np.mean((value - measured) ** 2)))
+    rmse = root_mean_square(value - measured)
     mean = abs(float(np.mean(measured))) if quantity.relative else np.nan
     return {
         "points": measured.size,

@@ -8,6 +8,7 @@ import pandas as pd
 
 from pyrofit.config import Study, candidate_effects
 from pyrofit.config.resolve import obstacle
+from pyrofit.cost.distances import root_mean_square
 from pyrofit.diagnose.base.fitted import FittedModel
 from pyrofit.diagnose.base.model import Base, model_of
 from pyrofit.diagnose.base.prediction import HELD_OUT
@@ -172,7 +173,7 @@ def _misfits(trial: FittedModel) -> list[dict[str, Any]]:
     targets = [term.target for _, term in model.likelihood.problem.cost.terms]
     parts = model.likelihood.split(curves)
     return [
-        {"curve": c, "chi2": float(w @ w), "rms": float(np.sqrt(np.mean((c - t.value) ** 2)))}
+        {"curve": c, "chi2": float(w @ w), "rms": root_mean_square(c - t.value)}
         for c, t, w in zip(parts, targets, white, strict=True)
     ]
 

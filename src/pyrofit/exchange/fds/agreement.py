@@ -6,6 +6,7 @@ from typing import NamedTuple
 import numpy as np
 import pandas as pd
 
+from pyrofit.cost.distances import root_mean_square
 from pyrofit.exchange.fds.materials import SUM
 from pyrofit.exchange.fds.predicted import burn_out
 from pyrofit.exchange.fds.slab import WEAK_STEP_S, Deck
@@ -82,7 +83,7 @@ def levels(deck: Deck) -> Levels:
 
 def _signal(name: str, found: FloatArray, ours: FloatArray, level: tuple[str, float]) -> Agreement:
     off = found - ours
-    rms = float(np.sqrt(np.mean(off**2)))
+    rms = root_mean_square(off)
     mean = abs(float(np.mean(ours)))
     return Agreement(name, rms / mean, float(np.abs(off).max()), rms, level)
 

@@ -8,6 +8,7 @@ import numpy as np
 import pandas as pd
 
 from pyrofit.config import Study
+from pyrofit.cost.distances import root_mean_square
 from pyrofit.exchange.macfp.predict import AREA_M2
 from pyrofit.exchange.sets import ParameterSet
 from pyrofit.experiments import kind_of
@@ -111,5 +112,5 @@ def _proof(
     measured = frame[quantity.column].to_numpy(float)
     factor = 1.0 if quantity.is_temperature else quantity.shown.factor
     unit = "K" if quantity.is_temperature else quantity.shown.unit
-    rms = float(np.sqrt(np.mean((curve - measured) ** 2)))
+    rms = root_mean_square(curve - measured)
     return Proof(name, signal, file, factor * rms, factor * float(measured.mean()), unit)
