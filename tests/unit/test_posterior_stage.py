@@ -195,4 +195,5 @@ def test_numbers_are_checked(
 ) -> None:
     with pytest.raises(SystemExit):
         main(command(Results(tmp_path), tmp_path, option))
-    assert f"'{option.partition('=')[2]}' is no number of" in capsys.readouterr().err
+    name, _, text = option.partition("=")
+    assert f"argument {name}: '{text}': give a whole number from" in capsys.readouterr().err

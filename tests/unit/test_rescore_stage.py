@@ -204,4 +204,6 @@ def test_number_of_sets_is_checked(
 ) -> None:
     with pytest.raises(SystemExit):
         main(command(results, tmp_path, f"--sets={count}"))
-    assert f"'{count}' is no number of sets; give 2 or more, or 'all'" in capsys.readouterr().err
+    said = capsys.readouterr().err
+    assert f"argument --sets: '{count}': give a whole number from 2 to" in said
+    assert "or 'all'" in said

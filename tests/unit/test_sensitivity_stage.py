@@ -192,7 +192,7 @@ def test_number_of_samples_is_checked(
     with pytest.raises(SystemExit):
         main(command(results, tmp_path, f"--samples={count}"))
     said = capsys.readouterr().err
-    assert f"'{count}' is no number of base points; give a power of two" in said
+    assert f"argument --samples: '{count}': give a power of two" in said
 
 
 def test_result_of_another_study_is_refused(study: Study, results: Results) -> None:

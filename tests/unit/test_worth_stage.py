@@ -229,7 +229,7 @@ def test_number_of_draws_is_checked(
 ) -> None:
     with pytest.raises(SystemExit):
         main(command(results, tmp_path, f"--draws={count}"))
-    assert f"'{count}' is no number of drawn data sets" in capsys.readouterr().err
+    assert f"argument --draws: '{count}': give a whole number from 2" in capsys.readouterr().err
 
 
 def test_result_of_another_study_is_refused(study: Study, results: Results) -> None:

@@ -26,16 +26,24 @@ def add_step(commands: Any, name: str, text: str, step: Step) -> argparse.Argume
 
 def add_own_options(command: argparse.ArgumentParser, step: Step) -> None:
     """Add the options of a step that runs apart from the others, behind its own."""
-    command.add_argument("--cores", type=_cores, default=1, help="processes; default: 1")
+    command.add_argument("--cores", type=cores, default=1, help="processes; default: 1")
     command.add_argument("--results", type=Path, help="results folder; default results/<name>")
     command.add_argument("--digest", help="checksum of the inputs, set by Snakemake")
     command.add_argument("--log", type=Path, help="file that keeps a copy of the output")
     command.set_defaults(step=step)
 
 
-def _cores(text: str) -> int:
-    if not text.isdigit() or not 1 <= int(text) <= MOST_CORES:
-        raise argparse.ArgumentTypeError(f"'{text}' is no number of cores; give 1 to {MOST_CORES}")
+def cores(text: str) -> int:
+    """Return a number of processes from its text."""
+    return whole(text, 1, MOST_CORES)
+
+
+def whole(text: str, least: int, most: int, more: str = "") -> int:
+    """Return a whole number from its text; ``more`` tells what else may be given."""
+    if not text.isdigit() or not least <= int(text) <= most:
+        raise argparse.ArgumentTypeError(
+            f"'{text}': give a whole number from {least} to {most}{more}"
+        )
     return int(text)
 
 

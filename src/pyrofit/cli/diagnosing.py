@@ -5,7 +5,7 @@ import sys
 from pathlib import Path
 from typing import Any
 
-from pyrofit.cli.common import add_step, open_study, show, tell
+from pyrofit.cli.common import add_step, cores, open_study, show, tell
 from pyrofit.errors import StudyError
 
 
@@ -20,7 +20,7 @@ def add(commands: Any) -> None:
         "--draw", type=int, help="data set to diagnose, from 0; without: gather all, on one core"
     )
     for step in (lacks, page, stable):
-        step.add_argument("--cores", type=_cores, default=1, help="processes; default: 1")
+        step.add_argument("--cores", type=cores, default=1, help="processes; default: 1")
     blind = commands.add_parser("blind-test", help="run the blind test of the diagnosis")
     blind.add_argument("--setting", type=Path, default=Path("config/blind_test.yaml"))
     blind.add_argument("--plan", required=True, help="plan of the setting")
@@ -44,12 +44,6 @@ def _add_foreign(commands: Any) -> None:
     agree = commands.add_parser("foreign-agreement", help=words)
     agree.add_argument("--setting", type=Path, default=Path("config/foreign_truth.yaml"))
     agree.set_defaults(step=_agreement)
-
-
-def _cores(text: str) -> int:
-    if not text.isdigit() or int(text) < 1:
-        raise argparse.ArgumentTypeError(f"'{text}' is no number of cores; give 1 or more")
-    return int(text)
 
 
 def _diagnose(given: argparse.Namespace) -> None:

@@ -4,10 +4,8 @@ import argparse
 from pathlib import Path
 from typing import Any
 
-from pyrofit.cli.common import add_own_options, open_study, show, tell
-
-DRAWS = 50
-"""Drawn data sets of the check unless told otherwise: half a minute."""
+from pyrofit.cli.common import add_own_options, open_study, show, tell, whole
+from pyrofit.defaults import APPARATUS, DRAWS
 
 
 def add(commands: Any) -> None:
@@ -24,19 +22,15 @@ def add(commands: Any) -> None:
     command.add_argument(
         "--apparatus",
         choices=("exact", "uncertain"),
-        default="exact",
+        default=APPARATUS,
         help="whether flux, thickness, heat losses and temperatures are as described or uncertain "
-        "by their standard deviations; default: exact",
+        f"by their standard deviations; default: {APPARATUS}",
     )
     add_own_options(command, _worth)
 
 
 def _draws(text: str) -> int:
-    if not text.isdigit() or int(text) == 1 or int(text) > 1000:
-        raise argparse.ArgumentTypeError(
-            f"'{text}' is no number of drawn data sets; give 2 to 1000, or 0 for no check"
-        )
-    return int(text)
+    return 0 if text == "0" else whole(text, 2, 1000, ", or 0 for no check")
 
 
 def _worth(given: argparse.Namespace) -> None:
@@ -44,6 +38,6 @@ def _worth(given: argparse.Namespace) -> None:
     from pyrofit.show.worth_page import PAGE
     from pyrofit.stages.worth import worth_of_tests
 
-    study, results = open_study(given, worth.slice_of)
+    study, results = open_study(given, worth.slice_of, given.draws, given.apparatus)
     worth_of_tests(study, results, tell, given.draws, given.cores, given.apparatus)
     show(PAGE, study, results)

@@ -4,11 +4,11 @@ import argparse
 from pathlib import Path
 from typing import Any
 
-from pyrofit.cli.common import add_own_options, open_study, show, tell
+from pyrofit.cli.common import add_own_options, open_study, show, tell, whole
+from pyrofit.defaults import RESCORED_SETS
 from pyrofit.errors import CostError, StudyError
 
-SETS = 3000
-"""Sets that are scored unless told otherwise: some seconds."""
+MOST_SETS = 1_000_000_000
 
 
 def add(commands: Any) -> None:
@@ -25,17 +25,16 @@ def add(commands: Any) -> None:
         help="cost functions of the study, or costs of docs/rescore.md; default: all",
     )
     command.add_argument(
-        "--sets", type=_count, default=SETS, help=f"how many sets, or 'all'; default: {SETS}"
+        "--sets",
+        type=_count,
+        default=RESCORED_SETS,
+        help=f"how many sets, or 'all'; default: {RESCORED_SETS}",
     )
     add_own_options(command, _rescore)
 
 
 def _count(text: str) -> int | None:
-    if text == "all":
-        return None
-    if not text.isdigit() or int(text) < 2:
-        raise argparse.ArgumentTypeError(f"'{text}' is no number of sets; give 2 or more, or 'all'")
-    return int(text)
+    return None if text == "all" else whole(text, 2, MOST_SETS, ", or 'all'")
 
 
 def _rescore(given: argparse.Namespace) -> None:
@@ -43,7 +42,7 @@ def _rescore(given: argparse.Namespace) -> None:
     from pyrofit.show.rescore_page import PAGE
     from pyrofit.stages import rescore
 
-    study, results = open_study(given, rescored.slice_of)
+    study, results = open_study(given, rescored.slice_of, given.costs, given.sets)
     try:
         rescore.rescore(study, results, tell, given.costs, given.sets, given.cores)
     except (CostError, StudyError) as error:

@@ -5,10 +5,9 @@ from pathlib import Path
 from typing import Any
 
 from pyrofit.cli.common import add_own_options, open_study, show, tell
+from pyrofit.defaults import BASE_POINTS, WITHIN
 
-SAMPLES = 1024
-"""Base points unless told otherwise: some ten seconds."""
-WITHIN = ("limits", "near", "intervals")
+RANGES = ("limits", "near", "intervals")
 
 
 def add(commands: Any) -> None:
@@ -18,13 +17,13 @@ def add(commands: Any) -> None:
     command.add_argument("study", type=Path, help="study file (YAML or JSON)")
     command.add_argument(
         "--within",
-        choices=WITHIN,
-        default=WITHIN[0],
+        choices=RANGES,
+        default=WITHIN,
         help="estimated parameters vary over their limits, near the estimates, or within the "
-        "intervals of the estimates; default: limits",
+        f"intervals of the estimates; default: {WITHIN}",
     )
     command.add_argument(
-        "--samples", type=_samples, default=SAMPLES, help=f"base points; default: {SAMPLES}"
+        "--samples", type=_samples, default=BASE_POINTS, help=f"base points; default: {BASE_POINTS}"
     )
     add_own_options(command, _sensitivity)
 
@@ -33,7 +32,7 @@ def _samples(text: str) -> int:
     count = int(text) if text.isdigit() else 0
     if count < 8 or count & (count - 1):
         raise argparse.ArgumentTypeError(
-            f"'{text}' is no number of base points; give a power of two, such as 256 or 1024"
+            f"'{text}': give a power of two from 8, such as 256 or 1024"
         )
     return count
 
@@ -43,6 +42,6 @@ def _sensitivity(given: argparse.Namespace) -> None:
     from pyrofit.show.sensitivity_page import PAGE
     from pyrofit.stages import sensitivity as stage
 
-    study, results = open_study(given, sensitivity.slice_of)
+    study, results = open_study(given, sensitivity.slice_of, given.within, given.samples)
     stage.sensitivity(study, results, tell, given.within, given.samples, given.cores)
     show(PAGE, study, results)

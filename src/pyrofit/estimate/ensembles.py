@@ -13,6 +13,7 @@ from typing import Any
 
 import numpy as np
 
+from pyrofit.defaults import POSTERIOR_STEPS
 from pyrofit.estimate.convergence import ENOUGH_TIMES, ESS, RHAT, autocorrelation_times, rhat
 from pyrofit.estimate.likelihood import Likelihood
 from pyrofit.logs import Tell
@@ -26,8 +27,6 @@ PER_PARAMETER = 4
 """Walkers per parameter."""
 CHUNK = 100
 """Steps between two looks at convergence."""
-MOST_STEPS = 3000
-"""Steps at most, unless told otherwise."""
 LEFT_OUT = 1.0 / 3.0
 """Share of the steps, the first ones, that depends on where walkers start."""
 WIDER = 1.5
@@ -103,7 +102,7 @@ def draw(
     covariance: FloatArray,
     seed: int,
     cores: int = 1,
-    most_steps: int = MOST_STEPS,
+    most_steps: int = POSTERIOR_STEPS,
     tell: Tell = lambda text: None,
 ) -> Drawn:
     """Draw from exp(-chi2/2) within the limits until the ensembles agree, or to the most steps.

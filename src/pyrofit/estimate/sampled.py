@@ -8,8 +8,9 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from pyrofit.defaults import POSTERIOR_STEPS
 from pyrofit.estimate.discrepancy import Discrepancy, estimated, with_discrepancy
-from pyrofit.estimate.ensembles import MOST_STEPS, Drawn, draw
+from pyrofit.estimate.ensembles import Drawn, draw
 from pyrofit.estimate.likelihood import Likelihood
 from pyrofit.estimate.posterior import Posterior
 from pyrofit.logs import Tell
@@ -53,7 +54,7 @@ def sample(
     start: FloatArray,
     seed: int,
     cores: int = 1,
-    most_steps: int = MOST_STEPS,
+    most_steps: int = POSTERIOR_STEPS,
     tell: Tell = lambda text: None,
 ) -> Sampled:
     """Draw from the posterior, with a discrepancy that is estimated from the residuals.

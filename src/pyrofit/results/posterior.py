@@ -8,6 +8,7 @@ import pandas as pd
 from pydantic import Field, ValidationError
 
 from pyrofit.config import Study
+from pyrofit.defaults import POSTERIOR_SETS, POSTERIOR_STEPS
 from pyrofit.errors import DataError
 from pyrofit.results import dependencies
 from pyrofit.results.files import Results, read_csv, read_json, write_json
@@ -86,12 +87,15 @@ class Posterior(Record):
     bands: list[OfBand] = Field(description="the predicted signals")
 
 
-def slice_of(study: Study) -> dict[str, Any]:
-    """Return the inputs of the step: the likelihood, and all predicted experiments."""
+def slice_of(
+    study: Study, sets: int = POSTERIOR_SETS, most_steps: int = POSTERIOR_STEPS
+) -> dict[str, Any]:
+    """Return the inputs of the step: the likelihood, all predicted experiments, its options."""
     return {
         "likelihood": dependencies.identify(study),
         "validation": dependencies.validation(study),
         "seed": study.seed,
+        "options": {"sets": sets, "most_steps": most_steps},
     }
 
 

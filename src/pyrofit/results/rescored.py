@@ -1,7 +1,7 @@
 """Stored sets scored again: written by the stage, read by tables, figures and sentences."""
 
 import json
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from typing import Any
 
 import pandas as pd
@@ -9,6 +9,7 @@ from pydantic import Field, ValidationError
 
 from pyrofit.config import Study
 from pyrofit.cost import known_costs
+from pyrofit.defaults import RESCORED_SETS
 from pyrofit.errors import DataError
 from pyrofit.plugins import code_digest
 from pyrofit.results import dependencies
@@ -65,12 +66,15 @@ class Rescored(Record):
     measures: list[OfMeasure] = Field(min_length=1, description="the costs")
 
 
-def slice_of(study: Study) -> dict[str, Any]:
-    """Return the inputs of the step: all searches, the likelihood, and all their experiments."""
+def slice_of(
+    study: Study, asked: Sequence[str] = (), count: int | None = RESCORED_SETS
+) -> dict[str, Any]:
+    """Return the inputs of the step: all searches, the likelihood, experiments, its options."""
     return {
         "searches": {cost: dependencies.imp(study, cost, "sceua") for cost in study.imp.costs},
         "likelihood": dependencies.identify(study),
         "kinds": {name: code_digest("costs", name) for name in known_costs()},
+        "options": {"costs": list(asked), "sets": count},
         **dependencies.collect(study),
     }
 

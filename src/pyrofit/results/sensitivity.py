@@ -8,6 +8,7 @@ from pydantic import Field, ValidationError
 
 from pyrofit.config import Study
 from pyrofit.cost import known_costs
+from pyrofit.defaults import BASE_POINTS, WITHIN
 from pyrofit.errors import DataError
 from pyrofit.plugins import code_digest
 from pyrofit.results import dependencies
@@ -78,14 +79,15 @@ class Sensitivity(Record):
     left_out: list[str] = Field(description="costs that cannot be computed, and why")
 
 
-def slice_of(study: Study) -> dict[str, Any]:
-    """Return the inputs of the step: the likelihood, all costs, and all their experiments."""
+def slice_of(study: Study, within: str = WITHIN, samples: int = BASE_POINTS) -> dict[str, Any]:
+    """Return the inputs of the step: the likelihood, all costs and experiments, its options."""
     return {
         "searches": {cost: dependencies.imp(study, cost, "sceua") for cost in study.imp.costs},
         "likelihood": dependencies.identify(study),
         "kinds": {name: code_digest("costs", name) for name in known_costs()},
         "known": {name: known.model_dump() for name, known in study.known.items()},
         "seed": study.seed,
+        "options": {"within": within, "samples": samples},
     }
 
 

@@ -7,6 +7,7 @@ from typing import Any, Literal
 from pydantic import Field, ValidationError
 
 from pyrofit.config import Study
+from pyrofit.defaults import APPARATUS, DRAWS
 from pyrofit.errors import DataError
 from pyrofit.plugins import code_digest
 from pyrofit.quantities import known_quantities
@@ -65,8 +66,8 @@ class Worth(Record):
     left_out: list[str] = Field(description="tests whose simulation does not finish")
 
 
-def slice_of(study: Study) -> dict[str, Any]:
-    """Return the inputs of the step: all data that are fitted, and the predicted signals."""
+def slice_of(study: Study, draws: int = DRAWS, apparatus: str = APPARATUS) -> dict[str, Any]:
+    """Return the inputs of the step: all data that are fitted, predicted signals, its options."""
     kinetics = dependencies.kinetics(study) if study.imp.kinetics == "fitted" else {}
     return {
         "likelihood": dependencies.identify(study),
@@ -75,6 +76,7 @@ def slice_of(study: Study) -> dict[str, Any]:
         # New tests may record any quantity.
         "quantities": {n: code_digest("quantities", n) for n in known_quantities()},
         "seed": study.seed,
+        "options": {"draws": draws, "apparatus": apparatus},
     }
 
 

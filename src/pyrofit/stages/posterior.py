@@ -7,8 +7,9 @@ import pandas as pd
 
 from pyrofit.config import Study
 from pyrofit.config.programs import externals
+from pyrofit.defaults import POSTERIOR_SETS, POSTERIOR_STEPS
 from pyrofit.errors import DataError, StudyError
-from pyrofit.estimate.ensembles import ENSEMBLES, MOST_STEPS
+from pyrofit.estimate.ensembles import ENSEMBLES
 from pyrofit.estimate.likelihood import Likelihood
 from pyrofit.estimate.pose import of_imp
 from pyrofit.estimate.sampled import Sampled, sample, spread
@@ -21,8 +22,6 @@ from pyrofit.stages.imp_likelihood import imp_likelihood
 from pyrofit.stages.measurements import load
 from pyrofit.stages.posterior_bands import predicted
 
-SETS = 100
-"""Sets of the ensemble that is written, unless told otherwise."""
 KEPT = 4000
 """Draws that are kept for figures."""
 CHANGED = 0.05
@@ -33,8 +32,8 @@ def sample_posterior(
     study: Study,
     results: Results,
     tell: Tell = lambda text: None,
-    sets: int = SETS,
-    most_steps: int = MOST_STEPS,
+    sets: int = POSTERIOR_SETS,
+    most_steps: int = POSTERIOR_STEPS,
     cores: int = 1,
 ) -> None:
     """Draw from the posterior about the optimum that `identify` found; write ``posterior``.

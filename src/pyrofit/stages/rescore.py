@@ -18,9 +18,6 @@ from pyrofit.stages.rescore_measures import measures_of
 from pyrofit.stages.rescore_record import content_of
 from pyrofit.stages.rescore_scorer import Scorer, scored, scorer_of
 
-SETS = 3000
-"""Sets that are scored unless told otherwise."""
-
 
 @dataclass(frozen=True, eq=False)
 class Stored:

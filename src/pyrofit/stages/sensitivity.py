@@ -4,6 +4,7 @@ import numpy as np
 
 from pyrofit.analysis import sobol
 from pyrofit.config import Study, TermSpec
+from pyrofit.defaults import BASE_POINTS, WITHIN
 from pyrofit.errors import DataError
 from pyrofit.logs import Tell
 from pyrofit.parallel import MOST_PIECES, parallel_map
@@ -17,8 +18,6 @@ from pyrofit.stages.sensitivity_inputs import inputs_of
 from pyrofit.stages.sensitivity_record import write_found
 from pyrofit.stages.sensitivity_sampler import Sampler
 
-SAMPLES = 1024
-"""Base points unless told otherwise."""
 MOST_TIMES = 120
 """Times of a signal at which indices are computed."""
 LITERAL = "_literal"
@@ -29,8 +28,8 @@ def sensitivity(
     study: Study,
     results: Results,
     tell: Tell,
-    within: str = "limits",
-    samples: int = SAMPLES,
+    within: str = WITHIN,
+    samples: int = BASE_POINTS,
     cores: int = 1,
 ) -> None:
     """Compute Sobol's indices of all signals over time and of all costs; write ``sensitivity``.

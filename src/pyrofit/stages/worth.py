@@ -9,6 +9,7 @@ import numpy as np
 from pyrofit.analysis import data_worth
 from pyrofit.config import Study
 from pyrofit.config.programs import externals
+from pyrofit.defaults import APPARATUS, DRAWS
 from pyrofit.diagnose.base.fitted import FittedModel
 from pyrofit.errors import DataError
 from pyrofit.estimate.posterior import curvature, limit_of
@@ -25,8 +26,6 @@ from pyrofit.stages.worth_fit import best_fit
 from pyrofit.stages.worth_forecast import Forecast, Lasting, forecast
 from pyrofit.stages.worth_tests import Planned, planned
 
-DRAWS = 50
-"""Drawn data sets of the check unless told otherwise."""
 CHECKED = 3
 """Tests that are checked."""
 
@@ -37,7 +36,7 @@ def worth_of_tests(
     tell: Tell,
     draws: int = DRAWS,
     cores: int = 1,
-    apparatus: str = "exact",
+    apparatus: str = APPARATUS,
 ) -> None:
     """Compute by how much planned tests narrow parameters and predictions; write ``worth``.
 

@@ -1,0 +1,19 @@
+"""Options of the steps unless told otherwise, for the steps and for the help of their commands.
+
+They are apart from the steps, as a command loads its step only when it runs.
+"""
+
+POSTERIOR_SETS = 100
+"""Sets of the ensemble that the posterior writes."""
+POSTERIOR_STEPS = 3000
+"""Steps of each of its ensembles at most."""
+RESCORED_SETS = 3000
+"""Stored sets that are scored again: some seconds."""
+BASE_POINTS = 1024
+"""Base points of the sensitivity analysis: some ten seconds."""
+WITHIN = "limits"
+"""Where its estimated parameters vary."""
+DRAWS = 50
+"""Drawn data sets that check the worth of planned tests: half a minute."""
+APPARATUS = "exact"
+"""Whether their apparatus is as described."""
