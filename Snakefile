@@ -26,7 +26,7 @@ from pyrofit.results import dependencies
 from pyrofit.results.files import Results
 from pyrofit.results.kinetics import heats_shown
 from pyrofit.running import causes, shares
-from pyrofit.running.calls import calls_of_jobs
+from pyrofit.estimate.calls import calls_of_jobs
 from pyrofit.running.frozen import freeze, frozen_study
 from pyrofit.running.lock import end_run, join_run, start_run
 from pyrofit.running.work import WorkDone

@@ -5,6 +5,7 @@ import subprocess
 import sys
 from importlib import import_module
 from pathlib import Path
+from typing import get_args
 
 import matplotlib
 import numpy as np
@@ -12,8 +13,10 @@ import pandas as pd
 import pytest
 
 import pyrofit as pf
+from pyrofit.api import fitting, searching
 from pyrofit.config import digest
 from pyrofit.errors import DataError, StudyError
+from pyrofit.estimate.optimisers import OPTIMISERS
 
 matplotlib.use("agg")
 ROOT = Path(__file__).parents[2]
@@ -274,3 +277,7 @@ def test_results_are_tables_by_name(tmp_path: Path, study: pf.Study) -> None:
     assert campaign["table4"]["a"].tolist() == [1.0]
     with pytest.raises(DataError, match="Did you mean 'table4'"):
         campaign["tabel4"]
+
+
+def test_fit_takes_every_optimiser_of_the_workflow() -> None:
+    assert set(get_args(fitting.Optimiser)) == {searching.SCEUA, *OPTIMISERS}

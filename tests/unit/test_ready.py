@@ -10,12 +10,12 @@ import pytest
 
 from pyrofit import cli
 from pyrofit.config import Study, read_study
+from pyrofit.estimate.calls import sceua_calls
 from pyrofit.estimate.problem import Evaluation
 from pyrofit.ready import machine, plan, report, slurm
 from pyrofit.ready.data import data
 from pyrofit.ready.finding import Check, Finding, Situation
 from pyrofit.ready.timing import _estimate, duration
-from pyrofit.running.calls import search_calls
 from pyrofit.solver.arrays import Status
 
 ROOT = Path(__file__).parents[2]
@@ -226,9 +226,9 @@ def test_planned_calls_and_size_are_those_of_a_search(smoke: Study, tmp_path: Pa
     history = search(Bowl(), 3, 12)  # type: ignore[arg-type]
     settings = smoke.imp.sceua.model_copy(update={"generations": 12, "complexes": None})
     stage = smoke.imp.model_copy(update={"sceua": settings, "estimate": Bowl.names})
-    assert search_calls(stage)[0] == pytest.approx(len(history), rel=0.15)
+    assert sceua_calls(stage) == pytest.approx(len(history), rel=0.15)
     write_csv(tmp_path / "h.csv.gz", history)
-    planned = plan.BYTES_PER_NUMBER * 7 * search_calls(stage)[0]
+    planned = plan.BYTES_PER_NUMBER * 7 * sceua_calls(stage)
     assert planned == pytest.approx((tmp_path / "h.csv.gz").stat().st_size, rel=0.25)
 
 

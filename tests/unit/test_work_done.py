@@ -8,7 +8,7 @@ from typing import Any
 import pytest
 
 from pyrofit.config import read_study
-from pyrofit.running.calls import calls_of_jobs, search_calls
+from pyrofit.estimate.calls import calls_of_jobs, sceua_calls
 from pyrofit.running.work import WorkDone
 
 CONFIG = Path(__file__).parents[2] / "config"
@@ -69,4 +69,4 @@ def test_jobs_have_the_calls_of_their_searches(name: str) -> None:
     study = read_study(CONFIG / f"{name}.yaml")
     cost = next(iter(study.imp.costs))
     found = calls_of_jobs(study, [["00", "01"], ["02"]])
-    assert found[f"imp_{cost}_00"] == 2 * found[f"imp_{cost}_02"] == 2 * search_calls(study.imp)[0]
+    assert found[f"imp_{cost}_00"] == 2 * found[f"imp_{cost}_02"] == 2 * sceua_calls(study.imp)

@@ -7,7 +7,10 @@ entry here. The workflow then runs it, and tables and figures show it.
 from collections.abc import Callable
 from typing import Any, NamedTuple
 
+STEPS = 20
+"""Typical number of steps of least squares from one start."""
 Run = Callable[[Any, Any, int], Any]
+Calls = Callable[[Any, int], int]
 
 
 class Optimiser(NamedTuple):
@@ -19,13 +22,19 @@ class Optimiser(NamedTuple):
         Its name in words.
     run
         From problem, its settings of the study, and seed to its ends, best first.
+    calls
+        From its settings and the number of parameters to its approximate number of model calls.
     marker
         Marker of its sets in figures, as Matplotlib names it.
+    shape
+        Several such markers in words.
     """
 
     words: str
     run: Run
+    calls: Calls
     marker: str
+    shape: str
 
     @property
     def title(self) -> str:
@@ -58,8 +67,18 @@ def _cmaes(problem: Any, settings: Any, seed: int) -> Any:
     return cmaes.minimise(problem, settings.starts, seed, settings.calls)
 
 
+def _calls_of_least_squares(settings: Any, n: int) -> int:
+    return int(settings.starts * STEPS * (2 * n + 1))
+
+
+def _calls_of_cmaes(settings: Any, n: int) -> int:
+    return int(settings.starts * settings.calls)
+
+
 OPTIMISERS: dict[str, Optimiser] = {
-    "least_squares": Optimiser("least squares", _least_squares, "D"),
-    "cmaes": Optimiser("CMA-ES", _cmaes, "s"),
+    "least_squares": Optimiser(
+        "least squares", _least_squares, _calls_of_least_squares, "D", "diamonds"
+    ),
+    "cmaes": Optimiser("CMA-ES", _cmaes, _calls_of_cmaes, "s", "squares"),
 }
 """By the key of their settings in a study, which is also the name of their files of results."""

@@ -7,7 +7,8 @@ from collections.abc import Iterator
 from dataclasses import dataclass
 
 from pyrofit.config import Study
-from pyrofit.running.calls import search_calls
+from pyrofit.estimate.calls import optimiser_calls, sceua_calls
+from pyrofit.estimate.optimisers import OPTIMISERS
 from pyrofit.running.shares import shares
 
 BYTES_PER_NUMBER = 11
@@ -39,20 +40,20 @@ class Part:
 def parts_of(study: Study, cores: int | None = None) -> Iterator[Part]:
     """Yield the searches of a study, on the cores of this machine or, with None, on a cluster."""
     if study.kinetics is not None:
-        calls = search_calls(study.kinetics)
-        yield Part("", calls[0], calls[1], jobs=1)
-    stage = study.imp
+        stage = study.kinetics
+        yield Part("", sceua_calls(stage), optimiser_calls(stage, "least_squares"), jobs=1)
+    imp = study.imp
     jobs = shares(study, cores=cores)
     single = sum(len(share) for share in jobs if len(share) == 1)
-    grouped = stage.repetitions - single
-    sceua, squares = search_calls(stage)
-    beside = squares + stage.cmaes.starts * stage.cmaes.calls
-    for cost in stage.costs:
+    grouped = imp.repetitions - single
+    sceua = sceua_calls(imp)
+    beside = sum(optimiser_calls(imp, optimiser) for optimiser in OPTIMISERS)
+    for cost in imp.costs:
         yield Part(
             cost,
             alone=single * sceua,
             together=grouped * sceua + beside,
-            jobs=len(jobs) + 2,
+            jobs=len(jobs) + len(OPTIMISERS),
         )
 
 
@@ -60,6 +61,6 @@ def bytes_of(study: Study) -> float:
     """Return the approximate size of the results of a study [byte]."""
     stage = study.imp
     numbers = sum(len(stage.estimate) + len(terms) for terms in stage.costs.values())
-    rows = stage.repetitions * search_calls(stage)[0]
+    rows = stage.repetitions * sceua_calls(stage)
     # An archive and the report hold most files once more.
     return 2.0 * (BYTES_BESIDE + BYTES_PER_NUMBER * numbers * rows)

@@ -9,6 +9,8 @@ from pyrofit.analysis.good_sets import SWEEPS, WALKERS
 from pyrofit.config import Study, TermSpec
 from pyrofit.config.programs import externals
 from pyrofit.errors import ProgramError
+from pyrofit.estimate.calls import optimiser_calls, sceua_calls
+from pyrofit.estimate.optimisers import OPTIMISERS
 from pyrofit.estimate.targets import Measurements
 from pyrofit.experiments import kind_of
 from pyrofit.experiments.base import Asked
@@ -17,7 +19,6 @@ from pyrofit.external.filled import executable_digest, executable_of, file_diges
 from pyrofit.external.runs import Outcome, outcomes
 from pyrofit.model.external import ExternalExperiment
 from pyrofit.results.files import Results, write_json
-from pyrofit.running.calls import search_calls
 from pyrofit.running.durations import in_words
 from pyrofit.seeds import seed_for
 from pyrofit.stages.fit import fixed_for_imp
@@ -126,11 +127,11 @@ def planned_calls(study: Study) -> Iterator[tuple[str, float, tuple[TermSpec, ..
     generations. CMA-ES makes at most the calls of its settings.
     """
     stage, n = study.imp, len(study.imp.estimate)
-    sceua, squares = search_calls(stage)
+    sceua = sceua_calls(stage)
     for cost, terms in stage.costs.items():
         yield f"SCE-UA, {cost}", stage.repetitions * sceua, terms
-        yield f"least squares, {cost}", squares, terms
-        yield f"CMA-ES, {cost}", float(stage.cmaes.starts * stage.cmaes.calls), terms
+        for key, optimiser in OPTIMISERS.items():
+            yield f"{optimiser.words}, {cost}", optimiser_calls(stage, key), terms
         yield f"good sets, {cost}", float(WALKERS * SWEEPS), terms
     yield "determined parameters", float(ANALYSIS * (2 * n + 1)), stage.channels
 

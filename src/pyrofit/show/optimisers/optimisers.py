@@ -2,10 +2,12 @@
 
 from pyrofit.analysis.uses import SCEUA, STARTED, predicted_signals
 from pyrofit.config import Study
+from pyrofit.estimate.optimisers import OPTIMISERS
 from pyrofit.results.files import Results
 from pyrofit.show.curves import compare_curves
 from pyrofit.show.drawn import Canvas
 from pyrofit.show.figure import Figure
+from pyrofit.show.text import listed
 
 
 def optimisers(study: Study, results: Results) -> Canvas:
@@ -14,12 +16,13 @@ def optimisers(study: Study, results: Results) -> Canvas:
     return compare_curves(study, results, pairs, (SCEUA, *STARTED))
 
 
+_MARKED = [f"{by.words} ({by.shape})" for by in OPTIMISERS.values()]
 FIGURE = Figure(
     place=30,
     applies=lambda study: bool(predicted_signals(study, relative=True)),
     make=optimisers,
     title="Rates of the optimisers",
-    caption="The best sets of least squares (diamonds) and CMA-ES (squares) beside those of "
+    caption=f"The best sets of {listed(_MARKED)} beside those of "
     "SCE-UA. A lower cost at the fitted experiment may come with a worse prediction "
     "elsewhere. Then the fitted data do not determine the parameters, or their values "
     "compensate for a missing effect.",

@@ -5,13 +5,13 @@ from collections.abc import Mapping, Sequence
 import pandas as pd
 
 from pyrofit.analysis.optimisers import LOCAL_OPTIMUM, NOT_A_MINIMUM
-from pyrofit.analysis.uses import FITTED, PUBLISHED
+from pyrofit.analysis.uses import FITTED, PUBLISHED, STARTED
 from pyrofit.config import Study
 from pyrofit.estimate.optimisers import OPTIMISERS
 from pyrofit.show.facts import Facts
 from pyrofit.show.names import costs_of
 from pyrofit.show.table import Frames
-from pyrofit.show.text import number
+from pyrofit.show.text import listed, number
 
 
 def ahead(tables: Frames) -> str:
@@ -20,7 +20,9 @@ def ahead(tables: Frames) -> str:
     stuck = [r for r in rows if r["remark"] == LOCAL_OPTIMUM]
     short = [r for r in rows if r["remark"] == NOT_A_MINIMUM]
     if not stuck and not short:
-        return "Least squares and CMA-ES from random starts found no cost lower by more than 1 %."
+        names = listed(STARTED)
+        names = names[0].upper() + names[1:]
+        return f"{names} from random starts found no cost lower by more than 1 %."
     parts = []
     for r in stuck + short:
         name = r["lowest_by"]

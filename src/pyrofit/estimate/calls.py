@@ -4,19 +4,22 @@ from collections.abc import Sequence
 
 from pyrofit.config import Study
 from pyrofit.config.stages import Imp, Kinetics
+from pyrofit.estimate.optimisers import OPTIMISERS
 
 CALLS_PER_ROW = 1.63
 """Model calls of SCE-UA for each point of a generation after the first."""
-STEPS = 20
-"""Typical number of steps of least squares from one start."""
 
 
-def search_calls(stage: Imp | Kinetics) -> tuple[float, int]:
-    """Return the approximate number of model calls of a search of SCE-UA, and of least squares."""
+def sceua_calls(stage: Imp | Kinetics) -> float:
+    """Return the approximate number of model calls of a search of SCE-UA."""
     n = len(stage.estimate)
     points = (2 * n + 1) * (stage.sceua.complexes or n)
-    sceua = points * (1.0 + CALLS_PER_ROW * (stage.sceua.generations - 1))
-    return sceua, stage.least_squares.starts * STEPS * (2 * n + 1)
+    return points * (1.0 + CALLS_PER_ROW * (stage.sceua.generations - 1))
+
+
+def optimiser_calls(stage: Imp | Kinetics, optimiser: str) -> int:
+    """Return the approximate number of model calls of an optimiser, from all its starts."""
+    return OPTIMISERS[optimiser].calls(getattr(stage, optimiser), len(stage.estimate))
 
 
 def calls_of_jobs(study: Study, shares: Sequence[Sequence[str]]) -> dict[str, float]:
@@ -30,11 +33,12 @@ def calls_of_jobs(study: Study, shares: Sequence[Sequence[str]]) -> dict[str, fl
         The repetitions of each job of a cost, as in the names of files.
     """
     stage = study.imp
-    sceua, squares = search_calls(stage)
+    sceua = sceua_calls(stage)
     found = {
         f"imp_{cost}_{share[0]}": len(share) * sceua for cost in stage.costs for share in shares
     }
-    # Of the two other optimisers the mean: the jobs of both have one rule.
-    found["optimise"] = 0.5 * (squares + stage.cmaes.starts * stage.cmaes.calls)
-    found["descent"] = squares / stage.least_squares.starts
+    # Of the optimisers beside SCE-UA the mean: their jobs have one rule.
+    beside = [optimiser_calls(stage, optimiser) for optimiser in OPTIMISERS]
+    found["optimise"] = sum(beside) / len(beside)
+    found["descent"] = optimiser_calls(stage, "least_squares") / stage.least_squares.starts
     return found
