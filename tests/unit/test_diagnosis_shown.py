@@ -1,5 +1,7 @@
 """Tables, figures and page of a diagnosis, from hand-made results of every kind of verdict."""
 
+import ast
+import inspect
 import json
 import re
 from itertools import pairwise
@@ -740,3 +742,9 @@ def test_model_of_the_verdict_is_shown_among_the_best() -> None:
     given = {"candidates": rows, "verdict": {"effects": ["k_T"]}}
     assert [c["effects"] for c in ranked(given, 3)] == [["e0"], ["e1"], ["k_T"]]
     assert ranked(given) == ranked(given, 5) == rows
+
+
+def test_every_table_and_figure_has_a_place_on_the_page() -> None:
+    source = ast.walk(ast.parse(inspect.getsource(report.section)))
+    placed = {node.value for node in source if isinstance(node, ast.Constant)}
+    assert {*report.TABLES, *report.FIGURES} <= placed

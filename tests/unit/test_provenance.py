@@ -14,7 +14,7 @@ import pyrofit
 from pyrofit.config import Study, digest, read_study
 from pyrofit.effects import known_effects
 from pyrofit.plugins import code_digest
-from pyrofit.provenance import _imports, imported_files, source_fingerprint
+from pyrofit.provenance import CATALOGUES, STUDY, _imports, imported_files, source_fingerprint
 from pyrofit.results import dependencies
 
 SOURCE = Path(pyrofit.__file__).parent
@@ -184,3 +184,21 @@ def test_edited_effect_changes_the_digests_of_what_a_study_does_with_it(
     known = code_digest
     assert edited("c_T") == {"diagnosis"}
     assert edited("k_T") == set(digests(read_study(SMOKE)))
+
+
+def test_every_module_of_steps_and_pages_counts_in_the_fingerprint_of_a_study() -> None:
+    counted = imported_files(SOURCE, STUDY)
+    there = {path for part in ("stages", "show") for path in (SOURCE / part).rglob("*.py")}
+    # It times external programs before a study; no result rests on it.
+    assert there - counted == {SOURCE / "stages" / "trial.py"}
+
+
+def test_packages_that_find_their_files_are_catalogues() -> None:
+    finding = {
+        ".".join(("pyrofit", *path.parent.relative_to(SOURCE).parts))
+        for path in SOURCE.rglob("__init__.py")
+        if "__path__" in path.read_text(encoding="utf-8")
+    }
+    # Their files count one by one, where a study uses them.
+    assert finding - {"pyrofit.effects", "pyrofit.cost.added"} <= set(CATALOGUES)
+    assert all((SOURCE.parent / name.replace(".", "/")).is_dir() for name in CATALOGUES)
