@@ -153,6 +153,8 @@ def _left(window: FloatArray, sd: FloatArray, correlation: Correlation) -> Float
 
 def _significant(variance: FloatArray, left: FloatArray, freedom: int) -> bool:
     """Tell whether the scatter is more than the noise of the points makes of itself."""
+    # A smoothed record has about 1 / WINDOW independent values, each of them a variance with
+    # ``freedom`` degrees of freedom: the mean ratio scatters by sqrt(2 WINDOW / freedom).
     ratio = float(np.mean(variance / np.maximum(left, 1e-300)))
     return ratio > 1.0 + SIGNIFICANT * float(np.sqrt(2.0 * WINDOW / freedom))
 

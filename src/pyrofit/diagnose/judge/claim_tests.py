@@ -146,6 +146,8 @@ def trust(
     """
     gains = {}
     for name, before in without.scores.items():
+        # With a noise whose variance is larger by a factor, the gain of a log score is smaller by
+        # it. The settings ask for the same gain of all: odds of 7 to 1 after this division.
         factor = max(map(factor_of, own.residuals[name])) if inflation.inflates else 1.0
         gains[name] = (own.scores[name] - before) / factor
     disagree = disagreement(trial, effect, inflation)

@@ -146,6 +146,8 @@ def _fitted(tried: Tried, context: SearchContext, best: float = np.inf) -> list[
         left = others[i][1:] if i in weak else others[i]
         return from_elsewhere(tries[i].start, tries[i].seen, followed(found[i]), left)
 
+    # Most effects promise nothing, and a rough fit takes few runs. Weak ones start again before the
+    # choice: a minimum near the null value would hide a lower one at the usual strength.
     every = range(len(tries))
     fit(every, first)
     weak = [i for i in every if _is_weak(found[i], tries[i])]

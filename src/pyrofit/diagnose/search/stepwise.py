@@ -154,6 +154,8 @@ class _Pass:
             steps = self._more(steps)
             rounds += steps
             beam = branches(steps, self.spare, self.context)
+        # An exchange may drop an effect, so forms are fitted after it. A split needs them: only an
+        # effect with free forms looks like two. What a split brings has no forms yet.
         found = self._not_above_carried(Search(tuple(rounds), best, best_lack(), self.spare))
         if len(found.end.effects) > 1:
             found = self._exchanged(found)
