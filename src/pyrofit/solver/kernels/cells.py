@@ -1,7 +1,7 @@
 """Properties and reaction rates of single cells."""
 
 from pyrofit.solver.kernels import row
-from pyrofit.solver.kernels.functions import exp, fma, nearly_inverse
+from pyrofit.solver.kernels.functions import exp_of_negative, fma, nearly_inverse
 from pyrofit.solver.kernels.jit import inner, live
 from pyrofit.solver.kernels.lanes import where
 from pyrofit.solver.kernels.reactions import (
@@ -19,6 +19,8 @@ RATES_FROM_K, RATES_TO_K = 200.0, 2000.0
 """Range in which rates follow T."""
 MOST_CORRECTION_K = 20.0
 """Difference T_new - T* up to which the rates are corrected."""
+LEAST_RATE = 1.0e-100
+"""Rate times heat capacity below which nothing is released."""
 LEAST_RESISTANCE = 1.0e-13
 """[m2 K/W]; keeps vanished cells from dividing by zero."""
 
@@ -46,11 +48,17 @@ def describe(work, first, material):
 
     k is mixed by volume, c by mass.
     """
+    cell = work.cell
+    for n in live(work.m, first):
+        none = 0.0 * work.m[0, n]
+        cell[row.d, n] = none
+        cell[row.dk, n] = none
+        cell[row.C_new, n] = none
+        cell[row.C_lost, n] = none
     if nodes(material) == 1:
         sum_constant(work, first, material)
     else:
         sum_tables(work, first, material)
-    cell = work.cell
     for n in live(work.m, first):
         d, dk = cell[row.d, n], cell[row.dk, n]
         cell[row.half_r, n] = fma(0.5 * d * d, nearly_inverse(max(dk, TINY)), LEAST_RESISTANCE)
@@ -73,10 +81,10 @@ def sum_constant(work, first, material):
         for n in live(work.m, first):
             m = work.m_new[i, n]
             v = m * volume * expansion
-            add(cell, row.d, n, v, i)
-            add(cell, row.dk, n, v * k, i)
-            add(cell, row.C_new, n, m * c, i)
-            add(cell, row.C_lost, n, (work.m[i, n] - m) * c, i)
+            cell[row.d, n] += v
+            add_product(cell, row.dk, n, v, k)
+            add_product(cell, row.C_new, n, m, c)
+            add_product(cell, row.C_lost, n, work.m[i, n] - m, c)
 
 
 @inner
@@ -86,7 +94,6 @@ def sum_tables(work, first, material):
     for n in live(work.m, first):
         place = place_of(cell[row.T_star, n])
         none = 0.0 * place.part
-        d, dk, C, C_lost = none, none, none, none
         expansion, k, c = none, none, none
         of = -1
         for i in range(work.m.shape[0]):
@@ -97,12 +104,10 @@ def sum_tables(work, first, material):
                 c = at_place(material.specific_heat, of, place, constant)
             m = work.m_new[i, n]
             v = m * material.specific_volume[i] * expansion
-            d += v
-            dk += v * k
-            C += m * c
-            C_lost += (work.m[i, n] - m) * c
-        cell[row.d, n], cell[row.dk, n] = d, dk
-        cell[row.C_new, n], cell[row.C_lost, n] = C, C_lost
+            cell[row.d, n] += v
+            add_product(cell, row.dk, n, v, k)
+            add_product(cell, row.C_new, n, m, c)
+            add_product(cell, row.C_lost, n, work.m[i, n] - m, c)
 
 
 @inner
@@ -117,25 +122,18 @@ def mean_capacity(cell, n):
     """
     C, C_new = cell[row.C, n], cell[row.C_new, n]
     both = max(C + C_new, TINY)
-    d = (C_new - C) * nearly_inverse(both)
+    before, after = cell[row.rate_old, n] * C_new, cell[row.rate, n] * C
+    rates = max(abs(after) + abs(before), LEAST_RATE)
+    # One division for both quotients; it runs beside the other operations.
+    share = 1.0 / max(both * rates, TINY)
+    d = (C_new - C) * (rates * share)
     d2 = d * d
     mean = 0.5 * both * fma(d2, fma(d2, -4.0 / 45.0, -1.0 / 3.0), 1.0)
-    before, after = cell[row.rate_old, n] * C_new, cell[row.rate, n] * C
-    faster = (after - before) * nearly_inverse(max(abs(after) + abs(before), TINY))
-    return fma((1.0 / 6.0) * cell[row.C_lost, n], faster, mean)
+    return fma((1.0 / 6.0) * cell[row.C_lost, n], (after - before) * (both * share), mean)
 
 
 @inner
-def add(cell, to, n, value, count):
-    """Add a value to a row of cell n; the first one, with ``count`` 0, replaces the old value."""
-    if count == 0:
-        cell[to, n] = value
-    else:
-        cell[to, n] += value
-
-
-@inner
-def rate_constants(work, first, network):
+def fill_rate_constants(work, first, network):
     """Fill the roots of k_j [1/s] at T*, averaged over a linear temperature profile in each cell.
 
     The mean of exp(b x) over |x| <= ``fall`` is sinh(s)/s with s = b fall, b = E/(R T^2); the
@@ -144,28 +142,33 @@ def rate_constants(work, first, network):
     cell = work.cell
     for n in live(work.m, first):
         T = min(max(cell[row.T_star, n], RATES_FROM_K), RATES_TO_K)
-        cell[row.inverse_T, n] = nearly_inverse(T)
+        inverse_T = nearly_inverse(T)
+        cell[row.inverse_T, n] = inverse_T
+        cell[row.bend, n] = 2.0 * cell[row.fall, n] * inverse_T
     for j in range(work.root.shape[0]):
         half_E = 0.5 * network.activation_temperature[j]
         scale = network.root_factor[j]
         for n in live(work.m, first):
             e = half_E * cell[row.inverse_T, n]
-            s = 2.0 * e * cell[row.fall, n] * cell[row.inverse_T, n]
+            s = e * cell[row.bend, n]
             s2 = min(s * s, 9.0)
             factor = fma(s2, fma(s2, 1.0 / 1440.0, 1.0 / 12.0), 1.0)
-            work.root_new[j, n] = scale * exp(-e) * factor
+            work.root_new[j, n] = scale * exp_of_negative(e) * factor
 
 
 @inner
 def correct_rate_constants(work, first, network):
     """Bring k_j from T* to T_new, its root to second order in the difference."""
     cell = work.cell
+    for n in live(work.m, first):
+        change = cell[row.T_new, n] - cell[row.T_star, n]
+        change = min(max(change, -MOST_CORRECTION_K), MOST_CORRECTION_K)
+        inverse_T = cell[row.inverse_T, n]
+        cell[row.bend, n] = 0.5 * change * inverse_T * inverse_T
     for j in range(work.root.shape[0]):
-        half_E = 0.5 * network.activation_temperature[j]
+        E = network.activation_temperature[j]
         for n in live(work.m, first):
-            change = cell[row.T_new, n] - cell[row.T_star, n]
-            change = min(max(change, -MOST_CORRECTION_K), MOST_CORRECTION_K)
-            y = half_E * change * cell[row.inverse_T, n] * cell[row.inverse_T, n]
+            y = E * cell[row.bend, n]
             work.root_new[j, n] *= fma(y, fma(y, 0.5, 1.0), 1.0)
 
 
@@ -184,6 +187,17 @@ def log_mean(root_a, root_b):
 @inner
 def react_over(work, first, dt, room, network, final):
     """Fill the masses and the rows of `book` that follow from k_j over a step of the cells."""
+    cell = work.cell
+    for n in live(work.m, first):
+        none = 0.0 * work.m[0, n]
+        cell[row.heat, n] = none
+        cell[row.rate, n] = none
+        if final:
+            cell[row.gas, n] = none
+            cell[row.burnt, n] = none
+            cell[row.power, n] = none
+        else:
+            cell[row.grows, n] = none
     if network.plain:
         react_alone(work, first, dt, network, final)
         return
@@ -205,26 +219,36 @@ def react_over(work, first, dt, room, network, final):
 
 @inner
 def react_alone(work, first, dt, network, final):
-    """Do that for reactions that have nothing to do with each other, one after the other."""
+    """Let reactions that have nothing to do with each other act one after the other."""
     for i in range(work.m.shape[0]):
         if not is_consumed(i, network):
             for n in live(work.m, first):
                 work.m_new[i, n] = work.m[i, n]
     for j in range(work.root.shape[0]):
-        i, residue = network.reactant[j], network.residue[j]
-        share, curved = network.residue_yield[j], is_curved(network, j)
-        if curved and not final:
-            hold_powers(work, first, j, network)
-        for n in live(work.m, first):
-            mean, growth = log_mean(work.root[j, n], work.root_new[j, n])
-            x, behind = dt * mean, 1.0
-            if curved:
-                x, behind = ordered(work.m[i, n], work.held[j, n], x, network.order[j])
-            e, _ = decay_of_order(x, network.order[j], curved, False)
-            left, used = remaining(work.m[i, n], e)
-            work.m_new[i, n] = left
-            work.m_new[residue, n] += share * used
-            book(work, n, j, used, left * behind, dt * growth, network, final)
+        # Each loop over the cells has one case: a branch inside would cost registers.
+        if is_curved(network, j):
+            if not final:
+                hold_powers(work, first, j, network)
+            react_one(work, first, j, dt, network, True, final)
+        else:
+            react_one(work, first, j, dt, network, False, final)
+
+
+@inner
+def react_one(work, first, j, dt, network, curved, final):
+    """Let reaction j act in all cells."""
+    i, residue = network.reactant[j], network.residue[j]
+    share, order = network.residue_yield[j], network.order[j]
+    for n in live(work.m, first):
+        mean, growth = log_mean(work.root[j, n], work.root_new[j, n])
+        x, behind = dt * mean, 1.0
+        if curved:
+            x, behind = ordered(work.m[i, n], work.held[j, n], x, order)
+        e, _ = decay_of_order(x, order, curved, False)
+        left, used = remaining(work.m[i, n], e)
+        work.m_new[i, n] = left
+        work.m_new[residue, n] = fma(share, used, work.m_new[residue, n])
+        book(work, n, j, used, left * behind, dt * growth, network, final)
 
 
 @inner
@@ -245,6 +269,12 @@ def is_consumed(i, network):
 
 
 @inner
+def add_product(cell, to, n, factor, value):
+    """Add a product to a row of cell n."""
+    cell[to, n] = fma(factor, value, cell[to, n])
+
+
+@inner
 def book(work, n, j, used, left, growth, network, final):
     """Add the contributions of reaction j to heat used and rate of cell n.
 
@@ -253,16 +283,19 @@ def book(work, n, j, used, left, growth, network, final):
     """
     cell = work.cell
     heat, gas = network.heat[j], network.gas[j]
-    k = work.root_new[j, n] * work.root_new[j, n]
-    add(cell, row.heat, n, heat * used, j)
-    add(cell, row.rate, n, gas * k * left, j)
+    root = work.root_new[j, n]
+    speed = root * root * left
+    add_product(cell, row.heat, n, heat, used)
+    add_product(cell, row.rate, n, gas, speed)
     if final:
-        add(cell, row.gas, n, gas * used, j)
+        add_product(cell, row.gas, n, gas, used)
         if network.burns:
-            add(cell, row.burnt, n, network.combustion[j] * gas * used, j)
-            add(cell, row.power, n, network.combustion[j] * gas * k * left, j)
+            combustion = network.combustion[j] * gas
+            add_product(cell, row.burnt, n, combustion, used)
+            add_product(cell, row.power, n, combustion, speed)
     else:
-        add(cell, row.grows, n, heat * network.activation_temperature[j] * growth * left, j)
+        rise = heat * network.activation_temperature[j]
+        add_product(cell, row.grows, n, rise, growth * left)
 
 
 @inner
@@ -275,7 +308,17 @@ def ever_formed(work, i, n, room, network):
 
 
 @inner
-def reactant_left(m, n, lane, network):
+def reactant_left(m, n, network):
+    """Return the mass of cell n that can still react [kg/m2]."""
+    left = 0.0 * m[0, n]
+    for j in range(network.reactant.size):
+        if j == 0 or network.reactant[j] != network.reactant[j - 1]:
+            left += m[network.reactant[j], n]
+    return left
+
+
+@inner
+def reactant_in_lane(m, n, lane, network):
     """Return the mass of cell n that can still react in one lane [kg/m2]."""
     left = 0.0
     for j in range(network.reactant.size):

@@ -194,23 +194,34 @@ def temperature_falls(cell, foil, edge, front_star):
         cell[row.fall, n] = where(edge.at == 1.0 * n, across, cell[row.fall, n])
 
 
+class Solved(NamedTuple):
+    """The temperatures found, and the rate that was predicted before."""
+
+    front: Number
+    """Front temperature [K]."""
+    coldest: Number
+    hottest: Number
+    rate: Number
+    """Predicted mass loss rate at the end [kg/(m2 s)]."""
+
+
 @inner
 def eliminate(cell, n, below, seen, carried, bdf):
     """Eliminate row n of the system; return ``seen`` and ``carried`` of the next, see `conduct`."""
     C = bdf.b1 * cell[row.C_mean, n]
     alone = C + cell[row.slope, n]
-    own = alone + seen
+    # A row waits for the one above: for a sum, the division and one product.
     inverse_sum = 1.0 / ((alone + below) + seen)
     heat = fma(C, cell[row.T, n], cell[row.source, n]) + carried
     upper = below * inverse_sum
     cell[row.right, n] = heat * inverse_sum
     cell[row.upper, n] = upper
-    return (own * below) * inverse_sum, heat * upper
+    return ((alone + seen) * below) * inverse_sum, heat * upper
 
 
 @inner
 def conduct(cell, foil, edge, surface, r_skin, bdf):
-    """Solve C_mean dT/dt = conduction + source for T_new; return the front temperature.
+    """Solve C_mean dT/dt = conduction + source for T_new.
 
     Elimination from the front: ``seen`` is the conductance to the surroundings through all that
     lies above a row, ``carried`` the heat that comes that way.
@@ -219,7 +230,9 @@ def conduct(cell, foil, edge, surface, r_skin, bdf):
     couple = 1.0 / (1.0 + surface.slope * lead)
     seen = surface.slope * couple
     carried = surface.gain * couple
+    rate = 0.0 * seen
     for n in between(edge.first, foil):
+        rate += cell[row.rate, n]
         below = nearly_inverse(cell[row.half_r, n] + cell[row.half_r, n + 1])
         seen_below, carried_below = eliminate(cell, n, below, seen, carried, bdf)
         if n + 1 < edge.behind:
@@ -230,8 +243,12 @@ def conduct(cell, foil, edge, surface, r_skin, bdf):
             cell[row.upper, n] = where(ahead, 1.0, cell[row.upper, n])
         seen, carried = seen_below, carried_below
     eliminate(cell, foil, 0.0, seen, fma(bdf.b3, cell[row.stored_old, foil], carried), bdf)
-    T = 0.0 * seen
-    for n in range(foil, edge.first - 1, -1):
+    T = cell[row.right, foil]
+    cell[row.T_new, foil] = T
+    coldest, hottest = T, T
+    for n in range(foil - 1, edge.first - 1, -1):
         T = fma(cell[row.upper, n], T, cell[row.right, n])
         cell[row.T_new, n] = T
-    return (surface.gain * lead + T) * couple
+        coldest, hottest = min(coldest, T), max(hottest, T)
+    front = (surface.gain * lead + T) * couple
+    return Solved(front, min(coldest, front), max(hottest, front), rate)

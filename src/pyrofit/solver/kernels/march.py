@@ -15,6 +15,7 @@ flux, burn-out and failure. A lane that has ended, or whose step was refused, ke
 """
 
 from pyrofit.solver.arrays import Status
+from pyrofit.solver.kernels import row
 from pyrofit.solver.kernels.bdf import energy_error, rejected, step_ratio
 from pyrofit.solver.kernels.heat import Edge
 from pyrofit.solver.kernels.jit import inner, loop
@@ -25,11 +26,21 @@ from pyrofit.solver.kernels.state import (
     begin,
     drop_thin,
     is_burnt_out,
+    may_be_burnt,
+    may_drop,
     size_of,
     total_mass,
 )
 from pyrofit.solver.kernels.step import advance, first_wide
-from pyrofit.solver.kernels.trace import ENERGY_ERROR, MASS_ERROR, STATUS, STEPS, record
+from pyrofit.solver.kernels.trace import (
+    ENERGY_ERROR,
+    MASS_ERROR,
+    STATUS,
+    STEPS,
+    compact,
+    record,
+    record_probes,
+)
 
 BURNT_FRACTION = 1.0e-5
 """Reactant left in the sample, relative to its initial mass, at which it counts as burnt out."""
@@ -49,38 +60,28 @@ def edge_of(at, firsts):
 
 
 @inner
-def drop(taken, firsts, flat, start, network):
+def drop(taken, firsts, flat, network):
     """Move thin cells to the skin where a step was taken; return the heat stored by that."""
     heat = 0.0 * taken
     for lane in range(firsts.size):
         if in_lane(taken, lane) == 1.0:
-            firsts[lane], moved_heat = drop_thin(flat, lane, firsts[lane], start.mass, network)
+            firsts[lane], moved_heat = drop_thin(flat, lane, firsts[lane], network)
             heat = with_lane(heat, lane, moved_heat)
     return heat
 
 
 @inner
-def note(trace, taken, now, rates, size, firsts, flat, empty, probes):
-    """Write a row of the trace in the lanes in which a step was taken."""
-    rate, power = rates
-    gone = now.balance.released, rate
-    burnt = now.balance.burnt, power
-    old = now.clock.dt_old
-    numbers = now.clock.t, *gone, now.top.front, size.depth, *burnt, old, size.d_skin, size.r_skin
-    for lane in range(firsts.size):
-        if in_lane(taken, lane) == 1.0:
-            at = int(in_lane(now.steps, lane))
-            record(trace[lane, at], lane, numbers, flat, firsts[lane], empty, probes)
-
-
-@inner
-def burnt_out(taken, now, firsts, flat, network):
+def burnt_out(taken, now, firsts, arrays, network):
     """Return the status, OK in the lanes that a step has burnt out."""
     status = now.status
-    for lane in range(firsts.size):
-        if in_lane(taken, lane) == 1.0 and in_lane(status, lane) == UNBURNT:
-            limit = BURNT_FRACTION * in_lane(now.mass, lane)
-            if is_burnt_out(flat, lane, firsts[lane], network, limit):
+    limit = BURNT_FRACTION * now.mass
+    maybe = (taken == 1.0) & (status == UNBURNT) & may_be_burnt(arrays.work, limit, network)
+    if somewhere(maybe):
+        asked = where(maybe, 1.0, 0.0 * taken)
+        for lane in range(firsts.size):
+            if in_lane(asked, lane) == 1.0 and is_burnt_out(
+                arrays.flat, lane, firsts[lane], network, in_lane(limit, lane)
+            ):
                 status = with_lane(status, lane, OK)
     return status
 
@@ -98,11 +99,11 @@ def conclude(outcome, now, left):
 
 
 @loop
-def march(start, T_start, firsts, description, numerics, end, probes, arrays, written):
+def march(T_start, firsts, empty, description, numerics, end, probes, arrays, written):
     """Step all lanes from 0 to their ends; fill trace and outcome.
 
     ``T_start``, the description and the end have the lanes as numbers. ``firsts`` holds the first
-    cell of each lane on the grid, and changes.
+    cell of each lane on the grid, and changes; ``empty`` the empty cells in front.
     """
     flat, work, trace = arrays.flat, arrays.work, written.trace
     network, exposure = description.network, description.exposure
@@ -112,7 +113,9 @@ def march(start, T_start, firsts, description, numerics, end, probes, arrays, wr
     now = started(mass, T_start, exposure, numerics, end)
     none = 0.0 * T_start
     size = size_of(work, edge.first, T_start, description)
-    note(trace, none + 1.0, now, (none, none), size, firsts, flat, start.empty, probes)
+    record(trace, 0, none + 1.0, now, T_start, (none, none), size)
+    record_probes(trace, 0, now.top.front, size, flat, firsts, empty, probes)
+    rows = 1
     while somewhere(now.running):
         step = advance(arrays, edge, now, description)
         now = tried(now, step.status)
@@ -121,12 +124,18 @@ def march(start, T_start, firsts, description, numerics, end, probes, arrays, wr
         accepted = now.running & opposite(again)
         taken = where(accepted, 1.0, none)
         accept(arrays.wide, first_wide(arrays, edge), network, accepted)
-        size = size_of(work, edge.first, step.front, description)
-        heat = drop(taken, firsts, flat, start, network)
-        edge = edge_of(T_start, firsts)
+        if trace.sized:
+            size = size_of(work, edge.first, step.front, description)
+        heat = none
+        if may_drop(work, edge, taken, network):
+            heat = drop(taken, firsts, flat, network)
+            edge = edge_of(T_start, firsts)
         clock = next_clock(now, again, ratio, exposure, numerics, end)
         now = moved(now, step, accepted, heat, clock)
-        rates = step.rate, step.power
-        note(trace, taken, now, rates, size, firsts, flat, start.empty, probes)
-        now = ended(now, burnt_out(taken, now, firsts, flat, network), numerics, end)
+        back = work.cell[row.T, work.m.shape[1]]
+        record(trace, rows, taken, now, back, (step.rate, step.power), size)
+        record_probes(trace, rows, step.front, size, flat, firsts, empty, probes)
+        rows += 1
+        now = ended(now, burnt_out(taken, now, firsts, arrays, network), numerics, end)
     conclude(written.outcome, now, total_mass(work) - exposure.backing_mass)
+    compact(trace.flat, rows)

@@ -148,10 +148,10 @@ def averaged_rate(rows, last, column, half, at, out):
 def sample(trace, outcome, asked, at, out):
     """Write all that is asked of the runs of a trace, one signal behind the other.
 
-    ``trace`` has shape (runs, steps, columns); ``at``, times [s], and ``out`` (runs, points).
+    ``trace`` has shape (steps, columns, runs); ``at``, times [s], and ``out`` (runs, points).
     """
     for lane in range(at.shape[0]):
-        rows, last = trace[lane], int(outcome[lane, STEPS])
+        rows, last = trace[:, :, lane], int(outcome[lane, STEPS])
         for a in range(asked.column.size):
             begin, end = asked.begin[a], asked.begin[a + 1]
             times, curve = at[lane, begin:end], out[lane, begin:end]

@@ -1,6 +1,6 @@
 """Mass change of a cell by its reactions over one time step."""
 
-from pyrofit.solver.kernels.functions import exp, fma, inverse, log, nearly_inverse, power
+from pyrofit.solver.kernels.functions import exp, fma, log, nearly_inverse, power
 from pyrofit.solver.kernels.jit import inner
 from pyrofit.solver.kernels.lanes import somewhere, where
 
@@ -29,7 +29,7 @@ def decay(x, exact):
         return e, where(x < 1e-4, short, (1.0 - e) / max(x, 1e-4))
     x = min(x, MOST_PADE)
     tail = fma(x, fma(x, 1.0 / 6.0, 0.5), 1.0)
-    e = inverse(fma(x, tail, 1.0))
+    e = 1.0 / fma(x, tail, 1.0)
     return e, e * tail
 
 
@@ -139,7 +139,8 @@ def consume_alone(m, formed, n, j, room, network, exact, m_new):
         room.x[j], room.behind[j] = ordered(m[i, n], held, room.x[j], network.order[j])
     e, _ = decay_of_order(room.x[j], network.order[j], curved, exact)
     m_new[i, n], room.used[j] = remaining(m[i, n], e)
-    m_new[network.residue[j], n] += network.residue_yield[j] * room.used[j]
+    residue = network.residue[j]
+    m_new[residue, n] = fma(network.residue_yield[j], room.used[j], m_new[residue, n])
 
 
 @inner
@@ -194,7 +195,7 @@ def consume(m, formed, n, j, end, room, network, exact, m_new):
         room.used[a] = part
         for b in range(m.shape[0]):
             if somewhere(network.yields[a, b] != 0.0):
-                m_new[b, n] += network.yields[a, b] * part
+                m_new[b, n] = fma(network.yields[a, b], part, m_new[b, n])
 
 
 @inner

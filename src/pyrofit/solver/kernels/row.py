@@ -1,7 +1,7 @@
 """Rows of the table of cells (work array ``cell``): one column per cell, then the foil.
 
-New is after the step that is being taken, old is one step before the current state. Rate, heat, gas
-and stored belong to the step that is being taken, their old ones to the step before.
+New is after the step that is being taken, old is one step before the current state. Rate, heat,
+gas and stored belong to the step that is being taken, their old ones to the step before.
 """
 
 T, T_old, T_new = range(3)
@@ -39,5 +39,9 @@ grows = 24
 """T^2 times the slope of the reaction heat in T [J K/m2]."""
 burnt, power = 25, 26
 """Heat of combustion of the gas released in the step [J/m2], and per time at its end [W/m2]."""
+dead = 27
+"""Mass that can react [kg/m2] below which the cell may leave the grid."""
+bend = 28
+"""Rise of ln k over the half cell, or of half of it from T* to T_new, over E/R [1/K]."""
 
-COUNT = 27
+COUNT = 29

@@ -3,20 +3,26 @@
 import numpy as np
 
 from pyrofit.solver.arrays import End, Probes, Start
-from pyrofit.solver.kernels.jit import entry, inner, making
+from pyrofit.solver.kernels.jit import entry, making
 from pyrofit.solver.kernels.lanes import in_lanes
 from pyrofit.solver.kernels.march import march
 from pyrofit.solver.kernels.output import sample
 from pyrofit.solver.kernels.state import fill
-from pyrofit.solver.kernels.trace import PROBES, Written
+from pyrofit.solver.kernels.trace import PROBES, THICKNESS, Trace, Written
 from pyrofit.solver.kernels.views import in_lanes_of_group
 from pyrofit.solver.kernels.work import make_arrays
 
 
-@inner
-def columns(probes):
-    """Return how many columns a trace has."""
-    return PROBES + probes.material.shape[-1] + probes.fixture.shape[-1]
+@making
+def make_trace(width, numerics, probes, asked):
+    """Return room for the traces of a group of runs."""
+    inside = probes.material.shape[-1] + probes.fixture.shape[-1]
+    sized = inside > 0
+    for column in asked.column:
+        sized = sized or column == THICKNESS
+    # A step is refused at most as often as one is accepted.
+    flat = np.empty((2 * numerics.most_steps + 2, PROBES + inside, len(width)))
+    return Trace(flat, in_lanes(width, flat), sized)
 
 
 @making
@@ -27,9 +33,9 @@ def run(width, wide, g, start, description, numerics, end, probes, written):
     arrays = make_arrays(width, wide, cells, components, reactions)
     fill(arrays.work, in_lanes(width, start.mass))
     march(
-        start,
         in_lanes(width, start.temperature),
         start.empty.copy(),
+        start.empty,
         in_lanes_of_group(width, g, description),
         numerics,
         End(in_lanes(width, end.time), end.when_burnt),
@@ -58,12 +64,12 @@ def slab(width, wide, start, description, numerics, end, probes, asked, at):
     (imbalance relative to the heat that crossed the surfaces), mass error (relative).
     """
     lanes = len(width)
-    trace = np.empty((lanes, numerics.most_steps + 1, columns(probes)))
+    trace = make_trace(width, numerics, probes, asked)
     outcome = np.empty((lanes, 4))
     signals = np.empty(at.shape)
     written = Written(trace, outcome)
     run(width, wide, None, start, description, numerics, end, probes, written)
-    sample(trace, outcome, asked, at, signals)
+    sample(trace.flat, outcome, asked, at, signals)
     return signals, outcome
 
 
@@ -71,7 +77,7 @@ def slab(width, wide, start, description, numerics, end, probes, asked, at):
 def slabs(width, start, description, numerics, end, probes, asked, at):
     """Run groups of samples one after the other: as `slab`, with an axis more ahead, the groups."""
     groups, lanes = end.time.shape
-    trace = np.empty((lanes, numerics.most_steps + 1, columns(probes)))
+    trace = make_trace(width, numerics, probes, asked)
     outcome = np.empty((groups, lanes, 4))
     signals = np.empty(at.shape)
     for g in range(groups):
@@ -88,5 +94,5 @@ def slabs(width, start, description, numerics, end, probes, asked, at):
             Probes(probes.material[g], probes.fixture[g]),
             Written(trace, outcome[g]),
         )
-        sample(trace, outcome[g], asked, at[g], signals[g])
+        sample(trace.flat, outcome[g], asked, at[g], signals[g])
     return signals, outcome

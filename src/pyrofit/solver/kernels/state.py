@@ -1,8 +1,14 @@
 """The state of a slab: its start, its change by a step, and the cells that leave the grid."""
 
 from pyrofit.solver.kernels import row
-from pyrofit.solver.kernels.cells import describe, layer, rate_constants, reactant_left
-from pyrofit.solver.kernels.jit import inner, live, loop
+from pyrofit.solver.kernels.cells import (
+    describe,
+    fill_rate_constants,
+    layer,
+    reactant_in_lane,
+    reactant_left,
+)
+from pyrofit.solver.kernels.jit import between, inner, live, loop
 from pyrofit.solver.kernels.lanes import opposite, somewhere, where
 from pyrofit.solver.kernels.step import summed
 from pyrofit.solver.kernels.trace import Size
@@ -23,14 +29,24 @@ def begin(work, wide, description, T_start):
         cell[row.T_old, n] = T_start
         cell[row.T_star, n] = T_start
     describe(wide, 0, description.material)
-    rate_constants(wide, 0, description.network)
+    fill_rate_constants(wide, 0, description.network)
     for n in live(wide.m, 0):
+        wide.cell[row.dead, n] = DEAD_FRACTION * mass_of(wide.m, n)
         wide.cell[row.C, n] = wide.cell[row.C_new, n]
         wide.cell[row.d_start, n] = wide.cell[row.d, n]
         for j in range(wide.root.shape[0]):
             wide.root[j, n] = wide.root_new[j, n]
     cell[row.C_mean, foil] = description.exposure.foil_capacity
     cell[row.half_r, foil] = description.exposure.contact_resistance
+
+
+@inner
+def mass_of(m, n):
+    """Return the mass of a cell [kg/m2]."""
+    mass = 0.0 * m[0, n]
+    for i in range(m.shape[0]):
+        mass += m[i, n]
+    return mass
 
 
 @inner
@@ -46,19 +62,27 @@ def fill(work, start):
 @loop
 def accept(wide, first, network, accepted):
     """Make the state after the step the current one, in the lanes in which it was accepted."""
+    if somewhere(opposite(accepted)):
+        move(wide, first, network, False, accepted)
+    else:
+        move(wide, first, network, True, accepted)
+
+
+@inner
+def move(wide, first, network, every, accepted):
+    """Move the state after the step to where the current one is, maybe in every lane."""
     cell = wide.cell
-    every = not somewhere(opposite(accepted))
-    for to, new in ((row.T_old, row.T), (row.T, row.T_new), (row.stored_old, row.stored)):
-        for n in live(cell, first):
-            cell[to, n] = taken(every, accepted, cell[new, n], cell[to, n])
-    for to, new in ((row.C, row.C_new), (row.rate_old, row.rate)):
-        for n in live(wide.m, first):
-            cell[to, n] = taken(every, accepted, cell[new, n], cell[to, n])
-    for i in range(wide.m.shape[0]):
-        for n in live(wide.m, first):
+    for n in live(cell, first):
+        T, stored = cell[row.T, n], cell[row.stored_old, n]
+        cell[row.T_old, n] = taken(every, accepted, T, cell[row.T_old, n])
+        cell[row.T, n] = taken(every, accepted, cell[row.T_new, n], T)
+        cell[row.stored_old, n] = taken(every, accepted, cell[row.stored, n], stored)
+    for n in live(wide.m, first):
+        cell[row.C, n] = taken(every, accepted, cell[row.C_new, n], cell[row.C, n])
+        cell[row.rate_old, n] = taken(every, accepted, cell[row.rate, n], cell[row.rate_old, n])
+        for i in range(wide.m.shape[0]):
             wide.m[i, n] = taken(every, accepted, wide.m_new[i, n], wide.m[i, n])
-    for j in range(wide.root.shape[0]):
-        for n in live(wide.m, first):
+        for j in range(wide.root.shape[0]):
             wide.root[j, n] = taken(every, accepted, wide.root_new[j, n], wide.root[j, n])
     if not (network.first_order or network.plain):
         for i in range(wide.m.shape[0]):
@@ -76,19 +100,28 @@ def taken(every, accepted, new, old):
 
 
 @inner
-def drop_thin(flat, lane, first, start, network):
+def may_drop(work, edge, taken, network):
+    """Tell whether the first cell of some lane may leave the grid after a step taken."""
+    cell = work.cell
+    found = taken != taken
+    for n in between(edge.first, edge.behind):
+        burnt = reactant_left(work.m, n, network) < cell[row.dead, n]
+        thin = cell[row.d, n] <= THIN_FRACTION * cell[row.d_start, n]
+        found = found | ((edge.at == 1.0 * n) & burnt & thin)
+    return somewhere(found & (taken == 1.0))
+
+
+@inner
+def drop_thin(flat, lane, first, network):
     """Move cells that are burnt and thin to the skin; return the first one left, heat stored."""
     cell = flat.cell
     heat = 0.0
-    while first < start.shape[0] - 1:
-        total = 0.0
-        for i in range(start.shape[1]):
-            total += start[first, i, lane]
-        burnt = reactant_left(flat.m, first, lane, network) < DEAD_FRACTION * total
+    while first < flat.m.shape[1] - 1:
+        burnt = reactant_in_lane(flat.m, first, lane, network) < cell[row.dead, first, lane]
         thin = THIN_FRACTION * cell[row.d_start, first, lane]
         if not burnt or cell[row.d, first, lane] > thin:
             break
-        for i in range(start.shape[1]):
+        for i in range(flat.m.shape[0]):
             flat.skin[i, 0, lane] += flat.m[i, first, lane]
             flat.m[i, first, lane] = 0.0
         C = cell[row.C, first, lane]
@@ -102,11 +135,17 @@ def drop_thin(flat, lane, first, start, network):
 
 
 @inner
+def may_be_burnt(work, limit, network):
+    """Tell in which lanes the last cell has no more reactant than the limit [kg/m2]."""
+    return reactant_left(work.m, work.m.shape[1] - 1, network) <= limit
+
+
+@inner
 def is_burnt_out(flat, lane, first, network, limit):
     """Tell whether no more reactant than the limit [kg/m2] is left."""
     left = 0.0
     for n in range(flat.m.shape[1] - 1, first - 1, -1):
-        left += reactant_left(flat.m, n, lane, network)
+        left += reactant_in_lane(flat.m, n, lane, network)
         if left > limit:
             return False
     return True

@@ -8,9 +8,9 @@ from pyrofit.solver.kernels.bdf import formula
 from pyrofit.solver.kernels.cells import (
     correct_rate_constants,
     describe,
+    fill_rate_constants,
     layer,
     mean_capacity,
-    rate_constants,
     react_over,
 )
 from pyrofit.solver.kernels.functions import fma
@@ -76,12 +76,13 @@ def extrapolate(wide, first, r):
 def predict(wide, first, bdf, room, description):
     """Fill rates at T*, the masses they lead to, properties, and the heat source as a line in T."""
     cell, network = wide.cell, description.network
-    rate_constants(wide, first, network)
+    fill_rate_constants(wide, first, network)
     react_over(wide, first, bdf.dt, room, network, False)
     describe(wide, first, description.material)
     for n in live(wide.m, first):
-        slope = bdf.b1 * cell[row.grows, n] * cell[row.inverse_T, n] * cell[row.inverse_T, n]
-        used = bdf.b1 * cell[row.heat, n] - bdf.b3 * cell[row.stored_old, n]
+        inverse_T = cell[row.inverse_T, n]
+        slope = bdf.b1 * cell[row.grows, n] * inverse_T * inverse_T
+        used = fma(bdf.b1, cell[row.heat, n], -(bdf.b3 * cell[row.stored_old, n]))
         cell[row.slope, n] = slope
         cell[row.source, n] = fma(slope, cell[row.T_star, n], -used)
         cell[row.C_mean, n] = mean_capacity(cell, n)
@@ -96,6 +97,27 @@ def correct(wide, first, dt, room, network):
     for n in live(wide.m, first):
         risen = cell[row.T_new, n] - cell[row.T, n]
         cell[row.stored, n] = fma(cell[row.C_mean, n], risen, cell[row.heat, n])
+
+
+class Sums(NamedTuple):
+    """Sums over the cells."""
+
+    rate: Number
+    gas: Number
+    stored: Number
+
+
+@inner
+def summed_up(work, first):
+    """Return the sums over the cells, one after the other: the same bits in any width."""
+    cell = work.cell
+    none = 0.0 * cell[row.rate, first]
+    rate, gas, stored = none, none, none
+    for n in live(work.m, first):
+        rate += cell[row.rate, n]
+        gas += cell[row.gas, n]
+        stored += cell[row.stored, n]
+    return Sums(rate, gas, stored)
 
 
 @inner
@@ -189,24 +211,24 @@ def advance(arrays, edge, now, description):
     front_star = extrapolated(arrays, edge, now, bdf, description)
     t = now.clock.t + bdf.dt
     surface, r_skin, eps = exchanged(work, edge, now, front_star, t, description)
-    predicted = summed(work, row.rate, first)
-    front = conduct(cell, foil, edge, surface, r_skin, bdf)
+    solved = conduct(cell, foil, edge, surface, r_skin, bdf)
+    front = solved.front
 
     correct(arrays.wide, first_wide(arrays, edge), bdf.dt, arrays.room, description.network)
-    rate = summed(work, row.rate, first)
+    sums = summed_up(work, first)
     in_foil = cell[row.C_mean, foil] * (cell[row.T_new, foil] - cell[row.T, foil])
     cell[row.stored, foil] = in_foil
     burnt, power = burning(work, first, now.clock.piece, description)
     return Step(
-        status=check(cell, foil, first, front, rate),
-        error=scaled_error(work, (rate - predicted) / now.rate_scale, front - front_star),
+        status=check(solved, cell[row.T_new, foil], sums.rate),
+        error=scaled_error(work, (sums.rate - solved.rate) / now.rate_scale, front - front_star),
         front=front,
         eps=eps,
-        rate=rate,
-        gas=summed(work, row.gas, first),
+        rate=sums.rate,
+        gas=sums.gas,
         burnt=burnt,
         power=power,
-        heat=summed(work, row.stored, first) + in_foil,
+        heat=sums.stored + in_foil,
         net_flux=net_flux(surface, front, work, first, description.exposure),
     )
 
@@ -222,13 +244,8 @@ def released(work, first, network):
 
 
 @inner
-def check(cell, foil, first, front, rate):
+def check(solved, back, rate):
     """Return whether the step can be used: OK, DIVERGED or NON_FINITE."""
-    total = front + cell[row.T_new, foil] + rate
-    coldest = front
-    hottest = front
-    for n in between(first, foil + 1):
-        coldest = min(coldest, cell[row.T_new, n])
-        hottest = max(hottest, cell[row.T_new, n])
-    within = (coldest > COLDEST_K) & (hottest < HOTTEST_K)
+    total = solved.front + back + rate
+    within = (solved.coldest > COLDEST_K) & (solved.hottest < HOTTEST_K)
     return where(total - total == 0.0, where(within, OK, DIVERGED), NON_FINITE)

@@ -5,21 +5,32 @@ from typing import NamedTuple
 
 from pyrofit.solver.arrays import FloatArray, Number
 from pyrofit.solver.kernels import row
-from pyrofit.solver.kernels.jit import inner
-from pyrofit.solver.kernels.lanes import in_lane
+from pyrofit.solver.kernels.jit import inner, loop
+from pyrofit.solver.kernels.lanes import in_lane, where
 from pyrofit.solver.kernels.reactions import TINY
 
-TIME, RELEASED, RATE, FRONT, BACK, THICKNESS, BURNT, POWER, KINK, PROBES = range(10)
-"""Columns of the trace; any number of probes, those that follow the material first."""
+TIME, RELEASED, RATE, FRONT, BACK, THICKNESS, BURNT, POWER, KINK, TAKEN, PROBES = range(11)
+"""Columns of the trace; any number of probes, those that follow the material first. Of every step
+tried there is a row; `TAKEN` is 1 in the lanes in which it was accepted."""
 STATUS, STEPS, ENERGY_ERROR, MASS_ERROR = range(4)
 """Columns of the outcome of a run."""
+
+
+class Trace(NamedTuple):
+    """The trace of the runs of all lanes, looked at in two ways."""
+
+    flat: FloatArray
+    """As plain floats, shape (rows, columns, lanes)."""
+    numbers: FloatArray
+    """As numbers, shape (rows, columns)."""
+    sized: bool
+    """Whether the thickness is asked for, or a probe, whose place depends on it."""
 
 
 class Written(NamedTuple):
     """The output of a run."""
 
-    trace: FloatArray
-    """Shape (lanes, steps + 1, columns)."""
+    trace: Trace
     outcome: FloatArray
     """Shape (lanes, 4)."""
 
@@ -87,30 +98,55 @@ def of_fixture(height, cell, foil, lane, first, front, d_skin, r_skin):
 
 
 @inner
-def record(trace, lane, numbers, flat, first, ahead, probes):
-    """Write one row of the trace of a lane.
+def record(trace, at, taken, now, back, rates, size):
+    """Write one row of the trace in all lanes.
 
-    The numbers: time, mass released, rate, front T, thickness, heat of combustion, that per time,
-    step length, thickness and resistance of the skin. The step length is that of the step that the
-    next one continues, infinite where the flux has a kink.
+    ``back`` is the temperature there, ``rates`` are those of gas and heat of combustion. The length
+    of a step that the next one continues is infinite where the flux has a kink.
     """
-    t, released, rate, front, depth, burnt, power, before, d_skin, r_skin = numbers
+    to = trace.numbers
+    to[at, TIME] = now.clock.t
+    to[at, RELEASED] = now.balance.released
+    to[at, RATE], to[at, POWER] = rates
+    to[at, FRONT] = now.top.front
+    to[at, BACK] = back
+    to[at, THICKNESS] = size.depth
+    to[at, BURNT] = now.balance.burnt
+    to[at, KINK] = where(now.clock.dt_old == math.inf, 1.0, 0.0 * taken)
+    to[at, TAKEN] = taken
+
+
+@inner
+def record_probes(trace, at, front, size, flat, firsts, ahead, probes):
+    """Write the temperatures inside the sample in one row of the trace."""
     cell, foil = flat.cell, flat.m.shape[1]
-    trace[TIME] = in_lane(t, lane)
-    trace[RELEASED] = in_lane(released, lane)
-    trace[RATE] = in_lane(rate, lane)
-    trace[FRONT] = in_lane(front, lane)
-    trace[BACK] = cell[row.T, foil, lane]
-    trace[THICKNESS] = in_lane(depth, lane)
-    trace[BURNT] = in_lane(burnt, lane)
-    trace[POWER] = in_lane(power, lane)
-    trace[KINK] = 1.0 if in_lane(before, lane) == math.inf else 0.0
-    T, d, r = in_lane(front, lane), in_lane(d_skin, lane), in_lane(r_skin, lane)
-    to = PROBES
-    for a in range(probes.material.shape[1]):
-        place = probes.material[lane, a]
-        trace[to] = of_material(place, ahead[lane], cell, foil, lane, first, T, r)
-        to += 1
-    for a in range(probes.fixture.shape[1]):
-        trace[to] = of_fixture(probes.fixture[lane, a], cell, foil, lane, first, T, d, r)
-        to += 1
+    in_material, in_fixture = probes.material.shape[1], probes.fixture.shape[1]
+    if in_material + in_fixture == 0:
+        return
+    for lane in range(firsts.size):
+        first, T = firsts[lane], in_lane(front, lane)
+        d, r = in_lane(size.d_skin, lane), in_lane(size.r_skin, lane)
+        to = PROBES
+        for a in range(in_material):
+            place = probes.material[lane, a]
+            trace.flat[at, to, lane] = of_material(
+                place, ahead[lane], cell, foil, lane, first, T, r
+            )
+            to += 1
+        for a in range(in_fixture):
+            height = probes.fixture[lane, a]
+            trace.flat[at, to, lane] = of_fixture(height, cell, foil, lane, first, T, d, r)
+            to += 1
+
+
+@loop
+def compact(trace, rows):
+    """Move the rows of accepted steps together, lane by lane."""
+    for lane in range(trace.shape[2]):
+        to = 0
+        for at in range(rows):
+            if trace[at, TAKEN, lane] == 1.0:
+                if to < at:
+                    for column in range(trace.shape[1]):
+                        trace[to, column, lane] = trace[at, column, lane]
+                to += 1
