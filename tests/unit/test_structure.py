@@ -16,7 +16,17 @@ from pyrofit.quantities import known_quantities
 ROOT = Path(__file__).parents[2]
 SOURCE = ROOT / "src" / "pyrofit"
 ORDER = [
-    {"errors", "constants", "defaults", "discovery", "logs", "parallel", "provenance", "seeds"},
+    {
+        "errors",
+        "constants",
+        "defaults",
+        "numerics",
+        "discovery",
+        "logs",
+        "parallel",
+        "provenance",
+        "seeds",
+    },
     {"quantities"},
     {"data"},
     {"model"},

@@ -1,0 +1,292 @@
+"""Products and factors of small matrices, the same to the last bit on every processor.
+
+BLAS and LAPACK choose their code by the processor. Here one index runs in Python, the others in
+`np.einsum` and in products of arrays. Matrices have up to some hundred rows and columns; larger
+ones take long.
+"""
+
+from typing import Any
+
+import numpy as np
+
+from pyrofit.numerics.functions import Floats, log
+
+_SWEEPS = 40
+"""Sweeps of Jacobi's rotations at most; ten are usual."""
+_EPS = float(np.finfo(float).eps)
+
+
+def dot(a: Floats, b: Floats) -> float:
+    """Return the inner product of two vectors."""
+    return float(np.einsum("i,i->", a, b))
+
+
+def product(first: Any, *others: Any) -> Floats:
+    """Return the product of matrices and vectors, from left to right, as ``@`` does.
+
+    Two vectors give a number, as an array without a dimension. All but the first are vectors or
+    matrices, and the first may be a stack of matrices.
+
+    >>> product(np.eye(2), np.array([[1.0, 2.0], [3.0, 4.0]]), np.array([1.0, 1.0])).tolist()
+    [3.0, 7.0]
+    """
+    found = np.asarray(first)
+    for other in others:
+        right = np.asarray(other)
+        of_row = "i" if found.ndim == 1 else "...i"
+        of_column = "i" if right.ndim == 1 else "ij"
+        kept = ("" if found.ndim == 1 else "...") + of_column[1:]
+        found = np.asarray(np.einsum(f"{of_row},{of_column}->{kept}", found, right))
+    return found
+
+
+def gram(a: Floats) -> Floats:
+    """Return A^T A of shape (columns, columns)."""
+    return product(a.T, a)
+
+
+def norm(a: Floats) -> float:
+    """Return the root of the sum of squares of a vector."""
+    return float(np.sqrt(dot(a, a)))
+
+
+def correlation(rows: Floats) -> Floats:
+    """Return the correlation of the rows of an array, shape (rows, rows), as `np.corrcoef` does.
+
+    That of a row without variance is nan.
+    """
+    rows = np.atleast_2d(rows)
+    apart = rows - rows.mean(axis=1, keepdims=True)
+    square = gram(apart.T)
+    variance = np.diag(square)
+    with np.errstate(invalid="ignore", divide="ignore"):
+        return np.asarray(np.clip(square / np.sqrt(np.outer(variance, variance)), -1.0, 1.0))
+
+
+def cholesky(a: Floats) -> Floats:
+    """Return L with L L^T = A, a lower triangle; only the lower part of A is read.
+
+    Raises
+    ------
+    numpy.linalg.LinAlgError
+        The matrix is not positive definite.
+    """
+    left = np.tril(np.asarray(a, dtype=np.float64))
+    for k in range(len(left)):
+        column = left[k:, k] - product(left[k:, :k], left[k, :k])
+        if not column[0] > 0.0:
+            raise np.linalg.LinAlgError("Matrix is not positive definite")
+        left[k:, k] = column / np.sqrt(column[0])
+    return left
+
+
+def solve_lower(left: Floats, b: Floats) -> Floats:
+    """Return x of L x = b; L a lower triangle, b of shape (n,) or (n, k)."""
+    x = np.array(b, dtype=np.float64)
+    for k in range(len(x)):
+        x[k] = (x[k] - product(left[k, :k], x[:k])) / left[k, k]
+    return x
+
+
+def solve_upper(right: Floats, b: Floats) -> Floats:
+    """Return x of R x = b; R an upper triangle, b of shape (n,) or (n, k)."""
+    return solve_lower(right[::-1, ::-1], b[::-1])[::-1]
+
+
+def solve(a: Floats, b: Floats) -> Floats:
+    """Return x of A x = b of a symmetric positive definite A, b of shape (n,) or (n, k).
+
+    Raises
+    ------
+    numpy.linalg.LinAlgError
+        The matrix is not positive definite.
+    """
+    left = cholesky(a)
+    return solve_upper(left.T, solve_lower(left, b))
+
+
+def inverse(a: Floats) -> Floats:
+    """Return the inverse of a symmetric positive definite matrix, symmetric to the last bit."""
+    found = gram(inverse_root(a))
+    return np.asarray(0.5 * (found + found.T))
+
+
+def inverse_root(a: Floats) -> Floats:
+    """Return L^-1 of A = L L^T: W with W^T W = A^-1, a lower triangle.
+
+    Raises
+    ------
+    numpy.linalg.LinAlgError
+        The matrix is not positive definite.
+    """
+    return solve_lower(cholesky(a), np.eye(len(a)))
+
+
+def log_det(a: Floats) -> float:
+    """Return the logarithm of the determinant of a symmetric positive definite matrix."""
+    return 2.0 * float(np.sum(log(np.diag(cholesky(a)))))
+
+
+def thin_factor(a: Floats, least: float) -> Floats:
+    """Return F of few columns with F F^T = A but for ``least`` of the largest diagonal, (n, k).
+
+    Cholesky's factor of a symmetric matrix without negative eigenvalues, the largest remainder of
+    the diagonal first.
+    """
+    left = np.array(np.diag(a), dtype=np.float64)
+    enough, columns = least * float(left.max()), np.empty((0, len(a)))
+    while len(columns) < len(a) and left.max() > max(enough, 0.0):
+        k = int(left.argmax())
+        column = (a[k] - product(columns[:, k], columns)) / np.sqrt(left[k])
+        columns = np.vstack([columns, column])
+        left = np.maximum(left - column**2, 0.0)
+        left[k] = 0.0
+    return np.asarray(columns.T)
+
+
+def qr(a: Floats) -> tuple[Floats, Floats]:
+    """Return Q with orthonormal columns and an upper triangle R with Q R = A.
+
+    Shapes (m, k) and (k, n) of A of shape (m, n), k = min(m, n); by Householder's reflections.
+    """
+    rest = np.array(a, dtype=np.float64)
+    rows, columns = rest.shape
+    mirrors = []
+    for k in range(min(rows, columns)):
+        v = rest[k:, k].copy()
+        size = norm(v)
+        v[0] += np.copysign(size, v[0])
+        double = 2.0 / dot(v, v) if size > 0.0 else 0.0
+        rest[k:, k:] -= (double * v)[:, None] * product(v, rest[k:, k:])
+        mirrors.append((double, v))
+    basis = np.eye(rows, min(rows, columns))
+    for k, (double, v) in reversed(list(enumerate(mirrors))):
+        basis[k:, k:] -= (double * v)[:, None] * product(v, basis[k:, k:])
+    return basis, np.triu(rest[: min(rows, columns)])
+
+
+def svd(a: Floats) -> tuple[Floats, Floats, Floats]:
+    """Return U, s and V^T with U diag(s) V^T = A, s in falling order.
+
+    Shapes (m, k), (k,) and (k, n), k = min(m, n). Jacobi's rotations of one side (Hestenes 1958,
+    doi 10.1137/0106005) of the rows of R of A = Q R, all disjoint pairs side by side: small
+    singular values are as exact as the columns are, however differently these are scaled.
+    """
+    a = np.asarray(a, dtype=np.float64)
+    if a.shape[0] < a.shape[1]:
+        U, s, rows = svd(a.T)
+        return rows.T, s, U.T
+    largest = float(np.max(np.abs(a), initial=0.0))
+    order = np.argsort(-np.sum((a / (largest or 1.0)) ** 2, axis=0), kind="stable")
+    Q, R = qr(a[:, order] / (largest or 1.0))
+    turned, rotation = _orthogonal(R)
+    s = np.sqrt(np.sum(turned**2, axis=1))
+    falling = np.argsort(-s, kind="stable")
+    s, turned, rotation = s[falling], turned[falling], rotation[falling]
+    rows = np.empty_like(turned)
+    rows[:, order] = _completed(turned, s)
+    return product(Q, rotation.T), s * largest, rows
+
+
+def _orthogonal(rows: Floats) -> tuple[Floats, Floats]:
+    """Return W A with orthogonal rows, and the rotation W, both of shape (n, n)."""
+    n = len(rows)
+    both = np.concatenate([rows, np.eye(n)], axis=1)
+    rounds = _rounds(n)
+    for _ in range(_SWEEPS):
+        largest = 0.0
+        for i, j in rounds:
+            x, y = both[i], both[j]
+            own, other = x[:, :n], y[:, :n]
+            a = np.einsum("ij,ij->i", own, own)
+            b = np.einsum("ij,ij->i", other, other)
+            c = np.einsum("ij,ij->i", own, other)
+            scale = np.sqrt(a) * np.sqrt(b)
+            apart = np.abs(c) > _EPS * scale
+            if not apart.any():
+                continue
+            largest = max(largest, float(np.max(np.abs(c[apart]) / scale[apart])))
+            zeta = (b - a) / np.where(apart, 2.0 * c, 1.0)
+            t = np.copysign(1.0, zeta) / (np.abs(zeta) + np.sqrt(1.0 + zeta * zeta))
+            t = np.where(apart, t, 0.0)[:, None]
+            cosine = 1.0 / np.sqrt(1.0 + t * t)
+            both[i], both[j] = cosine * (x - t * y), cosine * (t * x + y)
+        if largest <= n * _EPS:
+            break
+    return both[:, :n], both[:, n:]
+
+
+def _rounds(n: int) -> list[tuple[Any, Any]]:
+    """Return rounds of disjoint pairs in which each pair of n occurs once.
+
+    >>> [list(zip(i.tolist(), j.tolist())) for i, j in _rounds(3)]
+    [[(1, 2)], [(0, 2)], [(0, 1)]]
+    """
+    ring = list(range(n + n % 2))
+    found = []
+    for _ in ring[1:]:
+        half = len(ring) // 2
+        pairs = zip(ring[:half], reversed(ring[half:]), strict=True)
+        kept = np.array([sorted(p) for p in pairs if max(p) < n], dtype=np.intp).reshape(-1, 2)
+        found.append((kept[:, 0], kept[:, 1]))
+        ring = [ring[0], ring[-1], *ring[1:-1]]
+    return found
+
+
+def _completed(rows: Floats, sizes: Floats) -> Floats:
+    """Return orthogonal rows over their sizes; those without a size are made orthogonal anew."""
+    found = rows / np.where(sizes > 0.0, sizes, 1.0)[:, None]
+    for k in np.flatnonzero(sizes <= rows.shape[1] * _EPS * _EPS * sizes[:1].sum()):
+        left = np.eye(rows.shape[1])
+        for _ in range(2):
+            left = left - product(product(left, found[:k].T), found[:k])
+        length = np.sqrt(np.sum(left**2, axis=1))
+        found[k] = left[length.argmax()] / length.max()
+    return found
+
+
+def eigen(a: Floats) -> tuple[Floats, Floats]:
+    """Return eigenvalues in rising order and eigenvectors, as columns, of a symmetric matrix.
+
+    By singular values of A + c I, where c makes all eigenvalues positive.
+    """
+    radius = np.sum(np.abs(a), axis=1) - np.abs(np.diag(a))
+    shift = max(0.0, float(np.max(radius - np.diag(a))))
+    vectors, s, _ = svd(a + shift * np.eye(len(a)))
+    return s[::-1] - shift, vectors[:, ::-1]
+
+
+def least_squares(a: Floats, b: Floats, least: float | None = None) -> Floats:
+    """Return the shortest x of least |A x - b|, of shape (n,).
+
+    Singular values below ``least`` times the largest count as zero; by default eps max(m, n).
+    """
+    least = _EPS * max(a.shape) if least is None else least
+    U, s, rows = svd(a)
+    kept = s > least * s[:1].sum()
+    return product(rows[kept].T, product(U[:, kept].T, b) / s[kept])
+
+
+def polynomial(x: Floats, y: Floats, degree: int) -> Floats:
+    """Return the coefficients of the polynomial of least squares, the highest power first.
+
+    >>> polynomial(np.array([0.0, 1.0, 2.0]), np.array([1.0, 3.0, 5.0]), 1).round(12).tolist()
+    [2.0, 1.0]
+    """
+    columns = [np.ones(len(x))]
+    for _ in range(degree):
+        columns.insert(0, columns[0] * x)
+    matrix = np.column_stack(columns)
+    size = np.sqrt(np.sum(matrix**2, axis=0))
+    return np.asarray(least_squares(matrix / size, np.asarray(y)) / size)
+
+
+def running_mean(x: Floats, width: int) -> Floats:
+    """Return sums of neighbours over the width, as `np.convolve(..., "same")` with zeros outside.
+
+    >>> running_mean(np.array([1.0, 2.0, 3.0]), 2).tolist()
+    [0.5, 1.5, 2.5]
+    """
+    ahead = width // 2
+    padded = np.concatenate([np.zeros(ahead), x, np.zeros(width - 1 - ahead)])
+    return np.asarray(np.lib.stride_tricks.sliding_window_view(padded, width).sum(axis=1) / width)
