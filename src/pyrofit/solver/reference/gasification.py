@@ -1,19 +1,20 @@
 """Gasification of a slab by the reference solver."""
 
 import math
-import warnings
 from collections.abc import Mapping
 
 import numpy as np
-from scipy.integrate import LSODA
 
 from pyrofit.model.accuracy import Resolution
 from pyrofit.model.material import Material
 from pyrofit.model.slab import SlabExperiment
+from pyrofit.numerics import linear
 from pyrofit.solver.arrays import FloatArray, IntArray, Status
 from pyrofit.solver.curves import Curves, Request
 from pyrofit.solver.observe import observe_one
 from pyrofit.solver.outputs import BACK, FRONT, HEAT, MASS, RATE, THICKNESS
+from pyrofit.solver.reference.bdf import Bdf
+from pyrofit.solver.reference.factors import slab_factor
 from pyrofit.solver.reference.places import inside
 from pyrofit.solver.reference.slab import Slab
 from pyrofit.solver.reference.specimen import make_slab
@@ -106,9 +107,9 @@ def _lines(slab: Slab, states: FloatArray) -> dict[str, FloatArray]:
     reacting = slab.split(rate)[1]
     burning = reactions.gas * reactions.combustion
     return {
-        RATE: reacting @ reactions.gas @ slab.mass,
-        HEAT: reacting @ burning @ slab.mass,
-        _UNBURNT: -(extent @ burning @ slab.mass),
+        RATE: linear.product(reacting, reactions.gas, slab.mass),
+        HEAT: linear.product(reacting, burning, slab.mass),
+        _UNBURNT: -(linear.product(extent, burning, slab.mass)),
         MASS: present[..., : slab.sample, :].sum(axis=(-2, -1)),
         THICKNESS: slab.thickness(T, extent)[..., : slab.sample].sum(axis=-1),
         FRONT: T[:, 0].copy(),
@@ -134,9 +135,7 @@ class _Run:
     def go(self, parts: list[Piece]) -> None:
         """Integrate over the pieces, from new at each."""
         y = self.slab.start
-        # LSODA warns where it gives up; here that is a status.
-        with warnings.catch_warnings(), np.errstate(all="ignore"):
-            warnings.simplefilter("ignore")
+        with np.errstate(all="ignore"):
             for part in parts:
                 y = self._integrate(part, y)
                 if not self.status.finished or self.ended < math.inf:
@@ -147,16 +146,15 @@ class _Run:
         tolerance = np.full(y.size, self.resolution.tolerance)
         tolerance[:: slab.stride] *= 100.0
         heat = slab.heat_in(y, slab.outside(part.start, part, y))
-        solver = LSODA(
+        solver = Bdf(
             lambda t, y: slab.derivative(y, slab.outside(t, part, y)),
             part.start,
             y,
             part.end,
-            rtol=self.resolution.tolerance,
-            atol=tolerance,
-            jac=lambda t, y: slab.jacobian(y, slab.outside(t, part, y)),
-            lband=slab.stride,
-            uband=slab.stride,
+            self.resolution.tolerance,
+            tolerance,
+            lambda t, y: slab.jacobian(y, slab.outside(t, part, y)),
+            slab_factor,
         )
         while solver.status == "running" and self.status.finished and self.ended == math.inf:
             before = solver.t, solver.y
@@ -165,7 +163,7 @@ class _Run:
             heat = self._book(before, heat, solver, part)
         return np.asarray(solver.y)
 
-    def _accept(self, solver: LSODA) -> None:
+    def _accept(self, solver: Bdf) -> None:
         """Judge a step and keep the states at the times in it."""
         self.steps += 1
         self.status = self._judge(solver)
@@ -181,7 +179,7 @@ class _Run:
             self.ended = solver.t
 
     def _book(
-        self, before: tuple[float, FloatArray], heat: float, solver: LSODA, part: Piece
+        self, before: tuple[float, FloatArray], heat: float, solver: Bdf, part: Piece
     ) -> float:
         """Add a step to the heat balance, by the trapezoidal rule; return the heat flux after."""
         t, y = before
@@ -192,7 +190,7 @@ class _Run:
         self.heat_missing += half * (heat + after) - self.slab.heat_taken(y, solver.y)
         return after
 
-    def _judge(self, solver: LSODA) -> Status:
+    def _judge(self, solver: Bdf) -> Status:
         if not np.isfinite(solver.y).all():
             return Status.NON_FINITE
         T, extent = self.slab.split(solver.y)

@@ -10,7 +10,7 @@ from pyrofit.solver.arrays import FloatArray
 def banded_jacobian(
     derivative: Callable[[FloatArray], FloatArray], y: FloatArray, change: FloatArray, half: int
 ) -> FloatArray:
-    """Return d(dy/dt)/dy by differences, in the packed form of LSODA.
+    """Return d(dy/dt)/dy by differences, in packed form.
 
     Row u + i - j of column j holds element (i, j), u = ``half`` the half width of the band.
     Columns that have no row in common are changed together.

@@ -2,6 +2,7 @@
 
 import numpy as np
 
+from pyrofit.numerics import functions, linear
 from pyrofit.solver.arrays import FloatArray
 
 LEAST_DEPTH = 1e-9
@@ -23,7 +24,7 @@ def top_average(volume: FloatArray, emissivity: FloatArray, depth: float) -> flo
         rise = fraction - volume[k + 1] / d[k + 1]
         fraction = np.maximum(fraction + rise * (d[k] - part) / (d[k] + d[k + 1]), 0.0)
     total = volume[:k].sum(axis=0) + part * fraction / fraction.sum()
-    return float(total @ emissivity / to)
+    return float(linear.product(total, emissivity) / to)
 
 
 def absorbed(radiation: float, tau: FloatArray) -> tuple[FloatArray, float]:
@@ -32,11 +33,13 @@ def absorbed(radiation: float, tau: FloatArray) -> tuple[FloatArray, float]:
     Elements have the optical depths ``tau``, shape (elements,). The radiation that one absorbs
     goes to its nodes by their shape functions: 1/tau - 1/(e^tau - 1) of it to the lower one.
     """
-    reaching = radiation * np.exp(-np.concatenate(([0.0], np.cumsum(tau))))
+    reaching = radiation * functions.exp(-np.concatenate(([0.0], np.cumsum(tau))))
     lost = reaching[:-1] - reaching[1:]
     thick = np.maximum(tau, 1e-2)
     lower = np.where(
-        tau < 1e-2, 0.5 - tau / 12.0 + tau**3 / 720.0, 1.0 / thick - 1.0 / np.expm1(thick)
+        tau < 1e-2,
+        0.5 - tau / 12.0 + tau * tau * tau / 720.0,
+        1.0 / thick - 1.0 / (functions.exp(thick) - 1.0),
     )
     out = np.zeros(tau.size + 1)
     out[:-1] = (1.0 - lower) * lost

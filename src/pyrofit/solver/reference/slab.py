@@ -18,6 +18,7 @@ from functools import cached_property
 
 import numpy as np
 
+from pyrofit.numerics import linear
 from pyrofit.solver.arrays import FloatArray
 from pyrofit.solver.reference.jacobian import banded_jacobian
 from pyrofit.solver.reference.radiation import absorbed, top_average
@@ -112,7 +113,7 @@ class Slab:
 
     def masses(self, extent: FloatArray) -> FloatArray:
         """Return the masses of the components [kg/m2], shape (..., elements, components)."""
-        share = self.virgin + extent @ self.substance.reactions.change
+        share = self.virgin + linear.product(extent, self.substance.reactions.change)
         return np.asarray(share * self.mass[:, None])
 
     def _volume(self, T: FloatArray, present: FloatArray) -> FloatArray:
@@ -130,14 +131,17 @@ class Slab:
 
         It changes with the mass released over all. ``volume`` [m], shape (elements, components).
         """
-        released = self.mass @ (extent @ self.substance.reactions.gas) / self.sample_mass
+        released = (
+            linear.product(self.mass, linear.product(extent, self.substance.reactions.gas))
+            / self.sample_mass
+        )
         changed = self._topmost(volume) + self.emissivity_change * released
         return float(np.clip(changed, 0.0, 1.0))
 
     def _topmost(self, volume: FloatArray) -> float:
         if not volume.any():
             volume = self.virgin[0] / self.substance.density
-            return float(volume @ self.substance.emissivity / volume.sum())
+            return float(linear.product(volume, self.substance.emissivity) / volume.sum())
         return top_average(volume, self.substance.emissivity, self.mixing_depth)
 
     def irradiated(self, radiation: float, volume: FloatArray, T: FloatArray) -> FloatArray:
@@ -171,7 +175,7 @@ class Slab:
         if self.gas_heat == 0.0:
             return 0.0
         reacting, _, _ = self._react(T[:-1], T[1:], extent)
-        rate = self.mass * (reacting @ self.substance.reactions.gas)
+        rate = self.mass * (linear.product(reacting, self.substance.reactions.gas))
         behind = np.cumsum(rate[::-1])[::-1] - rate
         return np.asarray(self.gas_heat * (behind + 0.5 * rate))
 
@@ -212,8 +216,11 @@ class Slab:
         """Return the heat [J/m2] stored and used by reactions from one state to the next."""
         T, extent = self.split(np.stack((y_old, y)))
         capacity = self._capacity(T, np.maximum(self.masses(extent), 0.0)).mean(axis=0)
-        reacted = self.mass @ (extent[1] - extent[0])
-        return float(capacity @ (T[1] - T[0]) + reacted @ self.substance.reactions.heat)
+        reacted = linear.product(self.mass, extent[1] - extent[0])
+        return float(
+            linear.product(capacity, T[1] - T[0])
+            + linear.product(reacted, self.substance.reactions.heat)
+        )
 
     def _react(
         self, hot: FloatArray, cold: FloatArray, extent: FloatArray

@@ -5,6 +5,7 @@ import numpy as np
 from pyrofit.model.base import value_of
 from pyrofit.model.material import Material
 from pyrofit.model.slab import EmissivityDepth, Sample, SlabExperiment
+from pyrofit.numerics import linear
 from pyrofit.solver.arrays import FloatArray
 from pyrofit.solver.reference.slab import Slab
 from pyrofit.solver.reference.substance import Substance, Values, mass_fractions, substance
@@ -68,7 +69,7 @@ def _elements(
         count = max(2, round(elements * size / sum(sizes)))
         share = np.array([float(name == glue.component) for name in solid.names])
         virgin.append(np.tile(share, (count, 1)))
-        mass.append(np.full(count, size / count * float(share @ solid.density)))
+        mass.append(np.full(count, size / count * linear.dot(share, solid.density)))
     return np.concatenate(virgin), np.concatenate(mass)
 
 
@@ -83,7 +84,7 @@ def _with_backing(
     """Return them with those of the inert layers behind the sample, ``count`` to a layer."""
     for layer in sample.backing:
         share = np.array([float(name == layer.component) for name in solid.names])
-        of_layer = value_of(layer.thickness_m, values) * float(share @ solid.density)
+        of_layer = value_of(layer.thickness_m, values) * linear.dot(share, solid.density)
         virgin = np.concatenate((virgin, np.tile(share, (count, 1))))
         mass = np.concatenate((mass, np.full(count, of_layer / count)))
     return virgin, mass
@@ -111,6 +112,6 @@ def _mixing_depth(
     if not isinstance(given, EmissivityDepth):
         return value_of(given, values)
     volume = share / solid.density
-    k = volume @ solid.conductivity.of(np.array(T)) / volume.sum()
-    rho_c = share @ solid.specific_heat.of(np.array(T)) / volume.sum()
+    k = linear.product(volume, solid.conductivity.of(np.array(T))) / volume.sum()
+    rho_c = linear.product(share, solid.specific_heat.of(np.array(T))) / volume.sum()
     return float(value_of(given.cell_size_factor, values) * np.sqrt(k / rho_c))

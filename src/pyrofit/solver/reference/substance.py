@@ -15,6 +15,7 @@ from pyrofit.constants import GAS_CONSTANT
 from pyrofit.model import material as words
 from pyrofit.model.base import value_of
 from pyrofit.model.properties import Changed, Linear, Table
+from pyrofit.numerics import functions, linear
 from pyrofit.solver.arrays import FloatArray, IntArray
 
 Values = Mapping[str, float]
@@ -60,7 +61,9 @@ class Property:
         if isinstance(given, Linear):
             rise = value_of(given.slope_1_K, self.values) * (T - reference)
             return np.asarray(value * np.maximum(1.0 + rise, LEAST_SHARE))
-        return np.asarray(value * (T / reference) ** value_of(given.exponent, self.values))
+        return np.asarray(
+            value * functions.power(T / reference, value_of(given.exponent, self.values))
+        )
 
     def _changed(self, given: Changed, T: FloatArray) -> FloatArray:
         """Return of(T) with slope, bend, smooth step, peak and thinning, at least 1 % of of(T)."""
@@ -77,7 +80,7 @@ class Property:
         rise = rise - scaled("bend") * number("step_width_K") * log_expit(-above)
         passed = expit(above)
         width = number("peak_width_K")
-        bell = np.exp(-0.5 * ((T - number("peak_temperature_K")) / width) ** 2)
+        bell = functions.exp(-0.5 * ((T - number("peak_temperature_K")) / width) ** 2)
         peak = scaled("peak_area") / (width * np.sqrt(2.0 * np.pi)) * bell
         changed = of * (1.0 + rise) + scaled("step") * passed + peak
         changed /= np.maximum(1.0 + scaled("thinning") * passed, LEAST_SHARE)
@@ -110,7 +113,7 @@ class Reactions:
 
     def rate_constants(self, T: FloatArray | float) -> FloatArray:
         """Return A_j exp(-E_j/(R T)) [1/s], shape (..., reactions)."""
-        return np.asarray(self.A * np.exp(-self.E_R / np.asarray(T)[..., None]))
+        return np.asarray(self.A * functions.exp(-self.E_R / np.asarray(T)[..., None]))
 
     def amounts(self, virgin: FloatArray, extent: FloatArray) -> FloatArray:
         """Return the factors of the rate constants, m_formed (m/m_formed)^n, per kg of sample.
@@ -118,14 +121,14 @@ class Reactions:
         ``virgin``: mass fractions of the sample, shape (..., components); ``extent``: xi_j, shape
         (..., reactions), like the result. m_formed is the mass ever present.
         """
-        left = (virgin + extent @ self.change)[..., self.reactant]
+        left = (virgin + linear.product(extent, self.change))[..., self.reactant]
         if np.all(self.order == 1.0):
             return left
-        formed = (virgin + np.maximum(extent, 0.0) @ self.yields)[..., self.reactant]
+        formed = (virgin + linear.product(np.maximum(extent, 0.0), self.yields))[..., self.reactant]
         told = formed > LEAST_FORMED
         u = np.where(told, left / np.where(told, formed, 1.0), 1.0)
         least = np.where(self.order < 1.0, LEAST_REMAINDER, 0.0)
-        return np.asarray(left * np.clip(u, least, 1.0) ** (self.order - 1.0))
+        return np.asarray(left * functions.power(np.clip(u, least, 1.0), self.order - 1.0))
 
 
 @dataclass(frozen=True)
@@ -226,4 +229,4 @@ def _rate_factor(reaction: words.Reaction, values: Values) -> float:
     E_RT = value_of(reaction.E_J_mol, values) / (
         GAS_CONSTANT * value_of(reaction.reference_temperature_K, values)
     )
-    return float(value_of(reaction.reference_rate_1_s, values) * np.exp(E_RT))
+    return float(value_of(reaction.reference_rate_1_s, values) * functions.exp(E_RT))

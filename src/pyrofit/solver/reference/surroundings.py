@@ -13,6 +13,7 @@ from pyrofit.model.base import value_of
 from pyrofit.model.slab import Edge, SlabExperiment
 from pyrofit.model.slab_faces import Flame, Side
 from pyrofit.model.time_table import OverTime, TimeTable
+from pyrofit.numerics import functions
 from pyrofit.solver.arrays import FloatArray
 from pyrofit.solver.reference.substance import Values
 
@@ -64,9 +65,10 @@ class Surface:
         """Return eps sigma (T_wall^4 - T^4) - h (T - T_gas) [W/m2], all of time t."""
         gas = self.gas.at(t, piece) + self.gas_rise * approached(t, self.gas_rise_time)
         above = T - gas
-        h = self.h.at(t, piece) + self.h_cube_root * np.cbrt(np.abs(above))
+        h = self.h.at(t, piece) + self.h_cube_root * functions.cube_root(np.abs(above))
         wall = self.wall.at(t, piece)
-        return np.asarray(emissivity * STEFAN_BOLTZMANN * (wall**4 - T**4) - h * above)
+        net = functions.fourth_power(wall) - functions.fourth_power(T)
+        return np.asarray(emissivity * STEFAN_BOLTZMANN * net - h * above)
 
 
 def surface(side: Side, values: Values, factor: float = 1.0) -> Surface:

@@ -4,17 +4,21 @@ from collections.abc import Iterator, Mapping
 from dataclasses import dataclass
 
 import numpy as np
-from scipy.integrate import LSODA
 
 from pyrofit.model.accuracy import Resolution
 from pyrofit.model.base import value_of
 from pyrofit.model.heated import HeatedExperiment
 from pyrofit.model.material import Material
+from pyrofit.numerics import linear
 from pyrofit.solver.arrays import FloatArray, Status
 from pyrofit.solver.curves import Curves, Request
 from pyrofit.solver.outputs import FRACTION_RATE, HEAT_FLOW, HEAT_RELEASE, MASS_FRACTION
+from pyrofit.solver.reference.bdf import Bdf
+from pyrofit.solver.reference.factors import dense_factor
 from pyrofit.solver.reference.substance import Reactions, Substance, mass_fractions, substance
 
+PERTURBED = 1e-7
+"""Difference of an extent for the Jacobian."""
 STRAIGHT_K = 1e-9
 """Deviation from a line up to which temperatures belong to one heating rate [K]."""
 
@@ -43,7 +47,7 @@ def reference_tga(
     sample = _Sample(reactions, virgin, burning, tau)
     state = np.zeros((time.size, reactions.A.size + (1 if tau > 0.0 else 0)))
     if tau > 0.0:
-        state[0, -1] = burning @ sample.rates(T[0], state[0, :-1])
+        state[0, -1] = linear.product(burning, sample.rates(T[0], state[0, :-1]))
     steps = 0
     for first, last in straight(time, T):
         part = slice(first, last + 1)
@@ -55,11 +59,13 @@ def reference_tga(
     extent = state[:, : reactions.A.size]
     rate = sample.rates(T, extent)
     signals = {
-        MASS_FRACTION: 1.0 - extent @ reactions.gas,
-        FRACTION_RATE: rate @ reactions.gas,
-        HEAT_FLOW: _heat_flow(solid, virgin + extent @ reactions.change, rate, T, rise)
+        MASS_FRACTION: 1.0 - linear.product(extent, reactions.gas),
+        FRACTION_RATE: linear.product(rate, reactions.gas),
+        HEAT_FLOW: _heat_flow(
+            solid, virgin + linear.product(extent, reactions.change), rate, T, rise
+        )
         + _baseline(experiment, T, values),
-        HEAT_RELEASE: state[:, -1] if tau > 0.0 else rate @ burning,
+        HEAT_RELEASE: state[:, -1] if tau > 0.0 else linear.product(rate, burning),
     }
     return Curves(Status.OK, signals, steps=steps)
 
@@ -85,7 +91,7 @@ class _Sample:
         if self.tau == 0.0:
             return self.rates(T, state)
         rates = self.rates(T, state[:-1])
-        return np.append(rates, (self.burning @ rates - state[-1]) / self.tau)
+        return np.append(rates, (linear.product(self.burning, rates) - state[-1]) / self.tau)
 
 
 def _heat_flow(
@@ -93,7 +99,7 @@ def _heat_flow(
 ) -> FloatArray:
     """Return sum_i m_i c_i(T) dT/dt + sum_j dh_j r_j [W/kg], shape (points,)."""
     sensible = np.sum(mass * solid.specific_heat.of(T), axis=1) * rise
-    return np.asarray(sensible + rate @ solid.reactions.heat)
+    return np.asarray(sensible + linear.product(rate, solid.reactions.heat))
 
 
 def _baseline(
@@ -125,7 +131,14 @@ def _heat(
     def derivative(t: float, state: FloatArray) -> FloatArray:
         return sample.derivative(T[0] + rate * (t - time[0]), state)
 
-    solver = LSODA(derivative, time[0], start, time[-1], rtol=tolerance, atol=tolerance)
+    def jacobian(t: float, state: FloatArray) -> FloatArray:
+        # Backwards, where there is something to react.
+        moved = state - PERTURBED * np.eye(state.size)
+        here = derivative(t, state)
+        return np.stack([(here - derivative(t, y)) / PERTURBED for y in moved], axis=1)
+
+    ends = float(time[0]), start, float(time[-1])
+    solver = Bdf(derivative, *ends, tolerance, tolerance, jacobian, dense_factor)
     states = np.empty((time.size, start.size))
     states[0] = start
     filled, steps = 1, 0
