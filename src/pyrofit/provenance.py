@@ -11,7 +11,6 @@ from pathlib import Path
 from typing import Any, NamedTuple
 
 PACKAGES = (
-    "cma",
     "jinja2",
     "matplotlib",
     "numba",
@@ -22,7 +21,7 @@ PACKAGES = (
     "snakemake",
     "spotpy",
 )
-NUMERIC = ("cma", "numba", "numpy", "pandas", "scipy", "spotpy")
+NUMERIC = ("numba", "numpy", "pandas", "scipy", "spotpy")
 """Packages whose version may change a number."""
 STUDY = (
     *(

@@ -215,7 +215,7 @@ def test_only_kernels_import_numba() -> None:
 
 def test_planning_the_workflow_loads_no_optimiser_and_draws_nothing() -> None:
     planned = "pyrofit.show.sections, pyrofit.results.dependencies, pyrofit.stages.reading"
-    assert loaded(planned, "cma", "spotpy", "matplotlib") == "[]"
+    assert loaded(planned, "spotpy", "matplotlib") == "[]"
 
 
 def test_one_repetition_loads_no_integrator() -> None:
@@ -281,10 +281,6 @@ def test_only_pose_poses_problems_and_their_likelihood() -> None:
 
 def test_only_the_sce_ua_module_imports_spotpy() -> None:
     assert names_of([p for p in modules() if "spotpy" in outside(p)]) == ["estimate/sceua.py"]
-
-
-def test_only_the_cma_es_module_imports_cma() -> None:
-    assert names_of([p for p in modules() if "cma" in outside(p)]) == ["estimate/cmaes.py"]
 
 
 def test_library_never_prints_or_exits() -> None:
