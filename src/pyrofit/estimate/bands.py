@@ -6,6 +6,7 @@ import numpy as np
 
 from pyrofit.estimate.discrepancy import Discrepancy, factor_of, noise_covariance
 from pyrofit.estimate.noise import NoiseModel
+from pyrofit.numerics import functions, linear
 from pyrofit.solver.arrays import FloatArray
 
 QUANTILES = (0.025, 0.5, 0.975)
@@ -26,14 +27,14 @@ def carried(found: Sequence[Discrepancy]) -> Discrepancy:
     """
     sizes = np.array([[of.level, of.time, of.offset] for of in found])
     level, time, offset = np.sqrt(np.mean(sizes**2, axis=0)).tolist()
-    lasting = float(np.exp(np.mean(np.log([of.lasting for of in found]))))
+    lasting = float(functions.exp(np.mean(functions.log([of.lasting for of in found]))))
     return Discrepancy(level, time, offset, round(lasting, 12))
 
 
 def free(covariance: FloatArray, sets: int, rng: np.random.Generator) -> FloatArray:
     """Draw discrepancies that no measurement tells, shape (sets, points)."""
     factor = factor_of(covariance)
-    return np.asarray(rng.standard_normal((sets, len(factor))) @ factor.T)
+    return linear.product(rng.standard_normal((sets, len(factor))), factor.T)
 
 
 def measured(
@@ -57,6 +58,6 @@ def measured(
     """
     N = noise_covariance(noise)
     drawn = free(covariance, len(residuals), rng)
-    noisy = drawn + rng.standard_normal(residuals.shape) @ np.linalg.cholesky(N).T
-    gain = np.linalg.solve(covariance + N, covariance)
-    return np.asarray(drawn + (residuals - noisy) @ gain)
+    noisy = drawn + linear.product(rng.standard_normal(residuals.shape), linear.cholesky(N).T)
+    gain = linear.solve(covariance + N, covariance)
+    return np.asarray(drawn + linear.product(residuals - noisy, gain))

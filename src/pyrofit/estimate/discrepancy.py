@@ -26,15 +26,16 @@ import numpy as np
 from pyrofit.estimate.likelihood import Likelihood
 from pyrofit.estimate.noise import NoiseModel
 from pyrofit.estimate.posterior import UNIFORM
+from pyrofit.numerics import fitting, functions, linear
 from pyrofit.solver.arrays import FloatArray
 
 MOST_POINTS = 200
 """Points of a series from which a discrepancy is estimated, evenly taken: it lasts over many."""
-USUAL = np.log([0.03, 0.03, 0.01, 0.7])
+USUAL = functions.log([0.03, 0.03, 0.01, 0.7])
 """Mean of the prior of s_a, s_b, s_c and l, as logarithms ..."""
 SPREAD = np.array([1.0, 1.0, 1.0, 0.3])
 """... and its standard deviations."""
-LIMITS = np.log([[1e-5, 1e-5, 1e-5, 0.1], [0.5, 0.5, 0.5, 3.0]])
+LIMITS = functions.log([[1e-5, 1e-5, 1e-5, 0.1], [0.5, 0.5, 0.5, 3.0]])
 SWEEPS = 3
 """How often all channels are gone through."""
 JITTER = 1e-10
@@ -55,7 +56,7 @@ class Discrepancy:
 
     def covariance(self, time: FloatArray, curve: FloatArray) -> FloatArray:
         """Return D of a simulated curve at some times [s], shape (points, points)."""
-        return np.asarray(_basis(time, curve, self.lasting) @ self._squares)
+        return linear.product(_basis(time, curve, self.lasting), self._squares)
 
     @property
     def _squares(self) -> FloatArray:
@@ -81,7 +82,8 @@ class Discrepancy:
         middle = np.median(curves, axis=0)
         factor = factor_of(_kernel(time, middle, self.lasting))
         shape = (3, *curves.shape)
-        a, b, c = rng.standard_normal(shape) @ factor.T * np.sqrt(self._squares)[:, None, None]
+        drawn = linear.product(rng.standard_normal(shape), factor.T)
+        a, b, c = drawn * np.sqrt(self._squares)[:, None, None]
         moved = np.array(
             [np.interp(time * (1.0 + s), time, f) for f, s in zip(curves, b, strict=True)]
         )
@@ -89,8 +91,8 @@ class Discrepancy:
         return np.asarray(first + (1.0 + a) * (moved - first) + c * np.ptp(middle))
 
     def factor(self, time: FloatArray, curve: FloatArray) -> FloatArray:
-        """Return F with F F^T = D, shape (points, points)."""
-        return factor_of(self.covariance(time, curve))
+        """Return F with F F^T = D but for `JITTER`, shape (points, few)."""
+        return linear.thin_factor(self.covariance(time, curve), JITTER)
 
 
 def half_time(time: FloatArray, curve: FloatArray) -> float:
@@ -105,33 +107,41 @@ def half_time(time: FloatArray, curve: FloatArray) -> float:
     return float(np.interp(0.5 * way[-1], way, time))
 
 
-def _kernel(time: FloatArray, curve: FloatArray, lasting: float) -> FloatArray:
+def _kernel(
+    time: FloatArray, curve: FloatArray, lasting: float, few: slice = slice(None)
+) -> FloatArray:
     scale = lasting * max(half_time(time, curve), 1e-9)
-    return np.asarray(np.exp(-0.5 * (np.subtract.outer(time, time) / scale) ** 2))
+    at = time[few]
+    return functions.exp(-0.5 * (np.subtract.outer(at, at) / scale) ** 2)
 
 
-def _basis(time: FloatArray, curve: FloatArray, lasting: float) -> FloatArray:
-    """Return the covariance of each part for a size of 1, shape (points, points, 3)."""
-    kernel = _kernel(time, curve, lasting)
+def _basis(
+    time: FloatArray, curve: FloatArray, lasting: float, few: slice = slice(None)
+) -> FloatArray:
+    """Return the covariance of each part for a size of 1, at some points: (points, points, 3)."""
+    kernel = _kernel(time, curve, lasting, few)
     shapes = (
         curve - curve[0],
         time * np.gradient(curve, time),
         np.full(curve.size, np.ptp(curve)),
     )
-    return np.asarray(np.stack([kernel * np.outer(g, g) for g in shapes], axis=2))
+    parts = [kernel * np.outer(g, g) for g in (shape[few] for shape in shapes)]
+    return np.asarray(np.stack(parts, axis=2))
 
 
 def factor_of(covariance: FloatArray) -> FloatArray:
     """Return the Cholesky factor of a covariance that may be singular."""
     size = float(np.max(np.diag(covariance)))
     raised = covariance + (JITTER * size + 1e-300) * np.eye(len(covariance))
-    return np.asarray(np.linalg.cholesky(raised))
+    return linear.cholesky(raised)
 
 
 def noise_covariance(noise: NoiseModel) -> FloatArray:
     """Return N of a channel: with w = A r white, N = (A^T A)^-1."""
-    whitening = noise.whiten(np.eye(noise.sd.size))
-    return np.asarray(np.linalg.inv(whitening.T @ whitening))
+    points = noise.sd.size
+    apart = np.abs(np.subtract.outer(np.arange(points), np.arange(points)))
+    N = np.outer(noise.sd, noise.sd) * noise.correlation.sequence(points)[apart]
+    return N if noise.modes is None else N + linear.gram(noise.modes.T)
 
 
 def with_discrepancy(
@@ -178,7 +188,7 @@ def estimated(
     )
     channels = [_Channel(*part) for part in parts]
     known = likelihood.prior.slopes(likelihood.problem.span)
-    ahead = known.T @ known + UNIFORM * np.eye(x.size)
+    ahead = linear.gram(known) + UNIFORM * np.eye(x.size)
     logs = [USUAL.copy() for _ in channels]
     sums = [channel.sums(log) for channel, log in zip(channels, logs, strict=True)]
     for _ in range(SWEEPS):
@@ -188,7 +198,7 @@ def estimated(
             b = sum((own[1] for own in others), np.zeros(x.size))
             logs[k] = channel.likeliest(M, b, logs[k])
             sums[k] = channel.sums(logs[k])
-    return tuple(Discrepancy(*np.exp(log).tolist()) for log in logs)
+    return tuple(Discrepancy(*functions.exp(log).tolist()) for log in logs)
 
 
 Sums = tuple[FloatArray, FloatArray, float]
@@ -213,32 +223,29 @@ class _Channel:
         self.bases: dict[float, FloatArray] = {}
 
     def _basis(self, lasting: float) -> FloatArray:
-        whole = _basis(self.time, self.curve, lasting)
-        return np.asarray(whole[self.few, self.few])
+        return _basis(self.time, self.curve, lasting, self.few)
 
     def sums(self, log: FloatArray) -> Sums:
         """Return the sums for logarithms of sizes and lasting."""
-        from scipy.linalg import solve_triangular
-
-        *sizes, lasting = np.exp(log)
-        S = self.noise + self._basis(float(lasting)) @ np.square(sizes)
-        factor = np.linalg.cholesky(S)
-        white = solve_triangular(factor, self.rows, lower=True, check_finite=False)
+        *sizes, lasting = functions.exp(log)
+        S = self.noise + linear.product(self._basis(float(lasting)), np.square(sizes))
+        factor = linear.cholesky(S)
+        white = linear.solve_lower(factor, self.rows)
         J, r = white[:, :-1], white[:, -1]
-        return J.T @ J, J.T @ r, float(r @ r + 2.0 * np.sum(np.log(np.diag(factor))))
+        log_det = 2.0 * float(np.sum(functions.log(np.diag(factor))))
+        return linear.gram(J), linear.product(J.T, r), linear.dot(r, r) + log_det
 
     def likeliest(self, M: FloatArray, b: FloatArray, start: FloatArray) -> FloatArray:
         """Return the logarithms of the highest restricted likelihood."""
-        from scipy.optimize import minimize
 
         def criterion(log: FloatArray) -> float:
             inside = np.clip(log, *LIMITS)
             JJ, Jr, rr = self.sums(inside)
             whole, part = M + JJ, b + Jr
-            _, log_det = np.linalg.slogdet(whole)
+            log_det = linear.log_det(whole)
             expected = float(np.sum(((log - USUAL) / SPREAD) ** 2))
-            return float(log_det + rr - part @ np.linalg.solve(whole, part)) + expected
+            return log_det + rr - linear.dot(part, linear.solve(whole, part)) + expected
 
-        options = {"xatol": 0.03, "fatol": 0.03, "maxfev": 400}
-        found = minimize(criterion, start, method="Nelder-Mead", options=options)
-        return np.asarray(np.clip(found.x, *LIMITS))
+        simplex = np.vstack([start, start + np.diag(np.where(start == 0.0, 0.001, 0.05 * start))])
+        found = fitting.nelder_mead(criterion, simplex, near=0.03, like=0.03, most_calls=400)
+        return np.asarray(np.clip(found, *LIMITS))

@@ -6,6 +6,7 @@ the runs of a half are independent. A fifth of the moves is snooker (ter Braak a
 doi 10.1007/s11222-008-9104-9), which goes through the ensemble's far ends.
 """
 
+import math
 from collections.abc import Sequence
 from dataclasses import dataclass
 from functools import partial
@@ -17,6 +18,7 @@ from pyrofit.defaults import POSTERIOR_STEPS
 from pyrofit.estimate.convergence import ENOUGH_TIMES, ESS, RHAT, autocorrelation_times, rhat
 from pyrofit.estimate.likelihood import Likelihood
 from pyrofit.logs import Tell
+from pyrofit.numerics import linear
 from pyrofit.parallel import parallel_map
 from pyrofit.seeds import seed_for
 from pyrofit.solver.arrays import FloatArray
@@ -92,7 +94,7 @@ def log_density(likelihood: Likelihood, X: FloatArray) -> FloatArray:
     if inside.size:
         for i, rows in zip(inside, likelihood.residuals_all(X[inside]), strict=True):
             if likelihood.finished(rows):
-                found[i] = -0.5 * float(rows @ rows)
+                found[i] = -0.5 * linear.dot(rows, rows)
     return found
 
 
@@ -155,11 +157,31 @@ def walkers_of(parameters: int) -> int:
 def _start(x: FloatArray, covariance: FloatArray, seed: int) -> State:
     """Return walkers about the optimum; those beyond a limit are mirrored at it."""
     random = np.random.RandomState(seed)
-    factor = np.linalg.cholesky(covariance)
+    factor = linear.cholesky(covariance)
     z = random.standard_normal((walkers_of(x.size), x.size))
-    beyond = np.mod(x + WIDER * z @ factor.T, 2.0)
+    beyond = np.mod(x + linear.product(WIDER * z, factor.T), 2.0)
     inside = np.asarray(np.where(beyond > 1.0, 2.0 - beyond, beyond))
     return inside, None, random.get_state(legacy=True)
+
+
+def _snooker() -> Any:
+    """Return emcee's snooker move, with products and logarithms in a fixed order."""
+    import emcee
+
+    class Snooker(emcee.moves.DESnookerMove):  # type: ignore[misc]
+        def get_proposal(self, s: Any, c: Any, random: Any) -> tuple[FloatArray, FloatArray]:
+            q, longer = np.empty_like(s), np.empty(len(s))
+            for i, here in enumerate(s):
+                others = np.array([part[random.randint(len(part))] for part in c[:3]])
+                random.shuffle(others)
+                z, z1, z2 = others
+                length = linear.norm(here - z)
+                u = (here - z) / math.sqrt(length)
+                q[i] = here + u * self.gammas * (linear.dot(u, z1) - linear.dot(u, z2))
+                longer[i] = math.log(linear.norm(q[i] - z)) - math.log(length)
+            return q, 0.5 * (s.shape[1] - 1.0) * longer
+
+    return Snooker()
 
 
 def _advance(
@@ -175,7 +197,7 @@ def _advance(
         vectorize=True,
         moves=[
             (emcee.moves.DEMove(), 1.0 - SNOOKER),
-            (emcee.moves.DESnookerMove(), SNOOKER),
+            (_snooker(), SNOOKER),
         ],
     )
     begin = emcee.State(walkers, log_prob=density, random_state=random)

@@ -14,6 +14,7 @@ from pyrofit.estimate.correlation import Correlation, whiteness
 from pyrofit.estimate.scatter import scatter_of
 from pyrofit.estimate.spikes import spikes
 from pyrofit.model.signal import TIMING_S
+from pyrofit.numerics import functions, linear
 from pyrofit.quantities.base import Quantity, Shown
 from pyrofit.solver.arrays import FloatArray
 
@@ -95,9 +96,9 @@ class NoiseModel:
         if self.modes is None:
             return white
         directions, shares = self._lasting
-        inside = directions.T @ white
+        inside = linear.product(directions.T, white)
         shares = shares if white.ndim == 1 else shares[:, None]
-        return np.asarray(white - directions @ (shares * inside))
+        return np.asarray(white - linear.product(directions, shares * inside))
 
     def _white_alone(self, residual: FloatArray) -> FloatArray:
         sd = self.sd if residual.ndim == 1 else self.sd[:, None]
@@ -107,7 +108,7 @@ class NoiseModel:
     def _lasting(self) -> tuple[FloatArray, FloatArray]:
         """Directions Q of V = Q S W^T, and the shares whitening takes: 1 - (1 + S^2)^(-1/2)."""
         assert self.modes is not None
-        directions, sizes, _ = np.linalg.svd(self._white_alone(self.modes), full_matrices=False)
+        directions, sizes, _ = linear.svd(self._white_alone(self.modes))
         return directions, 1.0 - 1.0 / np.sqrt(1.0 + sizes**2)
 
     def describe(self) -> str:
@@ -186,7 +187,7 @@ def estimate_noise(
     correlation = fit.correlation
     origin = "from the scatter" if stated is None else "stated, smoothed over 10 % of the record"
     if "discrepancy" in floors:
-        correlation = Correlation(ar=float(np.exp(-1.0 / (LASTING * (count - 1)))))
+        correlation = Correlation(ar=float(functions.exp(-1.0 / (LASTING * (count - 1)))))
         origin = "discrepancy of models, lasting over 10 % of the record"
     squares = (scale * shape) ** 2 + sum(floor**2 for floor in floors.values()) + off**2
     return NoiseModel(
@@ -224,10 +225,12 @@ def smoothed(target: Target) -> FloatArray | None:
         return None
     safe = np.maximum(given, 1e-3 * np.max(given))
     width = 0.25 * SMOOTHING * (target.time_s[-1] - target.time_s[0])
-    window = np.exp(-0.5 * (np.subtract.outer(target.time_s, target.time_s) / width) ** 2)
+    window = functions.exp(-0.5 * (np.subtract.outer(target.time_s, target.time_s) / width) ** 2)
     window /= window.sum(axis=1, keepdims=True)
-    shape = np.exp(window @ np.log(safe))
-    return np.asarray(shape * np.sqrt(window @ (safe / shape) ** 2), dtype=np.float64)
+    shape = functions.exp(linear.product(window, functions.log(safe)))
+    return np.asarray(
+        shape * np.sqrt(linear.product(window, (safe / shape) ** 2)), dtype=np.float64
+    )
 
 
 def _floors(

@@ -12,7 +12,7 @@ import pandas as pd
 import spotpy
 
 from pyrofit.estimate.history import Progress
-from pyrofit.estimate.problem import Evaluation, Problem
+from pyrofit.estimate.problem import FAILED_COST, Evaluation, Problem
 from pyrofit.estimate.turns import in_turns
 from pyrofit.solver.arrays import FloatArray
 from pyrofit.solver.run import LANES
@@ -40,7 +40,9 @@ class _Setup:
         result = self.ask(np.array(x))
         self.best = min(self.best, result.cost)
         self.calls.append((self.generation, result.cost, int(result.status), *result.parts, *x))
-        return [result.cost]
+        # SPOTPY's sort leaves the order of equal costs to the processor; failed runs cost the same.
+        late = 1.0 + 1e-9 * len(self.calls) if result.cost >= FAILED_COST else 1.0
+        return [result.cost * late]
 
     def evaluation(self) -> list[float]:
         """Return nothing to compare with: the cost is complete."""
