@@ -10,6 +10,7 @@ import numpy as np
 from pyrofit.config import Study
 from pyrofit.model.base import value_of
 from pyrofit.model.slab import Layer, SlabExperiment
+from pyrofit.numerics import linear
 from pyrofit.solver.lower import fractions
 from pyrofit.solver.lower_experiment import thicknesses
 
@@ -111,7 +112,7 @@ def _mass(
     for layer, size in layers:
         composition = layer.composition or study.material.composition
         share = fractions(composition, list(components), values)[:, 0]
-        total += size / float(share @ volumes)
+        total += size / linear.dot(share, volumes)
     return total
 
 

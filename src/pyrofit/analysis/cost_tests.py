@@ -101,7 +101,7 @@ def convergence(study: Study, results: Results) -> pd.DataFrame:
     frame = searches.running_minima(study, results)
     rows = []
     for (cost, number), run in frame.groupby(["cost_function", "repetition"], sort=False):
-        run = run.sort_values("generation")
+        run = run.sort_values("generation", kind="stable")
         near = run[run["best_cost"] <= (1.0 + NEAR) * run["best_cost"].iloc[-1]].iloc[0]
         rows.append(
             {

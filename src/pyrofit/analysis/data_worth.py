@@ -8,10 +8,12 @@ far leave, and the whitened derivatives J of the new record,
 A prediction with derivatives P has the covariance P C P^T.
 """
 
+import math
 from collections.abc import Sequence
 
 import numpy as np
 
+from pyrofit.numerics import functions, linear
 from pyrofit.solver.arrays import FloatArray
 
 
@@ -21,7 +23,7 @@ def narrowed(curvature: FloatArray, jacobian: FloatArray, dispersion: float) -> 
     >>> narrowed(np.array([[1.0]]), np.array([[2.0], [2.0]]), 2.0)
     array([[5.]])
     """
-    return np.asarray(curvature + jacobian.T @ jacobian / dispersion)
+    return np.asarray(curvature + linear.gram(jacobian) / dispersion)
 
 
 def sds(curvature: FloatArray, free: Sequence[int]) -> FloatArray:
@@ -30,15 +32,15 @@ def sds(curvature: FloatArray, free: Sequence[int]) -> FloatArray:
     ``free`` are the positions of those that do not rest at a limit. Parameters at a limit stay
     there for the others. Their own numbers are computed as if they were free.
 
-    >>> sds(np.array([[2.0, 1.0], [1.0, 1.0]]), [0, 1]).tolist()
-    [1.0, 1.4142135623730951]
+    >>> sds(np.array([[2.0, 1.0], [1.0, 1.0]]), [0, 1]).round(3).tolist()
+    [1.0, 1.414]
     >>> sds(np.array([[4.0, 1.0], [1.0, 1.0]]), [0]).round(3).tolist()
     [0.5, 1.155]
     """
     found = np.empty(len(curvature))
     for i in range(len(curvature)):
         moving = sorted({*free, i})
-        found[i] = np.sqrt(np.linalg.inv(_of(curvature, moving))[moving.index(i), moving.index(i)])
+        found[i] = np.sqrt(linear.inverse(_of(curvature, moving))[moving.index(i), moving.index(i)])
     return found
 
 
@@ -50,8 +52,8 @@ def predicted_sd(curvature: FloatArray, slopes: FloatArray, free: Sequence[int])
     >>> predicted_sd(np.diag([4.0, 1.0]), np.array([[2.0, 0.0], [0.0, 7.0]]), [0, 1])
     5.0
     """
-    root = np.linalg.inv(np.linalg.cholesky(_of(curvature, free))).T
-    return float(np.sqrt(np.sum((slopes[:, list(free)] @ root) ** 2) / len(slopes)))
+    root = linear.inverse_root(_of(curvature, free)).T
+    return float(np.sqrt(np.sum(linear.product(slopes[:, list(free)], root) ** 2) / len(slopes)))
 
 
 def gain(before: FloatArray, after: FloatArray, free: Sequence[int]) -> float:
@@ -60,8 +62,8 @@ def gain(before: FloatArray, after: FloatArray, free: Sequence[int]) -> float:
     >>> gain(np.eye(2), np.diag([4.0, 1.0]), [0, 1])
     1.0
     """
-    (_, new), (_, old) = (np.linalg.slogdet(_of(part, free)) for part in (after, before))
-    return float(0.5 * (new - old) / np.log(2.0))
+    new, old = (linear.log_det(_of(part, free)) for part in (after, before))
+    return 0.5 * (new - old) / math.log(2.0)
 
 
 def _of(curvature: FloatArray, moving: Sequence[int]) -> FloatArray:
@@ -76,4 +78,4 @@ def left(before: FloatArray, after: FloatArray) -> float:
     """
     if before.size == 0:
         return 1.0
-    return float(np.exp(np.mean(np.log(after / before))))
+    return float(functions.exp(np.mean(functions.log(after / before))))

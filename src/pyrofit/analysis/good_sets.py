@@ -127,8 +127,12 @@ def thinned(scaled: FloatArray) -> NDArray[np.int64]:
     [0, 2, 1]
     """
     chosen = [0]
-    away = np.linalg.norm(scaled - scaled[0], axis=1)
+    away = _distances(scaled, scaled[0])
     while len(chosen) < MOST and away.max() > 0.0:
         chosen.append(int(away.argmax()))
-        away = np.minimum(away, np.linalg.norm(scaled - scaled[chosen[-1]], axis=1))
+        away = np.minimum(away, _distances(scaled, scaled[chosen[-1]]))
     return np.array(chosen, dtype=np.int64)
+
+
+def _distances(scaled: FloatArray, one: FloatArray) -> FloatArray:
+    return np.asarray(np.sqrt(np.sum((scaled - one) ** 2, axis=1)))

@@ -8,6 +8,7 @@ import numpy as np
 from pyrofit.analysis.distances import Distance
 from pyrofit.analysis.scores import Score
 from pyrofit.analysis.uses import HELD_OUT, PUBLISHED
+from pyrofit.numerics import functions
 
 _BEST = " best"
 _LEAST = 1e-300
@@ -51,7 +52,7 @@ def recommended(scores: Sequence[Score], distances: Sequence[Distance]) -> Recom
     if held_out:
         errors: dict[tuple[str, str], list[float]] = {}
         for score in held_out:
-            logarithm = float(np.log(max(score.value, _LEAST)))
+            logarithm = float(functions.log(max(score.value, _LEAST)))
             errors.setdefault((score.cost_function, score.found_by), []).append(logarithm)
         cost, by = min(errors, key=lambda one: float(np.mean(errors[one])))
         return Recommended(cost, by, len(errors), held_out)

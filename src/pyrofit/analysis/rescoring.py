@@ -7,6 +7,7 @@ import numpy as np
 import pandas as pd
 from numpy.typing import NDArray
 
+from pyrofit.numerics import linear
 from pyrofit.solver.arrays import FloatArray
 
 VALLEY = 0.01
@@ -90,7 +91,7 @@ def spearman(scores: pd.DataFrame) -> pd.DataFrame:
     0.5
     """
     ranks = scores.rank().to_numpy()
-    matrix = np.atleast_2d(np.corrcoef(ranks, rowvar=False))
+    matrix = linear.correlation(ranks.T)
     np.fill_diagonal(matrix, 1.0)
     return pd.DataFrame(matrix, index=scores.columns, columns=scores.columns)
 
@@ -114,8 +115,12 @@ def spearman_among_best(scores: pd.DataFrame, share: float = GOOD) -> pd.DataFra
         for column in scores:
             told = best[column].nunique() > 1 < best[row].nunique()
             if column != row:
-                found.loc[row, column] = own.corr(best[column].rank()) if told else 0.0
+                found.loc[row, column] = _correlation(own, best[column].rank()) if told else 0.0
     return found
+
+
+def _correlation(x: "pd.Series[float]", y: "pd.Series[float]") -> float:
+    return float(linear.correlation(np.array([x, y]))[0, 1])
 
 
 def grouped(correlation: pd.DataFrame, least: float) -> list[list[str]]:

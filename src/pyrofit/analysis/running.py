@@ -30,7 +30,7 @@ def running_minima(frame: pd.DataFrame, abscissa: str) -> tuple[FloatArray, Floa
     """
     runs = [
         (r[abscissa].to_numpy(float), r["best_cost"].to_numpy(float))
-        for _, r in frame.sort_values("generation").groupby("repetition")
+        for _, r in frame.sort_values("generation", kind="stable").groupby("repetition")
     ]
     start = max(x[0] for x, _ in runs)
     grid = np.unique(np.concatenate([x for x, _ in runs]))

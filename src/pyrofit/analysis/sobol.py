@@ -14,6 +14,7 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
+from pyrofit.numerics import linear
 from pyrofit.solver.arrays import FloatArray
 
 RESAMPLES = 200
@@ -117,13 +118,13 @@ def _intervals(
     mean over a resample is a product with them.
     """
     f_A, f_B = centred[0], centred[1]
-    mean = 0.5 * (f_A + f_B) @ draws.T
-    variance = 0.5 * (f_A**2 + f_B**2) @ draws.T - mean**2
+    mean = linear.product(0.5 * (f_A + f_B), draws.T)
+    variance = linear.product(0.5 * (f_A**2 + f_B**2), draws.T) - mean**2
     variance = np.where(variance > 0.0, variance, 1.0)
     ends = np.empty((2, 2, f_A.shape[0], len(centred) - 2))
     for i, f_AB in enumerate(centred[2:]):
-        first = (f_B * (f_AB - f_A)) @ draws.T / variance
-        total = 0.5 * (f_A - f_AB) ** 2 @ draws.T / variance
+        first = linear.product(f_B * (f_AB - f_A), draws.T) / variance
+        total = linear.product(0.5 * (f_A - f_AB) ** 2, draws.T) / variance
         tails = 0.5 - 0.5 * LEVEL, 0.5 + 0.5 * LEVEL
         ends[0, :, :, i] = np.quantile(first, tails, axis=1)
         ends[1, :, :, i] = np.quantile(total, tails, axis=1)

@@ -12,6 +12,7 @@ from pyrofit.estimate.identify import Identification
 from pyrofit.estimate.likelihood import Likelihood
 from pyrofit.model.base import value_of
 from pyrofit.model.expressions import names_of
+from pyrofit.numerics import linear
 from pyrofit.solver.arrays import FloatArray
 
 
@@ -77,7 +78,7 @@ def derived_table(
                 for other, step in zip(covariance.index, steps, strict=True)
             ]
             slopes = np.divide(moved, steps, out=np.zeros(len(steps)), where=steps > 0.0)
-            variance = float(slopes @ covariance.to_numpy() @ slopes)
+            variance = linear.dot(linear.product(slopes, covariance.to_numpy()), slopes)
         row = {"parameter": name, "value": at, "sd": float(np.sqrt(variance))}
         rows.append({**row, "unit": parameter.unit, "expression": parameter.expression})
     columns = ["parameter", "value", "sd", "unit", "expression"]
@@ -107,8 +108,8 @@ def signals_table(
     table = scored.scores
     residuals = likelihood.split(likelihood.residuals(found.optimum.x))
     table["noise_sd"] = [float(np.median(noise.total_sd)) for noise in likelihood.noise]
-    table["chi2"] = [float(part @ part) for part in residuals]
-    table["chi2_per_point"] = [float(part @ part) / part.size for part in residuals]
+    table["chi2"] = [linear.dot(part, part) for part in residuals]
+    table["chi2_per_point"] = [linear.dot(part, part) / part.size for part in residuals]
     return table
 
 

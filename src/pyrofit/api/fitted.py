@@ -14,6 +14,7 @@ from pyrofit.api.measurements import Data
 from pyrofit.api.report import Report, html_of, text_of
 from pyrofit.config import Study
 from pyrofit.errors import StudyError
+from pyrofit.numerics import functions
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
@@ -92,7 +93,7 @@ class Fit:
     @property
     def bic(self) -> float:
         """Criterion of Schwarz: chi2 + k ln n for k estimates and n points."""
-        return self.chi2 + len(self.table) * float(np.log(self.signals["points"].sum()))
+        return self.chi2 + len(self.table) * float(functions.log(self.signals["points"].sum()))
 
     def intervals(self, level: float = 0.95) -> pd.DataFrame:
         """Return low and high of intervals at another level than 95 %, cut at the limits.

@@ -128,7 +128,9 @@ def page(setting: Setting, plan: str, tables: dict[str, pd.DataFrame]) -> str:
         _section("CPU time of a diagnosis", tables["times"]),
         _section("Wrong claims", _wrong(found), "Of twins with one hidden effect or none."),
         _section(f"Effects of {DETECTABLE:g} sd or more that are not claimed", _missed(found)),
-        _section("Pairs", found[found["kind"] == "pair"][_WRONG].sort_values("hidden")),
+        _section(
+            "Pairs", found[found["kind"] == "pair"][_WRONG].sort_values("hidden", kind="stable")
+        ),
         _section("A hidden effect removed from the candidates", _left_out(found)),
         "## Figures\n",
         *(

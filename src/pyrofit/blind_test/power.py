@@ -6,13 +6,14 @@ import numpy as np
 import pandas as pd
 
 from pyrofit.blind_test.table import one_name
+from pyrofit.numerics import functions
 from pyrofit.solver.arrays import FloatArray
 
 FEWEST = 4
 """Twins from which an effect has a power of its own."""
-MIDDLES = np.geomspace(0.5, 500.0, 181)
+MIDDLES = functions.geometric(0.5, 500.0, 181)
 """Detectabilities at which half may be named [standard deviations]."""
-SLOPES = np.geomspace(0.5, 16.0, 61)
+SLOPES = functions.geometric(0.5, 16.0, 61)
 ODDS = {"half": 1.0, "nine_tenths": 9.0}
 """Odds of the named shares whose detectability is stated."""
 TAILS = (0.5, 0.025, 0.975)
@@ -66,19 +67,21 @@ def thresholds(detectability: FloatArray, named: FloatArray) -> dict[str, tuple[
     >>> bool(3.0 < low < middle < high < 9.0)
     True
     """
-    distance = np.log(np.maximum(detectability, 1e-3))[:, None] - np.log(MIDDLES)
+    distance = functions.log(np.maximum(detectability, 1e-3))[:, None] - functions.log(MIDDLES)
     sign = np.where(named, 1.0, -1.0)[:, None]
-    score = np.stack([-np.logaddexp(0.0, -sign * s * distance).sum(axis=0) for s in SLOPES])
-    weight = np.exp(score - score.max())
+    score = np.stack(
+        [-functions.log_one_plus_exp(-sign * s * distance).sum(axis=0) for s in SLOPES]
+    )
+    weight = functions.exp(score - score.max())
     found = {}
     for share, odds in ODDS.items():
-        values = MIDDLES * odds ** (1.0 / SLOPES[:, None])
+        values = MIDDLES * functions.power(odds, 1.0 / SLOPES[:, None])
         found[share] = _quantiles(values.ravel(), weight.ravel())
     return found
 
 
 def _quantiles(values: FloatArray, weight: FloatArray) -> tuple[float, ...]:
-    order = np.argsort(values)
+    order = np.argsort(values, kind="stable")
     mass = np.cumsum(weight[order])
     at = np.searchsorted(mass, np.array(TAILS) * mass[-1])
     return tuple(float(value) for value in values[order][at])

@@ -5,6 +5,7 @@ from functools import partial
 import numpy as np
 
 from pyrofit.cost.target import FloatArray, Residuals, Target, number
+from pyrofit.numerics import functions
 
 
 def gpyro(
@@ -69,6 +70,6 @@ def _lost(
     allowed = eps * size
     away = allowed + np.abs(difference)
     reached = np.divide(allowed, away, out=np.ones_like(away), where=away > 0.0)
-    lost = 1.0 - reached**zeta
+    lost = 1.0 - functions.power(reached, zeta)
     # The norm of these is the mean of the losses: the fitnesses add up, not their squares.
     return np.asarray(np.sign(difference) * np.sqrt(lost * lost.mean() / lost.size))

@@ -9,6 +9,7 @@ from typing import Any
 from pyrofit.cost.kinds import known_costs
 from pyrofit.cost.target import FloatArray, Residuals, Target
 from pyrofit.errors import CostError, suggest
+from pyrofit.numerics import linear
 
 
 @dataclass(frozen=True, eq=False)
@@ -49,7 +50,7 @@ class Term:
             The model has another shape than the target.
         """
         residuals = self.residuals(model)
-        cost = math.sqrt(residuals.dot(residuals))
+        cost = linear.norm(residuals)
         return cost if cost < math.inf else math.inf
 
     def residuals(self, model: FloatArray) -> FloatArray:

@@ -51,7 +51,9 @@ def autoregressive(ar: float, points: int) -> FloatArray:
     >>> autoregressive(0.5, 4).tolist()
     [1.0, 0.5, 0.25, 0.125]
     """
-    return ar ** np.arange(points, dtype=np.float64)
+    r = np.full(points, ar)
+    r[0] = 1.0
+    return np.cumprod(r)
 
 
 def lowest_density(lags: Sequence[float]) -> float:

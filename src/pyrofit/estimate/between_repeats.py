@@ -18,13 +18,13 @@ from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, replace
 
 import numpy as np
-from scipy.optimize import least_squares
 from scipy.special import stdtrit
 
 from pyrofit.constants import QUANTILE
 from pyrofit.estimate.correlation import Correlation
 from pyrofit.estimate.noise import FEWEST_POINTS, NoiseModel
 from pyrofit.estimate.problem import Problem
+from pyrofit.numerics import fitting, functions, linear
 from pyrofit.solver.arrays import FloatArray
 
 WINDOW = 0.2
@@ -123,11 +123,11 @@ def _of_group(records: Sequence[_Record], align: bool) -> list[NoiseModel]:
     freedom = len(records) - 1
     of_points = np.mean([np.interp(grid, r.at, r.points[0] ** 2) for r in records], axis=0)
     variance = np.sum(deviations**2, axis=0) / freedom
-    shown = deviations @ window.T
+    shown = linear.product(deviations, window.T)
     left = np.mean([_left(_window(r.at, knots), *r.points) for r in records], axis=0)
     if not _significant(np.sum(shown**2, axis=0) / freedom, left, freedom):
         return [r.noise for r in records]
-    tau = np.sqrt(np.maximum(window @ (variance - of_points), 0.0))
+    tau = np.sqrt(np.maximum(linear.product(window, variance - of_points), 0.0))
     modes = _modes(knots, shown, tau)
     return [_with_modes(r, knots, modes) for r in records]
 
@@ -135,7 +135,7 @@ def _of_group(records: Sequence[_Record], align: bool) -> list[NoiseModel]:
 def _window(at: FloatArray, knots: FloatArray) -> FloatArray:
     """Return the weights of a Gaussian window about each knot, shape (knots, n)."""
     width = 0.25 * WINDOW * (knots[-1] - knots[0])
-    weights = np.exp(-0.5 * (np.subtract.outer(knots, at) / width) ** 2)
+    weights = functions.exp(-0.5 * (np.subtract.outer(knots, at) / width) ** 2)
     return np.asarray(weights / weights.sum(axis=1, keepdims=True))
 
 
@@ -163,7 +163,7 @@ def _modes(knots: FloatArray, shown: FloatArray, tau: FloatArray) -> FloatArray:
     """Return U of K = U U^T at the knots, shape (knots, modes)."""
     freedom = len(shown) - 1
     span = LASTING * (knots[-1] - knots[0])
-    lasting = np.linalg.cholesky(np.exp(-np.abs(np.subtract.outer(knots, knots)) / span))
+    lasting = linear.cholesky(functions.exp(-np.abs(np.subtract.outer(knots, knots)) / span))
     both = np.column_stack([shown.T / np.sqrt(freedom), tau[:, None] * lasting])
     return student_factor(freedom) * both
 
@@ -192,7 +192,7 @@ def _aligned(
     y_r(t) = y_0 + a (m((t - d)/b) - y_0) is fitted to each smoothed record by least squares. The
     mean m of all is made anew from the records with their own a, b, d taken out.
     """
-    smooth = values @ window.T
+    smooth = linear.product(values, window.T)
     mean, middle = smooth.mean(axis=0), values.mean(axis=0)
     for _ in range(2):
         fits = [_warp(knots, mean, record) for record in smooth]
@@ -208,8 +208,7 @@ def _warp(knots: FloatArray, mean: FloatArray, record: FloatArray) -> FloatArray
     """Return amplitude, stretch and start (over the record's length) of a record."""
     scale = max(float(np.ptp(mean)), 1e-300)
     start = np.array([1.0, 1.0, 0.0])
-    found = least_squares(lambda p: (_warped(knots, mean, p) - record) / scale, start)
-    return np.asarray(found.x)
+    return fitting.least_squares(lambda p: (_warped(knots, mean, p) - record) / scale, start)
 
 
 def _warped(at: FloatArray, mean: FloatArray, fit: FloatArray) -> FloatArray:

@@ -10,6 +10,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from pyrofit.numerics import fitting, linear
 from pyrofit.solver.arrays import FloatArray
 
 MOST_STEPS = 80
@@ -46,8 +47,8 @@ class Fit:
 
         It does if chi-square is near that of the fit, and near the parabola about it.
         """
-        parabola = self.residuals + self.jacobian @ (x - self.x)
-        rise = float(parabola @ parabola) - self.chi2
+        parabola = self.residuals + linear.product(self.jacobian, x - self.x)
+        rise = linear.dot(parabola, parabola) - self.chi2
         found = chi2 - self.chi2
         return self.fresh and 0.0 < found < NEAR and abs(found - rise) < LIKE_PARABOLA * found
 
@@ -106,13 +107,14 @@ def minimise(
         if promised > converged_gain:
             ahead = np.clip(x + step, 0.0, 1.0)  # a rate rounded below zero is no rate
             there = residuals(ahead)
-            gained = float(r @ r - there @ there)
+            gained = linear.dot(r, r) - linear.dot(there, there)
         if gained > 0.0:
             taken = step[moving]
-            J = J + np.outer(there - r - J @ taken, taken) / (taken @ taken)
+            missed = there - r - linear.product(J, taken)
+            J = J + np.outer(missed, taken) / linear.dot(taken, taken)
             damping = _damping(damped, gained / promised)
             x, r, fresh, refused = ahead, there, False, 0
-            returned = known is not None and known.leads_here(x, float(r @ r))
+            returned = known is not None and known.leads_here(x, linear.dot(r, r))
         if returned:
             break
         if gained > converged_gain:
@@ -127,7 +129,7 @@ def minimise(
             break
     whole = whole.copy()
     whole[:, moving] = J
-    return Fit(float(r @ r), x, r, whole, fresh, returned)
+    return Fit(linear.dot(r, r), x, r, whole, fresh, returned)
 
 
 def _damping(damping: float, reached: float) -> float:
@@ -155,12 +157,7 @@ def _step(
     The least of 2 g^T s + s^T (J^T J + D) s for limits of s (Stark and Parker 1995, Comput. Stat.
     10, 129): a step that is cut off at the limits one by one may promise next to nothing.
     """
-    from scipy.optimize import lsq_linear  # half a second that steps without a descent save
-
-    bend, slope = J.T @ J, J.T @ r
-    R = np.linalg.cholesky(bend + np.diag(damping * np.diag(bend) + ridge)).T
-    best = lsq_linear(
-        R, -np.linalg.solve(R.T, slope), (-x, 1.0 - x), method="bvls", max_iter=10 * x.size
-    )
-    step = np.asarray(best.x)
-    return step, -float(2.0 * slope @ step + step @ bend @ step)
+    bend, slope = linear.gram(J), linear.product(J.T, r)
+    damped = bend + np.diag(damping * np.diag(bend) + ridge)
+    step = fitting.within_limits(damped, slope, -x, 1.0 - x)
+    return step, -2.0 * linear.dot(slope, step) - linear.dot(step, linear.product(bend, step))

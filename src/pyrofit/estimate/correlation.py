@@ -4,10 +4,9 @@ from dataclasses import dataclass
 from functools import lru_cache
 
 import numpy as np
-from scipy.linalg import cholesky_banded
-from scipy.linalg.lapack import dtbtrs
 
 from pyrofit.data.noise import autoregressive, lowest_density, moving_average
+from pyrofit.numerics import bands, functions, linear
 from pyrofit.solver.arrays import FloatArray
 
 LOWEST_DENSITY = 0.1
@@ -50,12 +49,11 @@ class Correlation:
             white = noise.copy()
             white[1:] -= self.ar * noise[:-1]
             white[1:] /= rest
-            return white, 2.0 * (n - 1) * float(np.log(rest))
+            return white, 2.0 * (n - 1) * float(functions.log(rest))
         if not self.lags:
             return noise, 0.0
         factor, log_det = _factor(self.lags, n)
-        white, _ = dtbtrs(factor, noise.reshape(n, -1), uplo="L")
-        return white.reshape(noise.shape), log_det
+        return bands.solve_lower(factor, noise), log_det
 
     def describe(self) -> str:
         """Describe it in words.
@@ -73,10 +71,9 @@ class Correlation:
 
 @lru_cache(maxsize=64)
 def _factor(lags: tuple[float, ...], n: int) -> tuple[FloatArray, float]:
-    """Return the lower bands of L of R = L L^T, shape (lags + 1, n), and log det R."""
-    bands = np.tile(np.array([[1.0], *([r] for r in lags)]), (1, n))
-    factor = cholesky_banded(bands, lower=True, check_finite=False)
-    return np.asfortranarray(factor), 2.0 * float(np.log(factor[0]).sum())
+    """Return the bands of L of R = L L^T, shape (n, lags + 1), and log det R."""
+    factor = bands.cholesky(lags, n)
+    return factor, 2.0 * float(functions.log(factor[:, 0]).sum())
 
 
 def shrunk(lags: tuple[float, ...]) -> Correlation:
@@ -98,7 +95,8 @@ def ljung_box(series: FloatArray) -> float:
     """
     n = series.size
     lags = np.arange(1, min(LAGS, n - 2) + 1)
-    r = np.array([series[k:] @ series[:-k] for k in lags]) / max(float(series @ series), 1e-300)
+    square = max(linear.dot(series, series), 1e-300)
+    r = np.array([linear.dot(series[k:], series[:-k]) for k in lags]) / square
     return float(n * (n + 2) * np.sum(r**2 / (n - lags)))
 
 
@@ -117,6 +115,6 @@ def whiteness(scatter: FloatArray, basis: FloatArray) -> float:
     """
     rng = np.random.default_rng(0)
     white = rng.standard_normal((scatter.size, DRAWS))
-    white -= basis @ (basis.T @ white)
+    white -= linear.product(basis, linear.product(basis.T, white))
     drawn = np.array([ljung_box(column) for column in white.T])
     return float((1 + np.sum(drawn >= ljung_box(scatter))) / (1 + DRAWS))

@@ -16,6 +16,7 @@ from pyrofit.estimate.likelihood import Likelihood, fit
 from pyrofit.estimate.posterior import Posterior, interval, limit_of
 from pyrofit.estimate.prior import NormalPrior
 from pyrofit.estimate.profile import Interval, Profile, profile_of
+from pyrofit.numerics import linear
 from pyrofit.solver.arrays import FloatArray
 
 DETERMINED = 0.20
@@ -112,7 +113,7 @@ class Identification:
         A combination of parameters whose value is s has the standard deviation 1/s. The largest
         component of a direction is positive.
         """
-        _, values, rows = np.linalg.svd(self.posterior.jacobian, full_matrices=False)
+        _, values, rows = linear.svd(self.posterior.jacobian)
         largest = rows[np.arange(len(rows)), np.argmax(np.abs(rows), axis=1)]
         return values, (rows * np.sign(largest)[:, None]).T
 

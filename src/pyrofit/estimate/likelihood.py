@@ -14,6 +14,7 @@ from pyrofit.estimate.derivatives import derivatives
 from pyrofit.estimate.noise import NoiseModel
 from pyrofit.estimate.prior import NO_PRIOR, NormalPrior
 from pyrofit.estimate.problem import Problem
+from pyrofit.numerics import linear
 from pyrofit.solver.arrays import FloatArray
 
 ENOUGH = 1e-4
@@ -120,7 +121,7 @@ class Likelihood:
     def chi2(self, x: FloatArray) -> float:
         """Return the sum of the squares of the whitened residuals."""
         residuals = self.residuals(x)
-        return float(residuals @ residuals)
+        return linear.dot(residuals, residuals)
 
     def finished(self, residuals: FloatArray) -> bool:
         """Tell whether all runs finished that some residuals come from."""
@@ -193,7 +194,7 @@ def fit(likelihood: Likelihood, starts: Sequence[FloatArray]) -> Fit:
 def descents(likelihood: Likelihood, starts: Sequence[FloatArray]) -> list[Fit]:
     """Return the ends of these descents, the lowest chi-square first."""
     chosen: list[FloatArray] = []
-    ahead = [float(r @ r) for r in likelihood.residuals_all(np.array(starts))]
+    ahead = [linear.dot(r, r) for r in likelihood.residuals_all(np.array(starts))]
     for _, x in sorted(zip(ahead, starts, strict=True), key=lambda pair: pair[0]):
         if all(np.max(np.abs(x - other)) > APART for other in chosen):
             chosen.append(x)

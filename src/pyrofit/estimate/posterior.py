@@ -15,6 +15,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from pyrofit.constants import QUANTILE
+from pyrofit.numerics import linear
 from pyrofit.solver.arrays import FloatArray
 
 UNIFORM = 12.0
@@ -54,7 +55,7 @@ def curvature(jacobian: FloatArray, dispersion: float = 1.0, known: int = 0) -> 
         Number of rows of known values, which are the last ones.
     """
     rows = jacobian[len(jacobian) - known :]
-    scaled = jacobian.T @ jacobian / dispersion + (1.0 - 1.0 / dispersion) * (rows.T @ rows)
+    scaled = linear.gram(jacobian) / dispersion + (1.0 - 1.0 / dispersion) * linear.gram(rows)
     return np.asarray(scaled + UNIFORM * np.eye(jacobian.shape[1]))
 
 
@@ -66,7 +67,7 @@ def covariance(jacobian: FloatArray, dispersion: float = 1.0, known: int = 0) ->
     >>> covariance(np.zeros((5, 1)))
     array([[0.08333333]])
     """
-    return np.asarray(np.linalg.inv(curvature(jacobian, dispersion, known)))
+    return linear.inverse(curvature(jacobian, dispersion, known))
 
 
 def freedom(jacobian: FloatArray, x: FloatArray, known: int = 0) -> float:
@@ -81,7 +82,7 @@ def freedom(jacobian: FloatArray, x: FloatArray, known: int = 0) -> float:
     inside = [not limit_of(value) for value in x]
     J = jacobian[:, inside]
     channels = J[: len(J) - known]
-    used = np.linalg.solve(curvature(J), channels.T @ channels)
+    used = linear.solve(curvature(J), linear.gram(channels))
     return max(1.0, len(channels) - float(np.trace(used)))
 
 
@@ -112,7 +113,7 @@ class Posterior:
     @property
     def chi2(self) -> float:
         """Chi-square of the channels, without known values."""
-        return float(self.residuals @ self.residuals)
+        return linear.dot(self.residuals, self.residuals)
 
     @property
     def freedom(self) -> float:

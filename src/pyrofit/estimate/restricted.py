@@ -11,11 +11,13 @@ Z = [X y], for which no R is factorised:
   sine transform makes K diagonal, 2 cos(pi i/(n + 1)); Woodbury's formula takes the ends in.
 """
 
+import math
+
 import numpy as np
 from scipy.fft import dst
-from scipy.linalg.lapack import dposv
 
 from pyrofit.estimate.correlation import Correlation
+from pyrofit.numerics import functions, linear
 from pyrofit.solver.arrays import FloatArray
 
 LEAST_SQUARES = 1e-30
@@ -39,37 +41,44 @@ class Restricted:
         n = len(y)
         self.rest, self.known = n - X.shape[1], known
         # The part of y that splines follow does not change the likelihood, but would cost digits.
-        Z = np.column_stack([X, y - X @ np.linalg.lstsq(X, y, rcond=None)[0]])
+        basis, _ = linear.qr(X)
+        Z = np.column_stack([X, y - linear.product(basis, linear.product(basis.T, y))])
         self.ends = Z[[0, -1]]
-        self.square = Z.T @ Z
-        shifted = Z[1:].T @ Z[:-1]
+        self.square = linear.gram(Z)
+        shifted = linear.product(Z[1:].T, Z[:-1])
         self.shifted = shifted + shifted.T
         ends = np.zeros((n, 2))
         ends[0, 0] = ends[-1, 1] = 1.0
         self.waves = dst(np.column_stack([Z, ends]), type=1, norm="ortho", axis=0)
-        self.eigenvalues = 2.0 * np.cos(np.pi * np.arange(1, n + 1) / (n + 1))
+        self.eigenvalues = np.array(
+            [2.0 * math.cos(math.pi * i / (n + 1)) for i in range(1, n + 1)]
+        )
 
     def __call__(self, correlation: Correlation) -> float:
         """Return -2 log L of a correlation over up to two lags, or of ar^k at lag k."""
-        G, log_det = self._lasting(correlation.ar) if correlation.ar else self._lags(correlation)
-        factor, solution, failed = dposv(G[:-1, :-1], G[:-1, -1])
-        if failed:
+        ar = correlation.ar
+        try:
+            G, log_det = self._lasting(ar) if ar else self._lags(correlation)
+            factor = linear.cholesky(G[:-1, :-1])
+        except np.linalg.LinAlgError:
             return np.inf  # splines without a point
-        squares = max(float(G[-1, -1] - G[:-1, -1] @ solution), LEAST_SQUARES)
-        log_curve = 2.0 * float(np.log(np.diag(factor)).sum())
-        size = squares if self.known else self.rest * np.log(squares / self.rest)
+        part = linear.solve_lower(factor, G[:-1, -1])
+        squares = max(float(G[-1, -1]) - linear.dot(part, part), LEAST_SQUARES)
+        log_curve = 2.0 * float(functions.log(np.diag(factor)).sum())
+        size = squares if self.known else self.rest * functions.log(squares / self.rest)
         return log_det + log_curve + size
 
     def _lasting(self, ar: float) -> tuple[FloatArray, float]:
         rest = 1.0 - ar**2
-        G = (1.0 + ar**2) * self.square - ar * self.shifted - ar**2 * self.ends.T @ self.ends
-        return G / rest, (len(self.eigenvalues) - 1) * float(np.log(rest))
+        middle = (1.0 + ar**2) * self.square - ar * self.shifted
+        G = middle - ar**2 * linear.gram(self.ends)
+        return G / rest, (len(self.eigenvalues) - 1) * float(functions.log(rest))
 
     def _lags(self, correlation: Correlation) -> tuple[FloatArray, float]:
         one, two = (*correlation.lags, 0.0, 0.0)[:2]
         density = 1.0 + one * self.eigenvalues + two * (self.eigenvalues**2 - 2.0)
-        G = self.waves.T @ (self.waves / density[:, None])
+        G = linear.product(self.waves.T, self.waves / density[:, None])
         inner, cross = G[:-2, :-2], G[:-2, -2:]
         ends = np.eye(2) + two * G[-2:, -2:]
-        log_det = float(np.log(density).sum() + np.log(np.linalg.det(ends)))
-        return inner - two * cross @ np.linalg.solve(ends, cross.T), log_det
+        log_det = float(functions.log(density).sum()) + linear.log_det(ends)
+        return inner - linear.product(two * cross, linear.solve(ends, cross.T)), log_det

@@ -6,14 +6,16 @@ correlation, and its size where none is stated, are those of the highest restric
 absorbs. The number of splines has the lowest BIC.
 """
 
+import math
 from dataclasses import dataclass
 
 import numpy as np
 from scipy.interpolate import BSpline
-from scipy.optimize import minimize, minimize_scalar
+from scipy.optimize import minimize_scalar
 
 from pyrofit.estimate.correlation import Correlation, shrunk
 from pyrofit.estimate.restricted import LEAST_SQUARES, Restricted
+from pyrofit.numerics import fitting, functions, linear
 from pyrofit.solver.arrays import FloatArray
 
 NEAR = 0.02
@@ -100,24 +102,20 @@ def _correlations(X: FloatArray, y: FloatArray, known: bool) -> list[Correlation
         return criterion(shrunk(tuple(lags.tolist())))
 
     def lasting(size: float) -> float:
-        return criterion(Correlation(ar=float(np.tanh(size))))
+        return criterion(Correlation(ar=float(functions.tanh(size))))
 
     lag = minimize_scalar(one, bounds=(-0.5, 0.5), method="bounded", options={"xatol": NEAR}).x
-    options = {
-        "xatol": NEAR,
-        "fatol": 0.2,
-        "initial_simplex": [[lag, 0.0], [lag, -0.1], [0.0, 0.1]],
-    }
-    lags = minimize(two, [lag, 0.0], method="Nelder-Mead", options=options).x
+    simplex = np.array([[lag, 0.0], [lag, -0.1], [0.0, 0.1]])
+    lags = fitting.nelder_mead(two, simplex, near=NEAR, like=0.2)
     # Where its size is not known, noise as slow as the curve would be taken for the curve.
-    slowest = LARGEST_AR if known else float(np.exp(-3.0 * (X.shape[1] - 3) / len(y)))
-    limits = (-1.5, float(np.arctanh(slowest)))
+    slowest = LARGEST_AR if known else float(functions.exp(-3.0 * (X.shape[1] - 3) / len(y)))
+    limits = (-1.5, math.atanh(slowest))
     ar = minimize_scalar(lasting, bounds=limits, method="bounded", options={"xatol": NEAR}).x
     return [
         Correlation(),
         shrunk((float(lag),)),
         shrunk(tuple(lags.tolist())),
-        Correlation(ar=float(np.tanh(ar))),
+        Correlation(ar=float(functions.tanh(ar))),
     ]
 
 
@@ -131,21 +129,21 @@ def _fit(
     therefore costs as much as strong evidence for it brings.
     """
     white, log_det = found.whiten(np.column_stack([X, y]))
-    basis, R = np.linalg.qr(white[:, :-1], mode="reduced")
-    part = basis.T @ white[:, -1]
-    scatter = white[:, -1] - basis @ part
+    basis, R = linear.qr(white[:, :-1])
+    part = linear.product(basis.T, white[:, -1])
+    scatter = white[:, -1] - linear.product(basis, part)
     n, splines = X.shape
-    squares = max(float(scatter @ scatter), LEAST_SQUARES)
+    squares = max(linear.dot(scatter, scatter), LEAST_SQUARES)
     scale = float(np.sqrt(squares / (n - splines)))
-    misfit = squares if known else n * np.log(squares / n)
+    misfit = squares if known else n * functions.log(squares / n)
     return Scatter(
         criterion=log_det
         + misfit
-        + (splines + found.numbers) * np.log(n)
+        + (splines + found.numbers) * functions.log(n)
         + (CLEAR if found.opposed else 0.0),
         correlation=found,
         scale=scale,
-        curve=shape * (X @ np.linalg.solve(R, part)),
+        curve=shape * linear.product(X, linear.solve_upper(R, part)),
         scatter=scatter / scale,
         basis=basis,
     )

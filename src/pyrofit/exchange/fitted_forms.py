@@ -5,6 +5,7 @@ from typing import NamedTuple
 import numpy as np
 
 from pyrofit.exchange.fds.remarks import Remark
+from pyrofit.numerics import functions, linear
 from pyrofit.solver.arrays import TABLE_TEMPERATURES_K, FloatArray
 
 FROM_K, TO_K = 290.0, 800.0
@@ -34,9 +35,9 @@ def power_law(table: FloatArray, reference_K: float) -> Form:
     T, p = _part(table)
     if np.ptp(p) <= EXACT * abs(float(p[0])):
         return Form((float(p[0]), 0.0), 0.0)
-    n, log_p0 = np.polyfit(np.log(T / reference_K), np.log(p), 1)
-    fitted = np.exp(log_p0) * (T / reference_K) ** n
-    return Form((float(np.exp(log_p0)), float(n)), float(np.abs(fitted / p - 1.0).max()))
+    n, log_p0 = linear.polynomial(functions.log(T / reference_K), functions.log(p), 1)
+    fitted = functions.exp(log_p0) * functions.power(T / reference_K, n)
+    return Form((float(functions.exp(log_p0)), float(n)), float(np.abs(fitted / p - 1.0).max()))
 
 
 def quadratic(table: FloatArray) -> Form:
@@ -49,7 +50,7 @@ def quadratic(table: FloatArray) -> Form:
     if np.ptp(p) <= EXACT * abs(float(p[0])):
         return Form((float(p[0]), 0.0, 0.0), 0.0)
     for degree in (1, 2):
-        c = np.polyfit(T, p, degree)[::-1]
+        c = linear.polynomial(T, p, degree)[::-1]
         error = float(np.abs(np.polynomial.polynomial.polyval(T, c) / p - 1.0).max())
         if error <= EXACT:
             break

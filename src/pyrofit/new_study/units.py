@@ -6,6 +6,7 @@ from collections.abc import Mapping
 import numpy as np
 
 from pyrofit.data.csvfile import FloatArray, Table
+from pyrofit.numerics import functions
 from pyrofit.quantities.base import Quantity
 from pyrofit.quantities.units import SCALES, header_key, unit_key
 
@@ -115,7 +116,7 @@ def _time_unit(table: Table, time_column: str, heated: str) -> str:
     with np.errstate(over="ignore", invalid="ignore"):  # an overflow is refused when it is read
         rate = max(_heating_rate(time, temperature), 1e-6)
     off = {
-        unit: float(np.abs(np.log(factor * rate / _STANDARD_RATES)).min())
+        unit: float(np.abs(functions.log(factor * rate / _STANDARD_RATES)).min())
         for unit, factor in (("s", 60.0), ("min", 1.0))
     }
     return min(off, key=lambda unit: off[unit])

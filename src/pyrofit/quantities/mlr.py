@@ -2,6 +2,7 @@
 
 import numpy as np
 
+from pyrofit.numerics import linear
 from pyrofit.quantities.base import FloatArray, Quantity, Shown
 
 
@@ -27,7 +28,7 @@ def released(time: FloatArray, rate: FloatArray) -> float:
     3.5
     """
     edges = np.concatenate(([0.0], 0.5 * (time[:-1] + time[1:]), time[-1:]))
-    return float(rate @ np.diff(edges))
+    return linear.dot(rate, np.diff(edges))
 
 
 QUANTITY = Quantity(

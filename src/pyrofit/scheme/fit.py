@@ -14,6 +14,7 @@ from pyrofit.estimate.posterior import covariance
 from pyrofit.estimate.prior import NormalPrior, prior_of
 from pyrofit.estimate.problem import Problem
 from pyrofit.estimate.targets import Measurements
+from pyrofit.numerics import functions, linear
 from pyrofit.scheme.noise import Scatter, deviance, most_likely
 from pyrofit.scheme.posed import Posed
 from pyrofit.scheme.records import Record
@@ -92,7 +93,7 @@ class FittedScheme:
         p counts the parameters and the size of the discrepancy, n the points.
         """
         points = sum(self.likelihood.points)
-        return self.deviance + (self.posed.count + 1) * float(np.log(points))
+        return self.deviance + (self.posed.count + 1) * float(functions.log(points))
 
     def spread(self) -> FloatArray:
         """Return the covariance of x, shape (parameters, parameters)."""
@@ -183,7 +184,7 @@ def _likelihood(
 def _known(likelihood: Likelihood, x: FloatArray) -> float:
     """Return the sum of the squared residuals of the known values."""
     rows = likelihood.prior.residuals(likelihood.values(x)[None])[0]
-    return float(rows @ rows)
+    return linear.dot(rows, rows)
 
 
 def _residuals(likelihood: Likelihood, x: FloatArray) -> list[FloatArray]:

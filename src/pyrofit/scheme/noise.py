@@ -10,20 +10,21 @@ them, which a wrong scheme has while the mass changes. Its size s is found by ma
 for each scheme, so that neither the number of points nor a fixed floor decides.
 """
 
+import math
 from collections.abc import Sequence
 from dataclasses import dataclass
 from functools import cached_property
 
 import numpy as np
-from scipy.linalg import solve_triangular
 
 from pyrofit.estimate.correlation import Correlation
 from pyrofit.estimate.noise import NoiseModel
+from pyrofit.numerics import functions, linear
 from pyrofit.scheme.records import Record
 from pyrofit.scheme.settings import Settings
 from pyrofit.solver.arrays import FloatArray
 
-LOG_2_PI = float(np.log(2.0 * np.pi))
+LOG_2_PI = math.log(2.0 * math.pi)
 LEAST = 0.05
 """Least g, so that no point is free of discrepancy."""
 
@@ -40,9 +41,9 @@ class Scatter:
         """Covariances of drift, and of a discrepancy of size 1, (n, n) each."""
         r, given = self.record, self.settings
         apart = np.abs(np.subtract.outer(r.temperature_K, r.temperature_K))
-        drift = given.drift**2 * np.exp(-apart / given.drift_length_K)
+        drift = given.drift**2 * functions.exp(-apart / given.drift_length_K)
         g = np.maximum(2.0 * np.sqrt(r.converted * (1.0 - r.converted)), LEAST)
-        return drift, np.outer(g, g) * np.exp(-apart / given.discrepancy_length_K)
+        return drift, np.outer(g, g) * functions.exp(-apart / given.discrepancy_length_K)
 
     def _lasting(self, size: float) -> FloatArray:
         drift, unit = self._parts
@@ -56,7 +57,7 @@ class Scatter:
 
     def noise(self, size: float) -> NoiseModel:
         """Return the noise of a channel that has this covariance."""
-        values, vectors = np.linalg.eigh(self._lasting(size))
+        values, vectors = linear.eigen(self._lasting(size))
         kept = values > 1e-4 * self.settings.scatter**2
         return NoiseModel(
             sd=np.full(self.record.mass.size, self.settings.scatter),
@@ -76,8 +77,8 @@ def deviance(scatters: Sequence[Scatter], residuals: Sequence[FloatArray], size:
     total = 0.0
     for scatter, r in zip(scatters, residuals, strict=True):
         inverse, log_det = scatter.factors[size]
-        white = inverse @ r
-        total += float(white @ white) + log_det + r.size * LOG_2_PI
+        white = linear.product(inverse, r)
+        total += linear.dot(white, white) + log_det + r.size * LOG_2_PI
     return total
 
 
@@ -94,11 +95,10 @@ def log_density(residual: FloatArray, covariance: FloatArray) -> float:
     -0.9189
     """
     inverse, log_det = _factor(covariance)
-    white = inverse @ residual
-    return -0.5 * (float(white @ white) + log_det + residual.size * LOG_2_PI)
+    white = linear.product(inverse, residual)
+    return -0.5 * (linear.dot(white, white) + log_det + residual.size * LOG_2_PI)
 
 
 def _factor(covariance: FloatArray) -> tuple[FloatArray, float]:
-    factor = np.linalg.cholesky(covariance)
-    inverse = solve_triangular(factor, np.eye(len(factor)), lower=True)
-    return inverse, 2.0 * float(np.log(np.diag(factor)).sum())
+    inverse = linear.inverse_root(covariance)
+    return inverse, -2.0 * float(functions.log(np.diag(inverse)).sum())

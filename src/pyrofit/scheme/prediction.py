@@ -7,6 +7,7 @@ import numpy as np
 
 from pyrofit.cost.distances import root_mean_square
 from pyrofit.estimate.likelihood import Likelihood
+from pyrofit.numerics import linear
 from pyrofit.scheme.fit import FittedScheme, Setting, fit_posed, problem_of
 from pyrofit.scheme.noise import log_density
 from pyrofit.scheme.records import Record, rates_of
@@ -66,7 +67,7 @@ def predict(setting: Setting, fitted: FittedScheme, records: Sequence[Record]) -
         curve = likelihood.curves(fitted.x)
         if curve is None:
             curve = np.zeros(record.mass.size)
-        total = scatter.covariance(fitted.size) + slopes @ spread @ slopes.T
+        total = scatter.covariance(fitted.size) + linear.product(slopes, spread, slopes.T)
         score = log_density(curve - record.mass, total)
         found.append(Predicted(record, curve, score))
     return found

@@ -9,6 +9,7 @@ import pandas as pd
 
 from pyrofit.config import Study, TermSpec, as_study
 from pyrofit.estimate.targets import Measurements
+from pyrofit.numerics import functions
 from pyrofit.quantities import quantities_of
 from pyrofit.scheme.arrangements.base import PREFIX
 from pyrofit.scheme.fit import Setting, problem_of
@@ -184,7 +185,7 @@ def _frame(rate: float, mass: FloatArray) -> pd.DataFrame:
 def _noise(mass: FloatArray, settings: Settings, rng: np.random.Generator) -> FloatArray:
     """Return scatter of points, drift of the balance, and a shift of the temperature."""
     steps = np.diff(TEMPERATURES_K, prepend=TEMPERATURES_K[0])
-    memory = np.exp(-steps / settings.drift_length_K)
+    memory = functions.exp(-steps / settings.drift_length_K)
     drift = np.empty(mass.size)
     last = rng.standard_normal()
     for i, keep in enumerate(memory):

@@ -16,6 +16,7 @@ from pyrofit.constants import GAS_CONSTANT
 from pyrofit.model import material as words
 from pyrofit.model.base import value_of
 from pyrofit.model.slab import Sample
+from pyrofit.numerics import functions
 from pyrofit.solver.arrays import (
     TABLE_SIZE,
     BoolArray,
@@ -140,7 +141,7 @@ def rate_factor(reaction: words.Reaction, values: Values) -> Value:
     assert reaction.reference_temperature_K is not None
     rate = value_of(reaction.reference_rate_1_s, values)
     temperature = value_of(reaction.reference_temperature_K, values)
-    return rate * np.exp(value_of(reaction.E_J_mol, values) / (GAS_CONSTANT * temperature))
+    return rate * functions.exp(value_of(reaction.E_J_mol, values) / (GAS_CONSTANT * temperature))
 
 
 @dataclass(frozen=True)

@@ -7,6 +7,7 @@ import numpy as np
 
 from pyrofit.model.base import value_of
 from pyrofit.model.properties import Changed, Linear, PowerLaw, Table
+from pyrofit.numerics import functions
 from pyrofit.solver.arrays import (
     TABLE_TEMPERATURES_K,
     FloatArray,
@@ -58,7 +59,9 @@ def property_at(prop: object, values: Values, T: FloatArray, sets: int = 1) -> F
         table = value * np.maximum(LEAST_SHARE, 1.0 + rise)
     else:
         # Not a power: of some exponents numpy makes a root or a square, which rounds otherwise.
-        table = value * np.exp(value_of(prop.exponent, values) * np.log(T / reference))
+        table = value * functions.exp(
+            value_of(prop.exponent, values) * functions.log(T / reference)
+        )
     return np.broadcast_to(table, shape)
 
 
@@ -76,16 +79,16 @@ def _changed(prop: Changed, values: Values, T: FloatArray, sets: int) -> FloatAr
     if _given(at["slope_1_K"]):
         slope = slope + scale * at["slope_1_K"] * (T - at["reference_temperature_K"])
     if _given(at["bend"]):
-        slope = slope + scale * at["bend"] * width * np.logaddexp(0.0, above / width)
+        slope = slope + scale * at["bend"] * width * functions.log_one_plus_exp(above / width)
     changed = of * slope
     if _given(at["step"]) or _given(at["thinning"]):
         # 1 / (1 + exp(-x)), which would overflow.
-        passed = 0.5 + 0.5 * np.tanh(0.5 * above / width)
+        passed = 0.5 + 0.5 * functions.tanh(0.5 * above / width)
         changed = changed + scale * at["step"] * passed
     if _given(at["peak_area"]):
         away = (T - at["peak_temperature_K"]) / at["peak_width_K"]
         height = scale * at["peak_area"] / (math.sqrt(2.0 * math.pi) * at["peak_width_K"])
-        changed = changed + height * np.exp(-0.5 * away * away)
+        changed = changed + height * functions.exp(-0.5 * away * away)
     if _given(at["thinning"]):
         changed = changed / np.maximum(1.0 + scale * at["thinning"] * passed, LEAST_SHARE)
     return np.asarray(np.maximum(changed, LEAST_SHARE * of))

@@ -9,6 +9,7 @@ import numpy as np
 from pyrofit.model.base import value_of
 from pyrofit.model.slab import SlabExperiment
 from pyrofit.model.slab_faces import FluxProfile
+from pyrofit.numerics import linear
 from pyrofit.solver.arrays import FloatArray, IntArray, Value, Values
 from pyrofit.solver.curves import Curves, Request, Runs
 
@@ -114,14 +115,14 @@ def rings(profile: FluxProfile | None) -> tuple[FloatArray, FloatArray]:
     before, now = np.zeros(RINGS), np.full(RINGS, np.sqrt(1.0 / RINGS))
     alpha, beta = [], [0.0]
     for _ in POINTS:
-        alpha.append(float(now @ (f * now)))
+        alpha.append(linear.dot(now, f * now))
         rest = (f - alpha[-1]) * now - beta[-1] * before
-        beta.append(float(np.linalg.norm(rest)))
+        beta.append(linear.norm(rest))
         if beta[-1] < 1e-9:
             break
         before, now = now, rest / beta[-1]
     off = beta[1 : len(alpha)]
-    factors, vectors = np.linalg.eigh(np.diag(alpha) + np.diag(off, 1) + np.diag(off, -1))
+    factors, vectors = linear.eigen(np.diag(alpha) + np.diag(off, 1) + np.diag(off, -1))
     return factors, vectors[0] ** 2
 
 

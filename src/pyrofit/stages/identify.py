@@ -11,6 +11,7 @@ from pyrofit.estimate.likelihood import Likelihood
 from pyrofit.estimate.optimisers import OPTIMISERS
 from pyrofit.estimate.pose import of_imp, of_kinetics
 from pyrofit.estimate.pose_likelihood import pose_likelihood
+from pyrofit.numerics import linear
 from pyrofit.results import kinetics, searches
 from pyrofit.results.files import Results, write_csv, write_json
 from pyrofit.stages.imp_likelihood import ends_of_searches, imp_likelihood
@@ -183,7 +184,7 @@ def _noise(likelihood: Likelihood, found: Identification) -> dict[str, Any]:
             "whiteness": noise.whiteness,
             "floors": dict(noise.floors),
             "words": noise.describe(),
-            "chi2": float(part @ part),
+            "chi2": linear.dot(part, part),
         }
         for (experiment, signal, _), noise, part in zip(
             likelihood.problem.picks, likelihood.noise, residuals, strict=True

@@ -14,6 +14,7 @@ from pyrofit.estimate.likelihood import Likelihood
 from pyrofit.estimate.pose import of_imp
 from pyrofit.estimate.sampled import Sampled, sample, spread
 from pyrofit.logs import Tell
+from pyrofit.numerics import linear
 from pyrofit.results import identification, posterior
 from pyrofit.results.files import Results, write_csv, write_json
 from pyrofit.solver.arrays import FloatArray
@@ -91,10 +92,11 @@ def likelihood_and_optimum(study: Study, results: Results) -> tuple[Likelihood, 
     start = likelihood.scaled(identification.estimates(study, results)["estimate"].to_numpy(float))
     known = float(identification.noise(results)["chi2"])
     residuals = likelihood.residuals(start)[: sum(likelihood.points)]
-    if abs(float(residuals @ residuals) - known) > CHANGED * known:
+    now = linear.dot(residuals, residuals)
+    if abs(now - known) > CHANGED * known:
         raise DataError(
             f"{path}: this belongs to another description of the study, as its chi-square is "
-            f"{residuals @ residuals:.4g} instead of {known:.4g}. Run the study again, or name the "
+            f"{now:.4g} instead of {known:.4g}. Run the study again, or name the "
             "study file that it ran with"
         )
     return likelihood, start
@@ -124,7 +126,7 @@ def _write(
 
 
 def _correlation(draws: FloatArray) -> FloatArray:
-    return np.atleast_2d(np.corrcoef(draws.T))
+    return linear.correlation(draws.T)
 
 
 def _content(

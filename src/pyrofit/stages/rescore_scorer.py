@@ -11,6 +11,7 @@ from pyrofit.estimate.likelihood import Likelihood
 from pyrofit.estimate.pose import of_imp, pose
 from pyrofit.estimate.problem import Outcome, Problem
 from pyrofit.estimate.targets import Measurements
+from pyrofit.numerics import linear
 from pyrofit.parallel import MOST_PIECES, parallel_map
 from pyrofit.results.files import Results
 from pyrofit.solver.arrays import FloatArray
@@ -67,7 +68,7 @@ class Scorer:
         measured = [term.target.value for _, term in self.problem.cost.terms[-channels:]]
         white = likelihood.whiten(np.concatenate(models[-channels:]) - np.concatenate(measured))
         known = likelihood.prior.residuals(values[None])[0]
-        return float(white @ white + known @ known)
+        return linear.dot(white, white) + linear.dot(known, known)
 
 
 def scorer_of(

@@ -8,6 +8,7 @@ import pandas as pd
 
 from pyrofit.analysis.sobol import Indices
 from pyrofit.config import Study
+from pyrofit.numerics import linear
 from pyrofit.results import sensitivity
 from pyrofit.results.files import Results, write_csv
 from pyrofit.solver.arrays import FloatArray
@@ -114,7 +115,8 @@ def _most(frame: pd.DataFrame, values: FloatArray, names: list[str]) -> dict[str
     total = frame.pivot(index="time_s", columns="input", values="total")[names]
     variance = values.var(axis=0)
     counts = total.notna().all(axis=1).to_numpy()
-    shares = variance[counts] @ total[counts].to_numpy() / max(variance[counts].sum(), 1e-300)
+    known = max(variance[counts].sum(), 1e-300)
+    shares = linear.product(variance[counts], total[counts].to_numpy()) / known
     largest = total.fillna(0.0).to_numpy()
     times = total.index.to_numpy(float)[largest.argmax(axis=0)]
     return {

@@ -12,6 +12,7 @@ import numpy as np
 
 from pyrofit.diagnose.base.fitted import FittedModel
 from pyrofit.model.experiment import Experiment
+from pyrofit.numerics import linear
 from pyrofit.solver.arrays import FloatArray
 from pyrofit.stages.sensitivity_inputs import PLACES, described, with_value
 from pyrofit.stages.worth_forecast import Lasting, Record
@@ -67,5 +68,5 @@ def lasting_of(moves: list[FloatArray], dispersion: float) -> Lasting:
     if not moves:
         return Lasting()
     V = np.column_stack(moves) / np.sqrt(dispersion)
-    directions, sizes, _ = np.linalg.svd(V, full_matrices=False)
+    directions, sizes, _ = linear.svd(V)
     return Lasting(directions, 1.0 - 1.0 / np.sqrt(1.0 + sizes**2))

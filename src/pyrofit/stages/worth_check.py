@@ -9,6 +9,7 @@ from pyrofit.diagnose.base.fitted import FittedModel
 from pyrofit.estimate.bounded_least_squares import minimise
 from pyrofit.estimate.derivatives import derivatives
 from pyrofit.estimate.likelihood import FAILED
+from pyrofit.numerics import linear
 from pyrofit.parallel import parallel_map
 from pyrofit.seeds import seed_for
 from pyrofit.solver.arrays import FloatArray
@@ -62,7 +63,7 @@ class Drawn:
                 return np.full(len(begin), FAILED)
             white = self.lasting.whiten(likelihood.whiten(curves - here)) / s
             extra = [part / s for part in new if part is not None]
-            return np.concatenate([white, known @ (x - x0), *extra]) - z
+            return np.concatenate([white, linear.product(known, x - x0), *extra]) - z
 
         def jacobian(x: FloatArray, r: FloatArray) -> FloatArray:
             def beside(X: FloatArray) -> list[FloatArray | None]:

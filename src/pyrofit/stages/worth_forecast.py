@@ -10,6 +10,7 @@ from pyrofit.estimate.likelihood import Likelihood
 from pyrofit.estimate.noise import NoiseModel
 from pyrofit.experiments import kind_of
 from pyrofit.model.experiment import Experiment
+from pyrofit.numerics import linear
 from pyrofit.solver.arrays import FloatArray, Values
 from pyrofit.solver.curves import Request
 
@@ -83,8 +84,8 @@ class Lasting:
         if self.directions is None or self.shares is None:
             return white
         shares = self.shares if white.ndim == 1 else self.shares[:, None]
-        inside = shares * (self.directions.T @ white)
-        return np.asarray(white - self.directions @ inside)
+        inside = shares * (linear.product(self.directions.T, white))
+        return np.asarray(white - linear.product(self.directions, inside))
 
 
 @dataclass(frozen=True, eq=False)

@@ -30,6 +30,7 @@ from pyrofit.estimate.derivatives import derivatives
 from pyrofit.estimate.noise import NoiseModel
 from pyrofit.estimate.posterior import curvature
 from pyrofit.experiments.base import Idea
+from pyrofit.numerics import linear
 from pyrofit.parallel import parallel_map
 from pyrofit.solver.arrays import FloatArray
 from pyrofit.solver.curves import Curves, Request
@@ -125,8 +126,9 @@ def _separation(one: _Forecast, other: _Forecast, noise: Mapping[str, NoiseModel
 
     y, z = stacked(one.curve, other.curve)
     D, A = y - z, np.column_stack(stacked(one.spread, other.spread))
-    seen = A.T @ D
-    rest = float(D @ D - seen @ np.linalg.solve(np.eye(seen.size) + A.T @ A, seen))
+    seen = linear.product(A.T, D)
+    left = linear.solve(np.eye(seen.size) + linear.gram(A), seen)
+    rest = linear.dot(D, D) - linear.dot(seen, left)
     return math.sqrt(max(rest, 0.0))
 
 
@@ -147,11 +149,11 @@ def _forecast(trial: FittedModel, idea: Idea, requests: Mapping[str, Request]) -
         return None
     bend = curvature(trial.fit.jacobian)
     # C = bend^-1 = R R^T with R = L^-T of Cholesky's bend = L L^T.
-    R = np.linalg.inv(np.linalg.cholesky(bend)).T
+    R = linear.inverse_root(bend).T
     ends = np.cumsum([request.time_s.size for request in requests.values()])
     return _Forecast(
         curve={signal: curves.signals[signal] for signal in requests},
-        spread=dict(zip(requests, np.split(slopes @ R, ends[:-1]), strict=True)),
+        spread=dict(zip(requests, np.split(linear.product(slopes, R), ends[:-1]), strict=True)),
     )
 
 

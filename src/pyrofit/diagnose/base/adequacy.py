@@ -18,6 +18,7 @@ from pyrofit.diagnose.base.descent import Fit
 from pyrofit.diagnose.base.model import Model
 from pyrofit.diagnose.base.projection import project, projector
 from pyrofit.diagnose.settings import SETTINGS
+from pyrofit.numerics import functions, linear
 from pyrofit.parallel import parallel_map
 from pyrofit.solver.arrays import FloatArray
 
@@ -106,13 +107,13 @@ def _of_noise(
     draws = SETTINGS.draws_per_block
     noise = project(spanned, rng.standard_normal((spanned.shape[0], draws)))
     scans = [_highest(part) for part in model.by_channel(noise)]
-    scores = [-(noise.T @ d).min(axis=1, initial=0.0) for d in directions]
+    scores = [-(linear.product(noise.T, d)).min(axis=1, initial=0.0) for d in directions]
     return np.max(scans, axis=0), np.max([np.zeros(draws), *scores], axis=0)
 
 
 def score(residuals: FloatArray, directions: FloatArray) -> float:
     """Return the largest score of the residuals along unit changes, zero at least."""
-    scores = -(residuals @ directions)
+    scores = -(linear.product(residuals, directions))
     return float(scores.max(initial=0.0))
 
 
@@ -169,4 +170,4 @@ def _lengths(points: int) -> list[int]:
 
 
 def _handicap(points: int, length: int) -> float:
-    return float(np.sqrt(2.0 * np.log(points / length)))
+    return float(np.sqrt(2.0 * functions.log(points / length)))

@@ -10,6 +10,7 @@ from pyrofit.data.noise import draw
 from pyrofit.diagnose.base.model import Base
 from pyrofit.diagnose.settings import SETTINGS
 from pyrofit.estimate.noise import NoiseModel
+from pyrofit.numerics import linear
 from pyrofit.solver.arrays import FloatArray
 
 
@@ -48,5 +49,5 @@ def drawn(noise: NoiseModel, rng: np.random.Generator) -> FloatArray:
     """
     e = noise.sd * draw(noise.correlation.sequence(noise.sd.size), rng)
     if noise.modes is not None:
-        e = e + noise.modes @ rng.standard_normal(noise.modes.shape[1])
+        e = e + linear.product(noise.modes, rng.standard_normal(noise.modes.shape[1]))
     return np.asarray(e)

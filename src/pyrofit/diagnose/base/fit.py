@@ -21,6 +21,7 @@ from pyrofit.estimate.noise import NoiseModel
 from pyrofit.estimate.pose import of_diagnosis
 from pyrofit.estimate.pose_likelihood import pose_likelihood
 from pyrofit.estimate.targets import Measurements
+from pyrofit.numerics import linear
 from pyrofit.parallel import parallel_map
 from pyrofit.seeds import seed_for
 from pyrofit.solver.arrays import FloatArray
@@ -145,7 +146,7 @@ def _starts(base: Base, seed: int) -> list[FloatArray]:
 
 
 def _chi2(residuals: FloatArray) -> float:
-    return float(residuals @ residuals)
+    return linear.dot(residuals, residuals)
 
 
 def with_noise_about(

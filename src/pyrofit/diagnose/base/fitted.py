@@ -9,6 +9,7 @@ from pyrofit.diagnose.base.descent import Fit, descend, refreshed
 from pyrofit.diagnose.base.model import Model, model_of, strength_of
 from pyrofit.diagnose.settings import SETTINGS
 from pyrofit.estimate.posterior import Posterior, covariance, limit_of
+from pyrofit.numerics import functions
 from pyrofit.parallel import parallel_map
 from pyrofit.solver.arrays import FloatArray
 
@@ -46,7 +47,7 @@ class FittedModel:
     @property
     def price(self) -> float:
         """log(n) per parameter of an effect."""
-        return self.numbers * float(np.log(self.model.points))
+        return self.numbers * float(functions.log(self.model.points))
 
     @property
     def posterior(self) -> Posterior:

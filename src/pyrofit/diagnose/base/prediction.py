@@ -20,6 +20,7 @@ from pyrofit.diagnose.base.fitted import FittedModel, up_to_date
 from pyrofit.diagnose.base.model import Base, Model, model_of
 from pyrofit.estimate.posterior import curvature
 from pyrofit.experiments import kind_of
+from pyrofit.numerics import linear
 from pyrofit.parallel import parallel_map
 from pyrofit.solver.arrays import FloatArray
 
@@ -50,7 +51,7 @@ def forecast(part: Fit, whole: Fit) -> float:
 
 
 def _log_det(fit: Fit) -> float:
-    return float(np.linalg.slogdet(curvature(fit.jacobian))[1])
+    return linear.log_det(curvature(fit.jacobian))
 
 
 def slabs(trial: FittedModel) -> list[str]:

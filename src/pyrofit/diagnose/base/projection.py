@@ -4,6 +4,7 @@ import numpy as np
 
 from pyrofit.diagnose.base.descent import Fit
 from pyrofit.estimate.posterior import UNIFORM
+from pyrofit.numerics import linear
 from pyrofit.solver.arrays import FloatArray
 
 
@@ -12,14 +13,14 @@ def projector(fit: Fit) -> FloatArray:
 
     A parameter that rests at a limit does not move.
     """
-    slope = fit.jacobian.T @ fit.residuals
+    slope = linear.product(fit.jacobian.T, fit.residuals)
     free = ~((fit.x <= 0.0) & (slope > 0.0)) & ~((fit.x >= 1.0) & (slope < 0.0))
     J = fit.jacobian[:, free]
-    U, s, _ = np.linalg.svd(J, full_matrices=False)
+    U, s, _ = linear.svd(J)
     # w - J (J^T J + Pi)^-1 J^T w = w - U (s^2/(s^2 + Pi)) U^T w
     return np.asarray(U * np.sqrt(s**2 / (s**2 + UNIFORM)))
 
 
 def project(spanned: FloatArray, w: FloatArray) -> FloatArray:
     """Return P w."""
-    return np.asarray(w - spanned @ (spanned.T @ w))
+    return np.asarray(w - linear.product(spanned, linear.product(spanned.T, w)))

@@ -17,6 +17,7 @@ from pyrofit.estimate.problem import Problem
 from pyrofit.model.base import value_of
 from pyrofit.model.slab_faces import Back, Side
 from pyrofit.model.time_table import at_start
+from pyrofit.numerics import functions
 from pyrofit.solver.arrays import FloatArray
 
 LOSS_SD = {"gas_temperature_K": 30.0, "h_change_W_m2K": 6.0, "h_cube_root_W_m2K43": 0.8}
@@ -64,6 +65,6 @@ def _convection(side: Side, values: Values, T: FloatArray) -> FloatArray:
     """Return the loss of a side by convection [W/m2], of tables at the start, the gas risen."""
     h = max(at_start(side.h_W_m2K, values) + value_of(side.h_change_W_m2K, values), 0.0)
     above = T - at_start(side.gas_temperature_K, values) - value_of(side.gas_rise_K, values)
-    root = value_of(side.h_cube_root_W_m2K43, values) * np.cbrt(np.abs(above))
+    root = value_of(side.h_cube_root_W_m2K43, values) * functions.cube_root(np.abs(above))
     factor = value_of(side.loss_factor, values) if isinstance(side, Back) else 1.0
     return np.asarray(factor * (h + root) * above)

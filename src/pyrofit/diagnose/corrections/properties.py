@@ -8,6 +8,7 @@ from pyrofit.diagnose.corrections.correction import Correction, Shape, Values, n
 from pyrofit.diagnose.settings import SETTINGS
 from pyrofit.effects.substance import properties_changed, shares
 from pyrofit.estimate.problem import Problem
+from pyrofit.numerics import functions, linear
 from pyrofit.solver.lower_property import property_table
 
 PROPERTIES = {
@@ -38,8 +39,8 @@ def of_property(problem: Problem, values: Values, T: tuple[float, float], probe:
 
     def shape(values: Values) -> Shape:
         at = np.linspace(*T, SETTINGS.correction_points_drawn)
-        peaks = np.exp(-0.5 * (np.subtract.outer(at, centres) / width) ** 2)
-        change = peaks @ [values[name] / area for name in names]
+        peaks = functions.exp(-0.5 * (np.subtract.outer(at, centres) / width) ** 2)
+        change = linear.product(peaks, [values[name] / area for name in names])
         return list(zip(at.tolist(), change.tolist(), strict=True))
 
     return Correction(

@@ -18,6 +18,7 @@ from pyrofit.diagnose.base.prediction import HELD_OUT, Predictions
 from pyrofit.diagnose.base.projection import project, projector
 from pyrofit.diagnose.judge.inflation import Inflation, factor_of
 from pyrofit.diagnose.settings import SETTINGS
+from pyrofit.numerics import linear
 from pyrofit.solver.arrays import FloatArray
 
 
@@ -102,8 +103,9 @@ def disagreement(trial: FittedModel, effect: str, inflation: Inflation) -> float
         own = [p if o == experiment else 0.0 * p for p, o in zip(parts, owners, strict=True)]
         d[: model.points, k] = np.concatenate(own)
     d = project(projector(fit), d)
-    found = np.linalg.lstsq(d, fit.residuals, rcond=1e-8)[0]
-    return float(chi_squared.sf(float(fit.residuals @ d @ found), len(moved) - 1))
+    found = linear.least_squares(d, fit.residuals, least=1e-8)
+    fall = linear.dot(fit.residuals, linear.product(d, found))
+    return float(chi_squared.sf(fall, len(moved) - 1))
 
 
 def _size(parts: Sequence[FloatArray], owners: Sequence[str], experiment: str) -> float:

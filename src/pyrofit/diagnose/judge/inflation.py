@@ -16,6 +16,7 @@ import numpy as np
 from pyrofit.diagnose.base.fitted import FittedModel
 from pyrofit.diagnose.search.stepwise import Search
 from pyrofit.estimate.noise import LASTING
+from pyrofit.numerics import linear
 from pyrofit.solver.arrays import FloatArray
 
 
@@ -40,7 +41,7 @@ class Inflation:
     def chi2(self, trial: FittedModel) -> float:
         """Return chi-square of a model with the noise of this variance."""
         w = self.rows(trial) * trial.fit.residuals
-        return float(w @ w)
+        return linear.dot(w, w)
 
     def penalised(self, trial: FittedModel) -> float:
         """Return that chi-square with the price of the parameters of the effects."""

@@ -11,10 +11,9 @@ for a coefficient of a correction, whose prior is normal. Where a model misfits,
 noise is that of `inflation`; the corrections are not fitted again under it.
 """
 
+import math
 from collections.abc import Sequence
 from dataclasses import dataclass
-
-import numpy as np
 
 from pyrofit.diagnose.base.descent import refreshed
 from pyrofit.diagnose.base.fitted import FittedModel
@@ -25,6 +24,7 @@ from pyrofit.diagnose.judge.inflation import Inflation
 from pyrofit.diagnose.settings import SETTINGS
 from pyrofit.effects import known_effects
 from pyrofit.estimate.posterior import UNIFORM, curvature
+from pyrofit.numerics import linear
 from pyrofit.parallel import parallel_map
 
 
@@ -103,8 +103,8 @@ def _above(
     starts = (reduced.fit.x, end.fit.x[kept])
     fit = min((corrected(reduced, correction, x) for x in starts), key=lambda one: one.chi2)
     narrow = (2.0 * SETTINGS.widest_correction) ** 2  # inverse variance in x of a coefficient
-    others = reduced.numbers * np.log(UNIFORM) + len(correction.sd) * np.log(UNIFORM + narrow)
-    own = end.numbers * np.log(UNIFORM)
+    others = reduced.numbers * math.log(UNIFORM) + len(correction.sd) * math.log(UNIFORM + narrow)
+    own = end.numbers * math.log(UNIFORM)
     corrected_model = FittedModel(model, refreshed(model, fit))
     return float(_size(corrected_model, inflation) - others - (_size(end, inflation) - own))
 
@@ -112,4 +112,4 @@ def _above(
 def _size(trial: FittedModel, inflation: Inflation) -> float:
     """Return chi2 + log det(J^T J + Pi) under the inflated noise."""
     rows = inflation.rows(trial)[:, None]
-    return inflation.chi2(trial) + float(np.linalg.slogdet(curvature(rows * trial.fit.jacobian))[1])
+    return inflation.chi2(trial) + linear.log_det(curvature(rows * trial.fit.jacobian))

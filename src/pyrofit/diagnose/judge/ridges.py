@@ -7,12 +7,14 @@ of its least eigenvalue says which product of powers, p_1^a_1 p_2^a_2 ..., is kn
 relative standard deviation is sqrt(a^T R a).
 """
 
+import math
 from collections.abc import Sequence
 from dataclasses import dataclass
 
 import numpy as np
 
 from pyrofit.diagnose.settings import SETTINGS
+from pyrofit.numerics import linear
 from pyrofit.solver.arrays import FloatArray
 
 
@@ -59,10 +61,10 @@ def ridge_of(
         return None
     p = values[left_open]
     R = covariance[np.ix_(left_open, left_open)] / np.outer(p, p)
-    a = np.linalg.eigh(R)[1][:, 0]
+    a = linear.eigen(R)[1][:, 0]
     unit = 0 if abs(a[0]) >= 0.1 * np.abs(a).max() else int(np.argmax(np.abs(a)))
     a = np.round(a / a[unit], 1)
-    product = float(np.sqrt(max(a @ R @ a, 0.0)))
+    product = math.sqrt(max(linear.dot(a, linear.product(R, a)), 0.0))
     alone = np.sqrt(np.diag(R))
     if np.count_nonzero(a) < 2 or SETTINGS.ridge_gain * product > alone[unit]:
         return None

@@ -23,6 +23,7 @@ from pyrofit.diagnose.settings import SETTINGS
 from pyrofit.effects import known_effects
 from pyrofit.errors import DataError
 from pyrofit.estimate.posterior import limit_of
+from pyrofit.numerics import functions, linear
 
 SCHEMA = 1
 CALIBRATION = "calibration"
@@ -45,7 +46,7 @@ def content(
         "windows": _windows(found),
         "screen": screened(found),
         "confusability": confusability_of(found),
-        "needed": found.spare + float(np.log(found.base.model.points)),
+        "needed": found.spare + float(functions.log(found.base.model.points)),
         "ambiguity": SETTINGS.ambiguous_chi2,
         "not_tried": _not_tried(study),
         "candidates": candidates(found, verdict, final, processes),
@@ -173,7 +174,7 @@ def _misfits(trial: FittedModel) -> list[dict[str, Any]]:
     targets = [term.target for _, term in model.likelihood.problem.cost.terms]
     parts = model.likelihood.split(curves)
     return [
-        {"curve": c, "chi2": float(w @ w), "rms": root_mean_square(c - t.value)}
+        {"curve": c, "chi2": linear.dot(w, w), "rms": root_mean_square(c - t.value)}
         for c, t, w in zip(parts, targets, white, strict=True)
     ]
 

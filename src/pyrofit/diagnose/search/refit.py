@@ -20,6 +20,7 @@ from pyrofit.diagnose.settings import SETTINGS
 from pyrofit.effects import known_effects
 from pyrofit.effects.base import Quantity
 from pyrofit.estimate.posterior import curvature
+from pyrofit.numerics import linear
 from pyrofit.parallel import parallel_map
 from pyrofit.solver.arrays import FloatArray
 
@@ -92,7 +93,7 @@ def _start(trial: FittedModel, seen: Screening, at: int) -> FloatArray:
     """Return x with the effect at a strength, and the others where a linear refit moves them."""
     x = extended(trial.fit.x, seen.effect, float(seen.strengths[at]))
     J = trial.fit.jacobian
-    x[:-1] -= np.linalg.solve(curvature(J), J.T @ (trial.fit.residuals + seen.raw[:, at]))
+    x[:-1] -= linear.solve(curvature(J), linear.product(J.T, trial.fit.residuals + seen.raw[:, at]))
     return x
 
 

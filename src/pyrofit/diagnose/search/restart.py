@@ -11,6 +11,7 @@ from pyrofit.diagnose.base.fitted import FittedModel, Key, followed, lower_of, m
 from pyrofit.diagnose.base.model import extended, model_of, strength_of
 from pyrofit.diagnose.search.step import SearchContext, in_order
 from pyrofit.diagnose.settings import SETTINGS
+from pyrofit.numerics import linear
 from pyrofit.parallel import parallel_map
 from pyrofit.solver.arrays import FloatArray
 
@@ -79,7 +80,7 @@ def _start(trial: FittedModel, x: FloatArray) -> FloatArray:
             strength = quantity.value + size * (quantity.typical - quantity.value)
             at = extended(at, effect, strength, form)
         points.append(at)
-    chi2 = [float(r @ r) for r in trial.model.residuals_all(np.array(points))]
+    chi2 = [linear.dot(r, r) for r in trial.model.residuals_all(np.array(points))]
     return points[int(np.argmin(chi2))]
 
 

@@ -19,6 +19,7 @@ from pyrofit.diagnose.base.descent import Fit
 from pyrofit.diagnose.base.model import Model, extended, model_of, strength_of
 from pyrofit.diagnose.base.projection import project
 from pyrofit.diagnose.settings import SETTINGS
+from pyrofit.numerics import linear
 from pyrofit.solver.arrays import FloatArray
 
 
@@ -42,7 +43,7 @@ class Screening:
     @property
     def sizes(self) -> FloatArray:
         """|P d| in standard deviations, by strength."""
-        return np.asarray(np.linalg.norm(self.changes, axis=0))
+        return np.asarray(np.sqrt(np.sum(self.changes**2, axis=0)))
 
     @property
     def directions(self) -> FloatArray:
@@ -103,5 +104,5 @@ def _typical(effect: str, strengths: FloatArray) -> int:
 def confusability(looks: list[Screening]) -> FloatArray:
     """Return cos(P d_i, P d_j) at typical strengths, shape (effects, effects)."""
     columns = [look.changes[:, look.typical] for look in looks]
-    unit = np.column_stack([c / max(float(np.linalg.norm(c)), 1e-12) for c in columns])
-    return np.asarray(unit.T @ unit)
+    unit = np.column_stack([c / max(linear.norm(c), 1e-12) for c in columns])
+    return linear.gram(unit)

@@ -4,8 +4,6 @@ from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass, replace
 from functools import partial
 
-import numpy as np
-
 from pyrofit.diagnose.base.adequacy import LackOfFit
 from pyrofit.diagnose.base.fit import blurred, has_better_noise, refitted_all, sharpened
 from pyrofit.diagnose.base.fitted import (
@@ -36,6 +34,7 @@ from pyrofit.diagnose.search.step import (
 )
 from pyrofit.diagnose.search.step_start import step_from, with_sharp_noise
 from pyrofit.diagnose.settings import SETTINGS
+from pyrofit.numerics import functions
 
 Fitting = Callable[[Sequence[SearchStep]], Sequence[Sequence[FittedModel]]]
 
@@ -134,7 +133,7 @@ class _Pass:
 
     @property
     def spare(self) -> float:
-        return 2.0 * float(np.log(max(len(self.effects), 1)))
+        return 2.0 * float(functions.log(max(len(self.effects), 1)))
 
     def run(self, first: SearchStep) -> Search:
         """Search from the first look at the base model."""

@@ -4,6 +4,7 @@ import numpy as np
 
 from pyrofit.doctor.examined import Examined, FloatArray, Weight
 from pyrofit.doctor.signals import is_back, is_slab, temperatures
+from pyrofit.numerics import linear
 
 _ROOM_K = (270.0, 320.0)
 _POSSIBLE_K = (180.0, 1600.0)
@@ -32,7 +33,7 @@ def check_heating_rate(seen: Examined) -> None:
         span = f"{T[1].min():.0f} to {T[1].max():.0f} K"
         seen.say("heating rate", "doubt", f"no ramp through the decomposition: {span}")
         return
-    rate = 60.0 * float(np.polyfit(T[0][ramp], T[1][ramp], 1)[0])
+    rate = 60.0 * float(linear.polynomial(T[0][ramp], T[1][ramp], 1)[0])
     ratio = rate / wanted
     if abs(ratio - 1.0) <= _OFF:
         return

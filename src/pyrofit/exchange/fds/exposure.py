@@ -22,6 +22,7 @@ from pyrofit.exchange.fds.remarks import Remark
 from pyrofit.model.base import value_of
 from pyrofit.model.slab import SlabExperiment
 from pyrofit.model.slab_faces import Side
+from pyrofit.numerics import functions
 from pyrofit.solver.arrays import (
     BACK_GAS,
     BACK_H,
@@ -126,7 +127,7 @@ def _mean(schedule: FloatArray, row: int, end_s: float) -> float:
 def _excess(side: Side, values: Values, face: FloatArray, gas: float) -> float:
     """Return the mean of C |T - T_gas|^(1/3) over a predicted course of the face."""
     C = value_of(side.h_cube_root_W_m2K43, values)
-    return C * float(np.mean(np.abs(face - gas) ** (1.0 / 3.0))) if C else 0.0
+    return C * float(np.mean(functions.cube_root(np.abs(face - gas)))) if C else 0.0
 
 
 def _front_h(
@@ -164,14 +165,16 @@ def _flux(
     t, given = _points(schedule, end_s, bool(rise_time or drift or (rise and to_rise)))
     drifted = rest * _approach(t, rest) if rest > 0.0 else t
     heater = given[FLUX] * _approach(t, rise_time) * np.maximum(1.0 + drift * drifted, 0.0)
-    walls = STEFAN_BOLTZMANN * (given[FRONT_WALL] ** 4 - gas**4)
+    walls = STEFAN_BOLTZMANN * (
+        functions.fourth_power(given[FRONT_WALL]) - functions.fourth_power(gas)
+    )
     warmer = given[FRONT_GAS] + rise * _approach(t, to_rise) - gas
     return Flux(t, heater + given[FLAME] + walls + h * warmer / emissivity), heater
 
 
 def _approach(t: FloatArray, time: float) -> FloatArray:
     """Return 1 - exp(-t/time), as the solver has it."""
-    return 1.0 - np.exp(-t / time) if time > 0.0 else np.ones(t.shape)
+    return 1.0 - functions.exp(-t / time) if time > 0.0 else np.ones(t.shape)
 
 
 def _points(schedule: FloatArray, end_s: float, curved: bool) -> tuple[FloatArray, FloatArray]:
@@ -179,7 +182,7 @@ def _points(schedule: FloatArray, end_s: float, curved: bool) -> tuple[FloatArra
     times = _apart(schedule[TIME])
     if not curved:
         return times, schedule
-    t = np.union1d(times, np.geomspace(0.05, max(end_s, 1.0), CURVED))
+    t = np.union1d(times, functions.geometric(0.05, max(end_s, 1.0), CURVED))
     at = np.array([np.interp(t, times, row) for row in schedule])
     at[FLAME] = schedule[FLAME][np.searchsorted(times, t, side="right") - 1]
     return t, at

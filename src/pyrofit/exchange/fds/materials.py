@@ -155,7 +155,8 @@ def _thermal(
     kappa = options.absorption_1_m.get(name)
 
     def less_radiation(T: FloatArray, k: FloatArray) -> FloatArray:
-        return np.maximum(k - 4.0 * STEFAN_BOLTZMANN * T**3 / (kappa or 1.0), LEAST_SHARE * k)
+        radiation = 4.0 * STEFAN_BOLTZMANN * (T * T * T) / (kappa or 1.0)
+        return np.maximum(k - radiation, LEAST_SHARE * k)
 
     k = tabulated(component.conductivity_W_mK, values, less_radiation if kappa else None)
     c = tabulated(component.specific_heat_J_kgK, values)

@@ -4,8 +4,8 @@ import math
 from functools import cache
 
 import numpy as np
-from scipy.optimize import least_squares, nnls
 
+from pyrofit.numerics import fitting, functions, linear
 from pyrofit.solver.arrays import FloatArray
 
 REACHED = 1e-4
@@ -14,7 +14,7 @@ REACHED = 1e-4
 
 def unreacted(order: float, tau: FloatArray) -> FloatArray:
     """Return m/m0 = (1 + (n - 1) tau)^(-1/(n - 1)) at reduced times tau [-], for n > 1."""
-    return np.asarray((1.0 + (order - 1.0) * tau) ** (-1.0 / (order - 1.0)))
+    return functions.power(1.0 + (order - 1.0) * tau, -1.0 / (order - 1.0))
 
 
 @cache
@@ -35,20 +35,23 @@ def first_order_sum(order: float) -> tuple[tuple[float, float], ...]:
     (4, 1.0)
     """
     parts = 4 if order <= 1.5 else 5 if order <= 2.0 else 6
-    left = np.concatenate([np.linspace(0.999, 0.02, 200), np.geomspace(0.02, REACHED, 60)])
-    tau = (left ** (1.0 - order) - 1.0) / (order - 1.0)
+    left = np.concatenate([np.linspace(0.999, 0.02, 200), functions.geometric(0.02, REACHED, 60)])
+    tau = (functions.power(left, 1.0 - order) - 1.0) / (order - 1.0)
     shape = 1.0 / (order - 1.0)
-    start = np.log(np.geomspace(2.0 + 1.0 / shape, 0.02 + 0.3 * (shape > 1.0), parts))
+    start = functions.log(functions.geometric(2.0 + 1.0 / shape, 0.02 + 0.3 * (shape > 1.0), parts))
 
     def fitted(logs: FloatArray) -> tuple[FloatArray, FloatArray]:
-        matrix = np.exp(-np.exp(logs)[None, :] * tau[:, None])
-        rows = np.vstack([matrix, np.full((1, parts), 1e3)])
-        weights, _ = nnls(rows, np.append(left, 1e3))
-        return weights, matrix @ weights - left
+        matrix = functions.exp(-functions.exp(logs)[None, :] * tau[:, None])
+        square = linear.gram(matrix) + 1e6
+        pull = linear.product(matrix.T, left) + 1e6
+        weights = fitting.within_limits(square, -pull, np.zeros(parts), np.full(parts, np.inf))
+        return weights, linear.product(matrix, weights) - left
 
-    found = least_squares(lambda logs: fitted(logs)[1], start, xtol=1e-12, ftol=1e-12)
-    weights, _ = fitted(found.x)
-    pairs = sorted(zip(weights / weights.sum(), np.exp(found.x), strict=True), key=lambda p: -p[1])
+    logs = fitting.least_squares(lambda logs: fitted(logs)[1], start, gain=1e-15)
+    weights, _ = fitted(logs)
+    pairs = sorted(
+        zip(weights / weights.sum(), functions.exp(logs), strict=True), key=lambda p: -p[1]
+    )
     return tuple((float(w), float(a)) for w, a in pairs if w > 0.0)
 
 

@@ -9,6 +9,7 @@ import pandas as pd
 from pyrofit.exchange.fds.properties import CELSIUS_K
 from pyrofit.exchange.fds.records import DEVICES
 from pyrofit.exchange.fds.versions import FdsError
+from pyrofit.numerics import linear
 from pyrofit.solver.outputs import MASS_FRACTION
 
 COLUMNS = {
@@ -67,7 +68,7 @@ def read_devc(path: Path, weights: Sequence[float] = (1.0,)) -> pd.DataFrame:
         for column in ("Time", *own):
             if column not in raw:
                 raise FdsError(f"{path.name}: the column '{column}' is missing")
-        found[COLUMNS[name]] = raw[own].to_numpy(float) @ np.asarray(weights)
+        found[COLUMNS[name]] = linear.product(raw[own].to_numpy(float), np.asarray(weights))
     time = raw["Time"].to_numpy(float)
     before = np.concatenate([[time[0]], time[:-1]])
     frame = pd.DataFrame({"time_s": 0.5 * (time + before), "end_s": time, **found}).iloc[1:]

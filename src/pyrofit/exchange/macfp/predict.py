@@ -12,6 +12,7 @@ from pyrofit.exchange.macfp.schema import StrictSet
 from pyrofit.experiments import KINDS
 from pyrofit.model.accuracy import Accuracy
 from pyrofit.model.material import Material
+from pyrofit.numerics import linear
 from pyrofit.solver import outputs
 from pyrofit.solver.curves import Request
 
@@ -178,7 +179,7 @@ def _initial_mass(of: Material, case: Case) -> float:
 def metrics(curves: SlabCurves) -> Metrics:
     """Return the numbers by which the data base compares predictions."""
     t, rate, mass = curves.time_s, curves.mlr_kg_m2_s, curves.mass_kg_m2
-    smooth = np.convolve(rate, np.full(10, 0.1), mode="same")
+    smooth = linear.running_mean(rate, 10)
     peak = int(np.argmax(smooth))
     onset, end = np.flatnonzero(rate >= _ONSET), np.flatnonzero(rate >= _END)
     half = mass[0] - 0.5 * (mass[0] - mass[-1])

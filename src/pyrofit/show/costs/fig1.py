@@ -13,6 +13,7 @@ from pyrofit.cost.distances import (
     range_limits,
     rmse_differences,
 )
+from pyrofit.numerics import functions
 from pyrofit.results.files import Results
 from pyrofit.show import style
 from pyrofit.show.drawn import Axes, Canvas, Line2D, Patch
@@ -74,8 +75,8 @@ def _slab(
     rise: tuple[float, float],
     fall: tuple[float, float],
 ) -> FloatArray:
-    up = 1.0 + np.exp(-(time_s - rise[0]) / rise[1])
-    down = 1.0 + np.exp((time_s - fall[0]) / fall[1])
+    up = 1.0 + functions.exp(-(time_s - rise[0]) / rise[1])
+    down = 1.0 + functions.exp((time_s - fall[0]) / fall[1])
     return np.asarray((start + slope * time_s) / (up * down), dtype=np.float64)
 
 

@@ -21,7 +21,9 @@ def next_experiments(study: Study, results: Results) -> pd.DataFrame:
     found = diagnosis.read(study, results)["next_experiment"]
     rows = [{"experiment": d["words"], "separation_sd": d["separation_sd"]} for d in found]
     frame = pd.DataFrame(rows, columns=["experiment", "separation_sd"])
-    return frame.sort_values("separation_sd", ascending=False, ignore_index=True).head(MOST)
+    return frame.sort_values(
+        "separation_sd", ascending=False, kind="stable", ignore_index=True
+    ).head(MOST)
 
 
 MOST_DESIGNS = 12

@@ -4,10 +4,9 @@ import textwrap
 from collections.abc import Sequence
 from typing import Any
 
-import numpy as np
-
 from pyrofit.config import Study
 from pyrofit.effects import known_effects
+from pyrofit.numerics import functions
 from pyrofit.results import diagnosis
 from pyrofit.results.files import Results
 from pyrofit.show import style
@@ -58,7 +57,7 @@ def draw_ranking(ax: Axes, found: Found) -> None:
     lowest = float(shown[0]["penalised"])
     limit = float(found["ambiguity"])
     base, points = float(found["base"]["chi2"]) - lowest, float(found["base"]["points"])
-    needed = base - (float(found["needed"]) - np.log(points))
+    needed = base - (float(found["needed"]) - functions.log(points))
     ax.set_xscale("symlog", linthresh=1.0, linscale=0.5)
     right = 1.8 * max(base, *(float(c["penalised"]) - lowest for c in shown), limit)
     ax.axvspan(needed, right, color=style.BAND, linewidth=0.0)

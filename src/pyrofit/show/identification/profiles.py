@@ -61,12 +61,14 @@ def _draw_profile(
         ax.plot(x, ((x - at) / sd) ** 2 * dispersion, **_PARABOLA)
     if len(curve):
         # Between the points the root of the rise is a straight line, at a limit the rise itself.
-        power = 1.0 if row["bound"] else 2.0
+        straight = bool(row["bound"])
         points = curve["value"].to_numpy(float) / factor
-        root = np.maximum(curve["rise"].to_numpy(float), 0.0) ** (1.0 / power)
+        root = np.maximum(curve["rise"].to_numpy(float), 0.0)
+        root = root if straight else np.sqrt(root)
         fine = np.linspace(points[0], points[-1], 300)
-        ax.plot(fine, np.interp(fine, points, root) ** power, color=_PROFILE["color"])
-        ax.plot(points, root**power, **{**_PROFILE, "linestyle": "none"})
+        drawn = np.interp(fine, points, root)
+        ax.plot(fine, drawn if straight else drawn**2, color=_PROFILE["color"])
+        ax.plot(points, root if straight else root**2, **{**_PROFILE, "linestyle": "none"})
     ax.axhline(top, **_LEVEL)
     if dispersion > 1.0:
         ax.axhline(QUANTILE**2, **_NOISE_LEVEL)

@@ -59,7 +59,9 @@ def _found_by(part: pd.DataFrame) -> dict[str, str]:
 
 def _worst(part: pd.DataFrame, by: str) -> str:
     """Say the largest error of a set, and that of the others."""
-    errors = part.set_index("parameter")[f"{by}_error_limits_percent"].abs().sort_values()
+    errors = (
+        part.set_index("parameter")[f"{by}_error_limits_percent"].abs().sort_values(kind="stable")
+    )
     *others, largest = [f"{x:.2g} %" for x in errors]
     rest = f", at most {others[-1]} in the others" if others else ""
     return f"{largest} in {errors.index[-1]}{rest}"
