@@ -53,6 +53,32 @@ ORDER = [
     {"cli"},
 ]
 RANK = {part: rank for rank, parts in enumerate(ORDER) for part in parts}
+DISPATCHED = {
+    *("arccos", "arccosh", "arcsin", "arcsinh", "arctan", "arctan2", "arctanh", "cbrt", "cos"),
+    *("cosh", "exp", "exp2", "expm1", "float_power", "geomspace", "log", "log10", "log1p", "log2"),
+    *("logaddexp", "logaddexp2", "logspace", "power", "sin", "sinh", "tan", "tanh"),
+    *("convolve", "corrcoef", "correlate", "cov", "dot", "inner", "kron", "linalg", "matmul"),
+    *("matvec", "polyfit", "tensordot", "vdot", "vecdot", "vecmat"),
+}
+"""Names of NumPy whose last bits depend on the processor; `pyrofit.numerics` has others."""
+BY_LAPACK = ("integrate", "linalg", "odr", "signal", "sparse", "spatial")
+BY_LAPACK_OF_OPTIMIZE = {"curve_fit", "least_squares", "lsq_linear", "minimize", "nnls", "root"}
+NUMBERS_TO_A_POWER = {
+    "config/yaml_file.py": "bytes",
+    "diagnose/base/adequacy.py": "a length",
+    "estimate/bounded_least_squares.py": "a number's damping",
+    "estimate/cmaes.py": "numbers of the strategy",
+    "estimate/sceua.py": "an integer",
+    "exchange/fds/exposure.py": "numbers of a face",
+    "exchange/fds/matl_line.py": "a number's rate",
+    "exchange/fds/orders.py": "a number's half time",
+    "exchange/macfp/curves.py": "a number's temperature",
+    "exchange/thermakin/conditions.py": "numbers of the surroundings",
+    "seeds.py": "an integer",
+    "show/optimisers/fig5.py": "the margin of an axis",
+    "solver/reference/bdf.py": "numbers of a step",
+}
+"""Files with powers other than 2 of numbers; those of arrays are NumPy's."""
 NOT_FOR_COST = {"model", "solver", "simulate", "data"}
 
 
@@ -281,6 +307,54 @@ def test_only_pose_poses_problems_and_their_likelihood() -> None:
 
 def test_only_the_sce_ua_module_imports_spotpy() -> None:
     assert names_of([p for p in modules() if "spotpy" in outside(p)]) == ["estimate/sceua.py"]
+
+
+def depends_on_the_processor(node: ast.AST) -> bool:
+    """Tell whether the last bits of an operation are those of NumPy's or BLAS's dispatch."""
+    if isinstance(node, ast.BinOp | ast.AugAssign):
+        return isinstance(node.op, ast.MatMult)
+    if isinstance(node, ast.Attribute) and ast.unparse(node.value) == "np":
+        return node.attr in DISPATCHED
+    if isinstance(node, ast.ImportFrom) and str(node.module).startswith("scipy"):
+        part = str(node.module).removeprefix("scipy").split(".")[-1]
+        names = {alias.name for alias in node.names}
+        asked = {part, *names} if part in ("", "optimize") else {part}
+        return bool(asked & {*BY_LAPACK, *BY_LAPACK_OF_OPTIMIZE})
+    if isinstance(node, ast.Call) and isinstance(node.func, ast.Attribute):
+        stable = any(k.arg == "kind" and "stable" in ast.unparse(k.value) for k in node.keywords)
+        if node.func.attr == "argsort":
+            return not stable
+        if node.func.attr == "sort_values":  # by several columns it is stable anyway
+            several = bool(node.args) and isinstance(node.args[0], ast.List)
+            return not (stable or several)
+        return node.func.attr == "dot" and ast.unparse(node.func.value) != "linear"
+    return False
+
+
+def test_results_do_not_depend_on_the_processor() -> None:
+    for path in modules():
+        name = path.relative_to(SOURCE).as_posix()
+        if name.startswith("solver/kernels/"):
+            continue  # compiled, in the order that they state
+        for node in parsed(path):
+            text = ast.unparse(node) if depends_on_the_processor(node) else ""
+            assert not text or text == "np.linalg", f"{name}: {text}"
+            if text == "np.linalg":
+                used = ast.unparse(ast.parse(path.read_text(encoding="utf-8")))
+                errors = used.count("np.linalg.LinAlgError")
+                assert used.count("np.linalg") == errors, f"{name}: np.linalg"
+
+
+def test_powers_of_arrays_are_products_or_of_numerics() -> None:
+    found = set()
+    for path in modules():
+        name = path.relative_to(SOURCE).as_posix()
+        for node in parsed(path):
+            if isinstance(node, ast.BinOp | ast.AugAssign) and isinstance(node.op, ast.Pow):
+                right = node.right if isinstance(node, ast.BinOp) else node.value
+                if not (isinstance(right, ast.Constant) and right.value in (2, 0.5)):
+                    found.add(name)
+    assert {n for n in found if not n.startswith("solver/kernels/")} <= set(NUMBERS_TO_A_POWER)
 
 
 def test_library_never_prints_or_exits() -> None:
