@@ -54,7 +54,7 @@ class Valley:
         self.asked.append(x.copy())
         if self.fails(x):
             return Evaluation(FAILED_COST, (FAILED_COST,), Status.TOO_MANY_STEPS)
-        cost = float(np.linalg.norm(Valley.residuals(self, x)))
+        cost = float(np.linalg.norm(self.residuals(x)))
         return Evaluation(cost, (cost,), Status.OK)
 
     def evaluate_all(self, X: FloatArray) -> list[Evaluation]:
@@ -67,6 +67,10 @@ class Watched(Valley):
     def residuals(self, x: FloatArray) -> FloatArray:
         self.asked.append(x.copy())
         return super().residuals(x)
+
+    def evaluate(self, x: FloatArray) -> Evaluation:
+        cost = float(np.linalg.norm(self.residuals(x)))
+        return Evaluation(cost, (cost,), Status.OK)
 
 
 def run(problem: Any, seed: int = 1, generations: int = GENERATIONS) -> pd.DataFrame:
