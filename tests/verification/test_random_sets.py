@@ -34,7 +34,7 @@ BATCH = 101
 SETTINGS = Resolution(elements=200, tolerance=1e-5)
 LEAST_RATE = 1e-5
 """Mean rate [kg/(m2 s)] below which differences are related to this one."""
-REFERENCE = "independent solver: finite elements, LSODA; 200 elements"
+REFERENCE = "independent solver: finite elements, BDF; 200 elements"
 
 
 def paper() -> Study:

@@ -1,10 +1,10 @@
 """The production solver against an independent one
 
 `pyrofit.solver.reference` solves the same equations with finite elements, extents of reaction as
-unknowns, properties as functions and SciPy's LSODA; it shares with the production solver nothing
-but the description and what the apparatus does to a record. Every term of the description is
-compared, on 400 cells and 400 elements: a slab of 5 mm that chars, unless its name says otherwise.
-Temperatures are those of front, back and two probes in depth.
+unknowns, properties as functions and backward differences in time; it shares with the production
+solver nothing but the description and what the apparatus does to a record. Every term of the
+description is compared, on 400 cells and 400 elements: a slab of 5 mm that chars, unless its name
+says otherwise. Temperatures are those of front, back and two probes in depth.
 """
 
 from collections.abc import Mapping
@@ -55,7 +55,7 @@ from pyrofit.solver.reference.tga import reference_tga
 
 RHO, K, C, T0, DEPTH = 1200.0, 0.2, 1500.0, 293.15, 5.8e-3
 COMPONENT = {"density_kg_m3": RHO, "conductivity_W_mK": K, "specific_heat_J_kgK": C}
-SOURCE = "reference solver: finite elements, LSODA"
+SOURCE = "reference solver: finite elements, BDF"
 FINE = Accuracy(cells=400, tolerance=1e-4, longest_step_s=1.0)
 
 

@@ -9,6 +9,7 @@ from pathlib import Path
 from typing import Any
 
 import pytest
+from golden import moved
 from tiny import OWN_FILE, ROOT, TINY, Project, Run, kill
 
 PREPARE = "Measured series into tidy tables, mass closure checked"
@@ -98,6 +99,10 @@ def diagnosed(first: Diagnosed, tmp_path: Path) -> Iterator[Diagnosed]:
     for name in (".snakemake", "results"):
         shutil.rmtree(first.project.root / name)
         shutil.copytree(kept / name, first.project.root / name)
+
+
+def test_diagnosis_is_as_stored(first: Diagnosed) -> None:
+    assert moved(first.project.root / "results" / "tiny", "tiny_diagnosis") == []
 
 
 def test_diagnosis_needs_the_measurements_only(first: Diagnosed) -> None:

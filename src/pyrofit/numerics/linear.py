@@ -169,7 +169,7 @@ def svd(a: Floats) -> tuple[Floats, Floats, Floats]:
     """Return U, s and V^T with U diag(s) V^T = A, s in falling order.
 
     Shapes (m, k), (k,) and (k, n), k = min(m, n). Jacobi's rotations of one side (Hestenes 1958,
-    doi 10.1137/0106005) of the rows of R of A = Q R, all disjoint pairs side by side: small
+    doi 10.1137/0106005) of the rows of R of A = Q R, all disjoint pairs side by side. Small
     singular values are as exact as the columns are, however differently these are scaled.
     """
     a = np.asarray(a, dtype=np.float64)

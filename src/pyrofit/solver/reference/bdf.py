@@ -1,8 +1,8 @@
 """Stiff ordinary differential equations by numerical differentiation formulas of orders 1 to 5.
 
-Steps of nearly constant size of Shampine and Reichelt (1997, doi 10.1137/S1064827594276424), in the
-form of backward differences; the control of step and order is that of SciPy's ``BDF``. The error is
-the largest of all unknowns. No operation depends on the processor, as those of LAPACK do.
+Steps of nearly constant size in the form of backward differences: Shampine and Reichelt (1997,
+doi 10.1137/S1064827594276424). The control of step and order is that of SciPy's ``BDF``. The error
+is the largest of all unknowns. No operation depends on the processor, as those of LAPACK do.
 """
 
 import math
