@@ -13,6 +13,7 @@ from pyrofit.estimate.posterior import (
     interval,
     limit_of,
 )
+from pyrofit.numerics import linear
 
 RNG = np.random.default_rng(4)
 J = RNG.standard_normal((80, 3)) * [30.0, 4.0, 0.3]
@@ -54,7 +55,7 @@ def test_misfit_never_widens_a_known_value_beyond_its_standard_deviation() -> No
 def test_without_misfit_nothing_is_widened() -> None:
     assert with_chi2(20.0).dispersion == 1.0
     stacked = np.vstack([J, K])
-    assert np.array_equal(curvature(stacked, 1.0, 2), stacked.T @ stacked + 12.0 * np.eye(3))
+    assert np.array_equal(curvature(stacked, 1.0, 2), linear.gram(stacked) + 12.0 * np.eye(3))
 
 
 def test_degrees_of_freedom_are_the_mean_of_chi_square_of_a_regression() -> None:
