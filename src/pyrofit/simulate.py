@@ -149,7 +149,9 @@ def _simulated(
     case = _lower(experiment, substance.of(experiment.sample), accuracy)
     located = lower_places(experiment.sample, requests, values, sets)
 
-    def run(factors: FloatArray, asked: Mapping[str, Request]) -> Runs:
+    def run(factors: FloatArray | None, asked: Mapping[str, Request]) -> Runs:
+        if factors is None:
+            return march(case, asked, _numerics(accuracy), threads)
         runs = repeated(case, factors.size // sets)
         exposure = runs.description.exposure
         schedule = exposure.schedule.copy()
@@ -174,7 +176,7 @@ def _lower(experiment: SlabExperiment, substance: Substance, accuracy: Accuracy)
     network = substance.network
     share = lower_share(experiment, material, values, sets)
     exposure = lower_exposure(experiment, share, properties, values, sets)
-    layers = lower_layers(experiment, material, properties, values, sets)
+    layers = lower_layers(experiment, material, properties, values, sets, share)
     factor = accuracy.cells_factor
     backing = lower_backing(experiment, material, properties, values, sets, factor)
     exposure = with_backing(exposure, backing)

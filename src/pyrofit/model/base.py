@@ -34,9 +34,11 @@ class Part(BaseModel):
 
     def derived(self, name: str, make: Callable[[Self], Made]) -> Made:
         """Return ``make(self)``, made once: a part never changes."""
-        if name not in self._derived:
-            self._derived[name] = make(self)
-        return cast(Made, self._derived[name])
+        # Not `self._derived`: pydantic looks a private attribute up in ten times the time.
+        made = cast(dict[str, dict[str, Any]], self.__pydantic_private__)["_derived"]
+        if name not in made:
+            made[name] = make(self)
+        return cast(Made, made[name])
 
     def model_copy(self, *, update: Mapping[str, Any] | None = None, deep: bool = False) -> Self:
         """Return a copy with some values changed; nothing derived is taken over."""

@@ -52,6 +52,17 @@ class Request:
         """Return the name of the curve that a signal asks for."""
         return self.output or signal
 
+    def at(self, time_s: FloatArray) -> "Request":
+        """Return the same request at other times."""
+        return Request(
+            time_s,
+            self.average_s,
+            self.temperature_K,
+            self.output,
+            self.heating_rate_K_s,
+            self.place,
+        )
+
     def programme(self) -> tuple[FloatArray, FloatArray]:
         """Return the temperatures [K] and their rates of change [K/s].
 

@@ -7,7 +7,7 @@ by `lower_property`, experiments lowered by `lower_experiment`.
 
 from collections.abc import Mapping
 from dataclasses import dataclass
-from functools import cached_property, partial
+from functools import cached_property, partial, reduce
 from typing import Any
 
 import numpy as np
@@ -51,7 +51,38 @@ def fractions(
 
 def total(rows: FloatArray) -> FloatArray:
     """Return the sum of the rows, one after the other: the same bits for any number of sets."""
-    return np.asarray(sum(rows))
+    return np.asarray(reduce(np.add, rows))
+
+
+@dataclass(frozen=True)
+class _Described:
+    """The part of the component properties that no parameter changes."""
+
+    numbers: tuple[float | str, ...]
+    """Density, absorption coefficient and emissivity of each component; if none depends on
+    temperature, the properties of `_TABLES`, too."""
+    plain: bool
+    """Whether none does."""
+    own: BoolArray
+    """Whether a component is of the material itself, shape (components, 1)."""
+    alike: IntArray
+    constant: BoolArray
+
+
+def _described(material: words.Material) -> _Described:
+    parts = material.components.values()
+    names = ("density_kg_m3", "absorption_1_m", "emissivity")
+    rows = [[getattr(c, name) or 0.0 for c in parts] for name in names]
+    constant = _constant(material)
+    if constant.all():
+        rows += [[getattr(c, table) for c in parts] for table in _TABLES]
+    return _Described(
+        numbers=tuple(number for row in rows for number in row),
+        plain=bool(constant.all()),
+        own=np.array([n in material.own for n in material.components])[:, None],
+        alike=_alike(material),
+        constant=constant,
+    )
 
 
 def _tables(material: words.Material, name: str, values: Values, sets: int) -> FloatArray:
@@ -87,28 +118,41 @@ def lower_material(
     An ``absorption_length`` [m] above zero holds for all components of the material itself, and so
     does the ``density_factor``, which multiplies density and conductivity.
     """
-    parts = list(material.components.values())
-    own = material.derived("own", lambda m: np.array([n in m.own for n in m.components]))[:, None]
-    density = stack([value_of(c.density_kg_m3, values) for c in parts], sets)
-    absorption = stack([value_of(c.absorption_1_m or 0.0, values) for c in parts], sets)
-    if np.any(np.asarray(absorption_length) > 0.0):
-        length = np.asarray(absorption_length)
-        given = np.where(length > 0.0, 1.0 / np.where(length > 0.0, length, 1.0), absorption)
-        absorption = np.where(own, given, absorption)
-    if not own.all():
-        opaque = ~own & (absorption == 0.0) & (absorption > 0.0).any(axis=0)
-        absorption = np.where(opaque, OPAQUE_1_M, absorption)
-    denser = np.where(own, density_factor, 1.0)
+    described = material.derived("described", _described)
+    given = stack([value_of(number, values) for number in described.numbers], sets)
+    rows = given.reshape(-1, len(material.components), sets)
+    density, absorption, emissivity = rows[:3]
+    if described.plain:
+        expansion, conductivity, heat, factor = rows[3:, :, None]
+    else:
+        tables = (_tables(material, name, values, sets) for name in _TABLES)
+        expansion, conductivity, heat, factor = tables
+    absorption = _absorption(absorption, described.own, absorption_length)
+    if isinstance(density_factor, np.ndarray) or density_factor != 1.0:
+        denser = np.where(described.own, density_factor, 1.0)
+        density, conductivity = denser * density, denser[:, None] * conductivity
     return Material(
-        specific_volume=1.0 / (denser * density),
-        expansion=_tables(material, "expansion", values, sets),
-        conductivity=denser[:, None] * _tables(material, "conductivity_W_mK", values, sets),
-        specific_heat=_tables(material, "specific_heat_J_kgK", values, sets),
-        emissivity=stack([value_of(c.emissivity, values) for c in parts], sets),
-        absorption=absorption[:, None, :] * _tables(material, "absorption_factor", values, sets),
-        alike=material.derived("alike", _alike),
-        constant=material.derived("constant", _constant),
+        specific_volume=1.0 / density,
+        expansion=expansion,
+        conductivity=conductivity,
+        specific_heat=heat,
+        emissivity=emissivity,
+        absorption=absorption[:, None, :] * factor,
+        alike=described.alike,
+        constant=described.constant,
     )
+
+
+def _absorption(given: FloatArray, own: BoolArray, length: Value) -> FloatArray:
+    """Return the absorption coefficients [1/m], shape (components, sets)."""
+    if isinstance(length, np.ndarray) or length > 0.0:
+        long = np.asarray(length)
+        inverse = np.where(long > 0.0, 1.0 / np.where(long > 0.0, long, 1.0), given)
+        given = np.where(own, inverse, given)
+    if not own.all():
+        opaque = ~own & (given == 0.0) & (given > 0.0).any(axis=0)
+        given = np.where(opaque, OPAQUE_1_M, given)
+    return given
 
 
 _TABLES = "expansion", "conductivity_W_mK", "specific_heat_J_kgK", "absorption_factor"
@@ -148,7 +192,9 @@ def rate_factor(reaction: words.Reaction, values: Values) -> Value:
 class _Plan:
     """The part of a network that no parameter changes."""
 
-    reactions: tuple[str, ...]
+    reactions: tuple[words.Reaction, ...]
+    numbers: tuple[tuple[float | str, ...], ...]
+    """Order, E, heat of reaction and heat of combustion, of each reaction."""
     reactant: IntArray
     products: tuple[tuple[int, int, str], ...]
     """Reaction, component and its name, of every product."""
@@ -159,8 +205,7 @@ class _Plan:
 
 def _plan(material: words.Material) -> _Plan:
     names = list(material.components)
-    order = material.reaction_order()
-    reactions = [material.reactions[name] for name in order]
+    reactions = tuple(material.reactions[name] for name in material.reaction_order())
     reactant = [names.index(r.reactant) for r in reactions]
     products = [
         (j, names.index(product), product)
@@ -169,11 +214,15 @@ def _plan(material: words.Material) -> _Plan:
     ]
     formed = {j: i for j, i, _ in reversed(products)}
     return _Plan(
-        reactions=order,
+        reactions=reactions,
+        numbers=tuple(
+            tuple(getattr(r, name) for r in reactions)
+            for name in ("order", "E_J_mol", "heat_of_reaction_J_kg", "heat_of_combustion_J_kg")
+        ),
         reactant=np.array(reactant, dtype=np.int64),
         products=tuple(products),
-        residue=np.array([formed.get(j, 0) for j in range(len(order))], dtype=np.int64),
-        plain=len(set(reactant)) == len(order)
+        residue=np.array([formed.get(j, 0) for j in range(len(reactions))], dtype=np.int64),
+        plain=len(set(reactant)) == len(reactions)
         and len(formed) == len(products)
         and not any(i in reactant for _, i, _ in products),
     )
@@ -205,29 +254,29 @@ def lower_network(
     the mass of a sample whose temperature is prescribed depends on neither.
     """
     plan = material.derived("network", _plan)
-    order = [material.reactions[name] for name in plan.reactions]
-    yields = np.zeros((len(order), len(material.components), sets))
+    count = len(plan.reactions)
+    of_order, of_energy, of_heat, of_burnt = plan.numbers
+    none = (0.0,) * count
+    rows = of_order + of_energy + (of_heat if heats else none) + (of_burnt if burning else none)
+    numbers = stack([value_of(number, values) for number in rows], sets)
+    order, energy, heat, burnt = numbers.reshape(4, count, sets)
+    yields = np.zeros((count, len(material.components), sets))
     for j, i, product in plan.products:
-        yields[j, i] = value_of(order[j].products[product], values)
-    orders = stack([value_of(r.order, values) for r in order], sets)
-    first_order = bool(np.all(orders == 1.0))
-    energies = [value_of(r.E_J_mol, values) for r in order]
-    heat = [value_of(r.heat_of_reaction_J_kg, values) if heats else 0.0 for r in order]
-    burnt = [value_of(r.heat_of_combustion_J_kg, values) if burning else 0.0 for r in order]
+        yields[j, i] = value_of(plan.reactions[j].products[product], values)
     return Network(
         reactant=plan.reactant,
-        root_factor=np.sqrt(stack([rate_factor(r, values) for r in order], sets)),
-        activation_temperature=stack(energies, sets) / GAS_CONSTANT,
-        order=orders,
-        heat=stack(heat, sets),
+        root_factor=np.sqrt(stack([rate_factor(r, values) for r in plan.reactions], sets)),
+        activation_temperature=energy / GAS_CONSTANT,
+        order=order,
+        heat=heat,
         yields=yields,
         gas=1.0 - total(yields.swapaxes(0, 1)),
-        combustion=stack(burnt, sets),
+        combustion=burnt,
         burns=False,
-        first_order=first_order,
+        first_order=bool(np.all(order == 1.0)),
         plain=plan.plain,
         residue=plan.residue,
-        residue_yield=yields[np.arange(len(order)), plan.residue],
+        residue_yield=yields[np.arange(count), plan.residue],
     )
 
 

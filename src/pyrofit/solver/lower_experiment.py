@@ -76,13 +76,19 @@ def lower_layers(
     arrays: Material,
     values: Values,
     sets: int = 1,
+    front: FloatArray | None = None,
 ) -> tuple[Layer, ...]:
-    """Return the layers of the virgin sample, front first, and the adhesive behind them."""
+    """Return the layers of the virgin sample, front first, and the adhesive behind them.
+
+    ``front`` are the mass fractions of the front layer, if they are known.
+    """
     names = list(material.components)
     sample = experiment.sample
     layers = []
     for layer, size in zip(sample.layers, thicknesses(sample, values), strict=True):
-        share = fractions(layer.composition or material.composition, names, values, sets)
+        share = front
+        if share is None or layer is not sample.layers[0]:
+            share = fractions(layer.composition or material.composition, names, values, sets)
         mass = size / total(share * arrays.specific_volume)
         layers.append(Layer(share * mass, number(size, sets)))
     if sample.adhesive is not None:
@@ -116,6 +122,8 @@ def cells_of(
         size = sum(layer.thickness for layer in sample)
         shares = [np.rint(cells * layer.thickness / size) for layer in sample]
         counts = [np.maximum(2, share).astype(np.int64) for share in shares]
+    if len(layers) == 1 and cells.size == 1:
+        return _equal_cells(layers[0], int(cells[0]), multiple)
     counts += [_added(layer, sample, cells) for layer in layers if layer.added]
     counts += [layer.cells.astype(np.int64) for layer in layers if layer.cells is not None]
     needed = np.asarray(sum(counts))
@@ -129,6 +137,14 @@ def cells_of(
         out += np.where(here[:, None, :], layer.mass / np.maximum(count, 1), 0.0)
         begin = begin + count
     return out, empty
+
+
+def _equal_cells(layer: Layer, count: int, multiple: int) -> tuple[FloatArray, IntArray]:
+    """Return the same for one set of one layer."""
+    empty = -count % multiple
+    out = np.zeros((empty + count, *layer.mass.shape))
+    out[empty:] = layer.mass / count
+    return out, np.array([empty])
 
 
 def _added(layer: Layer, sample: list[Layer], cells: IntArray) -> IntArray:

@@ -13,9 +13,9 @@ from pyrofit.numerics import linear
 from pyrofit.solver.arrays import FloatArray, IntArray, Value, Values
 from pyrofit.solver.curves import Curves, Request, Runs
 
-Run = Callable[[FloatArray, Mapping[str, Request]], Runs]
+Run = Callable[[FloatArray | None, Mapping[str, Request]], Runs]
 """Runs under multiples of the flux, shape (runs,), at times of shape (runs, points). The number
-of runs is a multiple of that of the sets, which are repeated."""
+of runs is a multiple of that of the sets, which are repeated. None stands for the flux itself."""
 POINTS, WEIGHTS = np.polynomial.legendre.leggauss(5)
 """Gauss's rule on (-1, 1), for fluxes that are spread evenly over the surface."""
 RINGS = 4000
@@ -49,13 +49,11 @@ def observe(
     sets
         Number of parameter sets.
     """
+    times = {n: np.repeat(r.time_s[None], sets, axis=0) for n, r in requests.items()}
+    if experiment.derived("shown as they are", _as_they_are):
+        return run(None, {n: r.at(times[n]) for n, r in requests.items()})
     shifted = {
-        name: replace(
-            r,
-            time_s=np.broadcast_to(r.time_s, (sets, r.time_s.size))
-            - _of(experiment, name, "delay_s", values),
-        )
-        for name, r in requests.items()
+        n: r.at(times[n] - _of(experiment, n, "delay_s", values)) for n, r in requests.items()
     }
     spread = np.full(sets, value_of(experiment.front.spread, values))
     runs = _mean_over_surface(spread, experiment.front.profile, shifted, run)
@@ -66,6 +64,13 @@ def observe(
     return replace(runs, signals=signals)
 
 
+def _as_they_are(experiment: SlabExperiment) -> bool:
+    """Tell whether the apparatus shows the curves as they are, whatever the parameters."""
+    numbers = [n for signal in experiment.signals.values() for n in (signal.delay_s, signal.offset)]
+    even = experiment.front.profile is None and experiment.front.spread == 0.0
+    return even and all(number == 0.0 for number in numbers)
+
+
 def observe_one(
     experiment: SlabExperiment,
     values: Mapping[str, float],
@@ -74,9 +79,9 @@ def observe_one(
 ) -> Curves:
     """Return the same for a solver of one set, whose times asked for have the shape (points,)."""
 
-    def runs(factors: FloatArray, asked: Mapping[str, Request]) -> Runs:
-        plain = {n: replace(requests[n], time_s=r.time_s[0]) for n, r in asked.items()}
-        found = [run(factor, plain) for factor in factors.tolist()]
+    def runs(factors: FloatArray | None, asked: Mapping[str, Request]) -> Runs:
+        plain = {n: requests[n].at(r.time_s[0]) for n, r in asked.items()}
+        found = [run(factor, plain) for factor in ([1.0] if factors is None else factors.tolist())]
         missing = {name: np.full(r.time_s.shape, np.nan) for name, r in plain.items()}
         return Runs(
             status=np.array([one.status for one in found]),

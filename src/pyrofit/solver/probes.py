@@ -17,21 +17,22 @@ def follows_of(request: Request) -> str:
 def depths_of(asked: Mapping[str, Request], follows: str, sets: int) -> FloatArray:
     """Return the depths [m] of the probes that follow one thing, shape (sets, probes)."""
     places = [r.place for r in asked.values() if r.place is not None]
+    if not places:
+        return np.empty((sets, 0))
     found = [place.depth_m for place in places if place.follows == follows]
     return np.reshape(np.array(found, np.float64), (-1, sets)).T
 
 
 def probes_of(
     depths: Probes,
-    index: IntArray,
     start: FloatArray,
     empty: IntArray,
     volumes: FloatArray,
 ) -> Probes:
-    """Return the probes of some sets as the kernel takes them; outside the sample lies none."""
-    probes = Probes(*(np.ascontiguousarray(depth[index]) for depth in depths))
-    if not any(depth.size for depth in probes):
-        return probes
+    """Return the probes of sets as the kernel takes them; outside the sample lies none."""
+    if not (depths.material.size or depths.fixture.size):
+        return depths
+    probes = Probes(*(np.array(depth, order="C") for depth in depths))
     thickness = total((start * volumes).swapaxes(0, 1))
     for lane, ahead in enumerate(empty):
         edges = np.concatenate(([0.0], np.cumsum(thickness[ahead:, lane])))

@@ -2,7 +2,7 @@
 
 from collections.abc import Callable, Mapping
 from concurrent.futures import ThreadPoolExecutor
-from functools import cache
+from functools import cache, reduce
 from typing import Any, NamedTuple
 
 import numpy as np
@@ -19,6 +19,7 @@ LANES = 8
 """Parameter sets that run side by side."""
 FEW = 3
 """Sets that are faster one after the other than with empty lanes."""
+UNBURNT = int(Status.UNBURNT)
 EARLY = {RATE, HEAT, MASS}
 """Signals that do not change any more once the reactant is gone."""
 
@@ -66,32 +67,16 @@ def repeated(case: Case, copies: int) -> Case:
 
 def march(case: Case, asked: Mapping[str, Request], numerics: Numerics, threads: int) -> Runs:
     """Run the kernel, sets of about the same number of cells side by side."""
+    work = _work_of(case, asked, numerics)
     sets = case.cells.size
-    runs = Runs(
-        status=np.empty(sets, np.int64),
-        signals={name: np.empty(request.time_s.shape) for name, request in asked.items()},
-        cells=np.empty(sets, np.int64),
-        steps=np.empty(sets, np.int64),
-        energy_error=np.empty(sets),
-        mass_error=np.empty(sets),
-    )
-    ends = [r.time_s.max(axis=1) + 0.5 * r.average_s for r in asked.values()]
-    signals = tuple(
-        (r.of(n), follows_of(r), r.average_s, r.time_s.shape[1]) for n, r in asked.items()
-    )
-    wanted = _asked(signals)
-    at = np.concatenate([r.time_s for r in asked.values()], axis=1)
-    outputs = [r.of(n) for n, r in asked.items()]
-    early = set(outputs) <= EARLY
-    network = case.description.network._replace(burns=HEAT in outputs)
-    case = case._replace(description=case.description._replace(network=network))
-    depths = arrays.Probes(*(depths_of(asked, follows, sets) for follows in arrays.Probes._fields))
-    end = arrays.End(np.max(ends, axis=0), early)
-    work = _Work(case, numerics, end, wanted, at, depths, outputs)
+    if sets == 1:
+        return _runs(work, asked, *_alone(work))
+    signals = np.empty((sets, work.at.shape[1]))
+    outcome, cells = np.empty((sets, 4)), np.empty(sets, np.int64)
 
     def fill(index: IntArray) -> None:
         found = _alone(work, index) if index.size == 1 else _together(work, index)
-        _write(runs, index, work, *found)
+        signals[index], outcome[index], cells[index] = found
 
     parts = _parts(case.cells, threads)
     if threads > 1 and len(parts) > 1:
@@ -100,7 +85,7 @@ def march(case: Case, asked: Mapping[str, Request], numerics: Numerics, threads:
     else:
         for index in parts:
             fill(index)
-    return runs
+    return _runs(work, asked, signals, outcome, cells)
 
 
 class _Work(NamedTuple):
@@ -117,6 +102,28 @@ class _Work(NamedTuple):
     at: FloatArray
     depths: arrays.Probes
     outputs: list[str]
+
+
+def _work_of(case: Case, asked: Mapping[str, Request], numerics: Numerics) -> _Work:
+    """Return the inputs of the kernel for requests whose times have the shape (sets, points)."""
+    requests = list(asked.values())
+    outputs = [r.of(n) for n, r in asked.items()]
+    signals = tuple(
+        (output, follows_of(r), r.average_s, r.time_s.shape[1])
+        for output, r in zip(outputs, requests, strict=True)
+    )
+    ends = [r.time_s.max(axis=1) + 0.5 * r.average_s for r in requests]
+    at = requests[0].time_s if len(requests) == 1 else np.hstack([r.time_s for r in requests])
+    network = case.description.network._replace(burns=HEAT in outputs)
+    return _Work(
+        case._replace(description=case.description._replace(network=network)),
+        numerics,
+        arrays.End(reduce(np.maximum, ends), EARLY.issuperset(outputs)),
+        _asked(signals),
+        np.ascontiguousarray(at),
+        arrays.Probes(*(depths_of(asked, to, case.cells.size) for to in arrays.Probes._fields)),
+        outputs,
+    )
 
 
 @cache
@@ -155,14 +162,17 @@ Found = tuple[FloatArray, FloatArray, IntArray]
 """Signals, shape (sets, points), outcomes, and numbers of cells."""
 
 
-def _alone(work: _Work, index: IntArray) -> Found:
-    """Run one set."""
+def _alone(work: _Work, index: IntArray | None = None) -> Found:
+    """Run one set of several, or the only one."""
     from pyrofit.solver.kernels.slab import slab
 
-    case, end = work.case, work.end
-    if case.cells.size > 1:
+    case, end, at, cells = work.case, work.end, work.at, work.case.cells
+    depths = work.depths
+    if index is not None:
         case, end = mapped(lambda a: a.take(index, axis=-1), (case, end))
-    start, empty = cells_of(case.layers, work.case.cells[index], LANES)
+        at, cells = at[index], cells[index]
+        depths = arrays.Probes(*(depth[index] for depth in depths))
+    start, empty = cells_of(case.layers, cells, LANES)
     signals, outcome = slab(
         (0,),
         (0,) * LANES,
@@ -170,9 +180,9 @@ def _alone(work: _Work, index: IntArray) -> Found:
         case.description,
         work.numerics,
         end,
-        probes_of(work.depths, index, start, empty, case.volumes),
+        probes_of(depths, start, empty, case.volumes),
         work.asked,
-        work.at[index],
+        at,
     )
     return signals, outcome, len(start) - empty
 
@@ -185,7 +195,8 @@ def _together(work: _Work, index: IntArray) -> Found:
     filled = np.append(index, np.repeat(index[-1:], -index.size % LANES))
     layers, volumes = mapped(lambda a: a.take(filled, axis=-1), (case.layers, case.volumes))
     start, empty = cells_of(layers, case.cells[filled])
-    probes = probes_of(work.depths, filled, start, empty, volumes)
+    depths = arrays.Probes(*(depth[filled] for depth in work.depths))
+    probes = probes_of(depths, start, empty, volumes)
     T_start, description, end = mapped(
         lambda a: split(a, filled), (case.T_start, case.description, work.end)
     )
@@ -205,25 +216,36 @@ def _together(work: _Work, index: IntArray) -> Found:
     return (*flat, (len(start) - empty)[:count])
 
 
-def _write(
-    runs: Runs,
-    index: IntArray,
+def _runs(
     work: _Work,
+    asked: Mapping[str, Request],
     signals: FloatArray,
     outcome: FloatArray,
     cells: IntArray,
-) -> None:
-    """Write the results of some sets."""
-    runs.status[index], runs.steps[index] = outcome[:, 0], outcome[:, 1]
-    runs.energy_error[index], runs.mass_error[index] = outcome[:, 2], outcome[:, 3]
-    runs.cells[index] = cells
-    failed = outcome[:, 0] > Status.UNBURNT
+) -> Runs:
+    """Return the results of all sets."""
+    status = outcome[:, 0].astype(np.int64)
+    failed = status > UNBURNT
     if failed.any():
         signals[failed] = np.nan
     begin = work.asked.begin.tolist()
-    for k, (output, curve) in enumerate(zip(work.outputs, runs.signals.values(), strict=True)):
-        curve[index] = signals[:, begin[k] : begin[k + 1]]
-        if output == MASS:
-            sample = (layer for layer in work.case.layers if layer.cells is None)
-            initial = np.asarray(sum(total(layer.mass) for layer in sample))
-            curve[index] = initial[index, None] - curve[index]
+    curves = {
+        name: signals[:, begin[k] : begin[k + 1]]
+        if work.outputs[k] != MASS
+        else _initial_mass(work.case)[:, None] - signals[:, begin[k] : begin[k + 1]]
+        for k, name in enumerate(asked)
+    }
+    return Runs(
+        status=status,
+        signals=curves,
+        cells=cells,
+        steps=outcome[:, 1].astype(np.int64),
+        energy_error=outcome[:, 2],
+        mass_error=outcome[:, 3],
+    )
+
+
+def _initial_mass(case: Case) -> FloatArray:
+    """Return the mass per area of the samples [kg/m2], shape (sets,)."""
+    sample = (layer for layer in case.layers if layer.cells is None)
+    return np.asarray(sum(total(layer.mass) for layer in sample))
