@@ -5,7 +5,10 @@ entry here. The workflow then runs it, and tables and figures show it.
 """
 
 from collections.abc import Callable
+from dataclasses import replace
 from typing import Any, NamedTuple
+
+import numpy as np
 
 STEPS = 20
 """Typical number of steps of least squares from one start."""
@@ -28,6 +31,8 @@ class Optimiser(NamedTuple):
         Marker of its sets in figures, as Matplotlib names it.
     shape
         Several such markers in words.
+    coarse
+        Whether it searches with the coarser runs of `coarse.for_search`; it must not need slopes.
     """
 
     words: str
@@ -35,6 +40,25 @@ class Optimiser(NamedTuple):
     calls: Calls
     marker: str
     shape: str
+    coarse: bool = False
+
+    def searched(self, problem: Any, settings: Any, seed: int) -> Any:
+        """Return its ends, best first, with the costs of the problem's own runs.
+
+        Where coarser runs are not good at every end, the search is made again without them.
+        """
+        from pyrofit.estimate.coarse import are_close, for_search
+
+        rough = for_search(problem) if self.coarse else problem
+        starts = self.run(rough, settings, seed)
+        if rough is problem:
+            return starts
+        ends = np.array([start.values for start in starts])
+        if not all(are_close(rough, problem, ends)):
+            return self.run(problem, settings, seed)
+        costs = [end.cost for end in problem.evaluate_all(ends)]
+        found = [replace(start, cost=cost) for start, cost in zip(starts, costs, strict=True)]
+        return sorted(found, key=lambda start: start.cost)
 
     @property
     def title(self) -> str:
@@ -79,6 +103,6 @@ OPTIMISERS: dict[str, Optimiser] = {
     "least_squares": Optimiser(
         "least squares", _least_squares, _calls_of_least_squares, "D", "diamonds"
     ),
-    "cmaes": Optimiser("CMA-ES", _cmaes, _calls_of_cmaes, "s", "squares"),
+    "cmaes": Optimiser("CMA-ES", _cmaes, _calls_of_cmaes, "s", "squares", coarse=True),
 }
 """By the key of their settings in a study, which is also the name of their files of results."""

@@ -8,6 +8,7 @@ import pandas as pd
 
 from pyrofit.config import Study, digest, kinetics_of
 from pyrofit.errors import StudyError, suggest
+from pyrofit.estimate.coarse import are_close, for_search
 from pyrofit.estimate.history import best_of, convergence
 from pyrofit.estimate.least_squares import Start, descend, multistart
 from pyrofit.estimate.optimisers import OPTIMISERS
@@ -142,14 +143,11 @@ def _search(
 ) -> None:
     """Run repetitions side by side; write histories and results."""
     seeds = [seed_for(study.seed, cost, repetition) for repetition in repetitions]
-    budget = study.imp.sceua
-    ends = dict.fromkeys(f"{n:02d}" for n in (*repetitions[:1], *repetitions[-1:]))
-    told = Told(f"{cost} {' to '.join(ends)}", len(repetitions), budget.generations)
-    from pyrofit.estimate.sceua import search_several  # as above
-
-    found = search_several(problem, seeds, budget.generations, budget.complexes, told.of_each)
-    for repetition, seed, history in zip(repetitions, seeds, found, strict=True):
-        best, x = best_of(history, problem)
+    found = _histories(study, problem, cost, repetitions, seeds)
+    best = np.array([best_of(history, problem)[1] for history in found])
+    costs = [end.cost for end in problem.evaluate_all(best)]
+    refined = [end.cost for end in problem.refined().evaluate_all(best)]
+    for k, (repetition, history) in enumerate(zip(repetitions, found, strict=True)):
         write_csv(results.repetition(cost, repetition, ".csv.gz"), history)
         write_csv(results.repetition(cost, repetition, "_convergence.csv"), convergence(history))
         write_json(
@@ -157,11 +155,11 @@ def _search(
             {
                 "cost_function": cost,
                 "repetition": repetition,
-                "seed": seed,
+                "seed": seeds[k],
                 "digest": digest(dependencies.imp(study, cost, "sceua")),
-                "cost": best,
-                "cost_refined": problem.refined().evaluate(x).cost,
-                "parameters": _named(problem, x),
+                "cost": costs[k],
+                "cost_refined": refined[k],
+                "parameters": _named(problem, best[k]),
                 "calls": len(history),
                 "failed_calls": int((history["status"] != Status.OK).sum()),
                 "generations": int(history["generation"].max()),
@@ -169,11 +167,36 @@ def _search(
         )
 
 
+def _histories(
+    study: Study, problem: Problem, cost: str, repetitions: Sequence[int], seeds: Sequence[int]
+) -> list[pd.DataFrame]:
+    """Return the histories of searches with coarser runs; with finer ones where these are not good.
+
+    Each repetition decides by itself, so that it has the same bits beside any others.
+    """
+    budget = study.imp.sceua
+    ends = dict.fromkeys(f"{n:02d}" for n in (*repetitions[:1], *repetitions[-1:]))
+    told = Told(f"{cost} {' to '.join(ends)}", len(repetitions), budget.generations)
+    from pyrofit.estimate.sceua import search_several  # as above
+
+    coarse = for_search(problem)
+    found = search_several(coarse, seeds, budget.generations, budget.complexes, told.of_each)
+    if coarse is problem:
+        return found
+    best = np.array([best_of(history, problem)[1] for history in found])
+    again = [k for k, close in enumerate(are_close(coarse, problem, best)) if not close]
+    chosen = [seeds[k] for k in again]
+    finer = search_several(problem, chosen, budget.generations, budget.complexes) if again else []
+    for k, history in zip(again, finer, strict=True):
+        found[k] = history
+    return found
+
+
 def optimise(study: Study, results: Results, cost: str, optimiser: str) -> None:
     """Run an optimiser from several starts on the same cost; write every end, best first."""
     problem = imp_problem(study, results, cost)
     seed = seed_for(study.seed, cost, optimiser)
-    starts = OPTIMISERS[optimiser].run(problem, getattr(study.imp, optimiser), seed)
+    starts = OPTIMISERS[optimiser].searched(problem, getattr(study.imp, optimiser), seed)
     write_json(
         results.starts(cost, optimiser),
         {"cost_function": cost, "seed": seed, "starts": [_start(problem, s) for s in starts]},
