@@ -9,7 +9,7 @@ from small import CHANNELS, LIMITS, SD, measured, study
 
 from pyrofit.config import candidate_effects
 from pyrofit.diagnose.base.descent import descend
-from pyrofit.diagnose.base.fit import _problem, _starts, set_up
+from pyrofit.diagnose.base.fit import _starts, set_up
 from pyrofit.diagnose.base.model import model_of
 from pyrofit.diagnose.settings import SETTINGS
 from pyrofit.effects import known_effects
@@ -143,10 +143,10 @@ def test_held_out_run_that_does_not_finish_is_named_before_anything_is_searched(
 
 def test_channels_and_effects_keep_their_order(series: Measurements) -> None:
     described = study()
-    problem = _problem(described, series)
+    base = set_up(described, series).base.model.base
+    problem = base.likelihood.problem
     assert [(name, signal) for name, signal, _ in problem.picks] == list(CHANNELS)
     assert problem.names == tuple(LIMITS)
-    base = set_up(described, series).base.model.base
     model = model_of(base, {"k_T": ("slope_1_K",), "c_T": ("slope_1_K",)}, (1, 3))
     assert model.names[len(LIMITS) :] == ("k_T_slope_1_K", "c_T_slope_1_K")
     assert model.position("c_T") == len(LIMITS) + 1

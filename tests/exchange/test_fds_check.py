@@ -142,7 +142,7 @@ def test_fds_is_found_by_its_variable_and_on_the_path(
 
 
 def test_another_program_is_not_taken_for_fds(tmp_path: Path) -> None:
-    with pytest.raises(FdsError, match="is it FDS"):
+    with pytest.raises(FdsError, match="check that this is FDS's executable"):
         version_text(Path("/bin/true"), tmp_path)
 
 

@@ -159,11 +159,12 @@ def test_baseline_adds_a_line_and_lag_shifts_the_sample() -> None:
 
 @pytest.mark.parametrize("noise_K", [0.0, 0.05])
 def test_heat_flow_agrees_with_the_reference(noise_K: float) -> None:
-    # Measured: 1.1e-5 of the range, where the reaction of order 0.7 comes to its end.
+    # Measured: 1.1e-6 of the range, where the reaction of order 0.7 comes to its end. The error of
+    # the reference is 2e-8 there, by runs at a hundredth of its tolerance.
     temperature = T + np.random.default_rng(3).normal(0.0, noise_K, T.size)
     request = asked(HEAT_FLOW, temperature)
     ours, other = both(dsc(lag_s=3.0), network(), request=request)
-    assert np.abs(ours - other).max() <= 3e-5 * np.ptp(other)
+    assert np.abs(ours - other).max() <= 3e-6 * np.ptp(other)
 
 
 @pytest.mark.parametrize("tau", [0.0, 5.0, 60.0])
