@@ -10,7 +10,7 @@ from scipy.optimize import lsq_linear
 
 from pyrofit.diagnose.base.descent import descend, refreshed
 from pyrofit.diagnose.settings import SETTINGS
-from pyrofit.numerics import linear
+from pyrofit.numerics.linear import dot
 from pyrofit.solver.arrays import FloatArray
 
 Function = Callable[[FloatArray], FloatArray]
@@ -163,7 +163,7 @@ def test_end_is_never_above_the_start_even_with_misleading_derivatives(seed: int
     before = model.function(start)
     assert end.chi2 < before @ before  # no start is stationary: something is gained, too
     assert end.residuals.tolist() == model.function(end.x).tolist()
-    assert end.chi2 == linear.dot(end.residuals, end.residuals)
+    assert end.chi2 == dot(end.residuals, end.residuals)
 
 
 def test_wrong_derivatives_to_begin_with_lead_to_the_same_end() -> None:

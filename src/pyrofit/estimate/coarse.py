@@ -1,7 +1,7 @@
 """Coarser runs for searches, as far as nobody can see the difference in the data.
 
 A search compares costs. The error of a coarser run does no harm while it is small beside the noise
-of the measured signal, or beside the misfit of a set that fits badly.
+of the measured signal. If a set fits badly, its misfit takes the place of the noise.
 """
 
 from dataclasses import replace
