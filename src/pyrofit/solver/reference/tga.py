@@ -19,6 +19,8 @@ from pyrofit.solver.reference.substance import Reactions, Substance, mass_fracti
 
 PERTURBED = 1e-7
 """Difference of an extent for the Jacobian."""
+SHARE = 0.2
+"""Allowed error of a step of the integrator, as a share of the tolerance."""
 STRAIGHT_K = 1e-9
 """Deviation from a line up to which temperatures belong to one heating rate [K]."""
 
@@ -137,8 +139,12 @@ def _heat(
         here = derivative(t, state)
         return np.stack([(here - derivative(t, y)) / PERTURBED for y in moved], axis=1)
 
+    if start.size == 0:
+        return np.empty((time.size, 0)), 0
     ends = float(time[0]), start, float(time[-1])
-    solver = Bdf(derivative, *ends, tolerance, tolerance, jacobian, dense_factor)
+    # The errors of the steps add up.
+    own = SHARE * tolerance
+    solver = Bdf(derivative, *ends, own, own, jacobian, dense_factor)
     states = np.empty((time.size, start.size))
     states[0] = start
     filled, steps = 1, 0
