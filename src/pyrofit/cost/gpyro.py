@@ -70,6 +70,8 @@ def _lost(
     allowed = eps * size
     away = allowed + np.abs(difference)
     reached = np.divide(allowed, away, out=np.ones_like(away), where=away > 0.0)
-    lost = 1.0 - functions.power(reached, zeta)
+    # The usual exponent is a product, which takes a tenth of the time.
+    kept = reached * reached if zeta == 2.0 else functions.power(reached, zeta)
+    lost = 1.0 - kept
     # The norm of these is the mean of the losses: the fitnesses add up, not their squares.
     return np.asarray(np.sign(difference) * np.sqrt(lost * lost.mean() / lost.size))
