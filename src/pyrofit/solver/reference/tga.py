@@ -144,7 +144,11 @@ def _heat(
     ends = float(time[0]), start, float(time[-1])
     # The errors of the steps add up.
     own = SHARE * tolerance
-    solver = Bdf(derivative, *ends, own, own, jacobian, dense_factor)
+    absolute = np.full(start.size, own)
+    if sample.tau > 0.0:
+        # The last unknown is a heat release rate, not a part of the sample.
+        absolute[-1] *= max(1.0, float(np.max(np.abs(sample.burning), initial=0.0)))
+    solver = Bdf(derivative, *ends, own, absolute, jacobian, dense_factor)
     states = np.empty((time.size, start.size))
     states[0] = start
     filled, steps = 1, 0
