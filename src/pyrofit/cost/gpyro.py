@@ -70,7 +70,7 @@ def _lost(
     allowed = eps * size
     away = allowed + np.abs(difference)
     reached = np.divide(allowed, away, out=np.ones_like(away), where=away > 0.0)
-    # The usual exponent is a product, which takes a tenth of the time.
+    # The usual exponent is a product; a power takes longer.
     kept = reached * reached if zeta == 2.0 else functions.power(reached, zeta)
     lost = 1.0 - kept
     # The norm of these is the mean of the losses: the fitnesses add up, not their squares.

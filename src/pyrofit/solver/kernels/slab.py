@@ -20,7 +20,7 @@ def make_trace(width, numerics, probes, asked):
     sized = inside > 0
     for column in asked.column:
         sized = sized or column == THICKNESS
-    # A step is refused at most as often as one is accepted.
+    # A run ends after twice as many tries as it may take steps.
     flat = np.empty((2 * numerics.most_steps + 2, PROBES + inside, len(width)))
     return Trace(flat, in_lanes(width, flat), sized)
 
