@@ -66,7 +66,7 @@ lint: $(VENV)/installed
 	ruff check .
 	ruff format --check .
 	mypy
-	snakefmt --check Snakefile workflow
+	snakefmt --check Snakefile workflow src/pyrofit/workflow
 	codespell
 	python tools/plain_words.py --check
 	! grep -n "://" requirements.lock
@@ -77,7 +77,7 @@ bench: $(VENV)/installed
 format: $(VENV)/installed
 	ruff check --fix .
 	ruff format .
-	snakefmt Snakefile workflow
+	snakefmt Snakefile workflow src/pyrofit/workflow
 
 lock:
 	uv pip compile pyproject.toml --extra dev --extra docs --extra slurm --universal --python-version 3.11 --generate-hashes \

@@ -4,6 +4,8 @@ Targets: full (the plan full of blind_test.yaml), short (a few of its twins), fo
 of foreign_truth.yaml), foreign_part (a part of it), gpyro (the plan full of gpyro_truth.yaml).
 """
 
+import os
+import sys
 from pathlib import Path
 
 from snakemake.utils import min_version
@@ -17,6 +19,8 @@ from pyrofit.errors import PyrofitError
 from pyrofit.provenance import source_fingerprint
 
 min_version("9.27")
+
+os.environ.update(PYROFIT_PYTHON=sys.executable)  # of jobs
 
 
 TESTS = {
@@ -94,7 +98,8 @@ rule chunk:
         "Blind test of the diagnosis, {wildcards.test}, plan {wildcards.plan},"
         " job {wildcards.chunk}"
     shell:
-        "pyrofit blind-test --setting {params.setting} --plan {wildcards.plan}"
+        '"$PYROFIT_PYTHON" -P -m pyrofit'
+        " blind-test --setting {params.setting} --plan {wildcards.plan}"
         " --chunk {wildcards.chunk} --log {log}"
 
 
@@ -120,4 +125,5 @@ rule page:
     message:
         "Blind test of the diagnosis, {wildcards.test}, plan {wildcards.plan}: tables, figures, page"
     shell:
-        "pyrofit blind-test --setting {params.setting} --plan {wildcards.plan} --log {log}"
+        '"$PYROFIT_PYTHON" -P -m pyrofit'
+        " blind-test --setting {params.setting} --plan {wildcards.plan} --log {log}"

@@ -26,6 +26,7 @@ ORDER = [
         "parallel",
         "provenance",
         "seeds",
+        "sources",
     },
     {"quantities"},
     {"data"},
@@ -49,8 +50,16 @@ ORDER = [
     {"doctor", "ready"},
     {"show"},
     {"api"},
-    {"archive", "archive_crate", "archive_texts", "archive_zip", "blind_test"},
+    {
+        "archive",
+        "archive_crate",
+        "archive_software",
+        "archive_texts",
+        "archive_zip",
+        "blind_test",
+    },
     {"cli"},
+    {"__main__"},
 ]
 RANK = {part: rank for rank, parts in enumerate(ORDER) for part in parts}
 DISPATCHED = {

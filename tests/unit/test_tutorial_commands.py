@@ -56,7 +56,7 @@ def parsed(parser: argparse.ArgumentParser, words: list[str]) -> argparse.Namesp
 
 def targets() -> set[str]:
     """Return the names of the rules of the workflow."""
-    files = [ROOT / "Snakefile", *(ROOT / "workflow" / "rules").glob("*.smk")]
+    files = [*(ROOT / "src/pyrofit/workflow").rglob("*.smk")]
     text = "\n".join(path.read_text(encoding="utf-8") for path in files)
     return set(re.findall(r"^ *rule (\w+):", text, re.M))
 

@@ -50,6 +50,17 @@ def read_mapping(path: Path) -> dict[str, Any]:
     return given
 
 
+def as_read(keys: Mapping[str, Any]) -> dict[str, Any]:
+    """Return keys that another program has read from YAML, its numbers as here.
+
+    >>> as_read({"noise": "1e-3", "unit": "K"})
+    {'noise': 0.001, 'unit': 'K'}
+    """
+    # What is text to YAML 1.1 stands there without quotes.
+    read: dict[str, Any] = yaml.load(yaml.safe_dump(json.loads(json.dumps(keys))), _Loader)
+    return read
+
+
 def _read_text(path: Path) -> str:
     if path.is_dir():
         raise StudyError(f"{path}: this is a directory; give the study's YAML file")

@@ -55,11 +55,13 @@ for _subject, _part in SUBJECTS.items():
         message:
             "Tables and figures, {params.subject}"
         shell:
-            "pyrofit show --study {params.study} --digest {params.digest} --log {log}"
+            '"$PYROFIT_PYTHON" -P -m pyrofit'
+            " show --study {params.study} --digest {params.digest} --log {log}"
             " --subject {params.subject}"
 
 
 rule report:
+    """The report of the study; without a target it is made with all its files."""
     input:
         CALCULATED,
         expand(ROOT / "tables/{name}.md", name=SHOWN_TABLES),
@@ -88,6 +90,7 @@ rule report:
         provenance=ROOT / "provenance.json",
     log:
         log_of("report"),
+    localrule: True
     params:
         study=STUDY,
         digest=digest(dependencies.presentation(study)),
@@ -96,4 +99,5 @@ rule report:
     message:
         "Report: {output.page}"
     shell:
-        "pyrofit report --study {params.study} --digest {params.digest} --log {log}"
+        '"$PYROFIT_PYTHON" -P -m pyrofit'
+        " report --study {params.study} --digest {params.digest} --log {log}"

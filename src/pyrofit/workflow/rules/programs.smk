@@ -23,5 +23,6 @@ if PROGRAMS:
         message:
             "External programs: one timed run, and what the campaign costs"
         shell:
-            "pyrofit trial --study {params.study} --digest {params.digest} --log {log}"
+            '"$PYROFIT_PYTHON" -P -m pyrofit'
+            " trial --study {params.study} --digest {params.digest} --log {log}"
             " --cores {threads}"

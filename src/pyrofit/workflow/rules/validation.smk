@@ -28,4 +28,5 @@ rule predict:
     message:
         "Best sets simulated at {params.experiments}"
     shell:
-        "pyrofit predict --study {params.study} --digest {params.digest} --log {log}"
+        '"$PYROFIT_PYTHON" -P -m pyrofit'
+        " predict --study {params.study} --digest {params.digest} --log {log}"

@@ -22,4 +22,5 @@ rule compare:
     message:
         "All sets of all optimisers under all costs"
     shell:
-        "pyrofit compare --study {params.study} --digest {params.digest} --log {log}"
+        '"$PYROFIT_PYTHON" -P -m pyrofit'
+        " compare --study {params.study} --digest {params.digest} --log {log}"

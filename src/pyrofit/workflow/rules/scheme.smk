@@ -17,6 +17,7 @@ SCHEME = [
 if study.kinetics is not None:
 
     rule scheme:
+        """The reaction scheme that predicts left-out heating rates best."""
         input:
             MEASUREMENTS,
         output:
@@ -34,4 +35,5 @@ if study.kinetics is not None:
         message:
             "Which reaction scheme the thermogravimetric records support"
         shell:
-            "pyrofit scheme --study {params.study} --digest {params.digest} --log {log}"
+            '"$PYROFIT_PYTHON" -P -m pyrofit'
+            " scheme --study {params.study} --digest {params.digest} --log {log}"

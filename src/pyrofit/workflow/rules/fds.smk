@@ -19,13 +19,16 @@ rule fds_export:
     message:
         "The fitted material for FDS {wildcards.version}: {output[0]}"
     shell:
-        "pyrofit export fds {params.study} --fds-version {wildcards.version}"
+        '"$PYROFIT_PYTHON" -P -m pyrofit'
+        " export fds {params.study} --fds-version {wildcards.version}"
         " --out {params.folder} --log {log}"
 
 
 rule fds:
+    """The fitted material as input files of FDS."""
     input:
         expand(results.fds("{version}/material.fds"), version=["6.7", "6.8"]),
+    localrule: True
 
 
 rule fds_check_run:
@@ -47,9 +50,12 @@ rule fds_check_run:
     message:
         "FDS beside pyrofit: {output[1]}"
     shell:
-        "pyrofit fds-check --study {params.study} --digest {params.digest} --log {log}"
+        '"$PYROFIT_PYTHON" -P -m pyrofit'
+        " fds-check --study {params.study} --digest {params.digest} --log {log}"
 
 
 rule fds_check:
+    """The fitted material in your FDS, beside pyrofit."""
     input:
         results.fds("check.json"),
+    localrule: True

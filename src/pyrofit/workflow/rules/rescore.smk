@@ -4,6 +4,7 @@ from pyrofit.results import rescored
 
 
 rule rescore:
+    """Stored sets of parameters under other costs."""
     input:
         MEASUREMENTS,
         KINETICS_FOR_IMP,
@@ -44,5 +45,6 @@ rule rescore:
     message:
         "Stored sets scored again under other costs"
     shell:
-        "pyrofit rescore {params.study} --digest {params.digest} --log {log}"
+        '"$PYROFIT_PYTHON" -P -m pyrofit'
+        " rescore {params.study} --digest {params.digest} --log {log}"
         " --cores {threads}"

@@ -4,6 +4,7 @@ from pyrofit.results import posterior
 
 
 rule posterior:
+    """Samples of the posterior, predictions with bands."""
     input:
         MEASUREMENTS,
         KINETICS_FOR_IMP,
@@ -38,5 +39,6 @@ rule posterior:
     message:
         "Parameters drawn from the posterior, and predictions with bands"
     shell:
-        "pyrofit posterior {params.study} --digest {params.digest} --log {log}"
+        '"$PYROFIT_PYTHON" -P -m pyrofit'
+        " posterior {params.study} --digest {params.digest} --log {log}"
         " --cores {threads}"

@@ -19,7 +19,8 @@ rule diagnosis:
     message:
         "Which effect the model lacks"
     shell:
-        "pyrofit diagnose --study {params.study} --digest {params.digest} --log {log}"
+        '"$PYROFIT_PYTHON" -P -m pyrofit'
+        " diagnose --study {params.study} --digest {params.digest} --log {log}"
         " --cores {threads}"
 
 
@@ -32,6 +33,7 @@ rule diagnosis_page:
         results.diagnosis("report.html"),
     log:
         log_of("diagnosis_page"),
+    localrule: True
     threads: 2
     params:
         study=STUDY,
@@ -41,10 +43,13 @@ rule diagnosis_page:
     message:
         "Diagnosis: {output}"
     shell:
-        "pyrofit diagnosis-page --study {params.study} --digest {params.digest} --log {log}"
+        '"$PYROFIT_PYTHON" -P -m pyrofit'
+        " diagnosis-page --study {params.study} --digest {params.digest} --log {log}"
         " --cores {threads}"
 
 
 rule diagnose:
+    """Which physical effect the model lacks."""
     input:
         results.diagnosis("report.html"),
+    localrule: True

@@ -14,6 +14,7 @@ rule prepare:
         summary=results.measurements_summary,
     log:
         log_of("prepare"),
+    localrule: True
     params:
         study=STUDY,
         digest=digest(dependencies.data(study)),
@@ -22,4 +23,5 @@ rule prepare:
     message:
         "Measured series into tidy tables, mass closure checked"
     shell:
-        "pyrofit prepare --study {params.study} --digest {params.digest} --log {log}"
+        '"$PYROFIT_PYTHON" -P -m pyrofit'
+        " prepare --study {params.study} --digest {params.digest} --log {log}"

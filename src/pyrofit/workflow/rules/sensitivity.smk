@@ -4,6 +4,7 @@ from pyrofit.results import sensitivity
 
 
 rule sensitivity:
+    """Influence of each parameter on signals over time and on costs."""
     input:
         MEASUREMENTS,
         KINETICS_FOR_IMP,
@@ -37,5 +38,6 @@ rule sensitivity:
     message:
         "Sensitivity of signals over time and of costs"
     shell:
-        "pyrofit sensitivity {params.study} --digest {params.digest} --log {log}"
+        '"$PYROFIT_PYTHON" -P -m pyrofit'
+        " sensitivity {params.study} --digest {params.digest} --log {log}"
         " --cores {threads}"

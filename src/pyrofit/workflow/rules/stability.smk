@@ -19,11 +19,13 @@ rule stability_of_draw:
     message:
         "Diagnosis of disturbed data, draw {wildcards.draw}"
     shell:
-        "pyrofit stability --study {params.study} --digest {params.digest} --log {log}"
+        '"$PYROFIT_PYTHON" -P -m pyrofit'
+        " stability --study {params.study} --digest {params.digest} --log {log}"
         " --draw {wildcards.draw}"
 
 
 rule stability:
+    """The diagnosis on slightly changed data."""
     input:
         DIAGNOSIS,
         expand(ROOT / "stability/draw_{draw}.json", draw=range(study.diagnosis.draws)),
@@ -42,6 +44,7 @@ rule stability:
         ],
     log:
         log_of("stability"),
+    localrule: True
     params:
         study=STUDY,
         digest=digest(dependencies.presentation(study)),
@@ -49,4 +52,5 @@ rule stability:
     message:
         "Stability of the diagnosis: tables and figure"
     shell:
-        "pyrofit stability --study {params.study} --digest {params.digest} --log {log}"
+        '"$PYROFIT_PYTHON" -P -m pyrofit'
+        " stability --study {params.study} --digest {params.digest} --log {log}"

@@ -4,6 +4,7 @@ from pyrofit.results import worth
 
 
 rule worth:
+    """What planned tests would tell about parameters and predictions."""
     input:
         MEASUREMENTS,
         KINETICS_FOR_IMP,
@@ -23,4 +24,5 @@ rule worth:
     message:
         "Worth of planned tests"
     shell:
-        "pyrofit worth {params.study} --digest {params.digest} --log {log} --cores {threads}"
+        '"$PYROFIT_PYTHON" -P -m pyrofit'
+        " worth {params.study} --digest {params.digest} --log {log} --cores {threads}"

@@ -34,7 +34,8 @@ for _cost, _together in product(COSTS, SHARES):
             f"Inverse modelling, {_cost}, repetition "
             + " to ".join(dict.fromkeys([_together[0], _together[-1]]))
         shell:
-            "pyrofit imp --study {params.study} --digest {params.digest} --log {log}"
+            '"$PYROFIT_PYTHON" -P -m pyrofit'
+            " imp --study {params.study} --digest {params.digest} --log {log}"
             " --cost {params.cost} --repetition {params.repetitions}"
 
 
@@ -65,7 +66,8 @@ rule optimise:
     message:
         "{params.title}, {wildcards.cost}"
     shell:
-        "pyrofit {params.command} --study {params.study} --digest {params.digest} --log {log}"
+        '"$PYROFIT_PYTHON" -P -m pyrofit'
+        " {params.command} --study {params.study} --digest {params.digest} --log {log}"
         " --cost {wildcards.cost}"
 
 
@@ -89,7 +91,8 @@ rule descent:
     message:
         "Least squares from SCE-UA's best set, {wildcards.cost}"
     shell:
-        "pyrofit descent --study {params.study} --digest {params.digest} --log {log}"
+        '"$PYROFIT_PYTHON" -P -m pyrofit'
+        " descent --study {params.study} --digest {params.digest} --log {log}"
         " --cost {wildcards.cost}"
 
 
@@ -108,6 +111,7 @@ rule collect:
         convergence=results.imp("convergence.csv"),
     log:
         log_of("collect"),
+    localrule: True
     params:
         study=STUDY,
         digest=digest(dependencies.collect(study)),
@@ -115,4 +119,5 @@ rule collect:
     message:
         "All repetitions gathered"
     shell:
-        "pyrofit collect --study {params.study} --digest {params.digest} --log {log}"
+        '"$PYROFIT_PYTHON" -P -m pyrofit'
+        " collect --study {params.study} --digest {params.digest} --log {log}"

@@ -1,13 +1,15 @@
 # All of a study in one file, to be run again elsewhere: snakemake archive
 rule archive:
+    """Study, results and software in one file."""
     input:
-        rules.all.input,
-        given=workflow.configfiles,
-        lock="requirements.lock",
+        EVERYTHING,
+        given=given.files,
+        lock=[name for name in ["requirements.lock"] if os.path.exists(name)],
     output:
         ROOT / f"{study.name}.zip",
     log:
         log_of("archive"),
+    localrule: True
     params:
         study=STUDY,
         digest=digest(dependencies.presentation(study)),
@@ -15,5 +17,6 @@ rule archive:
     message:
         "Archive: {output}"
     shell:
-        "pyrofit archive --study {params.study} --digest {params.digest} --log {log}"
+        '"$PYROFIT_PYTHON" -P -m pyrofit'
+        " archive --study {params.study} --digest {params.digest} --log {log}"
         " --given {input.given}"

@@ -19,11 +19,13 @@ rule robustness_of_cost:
     message:
         "Robustness, {wildcards.cost}"
     shell:
-        "pyrofit robustness --study {params.study} --digest {params.digest} --log {log}"
+        '"$PYROFIT_PYTHON" -P -m pyrofit'
+        " robustness --study {params.study} --digest {params.digest} --log {log}"
         " --cost {wildcards.cost}"
 
 
 rule robustness:
+    """Cost functions on synthetic data with noise and outliers."""
     input:
         expand(ROOT / "robustness/{cost}.csv", cost=COSTS),
     output:
@@ -33,6 +35,7 @@ rule robustness:
         ],
     log:
         log_of("robustness"),
+    localrule: True
     params:
         study=STUDY,
         digest=digest(dependencies.presentation(study)),
@@ -40,4 +43,5 @@ rule robustness:
     message:
         "Robustness of the cost functions: table and figure"
     shell:
-        "pyrofit robustness --study {params.study} --digest {params.digest} --log {log}"
+        '"$PYROFIT_PYTHON" -P -m pyrofit'
+        " robustness --study {params.study} --digest {params.digest} --log {log}"

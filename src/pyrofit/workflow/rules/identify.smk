@@ -22,7 +22,8 @@ rule identify:
     message:
         "What the data determine of the inverse modelling"
     shell:
-        "pyrofit identify --study {params.study} --digest {params.digest} --log {log}"
+        '"$PYROFIT_PYTHON" -P -m pyrofit'
+        " identify --study {params.study} --digest {params.digest} --log {log}"
 
 
 if study.kinetics is not None:
@@ -45,5 +46,6 @@ if study.kinetics is not None:
         message:
             "What the data determine of the kinetics"
         shell:
-            "pyrofit identify --stage kinetics --study {params.study} --digest {params.digest}"
+            '"$PYROFIT_PYTHON" -P -m pyrofit'
+            " identify --stage kinetics --study {params.study} --digest {params.digest}"
             " --log {log}"

@@ -35,4 +35,5 @@ if study.kinetics is not None:
         message:
             "Kinetics fitted to heated samples"
         shell:
-            "pyrofit kinetics --study {params.study} --digest {params.digest} --log {log}"
+            '"$PYROFIT_PYTHON" -P -m pyrofit'
+            " kinetics --study {params.study} --digest {params.digest} --log {log}"

@@ -1,0 +1,82 @@
+"""The study of a run as it is given: in files, or by a workflow that uses this one as a module."""
+
+import os
+from collections.abc import Mapping, Sequence
+from pathlib import Path
+from typing import Any, NamedTuple
+
+from snakemake.utils import update_config
+
+from pyrofit.config import read_mapping
+from pyrofit.config.yaml_file import as_read
+from pyrofit.errors import StudyError
+
+FILE = "study"
+"""Key of a module's configuration that names a study file."""
+DEFAULT = "config/twin.yaml"
+"""The study that runs if none is given."""
+
+
+class Given(NamedTuple):
+    """A study as it is given.
+
+    Parameters
+    ----------
+    keys
+        Its keys, unchecked.
+    source
+        The file that errors name. Files of the study are found from its folder.
+    files
+        All files that it was read from.
+    """
+
+    keys: dict[str, Any]
+    source: str
+    files: list[str]
+
+
+def from_files(files: Sequence[str], changes: Mapping[str, Any]) -> Given:
+    """Return the study of one or more files, the later ones and ``changes`` on top.
+
+    The files are read anew: to Snakemake a key may stand twice, and 1e-3 is text.
+
+    Raises
+    ------
+    StudyError
+        There is no file, or one of them cannot be read.
+    """
+    if not files:
+        raise StudyError(
+            f"no study is given, and {DEFAULT} is not here; give yours: --configfile STUDY"
+        )
+    places = [os.path.relpath(file) for file in files]
+    keys: dict[str, Any] = {}
+    for place in places:
+        update_config(keys, read_mapping(Path(place)))
+    update_config(keys, dict(changes))
+    return Given(keys, places[0], places)
+
+
+def from_workflow(files: Sequence[str], config: Mapping[str, Any]) -> Given:
+    """Return the study that another workflow gives.
+
+    Parameters
+    ----------
+    files
+        Configuration files of the other workflow.
+    config
+        The keys of a study; or the name of a study file as ``study``, and keys that change it.
+
+    Raises
+    ------
+    StudyError
+        There is no study, or its file cannot be read.
+    """
+    if FILE in config:
+        return from_files([config[FILE]], {k: v for k, v in config.items() if k != FILE})
+    if not config:
+        raise StudyError(
+            f"no study is given; write in the module: config: {{'{FILE}': 'mywood/mywood.yaml'}}"
+        )
+    places = [os.path.relpath(file) for file in files]
+    return Given(as_read(config), places[0] if places else "config.yaml", places)

@@ -1,0 +1,167 @@
+"""The whole study: data, kinetics, inverse modelling, validation, tables, figures, report."""
+
+import os
+import shutil
+import signal
+import sys
+from itertools import product
+from pathlib import Path
+
+from snakemake.logging import logger
+from snakemake.utils import min_version
+
+from pyrofit.running.interrupt import end_while_starting, end_with_jobs
+
+# In another workflow, which uses this one as a module, hooks and signals are that one's.
+OWN = workflow.modifier.is_main_snakefile()
+if (
+    OWN and workflow.is_main_process
+):  # before slow imports: Ctrl-C says one line from here on
+    end_while_starting()
+
+from pyrofit.config import as_study, digest
+from pyrofit.config.programs import externals, program_files
+from pyrofit.config.unmeasured import unmeasured
+from pyrofit.config.unusual import unusual
+from pyrofit.errors import PyrofitError
+from pyrofit.provenance import STUDY as STUDY_MODULES
+from pyrofit.provenance import source_fingerprint
+from pyrofit.results import dependencies
+from pyrofit.results.files import Results
+from pyrofit.results.kinetics import heats_shown
+from pyrofit.running import causes, shares
+from pyrofit.estimate.calls import calls_of_jobs
+from pyrofit.running.frozen import freeze, frozen_study
+from pyrofit.running.given import DEFAULT, from_files, from_workflow
+from pyrofit.running.lock import end_run, join_run, start_run
+from pyrofit.running.work import WorkDone
+from pyrofit.show.sections import FIGURES, SUBJECTS, TABLES
+from pyrofit.stages.reading import check_measurements
+
+min_version("9.27")
+
+
+report: "report/workflow.rst"
+
+
+# Jobs run by this interpreter, not by the pyrofit that PATH finds. As a variable of the shell it is
+# no part of a rule: an environment that moves reruns nothing.
+os.environ.update(PYROFIT_PYTHON=sys.executable)
+
+
+# A given --configfile replaces the default study; Snakemake alone would merge the two.
+if OWN and not workflow.configfiles and os.path.exists(DEFAULT):
+
+    configfile: DEFAULT
+
+
+try:
+    changes = dict(workflow.config_settings.config) if OWN else dict(config)
+    # How repetitions are shared out to jobs belongs to the run, not to the study.
+    per_job = changes.pop(shares.KEY, None)
+    given = (from_files if OWN else from_workflow)(workflow.configfiles, changes)
+    if workflow.is_main_process:
+        study = as_study(given.keys, given.source)
+        check_measurements(study, given.source, macfp=False)
+    else:  # a job of a cluster: the study file may have been edited since the start
+        study = frozen_study(given.keys, given.source)
+    ROOT = Path("results") / study.name
+    # A job of a cluster must share out as the process that submitted it.
+    local = workflow.is_main_process and workflow.local_exec
+    cores = workflow.resource_settings.cores if local else None
+    SHARES = [[f"{n:02d}" for n in job] for job in shares.shares(study, per_job, cores)]
+    if not workflow.is_main_process:
+        join_run(ROOT)
+    elif OWN:
+        logger.addHandler(WorkDone(calls_of_jobs(study, SHARES), cores))
+    elif not workflow.output_settings.dryrun:
+        freeze(study, ROOT / "study.json")
+except PyrofitError as error:
+    raise WorkflowError(str(error)) from None
+
+# The study as checked and completed, with the changes of --config. Every step reads this file, and
+# verifies by digest that its part of it did not change after the rule was planned.
+STUDY = ROOT / "study.json"
+results = Results(ROOT)
+# What the fits, and what the report, which states this fingerprint, are made by.
+FITS = source_fingerprint("pyrofit.stages.fit")
+SHOWS = source_fingerprint(*STUDY_MODULES)
+COSTS = list(study.imp.costs)
+# Inputs of external programs, and the cores of their simultaneous runs.
+PROGRAM_FILES = list(program_files(study))
+PROGRAMS = [experiment.program for experiment in externals(study).values()]
+RUN_CORES = max([program.cores for program in PROGRAMS], default=1)
+RUNS_CORES = max([p.parallel * p.cores for p in PROGRAMS], default=1)
+OLD_LOGS = causes.logs()
+REPETITIONS = [repetition for job in SHARES for repetition in job]
+
+
+wildcard_constraints:
+    cost="|".join(COSTS),
+
+
+onstart:
+    try:
+        if told := start_run(ROOT):
+            print(told, file=sys.stderr)
+        for sentence in unusual(study):
+            print(f"warning: {given.source}: {sentence}", file=sys.stderr)
+        freeze(study, STUDY)
+        if workflow.local_exec:
+            end_with_jobs(ROOT)
+        else:  # Snakemake cancels the jobs of a cluster
+            signal.signal(signal.SIGINT, signal.default_int_handler)
+    except PyrofitError as error:
+        raise WorkflowError(str(error)) from None
+
+
+onerror:
+    for _cause in causes.causes(OLD_LOGS):
+        print(_cause, file=sys.stderr)
+    end_run(ROOT)
+
+
+onsuccess:
+    end_run(ROOT)
+    for _page in (ROOT / "report.html", results.diagnosis("report.html")):
+        if _page.exists():
+            print(f"Page: {_page}")
+
+
+include: "rules/common.smk"
+include: "rules/data.smk"
+include: "rules/kinetics.smk"
+include: "rules/programs.smk"
+include: "rules/imp.smk"
+include: "rules/identify.smk"
+include: "rules/validation.smk"
+include: "rules/comparison.smk"
+include: "rules/report.smk"
+include: "rules/robustness.smk"
+include: "rules/rescore.smk"
+include: "rules/sensitivity.smk"
+include: "rules/posterior.smk"
+include: "rules/worth.smk"
+include: "rules/scheme.smk"
+include: "rules/fds.smk"
+include: "rules/diagnosis.smk"
+include: "rules/stability.smk"
+
+
+# Everything, not the report alone: what is deleted or was removed with a failed run is made again.
+EVERYTHING = [
+    ROOT / "report.html",
+    MEASUREMENTS,
+    CALCULATED,
+    expand(
+        ROOT / "imp/{cost}/{repetition}.{kind}",
+        cost=COSTS,
+        repetition=REPETITIONS,
+        kind=["json", "csv.gz"],
+    ),
+    expand(ROOT / "tables/{name}.csv", name=SHOWN_TABLES),
+    expand(ROOT / "figures/{name}.png", name=SHOWN_FIGURES),
+]
+
+
+include: "rules/archive.smk"

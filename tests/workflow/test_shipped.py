@@ -1,0 +1,78 @@
+"""The workflow as others have it: by another interpreter, in another workflow, installed."""
+
+import os
+import subprocess
+import sys
+from pathlib import Path
+
+import pytest
+import yaml
+from tiny import OWN_FILE, ROOT, TINY
+
+SUMMARY = "results/tiny/measurements/summary.json"
+OUTER = f"""
+configfile: "config.yaml"
+
+rule own:
+    input: {SUMMARY!r}
+    output: "own.txt"
+    shell: "cp {{input}} {{output}}"
+
+module pyrofit:
+    snakefile: {str(ROOT / "workflow" / "Snakefile")!r}
+    config: config["pyrofit"]
+
+use rule * from pyrofit as pyrofit_*
+"""
+
+
+def snakemake(folder: Path, *arguments: str, path: str = os.defpath) -> str:
+    """Run Snakemake in a folder, and return what it said; programs are found along ``path``."""
+    ran = subprocess.run(
+        [Path(sys.executable).parent / "snakemake", "--nocolor", "--cores", "1", *arguments],
+        cwd=folder,
+        env={**os.environ, "PATH": path, "PYTHONPATH": str(ROOT / "src")},
+        stdout=subprocess.PIPE,
+        stderr=subprocess.STDOUT,
+        text=True,
+        check=False,
+    )
+    assert ran.returncode == 0, ran.stdout
+    return ran.stdout
+
+
+def test_jobs_run_by_the_interpreter_that_runs_snakemake(tmp_path: Path) -> None:
+    # Neither the pyrofit of PATH nor modules of the working folder are taken.
+    other = tmp_path / "bin" / "pyrofit"
+    other.parent.mkdir()
+    other.write_text("#!/bin/sh\nexit 1\n")
+    other.chmod(0o755)
+    (tmp_path / "pyrofit.py").write_text("raise SystemExit(1)\n")
+    write_study(tmp_path)
+    path = f"{other.parent}{os.pathsep}{os.defpath}"
+    study = ("--snakefile", str(ROOT / "Snakefile"), "--configfile", "tiny.yaml")
+    snakemake(tmp_path, SUMMARY, *study, path=path)
+    assert (tmp_path / SUMMARY).is_file()
+
+
+@pytest.mark.parametrize("inline", [True, False], ids=["keys", "file"])
+def test_workflow_is_a_module_of_another_one(tmp_path: Path, inline: bool) -> None:
+    write_study(tmp_path)
+    # To Snakemake, 1e-3 is text.
+    text = yaml.safe_dump(TINY).replace("0.001", "1e-3") if inline else "study: tiny.yaml\n"
+    assert ("1e-3" in text) == inline
+    lines = "".join(f"  {line}\n" for line in text.splitlines())
+    (tmp_path / "config.yaml").write_text(f"pyrofit:\n{lines}")
+    (tmp_path / "Snakefile").write_text(OUTER)
+    planned = snakemake(tmp_path, "--dry-run", "pyrofit_all")
+    assert "pyrofit_imp_RMSE_00" in planned
+    assert not (tmp_path / "results").exists()
+    snakemake(tmp_path)
+    assert (tmp_path / "own.txt").read_bytes() == (tmp_path / SUMMARY).read_bytes()
+    assert "Nothing to be done" in snakemake(tmp_path)
+
+
+def write_study(folder: Path) -> None:
+    (folder / "data").mkdir()
+    (folder / "data" / "run.csv").write_text(OWN_FILE)
+    (folder / "tiny.yaml").write_text(yaml.safe_dump(TINY, sort_keys=False))
