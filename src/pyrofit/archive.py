@@ -14,7 +14,8 @@ from typing import Any
 
 from pyrofit import __version__
 from pyrofit.archive_crate import METADATA, metadata
-from pyrofit.archive_texts import COMMENT, MACFP_FILES, README
+from pyrofit.archive_software import LOCK, VERSIONS, is_project, software
+from pyrofit.archive_texts import AGAIN, AGAIN_LOCKED, COMMENT, MACFP_FILES, README
 from pyrofit.archive_zip import Entries, zipped
 from pyrofit.config import Study, as_yaml, digest
 from pyrofit.config.programs import program_files
@@ -31,20 +32,6 @@ from pyrofit.stages.reading import MACFP
 _PAGES = ("study.json", "provenance.json", "report.html")
 _LEFT_OUT = ("logs", "benchmarks", "running", "unfinished")
 """Folders of results that differ from run to run."""
-_SOFTWARE = (
-    "CITATION.cff",
-    "Dockerfile",
-    "LICENSE",
-    "Makefile",
-    "README.md",
-    "Snakefile",
-    "pyproject.toml",
-    "requirements.lock",
-    "config/*.yaml",
-    "config/templates/*",
-    "profiles/*/config.yaml",
-    "workflow/**/*",
-)
 
 
 def write_archive(study: Study, results: Results, given: Sequence[Path], project: Path) -> Path:
@@ -59,7 +46,7 @@ def write_archive(study: Study, results: Results, given: Sequence[Path], project
     given
         The study files as the user wrote them.
     project
-        The folder with Snakefile and requirements.lock.
+        The folder with Snakefile and requirements.lock, or any other one: see `software`.
 
     Raises
     ------
@@ -82,8 +69,8 @@ def write_archive(study: Study, results: Results, given: Sequence[Path], project
     for path in _results(study, results):
         name = path.relative_to(results.root).as_posix()
         entries[f"results/{name}"] = _without_macfp(study, path)
-    entries |= {f"software/{name}": _bytes(path) for name, path in _software(project)}
-    entries["README.txt"] = _readme(study, origin).encode()
+    entries |= {f"software/{name}": content for name, content in software(project).items()}
+    entries["README.txt"] = _readme(study, origin, is_project(project)).encode()
     entries[METADATA] = metadata(study, origin, entries)
     sums = [f"{hashlib.sha256(entries[n]).hexdigest()}  {n}\n" for n in sorted(entries)]
     entries["SHA256SUMS"] = "".join(sums).encode()
@@ -114,12 +101,14 @@ def _check_files(own: Container[str], read: Mapping[str, Any]) -> None:
             raise DataError(f"{file}: changed since it was read; run the workflow again")
 
 
-def _readme(study: Study, origin: Mapping[str, Any]) -> str:
+def _readme(study: Study, origin: Mapping[str, Any], locked: bool) -> str:
     text = README.format(
         title=study.title or study.name,
         name=study.name,
         version=__version__,
         fingerprint=origin["source_fingerprint"],
+        versions=LOCK if locked else VERSIONS,
+        again=AGAIN_LOCKED if locked else AGAIN,
     )
     if study.needs_macfp:
         text += MACFP_FILES.format(count=len(set(study.needs_macfp)), commit=origin["macfp_commit"])
@@ -216,24 +205,6 @@ def _without_macfp(study: Study, path: Path) -> bytes:
     text = io.StringIO()
     csv.writer(text, lineterminator="\n").writerows(rows)
     return text.getvalue().encode()
-
-
-def _software(project: Path) -> Iterator[tuple[str, Path]]:
-    """Yield the files needed to run the study, by name in the archive's folder of software."""
-    for needed in ("Snakefile", "requirements.lock"):
-        if not (project / needed).is_file():
-            raise DataError(
-                f"{project / needed}: there is no such file; archive in the folder that has the "
-                "Snakefile of pyrofit"
-            )
-    for pattern in _SOFTWARE:
-        for path in project.glob(pattern):
-            if path.is_file():
-                yield path.relative_to(project).as_posix(), path
-    package = Path(__file__).parent
-    for path in package.rglob("*"):
-        if path.is_file() and "__pycache__" not in path.parts:
-            yield f"src/pyrofit/{path.relative_to(package).as_posix()}", path
 
 
 def _bytes(path: Path) -> bytes:

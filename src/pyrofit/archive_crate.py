@@ -14,7 +14,7 @@ from pyrofit.config import Study
 from pyrofit.errors import DataError
 
 METADATA = "ro-crate-metadata.json"
-WORKFLOW = "software/Snakefile"
+WORKFLOW = "software/src/pyrofit/workflow/Snakefile"
 PROFILES = (
     ("https://w3id.org/ro/wfrun/process/0.5", "Process Run Crate", "0.5"),
     ("https://w3id.org/ro/wfrun/workflow/0.5", "Workflow Run Crate", "0.5"),

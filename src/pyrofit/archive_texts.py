@@ -16,22 +16,32 @@ results/           study.json (every key completed) and provenance.json (version
                    of all measured files). Histories and best sets of all searches, predictions,
                    tables, figures, report.html.
 software/          The version of pyrofit that made the results: {version}, source fingerprint
-                   {fingerprint}. The file requirements.lock has the versions of all packages.
+                   {fingerprint}. The file {versions} has the versions of all packages.
 ro-crate-metadata.json
                    The same for programs: a Workflow Run RO-Crate, profile 0.5.
 SHA256SUMS         Checksums of all these files: sha256sum --check SHA256SUMS
 
+{again}
+    diff -r ../results/tables results/{name}/tables
+
+On the same kind of machine the tables agree in every digit. On another kind most digits agree.
+"""
+AGAIN_LOCKED = """\
 To run the study again you need Python 3.11 or newer and make:
 
     cd software
     make .venv/installed
     export PATH=$PWD/.venv/bin:$PATH
     pyrofit check ../study.yaml
-    snakemake --cores 2 --configfile ../study.yaml
-    diff -r ../results/tables results/{name}/tables
+    pyrofit run ../study.yaml"""
+AGAIN = """\
+To run the study again you need Python 3.11 or newer:
 
-On the same kind of machine the tables agree in every digit. On another kind most digits agree.
-"""
+    cd software
+    python3 -m venv .venv
+    .venv/bin/pip install -r requirements.txt
+    export PYTHONPATH=$PWD/src
+    .venv/bin/python -m pyrofit run ../study.yaml"""
 MACFP_FILES = """
 {count} measured files are part of the MaCFP data base, commit {commit}. This archive does not
 contain them or columns that repeat them: results/provenance.json has their checksums.

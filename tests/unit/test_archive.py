@@ -1,8 +1,8 @@
 """What an archive must leave out, and what it refuses."""
 
 import hashlib
+import importlib.metadata
 import json
-import shutil
 import zipfile
 from pathlib import Path
 
@@ -10,6 +10,7 @@ import pytest
 
 from pyrofit import cli
 from pyrofit.archive import write_archive
+from pyrofit.archive_crate import WORKFLOW
 from pyrofit.config import Study, as_study, digest, read_mapping, read_study
 from pyrofit.data.fetch import COMMIT
 from pyrofit.errors import DataError
@@ -212,14 +213,15 @@ def test_results_of_another_study_are_refused(pmma: tuple[Study, Results]) -> No
         write_archive(study.model_copy(update={"seed": 1}), results, [PMMA], ROOT)
 
 
-def test_folder_without_the_workflow_is_refused(
+def test_archive_of_an_installed_package_has_the_versions_of_its_environment(
     pmma: tuple[Study, Results], tmp_path: Path
 ) -> None:
-    with pytest.raises(DataError, match="Snakefile: there is no such file; archive in the folder"):
-        write_archive(*pmma, [PMMA], tmp_path)
-    shutil.copy(ROOT / "Snakefile", tmp_path)
-    with pytest.raises(DataError, match=r"requirements\.lock: there is no such file"):
-        write_archive(*pmma, [PMMA], tmp_path)
+    held = packed(write_archive(*pmma, [PMMA], tmp_path))
+    here = importlib.metadata.version("numpy")
+    assert f"numpy=={here}\n" in held["software/requirements.txt"]
+    assert "pip install -r requirements.txt" in held["README.txt"]
+    assert "software/Makefile" not in held
+    assert {WORKFLOW, "software/src/pyrofit/__main__.py"} <= set(held)
 
 
 def test_study_that_was_not_run_has_no_archive(

@@ -101,7 +101,7 @@ def test_archive_holds_what_its_checksums_say(unpacked: Path) -> None:
 def test_metadata_of_the_archive_name_nothing_that_it_lacks(unpacked: Path) -> None:
     crate = json.loads((unpacked / "ro-crate-metadata.json").read_text(encoding="utf-8"))
     local = {e["@id"] for e in crate["@graph"] if not e["@id"].startswith(("#", "http"))}
-    assert {"study.yaml", "software/Snakefile", "results/report.html"} <= local
+    assert {"study.yaml", "software/src/pyrofit/workflow/Snakefile", "results/report.html"} <= local
     assert [name for name in local if not (unpacked / name).exists()] == []
 
 

@@ -17,6 +17,7 @@ from pyrofit.cli import (
     macfp,
     planning,
     rescoring,
+    running,
     sampling,
     scheming,
     sensing,
@@ -29,6 +30,7 @@ from pyrofit.logs import Tee, open_log
 
 _GROUPS = (
     starting,
+    running,
     fitting,
     rescoring,
     sampling,
@@ -132,7 +134,7 @@ def _parser() -> argparse.ArgumentParser:
     parser = Parser(
         prog="pyrofit",
         description="Estimate the parameters of a pyrolysis model from measurements. A whole study "
-        "runs by Snakemake: snakemake --cores 2 --configfile STUDY.",
+        "runs by: pyrofit run STUDY.",
     )
     commands = parser.add_subparsers(dest="command", required=True, metavar="COMMAND")
     for group in _GROUPS:

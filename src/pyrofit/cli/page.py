@@ -9,7 +9,7 @@ _HEAD = """\
 # Commands
 
 `pyrofit COMMAND --help` prints the same. The [workflow](running.md) calls most of these commands;
-`init`, `check`, `doctor`, `rescore`, `posterior`, `sensitivity`, `worth`, `data`, `export`,
+`init`, `run`, `check`, `doctor`, `rescore`, `posterior`, `sensitivity`, `worth`, `data`, `export`,
 `import`, `macfp` and `reference` are for use by hand.
 
 This page is generated: `pyrofit reference --of commands > docs/commands.md`.

@@ -1,0 +1,103 @@
+"""The whole study with one command: Snakemake with the workflow of the package."""
+
+import argparse
+import importlib
+import shutil
+from pathlib import Path
+from typing import Any
+
+from pyrofit.cli.common import cores
+from pyrofit.errors import StudyError
+
+USUAL_CORES = 2
+
+
+def add(commands: Any) -> None:
+    """Add the command."""
+    run = commands.add_parser(
+        "run",
+        help="run a study: all steps up to its report, or to a target",
+        description="Run all steps of a study up to its report, or up to targets. After an "
+        "interruption the same command goes on.",
+    )
+    run.add_argument("study", type=Path, nargs="?", help="study file (YAML)")
+    run.add_argument("target", nargs="*", help="see --list; default: the report")
+    run.add_argument("--cores", type=cores, help=f"jobs at once; default: {USUAL_CORES}")
+    run.add_argument(
+        "--profile", metavar="FOLDER", help="Snakemake profile of a cluster, such as profiles/slurm"
+    )
+    run.add_argument("--list", action="store_true", help="list the targets, run nothing")
+    run.add_argument("--dry-run", action="store_true", help="list the steps, run nothing")
+    run.add_argument(
+        "--snakemake",
+        nargs=argparse.REMAINDER,
+        default=[],
+        metavar="OPTION",
+        help="options of Snakemake; they stand last",
+    )
+    run.set_defaults(step=_run)
+
+
+def _run(given: argparse.Namespace) -> int:
+    from pyrofit.running.targets import targets
+
+    if given.list:
+        for name, text in targets().items():
+            print(f"{name:<12} {text}")
+        return 0
+    if given.study is None:
+        raise StudyError(
+            "no study is given: pyrofit run STUDY; `pyrofit init NAME` writes one, and "
+            "`pyrofit run --list` lists the targets"
+        )
+    if not given.study.is_file():
+        raise StudyError(f"{given.study}: there is no such file; give the YAML file of a study")
+    snakemake: Any = importlib.import_module("snakemake.cli")
+    try:
+        snakemake.main(_arguments(given))
+    except SystemExit as end:
+        return int(end.code or 0)
+    return 0
+
+
+def _arguments(given: argparse.Namespace) -> list[str]:
+    """Return the arguments of Snakemake."""
+    from pyrofit.running.targets import WORKFLOW
+
+    words = ["--snakefile", str(WORKFLOW / "Snakefile"), "--configfile", str(given.study)]
+    if given.profile is not None:
+        words += ["--workflow-profile", str(_profile(Path(given.profile)))]
+    if given.cores is not None or given.profile is None:
+        words += ["--cores", str(given.cores or USUAL_CORES)]
+    if given.dry_run:
+        words.append("--dry-run")
+    # Behind --, because --configfile takes any number of files.
+    return [*words, *given.snakemake, "--", *given.target]
+
+
+def _profile(folder: Path) -> Path:
+    """Return the folder of a profile; write one that is shipped, so that the user may change it.
+
+    Raises
+    ------
+    StudyError
+        There is no such profile, or it was written just now.
+    """
+    from pyrofit.running.targets import WORKFLOW
+
+    if (folder / "config.yaml").is_file():
+        return folder
+    shipped = WORKFLOW / "profiles" / folder.name
+    if not shipped.is_dir():
+        raise StudyError(
+            f"{folder / 'config.yaml'}: there is no such profile; name a folder with one, or "
+            "profiles/slurm, which is then written"
+        )
+    own = Path("profiles") / folder.name
+    if not (own / "config.yaml").is_file():
+        own.mkdir(parents=True, exist_ok=True)
+        shutil.copy(shipped / "config.yaml", own)
+        raise StudyError(
+            f"{own / 'config.yaml'}: written; change the values marked CHANGE, and run again"
+        )
+    return own

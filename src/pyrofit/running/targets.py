@@ -1,0 +1,20 @@
+"""The targets of the workflow, as its rules describe them."""
+
+import re
+from collections.abc import Iterator
+from pathlib import Path
+
+WORKFLOW = Path(__file__).parents[1] / "workflow"
+"""Folder of the workflow in the installed package."""
+_RULE = re.compile(r'^ *rule (\w+):\n\s+"""(.+?)"""$', re.M | re.S)
+
+
+def targets() -> dict[str, str]:
+    """Return the description of each target by its name: of each rule that has a docstring."""
+    found = dict(pair for text in _texts() for pair in _RULE.findall(text))
+    return {name: " ".join(found[name].split()) for name in sorted(found)}
+
+
+def _texts() -> Iterator[str]:
+    for path in sorted(WORKFLOW.rglob("*.smk")):
+        yield path.read_text(encoding="utf-8")
