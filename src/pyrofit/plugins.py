@@ -14,6 +14,7 @@ from typing import Any
 from pyrofit.cost import KINDS
 from pyrofit.effects.base import Effect
 from pyrofit.quantities.base import Quantity
+from pyrofit.sources import source_of
 
 HELPER = "_"
 """Beginning of the names of files that define nothing themselves, but that others import."""
@@ -104,17 +105,18 @@ def plugin_files(folders: Sequence[Path]) -> dict[str, Path]:
 
 
 def code_digest(subfolder: str, name: str) -> str:
-    """Return a hash of the file that defines something, of the package or of a plugin.
+    """Return a hash of the code that defines something, of the package or of a plugin.
 
-    The helpers beside the file of a plugin count, too. It is empty for a cost of the package.
+    Comments and docstrings do not count, the helpers beside the file of a plugin do. It is empty
+    for a cost of the package.
     """
     package = _package(subfolder)
     for folder in package.__path__:
         path = Path(folder) / f"{name}.py"
         if path.is_file():
             helpers = sorted(path.parent.glob(f"{HELPER}[!_]*.py"))
-            content = b"".join(p.read_bytes() for p in (path, *helpers))
-            return hashlib.sha256(content).hexdigest()[:16]
+            codes = "".join(source_of(p).digest for p in (path, *helpers))
+            return hashlib.sha256(codes.encode()).hexdigest()[:16]
     return ""
 
 

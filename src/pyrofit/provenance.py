@@ -4,11 +4,12 @@ import hashlib
 import importlib.metadata
 import os
 import platform
-import re
 from collections.abc import Iterable, Mapping
 from functools import cache
 from pathlib import Path
-from typing import Any, NamedTuple
+from typing import Any
+
+from pyrofit.sources import keep_digests, source_of
 
 PACKAGES = (
     "jinja2",
@@ -76,17 +77,12 @@ CATALOGUES = (
 """
 
 
-_IMPORT = re.compile(
-    r"^[ \t]*(?:from[ \t]+([\w.]+)[ \t]+import[ \t]+(\([^)]*\)|.*)|import[ \t]+(.*))$", re.MULTILINE
-)
-
-
 def source_fingerprint(*modules: str) -> str:
-    """Return a hash of the source of some modules, of the data registry and numeric packages.
+    """Return a hash of the code of some modules, of the data registry and numeric packages.
 
     Whatever they import of pyrofit counts as well, at whatever distance, with the files beside it
-    that are no Python. Snakemake does not notice an edit to an imported package: rules carry this
-    as a parameter.
+    that are no Python. Comments and docstrings do not count. Snakemake does not notice an edit to
+    an imported package: rules carry this as a parameter.
 
     Parameters
     ----------
@@ -102,7 +98,8 @@ def source_fingerprint(*modules: str) -> str:
     beside = {p for folder in folders for p in folder.iterdir() if p.suffix in (".j2", ".txt")}
     for path in sorted(sources | beside):
         total.update(path.relative_to(root).as_posix().encode())
-        total.update(_of(path).digest)
+        total.update(source_of(path).digest.encode())
+    keep_digests()
     return total.hexdigest()[:16]
 
 
@@ -135,7 +132,7 @@ def _reached(files: Mapping[str, Path], modules: Iterable[str]) -> set[Path]:
             continue
         if path is not None:  # else a name in a module
             found.add(path)
-            ahead += _of(path).imports
+            ahead += source_of(path).imports
             ahead += _catalogue(name, files)
         ahead += [name.rpartition(".")[0]] if "." in name else []
     return found
@@ -161,37 +158,6 @@ def _catalogue(package: str, modules: Iterable[str]) -> list[str]:
     if package not in CATALOGUES:
         return []
     return [name for name in modules if name.rpartition(".")[0] == package]
-
-
-class _Source(NamedTuple):
-    """A file of the source as read."""
-
-    digest: bytes
-    imports: frozenset[str]
-
-
-def _of(path: Path) -> _Source:
-    """Return a file, read again only if it was changed."""
-    at = path.stat()
-    return _read(path, at.st_mtime_ns, at.st_size)
-
-
-@cache
-def _read(path: Path, changed_ns: int, size: int) -> _Source:
-    content = path.read_bytes()
-    imports = _imports(content) if path.suffix == ".py" else frozenset()
-    return _Source(hashlib.sha256(content).digest(), imports)
-
-
-def _imports(source: bytes) -> frozenset[str]:
-    """Return a file's imports from the package: modules, and names in modules."""
-    names = set()
-    # Ten times as fast as the syntax tree, and each job of a cluster reads the source anew.
-    for module, names_in, modules in _IMPORT.findall(source.decode()):
-        listed = re.sub(r"#.*|[()]", "", names_in or modules).replace("\n", " ").split(",")
-        for name in (item.split()[0] for item in listed if item.strip()):
-            names |= {module, f"{module}.{name}"} if module else {name}
-    return frozenset(name for name in names if name.startswith("pyrofit."))
 
 
 def environment() -> dict[str, Any]:

@@ -164,7 +164,7 @@ def test_edit_of_an_own_effect_changes_what_uses_it_and_no_more(folder: Path) ->
     for keys, changes in ((given(), {"diagnose"}), (used, {"diagnose", "imp", "identify", "data"})):
         write(folder / "own" / "effects" / "natural_convection.py", EFFECT)
         before = digests_of(read(folder, keys))
-        write(folder / "own" / "effects" / "natural_convection.py", EFFECT + "# another\n")
+        write(folder / "own" / "effects" / "natural_convection.py", EFFECT + "ANOTHER = True\n")
         after = digests_of(read(folder, keys))
         assert {name for name in before if after[name] != before[name]} == changes
 
@@ -177,7 +177,7 @@ def test_edit_of_an_own_quantity_changes_what_measures_it_and_the_diagnosis(fold
     for keys, changes in ((given(), {"diagnose"}), (used, everything)):
         write(folder / "own" / "quantities" / "thickness_of_sample.py", QUANTITY)
         before = digests_of(read(folder, keys))
-        write(folder / "own" / "quantities" / "thickness_of_sample.py", QUANTITY + "# another\n")
+        write(folder / "own" / "quantities" / "thickness_of_sample.py", QUANTITY + "A = 1\n")
         after = digests_of(read(folder, keys))
         assert {name for name in before if after[name] != before[name]} == changes
 
@@ -186,7 +186,7 @@ def test_edit_of_an_own_cost_changes_its_own_searches_and_no_others(folder: Path
     study = read(folder, with_own_cost())
     (other, *_) = study.imp.costs
     before = [digest(dependencies.imp(study, cost, "sceua")) for cost in ("OWN", other)]
-    write(folder / "own" / "costs" / "huber.py", COST + "# another\n")
+    write(folder / "own" / "costs" / "huber.py", COST + "ANOTHER = True\n")
     after = [digest(dependencies.imp(study, cost, "sceua")) for cost in ("OWN", other)]
     assert [a == b for a, b in zip(after, before, strict=True)] == [False, True]
 

@@ -1,6 +1,5 @@
 """Fingerprints of the source change with an edit of all that a step depends on, and of no more."""
 
-import ast
 import shutil
 import subprocess
 import sys
@@ -11,11 +10,13 @@ from pathlib import Path
 import pytest
 
 import pyrofit
+from pyrofit import sources
 from pyrofit.config import Study, digest, read_study
 from pyrofit.effects import known_effects
 from pyrofit.plugins import code_digest
-from pyrofit.provenance import CATALOGUES, STUDY, _imports, imported_files, source_fingerprint
+from pyrofit.provenance import CATALOGUES, STUDY, imported_files, source_fingerprint
 from pyrofit.results import dependencies
+from pyrofit.sources import analysed
 
 SOURCE = Path(pyrofit.__file__).parent
 SMOKE = SOURCE.parents[1] / "config" / "smoke.yaml"
@@ -51,6 +52,9 @@ EDITS = {
 }
 
 
+EDITED = "EDITED = True\n"
+
+
 def fingerprints() -> dict[str, str]:
     return {name: source_fingerprint(module) for name, module in STEPS.items()}
 
@@ -75,7 +79,7 @@ def test_edit_changes_the_fingerprints_of_what_depends_on_it(
     edited: str, copy: Path, before: dict[str, str]
 ) -> None:
     text = (copy / edited).read_text(encoding="utf-8")
-    (copy / edited).write_text(f"{text}# edited\n", encoding="utf-8")
+    (copy / edited).write_text(f"{text}{EDITED}", encoding="utf-8")
     after = fingerprints()
     (copy / edited).write_text(text, encoding="utf-8")
     assert {name for name in before if before[name] != after[name]} == EDITS[edited]
@@ -96,15 +100,76 @@ def test_import_inside_a_function_or_for_type_checks_alone_counts(copy: Path) ->
         }
 
 
-@pytest.mark.parametrize("path", sorted(SOURCE.rglob("*.py")), ids=lambda p: p.stem)
-def test_imports_are_those_of_the_syntax_tree(path: Path) -> None:
-    names = set()
-    for node in ast.walk(ast.parse(path.read_bytes())):
-        if isinstance(node, ast.Import):
-            names |= {alias.name for alias in node.names}
-        elif isinstance(node, ast.ImportFrom) and node.module:
-            names |= {node.module, *(f"{node.module}.{alias.name}" for alias in node.names)}
-    assert _imports(path.read_bytes()) == {n for n in names if n.startswith("pyrofit.")}
+WRITTEN = '''"""A module."""
+
+LIMIT = 3
+"""Largest number."""
+
+
+def twice(x: float) -> float:
+    """Return twice a number."""
+    # By addition.
+    return x + x
+'''
+TEXT_EDITS = {
+    "a comment": ("# By addition.", "# By a sum, which is exact."),
+    "a comment more": ("LIMIT = 3", "LIMIT = 3  # by trial"),
+    "the docstring of a function": ("Return twice a number", "Double a number"),
+    "the docstring of a module": ("A module.", "Another text."),
+    "the docstring of a constant": ("Largest number.", "Upper limit."),
+    "an empty line": ("    # By", "\n    # By"),
+}
+CODE_EDITS = {
+    "a number": ("LIMIT = 3", "LIMIT = 4"),
+    "an operation": ("x + x", "x * x"),
+    "a name": ("(x: float)", "(y: float)"),
+    "a text that is used": ("LIMIT = 3", 'LIMIT = "3"'),
+    "a type": ("-> float", "-> int"),
+}
+
+
+@pytest.mark.parametrize("place", ["data/cone_exports.py", "cost/__init__.py"])
+@pytest.mark.parametrize("edit", [*TEXT_EDITS, *CODE_EDITS])
+def test_edit_of_a_text_reruns_nothing_and_one_of_code_does(
+    edit: str, place: str, copy: Path
+) -> None:
+    text = (copy / place).read_text(encoding="utf-8")
+    found = []
+    try:
+        for written in (WRITTEN, WRITTEN.replace(*(TEXT_EDITS | CODE_EDITS)[edit])):
+            (copy / place).write_text(f"{text}{written}", encoding="utf-8")
+            found.append(source_fingerprint("pyrofit.stages.fit"))
+    finally:
+        (copy / place).write_text(text, encoding="utf-8")
+    assert (found[0] != found[1]) == (edit in CODE_EDITS)
+
+
+def test_file_with_an_error_counts_by_its_bytes() -> None:
+    assert analysed(b"x = (  # one") != analysed(b"x = (  # two")
+
+
+def test_kept_digests_are_those_of_the_files(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setattr("pyrofit.sources._places", lambda: [tmp_path / "kept.json"])
+    content = b"import pyrofit.errors\nx = 1\n"
+    for broken in ("", "{", "[]", '{"a": 1}'):
+        (tmp_path / "kept.json").write_text(broken)
+        kept = sources._Kept()
+        assert kept.source("a", content) == analysed(content)
+        kept.write()
+        assert sources._Kept().source("a", b"not read") == analysed(content)
+    assert [path.name for path in tmp_path.iterdir()] == ["kept.json"]
+
+
+def test_folder_that_cannot_be_written_keeps_nothing_and_says_nothing(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    (tmp_path / "file").touch()
+    monkeypatch.setattr("pyrofit.sources._places", lambda: [tmp_path / "file" / "kept.json"])
+    kept = sources._Kept()
+    assert kept.source("a", b"x = 1") == analysed(b"x = 1")
+    kept.write()
 
 
 def test_fingerprint_of_a_module_that_is_not_there_is_refused() -> None:

@@ -52,11 +52,11 @@ def test_own_effect_and_cost_run_in_every_step_and_an_edit_reruns_what_uses_them
     assert 0.0 < json.loads(project.read(SEARCH))["starts"][0]["cost"] < 0.1
     assert not project.plan(SEARCH)
 
-    write(cost, COST + "# edited\n")
+    write(cost, COST + "EDITED = True\n")
     assert project.plan(SEARCH) == {BY_OWN_COST}
     write(cost, COST)
     for path, text in ((effect, EFFECT), (quantity, QUANTITY)):
-        write(path, text + "# edited\n")
+        write(path, text + "EDITED = True\n")
         planned = project.plan(SEARCH)
         assert BY_OWN_COST in planned
         assert "Measured series into tidy tables, mass closure checked" in planned

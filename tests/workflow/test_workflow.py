@@ -166,7 +166,7 @@ def test_changed_file_of_measurements_runs_its_readers_again(project: Project) -
 def test_edited_source_runs_again_what_it_computes(project: Project) -> None:
     source = project.root / "src" / "pyrofit" / "cost" / "kinds.py"
     before = source.read_text()
-    source.write_text(before + "# edited\n")
+    source.write_text(before + "EDITED = True\n")
     try:
         assert computing(project.plan()) == EVERYTHING
     finally:
@@ -176,7 +176,7 @@ def test_edited_source_runs_again_what_it_computes(project: Project) -> None:
 def test_edited_figure_computes_nothing_again(project: Project) -> None:
     source = project.root / "src" / "pyrofit" / "show" / "fit" / "fig3.py"
     before = source.read_text()
-    source.write_text(before + "# edited\n")
+    source.write_text(before + "EDITED = True\n")
     try:
         planned = project.plan()
     finally:
@@ -188,9 +188,21 @@ def test_edited_figure_computes_nothing_again(project: Project) -> None:
 def test_edited_diagnosis_runs_no_step_of_the_fits_again(project: Project) -> None:
     source = project.root / "src" / "pyrofit" / "diagnose" / "diagnosis.py"
     before = source.read_text()
-    source.write_text(before.replace('"""', '"""Edited. ', 1))
+    source.write_text(before + "EDITED = True\n")
     try:
         assert computing(project.plan()) == set()
+    finally:
+        source.write_text(before)
+
+
+def test_edited_comments_and_docstrings_run_nothing_again(project: Project) -> None:
+    source = project.root / "src" / "pyrofit" / "data" / "cone_exports.py"
+    before = source.read_text()
+    edited = before.replace('"""', '"""Edited. ', 1) + "# edited\n"
+    assert edited.count("dited") == before.count("dited") + 2
+    source.write_text(edited)
+    try:
+        assert project.plan() == set()
     finally:
         source.write_text(before)
 
