@@ -19,6 +19,7 @@ from itertools import product
 from pathlib import Path
 
 from PIL import Image
+from pyrofit.show.robustness import figure as robustness
 
 from pyrofit.config.read import read_study
 from pyrofit.results import diagnosis
@@ -27,12 +28,11 @@ from pyrofit.show import diagnosis_page
 from pyrofit.show.figure import Figure
 from pyrofit.show.posterior.figures import FIGURES as POSTERIOR
 from pyrofit.show.rescore.figures import FIGURES as RESCORE
-from pyrofit.show.robustness import figure as robustness
 from pyrofit.show.scheme import figure as scheme
 from pyrofit.show.sections import FIGURES
 from pyrofit.show.sensitivity.figures import FIGURES as SENSITIVITY
-from pyrofit.show.stability.figures import FIGURES as STABILITY
 from pyrofit.show.worth.figures import FIGURES as WORTH
+from pyrofit.steps.stability.figures import FIGURES as STABILITY
 
 DOCS = Path(__file__).resolve().parents[1] / "docs"
 WIDTHS = (1000, 900, 800, 700, 600)

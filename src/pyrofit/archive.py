@@ -23,14 +23,15 @@ from pyrofit.errors import DataError
 from pyrofit.model.signal import Signal
 from pyrofit.plugins import folder_names, plugin_files
 from pyrofit.provenance import STUDY, source_fingerprint
-from pyrofit.results import stability
 from pyrofit.results.code_digests import code
 from pyrofit.results.files import Results, read_json, write_bytes
+from pyrofit.results.step import Inputs, inputs_of
 from pyrofit.show.sections import FIGURES, TABLES
 from pyrofit.stages.reading import MACFP
+from pyrofit.steps import known_steps
 
 _PAGES = ("study.json", "provenance.json", "report.html")
-_LEFT_OUT = ("logs", "benchmarks", "running", "unfinished")
+_LEFT_OUT = ("by_hand", "logs", "benchmarks", "running", "unfinished")
 """Folders of results that differ from run to run."""
 
 
@@ -151,10 +152,12 @@ def _results(study: Study, results: Results) -> Iterator[Path]:
         for name, quantity, signal in _signals(study)
         if signal.file.startswith(MACFP)
     }
-    stable = bool(stability.version(study, results))
+    steps = {name: inputs_of(name) for name in known_steps()}
+    # Pages leave out parts that are not up to date, as they are repeated on request only.
+    stale = {n for n, step in steps.items() if step.version and not step.version(study, results)}
     for path in results.root.rglob("*"):
         parts = path.relative_to(results.root).parts
-        if parts[0] == "stability" and not stable:
+        if parts[0] in stale:
             continue
         if path.is_file() and path not in measured and _belongs(study, *parts):
             yield path
@@ -173,13 +176,22 @@ def _belongs(study: Study, folder: str, *inside: str) -> bool:
         return stem in TABLES and TABLES[stem].applies(study)
     if folder == "figures":
         return stem in FIGURES and FIGURES[stem].applies(study)
-    if folder == "stability" and (draw := re.fullmatch(r"draw_(\d+)\.json", name)):
-        return int(draw[1]) < study.diagnosis.draws
+    if folder in known_steps():
+        return _of_step(study, inputs_of(folder), name)
     if folder == "imp" and len(inside) > 1:
         number = re.match(r"\d+", name)
         current = number is None or int(number[0]) < study.imp.repetitions
         return current and inside[0] in study.imp.costs
     return True
+
+
+def _of_step(study: Study, step: Inputs, name: str) -> bool:
+    """Tell whether a file of a step is none of a part that the study does not have."""
+    prefix, _, suffix = step.part_file.partition("{part}")
+    if name in step.files or not prefix + suffix:
+        return True
+    known = {f"{prefix}{part}{suffix}" for part in step.parts(study)}
+    return name in known or not (name.startswith(prefix) and name.endswith(suffix))
 
 
 def _signals(study: Study) -> Iterator[tuple[str, str, Signal]]:

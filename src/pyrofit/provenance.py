@@ -10,6 +10,7 @@ from pathlib import Path
 from typing import Any
 
 from pyrofit.sources import keep_digests, source_of
+from pyrofit.steps import known_steps
 
 PACKAGES = (
     "jinja2",
@@ -33,17 +34,16 @@ STUDY = (
             "identify",
             "predict",
             "compare",
-            "robustness",
             "rescore",
             "sensitivity",
             "posterior",
             "worth",
             "scheme",
             "diagnose",
-            "stability",
         )
     ),
     "pyrofit.show.report",
+    *(module for step in known_steps().values() for module in step.modules),
 )
 """Modules of all steps of a study."""
 CATALOGUES = (
@@ -61,10 +61,8 @@ CATALOGUES = (
             "optimisers",
             "posterior",
             "rescore",
-            "robustness",
             "scheme",
             "sensitivity",
-            "stability",
             "truth",
             "validation",
             "worth",

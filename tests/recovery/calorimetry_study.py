@@ -127,7 +127,7 @@ STUDY: dict[str, Any] = {
         },
     },
     "validation": {"experiments": ["slab_60", "slab_80"]},
-    "robustness": {"noise": [1], "outliers": [0.1], "draws": 1, "starts": 1},
+    "steps": {"robustness": {"noise": [1], "outliers": [0.1], "draws": 1, "starts": 1}},
 }
 """STA at 10 K/min and MCC at 60 K/min determine kinetics and heats; a slab the rest."""
 

@@ -58,7 +58,7 @@ def twin(*costs: str) -> Study:
     terms = [{"experiment": n, "signal": signals[n], "kind": "RMSE"} for n in costs]
     given["imp"] = {"estimate": list(TRUTH), "kinetics": "described", "costs": {"RMSE": terms}}
     given["validation"] = {"experiments": ["sample"]}
-    for key in ("kinetics", "diagnosis", "robustness", "published"):
+    for key in ("kinetics", "diagnosis", "steps", "published"):
         given.pop(key, None)
     return as_study(given, "twin.yaml")
 

@@ -16,6 +16,7 @@ from pyrofit.estimate.identify import identify
 from pyrofit.estimate.likelihood import Likelihood
 from pyrofit.estimate.prior import NO_PRIOR, NormalPrior, prior_of
 from pyrofit.results import dependencies
+from pyrofit.results.step import slice_of
 from pyrofit.show.facts import facts_of
 from pyrofit.show.identification.known_values import table as known_values
 from pyrofit.show.identification.sentences import sentences
@@ -141,7 +142,7 @@ def test_problem_is_searched_and_known_in_si_units() -> None:
         dependencies.identify,
         dependencies.diagnose,
         dependencies.compare,
-        lambda study: dependencies.robustness(study, "RMSE"),
+        lambda study: slice_of(study, "robustness", "RMSE"),
     ],
     ids=["imp", "identify", "diagnose", "compare", "robustness"],
 )

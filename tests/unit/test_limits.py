@@ -13,7 +13,7 @@ from pyrofit.errors import DataError, StudyError
 from pyrofit.estimate.targets import term_for
 from pyrofit.quantities import known_quantities
 from pyrofit.stages.reading import check_terms, read_all
-from pyrofit.stages.robustness import with_values
+from pyrofit.steps.robustness.compute import with_values
 
 SMOKE = Path(__file__).parents[2] / "config" / "smoke.yaml"
 NAMES = {"value": "MLR", "lower": "q05", "upper": "q95"}

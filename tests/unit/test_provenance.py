@@ -16,6 +16,7 @@ from pyrofit.effects import known_effects
 from pyrofit.plugins import code_digest
 from pyrofit.provenance import CATALOGUES, STUDY, imported_files, source_fingerprint
 from pyrofit.results import dependencies
+from pyrofit.results.step import slice_of
 from pyrofit.sources import analysed
 
 SOURCE = Path(pyrofit.__file__).parent
@@ -24,7 +25,7 @@ STEPS = {
     "data": "pyrofit.stages.measurements",
     "fits": "pyrofit.stages.fit",
     "prediction": "pyrofit.stages.predict",
-    "robustness": "pyrofit.stages.robustness",
+    "robustness": "pyrofit.steps.robustness.compute",
     "diagnosis": "pyrofit.stages.diagnose",
     "figures": "pyrofit.show.fit.fig3",
     "report": "pyrofit.show.report",
@@ -38,7 +39,7 @@ EDITS = {
     "cost/__init__.py": EVERYTHING,
     "solver/kernels/heat.py": EVERYTHING,
     "estimate/sceua.py": {"fits", "prediction", "robustness"},
-    "stages/robustness.py": {"robustness"},
+    "steps/robustness/compute.py": {"robustness"},
     "show/fit/table4.py": {"figures", "report"},
     "show/costs/spread.py": {"report"},
     "diagnose/search/score_test.py": {"diagnosis"},
@@ -191,6 +192,8 @@ def test_step_loads_no_file_that_its_fingerprint_leaves_out(module: str) -> None
     # What studies use of the catalogue of effects is counted by `dependencies`.
     by_use = {SOURCE / "effects" / f"{name}.py" for name in known_effects()}
     beside = {SOURCE / "effects" / "page.py"}
+    # Options of a step are part of its own inputs.
+    beside |= {p for n in ("__init__", "options") for p in SOURCE.glob(f"steps/*/{n}.py")}
     assert by_use <= loaded
     assert loaded - imported_files(SOURCE, [module]) <= by_use | beside
 
@@ -204,7 +207,7 @@ def digests(study: Study) -> dict[str, str]:
         "identify": dependencies.identify(study),
         "validation": dependencies.validation(study),
         "compare": dependencies.compare(study),
-        "robustness": dependencies.robustness(study, cost),
+        "robustness": slice_of(study, "robustness", cost),
         "presentation": dependencies.presentation(study),
         "diagnosis": dependencies.diagnose(study),
     }
@@ -265,5 +268,6 @@ def test_packages_that_find_their_files_are_catalogues() -> None:
         if "__path__" in path.read_text(encoding="utf-8")
     }
     # Their files count one by one, where a study uses them.
-    assert finding - {"pyrofit.effects", "pyrofit.cost.added"} <= set(CATALOGUES)
+    apart = {"pyrofit.effects", "pyrofit.cost.added", "pyrofit.steps"}
+    assert finding - apart <= set(CATALOGUES)
     assert all((SOURCE.parent / name.replace(".", "/")).is_dir() for name in CATALOGUES)

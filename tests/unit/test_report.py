@@ -14,14 +14,17 @@ from pyrofit.config import Study
 from pyrofit.errors import DataError
 from pyrofit.results import posterior, rescored
 from pyrofit.results.files import Results, read_csv, write_csv, write_text
+from pyrofit.results.step import write_options
 from pyrofit.show import rescore_page
 from pyrofit.show.answer.advice import advice
 from pyrofit.show.answer.summary import summary
 from pyrofit.show.facts import facts_of
 from pyrofit.show.report import tables_of, write_report
-from pyrofit.show.robustness.table import write_robustness
 from pyrofit.show.sections import FIGURES, TABLES, make_table
+from pyrofit.show.table import write_table
 from pyrofit.show.truth.sentences import errors as sentences
+from pyrofit.steps.robustness.options import RobustnessOptions
+from pyrofit.steps.robustness.table import TABLE as ROBUSTNESS
 
 LOADS = {"src", "href", "srcset", "data", "poster", "action"}
 
@@ -268,11 +271,18 @@ def test_robustness_is_shown_once_it_has_run(tmp_path: Path) -> None:
     assert "robustness" not in page.ids
     study, results = fake(tmp_path)
     for cost in study.imp.costs:
-        about = {"cost_function": cost, "kind": "noise", "level": min(study.robustness.noise)}
+        about = {
+            "cost_function": cost,
+            "kind": "noise",
+            "level": min(study.options(RobustnessOptions).noise),
+        }
         twin = {"draw": 0, "cost": 0.1, "calls": 10, "prediction_error": 0.01, "k": 0.4, "cp": 2e3}
-        write_csv(results.robustness(f"{cost}.csv"), pd.DataFrame([{**about, **twin}]))
-    write_robustness(study, results)
-    write_text(results.robustness("robustness.svg"), "<svg/>")
+        write_csv(results.of_step("robustness", f"{cost}.csv"), pd.DataFrame([{**about, **twin}]))
+        write_options(study, results, "robustness", cost)
+    frame = ROBUSTNESS.make(study, results)
+    write_table(results.folder("robustness"), "table", ROBUSTNESS, frame, study)
+    write_text(results.of_step("robustness", "robustness.svg"), "<svg/>")
+    write_text(results.of_step("robustness", "robustness.png"), "")
     write_report(study, results)
     page = Page((tmp_path / "report.html").read_text())
     assert "robustness" in page.ids

@@ -9,15 +9,14 @@ import pytest
 from test_identify_stage import TRUTH as TRUTH_OF_IMP
 from test_stages import by_hand, study_with
 
-from pyrofit.analysis.twins import errors, recovered
 from pyrofit.cli import main
 from pyrofit.config import Study
-from pyrofit.errors import StudyError
 from pyrofit.results.files import Results, read_csv, write_csv
-from pyrofit.show.robustness.figure import draw_robustness
-from pyrofit.show.robustness.sentences import sentences
-from pyrofit.show.robustness.table import write_robustness
-from pyrofit.stages import fit, measurements, robustness
+from pyrofit.stages import fit, measurements
+from pyrofit.steps.robustness import compute as robustness
+from pyrofit.steps.robustness.page import PAGE
+from pyrofit.steps.robustness.sentences import sentences
+from pyrofit.steps.robustness.twins import NOISE, OUTLIERS, errors, recovered, true_set
 
 SMALL = {"noise": [0.001, 2.0], "outliers": [0.2], "draws": 1, "starts": 1}
 NAMES = ("rho", "k", "cp", "eps", "dh")
@@ -25,7 +24,7 @@ NAMES = ("rho", "k", "cp", "eps", "dh")
 
 @pytest.fixture(scope="module")
 def study() -> Study:
-    return study_with(robustness=SMALL)
+    return study_with(steps={"robustness": SMALL})
 
 
 @pytest.fixture(scope="module")
@@ -33,7 +32,7 @@ def results(study: Study, tmp_path_factory: pytest.TempPathFactory) -> Results:
     results = Results(tmp_path_factory.mktemp("results"))
     measurements.prepare(study, results)
     fit.fit_kinetics(study, results)
-    robustness.robustness(study, results, "RMSE")
+    robustness.run(study, results, print, 1, "RMSE")
     return results
 
 
@@ -53,13 +52,13 @@ def noise_of(study: Study, kind: str, level: float, draw: int = 0) -> pd.DataFra
 
 
 def test_noise_is_the_multiple_of_the_measurements_and_so_is_what_is_stated(study: Study) -> None:
-    frame = noise_of(study, robustness.NOISE, 3.0)
+    frame = noise_of(study, NOISE, 3.0)
     assert frame["noise"].std() == pytest.approx(6.0, rel=0.05)
     assert frame["mlr_uncertainty_kg_m2_s"].unique().tolist() == [9.0]
 
 
 def test_outliers_are_a_share_of_the_points_and_nobody_states_them(study: Study) -> None:
-    frame = noise_of(study, robustness.OUTLIERS, 0.1)
+    frame = noise_of(study, OUTLIERS, 0.1)
     # Half of the range of 1999, up or down.
     out = frame["noise"].abs() > 500.0
     assert out.mean() == pytest.approx(0.1, abs=0.02)
@@ -70,13 +69,13 @@ def test_outliers_are_a_share_of_the_points_and_nobody_states_them(study: Study)
 
 
 def test_draws_differ_and_are_the_same_for_every_cost_function(study: Study) -> None:
-    first = noise_of(study, robustness.NOISE, 1.0)["noise"]
-    assert noise_of(study, robustness.NOISE, 1.0)["noise"].equals(first)
-    assert not noise_of(study, robustness.NOISE, 1.0, 1)["noise"].equals(first)
+    first = noise_of(study, NOISE, 1.0)["noise"]
+    assert noise_of(study, NOISE, 1.0)["noise"].equals(first)
+    assert not noise_of(study, NOISE, 1.0, 1)["noise"].equals(first)
 
 
 def test_truth_is_that_of_synthetic_measurements(study: Study, results: Results) -> None:
-    assert robustness.true_set(study, results).tolist() == [TRUTH_OF_IMP[n] for n in NAMES]
+    assert true_set(study, results).tolist() == [TRUTH_OF_IMP[n] for n in NAMES]
 
 
 def test_without_a_truth_it_is_the_mean_of_all_repetitions(study: Study, tmp_path: Path) -> None:
@@ -85,11 +84,11 @@ def test_without_a_truth_it_is_the_mean_of_all_repetitions(study: Study, tmp_pat
     fit.collect(study, results)
     measured = study.model_copy(update={"synthetic": None})
     # Densities of 1150 and 1160, and 0, 1, 2 more by cost function.
-    assert robustness.true_set(measured, results)[0] == pytest.approx(1156.0)
+    assert true_set(measured, results)[0] == pytest.approx(1156.0)
 
 
 def test_twin_with_hardly_any_noise_is_fitted_and_predicted(results: Results) -> None:
-    table = read_csv(results.robustness("RMSE.csv"))
+    table = read_csv(results.of_step("robustness", "RMSE.csv"))
     assert list(table["kind"]) == ["noise", "noise", "outliers"]
     quiet, loud, out = table.to_dict("records")
     assert quiet["cost"] < 1e-3 < loud["cost"] < out["cost"]
@@ -97,11 +96,6 @@ def test_twin_with_hardly_any_noise_is_fitted_and_predicted(results: Results) ->
     assert quiet["prediction_error"] < out["prediction_error"]
     # The released mass tells the density.
     assert quiet["rho"] == pytest.approx(1190.0, rel=0.01)
-
-
-def test_unknown_cost_is_told(study: Study, results: Results) -> None:
-    with pytest.raises(StudyError, match="has no cost 'RMS'"):
-        robustness.robustness(study, results, "RMS")
 
 
 def fitted(study: Study, folder: Path, **off: float) -> Results:
@@ -121,7 +115,7 @@ def fitted(study: Study, folder: Path, **off: float) -> Results:
                         shift = (0.05 * i + 0.001 * draw) * (upper - lower)
                     row[name] = TRUTH_OF_IMP[name] + shift
                 rows.append(row)
-        write_csv(results.robustness(f"{cost}.csv"), pd.DataFrame(rows))
+        write_csv(results.of_step("robustness", f"{cost}.csv"), pd.DataFrame(rows))
     return results
 
 
@@ -145,7 +139,9 @@ def test_where_none_is_recovered_all_count(study: Study, tmp_path: Path) -> None
 
 
 def test_table_tests_the_cost_functions_level_by_level(study: Study, tmp_path: Path) -> None:
-    table = write_robustness(study, fitted(study, tmp_path, k=0.3))
+    results = fitted(study, tmp_path, k=0.3)
+    PAGE.draw_and_write(study, results)
+    table = PAGE.tables["table"].make(study, results)
     assert list(table["added"].unique()) == [
         "noise × 0.001",
         "noise × 2",
@@ -165,7 +161,7 @@ def test_table_tests_the_cost_functions_level_by_level(study: Study, tmp_path: P
 
 def test_sentences_say_errors_tests_and_what_is_left_out(study: Study, tmp_path: Path) -> None:
     results = fitted(study, tmp_path, k=0.3)
-    write_robustness(study, results)
+    PAGE.draw_and_write(study, results)
     (text,) = sentences(study, results)
     assert "without k, which no cost function recovers" in text
     assert (
@@ -176,12 +172,12 @@ def test_sentences_say_errors_tests_and_what_is_left_out(study: Study, tmp_path:
 
 def test_figure_is_drawn_alike_each_time(study: Study, tmp_path: Path) -> None:
     results = fitted(study, tmp_path, k=0.1)
-    draw_robustness(study, results)
-    path = results.robustness("robustness.svg")
+    PAGE.draw_and_write(study, results)
+    path = results.of_step("robustness", "robustness.svg")
     first = path.read_bytes()
-    draw_robustness(study, results)
+    PAGE.draw_and_write(study, results)
     assert path.read_bytes() == first
-    assert results.robustness("robustness.png").exists()
+    assert results.of_step("robustness", "robustness.png").exists()
 
 
 def test_unknown_cost_of_the_command_names_the_nearest(
@@ -189,5 +185,5 @@ def test_unknown_cost_of_the_command_names_the_nearest(
 ) -> None:
     monkeypatch.chdir(tmp_path)
     smoke = Path(__file__).parents[2] / "config" / "smoke.yaml"
-    assert main(["robustness", "--study", str(smoke), "--cost", "RMS"]) == 2
+    assert main(["robustness", str(smoke), "--cost", "RMS"]) == 2
     assert "Did you mean 'RMSE'" in capsys.readouterr().err

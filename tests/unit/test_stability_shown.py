@@ -15,14 +15,15 @@ from pyrofit.archive import _results as archived
 from pyrofit.cli import main
 from pyrofit.config import Study
 from pyrofit.errors import DataError
-from pyrofit.results import stability
 from pyrofit.results.files import Results, write_json
 from pyrofit.show import diagnosis_page, style
 from pyrofit.show.report import write_report
-from pyrofit.show.stability.facts import read
-from pyrofit.show.stability.figures import draw
-from pyrofit.show.stability.sentences import sentences
-from pyrofit.show.stability_page import PAGE, sections
+from pyrofit.show.step_page import sections_of
+from pyrofit.steps.stability import record as stability
+from pyrofit.steps.stability.facts import read
+from pyrofit.steps.stability.figures import draw
+from pyrofit.steps.stability.page import PAGE
+from pyrofit.steps.stability.sentences import sentences
 
 REASON = "its strength is at a limit"
 VERDICTS: tuple[tuple[str, list[list[str]], list[str]], ...] = (
@@ -34,13 +35,13 @@ VERDICTS: tuple[tuple[str, list[list[str]], list[str]], ...] = (
 
 def with_draws(count: int = 3) -> dict[str, Any]:
     given = described()
-    given["diagnosis"] = {**given.get("diagnosis", {}), "draws": count}
+    given["steps"] = {"stability": {"draws": count}}
     return given
 
 
-def of_draw(study: Study, results: Results, number: int) -> dict[str, Any]:
+def of_draw(study: Study, results: Results, number: int, **changed: Any) -> stability.OfDraw:
     kind, sets, final = VERDICTS[number]
-    return {
+    content = {
         "study": study.name,
         "origin": stability.origin(study, results),
         "draw": number,
@@ -53,6 +54,7 @@ def of_draw(study: Study, results: Results, number: int) -> dict[str, Any]:
         "chi2": 300.0,
         "strengths": dict.fromkeys(final, 0.1 + number),
     }
+    return stability.OfDraw(**{**content, **changed})
 
 
 def stable_or_not(root: Path) -> tuple[Study, Results]:
@@ -101,7 +103,7 @@ def test_sentences_tell_which_effects_depend_on_the_disturbance(tmp_path: Path) 
 def test_a_stable_result_is_said_to_be_stable(tmp_path: Path) -> None:
     study, results = stable_or_not(tmp_path)
     for number in (1, 2):
-        stability.write(results, {**of_draw(study, results, 0), "draw": number})
+        stability.write(results, of_draw(study, results, 0, draw=number))
     said = " ".join(sentences(study, results))
     assert "Named from all data sets: slope of the conductivity (k_T)." in said
     assert "Every search ends with slope of the conductivity (k_T)." in said
@@ -113,10 +115,10 @@ def test_without_any_effect_there_is_a_table_and_an_empty_figure(tmp_path: Path)
     study, results = diagnosed(tmp_path, "none", with_draws())
     nothing = {"kind": "none", "confirmed": False, "sets": [], "final": [], "strengths": {}}
     for number in range(3):
-        stability.write(results, {**of_draw(study, results, 0), **nothing, "draw": number})
+        stability.write(results, of_draw(study, results, 0, **nothing, draw=number))
     gathered(study, results)
     assert "No data set leads to a claimed effect." in " ".join(sentences(study, results))
-    (shown,) = sections(study, results)
+    (shown,) = sections_of("diagnosis", study, results)
     assert len(shown.parts) == 3
 
 
@@ -155,7 +157,6 @@ def test_page_of_the_diagnosis_shows_the_stability_as_well(tmp_path: Path) -> No
 def gathered(study: Study, results: Results) -> None:
     """Do as the command that gathers all draws."""
     PAGE.draw_and_write(study, results)
-    stability.write_gathered(study, results)
 
 
 def of_data(study: Study, results: Results) -> None:
@@ -164,11 +165,11 @@ def of_data(study: Study, results: Results) -> None:
 
 
 def of_a_draw(study: Study, results: Results) -> None:
-    stability.write(results, {**of_draw(study, results, 1), "chi2": 301.0})
+    stability.write(results, of_draw(study, results, 1, chi2=301.0))
 
 
 def of_the_source(study: Study, results: Results) -> None:
-    stability.write(results, {**of_draw(study, results, 1), "origin": "before"})
+    stability.write(results, of_draw(study, results, 1, origin="before"))
 
 
 def of_the_diagnosis(study: Study, results: Results) -> None:
@@ -179,7 +180,7 @@ def of_the_diagnosis(study: Study, results: Results) -> None:
 
 
 def no_draw(study: Study, results: Results) -> None:
-    results.stability("draw_1.json").unlink()
+    results.of_step("stability", "draw_1.json").unlink()
 
 
 @pytest.mark.parametrize(
@@ -195,7 +196,7 @@ def test_pages_leave_out_a_stability_that_is_not_up_to_date(
     assert stability.version(study, results)
     change(study, results)
     assert stability.version(study, results) == ""
-    assert sections(study, results) == []
+    assert sections_of("diagnosis", study, results) == []
 
 
 def test_fewer_draws_need_new_tables(tmp_path: Path) -> None:
@@ -208,7 +209,7 @@ def test_fewer_draws_need_new_tables(tmp_path: Path) -> None:
 def test_archive_has_the_draws_of_the_study_if_they_are_up_to_date(tmp_path: Path) -> None:
     study, results = stable_or_not(tmp_path)
     gathered(study, results)
-    write_json(results.stability("draw_7.json"), {"of": "more draws"})
+    write_json(results.of_step("stability", "draw_7.json"), {"of": "more draws"})
     kept = {path.name for path in archived(study, results) if path.parent.name == "stability"}
     assert {"draw_0.json", "draw_2.json", "stability.json", "stability.svg"} <= kept
     assert "draw_7.json" not in kept
@@ -219,7 +220,7 @@ def test_archive_has_the_draws_of_the_study_if_they_are_up_to_date(tmp_path: Pat
 def test_an_effect_counts_as_claimed_wherever_it_stands_in_a_set(tmp_path: Path) -> None:
     study, results = stable_or_not(tmp_path)
     for number, one in enumerate((["k_T", "c_T"], ["c_T", "k_T"], ["k_T", "c_T"])):
-        draw = {**of_draw(study, results, 0), "kind": "ambiguous", "sets": [one], "draw": number}
+        draw = of_draw(study, results, 0, kind="ambiguous", sets=[one], draw=number)
         stability.write(results, draw)
     found = read(study, results)
     assert [found.times_claimed(effect) for effect in ("k_T", "c_T")] == [3, 3]
@@ -227,7 +228,7 @@ def test_an_effect_counts_as_claimed_wherever_it_stands_in_a_set(tmp_path: Path)
 
 def test_missing_draw_names_the_file(tmp_path: Path) -> None:
     study, results = stable_or_not(tmp_path)
-    results.stability("draw_1.json").unlink()
+    results.of_step("stability", "draw_1.json").unlink()
     with pytest.raises(DataError, match=r"draw_1\.json"):
         read(study, results)
 
@@ -243,7 +244,7 @@ def test_missing_draw_names_the_file(tmp_path: Path) -> None:
 )
 def test_broken_draw_names_file_and_key(change: dict[str, Any], words: str, tmp_path: Path) -> None:
     study, results = stable_or_not(tmp_path)
-    path = results.stability("draw_1.json")
+    path = results.of_step("stability", "draw_1.json")
     path.write_text(json.dumps({**json.loads(path.read_text()), **change}))
     with pytest.raises(DataError, match="draw_1") as error:
         read(study, results)
@@ -256,6 +257,6 @@ def test_command_refuses_a_draw_beyond_those_of_the_study(
 ) -> None:
     path = tmp_path / "fake.json"
     path.write_text(json.dumps(with_draws()))
-    command = ["stability", "--study", str(path), "--results", str(tmp_path), "--draw", "3"]
+    command = ["stability", str(path), "--results", str(tmp_path), "--draw", "3"]
     assert main(command) == 2
-    assert "has draws 0 to 2; raise diagnosis.draws for more" in capsys.readouterr().err
+    assert "has no draw '3'" in capsys.readouterr().err

@@ -27,10 +27,12 @@ ORDER = [
         "provenance",
         "seeds",
         "sources",
+        "steps",
     },
     {"quantities"},
     {"data"},
     {"model"},
+    {"options of steps"},
     {"effects"},
     {"solver"},
     {"simulate"},
@@ -40,6 +42,7 @@ ORDER = [
     {"plugins"},
     {"config"},
     {"results"},
+    {"results of steps"},
     {"running"},
     {"estimate"},
     {"diagnose", "scheme"},
@@ -49,6 +52,7 @@ ORDER = [
     {"new_study"},
     {"doctor", "ready"},
     {"show"},
+    {"work of steps"},
     {"api"},
     {
         "archive",
@@ -96,8 +100,24 @@ def modules() -> list[Path]:
     return sorted(p for p in SOURCE.rglob("*.py") if p != SOURCE / "__init__.py")
 
 
+OF_STEPS = {
+    "__init__": "steps",
+    "options": "options of steps",
+    "record": "results of steps",
+    "inputs": "results of steps",
+}
+"""Files of a step that others may use."""
+
+
 def part_of(path: Path) -> str:
-    return path.relative_to(SOURCE).parts[0].removesuffix(".py")
+    return part_named(path.relative_to(SOURCE.parent).with_suffix("").parts)
+
+
+def part_named(names: tuple[str, ...]) -> str:
+    """Return the part of the package in which a module stands, from the parts of its name."""
+    _, part, *inside = names
+    of_a_step = part == "steps" and len(inside) > 1 and (SOURCE / "steps" / inside[0]).is_dir()
+    return part if not of_a_step else OF_STEPS.get(inside[1], "work of steps")
 
 
 @cache
@@ -122,7 +142,7 @@ def imported(path: Path) -> set[str]:
 
 def own(path: Path) -> set[str]:
     """Return the parts of the package that a file imports."""
-    return {n.split(".")[1] for n in imported(path) if n.startswith("pyrofit.")}
+    return {part_named(tuple(n.split("."))) for n in imported(path) if n.startswith("pyrofit.")}
 
 
 def outside(path: Path) -> set[str]:
@@ -175,6 +195,12 @@ def module_name(path: Path) -> str:
 def test_no_modules_import_each_other_in_a_circle() -> None:
     # Imports for type checks alone are counted: they join two files as much as any other.
     TopologicalSorter({module_name(p): modules_imported(p) for p in modules()}).prepare()
+
+
+def test_no_step_knows_another() -> None:
+    for path in (SOURCE / "steps").glob("*/*.py"):
+        steps = {n.split(".")[2] for n in imported(path) if n.startswith("pyrofit.steps.")}
+        assert steps <= {"base", path.parent.name}, f"{path}: {steps}"
 
 
 def test_no_effect_is_known_by_name_outside_its_file() -> None:

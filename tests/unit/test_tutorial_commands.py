@@ -15,6 +15,7 @@ from snakemake.cli import get_argument_parser
 import pyrofit as pf
 from pyrofit.cli import command
 from pyrofit.config import read_mapping
+from pyrofit.steps import known_steps
 
 ROOT = Path(__file__).parents[2]
 PAGES = ("tutorial", "tutorial_diagnosis", "tutorial_fds", "tutorial_cluster")
@@ -58,7 +59,7 @@ def targets() -> set[str]:
     """Return the names of the rules of the workflow."""
     files = [*(ROOT / "src/pyrofit/workflow").rglob("*.smk")]
     text = "\n".join(path.read_text(encoding="utf-8") for path in files)
-    return set(re.findall(r"^ *rule (\w+):", text, re.M))
+    return {*re.findall(r"^ *rule (\w+):", text, re.M), *known_steps()}
 
 
 def is_there(name: str, page: str) -> bool:

@@ -42,7 +42,7 @@ def changed(place: str, value: object) -> dict[str, Any]:
     *above, last = place.split(".")
     part = study
     for key in above:
-        part = part[key]
+        part = part.setdefault(key, {})
     part[last] = value
     return study
 
@@ -199,14 +199,14 @@ def test_stability_has_a_job_for_each_draw_and_runs_only_new_ones(diagnosed: Dia
         "Diagnosis of disturbed data, draw {}",
         "Stability of the diagnosis: tables and figure",
     )
-    diagnosed.project.write(changed("diagnosis.draws", 2))
+    diagnosed.project.write(changed("steps.stability.draws", 2))
     assert diagnosed.again("2", "stability").jobs == {job.format(0), job.format(1), gathered}
     first = diagnosed.project.read("results/tiny/stability/draw_0.json")
     table = diagnosed.project.read("results/tiny/stability/table_effects.md").decode()
     assert "heater_ramp" in table
     assert diagnosed.now() == diagnosed.left
     assert diagnosed.again("2", "stability").jobs == set()
-    diagnosed.project.write(changed("diagnosis.draws", 3))
+    diagnosed.project.write(changed("steps.stability.draws", 3))
     assert diagnosed.again("2", "stability").jobs == {job.format(2), gathered}
     assert diagnosed.project.read("results/tiny/stability/draw_0.json") == first
 

@@ -37,7 +37,7 @@ def described() -> dict[str, Any]:
         "hold_out": {"slab_80": ["mass", "tc_05mm"]},
         "effects": ["k_T", "c_T", "swelling"],
     }
-    del study["robustness"]
+    del study["steps"]
     return study
 
 

@@ -104,7 +104,7 @@ TINY: dict[str, Any] = {
         },
     },
     "validation": {"experiments": ["slab_60", "slab_80"]},
-    "robustness": {"noise": [1], "outliers": [0.1], "draws": 1, "starts": 1},
+    "steps": {"robustness": {"noise": [1], "outliers": [0.1], "draws": 1, "starts": 1}},
 }
 OWN_FILE = "Time,Temperature,Mass\n[s],[K],[mg]\n" + "".join(
     f"{60 * i},{500 + 10 * i},{5.0 if i < 10 else 1.0}\n" for i in range(20)

@@ -23,6 +23,7 @@ from pyrofit.cli import (
     sensing,
     showing,
     starting,
+    stepping,
 )
 from pyrofit.cli.parser import Parser
 from pyrofit.errors import INTERRUPTED, RUN, PyrofitError
@@ -37,6 +38,7 @@ _GROUPS = (
     sensing,
     planning,
     scheming,
+    stepping,
     diagnosing,
     showing,
     exchanging,

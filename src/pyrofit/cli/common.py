@@ -59,10 +59,16 @@ def show(page: Any, study: Any, results: Any) -> None:
         print(line)
 
 
-def open_study(given: argparse.Namespace, slice_of: Callable[..., Any], *arguments: Any) -> Any:
+def open_study(
+    given: argparse.Namespace,
+    slice_of: Callable[..., Any],
+    *arguments: Any,
+    change: Callable[[Any], Any] = lambda study: study,
+) -> Any:
     """Return study and results; refuse a study other than the one the caller described.
 
-    Until the command ends, no other run of the study may start.
+    ``change`` puts options of the command line into the study. Until the command ends, no other
+    run of the study may start.
     """
     from pyrofit.config import digest, read_study
     from pyrofit.config.programs import externals, keeping_runs
@@ -77,6 +83,7 @@ def open_study(given: argparse.Namespace, slice_of: Callable[..., Any], *argumen
             f"{given.study}: study '{study.name}' has no cost '{cost}'. "
             + suggest(cost, study.imp.costs)
         )
+    study = change(study)
     if given.digest is not None and digest(slice_of(study, *arguments)) != given.digest:
         raise StudyError(
             f"{given.study}: the study changed while the workflow ran; run it again. "

@@ -5,7 +5,7 @@ import sys
 from pathlib import Path
 from typing import Any
 
-from pyrofit.cli.common import add_step, cores, open_study, show, tell
+from pyrofit.cli.common import add_step, cores, open_study
 from pyrofit.errors import StudyError
 
 
@@ -14,12 +14,7 @@ def add(commands: Any) -> None:
     lacks = add_step(commands, "diagnose", "find which effect the model lacks", _diagnose)
     words = "draw and write the page of the diagnosis"
     page = add_step(commands, "diagnosis-page", words, _diagnosis_page)
-    words = "diagnose disturbed data: how stable the result is"
-    stable = add_step(commands, "stability", words, _stability)
-    stable.add_argument(
-        "--draw", type=int, help="data set to diagnose, from 0; without: gather all, on one core"
-    )
-    for step in (lacks, page, stable):
+    for step in (lacks, page):
         step.add_argument("--cores", type=cores, default=1, help="processes; default: 1")
     blind = commands.add_parser("blind-test", help="run the blind test of the diagnosis")
     blind.add_argument("--setting", type=Path, default=Path("config/blind_test.yaml"))
@@ -65,28 +60,6 @@ def _diagnosis_page(given: argparse.Namespace) -> None:
     study, results = open_study(given, dependencies.presentation)
     draw_all(results, study, given.cores)
     write_page(study, results)
-
-
-def _stability(given: argparse.Namespace) -> None:
-    from pyrofit.results import dependencies, stability
-    from pyrofit.show.stability_page import PAGE
-    from pyrofit.stages import measurements
-    from pyrofit.stages.stability import repeat_disturbed
-
-    if given.draw is None:
-        study, results = open_study(given, dependencies.presentation)
-        show(PAGE, study, results)
-        stability.write_gathered(study, results)
-        return
-    study, results = open_study(given, dependencies.diagnose)
-    if not 0 <= given.draw < study.diagnosis.draws:
-        raise StudyError(
-            f"--draw {given.draw}: study '{study.name}' has draws 0 to "
-            f"{study.diagnosis.draws - 1}; raise diagnosis.draws for more"
-        )
-    if given.digest is None:  # by hand, without the workflow that has read the measurements
-        measurements.prepare(study, results)
-    repeat_disturbed(study, results, given.draw, tell, given.cores)
 
 
 def _thin(given: argparse.Namespace) -> None:

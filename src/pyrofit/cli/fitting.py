@@ -42,10 +42,6 @@ def add(commands: Any) -> None:
     known.add_argument("--stage", choices=("kinetics", "imp"), default="imp", help="default: imp")
     add_step(commands, "predict", "simulate the best sets at all predicted experiments", _predict)
     add_step(commands, "compare", "score all sets of all optimisers by all costs", _compare)
-    twins = add_step(
-        commands, "robustness", "compare the costs on twins of known truth", _robustness
-    )
-    twins.add_argument("--cost", help="cost function to fit them with; without: gather all")
 
 
 def _prepare(given: argparse.Namespace) -> None:
@@ -131,22 +127,3 @@ def _compare(given: argparse.Namespace) -> None:
     from pyrofit.stages import compare
 
     compare.compare(*open_study(given, dependencies.compare))
-
-
-def _robustness(given: argparse.Namespace) -> None:
-    from pyrofit.results import dependencies
-    from pyrofit.stages import robustness
-
-    if given.cost is not None:
-        study, results = open_study(given, dependencies.robustness, given.cost)
-        robustness.robustness(study, results, given.cost)
-        return
-    from pyrofit.show.robustness.figure import draw_robustness
-    from pyrofit.show.robustness.sentences import sentences as said
-    from pyrofit.show.robustness.table import write_robustness
-
-    study, results = open_study(given, dependencies.presentation)
-    write_robustness(study, results)
-    draw_robustness(study, results)
-    for line in said(study, results):
-        print(line, file=sys.stderr)

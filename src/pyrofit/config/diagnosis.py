@@ -32,9 +32,6 @@ class Diagnosis(Part):
         None, description="candidates; none = all of the catalogue that the fitted signals can show"
     )
     most_effects: int = Field(6, ge=1, le=6, description="effects that are added at most")
-    draws: int = Field(
-        8, ge=2, le=200, description="disturbed data sets that test the stability of the result"
-    )
 
     @model_validator(mode="before")
     @classmethod

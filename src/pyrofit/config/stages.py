@@ -105,22 +105,6 @@ class Imp(Part):
         return channels_of([term for terms in self.costs.values() for term in terms])
 
 
-class Robustness(Part):
-    """Twins of known truth on which the cost functions are compared, `snakemake robustness`."""
-
-    noise: tuple[Annotated[float, Field(gt=0.0)], ...] = Field(
-        (1.0, 3.0, 10.0), min_length=1, description="noise, multiples of the measurement's"
-    )
-    outliers: tuple[Annotated[float, Field(gt=0.0, lt=1.0)], ...] = Field(
-        (0.02, 0.1), min_length=1, description="outliers, shares of the points"
-    )
-    outlier_size: float = Field(
-        0.5, gt=0.0, description="size of an outlier, share of the signal's range"
-    )
-    draws: int = Field(10, ge=1, description="twins of each level")
-    starts: int = Field(3, ge=1, le=MOST, description="random starts of least squares for each")
-
-
 class Validation(Part):
     """Stage 3: prediction of experiments that were not fitted."""
 

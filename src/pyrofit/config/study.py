@@ -1,13 +1,14 @@
 """Parts of a study: every key with its description and unit."""
 
 from html import escape
-from typing import Any
+from typing import Any, TypeVar
 
 from pydantic import Field
 
 from pyrofit.config.diagnosis import Diagnosis
 from pyrofit.config.known import REACH, Known
-from pyrofit.config.stages import Imp, Kinetics, Name, Robustness, Validation
+from pyrofit.config.stages import Imp, Kinetics, Name, Validation
+from pyrofit.config.steps import Steps
 from pyrofit.effects import known_effects
 from pyrofit.effects.base import ADDED
 from pyrofit.effects.substance import main_reaction
@@ -17,6 +18,8 @@ from pyrofit.model.accuracy import Accuracy, Resolution
 from pyrofit.model.base import Number, Part
 from pyrofit.model.material import Material
 from pyrofit.model.parameters import Parameter
+
+Options = TypeVar("Options", bound=Part)
 
 
 class Synthetic(Part):
@@ -91,13 +94,17 @@ class Study(Part):
     kinetics: Kinetics | None = Field(None, description="stage 1, TGA")
     imp: Imp = Field(description="stage 2, inverse modelling")
     validation: Validation = Field(description="stage 3, prediction")
-    robustness: Robustness = Field(
-        default_factory=Robustness, description="cost functions on twins of known truth"
-    )
     diagnosis: Diagnosis = Field(
         default_factory=Diagnosis, description="stage 4, which effect the model lacks"
     )
+    steps: Steps = Field(
+        default_factory=Steps, description="options of the steps that run when asked for"
+    )
     published: Published | None = Field(None, description="published results")
+
+    def options(self, kind: type[Options]) -> Options:
+        """Return the options of the step that declares them as ``kind``."""
+        return next(part for _, part in self.steps if isinstance(part, kind))
 
     @property
     def is_synthetic(self) -> bool:

@@ -33,10 +33,10 @@ def _values(study: Study) -> dict[str, Any]:
     return {n: p.model_dump(include={"unit", "value"}) for n, p in study.parameters.items()}
 
 
-def _known(study: Study, names: Iterable[str]) -> dict[str, Any]:
+def known(study: Study, names: Iterable[str]) -> dict[str, Any]:
     """Known values of some parameters; no key where there are none."""
-    known = _known_values(study, names)
-    return {"known": known} if known else {}
+    found = _known_values(study, names)
+    return {"known": found} if found else {}
 
 
 def _known_values(study: Study, names: Iterable[str]) -> dict[str, Any]:
@@ -53,6 +53,11 @@ def _experiment(study: Study, name: str) -> dict[str, Any]:
 def _measured(study: Study, name: str) -> dict[str, Any]:
     """As it is simulated and compared with regard to its noise."""
     return study.experiments[name].model_dump(exclude={"title"}) | _files(study, name)
+
+
+def measured(study: Study) -> dict[str, Any]:
+    """Return all experiments, as they are simulated and compared with regard to their noise."""
+    return {name: _measured(study, name) for name in study.experiments}
 
 
 def _files(study: Study, name: str) -> dict[str, Any]:
@@ -109,7 +114,7 @@ def kinetics(study: Study) -> dict[str, Any]:
         "stage": stage.model_dump(exclude={"cost"}),
         "accuracy": study.accuracy.tga_step_K,
         "seed": study.seed,
-        **_known(study, stage.estimate),
+        **known(study, stage.estimate),
     }
 
 
@@ -137,7 +142,7 @@ def imp(study: Study, cost: str, optimiser: str) -> dict[str, Any]:
         "budget": getattr(stage, optimiser).model_dump(),
         "accuracy": study.accuracy.model_dump(),
         "seed": study.seed,
-        **_known(study, stage.estimate),
+        **known(study, stage.estimate),
     }
 
 
@@ -157,7 +162,7 @@ def identify(study: Study) -> dict[str, Any]:
         "code": code_of(study),
         "costs": list(stage.costs),
         "accuracy": study.accuracy.model_dump(),
-        **_known(study, stage.estimate),
+        **known(study, stage.estimate),
     }
 
 
@@ -201,21 +206,6 @@ def validation(study: Study) -> dict[str, Any]:
     }
 
 
-def robustness(study: Study, cost: str) -> dict[str, Any]:
-    """Cost, twins, and all that a prediction rests on."""
-    return {
-        "terms": [t.model_dump() for t in all_terms(study)],
-        "cost": cost,
-        "twins": study.robustness.model_dump(),
-        "truth": study.synthetic.truth if study.synthetic else {},
-        "measured": {n: _measured(study, n) for n in study.experiments},
-        "limits": {n: study.parameters[n].bounds_si for n in study.imp.estimate},
-        "seed": study.seed,
-        **_known(study, study.imp.estimate),
-        **validation(study),
-    }
-
-
 def compare(study: Study) -> dict[str, Any]:
     """Costs, predicted experiments and material, by which all sets are judged."""
     return {
@@ -223,7 +213,7 @@ def compare(study: Study) -> dict[str, Any]:
         "measured": {n: _experiment(study, n) for n in study.experiments},
         "limits": {n: study.parameters[n].bounds_si for n in study.imp.estimate},
         "seed": study.seed,
-        **_known(study, study.imp.estimate),
+        **known(study, study.imp.estimate),
         **validation(study),
         **collect(study),
     }

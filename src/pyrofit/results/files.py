@@ -135,10 +135,22 @@ def read_csv(
 
 
 class Results:
-    """Paths of a study's results below one folder."""
+    """Paths of a study's results below one folder.
 
-    def __init__(self, root: Path) -> None:
+    Results of a step run ``by_hand`` with options other than the study's stand apart.
+    """
+
+    def __init__(self, root: Path, by_hand: str = "") -> None:
         self.root = root
+        self.by_hand = by_hand
+
+    def folder(self, name: str) -> Path:
+        """Return a folder of results, such as that of a step."""
+        return self.root / "by_hand" / name if name == self.by_hand else self.root / name
+
+    def of_step(self, step: str, name: str) -> Path:
+        """Return the path of a file of a step."""
+        return self.folder(step) / name
 
     def measurement(self, experiment: str, signal: str) -> Path:
         """Tidy measured series."""
@@ -193,10 +205,6 @@ class Results:
         """By how much planned tests narrow parameters and predictions."""
         return self.root / "worth" / name
 
-    def robustness(self, name: str) -> Path:
-        """Fits of all cost functions to twins of known truth."""
-        return self.root / "robustness" / name
-
     def validation(self, name: str) -> Path:
         """Predictions and scores."""
         return self.root / "validation" / name
@@ -204,10 +212,6 @@ class Results:
     def diagnosis(self, name: str) -> Path:
         """Disagreement of model and measurement, and missing effects."""
         return self.root / "diagnosis" / name
-
-    def stability(self, name: str) -> Path:
-        """Diagnoses of disturbed data, and how often they name each effect."""
-        return self.root / "stability" / name
 
     def scheme(self, name: str) -> Path:
         """Choice of the reaction scheme."""

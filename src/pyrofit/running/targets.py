@@ -4,14 +4,17 @@ import re
 from collections.abc import Iterator
 from pathlib import Path
 
+from pyrofit.steps import known_steps
+
 WORKFLOW = Path(__file__).parents[1] / "workflow"
 """Folder of the workflow in the installed package."""
 _RULE = re.compile(r'^ *rule (\w+):\n\s+"""(.+?)"""$', re.M | re.S)
 
 
 def targets() -> dict[str, str]:
-    """Return the description of each target by its name: of each rule that has a docstring."""
+    """Return the description of each target by its name: of steps, and rules with a docstring."""
     found = dict(pair for text in _texts() for pair in _RULE.findall(text))
+    found |= {n: f"{s.words[0].upper()}{s.words[1:]}." for n, s in known_steps().items()}
     return {name: " ".join(found[name].split()) for name in sorted(found)}
 
 

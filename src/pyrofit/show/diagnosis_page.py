@@ -8,7 +8,6 @@ from pyrofit.parallel import parallel_map
 from pyrofit.results import diagnosis, recorded
 from pyrofit.results.files import Results, write_text
 from pyrofit.show import diagnosis as items
-from pyrofit.show import stability_page
 from pyrofit.show.diagnosis.curves import curve_figures
 from pyrofit.show.diagnosis.sentences import (
     certainty,
@@ -23,6 +22,7 @@ from pyrofit.show.figure import Figure, draw_figure
 from pyrofit.show.measured import use_in_diagnosis
 from pyrofit.show.page import page_of
 from pyrofit.show.parts import Part, Picture, Shown, picture, table_part
+from pyrofit.show.step_page import sections_of
 from pyrofit.show.table import Table, write_table
 
 FOLDER = "diagnosis"
@@ -48,7 +48,7 @@ def write_page(study: Study, results: Results) -> None:
     shown = section(study, results, found)
     title = f"{study.title or study.name}: diagnosis"
     measured = recorded.measured(study, results)
-    parts = [shown, *stability_page.sections(study, results)]
+    parts = [shown, *sections_of("diagnosis", study, results)]
     text = page_of(study, measured, title, facts(found), parts, use=use_in_diagnosis)
     write_text(results.diagnosis("report.html"), text)
 

@@ -13,7 +13,6 @@ from pyrofit.show import (
     rescore_page,
     scheme_page,
     sensitivity_page,
-    stability_page,
     worth_page,
 )
 from pyrofit.show.answer import ANSWER
@@ -22,11 +21,9 @@ from pyrofit.show.facts import Facts, facts_of
 from pyrofit.show.names import titled
 from pyrofit.show.page import page_of, provenance
 from pyrofit.show.parts import Part, Picture, Shown, picture, table_part
-from pyrofit.show.robustness.figure import CAPTION, TITLE
-from pyrofit.show.robustness.sentences import sentences as of_robustness
-from pyrofit.show.robustness.table import TABLE as ROBUSTNESS
 from pyrofit.show.section import Section
 from pyrofit.show.sections import SECTIONS, TABLES
+from pyrofit.show.step_page import sections_of
 from pyrofit.show.table import Frames, read_table
 
 OWN_STEPS: tuple[tuple[Any, Any], ...] = (
@@ -55,6 +52,7 @@ def write_report(study: Study, results: Results) -> None:
         table_part(study, TABLES["answer"], tables["answer"]),
     )
     shown = [one for part in SECTIONS if (one := _shown(part, study, results, facts))]
+    shown += sections_of("report", study, results)
     # These, diagnosis and the proof by FDS are steps of their own, which a study may go without.
     for result, page in OWN_STEPS:
         if result.exists(results):
@@ -70,7 +68,7 @@ def write_report(study: Study, results: Results) -> None:
         found = diagnosis.read(study, results)
         lacks = found["verdict"]["words"]
         shown.append(diagnosis_page.section(study, results, found))
-        shown += stability_page.sections(study, results)
+        shown += sections_of("diagnosis", study, results)
     said = summary(study, facts)
     text = page_of(study, measured, study.title or study.name, said, shown, *answer, lacks)
     write_json(results.root / "provenance.json", made)
@@ -93,9 +91,6 @@ def _shown(section: Section, study: Study, results: Results, facts: Facts) -> Sh
     if not parts:
         return None
     said = section.sentences(study, facts)
-    # Robustness is a step of its own, which a study may go without.
-    if section.anchor == "costs" and results.robustness("table.csv").is_file():
-        parts += _robustness(study, results)
     return Shown(section.anchor, section.heading, section.text, tuple(parts), tuple(said))
 
 
@@ -110,13 +105,3 @@ def _pictures(
         title = titled(study, figure.title, figure.paper)
         found.append(picture(path, name, title, figure.caption))
     return found
-
-
-def _robustness(study: Study, results: Results) -> list[Part | Picture]:
-    """Return table and figure of the twins, with their sentences."""
-    frame = read_table(results, "table", "robustness")
-    text = " ".join(of_robustness(study, results))
-    return [
-        table_part(study, ROBUSTNESS, frame, text),
-        picture(results.robustness("robustness.svg"), "robustness", TITLE, CAPTION),
-    ]

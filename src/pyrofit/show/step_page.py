@@ -5,9 +5,15 @@ from dataclasses import dataclass
 
 from pyrofit.config import Study
 from pyrofit.results.files import Results
+from pyrofit.results.step import check_options, exists
 from pyrofit.show.figure import Figure, draw_figure
 from pyrofit.show.parts import Shown, picture, table_part
 from pyrofit.show.table import Table, read_table, write_table
+from pyrofit.steps import known_steps
+
+
+def _nothing(study: Study, results: Results) -> None:
+    pass
 
 
 @dataclass(frozen=True)
@@ -17,7 +23,7 @@ class StepPage:
     Parameters
     ----------
     folder
-        Folder of its results, and identifier of its section.
+        Name of the step: the folder of its results, and the identifier of its section.
     heading, text
         Heading of the section, and a sentence on it.
     tables, figures
@@ -26,6 +32,10 @@ class StepPage:
         Function that returns the sentences beside them.
     tables_shown, figures_shown
         Names of those in the report.
+    prefix
+        What the names of files of tables begin with.
+    finish
+        Function that is called when all is written.
     """
 
     folder: str
@@ -36,6 +46,8 @@ class StepPage:
     sentences: Callable[[Study, Results], list[str]]
     tables_shown: tuple[str, ...]
     figures_shown: tuple[str, ...]
+    prefix: str = "table_"
+    finish: Callable[[Study, Results], None] = _nothing
 
     def draw_and_write(self, study: Study, results: Results) -> None:
         """Write the tables, then the figures, to the folder.
@@ -47,9 +59,10 @@ class StepPage:
         """
         for name, table in self.tables.items():
             frame = table.make(study, results)
-            write_table(results.root / self.folder, f"table_{name}", table, frame, study)
+            write_table(results.folder(self.folder), f"{self.prefix}{name}", table, frame, study)
         for name, figure in self.figures.items():
             draw_figure(figure, name, study, results, self.folder)
+        self.finish(study, results)
 
     def section(self, study: Study, results: Results) -> Shown:
         """Return figures, tables and sentences as a section of the report.
@@ -57,11 +70,12 @@ class StepPage:
         Raises
         ------
         DataError
-            A result or a figure is missing.
+            A result or a figure is missing, or they were made with other options.
         """
+        check_options(study, results, self.folder)
         drawn = [
             picture(
-                results.root / self.folder / f"{name}.svg",
+                results.of_step(self.folder, f"{name}.svg"),
                 f"{self.folder}_{name}",
                 self.figures[name].title,
                 self.figures[name].caption,
@@ -69,8 +83,21 @@ class StepPage:
             for name in self.figures_shown
         ]
         tables = [
-            table_part(study, self.tables[name], read_table(results, f"table_{name}", self.folder))
+            table_part(
+                study,
+                self.tables[name],
+                read_table(results, f"{self.prefix}{name}", self.folder),
+            )
             for name in self.tables_shown
         ]
         said = tuple(self.sentences(study, results))
         return Shown(self.folder, self.heading, self.text, (*drawn, *tables), said)
+
+
+def sections_of(page: str, study: Study, results: Results) -> list[Shown]:
+    """Return the sections of all steps on a page that the study has run."""
+    return [
+        step.load("page").PAGE.section(study, results)
+        for step in known_steps().values()
+        if step.page == page and exists(study, results, step.name)
+    ]

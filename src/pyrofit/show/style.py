@@ -188,7 +188,7 @@ def save(canvas: Canvas, results: Results, name: str, folder: str = "figures") -
     for kind, metadata in (("svg", {"Date": None, "Creator": None}), ("png", {"Software": None})):
         buffer = io.BytesIO()
         canvas.savefig(buffer, format=kind, metadata=metadata)
-        write_bytes(results.root / folder / f"{name}.{kind}", buffer.getvalue())
+        write_bytes(results.folder(folder) / f"{name}.{kind}", buffer.getvalue())
 
 
 def _lay_out(canvas: Canvas) -> None:

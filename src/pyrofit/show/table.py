@@ -51,7 +51,7 @@ def read_table(results: Results, name: str, folder: str = "tables") -> pd.DataFr
     DataError
         It is missing or broken.
     """
-    return read_csv(results.root / folder / f"{name}.csv")
+    return read_csv(results.folder(folder) / f"{name}.csv")
 
 
 def readable(table: Table, frame: pd.DataFrame) -> list[tuple[str, pd.DataFrame]]:

@@ -137,7 +137,6 @@ include: "rules/identify.smk"
 include: "rules/validation.smk"
 include: "rules/comparison.smk"
 include: "rules/report.smk"
-include: "rules/robustness.smk"
 include: "rules/rescore.smk"
 include: "rules/sensitivity.smk"
 include: "rules/posterior.smk"
@@ -145,7 +144,7 @@ include: "rules/worth.smk"
 include: "rules/scheme.smk"
 include: "rules/fds.smk"
 include: "rules/diagnosis.smk"
-include: "rules/stability.smk"
+include: "rules/steps.smk"
 
 
 # Everything, not the report alone: what is deleted or was removed with a failed run is made again.

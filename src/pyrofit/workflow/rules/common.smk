@@ -1,8 +1,9 @@
 """What several files of rules share."""
 
 from pyrofit.estimate.optimisers import OPTIMISERS
-from pyrofit.results import stability as stability_results
+from pyrofit.results.step import exists, inputs_of, slice_of
 from pyrofit.show.names import titled
+from pyrofit.steps import known_steps
 
 
 def log_of(name):
@@ -48,3 +49,11 @@ FITS_FOR_NOISE = [results.imp("summary.csv"), STARTED] if JUMPS else []
 def repetitions_in(files):
     """Return the repetitions whose results are among some files."""
     return [Path(name).stem for name in files if name.endswith(".json")]
+
+
+# Of steps whose parts are not repeated unless asked for, what the pages show.
+VERSIONS = {
+    name: inputs.version(study, results)
+    for name in known_steps()
+    if (inputs := inputs_of(name)).version
+}

@@ -39,7 +39,7 @@ rule diagnosis_page:
         study=STUDY,
         digest=digest(dependencies.presentation(study)),
         source=source_fingerprint("pyrofit.show.diagnosis_page"),
-        stability=stability_results.version(study, results),
+        versions=VERSIONS,
     message:
         "Diagnosis: {output}"
     shell:

@@ -66,12 +66,16 @@ rule report:
         CALCULATED,
         expand(ROOT / "tables/{name}.md", name=SHOWN_TABLES),
         expand(ROOT / "figures/{name}.svg", name=SHOWN_FIGURES),
-        # Once a study has been diagnosed, its report shows that, kept up to date; so with twins.
+        # Once a study has been diagnosed, its report shows that, kept up to date; so with steps.
+        [
+            results.of_step(name, inputs_of(name).files[-1])
+            for name in known_steps()
+            if not inputs_of(name).version and exists(study, results, name)
+        ],
         [
             page
             for page in (
                 results.diagnosis("report.html"),
-                results.robustness("table.csv"),
                 results.rescored("valleys.svg"),
                 results.sensitivity("costs.svg"),
                 results.posterior("parameters.svg"),
@@ -95,7 +99,7 @@ rule report:
         study=STUDY,
         digest=digest(dependencies.presentation(study)),
         source=SHOWS,
-        stability=stability_results.version(study, results),
+        versions=VERSIONS,
     message:
         "Report: {output.page}"
     shell:

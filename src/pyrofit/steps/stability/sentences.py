@@ -5,8 +5,8 @@ from collections import Counter
 from pyrofit.config import Study
 from pyrofit.results.files import Results
 from pyrofit.show.diagnosis.words import effect_name
-from pyrofit.show.stability.facts import Stability, claimed_by, read
 from pyrofit.show.text import listed, several
+from pyrofit.steps.stability.facts import Stability, claimed_by, read
 
 
 def sentences(study: Study, results: Results) -> list[str]:

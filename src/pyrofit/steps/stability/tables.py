@@ -7,8 +7,8 @@ import pandas as pd
 from pyrofit.config import Study
 from pyrofit.results.files import Results
 from pyrofit.show.diagnosis.words import effect_name
-from pyrofit.show.stability.facts import claimed_by, read, unit_of
 from pyrofit.show.table import Table, always
+from pyrofit.steps.stability.facts import claimed_by, read, unit_of
 
 COLUMNS = (
     "effect",

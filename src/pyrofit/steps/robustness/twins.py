@@ -7,6 +7,7 @@ from pyrofit.config import Study
 from pyrofit.results import searches
 from pyrofit.results.files import Results, read_csv
 from pyrofit.solver.arrays import FloatArray
+from pyrofit.steps.robustness.options import RobustnessOptions
 
 NOISE, OUTLIERS = "noise", "outliers"
 """Disturbances of a twin: stronger noise, or outliers to a share of the points."""
@@ -24,7 +25,9 @@ def errors(study: Study, results: Results) -> pd.DataFrame:
     truth = true_set(study, results)
     columns = {"kind": object, **dict.fromkeys(("level", "draw", "cost", "calls", *names), float)}
     frames = [
-        read_csv(results.robustness(f"{cost}.csv"), columns, {("cost_function",): [(cost,)]})
+        read_csv(
+            results.of_step("robustness", f"{cost}.csv"), columns, {("cost_function",): [(cost,)]}
+        )
         for cost in study.imp.costs
     ]
     frame = pd.concat(frames, ignore_index=True)
@@ -40,7 +43,9 @@ def recovered(study: Study, errors: pd.DataFrame) -> list[str]:
     The data do not determine the others: their errors are those of any value within the limits, and
     tell nothing of the cost functions.
     """
-    least = errors[(errors["kind"] == NOISE) & (errors["level"] == min(study.robustness.noise))]
+    least = errors[
+        (errors["kind"] == NOISE) & (errors["level"] == min(study.options(RobustnessOptions).noise))
+    ]
     names = list(study.imp.estimate)
     size = np.sqrt((least[names] ** 2).groupby(least["cost_function"]).mean()).min()
     return [name for name in names if size[name] <= RECOVERED] or names

@@ -1,10 +1,6 @@
 """Stability of a diagnosis: written by draw, read by tables, figure and sentences."""
 
-import json
-from collections.abc import Mapping
-from typing import Any
-
-from pydantic import Field, ValidationError
+from pydantic import Field
 
 from pyrofit.config import Study, calibration_channels, digest, held_out_channels
 from pyrofit.data.download import sha256
@@ -13,7 +9,8 @@ from pyrofit.provenance import source_fingerprint
 from pyrofit.results import dependencies, diagnosis
 from pyrofit.results.diagnosis_schema import Kind
 from pyrofit.results.files import Results, read_json, write_json
-from pyrofit.results.record import Record
+from pyrofit.results.record import Record, read_record, write_record
+from pyrofit.steps.stability.options import StabilityOptions
 
 GATHERED = "stability.json"
 """File that is written last; it tells from which draws tables and figure are made."""
@@ -47,15 +44,13 @@ def origin(study: Study, results: Results) -> str:
     channels = (*calibration_channels(study), *held_out_channels(study))
     files = {results.measurement(c.experiment, c.signal) for c in channels}
     measured = [sha256(path) for path in sorted(files) if path.is_file()]
-    source = source_fingerprint("pyrofit.stages.stability")
+    source = source_fingerprint("pyrofit.steps.stability.compute")
     return digest([dependencies.diagnose(study), measured, source])
 
 
-def write(results: Results, content: Mapping[str, Any]) -> None:
-    """Write the result of a draw; it must agree with the schema."""
-    text = json.dumps(content, allow_nan=False)
-    found = OfDraw.model_validate_json(text)
-    write_json(results.stability(draw_file(found.draw)), json.loads(text))
+def write(results: Results, found: OfDraw) -> None:
+    """Write the result of a draw."""
+    write_record(results.of_step("stability", draw_file(found.draw)), found)
 
 
 def read(study: Study, results: Results) -> list[OfDraw]:
@@ -67,17 +62,13 @@ def read(study: Study, results: Results) -> list[OfDraw]:
         One is missing, broken, or that of another version of study, data or source code.
     """
     expected = origin(study, results)
-    return [_read(results, number, expected) for number in range(study.diagnosis.draws)]
+    draws = study.options(StabilityOptions).draws
+    return [_read(results, number, expected) for number in range(draws)]
 
 
 def _read(results: Results, number: int, expected: str) -> OfDraw:
-    path = results.stability(draw_file(number))
-    try:
-        found = OfDraw.model_validate(read_json(path))
-    except ValidationError as error:
-        first = error.errors()[0]
-        place = ".".join(str(key) for key in first["loc"])
-        raise DataError(f"{path}: '{place}': {first['msg']}; delete it and run again") from None
+    path = results.of_step("stability", draw_file(number))
+    found = read_record(path, OfDraw)
     if found.origin != expected or found.draw != number:
         raise DataError(
             f"{path}: it was made from another version of the study, its data or pyrofit; run "
@@ -88,7 +79,7 @@ def _read(results: Results, number: int, expected: str) -> OfDraw:
 
 def write_gathered(study: Study, results: Results) -> None:
     """Write from which draws the tables and the figure were made."""
-    write_json(results.stability(GATHERED), {"made_of": _version(study, results)})
+    write_json(results.of_step("stability", GATHERED), {"made_of": _version(study, results)})
 
 
 def version(study: Study, results: Results) -> str:
@@ -97,7 +88,7 @@ def version(study: Study, results: Results) -> str:
     Draws take long: after a change they are not repeated unless they are asked for.
     """
     try:
-        made_of = str(read_json(results.stability(GATHERED)).get("made_of"))
+        made_of = str(read_json(results.of_step("stability", GATHERED)).get("made_of"))
         return made_of if made_of == _version(study, results) else ""
     except DataError:
         return ""

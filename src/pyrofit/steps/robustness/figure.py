@@ -5,21 +5,13 @@ from typing import Any
 import numpy as np
 import pandas as pd
 
-from pyrofit.analysis.twins import NOISE, OUTLIERS, errors
 from pyrofit.config import Study
 from pyrofit.results.files import Results
 from pyrofit.show import style
 from pyrofit.show.drawn import Axes, Canvas
-
-TITLE = "Robustness on twins of known truth"
-
-
-CAPTION = (
-    "Errors of the fits against how much noise (left) and how many outliers (right) "
-    "the twins have; dots: one twin each, lines: their median. A cost function whose "
-    "line stays low is robust. Lines within each other's dots do not differ."
-)
-
+from pyrofit.show.figure import Figure
+from pyrofit.show.table import always
+from pyrofit.steps.robustness.twins import NOISE, OUTLIERS, errors
 
 _ASIDE = 0.14
 """Distance of the cost functions' marks at one level, in levels."""
@@ -75,7 +67,12 @@ def _draw(ax: Axes, study: Study, frame: pd.DataFrame, column: str) -> None:
     ax.set_ylim(bottom=0.0)
 
 
-def draw_robustness(study: Study, results: Results) -> None:
-    """Write the figure to ``robustness/robustness.svg`` and ``.png``."""
-    with style.style():
-        style.save(robustness(study, results), results, "robustness", "robustness")
+FIGURE = Figure(
+    place=10,
+    applies=always,
+    make=robustness,
+    title="Twins of known truth",
+    caption="Errors of the fits against how much noise (left) and how many outliers (right) "
+    "the twins have; dots: one twin each, lines: their median. A cost function whose "
+    "line stays low is robust. Lines within each other's dots do not differ.",
+)

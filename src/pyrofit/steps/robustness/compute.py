@@ -12,20 +12,22 @@ from typing import Any
 import numpy as np
 import pandas as pd
 
-from pyrofit.analysis.twins import NOISE, OUTLIERS, true_set
 from pyrofit.config import Study, TermSpec
-from pyrofit.errors import DataError, StudyError
+from pyrofit.errors import DataError
 from pyrofit.estimate.least_squares import multistart
 from pyrofit.estimate.noise import estimate_noise
 from pyrofit.estimate.pose import of_imp, pose_search
 from pyrofit.estimate.problem import Problem
 from pyrofit.estimate.targets import Measurements, target_of
+from pyrofit.logs import Tell
 from pyrofit.quantities.base import Quantity
 from pyrofit.results.files import Results, write_csv
 from pyrofit.seeds import seed_for
 from pyrofit.solver.arrays import FloatArray
 from pyrofit.stages.fit import fixed_for_imp
 from pyrofit.stages.measurements import load
+from pyrofit.steps.robustness.options import RobustnessOptions
+from pyrofit.steps.robustness.twins import NOISE, OUTLIERS, true_set
 
 Channel = tuple[str, str]
 
@@ -49,7 +51,7 @@ class Twin:
     sd: Mapping[Channel, FloatArray]
 
 
-def robustness(study: Study, results: Results, cost: str) -> None:
+def run(study: Study, results: Results, tell: Tell, processes: int, cost: str) -> None:
     """Fit twins with one cost function; write ``robustness/<cost>.csv``.
 
     One row per twin: the disturbance, the lowest cost and its set, and ``prediction_error``. That
@@ -57,16 +59,12 @@ def robustness(study: Study, results: Results, cost: str) -> None:
 
     Raises
     ------
-    StudyError
-        The study has no such cost.
     DataError
         A result is missing, or the model does not finish at the truth.
     """
-    if cost not in study.imp.costs:
-        raise StudyError(f"study '{study.name}' has no cost '{cost}'")
     twin = _twin(study, results)
     held_out = _held_out(study, results, twin)
-    budget = study.robustness
+    budget = study.options(RobustnessOptions)
     rows = []
     for kind, level, draw in plan(study):
         series = noisy(study, twin, kind, level, draw)
@@ -78,15 +76,16 @@ def robustness(study: Study, results: Results, cost: str) -> None:
         about |= {"cost": best.cost, "calls": best.calls}
         about["prediction_error"] = float(np.mean(errors)) if errors else None
         rows.append({**about, **dict(zip(problem.names, best.values.tolist(), strict=True))})
-    write_csv(results.robustness(f"{cost}.csv"), pd.DataFrame(rows))
+    write_csv(results.of_step("robustness", f"{cost}.csv"), pd.DataFrame(rows))
 
 
 def plan(study: Study) -> Iterator[tuple[str, float, int]]:
     """Yield the disturbance of each twin: kind, level, number of the draw."""
-    levels = {NOISE: study.robustness.noise, OUTLIERS: study.robustness.outliers}
+    budget = study.options(RobustnessOptions)
+    levels = {NOISE: budget.noise, OUTLIERS: budget.outliers}
     for kind, values in levels.items():
         for level in values:
-            for draw in range(study.robustness.draws):
+            for draw in range(budget.draws):
                 yield kind, level, draw
 
 
@@ -137,7 +136,7 @@ def noisy(study: Study, twin: Twin, kind: str, level: float, draw: int) -> Measu
         added = multiple * twin.sd[name, signal] * rng.standard_normal(value.size)
         if kind == OUTLIERS:
             hit = rng.random(value.size) < level
-            size = study.robustness.outlier_size * float(np.ptp(value))
+            size = study.options(RobustnessOptions).outlier_size * float(np.ptp(value))
             added += np.where(hit, size * rng.choice([-1.0, 1.0], value.size), 0.0)
         series[name, signal] = with_values(frame, quantity, value + added, multiple)
     return series

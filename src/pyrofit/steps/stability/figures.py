@@ -10,8 +10,8 @@ from pyrofit.show import style
 from pyrofit.show.diagnosis.words import effect_name
 from pyrofit.show.drawn import Canvas
 from pyrofit.show.figure import Figure
-from pyrofit.show.stability.facts import read
 from pyrofit.show.table import always
+from pyrofit.steps.stability.facts import read
 
 MOST = 16
 """Effects that the figure shows; the table has all."""

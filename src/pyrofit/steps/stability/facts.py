@@ -6,10 +6,11 @@ from typing import Any
 
 from pyrofit.config import Study
 from pyrofit.effects import known_effects
-from pyrofit.results import diagnosis, stability
+from pyrofit.results import diagnosis
 from pyrofit.results.files import Results
-from pyrofit.results.stability import OfDraw
 from pyrofit.show.diagnosis.words import CLAIMS, leading
+from pyrofit.steps.stability import record
+from pyrofit.steps.stability.record import OfDraw
 
 
 @dataclass(frozen=True)
@@ -77,4 +78,4 @@ def read(study: Study, results: Results) -> Stability:
     DataError
         A result is missing, broken, or that of another study.
     """
-    return Stability(diagnosis.read(study, results), stability.read(study, results))
+    return Stability(diagnosis.read(study, results), record.read(study, results))

@@ -6,10 +6,10 @@ import numpy as np
 import pandas as pd
 
 from pyrofit.analysis import groups
-from pyrofit.analysis.twins import NOISE, RECOVERED, errors
 from pyrofit.config import Study
 from pyrofit.results.files import Results
-from pyrofit.show.table import Table, write_table
+from pyrofit.show.table import Table, always
+from pyrofit.steps.robustness.twins import NOISE, RECOVERED, errors
 
 
 def robustness(study: Study, results: Results) -> pd.DataFrame:
@@ -70,7 +70,7 @@ def _words(kind: Any, level: Any) -> str:
 
 TABLE = Table(
     place=10,
-    applies=lambda study: True,
+    applies=always,
     make=robustness,
     title="Robustness of the cost functions on twins of known truth",
     note="Twins: curves of the model itself with white noise. Its standard deviation is "
@@ -88,10 +88,3 @@ TABLE = Table(
     },
     group_by="added",
 )
-
-
-def write_robustness(study: Study, results: Results) -> pd.DataFrame:
-    """Write the table to ``robustness/table.csv`` and ``.md``; return it."""
-    frame = robustness(study, results)
-    write_table(results.robustness(""), "table", TABLE, frame, study)
-    return frame

@@ -3,15 +3,15 @@
 import pandas as pd
 
 from pyrofit.analysis.cost_tests import SIGNIFICANT
-from pyrofit.analysis.twins import errors, recovered
 from pyrofit.config import Study
 from pyrofit.results.files import Results, read_csv
 from pyrofit.show.text import listed
+from pyrofit.steps.robustness.twins import errors, recovered
 
 
 def sentences(study: Study, results: Results) -> list[str]:
     """Return the sentences on the twins of known truth."""
-    table = read_csv(results.robustness("table.csv"))
+    table = read_csv(results.of_step("robustness", "table.csv"))
     found = errors(study, results)
     kept = recovered(study, found)
     lost = [name for name in study.imp.estimate if name not in kept]

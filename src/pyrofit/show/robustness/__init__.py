@@ -1,1 +1,0 @@
-"""Cost functions on twins of known truth, a step of its own."""

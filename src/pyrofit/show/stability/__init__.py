@@ -1,1 +1,0 @@
-"""How stable the result of a diagnosis is."""

@@ -1,0 +1,160 @@
+"""Steps that a study may go without: complete, found by themselves, with options written once."""
+
+import contextlib
+import json
+import re
+from pathlib import Path
+from typing import Any
+
+import pytest
+
+from pyrofit.cli import main
+from pyrofit.cli.command import _parser
+from pyrofit.config import Study, as_study, digest, read_study
+from pyrofit.config.reference import reference_page
+from pyrofit.errors import DataError
+from pyrofit.provenance import STUDY as MODULES
+from pyrofit.provenance import imported_files
+from pyrofit.results.files import Results
+from pyrofit.results.step import check_options, inputs_of, slice_of, write_options
+from pyrofit.show.step_page import StepPage
+from pyrofit.steps import known_steps
+
+ROOT = Path(__file__).parents[2]
+SMOKE = ROOT / "config" / "smoke.yaml"
+STEPS = list(known_steps())
+WITH_OPTIONS = [name for name, step in known_steps().items() if step.options is not None]
+OTHER: dict[str, dict[str, Any]] = {
+    "robustness": {"starts": 5},
+    "stability": {"draws": 3},
+}
+"""Options other than those of smoke."""
+
+
+def smoke(**options: Any) -> Study:
+    """Return the study smoke with options of steps."""
+    given = read_study(SMOKE).model_dump(mode="json", exclude_defaults=True)
+    return as_study({**given, "steps": options}, "smoke.json")
+
+
+def given(step: str) -> list[str]:
+    """Return the other options of a step as arguments of its command."""
+    arguments: list[str] = []
+    for name, value in OTHER[step].items():
+        values = value if isinstance(value, list) else [value]
+        arguments += [f"--{name.replace('_', '-')}", *map(str, values)]
+    return arguments
+
+
+def test_folders_are_steps_and_steps_are_folders() -> None:
+    folders = {path.parent.name for path in (ROOT / "src/pyrofit/steps").glob("*/__init__.py")}
+    assert set(STEPS) == folders
+    assert len({step.place for step in known_steps().values()}) == len(STEPS)
+
+
+@pytest.mark.parametrize("name", STEPS)
+def test_step_has_all_that_workflow_command_and_report_ask_for(name: str) -> None:
+    step, inputs = known_steps()[name], inputs_of(name)
+    page = step.load("page").PAGE
+    assert isinstance(page, StepPage)
+    assert page.folder == name
+    assert callable(step.load("compute").run)
+    made = {f"{figure}.{kind}" for figure in page.figures for kind in ("svg", "png")}
+    made |= {f"{page.prefix}{table}.{kind}" for table in page.tables for kind in ("csv", "md")}
+    # Snakemake deletes them before a step, and the report waits for the last.
+    assert {file for file in inputs.files if Path(file).suffix in (".svg", ".png", ".md")} <= made
+    assert bool(step.part) == bool(inputs.parts(smoke())) == bool(inputs.part_file)
+    assert step.page in ("report", "diagnosis")
+
+
+@pytest.mark.parametrize("name", STEPS)
+def test_step_counts_in_the_fingerprint_of_a_study(name: str) -> None:
+    folder = ROOT / "src/pyrofit/steps" / name
+    assert set(folder.glob("*.py")) <= imported_files(ROOT / "src/pyrofit", MODULES)
+
+
+@pytest.mark.parametrize("name", STEPS)
+def test_step_is_a_command_with_its_options(name: str, capsys: pytest.CaptureFixture[str]) -> None:
+    with pytest.raises(SystemExit):
+        _parser().parse_args([name, "--help"])
+    said = capsys.readouterr().out
+    options = known_steps()[name].options
+    for option in [] if options is None else options.model_fields:
+        assert f"--{option.replace('_', '-')} " in said
+
+
+@pytest.mark.parametrize("name", WITH_OPTIONS)
+def test_options_are_keys_of_a_study_with_their_meaning_on_the_reference_page(name: str) -> None:
+    page = reference_page()
+    for option, field in known_steps()[name].options.model_fields.items():
+        assert re.search(rf"^\| `{option}` \| {re.escape(field.description)}", page, re.MULTILINE)
+    study = smoke(**{name: OTHER[name]})
+    for option, value in OTHER[name].items():
+        kept = dict(study.steps)[name].model_dump(mode="json")[option]
+        assert kept == value != dict(smoke().steps)[name].model_dump(mode="json")[option]
+
+
+@pytest.mark.parametrize("name", WITH_OPTIONS)
+def test_options_are_part_of_what_a_step_depends_on(name: str) -> None:
+    for part in ([], *([part] for part in inputs_of(name).parts(smoke())[:1])):
+        if not part and known_steps()[name].part:
+            continue
+        of_study = slice_of(smoke(), name, *part)
+        other = slice_of(smoke(**{name: OTHER[name]}), name, *part)
+        parts_only = part and set(OTHER[name]) <= {*inputs_of(name).of_parts}
+        assert (digest(other) == digest(of_study)) == bool(parts_only)
+
+
+@pytest.mark.parametrize("name", WITH_OPTIONS)
+def test_other_options_than_those_of_the_workflow_are_refused_in_its_name(
+    name: str, tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    step = known_steps()[name]
+    part = inputs_of(name).parts(smoke())[:1]
+    if {*OTHER[name]} <= {*inputs_of(name).of_parts}:
+        return  # they tell which parts there are; no part depends on them
+    planned = digest(slice_of(read_study(SMOKE), name, *part))
+    of_part = [f"--{step.part}", *part] if part else []
+    results = ["--results", str(tmp_path / "smoke")]
+    command = [name, str(SMOKE), "--digest", planned, *results, *of_part]
+    assert main([*command, *given(name)]) == 2
+    assert f"'{name}' depends on the change" in capsys.readouterr().err
+
+
+@pytest.mark.parametrize("name", WITH_OPTIONS)
+def test_results_made_with_other_options_are_refused(name: str, tmp_path: Path) -> None:
+    results = Results(tmp_path)
+    study, other = smoke(), smoke(**{name: OTHER[name]})
+    for part in [[part] for part in inputs_of(name).parts(study)] or [[]]:
+        write_options(study, results, name, *part)
+    check_options(study, results, name)
+    if {*OTHER[name]} <= {*inputs_of(name).of_parts}:
+        return
+    with pytest.raises(DataError, match=rf"options.*other options.*snakemake {name}"):
+        check_options(other, results, name)
+
+
+@pytest.mark.parametrize("name", WITH_OPTIONS)
+def test_wrong_option_names_it_and_the_rule(
+    name: str, tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    option = next(iter(OTHER[name]))
+    command = [name, str(SMOKE), "--results", str(tmp_path), f"--{option}", "x y"]
+    with contextlib.suppress(SystemExit):  # of the parser, which lists the words it knows
+        assert main(command) == 2
+    assert f"--{option}: 'x y'" in capsys.readouterr().err
+
+
+def test_results_by_hand_with_other_options_stand_apart(tmp_path: Path) -> None:
+    results = Results(tmp_path, by_hand="worth")
+    assert results.of_step("worth", "a.csv") == tmp_path / "by_hand" / "worth" / "a.csv"
+    assert results.of_step("posterior", "a.csv") == tmp_path / "posterior" / "a.csv"
+    assert results.measurement("slab", "mlr").is_relative_to(tmp_path / "measurements")
+
+
+def test_unknown_option_in_a_study_names_the_nearest(tmp_path: Path) -> None:
+    path = tmp_path / "study.json"
+    described = read_study(SMOKE).model_dump(mode="json", exclude_defaults=True)
+    path.write_text(json.dumps({**described, "steps": {"stability": {"drawz": 3}}}))
+    with pytest.raises(Exception, match=r"unknown key 'drawz'\. Did you mean 'draws'"):
+        read_study(path)
