@@ -38,7 +38,7 @@ campaign: $(VENV)/installed
 			echo "Then make campaign runs the published study."; \
 		fi; \
 	fi; \
-	pyrofit check "$$study" && snakemake --cores $(CORES) --configfile "$$study"
+	pyrofit check "$$study" && pyrofit run "$$study" --cores $(CORES)
 
 test: $(VENV)/installed
 	pytest -n $(CORES) --dist loadfile --no-loadscope-reorder -m "not long"

@@ -37,8 +37,8 @@ def software(project: Path) -> dict[str, bytes]:
     Parameters
     ----------
     project
-        A copy of the repository, all of whose files are taken; or any other folder, where the
-        package was installed: then the versions of this environment stand for the lock file.
+        A copy of the repository, all of whose files are taken. In any other folder the package is
+        taken, and the versions of this environment stand for the lock file.
     """
     entries = {
         f"src/pyrofit/{path.relative_to(PACKAGE).as_posix()}": path.read_bytes()

@@ -8,6 +8,9 @@ INTERRUPTED = "interrupted; run again to go on, finished parts are kept"
 RUN = "PYROFIT_RUN"
 """Environment variable by which a run of the workflow passes its token to jobs."""
 
+BY_RUN = "PYROFIT_TOLD"
+"""Environment variable by which a run asks its jobs to leave the telling of errors to it."""
+
 
 class PyrofitError(Exception):
     """An error the user can repair; the command line shows its message without a traceback."""

@@ -114,15 +114,18 @@ def test_killed_runs_go_on_to_the_same_bits(
     assert bits(project) == right
 
 
-def test_interrupted_run_ends_in_order_and_goes_on(untouched: Project, tmp_path: Path) -> None:
+@pytest.mark.parametrize("number", [signal.SIGINT, signal.SIGTERM])
+def test_interrupted_run_ends_in_order_and_goes_on(
+    untouched: Project, tmp_path: Path, number: signal.Signals
+) -> None:
     project = Project.copy(untouched.root, tmp_path / "project")
     running = project.root / RESULTS / "running"
     with project.start("--cores", "1", FIT) as process:
         while process.poll() is None and not list(running.glob("job_*")):
             time.sleep(0.01)
-        os.killpg(process.pid, signal.SIGINT)
+        process.send_signal(number)
         said, _ = process.communicate(timeout=300)
-    assert process.returncode == 130
+    assert process.returncode == 128 + number
     assert "Traceback" not in said
     assert said.splitlines()[-1] == "interrupted; run again to go on, finished parts are kept"
     assert said.count("interrupted;") == 1

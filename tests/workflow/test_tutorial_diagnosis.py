@@ -52,7 +52,7 @@ def test_verdicts_are_those_that_the_page_tells(followed: Followed) -> None:
 
 def test_sentences_and_file_names_that_the_page_shows_are_said(followed: Followed) -> None:
     page = TUTORIAL.read_text(encoding="utf-8")
-    starts = ("The model lacks", "Model and measurements", "These data show", "Page:")
+    starts = ("The model lacks", "Model and measurements", "These data show", "Diagnosis:")
     sentences = [line for line in shown(TUTORIAL) if line.startswith(starts)]
     assert len(sentences) >= 5
     for line in sentences:

@@ -7,6 +7,7 @@ import os
 import signal
 import sys
 import threading
+import traceback
 from collections.abc import Iterator, Sequence
 from types import FrameType
 
@@ -26,7 +27,7 @@ from pyrofit.cli import (
     stepping,
 )
 from pyrofit.cli.parser import Parser
-from pyrofit.errors import INTERRUPTED, RUN, PyrofitError
+from pyrofit.errors import BY_RUN, INTERRUPTED, RUN, PyrofitError
 from pyrofit.logs import Tee, open_log
 
 _GROUPS = (
@@ -85,13 +86,20 @@ def _run(given: argparse.Namespace) -> int:
                 status: int = given.step(given) or 0
                 return status
         except PyrofitError as error:
-            print(f"error: {error}", file=sys.stderr)
+            said = sys.stderr
+            if BY_RUN in os.environ and isinstance(said, Tee):
+                said.log(f"error: {error}\n")
+            else:
+                print(f"error: {error}", file=said)
             return 2
         except KeyboardInterrupt:
             return _interrupted()
         except Exception:
             if signals:  # compiled code may turn the interruption into another error
                 return _interrupted()
+            if isinstance(sys.stderr, Tee):  # the log needs it as well
+                traceback.print_exc()
+                return 1
             raise
 
 

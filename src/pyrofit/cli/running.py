@@ -1,8 +1,11 @@
 """The whole study with one command: Snakemake with the workflow of the package."""
 
 import argparse
-import importlib
+import contextlib
+import io
+import logging
 import shutil
+import sys
 from pathlib import Path
 from typing import Any
 
@@ -52,19 +55,35 @@ def _run(given: argparse.Namespace) -> int:
         )
     if not given.study.is_file():
         raise StudyError(f"{given.study}: there is no such file; give the YAML file of a study")
-    snakemake: Any = importlib.import_module("snakemake.cli")
+    return _snakemake(_arguments(given))
+
+
+def _snakemake(words: list[str]) -> int:
+    """Run Snakemake in this process, shown by the logger plugin of the package."""
+    from snakemake import cli
+    from snakemake_interface_logger_plugins.registry import LoggerPluginRegistry
+
+    from pyrofit.running import terminal
+
+    LoggerPluginRegistry().register_plugin(terminal.NAME, terminal)
+    logging.getLogger("snakemake.logging").propagate = False  # else errors are printed twice
+    told = io.StringIO()
     try:
-        snakemake.main(_arguments(given))
+        with contextlib.redirect_stderr(told):  # the profile that it uses
+            parser, given = cli.parse_args(words)
     except SystemExit as end:
+        print(told.getvalue(), end="", file=sys.stderr)
         return int(end.code or 0)
-    return 0
+    return 0 if cli.args_to_api(given, parser) else 1
 
 
 def _arguments(given: argparse.Namespace) -> list[str]:
     """Return the arguments of Snakemake."""
     from pyrofit.running.targets import WORKFLOW
+    from pyrofit.running.terminal import NAME
 
-    words = ["--snakefile", str(WORKFLOW / "Snakefile"), "--configfile", str(given.study)]
+    words = ["--snakefile", str(WORKFLOW / "Snakefile"), "--logger", NAME]
+    words += ["--configfile", str(given.study)]
     if given.profile is not None:
         words += ["--workflow-profile", str(_profile(Path(given.profile)))]
     if given.cores is not None or given.profile is None:

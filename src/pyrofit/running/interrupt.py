@@ -1,4 +1,4 @@
-"""Ctrl-C in a run of the workflow: all processes end at once, and one line says how to go on."""
+"""Ctrl-C and SIGTERM in a run: all processes end at once, and one line says how to go on."""
 
 import contextlib
 import importlib
@@ -14,17 +14,18 @@ from typing import Any
 from pyrofit.errors import INTERRUPTED
 from pyrofit.running.lock import end_run
 
+SIGNALS = (signal.SIGINT, signal.SIGTERM)
 PATIENCE_S = 10.0
 """Time that jobs get to end by themselves."""
 
 
 def end_while_starting() -> None:
-    """Let Ctrl-C end a run whose jobs have not started: nothing is to be ended or kept."""
+    """Let Ctrl-C or SIGTERM end a run whose jobs have not started: there is nothing to keep."""
     _answer(lambda: None)
 
 
 def end_with_jobs(root: Path) -> None:
-    """Let Ctrl-C end a run on this machine with all its jobs, and free the results folder."""
+    """Let Ctrl-C or SIGTERM end a run on this machine with its jobs, and free the results."""
 
     def end() -> None:
         _end_jobs()
@@ -33,13 +34,20 @@ def end_with_jobs(root: Path) -> None:
     _answer(end)
 
 
+def end_with_cluster() -> None:
+    """Let Ctrl-C or SIGTERM end a run on a cluster: Snakemake cancels its jobs."""
+    for each in SIGNALS:
+        signal.signal(each, signal.default_int_handler)
+
+
 def _answer(end: Callable[[], None]) -> None:
-    """Answer Ctrl-C by one line and the end of this process."""
+    """Answer Ctrl-C and SIGTERM by one line and the end of this process."""
     if threading.current_thread() is not threading.main_thread():
         return
 
     def answer(number: int, frame: FrameType | None) -> None:
-        signal.signal(signal.SIGINT, lambda number, frame: None)
+        for each in SIGNALS:
+            signal.signal(each, lambda number, frame: None)
         with contextlib.suppress(RuntimeError):  # the signal came in the middle of a write
             sys.stdout.flush()
             sys.stderr.flush()
@@ -51,9 +59,10 @@ def _answer(end: Callable[[], None]) -> None:
         # Last, because jobs still write until they have ended.
         with contextlib.suppress(OSError):
             os.write(said, f"{INTERRUPTED}\n".encode())
-        os._exit(130)
+        os._exit(128 + number)
 
-    signal.signal(signal.SIGINT, answer)
+    for each in SIGNALS:
+        signal.signal(each, answer)
 
 
 def _end_jobs() -> None:

@@ -24,6 +24,11 @@ WIDTH = 20
 """Characters of the bar."""
 
 
+def event_of(record: logging.LogRecord) -> str:
+    """Return the name of the event that Snakemake logs, "" for a text alone."""
+    return str(getattr(vars(record).get("event"), "value", ""))
+
+
 class WorkDone(logging.Handler):
     """Prints a bar after each step, from the events that Snakemake logs.
 
@@ -54,8 +59,13 @@ class WorkDone(logging.Handler):
 
     def emit(self, record: logging.LogRecord) -> None:
         """Note an event; print the bar where Snakemake tells its progress."""
-        about: dict[str, Any] = vars(record)
-        event = str(getattr(about.get("event"), "value", ""))
+        self.note(event := event_of(record), about := vars(record))
+        if event == "progress" and about["done"] < about["total"]:
+            share = self._share()
+            self._say(f"work: [{'#' * int(WIDTH * share):.<{WIDTH}}] {self.words()}")
+
+    def note(self, event: str, about: Mapping[str, Any]) -> None:
+        """Note an event of Snakemake and what it is about."""
         if event == "run_info":
             self._planned = {rule: n for rule, n in about["stats"].items() if rule != "total"}
         elif event == "job_info":
@@ -63,24 +73,33 @@ class WorkDone(logging.Handler):
         elif event == "job_finished" and about["job_id"] in self._running:
             rule, start = self._running.pop(about["job_id"])
             self._took[rule].append(self._clock() - start)
-        elif event == "progress" and about["done"] < about["total"]:
-            self._say(self._line())
 
-    def _line(self) -> str:
+    def words(self) -> str:
+        """Return the share of the work that is done, and the time left if it is known."""
+        text = f"{100 * self._share():.0f} %"
+        if self._cores and self._call_s() is not None:
+            text += f", about {in_words(max(self._total() - self._done(), 0.0) / self._cores)} left"
+        return text
+
+    def _share(self) -> float:
+        return min(self._done() / max(self._total(), 1e-9), 1.0)
+
+    def _ended(self) -> float:
+        return sum(map(sum, self._took.values()))
+
+    def _done(self) -> float:
+        """Return the work that is done [s]."""
         now = self._clock()
-        ended = sum(map(sum, self._took.values()))
-        done = ended + sum(
+        return self._ended() + sum(
             min(now - start, self._expected(rule)) for rule, start in self._running.values()
         )
-        total = ended + sum(
+
+    def _total(self) -> float:
+        """Return the work of the run [s]."""
+        return self._ended() + sum(
             (planned - len(self._took[rule])) * self._expected(rule)
             for rule, planned in self._planned.items()
         )
-        share = min(done / max(total, 1e-9), 1.0)
-        line = f"work: [{'#' * int(WIDTH * share):.<{WIDTH}}] {100 * share:.0f} %"
-        if self._cores and self._call_s() is not None:
-            line += f", about {in_words(max(total - done, 0.0) / self._cores)} left"
-        return line
 
     def _expected(self, rule: str) -> float:
         took = self._took[rule]

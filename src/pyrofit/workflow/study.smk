@@ -2,15 +2,19 @@
 
 import os
 import shutil
-import signal
 import sys
+import time
 from itertools import product
 from pathlib import Path
 
 from snakemake.logging import logger
 from snakemake.utils import min_version
 
-from pyrofit.running.interrupt import end_while_starting, end_with_jobs
+from pyrofit.running.interrupt import (
+    end_while_starting,
+    end_with_cluster,
+    end_with_jobs,
+)
 
 # In another workflow, which uses this one as a module, hooks and signals are that one's.
 OWN = workflow.modifier.is_main_snakefile()
@@ -34,6 +38,7 @@ from pyrofit.estimate.calls import calls_of_jobs
 from pyrofit.running.frozen import freeze, frozen_study
 from pyrofit.running.given import DEFAULT, from_files, from_workflow
 from pyrofit.running.lock import end_run, join_run, start_run
+from pyrofit.running.terminal import FOR_USER, show_work
 from pyrofit.running.work import WorkDone
 from pyrofit.show.sections import FIGURES, SUBJECTS, TABLES
 from pyrofit.stages.reading import check_measurements
@@ -73,7 +78,9 @@ try:
     if not workflow.is_main_process:
         join_run(ROOT)
     elif OWN:
-        logger.addHandler(WorkDone(calls_of_jobs(study, SHARES), cores))
+        work = WorkDone(calls_of_jobs(study, SHARES), cores)
+        if not show_work(workflow.logger_manager.get_log_handlers(), work):
+            logger.addHandler(work)
     elif not workflow.output_settings.dryrun:
         freeze(study, ROOT / "study.json")
 except PyrofitError as error:
@@ -93,6 +100,7 @@ PROGRAMS = [experiment.program for experiment in externals(study).values()]
 RUN_CORES = max([program.cores for program in PROGRAMS], default=1)
 RUNS_CORES = max([p.parallel * p.cores for p in PROGRAMS], default=1)
 OLD_LOGS = causes.logs()
+STARTED_AT = time.time()
 REPETITIONS = [repetition for job in SHARES for repetition in job]
 
 
@@ -110,7 +118,7 @@ onstart:
         if workflow.local_exec:
             end_with_jobs(ROOT)
         else:  # Snakemake cancels the jobs of a cluster
-            signal.signal(signal.SIGINT, signal.default_int_handler)
+            end_with_cluster()
     except PyrofitError as error:
         raise WorkflowError(str(error)) from None
 
@@ -123,9 +131,10 @@ onerror:
 
 onsuccess:
     end_run(ROOT)
-    for _page in (ROOT / "report.html", results.diagnosis("report.html")):
-        if _page.exists():
-            print(f"Page: {_page}")
+    from pyrofit.show.headline import ending
+
+    for _line in ending(study, results, STARTED_AT):
+        logger.info(_line, extra=FOR_USER)
 
 
 include: "rules/common.smk"

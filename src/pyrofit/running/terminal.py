@@ -1,0 +1,181 @@
+"""What a run prints: its steps, its progress, the reason where it stops, and its report.
+
+A logger plugin of Snakemake: `pyrofit run` shows a run by it. All that Snakemake says besides is in
+Snakemake's own log file.
+"""
+
+import os
+import re
+import sys
+import time
+from collections.abc import Callable, Sequence
+from logging import ERROR, WARNING, Handler, LogRecord
+from pathlib import Path
+from typing import Any, NamedTuple
+
+from snakemake_interface_logger_plugins.base import LogHandlerBase
+
+from pyrofit.errors import BY_RUN, INTERRUPTED
+from pyrofit.running.durations import in_words
+from pyrofit.running.work import WorkDone, event_of
+
+NAME = "pyrofit"
+"""Name of the plugin: ``snakemake --logger pyrofit``."""
+FOR_USER = {"for_user": True}
+"""Marks a record of the workflow that is printed."""
+SAME_COMMAND = "Correct this and run the same command again: finished parts are kept."
+MOST_TOLD = 3
+"""Failed steps whose reasons are told."""
+_TARGETS = ("all", "diagnose", "fds", "fds_check")
+"""Rules that compute nothing."""
+_FOLLOWS = ("Exiting because a job execution failed",)
+"""Beginnings of errors that say no more than those before."""
+_TOLD = {
+    "Nothing to be done": "Everything is made already: nothing to do.",
+    "Terminating processes on user request": INTERRUPTED,
+    "Will exit after finishing": "Ends when the steps that run now have ended.",
+}
+"""Sentences for what Snakemake says, by its beginning."""
+_ORIGIN = re.compile(r"^\w*(?:Error|Exception)(?: in (?:rule|file) .*?)?:\n(?=\S)")
+_PLACES = re.compile(r"^  File \".*\.(?:smk|Snakefile)\", line .*$", re.M)
+
+
+class Step(NamedTuple):
+    """A step that was started."""
+
+    number: int
+    title: str
+    since: float
+
+
+class Terminal(LogHandlerBase):
+    """Prints the events of a run for its user."""
+
+    writes_to_stream = True
+    writes_to_file = False
+    has_filter = True
+    has_formatter = True
+    needs_rulegraph = False
+
+    def __post_init__(self) -> None:
+        self.work: WorkDone | None = None
+        self.say: Callable[[str], None] = lambda line: print(line, file=sys.stderr, flush=True)
+        self.clock: Callable[[], float] = time.monotonic
+        self._total = 0
+        self._steps: dict[int, Step] = {}
+        self._failed: list[tuple[Step, Sequence[str]]] = []
+        os.environ[BY_RUN] = "1"
+
+    def emit(self, record: LogRecord) -> None:
+        """Print what the user needs of an event."""
+        about, event = vars(record), event_of(record)
+        if self.work is not None:
+            self.work.note(event, about)
+        if event:
+            getattr(self, f"_{event}", lambda about: None)(about)
+        elif self._is_told(record):
+            self.say(record.getMessage())
+
+    def _is_told(self, record: LogRecord) -> bool:
+        """Tell whether a record without an event is printed as it is."""
+        text = record.getMessage()
+        for beginning, sentence in _TOLD.items():
+            if text.startswith(beginning):
+                self.say(sentence)
+                return False
+        if record.levelno >= ERROR:
+            return not text.startswith(_FOLLOWS)
+        return record.levelno >= WARNING or "for_user" in vars(record)
+
+    def _run_info(self, about: dict[str, Any]) -> None:
+        self._total = sum(
+            count for rule, count in about["stats"].items() if rule not in (*_TARGETS, "total")
+        )
+        if not self.common_settings.dryrun:
+            self.say(f"{self._total} step{'s' if self._total != 1 else ''}")
+
+    def _job_info(self, about: dict[str, Any]) -> None:
+        title = about["rule_msg"]
+        if not title:
+            return
+        if self.common_settings.dryrun:
+            self.say(title)
+            return
+        before = self._steps.get(about["jobid"])
+        number = before.number if before else len(self._steps) + 1
+        step = self._steps[about["jobid"]] = Step(number, title, self.clock())
+        self.say(f"{self._place(step)}  {title}{', once more' if before else ''}")
+
+    def _job_finished(self, about: dict[str, Any]) -> None:
+        if (step := self._steps.get(about["job_id"])) is None:
+            return
+        self._forget(step)
+        text = f"{self._place(step)}  done in {in_words(self.clock() - step.since)}"
+        if self.work is not None and step.number < self._total:
+            text += f"; {self.work.words()}"
+        self.say(text)
+
+    def _job_error(self, about: dict[str, Any]) -> None:
+        if step := self._steps.get(about["jobid"]):
+            self._forget(step)
+            self._failed.append((step, about["log"]))
+            self.say(f"{self._place(step)}  failed")
+
+    def _forget(self, step: Step) -> None:
+        """Forget that an earlier attempt at a step has failed."""
+        self._failed = [failed for failed in self._failed if failed[0].number != step.number]
+
+    def _error(self, about: dict[str, Any]) -> None:
+        if not self._failed:
+            self.say(f"error: {in_our_words(str(about['msg']))}")
+            return
+        for step, logs in self._failed[:MOST_TOLD]:
+            self.say(f"\n{step.title}: {reason(logs)}\nLog: {', '.join(logs)}")
+        if len(self._failed) > MOST_TOLD:
+            self.say(f"\n{len(self._failed) - MOST_TOLD} more failed.")
+        self.say(SAME_COMMAND)
+
+    def _place(self, step: Step) -> str:
+        return f"{step.number:>{len(str(self._total))}}/{self._total}"
+
+
+LogHandler = Terminal
+"""The name by which Snakemake finds it."""
+
+
+def reason(logs: Sequence[str]) -> str:
+    """Return why a step failed, by its logs: its error, or else their last line."""
+    lines = [line for log in logs for line in _lines(log)]
+    at = [n for n, line in enumerate(lines) if line.startswith("error: ")]
+    if at:
+        return "\n".join(lines[at[-1] :]).removeprefix("error: ")
+    if lines:
+        return f"{lines[-1]} (the log tells more; please report it)"
+    return "it ended without a message; the computer may lack memory"
+
+
+def in_our_words(text: str) -> str:
+    r"""Return an error of Snakemake without the places in the workflow, which is not the user's.
+
+    >>> in_our_words("MissingRuleException:\nNo rule to produce postrior (if you use ...).")
+    "there is no target 'postrior'; `pyrofit run --list` lists them"
+    """
+    if unknown := re.search(r"No rule to produce (\S+)", text):
+        return f"there is no target '{unknown[1]}'; `pyrofit run --list` lists them"
+    return _PLACES.sub("", _ORIGIN.sub("", text.strip())).strip()
+
+
+def _lines(log: str) -> list[str]:
+    try:
+        text = Path(log).read_text(encoding="utf-8", errors="replace")
+    except OSError:
+        return []
+    return [line for line in text.splitlines() if line.strip()]
+
+
+def show_work(handlers: Sequence[Handler], work: WorkDone) -> bool:
+    """Let the run's display tell the share of work that is done; return whether it is in use."""
+    shown = [handler for handler in handlers if isinstance(handler, Terminal)]
+    for handler in shown:
+        handler.work = work
+    return bool(shown)
