@@ -50,6 +50,12 @@ def test_package_that_is_not_installed_is_an_error(monkeypatch: pytest.MonkeyPat
     assert "no-such-package is not installed; `make .venv/installed`" in found.text
 
 
+def test_installed_package_has_no_locked_versions(tmp_path: Path) -> None:
+    found = only(machine.versions, Situation(None, Path(), 1, tmp_path))
+    assert found.level == "ok"
+    assert "packages as installed, not as locked" in found.text
+
+
 def test_other_version_than_the_locked_one_is_a_warning(
     tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:

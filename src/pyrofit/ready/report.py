@@ -11,10 +11,11 @@ from pyrofit.ready.finding import Check, Finding, Situation
 from pyrofit.ready.machine import available_cores, cache, cores, disk, memory, versions
 from pyrofit.ready.slurm import slurm
 from pyrofit.ready.timing import duration
+from pyrofit.running.targets import WORKFLOW
 
 CHECKS: list[Check] = [versions, cache, cores, memory, disk, data, slurm, duration]
 USUAL = Path("profiles/default/config.yaml")
-"""The profile that Snakemake takes if none is named."""
+"""The profile that is taken if none is named, of the project or of the package."""
 
 
 def findings(
@@ -57,8 +58,11 @@ def findings(
 
 def _profile(folder: Path | None) -> dict[str, Any]:
     if folder is None:
-        return read_mapping(USUAL) if USUAL.is_file() else {}
+        return read_mapping(USUAL if USUAL.is_file() else WORKFLOW / USUAL)
     path = folder / "config.yaml"
     if not path.is_file():
-        raise StudyError(f"{path}: there is no such profile; name its folder: profiles/slurm")
+        raise StudyError(
+            f"{path}: there is no such profile; name its folder: profiles/slurm, which "
+            "`pyrofit run STUDY --profile profiles/slurm` writes"
+        )
     return read_mapping(path)

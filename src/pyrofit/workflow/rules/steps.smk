@@ -96,7 +96,6 @@ for _name, _step in known_steps().items():
         rule:
             name:
                 _name
-            localrule: True
             input:
                 [READ[group] for group in _inputs.gathers],
                 expand(_parts, part=_inputs.parts(study)),
@@ -104,6 +103,7 @@ for _name, _step in known_steps().items():
                 files_of_step(_step, _name),
             log:
                 log_of(_name),
+            localrule: True
             params:
                 study=STUDY,
                 digest=digest(dependencies.presentation(study)),
