@@ -45,7 +45,7 @@ def test_one_heating_rate_is_refused() -> None:
 
 def test_a_study_without_kinetics_is_refused() -> None:
     study = setting().study.model_copy(update={"kinetics": None})
-    with pytest.raises(StudyError, match="no kinetics stage; add `kinetics:`"):
+    with pytest.raises(StudyError, match=r"imp\.costs compares no mass of a TGA"):
         records(study)
 
 

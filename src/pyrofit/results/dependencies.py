@@ -121,7 +121,8 @@ def kinetics(study: Study) -> dict[str, Any]:
 def scheme(study: Study) -> dict[str, Any]:
     """Everything: the study is written again with the chosen scheme, which uses two effects."""
     more = ("volatile", "tga_lag")
-    return {**study.model_dump(mode="json"), "code": code_of(study, kinetics_of(study).cost, more)}
+    terms = study.kinetics.cost if study.kinetics else all_terms(study)
+    return {**study.model_dump(mode="json"), "code": code_of(study, terms, more)}
 
 
 def imp(study: Study, cost: str, optimiser: str) -> dict[str, Any]:

@@ -6,6 +6,7 @@ from typing import Any
 from pyrofit.config import Study, parameters_in
 from pyrofit.config.resolve import diagnosed_parameters, nuisances_of_tests
 from pyrofit.scheme.fit import FittedScheme
+from pyrofit.scheme.masses import masses_of
 from pyrofit.scheme.record import values_of
 
 Keys = dict[str, Any]
@@ -17,7 +18,8 @@ def extended_keys(
     """Return a study's keys with the chosen scheme at its fitted values.
 
     The parameters of the scheme have both limits and fitted values. Inverse modelling and diagnosis
-    take the values, `imp.kinetics: described`; the fit of the kinetics estimates them again.
+    take the values, `imp.kinetics: described`; the fit of the kinetics estimates them again. In a
+    study without that stage, the inverse modelling and the diagnosis estimate them again.
 
     Parameters
     ----------
@@ -36,20 +38,26 @@ def extended_keys(
     values = values_of(posed, chosen)
     for name, value in values.items():
         keys["parameters"][name]["value"] = value
-    gone = [n for n in study.kinetics.estimate if n not in values]  # type: ignore[union-attr]
+    gone = [n for n in masses_of(study).estimate if n not in values]
     used = parameters_in(made.material, *made.experiments.values()) | set(values)
     for name in gone:
         if name not in used:
             keys["parameters"].pop(name, None)
             keys.get("known", {}).pop(name, None)
-    keys["kinetics"]["estimate"] = list(values)
-    keys["kinetics"].pop("sets", None)
-    keys["imp"]["estimate"] = [n for n in study.imp.estimate if n in used]
+    kept = [n for n in study.imp.estimate if n in used]
+    if study.kinetics is None:
+        kept = list(dict.fromkeys([*values, *kept]))
+    else:
+        keys["kinetics"]["estimate"] = list(values)
+        keys["kinetics"].pop("sets", None)
+    keys["imp"]["estimate"] = kept
     keys["imp"]["kinetics"] = "described"
     # All but the kinetics; differences between tests are estimated by themselves.
     rest = used - set(values) - set(nuisances_of_tests(study))
+    kinetics = [] if study.kinetics else list(values)
     keys.setdefault("diagnosis", {})["estimate"] = [
-        n for n in diagnosed_parameters(study) if n in rest
+        *kinetics,
+        *(n for n in diagnosed_parameters(study) if n in rest),
     ]
     keys.get("diagnosis", {}).pop("kinetics", None)
     for (experiment, signal), given in signals.items():

@@ -16,6 +16,7 @@ from pyrofit.model.material import Material, Reaction
 from pyrofit.model.parameters import Parameter
 from pyrofit.scheme.arrangements import ARRANGEMENTS
 from pyrofit.scheme.arrangements.base import PREFIX, REFERENCE_RATE_1_S, Limits, Template
+from pyrofit.scheme.masses import masses_of
 from pyrofit.scheme.records import Record
 from pyrofit.scheme.schemes import Scheme
 from pyrofit.scheme.settings import Settings
@@ -125,8 +126,7 @@ def pose(study: Study, scheme: Scheme, records: Sequence[Record], settings: Sett
 
 def own(study: Study, records: Sequence[Record]) -> Posed:
     """Return the study's own scheme as it is fitted: with the parameters of its kinetics."""
-    assert study.kinetics is not None
-    return Posed(None, study, _with_needed(study, study.kinetics.estimate, records), ())
+    return Posed(None, study, _with_needed(study, masses_of(study).estimate, records), ())
 
 
 def _with_needed(

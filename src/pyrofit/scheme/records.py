@@ -10,8 +10,8 @@ from pyrofit.errors import StudyError
 from pyrofit.estimate.targets import Measurements, target_for
 from pyrofit.experiments.heated.simulate import programme
 from pyrofit.model.heated import HeatedExperiment
+from pyrofit.scheme.masses import masses_of
 from pyrofit.solver.arrays import FloatArray
-from pyrofit.solver.outputs import MASS_FRACTION
 
 FEWEST_RATES = 2
 
@@ -68,32 +68,18 @@ class Record:
 def records_of(study: Study, measurements: Measurements, points: int) -> list[Record]:
     """Return the records of a study, those that schemes are fitted to first.
 
-    Fitted are the masses that ``kinetics.cost`` compares; predicted are those of
-    ``kinetics.compare``.
-
     Raises
     ------
     StudyError
-        The study has no kinetics stage, fits no mass, or fits it at one heating rate only.
+        The study fits no mass, or fits it at one heating rate only.
     """
-    if study.kinetics is None:
-        raise StudyError(
-            f"study '{study.name}' has no kinetics stage; add `kinetics:` with the records of "
-            "thermogravimetric analysis from which the scheme is to be chosen"
-        )
-    fitted = [(t.experiment, t.signal) for t in study.kinetics.channels]
-    compared = [
-        (name, signal)
-        for name in study.kinetics.compare
-        for signal in study.experiments[name].signals
-        if (name, signal) not in fitted
-    ]
+    masses = masses_of(study)
     found = [
-        _record(study, measurements, name, signal, (name, signal) in fitted, points)
-        for name, signal in [*fitted, *compared]
-        if study.experiments[name].quantity(signal).name == MASS_FRACTION
+        _record(study, measurements, name, signal, pairs is masses.fitted, points)
+        for pairs in (masses.fitted, masses.predicted)
+        for name, signal in pairs
     ]
-    _check(study, [r for r in found if r.calibrated])
+    _check(study, masses.place, [r for r in found if r.calibrated])
     return found
 
 
@@ -102,16 +88,16 @@ def rates_of(records: Sequence[Record]) -> list[float]:
     return sorted({r.rate for r in records})
 
 
-def _check(study: Study, fitted: Sequence[Record]) -> None:
+def _check(study: Study, place: str, fitted: Sequence[Record]) -> None:
     if not fitted:
         raise StudyError(
-            f"study '{study.name}': kinetics.cost compares no mass of a TGA. Add a term with "
+            f"study '{study.name}': {place} compares no mass of a TGA. Add a term with "
             "the signal of its mass fraction: the reaction scheme is chosen from it"
         )
     rates = rates_of(fitted)
     if len(rates) < FEWEST_RATES:
         raise StudyError(
-            f"study '{study.name}': kinetics.cost compares TGA at {rates[0]:g} K/min only. A "
+            f"study '{study.name}': {place} compares TGA at {rates[0]:g} K/min only. A "
             f"scheme is judged by heating rates left out: give at least {FEWEST_RATES}, better "
             "three that differ by a factor of 5 or more"
         )

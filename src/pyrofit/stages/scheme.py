@@ -1,5 +1,7 @@
 """Which reaction scheme the thermogravimetric records support, and the study with it."""
 
+from pathlib import Path
+
 from pyrofit.config import Study, as_yaml
 from pyrofit.logs import Tell
 from pyrofit.results import recorded, scheme
@@ -7,6 +9,7 @@ from pyrofit.results.files import Results, write_csv, write_text
 from pyrofit.scheme.choice import Choice, choose_scheme
 from pyrofit.scheme.extended import extended_keys
 from pyrofit.scheme.fit import Setting
+from pyrofit.scheme.masses import masses_of
 from pyrofit.scheme.record import content_of, curves_of
 from pyrofit.scheme.records import records_of
 from pyrofit.scheme.settings import Settings
@@ -30,21 +33,24 @@ def choose(study: Study, results: Results, tell: Tell) -> Choice:
         A measurement is missing, or no scheme can be simulated within its limits.
     """
     settings = Settings()
+    masses = masses_of(study)
     measurements = {
         (name, signal): recorded.series(study, results, name, signal)
-        for name, experiment in study.of_stage("kinetics").items()
-        if not experiment.is_isothermal  # its records are compared by heating rates
-        for signal in experiment.signals
+        for name, signal in (*masses.fitted, *masses.predicted)
     }
     records = tuple(records_of(study, measurements, settings.points))
     found = choose_scheme(Setting(study, measurements, records, settings), tell)
-    path = results.scheme(scheme.EXTENDED)
+    write_study(study, results, found, results.scheme(scheme.EXTENDED))
+    write_csv(results.scheme(scheme.CURVES), curves_of(found))
+    scheme.write(results, content_of(found, settings, scheme.EXTENDED))
+    return found
+
+
+def write_study(study: Study, results: Results, found: Choice, path: Path) -> None:
+    """Write the study with the chosen scheme; it names the files of the study from there."""
     keys = extended_keys(
         study, found.chosen.fitted, dict(files_seen_from(study, results, path.parent))
     )
     if study.plugins:
         keys["plugins"] = [seen_from(path.parent, folder) for folder in study.plugins]
     write_text(path, as_yaml(keys, _COMMENT))
-    write_csv(results.scheme(scheme.CURVES), curves_of(found))
-    scheme.write(results, content_of(found, settings, scheme.EXTENDED))
-    return found

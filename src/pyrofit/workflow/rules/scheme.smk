@@ -14,26 +14,24 @@ SCHEME = [
 ]
 
 
-if study.kinetics is not None:
-
-    rule scheme:
-        """The reaction scheme that predicts left-out heating rates best."""
-        input:
-            MEASUREMENTS,
-        output:
-            SCHEME,
-        log:
-            log_of("scheme"),
-        benchmark:
-            benchmark_of("scheme")
-        params:
-            study=STUDY,
-            digest=digest(dependencies.scheme(study)),
-            source=source_fingerprint(
-                "pyrofit.stages.scheme", "pyrofit.show.scheme_page"
-            ),
-        message:
-            "Which reaction scheme the thermogravimetric records support"
-        shell:
-            '"$PYROFIT_PYTHON" -P -m pyrofit'
-            " scheme --study {params.study} --digest {params.digest} --log {log}"
+rule scheme:
+    """The reaction scheme that predicts left-out heating rates best."""
+    input:
+        MEASUREMENTS,
+    output:
+        SCHEME,
+    log:
+        log_of("scheme"),
+    benchmark:
+        benchmark_of("scheme")
+    params:
+        study=STUDY,
+        digest=digest(dependencies.scheme(study)),
+        source=source_fingerprint(
+            "pyrofit.stages.scheme", "pyrofit.show.scheme_page"
+        ),
+    message:
+        "Which reaction scheme the thermogravimetric records support"
+    shell:
+        '"$PYROFIT_PYTHON" -P -m pyrofit'
+        " scheme --study {params.study} --digest {params.digest} --log {log}"
