@@ -9,7 +9,6 @@ import contextlib
 import hashlib
 import json
 import os
-import sys
 import tempfile
 from functools import cache
 from pathlib import Path
@@ -66,10 +65,25 @@ def analysed(content: bytes) -> Source:
             names |= {alias.name for alias in node.names}
         elif isinstance(node, ast.ImportFrom) and node.module:
             names |= {node.module, *(f"{node.module}.{alias.name}" for alias in node.names)}
+        if isinstance(node, ast.JoinedStr):  # Python 3.12.1 adds empty texts
+            node.values = [part for part in node.values if getattr(part, "value", None) != ""]
         if isinstance(body := getattr(node, "body", None), list):
             node.body = [part for part in body if not _is_text(part)]  # type: ignore[attr-defined]
     own = frozenset(name for name in names if name.startswith(f"{__package__}."))
-    return Source(hashlib.sha256(ast.dump(tree).encode()).hexdigest(), own)
+    return Source(hashlib.sha256(_written(tree).encode()).hexdigest(), own)
+
+
+def _written(part: object) -> str:
+    """Return a syntax tree as text, the same for all versions of Python.
+
+    `ast.dump` writes empty fields or not, and each version adds some.
+    """
+    if isinstance(part, ast.AST):
+        fields = ((name, value) for name, value in ast.iter_fields(part) if value not in (None, []))
+        return f"{type(part).__name__}({','.join(f'{n}={_written(v)}' for n, v in fields)})"
+    if isinstance(part, list):
+        return f"[{','.join(map(_written, part))}]"
+    return repr(part)
 
 
 def _is_text(statement: ast.stmt) -> bool:
@@ -117,10 +131,9 @@ keep_digests = _KEPT.write
 def _places() -> list[Path]:
     """Return where digests are kept: beside the source, or else with the user's other caches.
 
-    Other versions of Python have other trees, and other versions of this file other digests.
+    Other versions of this file have other digests.
     """
-    own = hashlib.sha256(Path(__file__).read_bytes()).hexdigest()[:8]
-    name = f"sources-{sys.version_info[0]}{sys.version_info[1]}-{own}.json"
+    name = f"sources-{hashlib.sha256(Path(__file__).read_bytes()).hexdigest()[:8]}.json"
     cached = os.environ.get("XDG_CACHE_HOME") or Path.home() / ".cache"
     return [Path(__file__).parent / "__pycache__" / name, Path(cached) / __package__ / name]
 
