@@ -13,6 +13,8 @@ Result = TypeVar("Result")
 Work = Callable[[int], Result]
 NUMBER = 4
 """Bytes of a piece's number."""
+LOOK_S = 1.0
+"""Time after which pieces are counted again [s]."""
 MOST_PIECES = 4096
 """As many numbers a pipe holds everywhere."""
 
@@ -43,11 +45,14 @@ def _alone_of(processes: int) -> Iterator[None]:
         _Crew.idle = before
 
 
-def parallel_map(work: Work[Result], count: int, processes: int = 1) -> list[Result]:
+def parallel_map(
+    work: Work[Result], count: int, processes: int = 1, told: Callable[[int], None] | None = None
+) -> list[Result]:
     """Return ``[work(0), ..., work(count - 1)]``, computed by some processes.
 
     The processes are forks: the data of ``work`` are not copied, its results are. Each takes the
-    next piece when it is free, and ends by itself, even if this process is killed.
+    next piece when it is free, and ends by itself, even if this process is killed. This process
+    calls ``told`` with the number of pieces that are done, again and again.
 
     Raises
     ------
@@ -64,18 +69,19 @@ def parallel_map(work: Work[Result], count: int, processes: int = 1) -> list[Res
     forks = "fork" in multiprocessing.get_all_start_methods()
     if processes == 1 or count < 2 or not forks:
         with _alone_of(processes if count == 1 else 1):
-            return [work(i) for i in range(count)]
+            return list(_one_by_one(work, count, told))
     context = multiprocessing.get_context("fork")
     pieces = _numbers(count)
     running: dict[Any, multiprocessing.process.BaseProcess] = {}
     idle = mmap.mmap(-1, processes)
     idle[count:] = bytes([1] * max(processes - count, 0))
+    done = mmap.mmap(-1, count)
     for k in range(min(processes, count)):
         ours, theirs = context.Pipe(duplex=False)
         # An end held open by a process that reads nothing would keep the writers waiting for ever.
         unread = [*running, ours]
         running[ours] = context.Process(
-            target=_do, args=(work, pieces, theirs, unread, idle, k), daemon=True
+            target=_do, args=(work, pieces, theirs, unread, (idle, done), k), daemon=True
         )
         running[ours].start()
         theirs.close()
@@ -83,13 +89,24 @@ def parallel_map(work: Work[Result], count: int, processes: int = 1) -> list[Res
     results: dict[int, Result] = {}
     try:
         while running:
-            for end in wait(list(running)):
+            for end in wait(list(running), LOOK_S if told else None):
                 results |= _received(end)
                 running.pop(end).join()
+            if told is not None:
+                told(sum(done[:]))
     finally:
         for process in running.values():
             process.terminate()
     return [results[i] for i in range(count)]
+
+
+def _one_by_one(
+    work: Work[Result], count: int, told: Callable[[int], None] | None
+) -> Iterator[Result]:
+    for i in range(count):
+        yield work(i)
+        if told is not None:
+            told(i + 1)
 
 
 def _received(results: Any) -> dict[int, Any]:
@@ -112,16 +129,24 @@ def _numbers(count: int) -> int:
 
 
 def _do(
-    work: Work[Result], pieces: int, results: Any, unread: Sequence[Any], idle: mmap.mmap, own: int
+    work: Work[Result],
+    pieces: int,
+    results: Any,
+    unread: Sequence[Any],
+    shared: tuple[mmap.mmap, mmap.mmap],
+    own: int,
 ) -> None:
     signal.signal(signal.SIGINT, signal.SIG_IGN)  # the first process answers it, and ends this one
     for end in unread:
         end.close()
-    _Crew.idle = idle
+    _Crew.idle, done = shared
+    found = {}
     try:
         taken = iter(lambda: os.read(pieces, NUMBER), b"")
-        found = {i: work(i) for i in map(int.from_bytes, taken)}
-        idle[own] = 1
+        for i in map(int.from_bytes, taken):
+            found[i] = work(i)
+            done[i] = 1
+        shared[0][own] = 1
         results.send(found)
     except Exception as error:
         results.send(error)

@@ -19,6 +19,16 @@ def test_every_piece_is_done_once_and_in_its_place(count: int, processes: int) -
     assert parallel_map(lambda i: i * i, count, processes) == [i * i for i in range(count)]
 
 
+@pytest.mark.parametrize("processes", [1, 2])
+def test_pieces_that_are_done_are_counted(processes: int, monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr("pyrofit.parallel.LOOK_S", 0.01)
+    counted: list[int] = []
+    parallel_map(lambda i: time.sleep(0.03), 20, processes, counted.append)
+    assert counted == sorted(counted)
+    assert counted[-1] == 20
+    assert len(set(counted)) > 1
+
+
 def test_process_that_is_free_takes_the_next_piece(tmp_path: Path) -> None:
     def work(i: int) -> int:
         if i == 0:

@@ -2,6 +2,7 @@
 
 import pytest
 
+from pyrofit.diagnose.search.progress import Progress
 from pyrofit.stages.progress import Told
 
 
@@ -22,3 +23,15 @@ def test_searches_side_by_side_share_a_line_with_the_time_left(
         "generation 4 of 10, 700 model calls, lowest cost 0.25, about 10 s left"
     )
     assert lines[-1].endswith("generation 10 of 10, 1,900 model calls, lowest cost 0.1")
+
+
+def test_fits_of_a_diagnosis_are_counted_with_the_time_left() -> None:
+    now, lines = [0.0], list[str]()
+    told = Progress("one effect more", 30, lines.append, lambda: now[0])
+    for done, at in ((1, 2.0), (6, 12.0), (8, 16.0), (29, 58.0), (30, 90.0)):
+        now[0] = at
+        told(done)
+    assert lines == [
+        "one effect more: 6 of 30 fits, about 48 s left",
+        "one effect more: 29 of 30 fits, about 2 s left",
+    ]

@@ -10,6 +10,7 @@ from pyrofit.diagnose.base.adequacy import LackOfFit
 from pyrofit.diagnose.base.fitted import FittedModel, followed, polished
 from pyrofit.diagnose.base.model import strength_of
 from pyrofit.diagnose.base.prediction import Made
+from pyrofit.diagnose.search.progress import Progress
 from pyrofit.diagnose.search.refit import (
     fixed_forms,
     from_best_start,
@@ -128,8 +129,9 @@ def _fitted(tried: Tried, context: SearchContext, best: float = np.inf) -> list[
     others = [starts(one.seen)[1:] for one in tries]
     found: dict[int, FittedModel] = {}
 
-    def fit(which: Sequence[int], how: Callable[[int], FittedModel]) -> None:
-        ends = parallel_map(lambda k: how(which[k]).fit, len(which), context.processes)
+    def fit(which: Sequence[int], how: Callable[[int], FittedModel], words: str) -> None:
+        told = Progress(f"one effect more, {words}", len(which), context.tell)
+        ends = parallel_map(lambda k: how(which[k]).fit, len(which), context.processes, told)
         found.update((i, FittedModel(models[i], end)) for i, end in zip(which, ends, strict=True))
 
     def promises(i: int) -> bool:
@@ -149,10 +151,10 @@ def _fitted(tried: Tried, context: SearchContext, best: float = np.inf) -> list[
     # Most effects promise nothing, and a rough fit takes few runs. Weak ones start again before the
     # choice: a minimum near the null value would hide a lower one at the usual strength.
     every = range(len(tries))
-    fit(every, first)
+    fit(every, first, "roughly")
     weak = [i for i in every if _is_weak(found[i], tries[i])]
-    fit(weak, second)
-    fit([i for i in every if promises(i)], to_the_end)
+    fit(weak, second, "from a second start")
+    fit([i for i in every if promises(i)], to_the_end, "to the end")
     _told([found[i] for i in every], context)
     return [[found[i] for i in every if tries[i].step == k] for k in range(len(tried))]
 
