@@ -43,6 +43,7 @@ class Run:
         self.log(Event.SHELLCMD, "python -m pyrofit")
 
     def fail(self, number: int, *logs: Path) -> None:
+        self.log(Event.ERROR, 'RuleException:\nCalledProcessError in file "a.smk", line 3:\n...')
         self.log(Event.JOB_ERROR, jobid=number, log=list(map(str, logs)))
 
     def end(self) -> None:
@@ -124,6 +125,12 @@ def test_error_in_the_study_is_told_without_places_of_the_workflow() -> None:
         '  File "/x/study.smk", line 82, in <module>',
     )
     assert run.lines == ["error: my.yaml: a rule:\n  unknown key"]
+
+
+def test_fault_of_snakemake_is_told_in_a_line() -> None:
+    run = Run()
+    run.log(Event.ERROR, "Traceback (most recent call last):\n\n  File ...\nOSError: no place\n")
+    assert run.lines == ["error: OSError: no place (.snakemake/log has more; please report it)"]
 
 
 def test_only_what_is_for_the_user_is_told_besides() -> None:

@@ -130,7 +130,7 @@ def test_smoke_runs_in_an_empty_folder(installed: Installed) -> None:
     found = checksums(results)
     assert len(found) > 50
     assert found == {place: known[place] for place in found}
-    assert "Nothing to be done" in installed.pyrofit("run", "smoke.yaml", "--dry-run")
+    assert "nothing to do" in installed.pyrofit("run", "smoke.yaml", "--dry-run")
     installed.pyrofit("run", "smoke.yaml", "archive")
     with zipfile.ZipFile(results / "smoke.zip") as file:
         assert "software/requirements.txt" in file.namelist()

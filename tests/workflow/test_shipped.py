@@ -1,13 +1,16 @@
 """The workflow as others have it: by another interpreter, in another workflow, installed."""
 
 import os
+import re
 import subprocess
 import sys
 from pathlib import Path
 
 import pytest
 import yaml
-from tiny import OWN_FILE, ROOT, TINY
+from tiny import FIT, OWN_FILE, ROOT, TINY
+
+from pyrofit.running.terminal import SAME_COMMAND
 
 SUMMARY = "results/tiny/measurements/summary.json"
 OUTER = f"""
@@ -70,6 +73,42 @@ def test_workflow_is_a_module_of_another_one(tmp_path: Path, inline: bool) -> No
     snakemake(tmp_path)
     assert (tmp_path / "own.txt").read_bytes() == (tmp_path / SUMMARY).read_bytes()
     assert "Nothing to be done" in snakemake(tmp_path)
+
+
+def test_run_tells_its_steps_and_where_it_stops_the_reason_and_the_way_out(tmp_path: Path) -> None:
+    write_study(tmp_path)
+
+    def run(target: str) -> tuple[int, list[str]]:
+        ran = subprocess.run(
+            [Path(sys.executable).parent / "pyrofit", "run", "tiny.yaml", target],
+            cwd=tmp_path,
+            env={**os.environ, "PATH": os.defpath, "PYTHONPATH": str(ROOT / "src")},
+            stdout=subprocess.PIPE,
+            stderr=subprocess.STDOUT,
+            text=True,
+            check=False,
+        )
+        return ran.returncode, ran.stdout.splitlines()
+
+    code, lines = run(SUMMARY)
+    assert code == 0, lines
+    title = "Measured series into tidy tables, mass closure checked"
+    assert lines[:2] == ["1 step", f"1/1  {title}"]
+    assert re.fullmatch(r"1/1  done in \d+ s", lines[-1])
+    assert run(SUMMARY) == (0, ["Everything is made already: nothing to do."])
+
+    broken = "results/tiny/measurements/tga_20K_mass_fraction.csv"
+    (tmp_path / broken).write_text("broken\n")
+    code, lines = run(FIT)
+    assert code == 1
+    assert lines[:3] == ["1 step", "1/1  Kinetics fitted to heated samples", "1/1  failed"]
+    assert lines[4].startswith(f"Kinetics fitted to heated samples: {broken}: ")
+    assert lines[-2:] == ["Log: results/tiny/logs/kinetics.log", SAME_COMMAND]
+    assert "Traceback" not in "".join(lines)
+
+    code, lines = run("postrior")
+    assert (code, len(lines)) == (1, 1)
+    assert "there is no target 'postrior'" in lines[0]
 
 
 def write_study(folder: Path) -> None:

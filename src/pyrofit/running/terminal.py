@@ -37,6 +37,8 @@ _TOLD = {
 }
 """Sentences for what Snakemake says, by its beginning."""
 _ORIGIN = re.compile(r"^\w*(?:Error|Exception)(?: in (?:rule|file) .*?)?:\n(?=\S)")
+_OF_A_JOB = re.compile(r"(?:\w+:\n)?CalledProcessError in file")
+"""An error that the failed step follows, which tells more."""
 _PLACES = re.compile(r"^  File \".*\.(?:smk|Snakefile)\", line .*$", re.M)
 
 
@@ -126,6 +128,8 @@ class Terminal(LogHandlerBase):
         self._failed = [failed for failed in self._failed if failed[0].number != step.number]
 
     def _error(self, about: dict[str, Any]) -> None:
+        if _OF_A_JOB.match(str(about["msg"])):
+            return
         if not self._failed:
             self.say(f"error: {in_our_words(str(about['msg']))}")
             return
@@ -162,6 +166,8 @@ def in_our_words(text: str) -> str:
     """
     if unknown := re.search(r"No rule to produce (\S+)", text):
         return f"there is no target '{unknown[1]}'; `pyrofit run --list` lists them"
+    if text.startswith("Traceback"):
+        return f"{text.strip().splitlines()[-1]} (.snakemake/log has more; please report it)"
     return _PLACES.sub("", _ORIGIN.sub("", text.strip())).strip()
 
 
