@@ -6,8 +6,9 @@ import linear
 import numpy as np
 import pytest
 
-from pyrofit.diagnose.base.adequacy import LackOfFit, Stretch, lack_of_fit, windows_of
-from pyrofit.diagnose.base.projection import project, projector
+from pyrofit.diagnose.base.adequacy import LackOfFit, lack_of_fit
+from pyrofit.estimate.scan import Stretch, windows_of
+from pyrofit.estimate.projection import project, projector
 from pyrofit.diagnose.search.refit import look_at
 from pyrofit.diagnose.settings import SETTINGS
 from pyrofit.solver.arrays import FloatArray

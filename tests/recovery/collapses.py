@@ -58,10 +58,7 @@ def noise_of(
     for i, value in enumerate(measured):
         time = times[i] if times else TIME
         repeat = SimpleNamespace(test="slab", nuisances=NUISANCES if free else {})
-        request = SimpleNamespace(temperature_K=None)
-        runs[str(i)] = SimpleNamespace(
-            experiment=SimpleNamespace(repeat=repeat), requests={"mlr": request}
-        )
+        runs[str(i)] = SimpleNamespace(experiment=SimpleNamespace(repeat=repeat))
         picks.append((str(i), "mlr", np.arange(time.size)))
         terms.append((1.0, SimpleNamespace(target=Target(time, value))))
     problem: Any = SimpleNamespace(
@@ -69,6 +66,7 @@ def noise_of(
         runs=runs,
         picks=picks,
         cost=SimpleNamespace(terms=terms),
+        temperature_K=lambda channel: None,
     )
     white = [NoiseModel(np.full(value.size, NOISE), Correlation()) for value in measured]
     return with_repeats(problem, white)

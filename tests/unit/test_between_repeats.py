@@ -10,7 +10,7 @@ sys.path.insert(0, str(Path(__file__).parents[1] / "recovery"))
 
 from collapses import NOISE, TIME, WAYS, coverage, curve, fit, noise_of, records
 
-from pyrofit.estimate.between_repeats import student_factor
+from pyrofit.estimate.between_repeats import USUAL, USUAL_WEIGHT, student_factor
 from pyrofit.estimate.correlation import Correlation
 from pyrofit.estimate.noise import NoiseModel
 from pyrofit.solver.arrays import FloatArray
@@ -58,8 +58,10 @@ def test_scatter_between_repeats_is_a_floor_of_its_size() -> None:
     plateau = (TIME > 0.35) & (TIME < 0.65)
     for noise in noises:
         between = np.sqrt(noise.total_sd**2 - NOISE**2)[plateau]
-        # K holds it twice: as it was seen, and in directions that were not.
-        expected = student_factor(2) * np.sqrt(2.0) * d * curve(TRUTH)[plateau]
+        # K holds it twice: as it was seen, and in directions that were not. Two further repeats
+        # with the usual level count beside three.
+        size = np.sqrt((2.0 * d**2 + USUAL_WEIGHT * USUAL[0] ** 2) / (2.0 + USUAL_WEIGHT))
+        expected = student_factor(4) * np.sqrt(2.0) * size * curve(TRUTH)[plateau]
         assert between == pytest.approx(expected, rel=0.3)
         assert noise.floors["repeats"] > 0.0
         assert "repeats" in noise.describe()

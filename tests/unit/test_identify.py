@@ -51,6 +51,9 @@ class Posed:
     def cost(self) -> Any:
         return SimpleNamespace(terms=[(1.0, SimpleNamespace(target=self.target))])
 
+    def temperature_K(self, channel: int) -> None:
+        return None
+
     def simulate_all(self, X: FloatArray) -> list[tuple[Status, list[FloatArray]]]:
         curves = [self.formula(x) for x in X]
         return [(Status.DIVERGED, []) if c is None else (Status.OK, [c]) for c in curves]

@@ -157,10 +157,25 @@ def test_floors_are_added_in_squares_and_named() -> None:
     assert set(model.floors) == {"timing", "solver"}
 
 
-def test_tga_without_uncertainty_has_a_discrepancy_floor() -> None:
+def test_noise_of_a_tga_is_that_of_its_points_and_of_the_apparatus() -> None:
     mass = 1.0 / (1.0 + np.exp((TIME - 800.0) / 60.0))
     mass += 5e-4 * np.random.default_rng(3).standard_normal(TIME.size)
-    without = estimate_noise(Target(TIME, mass), MASS_FRACTION)
+    target, temperature_K = Target(TIME, mass), 400.0 + 0.2 * TIME
+    found = estimate_noise(target, MASS_FRACTION, temperature_K=temperature_K)
+    assert np.median(found.sd) == pytest.approx(5e-4, rel=0.1)
+    flat = (TIME > 100.0) & (TIME < 400.0)
+    assert found.lasting_sd[flat] == pytest.approx(MASS_FRACTION.drift, rel=0.2)
+    # 1 K where the mass falls by 1/240 a second and 0.2 K a second.
+    steep = np.hypot(MASS_FRACTION.drift, 1.0 / 240.0 / 0.2)
+    assert found.lasting_sd.max() == pytest.approx(steep, rel=0.1)
+    stated = estimate_noise(target, MASS_FRACTION, temperature_K=temperature_K, drift=0.011)
+    assert stated.lasting_sd[flat] == pytest.approx(0.011, rel=0.2)
+
+
+def test_diagnosis_tolerates_a_discrepancy_of_tga() -> None:
+    mass = 1.0 / (1.0 + np.exp((TIME - 800.0) / 60.0))
+    mass += 5e-4 * np.random.default_rng(3).standard_normal(TIME.size)
+    without = estimate_noise(Target(TIME, mass), MASS_FRACTION, tolerant=True)
     assert np.min(without.sd) > MASS_FRACTION.discrepancy
     stated = estimate_noise(Target(TIME, mass, np.full(TIME.size, 5e-4)), MASS_FRACTION)
     assert np.median(stated.sd) < 0.1 * MASS_FRACTION.discrepancy

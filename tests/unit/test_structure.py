@@ -78,7 +78,7 @@ BY_LAPACK = ("integrate", "linalg", "odr", "signal", "sparse", "spatial")
 BY_LAPACK_OF_OPTIMIZE = {"curve_fit", "least_squares", "lsq_linear", "minimize", "nnls", "root"}
 NUMBERS_TO_A_POWER = {
     "config/yaml_file.py": "bytes",
-    "diagnose/base/adequacy.py": "a length",
+    "estimate/scan.py": "a length",
     "estimate/bounded_least_squares.py": "a number's damping",
     "estimate/cmaes.py": "numbers of the strategy",
     "estimate/sceua.py": "an integer",

@@ -7,10 +7,17 @@ from typing import Any, Literal
 import pandas as pd
 
 from pyrofit.config import Study
+from pyrofit.estimate.identify import APPARENT
 from pyrofit.results.identification import Identified
 
-Grade = Literal["determined", "weakly determined", "at a limit", "undetermined"]
-GRADES: tuple[Grade, ...] = ("determined", "weakly determined", "at a limit", "undetermined")
+Grade = Literal["determined", "weakly determined", "apparent value", "at a limit", "undetermined"]
+GRADES: tuple[Grade, ...] = (
+    "determined",
+    "weakly determined",
+    "apparent value",
+    "at a limit",
+    "undetermined",
+)
 """How well the data determine a parameter, the best first."""
 
 _CUT_OFF = {
@@ -38,7 +45,7 @@ class Estimated:
     noise_low, noise_high
         Ends of the interval if noise alone kept model and data apart, where they differ.
     method
-        'linear' or 'profile'.
+        'linear', 'profile', or 'misfit' of a model that misses the tests.
     bound
         'lower' or 'upper' where the estimate is at a limit, else empty.
     verdict
@@ -70,6 +77,8 @@ class Estimated:
             return "undetermined"
         if self.bound:
             return "at a limit"
+        if self.verdict == APPARENT:
+            return APPARENT
         return "determined" if self.verdict == "determined" else "weakly determined"
 
 

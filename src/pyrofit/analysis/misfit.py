@@ -4,9 +4,6 @@ from dataclasses import dataclass
 
 from pyrofit.results.identification import Identified
 
-FITS = 1.2
-"""Chi-square per point up to which the model is said to fit within the noise."""
-
 
 @dataclass(frozen=True)
 class Misfit:

@@ -107,7 +107,8 @@ def signals_table(
     """Return the agreement by signal, with noise and chi-square."""
     table = scored.scores
     residuals = likelihood.split(likelihood.residuals(found.optimum.x))
-    table["noise_sd"] = [float(np.median(noise.total_sd)) for noise in likelihood.noise]
+    table["noise_sd"] = [float(np.median(noise.sd)) for noise in likelihood.noise]
+    table["lasting_sd"] = [float(np.median(noise.lasting_sd)) for noise in likelihood.noise]
     table["chi2"] = [linear.dot(part, part) for part in residuals]
     table["chi2_per_point"] = [linear.dot(part, part) / part.size for part in residuals]
     return table

@@ -14,6 +14,7 @@ from pyrofit.api.measurements import Data
 from pyrofit.api.report import Report, html_of, text_of
 from pyrofit.config import Study
 from pyrofit.errors import StudyError
+from pyrofit.estimate.goodness import Goodness
 from pyrofit.numerics import functions
 
 if TYPE_CHECKING:
@@ -51,6 +52,11 @@ class Fit:
         Calls of SCE-UA, or the ends of the followed starts, best first; in the units of the study.
     derived
         Expressions of the study. Columns: value, sd (from the covariance), unit, expression.
+    goodness
+        Test of the fit: whether the model describes the measured signals, and where it misses them;
+        None without likelihood.
+    verdict
+        The same in sentences.
     """
 
     study: Study
@@ -65,6 +71,8 @@ class Fit:
     cost: float = np.nan
     history: pd.DataFrame | None = None
     derived: pd.DataFrame | None = None
+    goodness: Goodness | None = None
+    verdict: tuple[str, ...] = ()
 
     @property
     def reduced_chi2(self) -> float:
@@ -201,4 +209,5 @@ class Fit:
             self.chi2,
             self.freedom,
             self.cost,
+            self.verdict,
         )

@@ -43,8 +43,10 @@ from pyrofit.estimate.likelihood import descents
 from pyrofit.estimate.pose import of_diagnosis
 from pyrofit.estimate.pose_likelihood import pose_likelihood
 from pyrofit.estimate.problem import Problem
+from pyrofit.experiments import kind_of
 from pyrofit.logs import Tell
 from pyrofit.seeds import seed_for
+from pyrofit.show.goodness import goodness_sentences
 from pyrofit.show.text import several
 from pyrofit.solver.arrays import FloatArray
 
@@ -238,8 +240,16 @@ def fit_likelihood(
         chi2=found.posterior.chi2,
         freedom=found.posterior.freedom,
         history=ends_table(study, likelihood, ends),
+        goodness=found.goodness,
+        verdict=tuple(goodness_sentences(study, _stage_of(task), "", found.goodness)),
     )
     return replace(made, derived=derived_table(study, own, made.covariance))
+
+
+def _stage_of(task: Task) -> Stage:
+    """Return the stage that a misfit leads to: 'kinetics' where all samples are heated."""
+    stages = {kind_of(task.study.experiments[c.experiment]).stage for c in task.channels}
+    return "kinetics" if stages == {"kinetics"} else "imp"
 
 
 def with_kinetics(

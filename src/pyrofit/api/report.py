@@ -11,13 +11,6 @@ import pandas as pd
 from pyrofit.api.tables import html_page, text_table
 from pyrofit.show.text import number, several, signed
 
-LARGE = 1.5
-"""Chi-square per degree of freedom above which the report speaks of misfit."""
-MISFIT = (
-    "The misfit is larger than the noise: sd and intervals are {} times wider than the noise "
-    "makes them. pyrofit.diagnose looks for the cause."
-)
-
 
 @dataclass(frozen=True, eq=False)
 class Report:
@@ -33,6 +26,7 @@ class Report:
     chi2: float
     freedom: float
     cost: float
+    verdict: tuple[str, ...] = ()
 
 
 def text_of(fit: Report, above: float) -> str:
@@ -62,10 +56,10 @@ def _facts(fit: Report) -> list[str]:
         return [counts, f"cost {number(fit.cost)}"]
     ratio = fit.chi2 / fit.freedom
     return [
+        *fit.verdict,
         counts,
         f"chi-square {number(fit.chi2)}, {number(fit.freedom)} degrees of freedom, ratio "
         f"{number(ratio)}",
-        *([MISFIT.format(number(ratio**0.5))] if ratio > LARGE else []),
     ]
 
 

@@ -4,14 +4,18 @@ Repeat r of R records y_r = f + u_r + e_r: a curve f that all share, a random ef
 over the record, and noise e_r of its points. With d_r = y_r - mean and W a window that smooths over
 time as that of a stated uncertainty does, variance between repeats and covariance of u_r are
 
-    tau^2 = W (sum_r d_r^2 / (R - 1) - variance of e)
-    K = q (S S^T / (R - 1) + tau tau^T * exp(-|t - t'| / l)),    S = W (d_1 ... d_R).
+    tau^2 = (W (sum_r d_r^2 - (R - 1) variance of e) + n_0 sum_k g_k^2) / (n_0 + R - 1),
+    K = q ((S S^T + n_0 sum_k g_k g_k^T) / (n_0 + R - 1) + tau tau^T * exp(-|t - t'| / l)),
 
-The first term is the covariance of the repeats. It lasts over the whole record, so that a parameter
-that moves the curve alike is uncertain by as much. The second has the same size in all other
-directions, of which few repeats show only few. q = (t_(R-1) / 1.96)^2 turns the quantile of a
-normal distribution into Student's: R repeats tell their own scatter with R - 1 degrees of freedom
-only.
+S = W (d_1 ... d_R). Few repeats tell their own scatter badly. The usual changes g_k of their mean,
+by level, stretch and start, therefore count as n_0 further repeats. The first term of K is the
+covariance of the repeats. It lasts over the whole record, so that a parameter that moves the curve
+alike is uncertain by as much. The second has the same size in all other directions, of which few
+repeats show only few. q = (t_(n_0 + R - 1) / 1.96)^2 turns the quantile of a normal distribution
+into Student's.
+
+Where parameters describe how repeats differ, the deviations are those that remain once level,
+stretch and start are fitted to each, and n_0 is 0.
 """
 
 from collections.abc import Iterator, Sequence
@@ -24,7 +28,8 @@ from pyrofit.constants import QUANTILE
 from pyrofit.estimate.correlation import Correlation
 from pyrofit.estimate.noise import FEWEST_POINTS, NoiseModel
 from pyrofit.estimate.problem import Problem
-from pyrofit.numerics import fitting, functions, linear
+from pyrofit.estimate.warp import NONE, changed, fitted, unchanged
+from pyrofit.numerics import functions, linear
 from pyrofit.solver.arrays import FloatArray
 
 WINDOW = 0.2
@@ -36,17 +41,25 @@ LASTING = 0.05
 """Time l over which the second term lasts, as a fraction of the record. From 0.02 to 0.1 the
 coverage of 95 % intervals changes by 0.05 at most."""
 FLOOR = "repeats"
+USUAL_WEIGHT = 2.0
+"""n_0, repeats that the usual values count as."""
+USUAL = (0.04, 0.04, 0.01)
+"""s_0 of level and stretch, and of the start over the length of the record."""
+USUAL_HEATED = (0.01, 0.002, 0.003)
+"""The same of a heated sample: residue, heating rate, and temperature over the recorded range."""
 SIGNIFICANT = 2.0
 """Standard deviations by which the scatter must exceed the smoothed noise of the points."""
 
 
 @dataclass(frozen=True)
 class _Record:
-    """One repeat: abscissa (time or temperature), values and noise, shape (n,) each."""
+    """One repeat: abscissa (time or temperature), values, fitted curve and noise, shape (n,)."""
 
     at: FloatArray
     value: FloatArray
+    about: FloatArray | None
     noise: NoiseModel
+    heated: bool
 
     @property
     def points(self) -> tuple[FloatArray, Correlation]:
@@ -73,8 +86,8 @@ def with_repeats(
     found = list(noise)
     for channels in _groups(problem):
         records = [_record(problem, i, noise[i], about) for i in channels]
-        free = any(_differs(problem, i) for i in channels)
-        for i, model in zip(channels, _of_group(records, free and about is None), strict=True):
+        free = _are_described(problem, channels)
+        for i, model in zip(channels, _of_group(records, free), strict=True):
             found[i] = model
     return tuple(found)
 
@@ -91,25 +104,29 @@ def _groups(problem: Problem) -> Iterator[list[int]]:
             yield list(channels.values())
 
 
-def _differs(problem: Problem, channel: int) -> bool:
-    repeat = problem.runs[problem.picks[channel][0]].experiment.repeat
-    assert repeat is not None
-    return any(name in problem.names for name in repeat.nuisances.values())
+def groups_of_repeats(problem: Problem) -> Iterator[list[int]]:
+    """Yield the positions of channels that repeat one signal, if no parameter stands for it."""
+    yield from (group for group in _groups(problem) if not _are_described(problem, group))
+
+
+def _are_described(problem: Problem, channels: Sequence[int]) -> bool:
+    """Tell whether parameters describe how repeats differ."""
+    repeats = [problem.runs[problem.picks[i][0]].experiment.repeat for i in channels]
+    return any(name in problem.names for r in repeats if r for name in r.nuisances.values())
 
 
 def _record(
     problem: Problem, channel: int, noise: NoiseModel, about: Sequence[FloatArray] | None
 ) -> _Record:
-    name, signal, index = problem.picks[channel]
     target = problem.cost.terms[channel][1].target
-    temperature = problem.runs[name].requests[signal].temperature_K
-    at = target.time_s if temperature is None else temperature[index]
-    value = target.value if about is None else target.value - about[channel]
-    return _Record(at, value, noise)
+    temperature = problem.temperature_K(channel)
+    at = target.time_s if temperature is None else temperature
+    curve = None if about is None else about[channel]
+    return _Record(at, target.value, curve, noise, temperature is not None)
 
 
-def _of_group(records: Sequence[_Record], align: bool) -> list[NoiseModel]:
-    """Return the noise of records that repeat each other."""
+def _of_group(records: Sequence[_Record], free: bool) -> list[NoiseModel]:
+    """Return the noise of repeats; ``free``: parameters describe how they differ."""
     low = max(float(r.at.min()) for r in records)
     high = min(float(r.at.max()) for r in records)
     first = records[0].at
@@ -119,17 +136,32 @@ def _of_group(records: Sequence[_Record], align: bool) -> list[NoiseModel]:
     knots = np.linspace(low, high, KNOTS)
     window = _window(grid, knots)
     values = np.array([np.interp(grid, r.at, r.value) for r in records])
-    deviations = _aligned(grid, values, window, knots) if align else values - values.mean(axis=0)
     freedom = len(records) - 1
-    of_points = np.mean([np.interp(grid, r.at, r.points[0] ** 2) for r in records], axis=0)
-    variance = np.sum(deviations**2, axis=0) / freedom
-    shown = linear.product(deviations, window.T)
+    straight = _straightened(grid, values, window, knots)
+    raw = straight.left if free else values - values.mean(axis=0)
+    fitted_curves = [r.about for r in records if r.about is not None]
+    if free and fitted_curves:
+        pairs = zip(records, fitted_curves, strict=True)
+        off = np.array([np.interp(grid, r.at, r.value - curve) for r, curve in pairs])
+        raw = off - off.mean(axis=0)
+    shown = linear.product(raw, window.T)
     left = np.mean([_left(_window(r.at, knots), *r.points) for r in records], axis=0)
-    if not _significant(np.sum(shown**2, axis=0) / freedom, left, freedom):
+    # Two records may agree by chance; a third rarely does.
+    if freedom > 1 and not _significant(np.sum(shown**2, axis=0) / freedom, left, freedom):
         return [r.noise for r in records]
-    tau = np.sqrt(np.maximum(linear.product(window, variance - of_points), 0.0))
-    modes = _modes(knots, shown, tau)
-    return [_with_modes(r, knots, modes) for r in records]
+    of_points = np.mean([np.interp(grid, r.at, r.points[0] ** 2) for r in records], axis=0)
+    usual = np.zeros((0, KNOTS))
+    if not free:
+        sizes = USUAL_HEATED if records[0].heated else USUAL
+        usual = np.sqrt(USUAL_WEIGHT) * _usual(knots, straight.mean, sizes)
+    weight = USUAL_WEIGHT if len(usual) else 0.0
+    total = weight + freedom
+    smooth = linear.product(window, np.sum(raw**2, axis=0) - freedom * of_points)
+    squares = np.maximum(smooth, 0.0) + np.sum(usual**2, axis=0)
+    span = LASTING * (knots[-1] - knots[0])
+    lasting = linear.cholesky(functions.exp(-np.abs(np.subtract.outer(knots, knots)) / span))
+    every = np.column_stack([usual.T, shown.T, np.sqrt(squares)[:, None] * lasting])
+    return [_with_modes(r, knots, student_factor(total) / np.sqrt(total) * every) for r in records]
 
 
 def _window(at: FloatArray, knots: FloatArray) -> FloatArray:
@@ -159,16 +191,17 @@ def _significant(variance: FloatArray, left: FloatArray, freedom: int) -> bool:
     return ratio > 1.0 + SIGNIFICANT * float(np.sqrt(2.0 * WINDOW / freedom))
 
 
-def _modes(knots: FloatArray, shown: FloatArray, tau: FloatArray) -> FloatArray:
-    """Return U of K = U U^T at the knots, shape (knots, modes)."""
-    freedom = len(shown) - 1
-    span = LASTING * (knots[-1] - knots[0])
-    lasting = linear.cholesky(functions.exp(-np.abs(np.subtract.outer(knots, knots)) / span))
-    both = np.column_stack([shown.T / np.sqrt(freedom), tau[:, None] * lasting])
-    return student_factor(freedom) * both
+def _usual(knots: FloatArray, mean: FloatArray, sizes: tuple[float, ...]) -> FloatArray:
+    """Return the changes of the mean by the usual level, stretch and start, shape (3, knots)."""
+    return np.array(
+        [
+            0.5 * (changed(knots, mean, NONE + step) - changed(knots, mean, NONE - step))
+            for step in np.diag(sizes)
+        ]
+    )
 
 
-def student_factor(freedom: int) -> float:
+def student_factor(freedom: float) -> float:
     """Return the quantile of Student's distribution at 97.5 % over that of the normal one.
 
     >>> round(student_factor(2), 2)
@@ -181,45 +214,41 @@ def _with_modes(record: _Record, knots: FloatArray, modes: FloatArray) -> NoiseM
     own = np.column_stack([np.interp(record.at, knots, mode) for mode in modes.T])
     size = float(np.median(np.sqrt(np.sum(own**2, axis=1))))
     noise = record.noise
-    return replace(noise, modes=own, floors={**noise.floors, FLOOR: size})
+    every = own if noise.modes is None else np.column_stack([noise.modes, own])
+    return replace(noise, modes=every, floors={**noise.floors, FLOOR: size})
 
 
-def _aligned(
+@dataclass(frozen=True, eq=False)
+class _Straightened:
+    """Records made straight.
+
+    Parameters
+    ----------
+    mean
+        Their mean at the knots, shape (knots,).
+    left
+        Deviations that remain on the grid, shape (records, n).
+    """
+
+    mean: FloatArray
+    left: FloatArray
+
+
+def _straightened(
     grid: FloatArray, values: FloatArray, window: FloatArray, knots: FloatArray
-) -> FloatArray:
-    """Return the deviations that remain once amplitude, stretch and start are fitted.
+) -> _Straightened:
+    """Fit level, stretch and start of each smoothed record by least squares.
 
-    y_r(t) = y_0 + a (m((t - d)/b) - y_0) is fitted to each smoothed record by least squares. The
-    mean m of all is made anew from the records with their own a, b, d taken out.
+    The mean of all is made anew from the records with their own level, stretch and start taken out.
     """
     smooth = linear.product(values, window.T)
     mean, middle = smooth.mean(axis=0), values.mean(axis=0)
     for _ in range(2):
-        fits = [_warp(knots, mean, record) for record in smooth]
+        fits = [fitted(knots, mean, record) for record in smooth]
         mean, middle = (
-            np.mean([_straight(at, y, p) for y, p in zip(of, fits, strict=True)], axis=0)
+            np.mean([unchanged(at, y, p) for y, p in zip(of, fits, strict=True)], axis=0)
             for at, of in ((knots, smooth), (grid, values))
         )
-    ends = [_warp(knots, mean, record) for record in smooth]
-    return np.array([y - _warped(grid, middle, p) for y, p in zip(values, ends, strict=True)])
-
-
-def _warp(knots: FloatArray, mean: FloatArray, record: FloatArray) -> FloatArray:
-    """Return amplitude, stretch and start (over the record's length) of a record."""
-    scale = max(float(np.ptp(mean)), 1e-300)
-    start = np.array([1.0, 1.0, 0.0])
-    return fitting.least_squares(lambda p: (_warped(knots, mean, p) - record) / scale, start)
-
-
-def _warped(at: FloatArray, mean: FloatArray, fit: FloatArray) -> FloatArray:
-    amplitude, stretch, start = fit
-    own = at[0] + (at - at[0] - start * (at[-1] - at[0])) / max(stretch, 0.1)
-    return np.asarray(mean[0] + amplitude * (np.interp(own, at, mean) - mean[0]))
-
-
-def _straight(at: FloatArray, record: FloatArray, fit: FloatArray) -> FloatArray:
-    """Return a record with its own amplitude, stretch and start taken out."""
-    amplitude, stretch, start = fit
-    own = at[0] + (at - at[0]) * stretch + start * (at[-1] - at[0])
-    moved = np.interp(own, at, record)
-    return np.asarray(moved[0] + (moved - moved[0]) / amplitude)
+    ends = [fitted(knots, mean, record) for record in smooth]
+    left = np.array([y - changed(grid, middle, p) for y, p in zip(values, ends, strict=True)])
+    return _Straightened(mean, left)

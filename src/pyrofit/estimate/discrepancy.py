@@ -164,7 +164,11 @@ def times(likelihood: Likelihood) -> list[FloatArray]:
 
 
 def estimated(
-    likelihood: Likelihood, x: FloatArray, slopes: FloatArray, curves: FloatArray
+    likelihood: Likelihood,
+    x: FloatArray,
+    slopes: FloatArray,
+    curves: FloatArray,
+    most_points: int = MOST_POINTS,
 ) -> tuple[Discrepancy, ...]:
     """Estimate the discrepancy of each channel from the residuals at x.
 
@@ -176,6 +180,8 @@ def estimated(
         Optimum, in units of the search range.
     slopes, curves
         d curves / d x and the curves there, shapes (points, parameters) and (points,).
+    most_points
+        Points of a series that are used.
     """
     measured = np.concatenate([t.target.value for _, t in likelihood.problem.cost.terms])
     parts = zip(
@@ -186,7 +192,7 @@ def estimated(
         likelihood.split(measured - curves),
         strict=True,
     )
-    channels = [_Channel(*part) for part in parts]
+    channels = [_Channel(*part, most_points) for part in parts]
     known = likelihood.prior.slopes(likelihood.problem.span)
     ahead = linear.gram(known) + UNIFORM * np.eye(x.size)
     logs = [USUAL.copy() for _ in channels]
@@ -215,8 +221,9 @@ class _Channel:
         curve: FloatArray,
         slopes: FloatArray,
         residual: FloatArray,
+        most_points: int,
     ) -> None:
-        few = slice(None, None, max(1, -(-time.size // MOST_POINTS)))
+        few = slice(None, None, max(1, -(-time.size // most_points)))
         self.noise = noise_covariance(noise)[few, few]
         self.rows = np.column_stack([slopes, residual])[few]
         self.time, self.curve, self.few = time, curve, few

@@ -7,15 +7,17 @@ Covariance, dispersion and limits are those of `pyrofit.estimate.posterior`. Kno
 import math
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
+from typing import Literal
 
 import numpy as np
 
 from pyrofit.constants import QUANTILE
 from pyrofit.estimate.bounded_least_squares import Fit
+from pyrofit.estimate.goodness import Goodness, goodness_of_fit
 from pyrofit.estimate.likelihood import Likelihood, fit
 from pyrofit.estimate.posterior import Posterior, interval, limit_of
-from pyrofit.estimate.prior import NormalPrior
 from pyrofit.estimate.profile import Interval, Profile, profile_of
+from pyrofit.estimate.wrong_model import covariance_of_misfit
 from pyrofit.numerics import linear
 from pyrofit.solver.arrays import FloatArray
 
@@ -30,6 +32,10 @@ RESTARTS = 3
 """How often a lower chi-square found by a profile starts the analysis again."""
 LOWER = 0.01
 """A chi-square is lower if it is so by more."""
+LINEAR, PROFILE, MISFIT = "linear", "profile", "misfit"
+"""How an interval was made, see `Estimate`."""
+APPARENT: Literal["apparent value"] = "apparent value"
+"""Verdict on a parameter of a model that misses the tests."""
 
 
 @dataclass(frozen=True)
@@ -46,8 +52,9 @@ class Estimate:
         Interval if the noise were all that keeps model and data apart.
     interval
         The same with chi-square divided by its value per degree of freedom, where that exceeds 1.
+        Where the model misses the tests, that of `pyrofit.estimate.wrong_model`.
     method
-        'linear', of the parabola, or 'profile'.
+        'linear', of the parabola, 'profile', or 'misfit', of a model that misses the tests.
     bound
         'lower' or 'upper' where the estimate is at a limit, else empty.
     """
@@ -63,21 +70,26 @@ class Estimate:
     @property
     def verdict(self) -> str:
         """Whether the data determine it, in words."""
-        return verdict(self.interval.width, self.bound)
+        return verdict(self.interval.width, self.bound, self.method != MISFIT)
 
 
-def verdict(width: float, bound: str) -> str:
+def verdict(width: float, bound: str, fits: bool = True) -> str:
     """Say whether the data determine a parameter, from the width of its interval.
 
-    At a limit a narrow interval is the limit's doing: the parameter is not called determined.
+    At a limit a narrow interval is the limit's doing: the parameter is not called determined. If
+    the model misses the tests, its parameters are apparent values at best.
 
     >>> verdict(0.2, ""), verdict(0.2, "lower"), verdict(0.9, "upper")
     ('determined', 'at its lower limit', 'undetermined, at its upper limit')
+    >>> verdict(0.2, "", fits=False)
+    'apparent value'
     """
     if width > WEAKLY:
         return f"undetermined, at its {bound} limit" if bound else "undetermined"
     if bound:
         return f"at its {bound} limit"
+    if not fits:
+        return APPARENT
     return "determined" if width <= DETERMINED else "weakly determined"
 
 
@@ -93,6 +105,7 @@ class Identification:
     slopes: FloatArray
     estimates: tuple[Estimate, ...]
     profiles: dict[str, Profile]
+    goodness: Goodness
 
     @property
     def correlation(self) -> FloatArray:
@@ -128,11 +141,45 @@ def identify(
     """
     weighed, optimum = _weighed(likelihood, fit(likelihood, starts))
     for _ in range(RESTARTS):
-        found, lowest = _around(weighed, optimum, likelihood.prior, profiles)
+        slopes = likelihood.slopes(optimum.x)
+        posterior = _posterior(likelihood, optimum.x, slopes)
+        goodness = _goodness(likelihood, optimum.x, posterior)
+        if not goodness.passes:
+            estimates = _of_misfit(likelihood, optimum.x, posterior, slopes)
+            return Identification(optimum, posterior, slopes, estimates, {}, goodness)
+        estimates, found, lowest = _around(weighed, optimum, posterior, profiles)
         if lowest.chi2 >= optimum.chi2 - LOWER:
             break
         optimum = weighed.descend(lowest.x)
-    return found
+    return Identification(optimum, posterior, slopes, estimates, found, goodness)
+
+
+def _goodness(likelihood: Likelihood, x: FloatArray, posterior: Posterior) -> Goodness:
+    curves = likelihood.curves(x)
+    assert curves is not None
+    return goodness_of_fit(likelihood, posterior, curves)
+
+
+def _of_misfit(
+    likelihood: Likelihood, x: FloatArray, posterior: Posterior, slopes: FloatArray
+) -> tuple[Estimate, ...]:
+    """Return the estimates of a model that misses the tests, all intervals linear."""
+    curves = likelihood.curves(x)
+    assert curves is not None
+    wide = covariance_of_misfit(likelihood, posterior, slopes, curves)
+    plain = posterior.covariance(None, 1.0)
+    return tuple(
+        Estimate(
+            name,
+            float(x[i]),
+            float(np.sqrt(wide[i, i])),
+            Interval(*interval(float(x[i]), float(np.sqrt(plain[i, i])))),
+            Interval(*interval(float(x[i]), float(np.sqrt(wide[i, i])))),
+            MISFIT,
+            limit_of(float(x[i])),
+        )
+        for i, name in enumerate(likelihood.problem.names)
+    )
 
 
 def _weighed(likelihood: Likelihood, optimum: Fit) -> tuple[Likelihood, Fit]:
@@ -155,14 +202,9 @@ def _posterior(likelihood: Likelihood, x: FloatArray, slopes: FloatArray) -> Pos
 
 
 def _around(
-    likelihood: Likelihood, optimum: Fit, prior: NormalPrior, with_profiles: bool
-) -> tuple[Identification, Fit]:
-    """Return the analysis about an optimum, and the lowest point met on the way.
-
-    ``prior`` holds the known values as stated.
-    """
-    slopes = likelihood.slopes(optimum.x)
-    posterior = _posterior(replace(likelihood, prior=prior), optimum.x, slopes)
+    likelihood: Likelihood, optimum: Fit, posterior: Posterior, with_profiles: bool
+) -> tuple[tuple[Estimate, ...], dict[str, Profile], Fit]:
+    """Return estimates and profiles about an optimum, and the lowest point met on the way."""
     dispersion = posterior.dispersion
     # A parameter that rests at a limit may leave it when another moves: no parabola tells that.
     inside = not any(limit_of(v) for v in optimum.x)
@@ -181,15 +223,15 @@ def _around(
         straight = inside and _parabolic(likelihood, optimum, i, follow, sd, dispersion)
         if straight or not with_profiles:
             noise, wide = (Interval(*interval(x, s)) for s in (plain, sd))
-            method = "linear"
+            method = LINEAR
         else:
             profile, end = profile_of(likelihood.descend, optimum, i, follow, sd, dispersion)
             profiles[name] = profile
             lowest = min(lowest, end, key=lambda o: o.chi2)
             noise, wide = profile.interval(1.0), profile.interval(dispersion)
-            method = "profile"
+            method = PROFILE
         estimates.append(Estimate(name, x, sd, noise, wide, method, limit_of(x)))
-    return Identification(optimum, posterior, slopes, tuple(estimates), profiles), lowest
+    return tuple(estimates), profiles, lowest
 
 
 def _parabolic(

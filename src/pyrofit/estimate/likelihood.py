@@ -172,17 +172,20 @@ class Likelihood:
         return minimise(self.residuals, self.jacobian, x, ENOUGH, fixed=fixed, idle=idle)
 
 
-def likelihood_of(problem: Problem, prior: NormalPrior = NO_PRIOR) -> Likelihood:
+def likelihood_of(
+    problem: Problem, prior: NormalPrior = NO_PRIOR, tolerant: bool = False
+) -> Likelihood:
     """Return the likelihood of a problem whose terms are channels, with their noise estimated.
 
-    ``prior`` holds the known values of its parameters.
+    ``prior`` holds the known values of its parameters. A ``tolerant`` noise includes the usual
+    discrepancy of models.
 
     Raises
     ------
     DataError
         A channel is too short.
     """
-    noise = [noise_of(problem, channel) for channel in range(len(problem.picks))]
+    noise = [noise_of(problem, channel, tolerant=tolerant) for channel in range(len(problem.picks))]
     return Likelihood(problem, with_repeats(problem, noise), prior)
 
 

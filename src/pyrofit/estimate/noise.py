@@ -10,6 +10,7 @@ import numpy as np
 
 from pyrofit.cost import Target
 from pyrofit.errors import DataError
+from pyrofit.estimate.apparatus import LASTING, apparatus_error
 from pyrofit.estimate.correlation import Correlation, whiteness
 from pyrofit.estimate.scatter import scatter_of
 from pyrofit.estimate.spikes import spikes
@@ -18,9 +19,6 @@ from pyrofit.numerics import functions, linear
 from pyrofit.quantities.base import Quantity, Shown
 from pyrofit.solver.arrays import FloatArray
 
-LASTING = 0.1
-"""Time over which a discrepancy of models lasts, as a fraction of the record. It counts alike
-however many points are measured."""
 SMOOTHING = 0.1
 """Window over which a stated uncertainty is smoothed, as a fraction of the record."""
 FEWEST_POINTS = 8
@@ -29,6 +27,9 @@ TERMS = {
     "timing": "error of the clock",
     "solver": "error of the solver",
     "discrepancy": "model discrepancy",
+    "drift": "drift of the apparatus",
+    "sensitivity": "error of its sensitivity",
+    "temperature": "error of the temperature",
     "repeats": "scatter between repeats",
 }
 """Terms that are added to a standard deviation, in words."""
@@ -73,19 +74,27 @@ class NoiseModel:
     spikes: int = 0
     """Single points far off their neighbours. That distance counts as their noise."""
     modes: FloatArray | None = None
-    """Lasting scatter between repeats U, which adds U U^T to the covariance, shape (n, modes)."""
+    """Lasting errors U of the apparatus and between repeats, which add U U^T to the covariance,
+    shape (n, modes)."""
 
     @property
     def total_sd(self) -> FloatArray:
-        """Standard deviation with the scatter between repeats, shape (n,)."""
+        """Standard deviation with lasting errors, shape (n,)."""
         if self.modes is None:
             return self.sd
         return np.asarray(np.sqrt(self.sd**2 + np.sum(self.modes**2, axis=1)))
 
+    @property
+    def lasting_sd(self) -> FloatArray:
+        """Standard deviation of the lasting errors, shape (n,)."""
+        if self.modes is None:
+            return np.zeros_like(self.sd)
+        return np.asarray(np.sqrt(np.sum(self.modes**2, axis=1)))
+
     def whiten(self, residual: FloatArray) -> FloatArray:
         """Return w = L^-1 (r / sd): white and of unit variance if the residual is this noise.
 
-        With scatter between repeats, w = (I + V V^T)^(-1/2) L^-1 (r / sd), V = L^-1 (U / sd).
+        With lasting errors, w = (I + V V^T)^(-1/2) L^-1 (r / sd), V = L^-1 (U / sd).
 
         Parameters
         ----------
@@ -146,6 +155,10 @@ def estimate_noise(
     stated_sds: float = 1.0,
     timing_s: float = TIMING_S,
     about: FloatArray | None = None,
+    *,
+    temperature_K: FloatArray | None = None,
+    drift: float | None = None,
+    tolerant: bool = False,
 ) -> NoiseModel:
     """Estimate size and correlation of the noise of a measured series.
 
@@ -163,6 +176,13 @@ def estimate_noise(
     about
         A simulated curve, shape (n,), where one is at hand. The noise is then the scatter about the
         sum of that and a smooth one, which need not follow steep parts.
+    temperature_K
+        Measured temperatures, shape (n,), if the series is recorded against them.
+    drift
+        Standard deviation of a lasting error that a study states.
+    tolerant
+        Whether the noise includes the usual discrepancy of models instead of the errors of the
+        apparatus. It hides a misfit of that size.
 
     Single points far off their neighbours (`spikes`) do not count in this estimate, and get that
     distance as an additional standard deviation.
@@ -183,7 +203,17 @@ def estimate_noise(
     fit = scatter_of(target.time_s, target.value - near - off, shape, stated is not None)
     larger = fit.scale > 1.0 + np.sqrt(2.0 / (count - fit.splines))
     scale = fit.scale if stated is None or larger else 1.0
-    floors = _floors(target, near + fit.curve, quantity, timing_s, stated is not None)
+    curve = near + fit.curve
+    floors = _floors(target, curve, quantity, timing_s)
+    discrepancy = drift or quantity.discrepancy or quantity.discrepancy_share * float(np.ptp(curve))
+    lasting = None
+    if stated is None and not tolerant:
+        time = target.time_s
+        lasting = apparatus_error(quantity, time, curve, temperature_K, timing_s, drift)
+        if lasting is not None:
+            del floors["timing"]
+    elif stated is None and discrepancy:
+        floors["discrepancy"] = np.full(count, discrepancy)
     correlation = fit.correlation
     origin = "from the scatter" if stated is None else "stated, smoothed over 10 % of the record"
     if "discrepancy" in floors:
@@ -198,7 +228,9 @@ def estimate_noise(
         whiteness=whiteness(fit.scatter, fit.basis),
         origin=origin,
         shown=quantity.shown,
-        floors={name: float(np.median(floor)) for name, floor in floors.items()},
+        floors={name: float(np.median(floor)) for name, floor in floors.items()}
+        | ({} if lasting is None else dict(lasting.sizes)),
+        modes=None if lasting is None else lasting.modes,
         criterion=fit.criterion,
         stated=stated is not None,
         spikes=int(np.count_nonzero(off)),
@@ -234,15 +266,11 @@ def smoothed(target: Target) -> FloatArray | None:
 
 
 def _floors(
-    target: Target, curve: FloatArray, quantity: Quantity, timing_s: float, stated: bool
+    target: Target, curve: FloatArray, quantity: Quantity, timing_s: float
 ) -> dict[str, FloatArray]:
-    """Return the additions to the standard deviation, shape (n,) each."""
+    """Return the additions to the standard deviation of every point, shape (n,) each."""
     slope = np.abs(np.gradient(curve, target.time_s))
-    floors = {
+    return {
         "timing": timing_s * slope,
         "solver": np.full(curve.size, quantity.solver_error * np.ptp(curve)),
     }
-    discrepancy = quantity.discrepancy or quantity.discrepancy_share * float(np.ptp(curve))
-    if discrepancy and not stated:
-        floors["discrepancy"] = np.full(curve.size, discrepancy)
-    return floors

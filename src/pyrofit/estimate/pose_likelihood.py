@@ -23,6 +23,7 @@ def pose_likelihood(
     measurements: Measurements,
     fixed: Mapping[str, float],
     fits: Iterable[Mapping[str, float]] = (),
+    tolerant: bool = False,
 ) -> Likelihood:
     """Return the likelihood, with known values and the noise of every channel.
 
@@ -33,6 +34,9 @@ def pose_likelihood(
     fits
         Sets that fit well, SI units by name; `fixed` holds what a set leaves out. Signals that
         jump have their noise about the best of them. Read only if there are such signals.
+    tolerant
+        Whether the noise includes the usual discrepancy of models, as that of the diagnosis does:
+        it searches effects for what exceeds it. All other steps test the model without it.
 
     Raises
     ------
@@ -40,7 +44,7 @@ def pose_likelihood(
         A channel is too short to show its noise.
     """
     problem = pose(study, estimation, measurements, fixed)
-    likelihood = likelihood_of(problem, prior_of(study, problem))
+    likelihood = likelihood_of(problem, prior_of(study, problem), tolerant)
 
     def scaled(values: Mapping[str, float]) -> FloatArray:
         return likelihood.scaled(np.array([{**fixed, **values}[name] for name in problem.names]))

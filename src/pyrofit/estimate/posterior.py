@@ -106,6 +106,11 @@ class Posterior:
     jacobian: FloatArray
 
     @property
+    def free_jacobian(self) -> FloatArray:
+        """The Jacobian by the parameters that are not at a limit."""
+        return np.asarray(self.jacobian[:, [not limit_of(value) for value in self.x]])
+
+    @property
     def known(self) -> int:
         """Number of known values."""
         return len(self.jacobian) - self.residuals.size

@@ -159,6 +159,12 @@ class Problem:
 
         return [(name, signal, place(name, signal, index)) for name, signal, index in self.picks]
 
+    def temperature_K(self, channel: int) -> FloatArray | None:
+        """Return the measured temperatures at the points of a channel, None if it has none."""
+        name, signal, index = self.picks[channel]
+        measured = self.runs[name].requests[signal].temperature_K
+        return None if measured is None else measured[index]
+
     def evaluate(self, x: FloatArray) -> Evaluation:
         """Return the cost of a parameter set; a failed run costs `FAILED_COST`."""
         return self._evaluation(*self.simulate(x))

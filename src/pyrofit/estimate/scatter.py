@@ -28,6 +28,13 @@ _SPLINES = (4, 6, 8, 11, 15, 20, 27, 36, 48, 64)
 _ENOUGH_SPLINES = 27
 _MOST_SPLINES = 0.34
 """Most splines per point."""
+_STEEP = 20
+"""A curve that needs more evenly spaced splines is steep somewhere, and smooth elsewhere."""
+_DENSE_SPLINES = (8, 11, 15, 20, 27)
+_WINDOW = 0.03
+"""Window over which the slope is averaged that places dense knots, as a fraction of the record."""
+_EVEN = 0.3
+"""Share of the knots that are evenly spaced even so."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -71,24 +78,55 @@ def scatter_of(time: FloatArray, value: FloatArray, shape: FloatArray, known: bo
             break
         if splines > _ENOUGH_SPLINES and worse > 1:
             break
-        X = _basis(time, splines) / shape[:, None]
-        y = value / shape
-        here = min(
-            (_fit(X, y, shape, found, known) for found in _correlations(X, y, known)),
-            key=lambda fit: fit.criterion,
-        )
+        here = _likeliest(_basis(time, splines), value, shape, known)
         lower = best is None or here.criterion < best.criterion
         worse = 0 if lower else worse + 1
         best = here if worse == 0 else best
     assert best is not None
-    return best
+    if known or best.splines <= _STEEP:
+        return best
+    place = _dense_where_steep(time, value)
+    few = [splines for splines in _DENSE_SPLINES if splines <= _MOST_SPLINES * shape.size]
+    dense = [_likeliest(_basis(place, splines), value, shape, known) for splines in few]
+    other = min(dense, key=lambda fit: fit.criterion, default=best)
+    return other if other.criterion < best.criterion - CLEAR else best
 
 
-def _basis(time: FloatArray, splines: int) -> FloatArray:
-    """Return cubic B-splines on evenly spaced knots, shape (n, splines)."""
-    inner = np.linspace(time[0], time[-1], splines - 2)
-    knots = np.concatenate([[time[0]] * 3, inner, [time[-1]] * 3])
-    return np.asarray(BSpline.design_matrix(time, knots, 3).toarray(), dtype=np.float64)
+def _likeliest(X: FloatArray, value: FloatArray, shape: FloatArray, known: bool) -> Scatter:
+    X, y = X / shape[:, None], value / shape
+    fits = (_fit(X, y, shape, found, known) for found in _correlations(X, y, known))
+    return min(fits, key=lambda fit: fit.criterion)
+
+
+def _basis(at: FloatArray, splines: int) -> FloatArray:
+    """Return cubic B-splines over a rising coordinate, shape (n, splines).
+
+    Knots are evenly spaced. If points are missing between two of them, as in a gap of the record,
+    equal numbers of points lie between knots instead.
+    """
+    inner = np.linspace(at[0], at[-1], splines - 2)
+    if np.any(np.histogram(at, inner)[0] == 0):
+        inner = np.interp(np.linspace(0, at.size - 1, splines - 2), np.arange(at.size), at)
+    knots = np.concatenate([[at[0]] * 3, inner, [at[-1]] * 3])
+    return np.asarray(BSpline.design_matrix(at, knots, 3).toarray(), dtype=np.float64)
+
+
+def _dense_where_steep(time: FloatArray, value: FloatArray) -> FloatArray:
+    """Return a coordinate that passes quickly where the series is steep, from 0 to 1, shape (n,).
+
+    Its speed is an even part and one that grows as the root of the slope: splines evenly spaced
+    over it are dense in a step or a peak, and few elsewhere.
+    """
+    n = time.size
+    width = max(1, round(0.5 * _WINDOW * n))
+    total = np.concatenate([[0.0], np.cumsum(value)])
+    low = np.maximum(np.arange(n) - width, 0)
+    high = np.minimum(np.arange(n) + width + 1, n)
+    smooth = (total[high] - total[low]) / (high - low)
+    steps = np.sqrt(np.abs(np.diff(smooth)) * np.diff(time))
+    even = np.diff(time) / (time[-1] - time[0])
+    speed = _EVEN * even + (1.0 - _EVEN) * steps / max(float(steps.sum()), 1e-300)
+    return np.asarray(np.concatenate([[0.0], np.cumsum(speed)]) / speed.sum())
 
 
 def _correlations(X: FloatArray, y: FloatArray, known: bool) -> list[Correlation]:

@@ -78,7 +78,16 @@ class Quantity:
     sign_ratio: float | None = None
     """The lowest value may be this multiple of the largest below zero; none = no rule."""
     discrepancy: float | None = None
-    """Least standard deviation of a record without an uncertainty: models come no nearer."""
+    """Standard deviation of the discrepancy of models that the diagnosis tolerates in a record
+    without an uncertainty."""
+    drift: float = 0.0
+    """Standard deviation of the drift of a record without an uncertainty."""
+    drift_share: float = 0.0
+    """The same as a fraction of its range."""
+    sensitivity_error: float = 0.0
+    """Relative error of all values of such a record alike."""
+    temperature_error_K: float = 0.0
+    """Error of the temperatures of such a record, the same for all."""
     relative: bool = False
     """Whether a prediction is scored relative to the mean measured value."""
     place: Place = "fixed"
@@ -86,7 +95,7 @@ class Quantity:
     released: Released | None = None
     """Mass per area that a record shows to be released [kg/m2]; none = it does not show that."""
     discrepancy_share: float = 0.0
-    """Least standard deviation of a record without an uncertainty, as a fraction of its range."""
+    """The discrepancy that the diagnosis tolerates, as a fraction of the range."""
     has_sign: bool = False
     """Whether files differ in their sign: heat taken up is positive, or negative."""
     remark: Remark | None = None

@@ -62,5 +62,8 @@ QUANTITY = Quantity(
     usual_sd=50.0,
     # ASSUME: baselines and sensitivities of repeats differ by about as much.
     discrepancy_share=0.02,
+    drift_share=0.02,
+    sensitivity_error=0.03,
+    temperature_error_K=1.0,
     rests_on=("heat_of_reaction_J_kg", "specific_heat_J_kgK"),
 )

@@ -20,6 +20,10 @@ QUANTITY = Quantity(
     sampling="bin mean",
     # As of the mass loss rate, to which it is proportional where one reaction releases gas.
     solver_error=1e-3,
+    # ISO 5660-1 calibrates the oxygen consumption to 5 %.
+    sensitivity_error=0.05,
+    # ASSUME: the gas analysis drifts, and its delay is corrected approximately.
+    drift_share=0.02,
     usual_sd=1e4,
     relative=True,
     rests_on=("heat_of_combustion_J_kg",),

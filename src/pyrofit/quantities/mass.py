@@ -44,6 +44,8 @@ QUANTITY = Quantity(
     largest=(0.05, 500.0),
     sampling="cumulative",
     solver_error=1e-3,
+    # ASSUME: the frame, the wires of thermocouples and the heat on the balance.
+    drift_share=0.005,
     # A tenth of a gram on a square of 100 mm.
     usual_sd=1e-2,
     released=released,

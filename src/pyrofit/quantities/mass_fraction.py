@@ -28,6 +28,10 @@ QUANTITY = Quantity(
     # The error of a TGA is below 1e-6.
     solver_error=1e-5,
     usual_sd=0.02,
+    # ASSUME: buoyancy and drift of a balance leave 0.3 % of the initial mass; thermocouples of one
+    # apparatus repeat to 1 K.
+    drift=0.003,
+    temperature_error_K=1.0,
     # Between the scatter of laboratories as measured and with aligned temperatures; points scatter
     # far less (docs/identification.md).
     discrepancy=0.02,

@@ -49,6 +49,8 @@ QUANTITY = Quantity(
     sampling="bin mean",
     # The error is 0.02 to 0.2 % of the mean.
     solver_error=1e-3,
+    # ASSUME: the smoothing of the mass leaves errors that last.
+    drift_share=0.02,
     usual_sd=5e-4,
     relative=True,
     released=released,

@@ -21,5 +21,8 @@ QUANTITY = Quantity(
     usual_sd=2e3,
     # ASSUME: repeats of one laboratory differ by about as much.
     discrepancy_share=0.02,
+    drift_share=0.02,
+    sensitivity_error=0.03,
+    temperature_error_K=1.0,
     rests_on=("heat_of_combustion_J_kg",),
 )

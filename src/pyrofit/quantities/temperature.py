@@ -29,5 +29,7 @@ def temperature(
         largest=(200.0, 2500.0),
         all_within=True,
         solver_error=1e-3,
+        # ASSUME: thermocouples of class 1 have an error of 1.5 K or 0.4 % (IEC 60584-1).
+        drift=2.0,
         usual_sd=2.0,
     )

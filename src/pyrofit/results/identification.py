@@ -5,6 +5,8 @@ from typing import Any, NamedTuple
 import pandas as pd
 
 from pyrofit.config import Study
+from pyrofit.estimate.goodness import Goodness
+from pyrofit.results import goodness
 from pyrofit.results.files import Results, read_csv, read_json
 from pyrofit.results.needed import EACH
 
@@ -18,6 +20,7 @@ class Identified(NamedTuple):
     estimates: dict[str, pd.DataFrame]
     correlations: dict[str, pd.DataFrame]
     noise: dict[str, dict[str, Any]]
+    goodness: dict[str, Goodness]
     sets: pd.DataFrame
     """Sets of the optimisers: distance of each parameter from the optimum [sd], chi-square."""
 
@@ -35,6 +38,7 @@ def read(study: Study, results: Results) -> Identified:
         estimates={stage: estimates(study, results, stage) for stage in stages},
         correlations={stage: matrix_of(study, results, stage) for stage in stages},
         noise={stage: noise(results, stage) for stage in stages},
+        goodness={stage: goodness.read(results, stage) for stage in stages},
         sets=_sets(study, results),
     )
 

@@ -16,6 +16,7 @@ from pyrofit.analysis.trade_offs import TradeOff, trade_offs
 from pyrofit.analysis.uses import predicted_labels
 from pyrofit.analysis.wall_times import wall_times
 from pyrofit.config import Study
+from pyrofit.estimate.goodness import Goodness
 from pyrofit.estimate.optimisers import OPTIMISERS
 from pyrofit.results import identification, posterior, prediction, searches
 from pyrofit.results.files import Results
@@ -36,6 +37,8 @@ class Facts:
         Pairs of strongly correlated estimates.
     misfits
         How the optimum of the likelihood fits each signal.
+    goodness
+        Whether the models describe their tests, by stage.
     best
         The set of the lowest cost of each cost function, SI units.
     distances
@@ -55,6 +58,7 @@ class Facts:
     known: list[Known]
     trade_offs: list[TradeOff]
     misfits: list[Misfit]
+    goodness: Mapping[str, Goodness]
     best: pd.DataFrame
     distances: list[Distance]
     repeated: list[Repeated]
@@ -83,6 +87,7 @@ def facts_of(study: Study, results: Results, tables: Frames) -> Facts:
         known=known_values(study, estimates),
         trade_offs=trade_offs(study, identified),
         misfits=misfits(identified),
+        goodness=identified.goodness,
         best=best_sets(study, searched),
         distances=distances(study, identified),
         repeated=repeated(study, searched.repetitions),

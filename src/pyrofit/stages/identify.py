@@ -12,7 +12,7 @@ from pyrofit.estimate.optimisers import OPTIMISERS
 from pyrofit.estimate.pose import of_imp, of_kinetics
 from pyrofit.estimate.pose_likelihood import pose_likelihood
 from pyrofit.numerics import linear
-from pyrofit.results import kinetics, searches
+from pyrofit.results import goodness, kinetics, searches
 from pyrofit.results.files import Results, write_csv, write_json
 from pyrofit.stages.imp_likelihood import ends_of_searches, imp_likelihood
 from pyrofit.stages.measurements import load
@@ -67,6 +67,7 @@ def _write(results: Results, stage: str, likelihood: Likelihood, found: Identifi
     for name, frame in tables.items():
         write_csv(results.identification(f"{name}.csv", stage), frame)
     write_json(results.identification("noise.json", stage), _noise(likelihood, found))
+    goodness.write(results, stage, found.goodness)
 
 
 def _estimates(likelihood: Likelihood, found: Identification) -> pd.DataFrame:
@@ -177,6 +178,8 @@ def _noise(likelihood: Likelihood, found: Identification) -> dict[str, Any]:
             "signal": signal,
             "points": part.size,
             "sd_median": float(np.median(noise.total_sd)),
+            "points_sd": float(np.median(noise.sd)),
+            "lasting_sd": float(np.median(noise.lasting_sd)),
             "lags": list(noise.correlation.lags),
             "ar": noise.correlation.ar,
             "splines": noise.splines,

@@ -7,8 +7,8 @@ import numpy as np
 
 from pyrofit.diagnose.base.fit import refitted_all
 from pyrofit.diagnose.base.fitted import FittedModel, finishes
-from pyrofit.diagnose.base.projection import project, projector
 from pyrofit.diagnose.base.work import bounded
+from pyrofit.estimate.projection import project, projector
 from pyrofit.model.accuracy import Accuracy
 
 

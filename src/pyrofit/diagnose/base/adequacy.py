@@ -1,11 +1,7 @@
 """Where model and measurement disagree, at a controlled level of false alarm.
 
-For a window of L of a channel's n whitened residuals w the statistic is
-|sum w|/sqrt(L) - sqrt(2 log(n/L)): short windows, of which there are many, must stand out more
-(Duembgen and Spokoiny 2001, doi 10.1214/aos/996986504). Its critical value is that of the noise
-itself, projected as the fit projects it. Where the largest is above, its window is noted and both
-sides are searched on, as in narrowest-significance pursuit (Fryzlewicz 2024,
-doi 10.1080/01621459.2023.2211733).
+The statistic is that of `pyrofit.estimate.scan`. Its critical value is that of the noise itself,
+projected as the fit projects it.
 """
 
 from collections.abc import Sequence
@@ -16,22 +12,12 @@ from scipy.stats import chi2 as chi_squared
 
 from pyrofit.diagnose.base.descent import Fit
 from pyrofit.diagnose.base.model import Model
-from pyrofit.diagnose.base.projection import project, projector
 from pyrofit.diagnose.settings import SETTINGS
-from pyrofit.numerics import functions, linear
+from pyrofit.estimate.projection import project, projector
+from pyrofit.estimate.scan import Stretch, highest, windows_of
+from pyrofit.numerics import linear
 from pyrofit.parallel import parallel_map
 from pyrofit.solver.arrays import FloatArray
-
-
-@dataclass(frozen=True)
-class Stretch:
-    """Points ``start`` to ``end`` (excluded) of a channel that are off to one side."""
-
-    channel: int
-    start: int
-    end: int
-    statistic: float
-    sign: int
 
 
 @dataclass(frozen=True, eq=False)
@@ -80,12 +66,13 @@ def lack_of_fit(
         return float(np.quantile(scans, level)), float(np.quantile(scores, level))
 
     parts = model.by_channel(fit.residuals)
-    scan = float(max(_highest(part[:, None])[0] for part in parts))
+    scan = float(max(highest(part[:, None])[0] for part in parts))
     critical, score_critical = critical_values(SETTINGS.draw_blocks)
     if abs(scan - critical) < SETTINGS.close_scan:
         critical, score_critical = critical_values(SETTINGS.close_draw_blocks)
     freedom = fit.residuals.size - float(np.sum(spanned**2))
-    windows = [w for i, part in enumerate(parts) for w in windows_of(part, critical, i)]
+    most = SETTINGS.most_windows
+    windows = [w for i, part in enumerate(parts) for w in windows_of(part, critical, most, i)]
     return LackOfFit(
         windows=tuple(windows),
         scan=scan,
@@ -106,7 +93,7 @@ def _of_noise(
     """Return the largest scan statistic and the largest score of each of some draws of noise."""
     draws = SETTINGS.draws_per_block
     noise = project(spanned, rng.standard_normal((spanned.shape[0], draws)))
-    scans = [_highest(part) for part in model.by_channel(noise)]
+    scans = [highest(part) for part in model.by_channel(noise)]
     scores = [-(linear.product(noise.T, d)).min(axis=1, initial=0.0) for d in directions]
     return np.max(scans, axis=0), np.max([np.zeros(draws), *scores], axis=0)
 
@@ -115,59 +102,3 @@ def score(residuals: FloatArray, directions: FloatArray) -> float:
     """Return the largest score of the residuals along unit changes, zero at least."""
     scores = -(linear.product(residuals, directions))
     return float(scores.max(initial=0.0))
-
-
-def windows_of(w: FloatArray, critical: float, channel: int = 0) -> list[Stretch]:
-    """Return the windows of a channel above the critical value, in order of time."""
-    found: list[Stretch] = []
-    waiting = [(0, w.size)]
-    while waiting and len(found) < SETTINGS.most_windows:
-        low, high = waiting.pop(0)
-        best = _best(w, low, high)
-        if best is None or best[0] <= critical:
-            continue
-        value, start, end = best
-        sign = 1 if w[start:end].sum() > 0.0 else -1
-        found.append(Stretch(channel, start, end, value, sign))
-        waiting += [(low, start), (end, high)]
-    return sorted(found, key=lambda window: window.start)
-
-
-def _best(w: FloatArray, low: int, high: int) -> tuple[float, int, int] | None:
-    """Return statistic, start and end of the window that stands out most."""
-    best = None
-    total = np.concatenate([[0.0], np.cumsum(w[low:high])])
-    for length in _lengths(high - low):
-        sums = np.abs(total[length:] - total[:-length]) / np.sqrt(length)
-        at = int(sums.argmax())
-        value = float(sums[at]) - _handicap(w.size, length)
-        if best is None or value > best[0]:
-            best = value, low + at, low + at + length
-    return best
-
-
-def _highest(w: FloatArray) -> FloatArray:
-    """Return the largest statistic of each column of (points, draws)."""
-    total = np.concatenate([np.zeros((1, w.shape[1])), np.cumsum(w, axis=0)])
-    found = np.full(w.shape[1], -np.inf)
-    for length in _lengths(len(w)):
-        sums = np.abs(total[length:] - total[:-length]).max(axis=0) / np.sqrt(length)
-        found = np.maximum(found, sums - _handicap(len(w), length))
-    return found
-
-
-def _lengths(points: int) -> list[int]:
-    """Return lengths of windows, each about sqrt(2) times the one before.
-
-    >>> _lengths(12)
-    [1, 2, 3, 4, 6, 8, 11]
-    """
-    found, k = [], 0
-    while (length := round(2.0 ** (0.5 * k))) <= points:
-        found += [length, 3] if length == 2 and points > 2 else [length]
-        k += 1
-    return list(dict.fromkeys(found))
-
-
-def _handicap(points: int, length: int) -> float:
-    return float(np.sqrt(2.0 * functions.log(points / length)))

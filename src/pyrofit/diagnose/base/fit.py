@@ -53,7 +53,8 @@ def set_up(
     """
     channels = (*calibration_channels(study), *held_out_channels(study))
     asked = of_diagnosis(study, channels)
-    likelihood = pose_likelihood(study, asked, measurements, study.fixed_values())
+    fixed = study.fixed_values()
+    likelihood = pose_likelihood(study, asked, measurements, fixed, tolerant=True)
     calibrated = tuple(range(len(calibration_channels(study))))
     base = Base(likelihood, calibrated)
     first, starts = _fitted(base, study.seed, processes)
@@ -168,7 +169,7 @@ def with_noise_about(
 
     def better(k: int) -> NoiseModel | None:
         i = wanted[k]
-        found = noise_of(problem, i, parts[i])
+        found = noise_of(problem, i, parts[i], tolerant=True)
         return found if found.criterion < noise[i].criterion else None
 
     for i, found in zip(wanted, parallel_map(better, len(wanted), processes), strict=True):

@@ -15,9 +15,9 @@ from pyrofit.diagnose.base.adequacy import lack_of_fit
 from pyrofit.diagnose.base.fit import refitted, with_noise_about
 from pyrofit.diagnose.base.fitted import FittedModel, at_limit
 from pyrofit.diagnose.base.prediction import HELD_OUT, Predictions
-from pyrofit.diagnose.base.projection import project, projector
 from pyrofit.diagnose.judge.inflation import Inflation, factor_of
 from pyrofit.diagnose.settings import SETTINGS
+from pyrofit.estimate.projection import project, projector
 from pyrofit.numerics import linear
 from pyrofit.solver.arrays import FloatArray
 

@@ -15,7 +15,7 @@ import numpy as np
 
 from pyrofit.diagnose.base.fitted import FittedModel
 from pyrofit.diagnose.search.stepwise import Search
-from pyrofit.estimate.noise import LASTING
+from pyrofit.estimate.apparatus import LASTING
 from pyrofit.numerics import linear
 from pyrofit.solver.arrays import FloatArray
 

@@ -4,9 +4,9 @@ from dataclasses import replace
 
 import numpy as np
 
-from pyrofit.diagnose.base.adequacy import Stretch
 from pyrofit.diagnose.base.fitted import FittedModel
 from pyrofit.diagnose.base.model import Model
+from pyrofit.estimate.scan import Stretch
 from pyrofit.experiments import kind_of
 from pyrofit.experiments.base import Course
 from pyrofit.solver.arrays import FloatArray

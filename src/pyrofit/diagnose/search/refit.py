@@ -14,12 +14,12 @@ from pyrofit.diagnose.base.model import (
     name_of,
     strength_of,
 )
-from pyrofit.diagnose.base.projection import project, projector
 from pyrofit.diagnose.search.score_test import Screening, look
 from pyrofit.diagnose.settings import SETTINGS
 from pyrofit.effects import known_effects
 from pyrofit.effects.base import Quantity
 from pyrofit.estimate.posterior import curvature
+from pyrofit.estimate.projection import project, projector
 from pyrofit.numerics import linear
 from pyrofit.parallel import parallel_map
 from pyrofit.solver.arrays import FloatArray

@@ -17,8 +17,8 @@ import numpy as np
 from pyrofit.diagnose.base.adequacy import score
 from pyrofit.diagnose.base.descent import Fit
 from pyrofit.diagnose.base.model import Model, extended, model_of, strength_of
-from pyrofit.diagnose.base.projection import project
 from pyrofit.diagnose.settings import SETTINGS
+from pyrofit.estimate.projection import project
 from pyrofit.numerics import linear
 from pyrofit.solver.arrays import FloatArray
 

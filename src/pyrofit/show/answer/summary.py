@@ -1,25 +1,30 @@
 """The summary of a report in three items."""
 
-from collections.abc import Sequence
-
 from pyrofit.analysis.estimates import by_grade
 from pyrofit.analysis.scores import Score
 from pyrofit.analysis.uses import FITTED, PUBLISHED, fitted_experiments, title_of
 from pyrofit.config import Study
 from pyrofit.show.answer.advice import advice
 from pyrofit.show.facts import Facts
-from pyrofit.show.names import all_scored, named
-from pyrofit.show.text import listed, several, span
+from pyrofit.show.goodness import goodness_sentences
+from pyrofit.show.names import STAGES, all_scored, named
+from pyrofit.show.text import listed, several
 
-_LEAST = 0.7
-"""Chi-square per point below which independent noise is unlikely."""
 _MOST_NAMES = 4
 """Experiments that a sentence names."""
 
 
 def summary(study: Study, facts: Facts) -> list[str]:
-    """Return three items: the fit, the set for predictions, and the determined parameters."""
-    return [_fit(study, facts), advice(study, facts), _determined(facts)]
+    """Return the items: whether the models describe the tests, values, predictions, the fit."""
+    return [*_described(study, facts), _determined(facts), advice(study, facts), _fit(study, facts)]
+
+
+def _described(study: Study, facts: Facts) -> list[str]:
+    """Say for each stage whether its model describes the tests, where not, and what to do."""
+    return [
+        " ".join(goodness_sentences(study, stage, STAGES[stage], found))
+        for stage, found in facts.goodness.items()
+    ]
 
 
 def _fit(study: Study, facts: Facts) -> str:
@@ -32,21 +37,7 @@ def _fit(study: Study, facts: Facts) -> str:
         f"{several(len(study.imp.costs), 'cost function')}, the best sets reproduce "
     )
     text += all_scored(fitted) if fitted else "the fitted data"
-    chi2 = [found.per_point for found in facts.misfits if found.stage == "imp"]
-    return (
-        f"{text}. The best fit of all has a chi-square of {span(chi2)} per point; noise alone "
-        f"gives 1.{_lasting(chi2)}"
-    )
-
-
-def _lasting(chi2: Sequence[float]) -> str:
-    """Say what a chi-square well below 1 means."""
-    if min(chi2) >= _LEAST:
-        return ""
-    return (
-        " Below that, the noise includes a lasting error or scatter between repeats, which may "
-        "hide misfit: look at the residuals."
-    )
+    return f"{text}."
 
 
 def _ours(facts: Facts) -> list[Score]:
@@ -58,8 +49,13 @@ def _determined(facts: Facts) -> str:
     known = facts.estimates
     groups = by_grade(known)
     sure = groups.pop("determined", [])
-    text = f"The data determine {len(sure)} of {several(len(known), 'parameter')} (95 % interval "
-    text += "narrower than 20 % of the search range)"
+    if "apparent value" in groups and not sure:
+        text = "No value can be published as a property of the material from this model"
+    else:
+        text = (
+            f"The data determine {len(sure)} of {several(len(known), 'parameter')} (95 % interval "
+        )
+        text += "narrower than 20 % of the search range)"
     parts = [f"{grade}: {listed([named(e) for e in found])}" for grade, found in groups.items()]
     text = f"{text}; {'; '.join(parts)}." if parts else f"{text}."
     loose = [e.name for e in known if e.grade in ("weakly determined", "undetermined")]

@@ -6,12 +6,11 @@ from itertools import groupby
 from pyrofit.analysis.distances import Distance
 from pyrofit.analysis.estimates import Estimated, by_grade
 from pyrofit.analysis.known_values import Known
-from pyrofit.analysis.misfit import FITS, Misfit
 from pyrofit.analysis.trade_offs import STRONG, TradeOff
-from pyrofit.analysis.uses import title_of
 from pyrofit.config import Study
 from pyrofit.show.facts import Facts
-from pyrofit.show.names import STAGES, named, signal_words
+from pyrofit.show.goodness import goodness_sentences
+from pyrofit.show.names import STAGES, named
 from pyrofit.show.text import listed, signed, span
 
 SHOWN_PAIRS = 5
@@ -19,12 +18,14 @@ SHOWN_PAIRS = 5
 
 
 def sentences(study: Study, facts: Facts) -> list[str]:
-    """Return the sentences of the section: verdicts, correlation, misfit, optimisers."""
-    stages = groupby(facts.misfits, key=lambda found: found.stage)
-    fits = [_misfit(study, STAGES[stage], list(found)) for stage, found in stages]
-    said = [verdicts(facts.estimates), *_known(facts.known), _correlation(facts.estimates)]
+    """Return the sentences of the section: fit, verdicts, correlation, optimisers."""
+    fits = [
+        " ".join(goodness_sentences(study, stage, STAGES[stage], found))
+        for stage, found in facts.goodness.items()
+    ]
+    said = [*fits, verdicts(facts.estimates), *_known(facts.known), _correlation(facts.estimates)]
     said += _compensation(facts.trade_offs)
-    return [*said, " ".join(fits), _optimisers(facts.distances)]
+    return [*said, _optimisers(facts.distances)]
 
 
 def _known(found: Sequence[Known]) -> list[str]:
@@ -84,27 +85,6 @@ def _compensation(found: Sequence[TradeOff]) -> list[str]:
 def _change(name: str, by: float, unit: str) -> str:
     """Return a parameter with a signed change; a number without unit has none."""
     return f"{name} {by:+.2g}".replace("-", "−") + (f" {unit}" if unit != "-" else "")
-
-
-def _misfit(study: Study, fit: str, found: Sequence[Misfit]) -> str:
-    fits = max(one.per_point for one in found) <= FITS
-    said = listed(
-        [
-            f"{one.per_point:#.2g} ({title_of(study, one.experiment)}, "
-            f"{signal_words(study, one.experiment, one.signal)})"
-            for one in found
-            if fits or one.per_point > FITS
-        ]
-    )
-    if fits:
-        return (
-            f"The misfit of the {fit} is within the noise, assumed model discrepancy included: "
-            f"chi-square per point is {said}."
-        )
-    text = f"The optimum of the {fit} does not fit within the noise: chi-square per point is {said}"
-    if sum(one.chi2 for one in found) > sum(one.points for one in found):
-        text += "; the intervals are widened by the root of chi-square per degree of freedom"
-    return f"{text}. The misfit exceeds the noise: the intervals may not contain the true values."
 
 
 def _optimisers(found: Sequence[Distance]) -> str:

@@ -2,20 +2,24 @@
 
 import numpy as np
 
-from pyrofit.diagnose.base.descent import Fit
+from pyrofit.estimate.bounded_least_squares import Fit
 from pyrofit.estimate.posterior import UNIFORM
 from pyrofit.numerics import linear
 from pyrofit.solver.arrays import FloatArray
 
 
 def projector(fit: Fit) -> FloatArray:
-    """Return Q with P w = w - Q Q^T w, up to the limits: the span of the fitted parameters.
-
-    A parameter that rests at a limit does not move.
-    """
+    """Return Q of the parameters of a fit; one that rests at a limit does not move."""
     slope = linear.product(fit.jacobian.T, fit.residuals)
     free = ~((fit.x <= 0.0) & (slope > 0.0)) & ~((fit.x >= 1.0) & (slope < 0.0))
-    J = fit.jacobian[:, free]
+    return spanned_by(fit.jacobian[:, free])
+
+
+def spanned_by(J: FloatArray) -> FloatArray:
+    """Return Q with P w = w - Q Q^T w, up to the limits: the span of the fitted parameters.
+
+    ``J`` has the derivatives of the whitened residuals by the parameters that move.
+    """
     U, s, _ = linear.svd(J)
     # w - J (J^T J + Pi)^-1 J^T w = w - U (s^2/(s^2 + Pi)) U^T w
     return np.asarray(U * np.sqrt(s**2 / (s**2 + UNIFORM)))

@@ -1,0 +1,273 @@
+"""Whether a fitted model describes its signals, tested against their noise.
+
+Two statistics of the whitened residuals are compared with those of noise, projected as the fit
+projects it: the scan of `pyrofit.estimate.scan`, which finds errors that last, and chi-square,
+which finds the others. The p-value is twice the smaller of the two probabilities. Points that
+scatter more than their noise do not count as an error of the model: residuals are first divided by
+their scatter from point to point, where that is larger.
+
+The size of a noise that is not stated comes from the same record, with n - k degrees of freedom for
+a curve of k splines. Chi-square over its own degrees of freedom is then compared with Fisher's F.
+"""
+
+from collections.abc import Iterator
+from dataclasses import dataclass
+
+import numpy as np
+from scipy.special import chdtrc, fdtrc
+
+from pyrofit.estimate.between_repeats import groups_of_repeats
+from pyrofit.estimate.likelihood import Likelihood
+from pyrofit.estimate.noise import NoiseModel
+from pyrofit.estimate.posterior import Posterior
+from pyrofit.estimate.projection import project, spanned_by
+from pyrofit.estimate.repeats_agree import BURNING, HEATED, differences
+from pyrofit.estimate.scan import highest
+from pyrofit.numerics import linear
+from pyrofit.solver.arrays import FloatArray
+
+LEVEL = 0.01
+"""Probability of a false alarm with a model that is right."""
+DRAWS = 1000
+"""Draws of noise that give the distribution of the scan."""
+BLOCK = 100
+"""Draws held in memory at a time."""
+MOST_WINDOWS = 3
+"""Windows of misfit of a signal that are named at most."""
+AVERAGED = 0.01
+"""Half of the window over which a difference is averaged, as a fraction of the record."""
+FAR = 2.0
+"""Standard deviations by which a missed window is off."""
+
+
+@dataclass(frozen=True)
+class Miss:
+    """A window in which a signal is missed.
+
+    Parameters
+    ----------
+    start_s, end_s
+        Its first and last time [s].
+    start_K, end_K
+        Measured temperatures there, where the signal is recorded against them.
+    mean
+        Mean of simulated less measured values, SI unit.
+    """
+
+    start_s: float
+    end_s: float
+    start_K: float | None
+    end_K: float | None
+    mean: float
+
+
+@dataclass(frozen=True)
+class SignalGoodness:
+    """The test of one signal.
+
+    Parameters
+    ----------
+    p
+        Probability that noise alone misses it as much.
+    rms
+        Root mean square of simulated less measured values, SI unit.
+    range
+        Largest less smallest measured value, SI unit.
+    points_sd
+        Median standard deviation of the noise of its points, SI unit.
+    scatter
+        Scatter from point to point over that of the noise, 1 at least.
+    misses
+        Where it is missed, in order of time; nowhere if it is described.
+    """
+
+    experiment: str
+    signal: str
+    p: float
+    rms: float
+    range: float
+    points_sd: float
+    scatter: float
+    misses: tuple[Miss, ...]
+
+
+@dataclass(frozen=True)
+class RepeatDiffers:
+    """A repeat that differs from the others of its test, see `pyrofit.estimate.repeats_agree`."""
+
+    experiment: str
+    signal: str
+    kind: str
+    size: float
+    low: float
+    high: float
+
+
+@dataclass(frozen=True)
+class Goodness:
+    """The test of a fit: of all signals together, of each, and of repeats against each other."""
+
+    p: float
+    signals: tuple[SignalGoodness, ...]
+    repeats: tuple[RepeatDiffers, ...] = ()
+
+    @property
+    def describes(self) -> bool:
+        """Whether the model describes the tests: p is at least `LEVEL`."""
+        return self.p >= LEVEL
+
+    @property
+    def passes(self) -> bool:
+        """Whether the values are those of the sample: it does, and repeats agree."""
+        return self.describes and not self.repeats
+
+
+def goodness_of_fit(likelihood: Likelihood, posterior: Posterior, curves: FloatArray) -> Goodness:
+    """Test the residuals of a fit.
+
+    Parameters
+    ----------
+    likelihood
+        With the noise alone; a discrepancy in it would count as noise.
+    posterior
+        The fit, with its residuals and derivatives.
+    curves
+        The simulated channels there, one after the other, shape (points,).
+    """
+    spanned = spanned_by(posterior.free_jacobian)[: posterior.residuals.size]
+    drawn = _scans_of_noise(likelihood, spanned)
+    worst = drawn.max(axis=1)
+    whole_parts = likelihood.split(posterior.residuals)
+    scatters = [scatter(part) for part in whole_parts]
+    parts = [part / s for part, s in zip(whole_parts, scatters, strict=True)]
+    scans = np.array([highest(part[:, None])[0] for part in parts])
+    used = [float(np.sum(part**2)) for part in likelihood.split(spanned)]
+    of_squares = [
+        _p_of_squares(noise, linear.dot(part, part), part.size - taken)
+        for noise, part, taken in zip(likelihood.noise, parts, used, strict=True)
+    ]
+    of_scans = [_p_of_scan(drawn[:, k], scan) for k, scan in enumerate(scans)]
+    whole = _twice(
+        _p_of_scan(worst, float(scans.max())),
+        min(1.0, len(parts) * min(of_squares)),
+    )
+    signals = tuple(
+        _signal(likelihood, k, _twice(of_scans[k], of_squares[k]), scatters[k], curves)
+        for k in range(len(parts))
+    )
+    return Goodness(whole, signals, tuple(_differing(likelihood)))
+
+
+def _differing(likelihood: Likelihood) -> Iterator[RepeatDiffers]:
+    """Yield the repeats that differ, of tests whose differences no parameter describes."""
+    problem = likelihood.problem
+    for group in groups_of_repeats(problem):
+        temperatures = [problem.temperature_K(i) for i in group]
+        times = [problem.cost.terms[i][1].target.time_s for i in group]
+        heated = temperatures[0] is not None
+        at = [T if T is not None else t for T, t in zip(temperatures, times, strict=True)]
+        values = [problem.cost.terms[i][1].target.value for i in group]
+        for d in differences(at, values, HEATED if heated else BURNING):
+            name, signal, _ = problem.picks[group[d.position]]
+            yield RepeatDiffers(name, signal, d.kind, d.size, d.low, d.high)
+
+
+def scatter(w: FloatArray) -> float:
+    """Return the standard deviation of white residuals from point to point, 1 at least.
+
+    s^2 = sum (w_(i+1) - w_i)^2 / (2 (n - 1)) (von Neumann 1941, doi 10.1214/aoms/1177731677).
+    Errors that last hardly change it. It counts where it is above 1 by more than chance.
+
+    >>> scatter(np.array([0.1, 0.2, 0.1])), scatter(np.tile([3.0, -3.0], 100)) > 4.0
+    (1.0, True)
+    """
+    steps = np.diff(w)
+    if steps.size < 1:
+        return 1.0
+    square = linear.dot(steps, steps) / (2.0 * steps.size)
+    # Its standard deviation is sqrt(3/n) for white noise of unit variance.
+    return float(np.sqrt(square)) if square > 1.0 + FAR * np.sqrt(3.0 / w.size) else 1.0
+
+
+def _scans_of_noise(likelihood: Likelihood, spanned: FloatArray) -> FloatArray:
+    """Return the scan of every channel in draws of noise, shape (draws, channels)."""
+    rng = np.random.default_rng(0)
+    found = []
+    for _ in range(DRAWS // BLOCK):
+        noise = project(spanned, rng.standard_normal((len(spanned), BLOCK)))
+        found.append(np.stack([highest(part) for part in likelihood.split(noise)], axis=1))
+    return np.concatenate(found)
+
+
+def _p_of_scan(drawn: FloatArray, scan: float) -> float:
+    return float(1 + np.count_nonzero(drawn >= scan)) / (1 + drawn.size)
+
+
+def _p_of_squares(noise: NoiseModel, squares: float, freedom: float) -> float:
+    freedom = max(freedom, 1.0)
+    if noise.splines == 0 or (noise.stated and noise.excess == 1.0):
+        return float(chdtrc(freedom, squares))
+    return float(fdtrc(freedom, max(noise.sd.size - noise.splines, 1), squares / freedom))
+
+
+def _twice(*p: float) -> float:
+    return min(1.0, 2.0 * min(p))
+
+
+def _signal(
+    likelihood: Likelihood, channel: int, p: float, scatter_of: float, curves: FloatArray
+) -> SignalGoodness:
+    experiment, signal, _ = likelihood.problem.picks[channel]
+    noise, target = likelihood.noise[channel], likelihood.problem.cost.terms[channel][1].target
+    difference = likelihood.split(curves)[channel] - target.value
+    temperature = likelihood.problem.temperature_K(channel)
+    windows = [] if p >= LEVEL else missed(difference, noise.total_sd)
+    return SignalGoodness(
+        experiment=experiment,
+        signal=signal,
+        p=p,
+        rms=float(np.sqrt(np.mean(difference**2))),
+        range=float(np.ptp(target.value)),
+        points_sd=float(np.median(noise.sd)),
+        scatter=scatter_of,
+        misses=tuple(_miss(*w, target.time_s, temperature, difference) for w in windows),
+    )
+
+
+def missed(difference: FloatArray, sd: FloatArray) -> list[tuple[int, int]]:
+    """Return where a series is off to one side, first and last point, the largest of these first.
+
+    The difference is averaged over `AVERAGED` of the record, and exceeds `FAR` standard deviations
+    there; if it does so nowhere, all of the record counts.
+
+    Parameters
+    ----------
+    difference
+        Simulated less measured values, shape (n,).
+    sd
+        Standard deviation of the noise with its lasting errors, shape (n,).
+    """
+    n = difference.size
+    width = max(1, round(AVERAGED * n))
+    total = np.concatenate([[0.0], np.cumsum(difference / sd)])
+    low, high = np.maximum(np.arange(n) - width, 0), np.minimum(np.arange(n) + width + 1, n)
+    mean = (total[high] - total[low]) / (high - low)
+    sign = np.where(np.abs(mean) > FAR, np.sign(mean), 0.0)
+    edges = np.flatnonzero(np.diff(sign)) + 1
+    runs = zip([0, *edges.tolist()], [*edges.tolist(), n], strict=True)
+    found = [(a, b - 1) for a, b in runs if sign[a]] or [(0, n - 1)]
+    size = {w: abs(float(np.sum(mean[w[0] : w[1] + 1]))) for w in found}
+    return sorted(sorted(found, key=lambda w: -size[w])[:MOST_WINDOWS])
+
+
+def _miss(
+    first: int,
+    last: int,
+    time: FloatArray,
+    temperature: FloatArray | None,
+    difference: FloatArray,
+) -> Miss:
+    ends = (None, None) if temperature is None else (temperature[first], temperature[last])
+    low, high = (None if T is None else float(T) for T in ends)
+    mean = float(np.mean(difference[first : last + 1]))
+    return Miss(float(time[first]), float(time[last]), low, high, mean)

@@ -1,0 +1,97 @@
+"""Whether a model describes its tests, in sentences."""
+
+from collections.abc import Iterator
+
+from pyrofit.config import Study
+from pyrofit.estimate.goodness import LEVEL, Goodness, Miss, RepeatDiffers, SignalGoodness
+from pyrofit.show.text import listed, several
+from pyrofit.show.units import celsius, difference, difference_unit
+
+MOST_NAMED = 3
+"""Signals that a sentence names at most."""
+NEXT = {
+    "kinetics": "More reactions may describe them: run the step scheme",
+    "imp": "The step diagnose searches the missing effect",
+}
+"""Next step after a misfit, by stage."""
+
+
+def verdict_words(fit: str, found: Goodness) -> str:
+    """Return one sentence: whether the model of a fit, in words, describes its tests."""
+    model = f"The model of the {fit}" if fit else "The model"
+    if found.describes:
+        return f"{model} describes the tests: its misfit is within their noise (p = {found.p:.2g})."
+    worst = max(found.signals, key=lambda s: s.rms / s.range if s.range else 0.0)
+    share = 100.0 * worst.rms / worst.range if worst.range else 0.0
+    missed = sum(s.p < LEVEL for s in found.signals)
+    return (
+        f"{model} does not describe the tests: it misses {missed or 1} of "
+        f"{several(len(found.signals), 'signal')} by more than noise does (p {_below(found.p)}). "
+        f"The rms misfit is at most {share:.2g} % of a signal's range."
+    )
+
+
+def goodness_sentences(study: Study, stage: str, fit: str, found: Goodness) -> list[str]:
+    """Return the verdict, the windows of misfit, repeats that differ, and what follows."""
+    said = [verdict_words(fit, found)]
+    if not found.describes:
+        missed = sorted(
+            (s for s in found.signals if s.misses), key=lambda s: s.rms / max(s.range, 1e-300)
+        )[::-1]
+        said += [_where(study, s) for s in missed[:MOST_NAMED]]
+        said.append(
+            "Its values are apparent values of this model, and their intervals include the "
+            f"misfit. {NEXT[stage]}."
+        )
+    said += list(_repeats(study, found))
+    return said
+
+
+def _where(study: Study, s: SignalGoodness) -> str:
+    experiment = study.experiments[s.experiment]
+    quantity = experiment.quantity(s.signal)
+    unit = difference_unit(quantity)
+    windows = [_window(w, float(difference(quantity, w.mean)), unit) for w in s.misses]
+    return f"{s.experiment}, {experiment.words(s.signal)}: simulated {listed(windows)}."
+
+
+def _window(w: Miss, mean: float, unit: str) -> str:
+    side = "too high" if mean > 0.0 else "too low"
+    size = f"{abs(mean):.2g}" + ("" if unit in ("–", "-") else f" {unit}")
+    if w.start_K is None or w.end_K is None:
+        return f"{size} {side} from {w.start_s:.0f} to {w.end_s:.0f} s"
+    low, high = celsius(w.start_K), celsius(w.end_K)
+    return f"{size} {side} from {low:.0f} to {high:.0f} °C"
+
+
+def _repeats(study: Study, found: Goodness) -> Iterator[str]:
+    for r in found.repeats:
+        yield f"{r.experiment} {repeat_words(study, r)} Leave it out, or explain it."
+
+
+def repeat_words(study: Study, r: RepeatDiffers) -> str:
+    """Say in what a repeat differs from the others of its test."""
+    words = study.experiments[r.experiment].words(r.signal)
+    heated = study.experiments[r.experiment].quantity(r.signal).against_temperature
+    return differs(r.kind, r.size, r.low, r.high, words, heated)
+
+
+def differs(kind: str, size: float, low: float, high: float, words: str, heated: bool) -> str:
+    """Say in what a record differs from its repeats."""
+    said = f"differs from its repeats: its {words}"
+    if kind == "start":
+        unit, earlier, later = ("K", "lower", "higher") if heated else ("s", "earlier", "later")
+        return f"{said} changes {abs(size):.0f} {unit} {later if size > 0.0 else earlier}."
+    if kind == "level":
+        more = "more" if size > 0.0 else "less"
+        return f"{said} changes {100.0 * abs(size):.0f} % {more} in all."
+    unit = "°C" if heated else "s"
+    low, high = (celsius(low), celsius(high)) if heated else (low, high)
+    return (
+        f"{said} has another shape, by {100.0 * size:.0f} % of the range (rms), most from "
+        f"{low:.0f} to {high:.0f} {unit}."
+    )
+
+
+def _below(p: float) -> str:
+    return "< 0.001" if p < 1e-3 else f"= {p:.2g}"
