@@ -7,10 +7,10 @@ import numpy as np
 import pytest
 
 from pyrofit.diagnose.base.adequacy import LackOfFit, lack_of_fit
-from pyrofit.estimate.scan import Stretch, windows_of
-from pyrofit.estimate.projection import project, projector
 from pyrofit.diagnose.search.refit import look_at
 from pyrofit.diagnose.settings import SETTINGS
+from pyrofit.estimate.projection import project, projector
+from pyrofit.estimate.scan import Stretch, windows_of
 from pyrofit.solver.arrays import FloatArray
 
 COLUMNS = linear.random_columns(2, "k_T", "c_T", "heater_ramp", "back_loss", size=30.0)

@@ -8,11 +8,11 @@ from small import TRUTH, base_of, study
 from pyrofit.config import candidate_effects
 from pyrofit.diagnose.base.descent import Fit
 from pyrofit.diagnose.base.model import extended, fraction, model_of, strength_of
-from pyrofit.estimate.projection import project, projector
 from pyrofit.diagnose.search.refit import look_at
 from pyrofit.diagnose.search.score_test import Screening, confusability, tried
 from pyrofit.effects import known_effects
 from pyrofit.estimate.posterior import UNIFORM
+from pyrofit.estimate.projection import project, projector
 from pyrofit.solver.arrays import FloatArray
 
 

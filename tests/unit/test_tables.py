@@ -14,8 +14,9 @@ from pyrofit.config import Study, as_study
 from pyrofit.errors import StudyError
 from pyrofit.estimate.optimisers import OPTIMISERS
 from pyrofit.quantities import known_quantities
-from pyrofit.results import searches
+from pyrofit.results import goodness, searches
 from pyrofit.results.files import Results, read_csv, write_csv, write_json
+from pyrofit.results.goodness import Goodness, Miss, SignalGoodness
 from pyrofit.show.costs.table5 import table5
 from pyrofit.show.facts import facts_of
 from pyrofit.show.fit.table4 import flags
@@ -249,6 +250,9 @@ def _identification(study: Study, results: Results) -> None:
         results.identification("noise.json"),
         {"channels": [channel], "chi2": 72.0, "freedom": 18, "dispersion": 4.0},
     )
+    window = Miss(20.0, 60.0, None, None, -3e-4)
+    missed = SignalGoodness("slab_25", "mlr", 0.002, 4e-4, 8e-3, 2e-4, 1.0, (window,))
+    goodness.write(results, "imp", Goodness(0.002, (missed,)))
     time = np.arange(5.0, 105.0, 5.0)
     curves = [
         pd.DataFrame({"time_s": time, "si": size * time, "whitened": time}).assign(
@@ -265,6 +269,8 @@ def _identification(study: Study, results: Results) -> None:
         channel |= {"experiment": "slow", "signal": "mass_fraction", "chi2": 20.0}
         content = {"channels": [channel], "chi2": 20.0, "freedom": 19, "dispersion": 1.0}
         write_json(results.identification("noise.json", "kinetics"), content)
+        described = SignalGoodness("slow", "mass_fraction", 0.4, 5e-4, 1.0, 5e-4, 1.0, ())
+        goodness.write(results, "kinetics", Goodness(0.4, (described,)))
     sets = [
         {"cost_function": cost, "set": label, "chi2": 90.0 * n, "k": -0.5 * n, "cp": 1.0 * n}
         for cost in study.imp.costs

@@ -14,8 +14,8 @@ from pyrofit.api.measurements import Data
 from pyrofit.api.report import Report, html_of, text_of
 from pyrofit.config import Study
 from pyrofit.errors import StudyError
-from pyrofit.estimate.goodness import Goodness
 from pyrofit.numerics import functions
+from pyrofit.results.goodness import Goodness
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes

@@ -11,7 +11,6 @@ a curve of k splines. Chi-square over its own degrees of freedom is then compare
 """
 
 from collections.abc import Iterator
-from dataclasses import dataclass
 
 import numpy as np
 from scipy.special import chdtrc, fdtrc
@@ -24,10 +23,9 @@ from pyrofit.estimate.projection import project, spanned_by
 from pyrofit.estimate.repeats_agree import BURNING, HEATED, differences
 from pyrofit.estimate.scan import highest
 from pyrofit.numerics import linear
+from pyrofit.results.goodness import LEVEL, Goodness, Miss, RepeatDiffers, SignalGoodness
 from pyrofit.solver.arrays import FloatArray
 
-LEVEL = 0.01
-"""Probability of a false alarm with a model that is right."""
 DRAWS = 1000
 """Draws of noise that give the distribution of the scan."""
 BLOCK = 100
@@ -38,88 +36,6 @@ AVERAGED = 0.01
 """Half of the window over which a difference is averaged, as a fraction of the record."""
 FAR = 2.0
 """Standard deviations by which a missed window is off."""
-
-
-@dataclass(frozen=True)
-class Miss:
-    """A window in which a signal is missed.
-
-    Parameters
-    ----------
-    start_s, end_s
-        Its first and last time [s].
-    start_K, end_K
-        Measured temperatures there, where the signal is recorded against them.
-    mean
-        Mean of simulated less measured values, SI unit.
-    """
-
-    start_s: float
-    end_s: float
-    start_K: float | None
-    end_K: float | None
-    mean: float
-
-
-@dataclass(frozen=True)
-class SignalGoodness:
-    """The test of one signal.
-
-    Parameters
-    ----------
-    p
-        Probability that noise alone misses it as much.
-    rms
-        Root mean square of simulated less measured values, SI unit.
-    range
-        Largest less smallest measured value, SI unit.
-    points_sd
-        Median standard deviation of the noise of its points, SI unit.
-    scatter
-        Scatter from point to point over that of the noise, 1 at least.
-    misses
-        Where it is missed, in order of time; nowhere if it is described.
-    """
-
-    experiment: str
-    signal: str
-    p: float
-    rms: float
-    range: float
-    points_sd: float
-    scatter: float
-    misses: tuple[Miss, ...]
-
-
-@dataclass(frozen=True)
-class RepeatDiffers:
-    """A repeat that differs from the others of its test, see `pyrofit.estimate.repeats_agree`."""
-
-    experiment: str
-    signal: str
-    kind: str
-    size: float
-    low: float
-    high: float
-
-
-@dataclass(frozen=True)
-class Goodness:
-    """The test of a fit: of all signals together, of each, and of repeats against each other."""
-
-    p: float
-    signals: tuple[SignalGoodness, ...]
-    repeats: tuple[RepeatDiffers, ...] = ()
-
-    @property
-    def describes(self) -> bool:
-        """Whether the model describes the tests: p is at least `LEVEL`."""
-        return self.p >= LEVEL
-
-    @property
-    def passes(self) -> bool:
-        """Whether the values are those of the sample: it does, and repeats agree."""
-        return self.describes and not self.repeats
 
 
 def goodness_of_fit(likelihood: Likelihood, posterior: Posterior, curves: FloatArray) -> Goodness:

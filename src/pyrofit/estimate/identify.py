@@ -13,12 +13,13 @@ import numpy as np
 
 from pyrofit.constants import QUANTILE
 from pyrofit.estimate.bounded_least_squares import Fit
-from pyrofit.estimate.goodness import Goodness, goodness_of_fit
+from pyrofit.estimate.goodness import goodness_of_fit
 from pyrofit.estimate.likelihood import Likelihood, fit
 from pyrofit.estimate.posterior import Posterior, interval, limit_of
 from pyrofit.estimate.profile import Interval, Profile, profile_of
 from pyrofit.estimate.wrong_model import covariance_of_misfit
 from pyrofit.numerics import linear
+from pyrofit.results.goodness import Goodness
 from pyrofit.solver.arrays import FloatArray
 
 DETERMINED = 0.20

@@ -5,9 +5,9 @@ from typing import Any, NamedTuple
 import pandas as pd
 
 from pyrofit.config import Study
-from pyrofit.estimate.goodness import Goodness
 from pyrofit.results import goodness
 from pyrofit.results.files import Results, read_csv, read_json
+from pyrofit.results.goodness import Goodness
 from pyrofit.results.needed import EACH
 
 _SETS: dict[str, type] = {"set": object, "chi2": float}

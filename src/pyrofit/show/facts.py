@@ -16,10 +16,10 @@ from pyrofit.analysis.trade_offs import TradeOff, trade_offs
 from pyrofit.analysis.uses import predicted_labels
 from pyrofit.analysis.wall_times import wall_times
 from pyrofit.config import Study
-from pyrofit.estimate.goodness import Goodness
 from pyrofit.estimate.optimisers import OPTIMISERS
 from pyrofit.results import identification, posterior, prediction, searches
 from pyrofit.results.files import Results
+from pyrofit.results.goodness import Goodness
 from pyrofit.show.table import Frames
 
 

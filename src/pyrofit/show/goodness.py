@@ -3,7 +3,7 @@
 from collections.abc import Iterator
 
 from pyrofit.config import Study
-from pyrofit.estimate.goodness import LEVEL, Goodness, Miss, RepeatDiffers, SignalGoodness
+from pyrofit.results.goodness import LEVEL, Goodness, Miss, RepeatDiffers, SignalGoodness
 from pyrofit.show.text import listed, several
 from pyrofit.show.units import celsius, difference, difference_unit
 
