@@ -165,6 +165,7 @@ _PAGES = {
 
 
 def _check(given: argparse.Namespace) -> None:
+    from pyrofit.analysis.repeats import DIFFERS
     from pyrofit.config import read_study
     from pyrofit.config.programs import externals
     from pyrofit.config.unusual import unusual
@@ -185,10 +186,11 @@ def _check(given: argparse.Namespace) -> None:
     if marked:
         lines = f"{'lines' if len(marked) > 1 else 'line'} {', '.join(map(str, marked))}"
         sentences.append(f"set the values marked {MARK} and delete this word: {lines}")
+    sentences += [note for _, about in read.values() for note in about["notes"] if DIFFERS in note]
     for sentence in sentences:
         print(f"warning: {given.study}: {sentence}", file=sys.stderr)
     print(
-        f"{given.study}: study '{study.name}' is valid; {read} measured series read; "
+        f"{given.study}: study '{study.name}' is valid; {len(read)} measured series read; "
         f"{runs} repetitions in all"
     )
 

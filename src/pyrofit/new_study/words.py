@@ -3,6 +3,7 @@
 import json
 from collections.abc import Iterable, Mapping
 
+from pyrofit.analysis.repeats import lines_on_repeats
 from pyrofit.new_study.columns import Found
 from pyrofit.new_study.draft import Measured, divisor_of, is_told
 from pyrofit.new_study.plan import Part
@@ -97,12 +98,18 @@ def assumed(records: Iterable[Measured]) -> list[str]:
 
 def said_of_repeats(tests: Iterable[Measured]) -> list[str]:
     """Say which files are taken as repeats of one test."""
-    return [
-        f"{', '.join(run.name for run in test.repeats)}: taken as repeats of {test.name}; "
-        "change that in the study where they are not"
-        for test in tests
-        if test.repeats
-    ]
+    lines = []
+    for test in (test for test in tests if test.repeats):
+        lines.append(
+            f"{', '.join(run.name for run in test.repeats)}: taken as repeats of {test.name}; "
+            "change that in the study where they are not"
+        )
+        for found in test.repeats[0].signals:
+            runs = [run for run in test.repeats if found.quantity in run.frames]
+            if len(runs) > 1:
+                frames = [run.frames[found.quantity] for run in runs]
+                lines += lines_on_repeats(found.of, [run.name for run in runs], frames)
+    return lines
 
 
 def _remark(run: Measured, found: Found) -> str:

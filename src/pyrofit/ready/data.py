@@ -15,7 +15,7 @@ def data(situation: Situation) -> Iterator[Finding]:
         yield _data_base()
         return
     try:
-        read = check_measurements(study, study.name)
+        read = len(check_measurements(study, study.name))
     except (CostError, DataError) as error:
         yield Finding("error", "data", str(error))
         return

@@ -2,8 +2,9 @@
 
 from collections.abc import Iterator
 
+from pyrofit.analysis.repeats import WAY_OUT, differs
 from pyrofit.config import Study
-from pyrofit.results.goodness import LEVEL, Goodness, Miss, RepeatDiffers, SignalGoodness
+from pyrofit.results.goodness import LEVEL, Goodness, Miss, SignalGoodness
 from pyrofit.show.text import listed, several
 from pyrofit.show.units import celsius, difference, difference_unit
 
@@ -66,31 +67,9 @@ def _window(w: Miss, mean: float, unit: str) -> str:
 
 def _repeats(study: Study, found: Goodness) -> Iterator[str]:
     for r in found.repeats:
-        yield f"{r.experiment} {repeat_words(study, r)} Leave it out, or explain it."
-
-
-def repeat_words(study: Study, r: RepeatDiffers) -> str:
-    """Say in what a repeat differs from the others of its test."""
-    words = study.experiments[r.experiment].words(r.signal)
-    heated = study.experiments[r.experiment].quantity(r.signal).against_temperature
-    return differs(r.kind, r.size, r.low, r.high, words, heated)
-
-
-def differs(kind: str, size: float, low: float, high: float, words: str, heated: bool) -> str:
-    """Say in what a record differs from its repeats."""
-    said = f"differs from its repeats: its {words}"
-    if kind == "start":
-        unit, earlier, later = ("K", "lower", "higher") if heated else ("s", "earlier", "later")
-        return f"{said} changes {abs(size):.0f} {unit} {later if size > 0.0 else earlier}."
-    if kind == "level":
-        more = "more" if size > 0.0 else "less"
-        return f"{said} changes {100.0 * abs(size):.0f} % {more} in all."
-    unit = "°C" if heated else "s"
-    low, high = (celsius(low), celsius(high)) if heated else (low, high)
-    return (
-        f"{said} has another shape, by {100.0 * size:.0f} % of the range (rms), most from "
-        f"{low:.0f} to {high:.0f} {unit}."
-    )
+        quantity = study.experiments[r.experiment].quantity(r.signal)
+        said = differs(r.kind, r.size, r.low, r.high, quantity)
+        yield f"{r.experiment} {said}. {WAY_OUT}."
 
 
 def _below(p: float) -> str:

@@ -8,6 +8,7 @@ from typing import Any
 import pandas as pd
 
 from pyrofit.analysis.agreement import disagreements
+from pyrofit.analysis.repeats import notes_on_repeats
 from pyrofit.config import Study, TermSpec
 from pyrofit.data.csvfile import Table, read_table
 from pyrofit.data.download import FOLDER_VARIABLE
@@ -27,8 +28,10 @@ Read = tuple[pd.DataFrame, dict[str, Any]]
 """A series in SI units, and facts about it."""
 
 
-def check_measurements(study: Study, source: str, macfp: bool = True) -> int:
-    """Read the measured files and try the costs on them; return the number of series.
+def check_measurements(
+    study: Study, source: str, macfp: bool = True
+) -> dict[tuple[str, str], Read]:
+    """Read the measured files and try the costs on them; return the series.
 
     The workflow does so before it plans anything, as a step that fails loses its earlier results.
     It leaves out the files of the MaCFP data base, whose checksums are known.
@@ -47,7 +50,7 @@ def check_measurements(study: Study, source: str, macfp: bool = True) -> int:
         check_terms(study, {key: frame for key, (frame, _) in series.items()})
     except (CostError, DataError) as error:
         raise type(error)(f"{source}: {error}") from None
-    return len(series)
+    return series
 
 
 def read_all(study: Study, macfp: bool = True) -> dict[tuple[str, str], Read]:
@@ -74,6 +77,8 @@ def read_all(study: Study, macfp: bool = True) -> dict[tuple[str, str], Read]:
             # One file may serve several experiments.
             if not any(line.endswith(str(error)) for line in wrong):
                 wrong.append(f"{_place(name, label)}: {error}")
+    for key, note in notes_on_repeats(study, {key: frame for key, (frame, _) in series.items()}):
+        series[key][1]["notes"].append(f"{key[0]} {note}")
     if len(wrong) == 1:
         raise DataError(wrong[0])
     if wrong:

@@ -1,0 +1,122 @@
+"""A fit is tested: right models pass, lasting misfits are found and told."""
+
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+import pytest
+
+import pyrofit as pf
+from pyrofit.estimate.goodness import missed, scatter
+from pyrofit.new_study.write import init
+from pyrofit.solver.arrays import FloatArray
+
+R = 8.314462618
+RATES = (5.0, 10.0, 20.0)
+T = np.linspace(420.0, 860.0, 12001)
+SHARE = slice(None, None, 60)
+
+
+def factor(peak_K: float, E: float) -> float:
+    """Return A of a reaction with its peak at 10 K/min."""
+    return E / 6.0 / (R * peak_K**2) * np.exp(E / (R * peak_K))
+
+
+def mass(rate: float, reactions: list[tuple[float, float, float]], order: float) -> FloatArray:
+    """Return the mass fraction of parallel reactions (share, peak, E), residue 0.1."""
+    total = np.full(T.size, 0.1)
+    for share, peak, E in reactions:
+        k = factor(peak, E) * np.exp(-E / (R * T)) * 60.0 / rate
+        x = np.concatenate([[0.0], np.cumsum(0.5 * (k[1:] + k[:-1]) * np.diff(T))])
+        left = (
+            np.exp(-x)
+            if order == 1.0
+            else np.maximum(1.0 + (order - 1.0) * x, 0.0) ** (1.0 / (1.0 - order))
+        )
+        total += 0.9 * share * left
+    return total
+
+
+def fit_of(folder: Path, curves: dict[str, FloatArray], rates: dict[str, float]) -> pf.Fit:
+    """Return the fit of one reaction, as a new study has it, to TGA of the masses with noise."""
+    files = []
+    for k, (name, values) in enumerate(curves.items()):
+        noisy = values[SHARE] + 5e-4 * np.random.default_rng(k + 11).standard_normal(201)
+        at = T[SHARE]
+        rows = np.column_stack([(at - at[0]) / rates[name] * 60.0, at, noisy])
+        files.append(folder / f"{name}.csv")
+        head = "Time (s),Temperature (K),Mass (-)"
+        np.savetxt(files[-1], rows, "%.6f", ",", header=head, comments="")
+    return pf.fit(init("x", {"tga": files}, folder)[0], profiles=False)
+
+
+def at_rates(reactions: list[tuple[float, float, float]], order: float = 1.0) -> Any:
+    curves = {f"t_N2_{rate:g}K": mass(rate, reactions, order) for rate in RATES}
+    return curves, {f"t_N2_{rate:g}K": rate for rate in RATES}
+
+
+ONE = [(1.0, 610.0, 180e3)]
+
+
+@pytest.mark.solver
+def test_right_model_passes_and_its_values_are_determined(tmp_path: Path) -> None:
+    fit = fit_of(tmp_path, *at_rates(ONE))
+    assert fit.goodness is not None
+    assert fit.goodness.passes
+    assert set(fit.table["verdict"]) == {"determined"}
+    assert fit.table.loc["E_p", "low"] < 180.0 < fit.table.loc["E_p", "high"]
+    assert "describes the tests" in fit.verdict[0]
+    assert fit.signals["noise_sd"].to_numpy() == pytest.approx(5e-4, rel=0.3)
+
+
+@pytest.mark.solver
+@pytest.mark.parametrize(
+    ("reactions", "order"),
+    [(ONE, 1.5), ([(0.5, 585.0, 170e3), (0.5, 635.0, 190e3)], 1.0)],
+    ids=["order 1.5", "two reactions"],
+)
+def test_wrong_model_is_told_and_determines_nothing(
+    tmp_path: Path, reactions: list[tuple[float, float, float]], order: float
+) -> None:
+    fit = fit_of(tmp_path, *at_rates(reactions, order))
+    assert fit.goodness is not None
+    assert not fit.goodness.describes
+    assert "determined" not in set(fit.table["verdict"])
+    if order != 1.0:
+        # Where there is one energy, the interval of the wrong order holds it.
+        assert fit.table.loc["E_p", "low"] < 180.0 < fit.table.loc["E_p", "high"]
+    text = str(fit)
+    assert "does not describe the tests" in text
+    assert "°C" in fit.verdict[1]
+    assert "scheme" in text
+
+
+@pytest.mark.solver
+def test_repeats_that_disagree_are_told_and_determine_nothing(tmp_path: Path) -> None:
+    names = [f"t_N2_10K_{k}" for k in (1, 2, 3)]
+    curve = mass(10.0, ONE, 1.0)
+    curves = dict.fromkeys(names, curve) | {names[0]: np.interp(T + 26.0, T, curve)}
+    fit = fit_of(tmp_path, curves, dict.fromkeys(names, 10.0))
+    assert fit.goodness is not None
+    (found,) = fit.goodness.repeats
+    assert (found.experiment, found.kind) == (names[0], "start")
+    assert found.size == pytest.approx(-26.0, abs=1.0)
+    assert "determined" not in set(fit.table["verdict"])
+    assert any("26 K lower" in line for line in fit.verdict)
+
+
+def test_scatter_from_point_to_point_ignores_what_lasts() -> None:
+    white = np.random.default_rng(0).standard_normal(400)
+    lasting = 5.0 * np.sin(np.linspace(0.0, 6.0, 400))
+    assert scatter(white) == 1.0
+    assert scatter(white + lasting) == 1.0
+    assert scatter(3.0 * white) == pytest.approx(3.0, rel=0.1)
+
+
+def test_missed_windows_are_those_that_are_off() -> None:
+    off = np.zeros(400)
+    off[100:180], off[300:320] = 0.1, -0.2
+    sd = np.full(400, 0.01)
+    windows = missed(off + 1e-3 * np.random.default_rng(1).standard_normal(400), sd)
+    assert [pytest.approx(w, abs=4) for w in ((100, 179), (300, 319))] == windows
+    assert missed(np.zeros(50), np.ones(50)) == [(0, 49)]
