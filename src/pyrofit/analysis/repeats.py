@@ -1,82 +1,66 @@
-"""Repeats of a test that disagree, in words."""
+"""Repeats of tests: their signals, and their differences beside the stated scatter."""
 
-from collections.abc import Iterable, Iterator, Mapping, Sequence
+from collections.abc import Iterable
+from dataclasses import dataclass
 
-import numpy as np
-import pandas as pd
-
+from pyrofit.analysis.estimates import Estimated
 from pyrofit.config import Study
-from pyrofit.estimate.repeats_agree import BURNING, HEATED, Difference, differences
-from pyrofit.quantities.base import Quantity
-from pyrofit.quantities.units import ICE_POINT_K
-
-TEMPERATURE = "temperature_K"
 
 
-def differing_repeats(quantity: Quantity, frames: Sequence[pd.DataFrame]) -> list[Difference]:
-    """Return the series of one quantity that differ from the others, in SI units."""
-    heated = quantity.against_temperature
-    if heated and not all(TEMPERATURE in frame for frame in frames):
-        return []
-    key = TEMPERATURE if heated else "time_s"
-    rising = [_rising(frame, key, quantity.column) for frame in frames]
-    at, values = zip(*rising, strict=True)
-    return differences(at, values, HEATED if heated else BURNING)
+@dataclass(frozen=True)
+class Differing:
+    """A value that differs between repeats: the key of its standard deviation, and its estimate."""
+
+    key: str
+    null: float
+    sd: float
+    estimate: Estimated
+
+    @property
+    def away_sd(self) -> float:
+        """(estimate - value of no difference) / stated standard deviation."""
+        return (self.estimate.value - self.null) / self.sd
 
 
-def _rising(frame: pd.DataFrame, key: str, column: str) -> tuple[np.ndarray, np.ndarray]:
-    """Return abscissa and values where the abscissa is above all before."""
-    at = frame[key].to_numpy(np.float64)
-    new = np.concatenate([[True], at[1:] > np.maximum.accumulate(at)[:-1]])
-    return at[new], frame[column].to_numpy(np.float64)[new]
+@dataclass(frozen=True)
+class Repeated:
+    """One repeat of a test: its signals, those of other repeats that it lacks, its differences."""
+
+    test: str
+    name: str
+    signals: tuple[str, ...]
+    missing: tuple[str, ...]
+    differing: tuple[Differing, ...]
 
 
-def notes_on_repeats(
-    study: Study, frames: Mapping[tuple[str, str], pd.DataFrame]
-) -> Iterator[tuple[tuple[str, str], str]]:
-    """Yield (experiment, signal) and a note for each series that differs from its repeats."""
-    groups: dict[tuple[str, str], list[str]] = {}
-    for name, signal in frames:
-        repeat = study.experiments[name].repeat
-        if repeat is not None and not repeat.nuisances:
-            groups.setdefault((repeat.test, signal), []).append(name)
-    for (_, signal), names in groups.items():
-        experiment = study.experiments[names[0]]
-        if len(names) < 2 or len({study.experiments[n].signals[signal].file for n in names}) == 1:
+def repeated(study: Study, estimates: Iterable[Estimated]) -> list[Repeated]:
+    """Return all repeats of the study's tests, in its order."""
+    by_name = {e.name: e for e in estimates}
+    of_tests: dict[str, dict[str, None]] = {}
+    for experiment in study.experiments.values():
+        if experiment.repeat is not None:
+            signals = dict.fromkeys(experiment.signals)
+            of_tests.setdefault(experiment.repeat.test, {}).update(signals)
+    found = []
+    tests = _tests(study)
+    for name, experiment in study.experiments.items():
+        if experiment.repeat is None or experiment.repeat.test not in tests:
             continue
-        quantity = experiment.quantity(signal)
-        for d in differing_repeats(quantity, [frames[name, signal] for name in names]):
-            words = differs(d.kind, d.size, d.low, d.high, quantity)
-            yield (names[d.position], signal), f"{words}. {WAY_OUT}"
+        test, nuisances = experiment.repeat.test, experiment.repeat.nuisances
+        known = {key: study.known[p] for key, p in nuisances.items() if p in by_name}
+        differing = [Differing(k, v.value, v.sd, by_name[nuisances[k]]) for k, v in known.items()]
+        own = tuple(experiment.signals)
+        missing = tuple(s for s in of_tests[test] if s not in own)
+        found.append(Repeated(test, name, own, missing, tuple(differing)))
+    return found
 
 
-DIFFERS = "differs from its repeats"
-WAY_OUT = "Leave it out, or explain it"
+def has_repeats(study: Study) -> bool:
+    """Tell whether a test of the study is repeated."""
+    return bool(_tests(study))
 
 
-def differs(kind: str, size: float, low: float, high: float, quantity: Quantity) -> str:
-    """Say in what a record differs from its repeats, see `pyrofit.estimate.repeats_agree`."""
-    heated = quantity.against_temperature
-    said = f"{DIFFERS}: the {quantity.title}"
-    if kind == "start":
-        unit, earlier, later = ("K", "lower", "higher") if heated else ("s", "earlier", "later")
-        return f"{said} changes {abs(size):.0f} {unit} {later if size > 0.0 else earlier}"
-    if kind == "level":
-        more = "more" if size > 0.0 else "less"
-        return f"{said} changes {100.0 * abs(size):.0f} % {more} in all"
-    zero, unit = (ICE_POINT_K, "°C") if heated else (0.0, "s")
-    return (
-        f"{said} has another shape, by {100.0 * size:.0f} % of the range (rms), most from "
-        f"{low - zero:.0f} to {high - zero:.0f} {unit}"
-    )
-
-
-def lines_on_repeats(
-    quantity: Quantity, names: Iterable[str], frames: Sequence[pd.DataFrame]
-) -> list[str]:
-    """Return a line for each of some named series that differs from the others."""
-    found = list(names)
-    return [
-        f"{found[d.position]} {differs(d.kind, d.size, d.low, d.high, quantity)}. {WAY_OUT}"
-        for d in differing_repeats(quantity, frames)
-    ]
+def _tests(study: Study) -> set[str]:
+    """Return the names of the tests with several records."""
+    tests = [e.repeat.test for e in study.experiments.values() if e.repeat is not None]
+    return {test for test in tests if tests.count(test) > 1}

@@ -165,7 +165,7 @@ _PAGES = {
 
 
 def _check(given: argparse.Namespace) -> None:
-    from pyrofit.analysis.repeats import DIFFERS
+    from pyrofit.analysis.differing_repeats import DIFFERS
     from pyrofit.config import read_study
     from pyrofit.config.programs import externals
     from pyrofit.config.unusual import unusual

@@ -2,8 +2,9 @@
 
 One record does not show them, since a smooth curve follows them as it follows the sample. They are
 taken as random effects of the record, u = U z with z ~ N(0, I), that add U U^T to the covariance of
-its noise. With a curve f(t), a drift of standard deviation d that lasts over 10 % of the record, a
-relative error s of the sensitivity, and errors T of the temperature and c of the clock,
+its noise. For a curve f(t) they are a drift of standard deviation d, which lasts over 10 % of the
+record, and a relative error s of the sensitivity. T is the error of the temperature, c that of the
+clock:
 
     U U^T = d^2 exp(-|t - t'|/l) + s^2 f f^T + T^2 (df/dT) (df/dT)^T
             + c^2 (df/dt) (df/dt)^T.

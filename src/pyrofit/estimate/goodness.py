@@ -1,10 +1,10 @@
 """Whether a fitted model describes its signals, tested against their noise.
 
 Two statistics of the whitened residuals are compared with those of noise, projected as the fit
-projects it: the scan of `pyrofit.estimate.scan`, which finds errors that last, and chi-square,
-which finds the others. The p-value is twice the smaller of the two probabilities. Points that
-scatter more than their noise do not count as an error of the model: residuals are first divided by
-their scatter from point to point, where that is larger.
+projects it. The scan of `pyrofit.estimate.scan` finds errors that last, chi-square finds the
+others. The p-value is twice the smaller of the two probabilities. Points that scatter more than
+their noise do not count as an error of the model. Residuals are first divided by their scatter
+from point to point, where that is larger.
 
 The size of a noise that is not stated comes from the same record, with n - k degrees of freedom for
 a curve of k splines. Chi-square over its own degrees of freedom is then compared with Fisher's F.

@@ -1,7 +1,7 @@
 """Whether records that repeat each other agree, and in what they differ.
 
-Each record is compared with the median of the others over a common abscissa: level, stretch and
-start are fitted to it (`pyrofit.estimate.warp`), and what remains is a difference of shape. A
+Each record is compared with the median of the others over a common abscissa. Level, stretch and
+start are fitted to it (`pyrofit.estimate.warp`); the rest is a difference of shape. A
 record that differs by more than repeats of one laboratory do is named, and the others are compared
 again without it. It is another sample, another thermocouple, or a fault.
 """

@@ -33,8 +33,8 @@ class Warp:
 def warp_to(at: FloatArray, curve: FloatArray, record: FloatArray, stretched: bool) -> Warp:
     """Return the nearest changed curve to a record, shape (n,) each.
 
-    Starts and stretches are tried on a grid, each with its best level; a descent may end at a step
-    of the curve that is none of the record.
+    Starts and stretches are tried on a grid, each with its best level. A descent may end where
+    steps of curve and record do not meet.
 
     >>> t = np.linspace(0.0, 1.0, 201)
     >>> step = lambda t: 1.0 / (1.0 + np.exp((t - 0.5) / 0.05))

@@ -3,7 +3,7 @@
 import json
 from collections.abc import Iterable, Mapping
 
-from pyrofit.analysis.repeats import lines_on_repeats
+from pyrofit.analysis.differing_repeats import lines_on_repeats
 from pyrofit.new_study.columns import Found
 from pyrofit.new_study.draft import Measured, divisor_of, is_told
 from pyrofit.new_study.plan import Part

@@ -2,7 +2,7 @@
 
 from collections.abc import Iterator
 
-from pyrofit.analysis.repeats import WAY_OUT, differs
+from pyrofit.analysis.differing_repeats import WAY_OUT, differs
 from pyrofit.config import Study
 from pyrofit.results.goodness import LEVEL, Goodness, Miss, SignalGoodness
 from pyrofit.show.text import listed, several

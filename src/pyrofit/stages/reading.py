@@ -8,7 +8,7 @@ from typing import Any
 import pandas as pd
 
 from pyrofit.analysis.agreement import disagreements
-from pyrofit.analysis.repeats import notes_on_repeats
+from pyrofit.analysis.differing_repeats import notes_on_repeats
 from pyrofit.config import Study, TermSpec
 from pyrofit.data.csvfile import Table, read_table
 from pyrofit.data.download import FOLDER_VARIABLE

@@ -1,0 +1,82 @@
+"""Repeats of a test that disagree, in words."""
+
+from collections.abc import Iterable, Iterator, Mapping, Sequence
+
+import numpy as np
+import pandas as pd
+
+from pyrofit.config import Study
+from pyrofit.estimate.repeats_agree import BURNING, HEATED, Difference, differences
+from pyrofit.quantities.base import Quantity
+from pyrofit.quantities.units import ICE_POINT_K
+
+TEMPERATURE = "temperature_K"
+
+
+def differing_repeats(quantity: Quantity, frames: Sequence[pd.DataFrame]) -> list[Difference]:
+    """Return the series of one quantity that differ from the others, in SI units."""
+    heated = quantity.against_temperature
+    if heated and not all(TEMPERATURE in frame for frame in frames):
+        return []
+    key = TEMPERATURE if heated else "time_s"
+    rising = [_rising(frame, key, quantity.column) for frame in frames]
+    at, values = zip(*rising, strict=True)
+    return differences(at, values, HEATED if heated else BURNING)
+
+
+def _rising(frame: pd.DataFrame, key: str, column: str) -> tuple[np.ndarray, np.ndarray]:
+    """Return abscissa and values where the abscissa is above all before."""
+    at = frame[key].to_numpy(np.float64)
+    new = np.concatenate([[True], at[1:] > np.maximum.accumulate(at)[:-1]])
+    return at[new], frame[column].to_numpy(np.float64)[new]
+
+
+def notes_on_repeats(
+    study: Study, frames: Mapping[tuple[str, str], pd.DataFrame]
+) -> Iterator[tuple[tuple[str, str], str]]:
+    """Yield (experiment, signal) and a note for each series that differs from its repeats."""
+    groups: dict[tuple[str, str], list[str]] = {}
+    for name, signal in frames:
+        repeat = study.experiments[name].repeat
+        if repeat is not None and not repeat.nuisances:
+            groups.setdefault((repeat.test, signal), []).append(name)
+    for (_, signal), names in groups.items():
+        experiment = study.experiments[names[0]]
+        if len(names) < 2 or len({study.experiments[n].signals[signal].file for n in names}) == 1:
+            continue
+        quantity = experiment.quantity(signal)
+        for d in differing_repeats(quantity, [frames[name, signal] for name in names]):
+            words = differs(d.kind, d.size, d.low, d.high, quantity)
+            yield (names[d.position], signal), f"{words}. {WAY_OUT}"
+
+
+DIFFERS = "differs from its repeats"
+WAY_OUT = "Leave it out, or explain it"
+
+
+def differs(kind: str, size: float, low: float, high: float, quantity: Quantity) -> str:
+    """Say in what a record differs from its repeats, see `pyrofit.estimate.repeats_agree`."""
+    heated = quantity.against_temperature
+    said = f"{DIFFERS}: the {quantity.title}"
+    if kind == "start":
+        unit, earlier, later = ("K", "lower", "higher") if heated else ("s", "earlier", "later")
+        return f"{said} changes {abs(size):.0f} {unit} {later if size > 0.0 else earlier}"
+    if kind == "level":
+        more = "more" if size > 0.0 else "less"
+        return f"{said} changes {100.0 * abs(size):.0f} % {more} in all"
+    zero, unit = (ICE_POINT_K, "°C") if heated else (0.0, "s")
+    return (
+        f"{said} has another shape, by {100.0 * size:.0f} % of the range (rms), most from "
+        f"{low - zero:.0f} to {high - zero:.0f} {unit}"
+    )
+
+
+def lines_on_repeats(
+    quantity: Quantity, names: Iterable[str], frames: Sequence[pd.DataFrame]
+) -> list[str]:
+    """Return a line for each of some named series that differs from the others."""
+    found = list(names)
+    return [
+        f"{found[d.position]} {differs(d.kind, d.size, d.low, d.high, quantity)}. {WAY_OUT}"
+        for d in differing_repeats(quantity, frames)
+    ]
