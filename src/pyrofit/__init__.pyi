@@ -6,6 +6,8 @@ from pyrofit.api.diagnosing import Diagnosis as Diagnosis
 from pyrofit.api.diagnosing import diagnose as diagnose
 from pyrofit.api.fitted import Fit as Fit
 from pyrofit.api.fitting import fit as fit
+from pyrofit.api.isoconversional import Isoconversional as Isoconversional
+from pyrofit.api.isoconversional import isoconversional as isoconversional
 from pyrofit.api.measurements import read_data as read_data
 from pyrofit.api.results import Campaign as Campaign
 from pyrofit.api.results import read_results as read_results
@@ -23,6 +25,7 @@ __all__ = [
     "Curves",
     "Diagnosis",
     "Fit",
+    "Isoconversional",
     "PyrofitError",
     "Study",
     "__version__",
@@ -30,6 +33,7 @@ __all__ = [
     "diagnose",
     "effects",
     "fit",
+    "isoconversional",
     "new_study",
     "read_data",
     "read_results",
