@@ -91,9 +91,10 @@ class Signal(Part):
     )
     lasting_sd: AboveZero | None = Field(
         None,
-        description="where no uncertainty is given: standard deviation of lasting errors, such as "
-        "scatter between laboratories, SI unit. None = 0.02 for a mass fraction, 2 % of the range "
-        "for a heat flow",
+        description="where no uncertainty is given: standard deviation of the drift of a record, "
+        "which lasts over 10 % of it, SI unit. None = 0.003 for a mass fraction, 2 % of the range "
+        "for a rate or a heat flow. For the diagnosis: the tolerated discrepancy of models; None = "
+        "0.02 for a mass fraction",
     )
     timing_s: float = Field(
         TIMING_S, ge=0.0, description="error of the clock [s]; it counts where the curve is steep"
