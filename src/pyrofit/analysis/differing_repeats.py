@@ -6,7 +6,7 @@ import numpy as np
 import pandas as pd
 
 from pyrofit.config import Study
-from pyrofit.estimate.repeats_agree import BURNING, HEATED, Difference, differences
+from pyrofit.estimate.repeats_agree import Difference, differences, tolerance_of
 from pyrofit.quantities.base import Quantity
 from pyrofit.quantities.units import ICE_POINT_K
 
@@ -21,7 +21,7 @@ def differing_repeats(quantity: Quantity, frames: Sequence[pd.DataFrame]) -> lis
     key = TEMPERATURE if heated else "time_s"
     rising = [_rising(frame, key, quantity.column) for frame in frames]
     at, values = zip(*rising, strict=True)
-    return differences(at, values, HEATED if heated else BURNING)
+    return differences(at, values, tolerance_of(quantity))
 
 
 def _rising(frame: pd.DataFrame, key: str, column: str) -> tuple[np.ndarray, np.ndarray]:

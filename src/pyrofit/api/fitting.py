@@ -88,8 +88,8 @@ def fit(
     By default all signals that the study fits, and all parameters that it estimates, are fitted
     jointly by maximum likelihood. Computed signals are left out where others are measured. The
     noise of each signal is estimated from the series, unless the study states it. The fit is
-    tested: if the model does not describe the signals, no value is determined. Intervals follow from the likelihood: linear
-    where chi-square is a parabola, else from profiles.
+    tested: if the model does not describe the signals, no value is determined. Intervals follow
+    from the likelihood: linear where chi-square is a parabola, else from profiles.
 
     Parameters
     ----------

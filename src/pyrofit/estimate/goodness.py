@@ -20,7 +20,7 @@ from pyrofit.estimate.likelihood import Likelihood
 from pyrofit.estimate.noise import NoiseModel
 from pyrofit.estimate.posterior import Posterior
 from pyrofit.estimate.projection import project, spanned_by
-from pyrofit.estimate.repeats_agree import BURNING, HEATED, differences
+from pyrofit.estimate.repeats_agree import differences, tolerance_of
 from pyrofit.estimate.scan import highest
 from pyrofit.numerics import linear
 from pyrofit.results.goodness import LEVEL, Goodness, Miss, RepeatDiffers, SignalGoodness
@@ -80,10 +80,11 @@ def _differing(likelihood: Likelihood) -> Iterator[RepeatDiffers]:
     for group in groups_of_repeats(problem):
         temperatures = [problem.temperature_K(i) for i in group]
         times = [problem.cost.terms[i][1].target.time_s for i in group]
-        heated = temperatures[0] is not None
         at = [T if T is not None else t for T, t in zip(temperatures, times, strict=True)]
         values = [problem.cost.terms[i][1].target.value for i in group]
-        for d in differences(at, values, HEATED if heated else BURNING):
+        name, signal, _ = problem.picks[group[0]]
+        quantity = problem.runs[name].experiment.quantity(signal)
+        for d in differences(at, values, tolerance_of(quantity)):
             name, signal, _ = problem.picks[group[d.position]]
             yield RepeatDiffers(name, signal, d.kind, d.size, d.low, d.high)
 

@@ -12,6 +12,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from pyrofit.estimate.warp import Warp, warp_to
+from pyrofit.quantities.base import Quantity
 from pyrofit.solver.arrays import FloatArray
 
 POINTS = 200
@@ -33,8 +34,17 @@ class Tolerance:
 
 HEATED = Tolerance(start=8.0, level=0.05, shape=0.04)
 """Of a heated sample, against temperature [K]."""
+FLOWING = Tolerance(start=8.0, level=0.3, shape=0.2)
+"""Of the heat flow to or from such a sample, whose baseline drifts."""
 BURNING = Tolerance(start=0.06, level=0.15, shape=0.10, relative=True)
 """Of a slab, against time."""
+
+
+def tolerance_of(quantity: Quantity) -> Tolerance:
+    """Return the usual differences of a quantity."""
+    if not quantity.against_temperature:
+        return BURNING
+    return FLOWING if quantity.drift_share else HEATED
 
 
 @dataclass(frozen=True)
