@@ -1,7 +1,7 @@
 import numpy as np
 import pytest
 
-from pyrofit.quantities.mlr import released
+from pyrofit.quantities.integral import integral as released
 
 
 def integral(time: list[float], mlr: list[float]) -> float:

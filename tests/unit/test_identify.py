@@ -51,6 +51,11 @@ class Posed:
     def cost(self) -> Any:
         return SimpleNamespace(terms=[(1.0, SimpleNamespace(target=self.target))])
 
+    @property
+    def runs(self) -> Any:
+        point = SimpleNamespace(quantity=lambda signal: SimpleNamespace(sampling="point"))
+        return {"slab": SimpleNamespace(experiment=point)}
+
     def temperature_K(self, channel: int) -> None:
         return None
 

@@ -19,7 +19,7 @@ Record = tuple[str, str]
 
 
 def closure_lines(study: Study, signals: Mapping[str, Any]) -> list[str]:
-    """Return a line for every record of released mass, and one for every pair of equal samples.
+    """Return a line for every record of released mass or heat, and for pairs of equal samples.
 
     Parameters
     ----------
@@ -39,7 +39,24 @@ def closure_lines(study: Study, signals: Mapping[str, Any]) -> list[str]:
         _line(study, *record, mass, several=records[record[0]] > 1)
         for record, mass in released.items()
     ]
-    return lines + _spread(study, released)
+    return lines + _heats(signals, released) + _spread(study, released)
+
+
+def _heats(signals: Mapping[str, Any], released: Mapping[Record, float]) -> list[str]:
+    """Return the total heat released of every record, and the effective heat of combustion."""
+    masses = {name: mass for (name, _), mass in released.items()}
+    lines = []
+    for name, of in signals.items():
+        for about in (a for a in of.values() if "released_J_m2" in a):
+            heat = float(about["released_J_m2"])
+            line = f"{name}: total heat released {heat * 1e-6:.3g} MJ/m²"
+            if masses.get(name, 0.0) > 0.0:
+                line += (
+                    "; over the released mass that is an effective heat of combustion of "
+                    f"{heat / masses[name] * 1e-6:.3g} MJ/kg"
+                )
+            lines.append(line)
+    return lines
 
 
 def _line(study: Study, name: str, signal: str, released: float, several: bool) -> str:

@@ -23,6 +23,7 @@ from pyrofit.estimate.projection import project, spanned_by
 from pyrofit.estimate.repeats_agree import differences, tolerance_of
 from pyrofit.estimate.scan import highest
 from pyrofit.numerics import linear
+from pyrofit.quantities.integral import integral
 from pyrofit.results.goodness import LEVEL, Goodness, Miss, RepeatDiffers, SignalGoodness
 from pyrofit.solver.arrays import FloatArray
 
@@ -147,8 +148,19 @@ def _signal(
         range=float(np.ptp(target.value)),
         points_sd=float(np.median(noise.sd)),
         scatter=scatter_of,
+        total=_total(likelihood, channel, difference),
         misses=tuple(_miss(*w, target.time_s, temperature, difference) for w in windows),
     )
+
+
+def _total(likelihood: Likelihood, channel: int, difference: FloatArray) -> float | None:
+    """Return the simulated over the measured integral of a rate."""
+    experiment, signal, _ = likelihood.problem.picks[channel]
+    if likelihood.problem.runs[experiment].experiment.quantity(signal).sampling != "bin mean":
+        return None
+    target = likelihood.problem.cost.terms[channel][1].target
+    whole = integral(target.time_s, target.value)
+    return 1.0 + integral(target.time_s, difference) / whole if whole > 0.0 else None
 
 
 def missed(difference: FloatArray, sd: FloatArray) -> list[tuple[int, int]]:

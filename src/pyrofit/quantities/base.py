@@ -94,6 +94,8 @@ class Quantity:
     """Where in the sample it is measured: where its name tells, or where a signal tells."""
     released: Released | None = None
     """Mass per area that a record shows to be released [kg/m2]; none = it does not show that."""
+    heat: Released | None = None
+    """Heat per area that a record shows to be released [J/m2]; none = it does not show that."""
     discrepancy_share: float = 0.0
     """The discrepancy that the diagnosis tolerates, as a fraction of the range."""
     has_sign: bool = False

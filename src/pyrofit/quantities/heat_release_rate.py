@@ -1,6 +1,7 @@
 """Heat release rate per area of a burning sample."""
 
 from pyrofit.quantities.base import Quantity, Shown
+from pyrofit.quantities.integral import integral
 
 QUANTITY = Quantity(
     kinds=("cone",),
@@ -26,5 +27,6 @@ QUANTITY = Quantity(
     drift_share=0.02,
     usual_sd=1e4,
     relative=True,
+    heat=integral,
     rests_on=("heat_of_combustion_J_kg",),
 )

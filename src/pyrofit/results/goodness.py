@@ -47,6 +47,8 @@ class SignalGoodness:
         Largest less smallest measured value, SI unit.
     points_sd
         Median standard deviation of the noise of its points, SI unit.
+    total
+        Integral of the simulated rate over that of the measured one; None where it is no rate.
     scatter
         Scatter from point to point over that of the noise, 1 at least.
     misses
@@ -61,6 +63,7 @@ class SignalGoodness:
     points_sd: float
     scatter: float
     misses: tuple[Miss, ...]
+    total: float | None = None
 
 
 @dataclass(frozen=True)

@@ -51,4 +51,6 @@ def summary(study: Study, results: Results) -> dict[str, Any]:
             needs |= {(*here, "source"): str, (*here, "sha256"): str, (*here, "points"): float}
             if experiment.quantity(signal).released is not None:
                 needs[*here, "released_kg_m2"] = float
+            if experiment.quantity(signal).heat is not None:
+                needs[*here, "released_J_m2"] = float
     return read_json(results.measurements_summary, needs)

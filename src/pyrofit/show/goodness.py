@@ -10,6 +10,8 @@ from pyrofit.show.units import celsius, difference, difference_unit
 
 MOST_NAMED = 3
 """Signals that a sentence names at most."""
+OTHER_TOTAL = 0.1
+"""Relative difference of integrals that is told."""
 NEXT = {
     "kinetics": "More reactions may describe them: run the step scheme",
     "imp": "The step diagnose searches the missing effect",
@@ -53,7 +55,10 @@ def _where(study: Study, s: SignalGoodness) -> str:
     quantity = experiment.quantity(s.signal)
     unit = difference_unit(quantity)
     windows = [_window(w, float(difference(quantity, w.mean)), unit) for w in s.misses]
-    return f"{s.experiment}, {experiment.words(s.signal)}: simulated {listed(windows)}."
+    said = f"{s.experiment}, {experiment.words(s.signal)}: simulated {listed(windows)}."
+    if s.total is not None and abs(s.total - 1.0) > OTHER_TOTAL:
+        said += f" Its simulated integral is {100.0 * s.total:.0f} % of the measured one."
+    return said
 
 
 def _window(w: Miss, mean: float, unit: str) -> str:

@@ -47,6 +47,9 @@ def prepare(study: Study, results: Results) -> list[str]:
             if quantity.released is not None:
                 columns = (frame[c].to_numpy(float) for c in ("time_s", quantity.column))
                 summary[name][signal]["released_kg_m2"] = quantity.released(*columns)
+            if quantity.heat is not None:
+                columns = (frame[c].to_numpy(float) for c in ("time_s", quantity.column))
+                summary[name][signal]["released_J_m2"] = quantity.heat(*columns)
     write_json(results.measurements_summary, {"signals": summary})
     return closure_lines(study, summary)
 
