@@ -21,8 +21,8 @@ class Tee:
         self.log(text)
         return len(text)
 
-    def log(self, text: str) -> None:
-        """Write to the log alone."""
+    def log(self, text: str) -> bool:
+        """Write to the log alone; return whether that was possible."""
         if self._log is not None:
             try:
                 self._log.write(text)
@@ -31,6 +31,7 @@ class Tee:
                 # The results are worth more than their log: go on.
                 self._usual.write(f"{self._log.name}: log cut off here ({error.strerror})\n")
                 self._log = None
+        return self._log is not None
 
     def flush(self) -> None:
         """Flush standard error; the log is never behind."""

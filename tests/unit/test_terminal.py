@@ -9,7 +9,7 @@ from typing import Any
 import pytest
 
 from pyrofit.errors import BY_RUN, INTERRUPTED
-from pyrofit.running.terminal import FOR_USER, Terminal, show_work
+from pyrofit.running.terminal import FOR_USER, Terminal, show_work, take_over
 from pyrofit.running.work import WorkDone
 
 
@@ -20,6 +20,11 @@ class Event(Enum):
     JOB_ERROR = "job_error"
     SHELLCMD = "shellcmd"
     ERROR = "error"
+
+
+class Quietness(Enum):
+    REASON = 1
+    RULES = 2
 
 
 class Run:
@@ -103,7 +108,7 @@ def test_fault_of_the_program_and_a_silent_end_are_told_as_such(tmp_path: Path) 
         run.fail(number, *logs)
     run.end()
     assert "Step 1: KeyError: 'x' (the log tells more; please report it)" in run.lines[-3]
-    assert "Step 2: it ended without a message; the computer may lack memory" in run.lines[-2]
+    assert "Step 2: it ended without a message in its log; " in run.lines[-2]
 
 
 def test_step_that_is_tried_again_and_ends_well_is_no_failure(tmp_path: Path) -> None:
@@ -131,6 +136,32 @@ def test_fault_of_snakemake_is_told_in_a_line() -> None:
     run = Run()
     run.log(Event.ERROR, "Traceback (most recent call last):\n\n  File ...\nOSError: no place\n")
     assert run.lines == ["error: OSError: no place (.snakemake/log has more; please report it)"]
+
+
+def handler(name: str) -> logging.Handler:
+    made = logging.NullHandler()
+    made.name = name
+    return made
+
+
+@pytest.mark.parametrize("asked", [{}, {"verbose": True}, {"quiet": {Quietness.RULES}}])
+def test_run_by_snakemake_alone_is_shown_likewise_unless_it_was_asked_otherwise(
+    asked: dict[str, Any], capsys: pytest.CaptureFixture[str]
+) -> None:
+    usual = {"verbose": False, "debug_dag": False, "printshellcmds": False, "dryrun": False}
+    settings = SimpleNamespace(**usual | {"quiet": {Quietness.REASON}} | asked)
+    logger, work = logging.Logger("s"), WorkDone({}, 1)
+    work.note("run_info", {"stats": {"step": 3, "all": 1, "total": 4}})
+    for one in (handler("DefaultStreamHandler"), handler("DefaultLogFileHandler"), work):
+        logger.addHandler(one)
+    take_over(logger, settings, work)
+    names = [type(one).__name__ for one in logger.handlers]
+    if asked:
+        assert names == ["NullHandler", "NullHandler", "WorkDone"]
+    else:
+        assert names == ["NullHandler", "Terminal"]
+        assert logger.handlers[0].name == "DefaultLogFileHandler"
+        assert capsys.readouterr().err == "3 steps\n"
 
 
 def test_only_what_is_for_the_user_is_told_besides() -> None:

@@ -9,6 +9,7 @@ import pytest
 from tiny import COSTS, FIT, OWN_FILE, SCORES, TINY, Project, Run
 
 from pyrofit.config import as_study
+from pyrofit.running.terminal import SAME_COMMAND
 
 PREPARE = "Measured series into tidy tables, mass closure checked"
 KINETICS = "Kinetics fitted to heated samples"
@@ -47,7 +48,9 @@ def test_run_takes_every_step_once(finished: tuple[Project, Run]) -> None:
     _, run = finished
     assert computing(run.jobs) == EVERYTHING
     assert "Report: results/tiny/report.html" in run.jobs
-    assert run.said.count("Finished jobid") == len(run.jobs) + 1  # and that of `all`
+    assert run.said.count("  done in ") == len(run.jobs)
+    assert "Reason:" not in run.said
+    assert run.said.endswith("Report: results/tiny/report.html\n")
 
 
 def test_figures_of_the_kinetics_do_not_wait_for_the_searches(project: Project) -> None:
@@ -277,7 +280,8 @@ def test_step_that_fails_shows_its_message_and_keeps_what_is_finished(
     project.change("imp.costs.RANGE", [{**RANGE, "window_s": [5000, 6000]}])
     run = project.snakemake("--cores", "2", "--keep-going", SUMMARY)
     assert run.code != 0
-    assert "error: window 5000 to 6000 s: 0 points lie inside" in run.said
+    assert ": window 5000 to 6000 s: 0 points lie inside" in run.said
+    assert run.said.endswith(f"{SAME_COMMAND}\n")
     assert "Traceback" not in run.said
     assert project.read(FIT) == fit
     assert (project.root / "results/tiny/imp/RMSE/00.json").exists()

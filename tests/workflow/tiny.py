@@ -121,7 +121,9 @@ class Run:
     @property
     def jobs(self) -> set[str]:
         """Messages of the jobs that ran, or that a dry run lists."""
-        return set(re.findall(r"^(?:Job \d+|local job \d+): (.*)$", self.said, re.M))
+        planned = re.findall(r"^Job \d+: (.*)$", self.said, re.M)
+        begun = re.findall(r"^ *\d+/\d+  (?!done in|failed$)(.*)$", self.said, re.M)
+        return {*planned, *begun}
 
 
 @dataclass(frozen=True)

@@ -87,10 +87,9 @@ def _run(given: argparse.Namespace) -> int:
                 return status
         except PyrofitError as error:
             said = sys.stderr
-            if BY_RUN in os.environ and isinstance(said, Tee):
-                said.log(f"error: {error}\n")
-            else:
-                print(f"error: {error}", file=said)
+            text = f"error: {error}\n"
+            if not (BY_RUN in os.environ and isinstance(said, Tee) and said.log(text)):
+                print(text, end="", file=said)
             return 2
         except KeyboardInterrupt:
             return _interrupted()

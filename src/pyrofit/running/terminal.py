@@ -1,15 +1,16 @@
 """What a run prints: its steps, its progress, the reason where it stops, and its report.
 
-A logger plugin of Snakemake: `pyrofit run` shows a run by it. All that Snakemake says besides is in
-Snakemake's own log file.
+A logger plugin of Snakemake: `pyrofit run` shows a run by it. Where Snakemake was started alone,
+the workflow puts it in place of Snakemake's display once the first job begins. All that Snakemake
+says besides is in Snakemake's own log file.
 """
 
 import os
 import re
 import sys
 import time
-from collections.abc import Callable, Sequence
-from logging import ERROR, WARNING, Handler, LogRecord
+from collections.abc import Callable, Mapping, Sequence
+from logging import ERROR, WARNING, Handler, Logger, LogRecord
 from pathlib import Path
 from typing import Any, NamedTuple
 
@@ -90,9 +91,11 @@ class Terminal(LogHandlerBase):
         return record.levelno >= WARNING or "for_user" in vars(record)
 
     def _run_info(self, about: dict[str, Any]) -> None:
-        self._total = sum(
-            count for rule, count in about["stats"].items() if rule not in (*_TARGETS, "total")
-        )
+        self.plan({rule: n for rule, n in about["stats"].items() if rule != "total"})
+
+    def plan(self, stats: Mapping[str, int]) -> None:
+        """Tell how many steps there are, by the name of their rule."""
+        self._total = sum(count for rule, count in stats.items() if rule not in _TARGETS)
         if not self.common_settings.dryrun:
             self.say(f"{self._total} step{'s' if self._total != 1 else ''}")
 
@@ -155,7 +158,7 @@ def reason(logs: Sequence[str]) -> str:
         return "\n".join(lines[at[-1] :]).removeprefix("error: ")
     if lines:
         return f"{lines[-1]} (the log tells more; please report it)"
-    return "it ended without a message; the computer may lack memory"
+    return "it ended without a message in its log; the computer may lack memory or disk space"
 
 
 def in_our_words(text: str) -> str:
@@ -185,3 +188,28 @@ def show_work(handlers: Sequence[Handler], work: WorkDone) -> bool:
     for handler in shown:
         handler.work = work
     return bool(shown)
+
+
+def take_over(logger: Logger, settings: Any, work: WorkDone) -> None:
+    """Show a run that was started by Snakemake alone, unless it was asked to tell more or less.
+
+    Parameters
+    ----------
+    logger
+        Snakemake's logger.
+    settings
+        Snakemake's settings of its output.
+    work
+        The share of work that is done, which has a bar in Snakemake's display.
+    """
+    asked = {quiet.name.lower() for quiet in settings.quiet or ()}
+    more = settings.verbose or settings.debug_dag or settings.printshellcmds
+    own = [handler for handler in logger.handlers if handler.name == "DefaultStreamHandler"]
+    if not own or more or asked & {"all", "progress", "rules"}:
+        return
+    display = Terminal(settings, None)
+    display.work = work
+    for handler in (*own, work):
+        logger.removeHandler(handler)
+    logger.addHandler(display)
+    display.plan(work.planned)

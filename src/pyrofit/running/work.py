@@ -74,6 +74,11 @@ class WorkDone(logging.Handler):
             rule, start = self._running.pop(about["job_id"])
             self._took[rule].append(self._clock() - start)
 
+    @property
+    def planned(self) -> Mapping[str, int]:
+        """Number of steps by the name of their rule."""
+        return self._planned
+
     def words(self) -> str:
         """Return the share of the work that is done, and the time left if it is known."""
         text = f"{100 * self._share():.0f} %"

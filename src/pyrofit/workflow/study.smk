@@ -38,7 +38,7 @@ from pyrofit.estimate.calls import calls_of_jobs
 from pyrofit.running.frozen import freeze, frozen_study
 from pyrofit.running.given import DEFAULT, from_files, from_workflow
 from pyrofit.running.lock import end_run, join_run, start_run
-from pyrofit.running.terminal import FOR_USER, show_work
+from pyrofit.running.terminal import FOR_USER, show_work, take_over
 from pyrofit.running.work import WorkDone
 from pyrofit.show.sections import FIGURES, SUBJECTS, TABLES
 from pyrofit.stages.reading import check_measurements
@@ -117,6 +117,7 @@ onstart:
         freeze(study, STUDY)
         if workflow.local_exec:
             end_with_jobs(ROOT)
+            take_over(logger, workflow.output_settings, work)
         else:  # Snakemake cancels the jobs of a cluster
             end_with_cluster()
     except PyrofitError as error:

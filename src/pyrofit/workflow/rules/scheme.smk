@@ -27,9 +27,7 @@ rule scheme:
     params:
         study=STUDY,
         digest=digest(dependencies.scheme(study)),
-        source=source_fingerprint(
-            "pyrofit.stages.scheme", "pyrofit.show.scheme_page"
-        ),
+        source=source_fingerprint("pyrofit.stages.scheme", "pyrofit.show.scheme_page"),
     message:
         "Which reaction scheme the thermogravimetric records support"
     shell:
