@@ -1,0 +1,83 @@
+"""The command `pyrofit run`, before it starts Snakemake."""
+
+import re
+from argparse import Namespace
+from pathlib import Path
+from typing import Any
+
+import pytest
+import yaml
+
+from pyrofit import cli
+from pyrofit.cli import running
+from pyrofit.running.targets import WORKFLOW, targets
+
+ROOT = Path(__file__).parents[2]
+SMOKE = ROOT / "config" / "smoke.yaml"
+CHANGE = "change the values marked CHANGE, and run again"
+
+
+def test_targets_of_the_page_are_those_that_are_listed(capsys: pytest.CaptureFixture[str]) -> None:
+    page = (ROOT / "docs" / "running.md").read_text(encoding="utf-8")
+    rows = re.findall(r"^\| (`\w+`(?:, `\w+`)*) \|", page, re.M)
+    told = {name for row in rows for name in re.findall(r"\w+", row)}
+    assert told == set(targets()) - {"report"}
+    assert cli.main(["run", "--list"]) == 0
+    listed = capsys.readouterr().out.splitlines()
+    assert [line.split()[0] for line in listed] == sorted(targets())
+
+
+def given(**options: Any) -> Namespace:
+    usual = {"study": SMOKE, "target": [], "cores": None, "profile": None, "dry_run": False}
+    return Namespace(**usual | {"snakemake": []} | options)
+
+
+def test_cores_are_two_unless_given_and_those_of_a_profile_there() -> None:
+    def cores(**options: Any) -> str:
+        words = running._arguments(given(**options))
+        return words[words.index("--cores") + 1] if "--cores" in words else ""
+
+    slurm = str(WORKFLOW / "profiles" / "slurm")
+    assert (cores(), cores(cores=5)) == ("2", "5")
+    assert (cores(profile=slurm), cores(profile=slurm, cores=5)) == ("", "5")
+
+
+def test_targets_and_options_of_snakemake_reach_it() -> None:
+    words = running._arguments(given(target=["diagnose"], snakemake=["--forceall"], dry_run=True))
+    assert words[-4:] == ["--dry-run", "--forceall", "--", "diagnose"]
+
+
+def test_shipped_profile_is_written_for_the_user_to_change(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
+) -> None:
+    monkeypatch.chdir(tmp_path)
+    assert cli.main(["run", str(SMOKE), "--profile", "slurm"]) == 2
+    assert f"error: profiles/slurm/config.yaml: written; {CHANGE}" in capsys.readouterr().err
+    written = tmp_path / "profiles" / "slurm" / "config.yaml"
+    assert "# CHANGE" in written.read_text(encoding="utf-8")
+    assert yaml.safe_load(written.read_text(encoding="utf-8"))["executor"] == "slurm"
+    written.write_text("executor: mine\n")
+    for name in ("slurm", "profiles/slurm"):
+        words = running._arguments(given(profile=name))
+        assert words[words.index("--workflow-profile") + 1] == "profiles/slurm"
+    assert written.read_text() == "executor: mine\n"
+
+
+@pytest.mark.parametrize(
+    ("words", "says"),
+    [
+        ([], "no study is given: pyrofit run STUDY; `pyrofit init NAME` writes one"),
+        (["none.yaml"], "none.yaml: there is no such file; give the YAML file of a study"),
+        ([str(SMOKE), "--profile", "mine"], "mine/config.yaml: there is no such profile; name a"),
+    ],
+)
+def test_what_is_not_there_is_told_with_the_way_out(
+    words: list[str],
+    says: str,
+    tmp_path: Path,
+    monkeypatch: pytest.MonkeyPatch,
+    capsys: pytest.CaptureFixture[str],
+) -> None:
+    monkeypatch.chdir(tmp_path)
+    assert cli.main(["run", *words]) == 2
+    assert says in capsys.readouterr().err
