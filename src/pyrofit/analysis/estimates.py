@@ -7,7 +7,7 @@ from typing import Any, Literal
 import pandas as pd
 
 from pyrofit.config import Study
-from pyrofit.estimate.identify import APPARENT
+from pyrofit.results.goodness import APPARENT
 from pyrofit.results.identification import Identified
 
 Grade = Literal["determined", "weakly determined", "apparent value", "at a limit", "undetermined"]

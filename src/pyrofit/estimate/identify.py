@@ -7,7 +7,6 @@ Covariance, dispersion and limits are those of `pyrofit.estimate.posterior`. Kno
 import math
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
-from typing import Literal
 
 import numpy as np
 
@@ -19,7 +18,7 @@ from pyrofit.estimate.posterior import Posterior, interval, limit_of
 from pyrofit.estimate.profile import Interval, Profile, profile_of
 from pyrofit.estimate.wrong_model import covariance_of_misfit
 from pyrofit.numerics import linear
-from pyrofit.results.goodness import Goodness
+from pyrofit.results.goodness import APPARENT, Goodness
 from pyrofit.solver.arrays import FloatArray
 
 DETERMINED = 0.20
@@ -35,8 +34,6 @@ LOWER = 0.01
 """A chi-square is lower if it is so by more."""
 LINEAR, PROFILE, MISFIT = "linear", "profile", "misfit"
 """How an interval was made, see `Estimate`."""
-APPARENT: Literal["apparent value"] = "apparent value"
-"""Verdict on a parameter of a model that misses the tests."""
 
 
 @dataclass(frozen=True)

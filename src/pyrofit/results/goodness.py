@@ -1,6 +1,7 @@
 """The test of a fit: made by `pyrofit.estimate.goodness`, one stored file for each stage."""
 
 from dataclasses import dataclass
+from typing import Literal
 
 from pydantic import TypeAdapter, ValidationError
 
@@ -10,6 +11,8 @@ from pyrofit.results.files import Results
 FILE = "goodness.json"
 LEVEL = 0.01
 """Probability of a false alarm with a model that is right."""
+APPARENT: Literal["apparent value"] = "apparent value"
+"""Verdict on a parameter of a model that misses the tests."""
 
 
 @dataclass(frozen=True)
