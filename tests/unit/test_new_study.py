@@ -576,7 +576,7 @@ def test_file_of_a_real_laboratory_gives_a_study_that_is_valid(file: str, folder
     given = [word for k, paths in files.items() for word in (f"--{k}", *map(str, paths))]
     study = made(*given)
     run = draft.measured(kind, path)
-    assert (run.number, run.sure) == (number, True)
+    assert (run.number, run.told) == (number, "record" if run.of.stage == "kinetics" else "unit")
     imp = [term for terms in study.imp.costs.values() for term in terms]
     fitted = imp if KINDS[kind].stage == "imp" else study.kinetics.cost
     assert [term.signal for term in fitted] == signals
@@ -652,7 +652,7 @@ def test_flux_that_no_name_tells_is_marked(folder: Path) -> None:
     write("slab.csv", "Time [s],MLR [g/m2/s]", SECONDS, 1e3 * MLR)
     made("--gasification", "slab.csv")
     text = Path("wood/wood.yaml").read_text(encoding="utf-8")
-    assert "flux_W_m2: 50000 # CHANGE: the file's name does not tell it" in text
+    assert "flux_W_m2: 50000 # CHANGE: neither the file nor its name tells it" in text
 
 
 @pytest.mark.parametrize("name", ['he said "no": {x}', "Zeit, Uhr", "a#b", "- x"])

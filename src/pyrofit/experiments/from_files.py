@@ -1,14 +1,17 @@
 """Entries of a kind of experiment in a new study that `pyrofit init` writes from files."""
 
 import re
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Iterable, Mapping
 from dataclasses import dataclass
-from typing import Any
+from typing import Any, Literal
 
 import pandas as pd
 
 Frames = Mapping[str, pd.DataFrame]
 """Series of one file in SI units, by quantity."""
+Told = Literal["record", "unit", "number", ""]
+"""What tells the number of an experiment: its record, a number with its unit in the name of the
+file, a number alone in that name, or nothing. Names are hints: the user is asked to look."""
 
 
 @dataclass(frozen=True)
@@ -23,31 +26,41 @@ class NamedNumber:
         A number without unit counts where it lies within these.
     usual
         The number where neither name nor record tells it.
+    words, shown
+        What the number is, and its unit, in texts.
     """
 
     unit: str
     limits: tuple[float, float]
     usual: float
+    words: str = ""
+    shown: str = ""
 
-    def find(self, name: str) -> tuple[float, bool]:
-        """Return the number, and whether the name tells it.
+    def find(self, name: str) -> tuple[float, Told]:
+        """Return the number to which the name hints, and how it does.
 
-        A number with its unit counts before one without; where several fit, none is taken.
+        A number with its unit counts before one without; where several fit, none is taken. A
+        number that letters touch, as in NH4Cl, 6mm or batch3, is part of a word.
 
         >>> flux = NamedNumber("kW", (5.0, 150.0), 50.0)
         >>> flux.find("Lab_Gasification_25kW_1"), flux.find("slab 60"), flux.find("a_20_b_30")
-        ((25.0, True), (60.0, True), (50.0, False))
-        >>> NamedNumber("K", (0.5, 500.0), 10.0).find("TGA_N2_2-5K_1")
-        (2.5, True)
+        ((25.0, 'unit'), (60.0, 'number'), (50.0, ''))
+        >>> rate = NamedNumber("K", (0.5, 500.0), 10.0)
+        >>> rate.find("TGA_N2_2-5K_1"), rate.find("NH4Cl_batch3"), rate.find("TGA_563Kiso")
+        ((2.5, 'unit'), (10.0, ''), (10.0, ''))
         """
-        number = r"(?<![\d.])(\d+(?:\.\d+)?)"
+        number = r"(?<![A-Za-z\d.])(\d+(?:\.\d+)?)(?![A-Za-z\d])"
         with_unit = rf"(?<![\d.])(\d+(?:[.-]\d+)?)[ _-]?(?:{self.unit})(?![A-Za-z])"
-        named = {float(found.replace("-", ".")) for found in re.findall(with_unit, name)}
-        if len(named) != 1:
-            numbers = [float(found) for found in re.findall(number, name)]
-            fitting = [n for n in numbers if self.limits[0] <= n <= self.limits[1]]
-            named = set(fitting) if len(fitting) == 1 else set()
-        return (named.pop(), True) if named else (self.usual, False)
+        units = {float(found.replace("-", ".")) for found in re.findall(with_unit, name)}
+        alone = [float(found) for found in re.findall(number, name)]
+        if len(named := self._fitting(units)) == 1:
+            return named[0], "unit"
+        if len(named := self._fitting(alone)) == 1 and not units:
+            return named[0], "number"
+        return self.usual, ""
+
+    def _fitting(self, numbers: Iterable[float]) -> list[float]:
+        return [n for n in numbers if self.limits[0] <= n <= self.limits[1]]
 
 
 @dataclass(frozen=True)

@@ -15,6 +15,7 @@ from pyrofit.data.spec import SeriesSpec
 from pyrofit.errors import DataError, StudyError
 from pyrofit.experiments import KINDS, files_of
 from pyrofit.experiments.base import Kind
+from pyrofit.experiments.from_files import Told
 from pyrofit.new_study.columns import Found, recognise
 from pyrofit.quantities.units import PER_AREA, PER_MASS
 
@@ -38,8 +39,10 @@ class Measured:
         The file; None where the measurement is to be computed.
     number
         Heating rate [K/min] or radiant flux [kW/m2].
-    sure
-        Whether the file tells that number.
+    told
+        What tells that number.
+    hinted
+        The number that the name of the file hints to; None where it hints to none.
     headers
         Its columns.
     signals
@@ -60,7 +63,8 @@ class Measured:
     name: str
     path: Path | None
     number: float
-    sure: bool = True
+    told: Told = "record"
+    hinted: float | None = None
     headers: tuple[str, ...] = ()
     signals: tuple[Found, ...] = ()
     left: Mapping[str, str] = field(default_factory=dict)
@@ -101,7 +105,8 @@ def measured(kind: str, path: Path) -> Measured:
     table = read_table(path)
     recognised = recognise(table, kind)
     files = files_of(kind)
-    number, sure = files.number.find(path.stem)
+    number, told = files.number.find(path.stem)
+    hinted = number if told else None
     signals = recognised.signals
     timeless = recognised.timeless and all(
         found.missing == ("time",) and found.of.against_temperature for found in signals
@@ -111,7 +116,7 @@ def measured(kind: str, path: Path) -> Measured:
     frames, thinned = _frames(table, signals, number / 60.0 if timeless else None)
     recorded = files.recorded(number, frames)
     if recorded is not None and not timeless:
-        number, sure = recorded, True
+        number, told = recorded, "record"
     name = re.sub(r"\W+", "_", path.stem, flags=re.ASCII).strip("_")
     if not name[:1].isalpha():
         name = f"run_{name}".rstrip("_")
@@ -121,7 +126,8 @@ def measured(kind: str, path: Path) -> Measured:
         name,
         path,
         number,
-        sure,
+        told,
+        hinted,
         headers,
         signals,
         recognised.left,

@@ -68,7 +68,7 @@ def part_of(stage: Stage, records: Iterable[Measured]) -> Part:
 
 def _numbers(runs: Sequence[Measured]) -> dict[str, float | str]:
     """Return the number of each experiment by name; the name where the number is not known."""
-    return {run.name: run.number if run.sure else run.name for run in runs}
+    return {run.name: run.number if run.told else run.name for run in runs}
 
 
 def _last(runs: Sequence[Measured]) -> list[str]:
@@ -84,8 +84,9 @@ def _last(runs: Sequence[Measured]) -> list[str]:
 
 
 def _middle(runs: Sequence[Measured]) -> list[str]:
-    """Return the experiments with the middle of three or more numbers."""
-    numbers = {run.name: run.number for run in runs}
+    """Return the experiments with the middle of three or more heating rates; none that is held."""
+    ramps = [run for run in runs if not files_of(run.kind).facts(run.frames).get("set_point_K")]
+    numbers = {run.name: run.number for run in ramps}
     different = sorted(set(numbers.values()))
     if len(different) < 3:
         return []

@@ -21,7 +21,7 @@ def grouped(records: Sequence[Measured]) -> list[Measured]:
     """
     alike: dict[tuple[str, str, float], list[Measured]] = {}
     for run in records:
-        root = _REPEAT.sub("", run.name) if run.sure else run.name
+        root = _REPEAT.sub("", run.name) if run.told else run.name
         alike.setdefault((run.kind, root, run.number), []).append(run)
     roots = [root for _, root, _ in alike]
     taken = {run.name for run in records}

@@ -4,10 +4,16 @@ import json
 from collections.abc import Iterable, Mapping
 
 from pyrofit.analysis.differing_repeats import lines_on_repeats
+from pyrofit.experiments import files_of
+from pyrofit.experiments.from_files import Told
 from pyrofit.new_study.columns import Found
 from pyrofit.new_study.draft import Measured, divisor_of, is_told
 from pyrofit.new_study.plan import Part
 from pyrofit.quantities.units import SCALES
+
+_MINUTES = 60.0
+_ALIKE = 0.1
+"""Share by which two numbers of one test may differ."""
 
 
 def signal_lines(run: Measured) -> list[str]:
@@ -59,7 +65,7 @@ def _signal(run: Measured, found: Found) -> list[str]:
 
 def said(run: Measured) -> list[str]:
     """Say which columns of each signal were recognised, and why others are not used."""
-    lines = [f"{run.path}: {note}" for note in run.mended]
+    lines = [f"{run.path}: {note}" for note in [*run.mended, *other_number(run)]]
     for found in run.signals:
         parts = []
         for role, header in found.columns.items():
@@ -73,7 +79,7 @@ def said(run: Measured) -> list[str]:
             whose = "of the file" if is_told(found, divisor[0]) else "to be changed in the study"
             parts.append(f"divided by {divisor[0]} {divisor[1]:g}, {whose}")
         if run.timeless:
-            told = "" if run.sure else ", to be changed in the study"
+            told = "" if run.told == "record" else ", to be changed in the study"
             parts.insert(0, f"no times: those of a heating rate of {run.number:g} K/min{told}")
         lines.append(f"{run.path}: {found.signal}: {', '.join(parts)}")
         if (remark := _remark(run, found)) != "":
@@ -81,14 +87,48 @@ def said(run: Measured) -> list[str]:
     return lines + [f"{run.path}: '{n}' is not used: {why}" for n, why in run.left.items()]
 
 
+_NOT_TOLD: Mapping[Told, str] = {
+    "unit": "CHANGE where wrong: from the name of the file alone",
+    "number": "CHANGE: a number in the name of the file, which may mean something else",
+    "": "CHANGE: neither the file nor its name tells it",
+}
+
+
+def number_comment(run: Measured) -> str:
+    """Return the comment of the study on a heating rate or flux; empty where none is needed."""
+    return _NOT_TOLD.get(run.told, "") or "".join(f"CHANGE: {said}" for said in other_number(run))
+
+
+def other_number(run: Measured) -> list[str]:
+    """Say that the name of a file hints to another number than its record shows.
+
+    A factor of 60 between both is that of minutes and seconds.
+    """
+    if run.told != "record" or run.hinted is None:
+        return []
+    of, ratio = files_of(run.kind).number, run.number / run.hinted
+    times, with_unit = "", of.find(run.path.stem)[1] == "unit" if run.path else False
+    if abs(ratio / _MINUTES - 1.0) < _ALIKE:
+        times = ", 60 times less: if its times are in minutes, give `units: {time: min}`"
+    elif abs(ratio * _MINUTES - 1.0) < _ALIKE:
+        times = ", 60 times more: if its times are in seconds, give `units: {time: s}`"
+    if not times and (abs(ratio - 1.0) < _ALIKE or not with_unit):
+        return []
+    return [
+        f"the record shows a {of.words} of {run.number:g} {of.shown}, its name says "
+        f"{run.hinted:g} {of.shown}{times}"
+    ]
+
+
 def assumed(records: Iterable[Measured]) -> list[str]:
     """Say which numbers and units of records are assumed: neither file nor name tells them."""
     lines = []
     for run in records:
-        if not run.sure:
-            what = "heating rate" if run.of.stage == "kinetics" else "flux"
-            unit = "K/min" if run.of.stage == "kinetics" else "kW/m2"
-            lines.append(f"{run.path}: no {what} is given; {run.number:g} {unit} is assumed")
+        if run.told != "record":
+            of = files_of(run.kind).number
+            lines.append(
+                f"{run.path}: no {of.words} is given; {run.number:g} {of.shown} is assumed"
+            )
         for found in run.signals:
             for role in found.guessed:
                 unit = found.units.get(role, "")

@@ -15,7 +15,7 @@ from pyrofit.new_study import draft
 from pyrofit.new_study.draft import Kinetics, Measured
 from pyrofit.new_study.plan import Part, heats, identified, part_of, titles
 from pyrofit.new_study.repeats import grouped
-from pyrofit.new_study.words import held_out, said, said_of_repeats, signal_lines
+from pyrofit.new_study.words import held_out, number_comment, said, said_of_repeats, signal_lines
 from pyrofit.results.files import write_bytes, write_text
 
 _NAME = re.compile(r"[A-Za-z][A-Za-z0-9_]*")
@@ -187,6 +187,7 @@ def _experiments(runs: Sequence[Measured]) -> list[str]:
         .render(
             run=run,
             words=run.of.words,
+            number=number_comment(run),
             again=again[run.name],
             facts=files_of(run.kind).facts(run.frames),
             signals=signal_lines(run),

@@ -6,7 +6,7 @@ import pandas as pd
 from pyrofit.experiments.from_files import Frames, FromFiles, Loss, NamedNumber
 from pyrofit.solver.arrays import FloatArray
 
-RATE_K_MIN = NamedNumber("K", (0.5, 500.0), 10.0)
+RATE_K_MIN = NamedNumber("[KC](?:/?min|pm)?", (0.5, 500.0), 10.0, "heating rate", "K/min")
 HOLD_K = 5.0
 """Span of temperatures within which one is held."""
 STILL = 0.02
@@ -42,10 +42,14 @@ def held(frames: Frames) -> dict[str, float | None]:
 def recorded_rate(named: float, frames: Frames) -> float | None:
     """Return the heating rate [K/min]: the named one where the record agrees within 10 %.
 
-    Where the temperature does not rise, as in a record of several ramps, there is none.
+    Where the temperature does not rise, as in a record of several ramps, there is none; nor where
+    it is held from the start: its drift is no heating rate.
     """
     for frame in frames.values():
-        frame = _heating(frame, held(frames)["set_point_K"])
+        heating = _heating(frame, held(frames)["set_point_K"])
+        if heating is None:
+            return None
+        frame = heating
         rise = np.gradient(frame["temperature_K"].to_numpy(), frame["time_s"].to_numpy())
         rate = 60.0 * float(np.median(rise))
         if rate <= 0.0:
@@ -54,12 +58,12 @@ def recorded_rate(named: float, frames: Frames) -> float | None:
     return None
 
 
-def _heating(frame: pd.DataFrame, set_point_K: float | None) -> pd.DataFrame:
-    """Return the part of a record before a hold, where there is enough of it."""
+def _heating(frame: pd.DataFrame, set_point_K: float | None) -> pd.DataFrame | None:
+    """Return the part of a record before a hold; None where there is not enough of it."""
     if set_point_K is None:
         return frame
     before = int(np.argmax(frame["temperature_K"].to_numpy() > set_point_K - HOLD_K))
-    return frame if before < 3 else frame.iloc[:before]
+    return None if before < 3 else frame.iloc[:before]
 
 
 def _rest(mass: FloatArray) -> float:
