@@ -11,6 +11,7 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from pyrofit.constants import QUANTILE
+from pyrofit.errors import DataError
 from pyrofit.estimate.bounded_least_squares import Fit
 from pyrofit.estimate.goodness import goodness_of_fit
 from pyrofit.estimate.likelihood import Likelihood, fit
@@ -135,15 +136,21 @@ def identify(
     """Find the least chi-square from scaled starts, and how far each parameter may be from it.
 
     Without ``profiles`` all intervals are linear: fast, but too narrow or too wide where chi-square
-    is no parabola.
+    is no parabola. All are linear as well where the model misses its tests.
+
+    Raises
+    ------
+    DataError
+        The best set does not finish.
     """
     weighed, optimum = _weighed(likelihood, fit(likelihood, starts))
     for _ in range(RESTARTS):
-        slopes = likelihood.slopes(optimum.x)
+        curves, slopes = _finished(likelihood, optimum.x), likelihood.slopes(optimum.x)
         posterior = _posterior(likelihood, optimum.x, slopes)
-        goodness = _goodness(likelihood, optimum.x, posterior)
+        goodness = goodness_of_fit(likelihood, posterior, curves)
         if not goodness.passes:
-            estimates = _of_misfit(likelihood, optimum.x, posterior, slopes)
+            wide = covariance_of_misfit(likelihood, posterior, slopes, curves)
+            estimates = _of_misfit(likelihood.problem.names, posterior, wide)
             return Identification(optimum, posterior, slopes, estimates, {}, goodness)
         estimates, found, lowest = _around(weighed, optimum, posterior, profiles)
         if lowest.chi2 >= optimum.chi2 - LOWER:
@@ -152,31 +159,27 @@ def identify(
     return Identification(optimum, posterior, slopes, estimates, found, goodness)
 
 
-def _goodness(likelihood: Likelihood, x: FloatArray, posterior: Posterior) -> Goodness:
+def _finished(likelihood: Likelihood, x: FloatArray) -> FloatArray:
     curves = likelihood.curves(x)
-    assert curves is not None
-    return goodness_of_fit(likelihood, posterior, curves)
+    if curves is None:
+        raise DataError(
+            "no run from any start finishes; check the limits of the parameters and the "
+            "description of the experiments"
+        )
+    return curves
 
 
 def _of_misfit(
-    likelihood: Likelihood, x: FloatArray, posterior: Posterior, slopes: FloatArray
+    names: Sequence[str], posterior: Posterior, covariance: FloatArray
 ) -> tuple[Estimate, ...]:
     """Return the estimates of a model that misses the tests, all intervals linear."""
-    curves = likelihood.curves(x)
-    assert curves is not None
-    wide = covariance_of_misfit(likelihood, posterior, slopes, curves)
-    plain = posterior.covariance(None, 1.0)
+    sds = np.sqrt(np.diag(covariance)).tolist()
+    plain = np.sqrt(np.diag(posterior.covariance(None, 1.0))).tolist()
     return tuple(
         Estimate(
-            name,
-            float(x[i]),
-            float(np.sqrt(wide[i, i])),
-            Interval(*interval(float(x[i]), float(np.sqrt(plain[i, i])))),
-            Interval(*interval(float(x[i]), float(np.sqrt(wide[i, i])))),
-            MISFIT,
-            limit_of(float(x[i])),
+            name, x, sd, Interval(*interval(x, s)), Interval(*interval(x, sd)), MISFIT, limit_of(x)
         )
-        for i, name in enumerate(likelihood.problem.names)
+        for name, x, sd, s in zip(names, posterior.x.tolist(), sds, plain, strict=True)
     )
 
 
