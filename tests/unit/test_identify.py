@@ -53,7 +53,7 @@ class Posed:
 
     @property
     def runs(self) -> Any:
-        point = SimpleNamespace(quantity=lambda signal: SimpleNamespace(sampling="point"))
+        point = SimpleNamespace(quantity=lambda signal: SimpleNamespace(sampling="point", name="mlr"))
         return {"slab": SimpleNamespace(experiment=point)}
 
     def temperature_K(self, channel: int) -> None:

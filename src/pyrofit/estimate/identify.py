@@ -17,7 +17,7 @@ from pyrofit.estimate.goodness import goodness_of_fit
 from pyrofit.estimate.likelihood import Likelihood, fit
 from pyrofit.estimate.posterior import Posterior, interval, limit_of
 from pyrofit.estimate.profile import Interval, Profile, profile_of
-from pyrofit.estimate.wrong_model import covariance_of_misfit
+from pyrofit.estimate.wrong_model import covariance_of_misfit, least_squares
 from pyrofit.numerics import linear
 from pyrofit.results.goodness import APPARENT, Goodness
 from pyrofit.solver.arrays import FloatArray
@@ -51,7 +51,8 @@ class Estimate:
         Interval if the noise were all that keeps model and data apart.
     interval
         The same with chi-square divided by its value per degree of freedom, where that exceeds 1.
-        Where the model misses the tests, that of `pyrofit.estimate.wrong_model`.
+        Where the model misses the tests, estimate and interval are those of
+        `pyrofit.estimate.wrong_model`.
     method
         'linear', of the parabola, 'profile', or 'misfit', of a model that misses the tests.
     bound
@@ -149,9 +150,7 @@ def identify(
         posterior = _posterior(likelihood, optimum.x, slopes)
         goodness = goodness_of_fit(likelihood, posterior, curves)
         if not goodness.passes:
-            wide = covariance_of_misfit(likelihood, posterior, slopes, curves)
-            estimates = _of_misfit(likelihood.problem.names, posterior, wide)
-            return Identification(optimum, posterior, slopes, estimates, {}, goodness)
+            return _of_wrong_model(likelihood, optimum.x, goodness)
         estimates, found, lowest = _around(weighed, optimum, posterior, profiles)
         if lowest.chi2 >= optimum.chi2 - LOWER:
             break
@@ -169,18 +168,30 @@ def _finished(likelihood: Likelihood, x: FloatArray) -> FloatArray:
     return curves
 
 
-def _of_misfit(
-    names: Sequence[str], posterior: Posterior, covariance: FloatArray
-) -> tuple[Estimate, ...]:
-    """Return the estimates of a model that misses the tests, all intervals linear."""
-    sds = np.sqrt(np.diag(covariance)).tolist()
-    plain = np.sqrt(np.diag(posterior.covariance(None, 1.0))).tolist()
-    return tuple(
+def _of_wrong_model(likelihood: Likelihood, x: FloatArray, tested: Goodness) -> Identification:
+    """Return the analysis of a model that misses the tests, all intervals linear."""
+    plain, x = least_squares(likelihood, x)
+    curves, slopes = _finished(likelihood, x), likelihood.slopes(x)
+    posterior = _posterior(likelihood, x, slopes)
+    sds = np.sqrt(np.diag(covariance_of_misfit(likelihood, plain, x, slopes, curves))).tolist()
+    of_noise = np.sqrt(np.diag(posterior.covariance(None, 1.0))).tolist()
+    estimates = tuple(
         Estimate(
-            name, x, sd, Interval(*interval(x, s)), Interval(*interval(x, sd)), MISFIT, limit_of(x)
+            name,
+            at,
+            sd,
+            Interval(*interval(at, s)),
+            Interval(*interval(at, sd)),
+            MISFIT,
+            limit_of(at),
         )
-        for name, x, sd, s in zip(names, posterior.x.tolist(), sds, plain, strict=True)
+        for name, at, sd, s in zip(likelihood.problem.names, x.tolist(), sds, of_noise, strict=True)
     )
+    residuals = likelihood.residuals(x)
+    optimum = Fit(linear.dot(residuals, residuals), x, residuals, posterior.jacobian)
+    # Windows and sizes are those of these values; the test is that of the likeliest ones.
+    shown = replace(goodness_of_fit(likelihood, posterior, curves), p=tested.p)
+    return Identification(optimum, posterior, slopes, estimates, {}, shown)
 
 
 def _weighed(likelihood: Likelihood, optimum: Fit) -> tuple[Likelihood, Fit]:

@@ -1,49 +1,97 @@
-"""Covariance of the parameters of a model that misses its tests.
+"""Parameters of a model that misses its tests, and their covariance.
 
-The parameters minimise chi-square with the noise N. If curves also deviate by a discrepancy of
-covariance D, see `pyrofit.estimate.discrepancy`, they scatter more than that minimum tells (Huber
-1967, the sandwich; White 1982, doi 10.2307/1912526). With J = d whitened residuals / d x, known
-values K, and the whitened factor W of D = F F^T,
+The likelihood weighs a misfit as noise of the record would be weighed: what lasts counts little,
+what is steep counts much. For a misfit that is no noise, the parameters are those of plain least
+squares instead, each signal over its rms misfit s_c. That is at least the median of all signals of
+its quantity, so that no signal counts for most because it fits by chance. It is found by
+repetition:
+
+    minimise sum over signals |model(x) - y|^2 / s_c^2 + |(x_k - known value) / sd_k|^2.
+
+Curves deviate by a discrepancy of covariance D, see `pyrofit.estimate.discrepancy`. The parameters
+then scatter more than that minimum tells (Huber 1967, the sandwich; White 1982, doi
+10.2307/1912526). With J = d (model / s) / d x, known values K, and D / (s s^T) = W W^T,
 
     C = H^-1 (J^T J + J^T W W^T J + K^T K + 12 I) H^-1,    H = J^T J + K^T K + 12 I.
 """
 
+from dataclasses import replace
+
 import numpy as np
 
+from pyrofit.estimate.correlation import Correlation
 from pyrofit.estimate.discrepancy import estimated, times
 from pyrofit.estimate.likelihood import Likelihood
-from pyrofit.estimate.posterior import UNIFORM, Posterior
+from pyrofit.estimate.noise import NoiseModel
+from pyrofit.estimate.posterior import UNIFORM
 from pyrofit.numerics import linear
 from pyrofit.solver.arrays import FloatArray
 
 MOST_POINTS = 60
 """Points of a series from which its discrepancy is estimated; it lasts over many."""
+WEIGHINGS = 3
+"""How often signals are weighed by their misfit."""
+LEAST = 1e-6
+"""Least rms misfit, as a fraction of the range of a signal."""
+
+
+def least_squares(likelihood: Likelihood, x: FloatArray) -> tuple[Likelihood, FloatArray]:
+    """Return the plain least squares and their minimum, from the optimum of the likelihood."""
+    plain = likelihood
+    for _ in range(WEIGHINGS):
+        curves = likelihood.curves(x)
+        if curves is None:
+            break
+        plain = replace(likelihood, noise=_by_misfit(likelihood, curves))
+        x = plain.descend(x).x
+    return plain, x
+
+
+def _by_misfit(likelihood: Likelihood, curves: FloatArray) -> tuple[NoiseModel, ...]:
+    """Return white noise of the size of each signal's misfit."""
+    values = [term.target.value for _, term in likelihood.problem.cost.terms]
+    pairs = zip(likelihood.split(curves), values, strict=True)
+    sizes = [float(np.sqrt(np.mean((curve - value) ** 2))) for curve, value in pairs]
+    by_quantity: dict[str, list[float]] = {}
+    names = [_quantity(likelihood, k) for k in range(len(values))]
+    for name, size, value in zip(names, sizes, values, strict=True):
+        least = LEAST * max(float(np.ptp(value)), 1e-300)
+        by_quantity.setdefault(name, []).append(max(size, least))
+    return tuple(
+        NoiseModel(
+            np.full(value.size, max(size, float(np.median(by_quantity[name])))), Correlation()
+        )
+        for name, size, value in zip(names, sizes, values, strict=True)
+    )
+
+
+def _quantity(likelihood: Likelihood, channel: int) -> str:
+    experiment, signal, _ = likelihood.problem.picks[channel]
+    return likelihood.problem.runs[experiment].experiment.quantity(signal).name
 
 
 def covariance_of_misfit(
-    likelihood: Likelihood, posterior: Posterior, slopes: FloatArray, curves: FloatArray
+    likelihood: Likelihood, plain: Likelihood, x: FloatArray, slopes: FloatArray, curves: FloatArray
 ) -> FloatArray:
     """Return C, shape (parameters, parameters).
 
     Parameters
     ----------
-    likelihood
-        With the noise alone.
-    posterior
-        Residuals and derivatives at the optimum.
+    likelihood, plain
+        With the noise alone, and the least squares.
+    x
+        Their minimum.
     slopes, curves
         d curves / d x and the curves there, shapes (points, parameters) and (points,).
     """
-    found = estimated(likelihood, posterior.x, slopes, curves, MOST_POINTS)
-    parts = zip(found, times(likelihood), likelihood.split(curves), strict=True)
-    factors = [of.factor(time, curve) for of, time, curve in parts]
-    white = [noise.whiten(factor) for noise, factor in zip(likelihood.noise, factors, strict=True)]
-    J = posterior.jacobian[: posterior.residuals.size]
-    K = posterior.jacobian[posterior.residuals.size :]
-    ahead = linear.gram(K) + UNIFORM * np.eye(posterior.x.size)
-    middle = linear.gram(J) + ahead
-    for W, part in zip(white, likelihood.split(J), strict=True):
+    found = estimated(likelihood, x, slopes, curves, MOST_POINTS)
+    parts = zip(found, times(likelihood), likelihood.split(curves), plain.noise, strict=True)
+    white = [noise.whiten(of.factor(time, curve)) for of, time, curve, noise in parts]
+    rows = plain.with_known(slopes)
+    J = plain.split(rows)
+    H = linear.gram(rows) + UNIFORM * np.eye(x.size)
+    middle = H.copy()
+    for W, part in zip(white, J, strict=True):
         middle += linear.gram(linear.product(W.T, part))
-    H = linear.gram(J) + ahead
     half = linear.solve(H, middle)
     return np.asarray(linear.solve(H, half.T))

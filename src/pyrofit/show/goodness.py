@@ -9,7 +9,7 @@ from pyrofit.show.text import listed, several
 from pyrofit.show.units import celsius, difference, difference_unit
 
 MOST_NAMED = 3
-"""Signals that a sentence names at most."""
+"""Signals and repeats that are named at most."""
 OTHER_TOTAL = 0.1
 """Relative difference of integrals that is told."""
 NEXT = {
@@ -71,10 +71,13 @@ def _window(w: Miss, mean: float, unit: str) -> str:
 
 
 def _repeats(study: Study, found: Goodness) -> Iterator[str]:
-    for r in found.repeats:
+    for r in found.repeats[:MOST_NAMED]:
         quantity = study.experiments[r.experiment].quantity(r.signal)
         said = differs(r.kind, r.size, r.low, r.high, quantity)
         yield f"{r.experiment} {said}. {WAY_OUT}."
+    more = len(found.repeats) - MOST_NAMED
+    if more > 0:
+        yield f"{several(more, 'further record')} differ from their repeats; `pyrofit check` names them."
 
 
 def _below(p: float) -> str:
