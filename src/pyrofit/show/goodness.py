@@ -77,7 +77,8 @@ def _repeats(study: Study, found: Goodness) -> Iterator[str]:
         yield f"{r.experiment} {said}. {WAY_OUT}."
     more = len(found.repeats) - MOST_NAMED
     if more > 0:
-        yield f"{several(more, 'further record')} differ from their repeats; `pyrofit check` names them."
+        said = "differ from their repeats; pyrofit check names them"
+        yield f"{several(more, 'further record')} {said}."
 
 
 def _below(p: float) -> str:
