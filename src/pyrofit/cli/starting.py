@@ -169,6 +169,7 @@ def _check(given: argparse.Namespace) -> None:
     from pyrofit.config import read_study
     from pyrofit.config.programs import externals
     from pyrofit.config.unusual import unusual
+    from pyrofit.data.suspect import LOOK
     from pyrofit.external.filled import executable_of
     from pyrofit.new_study.marks import MARK, marked_lines
     from pyrofit.stages.reading import check_measurements
@@ -186,7 +187,10 @@ def _check(given: argparse.Namespace) -> None:
     if marked:
         lines = f"{'lines' if len(marked) > 1 else 'line'} {', '.join(map(str, marked))}"
         sentences.append(f"set the values marked {MARK} and delete this word: {lines}")
-    sentences += [note for _, about in read.values() for note in about["notes"] if DIFFERS in note]
+    for _, about in read.values():
+        notes = about["notes"]
+        sentences += [note for note in notes if DIFFERS in note]
+        sentences += [f"{about['source']}: {n}" for n in notes if n.startswith(LOOK)]
     for sentence in sentences:
         print(f"warning: {given.study}: {sentence}", file=sys.stderr)
     print(

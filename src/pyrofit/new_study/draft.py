@@ -12,6 +12,7 @@ import pandas as pd
 from pyrofit.data.csvfile import Table, read_table
 from pyrofit.data.series import read_series
 from pyrofit.data.spec import SeriesSpec
+from pyrofit.data.suspect import cooling_from_s
 from pyrofit.errors import DataError, StudyError
 from pyrofit.experiments import KINDS, files_of
 from pyrofit.experiments.base import Kind
@@ -57,6 +58,8 @@ class Measured:
         How its file was read, where that is not as a table in UTF-8 with decimal points.
     timeless
         Whether its file has temperatures without times.
+    cools_from_s
+        Time [s] from which on a heated sample cools, which the study leaves out.
     """
 
     kind: str
@@ -72,6 +75,7 @@ class Measured:
     repeats: tuple["Measured", ...] = ()
     mended: tuple[str, ...] = ()
     timeless: bool = False
+    cools_from_s: float | None = None
 
     @property
     def of(self) -> Kind:
@@ -114,6 +118,9 @@ def measured(kind: str, path: Path) -> Measured:
     if timeless:
         signals = tuple(replace(found, missing=()) for found in signals)
     frames, thinned = _frames(table, signals, number / 60.0 if timeless else None)
+    cools = _cooling(frames)
+    if cools is not None:
+        frames = {name: frame[frame["time_s"] <= cools] for name, frame in frames.items()}
     recorded = files.recorded(number, frames)
     if recorded is not None and not timeless:
         number, told = recorded, "record"
@@ -134,7 +141,17 @@ def measured(kind: str, path: Path) -> Measured:
         frames,
         mended=(*table.mended, *thinned),
         timeless=timeless,
+        cools_from_s=cools,
     )
+
+
+def _cooling(frames: Mapping[str, pd.DataFrame]) -> float | None:
+    """Return the time [s] from which on a heated sample cools; None where it does not."""
+    for frame in frames.values():
+        if "temperature_K" in frame:
+            time, temperature = (frame[c].to_numpy(float) for c in ("time_s", "temperature_K"))
+            return cooling_from_s(time, temperature)
+    return None
 
 
 def divisor_of(found: Found) -> tuple[str, float] | None:

@@ -56,6 +56,8 @@ def _signal(run: Measured, found: Found) -> list[str]:
         told = is_told(found, divisor[0])
         why = "of the file" if told else "CHANGE: the values are divided by it"
         lines.append(f"  {divisor[0]}: {divisor[1]:g} # {why}")
+    if (cools := run.cools_from_s) is not None:
+        lines.append(f"  until_s: {cools:g} # from then on the record cools, which is no heating")
     if found.of.has_sign:
         lines.append("  endothermic: positive # CHANGE to negative where heat released points up")
     if "uncertainty" not in found.columns:
@@ -84,6 +86,8 @@ def said(run: Measured) -> list[str]:
         lines.append(f"{run.path}: {found.signal}: {', '.join(parts)}")
         if (remark := _remark(run, found)) != "":
             lines.append(f"{run.path}: {found.signal}: {remark}")
+    if run.cools_from_s is not None:
+        lines.append(f"{run.path}: read until {run.cools_from_s:g} s: it cools from then on")
     return lines + [f"{run.path}: '{n}' is not used: {why}" for n, why in run.left.items()]
 
 

@@ -15,6 +15,7 @@ from pyrofit.data.download import FOLDER_VARIABLE
 from pyrofit.data.fetch import locate, store
 from pyrofit.data.series import Measurement, read_series
 from pyrofit.data.spec import SeriesSpec
+from pyrofit.data.suspect import suspicions
 from pyrofit.errors import CostError, DataError
 from pyrofit.estimate.targets import Measurements, term_for
 from pyrofit.model.experiment import Experiment
@@ -171,7 +172,7 @@ def _read(experiment: Experiment, label: str, read: Callable[[Path], Table]) -> 
         "source": signal.file,
         "sha256": found.sha256,
         "uncertainty": found.uncertainty_meaning,
-        "notes": list(found.notes),
+        "notes": [*found.notes, *suspicions(experiment.quantity(label), frame)],
     }
     return frame, about
 

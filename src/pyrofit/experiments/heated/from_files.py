@@ -42,8 +42,8 @@ def held(frames: Frames) -> dict[str, float | None]:
 def recorded_rate(named: float, frames: Frames) -> float | None:
     """Return the heating rate [K/min]: the named one where the record agrees within 10 %.
 
-    Where the temperature does not rise, as in a record of several ramps, there is none; nor where
-    it is held from the start: its drift is no heating rate.
+    Where the temperature does not rise, as in a record of several ramps, there is none. Nor is
+    there one where it is held from the start: its drift is no heating rate.
     """
     for frame in frames.values():
         heating = _heating(frame, held(frames)["set_point_K"])

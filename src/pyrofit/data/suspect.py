@@ -1,0 +1,146 @@
+"""What is suspect in a record that can be read: it is told, and the record is used as it is."""
+
+from collections.abc import Callable
+
+import numpy as np
+import pandas as pd
+
+from pyrofit.data.csvfile import FloatArray
+from pyrofit.quantities.base import Quantity
+from pyrofit.quantities.units import ICE_POINT_K
+
+LOOK = "look at this record: "
+"""Beginning of the note on a suspect record."""
+ROOM_K = (283.0, 323.0)
+"""Temperatures at which records usually start."""
+COLD_K = 268.0
+"""A record that starts below this is seldom one of a fire test."""
+_LEAST_FALL, _LEAST_RISE, _FALLEN = 0.01, 0.05, 0.97
+"""Changes of the mass, and a first value, as fractions of the initial mass."""
+_SMOOTHED = 9
+_GAP, _GAP_SHARE = 5.0, 0.02
+"""A gap is this many usual long steps, and this share of the record."""
+_COOLED_K = 20.0
+"""Fall of the temperature from which on a record counts as cooling."""
+
+
+def suspicions(quantity: Quantity, frame: pd.DataFrame) -> list[str]:
+    """Return notes on what is suspect in a record, each with the way out.
+
+    Parameters
+    ----------
+    quantity
+        The measured quantity.
+    frame
+        The series in SI units, as `pyrofit.data.series.read_series` returns it.
+
+    Examples
+    --------
+    >>> from pyrofit.quantities import known_quantities
+    >>> t = np.arange(0.0, 600.0)
+    >>> frame = pd.DataFrame({"time_s": t, "temperature_K": 300 + t, "mass_fraction": 0 * t + 1})
+    >>> suspicions(known_quantities()["mass_fraction"], frame)[0][21:55]
+    'the mass falls by no more than 0 %'
+    """
+    checks: tuple[Callable[[Quantity, pd.DataFrame], str], ...] = _start, _mass, _first, _gap
+    said = (check(quantity, frame) for check in checks)
+    return [f"{LOOK}{text}" for text in said if text]
+
+
+def cooling_from_s(time_s: FloatArray, temperature_K: FloatArray) -> float | None:
+    """Return the time [s] of the highest temperature, where the record cools from there on.
+
+    A hold at the highest temperature belongs to the heating.
+
+    >>> t = np.arange(0.0, 100.0)
+    >>> cooling_from_s(t, 300.0 + np.minimum(10.0 * t, 600.0 - 5.0 * np.maximum(t - 80.0, 0.0)))
+    81.0
+    """
+    top = float(temperature_K.max())
+    if top - float(temperature_K[-1]) < _COOLED_K:
+        return None
+    hot = np.flatnonzero(temperature_K > top - 0.5 * _COOLED_K)
+    return float(time_s[int(hot[-1])])
+
+
+def _temperature(quantity: Quantity, frame: pd.DataFrame) -> FloatArray | None:
+    if quantity.against_temperature:
+        return frame["temperature_K"].to_numpy(float)
+    return frame[quantity.column].to_numpy(float) if quantity.is_temperature else None
+
+
+def _start(quantity: Quantity, frame: pd.DataFrame) -> str:
+    """Find a record in degrees C that is taken for K, or in K that is taken for degrees C."""
+    temperature = _temperature(quantity, frame)
+    if temperature is None:
+        return ""
+    role = "temperature" if quantity.against_temperature else "value"
+    first = float(temperature[0])
+    if first < COLD_K:
+        return (
+            f"it starts at {first:.0f} K, below room temperature. If the column is in degrees C, "
+            f"give `units: {{{role}: degC}}`"
+        )
+    if ROOM_K[0] <= first - ICE_POINT_K <= ROOM_K[1]:
+        return (
+            f"it starts at {first:.0f} K. If the column is in K, so that it starts at "
+            f"{first - ICE_POINT_K:.0f} K, give `units: {{{role}: K}}`"
+        )
+    return ""
+
+
+def _smooth(values: FloatArray) -> FloatArray:
+    rows = min(_SMOOTHED, values.size)
+    return np.asarray(pd.Series(values).rolling(rows).median().dropna(), float)
+
+
+def _is_mass(quantity: Quantity) -> bool:
+    return "mass" in quantity.scales
+
+
+def _mass(quantity: Quantity, frame: pd.DataFrame) -> str:
+    """Find a mass that does not fall, or that rises."""
+    if not _is_mass(quantity):
+        return ""
+    mass = _smooth(frame[quantity.column].to_numpy(float))
+    first, end, top = float(mass[0]), float(mass[-1]), float(mass.max())
+    if first <= 0.0:
+        return ""
+    if top > (1.0 + _LEAST_RISE) * first:
+        return (
+            f"the mass rises by {100.0 * (top / first - 1.0):.0f} % of its start. Subtract the "
+            "blank curve, or give the column of the mass of the sample"
+        )
+    if first - end < _LEAST_FALL * first:
+        return (
+            f"the mass falls by no more than {100.0 * max(1.0 - end / first, 0.0):.1g} %, so it "
+            "shows no reaction. Give the column of the mass, or a longer record"
+        )
+    return ""
+
+
+def _first(quantity: Quantity, frame: pd.DataFrame) -> str:
+    """Find a mass fraction that starts below 1: of a sample that lost mass before the record."""
+    if quantity.scales[0] != "fraction" or not _is_mass(quantity):
+        return ""
+    first = float(_smooth(frame[quantity.column].to_numpy(float))[0])
+    if first > _FALLEN:
+        return ""
+    return (
+        f"it starts at {100.0 * first:.1f} % of the initial mass, the model at 100 %. If "
+        "the sample was dried or heated before, divide the column by its first value"
+    )
+
+
+def _gap(quantity: Quantity, frame: pd.DataFrame) -> str:
+    """Find a part that was not recorded."""
+    time = frame["time_s"].to_numpy(float)
+    steps = np.diff(time)
+    usual = float(np.sort(steps)[int(0.95 * (steps.size - 1))])
+    at = int(steps.argmax())
+    if steps[at] < max(_GAP * usual, _GAP_SHARE * (time[-1] - time[0])):
+        return ""
+    return (
+        f"no point lies between {time[at]:g} s and {time[at + 1]:g} s, where steps are {usual:.3g} "
+        "s elsewhere. The fit tells nothing of this gap; complete the record where you can"
+    )
