@@ -73,7 +73,8 @@ def written(root: Path, given: dict[str, Any] | None = None) -> tuple[Page, str]
 
 def test_report_has_all_sections_and_figures(tmp_path: Path) -> None:
     page, _ = written(tmp_path)
-    sections = ["summary", "data", "kinetics", "fit", "identification", "validation"]
+    sections = ["summary", "data", "isoconversional"]
+    sections += ["kinetics", "fit", "identification", "validation"]
     sections += ["optimisation", "costs", "provenance"]
     assert [i for i in page.ids if i not in FIGURES] == sections
     study, _ = fake(tmp_path)

@@ -8,13 +8,14 @@ import pytest
 
 from pyrofit.analysis import optimisers, uses
 from pyrofit.analysis.estimates import Estimated
+from pyrofit.analysis.isoconversional.analyse import no_table
 from pyrofit.analysis.recovery import compared
 from pyrofit.analysis.repetitions import Repeated
 from pyrofit.config import Study, as_study
 from pyrofit.errors import StudyError
 from pyrofit.estimate.optimisers import OPTIMISERS
 from pyrofit.quantities import known_quantities
-from pyrofit.results import goodness, searches
+from pyrofit.results import goodness, isoconversional, searches
 from pyrofit.results.files import Results, read_csv, write_csv, write_json
 from pyrofit.results.goodness import Goodness, Miss, SignalGoodness
 from pyrofit.show.costs.table5 import table5
@@ -140,6 +141,7 @@ def fake(root: Path, given: dict[str, Any] | None = None) -> tuple[Study, Result
     _measurements(study, results)
     if study.kinetics is not None:
         _kinetics(study, results)
+    isoconversional.write(results, no_table().fillna(150.0), ["E varies with conversion."], 0.5)
     _imp(study, results)
     _identification(study, results)
     _validation(study, results)

@@ -12,6 +12,7 @@ from pyrofit.analysis.isoconversional.curve import Curve, curve_of
 from pyrofit.analysis.isoconversional.findings import findings
 from pyrofit.analysis.isoconversional.records import (
     FEWEST,
+    LEAST_LOST,
     applies,
     masses,
     measured_curves,
@@ -144,8 +145,11 @@ def _analysed(curves: list[Curve], model: list[Curve], sd: float | None) -> Anal
             "differences between them"
         )
     for curve in curves:
-        if curve.lost <= 0.0:
-            raise DataError(f"{curve.name}: the mass does not fall, so there is no conversion")
+        if curve.lost < LEAST_LOST:
+            raise DataError(
+                f"{curve.name}: the mass falls by less than {LEAST_LOST:g} of the initial mass, so "
+                "there is no conversion; leave this record out"
+            )
     return analyse(curves, model, sd)
 
 

@@ -5,7 +5,7 @@ import sys
 from functools import partial
 from typing import Any
 
-from pyrofit.cli.common import add_step, open_study
+from pyrofit.cli.common import add_step, open_study, tell
 from pyrofit.errors import StudyError
 from pyrofit.estimate.optimisers import OPTIMISERS
 
@@ -40,6 +40,8 @@ def add(commands: Any) -> None:
     add_step(commands, "collect", "gather all repetitions", _collect)
     known = add_step(commands, "identify", "find which parameters the data determine", _identify)
     known.add_argument("--stage", choices=("kinetics", "imp"), default="imp", help="default: imp")
+    text = "find the activation energy over conversion, without a model"
+    add_step(commands, "isoconversional", text, _isoconversional)
     add_step(commands, "predict", "simulate the best sets at all predicted experiments", _predict)
     add_step(commands, "compare", "score all sets of all optimisers by all costs", _compare)
 
@@ -113,6 +115,16 @@ def _identify(given: argparse.Namespace) -> None:
         identify.identify_kinetics(*open_study(given, dependencies.kinetics))
     else:
         identify.identify_imp(*open_study(given, dependencies.identify))
+
+
+def _isoconversional(given: argparse.Namespace) -> None:
+    from pyrofit.results import dependencies
+    from pyrofit.stages import isoconversional, measurements
+
+    study, results = open_study(given, dependencies.isoconversional)
+    if given.digest is None:  # by hand, without the workflow that has read the measurements
+        measurements.prepare(study, results)
+    isoconversional.analyse_masses(study, results, tell)
 
 
 def _predict(given: argparse.Namespace) -> None:

@@ -125,6 +125,12 @@ def scheme(study: Study) -> dict[str, Any]:
     return {**study.model_dump(mode="json"), "code": code_of(study, terms, more)}
 
 
+def isoconversional(study: Study) -> dict[str, Any]:
+    """All masses of heated samples, and the model that is fitted to them."""
+    heated = {n: _measured(study, n) for n in study.of_stage("kinetics")}
+    return {"heated": heated, "fit": identify(study) if study.kinetics is None else kinetics(study)}
+
+
 def imp(study: Study, cost: str, optimiser: str) -> dict[str, Any]:
     """Everything of one cost's searches; ``optimiser`` is its key: 'sceua', 'cmaes' ..."""
     stage = study.imp

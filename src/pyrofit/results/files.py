@@ -165,6 +165,10 @@ class Results:
         """Results of the kinetics fit."""
         return self.root / "kinetics" / name
 
+    def isoconversional(self, name: str) -> Path:
+        """Activation energies over conversion, without a model of the reactions."""
+        return self.root / "isoconversional" / name
+
     def repetition(self, cost: str, repetition: int, suffix: str) -> Path:
         """History or result of one repetition."""
         return self.root / "imp" / cost / f"{repetition:02d}{suffix}"

@@ -17,7 +17,7 @@ from pyrofit.analysis.uses import predicted_labels
 from pyrofit.analysis.wall_times import wall_times
 from pyrofit.config import Study
 from pyrofit.estimate.optimisers import OPTIMISERS
-from pyrofit.results import identification, posterior, prediction, searches
+from pyrofit.results import identification, isoconversional, posterior, prediction, searches
 from pyrofit.results.files import Results
 from pyrofit.results.goodness import Goodness
 from pyrofit.show.table import Frames
@@ -49,6 +49,8 @@ class Facts:
         How well all sets predict; none without validation.
     times
         Wall times of the searches by optimiser [s], as far as they were measured.
+    isoconversional
+        What the activation energies over conversion show, in sentences.
     ensemble
         Number of sets drawn from the posterior; 0 where it was not sampled, or did not converge.
     """
@@ -64,6 +66,7 @@ class Facts:
     repeated: list[Repeated]
     scores: list[Score]
     times: Mapping[str, list[float]]
+    isoconversional: list[str]
     ensemble: int
 
 
@@ -93,6 +96,7 @@ def facts_of(study: Study, results: Results, tables: Frames) -> Facts:
         repeated=repeated(study, searched.repetitions),
         scores=scores(study, predicted),
         times=wall_times(study, results),
+        isoconversional=isoconversional.findings(results),
         ensemble=_ensemble(study, results),
     )
 

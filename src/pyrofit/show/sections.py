@@ -12,6 +12,7 @@ from pyrofit.show.costs import COSTS
 from pyrofit.show.figure import Figure, draw_figure
 from pyrofit.show.fit import FIT
 from pyrofit.show.identification import IDENTIFICATION
+from pyrofit.show.isoconversional import ISOCONVERSIONAL
 from pyrofit.show.kinetics import KINETICS
 from pyrofit.show.optimisers import OPTIMISERS
 from pyrofit.show.section import Section
@@ -20,6 +21,7 @@ from pyrofit.show.truth import TRUTH
 from pyrofit.show.validation import VALIDATION
 
 SECTIONS: tuple[Section, ...] = (
+    ISOCONVERSIONAL,
     KINETICS,
     FIT,
     IDENTIFICATION,

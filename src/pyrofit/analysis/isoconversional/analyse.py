@@ -105,6 +105,13 @@ def analyse(
     return Analysis(runs, found, of_model, sd)
 
 
+def no_table(levels: FloatArray = LEVELS) -> pd.DataFrame:
+    """Return the table of an analysis that finds nothing."""
+    columns = [f"{m}{end}_kJ_mol" for m in METHODS for end in ("", "_error")]
+    nothing = dict.fromkeys(["temperature_K", *columns], np.nan)
+    return pd.DataFrame({"conversion": np.round(levels, 6), **nothing})
+
+
 def _temperature_sd(runs: Runs) -> float:
     """Return the scatter of the temperature among repeats, joined with the usual one."""
     # ASSUME: repeats of one laboratory differ by 0.1 to 1 K, as those of the MaCFP data base.

@@ -128,9 +128,9 @@ def reach_of(curve: Curve) -> float:
 def crossing(curve: Curve, levels: FloatArray, reach: float) -> Crossing:
     """Return where a record reaches levels of conversion, by local parabolas of conversion.
 
-    Each parabola is fitted to the points whose conversion is at most ``reach`` from the level, and
-    at most 0.6 of the distance to the nearest end. At equal conversion, curves of different rates
-    have nearly the same shape, so that its bias is nearly the same for all.
+    Each parabola is fitted to the points whose conversion is at most ``reach`` from the level. Near
+    the ends, 0.6 of the distance to the nearest end replaces a larger reach. At equal conversion,
+    curves of different rates have nearly the same shape, so that its bias is nearly the same.
     """
     steady = _rising(curve.conversion)
     rows = np.full((levels.size, 4), np.nan)

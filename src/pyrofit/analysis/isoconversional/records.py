@@ -16,6 +16,8 @@ from pyrofit.solver.outputs import MASS_FRACTION
 Measured = Mapping[tuple[str, str], pd.DataFrame]
 FEWEST = 2
 """Heating programmes that the analysis needs."""
+LEAST_LOST = 0.02
+"""Mass lost over the initial mass below which a record shows no reaction."""
 
 
 def masses(study: Study) -> dict[str, str]:

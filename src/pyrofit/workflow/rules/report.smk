@@ -6,6 +6,7 @@ CALCULATED = [
     STARTED,
     expand(ROOT / "imp/{cost}/descent.json", cost=COSTS),
     IDENTIFICATION,
+    ISOCONVERSIONAL,
     PREDICTED,
     COMPARED,
 ]

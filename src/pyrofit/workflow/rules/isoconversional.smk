@@ -1,0 +1,30 @@
+from pyrofit.analysis.isoconversional.records import applies as has_rates
+
+ISOCONVERSIONAL = []
+
+
+if has_rates(study):
+    ISOCONVERSIONAL = [
+        results.isoconversional(name) for name in ("energies.csv", "findings.json")
+    ]
+
+    rule isoconversional:
+        """Activation energy over conversion, by methods that know no reactions."""
+        input:
+            MEASUREMENTS,
+            KINETICS or [results.identification("estimate.csv")],
+        output:
+            ISOCONVERSIONAL,
+        log:
+            log_of("isoconversional"),
+        benchmark:
+            benchmark_of("isoconversional")
+        params:
+            study=STUDY,
+            digest=digest(dependencies.isoconversional(study)),
+            source=source_fingerprint("pyrofit.stages.isoconversional"),
+        message:
+            "Activation energy over conversion"
+        shell:
+            '"$PYROFIT_PYTHON" -P -m pyrofit'
+            " isoconversional --study {params.study} --digest {params.digest} --log {log}"
