@@ -53,7 +53,9 @@ class Posed:
 
     @property
     def runs(self) -> Any:
-        point = SimpleNamespace(quantity=lambda signal: SimpleNamespace(sampling="point", name="mlr"))
+        point = SimpleNamespace(
+            quantity=lambda signal: SimpleNamespace(sampling="point", name="mlr")
+        )
         return {"slab": SimpleNamespace(experiment=point)}
 
     def temperature_K(self, channel: int) -> None:
