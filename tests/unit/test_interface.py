@@ -164,6 +164,29 @@ def test_wrong_series_is_named_in_the_message(given: object, message: str, study
         pf.read_data(study, {"slab_25": "mlr"}, {KEY: given})
 
 
+def test_checked_series_are_not_read_again(
+    study: pf.Study, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    data = pf.read_data(study, {"slab_25": "mlr"}, {KEY: (TIME, RATE)})
+    with monkeypatch.context() as patch:
+        patch.setattr("pyrofit.api.measurements.read_all", None)
+        again = pf.read_data(study, {"slab_25": "mlr"}, data)
+    assert again[KEY].equals(data[KEY])
+    assert again[KEY] is not data[KEY]
+    cut = pf.read_study(study, **{"experiments.slab_25.signals.mlr.until_s": 300.0})
+    assert pf.read_data(cut, {"slab_25": "mlr"}, data)[KEY]["time_s"].max() <= 300.0
+
+
+@pytest.mark.parametrize(("row", "column"), [(3, "mlr_kg_m2_s"), (3, "time_s")])
+def test_checked_series_that_was_changed_is_checked_again(
+    row: int, column: str, study: pf.Study
+) -> None:
+    data = pf.read_data(study, {"slab_25": "mlr"}, {KEY: (TIME, RATE)})
+    data[KEY].loc[row, column] = -np.inf
+    with pytest.raises(DataError, match="data of slab_25, mlr"):
+        pf.read_data(study, {"slab_25": "mlr"}, data)
+
+
 def test_signals_of_an_experiment_stand_side_by_side(study: pf.Study) -> None:
     data = {KEY: (TIME, RATE), ("slab_25", "back_temperature"): (TIME[1:], 300.0 + TIME[1:])}
     frame = pf.read_data(study, "slab_25", data)["slab_25"]

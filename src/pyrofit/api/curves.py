@@ -16,6 +16,9 @@ from pyrofit.quantities.base import Quantity
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
 
+MEASURED, SIMULATED = "measured", "simulated"
+"""Kinds of series, in words."""
+
 
 @dataclass(frozen=True, eq=False)
 class Curves:

@@ -9,7 +9,7 @@ import numpy as np
 import pandas as pd
 
 from pyrofit.api.choices import Key, Signals, key_of, signals_of
-from pyrofit.api.curves import Curves, with_units
+from pyrofit.api.curves import MEASURED, Curves, with_units
 from pyrofit.api.studies import Source, read_study
 from pyrofit.config import Study
 from pyrofit.errors import DataError
@@ -53,13 +53,45 @@ def read_data(study: Source, signals: Signals | None = None, data: Data | None =
     """
     study = read_study(study)
     wanted = signals_of(study, list(study.experiments) if signals is None else signals)
-    return Curves(study, measured(study, wanted, data), "measured")
+    return Curves(study, measured(study, wanted, data), MEASURED)
 
 
 def measured(study: Study, wanted: Iterable[Key], data: Data | None) -> dict[Key, pd.DataFrame]:
     """Return some measured series; only these are read or computed."""
     given = dict(zip(given_keys(study, data), [] if data is None else data.values(), strict=True))
     keys = list(dict.fromkeys(wanted))
+    checked = {key: given[key] for key in keys if key in given and _is_checked(study, key, data)}
+    rest = _read_or_computed(study, [key for key in keys if key not in checked], given)
+    found = checked | rest
+    return {key: with_units(found[key], study.experiments[key[0]].quantity(key[1])) for key in keys}
+
+
+def _is_checked(study: Study, key: Key, data: Data | None) -> bool:
+    """Tell whether a series is one of `read_data` for this experiment, unchanged since.
+
+    A caller may have changed the numbers of its table: those that no series has are read again,
+    with the messages of the reader.
+    """
+    if not isinstance(data, Curves) or data.words != MEASURED:
+        return False
+    name = key[0]
+    if data.study is not study and data.study.experiments.get(name) != study.experiments[name]:
+        return False
+    frame = data.series[key]
+    if not all(pd.api.types.is_float_dtype(kind) for kind in frame.dtypes):
+        return False
+    numbers = frame.to_numpy(float)
+    time = frame["time_s"].to_numpy(float)
+    return bool(len(time) > 2 and np.isfinite(numbers).all() and (np.diff(time) > 0.0).all())
+
+
+def _read_or_computed(
+    study: Study, keys: Iterable[Key], given: Mapping[Key, Any]
+) -> dict[Key, pd.DataFrame]:
+    """Return series from files and tables, read and checked, and those of the study's truth."""
+    keys = list(keys)
+    if not keys:
+        return {}
     with tempfile.TemporaryDirectory() as folder:
         signals: dict[Key, Signal] = {}
         labels: dict[str, str] = {}
@@ -74,8 +106,7 @@ def measured(study: Study, wanted: Iterable[Key], data: Data | None) -> dict[Key
                 write_csv(path, table)
                 labels[str(path)] = label
                 signals[key] = _from_table(signals[key], quantity, path, table, timeless)
-        found = _read(_with_signals(study, signals), labels)
-    return {key: with_units(found[key], study.experiments[key[0]].quantity(key[1])) for key in keys}
+        return _read(_with_signals(study, signals), labels)
 
 
 def given_keys(study: Study, data: Data | None) -> list[Key]:

@@ -8,7 +8,7 @@ import pandas as pd
 
 from pyrofit.api.choices import Signals, in_units
 from pyrofit.api.comparison import Comparison, compare
-from pyrofit.api.curves import Curves, with_units
+from pyrofit.api.curves import MEASURED, Curves, with_units
 from pyrofit.api.tables import html_page
 from pyrofit.config import Study, read_study
 from pyrofit.errors import DataError, StudyError, suggest
@@ -58,7 +58,7 @@ class Campaign:
             key: with_units(frame, study.experiments[key[0]].quantity(key[1]))
             for key, frame in found.items()
         }
-        return Curves(study, units, "measured")
+        return Curves(study, units, MEASURED)
 
     def best(self, cost: str) -> dict[str, float]:
         """Return the best set that SCE-UA found for a cost, in the units of the study.

@@ -5,7 +5,7 @@ from collections.abc import Iterable, Mapping
 import pandas as pd
 
 from pyrofit.api.choices import Key, complete, experiments_of, si_values, with_kinetics_of
-from pyrofit.api.curves import Curves, with_units
+from pyrofit.api.curves import SIMULATED, Curves, with_units
 from pyrofit.api.measurements import Data, given_keys, measured
 from pyrofit.api.studies import Source, read_study
 from pyrofit.config import Study
@@ -68,7 +68,7 @@ def simulate(
     else:
         keys = [key for key in given_keys(study, data) if key[0] in names]
         requests = at_times(study, measured(study, keys, data))
-    return Curves(study, simulated(study, every, requests), "simulated")
+    return Curves(study, simulated(study, every, requests), SIMULATED)
 
 
 def at_times(study: Study, series: Mapping[Key, pd.DataFrame]) -> dict[str, dict[str, Request]]:
