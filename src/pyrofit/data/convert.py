@@ -18,6 +18,9 @@ from pyrofit.quantities.units import (
     unit_key,
 )
 
+OTHER_ZERO = 0.2
+"""Share of the stated initial mass by which the first mass differs where its zero is arbitrary."""
+
 
 def convert_columns(
     spec: SeriesSpec, table: Table, headers: Mapping[str, str]
@@ -45,7 +48,9 @@ def convert_columns(
         data["temperature_K"] = temperature
     kinds = spec.of.scales
     value, kind = to_si(spec, table, headers, "value", kinds)
+    value, of_zero = _from_start(spec, table, kind, value)
     divisor, notes = _divisor(spec, kind, float(value[0]))
+    notes += of_zero
     notes += _overridden(spec, table, headers)
     data[spec.of.column] = spec.sign * value / divisor
     if spec.sign < 0:
@@ -62,6 +67,34 @@ def convert_columns(
         limit, _ = to_si(spec, table, headers, role, (kind,))
         data[spec.of.limit_columns[role]] = limit / divisor
     return pd.DataFrame(data), notes
+
+
+def _from_start(
+    spec: SeriesSpec, table: Table, kind: str, value: FloatArray
+) -> tuple[FloatArray, list[str]]:
+    """Return masses of a tared balance, whose zero is arbitrary, from the stated initial mass on.
+
+    Raises
+    ------
+    DataError
+        The first mass is not the initial mass that the file states, and the study gives none.
+    """
+    stated = table.stated.mass_kg
+    if kind != "mass" or PER_START[kind] != spec.of.scales[0] or stated is None:
+        return value, []
+    first = float(value[0])
+    if abs(first - stated) <= OTHER_ZERO * stated:
+        return value, []
+    if spec.sample_mass_kg is None:
+        raise DataError(
+            f"{spec.path}: the first mass is {first:g} kg, the file states an initial mass of "
+            f"{stated:g} kg. If the zero of the balance is arbitrary, give `sample_mass_kg: "
+            f"{stated:g}`; if the file is wrong there, correct its mass."
+        )
+    if abs(spec.sample_mass_kg - stated) > OTHER_ZERO * stated:
+        return value, []
+    note = f"the zero of the balance is arbitrary: {stated:g} kg, as the file states, at first"
+    return value - first + stated, [note]
 
 
 def _overridden(spec: SeriesSpec, table: Table, headers: Mapping[str, str]) -> list[str]:

@@ -16,6 +16,7 @@ from pyrofit.data.line import Line
 from pyrofit.data.numerals import Numerals, fault_of, is_numeral, numerals_of
 from pyrofit.data.rows import parsed, rows_of, whole_rows, without_footer
 from pyrofit.data.sections import first_table
+from pyrofit.data.stated import Stated, stated_in
 from pyrofit.data.text_file import read_text
 from pyrofit.errors import DataError
 
@@ -48,6 +49,8 @@ class Table:
         Line number and text of the first cell that holds no number, by column that has one.
     area_m2 : float, optional
         Exposed area of the sample [m2], where the file tells it.
+    stated : Stated
+        Facts that the file states above its table.
     """
 
     path: Path
@@ -58,6 +61,7 @@ class Table:
     mended: tuple[str, ...] = ()
     faults: dict[str, tuple[int, str]] = field(default_factory=dict)
     area_m2: float | None = None
+    stated: Stated = field(default_factory=Stated)
 
     def line(self, row: int) -> int:
         """Return the line number, from 1, of a row of the columns."""
@@ -118,6 +122,13 @@ def read_table(path: Path) -> Table:
     ([5.0, 4.5], 'mg', 3)
     """
     notes: list[str] = []
+    table, above = _read(path, notes)
+    cells = [re.split(r"[\t;|]|,(?!\d)|(?<=:),", text) for text in above]
+    return replace(table, stated=stated_in(cells)) if cells else table
+
+
+def _read(path: Path, notes: list[str]) -> tuple[Table, list[str]]:
+    """Return the table of a file, and the lines above it."""
     raw = re.split(r"\r\n|\n|\r", read_text(path, notes))
     while raw and not raw[-1].strip(' \t;,|"'):
         raw.pop()
@@ -126,8 +137,9 @@ def read_table(path: Path) -> Table:
         lines = [Line(i, cells_of(path, text, delimiter)) for i, text in enumerate(raw, start=1)]
         (first, *rows), area = unfolded(path, [line for line in lines if any(line.cells)], notes)
         table = _table(path, named_columns(path, [first], notes), rows, notes)
-        return replace(table, area_m2=area)
+        return replace(table, area_m2=area), raw[: first.number]
     layout = layout_of(path, raw, notes)
+    above = raw[: max(layout.heading[0].number - 1, 0)] if layout.heading else []
     heading = named_columns(path, layout.heading, notes)
     raw = without_footer(path, raw, layout, notes)
     if len(raw) > MANY_ROWS and not layout.marks:
@@ -136,10 +148,10 @@ def read_table(path: Path) -> Table:
         values = bulk_values(raw[layout.start :], layout.delimiter, numerals, width)
         if values is not None:
             notes += _notes_on(numerals)
-            return _as_table(path, heading, values, {}, layout.start + 1, (), notes)
+            return _as_table(path, heading, values, {}, layout.start + 1, (), notes), above
     lines = rows_of(path, raw, layout)
     whole = first_table(lines, heading, notes) if layout.export else lines
-    return _table(path, heading, whole, notes, layout.marks)
+    return _table(path, heading, whole, notes, layout.marks), above
 
 
 def holds_unclear_numbers(table: Table, name: str) -> bool:

@@ -15,7 +15,7 @@ from pyrofit.data.gaps import without_gaps, without_stops
 from pyrofit.data.spec import SeriesSpec
 from pyrofit.errors import DataError, suggest
 from pyrofit.quantities.base import LIMITS, Quantity
-from pyrofit.quantities.units import header_key
+from pyrofit.quantities.units import SCALES, header_key, unit_key
 
 _FEWEST_POINTS = 3
 MOST_POINTS = 20_000
@@ -108,7 +108,8 @@ def read_series(spec: SeriesSpec, read: Callable[[Path], Table] = read_table) ->
         gaps += stops
     rows = _check_length(table)
     unit = spec.units.get("value", table.units[headers["value"]])
-    check_zero(spec.of, table, headers, unit, spec.sign)
+    if table.stated.mass_kg is None or unit_key(unit or "") not in map(unit_key, SCALES["mass"]):
+        check_zero(spec.of, table, headers, unit, spec.sign)
     # An overflow here is found by `check_finite`.
     with np.errstate(over="ignore", invalid="ignore"):
         frame, notes = convert_columns(spec, table, headers)

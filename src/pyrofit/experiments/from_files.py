@@ -9,9 +9,11 @@ import pandas as pd
 
 Frames = Mapping[str, pd.DataFrame]
 """Series of one file in SI units, by quantity."""
-Told = Literal["record", "unit", "number", ""]
-"""What tells the number of an experiment: its record, a number with its unit in the name of the
-file, a number alone in that name, or nothing. Names are hints: the user is asked to look."""
+Told = Literal["record", "file", "unit", "number", ""]
+"""What tells the number of an experiment: its record, a line of its file, a number in the name.
+
+A number with its unit in the name of the file is a hint, and one alone a weak hint: the user is
+asked to look."""
 
 
 @dataclass(frozen=True)

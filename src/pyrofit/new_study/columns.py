@@ -1,11 +1,13 @@
 """Recognise the columns of a measured file, more widely than its reader does by itself."""
 
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 
 import numpy as np
 
+from pyrofit.data.convert import OTHER_ZERO
 from pyrofit.data.csvfile import Table
+from pyrofit.data.stated import Stated
 from pyrofit.experiments import measurable
 from pyrofit.new_study.abscissae import candidates
 from pyrofit.new_study.headers import (
@@ -19,7 +21,7 @@ from pyrofit.new_study.reasons import is_empty, unused
 from pyrofit.new_study.units import guessed_unit, kind_of, kinds_of, stated_unit
 from pyrofit.quantities import known_quantities
 from pyrofit.quantities.base import Quantity
-from pyrofit.quantities.units import header_key
+from pyrofit.quantities.units import SCALES, header_key, unit_key
 
 _OWN = ("value", "uncertainty")
 """Roles that belong to one signal; the others are shared by all signals of a file."""
@@ -51,6 +53,10 @@ class Found:
         Kind of unit of the value, see `pyrofit.quantities.units`; nothing where it is unknown.
     area_m2
         Exposed area of the sample [m2], where the file tells it.
+    stated
+        Further facts that the file states.
+    tared
+        Whether the zero of the masses is arbitrary.
     """
 
     signal: str
@@ -62,6 +68,8 @@ class Found:
     unread: Mapping[str, str]
     scale: str
     area_m2: float | None = None
+    stated: Stated = field(default_factory=Stated)
+    tared: bool = False
 
     @property
     def of(self) -> Quantity:
@@ -237,4 +245,16 @@ def _found(table: Table, signal: str, quantity: Quantity, headers: Mapping[str, 
         unread,
         scale,
         table.area_m2,
+        table.stated,
+        _is_tared(table, columns.get("value", ""), units.get("value", ""), scale),
     )
+
+
+def _is_tared(table: Table, header: str, unit: str, scale: str) -> bool:
+    """Tell whether the first mass is not the initial mass that the file states."""
+    stated = table.stated.mass_kg
+    masses = {unit_key(word): factor for word, factor in SCALES["mass"].items()}
+    if stated is None or scale != "mass" or unit_key(unit) not in masses:
+        return False
+    first = float(table.columns[header][0]) * masses[unit_key(unit)]
+    return abs(first - stated) > OTHER_ZERO * stated

@@ -12,13 +12,14 @@ import pandas as pd
 from pyrofit.data.csvfile import Table, read_table
 from pyrofit.data.series import read_series
 from pyrofit.data.spec import SeriesSpec
+from pyrofit.data.stated import holds_oxygen
 from pyrofit.data.suspect import cooling_from_s
 from pyrofit.errors import DataError, StudyError
 from pyrofit.experiments import KINDS, files_of
 from pyrofit.experiments.base import Kind
 from pyrofit.experiments.from_files import Told
 from pyrofit.new_study.columns import Found, recognise
-from pyrofit.quantities.units import PER_AREA, PER_MASS
+from pyrofit.quantities.units import PER_AREA, PER_MASS, PER_START
 
 USUAL_AREA_M2 = 0.01
 """Exposed area of a slab of 100 mm by 100 mm."""
@@ -60,6 +61,8 @@ class Measured:
         Whether its file has temperatures without times.
     cools_from_s
         Time [s] from which on a heated sample cools, which the study leaves out.
+    gas
+        The gas around the sample, as the file or its name tells it.
     """
 
     kind: str
@@ -76,6 +79,12 @@ class Measured:
     mended: tuple[str, ...] = ()
     timeless: bool = False
     cools_from_s: float | None = None
+    gas: str = ""
+
+    @property
+    def in_oxygen(self) -> bool:
+        """Whether the sample is heated in a gas with oxygen, of which the model knows nothing."""
+        return self.of.stage == "kinetics" and holds_oxygen(self.gas)
 
     @property
     def of(self) -> Kind:
@@ -124,6 +133,8 @@ def measured(kind: str, path: Path) -> Measured:
     recorded = files.recorded(number, frames)
     if recorded is not None and not timeless:
         number, told = recorded, "record"
+    if table.stated.flux_kW_m2 is not None and KINDS[kind].stage == "imp":
+        number, told = table.stated.flux_kW_m2, "file"
     name = re.sub(r"\W+", "_", path.stem, flags=re.ASCII).strip("_")
     if not name[:1].isalpha():
         name = f"run_{name}".rstrip("_")
@@ -142,7 +153,20 @@ def measured(kind: str, path: Path) -> Measured:
         mended=(*table.mended, *thinned),
         timeless=timeless,
         cools_from_s=cools,
+        gas=table.stated.gas or gas_of(path.stem),
     )
+
+
+def gas_of(name: str) -> str:
+    """Return the gas with oxygen that the name of a file tells; nothing where it tells none.
+
+    >>> gas_of("board_TGA_O2-21_10K_1"), gas_of("wood air 10K"), gas_of("pair_N2"), gas_of("O2")
+    ('O2-21', 'air', '', 'O2')
+    """
+    match = re.search(
+        r"(?<![A-Za-z0-9])(air|luft|o2(?:-\d+)?)(?![A-Za-z0-9])", name.replace("_", " "), re.I
+    )
+    return match[1] if match else ""
 
 
 def _cooling(frames: Mapping[str, pd.DataFrame]) -> float | None:
@@ -163,13 +187,16 @@ def divisor_of(found: Found) -> tuple[str, float] | None:
     if PER_AREA.get(found.scale) == wanted:
         return "sample_area_m2", float(f"{found.area_m2 or USUAL_AREA_M2:.6g}")
     if PER_MASS.get(found.scale) == wanted:
-        return "sample_mass_kg", USUAL_MASS_KG
+        return "sample_mass_kg", found.stated.mass_kg or USUAL_MASS_KG
+    if PER_START.get(found.scale) == wanted and found.tared and found.stated.mass_kg:
+        return "sample_mass_kg", found.stated.mass_kg
     return None
 
 
 def is_told(found: Found, key: str) -> bool:
     """Tell whether the file gives the divisor of a signal."""
-    return key == "sample_area_m2" and found.area_m2 is not None
+    told = found.area_m2 if key == "sample_area_m2" else found.stated.mass_kg
+    return told is not None
 
 
 def kinetics_of(records: Iterable[Measured]) -> Kinetics:
@@ -228,6 +255,7 @@ def _frames(
             found.units,
             sample_area_m2=divisor.get("sample_area_m2"),
             sample_mass_kg=divisor.get("sample_mass_kg"),
+            sign=-1 if found.of.has_sign and found.stated.exothermic_up else 1,
             rate_K_s=rate_K_s,
         )
         try:

@@ -47,13 +47,15 @@ def part_of(stage: Stage, records: Iterable[Measured]) -> Part:
 
     Of two or more fluxes of a kind, the experiments with the largest are held out. Of three or
     more heating rates, those with the middle one are: any correct kinetics predict a rate between
-    others.
+    others. Tests in a gas with oxygen are held out beside others: the model has no oxidation.
     """
     runs = tuple(run for run in records if run.of.stage == stage)
     rate = any(_shows_loss(run) for run in runs)
-    held: list[str] = []
+    oxidised = [run.name for run in runs if run.in_oxygen]
+    held: list[str] = oxidised if len(oxidised) < len(runs) else []
     for kind in dict.fromkeys(run.kind for run in runs):
-        own = [run for run in runs if run.kind == kind and (_shows_loss(run) or not rate)]
+        own = [run for run in runs if run.kind == kind and run.name not in held]
+        own = [run for run in own if _shows_loss(run) or not rate]
         held += _last(own) if stage == "imp" else _middle(own)
     terms = [
         Term(run.name, signal, normalisation)

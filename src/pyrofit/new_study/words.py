@@ -56,9 +56,13 @@ def _signal(run: Measured, found: Found) -> list[str]:
         told = is_told(found, divisor[0])
         why = "of the file" if told else "CHANGE: the values are divided by it"
         lines.append(f"  {divisor[0]}: {divisor[1]:g} # {why}")
+    if (gas := gas_line(run)) != "":
+        lines.append(f"  # {gas}")
     if (cools := run.cools_from_s) is not None:
         lines.append(f"  until_s: {cools:g} # from then on the record cools, which is no heating")
-    if found.of.has_sign:
+    if found.of.has_sign and (up := found.stated.exothermic_up) is not None:
+        lines.append(f"  endothermic: {'negative' if up else 'positive'} # as the file states")
+    elif found.of.has_sign:
         lines.append("  endothermic: positive # CHANGE to negative where heat released points up")
     if "uncertainty" not in found.columns:
         lines.append("  # uncertainty: ... # in SI units, if you know it: the file has none")
@@ -81,17 +85,21 @@ def said(run: Measured) -> list[str]:
             whose = "of the file" if is_told(found, divisor[0]) else "to be changed in the study"
             parts.append(f"divided by {divisor[0]} {divisor[1]:g}, {whose}")
         if run.timeless:
-            told = "" if run.told == "record" else ", to be changed in the study"
+            told = "" if run.told in _CERTAIN else ", to be changed in the study"
             parts.insert(0, f"no times: those of a heating rate of {run.number:g} K/min{told}")
         lines.append(f"{run.path}: {found.signal}: {', '.join(parts)}")
         if (remark := _remark(run, found)) != "":
             lines.append(f"{run.path}: {found.signal}: {remark}")
+    if (gas := gas_line(run)) != "":
+        lines.append(f"{run.path}: {gas}")
     if run.cools_from_s is not None:
         lines.append(f"{run.path}: read until {run.cools_from_s:g} s: it cools from then on")
     return lines + [f"{run.path}: '{n}' is not used: {why}" for n, why in run.left.items()]
 
 
+_CERTAIN = ("record", "file")
 _NOT_TOLD: Mapping[Told, str] = {
+    "file": "of the file",
     "unit": "CHANGE where wrong: from the name of the file alone",
     "number": "CHANGE: a number in the name of the file, which may mean something else",
     "": "CHANGE: neither the file nor its name tells it",
@@ -108,7 +116,7 @@ def other_number(run: Measured) -> list[str]:
 
     A factor of 60 between both is that of minutes and seconds.
     """
-    if run.told != "record" or run.hinted is None:
+    if run.told not in _CERTAIN or run.hinted is None:
         return []
     of, ratio = files_of(run.kind).number, run.number / run.hinted
     times, with_unit = "", of.find(run.path.stem)[1] == "unit" if run.path else False
@@ -124,11 +132,18 @@ def other_number(run: Measured) -> list[str]:
     ]
 
 
+def gas_line(run: Measured) -> str:
+    """Say that the gas around a sample holds oxygen; nothing where it does not."""
+    if not run.in_oxygen:
+        return ""
+    return f"The gas is {run.gas}: the model has no oxidation. Leave the test out, or judge its fit"
+
+
 def assumed(records: Iterable[Measured]) -> list[str]:
     """Say which numbers and units of records are assumed: neither file nor name tells them."""
     lines = []
     for run in records:
-        if run.told != "record":
+        if run.told not in _CERTAIN:
             of = files_of(run.kind).number
             lines.append(
                 f"{run.path}: no {of.words} is given; {run.number:g} {of.shown} is assumed"

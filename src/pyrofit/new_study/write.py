@@ -133,7 +133,7 @@ def study_text(name: str, tests: Sequence[Measured]) -> str:
     synthetic = any(test.path is None for test in tests)
     records = [run for test in tests for run in test.repeats or (test,)]
     measured = [run for run in records if run.path is not None]
-    kinetics = draft.kinetics_of(measured) if measured else Kinetics(550.0, 680.0, 0.02)
+    kinetics = draft.kinetics_of(_inert(measured)) if measured else Kinetics(550.0, 680.0, 0.02)
     heated, slabs = (part_of(stage, tests) for stage in STAGES)
     shown = [_HEATS[key] for key in heats(heated.fitted)]
     burns = _COMBUSTION in heats(records)
@@ -165,6 +165,11 @@ def study_text(name: str, tests: Sequence[Measured]) -> str:
             tested=held_out(slabs) if alone is None else held_out(slabs, _RATES),
         )
     )
+
+
+def _inert(records: Sequence[Measured]) -> Sequence[Measured]:
+    """Return the records without those in a gas with oxygen, where there are others."""
+    return [run for run in records if not run.in_oxygen] or records
 
 
 def _environment() -> Environment:

@@ -1,0 +1,159 @@
+"""Facts that a file states above its table: initial mass, sign of heat flow, gas, radiant flux."""
+
+import re
+from collections.abc import Sequence
+from dataclasses import dataclass, replace
+
+from pyrofit.quantities.units import SCALES, unit_key
+
+_FIRST = 200
+"""Lines in which facts are looked for."""
+_NUMBER = r"([+-]?\d+(?:[.,]\d+)?)"
+_MASS = re.compile(
+    r"(?:sample|initial|specimen|test)\s*(?:mass|weight|size)|size|mass|weight|probenmasse|einwaage"
+    r"|anfangsmasse|masse\s*(?:initiale|de l.?.?chantillon)",
+    re.IGNORECASE,
+)
+_FLUX = re.compile(
+    r"(?:(?:incident|external|radiant|irradiation|heat|cone)[\s_]*)*(?:flux|irradiance)"
+    r"|bestrahlungsst.rke",
+    re.IGNORECASE,
+)
+_GAS = re.compile(
+    r"(?:(?:purge|sample|carrier|furnace|process|reactive|test)[\s_]*)*(?:gas|atmosphere)(?:\s*\d)?"
+    r"|atmosph.re|atmosphäre|spülgas",
+    re.IGNORECASE,
+)
+_EXO = re.compile(r"exo(?:therm(?:ic|al)?)?", re.IGNORECASE)
+_UNIT = re.compile(r"[\[(]([^\[\]]*)[\])]$|/\s*(\S+)$")
+_OXYGEN = re.compile(
+    r"(?<![a-z])(?:(?:synthetic )?air|luft|o2|oxygen|sauerstoff|oxyg.ne)(?![a-z])", re.I
+)
+_INERT = re.compile(r"(?<![a-z])(?:n2|nitrogen|stickstoff|azote|ar|argon|he|helium)(?![a-z])", re.I)
+
+
+@dataclass(frozen=True)
+class Stated:
+    """Facts that a file states; None or nothing where it does not.
+
+    Parameters
+    ----------
+    mass_kg
+        Initial mass of the sample [kg].
+    exothermic_up
+        Whether heat released is positive.
+    gas
+        Gas around the sample, in the words of the file.
+    flux_kW_m2
+        Radiant flux [kW/m2].
+    """
+
+    mass_kg: float | None = None
+    exothermic_up: bool | None = None
+    gas: str = ""
+    flux_kW_m2: float | None = None
+
+    @property
+    def in_oxygen(self) -> bool:
+        """Whether the gas holds oxygen."""
+        return holds_oxygen(self.gas)
+
+
+def holds_oxygen(gas: str) -> bool:
+    """Tell whether a gas holds oxygen, by its name or its part of the name of a file.
+
+    >>> [holds_oxygen(gas) for gas in ("air", "N2", "Synthetic air", "O2-21", "chair")]
+    [True, False, True, True, False]
+    """
+    return bool(_OXYGEN.search(gas))
+
+
+def stated_in(lines: Sequence[Sequence[str]]) -> Stated:
+    """Return the facts of lines of cells above a table; one that stands in two ways is left out.
+
+    A fact stands as key and value in one line, or as a key above its value.
+
+    >>> stated_in([["#SAMPLE MASS /mg:", "5.000"], ["#EXO:", "+1"], ["Purge Gas", "air"]])
+    Stated(mass_kg=5e-06, exothermic_up=True, gas='air', flux_kW_m2=None)
+    >>> stated_in([["Flux (kW/m2)", "tig (s)"], ["25", "85"]]).flux_kW_m2
+    25.0
+    """
+    rows = [
+        [cell.strip().strip('"#:= ') for line in (row,) for cell in line] for row in lines[:_FIRST]
+    ]
+    rows = [_split(row) for row in rows]
+    masses: set[float] = set()
+    fluxes: set[float] = set()
+    signs: set[bool] = set()
+    gases: dict[str, None] = {}
+    for i, row in enumerate(rows):
+        for k, cell in enumerate(row):
+            key, unit = _key(cell)
+            value, behind = _value(rows, i, k)
+            if _MASS.fullmatch(key):
+                masses |= _number(value, unit or behind, "mass")
+            elif _FLUX.fullmatch(key):
+                fluxes |= _number(value, unit or behind, "heat flux")
+            elif _GAS.fullmatch(key) and (_OXYGEN.search(value) or _INERT.search(value)):
+                gases[value.strip()] = None
+            if (up := _exothermic_up(cell, value)) is not None:
+                signs.add(up)
+    found = Stated()
+    if len(masses) == 1:
+        found = replace(found, mass_kg=masses.pop())
+    if len(signs) == 1:
+        found = replace(found, exothermic_up=signs.pop())
+    if len(fluxes) == 1:
+        found = replace(found, flux_kW_m2=fluxes.pop() / 1e3)
+    return replace(found, gas=" and ".join(gases))
+
+
+def _split(row: Sequence[str]) -> list[str]:
+    """Split key and value that a colon or a sign of equality separates."""
+    return [
+        part.strip(' "#') for cell in row for part in re.split(r"\s*[:=]\s+|\s*[:=]$", cell) if part
+    ]
+
+
+def _key(cell: str) -> tuple[str, str]:
+    unit = _UNIT.search(cell)
+    if unit is None:
+        return cell.strip(), ""
+    return cell[: unit.start()].strip(), (unit[1] or unit[2]).strip()
+
+
+def _value(rows: Sequence[Sequence[str]], i: int, k: int) -> tuple[str, str]:
+    """Return the cell of a value, and the one behind it, which may be its unit."""
+    row = rows[i]
+    below = rows[i + 1] if i + 1 < len(rows) else []
+    beside = row[k + 1] if k + 1 < len(row) else ""
+    if not re.match(_NUMBER, beside) and k < len(below) and re.fullmatch(_NUMBER, below[k]):
+        return below[k], ""
+    return beside, row[k + 2].strip("[]() ") if k + 2 < len(row) else ""
+
+
+def _number(value: str, unit: str, kind: str) -> set[float]:
+    """Return a value in SI units; nothing where it or its unit is unknown."""
+    match = re.fullmatch(rf"{_NUMBER}\s*(.*)", value)
+    if match is None:
+        return set()
+    key = unit_key(match[2].strip("[]() ") or unit)
+    factor = next((f for word, f in SCALES[kind].items() if unit_key(word) == key), None)
+    number = float(match[1].replace(",", "."))
+    return set() if factor is None or number <= 0.0 else {float(f"{number * factor:.6g}")}
+
+
+def _exothermic_up(cell: str, value: str) -> bool | None:
+    """Return whether heat released points up, where a line tells it."""
+    match = re.fullmatch(r"exo(?:therm(?:ic|al)?)?[\s_]*(up|down)", cell, re.IGNORECASE)
+    if match is not None:
+        return match[1].casefold() == "up"
+    if _EXO.fullmatch(cell) and (text := value.strip().casefold()) in (
+        "+1",
+        "1",
+        "-1",
+        "up",
+        "down",
+    ):
+        return text in ("+1", "1", "up")
+    return None

@@ -1,0 +1,126 @@
+"""Facts that files state above their tables."""
+
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+from pyrofit.data.series import read_series
+from pyrofit.data.spec import SeriesSpec
+from pyrofit.data.stated import stated_in
+from pyrofit.errors import DataError
+from pyrofit.new_study import draft
+from pyrofit.new_study.plan import part_of
+from pyrofit.new_study.words import gas_line
+from pyrofit.new_study.write import drafted
+
+KELVIN = np.linspace(300.0, 900.0, 201)
+TIME = 6.0 * (KELVIN - 300.0)
+MASS = 1.0 - 0.85 / (1.0 + np.exp((640.0 - KELVIN) / 12.0))
+
+
+def record(path: Path, above: str, header: str, *columns: np.ndarray) -> Path:
+    rows = "\n".join(";".join(f"{cell:.6f}" for cell in row) for row in zip(*columns, strict=True))
+    path.write_text(f"{above}{header}\n{rows}\n", encoding="utf-8")
+    return path
+
+
+MASSES = {
+    "TG :;\n Initial Mass : 10.00 mg\n Molar Mass : N/A\n\n": 1e-5,
+    "#SAMPLE MASS /mg:;8.2\n#EXO:;-1\n\n": 8.2e-6,
+    "Sample Weight:\t8.200\t[mg]\nSample Name:\tboard\n": 8.2e-6,
+    "Instrument;Q500\nSize;5,5;mg\n": 5.5e-6,
+    "Probenmasse: 0,012 g\nLabor: a\n": 1.2e-5,
+    "Sample Mass: 5 mg\nInitial Mass: 6 mg\n": None,  # two values
+    "Sample mass: see notes\nRun: 3\n": None,
+}
+
+
+@pytest.mark.parametrize(("above", "mass"), MASSES.items())
+def test_initial_mass_of_the_file_is_read(above: str, mass: float | None, tmp_path: Path) -> None:
+    path = record(tmp_path / "a.txt", above, "Time (s);Temperature (K);TG (mg)", TIME, KELVIN, MASS)
+    run = draft.measured("tga", path)
+    stated = run.signals[0].stated.mass_kg
+    assert stated == (mass if mass is None else pytest.approx(mass))
+
+
+@pytest.mark.parametrize("zero", [44.19, -9.0, -3.0])
+def test_balance_with_an_arbitrary_zero_starts_at_the_stated_mass(
+    zero: float, tmp_path: Path
+) -> None:
+    above = "Initial Mass : 10.00 mg\nUser : lab\n\n"
+    header = "Time (s);Temperature (K);TG (mg)"
+    path = record(tmp_path / "a.txt", above, header, TIME, KELVIN, 10.0 * MASS + zero)
+    text, (run,) = drafted("x", {"tga": [path]})
+    np.testing.assert_allclose(run.frames["mass_fraction"]["mass_fraction"], MASS, atol=1e-6)
+    assert "sample_mass_kg: 1e-05 # of the file" in text
+    with pytest.raises(DataError, match="give `sample_mass_kg: 1e-05`"):
+        read_series(SeriesSpec("mass_fraction", path, {"value": "TG"}))
+
+
+def test_mass_near_the_stated_one_stays_as_it_is(tmp_path: Path) -> None:
+    header = "Time (s);Temperature (K);TG (mg)"
+    path = record(tmp_path / "a.txt", "Mass: 10 mg\nB: c\n", header, TIME, KELVIN, 10.4 * MASS)
+    text, (run,) = drafted("x", {"tga": [path]})
+    assert "sample_mass_kg" not in text
+    np.testing.assert_allclose(run.frames["mass_fraction"]["mass_fraction"], MASS, atol=1e-6)
+
+
+@pytest.mark.parametrize(
+    ("above", "line"),
+    [
+        ("#EXO:;+1\n#A:;b\n", "endothermic: negative # as the file states"),
+        ("#EXO:;-1\n#A:;b\n", "endothermic: positive # as the file states"),
+        ("Exotherm Up\nA;b\n", "endothermic: negative # as the file states"),
+        ("A;b\nC;d\nE;f\n", "endothermic: positive # CHANGE"),
+    ],
+)
+def test_sign_of_the_heat_flow_is_that_of_the_file(above: str, line: str, tmp_path: Path) -> None:
+    flow = 0.3 + 2.0 * np.exp(-(((KELVIN - 640.0) / 20.0) ** 2))
+    sign = -1.0 if "negative" in line else 1.0
+    header = "Time (s);Temperature (K);DSC (mW/mg)"
+    path = record(tmp_path / "a.txt", above, header, TIME, KELVIN, sign * flow)
+    text, (run,) = drafted("x", {"dsc": [path]})
+    assert line in text
+    if "CHANGE" not in line:
+        assert run.frames["heat_flow"]["heat_flow_W_kg"].max() == pytest.approx(2300.0, rel=0.01)
+
+
+def slab(path: Path, above: str) -> draft.Measured:
+    t = np.arange(0.0, 300.0, 5.0)
+    return draft.measured("gasification", record(path, above, "Time (s);MLR (g/s/m2)", t, 5.0 + t))
+
+
+def test_flux_of_the_file_comes_before_a_number_in_its_name(tmp_path: Path) -> None:
+    run = slab(tmp_path / "Test-127.txt", "Scalars\nFlux (kW/m2);tig (s)\n25;85\nVectors\n")
+    assert (run.number, run.told) == (25.0, "file")
+    run = slab(tmp_path / "plate_50.txt", "Heat flux: 35 kW/m2\nOperator: a\n")
+    assert (run.number, run.told) == (35.0, "file")
+    assert slab(tmp_path / "plate_60.txt", "A;b\nC;d\nE;f\n").told == "number"
+
+
+@pytest.mark.parametrize("in_name", [True, False])
+def test_test_in_air_is_told_and_held_out_beside_others(in_name: bool, tmp_path: Path) -> None:
+    def test(name: str, gas: str, K_min: float) -> draft.Measured:
+        above = "A;b\nC;d\nE;f\n" if in_name else f"Purge Gas:;{gas}\nOperator:;a\n"
+        columns = 600.0 / K_min * TIME / 60.0, KELVIN, MASS if gas != "air" else MASS - 0.1
+        path = tmp_path / (f"{name}_{gas}.txt" if in_name else f"{name}.txt")
+        header = "Time (s);Temperature (K);Mass (-)"
+        return draft.measured("tga", record(path, above, header, *columns))
+
+    runs = [test("a", "nitrogen", 10.0), test("b", "air", 10.0)]
+    assert [gas_line(run) != "" for run in runs] == [False, True]
+    assert part_of("kinetics", runs).held_out == (runs[1].name,)
+    assert part_of("kinetics", runs[1:]).held_out == ()
+
+
+def test_facts_are_not_taken_from_other_words() -> None:
+    found = stated_in(
+        [["Gas flow", "50"], ["Flux compensation", "on"], ["Exotic", "1"], ["Mass", ""]]
+    )
+    assert (found.mass_kg, found.exothermic_up, found.gas, found.flux_kW_m2) == (
+        None,
+        None,
+        "",
+        None,
+    )
