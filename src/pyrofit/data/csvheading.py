@@ -12,7 +12,7 @@ from pyrofit.quantities.units import SCALES, unit_key
 
 _BRACKETED = re.compile(r"\[(.*)\]|\((.*)\)")
 _NAME_AND_UNIT = re.compile(r"(.+?)\s*(?:\[(.*)\]|\((.*)\))")
-_NAME_SLASH_UNIT = re.compile(r"([^/(\[]+)/(.+)")
+_NAME_SLASH_UNIT = re.compile(r"([^/(\[]+(?:\([^()/]*\))?)/(.+)")
 _KNOWN = {unit_key(word) for scale in SCALES.values() for word in scale}
 
 
@@ -28,7 +28,7 @@ class Heading:
 def named_columns(path: Path, heading: Sequence[Line], notes: list[str]) -> Heading:
     """Tell names and units apart, whichever row comes first."""
     rows = list(heading)
-    if len(rows) == 2 and all_bracketed(rows[0]) and not all_bracketed(rows[1]):
+    if len(rows) == 2 and units_come_first(rows[0], rows[1]):
         rows.reverse()
     names = [cell.lstrip("#").strip() for cell in trim(rows[0].cells)]
     units: list[str | None] = [None] * len(names)
@@ -58,6 +58,18 @@ def trim(cells: Sequence[str], width: int = 0) -> list[str]:
 def all_bracketed(line: Line) -> bool:
     """Tell whether a line holds nothing but units in brackets."""
     return all(_BRACKETED.fullmatch(cell) for cell in line.cells if cell)
+
+
+def units_come_first(first: Line, second: Line) -> bool:
+    """Tell whether units stand above names: in brackets, or as in tables of FDS.
+
+    >>> units_come_first(Line(1, ["s", "C", "1/s"]), Line(2, ["Time", "Temp", "MLR"]))
+    True
+    """
+    if all_bracketed(first):
+        return not all_bracketed(second)
+    times = {unit_key(word) for word in SCALES["time"]}
+    return unit_key(first.cells[0]) in times and holds_units(first) and not holds_units(second)
 
 
 def holds_units(line: Line) -> bool:

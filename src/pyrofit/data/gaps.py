@@ -4,11 +4,14 @@ from collections.abc import Mapping
 from dataclasses import replace
 
 import numpy as np
+from numpy.typing import NDArray
 
 from pyrofit.data.csvfile import Table
 from pyrofit.errors import DataError
 
 _ABSCISSAE = ("time", "temperature")
+_FEW = 0.1
+"""Share of rows of the time of the row before that are left out; more are refused."""
 
 
 def without_gaps(table: Table, headers: Mapping[str, str]) -> tuple[Table, list[str]]:
@@ -53,6 +56,28 @@ def without_gaps(table: Table, headers: Mapping[str, str]) -> tuple[Table, list[
     return left, [f"left out, without a value: {gaps.sum()} of {gaps.size} rows"]
 
 
+def without_doubles(table: Table, header: str) -> tuple[Table, list[str]]:
+    """Leave out the second of two rows of one time, where few rows are so; note them."""
+    time = table.columns[header]
+    double = np.r_[False, np.diff(time) == 0.0]
+    if not double.any() or double.sum() > _FEW * time.size:
+        return table, []
+    first = table.line(int(double.argmax()))
+    left = _without(table, double)
+    return left, [f"left out, the time of the row before: {double.sum()} rows, first line {first}"]
+
+
+def _without(table: Table, out: NDArray[np.bool_]) -> Table:
+    """Return a table without some of its rows."""
+    every = np.arange(out.size + len(table.left_out))
+    kept = np.delete(every, table.left_out)[~out]
+    return replace(
+        table,
+        columns={name: column[~out] for name, column in table.columns.items()},
+        left_out=tuple(np.setdiff1d(every, kept).tolist()),
+    )
+
+
 def without_stops(table: Table, header: str) -> tuple[Table, list[str]]:
     """Leave out the rows whose temperature is not above all before: a record without times.
 
@@ -76,11 +101,5 @@ def without_stops(table: Table, header: str) -> tuple[Table, list[str]]:
     note = ["no times: those of the constant heating rate"]
     if rising.all():
         return table, note
-    kept = np.delete(np.arange(rising.size + len(table.left_out)), table.left_out)[rising]
-    every = np.arange(rising.size + len(table.left_out))
-    left = replace(
-        table,
-        columns={name: column[rising] for name, column in table.columns.items()},
-        left_out=tuple(np.setdiff1d(every, kept).tolist()),
-    )
+    left = _without(table, ~rising)
     return left, [*note, f"left out, the temperature does not rise: {(~rising).sum()} rows"]

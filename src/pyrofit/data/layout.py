@@ -149,7 +149,10 @@ def _located(path: Path, raw: Sequence[str], notes: list[str]) -> Layout | None:
     if not length:
         return None
     signals = signals_in(raw[:first])
-    heading = signals or heading_above(lines, first, delimiter)
+    heading = signals or heading_above(lines, first, delimiter) or _of_count(lines, raw, first)
+    if heading and heading[0].cells[0] == "column 1":
+        notes.append("no names of columns, but a count of rows, as Gpyro has")
+        return Layout(delimiter, heading, first)
     if not heading:
         width = len(lines[first].cells)
         raise DataError(
@@ -160,6 +163,16 @@ def _located(path: Path, raw: Sequence[str], notes: list[str]) -> Layout | None:
     if before := sum(any(line.cells) for line in lines[: heading[0].number - 1]):
         notes.append(f"{before} rows before the header")
     return Layout(delimiter, heading, first, bool(signals), export=True)
+
+
+def _of_count(lines: Sequence[Line], raw: Sequence[str], first: int) -> tuple[Line, ...]:
+    """Return numbered columns where a count of the rows stands alone above them."""
+    above = [line for line in lines[:first] if any(line.cells)]
+    rows = sum(bool(text.strip()) for text in raw[first:])
+    if len(above) != 1 or "".join(above[0].cells) != str(rows):
+        return ()
+    width = len(lines[first].cells)
+    return (Line(above[0].number, [f"column {i}" for i in range(1, width + 1)]),)
 
 
 def _first_run(lines: Sequence[Line]) -> tuple[int, int]:

@@ -14,6 +14,7 @@ from pyrofit.errors import DataError
 
 FloatArray = npt.NDArray[np.float64]
 _FEWEST_ROWS = 3
+_DAY_S = 86_400.0
 
 
 def rows_of(path: Path, raw: Sequence[str], layout: Layout) -> list[Line]:
@@ -131,7 +132,8 @@ def parsed(
     faults: dict[int, tuple[int, str]] = {}
     absent: list[str] = []
     for i in range(width):
-        read = seconds if seconds(rows[0].cells[i]) is not None else numerals.number
+        clock = seconds(rows[0].cells[i]) is not None
+        read = seconds if clock else numerals.number
         for j, row in enumerate(rows):
             cell = row.cells[i]
             number = read(cell) if cell else None
@@ -141,7 +143,21 @@ def parsed(
                 faults.setdefault(i, (row.number, cell))
             elif cell:
                 absent.append(cell)
+        if clock:
+            notes += _past_midnight(values[:, i], rows)
     if absent:
         words = " or ".join(f"'{word}'" for word in sorted(set(absent)))
         notes.append(f"{len(absent)} cells hold {words}")
     return values, faults
+
+
+def _past_midnight(times: FloatArray, rows: Sequence[Line]) -> list[str]:
+    """Count times of day on past midnight, from the first row on; return a note on each."""
+    passed = np.flatnonzero(np.diff(times) < -0.5 * _DAY_S) + 1
+    if not passed.size:
+        return []
+    for row in passed:
+        times[row:] += _DAY_S
+    times -= times[0]
+    where = ", ".join(str(rows[int(row)].number) for row in passed)
+    return [f"the time of day passes midnight at line {where}; times count from the first row"]

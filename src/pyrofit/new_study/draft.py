@@ -25,6 +25,8 @@ USUAL_AREA_M2 = 0.01
 """Exposed area of a slab of 100 mm by 100 mm."""
 USUAL_MASS_KG = 5e-6
 """Mass of a sample in a crucible."""
+_TOLD = ("thinned", "left out, the time of")
+"""Beginnings of the notes of the reader that a new study tells."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -263,5 +265,5 @@ def _frames(
         except DataError:
             continue
         frames[found.quantity] = series.frame
-        thinned |= dict.fromkeys(note for note in series.notes if note.startswith("thinned"))
+        thinned |= dict.fromkeys(note for note in series.notes if note.startswith(_TOLD))
     return frames, tuple(thinned)
