@@ -164,14 +164,31 @@ def signals_of(study: Study, given: Signals) -> list[Key]:
     [('slab_25', 'mlr')]
     """
     if not isinstance(given, Mapping):
-        listed = [given] if isinstance(given, str) or _is_key(study, given) else list(given)
+        alone = isinstance(given, str) or _is_key(study, given)
+        listed = [given] if alone else names_of("signals", given)
         return [pair for one in listed for pair in _pairs(study, one)]
     pairs: list[Key] = []
     for name in experiments_of(study, given):
         wanted = given[name]
-        wanted = [wanted] if isinstance(wanted, str) else wanted
+        wanted = [wanted] if isinstance(wanted, str) else names_of(f"signals of {name}", wanted)
         pairs += [key_of(study, (name, signal)) for signal in wanted]
     return pairs
+
+
+def names_of(argument: str, given: Any) -> list[Any]:
+    """Return the items of an argument that lists names.
+
+    >>> names_of("estimate", ("k", "cp"))
+    ['k', 'cp']
+    >>> names_of("estimate", 3)
+    Traceback (most recent call last):
+    pyrofit.errors.StudyError: estimate: a list of names is needed, and this is a int: 3
+    """
+    if isinstance(given, Iterable):
+        return list(given)
+    raise StudyError(
+        f"{argument}: a list of names is needed, and this is a {type(given).__name__}: {given!r}"
+    )
 
 
 def _is_key(study: Study, given: object) -> bool:

@@ -12,6 +12,7 @@ from pyrofit.api.choices import (
     check_parameter,
     complete,
     in_units,
+    names_of,
     si_values,
     signals_of,
     used_by,
@@ -173,7 +174,7 @@ def task_of(
         shown = used_by(study, experiments)
         names = tuple(name for name in names if name in shown and name not in fixed)
     else:
-        names = tuple([estimate] if isinstance(estimate, str) else estimate)
+        names = tuple([estimate] if isinstance(estimate, str) else names_of("estimate", estimate))
         _refuse_twice("estimate", names)
     for name in names:
         check_parameter(study, name)

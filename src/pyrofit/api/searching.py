@@ -32,6 +32,12 @@ def check_cost(study: Study, cost: str, optimiser: str) -> None:
     StudyError
         With the nearest name.
     """
+    for argument, name in (("cost", cost), ("optimiser", optimiser)):
+        if not isinstance(name, str):
+            raise StudyError(
+                f"{argument}: a name is needed, and this is a {type(name).__name__}. "
+                f"Known costs of the study: {', '.join(study.imp.costs)}"
+            )
     if cost not in study.imp.costs:
         known = suggest(cost, study.imp.costs)
         raise StudyError(f"study '{study.name}' has no cost '{cost}'. {known}")

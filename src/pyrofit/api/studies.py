@@ -60,6 +60,11 @@ def read_study(source: Source, **changes: Any) -> Study:
         return _told(as_study(new, f"study '{source.name}'", located=True))
     if isinstance(source, Mapping):
         return _told(as_study(merged(source, changes), "study"))
+    if not isinstance(source, str | os.PathLike):
+        raise StudyError(
+            f"study: this is a {type(source).__name__}; give the path of a study file, a "
+            "mapping of its keys, or a study"
+        )
     path = Path(source)
     if not changes:
         return _told(config.read_study(path))
@@ -75,7 +80,11 @@ def _told(study: Study) -> Study:
 
 def _check_kept(old: Mapping[str, Any], new: Mapping[str, Any]) -> None:
     """Refuse changes of expressions, which stand in all their places, and of parameters held."""
+    if not isinstance(new, Mapping):
+        return  # the check of the whole study says so
     for name, parameter in new.items():
+        if not isinstance(parameter, Mapping):
+            continue
         before = old.get(name, {})
         held = before.get("fixed") is not None and parameter.get("fixed") is None
         if held and (parameter.get("lower") is None or parameter.get("upper") is None):
