@@ -49,6 +49,7 @@ FILES = {
     "test_macfp_predictions": "solver",
     "test_macfp_submission": "solver",
     "test_noise": "slow",
+    "test_objectives": "solver",
     "test_notebooks": "solver",
     "test_reaction_order": "solver",
     "test_python_page": "solver",

@@ -24,10 +24,12 @@ _HOMES = {
     "effects": "api.catalogue",
     "fit": "api.fitting",
     "isoconversional": "api.isoconversional",
+    "log_likelihood": "api.objectives",
     "new_study": "api.studies",
     "read_data": "api.measurements",
     "read_results": "api.results",
     "read_study": "api.studies",
+    "residuals": "api.objectives",
     "simulate": "api.simulation",
     "write_study": "api.saving",
 }

@@ -9,6 +9,8 @@ from pyrofit.api.fitting import fit as fit
 from pyrofit.api.isoconversional import Isoconversional as Isoconversional
 from pyrofit.api.isoconversional import isoconversional as isoconversional
 from pyrofit.api.measurements import read_data as read_data
+from pyrofit.api.objectives import log_likelihood as log_likelihood
+from pyrofit.api.objectives import residuals as residuals
 from pyrofit.api.results import Campaign as Campaign
 from pyrofit.api.results import read_results as read_results
 from pyrofit.api.saving import write_study as write_study
@@ -34,10 +36,12 @@ __all__ = [
     "effects",
     "fit",
     "isoconversional",
+    "log_likelihood",
     "new_study",
     "read_data",
     "read_results",
     "read_study",
+    "residuals",
     "simulate",
     "write_study",
 ]

@@ -1,0 +1,175 @@
+"""Residuals and log-likelihood of a study as functions of a vector, for other optimisers."""
+
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
+from typing import Any
+
+import numpy as np
+
+from pyrofit.api.choices import Signals, si_values
+from pyrofit.api.fitting import task_of
+from pyrofit.api.measurements import Data, given_keys, measured
+from pyrofit.api.studies import Source, read_study
+from pyrofit.config import Study
+from pyrofit.errors import StudyError
+from pyrofit.estimate.likelihood import Likelihood
+from pyrofit.estimate.pose import of_diagnosis
+from pyrofit.estimate.pose_likelihood import pose_likelihood
+from pyrofit.numerics import linear
+from pyrofit.solver.arrays import FloatArray
+
+
+@dataclass(frozen=True, eq=False)
+class Objective:
+    """A function of the estimated parameters, in the units of the study.
+
+    Parameters
+    ----------
+    study
+        The study.
+    likelihood
+        Its likelihood, in SI units.
+    """
+
+    study: Study
+    likelihood: Likelihood
+
+    @property
+    def names(self) -> tuple[str, ...]:
+        """Names of the parameters, in the order of a vector."""
+        return self.likelihood.problem.names
+
+    @property
+    def limits(self) -> FloatArray:
+        """Lower and upper limits in the units of the study, shape (parameters, 2)."""
+        problem = self.likelihood.problem
+        return np.column_stack([problem.lower, problem.upper]) / self._factors[:, None]
+
+    @property
+    def _factors(self) -> FloatArray:
+        return np.array([self.study.parameters[name].factor for name in self.names])
+
+    def _scaled(self, given: Any) -> FloatArray:
+        """Return vectors as fractions of the search range, shape (sets, parameters)."""
+        if isinstance(given, Mapping):
+            if set(given) != set(self.names):
+                raise StudyError(
+                    f"values: {', '.join(map(str, given))} are given; give exactly "
+                    f"{', '.join(self.names)}"
+                )
+            given = [given[name] for name in self.names]
+        try:
+            X = np.atleast_2d(np.asarray(given, dtype=float))
+        except (TypeError, ValueError):
+            raise StudyError(
+                "values: numbers are needed, as a vector or by name: " + ", ".join(self.names)
+            ) from None
+        if X.ndim != 2 or X.shape[1] != len(self.names):
+            raise StudyError(
+                f"values: the shape is {np.shape(given)}; give {len(self.names)} numbers a set: "
+                f"{', '.join(self.names)}"
+            )
+        if not np.isfinite(X).all():
+            raise StudyError("values: a number is not finite; give finite numbers")
+        problem = self.likelihood.problem
+        return np.asarray((X * self._factors - problem.lower) / problem.span)
+
+
+class Residuals(Objective):
+    """Whitened residuals as a function, see `pyrofit.residuals`."""
+
+    def __call__(self, values: Any) -> FloatArray:
+        """Return the residuals of a vector, shape (points + known,), or of each row of a table."""
+        found = np.array(self.likelihood.residuals_all(self._scaled(values)))
+        return found if np.ndim(values) == 2 else found[0]
+
+
+class LogLikelihood(Objective):
+    """Log-likelihood as a function, see `pyrofit.log_likelihood`."""
+
+    def __call__(self, values: Any) -> Any:
+        """Return the log-likelihood of a vector, a float, or of each row of a table."""
+        X = self._scaled(values)
+        found = np.full(len(X), -np.inf)
+        within = np.flatnonzero(((X >= 0.0) & (X <= 1.0)).all(axis=1))
+        residuals = self.likelihood.residuals_all(X[within]) if within.size else []
+        for i, r in zip(within, residuals, strict=True):
+            if self.likelihood.finished(r):
+                found[i] = -0.5 * linear.dot(r, r)
+        return found if np.ndim(values) == 2 else float(found[0])
+
+
+def residuals(
+    study: Source,
+    data: Data | None = None,
+    *,
+    signals: Signals | None = None,
+    estimate: Sequence[str] | None = None,
+    fixed: Mapping[str, float] | None = None,
+) -> Residuals:
+    """Return the residuals that `fit` minimises, as a function for other optimisers.
+
+    r = L^-1 (model(x) - y) / sd of each signal, with noise of standard deviation sd and
+    correlation L L^T, then (x_k - mean_k) / sd_k of known values. `fit` takes another noise for
+    signals that jump, such as those of ignition: the noise about its optimum.
+
+    Parameters
+    ----------
+    study, data, signals, estimate, fixed
+        As of `fit`.
+
+    Returns
+    -------
+    Residuals
+        A function of a vector, or of values by name, in the units of the study. It returns an
+        array of the shape (points + known,). A table of the shape (sets, parameters) gives one of
+        (sets, points + known), from simulations side by side. A run that does not finish has
+        residuals of 1e4. ``names`` and ``limits`` describe the vector.
+
+    Raises
+    ------
+    StudyError
+        A name is not known, or a parameter has no limits or no value. The function raises it for
+        values of a wrong shape or kind.
+    DataError
+        A measured series is missing, breaks a rule, or is too short to show its noise.
+    """
+    return Residuals(*_posed(study, data, signals, estimate, fixed))
+
+
+def log_likelihood(
+    study: Source,
+    data: Data | None = None,
+    *,
+    signals: Signals | None = None,
+    estimate: Sequence[str] | None = None,
+    fixed: Mapping[str, float] | None = None,
+) -> LogLikelihood:
+    """Return the log-likelihood of a study as a function, for samplers.
+
+    It is -|r|^2 / 2 with the residuals r of `residuals`, up to a constant, and -inf outside the
+    limits and where a run does not finish. Parameters and errors are those of `residuals`.
+
+    Returns
+    -------
+    LogLikelihood
+        A function of a vector, or of values by name, in the units of the study. It returns a
+        float; for a table of the shape (sets, parameters) an array of the shape (sets,).
+    """
+    return LogLikelihood(*_posed(study, data, signals, estimate, fixed))
+
+
+def _posed(
+    study: Source,
+    data: Data | None,
+    signals: Signals | None,
+    estimate: Sequence[str] | None,
+    fixed: Mapping[str, float] | None,
+) -> tuple[Study, Likelihood]:
+    """Return the study, and the likelihood that `fit` poses."""
+    study = read_study(study)
+    values = si_values(study, {} if fixed is None else fixed)
+    task = task_of(study, signals, estimate, values, None, given_keys(study, data))
+    series = measured(study, task.keys, data)
+    asked = of_diagnosis(study, task.channels, task.estimate)
+    return study, pose_likelihood(study, asked, series, task.fixed)
