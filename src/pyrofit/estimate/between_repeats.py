@@ -147,7 +147,9 @@ def _of_group(records: Sequence[_Record], free: bool) -> list[NoiseModel]:
     shown = linear.product(raw, window.T)
     left = np.mean([_left(_window(r.at, knots), *r.points) for r in records], axis=0)
     # Two records may agree by chance; a third rarely does.
-    if freedom > 1 and not _significant(np.sum(shown**2, axis=0) / freedom, left, freedom):
+    if (free or freedom > 1) and not _significant(
+        np.sum(shown**2, axis=0) / freedom, left, freedom
+    ):
         return [r.noise for r in records]
     of_points = np.mean([np.interp(grid, r.at, r.points[0] ** 2) for r in records], axis=0)
     usual = np.zeros((0, KNOTS))
