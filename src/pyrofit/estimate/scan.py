@@ -26,7 +26,7 @@ class Stretch:
     sign: int
 
 
-def windows_of(w: FloatArray, critical: float, most: int, channel: int = 0) -> list[Stretch]:
+def windows_of(w: FloatArray, critical: float, channel: int = 0, most: int = 8) -> list[Stretch]:
     """Return the windows of a channel above the critical value, ``most`` at most, in order."""
     found: list[Stretch] = []
     waiting = [(0, w.size)]

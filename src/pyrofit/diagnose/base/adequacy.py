@@ -72,7 +72,7 @@ def lack_of_fit(
         critical, score_critical = critical_values(SETTINGS.close_draw_blocks)
     freedom = fit.residuals.size - float(np.sum(spanned**2))
     most = SETTINGS.most_windows
-    windows = [w for i, part in enumerate(parts) for w in windows_of(part, critical, most, i)]
+    windows = [w for i, part in enumerate(parts) for w in windows_of(part, critical, i, most)]
     return LackOfFit(
         windows=tuple(windows),
         scan=scan,
