@@ -114,10 +114,10 @@ TABLES = rows_of(
             ("line 5, column 'Time': given 120; time must",),
         ),
         (
-            "time twice",
-            tga("\n60,", "\n0,"),
+            "time goes back",
+            tga("\n120,", "\n0,"),
             (
-                "line 4, column 'Time': given 0; time must exceed",
+                "line 5, column 'Time': given 0; time must exceed",
                 "Sort the rows and delete doubled",
             ),
         ),

@@ -268,7 +268,7 @@ KEYS = rows_of(
         (
             "repetitions without end",
             put(imp__repetitions=10**9),
-            ("imp.repetitions: 1000000000 must be at most 1e+06",),
+            ("imp.repetitions: 1000000000 must be at most 100000",),
         ),
         ("0 repetitions", put(imp__repetitions=0), ("imp.repetitions: 0 must be at least 1",)),
         (

@@ -11,6 +11,7 @@ import numpy as np
 import pytest
 import yaml
 
+from pyrofit import cli
 from pyrofit.config import Study, as_study, candidate_effects, digest, read_mapping, read_study
 from pyrofit.cost import KINDS, Target, known_costs, make_term
 from pyrofit.effects import known_effects
@@ -265,3 +266,17 @@ def test_plugins_that_are_no_list_of_names_are_refused(folder: Path, plugins: ob
 def test_no_compiled_copy_is_left_beside_a_plugin(folder: Path) -> None:
     read(folder, given())
     assert not list(folder.rglob("__pycache__"))
+
+
+def test_check_says_that_it_runs_plugins_and_refuses_them_when_asked(
+    folder: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    study, trace = folder / "study.yaml", folder / "trace"
+    write(folder / "own" / "costs" / "huber.py", f"open({str(trace)!r}, 'w').close()\n{COST}")
+    write(study, yaml.safe_dump(given()))
+    assert cli.main(["check", str(study), "--no-plugins"]) == 2
+    assert "hold programs, which a check would run" in capsys.readouterr().err
+    assert not trace.exists()
+    assert cli.main(["check", str(study)]) == 0
+    assert f"plugins: runs the programs in {folder / 'own'}" in capsys.readouterr().err
+    assert trace.exists()

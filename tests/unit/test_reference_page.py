@@ -68,7 +68,7 @@ def test_page_tells_units_limits_and_usual_values() -> None:
     )
     assert f"{row}time | K | number or" in page
     assert (
-        "| `repetitions` | repetitions per cost |  | whole number; at least 1, at most 1e+06 | 25 |"
+        "| `repetitions` | repetitions per cost |  | whole number; at least 1, at most 100000 | 25 |"
         in page
     )
     for name in Study.model_fields:

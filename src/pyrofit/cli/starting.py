@@ -44,6 +44,9 @@ def add(commands: Any) -> None:
 
     check = commands.add_parser("check", help="check a study and its files, run nothing")
     check.add_argument("study", type=Path, help="study file (YAML)")
+    check.add_argument(
+        "--no-plugins", action="store_true", help="refuse a study with plugins, run none of them"
+    )
     check.set_defaults(step=_check)
 
     ready = commands.add_parser("doctor", help="check study and machine before a long run")
@@ -174,6 +177,7 @@ def _check(given: argparse.Namespace) -> None:
     from pyrofit.new_study.marks import MARK, marked_lines
     from pyrofit.stages.reading import check_measurements
 
+    _say_plugins(given.study, getattr(given, "no_plugins", False))
     study = read_study(given.study)
     read = check_measurements(study, str(given.study))
     runs = study.imp.repetitions * len(study.imp.costs)
@@ -197,6 +201,30 @@ def _check(given: argparse.Namespace) -> None:
         f"{given.study}: study '{study.name}' is valid; {len(read)} measured series read; "
         f"{runs} repetitions in all"
     )
+
+
+def _say_plugins(study: Path, refused: bool) -> None:
+    """Say before plugins are run that they are programs.
+
+    Raises
+    ------
+    StudyError
+        They are refused.
+    """
+    from pyrofit.config.read import plugins_of
+    from pyrofit.config.yaml_file import read_mapping
+    from pyrofit.errors import StudyError
+
+    names = plugins_of(read_mapping(study))
+    if not names:
+        return
+    folders = ", ".join(f"{study.parent / name}" for name in names)
+    if refused:
+        raise StudyError(
+            f"{study}: plugins: {folders} hold programs, which a check would run. Read them, "
+            "then check without --no-plugins"
+        )
+    print(f"warning: {study}: plugins: runs the programs in {folders}", file=sys.stderr)
 
 
 def _ready(given: argparse.Namespace) -> int:

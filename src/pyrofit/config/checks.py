@@ -18,6 +18,9 @@ from pyrofit.errors import suggest
 from pyrofit.experiments import kind_of
 from pyrofit.model.experiment import Experiment
 
+MOST_LETTERS = 150
+"""Longest name: file systems take 255 bytes, of which endings and a second name need some."""
+
 
 def check_study(study: Study) -> None:
     """Check numbers, compositions, stages and synthetic data of a study.
@@ -29,6 +32,7 @@ def check_study(study: Study) -> None:
     """
     if len(externals(study)) < len(study.experiments) and not study.material.components:
         raise ValueError("material: this key is missing, and is required")
+    _check_names(study)
     _check_with_effects(study)
     check_numbers(study)
     check_compositions(study)
@@ -39,6 +43,21 @@ def check_study(study: Study) -> None:
     _check_published(study)
     _check_synthetic(study)
     check_parameters(study)
+
+
+def _check_names(study: Study) -> None:
+    """Refuse names of which no file system makes a folder or a file."""
+    named = {"name": study.name}
+    named |= {f"experiments.{name[:MOST_LETTERS]}": name for name in study.experiments}
+    named |= {f"parameters.{name[:MOST_LETTERS]}": name for name in study.parameters}
+    named |= {f"imp.costs.{name[:MOST_LETTERS]}": name for name in study.imp.costs}
+    for place, name in named.items():
+        require(
+            len(name) <= MOST_LETTERS,
+            place,
+            f"a name of {len(name)} characters, too long for the name of a folder; use at most "
+            f"{MOST_LETTERS}",
+        )
 
 
 def _check_with_effects(study: Study) -> None:

@@ -40,7 +40,7 @@ def as_study(given: Mapping[str, Any], source: str, located: bool = False) -> St
     folder = None if located or path.suffix == ".json" else path.parent
     try:
         refuse_booleans(given)
-        use_plugins([(folder or Path()) / name for name in _plugins(given)])
+        use_plugins([(folder or Path()) / name for name in plugins_of(given)])
         given = hold_fixed(expand_repeats(given))
         given = with_tables(given, folder or Path())
         study = with_programs(Study.model_validate(apply_effects(given)), folder)
@@ -63,7 +63,7 @@ def as_study(given: Mapping[str, Any], source: str, located: bool = False) -> St
     raise StudyError(f"{source}: the study description breaks {rules}:{text}")
 
 
-def _plugins(given: Mapping[str, Any]) -> list[str]:
+def plugins_of(given: Mapping[str, Any]) -> list[str]:
     """Return the folders of a study's plugins; none where they are no list of names."""
     names = given.get("plugins")
     if not isinstance(names, list | tuple):

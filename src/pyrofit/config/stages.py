@@ -11,7 +11,9 @@ Name = Annotated[str, Field(pattern=r"^[A-Za-z][A-Za-z0-9_]*$")]
 
 
 MOST = 1_000_000
-"""Largest count of repetitions or starts."""
+"""Largest count of starts."""
+MOST_REPETITIONS = 100_000
+"""Largest count of repetitions: each is a job of its own for each cost, to be planned first."""
 
 
 class Sceua(Part):
@@ -81,7 +83,7 @@ class Imp(Part):
     estimate: tuple[str, ...] = Field(min_length=1, description="parameters to estimate")
     kinetics: str = Field("described", description="'described', 'fitted', or one of kinetics.sets")
     costs: dict[Name, Terms] = Field(min_length=1, description="cost functions by name")
-    repetitions: int = Field(25, ge=1, le=MOST, description="repetitions per cost")
+    repetitions: int = Field(25, ge=1, le=MOST_REPETITIONS, description="repetitions per cost")
     sceua: Sceua = Field(default_factory=Sceua, description="budget of SCE-UA")
     least_squares: LeastSquares = Field(
         default_factory=LeastSquares, description="least squares, in addition to SCE-UA"

@@ -153,9 +153,10 @@ def _names(study: Study) -> Iterator[str]:
     named += [(f"experiments.{name}", name) for name in study.experiments]
     for place, name in named:
         if len(name) > LONGEST_NAME:
+            dots = "..." if len(place) > LONGEST_NAME else ""
             yield (
-                f"{place[:LONGEST_NAME]}...: a name of {len(name)} characters does not fit into "
-                f"tables and figures; use at most {LONGEST_NAME}"
+                f"{place[:LONGEST_NAME]}{dots}: a name of {len(name)} characters does not fit "
+                f"into tables and figures; use at most {LONGEST_NAME}"
             )
         if name.lower() in CONFUSING:
             yield f"{place}: the name '{name}' is easily mistaken for something else; use another"
