@@ -19,7 +19,8 @@ def test_the_target_writes_both_versions_of_the_fitted_material(project: Project
     assert "ADJUST_H" not in old
     assert "ADJUST_H=.FALSE." in new
     for text in (old, new):
-        assert "set 'RMSE least squares'" in text
+        assert "set 'estimates'" in text
+        assert "which does not hold this value" not in text
         assert "fitted to slab_60 mlr" in text
         assert "95 % interval" in text
 

@@ -39,7 +39,9 @@ def _program(
     """Add a program that a study is written for."""
     parser = programs.add_parser(name, help=text)
     parser.add_argument("study", type=Path, help="study file (YAML or JSON)")
-    parser.add_argument("--set", default="", help="set of the report, truth, diagnosis, or a JSON")
+    parser.add_argument(
+        "--set", default="", help="estimates (default), a cost's, truth, diagnosis, or a JSON"
+    )
     parser.add_argument("--results", type=Path, help="results folder; default results/<name>")
     parser.add_argument("--out", type=Path, help=f"folder; default results/<name>/{name}")
     parser.set_defaults(step=step)

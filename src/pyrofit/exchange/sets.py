@@ -16,7 +16,7 @@ from pyrofit.results.files import Results, read_json
 from pyrofit.stages.fit import fixed_for_imp
 from pyrofit.stages.predict import sets_of
 
-DIAGNOSIS, TRUTH, PUBLISHED = "diagnosis", "truth", "published"
+ESTIMATES, DIAGNOSIS, TRUTH, PUBLISHED = "estimates", "diagnosis", "truth", "published"
 
 
 class ParameterSet(NamedTuple):
@@ -48,9 +48,9 @@ def parameter_set(study: Study, results: Results, label: str, beside: Path) -> P
     study, results
         The study and its results.
     label
-        A set of the report, 'truth', '<cost> published', 'diagnosis', or the path of a JSON file
-        of values in SI units by name. Empty = least squares of the first cost, or else the set
-        of the diagnosis, preferably the one beside the study file.
+        'estimates', a set of the report, 'truth', '<cost> published', 'diagnosis', or the path of a
+        JSON file of values in SI units by name. Empty = the estimates of the report, or else the
+        set of the diagnosis, preferably the one beside the study file.
     beside
         Folder of the study file.
 
@@ -69,6 +69,8 @@ def parameter_set(study: Study, results: Results, label: str, beside: Path) -> P
         chosen = ParameterSet(label, _fitted(study), {**study.fixed_values(), **_file(label)}, {})
     elif label == DIAGNOSIS:
         chosen = _diagnosed(study, results, beside)
+    elif label == ESTIMATES:
+        chosen = _estimates(study, results)
     elif label == TRUTH and study.synthetic is not None:
         chosen = ParameterSet(label, _fitted(study), study.true_values(), {})
     elif label.removesuffix(f" {PUBLISHED}") in published_sets(study) and label.endswith(PUBLISHED):
@@ -90,6 +92,8 @@ def _fitted(study: Study) -> Material:
 
 
 def _usual(study: Study, results: Results, beside: Path) -> str:
+    if results.identification("estimate.csv").exists():
+        return ESTIMATES
     if results.imp("summary.csv").exists():
         return f"{next(iter(study.imp.costs))} {OPTIMISERS['least_squares'].words}"
     if _diagnosis_of(results, beside) is not None:
@@ -101,20 +105,31 @@ def _usual(study: Study, results: Results, beside: Path) -> str:
     )
 
 
+def _estimates(study: Study, results: Results) -> ParameterSet:
+    """Return the estimates of the inverse modelling, with the kinetics that belong to them."""
+    found = identification.estimates(study, results)["estimate"].to_dict()
+    values = fixed_for_imp(study, results) | {str(n): float(v) for n, v in found.items()}
+    return ParameterSet(ESTIMATES, _fitted(study), values, _notes(study, results, values))
+
+
 def _of_report(study: Study, results: Results, label: str) -> ParameterSet:
     known = sets_of(study, results)
     if label not in known:
         raise StudyError(
             f"study '{study.name}' has no set '{label}'. "
-            + suggest(label, [*known, DIAGNOSIS, *([TRUTH] if study.synthetic else [])])
+            + suggest(label, [ESTIMATES, *known, DIAGNOSIS, *([TRUTH] if study.synthetic else [])])
         )
     values = fixed_for_imp(study, results) | known[label]
+    return ParameterSet(label, _fitted(study), values, _notes(study, results, values))
+
+
+def _notes(study: Study, results: Results, values: Mapping[str, float]) -> dict[str, str]:
+    """Return the interval of each estimate and how well it is determined, in words."""
     try:
         found = estimated(study, identification.read(study, results))
     except DataError:
-        found = []  # the analysis has not run
-    notes = {e.name: _note(e, values[e.name] / study.parameters[e.name].factor) for e in found}
-    return ParameterSet(label, _fitted(study), values, notes)
+        return {}  # the analysis has not run
+    return {e.name: _note(e, values[e.name] / study.parameters[e.name].factor) for e in found}
 
 
 def _note(found: Estimated, value: float) -> str:

@@ -1,4 +1,4 @@
-FDS_NEEDS = [KINETICS_FOR_IMP, results.imp("summary.csv"), STARTED]
+FDS_NEEDS = [KINETICS_FOR_IMP, results.imp("summary.csv"), STARTED, IDENTIFICATION]
 
 
 rule fds_export:
