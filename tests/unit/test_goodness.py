@@ -66,6 +66,8 @@ def test_right_model_passes_and_its_values_are_determined(tmp_path: Path) -> Non
     assert set(fit.table["verdict"]) == {"determined"}
     assert fit.table.loc["E_p", "low"] < 180.0 < fit.table.loc["E_p", "high"]
     assert "describes the tests" in fit.verdict[0]
+    assert fit.summary().startswith(fit.verdict[0])
+    assert "E_p = 18" in fit.summary()
     assert fit.signals["noise_sd"].to_numpy() == pytest.approx(5e-4, rel=0.3)
 
 
@@ -86,6 +88,7 @@ def test_wrong_model_is_told_and_determines_nothing(
         # Where there is one energy, the interval of the wrong order holds it.
         assert fit.table.loc["E_p", "low"] < 180.0 < fit.table.loc["E_p", "high"]
     text = str(fit)
+    assert "apparent value" in fit.summary()
     assert "does not describe the tests" in text
     assert "°C" in fit.verdict[1]
     assert "scheme" in text

@@ -114,6 +114,7 @@ def test_changes_make_the_study_that_a_file_with_them_would(study: pf.Study) -> 
         (lambda s: pf.new_study("wood", tga=np.ones(3)), "needs paths of files"),
         (lambda s: pf.simulate(s, {"k": -0.2}), "'k': -0.2 must be above 0 .it is used as"),
         (lambda s: pf.fit(s, fixed={"eps": 1.5}), "'eps': 1.5 must lie within 0 and 1"),
+        (lambda s: pf.fit(s, fixed={"k": 900.0}), "fixed: 'k' is 900 .* outside its limits"),
         (lambda s: pf.fit(s, fixed=["k"]), "values by name are needed.* this is a list"),
         (lambda s: pf.fit(s, estimate=["k", "k"]), "estimate: 'k' stands twice"),
         (lambda s: pf.fit(s, signals=["tga_5K", "tga_5K"]), "'tga_5K, mass_fraction' stands twice"),

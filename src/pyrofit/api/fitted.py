@@ -130,6 +130,16 @@ class Fit:
         """Return the report as text; it lists correlations above a size."""
         return text_of(self._contents(), correlations_above)
 
+    def summary(self) -> str:
+        """Return the verdict in sentences, then each estimate with its interval, as text."""
+        lines = list(self.verdict)
+        for name, row in self.table.iterrows():
+            said = f"{name} = {row['value']:.4g} {row['unit']}"
+            if not np.isnan(row["sd"]):
+                said += f" ({row['low']:.4g} to {row['high']:.4g}), {row['verdict']}"
+            lines.append(said)
+        return "\n".join(lines)
+
     def predict(self, signals: Signals | None = None, data: Data | None = None) -> Comparison:
         """Compare the fit with experiments, by default all; see `pyrofit.compare`."""
         return compare(self.study, self.values, signals=signals, data=data)

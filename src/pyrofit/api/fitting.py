@@ -123,12 +123,14 @@ def fit(
     Raises
     ------
     StudyError
-        A name is not known, or a parameter has no limits or no value.
+        A name is not known, a parameter has no limits or no value, or a fixed value is outside
+        its limits.
     DataError
         A measured series is missing, breaks a rule, or is too short to show its noise.
     """
     study = read_study(study)
     values = si_values(study, {} if fixed is None else fixed)
+    _check_limits(study, values)
     if not (isinstance(starts, int) and starts >= 1):
         raise StudyError(f"starts: {starts!r} is no count; give a whole number from 1 on")
     if cost is None and optimiser != "least_squares":
@@ -147,6 +149,22 @@ def fit(
     given = given_keys(study, data)
     task = task_of(study, signals, estimate, values, stage, given)
     return fit_likelihood(task, data, starts, profiles, tell or _silent)
+
+
+def _check_limits(study: Study, fixed: Mapping[str, float]) -> None:
+    """Refuse fixed values outside their limits, up to round-off."""
+    for name, value in fixed.items():
+        parameter = study.parameters[name]
+        if parameter.lower is None or parameter.upper is None:
+            continue
+        own = value / parameter.factor
+        near = 1e-9 * (parameter.upper - parameter.lower)
+        if not parameter.lower - near <= own <= parameter.upper + near:
+            raise StudyError(
+                f"fixed: '{name}' is {own:g} {parameter.unit}, outside its limits "
+                f"{parameter.lower:g} to {parameter.upper:g}; give a value inside, or widen "
+                "`lower` and `upper` in the study"
+            )
 
 
 def task_of(
