@@ -115,7 +115,7 @@ def test_back_temperature_of_the_same_file_is_a_second_signal(folder: Path) -> N
     )
     assert "back_temperature_uncertainty_K" not in series["slab_25kW", "back_temperature"][0]
     assert "mlr_uncertainty_kg_m2_s" in series["slab_25kW", "mlr"][0]
-    assert study.imp.identification == {"slab_25kW": ("mlr", "back_temperature")}
+    assert [t.signal for t in study.imp.costs["RMSE"]] == ["mlr", "back_temperature"]
     assert study.experiments["slab_25kW"].sample.initial_temperature_K == 293.1
 
 
@@ -265,7 +265,9 @@ def test_one_flux_leaves_nothing_to_hold_out_and_that_is_told(
         assert "name it in `validation`" in text
 
 
-def test_middle_of_three_heating_rates_is_held_out_of_the_kinetics(folder: Path) -> None:
+def test_middle_of_three_heating_rates_is_held_out_of_the_kinetics(
+    folder: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
     lab()
     names = [f"tga_{rate}K.csv" for rate in (20, 5, 10)]
     for name, rate in zip(names, (20.0, 5.0, 10.0), strict=True):
@@ -275,6 +277,9 @@ def test_middle_of_three_heating_rates_is_held_out_of_the_kinetics(folder: Path)
     assert study.kinetics is not None
     assert study.kinetics.compare == ("tga_10K",)
     assert [term.experiment for term in study.kinetics.cost] == ["tga_20K", "tga_5K"]
+    for text in (capsys.readouterr().out, Path("wood/wood.yaml").read_text("utf-8")):
+        assert "No slab is held out" in text
+        assert "Nothing is held out" not in text
 
 
 def test_two_heating_rates_are_both_fitted(folder: Path) -> None:
@@ -492,7 +497,8 @@ def test_cone_calorimeter_file_brings_a_flame_and_a_heat_of_combustion(folder: P
         write(f"run_{flux}kW.csv", header, SECONDS, rate, BACK_K)
     study = made("--cone", "run_25kW.csv", "run_50kW.csv")
     assert not_in_costs(study) == {"run_50kW"}
-    assert [t.signal for t in study.imp.costs["RMSE"]] == ["heat_release_rate"]
+    wanted = ["heat_release_rate", "back_temperature"]
+    assert [t.signal for t in study.imp.costs["RMSE"]] == wanted
     assert "dhc" in study.imp.estimate
     # 10 % of the largest rate are reached 1.517 widths before the peak.
     ignition = SECONDS[300.0 - 90.0 * np.sqrt(np.log(10.0)) <= SECONDS][0]
@@ -504,7 +510,7 @@ def test_numbered_temperatures_are_a_signal_each(folder: Path) -> None:
     write("slab_25.csv", header, SECONDS, 1e3 * MLR, BACK_K, BACK_K + 5.0)
     study = made("--gasification", "slab_25.csv")
     wanted = ("mlr", "back_temperature_1", "back_temperature_2")
-    assert study.imp.identification == {"slab_25": wanted}
+    assert tuple(t.signal for t in study.imp.costs["RMSE"]) == wanted
     frame, _ = read_all(study)["slab_25", "back_temperature_2"]
     np.testing.assert_allclose(frame["back_temperature_K"], BACK_K + 5.0, rtol=1e-8)
 
@@ -527,7 +533,7 @@ def test_file_with_mass_alone_is_fitted_by_the_mass(
     study = made(f"--{kind}", "slab_25kW.csv")
     frame, _ = read_all(study)["slab_25kW", "mass"]
     np.testing.assert_allclose(frame["mass_kg_m2"], mass, rtol=1e-8)
-    assert [t.signal for t in study.imp.costs["RMSE"]] == ["mass"]
+    assert study.imp.costs["RMSE"][0].signal == "mass"
     text = Path("wood/wood.yaml").read_text("utf-8")
     assert ("sample_area_m2: 0.01 # CHANGE" in text) == (factor > 1.0)
 
@@ -537,7 +543,8 @@ def test_rate_is_fitted_where_the_file_has_the_mass_as_well(folder: Path) -> Non
     write("slab_25kW.csv", "Time [s],Mass [g],MLR [g/m2/s]", SECONDS, 10.0 * mass, 1e3 * MLR)
     study = made("--gasification", "slab_25kW.csv")
     assert [t.signal for t in study.imp.costs["RMSE"]] == ["mlr"]
-    assert study.imp.identification == {"slab_25kW": ("mlr",)}
+    told = "slab_25kW, mass: in no cost, as the rate is of the same load cell."
+    assert told in Path("wood/wood.yaml").read_text("utf-8")
     assert set(study.experiments["slab_25kW"].signals) == {"mlr", "mass"}
 
 
@@ -579,7 +586,8 @@ def test_file_of_a_real_laboratory_gives_a_study_that_is_valid(file: str, folder
     assert (run.number, run.told) == (number, "record" if run.of.stage == "kinetics" else "unit")
     imp = [term for terms in study.imp.costs.values() for term in terms]
     fitted = imp if KINDS[kind].stage == "imp" else study.kinetics.cost
-    assert [term.signal for term in fitted] == signals
+    temperatures = [s for s in study.experiments[run.name].signals if "temperature" in s]
+    assert [term.signal for term in fitted] == [*signals, *temperatures]
     assert read_all(study)[run.name, signals[0]][0]["time_s"].size > 20
 
 

@@ -60,7 +60,7 @@ def part_of(stage: Stage, records: Iterable[Measured]) -> Part:
     terms = [
         Term(run.name, signal, normalisation)
         for run in runs
-        if run.name not in held and (_shows_loss(run) or not rate)
+        if run.name not in held and (stage == "imp" or _shows_loss(run) or not rate)
         for signal, normalisation in _terms(run)
     ]
     if len({term.signal for term in terms}) == 1 and stage == "kinetics":
@@ -104,25 +104,31 @@ def _shows_loss(run: Measured) -> bool:
 def _terms(run: Measured) -> list[tuple[str, str]]:
     """Return the signals of a cost, and the divisor of each.
 
-    Those are all rates, and signals of the released mass where no rate of it is recorded; a
-    temperature only where there is nothing else.
+    Those are all rates, signals of the released mass where no rate of it is recorded, and the
+    temperatures of slabs; of other samples a temperature only where there is nothing else.
     """
     if run.path is None:
         return [(files_of(run.kind).computed_signal, "mean")]
     rates = [f for f in run.signals if f.of.relative]
     losses = [f for f in run.signals if f.of.released is not None]
     others = [f for f in run.signals if not f.of.relative and not f.of.is_temperature]
-    chosen = [*rates, *([] if any(f.of.relative for f in losses) else others)] or run.signals[:1]
+    chosen = [*rates, *([] if any(f.of.relative for f in losses) else others)] or list(
+        run.signals[:1]
+    )
+    if run.of.stage == "imp":
+        chosen += [f for f in run.signals if f.of.is_temperature and f not in chosen]
     return [(f.signal, "mean" if f.of.relative else "range") for f in chosen]
 
 
-def identified(run: Measured) -> list[str]:
-    """Return the signals of an experiment that the identification uses.
-
-    A mass is left out beside its own rate: both are the record of one load cell.
-    """
-    twice = any(f.of.relative and f.of.released is not None for f in run.signals)
-    return [f.signal for f in run.signals if f.of.relative or f.of.released is None or not twice]
+def left_out(part: Part) -> list[str]:
+    """Say which signals of fitted experiments no term compares: a mass beside its own rate."""
+    compared = {(term.experiment, term.signal) for term in part.terms}
+    return [
+        f"{run.name}, {found.signal}: in no cost, as the rate is of the same load cell."
+        for run in part.fitted
+        for found in run.signals
+        if (run.name, found.signal) not in compared
+    ]
 
 
 def heats(runs: Iterable[Measured]) -> tuple[str, ...]:

@@ -179,13 +179,21 @@ def _remark(run: Measured, found: Found) -> str:
     return look(frame["temperature_K"].to_numpy(), frame[found.of.column].to_numpy())
 
 
-def held_out(part: Part, further: str = "a second radiant flux") -> list[str]:
-    """Say which experiments test the model, or how to get one that does."""
+def held_out(
+    part: Part, further: str = "a second radiant flux", beside: Part | None = None
+) -> list[str]:
+    """Say which experiments test the model, or how to get one that does.
+
+    ``beside`` is the stage of the kinetics, where ``part`` is that of slabs.
+    """
     if part.held_out:
         use = "them, so they test" if len(part.held_out) > 1 else "it, so it tests"
         return [f"Held out: {', '.join(part.held_out)}. No cost uses {use} the model."]
+    nothing = "Nothing is held out: all that is predicted here was fitted, so nothing tests the model."
+    if beside is not None and beside.held_out:
+        nothing = "No slab is held out: all slabs are fitted, so none tests what they determine."
     return [
-        "Nothing is held out: all that is predicted here was fitted, so nothing tests the model.",
+        nothing,
         f"Measure at {further}, add it under `experiments` and name it in `validation`.",
     ]
 

@@ -13,7 +13,7 @@ from pyrofit.experiments import OF_FILES, files_of
 from pyrofit.experiments.base import Stage
 from pyrofit.new_study import draft
 from pyrofit.new_study.draft import Kinetics, Measured
-from pyrofit.new_study.plan import Part, heats, identified, part_of, titles
+from pyrofit.new_study.plan import Part, heats, left_out, part_of, titles
 from pyrofit.new_study.repeats import grouped
 from pyrofit.new_study.words import held_out, number_comment, said, said_of_repeats, signal_lines
 from pyrofit.results.files import write_bytes, write_text
@@ -72,7 +72,7 @@ def init(name: str, files: Files, parent: Path) -> tuple[Path, list[str]]:
     lines += held_out(heated) if heated.held_out else []
     if not slabs.runs:
         return study, [*lines, *([] if heated.held_out else held_out(heated, _RATES))]
-    return study, [*lines, *held_out(slabs)]
+    return study, [*lines, *held_out(slabs, beside=heated)]
 
 
 def _records(files: Files) -> list[Measured]:
@@ -161,8 +161,8 @@ def study_text(name: str, tests: Sequence[Measured]) -> str:
             imp_words=_words(slabs),
             imp_estimate=estimated,
             alone=alone,
-            identified={run.name: identified(run) for run in slabs.fitted if len(run.signals) > 1},
-            tested=held_out(slabs) if alone is None else held_out(slabs, _RATES),
+            left_out=left_out(slabs),
+            tested=held_out(slabs, _RATES) if alone is not None else held_out(slabs, beside=heated),
         )
     )
 
