@@ -18,7 +18,7 @@ ROOT = Path(__file__).parents[2]
 TEMPERATURE_K = np.arange(400.0, 800.0, 5.0)
 RATE_K_MIN = 10.0
 MINUTES = (TEMPERATURE_K - TEMPERATURE_K[0]) / RATE_K_MIN
-MASS = 0.2 + 0.8 / (1.0 + np.exp((TEMPERATURE_K - 640.0) / 12.0))
+MASS = 0.05 + 0.95 / (1.0 + np.exp((TEMPERATURE_K - 640.0) / 12.0))
 SECONDS = np.arange(0.0, 600.0, 10.0)
 MLR = 0.012 * np.exp(-(((SECONDS - 300.0) / 90.0) ** 2))
 BACK_K = 293.15 + SECONDS / 2.0
@@ -170,6 +170,65 @@ def test_limits_of_the_kinetics_hold_the_truth_of_a_record(folder: Path) -> None
     assert limits.lower + 50.0 < 605.0 < limits.upper - 20.0
     assert study.material.reactions["pyrolysis"].products == {"residue": "y"}
     assert study.parameters["y"].bounds_si == pytest.approx((0.0, 0.1), abs=1e-3)
+
+
+def char(water: float, residue: float = 0.2) -> None:
+    """Write a TGA file of a solid that dries and chars by three reactions, and a slab's mass."""
+    steps = ((350.0, 8.0, water), (560.0, 12.0, 0.2), (630.0, 9.0, 0.4), (690.0, 15.0, 0.4))
+    kelvin, dry = np.arange(300.0, 900.0, 2.0), (1.0 - water - residue)
+    mass = np.ones_like(kelvin)
+    for i, (middle, width, share) in enumerate(steps):
+        mass -= share * (dry if i else 1.0) / (1.0 + np.exp((middle - kelvin) / width))
+    write("tga_10K.csv", "time_s,temperature_K,mass_fraction", 6.0 * (kelvin - 300.0), kelvin, mass)
+    write("slab_25kW.csv", "Time [s],Mass per area [kg/m2]", SECONDS, 7.0 - np.cumsum(MLR) * 10.0)
+
+
+@pytest.mark.parametrize("water", [0.0, 0.06], ids=["dry", "moist"])
+@pytest.mark.parametrize("slabs", [True, False], ids=["slabs", "TGA alone"])
+def test_charring_solid_gets_parallel_reactions_char_and_its_water(
+    water: float, slabs: bool, folder: Path
+) -> None:
+    char(water)
+    study = made("--tga", "tga_10K.csv", *(["--gasification", "slab_25kW.csv"] if slabs else []))
+    reactions = study.material.reactions
+    assert list(reactions) == [*(["drying"] if water else []), "early", "main", "late"]
+    assert all(reactions[name].products == {"char": "y"} for name in ("early", "main", "late"))
+    first = study.kinetics if slabs else study.imp
+    assert first is not None
+    assert {"T_e", "T_m", "T_l", "w_e", "w_l", "y"} <= set(first.estimate)
+    assert ({"w_w", "T_w"} <= set(first.estimate)) == bool(water)
+    assert ({"rho_c", "k_c", "eps_c"} <= set(study.imp.estimate)) == slabs
+    # The truth lies within the limits: half of each part comes 20 K to 80 K above T_ref.
+    for name, half in {"T_e": 560.0, "T_m": 630.0, "T_l": 690.0}.items():
+        lower, upper = study.parameters[name].bounds_si
+        assert lower < half - 80.0
+        assert half - 20.0 < upper
+    for name, true in {"y": 0.2 / (1.0 - water), **({"w_w": water} if water else {})}.items():
+        lower, upper = study.parameters[name].bounds_si
+        assert lower < true < upper
+
+
+def test_residue_below_a_tenth_gives_one_reaction(folder: Path) -> None:
+    char(0.0, residue=0.09)
+    study = made("--tga", "tga_10K.csv", "--gasification", "slab_25kW.csv")
+    assert list(study.material.reactions) == ["pyrolysis"]
+    assert list(study.material.components) == ["virgin", "residue"]
+
+
+@pytest.mark.parametrize(("thickness", "told"), [("0.006", False), ("0.0001", True)])
+def test_first_mass_that_no_density_within_limits_gives_is_told(
+    thickness: str, told: bool, folder: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    char(0.06)
+    made("--tga", "tga_10K.csv", "--gasification", "slab_25kW.csv")
+    path = Path("wood/wood.yaml")
+    text = path.read_text("utf-8").replace("thickness_m: 0.006", f"thickness_m: {thickness}")
+    path.write_text(text, "utf-8")
+    capsys.readouterr()
+    assert cli.main(["check", str(path)]) == 0
+    shown = capsys.readouterr()
+    said = "the first mass is 7.000 kg/m2, the limits of density and thickness allow"
+    assert (said in shown.out + shown.err) == told
 
 
 def not_in_costs(study: Study) -> set[str]:
@@ -536,6 +595,16 @@ def test_file_with_mass_alone_is_fitted_by_the_mass(
     assert study.imp.costs["RMSE"][0].signal == "mass"
     text = Path("wood/wood.yaml").read_text("utf-8")
     assert ("sample_area_m2: 0.01 # CHANGE" in text) == (factor > 1.0)
+
+
+def test_slab_with_temperatures_alone_is_in_the_cost_beside_others(folder: Path) -> None:
+    write("slab_25kW.csv", "Time [s],MLR [g/m2/s]", SECONDS, 1e3 * MLR)
+    write("plate_25kW.csv", "Time [s],Back temp [K]", SECONDS, BACK_K)
+    study = made("--gasification", "slab_25kW.csv", "plate_25kW.csv")
+    assert [(t.experiment, t.signal) for t in study.imp.costs["RMSE"]] == [
+        ("slab_25kW", "mlr"),
+        ("plate_25kW", "back_temperature"),
+    ]
 
 
 def test_rate_is_fitted_where_the_file_has_the_mass_as_well(folder: Path) -> None:

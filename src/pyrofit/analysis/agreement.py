@@ -7,6 +7,7 @@ import pandas as pd
 
 from pyrofit.analysis.closure import described_mass
 from pyrofit.config import Study
+from pyrofit.data.suspect import LOOK
 from pyrofit.errors import DataError
 from pyrofit.model.base import value_of
 from pyrofit.model.heated import HeatedExperiment
@@ -89,8 +90,37 @@ def _temperature_notes(study: Study, experiment: SlabExperiment, start: float) -
     return [f"starts at {start:.1f} K, initial_temperature_K of the sample is {described:.1f}"]
 
 
+def _limit_notes(study: Study, experiment: SlabExperiment, start: float) -> list[str]:
+    """Note a first mass [kg/m2] that no density within the limits gives.
+
+    Densities and thicknesses are at both their limits, shares of a composition in the middle.
+    """
+    layers = [layer.composition or study.material.composition for layer in experiment.sample.layers]
+    shares = {share for composition in layers for share in composition.values()}
+    free = {name: p.bounds_si for name, p in study.parameters.items() if p.value is None}
+    lower, upper = (
+        described_mass(
+            study,
+            experiment,
+            study.fixed_values()
+            | {n: 0.5 * (a + b) if n in shares else (a, b)[at] for n, (a, b) in free.items()},
+        )
+        for at in (0, 1)
+    )
+    if (1.0 - OTHER_MASS) * lower <= start <= (1.0 + OTHER_MASS) * upper:
+        return []
+    return [
+        f"{LOOK}the first mass is {start:.3f} kg/m2, the limits of density and thickness allow "
+        f"{lower:.3f} to {upper:.3f}: correct thickness, area or `offset`, or widen the limits"
+    ]
+
+
 def _mass_notes(study: Study, experiment: SlabExperiment, start: float) -> list[str]:
-    described = described_mass(study, experiment, study.fixed_values())
+    values = study.fixed_values()
+    try:
+        described = described_mass(study, experiment, values)
+    except KeyError:
+        return _limit_notes(study, experiment, start)
     if abs(start - described) <= OTHER_MASS * described:
         return []
     return [

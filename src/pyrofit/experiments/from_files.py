@@ -67,7 +67,7 @@ class NamedNumber:
 
 @dataclass(frozen=True)
 class Loss:
-    """Point of a record at half of its loss.
+    """Loss of mass of a record.
 
     Parameters
     ----------
@@ -75,10 +75,16 @@ class Loss:
         Temperature of half the loss [K].
     residue
         Residue [kg/kg]; None where the record does not tell it.
+    moisture
+        Loss before 420 K over the initial mass [kg/kg]; 0 where the reaction begins there.
+    parts_K
+        Temperatures [K] of an eighth, half and seven eighths of the loss without the moisture.
     """
 
     temperature_K: float
     residue: float | None
+    moisture: float = 0.0
+    parts_K: tuple[float, float, float] | None = None
 
 
 @dataclass(frozen=True)

@@ -25,6 +25,15 @@ USUAL_AREA_M2 = 0.01
 """Exposed area of a slab of 100 mm by 100 mm."""
 USUAL_MASS_KG = 5e-6
 """Mass of a sample in a crucible."""
+CHAR = 0.1
+"""Residue above which a solid chars."""
+MOIST = 0.01
+"""Loss of mass up to 420 K above which a sample is moist."""
+_PARTS = (-120.0, 20.0), (-100.0, 20.0), (-140.0, 120.0)
+"""Limits [K] of reference temperatures about those of an eighth, half, seven eighths of the loss.
+
+The rate constant is 0.001 1/s some 20 to 80 K below the peak of a reaction at usual rates.
+"""
 _TOLD = ("thinned", "left out, the time of")
 """Beginnings of the notes of the reader that a new study tells."""
 
@@ -96,12 +105,39 @@ class Measured:
 
 @dataclass(frozen=True)
 class Kinetics:
-    """Where to look for the kinetics: limits [K] of the reference temperature, residue [-]."""
+    """Where to look for the kinetics: limits [K] of the reference temperature, residue [-].
+
+    ``moisture`` is the loss by drying [-], ``parts_K`` are limits of three parallel reactions.
+    """
 
     lower_K: float = 500.0
     upper_K: float = 750.0
     residue: float = 0.1
     known_residue: bool = False
+    moisture: float = 0.0
+    parts_K: tuple[tuple[float, float], ...] = ()
+
+    @property
+    def charring(self) -> bool:
+        """Whether so much is left that char has properties of its own."""
+        return self.known_residue and self.residue > CHAR
+
+    @property
+    def moist(self) -> bool:
+        """Whether records show drying."""
+        return self.moisture > MOIST
+
+    @property
+    def moistures(self) -> tuple[float, float]:
+        """Limits of the mass fraction of water: half to one and a half times the loss."""
+        return round(0.5 * self.moisture, 3), min(round(1.5 * self.moisture, 3), 0.12)
+
+    @property
+    def yields(self) -> tuple[float, float]:
+        """Limits of the char yield of the dry material."""
+        dry = 1.0 - (self.moisture if self.moist else 0.0)
+        lower, upper = self.residues
+        return round(lower / dry, 3), min(round(upper / dry, 3), 0.99)
 
     @property
     def residues(self) -> tuple[float, float]:
@@ -215,7 +251,23 @@ def kinetics_of(records: Iterable[Measured]) -> Kinetics:
     rests = [loss.residue for loss in losses if loss.residue is not None]
     residue = float(np.mean(rests)) if rests else Kinetics.residue
     return Kinetics(
-        max(lower, 300.0), upper + 30.0, min(max(round(residue, 4), 0.001), 0.95), bool(rests)
+        max(lower, 300.0),
+        upper + 30.0,
+        min(max(round(residue, 4), 0.001), 0.95),
+        bool(rests),
+        float(np.median([loss.moisture for loss in losses])),
+        _parts([loss.parts_K for loss in losses if loss.parts_K is not None]),
+    )
+
+
+def _parts(records: Sequence[tuple[float, ...]]) -> tuple[tuple[float, float], ...]:
+    """Return limits [K] of the reference temperatures of parallel reactions, early to late."""
+    return tuple(
+        (
+            max(5.0 * math.floor((min(found) + below) / 5.0), 300.0),
+            5.0 * math.ceil((max(found) + above) / 5.0),
+        )
+        for found, (below, above) in zip(zip(*records, strict=True), _PARTS, strict=True)
     )
 
 

@@ -189,9 +189,11 @@ def held_out(
     if part.held_out:
         use = "them, so they test" if len(part.held_out) > 1 else "it, so it tests"
         return [f"Held out: {', '.join(part.held_out)}. No cost uses {use} the model."]
-    nothing = "Nothing is held out: all that is predicted here was fitted, so nothing tests the model."
+    nothing = (
+        "Nothing is held out: all that is predicted here was fitted, so nothing tests the model."
+    )
     if beside is not None and beside.held_out:
-        nothing = "No slab is held out: all slabs are fitted, so none tests what they determine."
+        nothing = "No slab is held out: all slabs are fitted, so none tests the model."
     return [
         nothing,
         f"Measure at {further}, add it under `experiments` and name it in `validation`.",

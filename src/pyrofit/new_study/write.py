@@ -30,6 +30,8 @@ _OF_HEATED = {
     "cp": "cp: {unit: kJ/(kg K), lower: 0.8, upper: 3.5, label: specific heat}",
 }
 """Lines of parameters that calorimeters show."""
+_OF_CHAR = "rho_c", "k_c", "eps_c"
+"""Parameters of the char, as slabs show them."""
 _RATES = "three heating rates or more"
 Files = Mapping[str, Sequence[Path]]
 """Measured files by kind of experiment."""
@@ -137,8 +139,9 @@ def study_text(name: str, tests: Sequence[Measured]) -> str:
     heated, slabs = (part_of(stage, tests) for stage in STAGES)
     shown = [_HEATS[key] for key in heats(heated.fitted)]
     burns = _COMBUSTION in heats(records)
-    of_kinetics = ["T_p", "E_p", *(["y"] if kinetics.known_residue else []), *shown]
+    of_kinetics = [*_of_scheme(kinetics), *shown]
     estimated = _of_slabs(heated, slabs, shown)
+    estimated += list(_OF_CHAR) if kinetics.charring else []
     alone = None
     if not slabs.runs:  # kinetics alone: as the first stage of other studies
         heated, slabs = slabs, heated
@@ -151,6 +154,7 @@ def study_text(name: str, tests: Sequence[Measured]) -> str:
             name=name,
             synthetic=synthetic,
             kinetics=kinetics,
+            virgin=_virgin(alone, estimated),
             residue_density=1000 if kinetics.residue <= _FILM else 250,
             experiments=_experiments([*heated.runs, *slabs.runs]),
             kinetics_part=heated,
@@ -165,6 +169,23 @@ def study_text(name: str, tests: Sequence[Measured]) -> str:
             tested=held_out(slabs, _RATES) if alone is not None else held_out(slabs, beside=heated),
         )
     )
+
+
+def _of_scheme(kinetics: Kinetics) -> list[str]:
+    """Return the parameters of the reactions."""
+    if not kinetics.charring:
+        return ["T_p", "E_p", *(["y"] if kinetics.known_residue else [])]
+    water = ["w_w", "T_w"] if kinetics.moist else []
+    return ["T_e", "E_e", "w_e", "T_m", "E_m", "T_l", "E_l", "n_l", "w_l", "y", *water]
+
+
+def _virgin(alone: Sequence[str] | None, estimated: Sequence[str]) -> str:
+    """Return the properties of the virgin material as a mapping of the study."""
+    if alone is None:
+        own = "density_kg_m3: rho, conductivity_W_mK: k, specific_heat_J_kgK: cp, emissivity: eps"
+        return f"{{{own}}}"
+    cp = "cp" if "cp" in estimated else 1500
+    return f"{{density_kg_m3: 1000, conductivity_W_mK: 0.2, specific_heat_J_kgK: {cp}}}"
 
 
 def _inert(records: Sequence[Measured]) -> Sequence[Measured]:

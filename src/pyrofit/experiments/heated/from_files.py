@@ -13,6 +13,10 @@ STILL = 0.02
 """Share of the loss of mass in the last tenth of a record from which on the end is no residue."""
 LEVEL = 0.01
 """Share of the loss of mass above the end up to which a record counts as level."""
+DRY_K, REACTS_K = 420.0, 470.0
+"""Temperature up to which a loss is moisture; half of the loss of a dried sample comes later."""
+PARTS = 0.125, 0.5, 0.875
+"""Shares of the loss of a dried sample at which parallel reactions are looked for."""
 AGREES = 0.1
 """Share by which a named heating rate may differ from the recorded one."""
 
@@ -78,7 +82,7 @@ def _rest(mass: FloatArray) -> float:
 
 
 def mass_loss(frames: Frames) -> Loss | None:
-    """Return the temperature [K] of half the loss of mass, and the residue [kg/kg]."""
+    """Return the temperature [K] of half the loss of mass, the residue [kg/kg], and its parts."""
     frame: pd.DataFrame | None = frames.get("mass_fraction")
     if frame is None:
         return None
@@ -89,4 +93,11 @@ def mass_loss(frames: Frames) -> Loss | None:
         return None
     late = mass[9 * mass.size // 10]
     goes_on = late - float(np.median(mass[-5:])) > STILL * (mass[0] - rest)
-    return Loss(float(temperature[below[0]]), None if goes_on else rest)
+    half = float(temperature[below[0]])
+    dried = int(np.argmax(temperature >= DRY_K)) if half > REACTS_K else 0
+    dry = float(np.median(mass[max(dried - 2, 0) : dried + 3])) if dried else float(mass[0])
+    parts = tuple(
+        float(temperature[np.argmax(mass < dry - share * (dry - rest))]) for share in PARTS
+    )
+    moisture = max(1.0 - dry / float(mass[0]), 0.0)
+    return Loss(half, None if goes_on else rest, moisture, (parts[0], parts[1], parts[2]))
