@@ -147,7 +147,7 @@ def log_likelihood(
 ) -> LogLikelihood:
     """Return the log-likelihood of a study as a function, for samplers.
 
-    It is -|r|^2 / 2 with the residuals r of `residuals`, up to a constant, and -inf outside the
+    It is ``-|r|^2 / 2`` with the residuals r of `residuals`, up to a constant, and -inf outside the
     limits and where a run does not finish. Parameters and errors are those of `residuals`.
 
     Returns

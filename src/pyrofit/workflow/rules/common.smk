@@ -17,7 +17,11 @@ def benchmark_of(name):
 def identification(stage, *more):
     """Return what is found of a stage's parameters."""
     tables = ("estimate", "sensitivities", "singular_values", "correlation", "profiles")
-    names = [*(f"{name}.csv" for name in (*tables, *more)), "noise.json", "goodness.json"]
+    names = [
+        *(f"{name}.csv" for name in (*tables, *more)),
+        "noise.json",
+        "goodness.json",
+    ]
     return [results.identification(name, stage) for name in names]
 
 
