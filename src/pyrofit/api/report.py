@@ -69,7 +69,8 @@ def _tables(fit: Report, above: float) -> Iterator[tuple[str, pd.DataFrame]]:
         yield "Expressions", _derived(fit.derived)
     if len(fit.fixed):
         yield "Fixed", fit.fixed
-    columns = fit.signals.drop(columns=["cv_rmse", "chi2"], errors="ignore")
+    none = [] if fit.signals.get("lasting_sd", pd.Series([1.0])).any() else ["lasting_sd"]
+    columns = fit.signals.drop(columns=["cv_rmse", "chi2", *none], errors="ignore")
     yield "Signals (rmse and noise in the SI unit)", columns
     if fit.correlation is not None:
         pairs = correlations(fit.correlation, above)
