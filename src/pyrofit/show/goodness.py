@@ -63,7 +63,7 @@ def _where(study: Study, s: SignalGoodness) -> str:
 
 def _window(w: Miss, mean: float, unit: str) -> str:
     side = "too high" if mean > 0.0 else "too low"
-    size = f"{abs(mean):.2g}" + ("" if unit in ("–", "-") else f" {unit}")
+    size = _two_digits(abs(mean)) + ("" if unit in ("–", "-") else f" {unit}")
     if w.start_K is None or w.end_K is None:
         return f"{size} {side} from {w.start_s:.0f} to {w.end_s:.0f} s"
     low, high = celsius(w.start_K), celsius(w.end_K)
@@ -79,6 +79,12 @@ def _repeats(study: Study, found: Goodness) -> Iterator[str]:
     if more > 0:
         said = "differ from their repeats; pyrofit check names them"
         yield f"{several(more, 'further record')} {said}."
+
+
+def _two_digits(value: float) -> str:
+    """Write a number to two digits, without an exponent where it is large."""
+    text = f"{value:.2g}"
+    return f"{float(text):.0f}" if value >= 10.0 else text
 
 
 def _below(p: float) -> str:
