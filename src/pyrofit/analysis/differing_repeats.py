@@ -41,10 +41,7 @@ def notes_on_repeats(
         if repeat is not None and not repeat.nuisances:
             groups.setdefault((repeat.test, signal), []).append(name)
     for (_, signal), names in groups.items():
-        experiment = study.experiments[names[0]]
-        if len(names) < 2 or len({study.experiments[n].signals[signal].file for n in names}) == 1:
-            continue
-        quantity = experiment.quantity(signal)
+        quantity = study.experiments[names[0]].quantity(signal)
         for d in differing_repeats(quantity, [frames[name, signal] for name in names]):
             words = differs(d.kind, d.size, d.low, d.high, quantity)
             yield (names[d.position], signal), f"{words}. {WAY_OUT}"

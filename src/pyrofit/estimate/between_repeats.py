@@ -14,8 +14,9 @@ alike is uncertain by as much. The second has the same size in all other directi
 repeats show only few. q = (t_(n_0 + R - 1) / 1.96)^2 turns the quantile of a normal distribution
 into Student's.
 
-Where parameters describe how repeats differ, the deviations are those that remain once level,
-stretch and start are fitted to each, and n_0 is 0.
+Where fitted curves are known, d_r are the deviations from these, so that described differences do
+not count. Where parameters describe how repeats differ, n_0 is 0; without fitted curves, d_r are
+then the deviations that remain once level, stretch and start are fitted to each.
 """
 
 from collections.abc import Iterator, Sequence
@@ -80,8 +81,8 @@ def with_repeats(
 ) -> tuple[NoiseModel, ...]:
     """Return the noise of all channels with the scatter between repeats, where there are any.
 
-    Where parameters describe the differences between repeats, only the remaining scatter counts:
-    about the fitted curves ``about``, or else between the aligned records.
+    Described differences do not count where fitted curves ``about`` are given. Where parameters
+    describe them and there are no curves, the scatter between the aligned records counts.
     """
     found = list(noise)
     for channels in _groups(problem):
@@ -140,7 +141,7 @@ def _of_group(records: Sequence[_Record], free: bool) -> list[NoiseModel]:
     straight = _straightened(grid, values, window, knots)
     raw = straight.left if free else values - values.mean(axis=0)
     fitted_curves = [r.about for r in records if r.about is not None]
-    if free and fitted_curves:
+    if fitted_curves:
         pairs = zip(records, fitted_curves, strict=True)
         off = np.array([np.interp(grid, r.at, r.value - curve) for r, curve in pairs])
         raw = off - off.mean(axis=0)
@@ -156,8 +157,7 @@ def _of_group(records: Sequence[_Record], free: bool) -> list[NoiseModel]:
     if not free:
         sizes = USUAL_HEATED if records[0].heated else USUAL
         usual = np.sqrt(USUAL_WEIGHT) * _usual(knots, straight.mean, sizes)
-    weight = USUAL_WEIGHT if len(usual) else 0.0
-    total = weight + freedom
+    total = freedom + (0.0 if free else USUAL_WEIGHT)
     smooth = linear.product(window, np.sum(raw**2, axis=0) - freedom * of_points)
     squares = np.maximum(smooth, 0.0) + np.sum(usual**2, axis=0)
     span = LASTING * (knots[-1] - knots[0])
