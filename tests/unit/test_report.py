@@ -131,7 +131,9 @@ def test_summary_says_first_whether_the_model_describes_the_tests(tmp_path: Path
         "The data determine 2 of 3 parameters (95 % interval narrower than 20 % of the search "
         "range); undetermined: cp (70.0 %, upper limit). Do not quote cp alone: other values fit "
         "as well.",
-        "To predict, use all values of the best set of RMSE (SCE-UA). Of 6 sets, this one "
+        "The model of the inverse modelling misses its tests, so expect errors of that size or "
+        "larger in a prediction. If you must predict, use all values of the best set of RMSE "
+        "(SCE-UA). Of 6 sets, this one "
         "predicts the held-out experiments best: the mass loss rate with CV(RMSE) 0.250 and the "
         "back temperature with RMSE 7.00 K (all sets: the mass loss rate with CV(RMSE) 0.250 to "
         "5.25 and the back temperature with RMSE 7.00 to 12.0 K). The choice used these data, "
@@ -150,7 +152,9 @@ def test_summary_of_one_cost_and_nothing_held_out_recommends_by_the_fit(tmp_path
     assert len(said) == 5
     # SCE-UA's set has chi-square 90 over 18.
     assert said[3] == (
-        "To predict, use all values of the best set of RMSE (SCE-UA). Of 3 sets, this one "
+        "The model of the inverse modelling misses its tests, so expect errors of that size or "
+        "larger in a prediction. If you must predict, use all values of the best set of RMSE "
+        "(SCE-UA). Of 3 sets, this one "
         "fits best, each point weighed by its noise (chi-square per degree of freedom 5.00). No "
         "experiment was held out, so the prediction of other experiments is untested. Another "
         "optimiser finds a set with a lower RMSE."

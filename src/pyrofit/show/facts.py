@@ -9,7 +9,6 @@ from pyrofit.analysis.best_sets import best_sets
 from pyrofit.analysis.distances import Distance, distances
 from pyrofit.analysis.estimates import Estimated, estimated
 from pyrofit.analysis.known_values import Known, known_values
-from pyrofit.analysis.misfit import Misfit, misfits
 from pyrofit.analysis.repetitions import Repeated, repeated
 from pyrofit.analysis.scores import Score, scores
 from pyrofit.analysis.trade_offs import TradeOff, trade_offs
@@ -35,8 +34,6 @@ class Facts:
         The estimates of all stages, and those that have a known value.
     trade_offs
         Pairs of strongly correlated estimates.
-    misfits
-        How the optimum of the likelihood fits each signal.
     goodness
         Whether the models describe their tests, by stage.
     best
@@ -59,7 +56,6 @@ class Facts:
     estimates: list[Estimated]
     known: list[Known]
     trade_offs: list[TradeOff]
-    misfits: list[Misfit]
     goodness: Mapping[str, Goodness]
     best: pd.DataFrame
     distances: list[Distance]
@@ -89,7 +85,6 @@ def facts_of(study: Study, results: Results, tables: Frames) -> Facts:
         estimates=estimates,
         known=known_values(study, estimates),
         trade_offs=trade_offs(study, identified),
-        misfits=misfits(identified),
         goodness=identified.goodness,
         best=best_sets(study, searched),
         distances=distances(study, identified),

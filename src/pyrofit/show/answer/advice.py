@@ -30,6 +30,11 @@ def advice(study: Study, facts: Facts) -> str:
             f"To predict, use the ensemble of {facts.ensemble} sets (posterior/ensemble.csv): its "
             f"bands show the uncertainty of the prediction. If you need one set, use {one}"
         )
+    elif not facts.goodness["imp"].describes:
+        text = (
+            "The model of the inverse modelling misses its tests, so expect errors of that size "
+            f"or larger in a prediction. If you must predict, use {one}"
+        )
     reason = _by_prediction if chosen.held_out else _by_fit
     return text + reason(chosen, facts) + _not_lowest(chosen, facts)
 
