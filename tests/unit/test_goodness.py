@@ -7,8 +7,10 @@ import numpy as np
 import pytest
 
 import pyrofit as pf
-from pyrofit.estimate.goodness import missed, scatter
+from pyrofit.estimate.goodness import missed, moving_mean, scatter
 from pyrofit.new_study.write import init
+from pyrofit.results.goodness import Goodness, SignalGoodness
+from pyrofit.show.goodness import verdict_words
 from pyrofit.solver.arrays import FloatArray
 
 R = 8.314462618
@@ -123,3 +125,15 @@ def test_missed_windows_are_those_that_are_off() -> None:
     windows = missed(off + 1e-3 * np.random.default_rng(1).standard_normal(400), sd)
     assert [pytest.approx(w, abs=4) for w in ((100, 179), (300, 319))] == windows
     assert missed(np.zeros(50), np.ones(50)) == [(0, 49)]
+
+
+def test_a_signal_missed_for_long_by_a_tenth_of_its_range_is_told_whatever_the_noise() -> None:
+    """Lasting errors of few repeats can be so large that no test of the noise fails."""
+    time = np.linspace(0.0, 1.0, 500)
+    noise = np.random.default_rng(3).standard_normal(500)
+    for difference, passes in ((0.3 * noise, True), (0.2 * np.sin(9.0 * time), False)):
+        averaged = float(np.sqrt(np.mean(moving_mean(difference, 0.02) ** 2)))
+        signal = SignalGoodness("slab", "hrr", 0.5, 0.2, 1.0, 0.3, 1.0, averaged, ())
+        found = Goodness(0.5, (signal,))
+        assert found.describes == passes
+        assert ("for long by more than a tenth" in verdict_words("", found)) != passes

@@ -356,7 +356,8 @@ def test_ensemble_is_recommended_once_it_is_there_and_has_converged(tmp_path: Pa
     study, results = fake(tmp_path)
     write_tables(study, results)
     one = "use all values of the best set of RMSE (SCE-UA). Of 6 sets"
-    for converged, words in ((True, "ensemble of 100 sets"), (False, f"If you must predict, {one}")):
+    otherwise = f"If you must predict, {one}"
+    for converged, words in ((True, "ensemble of 100 sets"), (False, otherwise)):
         write_posterior(study, results, converged)
         said = advice(study, facts_of(study, results, tables_of(study, results)))
         assert words in said

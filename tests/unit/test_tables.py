@@ -253,7 +253,7 @@ def _identification(study: Study, results: Results) -> None:
         {"channels": [channel], "chi2": 72.0, "freedom": 18, "dispersion": 4.0},
     )
     window = Miss(20.0, 60.0, None, None, -3e-4)
-    missed = SignalGoodness("slab_25", "mlr", 0.002, 4e-4, 8e-3, 2e-4, 1.0, (window,))
+    missed = SignalGoodness("slab_25", "mlr", 0.002, 4e-4, 8e-3, 2e-4, 1.0, 4e-4, (window,))
     goodness.write(results, "imp", Goodness(0.002, (missed,)))
     time = np.arange(5.0, 105.0, 5.0)
     curves = [
@@ -271,7 +271,7 @@ def _identification(study: Study, results: Results) -> None:
         channel |= {"experiment": "slow", "signal": "mass_fraction", "chi2": 20.0}
         content = {"channels": [channel], "chi2": 20.0, "freedom": 19, "dispersion": 1.0}
         write_json(results.identification("noise.json", "kinetics"), content)
-        described = SignalGoodness("slow", "mass_fraction", 0.4, 5e-4, 1.0, 5e-4, 1.0, ())
+        described = SignalGoodness("slow", "mass_fraction", 0.4, 5e-4, 1.0, 5e-4, 1.0, 1e-5, ())
         goodness.write(results, "kinetics", Goodness(0.4, (described,)))
     sets = [
         {"cost_function": cost, "set": label, "chi2": 90.0 * n, "k": -0.5 * n, "cp": 1.0 * n}

@@ -11,6 +11,7 @@ a curve of k splines. Chi-square over its own degrees of freedom is then compare
 """
 
 from collections.abc import Iterator
+from dataclasses import replace
 
 import numpy as np
 from scipy.special import chdtrc, fdtrc
@@ -35,6 +36,8 @@ MOST_WINDOWS = 3
 """Windows of misfit of a signal that are named at most."""
 AVERAGED = 0.01
 """Half of the window over which a difference is averaged, as a fraction of the record."""
+LONG = 0.02
+"""The same for errors that last, which no noise of the tests may excuse."""
 FAR = 2.0
 """Standard deviations by which a missed window is off."""
 
@@ -139,8 +142,8 @@ def _signal(
     noise, target = likelihood.noise[channel], likelihood.problem.cost.terms[channel][1].target
     difference = likelihood.split(curves)[channel] - target.value
     temperature = likelihood.problem.temperature_K(channel)
-    windows = [] if p >= LEVEL else missed(difference, noise.total_sd)
-    return SignalGoodness(
+    averaged = moving_mean(difference, LONG)
+    found = SignalGoodness(
         experiment=experiment,
         signal=signal,
         p=p,
@@ -148,9 +151,28 @@ def _signal(
         range=float(np.ptp(target.value)),
         points_sd=float(np.median(noise.sd)),
         scatter=scatter_of,
+        averaged=float(np.sqrt(np.mean(averaged**2))),
         total=_total(likelihood, channel, difference),
-        misses=tuple(_miss(*w, target.time_s, temperature, difference) for w in windows),
+        misses=(),
     )
+    if p >= LEVEL and not found.far_off:
+        return found
+    windows = missed(difference, noise.total_sd)
+    misses = tuple(_miss(*w, target.time_s, temperature, difference) for w in windows)
+    return replace(found, misses=misses)
+
+
+def moving_mean(values: FloatArray, share: float) -> FloatArray:
+    """Return the mean over a window of twice a share of the record about each point.
+
+    >>> moving_mean(np.array([0.0, 3.0, 0.0, 0.0]), 0.25)
+    array([1.5, 1. , 1. , 0. ])
+    """
+    n = values.size
+    width = max(1, round(share * n))
+    total = np.concatenate([[0.0], np.cumsum(values)])
+    low, high = np.maximum(np.arange(n) - width, 0), np.minimum(np.arange(n) + width + 1, n)
+    return np.asarray((total[high] - total[low]) / (high - low))
 
 
 def _total(likelihood: Likelihood, channel: int, difference: FloatArray) -> float | None:
@@ -177,10 +199,7 @@ def missed(difference: FloatArray, sd: FloatArray) -> list[tuple[int, int]]:
         Standard deviation of the noise with its lasting errors, shape (n,).
     """
     n = difference.size
-    width = max(1, round(AVERAGED * n))
-    total = np.concatenate([[0.0], np.cumsum(difference / sd)])
-    low, high = np.maximum(np.arange(n) - width, 0), np.minimum(np.arange(n) + width + 1, n)
-    mean = (total[high] - total[low]) / (high - low)
+    mean = moving_mean(difference / sd, AVERAGED)
     sign = np.where(np.abs(mean) > FAR, np.sign(mean), 0.0)
     edges = np.flatnonzero(np.diff(sign)) + 1
     runs = zip([0, *edges.tolist()], [*edges.tolist(), n], strict=True)

@@ -11,6 +11,8 @@ from pyrofit.results.files import Results
 FILE = "goodness.json"
 LEVEL = 0.01
 """Probability of a false alarm with a model that is right."""
+FAR_OFF = 0.1
+"""Lasting misfit, over the range of a signal, above which no model describes it."""
 APPARENT: Literal["apparent value"] = "apparent value"
 """Verdict on a parameter of a model that misses the tests."""
 
@@ -54,6 +56,8 @@ class SignalGoodness:
         Integral of the simulated rate over that of the measured one; None where it is no rate.
     scatter
         Scatter from point to point over that of the noise, 1 at least.
+    averaged
+        Root mean square of the difference averaged over a moving window, SI unit.
     misses
         Where it is missed, in order of time; nowhere if it is described.
     """
@@ -65,8 +69,14 @@ class SignalGoodness:
     range: float
     points_sd: float
     scatter: float
+    averaged: float
     misses: tuple[Miss, ...]
     total: float | None = None
+
+    @property
+    def far_off(self) -> bool:
+        """Whether it is missed for long by more than `FAR_OFF` of its range."""
+        return self.averaged > FAR_OFF * self.range
 
 
 @dataclass(frozen=True)
@@ -91,8 +101,8 @@ class Goodness:
 
     @property
     def describes(self) -> bool:
-        """Whether the model describes the tests: p is at least `LEVEL`."""
-        return self.p >= LEVEL
+        """Whether the model describes the tests: p is at least `LEVEL`, and none is far off."""
+        return self.p >= LEVEL and not any(s.far_off for s in self.signals)
 
     @property
     def passes(self) -> bool:

@@ -26,10 +26,18 @@ def verdict_words(fit: str, found: Goodness) -> str:
         return f"{model} describes the tests: its misfit is within their noise (p = {found.p:.2g})."
     worst = max(found.signals, key=lambda s: s.rms / s.range if s.range else 0.0)
     share = 100.0 * worst.rms / worst.range if worst.range else 0.0
+    signals = several(len(found.signals), "signal")
+    if found.p >= LEVEL:
+        far_off = sum(s.far_off for s in found.signals)
+        return (
+            f"{model} does not describe the tests: it misses {far_off} of {signals} for long by "
+            "more than a tenth of its range. Lasting errors of the tests are as large, so the test "
+            "of the noise cannot tell."
+        )
     missed = sum(s.p < LEVEL for s in found.signals)
     return (
-        f"{model} does not describe the tests: it misses {missed or 1} of "
-        f"{several(len(found.signals), 'signal')} by more than noise does (p {_below(found.p)}). "
+        f"{model} does not describe the tests: it misses {missed or 1} of {signals} by more than "
+        f"noise does (p {_below(found.p)}). "
         f"The rms misfit is at most {share:.2g} % of a signal's range."
     )
 
