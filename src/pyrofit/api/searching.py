@@ -15,7 +15,7 @@ from pyrofit.config import Study
 from pyrofit.errors import StudyError, suggest
 from pyrofit.estimate.history import best_of
 from pyrofit.estimate.optimisers import OPTIMISERS
-from pyrofit.estimate.pose import of_diagnosis, pose_search
+from pyrofit.estimate.pose import of_diagnosis, pose
 from pyrofit.estimate.posterior import limit_of
 from pyrofit.estimate.problem import Problem
 from pyrofit.seeds import seed_for
@@ -57,7 +57,7 @@ def fit_cost(
     if not estimate:
         raise StudyError(f"all parameters of the cost '{cost}' are fixed; leave one out of `fixed`")
     fixed = complete(study, given, experiments, but=estimate)
-    problem = pose_search(study, of_diagnosis(study, specs, estimate), series, fixed)
+    problem = pose(study, of_diagnosis(study, specs, estimate), series, fixed)
     lowest, x, history = _searched(study, problem, cost, optimiser)
     words = "SCE-UA" if optimiser == SCEUA else OPTIMISERS[optimiser].title
     scored = compared(study, problem.values(x), series)

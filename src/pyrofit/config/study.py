@@ -6,7 +6,7 @@ from typing import Any, TypeVar
 from pydantic import Field
 
 from pyrofit.config.diagnosis import Diagnosis
-from pyrofit.config.known import REACH, Known
+from pyrofit.config.known import Known
 from pyrofit.config.stages import Imp, Kinetics, Name, Validation
 from pyrofit.config.steps import Steps
 from pyrofit.effects import known_effects
@@ -164,16 +164,16 @@ class Study(Part):
         }
 
     def search_limits(self, name: str) -> tuple[float, float]:
-        """Return the limits within which optimisers search a parameter, in its unit.
+        """Return the limits within which a parameter is estimated, in its unit.
 
-        Its own limits, and value -+ 3 sd where a value is known.
+        Its own limits, and by default value -+ 3 sd where a value is known.
         """
         p, known = self.parameters[name], self.known.get(name)
         if p.lower is None or p.upper is None:
             raise ValueError("the parameter has no limits")
         if known is None:
             return p.lower, p.upper
-        reach = REACH * known.sd
+        reach = known.within_sds * known.sd
         return max(p.lower, known.value - reach), min(p.upper, known.value + reach)
 
     def true_values(self) -> dict[str, float]:

@@ -83,7 +83,7 @@ def of_diagnosis(
 def pose(
     study: Study, estimation: Estimation, measurements: Measurements, fixed: Mapping[str, float]
 ) -> Problem:
-    """Return the problem, with the limits of the study.
+    """Return the problem. Parameters of known value are estimated near it, see `within_known`.
 
     Parameters
     ----------
@@ -100,15 +100,4 @@ def pose(
         A cost does not fit its target.
     """
     names, terms, material = estimation.names, estimation.terms, estimation.material
-    return make_problem(study, names, terms, measurements, material, fixed)
-
-
-def pose_search(
-    study: Study, estimation: Estimation, measurements: Measurements, fixed: Mapping[str, float]
-) -> Problem:
-    """Return the problem as optimisers of a cost search it: parameters near their known values.
-
-    Parameters and errors are those of `pose`; `pyrofit.estimate.prior.within_known` gives the
-    limits.
-    """
-    return within_known(study, pose(study, estimation, measurements, fixed))
+    return within_known(study, make_problem(study, names, terms, measurements, material, fixed))

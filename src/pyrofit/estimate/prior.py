@@ -1,6 +1,6 @@
 """Known values of parameters, as rows of residuals or as limits of a search."""
 
-from dataclasses import dataclass, replace
+from dataclasses import dataclass, field, replace
 
 import numpy as np
 
@@ -19,8 +19,8 @@ class NormalPrior:
     index: tuple[int, ...]
     mean: FloatArray
     sd: FloatArray
-    weight: float = 1.0
-    """Divisor of the standard deviations, see `over`."""
+    weight: FloatArray = field(default_factory=lambda: np.ones(()))
+    """Divisor of the standard deviations, see `over`; one number or shape (known,)."""
 
     def residuals(self, values: FloatArray) -> FloatArray:
         """Return r of parameter sets in SI units: (sets, parameters) to (sets, known)."""
@@ -32,9 +32,18 @@ class NormalPrior:
         rows[np.arange(len(self.index)), list(self.index)] = span[list(self.index)] / self.sd
         return rows
 
-    def over(self, factor: float) -> "NormalPrior":
+    def stated_slopes(self, span: FloatArray) -> FloatArray:
+        """Return d r / d x with the stated standard deviations."""
+        return np.asarray(self.slopes(span).T / self.weight).T
+
+    def over(self, factor: float | FloatArray) -> "NormalPrior":
         """Return this knowledge with its standard deviations divided by a factor."""
-        return replace(self, sd=self.sd / factor, weight=self.weight * factor)
+        return replace(self, sd=self.sd / factor, weight=np.asarray(self.weight * factor))
+
+    @property
+    def heaviest(self) -> float:
+        """The largest weight, 1 where nothing is known."""
+        return float(np.max(self.weight, initial=1.0))
 
 
 NO_PRIOR = NormalPrior((), np.empty(0), np.empty(0))
@@ -53,10 +62,10 @@ def prior_of(study: Study, problem: Problem) -> NormalPrior:
 
 
 def within_known(study: Study, problem: Problem) -> Problem:
-    """Return the problem as optimisers of a cost search it.
+    """Return the problem with the limits of known values, three standard deviations by default.
 
-    A cost has no term for known values. A parameter with one is searched within three standard
-    deviations of it and its own limits.
+    Thousands of correlated points of an inexact model cannot overrule an independent measurement.
+    A cost, which has no term for known values, keeps them as well.
     """
     limits = np.array([study.search_limits(name) for name in problem.names])
     factors = np.array([study.parameters[name].factor for name in problem.names])

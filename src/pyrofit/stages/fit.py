@@ -12,7 +12,7 @@ from pyrofit.estimate.coarse import are_close, for_search
 from pyrofit.estimate.history import best_of, convergence
 from pyrofit.estimate.least_squares import Start, descend, multistart
 from pyrofit.estimate.optimisers import OPTIMISERS
-from pyrofit.estimate.pose import of_imp, of_kinetics, pose_search
+from pyrofit.estimate.pose import of_imp, of_kinetics, pose
 from pyrofit.estimate.problem import Problem
 from pyrofit.model.base import value_of
 from pyrofit.model.material import Material
@@ -52,7 +52,7 @@ def fit_kinetics(study: Study, results: Results) -> None:
     stage = kinetics_of(study)
     measurements = load(study, results)
     asked = of_kinetics(study, stage.cost)
-    problem = pose_search(study, asked, measurements, study.fixed_values())
+    problem = pose(study, asked, measurements, study.fixed_values())
     seed = seed_for(study.seed, "kinetics")
     generations = stage.sceua.generations
     from pyrofit.estimate.sceua import search  # takes 0.2 s to import
@@ -117,7 +117,7 @@ def imp_problem(study: Study, results: Results, cost: str) -> Problem:
             f"study '{study.name}' has no cost '{cost}'. {suggest(cost, study.imp.costs)}"
         )
     asked = of_imp(study, study.imp.costs[cost])
-    return pose_search(study, asked, load(study, results), fixed_for_imp(study, results))
+    return pose(study, asked, load(study, results), fixed_for_imp(study, results))
 
 
 def repeat(study: Study, results: Results, cost: str, repetitions: Sequence[int]) -> None:

@@ -49,7 +49,7 @@ class Drawn:
         here = likelihood.curves(x0)
         assert here is not None
         s = np.sqrt(self.dispersion)
-        known = likelihood.prior.slopes(likelihood.problem.span) / likelihood.prior.weight
+        known = likelihood.prior.stated_slopes(likelihood.problem.span)
         J = self.lasting.whiten(self.fitted.fit.jacobian[: sum(likelihood.points)]) / s
         parts = [J, known, *([] if record is None else [record.jacobian / s])]
         begin = np.concatenate(parts)

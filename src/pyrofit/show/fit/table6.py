@@ -5,7 +5,6 @@ from typing import Any
 import pandas as pd
 
 from pyrofit.config import Study
-from pyrofit.config.known import REACH
 from pyrofit.show.table import Table
 
 
@@ -53,7 +52,8 @@ def _known(study: Study, name: str) -> str:
     if name not in study.known:
         return ""
     known = study.known[name]
-    return f"known: {known.value:g} ± {known.sd:g}, searched within {REACH:g} sd and the limits"
+    within = f"estimated within {known.within_sds:g} sd and the limits"
+    return f"known: {known.value:g} ± {known.sd:g}, {within}"
 
 
 TABLE = Table(

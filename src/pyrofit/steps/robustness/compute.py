@@ -16,7 +16,7 @@ from pyrofit.config import Study, TermSpec
 from pyrofit.errors import DataError
 from pyrofit.estimate.least_squares import multistart
 from pyrofit.estimate.noise import estimate_noise
-from pyrofit.estimate.pose import of_imp, pose_search
+from pyrofit.estimate.pose import of_imp, pose
 from pyrofit.estimate.problem import Problem
 from pyrofit.estimate.targets import Measurements, target_of
 from pyrofit.logs import Tell
@@ -179,4 +179,4 @@ def _held_out(study: Study, results: Results, twin: Twin) -> list[Problem]:
 
 
 def _problem(study: Study, results: Results, specs: Any, series: Measurements) -> Problem:
-    return pose_search(study, of_imp(study, specs), series, fixed_for_imp(study, results))
+    return pose(study, of_imp(study, specs), series, fixed_for_imp(study, results))
