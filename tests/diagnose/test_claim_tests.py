@@ -11,11 +11,11 @@ from linear import POINTS, TOTAL, column_of
 from scipy.stats import kstest, multivariate_normal
 
 from pyrofit.diagnose.base.fitted import at_limit
+from pyrofit.diagnose.base.inflation import by_misfit, none_for
 from pyrofit.diagnose.base.model import model_of, strength_of
 from pyrofit.diagnose.base.prediction import HELD_OUT, predictions, slabs
 from pyrofit.diagnose.judge.claim_tests import Trust, disagreement, explains, trust
 from pyrofit.diagnose.judge.findings import Finding, Judged, Verdict
-from pyrofit.diagnose.judge.inflation import by_misfit, none_for
 from pyrofit.diagnose.result.verdict_text import sentences
 from pyrofit.diagnose.search.stepwise import Search
 from pyrofit.diagnose.settings import SETTINGS

@@ -8,12 +8,12 @@ import pytest
 from linear import column_of, fit_with
 
 from pyrofit.diagnose.base.fitted import FittedModel
+from pyrofit.diagnose.base.inflation import Inflation, none_for
 from pyrofit.diagnose.base.model import strength_of
 from pyrofit.diagnose.corrections.correction import Correction
 from pyrofit.diagnose.corrections.forms import SAME_TERM
 from pyrofit.diagnose.judge import other_terms as module
 from pyrofit.diagnose.judge.findings import Verdict
-from pyrofit.diagnose.judge.inflation import Inflation, none_for
 from pyrofit.diagnose.judge.other_terms import OtherTerm, other_terms
 from pyrofit.diagnose.judge.verdict import judge
 from pyrofit.diagnose.result.verdict_text import sentences

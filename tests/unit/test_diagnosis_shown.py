@@ -84,7 +84,14 @@ def found(study: Study, kind: str) -> dict[str, Any]:
             "forms": ["linear in temperature"] * len(effects),
             "sets": SETS.get(kind, [[name] for name in effects]),
             "evidence": [
-                {"agreement": 0.4, "predictions": {"slab_60": 12.0, "held out": -1.5}}
+                {
+                    "agreement": 0.4,
+                    "predictions": {"slab_60": 12.0, "held out": -1.5},
+                    "expected": {"slab_60": 14.0, "held out": 0.6},
+                    "known": {"k": [0.4, 2.5]},
+                    "implausible": 0.0,
+                    "weight": 0.97,
+                }
                 for _ in effects
             ],
             "other_terms": [
@@ -95,6 +102,9 @@ def found(study: Study, kind: str) -> dict[str, Any]:
             "words": f"These are the words of {kind}.",
             "reasons": [] if quiet else ["chi-square falls by 400.", "predictions improve"],
             "suspects": [{"effect": "c_T", "gain": 40.0}] if kind == "partly" else [],
+            "taken_away": [{"effect": "c_T", "reason": "predictions do not improve"}]
+            * (kind == "partly"),
+            "weights": {"conductivity with temperature": 0.97, "heat capacity": 0.02},
         },
         "noise": [noise_of(c) for c in channels(study)],
         "solver": {"coarsened": True, "error_chi2": 0.1},
@@ -121,6 +131,9 @@ def found(study: Study, kind: str) -> dict[str, Any]:
         "ambiguity": 9.0,
         "candidates": candidates(kind),
         "gap": [gap_of(c, effects) for c in channels(study)],
+        "kinetics_alone": [
+            {"parameter": "k", "alone": 0.2, "sd": 0.01, "all": 0.3, "difference": 10.0}
+        ],
         "profiles": [profile_of(effect) for effect in effects],
         "probes": probes() if kind == "unknown" else [],
         "next_experiment": designs() if kind == "ambiguous" else [],
@@ -604,7 +617,7 @@ def test_page_says_the_numbers(tmp_path: Path) -> None:
     ) in words
     assert "residuals goes from 5 to 1 (fitted) and from 5 to 1 (held out). Noise" in words
     assert "cp is at a limit" in words
-    assert "slab_60 from the others +12.0; all held-out tests -1.5" in words
+    assert "slab_60 from the others +12.0 (of 14.0); all held-out tests -1.5 (cannot tell)" in words
     assert "The test of equal strengths needs a p above" in words
 
 

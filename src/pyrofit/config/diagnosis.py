@@ -31,6 +31,11 @@ class Diagnosis(Part):
     effects: tuple[str, ...] | None = Field(
         None, description="candidates; none = all of the catalogue that the fitted signals can show"
     )
+    plausible: dict[str, tuple[float, float]] = Field(
+        default_factory=dict,
+        description="plausible range of the strength of an effect of apparatus or surroundings, SI "
+        "unit, two standard deviations to either side; none = that of the catalogue",
+    )
     most_effects: int = Field(6, ge=1, le=6, description="effects that are added at most")
 
     @model_validator(mode="before")

@@ -86,3 +86,12 @@ def _check_effects(study: Study) -> None:
         require(name in catalogue, place, f"unknown effect '{name}'. {suggest(name, catalogue)}")
         found = obstacle(study, name)
         require(not found, place, f"'{name}' cannot be a candidate: {found}; leave it out")
+    for name, (low, high) in study.diagnosis.plausible.items():
+        place = f"diagnosis.plausible.{name}"
+        require(name in catalogue, place, f"unknown effect '{name}'. {suggest(name, catalogue)}")
+        (strength,) = catalogue[name].strength.values()
+        require(
+            low <= strength.value <= high and low < high,
+            place,
+            f"{low:g} to {high:g} must hold the null value {strength.value:g} {strength.unit}",
+        )

@@ -6,17 +6,20 @@ from typing import Any
 import numpy as np
 import pandas as pd
 
-from pyrofit.config import Study
+from pyrofit.config import Study, candidate_effects
 from pyrofit.diagnose.advise.free_corrections import Probe, probes
 from pyrofit.diagnose.advise.separation import next_experiments
 from pyrofit.diagnose.base.accuracy import solver_error
 from pyrofit.diagnose.base.fit import Setup, set_up
-from pyrofit.diagnose.base.fitted import FittedModel, up_to_date
+from pyrofit.diagnose.base.fitted import FittedModel, resting_at_limits, up_to_date
+from pyrofit.diagnose.base.model import Base
 from pyrofit.diagnose.judge.final_fits import final_fits
 from pyrofit.diagnose.judge.findings import Verdict
+from pyrofit.diagnose.judge.kinetics_alone import kinetics_alone
 from pyrofit.diagnose.judge.profiles import profiles
 from pyrofit.diagnose.judge.verdict import judge
 from pyrofit.diagnose.result import record
+from pyrofit.diagnose.search.kinetics_first import kinetics_first
 from pyrofit.diagnose.search.step import SearchContext, in_order
 from pyrofit.diagnose.search.stepwise import Search, search
 from pyrofit.diagnose.settings import SETTINGS
@@ -77,6 +80,7 @@ def examine(
     final = final_fits(verdict, study.accuracy if solver["coarsened"] else None, processes)
     content = {**record.content(study, found, verdict, final, processes), "solver": solver}
     end = final.of(found.end)
+    content["kinetics_alone"] = kinetics_alone(end)
     content["profiles"] = profiles(end, processes) if advise else []
     content["probes"] = [_shown(p) for p in (_probes(found, verdict, processes) if advise else [])]
     designs = next_experiments(_undecided(found, verdict), processes) if advise else []
@@ -115,8 +119,16 @@ def _based(
     study: Study, measurements: Measurements, tell: Tell, processes: int, draw: int | None
 ) -> tuple[Setup, np.random.Generator]:
     """Return the fitted base model, and the generator of the draws that judge it."""
-    setup = set_up(study, measurements, processes, draw)
+    kinetics = study.kinetics.estimate if study.kinetics else ()
+
+    def narrowed(base: Base) -> Base:
+        return kinetics_first(base, kinetics, candidate_effects(study), study.seed, processes)
+
+    setup = set_up(study, measurements, processes, draw, narrowed)
     tell(f"base model: chi-square {setup.base.fit.chi2:.1f} of {setup.base.model.points} points")
+    resting = resting_at_limits(setup.base)
+    if resting:
+        tell(f"base model: {', '.join(resting)} at a limit; a missing effect may be the reason")
     return setup, np.random.default_rng(study.seed)
 
 

@@ -54,6 +54,12 @@ class Settings:
     """Largest multiple of the cells and time steps of the fitted base model that a run gets."""
     most_solver_error: float = 1.0
     """Runs are as fine as the study asks for if coarser ones change more of chi-square."""
+    most_of_kinetics: int = 2
+    """Effects that the fit to small samples alone may add."""
+    kinetics_reach: float = 3.0
+    """Standard deviations of that fit within which all signals may move the kinetics."""
+    narrowest_kinetics: float = 0.01
+    """Least distance in x of these limits from that fit."""
     wide_sd: float = 0.1
     """A parameter whose standard deviation in x is larger is hardly determined."""
     elsewhere: tuple[float, ...] = (0.15, 0.5, 0.85)
@@ -66,6 +72,8 @@ class Settings:
     # Adequacy
     false_alarm_level: float = 0.01
     """Probability of a false alarm, for each of the scan, the scores, and chi-square."""
+    lasting_level: float = 1e-3
+    """Probability that noise makes a signal's misfit weigh known values."""
     draw_blocks: int = 10
     """Blocks of noise draws, each with its own random generator."""
     draws_per_block: int = 100
@@ -145,6 +153,16 @@ class Settings:
     """Strengths of different experiments disagree if chance is less probable than this."""
     informative_gain: float = 2.0
     """Smallest difference of log scores that counts: odds of 7 to 1."""
+    claimed_weight: float = 0.95
+    """Share of the weight of all fitted models that has an effect of a claimed group."""
+    far_from_known: float = 2.0
+    """Standard deviations from a known value that count as far away."""
+    moved_from_known: float = 0.5
+    """Standard deviations by which an effect must move a parameter for its accord to be tested."""
+    widest_known: float = 10.0
+    """Stated standard deviations within which a known value is searched that may be wrong."""
+    held_known: float = 10.0
+    """Divisor of the standard deviations of known values that are held."""
     most_suspects: int = 3
     """Candidates that are named for the misfit that a verdict leaves unexplained."""
     certain_evidence: float = 20.0

@@ -60,6 +60,7 @@ EFFECT = Effect(
             upper=1e-3,
             value=0.0,
             typical=1e-4,
+            plausible=(0.0, 0.0003),
             source="assumed range; MaCFP PMMA: samples are glued with epoxy, which UMD's model "
             "counts as PMMA",
         )

@@ -16,6 +16,7 @@ EFFECT = Effect(
             upper=20.0,
             value=0.0,
             typical=4.0,
+            plausible=(-4.0, 8.0),
             source="MaCFP PMMA: 4 W/(m2 K) in UMD's apparatus, an average",
         )
     },

@@ -16,6 +16,7 @@ EFFECT = Effect(
             upper=2.5,
             value=1.0,
             typical=0.5,
+            plausible=(0.4, 1.6),
         )
     },
     experiment=on("back", {"loss_factor": "factor"}),

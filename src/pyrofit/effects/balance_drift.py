@@ -35,6 +35,7 @@ EFFECT = Effect(
             upper=1e-3,
             value=0.0,
             typical=1e-4,
+            plausible=(-0.0003, 0.0003),
         )
     },
     experiment=_change,

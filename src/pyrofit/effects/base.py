@@ -47,6 +47,8 @@ class Quantity:
     typical: float
     """A value often met; of a form parameter, another than the default."""
     source: str = ASSUMED
+    plausible: tuple[float, float] | None = None
+    """Strengths that a careful description leaves open, two standard deviations to either side."""
 
 
 @dataclass(frozen=True)
@@ -145,6 +147,8 @@ class Effect:
     distinct_in: Need | None = None
     """Condition on an experiment for it to be another model than a form of its group; where none
     meets it, the effect is no candidate. None = it is always a model of its own."""
+    check: str = ""
+    """The measurement that decides where its strength is not plausible, in words."""
     name: str = ""
 
     @property

@@ -32,6 +32,7 @@ EFFECT = Effect(
             upper=60.0,
             value=0.0,
             typical=10.0,
+            plausible=(0.0, 15.0),
         )
     },
     form={

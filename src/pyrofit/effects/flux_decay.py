@@ -16,6 +16,7 @@ EFFECT = Effect(
             upper=1e-3,
             value=0.0,
             typical=-5e-4,
+            plausible=(-0.0007, 0.0007),
         )
     },
     form={

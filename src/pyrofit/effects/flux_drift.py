@@ -16,6 +16,7 @@ EFFECT = Effect(
             upper=3e-4,
             value=0.0,
             typical=-5e-5,
+            plausible=(-0.0001, 0.0001),
         )
     },
     experiment=on("front", {"drift_1_s": "drift_1_s"}),

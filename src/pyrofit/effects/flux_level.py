@@ -16,6 +16,7 @@ EFFECT = Effect(
             upper=1.15,
             value=1.0,
             typical=1.03,
+            plausible=(0.94, 1.06),
             source="heat flux gauges are calibrated to about 0.03: "
             "Pitts et al. 2006, doi:10.1016/j.firesaf.2006.04.004",
         )

@@ -20,6 +20,7 @@ EFFECT = Effect(
             upper=0.3,
             value=0.0,
             typical=0.06,
+            plausible=(0.0, 0.1),
             source="assumed range; 0.02 to 0.06 is usual. A flux 1 - d (r/R)^2 has the spread "
             "d/(2 - d) and the mean 1 - d/2",
         )

@@ -16,6 +16,7 @@ EFFECT = Effect(
             upper=5e-3,
             value=0.0,
             typical=5e-4,
+            plausible=(0.0, 0.001),
             source="assumed range; 0.02 mm of epoxy have 1e-4 m2 K/W",
         )
     },

@@ -15,10 +15,12 @@ EFFECT = Effect(
             lower=0.0,
             upper=40.0,
             value=1.0,
-            typical=8.0,
+            typical=3.0,
+            plausible=(0.5, 4.0),
             source="MaCFP PMMA: foil of 0.025 mm; 0.2 mm have been used in models of it",
         )
     },
     experiment=on("sample.foil", {"mass_factor": "factor"}),
     needs=has_foil,
+    check="weigh foil, adhesive and holder, and state their heat capacity per area",
 )

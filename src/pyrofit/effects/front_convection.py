@@ -16,6 +16,7 @@ EFFECT = Effect(
             upper=25.0,
             value=0.0,
             typical=4.0,
+            plausible=(-5.0, 8.0),
             source="MaCFP PMMA: 8.6 W/(m2 K) in UMD's apparatus, an average",
         )
     },

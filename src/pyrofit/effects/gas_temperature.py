@@ -10,6 +10,7 @@ RISE = Quantity(
     upper=300.0,
     value=0.0,
     typical=50.0,
+    plausible=(-50.0, 150.0),
     source="MaCFP PMMA: averages of 330 K at 25 kW/m2 and 365 K at 60 kW/m2",
 )
 EFFECT = Effect(

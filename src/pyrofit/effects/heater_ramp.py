@@ -16,6 +16,7 @@ EFFECT = Effect(
             upper=40.0,
             value=0.0,
             typical=8.0,
+            plausible=(0.0, 15.0),
         )
     },
     experiment=on("front", {"rise_time_s": "time_s"}),

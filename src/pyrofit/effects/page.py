@@ -11,7 +11,9 @@ _HEAD = """\
 The effects that a model may lack, by the name a study gives them. At the null value of its strength
 an effect leaves the base model exactly as it is. Form parameters say how the effect looks; left
 out, they take their default. Effects that set the same number of the description exclude each
-other. Those of one group are forms of one another.
+other. Those of one group are forms of one another. The strength of an effect of apparatus or
+surroundings has a plausible range, left open by a careful description; `diagnosis.plausible`
+states another one.
 
 {belongs}
 | group | effects |
@@ -54,6 +56,13 @@ def _section(effect: Effect) -> str:
     if effect.same_as:
         lines += [f"Measurements hardly tell it from `{effect.same_as}`.", ""]
     lines += [_COLUMNS.format("null, typical"), *_rows(effect.strength)]
+    for q in effect.strength.values():
+        if q.plausible:
+            low, high = q.plausible
+            lines += [
+                "",
+                f"Plausible: {low:g} to {high:g}, two standard deviations to either side.",
+            ]
     if effect.form:
         lines += ["", "Form:", "", _COLUMNS.format("default, alternative"), *_rows(effect.form)]
     return "\n".join([*lines, ""])

@@ -16,6 +16,7 @@ EFFECT = Effect(
             upper=20.0,
             value=0.0,
             typical=5.0,
+            plausible=(0.0, 10.0),
             source="assumed range; a lag grows with rate and mass: "
             "Vyazovkin et al. 2014, doi:10.1016/j.tca.2014.05.036",
         )

@@ -16,6 +16,7 @@ EFFECT = Effect(
             upper=15.0,
             value=0.0,
             typical=4.0,
+            plausible=(-9.0, 9.0),
             source="MaCFP PMMA: half of the mass is lost at 630 to 643 K by laboratory, at "
             "10 K/min and equal widths",
         )

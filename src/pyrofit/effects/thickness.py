@@ -16,6 +16,7 @@ EFFECT = Effect(
             upper=1.1,
             value=1.0,
             typical=1.02,
+            plausible=(0.95, 1.05),
             source="assumed range; 0.02 is usual",
         )
     },

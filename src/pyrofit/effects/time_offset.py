@@ -24,6 +24,7 @@ EFFECT = Effect(
             upper=25.0,
             value=0.0,
             typical=5.0,
+            plausible=(-8.0, 8.0),
             source="assumed range; bins of 5 s alone make 2.5 s",
         )
     },

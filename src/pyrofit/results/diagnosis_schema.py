@@ -33,6 +33,27 @@ class OfEvidence(Record):
     predictions: dict[str, float] = Field(
         description="rise of the log score by the effect, by prediction"
     )
+    expected: dict[str, float | None] = Field(
+        description="rise that each prediction promises if the effect is real; below "
+        "`informative_gain`, the prediction cannot tell. None = a run does not finish"
+    )
+    known: dict[str, list[float]] = Field(
+        description="known parameters less their known values, in standard deviations, without the "
+        "effect and with it"
+    )
+    implausible: float = Field(
+        description="standard deviations by which the strength is not plausible, 0 where it is"
+    )
+    weight: float = Field(
+        description="share of the weight of all fitted models that has an effect of the group"
+    )
+
+
+class OfTakenAway(Record):
+    """An effect that the search ended with, and that is not claimed."""
+
+    effect: str = Field(description="its name")
+    reason: str = Field(description="the test that it fails, in words")
 
 
 class OfVerdict(Record):
@@ -55,6 +76,12 @@ class OfVerdict(Record):
     reasons: list[str] = Field(description="reasons against a firmer verdict, or evidence for it")
     suspects: list[OfSuspect] = Field(
         description="leading candidates for the rest, where the verdict explains a part"
+    )
+    weights: dict[str, float] = Field(
+        description="share of the weight of all fitted models, by group of effects"
+    )
+    taken_away: list[OfTakenAway] = Field(
+        description="effects that the search ended with and that are not claimed, in this order"
     )
 
 
@@ -212,6 +239,16 @@ class OfExperiment(Record):
     pairs: dict[str, float] = Field(description="separation of each two models [sd]")
 
 
+class OfKinetics(Record):
+    """A parameter that small samples tell without the slab."""
+
+    parameter: str = Field(description="its name")
+    alone: float = Field(description="fitted to the small samples alone [SI]")
+    sd: float = Field(description="standard deviation of that [SI]")
+    all: float = Field(description="fitted to all signals [SI]")
+    difference: float = Field(description="(`all` - `alone`) / `sd`")
+
+
 class Diagnosis(Record):
     """Result of a diagnosis."""
 
@@ -233,6 +270,9 @@ class Diagnosis(Record):
     candidates: list[OfCandidate] = Field(description="models with effects, the best first")
     extended: OfExtended = Field(description="the model that the search ended with")
     gap: list[OfGap] = Field(description="misfit before and after, by signal")
+    kinetics_alone: list[OfKinetics] = Field(
+        description="the final model fitted to small samples alone; empty without a slab beside"
+    )
     profiles: list[OfProfile] = Field(description="profiles, by strength")
     probes: list[OfProbe] = Field(description="free corrections")
     next_experiment: list[OfExperiment] = Field(description="new experiments")

@@ -82,7 +82,7 @@ def section(study: Study, results: Results, found: Found) -> Shown:
             *parts("", "not_tried"),
             *parts("", "probes"),
             *parts(gap_closed(found), "gap"),
-            *parts(certainty(study, found), "evidence"),
+            *parts(certainty(study, found), "evidence", "taken_away", "accord", "kinetics_alone"),
             *parts("", "parameters", "noise", "effects"),
             *parts(next_measured(found), "next_experiments"),
             *_extended(study, results, found),

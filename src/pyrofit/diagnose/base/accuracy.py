@@ -19,7 +19,8 @@ def solver_error(trial: FittedModel, accuracy: Accuracy) -> float:
     fitted parameters make up for. It is infinite where a run does not finish.
     """
     likelihood = trial.model.likelihood
-    other = replace(likelihood, problem=replace(likelihood.problem, accuracy=accuracy))
+    problem = replace(likelihood.problem, accuracy=accuracy)
+    other = replace(trial.model, likelihood=replace(likelihood, problem=problem))
     residuals = other.residuals(trial.fit.x)
     if not other.finished(residuals):
         return float("inf")

@@ -70,7 +70,7 @@ def lack_of_fit(
     critical, score_critical = critical_values(SETTINGS.draw_blocks)
     if abs(scan - critical) < SETTINGS.close_scan:
         critical, score_critical = critical_values(SETTINGS.close_draw_blocks)
-    freedom = fit.residuals.size - float(np.sum(spanned**2))
+    freedom = fit.residuals.size - model.absent - float(np.sum(spanned**2))
     most = SETTINGS.most_windows
     windows = [w for i, part in enumerate(parts) for w in windows_of(part, critical, i, most)]
     return LackOfFit(

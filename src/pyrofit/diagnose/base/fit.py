@@ -1,16 +1,18 @@
 """From a study and its measurements to the base model's fit, noise and all."""
 
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass, replace
 
 import numpy as np
-from scipy.stats import chi2, qmc
+from scipy.stats import qmc
 
 from pyrofit.config import Study, calibration_channels, candidate_effects, held_out_channels
 from pyrofit.diagnose.base.descent import Fit, descend, refreshed
 from pyrofit.diagnose.base.disturbed import disturbed
 from pyrofit.diagnose.base.fitted import FittedModel, polished
+from pyrofit.diagnose.base.long_run import significant_factor
 from pyrofit.diagnose.base.model import Base, Model, model_of
+from pyrofit.diagnose.base.plausible import plausible_ranges
 from pyrofit.diagnose.base.work import within_work
 from pyrofit.diagnose.settings import SETTINGS
 from pyrofit.errors import DataError
@@ -38,13 +40,17 @@ class Setup:
 
 
 def set_up(
-    study: Study, measurements: Measurements, processes: int = 1, draw: int | None = None
+    study: Study,
+    measurements: Measurements,
+    processes: int = 1,
+    draw: int | None = None,
+    narrowed: Callable[[Base], Base] = lambda base: base,
 ) -> Setup:
     """Fit the base model, with the noise of every channel estimated twice.
 
     The first estimate is from the series alone. There steep parts look like noise to a smooth
     curve, so the second is about the fitted curve. With a ``draw``, a number, the data are then
-    disturbed by a draw of this noise.
+    disturbed by a draw of this noise. ``narrowed`` gives a base the limits that are searched.
 
     Raises
     ------
@@ -56,8 +62,8 @@ def set_up(
     fixed = study.fixed_values()
     likelihood = pose_likelihood(study, asked, measurements, fixed, tolerant=True)
     calibrated = tuple(range(len(calibration_channels(study))))
-    base = Base(likelihood, calibrated)
-    first, starts = _fitted(base, study.seed, processes)
+    base = narrowed(Base(likelihood, calibrated, plausible_ranges(study.diagnosis.plausible)))
+    first, starts = fitted_from_starts(base, study.seed, processes)
     first = within_work(first)
     _check_held_out(first)
     base = with_noise_about(first, processes=processes)
@@ -71,22 +77,31 @@ def set_up(
 def weighed(trial: FittedModel) -> FittedModel:
     """Return the fit with known values that a misfitting model cannot overrule.
 
-    Misfit makes every point count for more than it tells. Known values are therefore weighed by
-    chi-square per point of the signal that misfits most. Signals without misfit do not hide it.
+    Points of a signal that is missed for long tell less than their noise says, see
+    `pyrofit.diagnose.base.long_run`. Their information on a parameter, J^T J, is divided by the
+    factor f of each signal s. To weigh known values against it, their variance is divided by
+
+        f_k = sum_s |J_sk|^2 / sum_s (|J_sk|^2 / f_s).
     """
     base = trial.model.base
     prior = base.likelihood.prior
-    weight = float(np.sqrt(max(map(_dispersion, trial.model.by_channel(trial.fit.residuals)))))
-    if not prior.index or weight == prior.weight:
+    weight = np.sqrt(_overstated(trial))
+    if not prior.index or np.allclose(weight, prior.weight):
         return trial
     other = replace(base.likelihood, prior=prior.over(weight / prior.weight))
     return refitted(trial, replace(base, likelihood=other))
 
 
-def _dispersion(w: FloatArray) -> float:
-    """Return chi-square per point of a signal, 1 where noise may be as large."""
-    critical = float(chi2.isf(SETTINGS.false_alarm_level, w.size))
-    return _chi2(w) / w.size if _chi2(w) > critical else 1.0
+def _overstated(trial: FittedModel) -> FloatArray:
+    """Return f_k of the parameters of known value, shape (known,); 1 where no point tells of it."""
+    index = list(trial.model.base.likelihood.prior.index)
+    model, fit = trial.model, trial.fit
+    factors = map(significant_factor, model.by_channel(fit.residuals))
+    parts = model.by_channel(fit.jacobian[:, index])
+    told = np.array([(J**2).sum(axis=0) for J in parts])
+    truly = np.array([own / f for own, f in zip(told, factors, strict=True)])
+    said, meant = told.sum(axis=0), truly.sum(axis=0)
+    return np.asarray(np.divide(said, meant, out=np.ones(len(index)), where=said > 0.0))
 
 
 def _check_held_out(trial: FittedModel) -> None:
@@ -100,7 +115,9 @@ def _check_held_out(trial: FittedModel) -> None:
             )
 
 
-def _fitted(base: Base, seed: int, processes: int) -> tuple[FittedModel, list[FloatArray]]:
+def fitted_from_starts(
+    base: Base, seed: int, processes: int = 1
+) -> tuple[FittedModel, list[FloatArray]]:
     """Return the fit of the base from the best of several points spread over the limits.
 
     Other starts are returned, too: the ends in other valleys, the lowest chi-square first, then the
@@ -185,14 +202,14 @@ def sharpened(trial: FittedModel, processes: int = 1) -> Base:
     which is smaller than that of the base.
     """
     base = with_noise_about(trial, processes=processes)
-    weight = base.likelihood.prior.weight
-    if weight <= 1.0:
+    heaviest = base.likelihood.prior.heaviest
+    if heaviest <= 1.0:
         return base
     found = refitted(trial, base)
     for _ in range(SETTINGS.weighings):
         found = weighed(found)
     other = found.model.base
-    return other if other.likelihood.prior.weight < weight else base
+    return other if other.likelihood.prior.heaviest < heaviest else base
 
 
 def refitted(trial: FittedModel, base: Base) -> FittedModel:
@@ -221,7 +238,7 @@ def has_better_noise(other: Base, base: Base) -> bool:
     """
     pairs = ((base.likelihood.noise[i], other.likelihood.noise[i]) for i in base.calibrated)
     gain = sum(b.criterion - o.criterion for b, o in pairs if b is not o)
-    lighter = other.likelihood.prior.weight / base.likelihood.prior.weight
+    lighter = other.likelihood.prior.heaviest / base.likelihood.prior.heaviest
     return gain >= SETTINGS.clearer_bic or lighter < SETTINGS.lighter_known
 
 
@@ -230,6 +247,6 @@ def blurred(base: Base) -> bool:
 
     Or whether known values are weighed by a misfit of the base.
     """
-    if base.likelihood.prior.weight > 1.0:
+    if base.likelihood.prior.heaviest > 1.0:
         return True
     return any(base.likelihood.noise[i].excess > 1.0 for i in base.calibrated)

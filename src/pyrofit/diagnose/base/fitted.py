@@ -54,7 +54,9 @@ class FittedModel:
         """The parameters about the fit."""
         residuals = self.fit.residuals[: self.model.points]
         jacobian = self.fit.jacobian.copy()
-        jacobian[self.model.points :] /= self.model.likelihood.prior.weight
+        known = self.model.likelihood.prior
+        of_known = slice(self.model.points, self.model.points + len(known.index))
+        jacobian[of_known] = known.stated_slopes(self.model.likelihood.problem.span)
         return Posterior(self.fit.x, residuals, jacobian)
 
     def strength(self, effect: str) -> float:
@@ -165,6 +167,19 @@ def at_limit(trial: FittedModel, effect: str) -> str:
     side = limit_of(x)
     absent = side == "lower" and quantity.lower == 0.0 < quantity.value
     return trial.model.names[trial.model.position(effect)] if side and not absent else ""
+
+
+def resting_at_limits(trial: FittedModel) -> list[str]:
+    """Return the names of the parameters at a limit that a calibrated signal shows."""
+    idle = trial.model.idle
+    places = enumerate(zip(trial.model.names, trial.fit.x.tolist(), strict=True))
+    return [name for i, (name, x) in places if i not in idle and limit_of(x)]
+
+
+def implausible(trial: FittedModel, effect: str) -> float:
+    """Return by how many standard deviations a strength is not plausible, 0 where it is."""
+    plausible = trial.model.base.plausible.get(effect)
+    return plausible.far(trial.strength(effect)) if plausible else 0.0
 
 
 def strengths_at_limit(trial: FittedModel) -> list[str]:

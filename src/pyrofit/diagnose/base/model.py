@@ -1,17 +1,19 @@
 """A model on trial: the base with some effects of the catalogue, against some channels."""
 
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass, replace
+from dataclasses import dataclass, field, replace
 
 import numpy as np
 
 from pyrofit.cost import WeightedSum
+from pyrofit.diagnose.base.plausible import Plausible
 from pyrofit.diagnose.settings import SETTINGS
 from pyrofit.effects import known_effects
 from pyrofit.effects.apply import own_laboratories, with_effects
 from pyrofit.effects.base import Chosen, Quantity
 from pyrofit.estimate.likelihood import Likelihood
 from pyrofit.estimate.problem import Problem
+from pyrofit.experiments import kind_of
 from pyrofit.solver.arrays import FloatArray
 
 Free = Mapping[str, tuple[str, ...]]
@@ -29,16 +31,27 @@ class Base:
         parameters.
     calibrated
         Positions of the calibrated channels; the others are held out.
+    plausible
+        Plausible ranges of strengths, by effect.
+    of_small_samples
+        Effects that TGA, DSC and MCC ask for without the slab.
     """
 
     likelihood: Likelihood
     calibrated: tuple[int, ...]
+    plausible: Mapping[str, Plausible] = field(default_factory=dict)
+    of_small_samples: tuple[str, ...] = ()
 
     @property
     def held_out(self) -> tuple[int, ...]:
         """Positions of the channels that are predicted only."""
         count = len(self.likelihood.noise)
         return tuple(i for i in range(count) if i not in self.calibrated)
+
+    def shows_the_slab(self, channel: int) -> bool:
+        """Tell whether a channel is of a slab, not of a small sample."""
+        name, _ = self.channels[channel]
+        return kind_of(self.likelihood.problem.runs[name].experiment).stage == "imp"
 
     @property
     def channels(self) -> list[tuple[str, str]]:
@@ -79,17 +92,48 @@ class Model:
         """Return the position of an effect's strength among the parameters."""
         return self.names.index(name_of(effect, strength_of(effect)[0]))
 
+    @property
+    def absent(self) -> int:
+        """Number of rows of effects that have a plausible range, but are not in the model."""
+        return sum(effect not in self.effects for effect in self.base.plausible)
+
     def residuals(self, x: FloatArray) -> FloatArray:
-        """Return the whitened residuals of the channels, then those of the known values."""
+        """Return the whitened residuals of the channels, of known values, of plausible strengths.
+
+        All models have a row for each effect with a plausible range, zero where it is absent.
+        """
         return self.residuals_all(x[None])[0]
 
     def residuals_all(self, X: FloatArray) -> list[FloatArray]:
         """Return the whitened residuals of several sets, X of shape (sets, parameters)."""
-        return self.likelihood.residuals_all(X)
+        rows = np.zeros((len(X), len(self.base.plausible)))
+        for k, i, plausible in self._strengths:
+            rows[:, k] = plausible.residuals(self._strength(X, i))
+        own = self.likelihood.residuals_all(X)
+        return [np.concatenate([r, row]) for r, row in zip(own, rows, strict=True)]
 
     def jacobian(self, x: FloatArray, residuals: FloatArray) -> FloatArray:
         """Return d residuals / d x by differences of second order."""
-        return self.likelihood.jacobian(x, residuals, 2, SETTINGS.difference_step)
+        rows = np.zeros((len(self.base.plausible), x.size))
+        for k, i, plausible in self._strengths:
+            slope = plausible.slopes(self._strength(x[None], i))[0]
+            rows[k, i] = slope * self.likelihood.problem.span[i]
+        own = residuals[: residuals.size - len(rows)]
+        slopes = self.likelihood.jacobian(x, own, 2, SETTINGS.difference_step)
+        return np.vstack([slopes, rows])
+
+    @property
+    def _strengths(self) -> list[tuple[int, int, Plausible]]:
+        """Row, position among the parameters, and range of each strength that has one."""
+        return [
+            (k, self.position(effect), plausible)
+            for k, (effect, plausible) in enumerate(self.base.plausible.items())
+            if effect in self.effects
+        ]
+
+    def _strength(self, X: FloatArray, i: int) -> FloatArray:
+        problem = self.likelihood.problem
+        return np.asarray(problem.lower[i] + X[:, i] * problem.span[i])
 
     def finished(self, residuals: FloatArray) -> bool:
         """Tell whether all runs finished that some residuals come from."""

@@ -11,7 +11,7 @@ wide intervals loses less than one with narrow intervals.
 """
 
 from collections.abc import Sequence
-from dataclasses import dataclass, replace
+from dataclasses import dataclass, field, replace
 
 import numpy as np
 
@@ -37,6 +37,10 @@ class Predictions:
     residuals: dict[str, list[FloatArray]]
     """Whitened residuals of the predicted signals, if they are fitted too, by prediction."""
     whole: FittedModel
+    parts: dict[str, FittedModel] = field(default_factory=dict)
+    """The fits that predict, by prediction."""
+    channels: dict[str, tuple[int, ...]] = field(default_factory=dict)
+    """The predicted channels, by prediction."""
 
     @property
     def total(self) -> float:
@@ -94,6 +98,9 @@ def predictions(
         if name != HELD_OUT or not _several(trials[k]):
             found[k].scores[name] = forecast(part.fit, joint.fit)
             found[k].residuals[name] = _added(part, joint)
+            found[k].parts[name] = part
+            used = part.model.channels
+            found[k].channels[name] = tuple(i for i in joint.model.channels if i not in used)
     return found
 
 

@@ -6,16 +6,18 @@ log score.
 """
 
 from collections.abc import Sequence
-from dataclasses import dataclass, replace
+from dataclasses import dataclass, field, replace
 
 import numpy as np
 from scipy.stats import chi2 as chi_squared
 
 from pyrofit.diagnose.base.adequacy import lack_of_fit
 from pyrofit.diagnose.base.fit import refitted, with_noise_about
-from pyrofit.diagnose.base.fitted import FittedModel, at_limit
+from pyrofit.diagnose.base.fitted import FittedModel, at_limit, implausible
+from pyrofit.diagnose.base.inflation import Inflation
+from pyrofit.diagnose.base.long_run import factor_of
 from pyrofit.diagnose.base.prediction import HELD_OUT, Predictions
-from pyrofit.diagnose.judge.inflation import Inflation, factor_of
+from pyrofit.diagnose.judge.power import expected_gain
 from pyrofit.diagnose.settings import SETTINGS
 from pyrofit.estimate.projection import project, projector
 from pyrofit.numerics import linear
@@ -35,11 +37,27 @@ class Trust:
     explains: bool | None
     """Whether the model fits the held-out signals as well, if they are fitted, too. None if not
     tested, because it leaves more than noise of the calibrated signals."""
+    powers: dict[str, float] = field(default_factory=dict)
+    """Expected gain of each prediction if the effect is real; without one, it can tell."""
+    conflict: tuple[str, ...] = ()
+    """Parameters of known value that the effect must move away to gain enough."""
+    implausible: float = 0.0
+    """Standard deviations by which the strength is not plausible, 0 where it is."""
+    wrong_instead: tuple[str, ...] = ()
+    """Parameters whose known values, if wrong, would explain as much as the effect."""
+    known: dict[str, tuple[float, float]] = field(default_factory=dict)
+    """Known parameters less known values without and with the effect, in standard deviations."""
+
+    @property
+    def telling(self) -> dict[str, float]:
+        """Gains of the predictions that can tell the models apart."""
+        least = SETTINGS.informative_gain
+        return {n: gain for n, gain in self.gains.items() if self.powers.get(n, least) >= least}
 
     @property
     def informative(self) -> bool:
         """Whether some prediction distinguishes the models."""
-        return any(abs(gain) >= SETTINGS.informative_gain for gain in self.gains.values())
+        return any(abs(gain) >= SETTINGS.informative_gain for gain in self.telling.values())
 
     @property
     def predicts(self) -> bool:
@@ -50,17 +68,17 @@ class Trust:
         """
         if self.outvoted:
             return True
-        return not self.worse and sum(self.gains.values()) >= SETTINGS.informative_gain
+        return not self.worse and sum(self.telling.values()) >= SETTINGS.informative_gain
 
     @property
     def worse(self) -> list[str]:
         """Predictions that get clearly worse."""
-        return [n for n, gain in self.gains.items() if gain <= -SETTINGS.informative_gain]
+        return [n for n, gain in self.telling.items() if gain <= -SETTINGS.informative_gain]
 
     @property
     def outvoted(self) -> bool:
         """Whether one held-out experiment alone gets worse, and several predictions improve."""
-        better = [n for n, gain in self.gains.items() if gain >= SETTINGS.informative_gain]
+        better = [n for n, gain in self.telling.items() if gain >= SETTINGS.informative_gain]
         return len(self.worse) == 1 and self.worse[0] in self.held_out and len(better) > 1
 
     @property
@@ -75,12 +93,14 @@ class Trust:
 
     @property
     def held_out(self) -> dict[str, float]:
-        """Gains of the log score of held-out signals."""
-        return {n: gain for n, gain in self.gains.items() if n.startswith(HELD_OUT)}
+        """Gains of the log score of held-out signals that can tell."""
+        return {n: gain for n, gain in self.telling.items() if n.startswith(HELD_OUT)}
 
 
 def disagreement(trial: FittedModel, effect: str, inflation: Inflation) -> float:
     """Return the probability that a strength common to all experiments looks as different.
+
+    Of an effect that small samples ask for, small samples alone are compared.
 
     Score test: the columns of d w/d strength, one experiment each, against the fit's residuals.
     The noise has the variance of ``inflation``, and the parameters make one step to fit under it.
@@ -93,9 +113,11 @@ def disagreement(trial: FittedModel, effect: str, inflation: Inflation) -> float
         jacobian=rows[:, None] * trial.fit.jacobian,
     )
     column = fit.jacobian[: model.points, model.position(effect)]
-    owners = [model.base.channels[i][0] for i in model.channels]
+    base = model.base
+    owners = [base.channels[i][0] for i in model.channels]
     parts = np.split(column, np.cumsum(model.likelihood.points)[:-1])
-    moved = [o for o in dict.fromkeys(owners) if _size(parts, owners, o) > 1e-9]
+    judging = [base.channels[i][0] for i in model.channels if _judges(trial, effect, [i])]
+    moved = [o for o in dict.fromkeys(judging) if _size(parts, owners, o) > 1e-9]
     if len(moved) < 2:
         return 1.0
     d = np.zeros((fit.residuals.size, len(moved) - 1))
@@ -127,6 +149,18 @@ def explains(found: Predictions, rng: np.random.Generator) -> bool:
     return lack_of_fit(whole.model, whole.fit, [], rng).adequate
 
 
+def _judges(trial: FittedModel, effect: str, channels: Sequence[int]) -> bool:
+    """Tell whether predicted channels judge an effect.
+
+    Small samples alone judge an effect that they ask for by themselves: what is missing from the
+    model of the slab may speak against it there.
+    """
+    base = trial.model.base
+    if effect not in base.of_small_samples:
+        return True
+    return not any(map(base.shows_the_slab, channels))
+
+
 def trust(
     trial: FittedModel,
     effect: str,
@@ -134,6 +168,7 @@ def trust(
     without: Predictions,
     explained: bool | None,
     inflation: Inflation,
+    conflict: Sequence[str] = (),
 ) -> Trust:
     """Return the evidence for or against an effect of a model.
 
@@ -145,12 +180,19 @@ def trust(
         Whether it fits held-out signals, too.
     inflation
         By how much the end's misfit raises the variance of the noise.
+    conflict
+        Known values that the effect must move away, see `pyrofit.diagnose.judge.accord`.
     """
-    gains = {}
+    gains, powers = {}, {}
     for name, before in without.scores.items():
+        if not _judges(trial, effect, own.channels[name]):
+            continue
         # With a noise whose variance is larger by a factor, the gain of a log score is smaller by
         # it. The settings ask for the same gain of all: odds of 7 to 1 after this division.
-        factor = max(map(factor_of, own.residuals[name])) if inflation.inflates else 1.0
+        both = [max(map(factor_of, of.residuals[name])) for of in (own, without)]
+        factor = min(both) if inflation.inflates else 1.0
         gains[name] = (own.scores[name] - before) / factor
-    disagree = disagreement(trial, effect, inflation)
-    return Trust(at_limit(trial, effect), disagree, gains, explained)
+        powers[name] = expected_gain(own, without, name) / factor
+    disagree, far = disagreement(trial, effect, inflation), implausible(trial, effect)
+    limit = at_limit(trial, effect)
+    return Trust(limit, disagree, gains, explained, powers, tuple(conflict), far)

@@ -7,6 +7,7 @@ from pyrofit.diagnose.base.fitted import FittedModel, Key
 from pyrofit.diagnose.judge.claim_tests import Trust
 from pyrofit.diagnose.judge.other_terms import OtherTerm
 from pyrofit.diagnose.search.stepwise import Search
+from pyrofit.diagnose.settings import SETTINGS
 from pyrofit.effects import known_effects
 
 ORDER = ("apparatus", "environment", "material")
@@ -45,6 +46,8 @@ class Finding:
     """Free corrections of other terms in the effect's place, where they were fitted."""
     instead: tuple[Exchange, ...] = ()
     """Exchanges of one effect for two, or of two for one, that nothing speaks against."""
+    weight: float = 1.0
+    """Share of the weight of all fitted models that has an effect of the leading one's group."""
 
     @property
     def kept(self) -> list[Judged]:
@@ -90,7 +93,27 @@ class Finding:
     @property
     def sure(self) -> bool:
         """Whether nothing else explains the data nearly as well, and all signals are predicted."""
-        return self.agreed and not self.open_terms and not self.instead
+        return self.agreed and not self.open_terms and not self.instead and self.firm
+
+    @property
+    def firm(self) -> bool:
+        """Whether it is plausible, no known value may be wrong instead, and the group weighs."""
+        return self.weighs and not self.implausible and not self.wrong_instead
+
+    @property
+    def wrong_instead(self) -> tuple[str, ...]:
+        """Parameters whose known values, if wrong, would explain as much as the leading effect."""
+        return (self.kept or list(self.judged))[0].trust.wrong_instead
+
+    @property
+    def weighs(self) -> bool:
+        """Whether nearly all models that fit have an effect of the group."""
+        return self.weight >= SETTINGS.claimed_weight
+
+    @property
+    def implausible(self) -> float:
+        """Standard deviations by which the leading strength is not plausible, 0 where it is."""
+        return (self.kept or list(self.judged))[0].trust.implausible
 
     @property
     def agreed(self) -> bool:
@@ -135,6 +158,8 @@ class Verdict:
     reasons: tuple[str, ...]
     suspects: tuple[Suspect, ...] = ()
     """Where the findings explain a part only: the leading candidates for the rest."""
+    taken_away: tuple[tuple[str, str], ...] = ()
+    """Effects of the search's end that are not claimed, each with the reason, in order."""
 
     @property
     def judged(self) -> dict[Key, list[Judged]]:

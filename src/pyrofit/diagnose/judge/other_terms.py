@@ -17,10 +17,10 @@ from dataclasses import dataclass
 
 from pyrofit.diagnose.base.descent import refreshed
 from pyrofit.diagnose.base.fitted import FittedModel
+from pyrofit.diagnose.base.inflation import Inflation
 from pyrofit.diagnose.corrections.correction import Correction
 from pyrofit.diagnose.corrections.fit import corrected, with_coefficients
 from pyrofit.diagnose.corrections.forms import SAME_TERM, corrections
-from pyrofit.diagnose.judge.inflation import Inflation
 from pyrofit.diagnose.settings import SETTINGS
 from pyrofit.effects import known_effects
 from pyrofit.estimate.posterior import UNIFORM, curvature

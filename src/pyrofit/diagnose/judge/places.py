@@ -7,14 +7,18 @@ import numpy as np
 
 from pyrofit.diagnose.base.adequacy import lack_of_fit
 from pyrofit.diagnose.base.fitted import FittedModel, finishes, strengths_at_limit, up_to_date
+from pyrofit.diagnose.base.inflation import by_significant_misfit
 from pyrofit.diagnose.base.prediction import predictions
+from pyrofit.diagnose.judge.accord import conflicts, known_beside, wrong_instead
 from pyrofit.diagnose.judge.claim_tests import Trust, explains, trust
 from pyrofit.diagnose.judge.findings import Exchange, Finding, Judged
 from pyrofit.diagnose.judge.inflation import inflation_of
+from pyrofit.diagnose.judge.weights import group_weights
 from pyrofit.diagnose.search.restart import refitted_without
 from pyrofit.diagnose.search.step import SearchContext, SearchStep
 from pyrofit.diagnose.search.stepwise import Search, replacing
 from pyrofit.diagnose.settings import SETTINGS
+from pyrofit.effects import known_effects
 from pyrofit.parallel import parallel_map
 
 
@@ -73,8 +77,9 @@ def findings_of(
     # The end of the search has a place among the rivals of each of its effects.
     rivals = {_key(trial): trial for place in places.values() for _, trial in place}
     rivals |= {_key(one.trial): one.trial for place in exchanged.values() for one in place}
-    # A model that leaves misfit explains no held-out signal, unless the effect is replaced.
-    may_explain = found.end_lack.adequate or len(effects) == 1
+    # A model that leaves misfit explains no held-out signal.
+    clean = [not by_significant_misfit(trial).inflates for trial in rivals.values()]
+    may_explain = found.end_lack.adequate or (len(effects) == 1 and any(clean))
     models = [*(without[k] for k in which), *rivals.values()]
     predicted = predictions(models, processes, whole=may_explain, made=context.made)
     before = dict(zip(which, predicted[: len(which)], strict=True))
@@ -83,12 +88,33 @@ def findings_of(
     explained: list[bool | None] = [None] * len(own)
     if may_explain:
         rngs = context.rng.spawn(len(own))
-        explained[:] = parallel_map(lambda i: explains(own[i], rngs[i]), len(own), processes)
+        explained[:] = parallel_map(
+            lambda i: clean[i] and explains(own[i], rngs[i]), len(own), processes
+        )
     known = dict(zip(rivals, zip(own, explained, strict=True), strict=True))
+    pairs = [(k, trial) for k, place in places.items() for _, trial in place]
+    pairs += [(k, one.trial) for k, place in exchanged.items() for one in place]
+    against = conflicts(
+        [(trial, without[k]) for k, trial in pairs], inflation.penalised, found.spare, processes
+    )
+    errors = wrong_instead(
+        [(trial, without[k]) for k, trial in pairs],
+        inflation.penalised,
+        SETTINGS.ambiguous_chi2,
+        processes,
+    )
+    conflict = {(k, _key(trial)): names for (k, trial), names in zip(pairs, against, strict=True)}
+    wrong = {(k, _key(trial)): names for (k, trial), names in zip(pairs, errors, strict=True)}
 
     def judged(name: str, trial: FittedModel, k: int) -> Judged:
         foreseen, also = known[_key(trial)]
-        about = trust(trial, name, foreseen, before[k], also, inflation)
+        of_known = conflict[k, _key(trial)]
+        about = trust(trial, name, foreseen, before[k], also, inflation, of_known)
+        about = replace(
+            about,
+            known=known_beside(trial, without[k]),
+            wrong_instead=tuple(wrong[k, _key(trial)]),
+        )
         if trial is not places[k][0][1]:  # the end's other effects have places of their own
             about = replace(about, limit=next(iter(strengths_at_limit(trial)), ""))
         gain = inflation.penalised(without[k]) - inflation.penalised(trial)
@@ -97,11 +123,13 @@ def findings_of(
     def passes(one: Exchange, k: int) -> bool:
         return not any(judged(name, rivals[_key(one.trial)], k).rejected for name in one.by)
 
+    weights, catalogue = group_weights(found), known_effects()
     return tuple(
         Finding(
             effects[k],
             tuple(judged(name, trial, k) for name, trial in place),
             instead=tuple(one for one in exchanged[k] if passes(one, k)),
+            weight=weights[catalogue[effects[k]].group],
         )
         for k, place in places.items()
     )
@@ -160,13 +188,16 @@ def _against(gain: float, spare: float, about: Trust) -> str:
         return f"penalised gain {gain:.1f}; {spare:.1f} needed"
     if about.limit:
         return f"{about.limit} is at a limit"
+    if about.conflict:
+        return f"it gains only by moving {', '.join(about.conflict)} away from the known value"
     if about.disagree < SETTINGS.agreement_level:
         return f"the experiments ask for different strengths (p = {about.disagree:.1g})"
     if about.informative and not about.predicts:
-        worst = min(about.gains, key=lambda name: about.gains[name])
+        gains = about.telling
+        worst = min(gains, key=lambda name: gains[name])
         return (
-            f"predictions do not improve: log score {about.gains[worst]:+.1f} for {worst}, "
-            f"{sum(about.gains.values()):+.1f} in all; "
+            f"predictions do not improve: log score {gains[worst]:+.1f} for {worst}, "
+            f"{sum(gains.values()):+.1f} in all; "
             f"{SETTINGS.informative_gain:g} at least is asked for"
         )
     return ""

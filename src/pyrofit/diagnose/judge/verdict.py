@@ -1,6 +1,6 @@
 """The verdict: the effects that may be claimed after the search, and how surely."""
 
-from collections.abc import Sequence
+from collections.abc import Iterator, Sequence
 from dataclasses import replace
 
 import numpy as np
@@ -113,10 +113,13 @@ def _partly(
     nothing but noise: if one of these fails, the others may stand for a missing effect as well.
     """
     all_fit, processes = found.end_lack.adequate, context.processes
+    taken_away: list[tuple[str, str]] = []
     while (failed := _first_failed(found, without, context)) is not None:
         if len(without) == 1:
             return None
-        found, without = needed(ended(found, without[failed], context.rng), context)
+        position, reason = failed
+        taken_away.append((found.end.effects[position], reason))
+        found, without = needed(ended(found, without[position], context.rng), context)
     findings = findings_of(found, without, context)
     if found.end_lack.adequate:
         return _explained(found, findings, without, processes)
@@ -127,21 +130,21 @@ def _partly(
         findings = tuple(_with_other_terms(found, findings, without, processes))
     suspects = _suspects(found, processes)
     reasons = (_rest(found), *_outvoted(leading), *_open_terms(findings), *_instead(findings))
-    return Verdict("partly", found, tuple(findings), reasons, suspects)
+    return Verdict("partly", found, tuple(findings), reasons, suspects, tuple(taken_away))
 
 
 def _first_failed(
     found: Search, without: Sequence[FittedModel], context: SearchContext
-) -> int | None:
-    """Return the position of the effect that fails a test, of several the one that gains least.
+) -> tuple[int, str] | None:
+    """Return position and reason of the effect that fails a test, of several that gaining least.
 
     The effects are judged in this order, as predictions of the others may not be needed.
     """
     penalised = inflation_of(found).penalised
     for k in sorted(range(len(without)), key=lambda k: penalised(without[k])):
         (finding,) = findings_of(found, without, context, [k])
-        if not _supported(finding):
-            return k
+        if reason := _against(finding):
+            return k, reason
     return None
 
 
@@ -160,10 +163,19 @@ def _rest(found: Search) -> str:
     return f"part of the misfit remains: {'; '.join(places)}"
 
 
-def _supported(finding: Finding) -> bool:
-    """Tell whether the leading effect passes every test, and all that fit as well agree with it."""
-    passes = bool(finding.kept) and finding.kept[0] is finding.judged[0]
-    return passes and bool(finding.group) and finding.predicted
+def _against(finding: Finding) -> str:
+    """Say why the leading effect is not claimed beside other misfit, or nothing.
+
+    It must pass every test, and all that fit as well must agree with it.
+    """
+    first = finding.judged[0]
+    if first.rejected:
+        return first.rejected
+    if not finding.group:
+        return finding.open_words
+    if not finding.predicted:
+        return _unconfirmed(next(j for j in finding.kept if not j.trust.confirmed))
+    return "; ".join(_infirm(finding))
 
 
 def _suspects(found: Search, processes: int) -> tuple[Suspect, ...]:
@@ -203,8 +215,34 @@ def _doubts(found: Search, findings: Sequence[Finding]) -> list[str]:
     doubts += _outvoted(kept)
     doubts += _open_terms(findings)
     doubts += _instead(findings)
+    doubts += [words for finding in findings for words in _infirm(finding)]
     open_ones = [finding for finding in findings if not finding.group]
     return doubts + [finding.open_words for finding in open_ones]
+
+
+def _infirm(finding: Finding) -> Iterator[str]:
+    """Say why the leading effect is not firm, and the measurement to make."""
+    effect = known_effects()[finding.leading]
+    if finding.implausible:
+        (quantity,) = effect.strength.values()
+        strength = finding.judged[0].trial.strength(finding.leading)
+        unit = "" if quantity.unit == "-" else f" {quantity.unit}"
+        check = f": {effect.check}" if effect.check else ""
+        yield (
+            f"the apparatus is described incompletely: the {quantity.label} would be "
+            f"{strength:.3g}{unit}, {finding.implausible:.2g} standard deviations from the "
+            f"plausible value{check}"
+        )
+    if finding.wrong_instead:
+        yield (
+            f"the known value of {' and '.join(finding.wrong_instead)} may be wrong instead: "
+            f"without it, the model fits as well without {effect.title}"
+        )
+    if not finding.weighs:
+        yield (
+            f"{100.0 * finding.weight:.0f} % of the weight of all models have an effect of the "
+            f"group {effect.group}; a claim needs {100.0 * SETTINGS.claimed_weight:g} %"
+        )
 
 
 def _open_terms(findings: Sequence[Finding]) -> list[str]:

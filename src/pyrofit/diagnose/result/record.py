@@ -15,6 +15,7 @@ from pyrofit.diagnose.base.prediction import HELD_OUT
 from pyrofit.diagnose.judge.final_fits import FinalFits
 from pyrofit.diagnose.judge.findings import Finding, Verdict
 from pyrofit.diagnose.judge.intervals import interval, values_of
+from pyrofit.diagnose.judge.weights import group_weights
 from pyrofit.diagnose.result.candidates import candidates, confusability_of, screened
 from pyrofit.diagnose.result.phases import describe
 from pyrofit.diagnose.result.verdict_text import form_of, sentences
@@ -70,13 +71,22 @@ def _verdict(verdict: Verdict) -> dict[str, Any]:
         "words": sentences(verdict),
         "reasons": list(verdict.reasons),
         "suspects": [asdict(suspect) for suspect in verdict.suspects],
+        "weights": group_weights(verdict.search),
+        "taken_away": [{"effect": e, "reason": reason} for e, reason in verdict.taken_away],
     }
 
 
 def _evidence(finding: Finding) -> dict[str, Any]:
     """Return the tests of the leading effect besides its gain."""
     trust = (finding.kept or list(finding.judged))[0].trust
-    return {"agreement": trust.disagree, "predictions": trust.gains}
+    return {
+        "agreement": trust.disagree,
+        "predictions": trust.gains,
+        "expected": {n: g if np.isfinite(g) else None for n, g in trust.powers.items()},
+        "known": {name: list(both) for name, both in trust.known.items()},
+        "implausible": trust.implausible,
+        "weight": finding.weight,
+    }
 
 
 def _noise(found: Search, misfits: Misfits) -> list[dict[str, Any]]:

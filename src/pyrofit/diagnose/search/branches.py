@@ -3,6 +3,7 @@
 from collections.abc import Sequence
 
 from pyrofit.diagnose.base.fitted import FittedModel, strengths_at_limit
+from pyrofit.diagnose.base.inflation import by_significant_misfit
 from pyrofit.diagnose.base.prediction import predictions, slabs
 from pyrofit.diagnose.search.step import SearchContext, SearchStep, in_order
 from pyrofit.diagnose.settings import SETTINGS
@@ -40,7 +41,7 @@ def _claims(steps: Sequence[SearchStep], spare: float) -> list[Claim]:
         (trial, step.start)
         for step in steps
         for trial in step.trials
-        if step.start.penalised - trial.penalised >= spare
+        if _gain(step.start, trial) >= spare
     ]
     inside = [c for c in found if not strengths_at_limit(c[0])]
     start = {id(trial): start for trial, start in inside or found}
@@ -48,6 +49,16 @@ def _claims(steps: Sequence[SearchStep], spare: float) -> list[Claim]:
     for trial in in_order([trial for trial, _ in inside or found]):
         best.setdefault(_groups(trial), trial)
     return [(trial, start[id(trial)]) for trial in list(best.values())[: SETTINGS.most_predicted]]
+
+
+def _gain(start: FittedModel, trial: FittedModel) -> float:
+    """Return the fall of penalised chi-square, with a noise as large as the misfit that is left.
+
+    The verdict counts it in the same way. Otherwise misfit that no effect explains would keep the
+    search alive, each further effect explaining a bit of it.
+    """
+    inflation = by_significant_misfit(trial)
+    return inflation.penalised(start) - inflation.penalised(trial)
 
 
 def _groups(trial: FittedModel) -> frozenset[str]:

@@ -1,6 +1,7 @@
 """Evidence for each effect of the verdict, besides the fit."""
 
 from collections.abc import Mapping
+from typing import Any
 
 import numpy as np
 import pandas as pd
@@ -19,7 +20,7 @@ def evidence(study: Study, results: Results) -> pd.DataFrame:
 
 def evidence_of(study: Study, found: Found) -> pd.DataFrame:
     """Return a row for each effect of a verdict, without columns that nothing was tested for."""
-    verdict = found["verdict"]
+    verdict, least = found["verdict"], found["settings"].get("informative_gain", 2.0)
     rows = []
     for effect, tested, terms in zip(
         verdict["effects"], verdict["evidence"], verdict["other_terms"], strict=True
@@ -28,7 +29,8 @@ def evidence_of(study: Study, found: Found) -> pd.DataFrame:
         rows.append(
             {
                 "effect": effect_name(effect),
-                "predictions": _in_words(study, tested["predictions"]) or None,
+                "weight": f"{100.0 * tested['weight']:.0f} %",
+                "predictions": _in_words(study, tested, least) or None,
                 "agreement": np.nan if tested["agreement"] is None else tested["agreement"],
                 "correction": nearest["words"] if nearest else None,
                 "above": f"{nearest['above']:+.1f}" if nearest else None,
@@ -37,8 +39,19 @@ def evidence_of(study: Study, found: Found) -> pd.DataFrame:
     return pd.DataFrame(rows).dropna(axis="columns", how="all")
 
 
-def _in_words(study: Study, gains: Mapping[str, float]) -> str:
-    return "; ".join(f"{_predicted(study, name)} {gain:+.1f}" for name, gain in gains.items())
+def _in_words(study: Study, tested: Mapping[str, Any], least: float) -> str:
+    expected = tested["expected"]
+    return "; ".join(
+        f"{_predicted(study, name)} {gain:+.1f}{_telling(expected.get(name), least)}"
+        for name, gain in tested["predictions"].items()
+    )
+
+
+def _telling(expected: float | None, least: float) -> str:
+    """Say whether a prediction can tell, from the gain that it promises if the effect is real."""
+    if expected is None:
+        return ""
+    return f" (of {expected:.1f})" if expected >= least else " (cannot tell)"
 
 
 def _predicted(study: Study, name: str) -> str:
@@ -51,11 +64,15 @@ TABLE = Table(
     applies=always,
     make=evidence,
     title="Confidence in the result",
-    note="Log score: its change by the effect, for each test predicted from the others, and for "
-    "the held-out tests. Equal strengths: p of the test that all experiments give the effect the "
-    "same strength. Free correction: the best free curve in the place of the effect, and its "
-    "-2 ln marginal likelihood relative to the effect.",
+    note="Weight: share of all fitted models, each weighed by its fit and number of parameters, "
+    "that have an effect of the group. Log score: its change by the effect, for each test "
+    "predicted from the others, and for the held-out tests. In brackets, the change expected if "
+    "the effect is real. A test cannot tell if that is too small beside its noise and its "
+    "uncertain flux, h, thickness and clock. Equal strengths: p of the test that all experiments "
+    "give the effect the same strength. Free correction: the best free curve in the place of the "
+    "effect, and its -2 ln marginal likelihood relative to the effect.",
     headings={
+        "weight": "weight of the group",
         "predictions": "log score of predictions",
         "agreement": "equal strengths, p",
         "correction": "best free correction",

@@ -1,0 +1,141 @@
+"""Kinetics from the small samples, before the slab is looked at.
+
+A model of the slab that lacks an effect moves its kinetics to make up for it, and small samples
+have too few points to prevent this. The kinetics are therefore fitted to TGA, DSC and MCC alone,
+with the effects on them that these records ask for, and with what a careful description leaves open
+of their temperature. The fit of all signals keeps each parameter within three standard deviations
+of this fit. If it rests at such a limit, slab and small samples are in conflict.
+"""
+
+from collections.abc import Collection, Sequence
+from dataclasses import replace
+
+import numpy as np
+
+from pyrofit.diagnose.base.descent import Fit, descend
+from pyrofit.diagnose.base.fit import fitted_from_starts
+from pyrofit.diagnose.base.fitted import FittedModel, polished, up_to_date
+from pyrofit.diagnose.base.inflation import by_significant_misfit
+from pyrofit.diagnose.base.model import Base, Free, fraction, model_of, strength_of
+from pyrofit.diagnose.search.refit import look_at, model_with, with_effect
+from pyrofit.diagnose.search.score_test import Screening
+from pyrofit.diagnose.settings import SETTINGS
+from pyrofit.numerics import functions
+from pyrofit.parallel import parallel_map
+from pyrofit.solver.arrays import FloatArray
+
+OF_RECORD = ("tga_offset", "tga_lag")
+"""Effects on the records of small samples that every fit to them allows for."""
+
+
+def kinetics_first(
+    base: Base, names: Collection[str], candidates: Sequence[str], seed: int, processes: int = 1
+) -> Base:
+    """Return the base with narrower limits of the kinetics, if small samples stand beside a slab.
+
+    Parameters
+    ----------
+    base
+        All channels with their noise.
+    names
+        Parameters of the kinetics.
+    candidates
+        Names of the effects that the study may lack.
+    seed
+        Seed of the starts.
+    processes
+        Processes that share the fits.
+    """
+    small = tuple(i for i in base.calibrated if not base.shows_the_slab(i))
+    if not small or len(small) == len(base.calibrated) or not names:
+        return base
+    alone = replace(base, calibrated=small)
+    first, starts = fitted_from_starts(alone, seed, processes)
+    first = _with(first, OF_RECORD, candidates)
+    return _narrowed(base, names, _explained(first, candidates, starts, processes))
+
+
+def _with(trial: FittedModel, effects: Sequence[str], candidates: Sequence[str]) -> FittedModel:
+    """Return a model fitted with further effects that it can have."""
+    for effect in effects:
+        name, quantity = strength_of(effect)
+        free: Free = {**trial.model.effects, effect: (name,)}
+        if effect not in candidates:
+            continue
+        model = model_of(trial.model.base, free, trial.model.channels)
+        x = np.append(trial.fit.x, fraction(quantity, quantity.value))
+        trial = FittedModel(model, descend(model, x))
+    return up_to_date(trial)
+
+
+def _explained(
+    trial: FittedModel, candidates: Sequence[str], starts: Sequence[FloatArray], processes: int
+) -> list[FittedModel]:
+    """Return models with one effect more each, as long as the records ask for it as a claim does.
+
+    Where they ask for none, the model itself.
+    """
+    spare = 2.0 * float(functions.log(max(len(candidates), 1)))
+    found: list[FittedModel] = []
+    for _ in range(SETTINGS.most_of_kinetics):
+        names = [name for name in candidates if name not in trial.effects]
+        looks = [look for look in look_at(trial, names, processes) if look.detectability > 1.0]
+        looks = sorted(looks, key=lambda look: float(look.ahead.min()))[: SETTINGS.most_formed]
+        if not looks:
+            break
+        best = _best_with(trial, looks, starts, processes)
+        penalised = by_significant_misfit(best).penalised
+        if penalised(trial) - penalised(best) < spare:
+            break
+        trial = up_to_date(best)
+        found.append(trial)
+    return found or [trial]
+
+
+def _best_with(
+    trial: FittedModel, looks: Sequence[Screening], starts: Sequence[FloatArray], processes: int
+) -> FittedModel:
+    """Return the best fit with an effect more, from the fit without it and from other starts.
+
+    With another effect, reactions may take other parts.
+    """
+    models = [model_with(trial, look.effect) for look in looks]
+    begins = [(k, x) for k in range(len(looks)) for x in (None, *starts[: SETTINGS.base_descents])]
+
+    def fit(i: int) -> Fit:
+        k, x = begins[i]
+        if x is None:
+            return with_effect(trial, looks[k]).fit
+        model, base = models[k], trial.fit.x.size
+        whole = np.concatenate([x, trial.fit.x[x.size : base], np.zeros(len(model.names) - base)])
+        _, quantity = strength_of(looks[k].effect)
+        whole[base] = fraction(quantity, quantity.typical)
+        return descend(model, whole, enough=SETTINGS.rough_gain)
+
+    fits = parallel_map(fit, len(begins), processes)
+    found = [FittedModel(models[k], end) for (k, _), end in zip(begins, fits, strict=True)]
+    return polished([min(found, key=lambda one: one.penalised)], processes)[0]
+
+
+def _narrowed(base: Base, names: Collection[str], alone: Sequence[FittedModel]) -> Base:
+    """Return the base with limits that hold three standard deviations of each of some fits.
+
+    Misfit that is left widens them. It names the effects of the last fit.
+    """
+    problem = base.likelihood.problem
+    count = len(problem.names)
+    lowest, highest = np.ones(count), np.zeros(count)
+    for trial in alone:
+        misfit = max(by_significant_misfit(trial).factors)
+        sds = np.sqrt(np.diag(trial.posterior.covariance())[:count] * misfit)
+        reach = np.maximum(SETTINGS.kinetics_reach * sds, SETTINGS.narrowest_kinetics)
+        lowest = np.minimum(lowest, np.clip(trial.fit.x[:count] - reach, 0.0, 1.0))
+        highest = np.maximum(highest, np.clip(trial.fit.x[:count] + reach, 0.0, 1.0))
+    shown = np.any(alone[0].fit.jacobian[: alone[0].model.points] != 0.0, axis=0)[:count]
+    of_kinetics = shown & np.isin(problem.names, list(names))
+    lower = np.where(of_kinetics, problem.lower + lowest * problem.span, problem.lower)
+    upper = np.where(of_kinetics, problem.lower + highest * problem.span, problem.upper)
+    narrow = replace(problem, lower=lower, upper=upper)
+    asked = tuple(effect for effect in alone[-1].effects if effect not in OF_RECORD)
+    likelihood = replace(base.likelihood, problem=narrow)
+    return replace(base, likelihood=likelihood, of_small_samples=asked)
