@@ -24,6 +24,7 @@ from bad_input import (
 AGAIN = "delete it and run again"
 KINETICS = "kinetics --study study.yaml"
 IMP = "imp --study study.yaml --cost RMSE --repetition 0"
+IDENTIFY = "identify --stage kinetics --study study.yaml"
 COLLECT = "collect --study study.yaml"
 DESCENT = "descent --study study.yaml --cost RMSE"
 PREDICT = "predict --study study.yaml"
@@ -90,55 +91,62 @@ BROKEN_RESULTS = _results(
             "measurements/tga_10_mass_fraction.csv",
             ("cannot be read (", AGAIN),
         ),
-        ("fit missing", IMP, delete(FIT), "kinetics/fit.json", ("this result is missing",)),
-        ("fit empty", IMP, write(FIT, ""), "kinetics/fit.json", ("cannot be read", AGAIN)),
-        ("fit cut off", IMP, cut(FIT), "kinetics/fit.json", ("cannot be read", AGAIN)),
+        (
+            "estimates of the kinetics missing",
+            IMP,
+            delete(f"{RESULTS}/identification/kinetics/estimate.csv"),
+            "identification/kinetics/estimate.csv",
+            ("this result is missing",),
+        ),
+        ("fit missing", IDENTIFY, delete(FIT), "kinetics/fit.json", ("this result is missing",)),
+        ("fit empty", IDENTIFY, write(FIT, ""), "kinetics/fit.json", ("cannot be read", AGAIN)),
+        ("fit cut off", IDENTIFY, cut(FIT), "kinetics/fit.json", ("cannot be read", AGAIN)),
         (
             "fit binary",
-            IMP,
+            IDENTIFY,
             write(FIT, b"\xff\xfe"),
             "kinetics/fit.json",
             ("cannot be read", AGAIN),
         ),
-        ("fit is a list", IMP, write(FIT, "[1]"), "kinetics/fit.json", ("no result", AGAIN)),
+        ("fit is a list", IDENTIFY, write(FIT, "[1]"), "kinetics/fit.json", ("no result", AGAIN)),
         (
             "fit without parameters",
-            IMP,
+            IDENTIFY,
             result("kinetics/fit.json", "parameters", GONE),
             "kinetics/fit.json",
             ("'parameters' is missing in this result", AGAIN),
         ),
         (
             "fit without one parameter",
-            IMP,
+            IDENTIFY,
             result("kinetics/fit.json", "parameters.E_p", GONE),
             "kinetics/fit.json",
             ("'parameters.E_p' is missing in this result", AGAIN),
         ),
         (
             "fit with text for a number",
-            IMP,
+            IDENTIFY,
             result("kinetics/fit.json", "parameters.E_p", "high"),
             "kinetics/fit.json",
             ("'parameters.E_p' is not a finite number", AGAIN),
         ),
         (
             "fit with true for a number",
-            IMP,
+            IDENTIFY,
             result("kinetics/fit.json", "parameters.E_p", True),
             "kinetics/fit.json",
             ("'parameters.E_p' is not a finite number", AGAIN),
         ),
         (
             "fit with nan",
-            IMP,
+            IDENTIFY,
             result("kinetics/fit.json", "parameters.E_p", math.nan),
             "kinetics/fit.json",
             ("'parameters.E_p' is not a finite number", AGAIN),
         ),
         (
             "fit with a list for a mapping",
-            IMP,
+            IDENTIFY,
             result("kinetics/fit.json", "parameters", []),
             "kinetics/fit.json",
             ("'parameters.T_p' is missing in this result", AGAIN),
@@ -223,9 +231,9 @@ BROKEN_RESULTS = _results(
         (
             "table 3 of a fit without sets",
             "show --study study.yaml --name table3",
-            result("kinetics/fit.json", "sets.book", GONE),
-            "kinetics/fit.json",
-            ("'sets.book' is missing in this result", AGAIN),
+            result("kinetics/sets.json", "book", GONE),
+            "kinetics/sets.json",
+            ("'book' is missing in this result", AGAIN),
         ),
         (
             "table 3 of scores cut off",

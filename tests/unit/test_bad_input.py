@@ -26,11 +26,13 @@ COSTS = ("RMSE", "RANGE")
 STEPS = [
     "prepare",
     "kinetics",
+    "identify --stage kinetics",
     *(f"imp --cost {cost} --repetition 0" for cost in COSTS),
     *(f"least-squares --cost {cost}" for cost in COSTS),
     *(f"cma-es --cost {cost}" for cost in COSTS),
     "collect",
     *(f"descent --cost {cost}" for cost in COSTS),
+    "identify",
     "predict",
 ]
 IN_A_PROCESS = [

@@ -7,7 +7,7 @@ import numpy as np
 import pandas as pd
 import pytest
 from test_estimate import Valley
-from test_stages import SETS, by_hand, study_with
+from test_stages import SETS, by_hand, estimated_by_hand, parameters, study_with
 from test_tables import comparison, described, fake, made
 
 from pyrofit.analysis import good_sets as family
@@ -19,11 +19,11 @@ from pyrofit.estimate.optimisers import OPTIMISERS
 from pyrofit.quantities import known_quantities
 from pyrofit.results import searches
 from pyrofit.results.files import Results, read_csv, write_csv
+from pyrofit.show.costs.reach import reach_of_good_sets as good_sets
 from pyrofit.show.costs.sentences import sentences as costs
 from pyrofit.show.facts import facts_of
 from pyrofit.show.optimisers.sentences import sentences as optimisers
 from pyrofit.show.sections import TABLES
-from pyrofit.show.validation.sentences import reach_of_good_sets as good_sets
 from pyrofit.solver.arrays import FloatArray
 from pyrofit.stages import compare, fit, measurements, predict
 
@@ -138,8 +138,9 @@ def results(study: Study, tmp_path_factory: pytest.TempPathFactory) -> Results:
     """Return the results of the step, after searches made by hand."""
     results = Results(tmp_path_factory.mktemp("results"))
     measurements.prepare(study, results)
-    fit.fit_kinetics(study, results)
+    estimated_by_hand(results, {"T_p": 605.0, "E_p": 190e3}, "kinetics")
     by_hand(study, results)
+    estimated_by_hand(results, parameters("RMSE", 9))
     fit.collect(study, results)
     compare.compare(study, results)
     return results

@@ -14,11 +14,11 @@ from pyrofit.errors import StudyError
 from pyrofit.results.files import Results, read_csv, write_csv
 from pyrofit.show import style
 from pyrofit.show.curves import tests_of as groups_of
-from pyrofit.show.fit.fig3 import fig3
 from pyrofit.show.kinetics.drawing import slope
 from pyrofit.show.kinetics.kinetics_all_rates import kinetics_all_rates
 from pyrofit.show.matrix import draw_matrix
 from pyrofit.show.sections import FIGURES, make_figure, make_named, make_subject
+from pyrofit.show.validation.fig3 import fig3
 
 OF_OTHER_STUDIES = {"heats", "unmeasured"}
 """Figures of quantities and experiments that the faked study lacks."""

@@ -5,12 +5,13 @@ from pathlib import Path
 import numpy as np
 import pandas as pd
 import pytest
+from test_stages import estimated_by_hand
 
 import pyrofit as pf
 from pyrofit.analysis.isoconversional.records import masses
 from pyrofit.errors import DataError, StudyError
 from pyrofit.results import isoconversional
-from pyrofit.results.files import Results, write_csv, write_json
+from pyrofit.results.files import Results, write_csv
 from pyrofit.solver.outputs import MASS_FRACTION
 from pyrofit.stages.isoconversional import analyse_masses
 from pyrofit.stages.measurements import computed
@@ -64,7 +65,7 @@ def test_step_analyses_the_fitted_model_too(study: pf.Study, data: Data, tmp_pat
     assert study.kinetics is not None
     wrong = {n: study.true_values()[n] for n in study.kinetics.estimate}
     wrong = {n: 0.5 * v if n.startswith("E") else v for n, v in wrong.items()}
-    write_json(results.kinetics("fit.json"), {"parameters": wrong})
+    estimated_by_hand(results, wrong, "kinetics")
     analyse_masses(study, results, said.append)
     table = isoconversional.energies(results)
     half = 0.5 * energy(study) / 1e3

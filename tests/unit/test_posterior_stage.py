@@ -22,7 +22,7 @@ from pyrofit.results import posterior
 from pyrofit.results.files import Results, read_csv, write_csv, write_json
 from pyrofit.show.posterior.sentences import sentences
 from pyrofit.show.posterior_page import PAGE
-from pyrofit.stages import fit, measurements
+from pyrofit.stages import fit, identify, measurements
 from pyrofit.stages.posterior import sample_posterior
 
 CHANGES: dict[str, Any] = {
@@ -52,6 +52,7 @@ def identified(study: Study, tmp_path_factory: pytest.TempPathFactory) -> Result
     results = Results(tmp_path_factory.mktemp("posterior") / "smoke")
     measurements.prepare(study, results)
     fit.fit_kinetics(study, results)
+    identify.identify_kinetics(study, results)
     truth = np.array([study.true_values()[name] for name in study.imp.estimate])
     problem = make_problem(
         study,

@@ -27,7 +27,7 @@ STEPS = {
     "prediction": "pyrofit.stages.predict",
     "robustness": "pyrofit.steps.robustness.compute",
     "diagnosis": "pyrofit.stages.diagnose",
-    "figures": "pyrofit.show.fit.fig3",
+    "figures": "pyrofit.show.validation.fig3",
     "report": "pyrofit.show.report",
     "blind test": "pyrofit.blind_test.run",
     "page of the blind test": "pyrofit.blind_test.page",

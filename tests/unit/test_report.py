@@ -9,16 +9,18 @@ import pandas as pd
 import pytest
 from test_tables import described, fake, made, synthetic
 
-from pyrofit.analysis.recommended import recommended
-from pyrofit.config import Study
+from pyrofit.analysis.answer import one_each
+from pyrofit.analysis.best_predicting import best_predicting
+from pyrofit.analysis.estimates import Estimated, estimated
+from pyrofit.config import Study, as_study
 from pyrofit.errors import DataError
-from pyrofit.results import posterior, rescored
-from pyrofit.results.files import Results, read_csv, write_csv, write_text
+from pyrofit.results import identification, posterior, rescored
+from pyrofit.results.files import Results, read_csv, read_json, write_csv, write_json, write_text
 from pyrofit.results.step import write_options
 from pyrofit.show import rescore_page
-from pyrofit.show.answer.advice import advice
+from pyrofit.show.answer.next_steps import advice
 from pyrofit.show.answer.summary import summary
-from pyrofit.show.facts import facts_of
+from pyrofit.show.facts import Facts, facts_of
 from pyrofit.show.report import tables_of, write_report
 from pyrofit.show.sections import FIGURES, TABLES, make_table
 from pyrofit.show.table import write_table
@@ -74,7 +76,7 @@ def written(root: Path, given: dict[str, Any] | None = None) -> tuple[Page, str]
 def test_report_has_all_sections_and_figures(tmp_path: Path) -> None:
     page, _ = written(tmp_path)
     sections = ["summary", "data", "isoconversional"]
-    sections += ["kinetics", "fit", "identification", "validation"]
+    sections += ["kinetics", "validation", "identification", "fit"]
     sections += ["optimisation", "costs", "provenance"]
     assert [i for i in page.ids if i not in FIGURES] == sections
     study, _ = fake(tmp_path)
@@ -105,77 +107,106 @@ def test_report_loads_nothing(tmp_path: Path) -> None:
     assert "@import" not in text
 
 
-def summary_of(text: str) -> list[str]:
-    """Return the sentences of the summary."""
-    listed = text.split('<section id="summary">')[1].split("</ol>")[0]
-    return re.findall(r"<li>(.*)</li>", listed)
+def summary_of(text: str) -> dict[str, list[str]]:
+    """Return the sentences of the summary by their question."""
+    first = text.split('<section id="summary">')[1].split("</section>")[0]
+    found = re.findall(r"<h3>([^<]*\?)</h3>\s*<ol>(.*?)</ol>", first, re.S)
+    return {question: re.findall(r"<li>(.*)</li>", listed) for question, listed in found}
 
 
+DESCRIBES = "Does the model describe the tests?"
+PUBLISH = "Which values can I publish?"
+NEXT = "What should I do next?"
 DESCRIBED = (
     "The model of the kinetics describes the tests: its misfit is within their noise (p = 0.4)."
 )
 MISSED = (
     "The model of the inverse modelling does not describe the tests: it misses 1 of 1 signal by "
     "more than noise does (p = 0.002). The rms misfit is at most 5 % of a signal's range. slab_25, "
-    "mass loss rate: simulated 0.3 g/(m² s) too low from 20 to 60 s. Its values are apparent "
-    "values of this model, and their intervals include the misfit. The step diagnose searches "
-    "the missing effect."
+    "mass loss rate: simulated 0.3 g/(m² s) too low from 20 to 60 s."
 )
 
 
-def test_summary_says_first_whether_the_model_describes_the_tests(tmp_path: Path) -> None:
+def test_first_screen_answers_three_questions_in_order(tmp_path: Path) -> None:
     _, text = written(tmp_path)
-    assert summary_of(text) == [
-        DESCRIBED,
-        MISSED.replace("'", "&#39;"),
-        "The data determine 2 of 3 parameters (95 % interval narrower than 20 % of the search "
-        "range); undetermined: cp (70.0 %, upper limit). Do not quote cp alone: other values fit "
-        "as well.",
-        "The model of the inverse modelling misses its tests, so expect errors of that size or "
-        "larger in a prediction. If you must predict, use all values of the best set of RMSE "
-        "(SCE-UA). Of 6 sets, this one "
-        "predicts the held-out experiments best: the mass loss rate with CV(RMSE) 0.250 and the "
-        "back temperature with RMSE 7.00 K (all sets: the mass loss rate with CV(RMSE) 0.250 to "
-        "5.25 and the back temperature with RMSE 7.00 to 12.0 K). The choice used these data, "
-        "so they do not validate it. Another optimiser finds a set with a lower RMSE.",
-        "With 2 parameters fitted to Slab 25 kW/m² by 2 cost functions, the best sets reproduce "
-        "the mass loss rate with CV(RMSE) 0.250 to 5.25.",
+    said = summary_of(text)
+    assert list(said) == [DESCRIBES, PUBLISH, NEXT]
+    assert said[DESCRIBES] == [DESCRIBED, MISSED.replace("'", "&#39;")]
+    assert said[PUBLISH] == [
+        "cp (upper) is at a limit: the best fit lies outside the limits. Such a value is the "
+        "limit&#39;s, and the others depend on it.",
+        "The data determine 2 of 3 parameters: T_p and k (95 % interval narrower than 20 % of the "
+        "search range). Publish them with their intervals. Undetermined: cp (70.0 %, upper limit). "
+        "Do not quote cp alone: other values fit as well.",
+        "Assumed, not estimated: h of the front 0 W/(m² K) (slab_25); an insulated back "
+        "(slab_25). The step sensitivity tells how much they matter.",
+    ]
+    assert said[NEXT] == [
+        "Widen the limits of cp if the material allows it; else look for the effect that the model "
+        "lacks.",
+        "Inverse modelling: the step diagnose searches the missing effect (pyrofit run STUDY "
+        "diagnose).",
+        "To predict, use all estimates together (pyrofit export fds STUDY writes them). The model "
+        "misses its tests: expect errors of that size or larger. At held-out tests the estimates "
+        "predict the mass loss rate with CV(RMSE) 0.450 and the back temperature with RMSE 7.20 K.",
     ]
 
 
-def test_summary_of_one_cost_and_nothing_held_out_recommends_by_the_fit(tmp_path: Path) -> None:
+def test_study_without_held_out_tests_says_that_predictions_are_untested(tmp_path: Path) -> None:
     given = described()
-    del given["imp"]["costs"]["BANDS"]
     given["validation"]["experiments"] = ["slab_25"]
     _, text = written(tmp_path, given)
-    said = summary_of(text)
-    assert len(said) == 5
-    # SCE-UA's set has chi-square 90 over 18.
-    assert said[3] == (
-        "The model of the inverse modelling misses its tests, so expect errors of that size or "
-        "larger in a prediction. If you must predict, use all values of the best set of RMSE "
-        "(SCE-UA). Of 3 sets, this one "
-        "fits best, each point weighed by its noise (chi-square per degree of freedom 5.00). No "
-        "experiment was held out, so the prediction of other experiments is untested. Another "
-        "optimiser finds a set with a lower RMSE."
+    assert summary_of(text)[NEXT][-1].endswith(
+        "No test was held out, so the prediction of other tests is untested."
     )
 
 
-def test_recommended_set_has_the_least_mean_logarithm_of_the_errors(tmp_path: Path) -> None:
-    study, results = fake(tmp_path)
+def facts_in(study: Study, results: Results) -> Facts:
     write_tables(study, results)
-    facts = facts_of(study, results, tables_of(study, results))
+    return facts_of(study, results, tables_of(study, results))
+
+
+def test_chi_square_near_one_beside_a_misfit_is_explained(tmp_path: Path) -> None:
+    study, results = fake(tmp_path)
+    facts = facts_in(study, results)
+    assert not any("Both are right" in text for text in told(study, facts))
+    # 19.8 over 18 degrees of freedom; p stays 0.002.
+    path = results.identification("noise.json")
+    write_json(path, {**read_json(path), "chi2": 19.8})
+    (text,) = (t for t in told(study, facts_in(study, results)) if "Both are right" in t)
+    assert text.startswith("Chi-square per point is 1.1 there, near the 1 of noise, and yet")
+
+
+def told(study: Study, facts: Facts) -> tuple[str, ...]:
+    """Return the answers to the first question."""
+    return summary(study, facts)[0].said
+
+
+def test_assumptions_are_told_with_their_part_in_the_signals(tmp_path: Path) -> None:
+    study, results = fake(tmp_path)
+    facts = facts_in(study, results)
+    influence = {"change of h at the front": 0.124, "initial temperature": 0.01}
+    said = summary(study, replace(facts, influence=influence))[1].said[-1]
+    assert said.endswith(
+        "Their largest parts in the variance of a signal: change of h at the front 12 %."
+    )
+    said = summary(study, replace(facts, influence={"initial temperature": 0.01}))[1].said[-1]
+    assert said.endswith("None makes more than 5 % of the variance of a signal.")
+
+
+def test_best_predicting_set_has_the_least_mean_logarithm_of_the_errors(tmp_path: Path) -> None:
+    facts = facts_in(*fake(tmp_path))
     by_set: dict[tuple[str, str], float] = {}
     for score in facts.scores:
-        if score.use == "held out" and score.found_by != "published":
+        if score.use == "held out" and score.found_by not in ("published", "estimates"):
             key = (score.cost_function, score.found_by)
             by_set[key] = by_set.get(key, 1.0) * score.value
-    chosen = recommended(facts.scores, facts.distances)
+    chosen = best_predicting(facts.scores)
+    assert chosen is not None
     assert (chosen.cost_function, chosen.found_by) == min(by_set, key=lambda one: by_set[one])
-    worse = [
-        replace(s, value=1e3 * s.value) if s in chosen.of(facts.scores) else s for s in facts.scores
-    ]
-    other = recommended(worse, facts.distances)
+    worse = [replace(s, value=1e3 * s.value) if s in chosen.scores else s for s in facts.scores]
+    other = best_predicting(worse)
+    assert other is not None
     assert (other.cost_function, other.found_by) != (chosen.cost_function, chosen.found_by)
 
 
@@ -184,47 +215,83 @@ def test_first_screen_has_a_figure_and_the_answer_and_other_tables_are_folded(
 ) -> None:
     _, text = written(tmp_path)
     top, rest = text.split('<section id="data">')
-    assert "BANDS (least squares)" in top
+    assert "The answer: values, 95 % intervals and verdicts" in top
+    assert "least squares" not in re.sub(r'<p class="note">.*?</p>', "", top)
     assert top.count("<figure ") == 1
-    assert "<details" not in top
-    outside = re.sub(
-        r"<details.*?</details>", "", rest.split('<section id="provenance">')[0], flags=re.S
-    )
     assert rest.count("<table") > 10
-    assert outside.count("<table") == 1  # the series
+    outside = unfolded(rest)
+    assert "<table" not in outside
     assert "<figure " in outside
+
+
+def unfolded(text: str) -> str:
+    """Return a page without what is folded; details may lie in details."""
+    kept, depth = [], 0
+    for piece in re.split(r"(<details[^>]*>|</details>)", text):
+        if piece.startswith("<details"):
+            depth += 1
+        elif piece == "</details>":
+            depth -= 1
+        elif depth == 0:
+            kept.append(piece)
+    return "".join(kept)
 
 
 def test_answer_by_hand(tmp_path: Path) -> None:
     table = made("answer", *fake(tmp_path)).set_index("parameter")
     k, cp = table.loc["k"], table.loc["cp"]
     assert k[["fit", "unit"]].tolist() == ["inverse modelling", "W/(m K)"]
-    assert k[["estimate", "low", "high"]].tolist() == [0.3, 0.28, 0.32]
+    assert k[["estimate", "low", "high", "verdict"]].tolist() == [0.3, 0.28, 0.32, "determined"]
+    # J become kJ.
+    assert cp["estimate"] == 3.5
+    assert cp["verdict"] == "at its upper limit; undetermined"
+    assert [column for column in table if "(" in column] == []
+
+
+def test_parameter_of_both_stages_has_the_value_of_the_last_one(tmp_path: Path) -> None:
+    given = described()
+    given["imp"]["estimate"] = ["k", "cp", "T_p"]
+    study = as_study(given, "fake.json")
+    _, results = fake(tmp_path)
+    (first,) = estimated_of(study, results, "kinetics")
+    again = replace(first, stage="imp", value=605.0)
+    assert one_each(study, [first, again]) == [again]
+
+
+def estimated_of(study: Study, results: Results, stage: str) -> list[Estimated]:
+    """Return the estimates of a stage of the fake study."""
+    alone = as_study(described(), "fake.json")
+    return [e for e in estimated(alone, identification.read(alone, results)) if e.stage == stage]
+
+
+def test_best_sets_by_hand(tmp_path: Path) -> None:
+    table = made("best_sets", *fake(tmp_path)).set_index("parameter")
     # Least squares has the lowest costs; k is at its upper limit of 0.5; J become kJ.
     ours = ["RMSE (least squares)", "BANDS (least squares)"]
-    # The recommended set is another one.
-    assert [column for column in table if "(" in column] == [*ours, "RMSE (SCE-UA)"]
-    assert k[ours].tolist() == [0.5, 0.5]
-    assert k["flags"] == "at a limit: RMSE, BANDS"
-    assert cp[["estimate", *ours]].tolist() == [3.5, 1.5, 1.5]
-    assert cp["flags"] == "undetermined by the data; estimate at its upper limit"
-    assert table.loc["T_p", ours].isna().all()
-    assert pd.isna(table.loc["T_p", "flags"])
+    assert [column for column in table if "(" in column] == ours
+    assert table.loc["k", ours].tolist() == [0.5, 0.5]
+    assert table.loc["cp", ours].tolist() == [1.5, 1.5]
+    assert table["at_limit"].fillna("").to_dict() == {"k": "RMSE, BANDS", "cp": ""}
+    # 0.28 to 0.32, and 1.4 to 3.5.
+    assert table["outside"].fillna("").to_dict() == {"k": "RMSE, BANDS", "cp": ""}
 
 
-def test_advice_warns_of_a_set_that_predicts_worse_than_it_fits(tmp_path: Path) -> None:
+def test_advice_warns_of_estimates_that_predict_worse_than_they_fit(tmp_path: Path) -> None:
     study, results = fake(tmp_path)
     scores = read_csv(results.validation("scores.csv"))
     scores.loc[scores["experiment"] == "slab_60", "cv_rmse"] *= 2.1
     write_csv(results.validation("scores.csv"), scores)
-    write_tables(study, results)
-    said = "twice that of the fitted data (the mass loss rate with CV(RMSE) 0.250): find first"
-    assert said in advice(study, facts_of(study, results, tables_of(study, results)))
+    said = "twice the error of the fitted data (the mass loss rate with CV(RMSE) 0.450): find first"
+    assert said in advice(study, facts_in(study, results))
+
+
+def test_limits_come_first_among_the_values(tmp_path: Path) -> None:
+    study, results = fake(tmp_path)
     path = results.identification("estimate.csv")
     bound = read_csv(path).assign(verdict="at its upper limit", bound="upper")
     write_csv(path, bound)
-    said = " k and cp are at a limit: the best fit lies outside the limits."
-    assert summary(study, facts_of(study, results, tables_of(study, results)))[2].endswith(said)
+    said = summary(study, facts_in(study, results))[1].said
+    assert said[0].startswith("k (upper) and cp (upper) are at a limit: the best fit lies outside")
 
 
 def test_sections_say_the_numbers(tmp_path: Path) -> None:
@@ -234,16 +301,19 @@ def test_sections_say_the_numbers(tmp_path: Path) -> None:
         "out: slab_60.",
         "fitted to 1 of 2 heating rates, miss the mass fraction there by 0.0200 (RMSE), "
         "and by 0.0100 at the others.",
-        "The published set 'book' misses it by 1.01 to 1.02 at all rates.",
+        "The published set 'book' misses it by 2.01 to 2.02 at all rates.",
         "0.1 for RMSE (published 0.1) and 0.1 for BANDS.",
         "RMSE by 20 %, 1 of 2 starts of least squares agree (k at a limit); BANDS by 20 %, 1 of "
         "2 starts of least squares agree (k at a limit). SCE-UA stopped at a local optimum for "
         "RMSE. SCE-UA had not converged for BANDS: least squares from its "
         "best set finds a lower cost.",
         "at a limit: k (RMSE, BANDS); scattered (spread above 20 % of the search range): cp",
-        "with CV(RMSE) 0.250 to 1.25 (fitted data: CV(RMSE) 0.250 to 1.25), those of least "
-        "squares with CV(RMSE) 2.25 to 3.25, those of CMA-ES with CV(RMSE) 4.25 to 5.25.",
-        "sets predict the back temperature of slab_60 with RMSE 7.00 to 8.00 K",
+        "with CV(RMSE) 0.450 (fitted data: CV(RMSE) 0.450).",
+        "The estimates predict the back temperature of slab_60 with RMSE 7.20 K.",
+        "The best set of RMSE (least squares) lies outside the interval of k (0.5 against 0.28 to "
+        "0.32 W/(m K)). This tells about the cost function; it is no second answer.",
+        "Of 6 sets of searches, that of RMSE (SCE-UA) predicts the held-out tests best: the mass "
+        "loss rate with CV(RMSE) 0.250 and the back temperature with RMSE 7.00 K.",
         "By the data (width of the 95 % interval, % of the search range): of the kinetics "
         "determined T_p (10.0 %); of the inverse modelling determined k (10.0 %), undetermined cp "
         "(70.0 %, upper limit).",
@@ -355,13 +425,11 @@ def test_scores_under_other_costs_are_shown_once_they_are_there(tmp_path: Path) 
 def test_ensemble_is_recommended_once_it_is_there_and_has_converged(tmp_path: Path) -> None:
     study, results = fake(tmp_path)
     write_tables(study, results)
-    one = "use all values of the best set of RMSE (SCE-UA). Of 6 sets"
-    otherwise = f"If you must predict, {one}"
-    for converged, words in ((True, "ensemble of 100 sets"), (False, otherwise)):
+    for converged, words in ((True, "ensemble of 100 sets"), (False, "use all estimates together")):
         write_posterior(study, results, converged)
         said = advice(study, facts_of(study, results, tables_of(study, results)))
         assert words in said
-        assert one in said
+        assert "the estimates predict the mass loss rate" in said
         assert ("ensemble" in said) == converged
 
 
@@ -467,13 +535,3 @@ def test_missing_figure_is_named(tmp_path: Path) -> None:
     write_tables(study, results)
     with pytest.raises(DataError, match=r"overview\.svg: cannot be read"):
         write_report(study, results)
-
-
-def test_advice_says_where_the_set_that_predicts_best_fits_clearly_worse(tmp_path: Path) -> None:
-    study, results = fake(tmp_path)
-    write_tables(study, results)
-    facts = facts_of(study, results, tables_of(study, results))
-    assert "fits worse" not in advice(study, facts)
-    better = replace(facts.distances[-1], set="CMA-ES best", chi2_per_freedom=0.5)
-    facts = replace(facts, distances=[*facts.distances, better])
-    assert "(chi-square per degree of freedom 5.00 against 0.500)" in advice(study, facts)

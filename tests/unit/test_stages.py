@@ -14,10 +14,10 @@ from pyrofit.config import Study, as_study, digest
 from pyrofit.errors import DataError, StudyError
 from pyrofit.estimate.coarse import OF_MISFIT
 from pyrofit.estimate.least_squares import Start
-from pyrofit.results import dependencies
+from pyrofit.results import dependencies, kinetics
 from pyrofit.results.files import Results, read_csv, read_json, write_csv, write_json
 from pyrofit.running import shares
-from pyrofit.stages import fit, measurements, predict, unfinished
+from pyrofit.stages import fit, identify, measurements, predict, unfinished
 from pyrofit.stages.unfinished import Unfinished
 
 CONFIG = Path(__file__).parents[2] / "config"
@@ -54,8 +54,10 @@ def results(tmp_path_factory: pytest.TempPathFactory) -> Results:
     study = study_with()
     measurements.prepare(study, results)
     fit.fit_kinetics(study, results)
+    identify.identify_kinetics(study, results)
     by_hand(study, results)
     fit.collect(study, results)
+    estimated_by_hand(results, parameters("RMSE", 9))
     predict.predict(study, results)
     return results
 
@@ -102,6 +104,15 @@ def by_hand(study: Study, results: Results) -> None:
         write_json(
             results.starts(cost, "cmaes"), {"cost_function": cost, "seed": 1, "starts": [end]}
         )
+
+
+def estimated_by_hand(results: Results, values: dict[str, float], stage: str = "imp") -> None:
+    """Write estimates as the step identify does, without its analysis."""
+    numbers = ("sd", "low", "high", "width", "noise_low", "noise_high", "noise_width")
+    words = ("bound", "low_open", "high_open", "method", "verdict")
+    row = {**dict.fromkeys(numbers, 0.1), **dict.fromkeys(words, "")}
+    rows = [{"parameter": name, "estimate": value, **row} for name, value in values.items()]
+    write_csv(results.identification("estimate.csv", stage), pd.DataFrame(rows))
 
 
 # --- prepare --------------------------------------------------------------------------------
@@ -341,11 +352,9 @@ def test_fit_is_the_better_of_both_optimisers(
 def test_fitted_rate_has_the_reference_value_at_the_reference_temperature(
     results: Results,
 ) -> None:
-    found = read_json(results.kinetics("fit.json"))
-    reaction = found["sets"]["fitted"]["pyrolysis"]
-    rate = reaction["A_1_s"] * np.exp(
-        -reaction["E_J_mol"] / 8.314462618 / found["parameters"]["T_p"]
-    )
+    reaction = read_json(results.kinetics("sets.json"))["fitted"]["pyrolysis"]
+    temperature = kinetics.parameters(study_with(), results)["T_p"]
+    rate = reaction["A_1_s"] * np.exp(-reaction["E_J_mol"] / 8.314462618 / temperature)
     assert rate == pytest.approx(0.001, rel=1e-6)
     assert reaction["mass_fraction"] == 1.0
 
@@ -362,7 +371,9 @@ def test_kinetics_are_scored_where_used_or_compared(tmp_path: Path) -> None:
     measurements.prepare(study, results)
     for compare, names in ((), {"tga_5K"}), (("tga_20K",), {"tga_5K", "tga_20K"}):
         stage = alone.model_copy(update={"compare": compare})
-        fit.fit_kinetics(study.model_copy(update={"kinetics": stage}), results)
+        changed = study.model_copy(update={"kinetics": stage})
+        fit.fit_kinetics(changed, results)
+        identify.identify_kinetics(changed, results)
         scores = read_csv(results.kinetics("scores.csv"))
         assert set(scores["experiment"]) == names
         assert set(scores["set"]) == {"fitted", "Table 3"}
@@ -379,9 +390,11 @@ def test_study_without_kinetics_refuses_the_fit(tmp_path: Path) -> None:
         fit.fit_kinetics(as_study(described, "smoke.yaml"), Results(tmp_path))
 
 
-def test_inverse_modelling_takes_the_fitted_kinetics(results: Results) -> None:
+def test_inverse_modelling_takes_the_estimates_of_the_kinetics(results: Results) -> None:
     study = study_with()
-    fitted = read_json(results.kinetics("fit.json"))["parameters"]
+    frame = read_csv(results.identification("estimate.csv", "kinetics"))
+    fitted = dict(zip(frame["parameter"], frame["estimate"], strict=True))
+    assert fitted != read_json(results.kinetics("fit.json"))["parameters"]
     assert fit.fixed_for_imp(study, results) == fitted
     problem = fit.imp_problem(study, results, "RMSE")
     assert problem.fixed == fitted
@@ -397,7 +410,7 @@ def test_repetition_writes_its_best_history_and_convergence(
     study = study_with()
     own = Results(tmp_path)
     measurements.prepare(study, own)
-    write_json(own.kinetics("fit.json"), read_json(results.kinetics("fit.json")))
+    estimated_by_hand(own, kinetics.parameters(study, results), "kinetics")
     fit.repeat(study, own, "RMSE", [0, 1])
     found = read_json(own.repetition("RMSE", 1, ".json"))
     history = read_csv(own.repetition("RMSE", 1, ".csv.gz"))
@@ -421,7 +434,7 @@ def files_of(results: Results) -> dict[str, bytes]:
 
 def posed(results: Results, root: Path) -> Results:
     """Return a folder with measurements and kinetics alone."""
-    for name in ("measurements", "kinetics"):
+    for name in ("measurements", "kinetics", "identification"):
         shutil.copytree(results.root / name, root / name)
     return Results(root)
 
@@ -466,7 +479,7 @@ def test_finished_repetitions_of_what_has_changed_since_are_not_taken(
     elif changed == "source":
         monkeypatch.setattr(unfinished, "source_fingerprint", lambda *modules: "another")
     else:
-        path = own.kinetics("fit.json")
+        path = own.identification("estimate.csv", "kinetics")
         if changed == "measurement":
             path = own.measurement("slab_25", "mlr")
         path.write_bytes(path.read_bytes() + b" ")
@@ -519,10 +532,12 @@ def test_sets_to_predict_are_the_best_of_every_optimiser_and_published(results: 
     study = study_with(published={"source": "x", "costs": published})
     sets = predict.sets_of(study, results)
     assert set(sets) == {
+        "estimates",
         *SETS,
         *(f"{cost} {who}" for cost in SETS for who in ("least squares", "CMA-ES")),
         "RMSE published",  # that of RANGE lacks a parameter
     }
+    assert sets["estimates"] == parameters("RMSE", 9)
     assert sets["RANGE least squares"] == parameters("RANGE", 5)
     assert sets["RANGE CMA-ES"] == parameters("RANGE", 7)
     assert sets["RMSE published"] == {"rho": 1200, "k": 0.2, "cp": 2000, "eps": 0.9, "dh": 700e3}
@@ -548,7 +563,7 @@ def test_predicted_curves_stand_beside_the_measured_ones(results: Results) -> No
 
 def test_scores_are_those_of_the_curves(results: Results) -> None:
     scores = read_csv(results.validation("scores.csv"))
-    assert len(scores) == 2 * 2 * 9
+    assert len(scores) == 2 * 2 * 10
     curves = read_csv(results.validation("curves.csv")).groupby(["experiment", "signal", "set"])
     for row in scores.itertuples():
         curve = curves.get_group((row.experiment, row.signal, row.set))
@@ -564,7 +579,7 @@ def test_scores_are_those_of_the_curves(results: Results) -> None:
 
 def test_set_that_cannot_be_predicted_is_told(results: Results) -> None:
     study = study_with(accuracy={"cells": 10, "most_steps": 100, "tolerance": 1e-6})
-    with pytest.raises(DataError, match=r"slab_25: the best set of RMSE cannot be predicted: "):
+    with pytest.raises(DataError, match=r"slab_25: the set 'estimates' cannot be predicted: "):
         predict.predict(study, results)
 
 

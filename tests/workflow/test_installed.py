@@ -2,6 +2,7 @@
 
 import json
 import os
+import re
 import subprocess
 import sys
 import sysconfig
@@ -119,12 +120,32 @@ def installed(wheel: Path, tmp_path_factory: pytest.TempPathFactory) -> Installe
     return Installed(environment / "bin", folder)
 
 
+MOST_WORDS = 1600
+"""Words of the report of smoke that a reader sees before opening anything."""
+
+
+def visible_words(page: str) -> int:
+    """Count the words of a page outside of what is folded, the lines to open it included."""
+    text = re.sub(r"<(style|script)>.*?</\1>", "", page, flags=re.S)
+    kept, depth = [], 0
+    for piece in re.split(r"(<details[^>]*>|</details>)", text):
+        depth += piece.startswith("<details") - (piece == "</details>")
+        summary = re.match(r"\s*<summary>.*?</summary>", piece, re.S)
+        if depth == 0:
+            kept.append(piece)
+        elif depth == 1 and summary:
+            kept.append(summary[0])
+    return len(re.sub(r"<[^>]*>", " ", "".join(kept)).split())
+
+
 def test_smoke_runs_in_an_empty_folder(installed: Installed) -> None:
     given = installed.folder / "smoke.yaml"
     given.write_bytes((ROOT / "config" / "smoke.yaml").read_bytes())
     said = installed.pyrofit("run", "smoke.yaml")
     results = installed.folder / "results" / "smoke"
     assert "results/smoke/report.html" in said
+    page = (results / "report.html").read_text(encoding="utf-8")
+    assert visible_words(page) < MOST_WORDS
     assert (results / "report.html").is_file()
     known = json.loads((GOLDEN / "smoke.json").read_text(encoding="utf-8"))
     found = checksums(results)

@@ -17,7 +17,7 @@ COLLECT = "All repetitions gathered"
 IDENTIFY = "What the data determine of the inverse modelling"
 IDENTIFY_KINETICS = "What the data determine of the kinetics"
 ENERGIES = "Activation energy over conversion"
-PREDICT = "Best sets simulated at slab_60 slab_80"
+PREDICT = "Estimates and best sets simulated at slab_60 slab_80"
 SQUARES = {f"Multistart least squares, {cost}" for cost in COSTS}
 CMA_ES = {f"CMA-ES, {cost}" for cost in COSTS}
 COMPARE = "All sets of all optimisers under all costs"
@@ -60,7 +60,7 @@ def test_figures_of_the_kinetics_do_not_wait_for_the_searches(project: Project) 
     names = [f"results/tiny/figures/{path.name}" for path in figures]
     assert names
     planned = project.plan("--forceall", *names)
-    assert planned == {PREPARE, KINETICS, "Tables and figures, kinetics"}
+    assert planned == {PREPARE, KINETICS, IDENTIFY_KINETICS, "Tables and figures, kinetics"}
 
 
 def test_run_leaves_report_provenance_logs_and_nothing_unfinished(project: Project) -> None:
@@ -111,7 +111,7 @@ CHANGES: dict[str, tuple[str, object, set[str]]] = {
     "experiments to predict": (
         "validation.experiments",
         ["slab_80", "slab_60"],
-        {"Best sets simulated at slab_80 slab_60", COMPARE},
+        {"Estimates and best sets simulated at slab_80 slab_60", COMPARE},
     ),
 }
 
@@ -179,7 +179,7 @@ def test_edited_source_runs_again_what_it_computes(project: Project) -> None:
 
 
 def test_edited_figure_computes_nothing_again(project: Project) -> None:
-    source = project.root / "src" / "pyrofit" / "show" / "fit" / "fig3.py"
+    source = project.root / "src" / "pyrofit" / "show" / "validation" / "fig3.py"
     before = source.read_text()
     source.write_text(before + "EDITED = True\n")
     try:
@@ -187,7 +187,7 @@ def test_edited_figure_computes_nothing_again(project: Project) -> None:
     finally:
         source.write_text(before)
     # The files of one subject are made anew together.
-    assert planned == {"Tables and figures, fit", "Report: results/tiny/report.html"}
+    assert planned == {"Tables and figures, validation", "Report: results/tiny/report.html"}
 
 
 def test_edited_diagnosis_runs_no_step_of_the_fits_again(project: Project) -> None:

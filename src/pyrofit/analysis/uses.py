@@ -17,6 +17,14 @@ STARTED = tuple(optimiser.words for optimiser in OPTIMISERS.values())
 PUBLISHED = "published"
 
 
+ESTIMATES = "estimates"
+"""Label of the answer among sets of parameters."""
+
+
+LIKELIHOOD = "likelihood"
+"""The function that the estimates maximise, where sets name their cost function."""
+
+
 FITTED = "fitted"
 
 
@@ -76,7 +84,8 @@ def rate_metrics(study: Study) -> list[str]:
 
 def predicted_sets(study: Study) -> list[PredictedSet]:
     """Return the sets that the validation simulates, in its order and under its labels."""
-    sets = [PredictedSet(cost, cost, SCEUA) for cost in study.imp.costs]
+    sets = [PredictedSet(ESTIMATES, LIKELIHOOD, ESTIMATES)]
+    sets += [PredictedSet(cost, cost, SCEUA) for cost in study.imp.costs]
     sets += [PredictedSet(f"{c} {by}", c, by) for by in STARTED for c in study.imp.costs]
     if study.published is not None:
         sets += [
@@ -93,10 +102,13 @@ def predicted_labels(study: Study) -> list[str]:
 
 
 def use_of(study: Study, cost: str, experiment: str, signal: str) -> str:
-    """Say whether a cost's sets were fitted to a signal, or predict it."""
-    if cost not in study.imp.costs:
+    """Say whether the sets of a cost, or the estimates, were fitted to a signal, or predict it."""
+    if cost in study.imp.costs:
+        pairs = fitted_by(study, cost)
+    elif cost == LIKELIHOOD:
+        pairs = {(channel.experiment, channel.signal) for channel in study.imp.channels}
+    else:
         return UNKNOWN
-    pairs = fitted_by(study, cost)
     if (experiment, signal) in pairs:
         return FITTED
     return HELD_OUT_SIGNAL if experiment in {name for name, _ in pairs} else HELD_OUT

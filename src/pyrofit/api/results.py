@@ -6,6 +6,7 @@ from typing import Any
 
 import pandas as pd
 
+from pyrofit.analysis.answer import answer_values
 from pyrofit.api.choices import Signals, in_units
 from pyrofit.api.comparison import Comparison, compare
 from pyrofit.api.curves import MEASURED, Curves, with_units
@@ -60,6 +61,20 @@ class Campaign:
         }
         return Curves(study, units, MEASURED)
 
+    @property
+    def estimates(self) -> pd.DataFrame:
+        """The answer: value, 95 % interval and verdict of each parameter, in its unit."""
+        return self["answer"].set_index("parameter")
+
+    @property
+    def values(self) -> dict[str, float]:
+        """The values of the answer with all given ones, in the units of the study.
+
+        `pyrofit.simulate` takes them, with ``kinetics=study.imp.kinetics``.
+        """
+        study = self.study
+        return in_units(study, answer_values(study, self._results))
+
     def best(self, cost: str) -> dict[str, float]:
         """Return the best set that SCE-UA found for a cost, in the units of the study.
 
@@ -72,14 +87,13 @@ class Campaign:
             raise StudyError(f"study '{study.name}' has no cost '{cost}'. {suggest(cost, sets)}")
         return in_units(study, {**fixed_for_imp(study, self._results), **sets[cost]})
 
-    def predict(self, cost: str, signals: Signals | None = None) -> Comparison:
-        """Compare the best set of a cost with the data, by default all of the validation."""
+    def predict(self, cost: str = "", signals: Signals | None = None) -> Comparison:
+        """Compare the answer, or the best set of a cost, with the data of the validation."""
         study, chosen = self.study, signals
+        values = self.best(cost) if cost else self.values
         if chosen is None:
             chosen = study.validation.experiments
-        return compare(
-            study, self.best(cost), signals=chosen, data=self.data, kinetics=study.imp.kinetics
-        )
+        return compare(study, values, signals=chosen, data=self.data, kinetics=study.imp.kinetics)
 
     @property
     def diagnosis(self) -> dict[str, Any]:

@@ -5,8 +5,10 @@ from collections.abc import Mapping
 from pathlib import Path
 from typing import Any, NamedTuple
 
+from pyrofit.analysis.answer import answer_values, one_each
 from pyrofit.analysis.best_sets import published_sets
 from pyrofit.analysis.estimates import Estimated, estimated
+from pyrofit.analysis.uses import ESTIMATES, PUBLISHED
 from pyrofit.config import Study, diagnosed_material, parameters_in
 from pyrofit.errors import DataError, StudyError, suggest
 from pyrofit.estimate.optimisers import OPTIMISERS
@@ -16,7 +18,7 @@ from pyrofit.results.files import Results, read_json
 from pyrofit.stages.fit import fixed_for_imp
 from pyrofit.stages.predict import sets_of
 
-ESTIMATES, DIAGNOSIS, TRUTH, PUBLISHED = "estimates", "diagnosis", "truth", "published"
+DIAGNOSIS, TRUTH = "diagnosis", "truth"
 
 
 class ParameterSet(NamedTuple):
@@ -106,9 +108,8 @@ def _usual(study: Study, results: Results, beside: Path) -> str:
 
 
 def _estimates(study: Study, results: Results) -> ParameterSet:
-    """Return the estimates of the inverse modelling, with the kinetics that belong to them."""
-    found = identification.estimates(study, results)["estimate"].to_dict()
-    values = fixed_for_imp(study, results) | {str(n): float(v) for n, v in found.items()}
+    """Return the answer of the study."""
+    values = answer_values(study, results)
     return ParameterSet(ESTIMATES, _fitted(study), values, _notes(study, results, values))
 
 
@@ -129,7 +130,11 @@ def _notes(study: Study, results: Results, values: Mapping[str, float]) -> dict[
         found = estimated(study, identification.read(study, results))
     except DataError:
         return {}  # the analysis has not run
-    return {e.name: _note(e, values[e.name] / study.parameters[e.name].factor) for e in found}
+    return {
+        e.name: _note(e, values[e.name] / study.parameters[e.name].factor)
+        for e in one_each(study, found)
+        if e.name in values
+    }
 
 
 def _note(found: Estimated, value: float) -> str:

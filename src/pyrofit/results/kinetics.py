@@ -6,16 +6,38 @@ from typing import Any
 import pandas as pd
 
 from pyrofit.config import Study
+from pyrofit.results import identification
 from pyrofit.results.files import Results, read_csv, read_json
 from pyrofit.results.needed import EACH, Keys
 from pyrofit.solver.outputs import MASS_FRACTION
 
 FITTED = "fitted"
+"""Set of the estimates: the optimum of the likelihood."""
+LOWEST = "lowest cost"
+"""Set of the lowest cost that a search found, which studies with published values show as well."""
 _SETS_OF_KINETICS = ("A_1_s", "E_J_mol", "order", MASS_FRACTION)
 
 
 def parameters(study: Study, results: Results) -> dict[str, float]:
-    """Return the parameters fitted to TGA, SI units."""
+    """Return the estimates of the kinetics, SI units: the optimum of their likelihood."""
+    found = identification.estimates(study, results, "kinetics")["estimate"]
+    return {str(name): float(value) for name, value in found.items()}
+
+
+def given_to_imp(study: Study, results: Results) -> dict[str, float]:
+    """Return the values of all parameters that the inverse modelling does not estimate, SI units.
+
+    Raises
+    ------
+    DataError
+        The kinetics are fitted, and their estimates are missing or broken.
+    """
+    fitted = parameters(study, results) if study.imp.kinetics == FITTED else {}
+    return {**study.fixed_values(), **fitted}
+
+
+def searched(study: Study, results: Results) -> dict[str, float]:
+    """Return the set of the lowest cost that a search of the kinetics found, SI units."""
     names = study.kinetics.estimate if study.kinetics else ()
     found = read_json(results.kinetics("fit.json"), {("parameters", n): float for n in names})
     values: dict[str, float] = found["parameters"]
@@ -23,7 +45,7 @@ def parameters(study: Study, results: Results) -> dict[str, float]:
 
 
 def ends(study: Study, results: Results) -> list[dict[str, float]]:
-    """Return the fit to TGA and the ends of least squares beside it, SI units."""
+    """Return the set of the lowest cost and the ends of least squares beside it, SI units."""
     names = study.kinetics.estimate if study.kinetics else ()
     needs: dict[Keys, type] = {("parameters", name): float for name in names}
     needs |= {("least_squares", EACH, "parameters", name): float for name in names}
@@ -32,12 +54,20 @@ def ends(study: Study, results: Results) -> list[dict[str, float]]:
 
 
 def sets(study: Study, results: Results) -> dict[str, Any]:
-    """Return the fit to TGA: ``cost``, and A, E, n and mass fraction by set and reaction."""
-    needs: dict[Keys, type] = {("cost",): float}
-    for label in _labels(study):
-        for reaction in study.material.reactions:
-            needs |= {("sets", label, reaction, key): float for key in _SETS_OF_KINETICS}
-    return read_json(results.kinetics("fit.json"), needs)
+    """Return A, E, n and mass fraction by set and reaction."""
+    needs: dict[Keys, type] = {
+        (label, reaction, key): float
+        for label in labels(study)
+        for reaction in study.material.reactions
+        for key in _SETS_OF_KINETICS
+    }
+    return read_json(results.kinetics("sets.json"), needs)
+
+
+def lowest_cost(results: Results) -> float:
+    """Return the lowest cost that a search found."""
+    found: float = read_json(results.kinetics("fit.json"), {("cost",): float})["cost"]
+    return found
 
 
 def curves(study: Study, results: Results, experiments: Sequence[str]) -> pd.DataFrame:
@@ -45,11 +75,7 @@ def curves(study: Study, results: Results, experiments: Sequence[str]) -> pd.Dat
     return read_csv(
         results.kinetics("curves.csv"),
         {"temperature_K": float, MASS_FRACTION: float, "experiment": object, "set": object},
-        {
-            ("experiment", "set"): [
-                (name, label) for name in experiments for label in _labels(study)
-            ]
-        },
+        {("experiment", "set"): [(name, label) for name in experiments for label in labels(study)]},
     )
 
 
@@ -58,11 +84,7 @@ def scores(study: Study, results: Results, experiments: Sequence[str]) -> pd.Dat
     return read_csv(
         results.kinetics("scores.csv"),
         {"rmse_mass_fraction": float, "experiment": object, "set": object},
-        {
-            ("experiment", "set"): [
-                (name, label) for name in experiments for label in _labels(study)
-            ]
-        },
+        {("experiment", "set"): [(name, label) for name in experiments for label in labels(study)]},
     )
 
 
@@ -81,7 +103,7 @@ def _of_heats(
     study: Study, results: Results, file: str, columns: Mapping[str, type]
 ) -> pd.DataFrame:
     keys = "experiment", "signal", "set"
-    rows = [(*pair, label) for pair in heats_shown(study) for label in _labels(study)]
+    rows = [(*pair, label) for pair in heats_shown(study) for label in labels(study)]
     return read_csv(
         results.kinetics(file), {**columns, **dict.fromkeys(keys, object)}, {keys: rows}
     )
@@ -112,5 +134,7 @@ def _shown(study: Study) -> Iterator[tuple[str, str, bool]]:
                 yield name, signal, experiment.quantity(signal).curve == MASS_FRACTION
 
 
-def _labels(study: Study) -> list[str]:
-    return [FITTED, *(study.kinetics.sets if study.kinetics else ())]
+def labels(study: Study) -> list[str]:
+    """Return the labels of the sets: ours and those of the literature."""
+    lowest = [LOWEST] if study.published else []
+    return [FITTED, *lowest, *(study.kinetics.sets if study.kinetics else ())]

@@ -7,7 +7,9 @@ from typing import Any
 import pandas as pd
 
 from pyrofit.analysis.uses import (
+    ESTIMATES,
     PUBLISHED,
+    SCEUA,
     STARTED,
     PredictedSet,
     predicted_sets,
@@ -31,11 +33,14 @@ Pair = tuple[str, str]
 
 
 def compare_curves(
-    study: Study, results: Results, pairs: Sequence[Pair], origins: tuple[str, ...]
+    study: Study, results: Results, pairs: Sequence[Pair], sets: Sequence[PredictedSet] = ()
 ) -> Canvas:
-    """Draw measured and predicted curves, one panel per signal; repeats of a test share one."""
+    """Draw data and sets, one panel per signal; repeats of a test share one.
+
+    Without ``sets`` these are the estimates, and what stands beside them in the paper.
+    """
     curves = predicted_curves(study, results)
-    shown_sets = [s for s in predicted_sets(study) if s.origin in origins]
+    shown_sets = sets or sets_beside_data(study)
     groups = tests_of(study, pairs)
     canvas, axes = panels_of(study, [group[0] for group in groups])
     style.letter(axes, [_title(study, group) for group in groups])
@@ -53,6 +58,12 @@ def compare_curves(
     entries = measured_entries(study, results, pairs, with_line=True)
     style.legend_below(canvas, [*entries, *set_entries(study, shown_sets)])
     return canvas
+
+
+def sets_beside_data(study: Study) -> list[PredictedSet]:
+    """Return the sets that stand beside the data: estimates; with published sets also SCE-UA's."""
+    origins = (ESTIMATES, SCEUA, PUBLISHED) if study.published else (ESTIMATES,)
+    return [s for s in predicted_sets(study) if s.origin in origins]
 
 
 def tests_of(study: Study, pairs: Sequence[Pair]) -> list[list[Pair]]:
@@ -88,6 +99,9 @@ def label_of(study: Study, name: str, signal: str) -> str:
 
 
 _MEASURED: Look = {"color": style.MEASURED, "linewidth": 0.7}
+
+
+_ESTIMATES: Look = {"color": style.ESTIMATES, "linewidth": 1.3}
 
 
 _THEIRS: Look = {"color": style.PUBLISHED, "linewidth": 0.6, "markersize": 3.2}
@@ -147,6 +161,8 @@ def draw_band(ax: Axes, frame: pd.DataFrame, quantity: Quantity, about_zero: boo
 
 def look_of(study: Study, chosen: PredictedSet) -> Look:
     """Return the line style of a set."""
+    if chosen.origin == ESTIMATES:
+        return dict(_ESTIMATES)
     look = dict(style.cost_styles(study)[chosen.cost])
     if chosen.origin == PUBLISHED:
         return {**_THEIRS, **_marks(study, chosen.cost)}
@@ -184,4 +200,8 @@ def set_entries(study: Study, shown: Sequence[PredictedSet]) -> list[Line2D | Pa
     """Return the legend entries of the sets, those of one cost together."""
     order = [s.cost for s in shown]
     together = sorted(shown, key=lambda s: order.index(s.cost))
-    return [style.line(f"{s.cost} {s.origin}", **look_of(study, s)) for s in together]
+    return [style.line(_name(s), **look_of(study, s)) for s in together]
+
+
+def _name(chosen: PredictedSet) -> str:
+    return ESTIMATES if chosen.origin == ESTIMATES else f"{chosen.cost} {chosen.origin}"

@@ -21,7 +21,7 @@ from pyrofit.show.diagnosis.words import Found
 from pyrofit.show.figure import Figure, draw_figure
 from pyrofit.show.measured import use_in_diagnosis
 from pyrofit.show.page import page_of
-from pyrofit.show.parts import Part, Picture, Shown, picture, table_part
+from pyrofit.show.parts import Part, Picture, Question, Shown, picture, table_part
 from pyrofit.show.step_page import sections_of
 from pyrofit.show.table import Table, write_table
 
@@ -48,8 +48,9 @@ def write_page(study: Study, results: Results) -> None:
     shown = section(study, results, found)
     title = f"{study.title or study.name}: diagnosis"
     measured = recorded.measured(study, results)
+    said = [Question("", tuple(facts(found)))]
     parts = [shown, *sections_of("diagnosis", study, results)]
-    text = page_of(study, measured, title, facts(found), parts, use=use_in_diagnosis)
+    text = page_of(study, measured, title, said, parts, use=use_in_diagnosis)
     write_text(results.diagnosis("report.html"), text)
 
 

@@ -5,6 +5,8 @@ from dataclasses import dataclass
 
 import pandas as pd
 
+from pyrofit.analysis.answer import Outside, outside_intervals
+from pyrofit.analysis.assumptions import assumptions
 from pyrofit.analysis.best_sets import best_sets
 from pyrofit.analysis.distances import Distance, distances
 from pyrofit.analysis.estimates import Estimated, estimated
@@ -16,7 +18,14 @@ from pyrofit.analysis.uses import predicted_labels
 from pyrofit.analysis.wall_times import wall_times
 from pyrofit.config import Study
 from pyrofit.estimate.optimisers import OPTIMISERS
-from pyrofit.results import identification, isoconversional, posterior, prediction, searches
+from pyrofit.results import (
+    identification,
+    isoconversional,
+    posterior,
+    prediction,
+    searches,
+    sensitivity,
+)
 from pyrofit.results.files import Results
 from pyrofit.results.goodness import Goodness
 from pyrofit.show.table import Frames
@@ -36,8 +45,14 @@ class Facts:
         Pairs of strongly correlated estimates.
     goodness
         Whether the models describe their tests, by stage.
-    best
-        The set of the lowest cost of each cost function, SI units.
+    chi2_per_point
+        Chi-square per degree of freedom of the estimates, by stage.
+    outside
+        The best set of each cost function, with its values outside the intervals.
+    assumptions
+        Surroundings that the study takes as given, with their tests.
+    influence
+        Largest part of each in the variance of a signal; none where that was not analysed.
     distances
         How far the optimisers' sets are from the optimum of the likelihood.
     repeated
@@ -57,7 +72,10 @@ class Facts:
     known: list[Known]
     trade_offs: list[TradeOff]
     goodness: Mapping[str, Goodness]
-    best: pd.DataFrame
+    chi2_per_point: Mapping[str, float]
+    outside: list[Outside]
+    assumptions: Mapping[str, list[str]]
+    influence: Mapping[str, float] | None
     distances: list[Distance]
     repeated: list[Repeated]
     scores: list[Score]
@@ -86,7 +104,10 @@ def facts_of(study: Study, results: Results, tables: Frames) -> Facts:
         known=known_values(study, estimates),
         trade_offs=trade_offs(study, identified),
         goodness=identified.goodness,
-        best=best_sets(study, searched),
+        chi2_per_point={s: n["chi2"] / n["freedom"] for s, n in identified.noise.items()},
+        outside=outside_intervals(study, estimates, best_sets(study, searched)),
+        assumptions=assumptions(study),
+        influence=_influence(study, results),
         distances=distances(study, identified),
         repeated=repeated(study, searched.repetitions),
         scores=scores(study, predicted),
@@ -94,6 +115,19 @@ def facts_of(study: Study, results: Results, tables: Frames) -> Facts:
         isoconversional=isoconversional.findings(results),
         ensemble=_ensemble(study, results),
     )
+
+
+def _influence(study: Study, results: Results) -> dict[str, float] | None:
+    """Return the largest part of each kind of surroundings in the variance of a signal."""
+    if not sensitivity.exists(results):
+        return None
+    found = sensitivity.read(study, results)
+    parts: dict[str, float] = {}
+    for one in found.inputs:
+        if one.kind == "apparatus":
+            most = max(signal.total[one.name] for signal in found.signals)
+            parts[one.label] = max(most, parts.get(one.label, 0.0))
+    return parts
 
 
 def _ensemble(study: Study, results: Results) -> int:

@@ -21,6 +21,8 @@ class Figure:
     make: Callable[[Study, Results], Canvas]
     title: str
     caption: str
+    verdict: Callable[[Study, Any], str] | None = None
+    """Function of the study and the facts of its report that returns what the figure shows."""
     paper: str = ""
     """Figure of the paper that it reproduces, such as 'Figure 3'."""
 

@@ -46,19 +46,25 @@ def goodness_sentences(study: Study, stage: str, fit: str, found: Goodness) -> l
     """Return the verdict, the windows of misfit, repeats that differ, and what follows."""
     said = [verdict_words(fit, found)]
     if not found.describes:
-        missed = sorted(
-            (s for s in found.signals if s.misses), key=lambda s: s.rms / max(s.range, 1e-300)
-        )[::-1]
-        said += [_where(study, s) for s in missed[:MOST_NAMED]]
+        said += missed_most(study, found)
         said.append(
             "Its values are apparent values of this model, and their intervals include the "
             f"misfit. {NEXT[stage]}."
         )
-    said += list(_repeats(study, found))
+    said += list(repeats_that_differ(study, found))
     return said
 
 
-def _where(study: Study, s: SignalGoodness) -> str:
+def missed_most(study: Study, found: Goodness, most: int = MOST_NAMED) -> list[str]:
+    """Return where the signals are missed that are missed most, a sentence for each."""
+    missed = sorted(
+        (s for s in found.signals if s.misses), key=lambda s: s.rms / max(s.range, 1e-300)
+    )[::-1]
+    return [where_missed(study, s) for s in missed[:most]]
+
+
+def where_missed(study: Study, s: SignalGoodness) -> str:
+    """Return the windows in which a signal is missed, with their size, and its integral."""
     experiment = study.experiments[s.experiment]
     quantity = experiment.quantity(s.signal)
     unit = difference_unit(quantity)
@@ -78,7 +84,8 @@ def _window(w: Miss, mean: float, unit: str) -> str:
     return f"{size} {side} from {low:.0f} to {high:.0f} °C"
 
 
-def _repeats(study: Study, found: Goodness) -> Iterator[str]:
+def repeats_that_differ(study: Study, found: Goodness) -> Iterator[str]:
+    """Yield a sentence on each repeat that differs from the others of its test."""
     for r in found.repeats[:MOST_NAMED]:
         quantity = study.experiments[r.experiment].quantity(r.signal)
         said = differs(r.kind, r.size, r.low, r.high, quantity)

@@ -3,11 +3,15 @@
 import contextlib
 from collections.abc import Iterator
 
+import pandas as pd
+
+from pyrofit.analysis.best_predicting import never_fitted, of_answer
+from pyrofit.analysis.scores import scores
+from pyrofit.analysis.uses import predicted_labels
 from pyrofit.config import Study
 from pyrofit.errors import PyrofitError
-from pyrofit.results import diagnosis, goodness
+from pyrofit.results import diagnosis, goodness, prediction
 from pyrofit.results.files import Results
-from pyrofit.show.answer.chosen import chosen_set
 from pyrofit.show.goodness import verdict_words
 from pyrofit.show.names import STAGES, all_scored
 
@@ -26,9 +30,9 @@ def ending(study: Study, results: Results, since: float) -> Iterator[str]:
 
 
 def headline(study: Study, results: Results) -> str:
-    """Return whether the models describe the tests, and how well the best set predicts others.
+    """Return whether the models describe the tests, and how well the estimates predict others.
 
-    The latter is of tests that no cost function was fitted to.
+    The latter is of tests that nothing was fitted to.
 
     Raises
     ------
@@ -37,12 +41,14 @@ def headline(study: Study, results: Results) -> str:
     """
     stages = ["kinetics", "imp"] if study.kinetics else ["imp"]
     said = [verdict_words(STAGES[stage], goodness.read(results, stage)) for stage in stages]
-    chosen = chosen_set(study, results)
-    name = f"the best set of {chosen.cost_function} ({chosen.found_by})"
-    if chosen.held_out:
-        said.append(f"Held-out tests: {name} predicts {all_scored(chosen.of(chosen.held_out))}.")
+    predicted = pd.DataFrame()
+    if study.validation.experiments:
+        predicted = prediction.scores(study, results, predicted_labels(study))
+    mine = of_answer(never_fitted(scores(study, predicted)))
+    if mine:
+        said.append(f"Held-out tests: the estimates predict {all_scored(mine)}.")
     else:
-        said.append(f"Of all sets, {name} fits best. No test was held out.")
+        said.append("No test was held out.")
     return "\n".join(said)
 
 

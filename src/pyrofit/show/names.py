@@ -35,6 +35,14 @@ def flag(estimate: Estimated) -> str:
     return "; ".join(words)
 
 
+def verdict_of(estimate: Estimated) -> str:
+    """Return the verdict on an estimate; a limit that it has reached comes first."""
+    if not estimate.bound:
+        return estimate.grade
+    loose = "; undetermined" if estimate.grade == "undetermined" else ""
+    return f"at its {estimate.bound} limit{loose}"
+
+
 def named(estimate: Estimated) -> str:
     """Return a parameter with the width of its interval and the bound that it is at."""
     bound = f", {estimate.bound} limit" if estimate.bound else ""

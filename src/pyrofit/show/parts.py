@@ -17,6 +17,15 @@ from pyrofit.show.text import number, numeric, plain_rows
 
 
 @dataclass(frozen=True)
+class Question:
+    """A question of the summary, empty for none, with its answers; perhaps the table follows."""
+
+    heading: str
+    said: tuple[str, ...]
+    table: bool = False
+
+
+@dataclass(frozen=True)
 class Part:
     """A heading with sentences, a table with one body per group, its note, a command; or some."""
 
@@ -29,24 +38,26 @@ class Part:
 
 @dataclass(frozen=True)
 class Picture:
-    """A figure of the page."""
+    """A figure of the page, with its verdict where it has one."""
 
     name: str
     title: str
     caption: str
     source: str
     share: float
+    verdict: str = ""
 
 
 @dataclass(frozen=True)
 class Shown:
-    """A section: heading, subject, remarks, tables and figures as they are read."""
+    """A section: heading, subject, remarks, tables and figures; one on methods is folded."""
 
     anchor: str
     heading: str
     text: str
     parts: tuple[Part | Picture, ...] = field(default=())
     said: tuple[str, ...] = ()
+    folded: bool = False
 
 
 def table_part(study: Study, table: Table, frame: pd.DataFrame, text: str = "") -> Part:
@@ -70,7 +81,7 @@ def table_part(study: Study, table: Table, frame: pd.DataFrame, text: str = "") 
     return Part(titled(study, table.title, table.paper), table.note, tuple(bodies), text)
 
 
-def picture(path: Path, name: str, title: str, caption: str) -> Picture:
+def picture(path: Path, name: str, title: str, caption: str, verdict: str = "") -> Picture:
     """Embed a drawn figure; as an image, its identifiers cannot clash with those of others.
 
     Raises
@@ -85,4 +96,4 @@ def picture(path: Path, name: str, title: str, caption: str) -> Picture:
     source = "data:image/svg+xml;base64," + base64.b64encode(content).decode()
     width = re.search(rb'<svg[^>]* width="([\d.]+)pt"', content)
     share = float(width[1]) / (TWO_COLUMNS * MM * 72.0) if width else 1.0
-    return Picture(name, title, caption, source, round(min(share, 1.0), 3))
+    return Picture(name, title, caption, source, round(min(share, 1.0), 3), verdict)

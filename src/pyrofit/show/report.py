@@ -48,7 +48,7 @@ def write_report(study: Study, results: Results) -> None:
     tables = tables_of(study, results)
     facts = facts_of(study, results, tables)
     answer = (
-        _pictures(ANSWER, study, results),
+        _pictures(ANSWER, study, results, facts),
         table_part(study, TABLES["answer"], tables["answer"]),
     )
     shown = [one for part in SECTIONS if (one := _shown(part, study, results, facts))]
@@ -87,15 +87,17 @@ def _shown(section: Section, study: Study, results: Results, facts: Facts) -> Sh
         if name in facts.tables:
             parts.append(table_part(study, section.tables[name], facts.tables[name]))
         elif name in section.figures:
-            parts += _pictures(section, study, results, name)
+            parts += _pictures(section, study, results, facts, name)
     if not parts:
         return None
     said = section.sentences(study, facts)
-    return Shown(section.anchor, section.heading, section.text, tuple(parts), tuple(said))
+    return Shown(
+        section.anchor, section.heading, section.text, tuple(parts), tuple(said), section.folded
+    )
 
 
 def _pictures(
-    section: Section, study: Study, results: Results, only: str | None = None
+    section: Section, study: Study, results: Results, facts: Facts, only: str | None = None
 ) -> list[Picture]:
     """Return the figures of a section that the study has, or the one of a name."""
     names = section.figures_of(study)
@@ -103,5 +105,6 @@ def _pictures(
     for name in names if only is None else [n for n in names if n == only]:
         figure, path = section.figures[name], results.root / "figures" / f"{name}.svg"
         title = titled(study, figure.title, figure.paper)
-        found.append(picture(path, name, title, figure.caption))
+        verdict = "" if figure.verdict is None else figure.verdict(study, facts)
+        found.append(picture(path, name, title, figure.caption, verdict))
     return found

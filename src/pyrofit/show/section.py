@@ -26,6 +26,8 @@ class Section:
         By name; see `section_of`.
     sentences
         Function that returns the sentences beside them.
+    folded
+        Whether it is about methods, which a reader of the answer may skip.
     """
 
     package: str
@@ -35,6 +37,7 @@ class Section:
     tables: Mapping[str, Table]
     figures: Mapping[str, Figure]
     sentences: Sentences
+    folded: bool = False
 
     @property
     def items(self) -> list[str]:
@@ -58,7 +61,13 @@ class Section:
 
 
 def section_of(
-    package: str, folders: Sequence[str], anchor: str, heading: str, text: str, sentences: Sentences
+    package: str,
+    folders: Sequence[str],
+    anchor: str,
+    heading: str,
+    text: str,
+    sentences: Sentences,
+    folded: bool = False,
 ) -> Section:
     """Return a section with all that the files of its folder define.
 
@@ -66,4 +75,4 @@ def section_of(
     """
     tables = contents(package, folders, "TABLE")
     figures = contents(package, folders, "FIGURE")
-    return Section(package, anchor, heading, text, tables, figures, sentences)
+    return Section(package, anchor, heading, text, tables, figures, sentences, folded)

@@ -23,10 +23,10 @@ from pyrofit.show.validation import VALIDATION
 SECTIONS: tuple[Section, ...] = (
     ISOCONVERSIONAL,
     KINETICS,
-    FIT,
+    VALIDATION,
     IDENTIFICATION,
     TRUTH,
-    VALIDATION,
+    FIT,
     OPTIMISERS,
     COSTS,
 )

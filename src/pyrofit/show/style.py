@@ -36,6 +36,8 @@ PUBLISHED = "0.5"
 
 # Blue, red and ochre as in Tol's scheme of high contrast, darkened: apart in grey and for
 # colour-blind readers, darker than the band. Then colours of Okabe and Ito, apart by dashes.
+ESTIMATES = "#D55E00"
+"""Colour of the estimates, which no cost function has."""
 COLOURS = ("#004488", "#BB3344", "#CC8800", "#009E73", "#CC79A7", "#56B4E9")
 
 

@@ -1,6 +1,6 @@
 """Steps 2 and 3: the kinetics fit, and the repeated inverse modelling."""
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Sequence
 from typing import Any
 
 import numpy as np
@@ -14,21 +14,14 @@ from pyrofit.estimate.least_squares import Start, descend, multistart
 from pyrofit.estimate.optimisers import OPTIMISERS
 from pyrofit.estimate.pose import of_imp, of_kinetics, pose
 from pyrofit.estimate.problem import Problem
-from pyrofit.model.base import value_of
-from pyrofit.model.material import Material
 from pyrofit.results import dependencies, kinetics, searches
 from pyrofit.results.files import Results, write_csv, write_json
 from pyrofit.running.shares import at_once, parts
 from pyrofit.seeds import seed_for
 from pyrofit.solver.arrays import FloatArray, Status
-from pyrofit.solver.lower import fractions, rate_factor
-from pyrofit.solver.outputs import MASS_FRACTION
-from pyrofit.stages.kinetic_curves import write_curves
 from pyrofit.stages.measurements import load
 from pyrofit.stages.progress import Told
 from pyrofit.stages.unfinished import Unfinished, sweep
-
-Values = Mapping[str, float]
 
 
 def _named(problem: Problem, x: FloatArray) -> dict[str, float]:
@@ -45,9 +38,9 @@ def _start(problem: Problem, start: Start) -> dict[str, Any]:
 
 
 def fit_kinetics(study: Study, results: Results) -> None:
-    """Fit the kinetics to heated samples, and score the fit and the published sets.
+    """Search the kinetics on their cost, by SCE-UA and by starts of least squares.
 
-    SCE-UA searches and least squares starts beside it; the lower cost of the two is the fit.
+    The end of the lower cost is kept. The estimates are made from these ends by the step identify.
     """
     stage = kinetics_of(study)
     measurements = load(study, results)
@@ -77,37 +70,16 @@ def fit_kinetics(study: Study, results: Results) -> None:
             "seed": seed,
             "sceua": {"cost": best_of(history, problem)[0], "calls": len(history)},
             "least_squares": [_start(problem, s) for s in starts],
-            "sets": {
-                label: _reactions(study.material_with(name), {**study.fixed_values(), **fitted})
-                for label, name in [("fitted", "fitted"), *((n, n) for n in stage.sets)]
-            },
         },
     )
-    write_curves(study, results, measurements, fitted)
-
-
-def _reactions(material: Material, values: Values) -> dict[str, dict[str, float]]:
-    """Return A, E, n and the virgin mass fraction of the reactant, by reaction."""
-    names = list(material.components)
-    share = fractions(material.composition, names, values)[:, 0]
-    reactions = material.reactions
-    return {
-        name: {
-            "A_1_s": float(rate_factor(reactions[name], values)),
-            "E_J_mol": value_of(reactions[name].E_J_mol, values),
-            "order": value_of(reactions[name].order, values),
-            MASS_FRACTION: float(share[names.index(reactions[name].reactant)]),
-        }
-        for name in material.reaction_order()
-    }
 
 
 def fixed_for_imp(study: Study, results: Results) -> dict[str, float]:
-    """Return the values of all parameters that the inverse modelling does not estimate."""
-    values = study.fixed_values()
-    if study.imp.kinetics == "fitted":
-        values |= kinetics.parameters(study, results)
-    return values
+    """Return the values of all parameters that the inverse modelling does not estimate.
+
+    Fitted kinetics are the estimates of the answer.
+    """
+    return kinetics.given_to_imp(study, results)
 
 
 def imp_problem(study: Study, results: Results, cost: str) -> Problem:

@@ -15,6 +15,7 @@ from pyrofit.numerics import linear
 from pyrofit.results import goodness, kinetics, searches
 from pyrofit.results.files import Results, write_csv, write_json
 from pyrofit.stages.imp_likelihood import ends_of_searches, imp_likelihood
+from pyrofit.stages.kinetic_curves import write_curves
 from pyrofit.stages.measurements import load
 
 BEST, MEAN = "SCE-UA best", "SCE-UA mean"
@@ -23,7 +24,8 @@ BEST, MEAN = "SCE-UA best", "SCE-UA mean"
 def identify_kinetics(study: Study, results: Results) -> None:
     """Analyse the likelihood of the kinetics about its optimum; write ``identification/kinetics``.
 
-    It is searched from the fit and the ends of least squares.
+    It is searched from the fit and the ends of least squares. The optimum is the estimate of the
+    kinetics, which the inverse modelling takes as given; its curves go to ``kinetics``.
 
     Raises
     ------
@@ -31,10 +33,12 @@ def identify_kinetics(study: Study, results: Results) -> None:
         A result is missing, or a channel is too short to show its noise.
     """
     asked, fixed = of_kinetics(study), study.fixed_values()
-    likelihood = pose_likelihood(study, asked, load(study, results), fixed)
+    measurements = load(study, results)
+    likelihood = pose_likelihood(study, asked, measurements, fixed)
     known = kinetics.ends(study, results)
     starts = [likelihood.scaled(np.array([end[n] for n in asked.names])) for end in known]
     _write(results, "kinetics", likelihood, identify(likelihood, starts))
+    write_curves(study, results, measurements, kinetics.parameters(study, results))
 
 
 def identify_imp(study: Study, results: Results) -> None:

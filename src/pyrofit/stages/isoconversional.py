@@ -73,7 +73,7 @@ def _model(
 def _values(study: Study, results: Results) -> dict[str, float] | None:
     """Return the values of the model, SI units; none where it has not been fitted."""
     if study.kinetics is not None:
-        if not results.kinetics("fit.json").exists():
+        if not results.identification("estimate.csv", "kinetics").exists():
             return None
         return study.fixed_values() | kinetics.parameters(study, results)
     if not results.identification("estimate.csv").exists():

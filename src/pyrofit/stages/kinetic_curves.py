@@ -1,4 +1,4 @@
-"""Curves and scores of the fitted and the published kinetics."""
+"""Reactions, curves and scores of the fitted and the published kinetics."""
 
 from collections.abc import Iterator, Mapping
 from typing import Any
@@ -9,32 +9,48 @@ from pyrofit.config import Study, kinetics_of
 from pyrofit.cost.distances import root_mean_square
 from pyrofit.estimate.targets import Measurements
 from pyrofit.experiments.heated.simulate import request
+from pyrofit.model.base import value_of
 from pyrofit.model.heated import HeatedExperiment
 from pyrofit.model.material import Material
-from pyrofit.results.files import Results, write_csv
-from pyrofit.results.kinetics import FITTED, heats_shown, masses_shown
+from pyrofit.results import kinetics
+from pyrofit.results.files import Results, write_csv, write_json
+from pyrofit.results.kinetics import FITTED, LOWEST, heats_shown, masses_shown
 from pyrofit.simulate import simulate_tga
 from pyrofit.solver.arrays import FloatArray
 from pyrofit.solver.curves import Curves
+from pyrofit.solver.lower import fractions, rate_factor
 from pyrofit.solver.outputs import FRACTION_RATE, MASS_FRACTION
 
 Values = Mapping[str, float]
+Sets = Mapping[str, tuple[Material, Values]]
 
 
 def write_curves(
     study: Study, results: Results, measurements: Measurements, fitted: Values
 ) -> None:
-    """Write curves and scores of every set, at all experiments that are fitted or compared.
+    """Write reactions, curves and scores of every set, at all experiments fitted or compared.
 
-    ``curves.csv`` and ``scores.csv`` hold mass fractions; ``heats.csv`` and ``heat_scores.csv`` all
-    other signals, where there are any.
+    ``sets.json`` holds the reactions. ``curves.csv`` and ``scores.csv`` hold mass fractions;
+    ``heats.csv`` and ``heat_scores.csv`` all other signals, where there are any.
+
+    Parameters
+    ----------
+    study, results, measurements
+        The study, its results, in which the kinetics have been searched, and its data.
+    fitted
+        Estimates of the kinetics by name, SI units.
     """
+    sets = _sets(study, results, fitted)
+    write_json(
+        results.kinetics("sets.json"),
+        {label: _reactions(*chosen) for label, chosen in sets.items()},
+    )
     curves: list[pd.DataFrame] = []
     scores: list[dict[str, Any]] = []
     for name, signal in masses_shown(study).items():
         frame = measurements[name, signal]
         measured = frame[MASS_FRACTION].to_numpy(float)
-        for chosen, found in _simulated(study, name, signal, frame, fitted):
+        for chosen, found in _simulated(study, name, signal, frame, sets):
             mass = found.signals[MASS_FRACTION]
             columns = {MASS_FRACTION: mass, "mass_loss_rate_1_s": found.signals[FRACTION_RATE]}
             curves.append(_curve(study, name, signal, frame, columns).assign(set=chosen))
@@ -46,18 +62,44 @@ def write_curves(
     frames = [pd.DataFrame(scores)] if scores else []
     _write(results, "scores.csv", frames, [*columns_of_scores, "rmse_mass_fraction"])
     if heats_shown(study):
-        _write_heats(study, results, measurements, fitted)
+        _write_heats(study, results, measurements, sets)
 
 
-def _write_heats(
-    study: Study, results: Results, measurements: Measurements, fitted: Values
-) -> None:
+def _sets(study: Study, results: Results, fitted: Values) -> Sets:
+    """Return material and values of every set; published ones have reactions alone."""
+    given = study.fixed_values()
+    of_set = dict.fromkeys(kinetics.labels(study), fitted)
+    if LOWEST in of_set:
+        of_set[LOWEST] = kinetics.searched(study, results)
+    return {
+        label: (study.material_with(FITTED if label == LOWEST else label), {**given, **values})
+        for label, values in of_set.items()
+    }
+
+
+def _reactions(material: Material, values: Values) -> dict[str, dict[str, float]]:
+    """Return A, E, n and the virgin mass fraction of the reactant, by reaction."""
+    names = list(material.components)
+    share = fractions(material.composition, names, values)[:, 0]
+    reactions = material.reactions
+    return {
+        name: {
+            "A_1_s": float(rate_factor(reactions[name], values)),
+            "E_J_mol": value_of(reactions[name].E_J_mol, values),
+            "order": value_of(reactions[name].order, values),
+            MASS_FRACTION: float(share[names.index(reactions[name].reactant)]),
+        }
+        for name in material.reaction_order()
+    }
+
+
+def _write_heats(study: Study, results: Results, measurements: Measurements, sets: Sets) -> None:
     curves = []
     scores = []
     for name, signal in heats_shown(study):
         frame = measurements[name, signal]
         quantity = study.experiments[name].quantity(signal)
-        for chosen, found in _simulated(study, name, signal, frame, fitted):
+        for chosen, found in _simulated(study, name, signal, frame, sets):
             curve = found.signals[quantity.curve]
             labels = {"signal": signal, "set": chosen}
             curves.append(_curve(study, name, signal, frame, {"value": curve}).assign(**labels))
@@ -74,15 +116,13 @@ def _write(results: Results, file: str, frames: list[pd.DataFrame], columns: lis
 
 
 def _simulated(
-    study: Study, name: str, signal: str, frame: pd.DataFrame, fitted: Values
+    study: Study, name: str, signal: str, frame: pd.DataFrame, sets: Sets
 ) -> Iterator[tuple[str, Curves]]:
     """Yield the curves of each set at the measured times of a signal."""
-    values = {**study.fixed_values(), **fitted}
     experiment = study.experiments[name]
     assert isinstance(experiment, HeatedExperiment)
     asked = request(experiment, signal, frame, _times(frame))
-    for chosen in (FITTED, *kinetics_of(study).sets):
-        material: Material = study.material_with(chosen)
+    for chosen, (material, values) in sets.items():
         yield chosen, simulate_tga(experiment, material, values, asked, study.accuracy)
 
 

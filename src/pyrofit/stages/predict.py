@@ -1,16 +1,17 @@
-"""Step 4: curves of the best sets at every predicted experiment, scored."""
+"""Step 4: curves of the estimates and the best sets at every predicted experiment, scored."""
 
 import numpy as np
 import pandas as pd
 
 from pyrofit.analysis.best_sets import published_sets
+from pyrofit.analysis.uses import ESTIMATES
 from pyrofit.config import Study
 from pyrofit.config.unmeasured import unmeasured
 from pyrofit.cost.distances import root_mean_square
 from pyrofit.estimate.optimisers import OPTIMISERS
 from pyrofit.experiments import kind_of
 from pyrofit.quantities.base import Quantity
-from pyrofit.results import searches
+from pyrofit.results import identification, searches
 from pyrofit.results.files import Results, write_csv
 from pyrofit.simulate import solver_errors
 from pyrofit.solver.arrays import FloatArray, Values
@@ -20,8 +21,9 @@ from pyrofit.stages.unmeasured import check_finished, predict_unmeasured
 
 
 def sets_of(study: Study, results: Results) -> dict[str, dict[str, float]]:
-    """Return the sets to predict: the best of each cost and optimiser, and published ones."""
-    sets = dict(best_sets(study, results))
+    """Return the sets to predict: estimates, best sets of each optimiser, published ones."""
+    found = identification.estimates(study, results)["estimate"]
+    sets = {ESTIMATES: {str(n): float(v) for n, v in found.items()}, **best_sets(study, results)}
     for key, optimiser in OPTIMISERS.items():
         for cost in study.imp.costs:
             start = searches.starts(study, results, cost, key)[0]

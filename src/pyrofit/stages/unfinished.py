@@ -70,7 +70,7 @@ def _key(study: Study, results: Results, cost: str) -> str:
         for signal in experiment.signals
     ]
     if study.imp.kinetics == "fitted":
-        files.append(results.kinetics("fit.json"))
+        files.append(results.identification("estimate.csv", "kinetics"))
     content = {
         "study": dependencies.imp(study, cost, "sceua"),
         "source": source_fingerprint("pyrofit.stages.fit"),

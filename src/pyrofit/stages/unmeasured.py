@@ -73,6 +73,6 @@ def check_finished(name: str, label: str, run: Curves) -> None:
     """
     if not run.status.finished:
         raise DataError(
-            f"{name}: the best set of {label} cannot be predicted: "
+            f"{name}: the set '{label}' cannot be predicted: "
             f"{run.status.explanation}; check the limits of the parameters"
         )

@@ -1,7 +1,15 @@
-"""The answer: estimates, best sets, advice and summary."""
+"""The answer: estimates, their use, and the summary."""
 
-from pyrofit.show.answer.advice import sentences
+from pyrofit.config import Study
+from pyrofit.show.answer.next_steps import advice
+from pyrofit.show.facts import Facts
 from pyrofit.show.section import section_of
+
+
+def sentences(study: Study, facts: Facts) -> list[str]:
+    """Return the advice as a list of one."""
+    return [advice(study, facts)]
+
 
 ANSWER = section_of(
     __name__,

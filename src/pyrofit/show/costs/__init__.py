@@ -7,7 +7,9 @@ COSTS = section_of(
     __name__,
     __path__,
     anchor="costs",
-    heading="Cost functions",
-    text="All sets of all optimisers, under all cost functions and on one metric.",
+    heading="Cost functions compared",
+    text="A study of methods: all sets of all optimisers, under all cost functions and on one "
+    "metric. None of them is the answer.",
     sentences=sentences,
+    folded=True,
 )

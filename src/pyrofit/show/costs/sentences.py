@@ -5,17 +5,53 @@ from typing import Any
 
 import pandas as pd
 
+from pyrofit.analysis.answer import Outside
+from pyrofit.analysis.best_predicting import best_predicting, never_fitted, of_answer
 from pyrofit.analysis.cost_tests import SIGNIFICANT
 from pyrofit.analysis.uses import PUBLISHED, rate_metrics
 from pyrofit.config import Study
+from pyrofit.show.costs.reach import reach_of_good_sets
 from pyrofit.show.facts import Facts
+from pyrofit.show.names import all_scored
 from pyrofit.show.table import Frames
-from pyrofit.show.text import listed, number, span
+from pyrofit.show.text import listed, number, several, span
 
 
 def sentences(study: Study, facts: Facts) -> list[str]:
-    """Return the sentences on the cost functions: on one metric, and by tests."""
-    return [text for text in (*_metrics(study, facts.tables), *_tests(facts.tables)) if text]
+    """Return the sentences: sets beside the answer, on one metric, by tests, and their reach."""
+    said = [*(_beside(one) for one in facts.outside), *_best_predicting(facts)]
+    said += [*_metrics(study, facts.tables), *_tests(facts.tables)]
+    if "bands" in facts.tables:
+        said.append(reach_of_good_sets(facts.tables))
+    return [text for text in said if text]
+
+
+def _beside(one: Outside) -> str:
+    """Say which values of a best set lie outside the intervals of the answer."""
+    name = f"The best set of {one.cost_function} ({one.found_by})"
+    if not one.values:
+        return f"{name} lies within all intervals of the answer."
+    parts = [
+        f"{e.name} ({number(value)} against {number(e.low)} to {number(e.high)} {e.unit})"
+        for e, value in one.values
+    ]
+    return (
+        f"{name} lies outside the interval of {listed(parts)}. This tells about the cost function; "
+        "it is no second answer."
+    )
+
+
+def _best_predicting(facts: Facts) -> list[str]:
+    """Say which set of a search predicts held-out tests best, beside the estimates."""
+    best = best_predicting(facts.scores)
+    if best is None:
+        return []
+    mine = all_scored(of_answer(never_fitted(facts.scores)))
+    return [
+        f"Of {several(best.sets, 'set')} of searches, that of {best.cost_function} "
+        f"({best.found_by}) predicts the held-out tests best: {all_scored(best.scores)}. The "
+        f"estimates predict {mine}. A set that is chosen by these data is not validated by them."
+    ]
 
 
 def _metrics(study: Study, tables: Frames) -> list[str]:

@@ -7,8 +7,9 @@ FIT = section_of(
     __name__,
     __path__,
     anchor="fit",
-    heading="Fit",
-    text="Inverse modelling: parameters fitted to the tests of each cost function, once per "
+    heading="Searches of SCE-UA",
+    text="A study of methods: parameters fitted to the tests of each cost function, once per "
     "repetition, by SCE-UA.",
     sentences=sentences,
+    folded=True,
 )

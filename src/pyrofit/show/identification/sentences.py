@@ -3,7 +3,6 @@
 from collections.abc import Sequence
 from itertools import groupby
 
-from pyrofit.analysis.distances import Distance
 from pyrofit.analysis.estimates import Estimated, by_grade
 from pyrofit.analysis.known_values import Known
 from pyrofit.analysis.trade_offs import STRONG, TradeOff
@@ -11,21 +10,20 @@ from pyrofit.config import Study
 from pyrofit.show.facts import Facts
 from pyrofit.show.goodness import goodness_sentences
 from pyrofit.show.names import STAGES, named
-from pyrofit.show.text import listed, signed, span
+from pyrofit.show.text import listed, signed
 
 SHOWN_PAIRS = 5
 """Pairs of parameters that the text names; the table has all."""
 
 
 def sentences(study: Study, facts: Facts) -> list[str]:
-    """Return the sentences of the section: fit, verdicts, correlation, optimisers."""
+    """Return the sentences of the section: fit, verdicts, correlation."""
     fits = [
         " ".join(goodness_sentences(study, stage, STAGES[stage], found))
         for stage, found in facts.goodness.items()
     ]
     said = [*fits, verdicts(facts.estimates), *_known(facts.known), _correlation(facts.estimates)]
-    said += _compensation(facts.trade_offs)
-    return [*said, _optimisers(facts.distances)]
+    return [*said, *_compensation(facts.trade_offs)]
 
 
 def _known(found: Sequence[Known]) -> list[str]:
@@ -85,15 +83,3 @@ def _compensation(found: Sequence[TradeOff]) -> list[str]:
 def _change(name: str, by: float, unit: str) -> str:
     """Return a parameter with a signed change; a number without unit has none."""
     return f"{name} {by:+.2g}".replace("-", "−") + (f" {unit}" if unit != "-" else "")
-
-
-def _optimisers(found: Sequence[Distance]) -> str:
-    parts = []
-    for label in dict.fromkeys(one.set for one in found):
-        here = [one for one in found if one.set == label]
-        chi2 = span([one.chi2_per_freedom for one in here])
-        parts.append(f"{label} {span([one.distance_sd for one in here])} sd (chi-square {chi2})")
-    return (
-        "Distance of the cost functions' sets from this optimum in their farthest parameter, and "
-        f"chi-square per degree of freedom: {'; '.join(parts)}."
-    )

@@ -7,7 +7,7 @@ from pyrofit.results.files import Results
 from pyrofit.show import style
 from pyrofit.show.drawn import Canvas, Line2D, Patch
 from pyrofit.show.figure import Figure
-from pyrofit.show.isoconversional.names import METHODS
+from pyrofit.show.isoconversional.names import METHODS, NOTHING
 
 _MODEL = {"color": style.COLOURS[1], "linestyle": style.DASHES[1], "linewidth": 1.4}
 _DOTTED = {
@@ -45,6 +45,7 @@ FIGURE = Figure(
     place=10,
     applies=applies,
     make=activation_energy,
+    verdict=lambda study, facts: (facts.isoconversional or [NOTHING])[0],
     title="Activation energy over conversion",
     caption="The conversion is the mass lost over all mass that is lost. Each method compares "
     "the heating rates at equal conversion, and knows no model of the reactions. Red, dashed: "

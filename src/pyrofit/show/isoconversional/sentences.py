@@ -2,13 +2,9 @@
 
 from pyrofit.config import Study
 from pyrofit.show.facts import Facts
-
-_NOTHING = (
-    "Nothing speaks against one reaction: the activation energy does not vary with conversion by "
-    "more than its errors, and the fitted model has the same."
-)
+from pyrofit.show.isoconversional.names import NOTHING
 
 
 def sentences(study: Study, facts: Facts) -> list[str]:
     """Return the findings of the analysis."""
-    return list(facts.isoconversional) or [_NOTHING]
+    return list(facts.isoconversional) or [NOTHING]

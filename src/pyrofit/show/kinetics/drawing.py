@@ -1,6 +1,6 @@
 """Mass against temperature, shared by the figures of the kinetics."""
 
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 
 import numpy as np
 import pandas as pd
@@ -11,6 +11,7 @@ from pyrofit.model.heated import HeatedExperiment
 from pyrofit.quantities import known_quantities
 from pyrofit.results import recorded
 from pyrofit.results.files import Results
+from pyrofit.results.kinetics import labels
 from pyrofit.show import style
 from pyrofit.show.drawn import Axes, Line2D, Patch
 from pyrofit.show.names import data_name
@@ -19,9 +20,6 @@ from pyrofit.solver.outputs import MASS_FRACTION
 
 WINDOW_K = 10.0
 """Width of the window over which a slope is taken [K]."""
-
-
-FITTED = "fitted"
 
 
 # In an order that keeps the first three far apart in grey, though measured lines are lighter.
@@ -80,16 +78,10 @@ def dash_of(k: int) -> object:
     return ((0, (4, 1.5)), (0, (1, 1.2)), *style.DASHES[2:])[k % 6]
 
 
-def labels_of(study: Study) -> list[str]:
-    """Return the labels of the sets: ours and those of the literature."""
-    assert study.kinetics is not None
-    return [FITTED, *study.kinetics.sets]
-
-
 def sets_of(study: Study, curves: pd.DataFrame, name: str) -> list[tuple[str, pd.DataFrame]]:
     """Return label and curve of every set at an experiment."""
     here = curves[curves["experiment"] == name]
-    return [(label, here[here["set"] == label]) for label in labels_of(study)]
+    return [(label, here[here["set"] == label]) for label in labels(study)]
 
 
 def rate_of(study: Study, name: str) -> str:
@@ -99,6 +91,14 @@ def rate_of(study: Study, name: str) -> str:
     if experiment.set_point_K is not None:
         return f"held at {experiment.set_point_K:g} K"
     return f"{experiment.heating_rate_K_min:g} K/min"
+
+
+def together(names: Sequence[str], words: Callable[[str], str]) -> dict[str, list[str]]:
+    """Return the experiments that have the same words, such as a heating rate, in their order."""
+    groups: dict[str, list[str]] = {}
+    for name in names:
+        groups.setdefault(words(name), []).append(name)
+    return groups
 
 
 def busy_span(curves: pd.DataFrame) -> tuple[float, float]:

@@ -2,7 +2,7 @@
 
 import pandas as pd
 
-from pyrofit.analysis.uses import all_rates, rates_in_fit
+from pyrofit.analysis.uses import all_rates, mass_signal, rates_in_fit
 from pyrofit.config import Study
 from pyrofit.results import kinetics
 from pyrofit.results.files import Results
@@ -14,13 +14,14 @@ from pyrofit.show.kinetics.drawing import (
     dash_of,
     data_entries,
     draw_band,
-    labels_of,
     mass_series,
     rate_colour,
     rate_of,
     sets_of,
     slope,
+    together,
 )
+from pyrofit.show.verdicts import verdict_on
 from pyrofit.solver.outputs import MASS_FRACTION
 
 
@@ -29,26 +30,27 @@ def fig2(study: Study, results: Results) -> Canvas:
     curves = kinetics.curves(study, results, all_rates(study))
     names = rates_in_fit(study)
     canvas, (left, right) = style.panels(2, 2, style.TWO_COLUMNS, 82.0)
-    for i, name in enumerate(names):
-        measured = mass_series(study, results, name)
-        draw_band(left, measured)
-        _draw(left, right, measured, rate_colour(i), "-")
-        for k, (_, curve) in enumerate(sets_of(study, curves, name)):
-            _draw(left, right, curve, rate_colour(i), dash_of(k))
+    rates = together(names, lambda name: rate_of(study, name))
+    for i, repeats in enumerate(rates.values()):
+        for name in repeats:
+            measured = mass_series(study, results, name)
+            draw_band(left, measured)
+            _draw(left, right, measured, rate_colour(i), "-")
+        for name in repeats:
+            for k, (_, curve) in enumerate(sets_of(study, curves, name)):
+                _draw(left, right, curve, rate_colour(i), dash_of(k))
     left.set_ylabel("normalised mass $m/m_0$ [–]")
     right.set_ylabel("mass loss rate / heating rate\n$-\\mathrm{d}(m/m_0)/\\mathrm{d}T$ [1/K]")
     style.letter((left, right), ("normalised mass", "mass loss rate"))
     for ax in (left, right):
         ax.set_xlim(*busy_span(curves[curves["experiment"].isin(names)]))
         ax.set_xlabel("temperature [°C]")
-    rates = [
-        style.patch(rate_of(study, name), color=rate_colour(i)) for i, name in enumerate(names)
-    ]
+    entries = [style.patch(rate, color=rate_colour(i)) for i, rate in enumerate(rates)]
     lines = [
         style.line(label, color="black", linestyle=dash_of(k))
-        for k, label in enumerate(labels_of(study))
+        for k, label in enumerate(kinetics.labels(study))
     ]
-    style.legend_below(canvas, [*rates, *data_entries(study, results, names), *lines])
+    style.legend_below(canvas, [*entries, *data_entries(study, results, names), *lines])
     return canvas
 
 
@@ -67,10 +69,13 @@ FIGURE = Figure(
     place=10,
     applies=lambda study: bool(rates_in_fit(study)),
     make=fig2,
+    verdict=lambda study, facts: verdict_on(
+        study, facts, "kinetics", [(n, mass_signal(study, n)) for n in rates_in_fit(study)]
+    ),
     title="Kinetics at the fitted heating rates",
     paper="Figure 2",
     caption="Normalised mass (left) and mass loss rate (right) against temperature at the "
-    "heating rates used in the fit, the slowest to the left. Wide, light: data; "
+    "heating rates used in the fit, one colour each. Wide, light: data; "
     "dashed: fitted; dotted: sets of the literature, if any. The rate is divided by "
     "the heating rate, so that all are of similar height. It is the slope of a "
     "parabola fitted to each 10 K of the mass, of data and simulations alike. Good "

@@ -8,7 +8,7 @@ from pyrofit.config import Study
 from pyrofit.results import kinetics
 from pyrofit.results.files import Results
 from pyrofit.results.kinetics import heats_shown
-from pyrofit.show.kinetics.drawing import labels_of, rate_of
+from pyrofit.show.kinetics.drawing import rate_of
 from pyrofit.show.table import Table
 
 
@@ -26,7 +26,7 @@ def heat_scores(study: Study, results: Results) -> pd.DataFrame:
     rows: list[dict[str, Any]] = []
     for name, signal in heats_shown(study):
         shown = study.experiments[name].quantity(signal).shown
-        found = {label: scores[name, signal, label] for label in labels_of(study)}
+        found = {label: scores[name, signal, label] for label in kinetics.labels(study)}
         used = any(bool(score["used_in_fit"]) for score in found.values())
         rows.append(
             {

@@ -8,33 +8,38 @@ from pyrofit.results import kinetics, recorded
 from pyrofit.results.files import Results
 from pyrofit.results.kinetics import heats_shown
 from pyrofit.show import style
+from pyrofit.show.curves import tests_of
 from pyrofit.show.drawn import Axes, Canvas, Line2D, Patch
 from pyrofit.show.figure import Figure
-from pyrofit.show.kinetics.drawing import dash_of, labels_of, rate_of
+from pyrofit.show.kinetics.drawing import dash_of, rate_of
 from pyrofit.show.names import data_name
+from pyrofit.show.verdicts import verdict_on
 from pyrofit.solver.arrays import FloatArray
 
 COLUMNS = 2
 
 
 def heats(study: Study, results: Results) -> Canvas:
-    """Draw each signal other than mass against temperature, one panel each."""
-    pairs = heats_shown(study)
+    """Draw each signal other than mass against temperature, one panel each; repeats share one."""
+    tests = tests_of(study, heats_shown(study))
     curves = kinetics.heat_curves(study, results)
-    canvas, axes = style.panels(len(pairs), COLUMNS, style.TWO_COLUMNS, 70.0)
+    canvas, axes = style.panels(len(tests), COLUMNS, style.TWO_COLUMNS, 70.0)
     stated = False
-    for ax, (name, signal) in zip(axes, pairs, strict=True):
-        quantity = study.experiments[name].quantity(signal)
-        measured = recorded.series(study, results, name, signal)
-        stated |= quantity.uncertainty_column in measured
-        _draw_measured(ax, measured, quantity)
-        here = curves[(curves["experiment"] == name) & (curves["signal"] == signal)]
-        for k, label in enumerate(labels_of(study)):
-            curve = here[here["set"] == label]
-            _draw(ax, curve, _shown(curve["value"], quantity), k)
-        ax.set_ylabel(quantity.label)
+    for ax, repeats in zip(axes, tests, strict=True):
+        for name, signal in repeats:
+            quantity = study.experiments[name].quantity(signal)
+            measured = recorded.series(study, results, name, signal)
+            stated |= quantity.uncertainty_column in measured
+            _draw_measured(ax, measured, quantity, len(repeats))
+            ax.set_ylabel(quantity.label)
+        for name, signal in repeats:
+            here = curves[(curves["experiment"] == name) & (curves["signal"] == signal)]
+            for k, label in enumerate(kinetics.labels(study)):
+                curve = here[here["set"] == label]
+                quantity = study.experiments[name].quantity(signal)
+                _draw(ax, curve, _shown(curve["value"], quantity), k)
         ax.set_xlabel("temperature [°C]")
-    style.letter(axes, [_heading(study, *pair) for pair in pairs])
+    style.letter(axes, [_heading(study, *repeats[0]) for repeats in tests])
     style.legend_below(canvas, _entries(study, stated))
     return canvas
 
@@ -45,14 +50,14 @@ def _shown(values: pd.Series, quantity: Quantity) -> FloatArray:
     return converted
 
 
-def _draw_measured(ax: Axes, measured: pd.DataFrame, quantity: Quantity) -> None:
+def _draw_measured(ax: Axes, measured: pd.DataFrame, quantity: Quantity, repeats: int) -> None:
     temperature = style.celsius(measured["temperature_K"])
     values = _shown(measured[quantity.column], quantity)
     if quantity.uncertainty_column in measured:
         width = measured[quantity.uncertainty_column].to_numpy(float) * quantity.shown.factor
         low, high = values - width, values + width
         ax.fill_between(temperature, low, high, color=style.BAND, linewidth=0.0)
-    ax.plot(temperature, values, color="0.6", linewidth=2.0)
+    ax.plot(temperature, values, color="0.6", linewidth=2.0 if repeats == 1 else 0.8)
 
 
 def _draw(ax: Axes, curve: pd.DataFrame, values: FloatArray, k: int) -> None:
@@ -64,7 +69,9 @@ def _heading(study: Study, name: str, signal: str) -> str:
     """Return heating rate and signal, and whether it is fitted."""
     assert study.kinetics is not None
     fitted = any((t.experiment, t.signal) == (name, signal) for t in study.kinetics.cost)
-    return f"{rate_of(study, name)}, {name}" + (", in fit" if fitted else "")
+    repeat = study.experiments[name].repeat
+    test = repeat.test if repeat else name
+    return f"{rate_of(study, name)}, {test}" + (", in fit" if fitted else "")
 
 
 def _entries(study: Study, stated: bool) -> list[Line2D | Patch]:
@@ -75,7 +82,7 @@ def _entries(study: Study, stated: bool) -> list[Line2D | Patch]:
         entries.append(style.patch("stated uncertainty", color=style.BAND))
     return entries + [
         style.line(label, color=style.colour(k), linestyle=dash_of(k))
-        for k, label in enumerate(labels_of(study))
+        for k, label in enumerate(kinetics.labels(study))
     ]
 
 
@@ -83,6 +90,7 @@ FIGURE = Figure(
     place=40,
     applies=lambda study: bool(heats_shown(study)),
     make=heats,
+    verdict=lambda study, facts: verdict_on(study, facts, "kinetics", heats_shown(study)),
     title="Heat flow and heat release of heated samples",
     caption="Heat flow (DSC, positive where heat is taken up) or heat release rate (MCC) per "
     "initial mass against temperature. Grey: data with their uncertainty; dashed and "

@@ -1,46 +1,49 @@
 """The kinetics at all heating rates."""
 
-from pyrofit.analysis.uses import all_rates, rates_in_fit
+from collections.abc import Sequence
+
+import pandas as pd
+
+from pyrofit.analysis.uses import all_rates, mass_signal, rates_in_fit
 from pyrofit.config import Study
 from pyrofit.results import kinetics
 from pyrofit.results.files import Results
 from pyrofit.show import style
-from pyrofit.show.drawn import Canvas
+from pyrofit.show.drawn import Axes, Canvas
 from pyrofit.show.figure import Figure
 from pyrofit.show.kinetics.drawing import (
     busy_span,
     dash_of,
     data_entries,
     draw_band,
-    labels_of,
     mass_series,
     rate_of,
     sets_of,
+    together,
 )
+from pyrofit.show.verdicts import verdict_on
 from pyrofit.solver.outputs import MASS_FRACTION
 
 
 def kinetics_all_rates(study: Study, results: Results) -> Canvas:
-    """Draw mass against temperature at every heating rate, one panel each."""
+    """Draw mass against temperature at every heating rate, one panel each; repeats share one."""
     curves = kinetics.curves(study, results, all_rates(study))
     names = all_rates(study)
     used = set(rates_in_fit(study))
-    height = 52.0 if len(names) > 3 else 70.0
-    canvas, axes = style.panels(len(names), 4, style.TWO_COLUMNS, height, sharex=True, sharey=True)
-    for ax, name in zip(axes, names, strict=True):
-        measured = mass_series(study, results, name)
-        draw_band(ax, measured)
-        ax.plot(
-            style.celsius(measured["temperature_K"]),
-            measured[MASS_FRACTION],
-            color="0.6",
-            linewidth=2.0,
-        )
-        for k, (_, curve) in enumerate(sets_of(study, curves, name)):
-            temperature = style.celsius(curve["temperature_K"])
-            ax.plot(temperature, curve[MASS_FRACTION], color=style.colour(k), linestyle=dash_of(k))
+    panels = together(names, lambda n: _title(study, n) + (", in fit" if n in used else ""))
+    height = 52.0 if len(panels) > 3 else 70.0
+    canvas, axes = style.panels(len(panels), 4, style.TWO_COLUMNS, height, sharex=True, sharey=True)
+    for ax, repeats in zip(axes, panels.values(), strict=True):
+        for name in repeats:
+            measured = mass_series(study, results, name)
+            draw_band(ax, measured)
+            temperature = style.celsius(measured["temperature_K"])
+            look = {"color": "0.6", "linewidth": 2.0 if len(repeats) == 1 else 1.0}
+            ax.plot(temperature, measured[MASS_FRACTION], **look)  # type: ignore[arg-type]
+        for name in repeats:
+            _draw_sets(ax, sets_of(study, curves, name))
         ax.set_xlim(*busy_span(curves))
-    style.letter(axes, [_title(study, n) + (", in fit" if n in used else "") for n in names])
+    style.letter(axes, list(panels))
     for i, ax in enumerate(axes):
         if i % 4 == 0:
             ax.set_ylabel("normalised mass $m/m_0$ [–]")
@@ -49,10 +52,16 @@ def kinetics_all_rates(study: Study, results: Results) -> Canvas:
             ax.set_xlabel("temperature [°C]")
     lines = [
         style.line(label, color=style.colour(k), linestyle=dash_of(k))
-        for k, label in enumerate(labels_of(study))
+        for k, label in enumerate(kinetics.labels(study))
     ]
     style.legend_below(canvas, [*data_entries(study, results, names), *lines])
     return canvas
+
+
+def _draw_sets(ax: Axes, sets: Sequence[tuple[str, pd.DataFrame]]) -> None:
+    for k, (_, curve) in enumerate(sets):
+        temperature = style.celsius(curve["temperature_K"])
+        ax.plot(temperature, curve[MASS_FRACTION], color=style.colour(k), linestyle=dash_of(k))
 
 
 def _title(study: Study, name: str) -> str:
@@ -68,6 +77,9 @@ FIGURE = Figure(
     place=30,
     applies=lambda study: bool(all_rates(study)),
     make=kinetics_all_rates,
+    verdict=lambda study, facts: verdict_on(
+        study, facts, "kinetics", [(n, mass_signal(study, n)) for n in all_rates(study)]
+    ),
     title="Kinetics at all heating rates",
     caption="Mass against temperature at the fitted and compared heating rates. Panels without "
     "'in fit' are predictions: a set that only fits where it was fitted fails there.",

@@ -10,6 +10,7 @@ OPTIMISERS = section_of(
     __path__,
     anchor="optimisation",
     heading="Optimisers",
-    text=f"SCE-UA, and from random starts on the same costs {listed(STARTED)}.",
+    text=f"A study of methods: SCE-UA, and from random starts on the same costs {listed(STARTED)}.",
     sentences=sentences,
+    folded=True,
 )

@@ -1,6 +1,6 @@
 """Rates of the optimisers."""
 
-from pyrofit.analysis.uses import SCEUA, STARTED, predicted_signals
+from pyrofit.analysis.uses import SCEUA, STARTED, predicted_sets, predicted_signals
 from pyrofit.config import Study
 from pyrofit.estimate.optimisers import OPTIMISERS
 from pyrofit.results.files import Results
@@ -13,7 +13,8 @@ from pyrofit.show.text import listed
 def optimisers(study: Study, results: Results) -> Canvas:
     """Draw the best sets of all optimisers at all predicted experiments."""
     pairs = predicted_signals(study, relative=True)
-    return compare_curves(study, results, pairs, (SCEUA, *STARTED))
+    sets = [s for s in predicted_sets(study) if s.origin in (SCEUA, *STARTED)]
+    return compare_curves(study, results, pairs, sets)
 
 
 _MARKED = [f"{by.words} ({by.shape})" for by in OPTIMISERS.values()]

@@ -4,6 +4,7 @@ from collections.abc import Mapping, Sequence
 
 import pandas as pd
 
+from pyrofit.analysis.distances import Distance
 from pyrofit.analysis.optimisers import LOCAL_OPTIMUM, NOT_A_MINIMUM
 from pyrofit.analysis.uses import FITTED, PUBLISHED, STARTED
 from pyrofit.config import Study
@@ -11,7 +12,7 @@ from pyrofit.estimate.optimisers import OPTIMISERS
 from pyrofit.show.facts import Facts
 from pyrofit.show.names import costs_of
 from pyrofit.show.table import Frames
-from pyrofit.show.text import listed, number
+from pyrofit.show.text import listed, number, span
 
 
 def ahead(tables: Frames) -> str:
@@ -43,8 +44,9 @@ def ahead(tables: Frames) -> str:
 
 
 def sentences(study: Study, facts: Facts) -> list[str]:
-    """Return the sentences on the optimisers: who is ahead, and times."""
-    said = [ahead(facts.tables), _beaten(facts.tables), _times(facts.times)]
+    """Return the sentences on the optimisers: who is ahead, distances, times."""
+    said = [ahead(facts.tables), _beaten(facts.tables), _distances(facts.distances)]
+    said.append(_times(facts.times))
     return [text for text in said if text]
 
 
@@ -78,3 +80,15 @@ def _times(times: Mapping[str, Sequence[float]]) -> str:
         for by, jobs in times.items()
     ]
     return f"Wall times of this run, all cost functions: {', '.join(parts)}."
+
+
+def _distances(found: Sequence[Distance]) -> str:
+    parts = []
+    for label in dict.fromkeys(one.set for one in found):
+        here = [one for one in found if one.set == label]
+        chi2 = span([one.chi2_per_freedom for one in here])
+        parts.append(f"{label} {span([one.distance_sd for one in here])} sd (chi-square {chi2})")
+    return (
+        "Distance of the cost functions' sets from the answer in their farthest parameter, and "
+        f"chi-square per degree of freedom: {'; '.join(parts)}."
+    )

@@ -14,7 +14,7 @@ from pyrofit.provenance import environment
 from pyrofit.results.code_digests import code
 from pyrofit.results.recorded import Measured
 from pyrofit.show import measured as measurements
-from pyrofit.show.parts import Part, Picture, Shown
+from pyrofit.show.parts import Part, Picture, Question, Shown
 from pyrofit.show.text import typeset
 
 
@@ -22,17 +22,18 @@ def page_of(
     study: Study,
     measured: Measured,
     title: str,
-    summary: Sequence[str],
+    summary: Sequence[Question],
     sections: Sequence[Shown],
     pictures: Sequence[Picture] = (),
     answer: Part | None = None,
     lacks: str = "",
     use: measurements.Use = measurements.use_in_campaign,
 ) -> str:
-    """Return a page as HTML: sentences of the summary, the data, sections, provenance.
+    """Return a page as HTML: questions of the summary, the data, sections, provenance.
 
-    ``pictures`` and the table ``answer`` end the summary, ``lacks`` names the missing effects; each
-    is left out where there is none. ``use`` returns the use of each series in words.
+    The table ``answer`` follows a question that asks for it, ``pictures`` end the summary, and
+    ``lacks`` names the missing effects. Each is left out where there is none. ``use`` returns
+    the use of each series in words.
     """
     template = _templates().get_template("report.html.j2")
     return template.render(

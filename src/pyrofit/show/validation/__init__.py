@@ -1,4 +1,4 @@
-"""Predictions of data that were not fitted."""
+"""Fitted tests, and predictions of data that were not fitted."""
 
 from pyrofit.show.section import section_of
 from pyrofit.show.validation.sentences import sentences
@@ -7,7 +7,7 @@ VALIDATION = section_of(
     __name__,
     __path__,
     anchor="validation",
-    heading="Validation",
-    text="The best sets, simulated at experiments and signals they were not fitted to.",
+    heading="Fitted and predicted tests",
+    text="The estimates beside the tests they were fitted to, and at others.",
     sentences=sentences,
 )

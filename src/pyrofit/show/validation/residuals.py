@@ -1,7 +1,7 @@
 """Residuals of the predicted rates."""
 
 from pyrofit.analysis.running import running_mean
-from pyrofit.analysis.uses import SCEUA, predicted_sets, predicted_signals
+from pyrofit.analysis.uses import PUBLISHED, predicted_signals
 from pyrofit.config import Study
 from pyrofit.results import recorded
 from pyrofit.results.files import Results
@@ -16,11 +16,13 @@ from pyrofit.show.curves import (
     panels_of,
     predicted_curves,
     set_entries,
+    sets_beside_data,
 )
 from pyrofit.show.drawn import Canvas
 from pyrofit.show.figure import Figure
 from pyrofit.show.names import data_name
 from pyrofit.show.units import difference
+from pyrofit.show.verdicts import verdict_on
 
 
 def residuals(study: Study, results: Results) -> Canvas:
@@ -28,7 +30,7 @@ def residuals(study: Study, results: Results) -> Canvas:
     pairs = predicted_signals(study, relative=True)
     canvas, axes = panels_of(study, pairs)
     curves = predicted_curves(study, results)
-    sets = [s for s in predicted_sets(study) if s.origin == SCEUA]
+    sets = [s for s in sets_beside_data(study) if s.origin != PUBLISHED]
     for ax, (name, signal) in zip(axes, pairs, strict=True):
         quantity = study.experiments[name].quantity(signal)
         draw_band(ax, recorded.series(study, results, name, signal), quantity, about_zero=True)
@@ -51,9 +53,12 @@ FIGURE = Figure(
     place=20,
     applies=lambda study: bool(predicted_signals(study, relative=True)),
     make=residuals,
+    verdict=lambda study, facts: verdict_on(
+        study, facts, "imp", predicted_signals(study, relative=True)
+    ),
     title="Residuals of the rates",
-    caption="Mass loss rate or heat release rate of the best sets minus that of the data. "
-    "Thin: every point; bold: running mean over 3 % of the points; grey area: "
+    caption="Simulated mass loss rate or heat release rate minus that of the "
+    "data. Thin: every point; bold: running mean over 3 % of the points; grey area: "
     "uncertainty of the data about zero. Noise scatters about zero; long stretches on "
     "one side are systematic.",
 )

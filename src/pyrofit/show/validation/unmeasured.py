@@ -1,6 +1,6 @@
 """Predictions of tests that were not made."""
 
-from pyrofit.analysis.uses import SCEUA, STARTED, predicted_sets
+from pyrofit.analysis.uses import ESTIMATES, SCEUA, STARTED, predicted_sets
 from pyrofit.config import Study
 from pyrofit.config.unmeasured import unmeasured
 from pyrofit.quantities import known_quantities
@@ -18,7 +18,7 @@ def predictions(study: Study, results: Results) -> Canvas:
     pairs = [(name, q) for name, quantities in unmeasured(study).items() for q in quantities]
     canvas, axes = panels_of(study, pairs)
     sets = predicted_sets(study)
-    drawn = [chosen for chosen in sets if chosen.origin in (SCEUA, *STARTED)]
+    drawn = [chosen for chosen in sets if chosen.origin in (ESTIMATES, SCEUA, *STARTED)]
     curves = prediction.unmeasured_curves(study, results, [chosen.label for chosen in sets])
     for ax, (name, quantity) in zip(axes, pairs, strict=True):
         for chosen in drawn:
@@ -35,7 +35,7 @@ FIGURE = Figure(
     applies=lambda study: bool(unmeasured(study)),
     make=predictions,
     title="Predictions without a measurement",
-    caption="The best sets of all cost functions and optimisers at experiments that nobody "
-    "measured. The distance between the curves shows how much the choice of a set matters. It is "
-    "no prediction interval.",
+    caption="The estimates, and the best sets of all cost functions and optimisers at experiments "
+    "that nobody measured. The distance between the curves shows how much the choice of a set "
+    "matters. It is no prediction interval.",
 )

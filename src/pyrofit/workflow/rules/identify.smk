@@ -35,10 +35,13 @@ if study.kinetics is not None:
             KINETICS,
         output:
             identification("kinetics"),
+            SHOWN_KINETICS,
         log:
             log_of("identify_kinetics"),
         benchmark:
             benchmark_of("identify_kinetics")
+        # The searches of the inverse modelling wait for it.
+        priority: 3
         params:
             study=STUDY,
             digest=digest(dependencies.kinetics(study)),

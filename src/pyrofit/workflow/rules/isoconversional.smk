@@ -12,7 +12,11 @@ if has_rates(study):
         """Activation energy over conversion, by methods that know no reactions."""
         input:
             MEASUREMENTS,
-            KINETICS or [results.identification("estimate.csv")],
+            (
+                results.identification("estimate.csv", "kinetics")
+                if study.kinetics
+                else results.identification("estimate.csv")
+            ),
         output:
             ISOCONVERSIONAL,
         log:

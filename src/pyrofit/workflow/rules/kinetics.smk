@@ -1,13 +1,21 @@
-_FILES = ("fit.json", "history.csv.gz", "convergence.csv", "curves.csv", "scores.csv")
+_SEARCHED = ("fit.json", "history.csv.gz", "convergence.csv")
 _HEAT_FILES = ("heats.csv", "heat_scores.csv") if heats_shown(study) else ()
+SHOWN_KINETICS = [
+    results.kinetics(name)
+    for name in ("sets.json", "curves.csv", "scores.csv", *_HEAT_FILES)
+]
 FITTED_KINETICS = (
     []
     if study.kinetics is None
-    else [results.kinetics(name) for name in (*_FILES, *_HEAT_FILES)]
+    else [*(results.kinetics(name) for name in _SEARCHED), *SHOWN_KINETICS]
 )
 KINETICS = FITTED_KINETICS[:1]
-# The inverse modelling waits for the fit only where it uses it.
-KINETICS_FOR_IMP = KINETICS if study.imp.kinetics == "fitted" else []
+# The inverse modelling waits for the estimates only where it uses them.
+KINETICS_FOR_IMP = (
+    [results.identification("estimate.csv", "kinetics")]
+    if study.imp.kinetics == "fitted"
+    else []
+)
 
 
 if study.kinetics is not None:
@@ -19,9 +27,6 @@ if study.kinetics is not None:
             fit=results.kinetics("fit.json"),
             history=results.kinetics("history.csv.gz"),
             convergence=results.kinetics("convergence.csv"),
-            curves=results.kinetics("curves.csv"),
-            scores=results.kinetics("scores.csv"),
-            heats=[results.kinetics(name) for name in _HEAT_FILES],
         log:
             log_of("kinetics"),
         benchmark:

@@ -15,6 +15,7 @@ rule predict:
         OUTSIDE,
         results.imp("summary.csv"),
         STARTED,
+        results.identification("estimate.csv"),
     output:
         PREDICTED,
     log:
@@ -26,7 +27,7 @@ rule predict:
         experiments=" ".join(study.validation.experiments),
         source=source_fingerprint("pyrofit.stages.predict"),
     message:
-        "Best sets simulated at {params.experiments}"
+        "Estimates and best sets simulated at {params.experiments}"
     shell:
         '"$PYROFIT_PYTHON" -P -m pyrofit'
         " predict --study {params.study} --digest {params.digest} --log {log}"

@@ -66,7 +66,7 @@ def _draw(ax: Axes, bands: pd.DataFrame, quantity: Quantity, looks: Mapping[str,
 
 
 FIGURE = Figure(
-    place=50,
+    place=60,
     applies=lambda study: bool(study.validation.experiments),
     make=good_sets,
     title="Predictions of the good sets",

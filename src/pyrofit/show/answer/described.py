@@ -1,0 +1,43 @@
+"""Whether the models describe the tests, in sentences for the first screen."""
+
+from collections.abc import Iterator
+
+from pyrofit.config import Study
+from pyrofit.results.goodness import LEVEL, Goodness
+from pyrofit.show.facts import Facts
+from pyrofit.show.goodness import missed_most, verdict_words
+from pyrofit.show.names import STAGES
+from pyrofit.show.text import listed, several
+
+NEAR_ONE = (0.5, 1.5)
+"""Chi-square per point that is said to be near 1."""
+
+
+def described(study: Study, facts: Facts) -> Iterator[str]:
+    """Yield for each stage its verdict and where it misses most, then the repeats that differ."""
+    for stage, found in facts.goodness.items():
+        text = verdict_words(STAGES[stage], found)
+        if not found.describes:
+            text += "".join(f" {where}" for where in missed_most(study, found, 1))
+        yield text
+        yield from _both_right(found, facts.chi2_per_point[stage])
+    yield from _repeats(facts)
+
+
+def _both_right(found: Goodness, chi2: float) -> Iterator[str]:
+    """Explain a chi-square near 1 beside a fit that misses."""
+    low, high = NEAR_ONE
+    if found.p < LEVEL and low <= chi2 <= high:
+        yield (
+            f"Chi-square per point is {chi2:.2g} there, near the 1 of noise, and yet the model "
+            "misses. Both are right: chi-square adds up the sizes of the residuals, whatever "
+            "their order. The test looks at their order, and finds them on one side for long."
+        )
+
+
+def _repeats(facts: Facts) -> Iterator[str]:
+    found = [r for g in facts.goodness.values() for r in g.repeats]
+    names = list(dict.fromkeys(r.experiment for r in found))
+    if names:
+        differ = "differs from its repeats" if len(names) == 1 else "differ from their repeats"
+        yield f"{several(len(names), 'record')} {differ}: {listed(names)}."

@@ -1,0 +1,74 @@
+"""Next steps after a run, in sentences for the first screen."""
+
+from collections.abc import Iterator
+
+from pyrofit.analysis.answer import one_each
+from pyrofit.analysis.best_predicting import never_fitted, of_answer
+from pyrofit.analysis.uses import FITTED
+from pyrofit.config import Study
+from pyrofit.show.facts import Facts
+from pyrofit.show.goodness import NEXT
+from pyrofit.show.names import STAGES, all_scored
+from pyrofit.show.text import listed
+
+_WORSE = 2.0
+"""Ratio of errors from which a prediction is said to be worse than the fit."""
+_COMMANDS = {"kinetics": "pyrofit run STUDY scheme", "imp": "pyrofit run STUDY diagnose"}
+"""Commands of the steps that follow a misfit, by stage."""
+
+
+def next_steps(study: Study, facts: Facts) -> Iterator[str]:
+    """Yield the steps, the first first: data, limits, model, further tests, prediction."""
+    if any(found.repeats for found in facts.goodness.values()):
+        yield (
+            "Leave out the records that differ from their repeats, or explain them, and run again. "
+            "The section on identifiability tells how they differ."
+        )
+    ours = one_each(study, facts.estimates)
+    if bound := [e.name for e in ours if e.bound]:
+        yield (
+            f"Widen the limits of {listed(bound)} if the material allows it; else look for the "
+            "effect that the model lacks."
+        )
+    missed = [stage for stage, found in facts.goodness.items() if not found.describes]
+    for stage in missed:
+        yield f"{STAGES[stage].capitalize()}: {_lower(NEXT[stage])} ({_COMMANDS[stage]})."
+    loose = [e.name for e in ours if e.grade in ("weakly determined", "undetermined")]
+    if loose and not missed:
+        yield (
+            f"To determine {listed(loose)}, plan a test: the step worth tells which one helps most "
+            "(pyrofit run STUDY worth)."
+        )
+    yield advice(study, facts)
+
+
+def _lower(text: str) -> str:
+    return text[0].lower() + text[1:]
+
+
+def advice(study: Study, facts: Facts) -> str:
+    """Say which set to predict with, and how large the errors were at held-out tests."""
+    text = "To predict, use all estimates together (pyrofit export fds STUDY writes them)."
+    if facts.ensemble:
+        text = (
+            f"To predict, use the ensemble of {facts.ensemble} sets (posterior/ensemble.csv): its "
+            "bands show the uncertainty. If you need one set, use the estimates."
+        )
+    if not facts.goodness["imp"].describes:
+        text += " The model misses its tests: expect errors of that size or larger."
+    return f"{text} {_held_out(facts)}"
+
+
+def _held_out(facts: Facts) -> str:
+    mine = of_answer(never_fitted(facts.scores))
+    if not mine:
+        return "No test was held out, so the prediction of other tests is untested."
+    text = f"At held-out tests the estimates predict {all_scored(mine)}."
+    fitted = [s for s in of_answer(facts.scores) if s.use == FITTED and s.quantity.relative]
+    held_out = [s.value for s in mine if s.quantity.relative]
+    if fitted and held_out and max(held_out) > _WORSE * max(s.value for s in fitted):
+        text += (
+            f" That is more than twice the error of the fitted data ({all_scored(fitted)}): find "
+            "first which effect the model lacks."
+        )
+    return text

@@ -1,0 +1,94 @@
+"""Which values can be published, in sentences for the first screen."""
+
+from collections.abc import Iterator
+
+from pyrofit.analysis.answer import estimated_twice, one_each
+from pyrofit.analysis.estimates import Estimated
+from pyrofit.config import Study
+from pyrofit.show.facts import Facts
+from pyrofit.show.names import STAGES, named
+from pyrofit.show.text import listed, several
+
+SEEN = 0.05
+"""Part of a signal's variance from which on an assumption is said to matter."""
+
+
+def publishable(study: Study, facts: Facts) -> Iterator[str]:
+    """Yield the limits that were reached, then the parameters by verdict, then the assumptions."""
+    ours = one_each(study, facts.estimates)
+    yield from _at_limits([e for e in ours if e.bound])
+    yield _by_verdict(ours)
+    yield from _far_from_known(facts)
+    yield from _twice(study)
+    yield from _assumed(facts)
+
+
+def _at_limits(found: list[Estimated]) -> Iterator[str]:
+    if found:
+        are = "is" if len(found) == 1 else "are"
+        ends = [f"{e.name} ({e.bound})" for e in found]
+        yield (
+            f"{listed(ends)} {are} at a limit: the best fit lies outside the limits. Such a value "
+            "is the limit's, and the others depend on it."
+        )
+
+
+def _by_verdict(ours: list[Estimated]) -> str:
+    groups: dict[str, list[Estimated]] = {}
+    for e in ours:
+        groups.setdefault(e.grade, []).append(e)
+    sure = groups.pop("determined", [])
+    if sure:
+        text = (
+            f"The data determine {len(sure)} of {several(len(ours), 'parameter')}: "
+            f"{listed([e.name for e in sure])} (95 % interval narrower than 20 % of the search "
+            "range). Publish them with their intervals."
+        )
+    elif "apparent value" in groups:
+        text = "No value can be published as a property of the material from this model."
+    else:
+        text = "The data determine no parameter."
+    groups.pop("at a limit", None)
+    parts = [f"{grade}: {listed([named(e) for e in of])}" for grade, of in groups.items()]
+    if parts:
+        text += f" {'; '.join(parts).capitalize()[:1]}{'; '.join(parts)[1:]}."
+    loose = [e.name for e in ours if e.grade in ("weakly determined", "undetermined")]
+    if loose:
+        text += f" Do not quote {listed(loose)} alone: other values fit as well."
+    return text
+
+
+def _far_from_known(facts: Facts) -> Iterator[str]:
+    far = [
+        f"{k.estimate.name} of the {STAGES[k.estimate.stage]} by {abs(k.away_sd):.2g} sd"
+        for k in facts.known
+        if k.is_far
+    ]
+    if far:
+        yield (
+            f"Away from its known value: {listed(far)}. Check that value; else the estimate "
+            "compensates for an effect that the model lacks."
+        )
+
+
+def _twice(study: Study) -> Iterator[str]:
+    if names := estimated_twice(study):
+        yield (
+            f"The kinetics estimate {listed(names)}, too. The answer takes the value of the "
+            "inverse modelling."
+        )
+
+
+def _assumed(facts: Facts) -> Iterator[str]:
+    if not facts.assumptions:
+        return
+    said = [f"{words} ({listed(tests)})" for words, tests in facts.assumptions.items()]
+    text = f"Assumed, not estimated: {'; '.join(said)}."
+    if facts.influence is None:
+        text += " The step sensitivity tells how much they matter."
+    elif parts := {k: v for k, v in facts.influence.items() if v >= SEEN}:
+        shares = [f"{label} {100.0 * share:.2g} %" for label, share in parts.items()]
+        text += f" Their largest parts in the variance of a signal: {listed(shares)}."
+    else:
+        text += f" None makes more than {100.0 * SEEN:.2g} % of the variance of a signal."
+    yield text
