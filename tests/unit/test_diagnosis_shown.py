@@ -447,6 +447,7 @@ def test_tables_are_written_and_those_of_an_earlier_diagnosis_removed(tmp_path: 
     assert {p.stem for p in folder.glob("*.csv")} == set(report.TABLES) - {
         "probes",
         "next_experiments",
+        "taken_away",
     }
     assert not (folder / "probes.md").exists()
 

@@ -20,12 +20,11 @@ from pyrofit.diagnose.base.model import Base, Free, fraction, model_of, strength
 from pyrofit.diagnose.search.refit import look_at, model_with, with_effect
 from pyrofit.diagnose.search.score_test import Screening
 from pyrofit.diagnose.settings import SETTINGS
+from pyrofit.effects import known_effects
+from pyrofit.effects.base import has_programme
 from pyrofit.numerics import functions
 from pyrofit.parallel import parallel_map
 from pyrofit.solver.arrays import FloatArray
-
-OF_RECORD = ("tga_offset", "tga_lag")
-"""Effects on the records of small samples that every fit to them allows for."""
 
 
 def kinetics_first(
@@ -51,17 +50,25 @@ def kinetics_first(
         return base
     alone = replace(base, calibrated=small)
     first, starts = fitted_from_starts(alone, seed, processes)
-    first = _with(first, OF_RECORD, candidates)
+    first = _with(first, _of_record(candidates))
     return _narrowed(base, names, _explained(first, candidates, starts, processes))
 
 
-def _with(trial: FittedModel, effects: Sequence[str], candidates: Sequence[str]) -> FittedModel:
-    """Return a model fitted with further effects that it can have."""
+def _of_record(candidates: Sequence[str]) -> list[str]:
+    """Return the candidates that belong to the records of small samples, not to the material."""
+    effects = known_effects()
+    return [
+        name
+        for name in candidates
+        if not effects[name].is_shared and effects[name].needs is has_programme
+    ]
+
+
+def _with(trial: FittedModel, effects: Sequence[str]) -> FittedModel:
+    """Return a model fitted with further effects."""
     for effect in effects:
         name, quantity = strength_of(effect)
         free: Free = {**trial.model.effects, effect: (name,)}
-        if effect not in candidates:
-            continue
         model = model_of(trial.model.base, free, trial.model.channels)
         x = np.append(trial.fit.x, fraction(quantity, quantity.value))
         trial = FittedModel(model, descend(model, x))
@@ -136,6 +143,6 @@ def _narrowed(base: Base, names: Collection[str], alone: Sequence[FittedModel]) 
     lower = np.where(of_kinetics, problem.lower + lowest * problem.span, problem.lower)
     upper = np.where(of_kinetics, problem.lower + highest * problem.span, problem.upper)
     narrow = replace(problem, lower=lower, upper=upper)
-    asked = tuple(effect for effect in alone[-1].effects if effect not in OF_RECORD)
+    asked = [effect for effect in alone[-1].effects if known_effects()[effect].is_shared]
     likelihood = replace(base.likelihood, problem=narrow)
-    return replace(base, likelihood=likelihood, of_small_samples=asked)
+    return replace(base, likelihood=likelihood, of_small_samples=tuple(asked))
