@@ -41,7 +41,7 @@ LEAST_CHANGE = {
     "flux_level": ("MLR 60", 0.05),
     "flux_spread": ("MLR 60", 0.11),
     "foil_contact": ("MLR 60", 0.02),
-    "foil_mass": ("MLR 60", 0.11),
+    "foil_mass": ("MLR 60", 0.06),
     "front_convection": ("MLR 60", 0.18),
     "gas_enthalpy": ("MLR 60", 0.19),
     "gas_heating": ("MLR 25", 0.04),

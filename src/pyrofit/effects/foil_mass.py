@@ -15,7 +15,7 @@ EFFECT = Effect(
             lower=0.0,
             upper=40.0,
             value=1.0,
-            typical=3.0,
+            typical=4.0,
             plausible=(0.5, 4.0),
             source="MaCFP PMMA: foil of 0.025 mm; 0.2 mm have been used in models of it",
         )
