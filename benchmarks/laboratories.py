@@ -19,6 +19,7 @@ from pyrofit.config import (
     Study,
     as_study,
     calibration_channels,
+    candidate_effects,
     diagnosed_material,
     diagnosed_parameters,
     held_out_channels,
@@ -29,42 +30,28 @@ from pyrofit.config.uses import parameters_in
 from pyrofit.diagnose.base.descent import descend
 from pyrofit.diagnose.base.fitted import FittedModel
 from pyrofit.diagnose.base.model import Base, Free, Model, extended, model_of
+from pyrofit.diagnose.search.kinetics_first import kinetics_first
 from pyrofit.estimate.likelihood import likelihood_of
-from pyrofit.estimate.prior import NormalPrior, prior_of
+from pyrofit.estimate.prior import NormalPrior, prior_of, within_known
 from pyrofit.estimate.problem import make_problem
 from pyrofit.estimate.targets import Measurements
 from pyrofit.solver.arrays import FloatArray
 from pyrofit.stages.reading import read_all
 
 FOUND: Free = {
-    "foil_mass": ("factor",),
-    "reaction_order": ("order",),
     "bubbling": ("volume", "temperature_K", "thinning"),
+    "reaction_order": ("order",),
 }
 """The effects that the diagnosis of `pmma` found."""
 MODELS: dict[str, Free] = {
     "base": {},
     "effects found": FOUND,
-    "three by hand": {
-        "swelling": ("step", "temperature_K", "width_K"),
-        "foil_mass": ("factor",),
-        "flux_spread": ("spread",),
-    },
-    "four by hand": {
-        "swelling": ("step", "temperature_K", "width_K"),
-        "glass_transition": ("step_J_kgK", "temperature_K"),
-        "foil_mass": ("factor",),
-        "flux_spread": ("spread",),
+    "swelling and order": {
+        "swelling": ("step", "temperature_K"),
+        "reaction_order": ("order",),
     },
 }
-STARTS = {
-    "swelling": 1.0,
-    "bubbling": 0.7,
-    "glass_transition": 200.0,
-    "foil_mass": 15.0,
-    "reaction_order": 1.7,
-    "flux_spread": 0.03,
-}
+STARTS = {"swelling": 1.0, "bubbling": 0.7, "reaction_order": 1.7}
 SPREAD = 5
 """Starts beside the centre of the limits."""
 DEGREES = ("as described", "uncertain fitted", "material fitted")
@@ -79,10 +66,15 @@ def base_of(study: Study, measurements: Measurements, held_out: bool) -> Base:
     count = len(channels)
     used = parameters_in(diagnosed_material(study), *calibrated(study).values())
     names = [n for n in diagnosed_parameters(study) if held_out or n in used]
-    channels += held_out_channels(study) if held_out else ()
+    slabs = (c for c in held_out_channels(study) if study.serves(c.experiment, "imp"))
+    channels += tuple(slabs) if held_out else ()
     material = diagnosed_material(study)
     problem = make_problem(study, names, channels, measurements, material, study.fixed_values())
-    return Base(likelihood_of(problem, prior_of(study, problem)), tuple(range(count)))
+    problem = within_known(study, problem)
+    base = Base(
+        likelihood_of(problem, prior_of(study, problem), tolerant=True), tuple(range(count))
+    )
+    return kinetics_first(base, KINETICS, candidate_effects(study), study.seed)
 
 
 def centre(base: Base) -> FloatArray:

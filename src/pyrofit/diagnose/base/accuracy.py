@@ -17,8 +17,8 @@ def solver_error(trial: FittedModel, accuracy: Accuracy) -> float:
     """Return the change of a fitted model by another accuracy, in chi-square.
 
     It is the sum of the squares of the change of the whitened residuals, without the part that the
-    fitted parameters make up for, under a noise as large as the misfit. It is infinite where a run
-    does not finish.
+    fitted parameters make up for. The noise counts as large as the misfit. The change is infinite
+    where a run does not finish.
     """
     likelihood = trial.model.likelihood
     problem = replace(likelihood.problem, accuracy=accuracy)

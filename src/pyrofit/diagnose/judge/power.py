@@ -1,10 +1,10 @@
 """Whether a prediction can tell two models apart, from their own difference.
 
 A prediction gains by an effect if the predicted curves differ by more than the noise, and by more
-than the parameters leave open: those that the calibration determines with an uncertainty, and flux,
-thickness, h and clock of the predicted test. With the whitened difference d of the curves, their
-derivatives J and the precision P of the parameters before the test, the log score is expected to
-gain, if the model with the effect is right,
+than the parameters leave open. These are those of the calibration, with their uncertainty, and
+flux, thickness, h and clock of the predicted test. Let d be the whitened difference of the curves,
+J their derivatives, and P the precision of the parameters before the test. If the model with the
+effect is right, the log score is expected to gain
 
     min over delta of (|d - J delta|^2 + delta^T P delta) / 2.
 """

@@ -1,10 +1,10 @@
 """Kinetics from the small samples, before the slab is looked at.
 
-A model of the slab that lacks an effect moves its kinetics to make up for it, and small samples
-have too few points to prevent this. The kinetics are therefore fitted to TGA, DSC and MCC alone,
-with the effects on them that these records ask for, and with what a careful description leaves open
-of their temperature. The fit of all signals keeps each parameter within three standard deviations
-of this fit. If it rests at such a limit, slab and small samples are in conflict.
+A model of the slab that lacks an effect moves its kinetics to make up for it. Small samples have
+too few points to prevent this. The kinetics are therefore fitted to TGA, DSC and MCC alone, with
+the effects on them that these records ask for. Their temperature may have an error that a careful
+description leaves open. The fit of all signals keeps each parameter within three standard
+deviations of this fit. If it rests at such a limit, slab and small samples are in conflict.
 """
 
 from collections.abc import Collection, Sequence
