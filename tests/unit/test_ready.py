@@ -16,6 +16,7 @@ from pyrofit.ready import machine, plan, report, slurm
 from pyrofit.ready.data import data
 from pyrofit.ready.finding import Check, Finding, Situation
 from pyrofit.ready.timing import _estimate, duration
+from pyrofit.ready.whole_run import Work
 from pyrofit.solver.arrays import Status
 
 ROOT = Path(__file__).parents[2]
@@ -248,13 +249,17 @@ def test_jobs_are_grouped_as_the_workflow_groups_them(
     assert [c.jobs for c in costs] == [jobs + 2] * 3
 
 
-def test_duration_is_calls_times_their_time_and_jobs_over_cores() -> None:
+def test_duration_is_that_of_steps_alone_and_of_the_others_over_cores() -> None:
     part = plan.Part("RMSE", alone=1000.0, together=4000.0, jobs=10)
-    found = _estimate(Situation(None, Path(), 2), [(part, 0.02, 0.01)])
+    beside = [Work(7.0, alone=True), Work(4.0, jobs=2)]
+    found = _estimate(Situation(None, Path(), 2), [(part, 0.02, 0.01)], beside, 3.0)
     assert found.level == "ok"
-    # 1000 x 0.02 s + 4000 x 0.01 s + 10 x 3 s = 90 s
-    assert found.text.startswith("about 45 s for the fits: (5,000 model calls x 12 ms + 10 jobs")
-    slow = _estimate(Situation(None, Path(), 2), [(part, 20.0, 40.0)])
+    # Alone 7 s + 3 s; the others 2 (1000 x 0.02 s + 4000 x 0.01 s) + 4 s + 12 x 3 s = 160 s.
+    assert found.text.startswith(
+        "about 90 s for the run on 2 cores. 5,000 model calls x 12 ms are for the searches, 11 s "
+        "for their analysis and figures, 13 x 3 s to begin a step."
+    )
+    slow = _estimate(Situation(None, Path(), 2), [(part, 20.0, 40.0)], beside, 3.0)
     assert (slow.level, "docs/cluster.md" in slow.text) == ("warning", True)
 
 

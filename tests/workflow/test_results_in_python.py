@@ -4,6 +4,9 @@ import pytest
 from tiny import Project
 
 import pyrofit as pf
+from pyrofit.exchange.sets import parameter_set
+from pyrofit.results.files import Results
+from pyrofit.stages.fit import fixed_for_imp
 
 
 def test_results_of_a_campaign_are_simulated_again(untouched: Project) -> None:
@@ -17,3 +20,26 @@ def test_results_of_a_campaign_are_simulated_again(untouched: Project) -> None:
     score = found.scores.set_index("signal").loc[specs[0].signal]
     assert specs[0].kind == "RMSE"
     assert score["cv_rmse"] == pytest.approx(float(row["best"].iloc[0]), rel=1e-6)
+
+
+def test_every_parameter_has_one_value_wherever_it_is_used(untouched: Project) -> None:
+    folder = untouched.root / "results" / "tiny"
+    campaign = pf.read_results(folder)
+    study, results = campaign.study, Results(folder)
+    values, estimates = campaign.values, campaign.estimates["estimate"]
+    assert study.imp.kinetics == "fitted"
+    assert set(estimates.index) <= set(values)
+    assert [values[n] for n in estimates.index] == pytest.approx(estimates.tolist(), rel=1e-12)
+    exported = parameter_set(study, results, "", folder)
+    assert exported.label == "estimates"
+    factors = {n: study.parameters[n].factor for n in values}
+    assert {n: v / factors[n] for n, v in exported.values.items()} == values
+    table = campaign["table3"].set_index(["quantity", "unit"])
+    assert float(table.loc[("E", "kJ/mol"), "fitted"]) == pytest.approx(values["E_p"])
+    assert fixed_for_imp(study, results)["E_p"] == values["E_p"] * factors["E_p"]
+    # The curves of the validation are those of these values.
+    scores = campaign.predict().scores.set_index(["experiment", "signal"])
+    shown = campaign["validation"].query("found_by == 'estimates'")
+    assert len(shown) == len(scores)
+    rates = scores["cv_rmse"].dropna()
+    assert sorted(shown["cv_rmse"].dropna()) == pytest.approx(sorted(rates), rel=1e-6)

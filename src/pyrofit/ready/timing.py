@@ -1,4 +1,4 @@
-"""Check of the compiler and of the time: a few model calls of each cost are timed."""
+"""Check of the compiler and of the time: model calls and the analysis of a signal are timed."""
 
 import time
 from collections.abc import Iterator
@@ -13,19 +13,22 @@ from pyrofit.estimate.problem import Problem
 from pyrofit.estimate.targets import Measurements
 from pyrofit.ready.finding import Finding, Situation
 from pyrofit.ready.plan import Part, parts_of
+from pyrofit.ready.whole_run import Work, beside_the_fits, duration_of, start_of_a_step
 from pyrofit.running.durations import in_words
 from pyrofit.running.shares import SIDE_BY_SIDE
 from pyrofit.stages.measurements import computed
 from pyrofit.stages.reading import read_all
 
-START_S, START_ON_SLURM_S = 3.0, 10.0
-"""Time of a job besides its calculation [s]; on a cluster each job starts Snakemake."""
+START_ON_SLURM_S = 10.0
+"""Time of a step besides its calculation [s] on a cluster, where each starts Snakemake."""
+SEARCHED = 2.0
+"""Time of a search over that of its model calls: the optimiser's own work."""
 LONG_H = 24.0
 """Duration [h] above which there is a warning."""
 
 
 def duration(situation: Situation) -> Iterator[Finding]:
-    """Compile the solver, time it on each cost, and estimate the duration of the fits."""
+    """Compile the solver, time it on each cost, and estimate the duration of the run."""
     study = situation.study
     if study is None:
         return
@@ -38,6 +41,8 @@ def duration(situation: Situation) -> Iterator[Finding]:
         measured = measurements(study)
         planned = parts_of(study, situation.job_cores)
         timed = [(part, *seconds(_problem(study, part, measured))) for part in planned]
+        call_s = timed[-1][2]
+        beside = list(beside_the_fits(study, measured, _values(study), call_s))
     except PyrofitError as error:
         yield Finding("error", "time", f"the model cannot be timed: {error}")
         return
@@ -47,23 +52,33 @@ def duration(situation: Situation) -> Iterator[Finding]:
         return
     took = time.perf_counter() - start
     yield Finding("ok", "compiler", f"the solver runs; compiling and timing took {took:.0f} s")
-    yield _estimate(situation, timed)
+    start = START_ON_SLURM_S if situation.on_slurm else start_of_a_step()
+    yield _estimate(situation, timed, beside, start)
 
 
-def _estimate(situation: Situation, timed: list[tuple[Part, float, float]]) -> Finding:
+def _estimate(
+    situation: Situation,
+    timed: list[tuple[Part, float, float]],
+    beside: list[Work],
+    start: float,
+) -> Finding:
     calls = sum(part.alone + part.together for part, _, _ in timed)
     model = sum(part.alone * alone + part.together * each for part, alone, each in timed)
-    jobs = sum(part.jobs for part, _, _ in timed)
-    start = START_ON_SLURM_S if situation.on_slurm else START_S
-    total = model + jobs * start
-    # No job is divided.
-    cores = min(situation.cores, jobs)
+    # Nothing but its analysis runs beside the fit of the kinetics.
+    fits = [
+        Work(SEARCHED * (p.alone * alone + p.together * each), p.jobs, alone=not p.cost)
+        for p, alone, each in timed
+    ]
+    total = duration_of([*fits, *beside], situation.cores, start)
+    steps = sum(work.jobs for work in [*fits, *beside])
+    rest = sum(work.seconds for work in beside)
     text = (
-        f"about {in_words(total / cores)} for the fits: ({calls:,.0f} model calls x "
-        f"{1e3 * model / calls:.2g} ms + {jobs} jobs x {start:g} s) / {cores} cores. "
-        "Tables, figures and a diagnosis are not included"
+        f"about {in_words(total)} for the run on {situation.cores} cores. {calls:,.0f} model calls "
+        f"x {1e3 * model / calls:.2g} ms are for the searches, {in_words(rest)} for their "
+        f"analysis and figures, {steps} x {start:.2g} s to begin a step. A diagnosis is not "
+        "included"
     )
-    if total / cores > 3600.0 * LONG_H:
+    if total > 3600.0 * LONG_H:
         way_out = "fewer repetitions, more cores, or a cluster (docs/cluster.md) make it shorter"
         return Finding("warning", "time", f"{text}; {way_out}")
     return Finding("ok", "time", text)

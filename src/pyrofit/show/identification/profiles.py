@@ -11,8 +11,9 @@ from pyrofit.results.files import Results, read_csv
 from pyrofit.results.identification import estimates, noise
 from pyrofit.show import style
 from pyrofit.show.drawn import Axes, Canvas
+from pyrofit.show.facts import Facts
 from pyrofit.show.figure import Figure
-from pyrofit.show.text import typeset
+from pyrofit.show.text import listed, typeset
 
 _PARABOLA: dict[str, Any] = {"color": "0.45", "linestyle": (0, (4, 2)), "linewidth": 1.0}
 
@@ -94,10 +95,22 @@ def _entries(dispersion: float) -> list[Any]:
     return entries
 
 
+def verdict(study: Study, facts: Facts) -> str:
+    """Say which intervals are those of profiles."""
+    if not facts.goodness["imp"].describes:
+        return "The model misses its tests: all intervals are linear and include the misfit."
+    ours = [e for e in facts.estimates if e.stage == "imp"]
+    bent = [e.name for e in ours if e.method == "profile"]
+    if not bent:
+        return "All intervals are linear: chi-square follows its parabola."
+    return f"Intervals by profile: {listed(bent)}. Linear ones: {len(ours) - len(bent)}."
+
+
 FIGURE = Figure(
     place=20,
     applies=lambda study: True,
     make=profiles,
+    verdict=verdict,
     title="Profiles of the likelihood",
     caption="Rise of χ² over its least value against each parameter. Where it follows its "
     "parabola to the 95 % level, the linear interval is quoted; else the profile, all other "

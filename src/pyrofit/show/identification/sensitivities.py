@@ -7,6 +7,7 @@ from pyrofit.results.identification import noise
 from pyrofit.show import style
 from pyrofit.show.drawn import Canvas
 from pyrofit.show.figure import Figure
+from pyrofit.show.identification.sentences import correlation
 from pyrofit.show.units import difference, difference_unit
 
 
@@ -52,6 +53,7 @@ FIGURE = Figure(
     place=30,
     applies=lambda study: True,
     make=sensitivities,
+    verdict=lambda study, facts: correlation(facts.estimates),
     title="Sensitivity of the signals",
     caption="Change of each signal per distance of a parameter's limits, at the optimum. A "
     "curve within the noise (grey area) at all times tells little about its "

@@ -17,12 +17,12 @@ SHOWN_PAIRS = 5
 
 
 def sentences(study: Study, facts: Facts) -> list[str]:
-    """Return the sentences of the section: fit, verdicts, correlation."""
+    """Return the sentences of the section: fit, verdicts, known values, pairs."""
     fits = [
         " ".join(goodness_sentences(study, stage, STAGES[stage], found))
         for stage, found in facts.goodness.items()
     ]
-    said = [*fits, verdicts(facts.estimates), *_known(facts.known), _correlation(facts.estimates)]
+    said = [*fits, verdicts(facts.estimates), *_known(facts.known)]
     return [*said, *_compensation(facts.trade_offs)]
 
 
@@ -54,7 +54,8 @@ def verdicts(known: Sequence[Estimated]) -> str:
     return f"By the data (width of the 95 % interval, % of the search range): {'; '.join(parts)}."
 
 
-def _correlation(known: Sequence[Estimated]) -> str:
+def correlation(known: Sequence[Estimated]) -> str:
+    """Name the pair of the strongest correlation."""
     sizes = {e: e.correlation for e in known if e.correlation is not None}
     if not sizes:
         return "There is one parameter, hence no correlation."

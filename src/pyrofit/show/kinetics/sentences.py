@@ -3,6 +3,7 @@
 from pyrofit.analysis.uses import all_rates, rates_in_fit
 from pyrofit.config import Study
 from pyrofit.show.facts import Facts
+from pyrofit.show.kinetics.drawing import rate_of
 from pyrofit.show.text import span
 
 
@@ -15,7 +16,10 @@ def sentences(study: Study, facts: Facts) -> list[str]:
     rows = table[table["quantity"] == "RMSE of mass fraction"]
     used = rows[rows["used_in_fit"] == "yes"]
     other = rows[rows["used_in_fit"] == "no"]
-    fitted, every = len(rates_in_fit(study)), len(all_rates(study))
+    fitted, every = (
+        len({rate_of(study, name) for name in names})
+        for names in (rates_in_fit(study), all_rates(study))
+    )
     text = (
         f"The kinetics, fitted to {fitted} of {every} heating rates, miss the mass fraction there "
         f"by {span(used['fitted'])} (RMSE)"
