@@ -19,6 +19,7 @@ from pyrofit.results.files import Results
 from pyrofit.seeds import seed_for
 from pyrofit.solver.arrays import FloatArray
 from pyrofit.stages.fit import fit_kinetics, fixed_for_imp
+from pyrofit.stages.identify import identify_kinetics
 from pyrofit.stages.measurements import computed, load, prepare
 
 CONFIG = Path(__file__).parents[1] / "config"
@@ -218,6 +219,9 @@ def _measured(case: Case, folder: Path) -> Posed:
     if not results.kinetics("fit.json").exists():
         prepare(study, results)
         fit_kinetics(study, results)
+    missing = not results.identification("estimate.csv", "kinetics").exists()
+    if study.imp.kinetics == "fitted" and missing:
+        identify_kinetics(study, results)
     series = load(study, results)
     return Posed(study, series, fixed_for_imp(study, results), fitted, unseen, series)
 
