@@ -42,7 +42,12 @@ def add(commands: Any) -> None:
     known.add_argument("--stage", choices=("kinetics", "imp"), default="imp", help="default: imp")
     text = "find the activation energy over conversion, without a model"
     add_step(commands, "isoconversional", text, _isoconversional)
-    add_step(commands, "predict", "simulate estimates and best sets at all predicted experiments", _predict)
+    add_step(
+        commands,
+        "predict",
+        "simulate estimates and best sets at all predicted experiments",
+        _predict,
+    )
     add_step(commands, "compare", "score all sets of all optimisers by all costs", _compare)
 
 
