@@ -4,6 +4,7 @@ import re
 import shutil
 from collections.abc import Mapping, Sequence
 from pathlib import Path
+from tempfile import TemporaryDirectory
 
 from jinja2 import Environment, PackageLoader, StrictUndefined
 from jinja2.loaders import ChoiceLoader
@@ -15,6 +16,7 @@ from pyrofit.new_study import draft
 from pyrofit.new_study.draft import Kinetics, Measured
 from pyrofit.new_study.plan import Part, heats, left_out, part_of, titles
 from pyrofit.new_study.repeats import grouped
+from pyrofit.new_study.wide_tables import split
 from pyrofit.new_study.words import held_out, number_comment, said, said_of_repeats, signal_lines
 from pyrofit.results.files import write_bytes, write_text
 
@@ -66,15 +68,34 @@ def init(name: str, files: Files, parent: Path) -> tuple[Path, list[str]]:
     """
     folder = parent / name
     _check(name, folder, files)
-    records = _records(files)
-    tests = grouped(records) or computed()
-    study = _write(folder, study_text(name, tests), records)
+    with TemporaryDirectory() as parts:
+        single = {kind: _split(kind, paths, Path(parts)) for kind, paths in files.items()}
+        records = _records(single)
+        tests = grouped(records) or computed()
+        study = _write(folder, study_text(name, tests), records)
     heated, slabs = (part_of(stage, tests) for stage in STAGES)
     lines = [line for run in records for line in said(run)] + said_of_repeats(tests)
+    lines = [line.replace(parts, f"{folder / 'data'}") for line in lines]
+    lines = [*_said_of_tables(files, single), *lines]
     lines += held_out(heated) if heated.held_out else []
     if not slabs.runs:
         return study, [*lines, *([] if heated.held_out else held_out(heated, _RATES))]
     return study, [*lines, *held_out(slabs, beside=heated)]
+
+
+def _said_of_tables(files: Files, single: Files) -> list[str]:
+    """Say which tables hold several tests."""
+    given = {path for paths in files.values() for path in paths}
+    parts = [path.name for paths in single.values() for path in paths if path not in given]
+    if not parts:
+        return []
+    said = f"tables with several heating rates, named by their columns, became {', '.join(parts)}"
+    return [f"{said}; the times follow from the rates"]
+
+
+def _split(kind: str, paths: Sequence[Path], folder: Path) -> list[Path]:
+    """Return the files of single tests, those of tables that hold several in a folder."""
+    return [part for path in paths for part in split(kind, path, folder)]
 
 
 def _records(files: Files) -> list[Measured]:
