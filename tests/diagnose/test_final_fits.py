@@ -10,7 +10,7 @@ from linear import TOTAL, column_of, fit_with
 from small import base_of, clean, measured, study, truth_of
 
 from pyrofit.diagnose.base import accuracy
-from pyrofit.diagnose.base.accuracy import with_accuracy
+from pyrofit.diagnose.base.accuracy import tolerated_error, with_accuracy
 from pyrofit.diagnose.base.descent import descend, refreshed
 from pyrofit.diagnose.base.fitted import FittedModel
 from pyrofit.diagnose.base.model import model_of, name_of, strength_of
@@ -178,7 +178,7 @@ def test_two_effects_in_the_place_of_one_widen_the_interval_of_the_others() -> N
 def test_result_is_that_of_the_final_fits(monkeypatch: pytest.MonkeyPatch) -> None:
     # However large the error of coarse runs, the search takes them.
     settings = replace(SETTINGS, most_solver_error=1e9)
-    monkeypatch.setattr(sys.modules[examine.__module__], "SETTINGS", settings)
+    monkeypatch.setattr(sys.modules[tolerated_error.__module__], "SETTINGS", settings)
     described = study(effects=["k_T"])
     found = examine(described, measured({"k_T": -1e-3}, 1), advise=False)
     assert found.content["solver"]["coarsened"]

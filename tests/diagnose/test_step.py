@@ -238,8 +238,8 @@ def test_effects_are_judged_until_one_fails_the_one_that_gains_least_first(
     penalised = inflation_of(found).penalised
     order = sorted((0, 1), key=lambda k: penalised(without[k]))
     findings = places.findings_of(found, without, context)
-    unsupported = [k for k in order if not verdict._supported(findings[k])]
-    assert failed == unsupported[0]
+    unsupported = [k for k in order if verdict._against(findings[k])]
+    assert failed == (unsupported[0], verdict._against(findings[unsupported[0]]))
     assert judged == order[:needed_judgements]
     assert len(unsupported) == 1, "the other effect passes"
 

@@ -9,7 +9,7 @@ import pandas as pd
 from pyrofit.config import Study, candidate_effects
 from pyrofit.diagnose.advise.free_corrections import Probe, probes
 from pyrofit.diagnose.advise.separation import next_experiments
-from pyrofit.diagnose.base.accuracy import solver_error
+from pyrofit.diagnose.base.accuracy import solver_error, tolerated_error
 from pyrofit.diagnose.base.fit import Setup, set_up
 from pyrofit.diagnose.base.fitted import FittedModel, resting_at_limits, up_to_date
 from pyrofit.diagnose.base.model import Base
@@ -22,7 +22,6 @@ from pyrofit.diagnose.result import record
 from pyrofit.diagnose.search.kinetics_first import kinetics_first
 from pyrofit.diagnose.search.step import SearchContext, in_order
 from pyrofit.diagnose.search.stepwise import Search, search
-from pyrofit.diagnose.settings import SETTINGS
 from pyrofit.estimate.targets import Measurements
 from pyrofit.logs import Tell
 
@@ -104,10 +103,11 @@ def _searched(
     rough = study.model_copy(update={"accuracy": study.accuracy.coarsened()})
     setup, rng = _based(rough, measurements, tell, processes, draw)
     error = solver_error(setup.base, study.accuracy)
-    if error <= SETTINGS.most_solver_error:
+    tolerated = tolerated_error(setup.base)
+    if error <= tolerated:
         found = _search(rough, setup, rng, tell, processes)
         error = max(error, solver_error(found.end, study.accuracy))
-        if error <= SETTINGS.most_solver_error:
+        if error <= tolerated:
             return found, rng, {"coarsened": True, "error_chi2": error}
     tell(f"once more with finer runs, which change chi-square by {error:.2g}")
     setup, rng = _based(study, measurements, tell, processes, draw)

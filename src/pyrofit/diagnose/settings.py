@@ -54,6 +54,8 @@ class Settings:
     """Largest multiple of the cells and time steps of the fitted base model that a run gets."""
     most_solver_error: float = 1.0
     """Runs are as fine as the study asks for if coarser ones change more of chi-square."""
+    most_solver_share: float = 0.02
+    """The same as a share of the standard deviation of chi-square, of studies of many points."""
     most_of_kinetics: int = 2
     """Effects that the fit to small samples alone may add."""
     kinetics_reach: float = 3.0

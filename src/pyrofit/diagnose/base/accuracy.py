@@ -7,8 +7,8 @@ import numpy as np
 
 from pyrofit.diagnose.base.fit import refitted_all
 from pyrofit.diagnose.base.fitted import FittedModel, finishes
-from pyrofit.diagnose.base.inflation import by_significant_misfit
 from pyrofit.diagnose.base.work import bounded
+from pyrofit.diagnose.settings import SETTINGS
 from pyrofit.estimate.projection import project, projector
 from pyrofit.model.accuracy import Accuracy
 
@@ -17,8 +17,7 @@ def solver_error(trial: FittedModel, accuracy: Accuracy) -> float:
     """Return the change of a fitted model by another accuracy, in chi-square.
 
     It is the sum of the squares of the change of the whitened residuals, without the part that the
-    fitted parameters make up for. The noise counts as large as the misfit. The change is infinite
-    where a run does not finish.
+    fitted parameters make up for. It is infinite where a run does not finish.
     """
     likelihood = trial.model.likelihood
     problem = replace(likelihood.problem, accuracy=accuracy)
@@ -27,7 +26,16 @@ def solver_error(trial: FittedModel, accuracy: Accuracy) -> float:
     if not other.finished(residuals):
         return float("inf")
     change = project(projector(trial.fit), residuals - trial.fit.residuals)
-    return float(np.sum((by_significant_misfit(trial).rows(trial) * change) ** 2))
+    return float(np.sum(change**2))
+
+
+def tolerated_error(trial: FittedModel) -> float:
+    """Return the solver's error in chi-square that hardly shows, the larger of two.
+
+    Chi-square of n points of noise has the standard deviation sqrt(2 n).
+    """
+    scatter = float(np.sqrt(2.0 * trial.model.points))
+    return max(SETTINGS.most_solver_error, SETTINGS.most_solver_share * scatter)
 
 
 def with_accuracy(

@@ -93,12 +93,12 @@ class Finding:
     @property
     def sure(self) -> bool:
         """Whether nothing else explains the data nearly as well, and all signals are predicted."""
-        return self.agreed and not self.open_terms and not self.instead and self.firm
+        return self.agreed and not self.open_terms and not self.instead and self.weighs_alone
 
     @property
-    def firm(self) -> bool:
-        """Whether it is plausible, no known value may be wrong instead, and the group weighs."""
-        return self.weighs and not self.implausible and not self.wrong_instead
+    def weighs_alone(self) -> bool:
+        """Whether the group weighs, and no known value may be wrong instead."""
+        return self.weighs and not self.wrong_instead
 
     @property
     def wrong_instead(self) -> tuple[str, ...]:
