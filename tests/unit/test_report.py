@@ -285,6 +285,19 @@ def test_advice_warns_of_estimates_that_predict_worse_than_they_fit(tmp_path: Pa
     assert said in advice(study, facts_in(study, results))
 
 
+def test_other_kinetics_of_the_inverse_modelling_are_told(tmp_path: Path) -> None:
+    given = described()
+    given["imp"]["kinetics"] = "book"
+    said = summary(*_with_facts(tmp_path, given))[1].said
+    assert any("takes the kinetics 'book' of the study, not the estimated" in t for t in said)
+    assert not any("takes the kinetics" in t for t in summary(*_with_facts(tmp_path))[1].said)
+
+
+def _with_facts(folder: Path, given: dict[str, Any] | None = None) -> tuple[Study, Facts]:
+    study, results = fake(folder, given)
+    return study, facts_in(study, results)
+
+
 def test_limits_come_first_among_the_values(tmp_path: Path) -> None:
     study, results = fake(tmp_path)
     path = results.identification("estimate.csv")

@@ -5,6 +5,7 @@ from collections.abc import Iterator
 from pyrofit.analysis.answer import estimated_twice, one_each
 from pyrofit.analysis.estimates import Estimated
 from pyrofit.config import Study
+from pyrofit.results.kinetics import FITTED
 from pyrofit.show.facts import Facts
 from pyrofit.show.names import STAGES, named
 from pyrofit.show.text import listed, several
@@ -19,7 +20,7 @@ def publishable(study: Study, facts: Facts) -> Iterator[str]:
     yield from _at_limits([e for e in ours if e.bound])
     yield _by_verdict(ours)
     yield from _far_from_known(facts)
-    yield from _twice(study)
+    yield from _kinetics_of_imp(study)
     yield from _assumed(facts)
 
 
@@ -71,7 +72,13 @@ def _far_from_known(facts: Facts) -> Iterator[str]:
         )
 
 
-def _twice(study: Study) -> Iterator[str]:
+def _kinetics_of_imp(study: Study) -> Iterator[str]:
+    """Say where the inverse modelling has other kinetics, or estimates a parameter again."""
+    if study.kinetics is not None and study.imp.kinetics != FITTED:
+        yield (
+            f"The inverse modelling takes the kinetics '{study.imp.kinetics}' of the study, not "
+            "the estimated ones. Its values belong to those."
+        )
     if names := estimated_twice(study):
         yield (
             f"The kinetics estimate {listed(names)}, too. The answer takes the value of the "
