@@ -131,6 +131,8 @@ class Settings:
     """Effects with which the noise is estimated again."""
     ambiguous_chi2: float = 9.0
     """Models within this penalised chi-square of the best one cannot be told apart."""
+    free_effects: int = 2
+    """Effects that need not gain beside the misfit that is left."""
     branches: int = 2
     """Models that a step carries on."""
     far_chi2_ratio: float = 10.0

@@ -52,11 +52,14 @@ def _claims(steps: Sequence[SearchStep], spare: float) -> list[Claim]:
 
 
 def _gain(start: FittedModel, trial: FittedModel) -> float:
-    """Return the fall of penalised chi-square, with a noise as large as the misfit that is left.
+    """Return the fall of penalised chi-square.
 
-    The verdict counts it in the same way. Otherwise misfit that no effect explains would keep the
-    search alive, each further effect explaining a bit of it.
+    From the third effect on, the noise counts as large as the misfit that is left, as the verdict
+    has it. Otherwise misfit that no effect explains would keep the search alive, each further
+    effect explaining a bit of it. Of two effects, each may leave the misfit of the other.
     """
+    if len(start.effects) < SETTINGS.free_effects:
+        return start.penalised - trial.penalised
     inflation = by_significant_misfit(trial)
     return inflation.penalised(start) - inflation.penalised(trial)
 
