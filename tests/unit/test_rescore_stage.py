@@ -18,7 +18,7 @@ from pyrofit.results import rescored, searches
 from pyrofit.results.files import Results, read_csv
 from pyrofit.show.rescore.sentences import sentences
 from pyrofit.show.rescore_page import PAGE
-from pyrofit.stages import fit, measurements, rescore
+from pyrofit.stages import fit, identify, measurements, rescore
 
 
 @pytest.fixture(scope="module")
@@ -32,6 +32,7 @@ def results(study: Study, tmp_path_factory: pytest.TempPathFactory) -> Results:
     results = Results(tmp_path_factory.mktemp("rescore") / "smoke")
     measurements.prepare(study, results)
     fit.fit_kinetics(study, results)
+    identify.identify_kinetics(study, results)
     for cost in study.imp.costs:
         fit.repeat(study, results, cost, range(study.imp.repetitions))
     rescore.rescore(study, results, lambda text: None, [], 60)

@@ -12,7 +12,7 @@ from test_stages import by_hand, study_with
 from pyrofit.cli import main
 from pyrofit.config import Study
 from pyrofit.results.files import Results, read_csv, write_csv
-from pyrofit.stages import fit, measurements
+from pyrofit.stages import fit, identify, measurements
 from pyrofit.steps.robustness import compute as robustness
 from pyrofit.steps.robustness.page import PAGE
 from pyrofit.steps.robustness.sentences import sentences
@@ -32,6 +32,7 @@ def results(study: Study, tmp_path_factory: pytest.TempPathFactory) -> Results:
     results = Results(tmp_path_factory.mktemp("results"))
     measurements.prepare(study, results)
     fit.fit_kinetics(study, results)
+    identify.identify_kinetics(study, results)
     robustness.run(study, results, print, 1, "RMSE")
     return results
 
