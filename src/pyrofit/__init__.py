@@ -20,6 +20,7 @@ _HOMES = {
     "PyrofitError": "errors",
     "Study": "config",
     "compare": "api.comparison",
+    "compare_with": "api.against",
     "diagnose": "api.diagnosing",
     "effects": "api.catalogue",
     "fit": "api.fitting",

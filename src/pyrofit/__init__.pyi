@@ -1,3 +1,4 @@
+from pyrofit.api.against import compare_with as compare_with
 from pyrofit.api.catalogue import effects as effects
 from pyrofit.api.comparison import Comparison as Comparison
 from pyrofit.api.comparison import compare as compare
@@ -32,6 +33,7 @@ __all__ = [
     "Study",
     "__version__",
     "compare",
+    "compare_with",
     "diagnose",
     "effects",
     "fit",

@@ -52,6 +52,7 @@ ORDER = [
     {"new_study"},
     {"doctor", "ready"},
     {"show"},
+    {"compare_with"},
     {"work of steps"},
     {"api"},
     {

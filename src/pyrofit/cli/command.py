@@ -12,6 +12,7 @@ from collections.abc import Iterator, Sequence
 from types import FrameType
 
 from pyrofit.cli import (
+    comparing,
     diagnosing,
     exchanging,
     fitting,
@@ -43,6 +44,7 @@ _GROUPS = (
     diagnosing,
     showing,
     exchanging,
+    comparing,
     macfp,
 )
 """Modules of the commands, in the order of the help."""

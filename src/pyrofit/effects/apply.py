@@ -54,6 +54,28 @@ def with_effects(
     return material, changed
 
 
+def with_shared(
+    material: Material, experiments: Mapping[str, Kind], chosen: Mapping[str, Chosen]
+) -> dict[str, Kind]:
+    """Return further experiments on a material that has its effects already.
+
+    Effects of the material change them as they change those of the study. Effects of the apparatus
+    and its surroundings do not: those belong to the laboratories that were fitted.
+    """
+    changed = dict(experiments)
+    for name in sorted(chosen):
+        effect = known_effects()[name]
+        if not effect.is_shared:
+            continue
+        numbers = {key: x for key, x in chosen[name].items() if not isinstance(x, tuple | list)}
+        at = _numbers(effect, numbers)
+        for key, experiment in changed.items():
+            inert = effect.of_sample and _is_inert(experiment, material)
+            if effect.needs(experiment) and not inert:
+                changed[key] = effect.experiment(experiment, at)  # type: ignore[assignment]
+    return changed
+
+
 def _with(
     effect: Effect, material: Material, experiments: dict[str, Kind], given: Chosen
 ) -> tuple[Material, dict[str, Kind]]:
