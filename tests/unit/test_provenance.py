@@ -40,7 +40,7 @@ EDITS = {
     "solver/kernels/heat.py": EVERYTHING,
     "estimate/sceua.py": {"fits", "prediction", "robustness"},
     "steps/robustness/compute.py": {"robustness"},
-    "show/fit/table4.py": {"figures", "report"},
+    "show/validation/validation.py": {"figures", "report"},
     "show/costs/spread.py": {"report"},
     "diagnose/search/score_test.py": {"diagnosis"},
     "show/style.py": {"figures", "report", "page of the blind test"},
