@@ -3,7 +3,10 @@
 from typing import NamedTuple
 
 from pyrofit.solver.kernels.jit import inner, loop
-from pyrofit.solver.kernels.trace import BURNT, KINK, POWER, RATE, RELEASED, STEPS, TIME
+from pyrofit.solver.kernels.trace import BURNT, KINK, POWER, PROBES, RATE, RELEASED, STEPS, TIME
+
+JUMP_K = 20.0
+"""A smooth temperature bends by far less within a step."""
 
 
 class Piece(NamedTuple):
@@ -53,6 +56,16 @@ def slope_at(time, value, n, last):
 
 
 @inner
+def beside_jumps(slope, mean, n, time):
+    """Return the slope at an end of a piece, its mean slope if the next piece jumps.
+
+    A place inside jumps as its cell leaves the grid, within a step as short as it likes. The
+    parabola through a long step and a short one then has a slope that is none of the long one's.
+    """
+    return mean if abs(slope - mean) * (time[n + 1] - time[n]) > JUMP_K else slope
+
+
+@inner
 def piece_from(rows, last, column, n):
     """Return the piece that begins with step n.
 
@@ -69,6 +82,9 @@ def piece_from(rows, last, column, n):
         kink = rows[:, KINK]
         low = slope_from(time, value, kink, n, last)
         high = slope_to(time, value, kink, n + 1, last)
+        if column >= PROBES:
+            mean = (value[n + 1] - value[n]) / (time[n + 1] - time[n])
+            low, high = beside_jumps(low, mean, n, time), beside_jumps(high, mean, n, time)
     return Piece(n, time[n + 1] - time[n], value[n], value[n + 1], low, high)
 
 
