@@ -14,13 +14,15 @@ from tiny import FIT, Project
 STUDY = ("--study", str(RESULTS / "study.json"))
 STEPS = {
     "prepare": ("measurements",),
-    "kinetics": ("kinetics",),
+    "kinetics": ("kinetics/fit.json", "kinetics/history.csv.gz", "kinetics/convergence.csv"),
+    "identify --stage kinetics": ("identification/kinetics", "kinetics/sets.json"),
     "imp --cost RMSE --repetition 0 1": ("imp/RMSE/00.json",),
     "collect": ("imp/summary.csv",),
     "predict": ("validation",),
     "identify": ("identification/imp",),
     "compare": ("comparison",),
-    "show --subject fit": ("tables/table4.csv", "figures/fig3.svg"),
+    "show --subject fit": ("tables/table4.csv",),
+    "show --subject validation": ("figures/fig3.svg",),
     "report": ("report.html",),
 }
 """Commands, and results that are deleted before."""
