@@ -30,6 +30,8 @@ CALCULATED = (
 """Rules and results that need all calculations."""
 SHOWN = tuple(f"results/smoke/tables/{name}.csv" for name in ("table3", "validation"))
 """Two of the tables, which a group makes; all of them take longer than a test may."""
+HANGS = "imp_BANDS_00"
+"""The job whose calculation is stopped."""
 GROUPS = ("shown", "descents", "searches")
 LITTLE_MB = 120
 """Less memory than a job of Snakemake needs."""
@@ -144,7 +146,7 @@ def cancel(job: str, node: str) -> bool:
 
 def lose_node(job: str, node: str) -> bool:
     """Put the node of a job down, and up again a bit later; not that of the job that hangs."""
-    if "identify_kinetics" in said("squeue", "-h", "-w", node, "-o", "%k"):
+    if HANGS in said("squeue", "-h", "-w", node, "-o", "%k"):
         return False
     said("scontrol", "update", f"nodename={node}", "state=down", "reason=test")
     again = ("scontrol", "update", f"nodename={node}", "state=resume")
@@ -156,8 +158,8 @@ def let_hang(job: str, node: str) -> bool:
     """Stop the calculation of a job, which then lasts longer than it may: a minute."""
     for process in psutil.process_iter():
         with contextlib.suppress(psutil.Error):
-            if process.environ().get("SLURM_JOB_ID") == job and "/pyrofit" in " ".join(
-                process.cmdline()[:2]
+            if process.environ().get("SLURM_JOB_ID") == job and "-m pyrofit" in " ".join(
+                process.cmdline()[:4]
             ):
                 process.suspend()
                 said("scontrol", "update", f"jobid={job}", "TimeLimit=1")
@@ -199,13 +201,13 @@ def test_profile_finishes_with_the_bits_of_a_local_run_whatever_happens_to_jobs(
     begun = time.monotonic()
     on_slurm = there.start("--workflow-profile", "profiles/slurm", *targets)
     locally = here.start("--cores", "1", *targets)
-    watch = Watch({"imp_RMSE_00": cancel, "identify_kinetics": let_hang, "imp_": lose_node})
+    watch = Watch({"imp_RMSE_00": cancel, HANGS: let_hang, "imp_RANGE": lose_node})
     watch.look(on_slurm, 600.0)
     assert locally.wait() == 0, here.said
     print(f"on Slurm, with faults in {', '.join(watch.done)}: {time.monotonic() - begun:.0f} s")
     text = there.said
     assert on_slurm.returncode == 0, text
-    assert len(watch.done) == 3
+    assert len(watch.done) == 3, watch
     for state in ("CANCELLED", "NODE_FAIL", "TIMEOUT", "FAILED"):
         assert f"SLURM status is: '{state}'" in text
     assert "Traceback" not in text
