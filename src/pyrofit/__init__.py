@@ -26,7 +26,7 @@ _HOMES = {
     "fit": "api.fitting",
     "isoconversional": "api.isoconversional",
     "log_likelihood": "api.objectives",
-    "new_study": "api.studies",
+    "new_study": "api.drafting",
     "read_data": "api.measurements",
     "read_results": "api.results",
     "read_study": "api.studies",

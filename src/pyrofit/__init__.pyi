@@ -5,6 +5,7 @@ from pyrofit.api.comparison import compare as compare
 from pyrofit.api.curves import Curves as Curves
 from pyrofit.api.diagnosing import Diagnosis as Diagnosis
 from pyrofit.api.diagnosing import diagnose as diagnose
+from pyrofit.api.drafting import new_study as new_study
 from pyrofit.api.fitted import Fit as Fit
 from pyrofit.api.fitting import fit as fit
 from pyrofit.api.isoconversional import Isoconversional as Isoconversional
@@ -16,7 +17,6 @@ from pyrofit.api.results import Campaign as Campaign
 from pyrofit.api.results import read_results as read_results
 from pyrofit.api.saving import write_study as write_study
 from pyrofit.api.simulation import simulate as simulate
-from pyrofit.api.studies import new_study as new_study
 from pyrofit.api.studies import read_study as read_study
 from pyrofit.config import Study as Study
 from pyrofit.errors import PyrofitError as PyrofitError

@@ -10,6 +10,7 @@ import pandas as pd
 
 from pyrofit.api.choices import Key, Signals, key_of, signals_of
 from pyrofit.api.curves import MEASURED, Curves, with_units
+from pyrofit.api.given_tables import as_table
 from pyrofit.api.studies import Source, read_study
 from pyrofit.config import Study
 from pyrofit.errors import DataError
@@ -20,7 +21,7 @@ from pyrofit.stages.measurements import computed
 from pyrofit.stages.reading import SYNTHETIC, read_all
 
 Data = Mapping[Any, Any] | Curves
-"""Tables or arrays by (experiment, signal), or by experiment where it has one signal."""
+"""Tables or arrays by (experiment, signal); by experiment tables, or arrays of its one signal."""
 
 
 def read_data(study: Source, signals: Signals | None = None, data: Data | None = None) -> Curves:
@@ -34,7 +35,8 @@ def read_data(study: Source, signals: Signals | None = None, data: Data | None =
         Experiments, or signals by experiment; by default all.
     data
         Series that replace those of the study, by (experiment, signal). A table has the columns
-        and units of a measured file, or those that this function returns. An array has the
+        and units of a measured file, or those that this function returns; given by experiment, it
+        holds all its signals. An array has the
         columns time [s], temperature [K] of heated samples, value, and maybe uncertainty, in SI
         units. Those of a heated sample may be temperature and value alone. A tuple holds columns.
 
@@ -58,7 +60,7 @@ def read_data(study: Source, signals: Signals | None = None, data: Data | None =
 
 def measured(study: Study, wanted: Iterable[Key], data: Data | None) -> dict[Key, pd.DataFrame]:
     """Return some measured series; only these are read or computed."""
-    given = dict(zip(given_keys(study, data), [] if data is None else data.values(), strict=True))
+    given = _given(study, data)
     keys = list(dict.fromkeys(wanted))
     checked = {key: given[key] for key in keys if key in given and _is_checked(study, key, data)}
     rest = _read_or_computed(study, [key for key in keys if key not in checked], given)
@@ -102,7 +104,7 @@ def _read_or_computed(
             if key in given:
                 path = Path(folder) / f"{'_'.join(key)}.csv"
                 label = f"data of {key[0]}, {key[1]}"
-                table = _table(given[key], quantity, label)
+                table = as_table(given[key], quantity, label)
                 write_csv(path, table)
                 labels[str(path)] = label
                 signals[key] = _from_table(signals[key], quantity, path, table, timeless)
@@ -117,36 +119,25 @@ def given_keys(study: Study, data: Data | None) -> list[Key]:
     DataError
         The series have no names.
     """
+    return list(_given(study, data))
+
+
+def _given(study: Study, data: Data | None) -> dict[Key, Any]:
+    """Return a caller's series by experiment and signal; a table may hold all signals of one."""
     if data is None:
-        return []
+        return {}
     if isinstance(data, pd.DataFrame) or not isinstance(data, Mapping | Curves):
         raise DataError(
             "data: series are given by experiment, such as {'tga_10K': table}; this is a "
             f"{type(data).__name__}"
         )
-    return [key_of(study, key) for key in data.keys()]  # noqa: SIM118
-
-
-def _table(given: Any, quantity: Quantity, label: str) -> pd.DataFrame:
-    """Return a caller's data as a table."""
-    if isinstance(given, pd.DataFrame):
-        return given
-    try:
-        columns = np.asarray(given, dtype=float)
-    except (TypeError, ValueError):
-        raise DataError(f"{label}: neither a table nor an array of numbers") from None
-    if isinstance(given, tuple):
-        columns = columns.T
-    names = ["time_s", *(["temperature_K"] if quantity.against_temperature else [])]
-    names += [quantity.column, quantity.uncertainty_column]
-    if quantity.against_temperature and columns.ndim == 2 and columns.shape[1] == 2:
-        names = names[1:]
-    if columns.ndim != 2 or columns.shape[1] not in (len(names) - 1, len(names)):
-        raise DataError(
-            f"{label}: an array of the shape {columns.shape}; its columns must be "
-            f"{', '.join(names)}, of which the last may be left out"
-        )
-    return pd.DataFrame(columns, columns=names[: columns.shape[1]])
+    found: dict[Key, Any] = {}
+    for key, series in data.items():
+        if isinstance(key, str) and key in study.experiments and isinstance(series, pd.DataFrame):
+            found |= {(key, signal): series for signal in study.experiments[key].signals}
+        else:
+            found[key_of(study, key)] = series
+    return found
 
 
 def _from_table(

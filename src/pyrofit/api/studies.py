@@ -1,25 +1,19 @@
-"""Studies from files, mappings or other studies, with changes; drafts from measured files."""
+"""Studies from files, mappings or other studies, with changes."""
 
 import os
-import tempfile
 import warnings
-from collections.abc import Iterable, Mapping
+from collections.abc import Mapping
 from pathlib import Path
 from typing import Any
-
-import pandas as pd
 
 from pyrofit import config
 from pyrofit.config import Study, as_study
 from pyrofit.config.unusual import unusual
 from pyrofit.config.yaml_file import read_mapping
-from pyrofit.errors import StudyError, suggest
-from pyrofit.new_study.words import assumed
-from pyrofit.new_study.write import drafted
+from pyrofit.errors import StudyError
 
 Source = Study | str | os.PathLike[str] | Mapping[str, Any]
 """A study, its file, or its keys."""
-Files = str | os.PathLike[str] | Iterable[str | os.PathLike[str]]
 
 
 def read_study(source: Source, **changes: Any) -> Study:
@@ -78,7 +72,7 @@ def _told(study: Study) -> Study:
     return study
 
 
-def _check_kept(old: Mapping[str, Any], new: Mapping[str, Any]) -> None:
+def _check_kept(old: Mapping[str, Any], new: Any) -> None:
     """Refuse changes of expressions, which stand in all their places, and of parameters held."""
     if not isinstance(new, Mapping):
         return  # the check of the whole study says so
@@ -114,77 +108,3 @@ def merged(given: Mapping[str, Any], changes: Mapping[str, Any]) -> dict[str, An
             new = merged(old if isinstance(old, Mapping) else {}, new)
         result[key] = new
     return result
-
-
-def new_study(name: str, **files: Files) -> Study:
-    """Draft a study from measured files, as `pyrofit init` does, without writing anything.
-
-    Columns and units are recognised; the material has one reaction and wide limits. Check the
-    facts that the files do not tell, such as the thickness, and change them with `read_study`. A
-    study of TGA alone has no slab.
-
-    Parameters
-    ----------
-    name
-        Name of the study: letters, digits and _.
-    files
-        A file or files by kind of experiment: ``tga``, ``dsc``, ``mcc``, ``gasification``,
-        ``cone``.
-
-    Raises
-    ------
-    StudyError
-        The name is no name, the kind is not known, or there is no file.
-    DataError
-        A file is no table of numbers.
-
-    Warns
-    -----
-    UserWarning
-        Of a heating rate, flux or unit that neither a file nor its name tells.
-    """
-    paths = {kind: _paths(of) for kind, of in files.items()}
-    _check_kinds(paths)
-    with tempfile.TemporaryDirectory() as folder:
-        text, records = drafted(name, paths)
-        draft = Path(folder) / f"{name}.yaml"
-        draft.write_text(text, encoding="utf-8")
-        keys = read_mapping(draft)
-    where = {f"data/{record.name}.csv": str(record.path) for record in records if record.path}
-    for line in assumed(records):
-        warnings.warn(f"study '{name}': {line}", stacklevel=2)
-    return as_study(_with_files(keys, where), name)
-
-
-def _paths(given: Files) -> list[Path]:
-    if isinstance(given, str | os.PathLike):
-        return [Path(given)]
-    # Going through a table yields its headers, which would be taken for names of files.
-    is_table = isinstance(given, pd.DataFrame) or not isinstance(given, Iterable)
-    files = [] if is_table else list(given)
-    if is_table or not all(isinstance(file, str | os.PathLike) for file in files):
-        raise StudyError(
-            "a new study needs paths of files; write a table to a file first, such as "
-            "table.to_csv('tga_10K.csv', index=False)"
-        )
-    return [Path(file) for file in files]
-
-
-def _check_kinds(paths: Mapping[str, list[Path]]) -> None:
-    from pyrofit.experiments import OF_FILES
-
-    for kind in paths:
-        if kind not in OF_FILES:
-            raise StudyError(f"unknown kind of experiment '{kind}'. {suggest(kind, OF_FILES)}")
-    if not any(paths.values()):
-        known = ", ".join(OF_FILES)
-        raise StudyError(f"no measured file is given; give files by kind of experiment: {known}")
-
-
-def _with_files(part: Any, where: Mapping[str, str]) -> Any:
-    """Return keys in which the copies of files are the files themselves."""
-    if isinstance(part, Mapping):
-        return {key: _with_files(of, where) for key, of in part.items()}
-    if isinstance(part, list):
-        return [_with_files(of, where) for of in part]
-    return where.get(part, part) if isinstance(part, str) else part

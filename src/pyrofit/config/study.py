@@ -217,6 +217,10 @@ class Study(Part):
         )
 
 
+IN_MEMORY = "memory"
+"""In the place of a file: the series is given in Python."""
+
+
 def is_own(file: str) -> bool:
     """Tell whether a signal's file is the user's own."""
-    return file != "synthetic" and not file.startswith("macfp:")
+    return file not in ("synthetic", IN_MEMORY) and not file.startswith("macfp:")

@@ -70,7 +70,7 @@ class Signal(Part):
 
     file: str = Field(
         description="path relative to the study file; 'macfp:<path>' for the MaCFP data base; "
-        "'synthetic' for a computed measurement"
+        "'synthetic' for a computed measurement. 'memory': the series is given in Python"
     )
     quantity: str = Field("", description="measured quantity, where the signal has another name")
     columns: dict[str, str] = Field(

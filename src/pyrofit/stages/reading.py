@@ -10,6 +10,7 @@ import pandas as pd
 from pyrofit.analysis.agreement import disagreements
 from pyrofit.analysis.differing_repeats import notes_on_repeats
 from pyrofit.config import Study, TermSpec
+from pyrofit.config.study import IN_MEMORY
 from pyrofit.data.csvfile import Table, read_table
 from pyrofit.data.download import FOLDER_VARIABLE
 from pyrofit.data.fetch import locate, store
@@ -185,4 +186,9 @@ def _rate_without_times(experiment: Experiment) -> float | None:
 
 
 def _locate(file: str) -> Path:
+    if file == IN_MEMORY:
+        raise DataError(
+            "the series is in memory alone; give it as `data` in Python, or write it to a file and "
+            "name that"
+        )
     return locate(file.removeprefix(MACFP)) if file.startswith(MACFP) else Path(file)
