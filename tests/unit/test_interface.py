@@ -3,6 +3,7 @@
 import ast
 import subprocess
 import sys
+from collections.abc import Iterator
 from importlib import import_module
 from pathlib import Path
 from typing import get_args
@@ -11,6 +12,7 @@ import matplotlib
 import numpy as np
 import pandas as pd
 import pytest
+from pydantic import BaseModel
 
 import pyrofit as pf
 from pyrofit.api import fitting, searching
@@ -90,6 +92,37 @@ def test_changes_make_the_study_that_a_file_with_them_would(study: pf.Study) -> 
     again = pf.read_study(study, **changes)
     assert digest(again.model_dump(mode="json")) == digest(one.model_dump(mode="json"))
     assert study.imp.repetitions == 2
+
+
+def test_change_to_none_removes_a_key(study: pf.Study) -> None:
+    residue = "material.reactions.pyrolysis.products"
+    with_char = pf.read_study(study, **{f"{residue}.residue": 0.1})
+    assert with_char.material.reactions["pyrolysis"].products == {"residue": 0.1}
+    without = pf.read_study(with_char, **{f"{residue}.residue": None})
+    assert without.material.reactions["pyrolysis"].products == {}
+    fewer = pf.read_study(SMOKE, **{"imp.repetitions": None})
+    assert fewer.imp.repetitions == type(fewer.imp).model_fields["repetitions"].default
+    with pytest.raises(StudyError, match="unknown key 'repetition'"):
+        pf.read_study(study, **{"imp.repetition": None})
+
+
+def test_no_key_with_a_default_of_its_own_takes_none() -> None:
+    # Otherwise None would mean that default as a change, and nothing in a file.
+    assert [key for key in keys_that_take_none(pf.Study) if key[1] is not None] == []
+
+
+def keys_that_take_none(model: type[BaseModel]) -> Iterator[tuple[str, object]]:
+    """Yield the keys of a description that take None, in all its parts, with their defaults."""
+    seen, ahead = set(), [model]
+    while ahead:
+        part = ahead.pop()
+        if isinstance(part, type) and issubclass(part, BaseModel) and part not in seen:
+            seen.add(part)
+            for name, field in part.model_fields.items():
+                ahead.append(field.annotation)
+                if type(None) in get_args(field.annotation):
+                    yield f"{part.__name__}.{name}", field.default
+        ahead += get_args(part)
 
 
 @pytest.mark.parametrize(

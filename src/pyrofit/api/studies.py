@@ -26,7 +26,8 @@ def read_study(source: Source, **changes: Any) -> Study:
         found relative to the folder of the YAML file, or to the working folder.
     changes
         Keys that differ from the source. Mappings are merged key by key, all else is replaced.
-        ``**{"parameters.k.upper": 0.5}`` reaches a single key.
+        ``**{"parameters.k.upper": 0.5}`` reaches a single key. None removes a key: a product, a
+        parameter, an experiment, or a value that has a default.
 
     Raises
     ------
@@ -50,7 +51,7 @@ def read_study(source: Source, **changes: Any) -> Study:
             return source
         keys = source.model_dump(mode="json")
         new = merged(keys, changes)
-        _check_kept(keys["parameters"], new["parameters"])
+        _check_kept(keys["parameters"], new.get("parameters"))
         return _told(as_study(new, f"study '{source.name}'", located=True))
     if isinstance(source, Mapping):
         return _told(as_study(merged(source, changes), "study"))
@@ -96,13 +97,16 @@ def _check_kept(old: Mapping[str, Any], new: Any) -> None:
 def merged(given: Mapping[str, Any], changes: Mapping[str, Any]) -> dict[str, Any]:
     """Return keys with changes.
 
-    >>> merged({"a": {"b": 1, "c": 2}}, {"a.b": 3, "d": 4})
-    {'a': {'b': 3, 'c': 2}, 'd': 4}
+    >>> merged({"a": {"b": 1, "c": 2}}, {"a.b": 3, "a.c": None, "d": 4})
+    {'a': {'b': 3}, 'd': 4}
     """
     result = dict(given)
     for name, new in changes.items():
         key, _, rest = name.partition(".")
         new = {rest: new} if rest else new
+        if new is None and key in result:
+            del result[key]  # no key with a default of its own takes an empty value
+            continue
         if isinstance(new, Mapping):
             old = result.get(key)
             new = merged(old if isinstance(old, Mapping) else {}, new)
