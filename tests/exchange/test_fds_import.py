@@ -1,5 +1,6 @@
 """MATL lines become a material: units, places of arrays, versions, unknown keys."""
 
+import math
 from pathlib import Path
 from typing import Any
 
@@ -12,7 +13,7 @@ from pyrofit.cli import main
 from pyrofit.exchange.fds.export import text_of
 from pyrofit.exchange.fds.imported import import_fds
 from pyrofit.exchange.fds.predicted import predict_heated
-from pyrofit.exchange.fds.versions import FdsError
+from pyrofit.exchange.fds.versions import NEW, OLD, FdsError
 from pyrofit.experiments import Tga
 from pyrofit.model.accuracy import Accuracy
 from pyrofit.model.material import Material
@@ -36,7 +37,7 @@ Comment, not a line & nothing
 
 
 def imported(text: str, old: bool = False, surface: str = "") -> dict[str, Any]:
-    return import_fds(text, "x.fds", old, surface).material
+    return import_fds(text, "x.fds", OLD if old else NEW, surface).material
 
 
 def test_units_and_defaults_become_those_of_a_study() -> None:
@@ -55,7 +56,7 @@ def test_units_and_defaults_become_those_of_a_study() -> None:
 
 
 def test_what_is_not_taken_over_is_named() -> None:
-    said = "\n".join(import_fds(LINES, "x.fds", False).remarks)
+    said = "\n".join(import_fds(LINES, "x.fds", NEW).remarks)
     assert "N_T is not known" in said
     assert "MATL 'BOARD': not of the virgin material" in said
     assert "ADJUST_H" in said
@@ -96,7 +97,8 @@ def test_a_of_another_order_follows_the_version() -> None:
 @pytest.mark.parametrize(
     ("before", "after", "says"),
     [
-        ("A=1.D9, E=1.2E5,", "REFERENCE_TEMPERATURE=350.,", "needs A.1. and E.1., not REFERENCE_T"),
+        ("A=1.D9, E=1.2E5,", "", "needs A.1. and E.1., or REFERENCE_TEMPERATURE.1."),
+        ("A=1.D9, E=1.2E5,", "REFERENCE_TEMPERATURE=350., PYROLYSIS_RANGE=1E-3,", "too narrow"),
         ("'CHAR', NU_MATL", "'COAL', NU_MATL", "'COAL' is missing"),
         ("&RAMP ID='K WOOD', T=500., F=0.2 /", "", "has 1 lines"),
         ("DENSITY=400., ", "", "has no DENSITY"),
@@ -135,3 +137,47 @@ def test_the_command_writes_yaml_of_a_material(
     assert "N_T is not known" in capsys.readouterr().err
     Material.model_validate(yaml.safe_load(out.read_text())["material"])
     assert main(["import", "fds", str(tmp_path / "none.fds")]) == 2
+
+
+PEAK = "REFERENCE_TEMPERATURE=350., PYROLYSIS_RANGE=60., HEATING_RATE=10.,"
+
+
+def test_a_peak_becomes_a_and_e_by_the_formula_of_each_version() -> None:
+    # E = e (2/60) R 623.15^2, times the yield of gas 0.8 in 6.7; A = e (2 beta/60) exp(E/(R T)).
+    text = LINES.replace("A=1.D9, E=1.2E5,", PEAK)
+    old, new = (imported(text, old)["reactions"]["WOOD"] for old in (True, False))
+    E = math.e * 2.0 / 60.0 * 8.314472 * 623.15**2
+    assert new["E_J_mol"] == pytest.approx(E, rel=1e-12)
+    assert old["E_J_mol"] == pytest.approx(0.8 * E, rel=1e-12)
+    k = new["A_1_s"] * math.exp(-new["E_J_mol"] / (8.314462618 * 623.15))
+    assert k == pytest.approx(math.e * (10.0 / 60.0) * 2.0 / 60.0, rel=1e-5)
+    said = "\n".join(import_fds(text, "x.fds", NEW).remarks)
+    assert f"E is {1e-3 * E:.1f} kJ/mol from 6.8 on and {0.8e-3 * E:.1f} in 6.7" in said
+
+
+def test_a_peak_rate_does_not_depend_on_the_version() -> None:
+    text = LINES.replace(
+        "N_REACTIONS=1, A=1.D9, E=1.2E5,", "REFERENCE_TEMPERATURE=350., REFERENCE_RATE=0.002,"
+    )
+    old, new = (imported(text, old)["reactions"]["WOOD"] for old in (True, False))
+    E = math.e * 0.002 * 8.314472 * 623.15**2 / (5.0 / 60.0)
+    assert old["E_J_mol"] == new["E_J_mol"] == pytest.approx(E, rel=1e-12)
+    assert "User Guide" not in "\n".join(import_fds(text, "x.fds", NEW).remarks)
+
+
+def test_the_peak_of_the_imported_reaction_is_where_the_line_has_it() -> None:
+    text = LINES.replace("A=1.D9, E=1.2E5,", PEAK)
+    reaction = imported(text)["reactions"]["WOOD"]
+    dT = 0.01
+    T = np.arange(450.0, 800.0, dT)
+    k = reaction["A_1_s"] * np.exp(-reaction["E_J_mol"] / (8.314462618 * T))
+    left = np.exp(-np.cumsum(k) * dT / (10.0 / 60.0))
+    assert T[np.argmax(k * left)] == pytest.approx(623.15, abs=0.5)
+
+
+def test_water_that_is_gone_at_once_is_told() -> None:
+    water = mixture(3.31).replace("A(1)=1E-4, E(1)=0.", "A(1)=9.57E22, E(1)=1.36E5")
+    said = "\n".join(import_fds(water, "x.fds", NEW).remarks)
+    assert "MATL 'A', reaction 1: it reacts at room temperature" in said
+    slow = "\n".join(import_fds(LINES, "x.fds", NEW).remarks)
+    assert "room temperature" not in slow

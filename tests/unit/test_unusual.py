@@ -200,3 +200,23 @@ def test_name_that_no_folder_can_have_is_refused(place: str) -> None:
         keys["experiments"]["n" * 300] = next(iter(keys["experiments"].values()))
     with pytest.raises(StudyError, match=rf"{place}.*: a name of 300 characters, too long"):
         as_study(keys, "study.yaml")
+
+
+def test_a_reaction_that_is_fast_at_room_temperature_is_told() -> None:
+    place = "material.reactions.second"
+    water = SECOND[place] | {"reference_temperature_K": 239, "E_J_mol": 1.36e5}
+    (line,) = [one for one in told(SECOND | {place: water}) if "reacts at room" in one]
+    # k(293.15 K) = 1e-3 exp(136000/R (1/239 - 1/293.15)) = 309 1/s, at order 1 ln 2 / k.
+    assert "at room temperature: half of it is gone in 0.0022 s" in line
+    assert "k = 0.001 1/s at 239 K" in line
+    assert not [one for one in told(SECOND) if "reacts at room" in one]
+
+
+def test_limits_of_a_reaction_that_reach_room_temperature_are_no_fault() -> None:
+    place = "material.reactions.second"
+    T = {"unit": "K", "lower": 290, "upper": 600}
+    wide = {place: SECOND[place] | {"reference_temperature_K": "T_2"}, "parameters.T_2": T}
+    wide["kinetics.estimate"] = [*SMOKE["kinetics"]["estimate"], "T_2"]
+    assert not [one for one in told(SECOND | wide) if "reacts at room" in one]
+    cold = {"parameters.T_2": T | {"upper": 310}}
+    assert [one for one in told(SECOND | wide | cold) if "reacts at room" in one]

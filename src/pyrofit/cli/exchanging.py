@@ -115,8 +115,8 @@ def _import_fds(given: argparse.Namespace) -> None:
         text = given.file.read_text(encoding="utf-8-sig", errors="replace")
     except OSError as error:
         raise FdsError(f"{given.file}: cannot be read ({error.strerror})") from None
-    old = version_of(given.fds_version).layer_order
-    found = import_fds(text, str(given.file), old, given.surf)
+    version = version_of(given.fds_version)
+    found = import_fds(text, str(given.file), version, given.surf)
     comment = "\n".join([f"Material of {given.file.name}, for a study.", *found.remarks])
     content = as_yaml({"material": found.material}, comment)
     for remark in found.remarks:

@@ -4,6 +4,7 @@ from collections.abc import Iterator, Mapping
 from itertools import dropwhile
 from math import isfinite
 
+from pyrofit.config.cold import cold_reactions
 from pyrofit.config.derived import ends_of
 from pyrofit.config.study import Study
 from pyrofit.model.base import Part
@@ -48,7 +49,7 @@ Number = int | float | str
 
 def unusual(study: Study) -> list[str]:
     """Return one sentence for each unusual value or name; a study is valid in spite of them."""
-    return [*_values(study), *_counts(study), *_names(study)]
+    return [*_values(study), *cold_reactions(study), *_counts(study), *_names(study)]
 
 
 def _values(study: Study) -> Iterator[str]:

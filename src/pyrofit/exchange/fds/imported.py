@@ -11,12 +11,13 @@ from pyrofit.exchange.fds.matl_line import (
     Layer,
     Matl,
     component,
+    count_of,
     number_of,
     reactions_of,
 )
 from pyrofit.exchange.fds.namelists import unique
 from pyrofit.exchange.fds.parse import read_namelists
-from pyrofit.exchange.fds.versions import FdsError
+from pyrofit.exchange.fds.versions import FdsError, Version
 from pyrofit.model.material import Material
 
 KNOWN = {
@@ -43,15 +44,15 @@ class Imported(NamedTuple):
     remarks: tuple[str, ...]
 
 
-def import_fds(text: str, source: str, old_order: bool, surface: str = "") -> Imported:
+def import_fds(text: str, source: str, version: Version, surface: str = "") -> Imported:
     """Return the material of a file of FDS.
 
     Parameters
     ----------
     text, source
         Content and name of the file.
-    old_order
-        Whether A of an order other than 1 has the meaning of versions up to 6.7.7.
+    version
+        The version for which the file was written.
     surface
         The SURF line whose front layer is the virgin material; the first one with a MATL_ID if
         empty.
@@ -76,7 +77,7 @@ def import_fds(text: str, source: str, old_order: bool, surface: str = "") -> Im
     reactions: Keys = {}
     for name in wanted:
         components[names[name]] = dict(component(matls[name], ramps))
-        reactions |= dict(reactions_of(matls[name], names, layer, old_order, remarks))
+        reactions |= dict(reactions_of(matls[name], names, layer, version, remarks))
         remarks += _ignored(matls[name])
     _all_or_none(components, remarks)
     material = {
@@ -159,7 +160,7 @@ def _ignored(matl: Matl) -> Iterator[str]:
     for key in matl.keys:
         if key.partition("(")[0] not in KNOWN | DERIVED:
             yield f"MATL '{matl.name}': {key} is not known to pyrofit; left out"
-    if matl.one("N_REACTIONS") and matl.one("ADJUST_H") is not False:
+    if count_of(matl) and matl.one("ADJUST_H") is not False:
         yield (
             f"MATL '{matl.name}': FDS 6.8 and newer adjust its heat of reaction to the enthalpies "
             "(ADJUST_H); pyrofit does not"

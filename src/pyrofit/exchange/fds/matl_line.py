@@ -4,18 +4,20 @@ import math
 from collections.abc import Iterator, Mapping
 from typing import Any, NamedTuple
 
+from pyrofit.config.cold import reacts_cold
 from pyrofit.constants import GAS_CONSTANT
 from pyrofit.exchange.fds.arrays import array
 from pyrofit.exchange.fds.depth import TWO_FLUX
 from pyrofit.exchange.fds.materials import R_FDS, REFERENCE_RATE_1_S
+from pyrofit.exchange.fds.peak import HEATING_RATE_K_MIN, PYROLYSIS_RANGE_K, Peak, kinetics_of
 from pyrofit.exchange.fds.properties import CELSIUS_K
-from pyrofit.exchange.fds.versions import FdsError
+from pyrofit.exchange.fds.versions import FdsError, Version
 
 Keys = dict[str, Any]
 DEFAULT_EMISSIVITY, OPAQUE_1_M = 0.9, 5e4
 """FDS's defaults, where a MATL line is silent."""
 DERIVED = {"REFERENCE_TEMPERATURE", "REFERENCE_RATE", "PYROLYSIS_RANGE", "HEATING_RATE"}
-"""Keys from which FDS would make A and E, of the peak of a TGA."""
+"""Keys from which FDS makes A and E, of the peak of a TGA."""
 
 
 class Matl(NamedTuple):
@@ -90,19 +92,15 @@ def _digits(value: float) -> float:
 
 
 def reactions_of(
-    matl: Matl, names: Mapping[str, str], layer: Layer, old_order: bool, remarks: list[str]
+    matl: Matl, names: Mapping[str, str], layer: Layer, version: Version, remarks: list[str]
 ) -> Iterator[tuple[str, Keys]]:
     """Yield the reactions of a component by name."""
-    count = int(matl.one("N_REACTIONS") or 0)
-    factors, energies, orders = (matl.of(key, 1) for key in ("A", "E", "N_S"))
+    count = count_of(matl)
+    orders = matl.of("N_S", 1)
     heats = matl.of("HEAT_OF_REACTION", 1)
     products, yields = matl.of("MATL_ID", 2), matl.of("NU_MATL", 2)
     gases, burnt = matl.of("NU_SPEC", 2), matl.of("HEAT_OF_COMBUSTION", 2)
     for j in range(1, count + 1):
-        if (j,) not in factors or (j,) not in energies:
-            given = sorted(DERIVED & {key.partition("(")[0] for key in matl.keys})
-            why = f", not {', '.join(given)}, which FDS turns into them" if given else ""
-            raise FdsError(f"{matl.place}: MATL '{matl.name}' needs A({j}) and E({j}){why}")
         order = float(orders.get((j,), 1.0))
         solid = {names[p]: yields.get((i, j), 0.0) for (i, k), p in products.items() if k == j}
         total = sum(solid.values()) + sum(nu for (_, k), nu in gases.items() if k == j)
@@ -114,15 +112,62 @@ def reactions_of(
         reaction: Keys = {"reactant": names[matl.name]}
         if present := {product: nu for product, nu in solid.items() if nu > 0.0}:
             reaction["products"] = present
-        reaction["A_1_s"] = _factor(factors[j,], order, matl, layer, old_order, remarks)
-        reaction["E_J_mol"] = energies[j,]
+        A, E = _kinetics(matl, j, sum(solid.values()), version, remarks)
+        reaction["A_1_s"] = _factor(A, order, matl, layer, version.layer_order, remarks)
+        reaction["E_J_mol"] = E
         if order != 1.0:
             reaction["order"] = order
         reaction["heat_of_reaction_J_kg"] = _digits(1e3 * heats.get((j,), 0.0))
         if (1, j) in burnt:
             reaction["heat_of_combustion_J_kg"] = _digits(1e3 * burnt[1, j])
         name = names[matl.name]
+        if cold := reacts_cold(reaction["A_1_s"], E, order):
+            remarks.append(f"MATL '{matl.name}', reaction {j}: {cold}")
         yield (name if count == 1 else f"{name}_{j}"), reaction
+
+
+def count_of(matl: Matl) -> int:
+    """Return the number of reactions; FDS takes one where a line has kinetics and no number."""
+    given = matl.one("N_REACTIONS")
+    if given is not None:
+        return int(given)
+    return int(any(matl.of(key, 1) for key in ("A", "E", "REFERENCE_TEMPERATURE")))
+
+
+def _kinetics(
+    matl: Matl, j: int, residue: float, version: Version, remarks: list[str]
+) -> tuple[float, float]:
+    """Return A [1/s] and E [J/mol] as FDS takes them: those of a peak of TGA replace given ones."""
+    given = {key: matl.of(key, 1).get((j,)) for key in ("A", "E", *sorted(DERIVED))}
+    A, E, temperature = given["A"], given["E"], given["REFERENCE_TEMPERATURE"]
+    if temperature is None:
+        if A is None or E is None:
+            raise FdsError(
+                f"{matl.place}: MATL '{matl.name}' needs A({j}) and E({j}), or "
+                f"REFERENCE_TEMPERATURE({j}); give them"
+            )
+        return A, E
+    peak = Peak(
+        temperature,
+        given["REFERENCE_RATE"],
+        given["PYROLYSIS_RANGE"] or PYROLYSIS_RANGE_K,
+        given["HEATING_RATE"] or HEATING_RATE_K_MIN,
+        residue,
+    )
+    try:
+        (_, old), (_, new) = (kinetics_of(peak, of_gas) for of_gas in (True, False))
+        A, E = kinetics_of(peak, version.range_of_gas)
+    except FdsError as error:
+        raise FdsError(f"{matl.place}: MATL '{matl.name}', reaction {j}: {error}") from None
+    said = f"MATL '{matl.name}': A and E of reaction {j} follow from REFERENCE_TEMPERATURE"
+    if old != new:
+        said += (
+            f" as in FDS {version.name}. E is {new / 1e3:.1f} kJ/mol from 6.8 on and "
+            f"{old / 1e3:.1f} in 6.7. There the rate of PYROLYSIS_RANGE is times the yield of gas, "
+            "as in the User Guide until 2026. Choose by --fds-version"
+        )
+    remarks.append(said)
+    return A, E
 
 
 def _factor(

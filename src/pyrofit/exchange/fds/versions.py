@@ -27,6 +27,8 @@ class Version(NamedTuple):
         Whether the coefficient of natural convection can be given.
     layer_order
         Whether A of an order other than 1 counts densities over that of the layer.
+    range_of_gas
+        Whether the rate that follows from PYROLYSIS_RANGE is times the yield of gas.
     """
 
     name: str
@@ -35,10 +37,11 @@ class Version(NamedTuple):
     locks_step: bool
     cube_root: bool
     layer_order: bool
+    range_of_gas: bool
 
 
-OLD = Version("6.7", "TMP_BACK", False, False, True, True)
-NEW = Version("6.8+", "TMP_GAS_BACK", True, True, False, False)
+OLD = Version("6.7", "TMP_BACK", False, False, True, True, True)
+NEW = Version("6.8+", "TMP_GAS_BACK", True, True, False, False, False)
 LAST_WITH_CUBE_ROOT, LAST_WITH_LAYER_ORDER = 4, 7
 """Of 6.7: C_VERTICAL was there in 6.7.4 and gone by 6.7.9; A changed its unit in 6.7.8."""
 
