@@ -69,9 +69,10 @@ def _rates(study: Study, reaction: Reaction) -> Iterator[tuple[float, float, flo
     if reaction.A_1_s is not None:
         yield from itertools.product(_values(study, reaction.A_1_s), energies, orders)
         return
-    pair = reaction.reference_temperature_K, reaction.reference_rate_1_s
-    assert pair[0] is not None and pair[1] is not None
-    temperatures, rates = (_values(study, number) for number in pair)
+    assert reaction.reference_temperature_K is not None
+    assert reaction.reference_rate_1_s is not None
+    temperatures = _values(study, reaction.reference_temperature_K)
+    rates = _values(study, reaction.reference_rate_1_s)
     for T, rate, E, order in itertools.product(temperatures, rates, energies, orders):
         exponent = E / (GAS_CONSTANT * T)
         yield rate * math.exp(exponent) if exponent < _MOST else math.inf, E, order
