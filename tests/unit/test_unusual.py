@@ -217,7 +217,7 @@ def test_limits_of_a_reaction_that_reach_room_temperature_are_no_fault() -> None
     T = {"unit": "K", "lower": 290, "upper": 600}
     wide = {place: SECOND[place] | {"reference_temperature_K": "T_2"}, "parameters.T_2": T}
     wide["kinetics.estimate"] = [*SMOKE["kinetics"]["estimate"], "T_2"]
-    wide["synthetic.truth.T_2"] = 300
+    wide["synthetic.truth.T_2"] = 295
     assert not [one for one in told(SECOND | wide) if "reacts at room" in one]
-    cold = {"parameters.T_2": T | {"upper": 310}}
+    cold = {"parameters.T_2": T | {"upper": 298}}
     assert [one for one in told(SECOND | wide | cold) if "reacts at room" in one]
