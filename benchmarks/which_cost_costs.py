@@ -11,11 +11,11 @@ from pyrofit.config import TermSpec
 from pyrofit.cost import WeightedSum
 from pyrofit.cost.term import Term
 from pyrofit.estimate.likelihood import Likelihood, likelihood_of
+from pyrofit.estimate.measures import measures_of
 from pyrofit.estimate.noise import NoiseModel
 from pyrofit.estimate.prior import within_known
 from pyrofit.estimate.problem import Problem, make_problem
 from pyrofit.solver.arrays import FloatArray
-from pyrofit.stages.rescore_measures import measures_of
 
 SUMS: dict[str, tuple[str, ...]] = {
     "THR": ("THR_above", "THR_below"),

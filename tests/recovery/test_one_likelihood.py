@@ -14,14 +14,14 @@ import pyrofit as pf
 from pyrofit.api.fitted import Fit
 from pyrofit.config import Study
 from pyrofit.errors import DataError
+from pyrofit.estimate.measures import LIKELIHOOD, measures_of
 from pyrofit.estimate.optimisers import OPTIMISERS
 from pyrofit.results import identification
 from pyrofit.results.files import Results, write_csv, write_json
 from pyrofit.stages import measurements
 from pyrofit.stages.identify import identify_imp
 from pyrofit.stages.posterior import likelihood_and_optimum
-from pyrofit.stages.rescore_measures import LIKELIHOOD, measures_of
-from pyrofit.stages.rescore_scorer import Scorer, scorer_of
+from pyrofit.stages.scorer import Scorer, scorer_of
 from pyrofit.stages.worth_fit import best_fit
 
 SAME = 1e-6

@@ -91,7 +91,7 @@ def test_scores_are_those_of_each_cost_alone(study: Study, results: Results) -> 
 
 
 def test_temperature_counts_from_the_initial_one_in_gpyros_objective(study: Study) -> None:
-    from pyrofit.stages.rescore_measures import measures_of
+    from pyrofit.estimate.measures import measures_of
 
     series = measurements.computed(study)
     chosen, _ = measures_of(study, series, ["GPYRO_all"])
@@ -120,7 +120,7 @@ def test_valleys_are_fractions_of_the_limits_about_the_best_set(
 def test_two_processes_leave_the_same_bytes(
     study: Study, results: Results, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    monkeypatch.setattr("pyrofit.stages.rescore_scorer.AT_ONCE", 16)
+    monkeypatch.setattr("pyrofit.stages.scorer.AT_ONCE", 16)
     found = {}
     for cores in (1, 2):
         there = copied(results, tmp_path / str(cores))

@@ -10,14 +10,14 @@ import pandas as pd
 from pyrofit.analysis import rescoring
 from pyrofit.config import Study, digest
 from pyrofit.errors import DataError
+from pyrofit.estimate.measures import measures_of
 from pyrofit.logs import Tell
 from pyrofit.results import dependencies, rescored, searches
 from pyrofit.results.files import Results, write_csv
 from pyrofit.solver.arrays import Status
 from pyrofit.stages.measurements import load
-from pyrofit.stages.rescore_measures import measures_of
 from pyrofit.stages.rescore_record import content_of
-from pyrofit.stages.rescore_scorer import Scorer, scored, scorer_of
+from pyrofit.stages.scorer import Scorer, scored, scorer_of
 
 
 @dataclass(frozen=True, eq=False)

@@ -8,10 +8,10 @@ import pandas as pd
 
 from pyrofit.analysis import rescoring
 from pyrofit.config import Study
+from pyrofit.estimate.measures import Measure
 from pyrofit.estimate.prior import within_known
 from pyrofit.solver.arrays import FloatArray
-from pyrofit.stages.rescore_measures import Measure
-from pyrofit.stages.rescore_scorer import Scorer
+from pyrofit.stages.scorer import Scorer
 
 
 def content_of(

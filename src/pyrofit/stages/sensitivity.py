@@ -6,14 +6,14 @@ from pyrofit.analysis import sobol
 from pyrofit.config import Study, TermSpec
 from pyrofit.defaults import BASE_POINTS, WITHIN
 from pyrofit.errors import DataError
+from pyrofit.estimate.measures import Measure, channels, measures_of
 from pyrofit.logs import Tell
 from pyrofit.parallel import MOST_PIECES, parallel_map
 from pyrofit.results.files import Results
 from pyrofit.seeds import seed_for
 from pyrofit.solver.arrays import FloatArray
 from pyrofit.stages.measurements import load
-from pyrofit.stages.rescore_measures import Measure, channels, measures_of
-from pyrofit.stages.rescore_scorer import AT_ONCE, Scorer, scorer_of
+from pyrofit.stages.scorer import AT_ONCE, Scorer, scorer_of
 from pyrofit.stages.sensitivity_inputs import inputs_of
 from pyrofit.stages.sensitivity_record import write_found
 from pyrofit.stages.sensitivity_sampler import Sampler

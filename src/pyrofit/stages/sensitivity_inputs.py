@@ -6,10 +6,10 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from pyrofit.config import Study, parameters_in
-from pyrofit.effects.base import changed, has_open_back
+from pyrofit.effects.base import changed
 from pyrofit.estimate.prior import within_known
 from pyrofit.estimate.problem import Problem
-from pyrofit.model.experiment import Experiment
+from pyrofit.experiments.slab.uncertain import PLACES, Place, described, with_value
 from pyrofit.model.slab import SlabExperiment
 from pyrofit.results.files import Results, read_csv
 from pyrofit.solver.arrays import FloatArray
@@ -21,28 +21,6 @@ NEAR = 0.1
 ESTIMATED, KNOWN, APPARATUS = "estimated", "known", "apparatus"
 EMISSIVITY_SD = 0.02
 """Of a component whose emissivity is a number of the description."""
-
-
-@dataclass(frozen=True)
-class Place:
-    """A number of a slab's description that varies: its part and key, words, unit, sd."""
-
-    part: str
-    key: str
-    label: str
-    unit: str
-    sd: float
-
-
-PLACES = {
-    "flux": Place("front", "flux_factor", "factor on the flux", "-", 0.03),
-    "thickness": Place("sample", "thickness_factor", "factor on the thickness", "-", 0.02),
-    "h": Place("front", "h_change_W_m2K", "change of h at the front", "W/(m2 K)", 2.0),
-    "gas": Place("front", "gas_rise_K", "change of the gas temperature", "K", 10.0),
-    "start": Place("sample", "initial_temperature_K", "initial temperature", "K", 2.0),
-    "back_loss": Place("back", "loss_factor", "factor on the back loss", "-", 0.1),
-}
-"""Default uncertainties of the apparatus, by the end of the input's name."""
 
 
 @dataclass(frozen=True)
@@ -192,22 +170,6 @@ def _apparatus(problem: Problem) -> tuple[Problem, list[Input]]:
 def _slabs(problem: Problem) -> Iterable[SlabExperiment]:
     experiments = (run.experiment for run in problem.runs.values())
     return [e for e in experiments if isinstance(e, SlabExperiment)]
-
-
-def described(experiment: Experiment, place: Place) -> float | None:
-    """Return the number that is described, if it is one and matters."""
-    if not isinstance(experiment, SlabExperiment):
-        return None
-    if place.key == "loss_factor" and not has_open_back(experiment):
-        return None
-    value = getattr(getattr(experiment, place.part), place.key)
-    return value if isinstance(value, float) else None
-
-
-def with_value(experiment: Experiment, place: Place, value: float | str) -> Experiment:
-    """Return an experiment with a value, or the name of a parameter, in a place."""
-    part = changed(getattr(experiment, place.part), **{place.key: value})
-    return changed(experiment, **{place.part: part})
 
 
 def _uncertain(

@@ -8,12 +8,12 @@ import pandas as pd
 
 from pyrofit.analysis.sobol import Indices
 from pyrofit.config import Study
+from pyrofit.estimate.measures import Measure
 from pyrofit.numerics import linear
 from pyrofit.results import sensitivity
 from pyrofit.results.files import Results, write_csv
 from pyrofit.solver.arrays import FloatArray
-from pyrofit.stages.rescore_measures import Measure
-from pyrofit.stages.rescore_scorer import Scorer
+from pyrofit.stages.scorer import Scorer
 from pyrofit.stages.sensitivity_sampler import Sampler
 
 QUIET = 0.05

@@ -6,7 +6,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from pyrofit.solver.arrays import FloatArray, Values
-from pyrofit.stages.rescore_scorer import Scorer
+from pyrofit.stages.scorer import Scorer
 from pyrofit.stages.sensitivity_inputs import Input, columns
 
 

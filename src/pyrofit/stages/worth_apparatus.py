@@ -11,10 +11,10 @@ from dataclasses import replace
 import numpy as np
 
 from pyrofit.diagnose.base.fitted import FittedModel
+from pyrofit.experiments.slab.uncertain import PLACES, described, with_value
 from pyrofit.model.experiment import Experiment
 from pyrofit.numerics import linear
 from pyrofit.solver.arrays import FloatArray
-from pyrofit.stages.sensitivity_inputs import PLACES, described, with_value
 from pyrofit.stages.worth_forecast import Lasting, Record
 
 

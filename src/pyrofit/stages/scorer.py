@@ -8,6 +8,7 @@ import numpy as np
 from pyrofit.config import Study, TermSpec
 from pyrofit.errors import DataError
 from pyrofit.estimate.likelihood import Likelihood
+from pyrofit.estimate.measures import LIKELIHOOD, Measure
 from pyrofit.estimate.pose import of_imp, pose
 from pyrofit.estimate.problem import Outcome, Problem
 from pyrofit.estimate.targets import Measurements
@@ -17,7 +18,6 @@ from pyrofit.results.files import Results
 from pyrofit.solver.arrays import FloatArray
 from pyrofit.stages.fit import fixed_for_imp
 from pyrofit.stages.imp_likelihood import imp_likelihood
-from pyrofit.stages.rescore_measures import LIKELIHOOD, Measure
 
 AT_ONCE = 128
 """Sets of a piece of work."""
