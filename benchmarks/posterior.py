@@ -26,6 +26,7 @@ from pyrofit.estimate.sampled import Sampled, sample, spread
 from pyrofit.estimate.targets import Measurements
 from pyrofit.solver.arrays import FloatArray
 from pyrofit.stages.measurements import computed
+from pyrofit.steps.posterior.options import PosteriorOptions
 
 TWIN = Path(__file__).parents[1] / "config" / "twin.yaml"
 ESTIMATED = ("rho_a", "k_a", "cp_a", "eps_a", "dh")
@@ -139,7 +140,7 @@ def judged(kind: str, number: int) -> dict[str, object]:
     truth = np.array([study.true_values()[name] for name in ESTIMATED])
     x = likelihood.scaled(truth)
     sampling = time.process_time()
-    found = sample(likelihood, x, number)
+    found = sample(likelihood, x, number, 1, PosteriorOptions().steps)
     spent = time.process_time() - sampling
     low, high = np.quantile(found.drawn.flat, (0.025, 0.975), axis=0)
     return {

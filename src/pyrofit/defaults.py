@@ -3,10 +3,6 @@
 They are apart from the steps, as a command loads its step only when it runs.
 """
 
-POSTERIOR_SETS = 100
-"""Sets of the ensemble that the posterior writes."""
-POSTERIOR_STEPS = 3000
-"""Steps of each of its ensembles at most."""
 RESCORED_SETS = 3000
 """Stored sets that are scored again: some seconds."""
 BASE_POINTS = 1024

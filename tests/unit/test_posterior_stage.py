@@ -18,18 +18,20 @@ from pyrofit.estimate.likelihood import likelihood_of
 from pyrofit.estimate.prior import prior_of
 from pyrofit.estimate.problem import make_problem
 from pyrofit.exchange.sets import parameter_set
-from pyrofit.results import posterior
 from pyrofit.results.files import Results, read_csv, write_csv, write_json
-from pyrofit.show.posterior.sentences import sentences
-from pyrofit.show.posterior_page import PAGE
+from pyrofit.results.step import write_options
 from pyrofit.stages import fit, identify, measurements
-from pyrofit.stages.posterior import sample_posterior
+from pyrofit.steps.posterior import record as posterior
+from pyrofit.steps.posterior.compute import run
+from pyrofit.steps.posterior.page import PAGE
+from pyrofit.steps.posterior.sentences import sentences
 
+STEPS, SETS = 24, 12
 CHANGES: dict[str, Any] = {
     "imp__identification": {"slab_60": ["mlr"]},
     "known": {"k": {"value": 0.2, "sd": 0.004}},
+    "steps": {"posterior": {"steps": STEPS, "sets": SETS}},
 }
-STEPS, SETS = 24, 12
 
 
 @pytest.fixture(scope="module")
@@ -84,7 +86,8 @@ def identified(study: Study, tmp_path_factory: pytest.TempPathFactory) -> Result
 @pytest.fixture(scope="module")
 def results(study: Study, identified: Results, tmp_path_factory: pytest.TempPathFactory) -> Results:
     found = copied(identified, tmp_path_factory.mktemp("drawn") / "smoke")
-    sample_posterior(study, found, sets=SETS, most_steps=STEPS)
+    run(study, found, print, 1)
+    write_options(study, found, "posterior")
     PAGE.draw_and_write(study, found)
     return found
 
@@ -98,7 +101,7 @@ def test_two_processes_leave_the_same_bytes(
     study: Study, identified: Results, results: Results, tmp_path: Path
 ) -> None:
     there = copied(identified, tmp_path / "two")
-    sample_posterior(study, there, sets=SETS, most_steps=STEPS, cores=2)
+    run(study, there, print, 2)
     names = (
         posterior.FILE,
         posterior.SAMPLES,
@@ -107,7 +110,10 @@ def test_two_processes_leave_the_same_bytes(
         "sets/0003.json",
     )
     for name in names:
-        assert there.posterior(name).read_bytes() == results.posterior(name).read_bytes(), name
+        assert (
+            there.of_step("posterior", name).read_bytes()
+            == results.of_step("posterior", name).read_bytes()
+        ), name
 
 
 def test_short_ensembles_are_told_in_the_first_sentence(study: Study, results: Results) -> None:
@@ -126,11 +132,11 @@ def test_known_value_narrows_its_parameter(study: Study, results: Results) -> No
 def test_ensemble_has_equal_weights_and_files_that_exports_read(
     study: Study, results: Results, tmp_path: Path
 ) -> None:
-    ensemble = read_csv(results.posterior(posterior.ENSEMBLE))
+    ensemble = read_csv(results.of_step("posterior", posterior.ENSEMBLE))
     assert len(ensemble) == SETS
     assert ensemble["weight"].to_numpy() == pytest.approx(1.0 / SETS)
-    assert len(list(results.posterior(posterior.SETS).glob("*.json"))) == SETS
-    path = results.posterior("sets/0002.json")
+    assert len(list(results.of_step("posterior", posterior.SETS).glob("*.json"))) == SETS
+    path = results.of_step("posterior", "sets/0002.json")
     chosen = parameter_set(study, results, str(path), tmp_path)
     for name in study.imp.estimate:
         assert chosen.values[name] == ensemble.iloc[1][name]
@@ -159,7 +165,7 @@ def test_page_has_figures_tables_and_the_ensemble(study: Study, results: Results
     assert [type(part).__name__ for part in shown.parts] == ["Picture"] * 2 + ["Part"] * 3
     assert "use the ensemble of 12 sets" in shown.said[-1]
     assert any("No fitted signal determines the model discrepancy" in line for line in shown.said)
-    table = results.posterior("table_parameters.md").read_text()
+    table = results.of_step("posterior", "table_parameters.md").read_text()
     assert "R-hat" in table
     assert "kg/m3" in table
 
@@ -190,11 +196,10 @@ def test_study_that_was_changed_is_refused(
     assert "Run the study again" in said
 
 
-@pytest.mark.parametrize("option", ["--sets=0", "--steps=3", "--cores=none"])
+@pytest.mark.parametrize("option", ["--sets=0", "--steps=3"])
 def test_numbers_are_checked(
     option: str, tmp_path: Path, capsys: pytest.CaptureFixture[str]
 ) -> None:
-    with pytest.raises(SystemExit):
-        main(command(Results(tmp_path), tmp_path, option))
+    assert main(command(Results(tmp_path), tmp_path, option)) == 2
     name, _, text = option.partition("=")
-    assert f"argument {name}: '{text}': give a whole number from" in capsys.readouterr().err
+    assert f"{name}: '{text}' must be at least" in capsys.readouterr().err

@@ -14,7 +14,7 @@ from pyrofit.analysis.best_predicting import best_predicting
 from pyrofit.analysis.estimates import Estimated, estimated
 from pyrofit.config import Study, as_study
 from pyrofit.errors import DataError
-from pyrofit.results import identification, posterior, rescored
+from pyrofit.results import identification, rescored
 from pyrofit.results.files import Results, read_csv, read_json, write_csv, write_json, write_text
 from pyrofit.results.step import write_options
 from pyrofit.show import rescore_page
@@ -25,6 +25,7 @@ from pyrofit.show.report import tables_of, write_report
 from pyrofit.show.sections import FIGURES, TABLES, make_table
 from pyrofit.show.table import write_table
 from pyrofit.show.truth.sentences import errors as sentences
+from pyrofit.steps.posterior import record as posterior
 from pyrofit.steps.robustness.options import RobustnessOptions
 from pyrofit.steps.robustness.table import TABLE as ROBUSTNESS
 
@@ -460,8 +461,8 @@ def write_posterior(study: Study, results: Results, converged: bool) -> None:
         "discrepancies": [{"experiment": "slab_25", "signal": "mlr", **lacking}],
         "bands": [],
     }
-    posterior.write(results, content)
-    write_text(results.posterior(posterior.LAST), "<svg/>")
+    posterior.write(results, posterior.Posterior.model_validate(content))
+    write_text(results.of_step("posterior", "parameters.svg"), "<svg/>")
 
 
 def test_synthetic_data_are_said_so(tmp_path: Path) -> None:

@@ -11,17 +11,15 @@ from typing import Any
 
 import pytest
 
-from pyrofit.cli import main, planning, rescoring, sampling, sensing
+from pyrofit.cli import main, planning, rescoring, sensing
 from pyrofit.config import digest, read_study
-from pyrofit.results import posterior, rescored, sensitivity, worth
-from pyrofit.stages.posterior import sample_posterior
+from pyrofit.results import rescored, sensitivity, worth
 from pyrofit.stages.sensitivity import sensitivity as analyse
 from pyrofit.stages.worth import worth_of_tests
 
 SMOKE = Path(__file__).parents[2] / "config" / "smoke.yaml"
 OTHER: dict[str, tuple[Any, Callable[..., Any], list[str], tuple[Any, ...]]] = {
     "worth": (planning, worth.slice_of, ["--draws", "0"], (0,)),
-    "posterior": (sampling, posterior.slice_of, ["--sets", "7"], (7,)),
     "sensitivity": (sensing, sensitivity.slice_of, ["--samples", "8"], ("limits", 8)),
     "rescore": (rescoring, rescored.slice_of, ["--cost", "RMSE"], (["RMSE"],)),
 }
@@ -38,7 +36,6 @@ def defaults(command: str) -> dict[str, Any]:
     ("command", "step", "names"),
     [
         ("worth", worth_of_tests, {"draws": "draws", "apparatus": "apparatus"}),
-        ("posterior", sample_posterior, {"sets": "sets", "steps": "most_steps"}),
         ("sensitivity", analyse, {"within": "within", "samples": "samples"}),
         ("rescore", rescored.slice_of, {"sets": "count"}),
     ],
@@ -74,7 +71,6 @@ def test_other_options_than_those_of_the_workflow_are_refused_in_its_name(
         (worth.Worth, {"draws", "apparatus"}),
         (sensitivity.Sensitivity, {"within", "samples"}),
         (rescored.Rescored, {"sampled"}),
-        (posterior.Posterior, {"steps"}),
     ],
 )
 def test_result_says_its_options(record: Any, options: set[str]) -> None:

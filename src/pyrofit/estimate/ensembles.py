@@ -14,7 +14,6 @@ from typing import Any
 
 import numpy as np
 
-from pyrofit.defaults import POSTERIOR_STEPS
 from pyrofit.estimate.convergence import ENOUGH_TIMES, ESS, RHAT, autocorrelation_times, rhat
 from pyrofit.estimate.likelihood import Likelihood
 from pyrofit.logs import Tell
@@ -103,8 +102,8 @@ def draw(
     x: FloatArray,
     covariance: FloatArray,
     seed: int,
-    cores: int = 1,
-    most_steps: int = POSTERIOR_STEPS,
+    cores: int,
+    most_steps: int,
     tell: Tell = lambda text: None,
 ) -> Drawn:
     """Draw from exp(-chi2/2) within the limits until the ensembles agree, or to the most steps.

@@ -8,7 +8,6 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from pyrofit.defaults import POSTERIOR_STEPS
 from pyrofit.estimate.discrepancy import Discrepancy, estimated, with_discrepancy
 from pyrofit.estimate.ensembles import Drawn, draw
 from pyrofit.estimate.likelihood import Likelihood
@@ -53,8 +52,8 @@ def sample(
     likelihood: Likelihood,
     start: FloatArray,
     seed: int,
-    cores: int = 1,
-    most_steps: int = POSTERIOR_STEPS,
+    cores: int,
+    most_steps: int,
     tell: Tell = lambda text: None,
 ) -> Sampled:
     """Draw from the posterior, with a discrepancy that is estimated from the residuals.

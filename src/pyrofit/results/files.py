@@ -201,10 +201,6 @@ class Results:
         """Shares of the variance of signals and costs by parameter."""
         return self.root / "sensitivity" / name
 
-    def posterior(self, name: str) -> Path:
-        """Draws of the parameters, the ensemble, and bands of predictions."""
-        return self.root / "posterior" / name
-
     def worth(self, name: str) -> Path:
         """By how much planned tests narrow parameters and predictions."""
         return self.root / "worth" / name

@@ -21,14 +21,15 @@ from pyrofit.estimate.optimisers import OPTIMISERS
 from pyrofit.results import (
     identification,
     isoconversional,
-    posterior,
     prediction,
     searches,
     sensitivity,
 )
 from pyrofit.results.files import Results
 from pyrofit.results.goodness import Goodness
+from pyrofit.results.step import exists
 from pyrofit.show.table import Frames
+from pyrofit.steps.posterior import record as posterior
 
 
 @dataclass(frozen=True)
@@ -131,7 +132,7 @@ def _influence(study: Study, results: Results) -> dict[str, float] | None:
 
 
 def _ensemble(study: Study, results: Results) -> int:
-    if not posterior.exists(results):
+    if not exists(study, results, "posterior"):
         return 0
     found = posterior.read(study, results)
     return found.sets if found.converged else 0

@@ -79,7 +79,6 @@ rule report:
                 results.diagnosis("report.html"),
                 results.rescored("valleys.svg"),
                 results.sensitivity("costs.svg"),
-                results.posterior("parameters.svg"),
                 results.worth("worth.svg"),
                 results.scheme("scheme.svg"),
             )

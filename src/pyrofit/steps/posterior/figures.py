@@ -9,9 +9,7 @@ from pyrofit.analysis.uses import title_of
 from pyrofit.config import Study
 from pyrofit.quantities import known_quantities
 from pyrofit.quantities.base import Quantity
-from pyrofit.results import posterior
 from pyrofit.results.files import Results
-from pyrofit.results.posterior import OfParameter
 from pyrofit.show import style
 from pyrofit.show.curves import label_axes, label_of
 from pyrofit.show.drawn import Axes, Canvas, Line2D, Patch
@@ -19,6 +17,8 @@ from pyrofit.show.figure import Figure
 from pyrofit.show.table import always
 from pyrofit.show.units import shown
 from pyrofit.solver.arrays import FloatArray
+from pyrofit.steps.posterior import record
+from pyrofit.steps.posterior.record import OfParameter
 
 WIDE, DARK, NARROW = "#A9BED6", "#5C86B3", "#004488"
 BINS = 40
@@ -36,8 +36,8 @@ def quantity_of(study: Study, experiment: str, signal: str) -> Quantity:
 
 def bands(study: Study, results: Results) -> Canvas:
     """Draw measured signals and the bands of their predictions."""
-    frame = posterior.bands(results)
-    found = posterior.read(study, results)
+    frame = record.bands(results)
+    found = record.read(study, results)
     canvas, axes = style.panels(len(found.bands), 2, style.TWO_COLUMNS, 62.0)
     titles = [f"{title_of(study, of.experiment)}, {of.role}" for of in found.bands]
     style.letter(axes, titles)
@@ -55,7 +55,7 @@ def bands(study: Study, results: Results) -> Canvas:
     return canvas
 
 
-def _label(study: Study, of: posterior.OfBand) -> str:
+def _label(study: Study, of: record.OfBand) -> str:
     if of.role != "not measured":
         return label_of(study, of.experiment, of.signal)
     quantity = quantity_of(study, of.experiment, of.signal)
@@ -78,8 +78,8 @@ def _draw_bands(ax: Axes, study: Study, frame: pd.DataFrame) -> None:
 
 def parameters(study: Study, results: Results) -> Canvas:
     """Draw the distribution of each parameter."""
-    draws = posterior.samples(study, results)
-    found = posterior.read(study, results).parameters
+    draws = record.samples(study, results)
+    found = record.read(study, results).parameters
     canvas, axes = style.panels(len(found), 3, style.TWO_COLUMNS, 40.0)
     for ax, of in zip(axes, found, strict=True):
         _draw_parameter(ax, study, of, draws[of.name].to_numpy(float))

@@ -1,9 +1,9 @@
 """Draws from the posterior: tables and figures, and a section of the report."""
 
-from pyrofit.show.posterior.figures import FIGURES
-from pyrofit.show.posterior.sentences import sentences
-from pyrofit.show.posterior.tables import TABLES
 from pyrofit.show.step_page import StepPage
+from pyrofit.steps.posterior.figures import FIGURES
+from pyrofit.steps.posterior.sentences import sentences
+from pyrofit.steps.posterior.tables import TABLES
 
 PAGE = StepPage(
     folder="posterior",

@@ -2,10 +2,10 @@
 
 from pyrofit.config import Study
 from pyrofit.estimate.convergence import ENOUGH_TIMES, ESS, RHAT
-from pyrofit.results import posterior
 from pyrofit.results.files import Results
-from pyrofit.results.posterior import Posterior
 from pyrofit.show.text import listed, several
+from pyrofit.steps.posterior import record
+from pyrofit.steps.posterior.record import Posterior
 
 CHANCE = 0.05
 """Chance of a chi-square below which noise alone does not explain the data."""
@@ -17,7 +17,7 @@ INSIDE = 0.9
 
 def sentences(study: Study, results: Results) -> list[str]:
     """Return the sentences on convergence, adequacy, bands and the ensemble."""
-    found = posterior.read(study, results)
+    found = record.read(study, results)
     return [_converged(found), _adequate(found), *_bands(found), *_missing(found), _ensemble(found)]
 
 

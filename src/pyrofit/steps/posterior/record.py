@@ -1,18 +1,13 @@
-"""The posterior of the parameters: written by the stage, read by tables, figures and sentences."""
+"""The posterior of the parameters: computed once, read by tables, figures and sentences."""
 
-import json
-from collections.abc import Mapping
-from typing import Any, Literal
+from typing import Literal
 
 import pandas as pd
-from pydantic import Field, ValidationError
+from pydantic import Field
 
 from pyrofit.config import Study
-from pyrofit.defaults import POSTERIOR_SETS, POSTERIOR_STEPS
-from pyrofit.errors import DataError
-from pyrofit.results import dependencies
-from pyrofit.results.files import Results, read_csv, read_json, write_json
-from pyrofit.results.record import Record
+from pyrofit.results.files import Results, read_csv
+from pyrofit.results.record import Record, read_record, write_record
 
 FILE = "posterior.json"
 SAMPLES = "samples.csv.gz"
@@ -21,8 +16,6 @@ BANDS = "bands.csv"
 CORRELATION = "correlation.csv"
 SETS = "sets"
 """Folder with a file of values for each set of the ensemble."""
-LAST = "parameters.svg"
-"""File that is written last, so that all others are there when it is."""
 Role = Literal["fitted", "held out", "not measured"]
 _BAND = ("low", "median", "high", "parameters_low", "parameters_median", "parameters_high")
 
@@ -87,23 +80,9 @@ class Posterior(Record):
     bands: list[OfBand] = Field(description="the predicted signals")
 
 
-def slice_of(
-    study: Study, sets: int = POSTERIOR_SETS, most_steps: int = POSTERIOR_STEPS
-) -> dict[str, Any]:
-    """Return the inputs of the step: the likelihood, all predicted experiments, its options."""
-    return {
-        "likelihood": dependencies.identify(study),
-        "validation": dependencies.validation(study),
-        "seed": study.seed,
-        "options": {"sets": sets, "most_steps": most_steps},
-    }
-
-
-def write(results: Results, content: Mapping[str, Any]) -> None:
-    """Write the results; they must agree with the schema."""
-    text = json.dumps(content, allow_nan=False)
-    Posterior.model_validate_json(text)
-    write_json(results.posterior(FILE), json.loads(text))
+def write(results: Results, found: Posterior) -> None:
+    """Write the results."""
+    write_record(results.of_step("posterior", FILE), found)
 
 
 def read(study: Study, results: Results) -> Posterior:
@@ -114,36 +93,27 @@ def read(study: Study, results: Results) -> Posterior:
     DataError
         It is missing, broken, or that of another study.
     """
-    path = results.posterior(FILE)
-    try:
-        found = Posterior.model_validate(read_json(path))
-    except ValidationError as error:
-        first = error.errors()[0]
-        place = ".".join(str(key) for key in first["loc"])
-        raise DataError(f"{path}: '{place}': {first['msg']}; delete it and run again") from None
-    if found.study != study.name or [p.name for p in found.parameters] != list(study.imp.estimate):
-        raise DataError(f"{path}: this is the result of another study; delete it and run again")
-    return found
+    names = list(study.imp.estimate)
+
+    def is_ours(found: Posterior) -> bool:
+        return found.study == study.name and [p.name for p in found.parameters] == names
+
+    return read_record(results.of_step("posterior", FILE), Posterior, is_ours)
 
 
 def correlation(study: Study, results: Results) -> pd.DataFrame:
     """Return the correlation of the draws, by name."""
     names = list(study.imp.estimate)
     columns = {"parameter": object, **dict.fromkeys(names, float)}
-    return read_csv(results.posterior(CORRELATION), columns).set_index("parameter")
+    return read_csv(results.of_step("posterior", CORRELATION), columns).set_index("parameter")
 
 
 def bands(results: Results) -> pd.DataFrame:
     """Return the bands of all predicted signals, SI units."""
     columns = {"experiment": object, "signal": object, **dict.fromkeys(("time_s", *_BAND), float)}
-    return read_csv(results.posterior(BANDS), columns)
+    return read_csv(results.of_step("posterior", BANDS), columns)
 
 
 def samples(study: Study, results: Results) -> pd.DataFrame:
     """Return draws of the parameters, SI units."""
-    return read_csv(results.posterior(SAMPLES), dict.fromkeys(study.imp.estimate, float))
-
-
-def exists(results: Results) -> bool:
-    """Tell whether the posterior was drawn and its page made."""
-    return results.posterior(LAST).is_file()
+    return read_csv(results.of_step("posterior", SAMPLES), dict.fromkeys(study.imp.estimate, float))

@@ -4,15 +4,15 @@ import numpy as np
 import pandas as pd
 
 from pyrofit.config import Study
-from pyrofit.results import posterior
 from pyrofit.results.files import Results
 from pyrofit.show.table import Table, always
+from pyrofit.steps.posterior import record
 
 
 def parameters(study: Study, results: Results) -> pd.DataFrame:
     """List mean, sd, interval and convergence of each parameter, in the study's units."""
     rows = []
-    for of in posterior.read(study, results).parameters:
+    for of in record.read(study, results).parameters:
         parameter = study.parameters[of.name]
         values = {k: getattr(of, k) / parameter.factor for k in ("mean", "sd", "low", "high")}
         rows.append(
@@ -23,7 +23,7 @@ def parameters(study: Study, results: Results) -> pd.DataFrame:
 
 def correlations(study: Study, results: Results) -> pd.DataFrame:
     """List the correlation of each two parameters, the strongest first."""
-    matrix = posterior.correlation(study, results)
+    matrix = record.correlation(study, results)
     names = list(matrix)
     values = matrix.to_numpy(float)
     pairs = [(i, k) for i in range(len(names)) for k in range(i)]
@@ -36,7 +36,7 @@ def correlations(study: Study, results: Results) -> pd.DataFrame:
 
 def lacking(study: Study, results: Results) -> pd.DataFrame:
     """List the model discrepancy of each fitted signal."""
-    found = posterior.read(study, results).discrepancies
+    found = record.read(study, results).discrepancies
     return pd.DataFrame(
         [
             {
@@ -54,7 +54,7 @@ def lacking(study: Study, results: Results) -> pd.DataFrame:
 
 def bands(study: Study, results: Results) -> pd.DataFrame:
     """List the widths of the bands, and the share of the measured points inside."""
-    found = posterior.read(study, results).bands
+    found = record.read(study, results).bands
     return pd.DataFrame(
         [
             {

@@ -2,7 +2,6 @@
 
 from collections.abc import Mapping
 from dataclasses import dataclass
-from typing import Any
 
 import numpy as np
 import pandas as pd
@@ -22,6 +21,7 @@ from pyrofit.quantities.base import Quantity
 from pyrofit.seeds import seed_for
 from pyrofit.solver.arrays import FloatArray
 from pyrofit.stages.unmeasured import predict_unmeasured
+from pyrofit.steps.posterior.record import OfBand, Role
 
 DRAWS = 400
 """Draws that make a band: ten of them lie beyond each of its ends."""
@@ -36,7 +36,7 @@ class Predicted:
 
     experiment: str
     signal: str
-    role: str
+    role: Role
     quantity: Quantity
     time_s: FloatArray
     curves: FloatArray
@@ -50,7 +50,7 @@ class Predicted:
 
 def predicted(
     study: Study, found: Sampled, measurements: Measurements, fixed: Mapping[str, float]
-) -> tuple[pd.DataFrame, list[dict[str, Any]]]:
+) -> tuple[pd.DataFrame, list[OfBand]]:
     """Return the bands of all signals over time, and the numbers that describe them.
 
     Raises
@@ -95,7 +95,7 @@ def _of_measured(
             covariance = found.discrepancies[k].covariance(target.time_s, best)
             lacking: FloatArray | None = measured(covariance, noise, target.value - curves, rng)
             sd: FloatArray | None = noise.total_sd
-            role = "fitted"
+            role: Role = "fitted"
         else:
             lacking = _carried(study, found, quantity, target.time_s, curves, rng)
             sd, role = _noise_sd(problem, k), "held out"
@@ -145,7 +145,7 @@ def _of_unmeasured(
         time = part["time_s"].to_numpy(float).reshape(len(X), -1)[0]
         curves = part["simulated"].to_numpy(float).reshape(len(X), -1)
         lacking = _carried(study, found, quantity, time, curves, rng)
-        role = "not measured"
+        role: Role = "not measured"
         signals.append(Predicted(str(name), str(signal), role, quantity, time, curves, lacking))
     return signals
 
@@ -171,7 +171,7 @@ def _carried(
     return carried(known).carried_to(time, curves, rng) - curves
 
 
-def _bands(of: Predicted, rng: np.random.Generator) -> tuple[pd.DataFrame, dict[str, Any]]:
+def _bands(of: Predicted, rng: np.random.Generator) -> tuple[pd.DataFrame, OfBand]:
     """Return the bands over time, the solver's error added, and their widths."""
     whole = of.curves if of.lacking is None else of.curves + of.lacking
     error = of.quantity.solver_error * float(np.ptp(np.median(of.curves, axis=0)))
@@ -189,15 +189,15 @@ def _bands(of: Predicted, rng: np.random.Generator) -> tuple[pd.DataFrame, dict[
             **dict(zip(_ALONE, narrow, strict=True)),
         }
     )
-    numbers = {
-        "experiment": of.experiment,
-        "signal": of.signal,
-        "role": of.role,
-        "width": float(np.mean(wide[2] - wide[0])) / size,
-        "parameters_width": float(np.mean(narrow[2] - narrow[0])) / size,
-        "lacking": of.lacking is not None,
-        "inside": _inside(of, whole, error, rng),
-    }
+    numbers = OfBand(
+        experiment=of.experiment,
+        signal=of.signal,
+        role=of.role,
+        width=float(np.mean(wide[2] - wide[0])) / size,
+        parameters_width=float(np.mean(narrow[2] - narrow[0])) / size,
+        lacking=of.lacking is not None,
+        inside=_inside(of, whole, error, rng),
+    )
     return frame, numbers
 
 

@@ -1,1 +1,0 @@
-"""Draws from the posterior of the parameters, a step of its own."""

@@ -1,0 +1,33 @@
+"""What the draws from the posterior rest on."""
+
+from typing import Any
+
+from pyrofit.config import Study
+from pyrofit.results import dependencies
+from pyrofit.results.step import Inputs
+from pyrofit.steps.posterior import record
+
+
+def slice_of(study: Study) -> dict[str, Any]:
+    """Return the likelihood and all predicted experiments."""
+    return {
+        "likelihood": dependencies.identify(study),
+        "validation": dependencies.validation(study),
+        "seed": study.seed,
+    }
+
+
+INPUTS = Inputs(
+    reads=("measurements", "kinetics", "fits_for_noise", "estimate", "noise"),
+    slice_of=slice_of,
+    files=(
+        record.FILE,
+        record.SAMPLES,
+        record.ENSEMBLE,
+        record.BANDS,
+        record.CORRELATION,
+        "bands.svg",
+        "parameters.svg",
+    ),
+    folders=(record.SETS,),
+)
