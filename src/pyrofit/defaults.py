@@ -3,8 +3,6 @@
 They are apart from the steps, as a command loads its step only when it runs.
 """
 
-RESCORED_SETS = 3000
-"""Stored sets that are scored again: some seconds."""
 BASE_POINTS = 1024
 """Base points of the sensitivity analysis: some ten seconds."""
 WITHIN = "limits"

@@ -14,10 +14,9 @@ from pyrofit.analysis.best_predicting import best_predicting
 from pyrofit.analysis.estimates import Estimated, estimated
 from pyrofit.config import Study, as_study
 from pyrofit.errors import DataError
-from pyrofit.results import identification, rescored
+from pyrofit.results import identification
 from pyrofit.results.files import Results, read_csv, read_json, write_csv, write_json, write_text
 from pyrofit.results.step import write_options
-from pyrofit.show import rescore_page
 from pyrofit.show.answer.next_steps import advice
 from pyrofit.show.answer.summary import summary
 from pyrofit.show.facts import Facts, facts_of
@@ -26,6 +25,8 @@ from pyrofit.show.sections import FIGURES, TABLES, make_table
 from pyrofit.show.table import write_table
 from pyrofit.show.truth.sentences import errors as sentences
 from pyrofit.steps.posterior import record as posterior
+from pyrofit.steps.rescore import record as rescored
+from pyrofit.steps.rescore.page import PAGE as RESCORE
 from pyrofit.steps.robustness.options import RobustnessOptions
 from pyrofit.steps.robustness.table import TABLE as ROBUSTNESS
 
@@ -416,11 +417,12 @@ def test_scores_under_other_costs_are_shown_once_they_are_there(tmp_path: Path) 
         "same": [],
         "measures": [{"name": name, "words": "a cost", **found} for name in ("RMSE", "GPYRO")],
     }
-    rescored.write(results, content)
+    rescored.write(results, rescored.Rescored.model_validate(content))
+    write_options(study, results, "rescore")
     matrix = pd.DataFrame({"cost": ["RMSE", "GPYRO"], "RMSE": [1.0, 0.5], "GPYRO": [0.5, 1.0]})
     for name in ("CORRELATION", "AMONG_BEST", "EXCESS", "BETTER"):
-        write_csv(results.rescored(getattr(rescored, name)), matrix)
-    rescore_page.PAGE.draw_and_write(study, results)
+        write_csv(results.of_step("rescore", getattr(rescored, name)), matrix)
+    RESCORE.draw_and_write(study, results)
     write_report(study, results)
     page = Page((tmp_path / "report.html").read_text())
     assert {"rescore", "rescore_agreement", "rescore_valleys"} <= set(page.ids)

@@ -8,7 +8,7 @@ from scipy.stats import spearmanr
 from pyrofit.analysis import rescoring
 from pyrofit.cost import Target
 from pyrofit.estimate.measures import fall, peak, rise
-from pyrofit.show.rescore.sentences import _alike, _own, _regret
+from pyrofit.steps.rescore.sentences import _alike, _own, _regret
 
 SCORES = pd.DataFrame(
     {"a": [1.0, 2.0, 3.0, 4.0], "b": [10.0, 20.0, 40.0, 30.0], "c": [4.0, 3.0, 2.0, 1.0]}

@@ -25,6 +25,7 @@ SMOKE = ROOT / "config" / "smoke.yaml"
 STEPS = list(known_steps())
 WITH_OPTIONS = [name for name, step in known_steps().items() if step.options is not None]
 OTHER: dict[str, dict[str, Any]] = {
+    "rescore": {"sets": 60, "costs": ["RMSE"]},
     "posterior": {"sets": 7},
     "robustness": {"starts": 5},
     "stability": {"draws": 3},

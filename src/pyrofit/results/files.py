@@ -193,10 +193,6 @@ class Results:
         """All sets of all optimisers under all costs, and the family of good ones."""
         return self.root / "comparison" / name
 
-    def rescored(self, name: str) -> Path:
-        """All that tells how other costs rank the stored sets."""
-        return self.root / "rescore" / name
-
     def sensitivity(self, name: str) -> Path:
         """Shares of the variance of signals and costs by parameter."""
         return self.root / "sensitivity" / name

@@ -3,13 +3,12 @@
 from typing import Any
 
 from pyrofit.config import Study
-from pyrofit.results import diagnosis, recorded, rescored, scheme, sensitivity, worth
+from pyrofit.results import diagnosis, recorded, scheme, sensitivity, worth
 from pyrofit.results.files import Results, write_json, write_text
 from pyrofit.show import (
     diagnosis_page,
     fds_page,
     programs_page,
-    rescore_page,
     scheme_page,
     sensitivity_page,
     worth_page,
@@ -26,7 +25,6 @@ from pyrofit.show.step_page import sections_of
 from pyrofit.show.table import Frames, read_table
 
 OWN_STEPS: tuple[tuple[Any, Any], ...] = (
-    (rescored, rescore_page.PAGE),
     (sensitivity, sensitivity_page.PAGE),
     (worth, worth_page.PAGE),
     (scheme, scheme_page),

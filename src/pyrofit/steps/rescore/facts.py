@@ -5,9 +5,9 @@ from collections.abc import Iterable
 import pandas as pd
 
 from pyrofit.config import Study
-from pyrofit.results import rescored
 from pyrofit.results.files import Results
-from pyrofit.results.rescored import OfMeasure, Rescored
+from pyrofit.steps.rescore import record
+from pyrofit.steps.rescore.record import OfMeasure, Rescored
 
 
 def shown(found: Rescored) -> list[OfMeasure]:
@@ -24,7 +24,7 @@ def of_shown(found: Rescored, matrix: pd.DataFrame) -> pd.DataFrame:
 
 def correlation(study: Study, results: Results) -> pd.DataFrame:
     """Return the rank correlation of the costs shown."""
-    return of_shown(rescored.read(study, results), rescored.matrix(results, rescored.CORRELATION))
+    return of_shown(record.read(study, results), record.matrix(results, record.CORRELATION))
 
 
 def in_units(study: Study, values: Iterable[tuple[str, float]]) -> dict[str, float]:

@@ -4,14 +4,14 @@ import numpy as np
 
 from pyrofit.analysis.rescoring import GOOD, VALLEY
 from pyrofit.config import Study
-from pyrofit.results import rescored
 from pyrofit.results.files import Results
 from pyrofit.show import style
 from pyrofit.show.drawn import Canvas
 from pyrofit.show.figure import Figure
 from pyrofit.show.matrix import draw_matrix
-from pyrofit.show.rescore.facts import correlation, of_shown, shown
 from pyrofit.show.table import always
+from pyrofit.steps.rescore import record
+from pyrofit.steps.rescore.facts import correlation, of_shown, shown
 
 
 def agreement(study: Study, results: Results) -> Canvas:
@@ -21,13 +21,13 @@ def agreement(study: Study, results: Results) -> Canvas:
 
 def agreement_best(study: Study, results: Results) -> Canvas:
     """Draw the rank correlation of the costs over the best sets of each."""
-    table = of_shown(rescored.read(study, results), rescored.matrix(results, rescored.AMONG_BEST))
+    table = of_shown(record.read(study, results), record.matrix(results, record.AMONG_BEST))
     return draw_matrix(table, "rank correlation [–]")
 
 
 def regret(study: Study, results: Results) -> Canvas:
     """Draw which share of the sets each cost finds better than the best set of another."""
-    table = of_shown(rescored.read(study, results), rescored.matrix(results, rescored.BETTER))
+    table = of_shown(record.read(study, results), record.matrix(results, record.BETTER))
     percent = 100.0 * table.to_numpy()
     names = [str(name) for name in table]
     size = min(style.TWO_COLUMNS, 34.0 + 11.5 * len(names))
@@ -46,7 +46,7 @@ def regret(study: Study, results: Results) -> Canvas:
 
 def valleys(study: Study, results: Results) -> Canvas:
     """Draw the range of each parameter over the best sets of every cost."""
-    measures = shown(rescored.read(study, results))
+    measures = shown(record.read(study, results))
     names = list(study.imp.estimate)
     height = 14.0 + 4.2 * len(measures)
     canvas, axes = style.panels(len(names), 3, style.TWO_COLUMNS, height, sharey=True)

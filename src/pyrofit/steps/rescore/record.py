@@ -1,20 +1,11 @@
-"""Stored sets scored again: written by the stage, read by tables, figures and sentences."""
-
-import json
-from collections.abc import Mapping, Sequence
-from typing import Any
+"""Stored sets scored again: computed once, read by tables, figures and sentences."""
 
 import pandas as pd
-from pydantic import Field, ValidationError
+from pydantic import Field
 
 from pyrofit.config import Study
-from pyrofit.cost import known_costs
-from pyrofit.defaults import RESCORED_SETS
-from pyrofit.errors import DataError
-from pyrofit.plugins import code_digest
-from pyrofit.results import dependencies
-from pyrofit.results.files import Results, read_csv, read_json, write_json
-from pyrofit.results.record import Record
+from pyrofit.results.files import Results, read_csv
+from pyrofit.results.record import Record, read_record, write_record
 
 FILE = "rescore.json"
 SETS = "sets.csv.gz"
@@ -23,8 +14,6 @@ CORRELATION = "correlation.csv"
 AMONG_BEST = "correlation_best.csv"
 EXCESS = "excess.csv"
 BETTER = "better.csv"
-LAST = "valleys.svg"
-"""File that is written last, so that all others are there when it is."""
 
 
 class OfRange(Record):
@@ -60,30 +49,15 @@ class Rescored(Record):
     histories: int = Field(description="searches whose calls are stored")
     unfinished: int = Field(description="scored sets whose run did not finish; they are left out")
     drift: float = Field(description="largest relative difference of stored and recomputed cost")
-    valley_share: float = Field(description="share of the sets that makes a valley")
     left_out: list[str] = Field(description="costs that cannot be computed, and why")
+    valley_share: float = Field(description="share of the sets that makes a valley")
     same: list[list[str]] = Field(description="costs that rank the sets in the same order")
     measures: list[OfMeasure] = Field(min_length=1, description="the costs")
 
 
-def slice_of(
-    study: Study, asked: Sequence[str] = (), count: int | None = RESCORED_SETS
-) -> dict[str, Any]:
-    """Return the inputs of the step: all searches, the likelihood, experiments, its options."""
-    return {
-        "searches": {cost: dependencies.imp(study, cost, "sceua") for cost in study.imp.costs},
-        "likelihood": dependencies.identify(study),
-        "kinds": {name: code_digest("costs", name) for name in known_costs()},
-        "options": {"costs": list(asked), "sets": count},
-        **dependencies.collect(study),
-    }
-
-
-def write(results: Results, content: Mapping[str, Any]) -> None:
-    """Write the results; they must agree with the schema."""
-    text = json.dumps(content, allow_nan=False)
-    Rescored.model_validate_json(text)
-    write_json(results.rescored(FILE), json.loads(text))
+def write(results: Results, found: Rescored) -> None:
+    """Write the results."""
+    write_record(results.of_step("rescore", FILE), found)
 
 
 def read(study: Study, results: Results) -> Rescored:
@@ -94,24 +68,15 @@ def read(study: Study, results: Results) -> Rescored:
     DataError
         It is missing, broken, or that of another study.
     """
-    path = results.rescored(FILE)
-    try:
-        found = Rescored.model_validate(read_json(path))
-    except ValidationError as error:
-        first = error.errors()[0]
-        place = ".".join(str(key) for key in first["loc"])
-        raise DataError(f"{path}: '{place}': {first['msg']}; delete it and run again") from None
     estimated = set(study.imp.estimate)
-    if found.study != study.name or any(set(m.parameters) != estimated for m in found.measures):
-        raise DataError(f"{path}: this is the result of another study; delete it and run again")
-    return found
+
+    def is_ours(found: Rescored) -> bool:
+        same = all(set(m.parameters) == estimated for m in found.measures)
+        return found.study == study.name and same
+
+    return read_record(results.of_step("rescore", FILE), Rescored, is_ours)
 
 
 def matrix(results: Results, name: str) -> pd.DataFrame:
     """Return a square table of the costs, by name."""
-    return read_csv(results.rescored(name), {"cost": object}).set_index("cost")
-
-
-def exists(results: Results) -> bool:
-    """Tell whether stored sets were scored and their page drawn."""
-    return results.rescored(LAST).is_file()
+    return read_csv(results.of_step("rescore", name), {"cost": object}).set_index("cost")

@@ -7,11 +7,11 @@ import pandas as pd
 
 from pyrofit.analysis import rescoring
 from pyrofit.config import Study
-from pyrofit.results import rescored
 from pyrofit.results.files import Results
-from pyrofit.results.rescored import OfMeasure, Rescored
-from pyrofit.show.rescore.facts import correlation, of_shown, shown
 from pyrofit.show.text import listed, several, span
+from pyrofit.steps.rescore import record
+from pyrofit.steps.rescore.facts import correlation, of_shown, shown
+from pyrofit.steps.rescore.record import OfMeasure, Rescored
 
 DRIFT = 1e-3
 """Relative difference of stored and recomputed costs that is mentioned.
@@ -26,13 +26,13 @@ MOST_APART = 3
 
 def sentences(study: Study, results: Results) -> list[str]:
     """Return the sentences on how the costs rank the stored sets."""
-    found = rescored.read(study, results)
-    better = of_shown(found, rescored.matrix(results, rescored.BETTER))
-    higher = rescored.matrix(results, rescored.EXCESS)
+    found = record.read(study, results)
+    better = of_shown(found, record.matrix(results, record.BETTER))
+    higher = record.matrix(results, record.EXCESS)
     return [
         _sample(found),
         *_alike(correlation(study, results)),
-        *_among_best(_part(rescored.matrix(results, rescored.AMONG_BEST), list(study.imp.costs))),
+        *_among_best(_part(record.matrix(results, record.AMONG_BEST), list(study.imp.costs))),
         *_undecided(found),
         *_own(_part(higher, list(study.imp.costs))),
         *_regret(_part(better, [name for name in better if name not in undecided(found)])),

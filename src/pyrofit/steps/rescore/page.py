@@ -1,9 +1,9 @@
 """Stored sets under all costs: tables and figures, and a section of the report."""
 
-from pyrofit.show.rescore.figures import FIGURES
-from pyrofit.show.rescore.sentences import sentences
-from pyrofit.show.rescore.tables import TABLES
 from pyrofit.show.step_page import StepPage
+from pyrofit.steps.rescore.figures import FIGURES
+from pyrofit.steps.rescore.sentences import sentences
+from pyrofit.steps.rescore.tables import TABLES
 
 PAGE = StepPage(
     folder="rescore",

@@ -6,20 +6,20 @@ import pandas as pd
 
 from pyrofit.analysis.rescoring import VALLEY
 from pyrofit.config import Study
-from pyrofit.results import rescored
 from pyrofit.results.files import Results
-from pyrofit.show.rescore.facts import in_units, of_shown
 from pyrofit.show.table import Table, always
+from pyrofit.steps.rescore import record
+from pyrofit.steps.rescore.facts import in_units, of_shown
 
 
 def best(study: Study, results: Results) -> pd.DataFrame:
     """List the costs, each with its best stored set."""
-    found = rescored.read(study, results)
+    found = record.read(study, results)
     same = {name: group[0] for group in found.same for name in group[1:]}
     return pd.DataFrame([_row(study, measure, same) for measure in found.measures])
 
 
-def _row(study: Study, measure: rescored.OfMeasure, same: dict[str, str]) -> dict[str, Any]:
+def _row(study: Study, measure: record.OfMeasure, same: dict[str, str]) -> dict[str, Any]:
     values = in_units(study, measure.parameters.items())
     return {
         "cost": measure.name,
@@ -33,19 +33,19 @@ def _row(study: Study, measure: rescored.OfMeasure, same: dict[str, str]) -> dic
 
 def excess(study: Study, results: Results) -> pd.DataFrame:
     """List how much higher the best set of each cost is under the others, in per cent."""
-    table = of_shown(rescored.read(study, results), rescored.matrix(results, rescored.EXCESS))
+    table = of_shown(record.read(study, results), record.matrix(results, record.EXCESS))
     return (100.0 * table).rename_axis("best_of").reset_index()
 
 
 def correlations(study: Study, results: Results) -> pd.DataFrame:
     """List Spearman's rank correlation of all costs."""
-    table = rescored.matrix(results, rescored.CORRELATION)
-    return of_shown(rescored.read(study, results), table).reset_index()
+    table = record.matrix(results, record.CORRELATION)
+    return of_shown(record.read(study, results), table).reset_index()
 
 
 def valleys(study: Study, results: Results) -> pd.DataFrame:
     """List where the valley of each cost lies, per cent of the search range."""
-    found = rescored.read(study, results)
+    found = record.read(study, results)
     rows = [
         {
             "cost": measure.name,

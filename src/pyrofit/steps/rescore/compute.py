@@ -12,12 +12,15 @@ from pyrofit.config import Study, digest
 from pyrofit.errors import DataError
 from pyrofit.estimate.measures import measures_of
 from pyrofit.logs import Tell
-from pyrofit.results import dependencies, rescored, searches
+from pyrofit.results import dependencies, searches
 from pyrofit.results.files import Results, write_csv
 from pyrofit.solver.arrays import Status
 from pyrofit.stages.measurements import load
-from pyrofit.stages.rescore_record import content_of
 from pyrofit.stages.scorer import Scorer, scored, scorer_of
+from pyrofit.steps.rescore import record
+from pyrofit.steps.rescore.options import RescoreOptions
+from pyrofit.steps.rescore.record import Rescored
+from pyrofit.steps.rescore.valleys import same_order, valleys
 
 
 @dataclass(frozen=True, eq=False)
@@ -34,28 +37,8 @@ class Stored:
     histories: int
 
 
-def rescore(
-    study: Study,
-    results: Results,
-    tell: Tell,
-    asked: Sequence[str],
-    count: int | None,
-    cores: int = 1,
-) -> None:
+def run(study: Study, results: Results, tell: Tell, processes: int) -> None:
     """Score stored sets under the study's and other costs; write ``rescore``.
-
-    Parameters
-    ----------
-    study, results
-        A study whose searches have run.
-    tell
-        Told how many sets are scored.
-    asked
-        Names of costs; none = all that can be computed.
-    count
-        How many sets, the same of every search; None = all.
-    cores
-        Processes.
 
     Raises
     ------
@@ -66,9 +49,10 @@ def rescore(
     DataError
         A search has not run, or belongs to another description of the study.
     """
-    stored = stored_sets(study, results, count)
+    options = study.options(RescoreOptions)
+    stored = stored_sets(study, results, None if options.sets == "all" else options.sets)
     measurements = load(study, results)
-    measures, left_out = measures_of(study, measurements, asked)
+    measures, left_out = measures_of(study, measurements, options.costs)
     tell(
         f"scoring {len(stored.sets)} of {stored.finished} stored sets of {stored.histories} "
         f"searches under {len(measures)} costs"
@@ -76,7 +60,7 @@ def rescore(
     scorer, more = scorer_of(study, results, measurements, measures)
     sets = stored.sets[list(scorer.problem.names)].to_numpy(float)
     names = [measure.name for measure in scorer.measures]
-    scores = pd.DataFrame(scored(scorer, sets, cores), columns=names)
+    scores = pd.DataFrame(scored(scorer, sets, processes), columns=names)
     _write(study, results, scorer, stored, scores, [*left_out, *more])
 
 
@@ -93,22 +77,26 @@ def _write(
     if not whole.any():
         raise DataError(f"{results.root}: no stored set can be simulated now; run the study again")
     sets = stored.sets[whole].reset_index(drop=True)
-    about = {
-        "study": study.name,
-        "stored": stored.finished,
-        "failed": stored.failed,
-        "sampled": len(stored.sets),
-        "histories": stored.histories,
-        "unfinished": int(np.sum(~whole)),
-        "drift": _drift(study, results, stored.sets, scores),
-        "left_out": list(left_out),
-    }
+    drift = _drift(study, results, stored.sets, scores)
     scores = scores[whole].reset_index(drop=True)
     tidy = scores.assign(set=sets["set"]).melt(id_vars="set", var_name="cost", value_name="value")
-    write_csv(results.rescored(rescored.SETS), sets)
-    write_csv(results.rescored(rescored.SCORES), tidy)
+    write_csv(results.of_step("rescore", record.SETS), sets)
+    write_csv(results.of_step("rescore", record.SCORES), tidy)
     _write_matrices(results, scores)
-    rescored.write(results, content_of(about, study, scorer, sets, scores))
+    found = Rescored(
+        study=study.name,
+        stored=stored.finished,
+        failed=stored.failed,
+        sampled=len(stored.sets),
+        histories=stored.histories,
+        unfinished=int(np.sum(~whole)),
+        drift=drift,
+        valley_share=rescoring.VALLEY,
+        left_out=list(left_out),
+        same=same_order(scores),
+        measures=valleys(study, scorer, sets, scores),
+    )
+    record.write(results, found)
 
 
 def stored_sets(study: Study, results: Results, count: int | None) -> Stored:
@@ -178,10 +166,10 @@ def _drift(study: Study, results: Results, sets: pd.DataFrame, scores: pd.DataFr
 def _write_matrices(results: Results, scores: pd.DataFrame) -> None:
     telling = scores[rescoring.telling(scores)]
     tables = {
-        rescored.EXCESS: rescoring.excess(scores),
-        rescored.BETTER: rescoring.better(scores),
-        rescored.CORRELATION: rescoring.spearman(telling),
-        rescored.AMONG_BEST: rescoring.spearman_among_best(telling),
+        record.EXCESS: rescoring.excess(scores),
+        record.BETTER: rescoring.better(scores),
+        record.CORRELATION: rescoring.spearman(telling),
+        record.AMONG_BEST: rescoring.spearman_among_best(telling),
     }
     for name, table in tables.items():
-        write_csv(results.rescored(name), table.rename_axis("cost").reset_index())
+        write_csv(results.of_step("rescore", name), table.rename_axis("cost").reset_index())

@@ -1,1 +1,0 @@
-"""Stored sets scored again under other costs, a step of its own."""
