@@ -167,7 +167,7 @@ def keys_that_take_none(model: type[BaseModel]) -> Iterator[tuple[str, object]]:
         (lambda s: pf.fit(s, signals={"slab_25": 3}), "signals of slab_25: a list of names"),
         (lambda s: pf.fit(s, estimate=3), "estimate: a list of names is needed.* int: 3"),
         (lambda s: pf.fit(s, estimate=[3]), "no parameter '3'"),
-        (lambda s: pf.fit(s, cost=lambda a: 0), "cost: a name is needed, and this is a function"),
+        (lambda s: pf.fit(s, cost=3), "cost: the name of a cost or a function is needed"),
         (lambda s: pf.simulate(3), "study: this is a int"),
         (lambda s: pf.read_study(s, **{"parameters.k.fixed": 0.9}), "outside the limits 0.1 to"),
     ],

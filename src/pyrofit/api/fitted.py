@@ -1,6 +1,7 @@
 """A fit: values, intervals, correlations, scores, curves."""
 
-from dataclasses import dataclass
+from collections.abc import Mapping
+from dataclasses import dataclass, field
 from typing import TYPE_CHECKING
 
 import numpy as np
@@ -16,6 +17,7 @@ from pyrofit.config import Study
 from pyrofit.errors import StudyError
 from pyrofit.numerics import functions
 from pyrofit.results.goodness import Goodness
+from pyrofit.solver.arrays import FloatArray
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
@@ -57,6 +59,8 @@ class Fit:
         None without likelihood.
     verdict
         The same in sentences.
+    weights
+        Weights of signals by (experiment, signal), of the shape () or (points,).
     """
 
     study: Study
@@ -73,6 +77,7 @@ class Fit:
     derived: pd.DataFrame | None = None
     goodness: Goodness | None = None
     verdict: tuple[str, ...] = ()
+    weights: Mapping[Key, FloatArray] = field(default_factory=dict)
 
     @property
     def reduced_chi2(self) -> float:

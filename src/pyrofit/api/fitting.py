@@ -1,23 +1,10 @@
 """Fits of a study to its measurements."""
 
-from collections.abc import Collection, Iterable, Mapping, Sequence
-from dataclasses import dataclass, replace
+from collections.abc import Mapping, Sequence
+from dataclasses import replace
 from typing import Literal
 
-import numpy as np
-
-from pyrofit.api.choices import (
-    Key,
-    Signals,
-    check_parameter,
-    complete,
-    in_units,
-    names_of,
-    si_values,
-    signals_of,
-    used_by,
-    with_kinetics_of,
-)
+from pyrofit.api.choices import Signals, in_units, si_values, with_kinetics_of
 from pyrofit.api.comparison import compared
 from pyrofit.api.fit_tables import (
     correlation_table,
@@ -28,46 +15,34 @@ from pyrofit.api.fit_tables import (
 )
 from pyrofit.api.fitted import Fit
 from pyrofit.api.measurements import Data, given_keys, measured
-from pyrofit.api.searching import check_cost, fit_cost
+from pyrofit.api.own_cost import OwnCost
+from pyrofit.api.searching import check_cost, check_optimiser, fit_cost, fit_own_cost
 from pyrofit.api.studies import Source, read_study
-from pyrofit.config import (
-    Study,
-    TermSpec,
-    calibration_channels,
-    diagnosed_parameters,
-    kinetics_of,
+from pyrofit.api.tasks import (
+    Stage,
+    Task,
+    begin_of,
+    initial_of,
+    starting_points,
+    task_of,
+    values_within,
 )
+from pyrofit.api.weighing import Weights, weighted, weights_of
+from pyrofit.config import Study
 from pyrofit.errors import StudyError
+from pyrofit.estimate.bounded_least_squares import Fit as End
 from pyrofit.estimate.identify import identify
 from pyrofit.estimate.jumps import with_noise_of_jumps
-from pyrofit.estimate.likelihood import descents
+from pyrofit.estimate.likelihood import Likelihood, descents
 from pyrofit.estimate.pose import of_diagnosis
 from pyrofit.estimate.pose_likelihood import pose_likelihood
-from pyrofit.estimate.problem import Problem
 from pyrofit.experiments import kind_of
 from pyrofit.logs import Tell
-from pyrofit.seeds import seed_for
 from pyrofit.show.goodness import goodness_sentences
 from pyrofit.show.text import several
 from pyrofit.solver.arrays import FloatArray
 
-Stage = Literal["kinetics", "imp"]
 Optimiser = Literal["least_squares", "cmaes", "sceua"]
-
-
-@dataclass(frozen=True, eq=False)
-class Task:
-    """Signals to fit and their parameters; all other parameters have values in SI units."""
-
-    study: Study
-    channels: tuple[TermSpec, ...]
-    estimate: tuple[str, ...]
-    fixed: Mapping[str, float]
-
-    @property
-    def keys(self) -> list[Key]:
-        """Pairs of experiment and signal."""
-        return [(c.experiment, c.signal) for c in self.channels]
 
 
 def fit(
@@ -78,7 +53,9 @@ def fit(
     estimate: Sequence[str] | None = None,
     fixed: Mapping[str, float] | None = None,
     stage: Stage | None = None,
-    cost: str | None = None,
+    initial: Mapping[str, float] | None = None,
+    weights: Weights | None = None,
+    cost: str | OwnCost | None = None,
     optimiser: Optimiser = "least_squares",
     starts: int = 20,
     profiles: bool = True,
@@ -107,9 +84,17 @@ def fit(
     stage
         'kinetics' or 'imp': the signals and the parameters of one stage. Before 'imp', kinetics
         that have no value are fitted, and kept.
+    initial
+        Values of estimated parameters from which the search starts, in the units of the study;
+        others start in the middle of their limits. With ``starts=1`` it starts there alone.
+    weights
+        Weights w of signals in the likelihood, as `signals` names them: a number, or one for each
+        point, above 0. Whitened residuals are multiplied by w: the noise counts as 1/w of its size.
     cost
         Name of a cost function of the study: fit that instead, without intervals. Kinetics that
-        have no value are fitted first.
+        have no value are fitted first. Or a function of the measured and the simulated values of a
+        signal, shape (points,), SI units. It returns residuals r, whose norm |r| is the cost, or a
+        cost that is not negative. The sum over signals counts; least squares minimise |r|^2.
     optimiser
         For a cost: 'least_squares', 'cmaes' or 'sceua', with the settings of the study.
     starts
@@ -123,105 +108,37 @@ def fit(
     Raises
     ------
     StudyError
-        A name is not known, a parameter has no limits or no value, or a fixed value is outside
-        its limits.
+        A name is not known, a parameter has no limits or no value, or a given value is outside
+        its limits. A weight is not above 0, or a cost returns no finite numbers.
     DataError
         A measured series is missing, breaks a rule, or is too short to show its noise.
     """
     study = read_study(study)
-    values = si_values(study, {} if fixed is None else fixed)
-    _check_limits(study, values)
+    values = values_within(study, "fixed", fixed)
     if not (isinstance(starts, int) and starts >= 1):
         raise StudyError(f"starts: {starts!r} is no count; give a whole number from 1 on")
     if cost is None and optimiser != "least_squares":
         raise StudyError("an optimiser is chosen for a cost only; give `cost`, or leave it out")
     if cost is not None:
+        check_optimiser(study, optimiser, initial)
+        if weights is not None:
+            raise StudyError("weights: a cost has its own; leave them out, or leave out `cost`")
+    if cost is not None and not callable(cost):
         if signals is not None or estimate is not None or stage is not None:
             raise StudyError("a cost has its own signals and parameters; leave out the others")
-        check_cost(study, cost, optimiser)
+        check_cost(study, cost)
         study = with_kinetics_of(study, study.imp.kinetics)
-        return fit_cost(study, data, cost, optimiser, with_kinetics(study, data, values, starts))
+        given = with_kinetics(study, data, values, starts)
+        return fit_cost(study, data, cost, optimiser, given, initial)
     if stage == "kinetics":
         study = with_kinetics_of(study, "fitted")
     if stage == "imp":
         study = with_kinetics_of(study, study.imp.kinetics)
         values = with_kinetics(study, data, values, starts)
-    given = given_keys(study, data)
-    task = task_of(study, signals, estimate, values, stage, given)
-    return fit_likelihood(task, data, starts, profiles, tell or _silent)
-
-
-def _check_limits(study: Study, fixed: Mapping[str, float]) -> None:
-    """Refuse fixed values outside their limits, up to round-off."""
-    for name, value in fixed.items():
-        parameter = study.parameters[name]
-        if parameter.lower is None or parameter.upper is None:
-            continue
-        own = value / parameter.factor
-        near = 1e-9 * (parameter.upper - parameter.lower)
-        if not parameter.lower - near <= own <= parameter.upper + near:
-            raise StudyError(
-                f"fixed: '{name}' is {own:g} {parameter.unit}, outside its limits "
-                f"{parameter.lower:g} to {parameter.upper:g}; give a value inside, or widen "
-                "`lower` and `upper` in the study"
-            )
-
-
-def task_of(
-    study: Study,
-    signals: Signals | None,
-    estimate: Iterable[str] | None,
-    fixed: Mapping[str, float],
-    stage: Stage | None,
-    given: Collection[Key] = (),
-) -> Task:
-    """Return the signals to fit and their parameters, checked."""
-    channels, names = _default(study, given)
-    if stage == "kinetics":
-        channels, names = kinetics_of(study).channels, kinetics_of(study).estimate
-    elif stage == "imp":
-        channels, names = study.imp.channels, study.imp.estimate
-    elif stage is not None:
-        raise StudyError(f"unknown stage '{stage}'. Known: imp, kinetics.")
-    if signals is not None:
-        pairs = signals_of(study, signals)
-        _refuse_twice("signals", [", ".join(pair) for pair in pairs])
-        channels = tuple(TermSpec(experiment=e, signal=s, kind="RMSE") for e, s in pairs)
-    experiments = {c.experiment for c in channels}
-    if estimate is None:
-        shown = used_by(study, experiments)
-        names = tuple(name for name in names if name in shown and name not in fixed)
-    else:
-        names = tuple([estimate] if isinstance(estimate, str) else names_of("estimate", estimate))
-        _refuse_twice("estimate", names)
-    for name in names:
-        check_parameter(study, name)
-        if study.parameters[name].lower is None:
-            raise StudyError(f"parameter '{name}' has no limits; give `lower` and `upper` to it")
-        if name in fixed:
-            raise StudyError(f"parameter '{name}' is both fixed and estimated; choose one")
-    if not names or not channels:
-        raise StudyError("there is nothing to fit; name signals, and parameters to estimate")
-    return Task(study, channels, names, complete(study, fixed, experiments, but=names))
-
-
-def _refuse_twice(key: str, names: Sequence[str]) -> None:
-    twice = [name for name in dict.fromkeys(names) if names.count(name) > 1]
-    if twice:
-        raise StudyError(f"{key}: '{twice[0]}' stands twice; name it once")
-
-
-def _default(study: Study, given: Collection[Key]) -> tuple[tuple[TermSpec, ...], tuple[str, ...]]:
-    """Return the signals that a study fits and the parameters that it estimates.
-
-    Computed signals are left out where others are measured: they are of another sample.
-    """
-    channels, names = calibration_channels(study), diagnosed_parameters(study)
-    pairs = [(c.experiment, c.signal) for c in channels]
-    computed = {key for key in pairs if study.is_computed(*key)} - set(given)
-    if len(computed) < len(channels):
-        channels = tuple(c for c, p in zip(channels, pairs, strict=True) if p not in computed)
-    return channels, names
+    task = task_of(study, signals, estimate, values, stage, given_keys(study, data))
+    if callable(cost):
+        return fit_own_cost(task, data, cost, optimiser, initial)
+    return fit_likelihood(task, data, starts, profiles, tell or _silent, initial, weights)
 
 
 def _silent(text: str) -> None:
@@ -229,20 +146,28 @@ def _silent(text: str) -> None:
 
 
 def fit_likelihood(
-    task: Task, data: Data | None, starts: int, profiles: bool = True, tell: Tell = _silent
+    task: Task,
+    data: Data | None,
+    starts: int,
+    profiles: bool = True,
+    tell: Tell = _silent,
+    initial: Mapping[str, float] | None = None,
+    weights: Weights | None = None,
 ) -> Fit:
     """Return the fit of highest likelihood with its intervals."""
-    study = task.study
+    study, own_weights = task.study, weights_of(task.study, task.keys, weights)
+    begin = initial_of(study, task.estimate, initial)
     series = measured(study, task.keys, data)
     asked = of_diagnosis(study, task.channels, task.estimate)
-    likelihood = pose_likelihood(study, asked, series, task.fixed)
+    unweighted = pose_likelihood(study, asked, series, task.fixed)
+    likelihood = weighted(unweighted, own_weights)
     problem = likelihood.problem
     tell(f"noise of {several(len(series), 'signal')} estimated; {several(starts, 'start')}")
-    ends = descents(likelihood, starting_points(study, problem, starts))
+    ends = _ends(likelihood, starting_points(study, problem, starts), begin)
     best = ends[0]
     tell(f"chi-square {best.chi2:.1f} of {sum(likelihood.points)} points; intervals follow")
     first = best.x
-    likelihood = with_noise_of_jumps(likelihood, [first])
+    likelihood = weighted(with_noise_of_jumps(unweighted, [first]), own_weights)
     found = identify(likelihood, [first], profiles)
     x = likelihood.values(found.optimum.x)
     values = problem.values(x)
@@ -261,8 +186,20 @@ def fit_likelihood(
         history=ends_table(study, likelihood, ends),
         goodness=found.goodness,
         verdict=tuple(goodness_sentences(study, _stage_of(task), "", found.goodness)),
+        weights=own_weights,
     )
     return replace(made, derived=derived_table(study, own, made.covariance))
+
+
+def _ends(
+    likelihood: Likelihood, starts: Sequence[FloatArray], initial: Mapping[str, float]
+) -> list[End]:
+    """Return the ends of descents, the lowest first; initial values are followed in any case."""
+    if not initial:
+        return descents(likelihood, starts)
+    first = likelihood.descend(likelihood.scaled(begin_of(likelihood.problem, initial)))
+    others = descents(likelihood, starts[1:]) if len(starts) > 1 else []
+    return sorted([first, *others], key=lambda e: e.chi2)
 
 
 def _stage_of(task: Task) -> Stage:
@@ -283,13 +220,3 @@ def with_kinetics(
     found = fit_likelihood(task, data, starts, profiles=False)
     kinetics = {name: found.values[name] for name in stage.estimate}
     return {**si_values(study, kinetics), **given}
-
-
-def starting_points(study: Study, problem: Problem, count: int) -> list[FloatArray]:
-    """Return the middle of the search range and points spread over it, as fractions of it."""
-    from scipy.stats import qmc
-
-    rng = np.random.default_rng(seed_for(study.seed, "api", "starts"))
-    size = len(problem.names)
-    spread = qmc.LatinHypercube(size, seed=rng).random(max(count - 1, 0))
-    return [np.full(size, 0.5), *(0.05 + 0.9 * spread)]

@@ -16,7 +16,7 @@ def as_table(given: Any, quantity: Quantity, label: str) -> pd.DataFrame:
     ----------
     given
         A table as it is. An array of the columns time [s], temperature [K] of heated samples,
-        value, and maybe uncertainty, in SI units; that of a heated sample may be temperature and
+        value, and maybe uncertainty, in SI units. That of a heated sample may be temperature and
         value alone. A tuple of such columns.
     quantity
         The measured quantity.

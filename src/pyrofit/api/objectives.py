@@ -6,10 +6,11 @@ from typing import Any
 
 import numpy as np
 
-from pyrofit.api.choices import Signals, si_values
-from pyrofit.api.fitting import task_of
+from pyrofit.api.choices import Signals
 from pyrofit.api.measurements import Data, given_keys, measured
 from pyrofit.api.studies import Source, read_study
+from pyrofit.api.tasks import task_of, values_within
+from pyrofit.api.weighing import Weights, weighted, weights_of
 from pyrofit.config import Study
 from pyrofit.errors import StudyError
 from pyrofit.estimate.likelihood import Likelihood
@@ -106,6 +107,7 @@ def residuals(
     signals: Signals | None = None,
     estimate: Sequence[str] | None = None,
     fixed: Mapping[str, float] | None = None,
+    weights: Weights | None = None,
 ) -> Residuals:
     """Return the residuals that `fit` minimises, as a function for other optimisers.
 
@@ -115,7 +117,7 @@ def residuals(
 
     Parameters
     ----------
-    study, data, signals, estimate, fixed
+    study, data, signals, estimate, fixed, weights
         As of `fit`.
 
     Returns
@@ -134,7 +136,7 @@ def residuals(
     DataError
         A measured series is missing, breaks a rule, or is too short to show its noise.
     """
-    return Residuals(*_posed(study, data, signals, estimate, fixed))
+    return Residuals(*_posed(study, data, signals, estimate, fixed, weights))
 
 
 def log_likelihood(
@@ -144,6 +146,7 @@ def log_likelihood(
     signals: Signals | None = None,
     estimate: Sequence[str] | None = None,
     fixed: Mapping[str, float] | None = None,
+    weights: Weights | None = None,
 ) -> LogLikelihood:
     """Return the log-likelihood of a study as a function, for samplers.
 
@@ -156,7 +159,7 @@ def log_likelihood(
         A function of a vector, or of values by name, in the units of the study. It returns a
         float; for a table of the shape (sets, parameters) an array of the shape (sets,).
     """
-    return LogLikelihood(*_posed(study, data, signals, estimate, fixed))
+    return LogLikelihood(*_posed(study, data, signals, estimate, fixed, weights))
 
 
 def _posed(
@@ -165,11 +168,13 @@ def _posed(
     signals: Signals | None,
     estimate: Sequence[str] | None,
     fixed: Mapping[str, float] | None,
+    weights: Weights | None,
 ) -> tuple[Study, Likelihood]:
     """Return the study, and the likelihood that `fit` poses."""
     study = read_study(study)
-    values = si_values(study, {} if fixed is None else fixed)
+    values = values_within(study, "fixed", fixed)
     task = task_of(study, signals, estimate, values, None, given_keys(study, data))
+    own_weights = weights_of(study, task.keys, weights)
     series = measured(study, task.keys, data)
     asked = of_diagnosis(study, task.channels, task.estimate)
-    return study, pose_likelihood(study, asked, series, task.fixed)
+    return study, weighted(pose_likelihood(study, asked, series, task.fixed), own_weights)

@@ -1,19 +1,24 @@
 """Fits of a cost function of a study, with one of its optimisers."""
 
 from collections.abc import Mapping
+from dataclasses import replace
 from typing import Any
 
 import numpy as np
 import pandas as pd
 
-from pyrofit.api.choices import complete, in_units
+from pyrofit.api.choices import Key, complete, in_units
 from pyrofit.api.comparison import compared
 from pyrofit.api.fit_tables import derived_table, table_in_units
 from pyrofit.api.fitted import Fit
 from pyrofit.api.measurements import Data, measured
+from pyrofit.api.own_cost import OwnCost, own_term
+from pyrofit.api.tasks import Task, begin_of, initial_of
 from pyrofit.config import Study
+from pyrofit.cost import WeightedSum
 from pyrofit.errors import StudyError, suggest
 from pyrofit.estimate.history import best_of
+from pyrofit.estimate.least_squares import descend
 from pyrofit.estimate.optimisers import OPTIMISERS
 from pyrofit.estimate.pose import of_diagnosis, pose
 from pyrofit.estimate.posterior import limit_of
@@ -24,31 +29,50 @@ from pyrofit.solver.arrays import FloatArray
 SCEUA = "sceua"
 
 
-def check_cost(study: Study, cost: str, optimiser: str) -> None:
-    """Refuse a cost function or an optimiser that there is not.
+def check_cost(study: Study, cost: str) -> None:
+    """Refuse a cost function that the study has not.
 
     Raises
     ------
     StudyError
         With the nearest name.
     """
-    for argument, name in (("cost", cost), ("optimiser", optimiser)):
-        if not isinstance(name, str):
-            raise StudyError(
-                f"{argument}: a name is needed, and this is a {type(name).__name__}. "
-                f"Known costs of the study: {', '.join(study.imp.costs)}"
-            )
+    if not isinstance(cost, str):
+        raise StudyError(
+            "cost: the name of a cost or a function is needed, and this is a "
+            f"{type(cost).__name__}. Known costs of the study: {', '.join(study.imp.costs)}"
+        )
     if cost not in study.imp.costs:
         known = suggest(cost, study.imp.costs)
         raise StudyError(f"study '{study.name}' has no cost '{cost}'. {known}")
-    if optimiser not in (optimisers := [SCEUA, *OPTIMISERS]):
-        raise StudyError(f"unknown optimiser '{optimiser}'. {suggest(optimiser, optimisers)}")
+
+
+def check_optimiser(study: Study, optimiser: str, initial: Mapping[str, float] | None) -> None:
+    """Refuse an optimiser that there is not, and initial values of one that takes none.
+
+    Raises
+    ------
+    StudyError
+        With the nearest name.
+    """
+    known = [SCEUA, *OPTIMISERS]
+    if optimiser not in known:
+        raise StudyError(f"unknown optimiser '{optimiser}'. {suggest(str(optimiser), known)}")
+    if initial is not None and optimiser != "least_squares":
+        raise StudyError(
+            f"initial: {optimiser} draws its own starts; leave it out, or use least_squares"
+        )
 
 
 def fit_cost(
-    study: Study, data: Data | None, cost: str, optimiser: str, given: Mapping[str, float]
+    study: Study,
+    data: Data | None,
+    cost: str,
+    optimiser: str,
+    given: Mapping[str, float],
+    initial: Mapping[str, float] | None = None,
 ) -> Fit:
-    """Return the parameters of the lowest cost that an optimiser finds; values in SI units."""
+    """Return the parameters of the lowest cost that an optimiser finds; ``given`` in SI units."""
     specs = study.imp.costs[cost]
     keys = list(dict.fromkeys((spec.experiment, spec.signal) for spec in specs))
     series = measured(study, keys, data)
@@ -58,7 +82,43 @@ def fit_cost(
         raise StudyError(f"all parameters of the cost '{cost}' are fixed; leave one out of `fixed`")
     fixed = complete(study, given, experiments, but=estimate)
     problem = pose(study, of_diagnosis(study, specs, estimate), series, fixed)
-    lowest, x, history = _searched(study, problem, cost, optimiser)
+    return _fitted(study, problem, series, cost, optimiser, initial)
+
+
+def fit_own_cost(
+    task: Task,
+    data: Data | None,
+    cost: OwnCost,
+    optimiser: str,
+    initial: Mapping[str, float] | None,
+) -> Fit:
+    """Return the parameters of the lowest value of a caller's function.
+
+    Raises
+    ------
+    StudyError
+        It returns neither residuals nor a cost.
+    """
+    series = measured(task.study, task.keys, data)
+    asked = of_diagnosis(task.study, task.channels, task.estimate)
+    problem = pose(task.study, asked, series, task.fixed)
+    name = getattr(cost, "__name__", type(cost).__name__)
+    terms = [(weight, own_term(cost, name, term)) for weight, term in problem.cost.terms]
+    problem = replace(problem, cost=WeightedSum(terms))
+    return _fitted(task.study, problem, series, name, optimiser, initial)
+
+
+def _fitted(
+    study: Study,
+    problem: Problem,
+    series: Mapping[Key, pd.DataFrame],
+    cost: str,
+    optimiser: str,
+    initial: Mapping[str, float] | None,
+) -> Fit:
+    """Return the fit of the lowest cost of a problem."""
+    begin = initial_of(study, problem.names, initial)
+    lowest, x, history = _searched(study, problem, cost, optimiser, begin)
     words = "SCE-UA" if optimiser == SCEUA else OPTIMISERS[optimiser].title
     scored = compared(study, problem.values(x), series)
     own = {n: v for n, v in problem.values(x).items() if n in study.parameters}
@@ -77,7 +137,7 @@ def fit_cost(
 
 
 def _searched(
-    study: Study, problem: Problem, cost: str, optimiser: str
+    study: Study, problem: Problem, cost: str, optimiser: str, initial: Mapping[str, float]
 ) -> tuple[float, FloatArray, pd.DataFrame]:
     """Return the lowest cost, its set, and the calls or the ends of all starts."""
     if optimiser == SCEUA:
@@ -90,6 +150,9 @@ def _searched(
         return *best_of(history, problem), history
     seed = seed_for(study.seed, cost, optimiser)
     ends = OPTIMISERS[optimiser].run(problem, getattr(study.imp, optimiser), seed)
+    if initial:
+        first = descend(problem, begin_of(problem, initial))
+        ends = sorted([first, *ends], key=lambda end: end.cost)
     rows: list[dict[str, Any]] = [
         {
             "cost": end.cost,

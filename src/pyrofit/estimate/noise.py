@@ -2,7 +2,7 @@
 
 import math
 from collections.abc import Mapping
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from functools import cached_property
 from typing import Any
 
@@ -73,6 +73,8 @@ class NoiseModel:
     """Whether the series has an uncertainty of its own."""
     spikes: int = 0
     """Single points far off their neighbours. That distance counts as their noise."""
+    weight: FloatArray | float = 1.0
+    """Weight by which a caller divides the noise, a number or shape (n,)."""
     modes: FloatArray | None = None
     """Lasting errors U of the apparatus and between repeats, which add U U^T to the covariance,
     shape (n, modes)."""
@@ -90,6 +92,13 @@ class NoiseModel:
         if self.modes is None:
             return np.zeros_like(self.sd)
         return np.asarray(np.sqrt(np.sum(self.modes**2, axis=1)))
+
+    def weighted(self, weight: FloatArray | float) -> "NoiseModel":
+        """Return the noise that counts as 1/w of its size, w a number or shape (n,)."""
+        modes = self.modes
+        if modes is not None:
+            modes = modes / np.broadcast_to(weight, self.sd.shape)[:, None]
+        return replace(self, sd=self.sd / weight, modes=modes, weight=self.weight * weight)
 
     def whiten(self, residual: FloatArray) -> FloatArray:
         """Return w = L^-1 (r / sd): white and of unit variance if the residual is this noise.

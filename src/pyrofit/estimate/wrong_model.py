@@ -48,7 +48,7 @@ def least_squares(likelihood: Likelihood, x: FloatArray) -> tuple[Likelihood, Fl
 
 
 def _by_misfit(likelihood: Likelihood, curves: FloatArray) -> tuple[NoiseModel, ...]:
-    """Return white noise of the size of each signal's misfit."""
+    """Return white noise of the size of each signal's misfit, over its weight."""
     values = [term.target.value for _, term in likelihood.problem.cost.terms]
     pairs = zip(likelihood.split(curves), values, strict=True)
     sizes = [float(np.sqrt(np.mean((curve - value) ** 2))) for curve, value in pairs]
@@ -59,9 +59,11 @@ def _by_misfit(likelihood: Likelihood, curves: FloatArray) -> tuple[NoiseModel, 
         by_quantity.setdefault(name, []).append(max(size, least))
     return tuple(
         NoiseModel(
-            np.full(value.size, max(size, float(np.median(by_quantity[name])))), Correlation()
+            np.full(value.size, max(size, float(np.median(by_quantity[name])))) / noise.weight,
+            Correlation(),
+            weight=noise.weight,
         )
-        for name, size, value in zip(names, sizes, values, strict=True)
+        for name, size, value, noise in zip(names, sizes, values, likelihood.noise, strict=True)
     )
 
 
