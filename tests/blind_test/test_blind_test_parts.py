@@ -3,6 +3,7 @@
 import json
 from collections.abc import Mapping
 from pathlib import Path
+from types import MappingProxyType
 from typing import Any
 
 import numpy as np
@@ -42,7 +43,11 @@ def full(setting: Setting) -> tuple[Case, ...]:
 
 
 def case_of(setting: Setting, **wanted: Any) -> Case:
-    cases = cases_of(setting, "develop")
+    return case_of_plan(setting, "develop", **wanted)
+
+
+def case_of_plan(setting: Setting, plan: str, **wanted: Any) -> Case:
+    cases = cases_of(setting, plan)
     return next(c for c in cases if all(getattr(c, k) == v for k, v in wanted.items()))
 
 
@@ -116,7 +121,7 @@ def test_nominal_strengths_are_the_published_ones_and_a_third_is_counted_from_th
         return sorted({value for c in effects for value in c.hidden[name].values()})
 
     assert strengths("k_T") == pytest.approx([-1e-3, -1e-3 / 3])
-    assert strengths("foil_mass") == pytest.approx([1 + 8 / 3, 9])
+    assert strengths("foil_mass") == pytest.approx([1 + 2.5 / 3, 3.5])
     assert strengths("back_loss") == pytest.approx([0.5, 1 - 0.5 / 3])
     assert strengths("thickness") == pytest.approx([1 + 0.02 / 3, 1.02])
 
@@ -142,7 +147,8 @@ def test_short_plan_keeps_to_its_numbers(setting: Setting) -> None:
 
 def test_every_truth_of_the_plan_is_a_valid_study(setting: Setting, full: tuple[Case, ...]) -> None:
     # Each combination of effects once, under the signals that show most.
-    shown = {json.dumps(c.hidden, sort_keys=True): c for c in sorted(full, key=lambda c: c.signals)}
+    by_signals = sorted(full, key=lambda c: c.signals)
+    shown = {json.dumps([c.hidden, c.error], sort_keys=True): c for c in by_signals}
     for case in shown.values():
         _, truth = describe(setting, case)
         assert truth.synthetic is not None
@@ -265,6 +271,38 @@ def test_form_may_leave_its_effect_out_of_the_candidates(setting: Setting, tmp_p
     assert not {"tga_lag", "tga_offset"} & set(candidates)
 
 
+def test_description_of_an_error_is_wrong_where_the_truth_is_not(setting: Setting) -> None:
+    case = case_of_plan(setting, "errors", error="cold_back", signals="mlr+back")
+    study, truth = describe(setting, case)
+    told = {name: one["back"]["h_W_m2K"] for name, one in study["experiments"].items()}
+    assert told == {"capa_25": 4.0, "capa_60": 4.0, "capa_90": 4.0}
+    true = {experiment.back.h_W_m2K for experiment in truth.experiments.values()}
+    assert true == {30.0}
+    assert truth.synthetic is not None
+    assert truth.synthetic.effects == {}
+
+
+def test_wrong_known_value_is_as_wrong_as_stated(setting: Setting) -> None:
+    case = case_of_plan(setting, "errors", error="conductivity", signals="mlr+back+tga")
+    study, truth = describe(setting, case)
+    assert truth.synthetic is not None
+    assert study["known"].keys() == {"k_a"}
+    known = study["known"]["k_a"]
+    assert known["value"] - truth.synthetic.truth["k_a"] == pytest.approx(4 * known["sd"])
+
+
+def test_error_of_the_tga_needs_a_tga(setting: Setting) -> None:
+    errors = [c for c in cases_of(setting, "errors") if c.error == "tga_of_another_laboratory"]
+    assert [c.signals for c in errors] == ["mlr+back+tga"]
+
+
+def test_error_that_changes_nothing_is_refused(tmp_path: Path) -> None:
+    path = tmp_path / "blind.yaml"
+    path.write_text(json.dumps(altered(errors={"foil": {"same": ["foil_mass"]}})))
+    with pytest.raises(StudyError, match="changes nothing; give `known` or `truth`"):
+        read_setting(path)
+
+
 # Running
 
 
@@ -326,7 +364,7 @@ def little(setting: Setting) -> Setting:
     )
     update = {"chunks": 2, "left_out": 1}
     some = {"mlr": setting.signals["mlr"]}
-    pairs = {"pair_signals": ("mlr",), "forms": (), "pairs": (("c_T", "k_T"),)}
+    pairs = {"pair_signals": ("mlr",), "forms": (), "pairs": (("c_T", "k_T"),), "errors": {}}
     plans = {"tiny": tiny.model_copy(update=update)}
     return setting.model_copy(update={"plans": plans, "signals": some, **pairs})
 
@@ -446,7 +484,12 @@ def test_detectability_is_searched_from_a_fitted_base_as_well(setting: Setting) 
 # Scoring
 
 
-def judged(hidden: list[str], found: dict[str, Any], **more: Any) -> dict[str, Any]:
+def judged(
+    hidden: list[str],
+    found: dict[str, Any],
+    of_case: Mapping[str, Any] = MappingProxyType({}),
+    **more: Any,
+) -> dict[str, Any]:
     case = {
         "kind": "effect" if hidden else "null",
         "hidden": {name: {} for name in hidden},
@@ -456,11 +499,30 @@ def judged(hidden: list[str], found: dict[str, Any], **more: Any) -> dict[str, A
         "noise": "white",
         "seed": 1,
         "curves": "",
+        **of_case,
     }
     result = {"id": "twin", "case": case, "detectability": 20.0, "score_only": "c_T", **found}
     result |= {"location": {"in_windows": 30, "off": 50, "both": 20}, "seconds": {"diagnosis": 9.0}}
     case |= {key: more.pop(key) for key in list(more) if key in case}
     return row_of({**result, **more})
+
+
+@pytest.mark.parametrize(
+    ("found", "claim", "surely_wrong", "noticed"),
+    [
+        (verdict("none", []), False, False, False),
+        (verdict("unknown", []), False, False, True),
+        (verdict("ambiguous", ["k_T"]), True, False, True),
+        (verdict("named", ["k_T"]), True, True, True),
+        (verdict("named", ["foil_mass"]), True, False, True),
+    ],
+)
+def test_claim_about_a_wrong_description_is_wrong_unless_it_describes_the_error(
+    found: dict[str, Any], claim: bool, surely_wrong: bool, noticed: bool
+) -> None:
+    of_case = {"kind": "error", "error": "thick_foil", "same": ["foil_mass"]}
+    row = judged([], found, of_case)
+    assert (row["claim"], row["surely_wrong"], row["noticed"]) == (claim, surely_wrong, noticed)
 
 
 MARKS = ("claim", "right", "group_right", "all_lead", "in_set")

@@ -131,6 +131,7 @@ def page(setting: Setting, plan: str, tables: dict[str, pd.DataFrame]) -> str:
         _section(
             "Pairs", found[found["kind"] == "pair"][_WRONG].sort_values("hidden", kind="stable")
         ),
+        _section("Wrong descriptions", _errors(found)),
         _section("A hidden effect removed from the candidates", _left_out(found)),
         "## Figures\n",
         *(
@@ -183,6 +184,11 @@ def _uncovered(strengths: pd.DataFrame) -> pd.DataFrame:
     columns = ["id", "effect", "signals", "truth", "value", "low", "high", "low_wide", "high_wide"]
     missed = strengths[~strengths["covered_wide"].astype(bool)]
     return missed[columns].sort_values(["effect", "id"])
+
+
+def _errors(found: pd.DataFrame) -> pd.DataFrame:
+    wrong = found[found["kind"] == "error"].sort_values(["surely_wrong", "error"])
+    return wrong[["id", "error", "verdict", "named", "confirmed", "surely_wrong", "signals"]]
 
 
 def _left_out(found: pd.DataFrame) -> pd.DataFrame:

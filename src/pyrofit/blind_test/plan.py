@@ -6,7 +6,7 @@ from pathlib import Path
 from pydantic import Field
 
 from pyrofit.blind_test import foreign
-from pyrofit.blind_test.setting import Draft, Hidden, Kind, Plan, Setting
+from pyrofit.blind_test.setting import DescriptionError, Draft, Hidden, Kind, Plan, Setting
 from pyrofit.config import Study, digest, read_study
 from pyrofit.effects import known_effects
 from pyrofit.effects.base import Effect
@@ -32,12 +32,16 @@ class Case(Part):
     seed: int = Field(description="seed of truth and noise")
     left_out: bool = Field(False, description="diagnosed again without the hidden effect")
     curves: str = Field("", description="case of another code whose curves it has")
+    error: str = Field("", description="error of its description")
+    same: tuple[str, ...] = Field((), description="effects that describe this error")
 
     @property
     def id(self) -> str:
         """Name of the twin, which does not reveal its hidden effects."""
-        # Twins that are computed here keep the names they had before there were others.
-        identity = self.model_dump(mode="json", exclude=None if self.curves else {"curves"})
+        # Twins keep the names they had before there were curves of other codes and errors.
+        later = {"curves": self.curves, "error": self.error, "same": self.same}
+        empty = {name for name, value in later.items() if not value}
+        identity = self.model_dump(mode="json", exclude=empty)
         return f"twin_{digest(identity)[:10]}"
 
 
@@ -57,7 +61,7 @@ def cases_of(setting: Setting, name: str) -> tuple[Case, ...]:
         drafts = list(foreign.drafts(setting, plan))
     else:
         _check_ranges(setting, base)
-        makers = (_effects, _nulls, _forms, _pairs)
+        makers = (_effects, _nulls, _forms, _pairs, _errors)
         drafts = [draft for make in makers for draft in make(setting, plan, base)]
     cases = sorted((_seeded(setting, plan, draft) for draft in drafts), key=lambda c: c.id)
     taken: list[Case] = []
@@ -170,6 +174,19 @@ def _pairs(setting: Setting, plan: Plan, base: Study) -> Iterator[Draft]:
         more = {"kind": "pair", "hidden": {name: strength_of(setting, name) for name in pair}}
         for draft in _seen(setting, base, more, list(setting.pair_signals), plan.pairs, i):
             yield {**draft, "left_out": plan.left_out == 1}
+
+
+def _errors(setting: Setting, plan: Plan, base: Study) -> Iterator[Draft]:
+    for i, (name, error) in enumerate(setting.errors.items()):
+        sets = [s for s in setting.error_signals if _shows(setting, base, error, s)]
+        more = {"kind": "error", "hidden": {}, "error": name, "same": error.same}
+        yield from _seen(setting, base, more, sets, plan.errors, i)
+
+
+def _shows(setting: Setting, base: Study, error: DescriptionError, signals: str) -> bool:
+    """Tell whether the experiments of a set of signals are of all kinds that an error changes."""
+    kinds = {experiment.kind for experiment in experiments_of(setting, base, signals).values()}
+    return set(error.truth) <= kinds
 
 
 def _seen(

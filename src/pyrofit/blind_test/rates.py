@@ -122,6 +122,9 @@ RATES = (
     Rate("pair: both in the sets", _of("pair"), "in_set"),
     Rate("pair: both lead", _of("pair"), "all_lead"),
     Rate("pair, claimed: no other effect leads", _claimed(_of("pair")), "right"),
+    Rate("wrong description: misfit noticed", _of("error"), "noticed"),
+    Rate("wrong description: an effect claimed", _of("error"), "claim"),
+    Rate("wrong description: a wrong name with certainty", _of("error"), "surely_wrong"),
     Rate("other form: claimed", _of("form"), "claim"),
     Rate("other form, claimed: group right", _claimed(_of("form")), "group_right"),
     Rate(

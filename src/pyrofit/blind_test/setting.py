@@ -14,7 +14,7 @@ from pyrofit.model.accuracy import Resolution
 from pyrofit.model.base import Part
 from pyrofit.model.signal import Noise
 
-Kind = Literal["effect", "null", "form", "pair"]
+Kind = Literal["effect", "null", "form", "pair", "error"]
 Hidden = dict[str, dict[str, float]]
 """Values of the parameters of hidden effects in SI units, by effect and parameter."""
 Draft = dict[str, Any]
@@ -38,6 +38,35 @@ class Form(Part):
     without: tuple[str, ...] = Field((), description="effects removed from the candidates")
 
 
+class WrongValue(Part):
+    """A known value of a study that is wrong."""
+
+    sd: Size = Field(description="its stated standard deviation, in the parameter's unit")
+    off_sd: float = Field(description="its error, in stated standard deviations")
+
+
+class DescriptionError(Part):
+    """An error of the study of a twin: not the model is wrong, but what it is given."""
+
+    known: dict[str, WrongValue] = Field(
+        default_factory=dict, description="wrong known values, by parameter"
+    )
+    truth: dict[str, Any] = Field(
+        default_factory=dict,
+        description="keys in which experiments of the truth differ from those of the study, by "
+        "kind of experiment",
+    )
+    same: tuple[str, ...] = Field(
+        (), description="effects of the catalogue that describe this error; others are wrong names"
+    )
+
+    @model_validator(mode="after")
+    def _check(self) -> Self:
+        if not self.known and not self.truth:
+            raise ValueError("changes nothing; give `known` or `truth`")
+        return self
+
+
 class Plan(Part):
     """A plan: how many twins of each kind."""
 
@@ -49,6 +78,7 @@ class Plan(Part):
     nulls: Count = Field(description="twins without an effect per noise and signals")
     forms: Count = Field(description="twins per form and signals")
     pairs: Count = Field(description="twins per pair and signals")
+    errors: Count = Field(0, description="twins per error of the description and signals")
     left_out: Count = Field(
         0,
         description="every n-th effect of full strength is diagnosed again, without the effect "
@@ -95,6 +125,12 @@ class Setting(Part):
     forms: tuple[Form, ...] = Field((), description="hidden effects of another form")
     pairs: tuple[tuple[str, str], ...] = Field((), description="pairs of hidden effects")
     pair_signals: tuple[str, ...] = Field((), description="sets of signals of twins with pairs")
+    errors: dict[str, DescriptionError] = Field(
+        default_factory=dict, description="errors of the description, by name"
+    )
+    error_signals: tuple[str, ...] = Field(
+        (), description="sets of signals of twins with an error of the description"
+    )
     seeds: dict[str, tuple[Count, Count]] = Field(description="first and last seed, by name")
     plans: dict[str, Plan] = Field(min_length=1, description="plans by name")
 
@@ -104,8 +140,9 @@ class Setting(Part):
         for place, names in self._effects_named().items():
             for name in names:
                 _require(name, effects, place, "effect")
-        for name in self.pair_signals:
-            _require(name, self.signals, "pair_signals", "set of signals")
+        for place in ("pair_signals", "error_signals"):
+            for name in getattr(self, place):
+                _require(name, self.signals, place, "set of signals")
         for name, plan in self.plans.items():
             _require(plan.seeds, self.seeds, f"plans.{name}.seeds", "range of seeds")
         for name, quantities in self.signals.items():
@@ -124,6 +161,7 @@ class Setting(Part):
             "nominal": list(self.nominal),
             "forms": [name for form in self.forms for name in (*form.hidden, *form.without)],
             "pairs": [name for pair in self.pairs for name in pair],
+            "errors": [name for error in self.errors.values() for name in error.same],
         }
 
     def plan(self, name: str) -> Plan:

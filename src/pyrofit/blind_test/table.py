@@ -57,9 +57,9 @@ def diagnosed(places: Places, chunks: int) -> list[str]:
 def row_of(found: Mapping[str, Any]) -> dict[str, Any]:
     """Compare the verdict on a twin with its hidden effects.
 
-    A claim is right if every leading effect is hidden; the best fit leads an ambiguous set. A
-    second effect that is not hidden makes a claim wrong. Effects that these signals can never
-    distinguish count as one (`same_as`), in sets as well.
+    A claim is right if every leading effect is hidden, or describes an error of the description;
+    the best fit leads an ambiguous set. A second effect that is not hidden makes a claim wrong.
+    Effects that these signals can never distinguish count as one (`same_as`), in sets as well.
     """
     case, verdict = found["case"], found["verdict"]
     hidden = set(case["hidden"])
@@ -71,6 +71,7 @@ def row_of(found: Mapping[str, Any]) -> dict[str, Any]:
         "id": found["id"],
         **{key: case[key] for key in ("kind", "strength", "signals", "noise", "seed")},
         "curves": case["curves"],
+        "error": case.get("error", ""),
         "hidden": " + ".join(sorted(hidden)),
         "group": " + ".join(sorted(_groups(hidden))),
         "is_candidate": not hidden & set(case["without"]),
@@ -83,6 +84,8 @@ def row_of(found: Mapping[str, Any]) -> dict[str, Any]:
         "confirmed": claim and bool(verdict["confirmed"]),
         "right": right,
         "wrong": claim and not right,
+        "surely_wrong": claim and bool(verdict["confirmed"]) and not right,
+        "noticed": verdict["kind"] != "none",
         "group_right": claim and _groups(named) <= _groups(hidden),
         "all_lead": claim and _one_name(named) == _one_name(hidden),
         "in_set": claim and bool(hidden) and _one_name(hidden) <= listed,
@@ -98,9 +101,12 @@ def row_of(found: Mapping[str, Any]) -> dict[str, Any]:
 
 
 def right_claim(found: Mapping[str, Any]) -> bool:
-    """Tell whether a verdict names effects, and every one of them is hidden."""
-    named = leading(found["verdict"])
-    return bool(named) and _one_name(named) <= _one_name(found["case"]["hidden"])
+    """Tell whether a verdict names effects, and every one of them is hidden.
+
+    An effect that describes an error of the description counts as hidden.
+    """
+    named, case = leading(found["verdict"]), found["case"]
+    return bool(named) and _one_name(named) <= _one_name({*case["hidden"], *case.get("same", ())})
 
 
 def leading(verdict: Verdict) -> list[str]:

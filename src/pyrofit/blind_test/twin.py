@@ -75,6 +75,7 @@ def describe(setting: Setting, case: Case) -> tuple[Given, Study]:
     base = _with_signals(setting, case)
     truth = _stored(setting, case) if case.curves else _draw(setting, base, case)
     known = {} if _has_tga(base) else _known(setting, base, truth, case)
+    known |= _wrong(setting, truth, case)
     for name, prior in known.items():
         base["parameters"][name]["value"] = prior["value"]
     study = _without_truth(case, base, known)
@@ -83,7 +84,8 @@ def describe(setting: Setting, case: Case) -> tuple[Given, Study]:
         "effects": case.hidden,
         "accuracy": setting.accuracy.model_dump(),
     }
-    return study, as_study({**base, "seed": case.seed, "synthetic": synthetic}, setting.base)
+    true = _as_it_is(setting, base, case)
+    return study, as_study({**true, "seed": case.seed, "synthetic": synthetic}, setting.base)
 
 
 def write_twin(places: Places, twin: Twin) -> None:
@@ -221,6 +223,27 @@ def _known(setting: Setting, base: Given, truth: Mapping[str, float], case: Case
         lower, upper = parameter["lower"] + 0.5 * sd, parameter["upper"] - 0.5 * sd
         known[name] = {"value": min(max(drawn, lower), upper), "sd": sd}
     return known
+
+
+def _wrong(setting: Setting, truth: Mapping[str, float], case: Case) -> Given:
+    """Return the known values that are wrong in a case."""
+    if not case.error:
+        return {}
+    wrong = setting.errors[case.error].known
+    return {
+        name: {"value": truth[name] + one.off_sd * one.sd, "sd": one.sd}
+        for name, one in wrong.items()
+    }
+
+
+def _as_it_is(setting: Setting, base: Given, case: Case) -> Given:
+    """Return the keys of the truth, whose experiments differ where the description is wrong."""
+    changes = setting.errors[case.error].truth if case.error else {}
+    experiments = {
+        name: _merged(experiment, changes.get(experiment["kind"], {}))
+        for name, experiment in base["experiments"].items()
+    }
+    return {**base, "experiments": experiments}
 
 
 def _without_truth(case: Case, base: Given, known: Given) -> Given:
