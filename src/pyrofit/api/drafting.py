@@ -41,9 +41,9 @@ def new_study(name: str, **given: Given) -> Study:
         Name of the study: letters, digits and _.
     given
         Measurements by kind of experiment: ``tga``, ``dsc``, ``mcc``, ``gasification``, ``cone``.
-        A file or files; or by the name of an experiment a file, a table with the headers of a file,
-        or an array or tuple of columns in SI units, as of `read_data`. Series in memory are no part
-        of the study: give the same mapping as ``data`` to `fit` and the other functions.
+        A file or files, or a mapping from names of experiments to a file or a series. A series is
+        a table with the headers of a file, or an array or tuple of columns as of `read_data`. It is
+        no part of the study: give the same mapping as ``data`` to `fit` and the other functions.
 
     Raises
     ------
