@@ -3,10 +3,6 @@
 They are apart from the steps, as a command loads its step only when it runs.
 """
 
-BASE_POINTS = 1024
-"""Base points of the sensitivity analysis: some ten seconds."""
-WITHIN = "limits"
-"""Where its estimated parameters vary."""
 DRAWS = 50
 """Drawn data sets that check the worth of planned tests: half a minute."""
 APPARATUS = "exact"

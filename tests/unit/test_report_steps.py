@@ -7,12 +7,14 @@ from test_report import Page, written
 from test_tables import fake
 
 from pyrofit.config import Study
-from pyrofit.results import sensitivity, worth
+from pyrofit.results import worth
 from pyrofit.results.files import Results, write_csv, write_text
+from pyrofit.results.step import write_options
 from pyrofit.show.report import write_report
-from pyrofit.show.sensitivity.tables import TABLES as OF_SENSITIVITY
 from pyrofit.show.table import write_table
 from pyrofit.show.worth.tables import TABLES as OF_WORTH
+from pyrofit.steps.sensitivity import record as sensitivity
+from pyrofit.steps.sensitivity.tables import TABLES as OF_SENSITIVITY
 
 
 def write_sensitivity(study: Study, results: Results) -> None:
@@ -58,17 +60,20 @@ def write_sensitivity(study: Study, results: Results) -> None:
         "same": [],
         "left_out": ["no GPYRO"],
     }
-    sensitivity.write(results, content)
+    sensitivity.write(results, sensitivity.Sensitivity.model_validate(content))
+    write_options(study, results, "sensitivity")
     rows = [
         {"time_s": time, "input": name, "total": total, "experiment": "slab_25", "signal": "mlr"}
         for time in (10.0, 50.0, 90.0)
         for name, total in (("k", 0.8 if time < 60.0 else 0.1), ("cp", 0.7), ("slab_25_flux", 0.1))
     ]
-    write_csv(results.sensitivity(sensitivity.OVER_TIME), pd.DataFrame(rows))
+    write_csv(results.of_step("sensitivity", sensitivity.OVER_TIME), pd.DataFrame(rows))
     frame = OF_SENSITIVITY["inputs"].make(study, results)
-    write_table(results.sensitivity(""), "table_inputs", OF_SENSITIVITY["inputs"], frame, study)
+    write_table(
+        results.folder("sensitivity"), "table_inputs", OF_SENSITIVITY["inputs"], frame, study
+    )
     for name in ("total", "apparatus", "costs"):
-        write_text(results.sensitivity(f"{name}.svg"), "<svg/>")
+        write_text(results.of_step("sensitivity", f"{name}.svg"), "<svg/>")
 
 
 def write_worth(study: Study, results: Results) -> None:

@@ -2,6 +2,7 @@
 
 import contextlib
 import io
+import re
 from pathlib import Path
 from typing import Any
 
@@ -12,20 +13,21 @@ from test_stages import given
 
 from pyrofit.cli import main
 from pyrofit.config import Study, as_study
+from pyrofit.config.steps import with_options
 from pyrofit.errors import DataError
-from pyrofit.results import sensitivity
 from pyrofit.results.files import Results, read_csv, write_csv
-from pyrofit.show.sensitivity.sentences import sentences
-from pyrofit.show.sensitivity_page import PAGE
 from pyrofit.stages import measurements
-from pyrofit.stages import sensitivity as stage
+from pyrofit.steps.sensitivity import record as sensitivity
+from pyrofit.steps.sensitivity.compute import run
+from pyrofit.steps.sensitivity.page import PAGE
+from pyrofit.steps.sensitivity.sentences import sentences
 
 SAMPLES = 64
 
 
 def described(**changes: Any) -> dict[str, Any]:
     """Return the small study with its kinetics as described: no fit comes before the analysis."""
-    study = given(**changes)
+    study = given(steps={"sensitivity": {"samples": SAMPLES}}, **changes)
     study["parameters"]["T_p"] = {"unit": "K", "value": 605}
     study["parameters"]["E_p"] = {"unit": "kJ/mol", "value": 190}
     study["synthetic"]["truth"] = {
@@ -41,6 +43,12 @@ def study() -> Study:
     return as_study(described(), "smoke.yaml")
 
 
+def with_few(study: Study, **options: Any) -> Study:
+    """Return a study that asks for the fewest base points."""
+    steps = with_options(study.steps, "sensitivity", {"samples": 8, **options})
+    return study.model_copy(update={"steps": steps})
+
+
 def command(results: Results, folder: Path, *options: str) -> list[str]:
     path = folder / "mine.yaml"
     path.write_text(yaml.safe_dump(described(), sort_keys=False))
@@ -54,7 +62,7 @@ def made(study: Study, tmp_path_factory: pytest.TempPathFactory) -> tuple[Result
     results = Results(folder / "smoke")
     measurements.prepare(study, results)
     with contextlib.redirect_stdout(io.StringIO()) as said:
-        assert main(command(results, folder, "--samples", str(SAMPLES))) == 0
+        assert main(command(results, folder)) == 0
     return results, said.getvalue()
 
 
@@ -65,7 +73,7 @@ def results(made: tuple[Results, str]) -> Results:
 
 def total(results: Results, signal: str) -> pd.DataFrame:
     """Return total indices by time and input."""
-    frame = read_csv(results.sensitivity(sensitivity.OVER_TIME))
+    frame = read_csv(results.of_step("sensitivity", sensitivity.OVER_TIME))
     mine = frame[frame["signal"] == signal]
     return mine.pivot(index="time_s", columns="input", values="total").dropna()
 
@@ -115,14 +123,14 @@ def test_sentences_tell_the_time_of_a_single_value_and_the_one_equation(
 def test_two_processes_leave_the_same_bytes(
     study: Study, results: Results, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    monkeypatch.setattr("pyrofit.stages.sensitivity.AT_ONCE", 64)
+    monkeypatch.setattr("pyrofit.steps.sensitivity.compute.AT_ONCE", 64)
     names = (sensitivity.FILE, sensitivity.OVER_TIME, sensitivity.COSTS, sensitivity.CURVES)
     found = []
     for cores in (1, 2):
         there = Results(tmp_path / str(cores))
         measurements.prepare(study, there)
-        stage.sensitivity(study, there, lambda text: None, "limits", 8, cores)
-        found.append([there.sensitivity(name).read_bytes() for name in names])
+        run(with_few(study), there, print, cores)
+        found.append([there.of_step("sensitivity", name).read_bytes() for name in names])
     assert found[0] == found[1]
 
 
@@ -133,7 +141,7 @@ def test_what_the_study_says_of_the_apparatus_counts(tmp_path: Path) -> None:
     study = as_study(keys, "smoke.yaml")
     results = Results(tmp_path)
     measurements.prepare(study, results)
-    stage.sensitivity(study, results, lambda text: None, "limits", 8)
+    run(with_few(study), results, print, 1)
     inputs = [i for i in sensitivity.read(study, results).inputs if i.name == "slab_25_flux"]
     assert [(i.kind, i.mean, i.sd) for i in inputs] == [("known", 1.0, 0.05)]
 
@@ -147,7 +155,7 @@ def test_near_and_intervals_lie_about_the_estimates(
     frame = pd.DataFrame({"parameter": values.keys(), "estimate": values.values()})
     write_csv(there.identification("estimate.csv"), frame.assign(sd=0.01 * frame["estimate"]))
     for within, reach in (("near", None), ("intervals", 0.03)):
-        stage.sensitivity(study, there, lambda text: None, within, 8)
+        run(with_few(study, within=within), there, print, 1)
         for one in sensitivity.read(study, there).inputs:
             if one.kind == "estimated":
                 value = values[one.name] / study.parameters[one.name].factor
@@ -162,7 +170,7 @@ def test_page_has_figures_numbers_and_table(study: Study, results: Results) -> N
     assert [type(part).__name__ for part in shown.parts] == ["Picture"] * 3 + ["Part"]
     assert "estimated parameters over their limits" in shown.said[0]
     for name in ("total", "apparatus", "first", "costs"):
-        assert results.sensitivity(f"{name}.png").stat().st_size > 0
+        assert results.of_step("sensitivity", f"{name}.png").stat().st_size > 0
 
 
 def test_command_prints_the_sentences(study: Study, made: tuple[Results, str]) -> None:
@@ -189,10 +197,9 @@ def test_missing_measurements_are_told(tmp_path: Path, capsys: pytest.CaptureFix
 def test_number_of_samples_is_checked(
     count: str, results: Results, tmp_path: Path, capsys: pytest.CaptureFixture[str]
 ) -> None:
-    with pytest.raises(SystemExit):
-        main(command(results, tmp_path, f"--samples={count}"))
+    assert main(command(results, tmp_path, f"--samples={count}")) == 2
     said = capsys.readouterr().err
-    assert f"argument --samples: '{count}': give a power of two" in said
+    assert re.search(f"--samples: '{count}'(: give a power of two| is not a whole number)", said)
 
 
 def test_result_of_another_study_is_refused(study: Study, results: Results) -> None:

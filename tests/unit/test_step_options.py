@@ -11,16 +11,14 @@ from typing import Any
 
 import pytest
 
-from pyrofit.cli import main, planning, sensing
+from pyrofit.cli import main, planning
 from pyrofit.config import digest, read_study
-from pyrofit.results import sensitivity, worth
-from pyrofit.stages.sensitivity import sensitivity as analyse
+from pyrofit.results import worth
 from pyrofit.stages.worth import worth_of_tests
 
 SMOKE = Path(__file__).parents[2] / "config" / "smoke.yaml"
 OTHER: dict[str, tuple[Any, Callable[..., Any], list[str], tuple[Any, ...]]] = {
     "worth": (planning, worth.slice_of, ["--draws", "0"], (0,)),
-    "sensitivity": (sensing, sensitivity.slice_of, ["--samples", "8"], ("limits", 8)),
 }
 
 
@@ -35,7 +33,6 @@ def defaults(command: str) -> dict[str, Any]:
     ("command", "step", "names"),
     [
         ("worth", worth_of_tests, {"draws": "draws", "apparatus": "apparatus"}),
-        ("sensitivity", analyse, {"within": "within", "samples": "samples"}),
     ],
 )
 def test_command_and_step_have_the_same_options_unless_told_otherwise(
@@ -67,7 +64,6 @@ def test_other_options_than_those_of_the_workflow_are_refused_in_its_name(
     ("record", "options"),
     [
         (worth.Worth, {"draws", "apparatus"}),
-        (sensitivity.Sensitivity, {"within", "samples"}),
     ],
 )
 def test_result_says_its_options(record: Any, options: set[str]) -> None:

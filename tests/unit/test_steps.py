@@ -27,6 +27,7 @@ WITH_OPTIONS = [name for name, step in known_steps().items() if step.options is 
 OTHER: dict[str, dict[str, Any]] = {
     "rescore": {"sets": 60, "costs": ["RMSE"]},
     "posterior": {"sets": 7},
+    "sensitivity": {"samples": 8},
     "robustness": {"starts": 5},
     "stability": {"draws": 3},
 }

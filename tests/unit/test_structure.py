@@ -338,7 +338,7 @@ def test_only_pose_poses_problems_and_their_likelihood() -> None:
         "pyrofit.estimate.prior.within_known",
     }
     found = names_of([p for p in modules() if imported(p) & posing])
-    limits = ["stages/sensitivity_inputs.py", "steps/rescore/valleys.py"]
+    limits = ["steps/rescore/valleys.py", "steps/sensitivity/varied.py"]
     assert found == ["estimate/pose.py", "estimate/pose_likelihood.py", *limits]
 
 

@@ -193,10 +193,6 @@ class Results:
         """All sets of all optimisers under all costs, and the family of good ones."""
         return self.root / "comparison" / name
 
-    def sensitivity(self, name: str) -> Path:
-        """Shares of the variance of signals and costs by parameter."""
-        return self.root / "sensitivity" / name
-
     def worth(self, name: str) -> Path:
         """By how much planned tests narrow parameters and predictions."""
         return self.root / "worth" / name

@@ -23,13 +23,13 @@ from pyrofit.results import (
     isoconversional,
     prediction,
     searches,
-    sensitivity,
 )
 from pyrofit.results.files import Results
 from pyrofit.results.goodness import Goodness
 from pyrofit.results.step import exists
 from pyrofit.show.table import Frames
 from pyrofit.steps.posterior import record as posterior
+from pyrofit.steps.sensitivity import record as sensitivity
 
 
 @dataclass(frozen=True)
@@ -120,7 +120,7 @@ def facts_of(study: Study, results: Results, tables: Frames) -> Facts:
 
 def _influence(study: Study, results: Results) -> dict[str, float] | None:
     """Return the largest part of each kind of surroundings in the variance of a signal."""
-    if not sensitivity.exists(results):
+    if not exists(study, results, "sensitivity"):
         return None
     found = sensitivity.read(study, results)
     parts: dict[str, float] = {}

@@ -3,14 +3,13 @@
 from typing import Any
 
 from pyrofit.config import Study
-from pyrofit.results import diagnosis, recorded, scheme, sensitivity, worth
+from pyrofit.results import diagnosis, recorded, scheme, worth
 from pyrofit.results.files import Results, write_json, write_text
 from pyrofit.show import (
     diagnosis_page,
     fds_page,
     programs_page,
     scheme_page,
-    sensitivity_page,
     worth_page,
 )
 from pyrofit.show.answer import ANSWER
@@ -25,7 +24,6 @@ from pyrofit.show.step_page import sections_of
 from pyrofit.show.table import Frames, read_table
 
 OWN_STEPS: tuple[tuple[Any, Any], ...] = (
-    (sensitivity, sensitivity_page.PAGE),
     (worth, worth_page.PAGE),
     (scheme, scheme_page),
 )

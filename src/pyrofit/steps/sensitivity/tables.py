@@ -5,15 +5,15 @@ from typing import Any
 import pandas as pd
 
 from pyrofit.config import Study
-from pyrofit.results import sensitivity
 from pyrofit.results.files import Results, read_csv
-from pyrofit.show.sensitivity.facts import distribution, short, shown
 from pyrofit.show.table import Table, always
+from pyrofit.steps.sensitivity import record
+from pyrofit.steps.sensitivity.facts import distribution, short, shown
 
 
 def inputs(study: Study, results: Results) -> pd.DataFrame:
     """List the inputs, and the share of every signal's variance in which it takes part."""
-    found = sensitivity.read(study, results)
+    found = record.read(study, results)
     rows = []
     for one in found.inputs:
         row: dict[str, Any] = {
@@ -31,8 +31,8 @@ def inputs(study: Study, results: Results) -> pd.DataFrame:
 
 def costs(study: Study, results: Results) -> pd.DataFrame:
     """List the total index of every cost with its interval, in words."""
-    found = sensitivity.read(study, results)
-    frame = read_csv(results.sensitivity(sensitivity.COSTS)).fillna(0.0)
+    found = record.read(study, results)
+    frame = read_csv(results.of_step("sensitivity", record.COSTS)).fillna(0.0)
     rows = []
     for cost in shown(found):
         own = frame[frame["cost"] == cost.name].set_index("input")

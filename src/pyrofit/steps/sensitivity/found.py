@@ -1,6 +1,7 @@
-"""Stored results of a sensitivity analysis: indices over time, of costs, and the record."""
+"""Results of a sensitivity analysis: indices over time and of costs, in tables and in short."""
 
 from collections.abc import Mapping
+from dataclasses import dataclass
 from typing import Any
 
 import numpy as np
@@ -10,11 +11,12 @@ from pyrofit.analysis.sobol import Indices
 from pyrofit.config import Study
 from pyrofit.estimate.measures import Measure
 from pyrofit.numerics import linear
-from pyrofit.results import sensitivity
 from pyrofit.results.files import Results, write_csv
 from pyrofit.solver.arrays import FloatArray
-from pyrofit.stages.scorer import Scorer
-from pyrofit.stages.sensitivity_sampler import Sampler
+from pyrofit.steps.sensitivity import record
+from pyrofit.steps.sensitivity.record import OfCost, OfInput, OfSignal
+from pyrofit.steps.sensitivity.sampler import Sampler
+from pyrofit.steps.sensitivity.varied import Input
 
 QUIET = 0.05
 """A signal that varies by less, as a share of its largest standard deviation, counts as at rest."""
@@ -24,25 +26,29 @@ EQUAL = 1e-9
 """Largest difference of indices of costs that differ by a factor."""
 
 
-def write_found(
-    study: Study,
-    results: Results,
-    about: Mapping[str, Any],
-    sampler: Sampler,
-    outputs: FloatArray,
-    found: Indices,
-) -> None:
-    """Write indices of signals and costs, curves and the record.
+@dataclass(frozen=True, eq=False)
+class Found:
+    """Results of the analysis: tables of indices and curves, and what the record says of them."""
+
+    curves: pd.DataFrame
+    over_time: pd.DataFrame
+    of_costs: pd.DataFrame
+    signals: list[OfSignal]
+    costs: list[OfCost]
+    same: list[list[str]]
+    """Groups of costs with equal indices."""
+
+
+def found_of(study: Study, sampler: Sampler, outputs: FloatArray, indices: Indices) -> Found:
+    """Return the results.
 
     Parameters
     ----------
-    about
-        Facts about the sample.
-    sampler
-        Signals, costs and inputs.
+    study, sampler
+        The study, and its signals, costs and inputs.
     outputs
         Shape (samples, inputs + 2, outputs).
-    found
+    indices
         Their indices.
     """
     names = [one.name for one in sampler.inputs]
@@ -52,23 +58,31 @@ def write_found(
         first += size
         values = outputs[:, :2, part].reshape(-1, size)
         rest = values.std(axis=0) < QUIET * values.std(axis=0).max()
-        frame = _indices(found, part, names, {"time_s": time}, rest)
+        frame = _indices(indices, part, names, {"time_s": time}, rest)
         over_time.append(frame.assign(experiment=experiment, signal=signal))
         curves.append(_curve(values, time).assign(experiment=experiment, signal=signal))
-        signals.append({"experiment": experiment, "signal": signal, **_most(frame, values, names)})
+        signals.append(_signal(experiment, signal, frame, values, names))
     measures = sampler.scorer.measures[1:]
-    frame = _indices(found, slice(first, None), names, {"cost": [m.name for m in measures]})
-    write_csv(results.sensitivity(sensitivity.CURVES), pd.concat(curves, ignore_index=True))
-    write_csv(results.sensitivity(sensitivity.OVER_TIME), pd.concat(over_time, ignore_index=True))
-    write_csv(results.sensitivity(sensitivity.COSTS), frame)
-    content = {
-        **about,
-        "inputs": [_input(one) for one in sampler.inputs],
-        "signals": signals,
-        "costs": [_cost(study, sampler.scorer, m, frame) for m in measures],
-        "same": _same(frame),
+    frame = _indices(indices, slice(first, None), names, {"cost": [m.name for m in measures]})
+    return Found(
+        curves=pd.concat(curves, ignore_index=True),
+        over_time=pd.concat(over_time, ignore_index=True),
+        of_costs=frame,
+        signals=signals,
+        costs=[_cost(study, m, frame) for m in measures],
+        same=_same(frame),
+    )
+
+
+def write_tables(results: Results, found: Found) -> None:
+    """Write curves, indices over time, and indices of costs."""
+    tables = {
+        record.CURVES: found.curves,
+        record.OVER_TIME: found.over_time,
+        record.COSTS: found.of_costs,
     }
-    sensitivity.write(results, content)
+    for name, table in tables.items():
+        write_csv(results.of_step("sensitivity", name), table)
 
 
 def _signals(sampler: Sampler) -> list[tuple[tuple[str, str], FloatArray, int]]:
@@ -106,7 +120,9 @@ def _curve(values: FloatArray, time: FloatArray) -> pd.DataFrame:
     return pd.DataFrame({"time_s": time, "mean": mean, "sd": sd, "low": low, "high": high})
 
 
-def _most(frame: pd.DataFrame, values: FloatArray, names: list[str]) -> dict[str, Any]:
+def _signal(
+    experiment: str, signal: str, frame: pd.DataFrame, values: FloatArray, names: list[str]
+) -> OfSignal:
     """Return the largest index of each input over time, and its share of all variance.
 
     The share is sum_t V(t) total(t) / sum_t V(t) (Lamboni et al. 2011,
@@ -119,35 +135,44 @@ def _most(frame: pd.DataFrame, values: FloatArray, names: list[str]) -> dict[str
     shares = linear.product(variance[counts], total[counts].to_numpy()) / known
     largest = total.fillna(0.0).to_numpy()
     times = total.index.to_numpy(float)[largest.argmax(axis=0)]
-    return {
-        "total": dict(zip(names, shares.tolist(), strict=True)),
-        "most": dict(zip(names, largest.max(axis=0).tolist(), strict=True)),
-        "most_at_s": dict(zip(names, times.tolist(), strict=True)),
-    }
+    return OfSignal(
+        experiment=experiment,
+        signal=signal,
+        total=dict(zip(names, shares.tolist(), strict=True)),
+        most=dict(zip(names, largest.max(axis=0).tolist(), strict=True)),
+        most_at_s=dict(zip(names, times.tolist(), strict=True)),
+    )
 
 
-def _input(one: Any) -> dict[str, Any]:
-    scaled = {
-        key: None if (value := getattr(one, key)) is None else value / one.factor
-        for key in ("low", "high", "mean", "sd")
-    }
-    plain = {key: getattr(one, key) for key in ("name", "label", "kind", "experiment", "unit")}
-    return {**plain, **scaled, "source": one.source}
+def of_input(one: Input) -> OfInput:
+    """Return the record of an input, in its unit."""
+    return OfInput(
+        name=one.name,
+        label=one.label,
+        kind=one.kind,
+        experiment=one.experiment,
+        unit=one.unit,
+        low=one.low / one.factor,
+        high=one.high / one.factor,
+        mean=one.mean / one.factor,
+        sd=None if one.sd is None else one.sd / one.factor,
+        source=one.source,
+    )
 
 
-def _cost(study: Study, scorer: Scorer, measure: Measure, frame: pd.DataFrame) -> dict[str, Any]:
-    own = frame[frame["cost"] == measure.name].fillna(0.0).set_index("input")
+def _cost(study: Study, measure: Measure, frame: pd.DataFrame) -> OfCost:
+    own = frame[frame["cost"] == measure.name].fillna(0.0)
     signals = {(t.experiment, t.signal) for t in measure.terms or study.imp.channels}
     times = {t.options.get("time_s") for t in measure.terms}
-    return {
-        "name": measure.name,
-        "words": measure.words,
-        "own": measure.name in study.imp.costs,
-        "signals": [list(pair) for pair in sorted(signals)],
-        "at_s": times.pop() if len(times) == 1 else None,
-        "first": own["first"].to_dict(),
-        "total": own["total"].to_dict(),
-    }
+    return OfCost(
+        name=measure.name,
+        words=measure.words,
+        own=measure.name in study.imp.costs,
+        signals=[list(pair) for pair in sorted(signals)],
+        at_s=times.pop() if len(times) == 1 else None,
+        first=dict(zip(own["input"], own["first"].tolist(), strict=True)),
+        total=dict(zip(own["input"], own["total"].tolist(), strict=True)),
+    )
 
 
 def _same(frame: pd.DataFrame) -> list[list[str]]:

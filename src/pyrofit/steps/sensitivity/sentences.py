@@ -6,11 +6,11 @@ import numpy as np
 import pandas as pd
 
 from pyrofit.config import Study
-from pyrofit.results import sensitivity
 from pyrofit.results.files import Results
-from pyrofit.results.sensitivity import OfCost, OfSignal, Sensitivity
-from pyrofit.show.sensitivity.facts import PLAIN, SEEN, estimated, over_time, short, shown, words
 from pyrofit.show.text import listed, several
+from pyrofit.steps.sensitivity import record
+from pyrofit.steps.sensitivity.facts import PLAIN, SEEN, estimated, over_time, short, shown, words
+from pyrofit.steps.sensitivity.record import OfCost, OfSignal, Sensitivity
 
 WITHIN = {
     "limits": "over their limits",
@@ -23,7 +23,7 @@ BRIEF = 0.04
 
 def sentences(study: Study, results: Results) -> list[str]:
     """Return the sentences on the sensitivity of signals and costs."""
-    found = sensitivity.read(study, results)
+    found = record.read(study, results)
     own = [cost for cost in shown(found) if cost.own]
     single = [cost for cost in shown(found) if cost.at_s is not None]
     return [

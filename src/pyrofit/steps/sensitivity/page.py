@@ -1,9 +1,9 @@
 """Sensitivity over time: tables and figures, and a section of the report."""
 
-from pyrofit.show.sensitivity.figures import FIGURES
-from pyrofit.show.sensitivity.sentences import sentences
-from pyrofit.show.sensitivity.tables import TABLES
 from pyrofit.show.step_page import StepPage
+from pyrofit.steps.sensitivity.figures import FIGURES
+from pyrofit.steps.sensitivity.sentences import sentences
+from pyrofit.steps.sensitivity.tables import TABLES
 
 PAGE = StepPage(
     folder="sensitivity",

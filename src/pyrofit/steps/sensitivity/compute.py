@@ -4,7 +4,6 @@ import numpy as np
 
 from pyrofit.analysis import sobol
 from pyrofit.config import Study, TermSpec
-from pyrofit.defaults import BASE_POINTS, WITHIN
 from pyrofit.errors import DataError
 from pyrofit.estimate.measures import Measure, channels, measures_of
 from pyrofit.logs import Tell
@@ -14,9 +13,12 @@ from pyrofit.seeds import seed_for
 from pyrofit.solver.arrays import FloatArray
 from pyrofit.stages.measurements import load
 from pyrofit.stages.scorer import AT_ONCE, Scorer, scorer_of
-from pyrofit.stages.sensitivity_inputs import inputs_of
-from pyrofit.stages.sensitivity_record import write_found
-from pyrofit.stages.sensitivity_sampler import Sampler
+from pyrofit.steps.sensitivity import record
+from pyrofit.steps.sensitivity.found import found_of, of_input, write_tables
+from pyrofit.steps.sensitivity.options import SensitivityOptions
+from pyrofit.steps.sensitivity.record import Sensitivity
+from pyrofit.steps.sensitivity.sampler import Sampler
+from pyrofit.steps.sensitivity.varied import inputs_of
 
 MOST_TIMES = 120
 """Times of a signal at which indices are computed."""
@@ -24,61 +26,52 @@ LITERAL = "_literal"
 """End of the names of costs that give nearly all sets the same value; they are left out."""
 
 
-def sensitivity(
-    study: Study,
-    results: Results,
-    tell: Tell,
-    within: str = WITHIN,
-    samples: int = BASE_POINTS,
-    cores: int = 1,
-) -> None:
+def run(study: Study, results: Results, tell: Tell, processes: int) -> None:
     """Compute Sobol's indices of all signals over time and of all costs; write ``sensitivity``.
 
-    Parameters
-    ----------
-    study, results
-        A study whose measurements are prepared and kinetics known.
-    tell
-        Told how many model calls are made.
-    within
-        'limits': estimated parameters are uniform over their limits. 'near': uniform over a fifth
-        of them about the estimates. 'intervals': normal about the estimates, with the standard
-        deviations of the analysis of the likelihood.
-    samples
-        Base points, a power of two.
-    cores
-        Processes.
+    Estimated parameters vary as the option ``within`` says. 'limits': they are uniform over their
+    limits. 'near': uniform over a fifth of them about the estimates. 'intervals': normal about the
+    estimates, with the standard deviations of the analysis of the likelihood.
 
     Raises
     ------
     DataError
         A result is missing, or no run finishes.
     """
+    options = study.options(SensitivityOptions)
     measurements = load(study, results)
     known, left_out = measures_of(study, measurements)
     measures = [m for m in known if m.name in study.imp.costs or not m.name.endswith(LITERAL)]
     scorer, more = scorer_of(study, results, measurements, [_signals(study), *measures])
-    inputs, problem = inputs_of(study, results, scorer.problem, within)
+    inputs, problem = inputs_of(study, results, scorer.problem, options.within)
     sampler = Sampler(Scorer(problem, scorer.measures, scorer.likelihood), inputs, _times(scorer))
     seed = seed_for(study.seed, "sensitivity")
-    points = sobol.design(samples, len(inputs), seed)
+    points = sobol.design(options.samples, len(inputs), seed)
     tell(f"sensitivity: {points[..., 0].size} model calls, {len(inputs)} inputs")
-    outputs, failed = sobol.filled(_sampled(sampler, points, cores), seed)
-    if failed == samples:
+    outputs, failed = sobol.filled(_sampled(sampler, points, processes), seed)
+    if failed == options.samples:
         raise DataError(
             f"{results.root}: of each point of the sample, a run does not finish; narrow the "
             "limits of the parameters, or take more points with --samples"
         )
-    about = {
-        "study": study.name,
-        "within": within,
-        "samples": samples,
-        "runs": int(points[..., 0].size),
-        "unfinished": failed,
-        "left_out": [*left_out, *more],
-    }
-    found = sobol.indices(outputs, seed)
-    write_found(study, results, about, sampler, outputs, found)
+    indices = sobol.indices(outputs, seed)
+    found = found_of(study, sampler, outputs, indices)
+    write_tables(results, found)
+    record.write(
+        results,
+        Sensitivity(
+            study=study.name,
+            within=options.within,
+            samples=options.samples,
+            runs=int(points[..., 0].size),
+            unfinished=failed,
+            left_out=[*left_out, *more],
+            inputs=[of_input(one) for one in inputs],
+            signals=found.signals,
+            costs=found.costs,
+            same=found.same,
+        ),
+    )
 
 
 def _signals(study: Study) -> Measure:

@@ -13,12 +13,15 @@ from pyrofit.experiments.slab.uncertain import PLACES, Place, described, with_va
 from pyrofit.model.slab import SlabExperiment
 from pyrofit.results.files import Results, read_csv
 from pyrofit.solver.arrays import FloatArray
+from pyrofit.steps.sensitivity.record import Kind
 
 REACH = 3.0
 """Standard deviations from the mean to the farthest value of a normal distribution."""
 NEAR = 0.1
 """Half of the width about an estimate, as a fraction of the search range."""
-ESTIMATED, KNOWN, APPARATUS = "estimated", "known", "apparatus"
+ESTIMATED: Kind = "estimated"
+KNOWN: Kind = "known"
+APPARATUS: Kind = "apparatus"
 EMISSIVITY_SD = 0.02
 """Of a component whose emissivity is a number of the description."""
 
@@ -32,7 +35,7 @@ class Input:
 
     name: str
     label: str
-    kind: str
+    kind: Kind
     unit: str
     factor: float
     low: float
@@ -133,7 +136,7 @@ def _known(study: Study, name: str) -> Input:
 def _parameter(
     study: Study,
     name: str,
-    kind: str,
+    kind: Kind,
     low: float,
     high: float,
     mean: float,

@@ -5,9 +5,9 @@ from collections.abc import Iterable, Sequence
 import pandas as pd
 
 from pyrofit.config import Study
-from pyrofit.results import sensitivity
 from pyrofit.results.files import Results, read_csv
-from pyrofit.results.sensitivity import OfCost, OfInput, OfSignal, Sensitivity
+from pyrofit.steps.sensitivity import record
+from pyrofit.steps.sensitivity.record import OfCost, OfInput, OfSignal, Sensitivity
 
 SEEN = 0.05
 """Total index below which a cost is said not to see a parameter."""
@@ -52,12 +52,12 @@ def largest(found: Sensitivity, names: Sequence[str], count: int = MOST_SHOWN) -
 
 def over_time(results: Results, signal: OfSignal) -> pd.DataFrame:
     """Return the indices of a signal over time."""
-    return _of(read_csv(results.sensitivity(sensitivity.OVER_TIME)), signal)
+    return _of(read_csv(results.of_step("sensitivity", record.OVER_TIME)), signal)
 
 
 def curve(results: Results, signal: OfSignal) -> pd.DataFrame:
     """Return mean and band of a signal over the sample."""
-    return _of(read_csv(results.sensitivity(sensitivity.CURVES)), signal)
+    return _of(read_csv(results.of_step("sensitivity", record.CURVES)), signal)
 
 
 def _of(frame: pd.DataFrame, signal: OfSignal) -> pd.DataFrame:

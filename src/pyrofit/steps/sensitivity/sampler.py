@@ -7,7 +7,7 @@ import numpy as np
 
 from pyrofit.solver.arrays import FloatArray, Values
 from pyrofit.stages.scorer import Scorer
-from pyrofit.stages.sensitivity_inputs import Input, columns
+from pyrofit.steps.sensitivity.varied import Input, columns
 
 
 @dataclass(frozen=True, eq=False)

@@ -6,13 +6,13 @@ from typing import Any
 import numpy as np
 
 from pyrofit.config import Study
-from pyrofit.results import sensitivity
 from pyrofit.results.files import Results
-from pyrofit.results.sensitivity import OfSignal, Sensitivity
 from pyrofit.show import style, units
 from pyrofit.show.drawn import Axes, Canvas
 from pyrofit.show.figure import Figure
-from pyrofit.show.sensitivity.facts import (
+from pyrofit.show.table import always
+from pyrofit.steps.sensitivity import record
+from pyrofit.steps.sensitivity.facts import (
     curve,
     estimated,
     largest,
@@ -22,23 +22,23 @@ from pyrofit.show.sensitivity.facts import (
     shown,
     words,
 )
-from pyrofit.show.table import always
+from pyrofit.steps.sensitivity.record import OfSignal, Sensitivity
 
 HATCHES = ("", "////", "....", "\\\\\\\\", "xxxx", "----")
 
 
 def total(study: Study, results: Results) -> Canvas:
     """Draw the total index of the estimated parameters over time, with its interval."""
-    return _total(study, results, estimated(sensitivity.read(study, results)))
+    return _total(study, results, estimated(record.read(study, results)))
 
 
 def apparatus(study: Study, results: Results) -> Canvas:
     """Draw the same of the inputs that are not estimated."""
-    return _total(study, results, others(sensitivity.read(study, results)))
+    return _total(study, results, others(record.read(study, results)))
 
 
 def _total(study: Study, results: Results, among: Sequence[str]) -> Canvas:
-    found = sensitivity.read(study, results)
+    found = record.read(study, results)
     names = largest(found, among)
 
     def draw(ax: Axes, signal: OfSignal) -> None:
@@ -62,7 +62,7 @@ def _total(study: Study, results: Results, among: Sequence[str]) -> Canvas:
 
 def first(study: Study, results: Results) -> Canvas:
     """Draw the shares of the variance that inputs make alone, stacked, over time."""
-    found = sensitivity.read(study, results)
+    found = record.read(study, results)
     rest = others(found)
     names = largest(found, estimated(found), len(HATCHES) - 1)
 
@@ -128,7 +128,7 @@ def _mean(study: Study, results: Results, ax: Axes, signal: OfSignal) -> None:
 
 def costs(study: Study, results: Results) -> Canvas:
     """Draw the total index of every cost by input."""
-    found = sensitivity.read(study, results)
+    found = record.read(study, results)
     rows = shown(found)
     names = [one.name for one in found.inputs]
     table = np.array([[cost.total[name] for name in names] for cost in rows])

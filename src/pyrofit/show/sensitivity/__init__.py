@@ -1,1 +1,0 @@
-"""Sensitivity of signals and costs over time, a step of its own."""
