@@ -44,6 +44,7 @@ FILES = {
     "test_identify_stage": "solver",
     "test_input_properties": "slow",
     "test_interface_fits": "solver",
+    "test_interface_json": "solver",
     "test_interface_weights": "solver",
     "test_isoconversional_stage": "solver",
     "test_lanes": "solver",

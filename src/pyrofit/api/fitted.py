@@ -1,5 +1,6 @@
 """A fit: values, intervals, correlations, scores, curves."""
 
+import os
 from collections.abc import Mapping
 from dataclasses import dataclass, field
 from typing import TYPE_CHECKING
@@ -11,6 +12,7 @@ from scipy.stats import norm
 from pyrofit.api import plots
 from pyrofit.api.choices import Key, Signals, used_by
 from pyrofit.api.comparison import Comparison, compare
+from pyrofit.api.fit_json import as_json, fields_of
 from pyrofit.api.measurements import Data
 from pyrofit.api.report import Report, html_of, text_of
 from pyrofit.config import Study
@@ -144,6 +146,29 @@ class Fit:
                 said += f" ({row['low']:.4g} to {row['high']:.4g}), {row['verdict']}"
             lines.append(said)
         return "\n".join(lines)
+
+    def to_json(self, path: str | os.PathLike[str] | None = None) -> str:
+        """Return the fit as JSON with all its curves, and write it to ``path`` where one is given.
+
+        Raises
+        ------
+        DataError
+            The file cannot be written.
+        """
+        return as_json(self, path)
+
+    @classmethod
+    def from_json(cls, source: str | os.PathLike[str]) -> "Fit":
+        """Return the fit of a text of `to_json`, or of the file that it wrote, bit for bit.
+
+        Raises
+        ------
+        DataError
+            The file is missing, is no fit, is of another version, or lacks a part.
+        StudyError
+            Its study breaks a rule of this version.
+        """
+        return cls(**fields_of(source))
 
     def predict(self, signals: Signals | None = None, data: Data | None = None) -> Comparison:
         """Compare the fit with experiments, by default all; see `pyrofit.compare`."""
