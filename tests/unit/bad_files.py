@@ -163,7 +163,7 @@ TABLES = rows_of(
         (
             "spreadsheet",
             write("data/tga.csv", b"PK\x03\x04\x14\x00\xfc\x00"),
-            ("this is a spreadsheet or an archive, no text; save or unpack the table as CSV",),
+            ("this is a spreadsheet or an archive, no text; save or export the table as CSV",),
         ),
         (
             "limit that leaves two points",

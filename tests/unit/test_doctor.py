@@ -220,3 +220,43 @@ def test_every_measured_file_of_the_data_base_is_classified() -> None:
         ("UClan_Cone_65kW", "temperature"),
         ("FSRI_Wood_CAPA_N2_40kW_R1", "density"),
     } <= faults
+
+
+def test_kinds_are_those_of_the_content_where_names_tell_none(tmp_path: Path) -> None:
+    for rate in (5, 10, 20):
+        write(tmp_path / f"BOARD_{rate}.csv", "t (s),T (K),m (mg)", TIME * 10 / rate, T, 9.0 * LOSS)
+    write(tmp_path / "a1.txt", "t (min),T (C),TG (%)", TIME / 60.0, T - 273.15, 100.0 * LOSS)
+    write(tmp_path / "a2.dat", "t (s),T (K),DSC (W/g)", TIME, T, LOSS - 0.5)
+    write(tmp_path / "b1.csv", "t (s),m (g),T back (C)", SECONDS, SLAB, 20.0 + SECONDS**0.8)
+    write(tmp_path / "b2.csv", "t (s),m (g),HRR (kW/m2)", SECONDS, SLAB, HRR)
+    write(tmp_path / "b3.csv", "t (s),T (C),m (g)", SECONDS, 20.0 + SECONDS**0.8, SLAB)
+    (tmp_path / "readme.txt").write_text("Tests of May, by hand\n", encoding="utf-8")
+    seen = {of.path.name: of for of in examine_folder(tmp_path)}
+    kinds = {name: of.kind for name, of in seen.items()}
+    heated = dict.fromkeys(("BOARD_10.csv", "BOARD_20.csv", "BOARD_5.csv", "a1.txt"), "tga")
+    slabs = {"b1.csv": "gasification", "b2.csv": "cone", "b3.csv": "gasification"}
+    assert kinds == heated | {"a2.dat": "dsc"} | slabs
+    assert seen["BOARD_5.csv"].label.heating_K_min == pytest.approx(5.0)
+    faults = [f.check for of in seen.values() for f in of.findings if f.weight == "fault"]
+    assert set(faults) == {"copy"}  # all slabs here have one mass
+    assert "8 of 8 files" in summary(list(seen.values()))[0]
+
+
+def test_a_name_of_another_sort_of_test_is_a_fault(tmp_path: Path) -> None:
+    tga(tmp_path / "A_Cone_50kW_1.csv")
+    cone(tmp_path / "A_TGA_N2_10K_1.csv")
+    for name, kind in (("A_Cone_50kW_1", "tga"), ("A_TGA_N2_10K_1", "cone")):
+        seen = found(tmp_path, name)
+        assert seen.kind == kind
+        assert "kind" in checks(seen)
+
+
+def test_files_of_instruments_are_named_with_a_way_out(tmp_path: Path) -> None:
+    tga(tmp_path / "a.csv")
+    (tmp_path / "b.xlsx").write_bytes(b"PK\x03\x04rest")
+    (tmp_path / "c.ngb-ss3").write_bytes(b"PK\x03\x04rest")
+    files = examine_folder(tmp_path)
+    said = {seen.path.name: f.text for seen in files for f in seen.findings}
+    assert "export the table as CSV" in said["b.xlsx"]
+    assert "NETZSCH Proteus" in said["c.ngb-ss3"]
+    assert summary(files)[0].startswith("1 of 3 files classified")

@@ -120,9 +120,9 @@ def test_mass_that_begins_at_zero_is_a_fault_and_no_warning(start: float, tmp_pa
     assert ("mass level", "fault") in {(f.check, f.weight) for f in seen.findings}
 
 
-def test_text_file_whose_name_tells_no_test_is_named(tmp_path: Path) -> None:
-    (tmp_path / "STARe_pp.txt").write_text("Time,Mass\n0,1\n", encoding="utf-8")
-    with pytest.raises(DataError, match=r"text files such as STARe_pp.txt .* Put one of CONE, "):
+def test_text_file_without_a_table_is_no_measured_file(tmp_path: Path) -> None:
+    (tmp_path / "notes.txt").write_text("Samples of May\nsee the README\n", encoding="utf-8")
+    with pytest.raises(DataError, match=r"no table in text files such as notes.txt"):
         examine_folder(tmp_path)
 
 

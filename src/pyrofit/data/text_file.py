@@ -19,6 +19,11 @@ _BINARY = {
     b"\x1f\x8b": "a compressed file",
     b"%PDF": "a PDF",
 }
+_PROGRAMS = {
+    ".ngb": "export its data from NETZSCH Proteus as CSV or text",
+    ".tri": "export its data from TA TRIOS as CSV or text",
+}
+"""Ways out by the first letters of an ending."""
 _LISTED_FILES = 12
 _PROBED_BYTES = 4000
 
@@ -68,7 +73,7 @@ def _check_size(path: Path, size: int) -> None:
 def _decoded(path: Path, data: bytes, notes: list[str]) -> str:
     what = next((words for start, words in _BINARY.items() if data.startswith(start)), None)
     if what is not None:
-        raise DataError(f"{path}: this is {what}, no text; save or unpack the table as CSV.")
+        raise DataError(f"{path}: this is {what}, no text; {_way_out(path)}.")
     encoding = next((name for bom, name in _BOMS.items() if data.startswith(bom)), None)
     encoding = encoding or _utf16(data) or "utf-8"
     try:
@@ -82,10 +87,15 @@ def _decoded(path: Path, data: bytes, notes: list[str]) -> str:
     if "\0" in text:
         line = text[: text.index("\0")].count("\n") + 1
         raise DataError(
-            f"{path}, line {line}: a byte 0 stands here, so this is no text; "
-            "export the table as CSV or text."
+            f"{path}, line {line}: a byte 0 stands here, so this is no text; {_way_out(path)}."
         )
     return text
+
+
+def _way_out(path: Path) -> str:
+    ending = path.suffix.casefold()
+    own = (words for start, words in _PROGRAMS.items() if ending.startswith(start))
+    return next(own, "save or export the table as CSV or text")
 
 
 def _utf16(data: bytes) -> str:

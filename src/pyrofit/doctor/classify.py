@@ -5,17 +5,20 @@ from dataclasses import replace
 from pathlib import Path
 
 import numpy as np
+import pandas as pd
 
 from pyrofit.data.convert import to_si
 from pyrofit.data.csvfile import Table, read_table
 from pyrofit.data.spec import SeriesSpec
+from pyrofit.doctor.content import best_kind
 from pyrofit.doctor.examined import Examined, Signal
 from pyrofit.doctor.names import Label
 from pyrofit.doctor.properties import property_signals
 from pyrofit.doctor.readme import Facts
 from pyrofit.errors import DataError
-from pyrofit.experiments import OF_FILES
-from pyrofit.new_study.columns import Found, Recognised, recognise
+from pyrofit.experiments import KINDS
+from pyrofit.experiments.heated.from_files import recorded_rate
+from pyrofit.new_study.columns import Found
 
 _TOTAL = "total"
 
@@ -23,8 +26,7 @@ _TOTAL = "total"
 def examine(path: Path, label: Label, facts: Facts) -> Examined:
     """Read a file as far as possible; report each obstacle as a finding.
 
-    The kind of experiment is that of the name, else the one of whose quantities the file holds
-    most. A gasification with a heat release rate is a test in air.
+    The columns tell the kind of experiment; the name tells it among kinds of the same sort.
     """
     seen = Examined(path, label, facts)
     try:
@@ -39,11 +41,29 @@ def examine(path: Path, label: Label, facts: Facts) -> Examined:
         seen.kind, seen.signals = kind, signals
         return seen
     seen.table = _named(seen.table)
-    seen.kind, recognised = _best(seen.table, label.kind)
+    seen.kind, recognised = best_kind(seen.table, label.kind)
+    if _contradicts(label.kind, seen.kind):
+        seen.say(
+            "kind", "fault", f"the name says {label.kind}, the columns are those of a {seen.kind}"
+        )
     for found in recognised.signals:
         _take(seen, found)
     seen.left = {n: w for n, w in recognised.left.items() if _used(seen, n)}
+    if not label.kind and seen.signals:
+        seen.label = _with_facts(seen)
     return seen
+
+
+def _with_facts(seen: Examined) -> Label:
+    """Return the label of a file whose name tells no kind, with what the file itself tells."""
+    assert seen.table is not None
+    stated = seen.table.stated
+    T = next((s for s in seen.signals.values() if s.temperature_K is not None), None)
+    frame = {} if T is None else {"time_s": T.x, "temperature_K": T.temperature_K}
+    rate = recorded_rate(0.0, {"": pd.DataFrame(frame)}) if frame else None
+    return replace(
+        seen.label, kind=seen.kind, gas=stated.gas, heating_K_min=rate, flux_kW_m2=stated.flux_kW_m2
+    )
 
 
 def _named(table: Table) -> Table:
@@ -59,15 +79,9 @@ def _named(table: Table) -> Table:
     return table
 
 
-def _best(table: Table, kind: str) -> tuple[str, Recognised]:
-    """Return the kind of experiment that explains most columns: that of the name, or one like it.
-
-    A gasification with a heat release rate is a test in a cone calorimeter.
-    """
-    like = [name for name, other in OF_FILES.items() if kind == other.description.LIKE]
-    kinds = [kind, *like] if kind in OF_FILES else list(OF_FILES)
-    tried = [(k, recognise(table, k)) for k in kinds]
-    return max(tried, key=lambda one: sum(not f.missing and not f.unread for f in one[1].signals))
+def _contradicts(named: str, kind: str) -> bool:
+    """Tell whether a slab is named as a sample in a furnace, or the reverse."""
+    return named in KINDS and KINDS[named].stage != KINDS[kind].stage
 
 
 def _take(seen: Examined, found: Found) -> None:

@@ -11,10 +11,12 @@ from pyrofit.doctor.examined import Examined
 from pyrofit.doctor.names import Label, label_of
 from pyrofit.doctor.readme import Facts, facts_of, read_readme
 from pyrofit.errors import DataError
-from pyrofit.experiments import OF_FILES
 
 ENDINGS = {".csv", ".txt", ".tsv", ".dat", ".asc"}
 TEXTS = ENDINGS - {".csv", ".tsv"}
+"""Endings of files that may be no tables: those without a table are left out."""
+BINARY = {".xls", ".xlsx", ".xlsm", ".ods", ".ngb-ss3", ".ngb-sd3", ".tri"}
+"""Endings of files that hold measurements, and that are to be exported as text."""
 _NOT_MEASURED = ("results", "verification", "predictions")
 """Words in names of folders that hold computed data."""
 _WEIGHTS = "fault", "doubt", "note"
@@ -32,28 +34,23 @@ def examine_folder(folder: Path) -> list[Examined]:
         raise DataError(f"{folder}: there is no such folder; give the folder of measured files.")
     paths = sorted(measured_files(folder))
     if not paths:
-        raise DataError(f"{folder}: it holds no measured files ({_why_none(folder)}")
+        endings = ", ".join(sorted(ENDINGS))
+        raise DataError(f"{folder}: it holds no measured files ({endings}); give another folder.")
     readmes: dict[Path, dict[Label, Facts]] = {}
     files = []
     for path in paths:
         known = readmes.setdefault(path.parent, read_readme(path.parent))
         label = label_of(path.stem, path.parent.name)
-        files.append(examine(path, label, facts_of(label, known)))
+        seen = examine(path, label, facts_of(label, known))
+        if seen.table is not None or label.kind or path.suffix.casefold() not in TEXTS:
+            files.append(seen)
+    if not files:
+        raise DataError(
+            f"{folder}: it holds no measured files (no table in text files such as "
+            f"{paths[0].name}); give another folder."
+        )
     run_checks(files)
     return files
-
-
-def _why_none(folder: Path) -> str:
-    """Say which files are looked for, and which text file is left out for its name."""
-    texts = (path for path in sorted(folder.rglob("*")) if path.suffix.casefold() in TEXTS)
-    left_out = next((path for path in texts if path.is_file()), None)
-    if left_out is None:
-        return f"{', '.join(sorted(ENDINGS))}); give another folder."
-    kinds = ", ".join(kind.upper() for kind in OF_FILES)
-    return (
-        f"text files such as {left_out.name} are read where their name tells the kind of test). "
-        f"Put one of {kinds} in the name, as in UMD_TGA_N2_10K{left_out.suffix}."
-    )
 
 
 def measured_files(folder: Path) -> Iterator[Path]:
@@ -62,10 +59,8 @@ def measured_files(folder: Path) -> Iterator[Path]:
         inside = [part.casefold() for part in path.relative_to(folder).parts[:-1]]
         computed = any(word in part for part in inside for word in _NOT_MEASURED)
         hidden = any(part.startswith(".") for part in (*inside, path.name))
-        ending = path.suffix.casefold()
-        # A text file may be anything: its name must say of which test it is.
-        text = ending in TEXTS and not label_of(path.stem).kind
-        if ending in ENDINGS and path.is_file() and not (computed or hidden or text):
+        known = path.suffix.casefold() in ENDINGS | BINARY
+        if known and path.is_file() and not (computed or hidden):
             yield path
 
 
