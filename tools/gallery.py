@@ -28,11 +28,11 @@ from pyrofit.show import diagnosis_page
 from pyrofit.show.figure import Figure
 from pyrofit.show.scheme import figure as scheme
 from pyrofit.show.sections import FIGURES
-from pyrofit.show.worth.figures import FIGURES as WORTH
 from pyrofit.steps.posterior.figures import FIGURES as POSTERIOR
 from pyrofit.steps.rescore.figures import FIGURES as RESCORE
 from pyrofit.steps.sensitivity.figures import FIGURES as SENSITIVITY
 from pyrofit.steps.stability.figures import FIGURES as STABILITY
+from pyrofit.steps.worth.figures import FIGURES as WORTH
 
 DOCS = Path(__file__).resolve().parents[1] / "docs"
 WIDTHS = (1000, 900, 800, 700, 600)

@@ -35,7 +35,6 @@ STUDY = (
             "isoconversional",
             "predict",
             "compare",
-            "worth",
             "scheme",
             "diagnose",
         )
@@ -61,7 +60,6 @@ CATALOGUES = (
             "scheme",
             "truth",
             "validation",
-            "worth",
         )
     ),
 )

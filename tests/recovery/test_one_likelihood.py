@@ -21,8 +21,8 @@ from pyrofit.results.files import Results, write_csv, write_json
 from pyrofit.stages import measurements
 from pyrofit.stages.identify import identify_imp
 from pyrofit.stages.scorer import Scorer, scorer_of
-from pyrofit.stages.worth_fit import best_fit
 from pyrofit.steps.posterior.compute import likelihood_and_optimum
+from pyrofit.steps.worth.best_fit import best_fit
 
 SAME = 1e-6
 

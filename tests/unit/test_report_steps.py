@@ -7,14 +7,14 @@ from test_report import Page, written
 from test_tables import fake
 
 from pyrofit.config import Study
-from pyrofit.results import worth
 from pyrofit.results.files import Results, write_csv, write_text
 from pyrofit.results.step import write_options
 from pyrofit.show.report import write_report
 from pyrofit.show.table import write_table
-from pyrofit.show.worth.tables import TABLES as OF_WORTH
 from pyrofit.steps.sensitivity import record as sensitivity
 from pyrofit.steps.sensitivity.tables import TABLES as OF_SENSITIVITY
+from pyrofit.steps.worth import record as worth
+from pyrofit.steps.worth.tables import TABLES as OF_WORTH
 
 
 def write_sensitivity(study: Study, results: Results) -> None:
@@ -98,10 +98,11 @@ def write_worth(study: Study, results: Results) -> None:
         ],
         "left_out": ["a test that fails"],
     }
-    worth.write(results, content)
-    frame = OF_WORTH["worth"].make(study, results)
-    write_table(results.worth(""), "table_worth", OF_WORTH["worth"], frame, study)
-    write_text(results.worth(worth.LAST), "<svg/>")
+    worth.write(results, worth.Worth.model_validate(content))
+    write_options(study, results, "worth")
+    table = OF_WORTH["worth"]
+    write_table(results.folder("worth"), "table_worth", table, table.make(study, results), study)
+    write_text(results.of_step("worth", "worth.svg"), "<svg/>")
 
 
 def test_sensitivity_and_worth_are_shown_once_they_are_there(tmp_path: Path) -> None:

@@ -28,6 +28,7 @@ OTHER: dict[str, dict[str, Any]] = {
     "rescore": {"sets": 60, "costs": ["RMSE"]},
     "posterior": {"sets": 7},
     "sensitivity": {"samples": 8},
+    "worth": {"draws": 0},
     "robustness": {"starts": 5},
     "stability": {"draws": 3},
 }

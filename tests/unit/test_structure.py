@@ -19,7 +19,6 @@ ORDER = [
     {
         "errors",
         "constants",
-        "defaults",
         "numerics",
         "discovery",
         "logs",

@@ -14,19 +14,20 @@ from test_sensitivity_stage import described
 from pyrofit.analysis import data_worth
 from pyrofit.cli import main
 from pyrofit.config import Study, as_study
+from pyrofit.config.steps import with_options
 from pyrofit.diagnose.base.fitted import FittedModel
 from pyrofit.errors import DataError
 from pyrofit.estimate.posterior import curvature
-from pyrofit.results import worth
 from pyrofit.results.files import Results, write_csv
-from pyrofit.show.worth.facts import remaining
-from pyrofit.show.worth.sentences import sentences
-from pyrofit.show.worth_page import PAGE
 from pyrofit.stages import measurements
-from pyrofit.stages.worth import worth_of_tests
-from pyrofit.stages.worth_apparatus import lasting_of
-from pyrofit.stages.worth_fit import best_fit
-from pyrofit.stages.worth_tests import Planned, planned
+from pyrofit.steps.worth import record as worth
+from pyrofit.steps.worth.apparatus import lasting_of
+from pyrofit.steps.worth.best_fit import best_fit
+from pyrofit.steps.worth.compute import run
+from pyrofit.steps.worth.facts import remaining
+from pyrofit.steps.worth.page import PAGE
+from pyrofit.steps.worth.planned import Planned, planned
+from pyrofit.steps.worth.sentences import sentences
 
 TRUTH = {"rho": 1190.0, "k": 0.2, "cp": 2100.0, "eps": 0.9, "dh": 800e3}
 DRAWS = 6
@@ -35,9 +36,15 @@ DRAWS = 6
 def keys() -> dict[str, Any]:
     """Return the small study, with both signals of the fitted test."""
     study = described()
+    study["steps"] = {"worth": {"draws": DRAWS}}
     study["experiments"]["slab_25"]["duration_s"] = 900
     study["imp"]["identification"] = {"slab_25": ["mlr", "back_temperature"]}
     return study
+
+
+def asking(study: Study, **options: Any) -> Study:
+    """Return a study with other options of the step."""
+    return study.model_copy(update={"steps": with_options(study.steps, "worth", options)})
 
 
 def prepared(study: Study, folder: Path) -> Results:
@@ -66,7 +73,7 @@ def made(study: Study, tmp_path_factory: pytest.TempPathFactory) -> tuple[Result
     folder = tmp_path_factory.mktemp("worth")
     results = prepared(study, folder / "smoke")
     with contextlib.redirect_stdout(io.StringIO()) as said:
-        assert main(command(results, folder, "--draws", str(DRAWS))) == 0
+        assert main(command(results, folder)) == 0
     return results, said.getvalue()
 
 
@@ -178,7 +185,7 @@ def test_uncertain_apparatus_leaves_estimates_wider_and_repeats_worth_less(
     study: Study, results: Results, tmp_path: Path
 ) -> None:
     there = prepared(study, tmp_path)
-    worth_of_tests(study, there, lambda text: None, 0, apparatus="uncertain")
+    run(asking(study, draws=0, apparatus="uncertain"), there, print, 1)
     wide, exact = worth.read(study, there), worth.read(study, results)
     for name, sd in exact.now.parameters.items():
         assert wide.now.parameters[name] >= sd * (1.0 - 1e-9)
@@ -199,8 +206,8 @@ def test_two_processes_leave_the_same_bytes(study: Study, results: Results, tmp_
     found = []
     for cores in (1, 2):
         there = prepared(study, tmp_path / str(cores))
-        worth_of_tests(study, there, lambda text: None, 2, cores)
-        found.append(there.worth(worth.FILE).read_bytes())
+        run(asking(study, draws=2), there, print, cores)
+        found.append(there.of_step("worth", worth.FILE).read_bytes())
     assert found[0] == found[1]
 
 
@@ -210,7 +217,7 @@ def test_page_has_figure_table_and_sentences(study: Study, made: tuple[Results, 
     assert made[1].splitlines() == sentences(study, made[0]) == list(shown.said)
     assert "narrows parameters and predictions most" in shown.said[0]
     assert "The best 3 were checked by refits of 6 drawn data sets" in shown.said[1]
-    assert made[0].worth("worth.png").stat().st_size > 0
+    assert made[0].of_step("worth", "worth.png").stat().st_size > 0
 
 
 def test_missing_estimates_are_told_with_the_way_out(
@@ -223,13 +230,20 @@ def test_missing_estimates_are_told_with_the_way_out(
     assert f"{nowhere.identification('estimate.csv')}: this result is missing; run" in said
 
 
-@pytest.mark.parametrize("count", ["1", "-3", "many", "2000"])
+@pytest.mark.parametrize(
+    ("count", "rule"),
+    [
+        ("1", ": give a whole number from 2 to 1000, or 0"),
+        ("-3", " must be at least 0"),
+        ("many", " is not a whole number"),
+        ("2000", " must be at most 1000"),
+    ],
+)
 def test_number_of_draws_is_checked(
-    count: str, results: Results, tmp_path: Path, capsys: pytest.CaptureFixture[str]
+    count: str, rule: str, results: Results, tmp_path: Path, capsys: pytest.CaptureFixture[str]
 ) -> None:
-    with pytest.raises(SystemExit):
-        main(command(results, tmp_path, f"--draws={count}"))
-    assert f"argument --draws: '{count}': give a whole number from 2" in capsys.readouterr().err
+    assert main(command(results, tmp_path, f"--draws={count}")) == 2
+    assert f"--draws: '{count}'{rule}" in capsys.readouterr().err
 
 
 def test_result_of_another_study_is_refused(study: Study, results: Results) -> None:

@@ -46,7 +46,7 @@ class WrongValue(Part):
 
 
 class DescriptionError(Part):
-    """An error of the study of a twin: not the model is wrong, but what it is given."""
+    """An error of the study of a twin: its description is wrong, not the model."""
 
     known: dict[str, WrongValue] = Field(
         default_factory=dict, description="wrong known values, by parameter"

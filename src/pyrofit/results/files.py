@@ -193,10 +193,6 @@ class Results:
         """All sets of all optimisers under all costs, and the family of good ones."""
         return self.root / "comparison" / name
 
-    def worth(self, name: str) -> Path:
-        """By how much planned tests narrow parameters and predictions."""
-        return self.root / "worth" / name
-
     def validation(self, name: str) -> Path:
         """Predictions and scores."""
         return self.root / "validation" / name

@@ -3,14 +3,13 @@
 from typing import Any
 
 from pyrofit.config import Study
-from pyrofit.results import diagnosis, recorded, scheme, worth
+from pyrofit.results import diagnosis, recorded, scheme
 from pyrofit.results.files import Results, write_json, write_text
 from pyrofit.show import (
     diagnosis_page,
     fds_page,
     programs_page,
     scheme_page,
-    worth_page,
 )
 from pyrofit.show.answer import ANSWER
 from pyrofit.show.answer.summary import summary
@@ -23,10 +22,7 @@ from pyrofit.show.sections import SECTIONS, TABLES
 from pyrofit.show.step_page import sections_of
 from pyrofit.show.table import Frames, read_table
 
-OWN_STEPS: tuple[tuple[Any, Any], ...] = (
-    (worth, worth_page.PAGE),
-    (scheme, scheme_page),
-)
+OWN_STEPS: tuple[tuple[Any, Any], ...] = ((scheme, scheme_page),)
 """Results of steps of their own, and their sections."""
 
 

@@ -77,7 +77,6 @@ rule report:
             page
             for page in (
                 results.diagnosis("report.html"),
-                results.worth("worth.svg"),
                 results.scheme("scheme.svg"),
             )
             if page.exists()

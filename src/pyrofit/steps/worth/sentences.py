@@ -1,11 +1,11 @@
 """Which test to make next, in sentences."""
 
 from pyrofit.config import Study
-from pyrofit.results import worth
 from pyrofit.results.files import Results
-from pyrofit.results.worth import OfTest, Worth
 from pyrofit.show.text import listed, several
-from pyrofit.show.worth.facts import LITTLE, label, remaining
+from pyrofit.steps.worth import record
+from pyrofit.steps.worth.facts import LITTLE, label, remaining
+from pyrofit.steps.worth.record import OfTest, Worth
 
 UNLIKE = 15.0
 """Difference of the check from the linear number that is mentioned [% of the present sd]."""
@@ -14,7 +14,7 @@ MOST_NAMED = 3
 
 def sentences(study: Study, results: Results) -> list[str]:
     """Return the sentences on the worth of planned tests."""
-    found = worth.read(study, results)
+    found = record.read(study, results)
     return [_best(study, found), *_check(study, found), *_useless(found), *_left_out(found)]
 
 

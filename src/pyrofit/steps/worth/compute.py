@@ -1,58 +1,53 @@
 """Which measurement would narrow parameters and predictions most: the worth of planned tests."""
 
 from collections.abc import Mapping, Sequence
-from dataclasses import replace
-from typing import Any
+from dataclasses import dataclass, replace
 
 import numpy as np
 
 from pyrofit.analysis import data_worth
 from pyrofit.config import Study
 from pyrofit.config.programs import externals
-from pyrofit.defaults import APPARATUS, DRAWS
 from pyrofit.diagnose.base.fitted import FittedModel
 from pyrofit.errors import DataError
 from pyrofit.estimate.posterior import curvature, limit_of
 from pyrofit.estimate.targets import Measurements
 from pyrofit.experiments import kind_of
 from pyrofit.logs import Tell
-from pyrofit.results import worth
 from pyrofit.results.files import Results
 from pyrofit.solver.arrays import FloatArray
 from pyrofit.stages.measurements import load
-from pyrofit.stages.worth_apparatus import of_fitted, of_record
-from pyrofit.stages.worth_check import Drawn, spreads
-from pyrofit.stages.worth_fit import best_fit
-from pyrofit.stages.worth_forecast import Forecast, Lasting, forecast
-from pyrofit.stages.worth_tests import Planned, planned
+from pyrofit.steps.worth import record
+from pyrofit.steps.worth.apparatus import of_fitted, of_record
+from pyrofit.steps.worth.best_fit import best_fit
+from pyrofit.steps.worth.check import Drawn, spreads
+from pyrofit.steps.worth.forecast import Forecast, Lasting, forecast
+from pyrofit.steps.worth.options import WorthOptions
+from pyrofit.steps.worth.planned import Planned, planned
+from pyrofit.steps.worth.record import OfTest, Predicted, Sds, Worth
 
 CHECKED = 3
 """Tests that are checked."""
+Spread = tuple[FloatArray, dict[str, float]]
+"""Standard deviations: of parameters, in units of their search range, and of predictions."""
 
 
-def worth_of_tests(
-    study: Study,
-    results: Results,
-    tell: Tell,
-    draws: int = DRAWS,
-    cores: int = 1,
-    apparatus: str = APPARATUS,
-) -> None:
+@dataclass(frozen=True, eq=False)
+class Ranked:
+    """A test and the uncertainties that it leaves."""
+
+    test: Planned
+    gain_bit: float
+    left: float
+    sds: Spread
+
+
+def run(study: Study, results: Results, tell: Tell, processes: int) -> None:
     """Compute by how much planned tests narrow parameters and predictions; write ``worth``.
 
-    Parameters
-    ----------
-    study, results
-        A study whose estimates have been analysed.
-    tell
-        Receives messages on the progress.
-    draws
-        Data sets that are drawn and fitted again to check the best tests; 0 = no check.
-    cores
-        Processes.
-    apparatus
-        'exact': it is as described; 'uncertain': flux, thickness, heat losses and temperatures of
-        every slab are uncertain as in the sensitivity analysis.
+    The best tests are checked by refits of drawn data. Where the option ``apparatus`` says
+    'uncertain', flux, thickness, heat losses and temperatures of every slab are uncertain as in the
+    sensitivity analysis.
 
     Raises
     ------
@@ -61,6 +56,7 @@ def worth_of_tests(
     StudyError
         An external program simulates a fitted experiment.
     """
+    options = study.options(WorthOptions)
     fitted = best_fit(study, results)
     predictions = _predictions(study, fitted, load(study, results))
     tests, left_out = planned(study, fitted)
@@ -68,38 +64,45 @@ def worth_of_tests(
         raise DataError(f"study '{study.name}': none of the planned tests can be simulated")
     tell(f"worth of {len(tests)} planned tests for {len(predictions)} predictions")
     dispersion, lasting = fitted.posterior.dispersion, Lasting()
-    if apparatus == "uncertain":
+    if options.apparatus == "uncertain":
         lasting = of_fitted(fitted, dispersion)
         tests = [replace(t, record=of_record(fitted, t.record, dispersion)) for t in tests]
     before = _curvature(fitted, lasting)
     ranked = _ranked(fitted, before, tests, predictions)
-    best = [test for test, _ in ranked[:CHECKED]]
+    best = [one.test for one in ranked[:CHECKED]]
     drawn = Drawn(fitted, dispersion, study.seed, lasting)
-    checked = _checked(study, drawn, best, predictions, draws, tell, cores)
-    content = {
-        "study": study.name,
-        "points": fitted.model.points,
-        "dispersion": dispersion,
-        "apparatus": apparatus,
-        "draws": draws,
-        "estimate": _in_units(study, fitted, fitted.model.likelihood.values(fitted.fit.x)),
-        "now": _sds(study, fitted, *_linear(fitted, before, predictions)),
-        "now_checked": checked.get(""),
-        "predictions": {
-            name: dict(zip(("experiment", "signal"), name.split(" "), strict=True))
-            for name in predictions
-        },
-        "tests": [
-            {
-                **about,
-                "sds": _sds(study, fitted, *about["sds"]),
-                "checked": checked.get(test.name),
-            }
-            for test, about in ranked
-        ],
-        "left_out": left_out,
-    }
-    worth.write(results, content)
+    checked = _checked(study, drawn, best, predictions, options.draws, tell, processes)
+    found = Worth(
+        study=study.name,
+        points=fitted.model.points,
+        dispersion=dispersion,
+        apparatus=options.apparatus,
+        draws=options.draws,
+        estimate=_in_units(study, fitted, fitted.model.likelihood.values(fitted.fit.x)),
+        now=_sds(study, fitted, *_linear(fitted, before, predictions)),
+        now_checked=checked.get(""),
+        predictions={name: _predicted(name) for name in predictions},
+        tests=[_of_test(study, fitted, one, checked.get(one.test.name)) for one in ranked],
+        left_out=left_out,
+    )
+    record.write(results, found)
+
+
+def _predicted(name: str) -> Predicted:
+    experiment, signal = name.split(" ")
+    return Predicted(experiment=experiment, signal=signal)
+
+
+def _of_test(study: Study, fitted: FittedModel, one: Ranked, checked: Sds | None) -> OfTest:
+    return OfTest(
+        name=one.test.name,
+        words=one.test.words,
+        quantities=list(one.test.record.noise),
+        gain_bit=one.gain_bit,
+        left=one.left,
+        sds=_sds(study, fitted, *one.sds),
+        checked=checked,
+    )
 
 
 def _curvature(fitted: FittedModel, lasting: Lasting) -> FloatArray:
@@ -118,7 +121,7 @@ def _checked(
     draws: int,
     tell: Tell,
     cores: int,
-) -> dict[str, dict[str, Any]]:
+) -> dict[str, Sds]:
     """Return the spread over refits without a test, by the name '', and with each of some."""
     if draws == 0:
         return {}
@@ -153,7 +156,7 @@ def _ranked(
     before: FloatArray,
     tests: Sequence[Planned],
     predictions: Mapping[str, Forecast],
-) -> list[tuple[Planned, dict[str, Any]]]:
+) -> list[Ranked]:
     """Return the tests with the uncertainties they leave, the best first."""
     dispersion = fitted.posterior.dispersion
     found = []
@@ -167,16 +170,10 @@ def _ranked(
                 (list(parts[0][1].values()), list(parts[1][1].values())),
             )
         ]
-        about = {
-            "name": test.name,
-            "words": test.words,
-            "quantities": list(test.record.noise),
-            "gain_bit": data_worth.gain(before, after, _free(fitted)),
-            "left": float(np.sqrt(left[0] * left[1])) if predictions else left[0],
-            "sds": parts[1],
-        }
-        found.append((test, about))
-    return sorted(found, key=lambda pair: pair[1]["left"])
+        both = float(np.sqrt(left[0] * left[1])) if predictions else left[0]
+        gain = data_worth.gain(before, after, _free(fitted))
+        found.append(Ranked(test, gain, both, parts[1]))
+    return sorted(found, key=lambda one: one.left)
 
 
 def _free(fitted: FittedModel) -> list[int]:
@@ -184,9 +181,7 @@ def _free(fitted: FittedModel) -> list[int]:
     return [i for i, x in enumerate(fitted.fit.x) if not limit_of(x)]
 
 
-def _linear(
-    fitted: FittedModel, curve: FloatArray, predictions: Mapping[str, Forecast]
-) -> tuple[FloatArray, dict[str, float]]:
+def _linear(fitted: FittedModel, curve: FloatArray, predictions: Mapping[str, Forecast]) -> Spread:
     """Return the standard deviations that an inverse covariance leaves."""
     free = _free(fitted)
     return data_worth.sds(curve, free), {
@@ -197,9 +192,9 @@ def _linear(
 
 def _sds(
     study: Study, fitted: FittedModel, sds: FloatArray, predictions: Mapping[str, float]
-) -> dict[str, Any]:
+) -> Sds:
     values = sds * fitted.model.likelihood.problem.span
-    return {"parameters": _in_units(study, fitted, values), "predictions": dict(predictions)}
+    return Sds(parameters=_in_units(study, fitted, values), predictions=dict(predictions))
 
 
 def _in_units(study: Study, fitted: FittedModel, values: FloatArray) -> dict[str, float]:

@@ -3,7 +3,7 @@
 from collections.abc import Iterator
 
 from pyrofit.config import Study
-from pyrofit.results.worth import OfTest, Sds, Worth
+from pyrofit.steps.worth.record import OfTest, Sds, Worth
 
 LITTLE = 5.0
 """Narrowing below which a test is said to tell nothing new [%]."""

@@ -15,7 +15,7 @@ from pyrofit.experiments.slab.uncertain import PLACES, described, with_value
 from pyrofit.model.experiment import Experiment
 from pyrofit.numerics import linear
 from pyrofit.solver.arrays import FloatArray
-from pyrofit.stages.worth_forecast import Lasting, Record
+from pyrofit.steps.worth.forecast import Lasting, Record
 
 
 def of_record(fitted: FittedModel, record: Record, dispersion: float) -> Record:

@@ -1,9 +1,9 @@
 """Data worth: table and figure, and a section of the report."""
 
 from pyrofit.show.step_page import StepPage
-from pyrofit.show.worth.figures import FIGURES
-from pyrofit.show.worth.sentences import sentences
-from pyrofit.show.worth.tables import TABLES
+from pyrofit.steps.worth.figures import FIGURES
+from pyrofit.steps.worth.sentences import sentences
+from pyrofit.steps.worth.tables import TABLES
 
 PAGE = StepPage(
     folder="worth",

@@ -5,18 +5,18 @@ from typing import Any
 import pandas as pd
 
 from pyrofit.config import Study
-from pyrofit.results import worth
 from pyrofit.results.files import Results
 from pyrofit.show.table import Table, always
 from pyrofit.show.units import difference, difference_unit
-from pyrofit.show.worth.facts import label, remaining
+from pyrofit.steps.worth import record
+from pyrofit.steps.worth.facts import label, remaining
 
 NOW = "none: standard deviation now"
 
 
 def tests(study: Study, results: Results) -> pd.DataFrame:
     """List the present standard deviations, then the shares of them that each test leaves [%]."""
-    found = worth.read(study, results)
+    found = record.read(study, results)
     rows: list[dict[str, Any]] = [_now(study, found)]
     for test in found.tests:
         rows.append(_row(study, found, test.words, test.gain_bit, remaining(found, test)))
@@ -25,7 +25,7 @@ def tests(study: Study, results: Results) -> pd.DataFrame:
     return pd.DataFrame(rows)
 
 
-def _now(study: Study, found: worth.Worth) -> dict[str, Any]:
+def _now(study: Study, found: record.Worth) -> dict[str, Any]:
     row: dict[str, Any] = {"test": NOW, "gain_bit": None}
     for name, sd in found.now.parameters.items():
         unit = study.parameters[name].unit
@@ -39,7 +39,7 @@ def _now(study: Study, found: worth.Worth) -> dict[str, Any]:
 
 
 def _row(
-    study: Study, found: worth.Worth, words: str, gain: float | None, left: dict[str, float]
+    study: Study, found: record.Worth, words: str, gain: float | None, left: dict[str, float]
 ) -> dict[str, Any]:
     shown = {label(study, found, name): f"{value:.0f} %" for name, value in left.items()}
     return {"test": words, "gain_bit": None if gain is None else round(gain, 1), **shown}

@@ -13,7 +13,7 @@ from pyrofit.numerics import linear
 from pyrofit.parallel import parallel_map
 from pyrofit.seeds import seed_for
 from pyrofit.solver.arrays import FloatArray
-from pyrofit.stages.worth_forecast import Forecast, Lasting, Record, simulated
+from pyrofit.steps.worth.forecast import Forecast, Lasting, Record, simulated
 
 ENOUGH = 1e-3
 """A refit ends where the next step promises less of chi-square."""

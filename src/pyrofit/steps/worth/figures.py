@@ -5,14 +5,14 @@ from collections.abc import Sequence
 import numpy as np
 
 from pyrofit.config import Study
-from pyrofit.results import worth
 from pyrofit.results.files import Results
-from pyrofit.results.worth import OfTest, Worth
 from pyrofit.show import style
 from pyrofit.show.drawn import Canvas
 from pyrofit.show.figure import Figure
 from pyrofit.show.table import always
-from pyrofit.show.worth.facts import LITTLE, remaining, symbol
+from pyrofit.steps.worth import record
+from pyrofit.steps.worth.facts import LITTLE, remaining, symbol
+from pyrofit.steps.worth.record import OfTest, Worth
 
 MOST_TESTS = 18
 """Tests that the figure shows; the table has all."""
@@ -20,7 +20,7 @@ MOST_TESTS = 18
 
 def draw(study: Study, results: Results) -> Canvas:
     """Draw the share of each standard deviation that the best tests leave, checks in brackets."""
-    found = worth.read(study, results)
+    found = record.read(study, results)
     tests = found.tests[:MOST_TESTS]
     names = _narrowed(found, tests)
     left = np.array([[remaining(found, test)[name] for name in names] for test in tests])

@@ -23,7 +23,7 @@ from pyrofit.quantities import known_quantities
 from pyrofit.solver.arrays import FloatArray
 from pyrofit.solver.curves import Place, Request
 from pyrofit.solver.outputs import FRONT, HEAT_FLOW, INSIDE
-from pyrofit.stages.worth_forecast import Forecast, Record, forecast
+from pyrofit.steps.worth.forecast import Forecast, Record, forecast
 
 INNER = next(name for name, q in known_quantities().items() if q.curve == INSIDE)
 SENSORS = {FRONT: "the front temperature", INNER: "the temperature at half the depth"}
