@@ -37,6 +37,7 @@ FILES = {
     "test_config_diagnosis": "solver",
     "test_cost_properties": "slow",
     "test_diagnosis_shown": "slow",
+    "test_ensemble": "solver",
     "test_estimate": "solver",
     "test_external_runs": "slow",
     "test_figures": "slow",

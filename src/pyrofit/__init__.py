@@ -15,6 +15,7 @@ _HOMES = {
     "Comparison": "api.comparison",
     "Curves": "api.curves",
     "Diagnosis": "api.diagnosing",
+    "Ensemble": "api.ensemble",
     "Fit": "api.fitted",
     "Isoconversional": "api.isoconversional",
     "PyrofitError": "errors",

@@ -6,6 +6,7 @@ from pyrofit.api.curves import Curves as Curves
 from pyrofit.api.diagnosing import Diagnosis as Diagnosis
 from pyrofit.api.diagnosing import diagnose as diagnose
 from pyrofit.api.drafting import new_study as new_study
+from pyrofit.api.ensemble import Ensemble as Ensemble
 from pyrofit.api.fitted import Fit as Fit
 from pyrofit.api.fitting import fit as fit
 from pyrofit.api.isoconversional import Isoconversional as Isoconversional
@@ -27,6 +28,7 @@ __all__ = [
     "Comparison",
     "Curves",
     "Diagnosis",
+    "Ensemble",
     "Fit",
     "Isoconversional",
     "PyrofitError",

@@ -5,6 +5,9 @@ from collections.abc import Iterable, Mapping, Sequence
 from numbers import Real
 from typing import Any
 
+import numpy as np
+import pandas as pd
+
 from pyrofit.config import Study, parameters_in
 from pyrofit.config.numbers import described
 from pyrofit.config.resolve import diagnosed_material
@@ -12,6 +15,7 @@ from pyrofit.config.uses import parameters_of_heated
 from pyrofit.errors import StudyError, suggest
 from pyrofit.experiments import kind_of
 from pyrofit.model.base import numbers
+from pyrofit.solver.arrays import FloatArray
 
 Key = tuple[str, str]
 """Names of an experiment and a signal."""
@@ -47,6 +51,38 @@ def si_values(study: Study, given: Mapping[str, float]) -> dict[str, float]:
         found[name] = float(value) * study.parameters[name].factor
     _check_rules(study, found)
     return found
+
+
+def si_columns(study: Study, given: pd.DataFrame) -> dict[str, FloatArray]:
+    """Return the columns of a table of sets in SI units, shape (sets,) each.
+
+    Raises
+    ------
+    StudyError
+        As of `si_values`, or there is no set, or a name stands above two columns.
+    """
+    if not len(given):
+        raise StudyError("values: the table has no row; give a set of parameters a row")
+    names = list(given.columns)
+    if twice := sorted({str(name) for name in names if names.count(name) > 1}):
+        raise StudyError(f"values: two columns are named '{twice[0]}'; drop one")
+    try:
+        cells = given.to_numpy(float)
+    except (TypeError, ValueError):
+        raise StudyError("values: the table has cells that are no numbers; convert them") from None
+    if not np.isfinite(cells).all():
+        row, column = np.argwhere(~np.isfinite(cells))[0]
+        raise StudyError(
+            f"values: row {given.index[row]}, parameter '{names[column]}': "
+            f"{cells[row, column]} is no finite number; drop the row, or correct it"
+        )
+    # The rules of the places are limits, so the ends of a column show whether all values keep them.
+    for ends in (cells.min(axis=0), cells.max(axis=0)):
+        si_values(study, dict(zip(names, ends.tolist(), strict=True)))
+    return {
+        name: column * study.parameters[name].factor
+        for name, column in zip(names, cells.T, strict=True)
+    }
 
 
 def _check_rules(study: Study, si: Mapping[str, float]) -> None:

@@ -1,11 +1,20 @@
 """Curves of a study's experiments for given values of its parameters."""
 
 from collections.abc import Iterable, Mapping
+from typing import overload
 
 import pandas as pd
 
-from pyrofit.api.choices import Key, complete, experiments_of, si_values, with_kinetics_of
+from pyrofit.api.choices import (
+    Key,
+    complete,
+    experiments_of,
+    si_columns,
+    si_values,
+    with_kinetics_of,
+)
 from pyrofit.api.curves import SIMULATED, Curves, with_units
+from pyrofit.api.ensemble import Ensemble, ensemble_of
 from pyrofit.api.measurements import Data, given_keys, measured
 from pyrofit.api.studies import Source, read_study
 from pyrofit.config import Study
@@ -15,6 +24,18 @@ from pyrofit.experiments import kind_of
 from pyrofit.solver.curves import Request
 
 
+@overload
+def simulate(
+    study: Source,
+    values: pd.DataFrame,
+    *,
+    experiments: str | Iterable[str] | None = None,
+    data: Data | None = None,
+    kinetics: str | None = None,
+) -> Ensemble: ...
+
+
+@overload
 def simulate(
     study: Source,
     values: Mapping[str, float] | None = None,
@@ -22,7 +43,17 @@ def simulate(
     experiments: str | Iterable[str] | None = None,
     data: Data | None = None,
     kinetics: str | None = None,
-) -> Curves:
+) -> Curves: ...
+
+
+def simulate(
+    study: Source,
+    values: Mapping[str, float] | pd.DataFrame | None = None,
+    *,
+    experiments: str | Iterable[str] | None = None,
+    data: Data | None = None,
+    kinetics: str | None = None,
+) -> Curves | Ensemble:
     """Simulate experiments of a study.
 
     Parameters
@@ -31,7 +62,8 @@ def simulate(
         A study, its file, or its keys.
     values
         Values of parameters, in the units of the study. Parameters with a ``value`` in the study
-        may be left out.
+        may be left out. A table has a set a row and a parameter a column: its sets are simulated
+        side by side.
     experiments
         Names of experiments, by default all.
     data
@@ -41,12 +73,18 @@ def simulate(
         'described', 'fitted' or a published set of the study; by default those that its diagnosis
         and its fits start from.
 
+    Returns
+    -------
+    Curves or Ensemble
+        The curves of one set, or of all sets of a table, of the shape (sets, points) each. Sets
+        whose run does not finish are NaN there, and listed in ``failed``.
+
     Raises
     ------
     StudyError
         A name is not known, or a parameter has no value.
     DataError
-        A simulation does not finish.
+        A simulation of the only set does not finish.
 
     Examples
     --------
@@ -57,7 +95,6 @@ def simulate(
     """
     study = with_kinetics_of(read_study(study), kinetics)
     names = experiments_of(study, experiments)
-    every = complete(study, si_values(study, {} if values is None else values), names)
     if data is None:
         requests = {
             name: kind_of(study.experiments[name]).synthetic(
@@ -68,6 +105,12 @@ def simulate(
     else:
         keys = [key for key in given_keys(study, data) if key[0] in names]
         requests = at_times(study, measured(study, keys, data))
+        names = list(requests)
+    if isinstance(values, pd.DataFrame):
+        columns = si_columns(study, values)
+        of_first = complete(study, {n: float(c[0]) for n, c in columns.items()}, names)
+        return ensemble_of(study, values, {**of_first, **columns}, requests)
+    every = complete(study, si_values(study, {} if values is None else values), names)
     return Curves(study, simulated(study, every, requests), SIMULATED)
 
 
