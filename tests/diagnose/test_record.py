@@ -57,6 +57,18 @@ def test_gap_is_that_of_the_curves(diagnosed: Diagnosed) -> None:
         assert row["points"] == len(part)
 
 
+def test_held_out_signals_tell_where_a_prediction_promises_enough(diagnosed: Diagnosed) -> None:
+    content = diagnosed("k_T").content
+    (evidence,) = content["verdict"]["evidence"]
+    expected = {n: g for n, g in evidence["expected"].items() if n.startswith("held out")}
+    assert expected
+    least = content["settings"]["informative_gain"]
+    for row in content["gap"]:
+        of_place = [g for n, g in expected.items() if row["experiment"] in n] or [*expected.values()]
+        tells = any(gain is None or gain >= least for gain in of_place)
+        assert row["tells"] == (tells if row["role"] == "held out" else None)
+
+
 def test_chi_squares_of_the_channels_add_up(diagnosed: Diagnosed) -> None:
     content = diagnosed("k_T").content
     total = sum(row["chi2_before"] for row in content["gap"])

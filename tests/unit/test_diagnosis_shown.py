@@ -27,6 +27,7 @@ from pyrofit.results.schema_page import schema_page
 from pyrofit.show import diagnosis_page as report
 from pyrofit.show import style
 from pyrofit.show.diagnosis.curves import _pairs as signal_pairs
+from pyrofit.show.diagnosis.sentences import gap_closed
 from pyrofit.show.diagnosis.words import leading, prediction_name, ranked
 from pyrofit.show.diagnosis_page import (
     diagnosis_tables,
@@ -180,6 +181,7 @@ def gap_of(channel: tuple[str, str, str], effects: list[str]) -> dict[str, Any]:
         "experiment": experiment,
         "signal": signal,
         "role": role,
+        "tells": True if effects and role == "held out" else None,
         "points": 80,
         "unit": UNITS[signal],
         "noise_sd": sd,
@@ -382,6 +384,23 @@ def test_values_and_units_of_the_gap_are_those_a_person_works_out(tmp_path: Path
     assert (rate["before_sd"], rate["after_sd"]) == (5.0, 1.0)
     back = gap.loc[("slab_60", "back temperature")]
     assert (back["role"], back["rms_before"], back["unit"]) == ("held out", 4.0, "K")
+
+
+def test_errors_that_rise_count_only_where_a_signal_can_tell(tmp_path: Path) -> None:
+    study, _ = diagnosed(tmp_path, "named")
+    content = found(study, "named")
+    rate, back = (g for g in content["gap"] if g["experiment"] == "slab_60")
+    rate |= {"role": "held out", "tells": True}
+    back["tells"] = False
+    rate["rms_after"], back["rms_after"] = 0.5 * rate["rms_before"], 2.0 * back["rms_before"]
+    said = gap_closed(content)
+    assert "rises with the effects for 0 of 1 held-out signals that can tell" in said
+    assert "signals that cannot tell: 1, of these 1 with a larger error" in said
+    assert "log score" not in said
+    rate["rms_after"] = 2.0 * rate["rms_before"]
+    assert "for 1 of 1 held-out signals that can tell" in gap_closed(content)
+    content["verdict"]["effects"] = []
+    assert "held-out signals" not in gap_closed(content)
 
 
 @pytest.mark.parametrize("kind", ["none", "unknown"])

@@ -193,6 +193,10 @@ class OfGap(Record):
     experiment: str = Field(description="experiment")
     signal: str = Field(description="signal")
     role: str = Field(description="`calibration` or `held out`")
+    tells: bool | None = Field(
+        description="a held-out test can tell whether an effect of the verdict is real; null if "
+        "fitted, or without such effects"
+    )
     points: int = Field(description="number of points")
     unit: str = Field(description="SI unit of the signal")
     noise_sd: float = Field(description="median standard deviation of the noise [`unit`]")

@@ -127,6 +127,12 @@ def _several(trial: FittedModel) -> list[str]:
     return [f"{HELD_OUT}: {place}" for place in places] if len(places) > 1 else []
 
 
+def prediction_of(trial: FittedModel, channel: int) -> str:
+    """Return the name of the prediction that a held-out channel belongs to."""
+    place = f"{HELD_OUT}: {_place(trial.model.base, channel)}"
+    return place if _several(trial) else HELD_OUT
+
+
 def _place(base: Base, channel: int) -> str:
     """Return the laboratory of a channel, else the name of its test."""
     name, _ = base.channels[channel]

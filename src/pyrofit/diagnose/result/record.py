@@ -11,7 +11,8 @@ from pyrofit.config.resolve import obstacle
 from pyrofit.cost.distances import root_mean_square
 from pyrofit.diagnose.base.fitted import FittedModel
 from pyrofit.diagnose.base.model import Base, model_of
-from pyrofit.diagnose.base.prediction import HELD_OUT
+from pyrofit.diagnose.base.prediction import HELD_OUT, prediction_of
+from pyrofit.diagnose.judge.claim_tests import Trust
 from pyrofit.diagnose.judge.final_fits import FinalFits
 from pyrofit.diagnose.judge.findings import Finding, Verdict
 from pyrofit.diagnose.judge.intervals import interval, values_of
@@ -52,7 +53,7 @@ def content(
         "not_tried": _not_tried(study),
         "candidates": candidates(found, verdict, final, processes),
         "extended": {"parameters": _extended(study, found, final)},
-        "gap": _gap(found, misfits),
+        "gap": _gap(found, verdict, misfits),
     }
 
 
@@ -76,9 +77,14 @@ def _verdict(verdict: Verdict) -> dict[str, Any]:
     }
 
 
+def _trust(finding: Finding) -> Trust:
+    """Return the evidence for or against the leading effect."""
+    return (finding.kept or list(finding.judged))[0].trust
+
+
 def _evidence(finding: Finding) -> dict[str, Any]:
     """Return the tests of the leading effect besides its gain."""
-    trust = (finding.kept or list(finding.judged))[0].trust
+    trust = _trust(finding)
     return {
         "agreement": trust.disagree,
         "predictions": trust.gains,
@@ -200,8 +206,16 @@ def _unit(base: Base, channel: int) -> str:
     return base.likelihood.problem.runs[name].experiment.quantity(signal).unit_text
 
 
-def _gap(found: Search, misfits: Misfits) -> list[dict[str, Any]]:
+def _gap(found: Search, verdict: Verdict, misfits: Misfits) -> list[dict[str, Any]]:
     base = found.base.model.base
+    powers = [_trust(finding).powers for finding in verdict.findings]
+
+    def tells(channel: int) -> bool | None:
+        if channel in base.calibrated or not powers:
+            return None
+        name = prediction_of(found.base, channel)
+        return any(of.get(name, 0.0) >= SETTINGS.informative_gain for of in powers)
+
     rows = []
     for i, (before, after) in enumerate(misfits):
         noise = base.likelihood.noise[i]
@@ -210,6 +224,7 @@ def _gap(found: Search, misfits: Misfits) -> list[dict[str, Any]]:
             "experiment": name,
             "signal": signal,
             "role": _role(found, i),
+            "tells": tells(i),
             "points": noise.sd.size,
             "unit": _unit(base, i),
             "noise_sd": float(np.median(noise.total_sd)),

@@ -28,6 +28,7 @@ def gap(study: Study, results: Results) -> pd.DataFrame:
                 "role": ROLES.get(g["role"], g["role"]),
                 "experiment": title_of(study, g["experiment"]),
                 "signal": words_of(study, g),
+                "tells": {True: "yes", False: "no", None: None}[g["tells"]],
                 "points": int(g["points"]),
                 "rms_before": before,
                 "rms_after": after,
@@ -39,6 +40,8 @@ def gap(study: Study, results: Results) -> pd.DataFrame:
             }
         )
     frame = pd.DataFrame(rows)
+    if frame["tells"].isna().all():
+        frame = frame.drop(columns="tells")
     added = bool(found["verdict"]["effects"])
     return frame if added else frame.drop(columns=["rms_after", "closed_percent", "after_sd"])
 
@@ -50,8 +53,11 @@ TABLE = Table(
     title="Errors before and after",
     note="Root mean square of simulated minus measured, before and after the effects of "
     "the verdict were added. Whitened: divided by the standard deviation of the noise, with its "
-    "correlation removed; 1 is noise alone. Held-out signals were not fitted.",
+    "correlation removed; 1 is noise alone. Held-out signals were not fitted. "
+    "A held-out signal can tell whether an effect of the verdict is real if the effect changes it "
+    "by more than its noise and its uncertain apparatus leave open.",
     headings={
+        "tells": "can tell",
         "rms_before": "rms before",
         "rms_after": "rms after",
         "noise_sd": "sd of the noise",

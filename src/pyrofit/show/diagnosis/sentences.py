@@ -1,6 +1,7 @@
 """Results of the diagnosis, in sentences."""
 
 import math
+from collections.abc import Sequence
 
 from pyrofit.analysis.uses import title_of
 from pyrofit.config import Study
@@ -117,17 +118,33 @@ def gap_closed(found: Found) -> str:
 
 
 def _larger_errors(found: Found) -> str:
-    """Say of how many held-out signals the error rises, which the log score may hide."""
+    """Say of how many held-out signals the error rises, apart those that can tell and cannot."""
     rows = [g for g in found["gap"] if g["role"] == HELD_OUT]
-    rising = sum(float(g["rms_after"]) > float(g["rms_before"]) for g in rows)
-    if not found["verdict"]["effects"] or not rising:
+    if not found["verdict"]["effects"] or not rows:
         return ""
-    verb = "rises" if rising == 1 else "rise"
-    return (
-        f" The root mean square errors of {rising} of {len(rows)} held-out signals {verb} with the "
-        "effects. The log score may improve all the same: it weighs errors by the uncertainty of "
-        "the prediction and by correlated noise."
-    )
+    telling = [g for g in rows if g["tells"]]
+    other = [g for g in rows if not g["tells"]]
+    said = ""
+    if telling:
+        said += (
+            f" The root mean square error rises with the effects for {_rising(telling)} of "
+            f"{len(telling)} held-out signals that can tell whether an effect is real."
+        )
+        if _rising(telling):
+            said += (
+                " The log score may improve all the same: it weighs errors by the uncertainty of "
+                "the prediction and by correlated noise."
+            )
+    if other:
+        said += (
+            f" Held-out signals that cannot tell: {len(other)}, of these {_rising(other)} with a "
+            "larger error. Their noise and their uncertain apparatus hide the effects."
+        )
+    return said
+
+
+def _rising(rows: Sequence[Found]) -> int:
+    return sum(float(g["rms_after"]) > float(g["rms_before"]) for g in rows)
 
 
 def certainty(study: Study, found: Found) -> str:
