@@ -8,6 +8,7 @@ import pytest
 
 from pyrofit import cli
 from pyrofit.data.suspect import suspicions
+from pyrofit.new_study.write import drafted
 from pyrofit.quantities import known_quantities
 
 TIME = np.arange(0.0, 3000.0, 6.0)
@@ -22,6 +23,10 @@ SUSPECT = {
     "K under degrees C": ((TIME, KELVIN + 273.15, MASS), "so that it starts at 300 K"),
     "constant mass": ((TIME, KELVIN, 1.0 + 0 * TIME), "falls by no more than 0 %"),
     "rising mass": ((TIME, KELVIN, 1.0 + 0.33 * TIME / TIME[-1]), "the mass rises by 32 %"),
+    "cooling": (
+        (TIME, KELVIN - 2.0 * np.clip(KELVIN - 700.0, 0.0, None), MASS),
+        "from then on the record cools, which is no heating. Give `until_s: 24",
+    ),
     "dried sample": ((TIME, KELVIN, 0.93 * MASS), "it starts at 93.0 % of the initial mass"),
     "lost rows": ((TIME[FEW], KELVIN[FEW], MASS[FEW]), "no point lies between 1194 s and 1440 s"),
     "pause of a day": ((PAUSE, KELVIN, MASS), "no point lies between 1500 s and 87906 s"),
@@ -80,8 +85,76 @@ def test_cooling_after_the_heating_is_left_out(
     assert cli.main(["init", "x", "--tga", "a.csv"]) == 0
     out, err = capsys.readouterr()
     assert "is valid" in out
-    assert "it cools from then on" in out
+    assert "a.csv: read until 3048 s: from then on the record cools" in out
     text = Path("x/x.yaml").read_text("utf-8")
     assert "heating_rate_K_min: 10\n" in text
     assert "until_s: 3048 # from then on the record cools" in text
     assert "look at" not in err
+
+
+def made(tmp_path: Path, above: str, *columns: np.ndarray, name: str = "a.csv") -> str:
+    """Return the study of a TGA file with lines above its table."""
+    rows = "\n".join(",".join(f"{x:.5f}" for x in row) for row in zip(*columns, strict=True))
+    text = f"{above}Time (s),Temperature (K),Mass (%)\n{rows}\n"
+    (tmp_path / name).write_text(text, encoding="utf-8")
+    return drafted("x", {"tga": [tmp_path / name]})[0]
+
+
+def burnt(start: float, lasts: float, *, held: float) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
+    """Return a heating to 900 K, a hold, and the loss of a third of the residue in it."""
+    time = np.arange(0.0, 3600.0 + held, 6.0)
+    kelvin = np.minimum(300.0 + time / 6.0, 900.0)
+    mass = 0.3 + 0.7 / (1.0 + np.exp((kelvin - 640.0) / 12.0))
+    mass -= 0.1 * np.clip((time - start) / lasts, 0.0, 1.0)
+    noise = np.random.default_rng(3).normal(0.0, 3e-4, time.size)
+    return time, kelvin, 100.0 * (mass + noise)
+
+
+@pytest.mark.parametrize("start", [3900.0, 4500.0])
+def test_a_burn_off_at_the_held_end_is_no_heating(start: float, tmp_path: Path) -> None:
+    text = made(tmp_path, "", *burnt(start, 300.0, held=1800.0))
+    (line,) = [line for line in text.splitlines() if "until_s" in line]
+    assert "the mass falls anew at a held temperature" in line
+    assert start - 12.0 <= float(line.split()[1]) <= start + 18.0
+    assert "upper: 0.35, label: char yield" in text  # 0.3 +- 0.05 at the end of the heating
+
+
+def test_a_slow_loss_at_the_held_end_is_heating(tmp_path: Path) -> None:
+    time, kelvin, mass = burnt(0.0, 1.0, held=1800.0)
+    mass += 8.0 * np.exp(-np.clip(time - 3600.0, 0.0, None) / 600.0) * (time > 2500.0)
+    assert "until_s" not in made(tmp_path, "", time, kelvin, mass)
+
+
+STEPS = """Sample Weight: 4.0 mg
+Switch the Gas to Nitrogen at 45.0 ml/min
+1) Hold for 2.0 min at 300 K
+2) Heat from 300 K to 800 K at 10 K/min
+3) Heat from 800 K to 900 K at 10 K/min
+Switch the Gas to {gas} at 45.0 ml/min
+Software: 13
+
+"""
+
+
+def test_heating_ends_where_the_steps_of_a_run_change_the_gas(tmp_path: Path) -> None:
+    record = burnt(1e6, 1.0, held=60.0)
+    text = made(tmp_path, STEPS.format(gas="Oxygen"), *record)
+    assert "until_s: 3120 # from then on the gas is Oxygen" in text
+    assert "until_s" not in made(tmp_path, STEPS.format(gas="Argon"), *record)
+
+
+def test_a_change_of_gas_without_a_time_is_asked_for(tmp_path: Path) -> None:
+    above = "Gas1: Nitrogen\nGas2: Air\n1: Ramp 10 K/min\n2: Select gas: 2\nRun: 3\n\n"
+    text = made(tmp_path, above, *burnt(1e6, 1.0, held=60.0))
+    assert "# CHANGE: the gas is changed to Air in the run; give `until_s`" in text
+
+
+@pytest.mark.parametrize(("dried", "until"), [(390.0, False), (600.0, True)])
+def test_a_cooling_after_a_drying_belongs_to_the_heating(
+    dried: float, until: bool, tmp_path: Path
+) -> None:
+    kelvin = np.r_[np.arange(300.0, dried), np.arange(dried, 310.0, -5.0), np.arange(310.0, 900.0)]
+    time = 6.0 * np.arange(kelvin.size)
+    mass = 30.0 + 70.0 / (1.0 + np.exp((np.maximum.accumulate(kelvin) - 640.0) / 12.0))
+    text = made(tmp_path, "", time, kelvin, mass)
+    assert ("until_s" in text) == until

@@ -4,6 +4,7 @@ import re
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
 
+from pyrofit.data.gas_steps import INERT, OXYGEN, change_of_gas
 from pyrofit.quantities.units import SCALES, unit_key
 
 _FIRST = 200
@@ -26,10 +27,6 @@ _GAS = re.compile(
 )
 _EXO = re.compile(r"exo(?:therm(?:ic|al)?)?", re.IGNORECASE)
 _UNIT = re.compile(r"[\[(]([^\[\]]*)[\])]$|/\s*(\S+)$")
-_OXYGEN = re.compile(
-    r"(?<![a-z])(?:(?:synthetic )?air|luft|o2|oxygen|sauerstoff|oxyg.ne)(?![a-z])", re.I
-)
-_INERT = re.compile(r"(?<![a-z])(?:n2|nitrogen|stickstoff|azote|ar|argon|he|helium)(?![a-z])", re.I)
 
 
 @dataclass(frozen=True)
@@ -46,12 +43,18 @@ class Stated:
         Gas around the sample, in the words of the file.
     flux_kW_m2
         Radiant flux [kW/m2].
+    then_gas
+        A gas with oxygen to which the first gas is changed in the run; nothing where it is not.
+    then_gas_s
+        Time of that change [s], where the steps of the run tell it.
     """
 
     mass_kg: float | None = None
     exothermic_up: bool | None = None
     gas: str = ""
     flux_kW_m2: float | None = None
+    then_gas: str = ""
+    then_gas_s: float | None = None
 
     @property
     def in_oxygen(self) -> bool:
@@ -65,7 +68,7 @@ def holds_oxygen(gas: str) -> bool:
     >>> [holds_oxygen(gas) for gas in ("air", "N2", "Synthetic air", "O2-21", "chair")]
     [True, False, True, True, False]
     """
-    return bool(_OXYGEN.search(gas))
+    return bool(OXYGEN.search(gas))
 
 
 def stated_in(lines: Sequence[Sequence[str]]) -> Stated:
@@ -74,10 +77,10 @@ def stated_in(lines: Sequence[Sequence[str]]) -> Stated:
     A fact stands as key and value in one line, or as a key above its value.
 
     >>> stated_in([["#SAMPLE MASS /mg:", "5.000"], ["#EXO:", "+1"], ["Purge Gas", "air"]])
-    Stated(mass_kg=5e-06, exothermic_up=True, gas='air', flux_kW_m2=None)
+    Stated(mass_kg=5e-06, exothermic_up=True, gas='air', flux_kW_m2=None, then_gas='', then_gas_s=None)
     >>> stated_in([["Flux (kW/m2)", "tig (s)"], ["25", "85"]]).flux_kW_m2
     25.0
-    """
+    """  # noqa: E501
     rows = [
         [cell.strip().strip('"#:= ') for line in (row,) for cell in line] for row in lines[:_FIRST]
     ]
@@ -94,7 +97,7 @@ def stated_in(lines: Sequence[Sequence[str]]) -> Stated:
                 masses |= _number(value, unit or behind, "mass")
             elif _FLUX.fullmatch(key):
                 fluxes |= _number(value, unit or behind, "heat flux")
-            elif _GAS.fullmatch(key) and (_OXYGEN.search(value) or _INERT.search(value)):
+            elif _GAS.fullmatch(key) and (OXYGEN.search(value) or INERT.search(value)):
                 gases[value.strip()] = None
             if (up := _exothermic_up(cell, value)) is not None:
                 signs.add(up)
@@ -105,6 +108,9 @@ def stated_in(lines: Sequence[Sequence[str]]) -> Stated:
         found = replace(found, exothermic_up=signs.pop())
     if len(fluxes) == 1:
         found = replace(found, flux_kW_m2=fluxes.pop() / 1e3)
+    if (change := change_of_gas([" ".join(line) for line in lines[:_FIRST]])) is not None:
+        first, then, at = change
+        return replace(found, gas=first, then_gas=then, then_gas_s=at)
     return replace(found, gas=" and ".join(gases))
 
 

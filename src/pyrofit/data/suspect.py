@@ -6,6 +6,7 @@ import numpy as np
 import pandas as pd
 
 from pyrofit.data.csvfile import FloatArray
+from pyrofit.data.heating import end_of_heating
 from pyrofit.quantities.base import Quantity
 from pyrofit.quantities.units import ICE_POINT_K
 
@@ -20,8 +21,6 @@ _LEAST_FALL, _LEAST_RISE, _FALLEN = 0.01, 0.05, 0.97
 _SMOOTHED = 9
 _GAP, _GAP_SHARE = 5.0, 0.02
 """A gap is this many usual long steps, and this share of the record."""
-_COOLED_K = 20.0
-"""Fall of the temperature from which on a record counts as cooling."""
 
 
 def suspicions(quantity: Quantity, frame: pd.DataFrame) -> list[str]:
@@ -42,25 +41,9 @@ def suspicions(quantity: Quantity, frame: pd.DataFrame) -> list[str]:
     >>> suspicions(known_quantities()["mass_fraction"], frame)[0][21:55]
     'the mass falls by no more than 0 %'
     """
-    checks: tuple[Callable[[Quantity, pd.DataFrame], str], ...] = _start, _mass, _first, _gap
+    checks: tuple[Callable[[Quantity, pd.DataFrame], str], ...] = _start, _mass, _first, _gap, _end
     said = (check(quantity, frame) for check in checks)
     return [f"{LOOK}{text}" for text in said if text]
-
-
-def cooling_from_s(time_s: FloatArray, temperature_K: FloatArray) -> float | None:
-    """Return the time [s] of the highest temperature, where the record cools from there on.
-
-    A hold at the highest temperature belongs to the heating.
-
-    >>> t = np.arange(0.0, 100.0)
-    >>> cooling_from_s(t, 300.0 + np.minimum(10.0 * t, 600.0 - 5.0 * np.maximum(t - 80.0, 0.0)))
-    81.0
-    """
-    top = float(temperature_K.max())
-    if top - float(temperature_K[-1]) < _COOLED_K:
-        return None
-    hot = np.flatnonzero(temperature_K > top - 0.5 * _COOLED_K)
-    return float(time_s[int(hot[-1])])
 
 
 def _temperature(quantity: Quantity, frame: pd.DataFrame) -> FloatArray | None:
@@ -130,6 +113,14 @@ def _first(quantity: Quantity, frame: pd.DataFrame) -> str:
         f"it starts at {100.0 * first:.1f} % of the initial mass, the model at 100 %. If "
         "the sample was dried or heated before, divide the column by its first value"
     )
+
+
+def _end(quantity: Quantity, frame: pd.DataFrame) -> str:
+    """Find a cooling or a burn-off behind the heating."""
+    if not quantity.against_temperature:
+        return ""
+    end = end_of_heating(frame, quantity)
+    return "" if end is None else f"at {end.time_s:g} s, {end.why}. Give `until_s: {end.time_s:g}`"
 
 
 def _gap(quantity: Quantity, frame: pd.DataFrame) -> str:

@@ -10,15 +10,16 @@ import numpy as np
 import pandas as pd
 
 from pyrofit.data.csvfile import Table, read_table
+from pyrofit.data.heating import End, end_of_heating
 from pyrofit.data.series import read_series
 from pyrofit.data.spec import SeriesSpec
 from pyrofit.data.stated import holds_oxygen
-from pyrofit.data.suspect import cooling_from_s
 from pyrofit.errors import DataError, StudyError
 from pyrofit.experiments import KINDS, files_of
 from pyrofit.experiments.base import Kind
 from pyrofit.experiments.from_files import Told
 from pyrofit.new_study.columns import Found, recognise
+from pyrofit.quantities import known_quantities
 from pyrofit.quantities.units import PER_AREA, PER_MASS, PER_START
 
 USUAL_AREA_M2 = 0.01
@@ -70,8 +71,10 @@ class Measured:
         How its file was read, where that is not as a table in UTF-8 with decimal points.
     timeless
         Whether its file has temperatures without times.
-    cools_from_s
-        Time [s] from which on a heated sample cools, which the study leaves out.
+    end
+        The end of the heating of a sample; the study leaves out what follows.
+    then_gas
+        A gas with oxygen to which the gas is changed at a time that the file does not tell.
     gas
         The gas around the sample, as the file or its name tells it.
     """
@@ -89,7 +92,8 @@ class Measured:
     repeats: tuple["Measured", ...] = ()
     mended: tuple[str, ...] = ()
     timeless: bool = False
-    cools_from_s: float | None = None
+    end: End | None = None
+    then_gas: str = ""
     gas: str = ""
 
     @property
@@ -165,9 +169,9 @@ def measured(kind: str, path: Path) -> Measured:
     if timeless:
         signals = tuple(replace(found, missing=()) for found in signals)
     frames, thinned = _frames(table, signals, number / 60.0 if timeless else None)
-    cools = _cooling(frames)
-    if cools is not None:
-        frames = {name: frame[frame["time_s"] <= cools] for name, frame in frames.items()}
+    end = _end_of_heating(frames, table)
+    if end is not None:
+        frames = {name: frame[frame["time_s"] <= end.time_s] for name, frame in frames.items()}
     recorded = files.recorded(number, frames)
     if recorded is not None and not timeless:
         number, told = recorded, "record"
@@ -190,7 +194,8 @@ def measured(kind: str, path: Path) -> Measured:
         frames,
         mended=(*table.mended, *thinned),
         timeless=timeless,
-        cools_from_s=cools,
+        end=end,
+        then_gas=table.stated.then_gas if end is None else "",
         gas=table.stated.gas or gas_of(path.stem),
     )
 
@@ -207,13 +212,14 @@ def gas_of(name: str) -> str:
     return match[1] if match else ""
 
 
-def _cooling(frames: Mapping[str, pd.DataFrame]) -> float | None:
-    """Return the time [s] from which on a heated sample cools; None where it does not."""
-    for frame in frames.values():
-        if "temperature_K" in frame:
-            time, temperature = (frame[c].to_numpy(float) for c in ("time_s", "temperature_K"))
-            return cooling_from_s(time, temperature)
-    return None
+def _end_of_heating(frames: Mapping[str, pd.DataFrame], table: Table) -> End | None:
+    """Return the end of the heating of a sample; None where the whole record is one."""
+    ends = (
+        end_of_heating(frame, known_quantities()[name], table.stated)
+        for name, frame in frames.items()
+        if known_quantities()[name].against_temperature
+    )
+    return min((end for end in ends if end is not None), default=None)
 
 
 def divisor_of(found: Found) -> tuple[str, float] | None:

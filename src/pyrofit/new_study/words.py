@@ -58,8 +58,10 @@ def _signal(run: Measured, found: Found) -> list[str]:
         lines.append(f"  {divisor[0]}: {divisor[1]:g} # {why}")
     if (gas := gas_line(run)) != "":
         lines.append(f"  # {gas}")
-    if (cools := run.cools_from_s) is not None:
-        lines.append(f"  until_s: {cools:g} # from then on the record cools, which is no heating")
+    if run.end is not None:
+        lines.append(f"  until_s: {run.end.time_s:g} # {run.end.why}")
+    elif run.then_gas:
+        lines.append(f"  # CHANGE: {_gas_changes(run)}")
     if found.of.has_sign and (up := found.stated.exothermic_up) is not None:
         lines.append(f"  endothermic: {'negative' if up else 'positive'} # as the file states")
     elif found.of.has_sign:
@@ -92,8 +94,10 @@ def said(run: Measured) -> list[str]:
             lines.append(f"{run.path}: {found.signal}: {remark}")
     if (gas := gas_line(run)) != "":
         lines.append(f"{run.path}: {gas}")
-    if run.cools_from_s is not None:
-        lines.append(f"{run.path}: read until {run.cools_from_s:g} s: it cools from then on")
+    if run.end is not None:
+        lines.append(f"{run.path}: read until {run.end.time_s:g} s: {run.end.why}")
+    elif run.then_gas:
+        lines.append(f"{run.path}: {_gas_changes(run)}")
     return lines + [f"{run.path}: '{n}' is not used: {why}" for n, why in run.left.items()]
 
 
@@ -137,6 +141,10 @@ def gas_line(run: Measured) -> str:
     if not run.in_oxygen:
         return ""
     return f"The gas is {run.gas}: the model has no oxidation. Leave the test out, or judge its fit"
+
+
+def _gas_changes(run: Measured) -> str:
+    return f"the gas is changed to {run.then_gas} in the run; give `until_s`, the time [s] of that"
 
 
 def assumed(records: Iterable[Measured]) -> list[str]:

@@ -89,7 +89,7 @@ def mass_loss(frames: Frames) -> Loss | None:
     mass, temperature = frame["mass_fraction"].to_numpy(), frame["temperature_K"].to_numpy()
     rest = _rest(mass)
     below = np.flatnonzero(mass < 0.5 * (mass[0] + rest))
-    if not below.size or rest >= 0.98:
+    if not below.size or rest >= 0.98 or mass[0] <= 0.0:
         return None
     late = mass[9 * mass.size // 10]
     goes_on = late - float(np.median(mass[-5:])) > STILL * (mass[0] - rest)
