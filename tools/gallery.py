@@ -12,27 +12,21 @@ import shutil
 import subprocess
 import sys
 import tempfile
-from collections.abc import Iterator
+from collections.abc import Iterator, Mapping
 from dataclasses import dataclass
 from io import BytesIO
 from itertools import product
 from pathlib import Path
 
 from PIL import Image
-from pyrofit.show.robustness import figure as robustness
 
 from pyrofit.config.read import read_study
 from pyrofit.results import diagnosis
 from pyrofit.results.files import Results
 from pyrofit.show import diagnosis_page
 from pyrofit.show.figure import Figure
-from pyrofit.show.scheme import figure as scheme
 from pyrofit.show.sections import FIGURES
-from pyrofit.steps.posterior.figures import FIGURES as POSTERIOR
-from pyrofit.steps.rescore.figures import FIGURES as RESCORE
-from pyrofit.steps.sensitivity.figures import FIGURES as SENSITIVITY
-from pyrofit.steps.stability.figures import FIGURES as STABILITY
-from pyrofit.steps.worth.figures import FIGURES as WORTH
+from pyrofit.steps import known_steps
 
 DOCS = Path(__file__).resolve().parents[1] / "docs"
 WIDTHS = (1000, 900, 800, 700, 600)
@@ -60,20 +54,9 @@ _BROWSER = (
 )
 
 
-def single(name: str, title: str, caption: str) -> dict[str, Figure]:
-    """Return the only figure of a step as a mapping."""
-    return {name: Figure(10, bool, lambda study, results: None, title, caption)}  # type: ignore
-
-
-FOLDERS: dict[str, dict[str, Figure]] = {
+FOLDERS: dict[str, Mapping[str, Figure]] = {
     "figures": FIGURES,
-    "posterior": POSTERIOR,
-    "rescore": RESCORE,
-    "robustness": single("robustness", robustness.TITLE, robustness.CAPTION),
-    "scheme": single("scheme", scheme.TITLE, scheme.CAPTION),
-    "sensitivity": SENSITIVITY,
-    "stability": STABILITY,
-    "worth": WORTH,
+    **{name: step.load("page").PAGE.figures for name, step in known_steps().items()},
 }
 """Figures by folder of the results; those of a diagnosis depend on it."""
 

@@ -35,7 +35,6 @@ STUDY = (
             "isoconversional",
             "predict",
             "compare",
-            "scheme",
             "diagnose",
         )
     ),
@@ -57,7 +56,6 @@ CATALOGUES = (
             "isoconversional",
             "kinetics",
             "optimisers",
-            "scheme",
             "truth",
             "validation",
         )

@@ -9,16 +9,17 @@ import pytest
 
 from pyrofit.config import Study, read_study
 from pyrofit.errors import DataError
-from pyrofit.results import scheme
 from pyrofit.results.files import Results, write_csv
+from pyrofit.results.step import exists
 from pyrofit.scheme.choice import Choice
 from pyrofit.scheme.schemes import Scheme
 from pyrofit.scheme.settings import Settings
 from pyrofit.scheme.twins import make_twin
-from pyrofit.show import scheme_page
 from pyrofit.simulate import simulate_tga
 from pyrofit.solver.curves import Request
-from pyrofit.stages.scheme import choose
+from pyrofit.steps.scheme import record as scheme
+from pyrofit.steps.scheme.compute import run, write
+from pyrofit.steps.scheme.page import PAGE
 
 
 @dataclass(frozen=True)
@@ -34,7 +35,7 @@ def made(tmp_path_factory: pytest.TempPathFactory) -> Made:
     results = Results(tmp_path_factory.mktemp("results"))
     for (name, signal), frame in setting.measurements.items():
         write_csv(results.measurement(name, signal), frame)
-    return Made(setting.study, results, choose(setting.study, results, lambda text: None))
+    return Made(setting.study, results, run(setting.study, results, print, 1))
 
 
 def test_what_is_written_is_what_was_chosen(made: Made) -> None:
@@ -54,7 +55,7 @@ def test_intervals_hold_the_fit_and_stay_within_limits(made: Made) -> None:
 
 
 def test_study_with_the_chosen_scheme_simulates_the_chosen_curves(made: Made) -> None:
-    extended = read_study(made.results.scheme(scheme.EXTENDED))
+    extended = read_study(made.results.of_step("scheme", scheme.EXTENDED))
     assert extended.imp.kinetics == "described"
     assert not {"T", "E"} & set(extended.parameters)
     curves = scheme.curves(made.results)
@@ -75,12 +76,24 @@ def test_study_with_the_chosen_scheme_simulates_the_chosen_curves(made: Made) ->
     assert found.signals["mass_fraction"] == pytest.approx(here["after"].to_numpy(float), abs=2e-4)
 
 
+def test_study_with_the_chosen_scheme_finds_its_files_from_anywhere(
+    made: Made, tmp_path: Path
+) -> None:
+    write(made.study, made.results, made.choice, tmp_path / "chosen.yaml")
+    chosen = read_study(tmp_path / "chosen.yaml")
+    before, after = (
+        Path(study.experiments["tga_10"].signals["mass_fraction"].file).resolve()
+        for study in (made.study, chosen)
+    )
+    assert after == before
+
+
 def test_tables_and_figure_are_written_and_make_a_section(made: Made) -> None:
-    assert not scheme.exists(made.results)
-    scheme_page.draw_and_write(made.study, made.results)
-    assert scheme.exists(made.results)
-    section = scheme_page.section(made.study, made.results)
-    assert "one reaction of order n" in section.parts[0].text  # type: ignore[union-attr]
+    assert not exists(made.study, made.results, "scheme")
+    PAGE.draw_and_write(made.study, made.results)
+    assert exists(made.study, made.results, "scheme")
+    section = PAGE.section(made.study, made.results)
+    assert "one reaction of order n" in section.said[0]
 
 
 @pytest.mark.parametrize(
@@ -94,10 +107,10 @@ def test_tables_and_figure_are_written_and_make_a_section(made: Made) -> None:
 def test_broken_results_are_refused(
     key: str, value: object, message: str, made: Made, tmp_path: Path
 ) -> None:
-    content = json.loads(made.results.scheme(scheme.FILE).read_text(encoding="utf-8"))
+    content = json.loads(made.results.of_step("scheme", scheme.FILE).read_text(encoding="utf-8"))
     other = Results(tmp_path)
-    other.scheme("").mkdir()
+    other.folder("scheme").mkdir()
     text = json.dumps({**content, key: value})
-    other.scheme(scheme.FILE).write_text(text, encoding="utf-8")
+    other.of_step("scheme", scheme.FILE).write_text(text, encoding="utf-8")
     with pytest.raises(DataError, match=message):
         scheme.read(made.study, other)

@@ -69,6 +69,7 @@ def test_step_has_all_that_workflow_command_and_report_ask_for(name: str) -> Non
     assert {file for file in inputs.files if Path(file).suffix in (".svg", ".png", ".md")} <= made
     assert bool(step.part) == bool(inputs.parts(smoke())) == bool(inputs.part_file)
     assert step.page in ("report", "diagnosis")
+    assert hasattr(step.load("compute"), "write") == bool(step.write)
 
 
 @pytest.mark.parametrize("name", STEPS)
@@ -85,6 +86,7 @@ def test_step_is_a_command_with_its_options(name: str, capsys: pytest.CaptureFix
     options = known_steps()[name].options
     for option in [] if options is None else options.model_fields:
         assert f"--{option.replace('_', '-')} " in said
+    assert ("--write FILE" in said) == bool(known_steps()[name].write)
 
 
 @pytest.mark.parametrize("name", WITH_OPTIONS)

@@ -28,6 +28,10 @@ def add(commands: Any) -> None:
                 metavar="NAME",
                 help="the part to compute; without: gather all",
             )
+        if step.write:
+            command.add_argument(
+                "--write", type=Path, metavar="FILE", help=f"write {step.write} there, too"
+            )
         command.late = partial(_add_options, step)
         add_own_options(command, partial(_run, step))
 
@@ -63,11 +67,15 @@ def _run(step: Step, given: argparse.Namespace) -> None:
     if part or not step.part:
         if given.digest is None and inputs.reads == ("measurements",):
             measurements.prepare(study, results)  # by hand, without the workflow that has read them
+        compute = step.load("compute")
         try:
-            step.load("compute").run(study, results, tell, given.cores, *part)
+            made = compute.run(study, results, tell, given.cores, *part)
         except (CostError, StudyError) as error:
             raise type(error)(f"{given.study}: {error}") from None
         write_options(study, results, step.name, *part)
+        if step.write and given.write is not None:
+            compute.write(study, results, made, given.write)
+            tell(f"{given.write}: {step.write}")
     if not part:
         check_options(study, results, step.name)
         page = step.load("page").PAGE

@@ -118,13 +118,6 @@ def kinetics(study: Study) -> dict[str, Any]:
     }
 
 
-def scheme(study: Study) -> dict[str, Any]:
-    """Everything: the study is written again with the chosen scheme, which uses two effects."""
-    more = ("volatile", "tga_lag")
-    terms = study.kinetics.cost if study.kinetics else all_terms(study)
-    return {**study.model_dump(mode="json"), "code": code_of(study, terms, more)}
-
-
 def isoconversional(study: Study) -> dict[str, Any]:
     """All masses of heated samples, and the model that is fitted to them."""
     heated = {n: _measured(study, n) for n in study.of_stage("kinetics")}

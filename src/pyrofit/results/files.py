@@ -201,10 +201,6 @@ class Results:
         """Disagreement of model and measurement, and missing effects."""
         return self.root / "diagnosis" / name
 
-    def scheme(self, name: str) -> Path:
-        """Choice of the reaction scheme."""
-        return self.root / "scheme" / name
-
     def programs(self, name: str) -> Path:
         """Files of external programs: their runs, and the timed one."""
         return self.root / "programs" / name

@@ -7,7 +7,6 @@ from pyrofit.config import Study, parameters_in
 from pyrofit.config.resolve import diagnosed_parameters, nuisances_of_tests
 from pyrofit.scheme.fit import FittedScheme
 from pyrofit.scheme.masses import masses_of
-from pyrofit.scheme.record import values_of
 
 Keys = dict[str, Any]
 
@@ -35,7 +34,7 @@ def extended_keys(
     keys: Keys = made.model_dump(mode="json", exclude_defaults=True)
     keys["name"] = f"{study.name}_scheme"
     keys["title"] = f"{study.title or study.name}, with {posed.words}"
-    values = values_of(posed, chosen)
+    values = {n: v / made.parameters[n].factor for n, v in chosen.values.items()}
     for name, value in values.items():
         keys["parameters"][name]["value"] = value
     gone = [n for n in masses_of(study).estimate if n not in values]

@@ -1,15 +1,12 @@
 """The report of a study: one page that needs nothing else, and the provenance beside it."""
 
-from typing import Any
-
 from pyrofit.config import Study
-from pyrofit.results import diagnosis, recorded, scheme
+from pyrofit.results import diagnosis, recorded
 from pyrofit.results.files import Results, write_json, write_text
 from pyrofit.show import (
     diagnosis_page,
     fds_page,
     programs_page,
-    scheme_page,
 )
 from pyrofit.show.answer import ANSWER
 from pyrofit.show.answer.summary import summary
@@ -21,9 +18,6 @@ from pyrofit.show.section import Section
 from pyrofit.show.sections import SECTIONS, TABLES
 from pyrofit.show.step_page import sections_of
 from pyrofit.show.table import Frames, read_table
-
-OWN_STEPS: tuple[tuple[Any, Any], ...] = ((scheme, scheme_page),)
-"""Results of steps of their own, and their sections."""
 
 
 def write_report(study: Study, results: Results) -> None:
@@ -43,10 +37,6 @@ def write_report(study: Study, results: Results) -> None:
     )
     shown = [one for part in SECTIONS if (one := _shown(part, study, results, facts))]
     shown += sections_of("report", study, results)
-    # These, diagnosis and the proof by FDS are steps of their own, which a study may go without.
-    for result, page in OWN_STEPS:
-        if result.exists(results):
-            shown.append(page.section(study, results))
     if fds_page.exists(results):
         shown.append(fds_page.section(study, results))
     made = provenance(study, measured)

@@ -7,13 +7,17 @@ from pyrofit.config import Study
 from pyrofit.results.files import Results
 from pyrofit.results.step import check_options, exists
 from pyrofit.show.figure import Figure, draw_figure
-from pyrofit.show.parts import Shown, picture, table_part
+from pyrofit.show.parts import Part, Picture, Shown, picture, table_part
 from pyrofit.show.table import Table, read_table, write_table
 from pyrofit.steps import known_steps
 
 
 def _nothing(study: Study, results: Results) -> None:
     pass
+
+
+def _no_parts(study: Study, results: Results) -> list[Part]:
+    return []
 
 
 @dataclass(frozen=True)
@@ -36,6 +40,8 @@ class StepPage:
         What the names of files of tables begin with.
     finish
         Function that is called when all is written.
+    more
+        Function that returns parts of the section behind figures and tables.
     """
 
     folder: str
@@ -48,6 +54,7 @@ class StepPage:
     figures_shown: tuple[str, ...]
     prefix: str = "table_"
     finish: Callable[[Study, Results], None] = _nothing
+    more: Callable[[Study, Results], list[Part]] = _no_parts
 
     def draw_and_write(self, study: Study, results: Results) -> None:
         """Write the tables, then the figures, to the folder.
@@ -90,8 +97,9 @@ class StepPage:
             )
             for name in self.tables_shown
         ]
+        parts: list[Part | Picture] = [*drawn, *tables, *self.more(study, results)]
         said = tuple(self.sentences(study, results))
-        return Shown(self.folder, self.heading, self.text, (*drawn, *tables), said)
+        return Shown(self.folder, self.heading, self.text, tuple(parts), said)
 
 
 def sections_of(page: str, study: Study, results: Results) -> list[Shown]:

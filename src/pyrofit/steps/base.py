@@ -24,6 +24,9 @@ class Step:
         Option that names one of its parts, which are jobs of their own; none = it has no parts.
     page
         The page that shows it: 'report', or 'diagnosis' and the report.
+    write
+        A file that its command also writes where `--write` says, in words; none = no such option.
+        Its function ``write`` does that, from the value that ``run`` returns.
     name
         Name of its folder; `known_steps` fills it in.
     """
@@ -35,6 +38,7 @@ class Step:
     part: str = ""
     part_message: str = ""
     page: str = "report"
+    write: str = ""
     name: str = ""
 
     @property

@@ -73,14 +73,7 @@ rule report:
             for name in known_steps()
             if not inputs_of(name).version and exists(study, results, name)
         ],
-        [
-            page
-            for page in (
-                results.diagnosis("report.html"),
-                results.scheme("scheme.svg"),
-            )
-            if page.exists()
-        ],
+        [page for page in [results.diagnosis("report.html")] if page.exists()],
     output:
         page=report(
             ROOT / "report.html",

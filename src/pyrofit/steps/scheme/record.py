@@ -1,16 +1,13 @@
-"""Result of the choice of a reaction scheme: written and read as these records describe it."""
+"""Result of the choice of a reaction scheme: computed once, read by tables, figure and report."""
 
-import json
-from collections.abc import Mapping
 from typing import Any
 
 import pandas as pd
-from pydantic import Field, ValidationError
+from pydantic import Field
 
 from pyrofit.config import Study
-from pyrofit.errors import DataError
-from pyrofit.results.files import Results, read_csv, read_json, write_json
-from pyrofit.results.record import Record
+from pyrofit.results.files import Results, read_csv
+from pyrofit.results.record import Record, read_record, write_record
 
 FILE = "scheme.json"
 CURVES = "curves.csv"
@@ -78,11 +75,9 @@ class SchemeChoice(Record):
     extended_study: str = Field(description="file of the study with the chosen scheme")
 
 
-def write(results: Results, content: Mapping[str, Any]) -> None:
-    """Write the chosen scheme; it must agree with the schema."""
-    text = json.dumps(content, allow_nan=False)
-    SchemeChoice.model_validate_json(text)
-    write_json(results.scheme(FILE), json.loads(text))
+def write(results: Results, found: SchemeChoice) -> None:
+    """Write the chosen scheme."""
+    write_record(results.of_step("scheme", FILE), found)
 
 
 def read(study: Study, results: Results) -> SchemeChoice:
@@ -93,26 +88,16 @@ def read(study: Study, results: Results) -> SchemeChoice:
     DataError
         It is missing, broken, or that of another study.
     """
-    path = results.scheme(FILE)
-    content = read_json(path)
-    try:
-        found = SchemeChoice.model_validate(content)
-    except ValidationError as error:
-        first = error.errors()[0]
-        place = ".".join(str(key) for key in first["loc"])
-        raise DataError(f"{path}: '{place}': {first['msg']}; delete it and run again") from None
-    names = {scheme.name for scheme in found.schemes}
-    if found.study != study.name or not {found.chosen, found.best} <= names:
-        raise DataError(f"{path}: this is the result of another study; delete it and run again")
-    return found
 
+    def is_ours(found: SchemeChoice) -> bool:
+        return found.study == study.name and {found.chosen, found.best} <= {
+            scheme.name for scheme in found.schemes
+        }
 
-def exists(results: Results) -> bool:
-    """Tell whether a scheme was chosen for a study and its page drawn: the figure is last."""
-    return results.scheme("scheme.svg").is_file()
+    return read_record(results.of_step("scheme", FILE), SchemeChoice, is_ours)
 
 
 def curves(results: Results) -> pd.DataFrame:
     """Return measured and simulated masses over initial mass, by experiment."""
     needs = {"experiment": object, **dict.fromkeys(COLUMNS, float)}
-    return read_csv(results.scheme(CURVES), needs)
+    return read_csv(results.of_step("scheme", CURVES), needs)

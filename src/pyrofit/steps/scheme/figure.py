@@ -4,20 +4,14 @@ import numpy as np
 import pandas as pd
 
 from pyrofit.config import Study
-from pyrofit.results import scheme
 from pyrofit.results.files import Results
 from pyrofit.show import style
 from pyrofit.show.drawn import Axes, Canvas
+from pyrofit.show.figure import Figure
 from pyrofit.show.kinetics.drawing import rate_of, slope
+from pyrofit.show.table import always
+from pyrofit.steps.scheme import record
 
-TITLE = "Reaction scheme of the study and the chosen one"
-CAPTION = (
-    "At every heating rate, the slowest at the top: mass over initial mass (left), "
-    "its slope over temperature (middle), simulated minus measured mass (right). "
-    "Black: measured; red, dashed: the scheme of the study, fitted alike. Blue: the "
-    "chosen scheme; ochre, dotted: prediction of the chosen scheme, fitted without "
-    "this heating rate. Rates marked 'not fitted' are predicted by every curve."
-)
 LOOKS: dict[str, dict[str, object]] = {
     "before": {"color": style.COLOURS[1], "linestyle": style.DASHES[1], "linewidth": 1.0},
     "after": {"color": style.COLOURS[0], "linestyle": "-", "linewidth": 1.0},
@@ -31,9 +25,9 @@ _LABELS = {
 _MEASURED = {"color": style.MEASURED, "linewidth": 0.8}
 
 
-def figure(study: Study, results: Results) -> Canvas:
+def draw(study: Study, results: Results) -> Canvas:
     """Draw one row of panels for each record."""
-    curves = scheme.curves(results)
+    curves = record.curves(results)
     names = sorted(
         curves["experiment"].unique(),
         key=lambda n: study.experiments[n].heating_rate_K_min,  # type: ignore[union-attr]
@@ -79,3 +73,16 @@ def _draw(axes: list[Axes], curve: pd.DataFrame) -> None:
 def _draw_slope(ax: Axes, temperature: object, mass: object, look: object) -> None:
     grid, rate = slope(temperature, mass)  # type: ignore[arg-type]
     ax.plot(style.celsius(grid), rate, **look)  # type: ignore[arg-type]
+
+
+FIGURE = Figure(
+    place=10,
+    applies=always,
+    make=draw,
+    title="Reaction scheme of the study and the chosen one",
+    caption="At every heating rate, the slowest at the top: mass over initial mass (left), "
+    "its slope over temperature (middle), simulated minus measured mass (right). "
+    "Black: measured; red, dashed: the scheme of the study, fitted alike. Blue: the "
+    "chosen scheme; ochre, dotted: prediction of the chosen scheme, fitted without "
+    "this heating rate. Rates marked 'not fitted' are predicted by every curve.",
+)

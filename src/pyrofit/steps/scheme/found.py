@@ -2,7 +2,6 @@
 
 from collections.abc import Mapping, Sequence
 from dataclasses import asdict
-from typing import Any
 
 import numpy as np
 import pandas as pd
@@ -11,54 +10,52 @@ from pyrofit.cost.distances import root_mean_square
 from pyrofit.estimate.posterior import interval, limit_of
 from pyrofit.scheme.choice import Candidate, Choice
 from pyrofit.scheme.fit import FittedScheme
-from pyrofit.scheme.posed import Posed
 from pyrofit.scheme.prediction import Predicted
 from pyrofit.scheme.settings import Settings
 from pyrofit.scheme.words import RULE, sentences
+from pyrofit.steps.scheme.record import EXTENDED, OfParameter, OfRecord, OfScheme, SchemeChoice
 
-Keys = dict[str, Any]
 
-
-def content_of(choice: Choice, settings: Settings, extended: str) -> Keys:
-    """Return ``scheme.json``."""
+def found_of(choice: Choice, settings: Settings) -> SchemeChoice:
+    """Return the result."""
     chosen = choice.chosen.fitted
     scheme = chosen.posed.scheme
     assert scheme is not None
     schemes = [_scheme(choice, c) for c in choice.candidates]
-    return {
-        "study": chosen.posed.study.name,
-        "chosen": chosen.name,
-        "best": choice.best.fitted.name,
-        "largest": scheme.reactions == settings.most_reactions,
-        "rule": RULE.format(least=settings.as_good, largest=settings.largest_margin),
-        "words": sentences(choice, settings),
-        "schemes": schemes,
-        "own": _scheme(choice, choice.own),
-        "parameters": parameters_of(chosen),
-        "settings": asdict(settings),
-        "extended_study": extended,
-    }
+    return SchemeChoice(
+        study=chosen.posed.study.name,
+        chosen=chosen.name,
+        best=choice.best.fitted.name,
+        largest=scheme.reactions == settings.most_reactions,
+        rule=RULE.format(least=settings.as_good, largest=settings.largest_margin),
+        words=sentences(choice, settings),
+        schemes=schemes,
+        own=_scheme(choice, choice.own),
+        parameters=parameters_of(chosen),
+        settings=asdict(settings),
+        extended_study=EXTENDED,
+    )
 
 
-def _scheme(choice: Choice, candidate: Candidate) -> Keys:
+def _scheme(choice: Choice, candidate: Candidate) -> OfScheme:
     fitted = candidate.fitted
     held_out = choice.held_out[fitted.name]
-    return {
-        "name": fitted.name,
-        "words": fitted.posed.words,
-        "parameters": fitted.posed.count,
-        "bic": fitted.bic,
-        "discrepancy": fitted.size,
-        "rms": root_mean_square([root_mean_square(r) for r in fitted.residuals()]),
-        "predicted_rms": candidate.left_out_rms if candidate.left_out else None,
-        "held_out_rms": root_mean_square([p.rms for p in held_out]) if held_out else None,
-        "log_score": candidate.log_score if candidate.left_out else None,
-        "margin": choice.margins.get(fitted.name),
-        "records": [*_fitted_records(candidate), *(_record(p, p.rms, None) for p in held_out)],
-    }
+    return OfScheme(
+        name=fitted.name,
+        words=fitted.posed.words,
+        parameters=fitted.posed.count,
+        bic=fitted.bic,
+        discrepancy=fitted.size,
+        rms=root_mean_square([root_mean_square(r) for r in fitted.residuals()]),
+        predicted_rms=candidate.left_out_rms if candidate.left_out else None,
+        held_out_rms=root_mean_square([p.rms for p in held_out]) if held_out else None,
+        log_score=candidate.log_score if candidate.left_out else None,
+        margin=choice.margins.get(fitted.name),
+        records=[*_fitted_records(candidate), *(_record(p, p.rms, None) for p in held_out)],
+    )
 
 
-def _fitted_records(candidate: Candidate) -> list[Keys]:
+def _fitted_records(candidate: Candidate) -> list[OfRecord]:
     left_out = {p.record.experiment: p for p in candidate.left_out}
     rows = []
     for record, residual in zip(
@@ -70,19 +67,19 @@ def _fitted_records(candidate: Candidate) -> list[Keys]:
     return rows
 
 
-def _record(met: Predicted, rms: float, predicted: float | None) -> Keys:
+def _record(met: Predicted, rms: float, predicted: float | None) -> OfRecord:
     record = met.record
-    return {
-        "experiment": record.experiment,
-        "heating_rate_K_min": record.rate,
-        "laboratory": record.laboratory,
-        "calibrated": record.calibrated,
-        "rms": rms,
-        "predicted_rms": predicted,
-    }
+    return OfRecord(
+        experiment=record.experiment,
+        heating_rate_K_min=record.rate,
+        laboratory=record.laboratory,
+        calibrated=record.calibrated,
+        rms=rms,
+        predicted_rms=predicted,
+    )
 
 
-def parameters_of(fitted: FittedScheme) -> dict[str, Keys]:
+def parameters_of(fitted: FittedScheme) -> dict[str, OfParameter]:
     """Return the parameters of a fit with linear 95 % intervals, in their units."""
     spread = np.sqrt(np.diag(fitted.spread()))
     found = {}
@@ -90,14 +87,14 @@ def parameters_of(fitted: FittedScheme) -> dict[str, Keys]:
         p = fitted.posed.study.parameters[name]
         low, high = (limit / p.factor for limit in p.bounds_si)
         ends = interval(float(x), float(sd))
-        found[name] = {
-            "label": p.label,
-            "unit": p.unit,
-            "value": low + float(x) * (high - low),
-            "low": low + ends[0] * (high - low),
-            "high": low + ends[1] * (high - low),
-            "at_limit": bool(limit_of(float(x))),
-        }
+        found[name] = OfParameter(
+            label=p.label,
+            unit=p.unit,
+            value=low + float(x) * (high - low),
+            low=low + ends[0] * (high - low),
+            high=low + ends[1] * (high - low),
+            at_limit=bool(limit_of(float(x))),
+        )
     return found
 
 
@@ -138,8 +135,3 @@ def _curves(
     pairs = zip(fitted.records, fitted.residuals(), strict=True)
     found = {r.experiment: Predicted(r, r.mass + residual, 0.0) for r, residual in pairs}
     return found | {p.record.experiment: p for p in held_out[fitted.name]}
-
-
-def values_of(posed: Posed, fitted: FittedScheme) -> dict[str, float]:
-    """Return fitted values by name in the unit of each parameter."""
-    return {n: v / posed.study.parameters[n].factor for n, v in fitted.values.items()}

@@ -3,15 +3,15 @@
 import pandas as pd
 
 from pyrofit.config import Study
-from pyrofit.results import scheme
 from pyrofit.results.files import Results
-from pyrofit.results.scheme import OfScheme
 from pyrofit.show.table import Table, always
+from pyrofit.steps.scheme import record
+from pyrofit.steps.scheme.record import OfScheme
 
 
 def schemes(study: Study, results: Results) -> pd.DataFrame:
     """List the schemes, best prediction first, those without predictions by BIC behind them."""
-    found = scheme.read(study, results)
+    found = record.read(study, results)
     least = min(s.bic for s in found.schemes)
     ordered = sorted(
         [*found.schemes, found.own],
@@ -36,7 +36,7 @@ def _row(s: OfScheme, chosen: bool, least: float) -> dict[str, object]:
 
 def parameters(study: Study, results: Results) -> pd.DataFrame:
     """List the parameters of the chosen scheme."""
-    found = scheme.read(study, results)
+    found = record.read(study, results)
     return pd.DataFrame(
         [
             {

@@ -4,16 +4,17 @@ from pathlib import Path
 
 from pyrofit.config import Study, as_yaml
 from pyrofit.logs import Tell
-from pyrofit.results import recorded, scheme
+from pyrofit.results import recorded
 from pyrofit.results.files import Results, write_csv, write_text
 from pyrofit.scheme.choice import Choice, choose_scheme
 from pyrofit.scheme.extended import extended_keys
 from pyrofit.scheme.fit import Setting
 from pyrofit.scheme.masses import masses_of
-from pyrofit.scheme.record import content_of, curves_of
 from pyrofit.scheme.records import records_of
 from pyrofit.scheme.settings import Settings
 from pyrofit.stages.own_files import files_seen_from, seen_from
+from pyrofit.steps.scheme import record
+from pyrofit.steps.scheme.found import curves_of, found_of
 
 _COMMENT = """\
 The study with the reaction scheme that its thermogravimetric records support, at the fitted values.
@@ -22,7 +23,7 @@ kinetics as they stand here; add their parameters to diagnosis.estimate to estim
 """
 
 
-def choose(study: Study, results: Results, tell: Tell) -> Choice:
+def run(study: Study, results: Results, tell: Tell, processes: int) -> Choice:
     """Choose the reaction scheme of a study; write ``scheme``, return the choice.
 
     Raises
@@ -40,13 +41,15 @@ def choose(study: Study, results: Results, tell: Tell) -> Choice:
     }
     records = tuple(records_of(study, measurements, settings.points))
     found = choose_scheme(Setting(study, measurements, records, settings), tell)
-    write_study(study, results, found, results.scheme(scheme.EXTENDED))
-    write_csv(results.scheme(scheme.CURVES), curves_of(found))
-    scheme.write(results, content_of(found, settings, scheme.EXTENDED))
+    extended = results.of_step("scheme", record.EXTENDED)
+    write(study, results, found, extended)
+    write_csv(results.of_step("scheme", record.CURVES), curves_of(found))
+    record.write(results, found_of(found, settings))
+    tell(f"{extended}: the study with the chosen scheme")
     return found
 
 
-def write_study(study: Study, results: Results, found: Choice, path: Path) -> None:
+def write(study: Study, results: Results, found: Choice, path: Path) -> None:
     """Write the study with the chosen scheme; it names the files of the study from there."""
     keys = extended_keys(
         study, found.chosen.fitted, dict(files_seen_from(study, results, path.parent))

@@ -1,1 +1,0 @@
-"""Which reaction scheme thermogravimetric records support, a step of its own."""
