@@ -54,8 +54,8 @@ TABLE = Table(
     note="Root mean square of simulated minus measured, before and after the effects of "
     "the verdict were added. Whitened: divided by the standard deviation of the noise, with its "
     "correlation removed; 1 is noise alone. Held-out signals were not fitted. "
-    "A held-out signal can tell whether an effect of the verdict is real if the effect changes it "
-    "by more than its noise and its uncertain apparatus leave open.",
+    "A held-out signal can tell whether an effect is real if the effect changes it by more than "
+    "its noise and its uncertain apparatus.",
     headings={
         "tells": "can tell",
         "rms_before": "rms before",
