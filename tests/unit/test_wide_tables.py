@@ -28,7 +28,7 @@ def written(path: Path, header: str, columns: list[np.ndarray], delimiter: str =
     [
         ("temperature,rate_3,rate_5,rate_10", False),
         ("T [°C],3 K/min,5 K/min,10 K/min", False),
-        ("Temperature (K),m_3 (%),Temperature (K),m_5 (%),Temperature (K),m_10 (%)", True),
+        ("Temperature (K),m 3K (%),Temperature (K),m 5K (%),Temperature (K),m 10K (%)", True),
     ],
 )
 def test_rates_as_columns_become_a_test_each(header: str, own: bool, tmp_path: Path) -> None:
@@ -37,7 +37,7 @@ def test_rates_as_columns_become_a_test_each(header: str, own: bool, tmp_path: P
     columns = [c for m in masses for c in (at, m)] if own else [at, *masses]
     table = written(tmp_path / "ALL.csv", header, columns)
     study, lines = init("x", {"tga": [table]}, tmp_path)
-    assert "times follow from the rates" in lines[0]
+    assert "Times follow from the rates" in lines[0]
     found = read_study(study).experiments
     rates = [e.heating_rate_K_min for e in found.values() if isinstance(e, HeatedExperiment)]
     assert sorted(rates) == [3, 5, 10]
@@ -51,10 +51,9 @@ def test_rates_as_columns_become_a_test_each(header: str, own: bool, tmp_path: P
     [
         "time (s),temperature,rate_3,rate_5,rate_10",
         "temperature,mass,signal,other",
-        "temperature,run_1 3 K,run_2 5 K,run_3 10 K",
         "temperature,rate_3,again_3,rate_10",
     ],
-    ids=["time", "no rates", "two numbers", "one rate twice"],
+    ids=["time", "no rates", "one rate twice"],
 )
 def test_table_that_is_not_clear_stays_one(header: str, tmp_path: Path) -> None:
     columns = [T, T, *(mass(rate) for rate in (3, 5, 10))][-len(header.split(",")) :]
@@ -65,3 +64,68 @@ def test_table_that_is_not_clear_stays_one(header: str, tmp_path: Path) -> None:
 def test_slabs_are_not_split(tmp_path: Path) -> None:
     table = written(tmp_path / "a.csv", "temperature,rate_3,rate_5", [T, mass(3), mass(5)])
     assert split("gasification", table, tmp_path) == [table]
+
+
+def rates_of(study: Path) -> dict[str, float]:
+    found = read_study(study).experiments
+    return {n: e.heating_rate_K_min for n, e in found.items() if isinstance(e, HeatedExperiment)}
+
+
+@pytest.mark.parametrize(
+    "header",
+    [
+        "Temperature (K),m_3 (%),m_5 (%),m_10 (%)",
+        "Temperature (K),m 3,Temperature (K),m 5,Temperature (K),m 10",
+        "T (K),m (%),T (K),m (%),T (K),m (%)",
+    ],
+)
+def test_a_number_without_a_unit_is_asked_for(header: str, tmp_path: Path) -> None:
+    masses = [mass(rate) for rate in (3, 5, 10)]
+    own = header.count(",") == 5
+    columns = [c for m in masses for c in (T, m)] if own else [T, *masses]
+    study, _ = init("x", {"tga": [written(tmp_path / "ALL.csv", header, columns)]}, tmp_path)
+    lines = [line for line in study.read_text("utf-8").splitlines() if "heating_rate" in line]
+    assert len(lines) == 3
+    assert all("# CHANGE: a number in the name of the file" in line for line in lines)
+    assert "Time" not in read_table(next((study.parent / "data").iterdir())).columns
+
+
+@pytest.mark.parametrize(
+    "header",
+    [
+        "Time {} (min),Temp {} (K),Mass {} (%)",
+        "Time (min),Temp (K),Mass (%)",
+        "t{} (min),T{} (K),m{} (%)",
+    ],
+)
+def test_times_of_each_test_tell_its_rate(header: str, tmp_path: Path) -> None:
+    tests = [(i, rate) for i, rate in enumerate((5, 10), start=1)]
+    names = ",".join(header.format(i, i, i) for i, _ in tests)
+    columns = [c for _, rate in tests for c in ((T - T[0]) / rate, T, mass(rate))]
+    study, _ = init("x", {"tga": [written(tmp_path / "a.csv", names, columns)]}, tmp_path)
+    assert sorted(rates_of(study).values()) == [5, 10]
+    assert "CHANGE" not in "".join(
+        line for line in study.read_text("utf-8").splitlines() if "heating_rate" in line
+    )
+
+
+def test_fluxes_as_columns_become_a_test_each(tmp_path: Path) -> None:
+    header = "Time (s);Mass 25 kW (g);HRR 25 kW (kW/m2);Mass 50 kW (g);HRR 50 kW (kW/m2)"
+    time, rate = T - T[0], 200.0 * np.exp(-(((T - 500.0) / 80.0) ** 2))
+    columns = [time, mass(3), rate, mass(10), 2.0 * rate]
+    table = written(tmp_path / "board.csv", header, columns, ";")
+    first, second = split("cone", table, tmp_path)
+    assert [first.name, second.name] == ["board_25kW.csv", "board_50kW.csv"]
+    assert read_table(second).columns["HRR"] == pytest.approx(2.0 * rate, abs=1e-3)
+
+
+def test_thermocouples_of_one_test_are_no_tests(tmp_path: Path) -> None:
+    table = written(tmp_path / "a.csv", "Time (s),TC back 1 (K),TC back 2 (K)", [T, T, T])
+    assert split("gasification", table, tmp_path) == [table]
+
+
+def test_heat_flows_keep_their_names(tmp_path: Path) -> None:
+    header = "T (K),DSC 5 K/min (W/g),DSC 10 K/min (W/g)"
+    table = written(tmp_path / "a.csv", header, [T, mass(5) - 60.0, mass(10) - 60.0])
+    first, _ = split("dsc", table, tmp_path)
+    assert list(read_table(first).columns) == ["Time", "Temperature", "DSC"]

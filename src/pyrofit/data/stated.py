@@ -11,18 +11,36 @@ _FIRST = 200
 """Lines in which facts are looked for."""
 _NUMBER = r"([+-]?\d+(?:[.,]\d+)?)"
 _MASS = re.compile(
-    r"(?:sample|initial|specimen|test)\s*(?:mass|weight|size)|size|mass|weight|probenmasse|einwaage"
-    r"|anfangsmasse|masse\s*(?:initiale|de l.?.?chantillon)",
+    "|".join(
+        (
+            r"(?:(?:sample|initial|specimen|test)\s*)?(?:mass|weight)",
+            r"(?:(?:sample|initial|specimen|test)\s*)?size",
+            "probenmasse|einwaage|anfangsmasse",
+            r"masse\s*(?:initiale|(?:de\s+)?l?.?.?chantillon)",
+            r"masa\s*inicial|massa\s*iniziale",
+        )
+    ),
     re.IGNORECASE,
 )
 _FLUX = re.compile(
-    r"(?:(?:incident|external|radiant|irradiation|heat|cone)[\s_]*)*(?:flux|irradiance)"
-    r"|bestrahlungsst.rke",
+    "|".join(
+        (
+            r"(?:(?:incident|external|radiant|irradiation|heat|cone)[\s_]*)*(?:flux|irradiance)",
+            "bestrahlungsst.rke|w.rmestromdichte",
+            r".clairement(?:\s+.nerg.tique)?",
+        )
+    ),
     re.IGNORECASE,
 )
 _GAS = re.compile(
-    r"(?:(?:purge|sample|carrier|furnace|process|reactive|test)[\s_]*)*(?:gas|atmosphere)(?:\s*\d)?"
-    r"|atmosph.re|atmosphäre|spülgas",
+    "|".join(
+        (
+            r"(?:(?:purge|sample|carrier|furnace|process|reactive|test)[\s_]*)*gas(?:\s*\d)?",
+            r"(?:(?:purge|sample|carrier|furnace|process|test)[\s_]*)*atmosphere(?:\s*\d)?",
+            "atmosph.re|(?:spül|träger|ofen|probenraum)gas",
+            r"gaz(?:\s+\w+)*|gas\s+(?:de|di)\s+\w+",
+        )
+    ),
     re.IGNORECASE,
 )
 _EXO = re.compile(r"exo(?:therm(?:ic|al)?)?", re.IGNORECASE)

@@ -3,6 +3,7 @@
 import re
 from collections.abc import Sequence
 
+from pyrofit.new_study.languages import english
 from pyrofit.new_study.units import split_unit
 from pyrofit.quantities.base import Quantity
 from pyrofit.quantities.units import header_key
@@ -31,7 +32,7 @@ _WORDS = {
 
 def is_usual(name: str, quantity: Quantity) -> bool:
     """Tell whether the reader knows a header by itself."""
-    return header_key(name) in {header_key(usual) for usual in quantity.headers}
+    return english(header_key(name)) in {header_key(usual) for usual in quantity.headers}
 
 
 def is_abscissa(name: str, role: str) -> bool:
@@ -70,7 +71,7 @@ def may_be(name: str, quantity: Quantity) -> bool:
 
 def stem_of(name: str) -> str:
     """Return a header without its unit, as it is compared with others."""
-    return header_key(split_unit(name)[0])
+    return english(header_key(split_unit(name)[0]))
 
 
 def is_error(

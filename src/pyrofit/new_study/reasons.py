@@ -11,6 +11,7 @@ from pyrofit.new_study.headers import is_abscissa, is_foreign, is_usual, may_be,
 NO_VALUES = "it holds no values"
 PLACEHOLDER = "zero throughout, a placeholder"
 _DERIVATIVE = re.compile(r"dtg.*|ddsc.*|d[tmw]?/d[tT].*|deriv.*|.*derivative.*")
+_LOSS = re.compile(r"(mass|weight)loss(?!rate).*")
 _TOTAL = re.compile(r"thr|(total|cumul|integr)(?!.*rate).*heat.*|.*heatreleased.*")
 _MEASURED = re.compile(r"t|t[^a-z].*|t(gas|top|front|back|surf).*|.*temp.*|.*(flow|mdot|flux).*")
 
@@ -30,6 +31,8 @@ def unused(table: Table, header: str, kind: str) -> str:
         return "it holds text"
     if _DERIVATIVE.fullmatch(stem_of(header)):
         return "it is the derivative of another column"
+    if _LOSS.fullmatch(stem_of(header)):
+        return "it is a loss of mass; make the mass a column, such as 100 minus a loss in %"
     if _TOTAL.fullmatch(stem_of(header)):
         return "it is a total over the test, not a rate"
     if _is_of_apparatus(header, kind):

@@ -56,13 +56,15 @@ def split_unit(header: str) -> tuple[str, str]:
 
     >>> split_unit("mlr_mg_cm2_s"), split_unit("T_degC"), split_unit("Temperature 1")
     (('mlr', 'mg/cm2/s'), ('T', 'degC'), ('Temperature 1', ''))
+    >>> split_unit("Zeit in min")
+    ('Zeit', 'min')
     """
     for cut in _CUT.finditer(header):
         end = header[cut.end() :]
         for unit in (end, re.sub(r"[_ ]", "/", end)):
             spelled = _SPELLINGS.get(unit.casefold(), unit)
             if unit_key(spelled) in _KNOWN or _PER_AREA.fullmatch(unit):
-                return header[: cut.start()], spelled
+                return header[: cut.start()].removesuffix(" in"), spelled
     return header, ""
 
 

@@ -1,27 +1,51 @@
-"""Tables that hold several tests side by side, one heating rate a column.
+"""Tables that hold several tests side by side, each in columns of its own.
 
-One temperature stands before all masses, or one before each. The names of the masses tell the
-rates. Such a table has no time, which follows from rate and temperature: t = (T - T_0) / beta.
+The names of the columns tell the tests: by a heating rate or a flux with its unit, or by a number.
+The numbers that tell columns of one name apart do as well. Columns without a number belong to all.
+Where a table of heated samples has no time, that follows from rate and temperature.
 """
 
 import re
-from collections.abc import Iterator, Sequence
+from collections.abc import Mapping
+from dataclasses import dataclass
 from pathlib import Path
+from typing import Literal
 
 import numpy as np
 import pandas as pd
 
 from pyrofit.data.csvfile import Table, read_table
-from pyrofit.experiments import KINDS
+from pyrofit.experiments import KINDS, files_of, measurable
 from pyrofit.new_study.headers import is_abscissa
 from pyrofit.results.files import write_csv
 from pyrofit.solver.arrays import FloatArray
 
-_RATE = re.compile(r"\d+(?:[.,]\d+)?")
+_NUMBER = r"(\d+(?:[.,]\d+)?)"
+_RATE_WORD = re.compile(rf"(?:rate|beta|hr|heizrate)[\s_-]*{_NUMBER}", re.IGNORECASE)
+_LAST = re.compile(rf"[\s_(-]*{_NUMBER}\)?$")
 _LEAST_LOST = 0.02
 """Share of its first value that a mass loses at least."""
-Test = tuple[str, str, float]
-"""Headers of temperature and mass, and the heating rate [K/min]."""
+How = Literal["unit", "number", "index"]
+"""What tells a test: a number with its unit, a number alone, or one that tells names apart."""
+
+
+@dataclass(frozen=True)
+class Label:
+    """What the name of a column tells of its test: the rest of the name, and the number."""
+
+    rest: str
+    number: float
+    how: How
+
+
+@dataclass(frozen=True)
+class Part:
+    """The columns of a test by their new headers; time [s] is computed where rate is given."""
+
+    number: float
+    how: How
+    columns: Mapping[str, str]
+    rate_K_min: float | None = None
 
 
 def split(kind: str, path: Path, folder: Path) -> list[Path]:
@@ -34,61 +58,133 @@ def split(kind: str, path: Path, folder: Path) -> list[Path]:
     DataError
         The file is no table of numbers.
     """
-    if KINDS[kind].stage != "kinetics":
-        return [path]
     table = read_table(path)
-    tests = _tests(table)
-    return list(_written(table, tests, folder)) if len(tests) > 1 else [path]
+    tests = _tests(kind, table)
+    return [_written(kind, table, test, folder) for test in tests] if len(tests) > 1 else [path]
 
 
-def _tests(table: Table) -> list[Test]:
-    """Return the tests of a table without a time; none if they are not clear."""
-    names = list(table.columns)
-    if any(is_abscissa(name, "time") for name in names):
+def label_of(kind: str, header: str) -> Label | None:
+    """Return what a header tells of its test; None where it tells nothing.
+
+    >>> label_of("tga", "m 2,5 K/min"), label_of("tga", "Mass (2)"), label_of("tga", "mass")
+    (Label(rest='m', number=2.5, how='unit'), Label(rest='Mass', number=2.0, how='index'), None)
+    >>> label_of("cone", "HRR 50kW"), label_of("cone", "TC 1")
+    (Label(rest='HRR', number=50.0, how='unit'), None)
+    """
+    unit = files_of(kind).number.unit
+    with_unit = re.compile(
+        rf"[\s_(-]*(?<![\d.,]){_NUMBER}[\s_-]*(?:{unit})(/?m\^?[2²])?(?![A-Za-z])\)?"
+    )
+    heated = KINDS[kind].stage == "kinetics"
+    for pattern in (with_unit, *([_RATE_WORD] if heated else [])):
+        found = list(pattern.finditer(header))
+        if len(found) == 1:
+            rest = header[: found[0].start()] + header[found[0].end() :]
+            return Label(rest.strip(" _-"), _value(found[0][1]), "unit")
+    last = _LAST.search(header)
+    if not heated or last is None:
+        return None
+    how: How = "index" if header.endswith(")") else "number"
+    return Label(header[: last.start()].strip(" _-"), _value(last[1]), how)
+
+
+def _value(text: str) -> float:
+    return float(text.replace(",", "."))
+
+
+def _tests(kind: str, table: Table) -> list[Part]:
+    """Return the tests of a table; none if they are not clear."""
+    labels = {name: label_of(kind, name) for name in table.columns}
+    own = {name: label for name, label in labels.items() if label is not None}
+    shared = [name for name in table.columns if name not in own]
+    if KINDS[kind].stage == "kinetics":
+        own, shared = _paired(own, shared)
+    groups: dict[tuple[float, How], dict[str, str]] = {}
+    for name, label in own.items():
+        columns = groups.setdefault((label.number, label.how), {})
+        if label.rest in columns:
+            return []
+        columns[label.rest] = name
+    rests = [set(columns) for columns in groups.values()]
+    if len(groups) < 2 or any(rest != rests[0] for rest in rests):
         return []
-    temperatures = [name for name in names if is_abscissa(name, "temperature")]
-    masses = [n for n in names if n not in temperatures and _falls(table.columns[n])]
-    if len(temperatures) == 1:
-        pairs = [(temperatures[0], mass) for mass in masses]
-    elif len(temperatures) == len(masses):
-        pairs = list(zip(temperatures, masses, strict=True))
-    else:
-        return []
-    rates = [_rate(mass) for _, mass in pairs]
-    if None in rates or len(set(rates)) < len(rates):
-        return []
-    return [(T, mass, rate) for (T, mass), rate in zip(pairs, rates, strict=True) if rate]
+    tests = [_test(kind, table, key, columns, shared) for key, columns in groups.items()]
+    return [test for test in tests if test is not None] if None not in tests else []
+
+
+def _paired(own: Mapping[str, Label], shared: list[str]) -> tuple[dict[str, Label], list[str]]:
+    """Give each of as many temperatures as masses to the mass of its place.
+
+    The names of the temperatures are the same but for a number that tells them apart.
+    """
+    temperatures = [n for n in (*own, *shared) if is_abscissa(_rest(own, n), "temperature")]
+    others = [n for n in own if n not in temperatures]
+    told_apart = all(n in own and own[n].how == "index" for n in temperatures)
+    by_place = (
+        told_apart
+        and len(temperatures) == len(others)
+        and any(own[n].how != "index" for n in others)
+    )
+    if not by_place:
+        return dict(own), shared
+    pairs = zip(temperatures, others, strict=True)
+    given = {T: Label(own[T].rest, own[m].number, own[m].how) for T, m in pairs}
+    return {**own, **given}, shared
+
+
+def _rest(own: Mapping[str, Label], name: str) -> str:
+    return own[name].rest if name in own else name
+
+
+def _test(
+    kind: str,
+    table: Table,
+    key: tuple[float, How],
+    columns: Mapping[str, str],
+    shared: list[str],
+) -> Part | None:
+    """Return a test, or None where its columns are not those of one."""
+    number, how = key
+    named = {name: name for name in shared} | dict(columns)
+    if KINDS[kind].stage != "kinetics":
+        return Part(number, how, named) if all(columns) else None
+    times = [n for n in named if is_abscissa(n, "time")]
+    temperatures = [n for n in named if is_abscissa(n, "temperature")]
+    values = [n for n in named if n not in (*times, *temperatures)]
+    only_mass = len(measurable(kind)) == 1
+    if only_mass:
+        values = [n for n in values if _falls(table.columns[named[n]])]
+    if len(temperatures) != 1 or len(times) > 1 or (times and times[0] in shared):
+        return None
+    if not values or (only_mass and len(values) != 1) or not set(values) - set(shared):
+        return None
+    own = {"Time": named[times[0]]} if times else {}
+    own["Temperature"] = named[temperatures[0]]
+    own |= {"Mass" if only_mass else n: named[n] for n in values if n not in shared}
+    if how == "index" and temperatures[0] in shared:
+        return None
+    return Part(number, how, own, number if not times and how == "unit" else None)
 
 
 def _falls(values: FloatArray) -> bool:
     numbers = values[~np.isnan(values)]
-    return numbers.size > 1 and numbers[-1] < (1.0 - _LEAST_LOST) * numbers[0]
+    return numbers.size > 1 and bool(numbers[-1] < (1.0 - _LEAST_LOST) * numbers[0])
 
 
-def _rate(header: str) -> float | None:
-    """Return the only number of a header.
-
-    >>> _rate("rate_10"), _rate("m 2,5 K/min"), _rate("mass"), _rate("run 2, 10 K/min")
-    (10.0, 2.5, None, None)
-    """
-    found = _RATE.findall(header)
-    return float(found[0].replace(",", ".")) if len(found) == 1 else None
-
-
-def _written(table: Table, tests: Sequence[Test], folder: Path) -> Iterator[Path]:
-    for temperature, mass, rate in tests:
-        T, m = table.columns[temperature], table.columns[mass]
-        rows = ~(np.isnan(T) | np.isnan(m))
-        T, m = T[rows], m[rows]
-        per_K = 5.0 / 9.0 if "F" in (table.units[temperature] or "") else 1.0
-        columns = {
-            "Time (s)": (T - T[0]) * per_K * 60.0 / rate,
-            _header("Temperature", table.units[temperature]): T,
-            _header("Mass", table.units[mass]): m,
-        }
-        path = folder / f"{table.path.stem}_{rate:g}K.csv"
-        write_csv(path, pd.DataFrame(columns))
-        yield path
+def _written(kind: str, table: Table, test: Part, folder: Path) -> Path:
+    columns = {new: table.columns[name] for new, name in test.columns.items()}
+    rows = ~np.any([np.isnan(column) for column in columns.values()], axis=0)
+    frame: dict[str, FloatArray] = {}
+    if test.rate_K_min is not None:
+        T, unit = columns["Temperature"][rows], table.units[test.columns["Temperature"]]
+        per_K = 5.0 / 9.0 if "F" in (unit or "") else 1.0
+        frame["Time (s)"] = (T - T[0]) * per_K * 60.0 / test.rate_K_min
+    for new, name in test.columns.items():
+        frame[_header(new, table.units[name])] = columns[new][rows]
+    ending = {"kinetics": "K", "imp": "kW"}[KINDS[kind].stage] if test.how == "unit" else ""
+    path = folder / f"{table.path.stem}_{test.number:g}{ending}.csv"
+    write_csv(path, pd.DataFrame(frame))
+    return path
 
 
 def _header(name: str, unit: str | None) -> str:

@@ -89,8 +89,8 @@ def _said_of_tables(files: Files, single: Files) -> list[str]:
     parts = [path.name for paths in single.values() for path in paths if path not in given]
     if not parts:
         return []
-    said = f"tables with several heating rates, named by their columns, became {', '.join(parts)}"
-    return [f"{said}; the times follow from the rates"]
+    said = f"tables with several tests, told by the names of columns, became {', '.join(parts)}"
+    return [f"{said}. Times follow from the rates where the table has none"]
 
 
 def _split(kind: str, paths: Sequence[Path], folder: Path) -> list[Path]:

@@ -1,0 +1,91 @@
+"""Headers in other languages than English are those of the same quantities."""
+
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+from pyrofit.data.stated import stated_in
+from pyrofit.new_study.draft import Measured
+from pyrofit.new_study.write import drafted
+
+KELVIN = np.arange(300.0, 900.0, 2.0)
+TIME = 6.0 * (KELVIN - 300.0)
+MASS = 1.0 + 5.0 / (1.0 + np.exp((KELVIN - 640.0) / 12.0))
+CELSIUS = KELVIN - 273.15
+RATE = 200.0 * np.exp(-(((TIME - 1200.0) / 300.0) ** 2))
+
+
+def read(tmp_path: Path, kind: str, header: str, *columns: np.ndarray) -> Measured:
+    """Return the record of a file with semicolons and decimal commas."""
+    rows = [";".join(f"{x:.4f}".replace(".", ",") for x in row) for row in zip(*columns)]  # noqa: B905
+    (tmp_path / "a.csv").write_text("\n".join([header, *rows]) + "\n", encoding="utf-8")
+    return drafted("x", {kind: [tmp_path / "a.csv"]})[1][0]
+
+
+TGA = [
+    "Temps (s);Température (°C);Masse (mg)",
+    "Zeit/s;Probentemperatur/°C;Gewicht/mg",
+    "Zeit in s;Temperatur in °C;Masse in mg",
+    "Tiempo (s);Temperatura (°C);Masa (mg)",
+    "Tempo (s);Temperatura (°C);Massa (mg)",
+    "temps_s;temperature_C;masse_mg",
+]
+
+
+@pytest.mark.parametrize("header", TGA)
+def test_a_tga_is_read_without_an_edit(header: str, tmp_path: Path) -> None:
+    run = read(tmp_path, "tga", header, TIME, CELSIUS, MASS)
+    frame = run.frames["mass_fraction"]
+    np.testing.assert_allclose(frame["time_s"], TIME)
+    np.testing.assert_allclose(frame["temperature_K"], KELVIN)
+    np.testing.assert_allclose(frame["mass_fraction"], MASS / MASS[0], atol=1e-4)
+    assert not run.left
+
+
+def test_the_sample_stands_beside_the_furnace(tmp_path: Path) -> None:
+    header = "Temps (s);Température du four (°C);Température échantillon (°C);Masse (mg)"
+    run = read(tmp_path, "tga", header, TIME, CELSIUS + 5.0, CELSIUS, MASS)
+    np.testing.assert_allclose(run.frames["mass_fraction"]["temperature_K"], KELVIN)
+
+
+@pytest.mark.parametrize("name", ["Perte de masse", "Weight loss", "Masseverlust"])
+def test_a_loss_is_not_taken_for_the_mass(name: str, tmp_path: Path) -> None:
+    run = read(tmp_path, "tga", f"Time (s);Temp (K);{name} (%)", TIME, KELVIN, 6.0 - MASS)
+    assert not run.frames
+    assert run.left[name].startswith("it is a loss of mass; make the mass a column")
+
+
+@pytest.mark.parametrize(
+    ("header", "found"),
+    [
+        ("Temps (s);Débit calorifique (kW/m2);Masse (g)", {"heat_release_rate", "mass"}),
+        ("Zeit (s);Wärmefreisetzungsrate (kW/m2);Masse (g)", {"heat_release_rate", "mass"}),
+        (
+            "Zeit (s);HRR (kW/m2);Rückseitentemperatur (K)",
+            {"heat_release_rate", "back_temperature"},
+        ),
+        (
+            "Temps (s);Vitesse de perte de masse (g/s);Température arrière (K)",
+            {"mlr", "back_temperature"},
+        ),
+    ],
+)
+def test_a_cone_is_read(header: str, found: set[str], tmp_path: Path) -> None:
+    run = read(tmp_path, "cone", header, TIME, RATE, 300.0 + MASS)
+    assert {one.quantity for one in run.signals} == found
+    assert not any(one.missing or one.guessed for one in run.signals)
+
+
+def test_a_heat_flow_is_read(tmp_path: Path) -> None:
+    for name in ("Flux de chaleur", "Wärmestrom", "Flujo de calor"):
+        header = f"Temps (s);Température (K);{name} (W/g)"
+        run = read(tmp_path, "dsc", header, TIME, KELVIN, MASS - 3.0)
+        assert run.frames["heat_flow"]["heat_flow_W_kg"].iloc[0] == pytest.approx(3000.0, rel=1e-3)
+
+
+def test_facts_above_a_table_are_read() -> None:
+    lines = [["Masse initiale", "8,2 mg"], ["Gaz vecteur", "Air"], ["Flux (kW/m²)", "50"]]
+    stated = stated_in(lines)
+    assert (stated.mass_kg, stated.gas, stated.flux_kW_m2) == (8.2e-6, "Air", 50.0)
+    assert stated_in([["Trägergas", "Stickstoff"]]).gas == "Stickstoff"
