@@ -21,6 +21,7 @@ _HOMES = {
     "PyrofitError": "errors",
     "Study": "config",
     "compare": "api.comparison",
+    "compare_models": "api.models",
     "compare_with": "api.against",
     "diagnose": "api.diagnosing",
     "effects": "api.catalogue",

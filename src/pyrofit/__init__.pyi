@@ -12,6 +12,7 @@ from pyrofit.api.fitting import fit as fit
 from pyrofit.api.isoconversional import Isoconversional as Isoconversional
 from pyrofit.api.isoconversional import isoconversional as isoconversional
 from pyrofit.api.measurements import read_data as read_data
+from pyrofit.api.models import compare_models as compare_models
 from pyrofit.api.objectives import log_likelihood as log_likelihood
 from pyrofit.api.objectives import residuals as residuals
 from pyrofit.api.results import Campaign as Campaign
@@ -35,6 +36,7 @@ __all__ = [
     "Study",
     "__version__",
     "compare",
+    "compare_models",
     "compare_with",
     "diagnose",
     "effects",

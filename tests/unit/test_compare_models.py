@@ -1,0 +1,180 @@
+"""Comparisons of models: their criteria, false alarms, and predictions of left-out rates."""
+
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+import pyrofit as pf
+from pyrofit.analysis.model_comparison import effective_points, f_test, inflation_of
+from pyrofit.errors import StudyError
+from pyrofit.solver.arrays import FloatArray
+
+SMOKE = Path(__file__).parents[2] / "config" / "smoke.yaml"
+RATES = ["tga_5K", "tga_20K"]
+ORDER = {
+    "parameters.n": {"unit": "-", "lower": 0.5, "upper": 2.5},
+    "material.reactions.pyrolysis.order": "n",
+    "kinetics.estimate": ["T_p", "E_p", "n"],
+    "synthetic.truth.n": 1.0,
+}
+STUDIES = {"first": pf.read_study(SMOKE), "nth": pf.read_study(SMOKE, **ORDER)}
+
+
+def records(order: float, waves: float = 0.0) -> pf.Curves:
+    truth = {"T_p": 605.0, "E_p": 190.0, "n": order}
+    curves = pf.simulate(STUDIES["nth"], truth, experiments=RATES)
+    rng, tables = np.random.default_rng(2), {}
+    for key, table in curves.items():
+        error = rng.normal(0.0, 0.003, len(table))
+        error += waves * np.sin(table["temperature_K"] / 8.0)
+        tables[key] = table.assign(mass_fraction=table["mass_fraction"] + error)
+    return pf.read_data(STUDIES["nth"], RATES, tables)
+
+
+def fitted(data: pf.Curves, **options: object) -> dict[str, pf.Fit]:
+    return {
+        name: pf.fit(study, data, signals=RATES, starts=4, profiles=False, **options)
+        for name, study in STUDIES.items()
+    }
+
+
+@pytest.fixture(scope="module")
+def of_first_order() -> dict[str, pf.Fit]:
+    return fitted(records(1.0))
+
+
+@pytest.fixture(scope="module")
+def of_third_half() -> dict[str, pf.Fit]:
+    return fitted(records(1.3))
+
+
+def test_model_without_the_order_loses_where_the_order_is_another(
+    of_third_half: dict[str, pf.Fit],
+) -> None:
+    table = pf.compare_models(of_third_half)
+    assert table.index.tolist() == ["nth", "first"]
+    assert table["parameters"].tolist() == [3, 2]
+    assert table["describes"].tolist() == [True, False]
+    assert table.loc["nth", "against"] == "first"
+    assert table.loc["nth", "p"] < 1e-10
+    assert table.loc["first", "d_bic"] > 100.0
+    assert table.loc["nth", "weight"] > 0.999
+    scores = table["log_score"]
+    assert scores["nth"] - scores["first"] > 50.0
+    assert table.loc["nth", "left_out_rms"] < 0.2 * table.loc["first", "left_out_rms"]
+
+
+def test_model_with_a_superfluous_order_gains_nothing(of_first_order: dict[str, pf.Fit]) -> None:
+    table = pf.compare_models(of_first_order, left_out=False)
+    assert table.index.tolist() == ["first", "nth"]
+    assert table.loc["nth", "p"] > 0.05
+    assert 0.0 < table.loc["nth", "d_bic"] < np.log(300.0)
+    # Each criterion as its formula says.
+    assert table["effective"].tolist() == [300.0, 300.0]
+    for name, fit in of_first_order.items():
+        row, k = table.loc[name], len(fit.table)
+        assert row["chi2"] == pytest.approx(fit.chi2, rel=1e-6)
+        assert row["bic"] == pytest.approx(row["chi2"] + k * np.log(300.0), rel=1e-12)
+        few = 2.0 * k * (k + 1) / (300.0 - k - 1)
+        assert row["aicc"] == pytest.approx(row["chi2"] + 2 * k + few, rel=1e-12)
+    first, nth = table.loc["first", "chi2"], table.loc["nth", "chi2"]
+    assert table.loc["nth", "F"] == pytest.approx((first - nth) / (nth / 297.0), rel=1e-9)
+    assert "log_score" not in table
+
+
+def test_left_out_rate_is_predicted_from_the_others(of_first_order: dict[str, pf.Fit]) -> None:
+    told: list[str] = []
+    table = pf.compare_models(of_first_order, tell=told.append)
+    fit = of_first_order["first"]
+    data = dict(fit.comparison.measured)
+    squares = []
+    for left, other in (RATES, RATES[::-1]):
+        alone = pf.fit(STUDIES["first"], data, signals=[other], starts=4, profiles=False)
+        y, f = alone.predict(left, data).values((left, "mass_fraction"))
+        squares.append(np.mean((f - y) ** 2) / np.ptp(y) ** 2)
+    assert table.loc["first", "left_out_rms"] == pytest.approx(np.sqrt(np.mean(squares)), rel=0.02)
+    assert [line.split(" predicted")[0] for line in told[:2]] == [
+        "first: 5 K/min",
+        "first: 20 K/min",
+    ]
+    assert abs(table["log_score"].diff().iloc[-1]) < 3.0
+
+
+def test_fits_read_from_json_have_the_same_comparison(of_first_order: dict[str, pf.Fit]) -> None:
+    again = {name: pf.Fit.from_json(fit.to_json()) for name, fit in of_first_order.items()}
+    tables = [pf.compare_models(fits, left_out=False) for fits in (of_first_order, again)]
+    assert tables[0].equals(tables[1])
+
+
+def test_lasting_misfit_leaves_fewer_points() -> None:
+    fits = fitted(records(1.0, waves=0.03))
+    table = pf.compare_models(list(fits.values()), left_out=False)
+    assert set(table.index) == {"model 1", "model 2"}
+    assert not table["describes"].any()
+    assert (table["effective"] < 100.0).all()
+    plain = min(fit.chi2 for fit in fits.values())
+    assert table["chi2"].min() < 0.5 * plain
+
+
+def basis(points: int, degree: int) -> FloatArray:
+    t = np.linspace(-1.0, 1.0, points)
+    return np.linalg.qr(np.polynomial.legendre.legvander(t, degree))[0]
+
+
+def p_of_superfluous(noise: FloatArray) -> tuple[float, float]:
+    """Return p of a superfluous parameter, with the effective points and with all of them."""
+    small, large = basis(noise.size, 2), basis(noise.size, 3)
+    r, w = (noise - Q @ (Q.T @ noise) for Q in (small, large))
+    factor = inflation_of(w, large)
+    freedom = effective_points(w, factor) - 4.0
+    counted = f_test(float(r @ r) / factor, float(w @ w) / factor, 1, freedom)[1]
+    return counted, f_test(float(r @ r), float(w @ w), 1, noise.size - 4.0)[1]
+
+
+@pytest.mark.parametrize(("lasting", "most", "least_plain"), [(0.0, 0.08, 0.02), (1.0, 0.2, 0.4)])
+def test_superfluous_parameter_is_seldom_claimed(
+    lasting: float, most: float, least_plain: float
+) -> None:
+    rng, found = np.random.default_rng(3), []
+    for _ in range(300):
+        error = np.empty(300)
+        error[0], steps = rng.standard_normal(), rng.standard_normal(300) * np.sqrt(1.0 - 0.9**2)
+        for i in range(1, 300):
+            error[i] = 0.9 * error[i - 1] + steps[i]
+        found.append(p_of_superfluous(rng.standard_normal(300) + lasting * error))
+    counted, plain = np.mean(np.array(found) < 0.05, axis=0)
+    assert counted < most
+    assert plain > least_plain
+
+
+@pytest.mark.parametrize(
+    ("change", "message"),
+    [
+        (lambda fits: fits["first"], "compare_models: fits by name are needed.* this is a Fit"),
+        (lambda fits: [fits["first"]], "compare_models: 1 fit is given; give two or more"),
+        (lambda fits: {**fits, "x": 3}, "compare_models: 'x' is a int; give a fit of `pf.fit`"),
+    ],
+)
+def test_wrong_models_are_explained(
+    change: object, message: str, of_first_order: dict[str, pf.Fit]
+) -> None:
+    with pytest.raises(StudyError, match=message):
+        pf.compare_models(change(of_first_order))
+
+
+def test_models_of_other_measurements_weights_or_costs_are_refused(
+    of_first_order: dict[str, pf.Fit], of_third_half: dict[str, pf.Fit]
+) -> None:
+    fit = of_first_order["first"]
+    data = dict(fit.comparison.measured)
+    with pytest.raises(StudyError, match="'nth' and 'first' are fits of other measurements"):
+        pf.compare_models({"first": fit, "nth": of_third_half["nth"]})
+    weighted = pf.fit(
+        fit.study, data, signals=RATES, weights={"tga_5K": 2.0}, starts=2, profiles=False
+    )
+    with pytest.raises(StudyError, match="'b' and 'a' have other weights"):
+        pf.compare_models({"a": fit, "b": weighted}, left_out=False)
+    cost = pf.fit(fit.study, data, signals=RATES, cost=np.subtract)
+    with pytest.raises(StudyError, match="'b' is a fit of a cost, which has no likelihood"):
+        pf.compare_models({"a": fit, "b": cost})
