@@ -1,6 +1,8 @@
 """The command `pyrofit run`, before it starts Snakemake."""
 
 import re
+import subprocess
+import sys
 from argparse import Namespace
 from pathlib import Path
 from typing import Any
@@ -67,7 +69,7 @@ def test_shipped_profile_is_written_for_the_user_to_change(
     ("words", "says"),
     [
         ([], "no study is given: pyrofit run STUDY; `pyrofit init NAME` writes one"),
-        (["none.yaml"], "none.yaml: there is no such file; give the YAML file of a study"),
+        (["none.yaml"], "none.yaml: there is no such study file"),
         ([str(SMOKE), "--profile", "mine"], "mine/config.yaml: there is no such profile; name a"),
     ],
 )
@@ -81,3 +83,39 @@ def test_what_is_not_there_is_told_with_the_way_out(
     monkeypatch.chdir(tmp_path)
     assert cli.main(["run", *words]) == 2
     assert says in capsys.readouterr().err
+
+
+def refused(words: list[str]) -> tuple[int, str]:
+    """Return exit code and line of a process that checks the studies given to Snakemake."""
+    code = f"from pyrofit.running.given import check_files; check_files({words!r})"
+    ended = subprocess.run(
+        [sys.executable, "-c", code], capture_output=True, text=True, check=False
+    )
+    return ended.returncode, ended.stderr
+
+
+BAD = {
+    "name: x\nvalue: !!python/object/apply:os.system [id]\n": "s.yaml: not valid yaml, line 2: ",
+    "__use_yte__: true\n": "s.yaml: __use_yte__: it lets Snakemake run programs",
+}
+
+
+@pytest.mark.parametrize(("text", "says"), BAD.items())
+def test_a_study_that_snakemake_cannot_take_is_named(text: str, says: str, tmp_path: Path) -> None:
+    study = tmp_path / "s.yaml"
+    study.write_text(text, encoding="utf-8")
+    code, line = refused(["snakemake", "--cores", "1", "--configfile", str(study), "-n"])
+    assert (code, says in line) == (2, True)
+    assert cli.main(["run", str(study)]) == 2
+
+
+def test_a_study_that_is_not_there_is_named_with_the_nearest(tmp_path: Path) -> None:
+    (tmp_path / "mywood.yaml").write_text("name: x\n", encoding="utf-8")
+    code, line = refused([f"--configfile={tmp_path / 'mywod.yaml'}"])
+    assert code == 2
+    assert "there is no such study file. Did you mean 'mywood.yaml'?" in line
+
+
+def test_the_default_profile_checks_the_studies_that_snakemake_is_given() -> None:
+    text = (ROOT / "profiles" / "default" / "config.yaml").read_text(encoding="utf-8")
+    assert "check_files(sys.argv)" in text

@@ -42,6 +42,7 @@ def add(commands: Any) -> None:
 
 
 def _run(given: argparse.Namespace) -> int:
+    from pyrofit.running.given import check_file
     from pyrofit.running.targets import targets
 
     if given.list:
@@ -53,8 +54,7 @@ def _run(given: argparse.Namespace) -> int:
             "no study is given: pyrofit run STUDY; `pyrofit init NAME` writes one, and "
             "`pyrofit run --list` lists the targets"
         )
-    if not given.study.is_file():
-        raise StudyError(f"{given.study}: there is no such file; give the YAML file of a study")
+    check_file(given.study)
     return _snakemake(_arguments(given))
 
 

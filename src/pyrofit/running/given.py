@@ -1,6 +1,7 @@
 """The study of a run as it is given: in files, or by a workflow that uses this one as a module."""
 
 import os
+import sys
 from collections.abc import Mapping, Sequence
 from pathlib import Path
 from typing import Any, NamedTuple
@@ -13,6 +14,8 @@ from pyrofit.errors import StudyError
 
 FILE = "study"
 """Key of a module's configuration that names a study file."""
+_PROGRAMS = "__use_yte__"
+"""Key by which a YAML file holds programs for Snakemake."""
 DEFAULT = "config/twin.yaml"
 """The study that runs if none is given."""
 
@@ -33,6 +36,58 @@ class Given(NamedTuple):
     keys: dict[str, Any]
     source: str
     files: list[str]
+
+
+def check_files(words: Sequence[str]) -> None:
+    """End this process with a line on a study that Snakemake is given and that cannot be read.
+
+    Snakemake itself would name neither the file nor the line, or show a traceback.
+
+    Parameters
+    ----------
+    words
+        Arguments of Snakemake, such as ``["--configfile", "mywood.yaml"]``.
+    """
+    try:
+        for file in _config_files(words):
+            check_file(Path(file))
+    except StudyError as error:
+        print(f"error: {error}", file=sys.stderr)
+        raise SystemExit(2) from None
+
+
+def check_file(file: Path) -> None:
+    """Refuse a study that Snakemake cannot read, or that would run programs as it is read.
+
+    Raises
+    ------
+    StudyError
+        With file and line where it is no YAML; the nearest file where there is none.
+    """
+    if _PROGRAMS in read_mapping(file):
+        raise StudyError(
+            f"{file}: {_PROGRAMS}: it lets Snakemake run programs in the file; delete this key"
+        )
+
+
+def _config_files(words: Sequence[str]) -> list[str]:
+    """Return the files behind ``--configfile``.
+
+    >>> _config_files(["--cores", "1", "--configfile", "a.yaml", "b.yaml", "-n", "--configfile=c"])
+    ['a.yaml', 'b.yaml', 'c']
+    """
+    files: list[str] = []
+    inside = False
+    for word in words:
+        option, _, value = word.partition("=")
+        if option in ("--configfile", "--configfiles"):
+            inside = not value
+            files += [value] if value else []
+        elif word.startswith("-"):
+            inside = False
+        elif inside:
+            files.append(word)
+    return files
 
 
 def from_files(files: Sequence[str], changes: Mapping[str, Any]) -> Given:
