@@ -42,29 +42,10 @@ STUDY = (
     *(module for step in known_steps().values() for module in step.modules),
 )
 """Modules of all steps of a study."""
-CATALOGUES = (
-    "pyrofit.quantities",
-    "pyrofit.scheme.arrangements",
-    *(
-        f"pyrofit.show.{subject}"
-        for subject in (
-            "answer",
-            "costs",
-            "diagnosis",
-            "fit",
-            "identification",
-            "isoconversional",
-            "kinetics",
-            "optimisers",
-            "truth",
-            "validation",
-        )
-    ),
-)
-"""Packages whose files are found without being imported by name, and all count.
-
-`results.dependencies` counts the effects that a study uses, and the used files of its plugins.
-"""
+FINDERS = frozenset({"pyrofit.discovery.contents", "pyrofit.show.section.section_of"})
+"""Functions by which a package finds its files without importing them by name; all count."""
+BY_USE = ("pyrofit.effects", "pyrofit.steps")
+"""Packages of which only the used files count, see `results.dependencies`."""
 
 
 def source_fingerprint(*modules: str) -> str:
@@ -143,11 +124,13 @@ _modules_here = cache(_files_by_module)
 """Modules of a folder as they are at the first call: a plan takes many fingerprints."""
 
 
-def _catalogue(package: str, modules: Iterable[str]) -> list[str]:
+def _catalogue(package: str, files: Mapping[str, Path]) -> list[str]:
     """Return the modules of a package that finds all of them."""
-    if package not in CATALOGUES:
+    path = files[package]
+    finds = path.name == "__init__.py" and source_of(path).imports & FINDERS
+    if not finds or package in BY_USE:
         return []
-    return [name for name in modules if name.rpartition(".")[0] == package]
+    return [name for name in files if name.rpartition(".")[0] == package]
 
 
 def environment() -> dict[str, Any]:

@@ -23,7 +23,7 @@ from pyrofit.results import dependencies
 from pyrofit.stages.measurements import computed
 
 ROOT = Path(__file__).parents[2]
-EFFECT, QUANTITY, COST = (
+EFFECT, QUANTITY, COST, *_ = (
     part.split("```")[0]
     for part in (ROOT / "docs" / "adding.md").read_text(encoding="utf-8").split("```python\n")[1:]
 )

@@ -14,7 +14,7 @@ from pyrofit import sources
 from pyrofit.config import Study, digest, read_study
 from pyrofit.effects import known_effects
 from pyrofit.plugins import code_digest
-from pyrofit.provenance import CATALOGUES, STUDY, imported_files, source_fingerprint
+from pyrofit.provenance import BY_USE, STUDY, imported_files, source_fingerprint
 from pyrofit.results import dependencies
 from pyrofit.results.step import slice_of
 from pyrofit.sources import analysed
@@ -268,13 +268,13 @@ def test_every_module_of_steps_and_pages_counts_in_the_fingerprint_of_a_study() 
     assert there - counted == {SOURCE / "stages" / "trial.py", SOURCE / "show" / "headline.py"}
 
 
-def test_packages_that_find_their_files_are_catalogues() -> None:
+def test_packages_that_find_their_files_count_with_all_of_them() -> None:
     finding = {
-        ".".join(("pyrofit", *path.parent.relative_to(SOURCE).parts))
+        ".".join(("pyrofit", *path.parent.relative_to(SOURCE).parts)): path.parent
         for path in SOURCE.rglob("__init__.py")
         if "__path__" in path.read_text(encoding="utf-8")
     }
-    # Their files count one by one, where a study uses them.
-    apart = {"pyrofit.effects", "pyrofit.cost.added", "pyrofit.steps"}
-    assert finding - apart <= set(CATALOGUES)
-    assert all((SOURCE.parent / name.replace(".", "/")).is_dir() for name in CATALOGUES)
+    assert set(BY_USE) < set(finding)
+    for package, folder in finding.items():
+        files = {*folder.glob("*.py"), *folder.glob("*/__init__.py")}
+        assert (files <= imported_files(SOURCE, [package])) == (package not in BY_USE), package

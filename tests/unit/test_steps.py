@@ -10,6 +10,7 @@ import pytest
 
 from pyrofit.cli import main
 from pyrofit.cli.command import _parser
+from pyrofit.cli.page import commands_page
 from pyrofit.config import Study, as_study, digest, read_study
 from pyrofit.config.reference import reference_page
 from pyrofit.errors import DataError
@@ -17,10 +18,12 @@ from pyrofit.provenance import STUDY as MODULES
 from pyrofit.provenance import imported_files
 from pyrofit.results.files import Results
 from pyrofit.results.step import check_options, inputs_of, slice_of, write_options
+from pyrofit.running.targets import targets
 from pyrofit.show.step_page import StepPage
 from pyrofit.steps import known_steps
 
 ROOT = Path(__file__).parents[2]
+SOURCE = ROOT / "src" / "pyrofit"
 SMOKE = ROOT / "config" / "smoke.yaml"
 STEPS = list(known_steps())
 WITH_OPTIONS = [name for name, step in known_steps().items() if step.options is not None]
@@ -76,6 +79,29 @@ def test_step_has_all_that_workflow_command_and_report_ask_for(name: str) -> Non
 def test_step_counts_in_the_fingerprint_of_a_study(name: str) -> None:
     folder = ROOT / "src/pyrofit/steps" / name
     assert set(folder.glob("*.py")) <= imported_files(ROOT / "src/pyrofit", MODULES)
+
+
+@pytest.mark.parametrize("name", STEPS)
+def test_step_is_a_target_and_stands_on_the_page_of_commands(name: str) -> None:
+    assert name in targets()
+    assert f"## `pyrofit {name}`\n" in commands_page(_parser())
+
+
+@pytest.mark.parametrize("name", STEPS)
+def test_step_reads_what_the_workflow_knows(name: str) -> None:
+    rules = (SOURCE / "workflow/rules/steps.smk").read_text(encoding="utf-8")
+    known = set(re.findall(r'^    "(\w+)": ', rules, re.MULTILINE))
+    inputs = inputs_of(name)
+    assert {*inputs.reads, *inputs.gathers} <= known
+
+
+@pytest.mark.parametrize("name", STEPS)
+def test_no_list_names_a_step(name: str) -> None:
+    lists = ("workflow/study.smk", "cli/command.py", "cli/stepping.py", "provenance.py")
+    for file in (*lists, "show/report.py", "results/files.py", "config/steps.py"):
+        text = (SOURCE / file).read_text(encoding="utf-8")
+        assert not re.search(rf"\b{name}\b", text), file
+    assert not (SOURCE / f"workflow/rules/{name}.smk").exists()
 
 
 @pytest.mark.parametrize("name", STEPS)

@@ -8,7 +8,7 @@ from typing import Any
 import pytest
 from tiny import ROOT, TERM, TINY, Project, Run
 
-EFFECT, QUANTITY, COST = (
+EFFECT, QUANTITY, COST, *_ = (
     part.split("```")[0]
     for part in (ROOT / "docs" / "adding.md").read_text(encoding="utf-8").split("```python\n")[1:]
 )

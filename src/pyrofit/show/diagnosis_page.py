@@ -3,11 +3,10 @@
 import pandas as pd
 
 from pyrofit.config import Study
-from pyrofit.discovery import contents
 from pyrofit.parallel import parallel_map
 from pyrofit.results import diagnosis, recorded
 from pyrofit.results.files import Results, write_text
-from pyrofit.show import diagnosis as items
+from pyrofit.show.diagnosis import FIGURES, TABLES
 from pyrofit.show.diagnosis.curves import curve_figures
 from pyrofit.show.diagnosis.sentences import (
     certainty,
@@ -23,11 +22,9 @@ from pyrofit.show.measured import use_in_diagnosis
 from pyrofit.show.page import page_of
 from pyrofit.show.parts import Part, Picture, Question, Shown, picture, table_part
 from pyrofit.show.step_page import sections_of
-from pyrofit.show.table import Table, write_table
+from pyrofit.show.table import write_table
 
 FOLDER = "diagnosis"
-TABLES: dict[str, Table] = contents(items.__name__, items.__path__, "TABLE")
-FIGURES: dict[str, Figure] = contents(items.__name__, items.__path__, "FIGURE")
 
 
 def exists(results: Results) -> bool:
