@@ -62,6 +62,14 @@ class SearchStep:
     looks: tuple[Screening, ...]
     trials: tuple[FittedModel, ...] = ()
 
+    def done(self) -> "SearchStep":
+        """Return the step with its fits alone: its looks take most of the memory of a search."""
+        return SearchStep(self.start, _not_kept, (), self.trials)
+
+
+def _not_kept() -> LackOfFit:
+    raise AssertionError("the lack of fit of a step that is done is not kept")
+
 
 Tried = Sequence[tuple[SearchStep, int]]
 """Steps, each with the largest number of effects that are tried. They share the processes."""

@@ -151,7 +151,7 @@ class _Pass:
                 break
             steps += [self._onwards(trial) for trial in beam[1:]]
             steps = self._more(steps)
-            rounds += steps
+            rounds += [step.done() for step in steps]
             beam = branches(steps, self.spare, self.context)
         # An exchange may drop an effect, so forms are fitted after it. A split needs them: only an
         # effect with free forms looks like two. What a split brings has no forms yet.
@@ -285,7 +285,7 @@ class _Pass:
     def _with_more(self, found: Search, steps: Sequence[SearchStep], most: int) -> Search:
         """Return the search with further steps, each fitted with one effect more."""
         trials = more([(step, most) for step in steps], self.context, found.end.penalised)
-        tried = [replace(step, trials=own) for step, own in zip(steps, trials, strict=True)]
+        tried = [replace(step, trials=own).done() for step, own in zip(steps, trials, strict=True)]
         return replace(found, rounds=(*found.rounds, *tried))
 
     def _formed(self, found: Search) -> Search:
