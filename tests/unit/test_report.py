@@ -309,6 +309,16 @@ def test_limits_come_first_among_the_values(tmp_path: Path) -> None:
     assert said[0].startswith("k (upper) and cp (upper) are at a limit: the best fit lies outside")
 
 
+def test_fitted_tests_in_air_are_told_among_the_values(tmp_path: Path) -> None:
+    given = described()
+    for name in ("fast", "slow"):  # no cost compares the fast one
+        given["experiments"][name]["gas"] = "air"
+    study, facts = _with_facts(tmp_path, given)
+    said = [one for one in summary(study, facts)[1].said if "no oxidation" in one]
+    assert [one.split(":")[0] for one in said] == ["slow"]
+    assert ": the gas is air, and the model has no oxidation." in said[0]
+
+
 def test_sections_say_the_numbers(tmp_path: Path) -> None:
     page, _ = written(tmp_path)
     for claim in (

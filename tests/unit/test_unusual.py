@@ -221,3 +221,13 @@ def test_limits_of_a_reaction_that_reach_room_temperature_are_no_fault() -> None
     assert not [one for one in told(SECOND | wide) if "reacts at room" in one]
     cold = {"parameters.T_2": T | {"upper": 298}}
     assert [one for one in told(SECOND | wide | cold) if "reacts at room" in one]
+
+
+def test_a_fitted_test_in_oxygen_is_told_and_another_is_not() -> None:
+    names = [term["experiment"] for term in SMOKE["kinetics"]["cost"]]
+    for gas, count in (("O2-21", 1), ("N2", 0), ("synthetic air", 1)):
+        said = [one for one in told({f"experiments.{names[0]}.gas": gas}) if "no oxidation" in one]
+        assert [one.split(":")[0] for one in said] == [f"experiments.{names[0]}"] * count
+    others = SMOKE["kinetics"]["cost"][1:]
+    alone = {"kinetics.cost": others, f"experiments.{names[0]}.gas": "air"}
+    assert not [one for one in told(alone) if "no oxidation" in one]

@@ -6,6 +6,7 @@ from math import isfinite
 
 from pyrofit.config.cold import cold_reactions
 from pyrofit.config.derived import ends_of
+from pyrofit.config.oxidised import oxidised
 from pyrofit.config.study import Study
 from pyrofit.model.base import Part
 from pyrofit.model.properties import Table
@@ -49,7 +50,13 @@ Number = int | float | str
 
 def unusual(study: Study) -> list[str]:
     """Return one sentence for each unusual value or name; a study is valid in spite of them."""
-    return [*_values(study), *cold_reactions(study), *_counts(study), *_names(study)]
+    return [
+        *_values(study),
+        *cold_reactions(study),
+        *oxidised(study),
+        *_counts(study),
+        *_names(study),
+    ]
 
 
 def _values(study: Study) -> Iterator[str]:

@@ -20,6 +20,15 @@ _HEAT = re.compile(
 _BEGINS = re.compile(r"\W*\d+\)|\W*\d+:")
 
 
+def holds_oxygen(gas: str) -> bool:
+    """Tell whether a gas holds oxygen, by its name or its part of the name of a file.
+
+    >>> [holds_oxygen(gas) for gas in ("air", "N2", "Synthetic air", "O2-21", "chair")]
+    [True, False, True, True, False]
+    """
+    return bool(OXYGEN.search(gas))
+
+
 def change_of_gas(lines: Sequence[str]) -> tuple[str, str, float | None] | None:
     """Return the first gas, a later one with oxygen, and the time [s] of the change, if known.
 

@@ -4,7 +4,7 @@ import re
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
 
-from pyrofit.data.gas_steps import INERT, OXYGEN, change_of_gas
+from pyrofit.data.gas_steps import INERT, OXYGEN, change_of_gas, holds_oxygen
 from pyrofit.quantities.units import SCALES, unit_key
 
 _FIRST = 200
@@ -78,15 +78,6 @@ class Stated:
     def in_oxygen(self) -> bool:
         """Whether the gas holds oxygen."""
         return holds_oxygen(self.gas)
-
-
-def holds_oxygen(gas: str) -> bool:
-    """Tell whether a gas holds oxygen, by its name or its part of the name of a file.
-
-    >>> [holds_oxygen(gas) for gas in ("air", "N2", "Synthetic air", "O2-21", "chair")]
-    [True, False, True, True, False]
-    """
-    return bool(OXYGEN.search(gas))
 
 
 def stated_in(lines: Sequence[Sequence[str]]) -> Stated:

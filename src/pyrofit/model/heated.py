@@ -1,5 +1,6 @@
 """A small sample that follows a temperature programme."""
 
+from collections.abc import Iterable
 from typing import Literal, Self
 
 from pydantic import Field, model_validator
@@ -24,6 +25,9 @@ class HeatedExperiment(Experiment):
     """A small sample of one temperature that is heated at a constant rate."""
 
     heating_rate_K_min: AboveZero = Field(description="nominal heating rate [K/min]")
+    gas: str = Field(
+        "", description="gas around the sample, in words; the model has no oxidation, which is told"
+    )
     program: Literal["nominal", "measured", "from_temperature"] = Field(
         "measured",
         description="temperature over time: the measured one, or T0 + rate t; `from_temperature`: "
@@ -44,6 +48,10 @@ class HeatedExperiment(Experiment):
     )
     start_temperature_K: AboveZero = Field(300.0, description="synthetic: first temperature [K]")
     end_temperature_K: AboveZero = Field(850.0, description="synthetic: last temperature [K]")
+
+    def as_simulated(self, signals: Iterable[str]) -> Self:
+        """Return the inputs of its curves, which the gas is not."""
+        return super().as_simulated(signals).model_copy(update={"gas": ""})
 
     @model_validator(mode="after")
     def _lag_instead_of_delay(self) -> Self:

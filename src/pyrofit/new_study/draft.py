@@ -10,10 +10,10 @@ import numpy as np
 import pandas as pd
 
 from pyrofit.data.csvfile import Table, read_table
+from pyrofit.data.gas_steps import holds_oxygen
 from pyrofit.data.heating import End, end_of_heating
 from pyrofit.data.series import read_series
 from pyrofit.data.spec import SeriesSpec
-from pyrofit.data.stated import holds_oxygen
 from pyrofit.errors import DataError, StudyError
 from pyrofit.experiments import KINDS, files_of
 from pyrofit.experiments.base import Kind

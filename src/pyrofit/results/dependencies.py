@@ -46,13 +46,13 @@ def _known_values(study: Study, names: Iterable[str]) -> dict[str, Any]:
 def _experiment(study: Study, name: str) -> dict[str, Any]:
     """As it is simulated and compared by costs, which know nothing of errors of clocks."""
     clocks = {"signals": {"__all__": {"timing_s"}}}
-    described = study.experiments[name].model_dump(exclude={"title": True, **clocks})
+    described = study.experiments[name].model_dump(exclude={"title": True, "gas": True, **clocks})
     return described | _files(study, name)
 
 
 def _measured(study: Study, name: str) -> dict[str, Any]:
     """As it is simulated and compared with regard to its noise."""
-    return study.experiments[name].model_dump(exclude={"title"}) | _files(study, name)
+    return study.experiments[name].model_dump(exclude={"title", "gas"}) | _files(study, name)
 
 
 def measured(study: Study) -> dict[str, Any]:

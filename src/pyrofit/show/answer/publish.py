@@ -5,6 +5,7 @@ from collections.abc import Iterator
 from pyrofit.analysis.answer import estimated_twice, one_each
 from pyrofit.analysis.estimates import Estimated
 from pyrofit.config import Study
+from pyrofit.config.oxidised import oxidised
 from pyrofit.results.kinetics import FITTED
 from pyrofit.show.facts import Facts
 from pyrofit.show.names import STAGES, named
@@ -22,6 +23,8 @@ def publishable(study: Study, facts: Facts) -> Iterator[str]:
     yield from _far_from_known(facts)
     yield from _kinetics_of_imp(study)
     yield from _assumed(facts)
+    for sentence in oxidised(study):
+        yield f"{sentence.removeprefix('experiments.')}."
 
 
 def _at_limits(found: list[Estimated]) -> Iterator[str]:
