@@ -2,7 +2,6 @@
 
 from collections.abc import Sequence
 from itertools import takewhile
-from typing import Any
 
 import pandas as pd
 
@@ -21,12 +20,9 @@ from pyrofit.quantities.base import Quantity
 from pyrofit.results import prediction, recorded
 from pyrofit.results.files import Results
 from pyrofit.show import style
-from pyrofit.show.drawn import Axes, Canvas, Line2D, Patch
+from pyrofit.show.drawn import Axes, Canvas, Line2D, Look, Patch
 from pyrofit.show.names import data_name
 from pyrofit.show.units import difference, shown
-
-Look = dict[str, Any]
-
 
 Pair = tuple[str, str]
 """Names of an experiment and a signal."""
@@ -162,14 +158,14 @@ def draw_band(ax: Axes, frame: pd.DataFrame, quantity: Quantity, about_zero: boo
 def look_of(study: Study, chosen: PredictedSet) -> Look:
     """Return the line style of a set."""
     if chosen.origin == ESTIMATES:
-        return dict(_ESTIMATES)
-    look = dict(style.cost_styles(study)[chosen.cost])
+        return _ESTIMATES
+    look = style.cost_styles(study)[chosen.cost]
     if chosen.origin == PUBLISHED:
         return {**_THEIRS, **_marks(study, chosen.cost)}
     if chosen.origin in STARTED:
         (marker,) = (by.marker for by in OPTIMISERS.values() if by.words == chosen.origin)
         first = 0.03 * STARTED.index(chosen.origin)
-        marks = {"marker": marker, "markersize": 2.2, "markevery": (first, 0.06)}
+        marks: Look = {"marker": marker, "markersize": 2.2, "markevery": (first, 0.06)}
         return {**look, "linewidth": 0.7, **marks}
     return look
 

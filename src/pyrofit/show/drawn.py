@@ -3,9 +3,9 @@
 The workflow reads titles, captions and names of all figures each time that it starts.
 """
 
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Any, Literal, TypedDict
 
-__all__ = ["Axes", "Canvas", "Line2D", "Patch"]
+__all__ = ["Axes", "Canvas", "Line2D", "Look", "Patch"]
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
@@ -14,3 +14,27 @@ if TYPE_CHECKING:
     from matplotlib.patches import Patch
 else:
     Axes = Canvas = Line2D = Patch = Any
+
+
+class Look(TypedDict, total=False):
+    """How lines, markers, areas and words are drawn, by Matplotlib's names; sizes in points."""
+
+    color: str
+    alpha: float
+    linestyle: str | tuple[float, tuple[float, ...]]
+    linewidth: float
+    solid_capstyle: Literal["butt", "round"]
+    drawstyle: Literal["steps-post"]
+    marker: str
+    markersize: float
+    markerfacecolor: str
+    markeredgewidth: float
+    markevery: int | tuple[float, float]
+    facecolor: str
+    edgecolor: str
+    hatch: str
+    step: Literal["post"]
+    transform: Any
+    ha: Literal["left", "center", "right"]
+    va: Literal["top", "center", "bottom"]
+    fontsize: float

@@ -8,7 +8,7 @@ import numpy as np
 
 from pyrofit.config import Study
 from pyrofit.results.files import Results, write_bytes
-from pyrofit.show.drawn import Axes, Canvas, Line2D, Patch
+from pyrofit.show.drawn import Axes, Canvas, Line2D, Look, Patch
 
 MM = 1.0 / 25.4
 
@@ -107,7 +107,7 @@ def dashes(i: int) -> Any:
     return DASHES[i % len(DASHES)]
 
 
-def cost_styles(study: Study) -> dict[str, dict[str, Any]]:
+def cost_styles(study: Study) -> dict[str, Look]:
     """Return colour and line style of each cost function."""
     return {
         cost: {"color": colour(i), "linestyle": dashes(i)} for i, cost in enumerate(study.imp.costs)

@@ -1,7 +1,5 @@
 """Measured, fitted and predicted at a glance."""
 
-from typing import Any
-
 import pandas as pd
 
 from pyrofit.analysis.uses import ESTIMATES, FITTED, HELD_OUT, LIKELIHOOD, title_of, use_of
@@ -19,7 +17,7 @@ from pyrofit.show.curves import (
     predicted_curves,
     tests_of,
 )
-from pyrofit.show.drawn import Axes, Canvas
+from pyrofit.show.drawn import Axes, Canvas, Look
 from pyrofit.show.facts import Facts
 from pyrofit.show.figure import Figure
 from pyrofit.show.units import shown
@@ -27,7 +25,7 @@ from pyrofit.show.verdicts import verdict_on
 
 _MOST = 2
 """Tests of each use that are shown."""
-_LINE: dict[str, Any] = {"color": style.ESTIMATES, "linewidth": 1.1}
+_LINE: Look = {"color": style.ESTIMATES, "linewidth": 1.1}
 
 
 def overview(study: Study, results: Results) -> Canvas:

@@ -1,7 +1,5 @@
 """Fig. 1: quantities that the cost functions measure."""
 
-from typing import Any
-
 import numpy as np
 
 from pyrofit.config import Study
@@ -16,7 +14,7 @@ from pyrofit.cost.distances import (
 from pyrofit.numerics import functions
 from pyrofit.results.files import Results
 from pyrofit.show import style
-from pyrofit.show.drawn import Axes, Canvas, Line2D, Patch
+from pyrofit.show.drawn import Axes, Canvas, Line2D, Look, Patch
 from pyrofit.show.figure import Figure
 
 MEAN = {"normalisation": "mean"}
@@ -35,25 +33,25 @@ PLATEAU_S = (160.0, 440.0)
 """Window of BANDS in the weighted sum [s]."""
 
 
-_TARGET: dict[str, Any] = {"color": style.COLOURS[0], "linestyle": "-", "linewidth": 1.3}
+_TARGET: Look = {"color": style.COLOURS[0], "linestyle": "-", "linewidth": 1.3}
 
 
-_MODEL: dict[str, Any] = {"color": style.COLOURS[1], "linestyle": style.DASHES[1]}
+_MODEL: Look = {"color": style.COLOURS[1], "linestyle": style.DASHES[1]}
 
 
-_COUNTED: dict[str, Any] = {"facecolor": "#7FCEB9", "edgecolor": "#00664A", "linewidth": 0.0}
+_COUNTED: Look = {"facecolor": "#7FCEB9", "edgecolor": "#00664A", "linewidth": 0.0}
 
 
 _HATCH = "////"
 
 
-_BAR: dict[str, Any] = {"color": "#00664A", "linewidth": 2.4, "solid_capstyle": "butt"}
+_BAR: Look = {"color": "#00664A", "linewidth": 2.4, "solid_capstyle": "butt"}
 
 
-_AREA: dict[str, Any] = {"color": "#C5E0F0"}
+_AREA: Look = {"color": "#C5E0F0"}
 
 
-_LEVEL: dict[str, Any] = {"color": "0.3", "linewidth": 0.7, "linestyle": (0, (1, 1.5))}
+_LEVEL: Look = {"color": "0.3", "linewidth": 0.7, "linestyle": (0, (1, 1.5))}
 
 
 def example() -> tuple[Target, FloatArray]:
@@ -105,7 +103,13 @@ def fig1(study: Study, results: Results) -> Canvas:
     entries: list[Line2D | Patch] = [
         style.line("example target y", **_TARGET),
         style.line("example model ŷ", **_MODEL),
-        Area(label="distance that counts", hatch=_HATCH, **_COUNTED),
+        Area(
+            label="distance that counts",
+            hatch=_HATCH,
+            facecolor=_COUNTED["facecolor"],
+            edgecolor=_COUNTED["edgecolor"],
+            linewidth=0.0,
+        ),
         style.patch("target area", **_AREA),
     ]
     style.legend_below(canvas, entries)

@@ -14,12 +14,12 @@ from pyrofit.results.comparison import bands as band_curves
 from pyrofit.results.files import Results
 from pyrofit.show import style
 from pyrofit.show.curves import draw_band, label_of
-from pyrofit.show.drawn import Axes, Canvas
+from pyrofit.show.drawn import Axes, Canvas, Look
 from pyrofit.show.figure import Figure
 from pyrofit.show.names import data_name
 from pyrofit.show.units import shown
 
-_BAND: dict[str, Any] = {"color": "#9ecae1", "linewidth": 0.0}
+_BAND: Look = {"color": "#9ecae1", "linewidth": 0.0}
 
 
 def good_sets(study: Study, results: Results) -> Canvas:

@@ -13,7 +13,7 @@ from pyrofit.results import searches
 from pyrofit.results.files import Results
 from pyrofit.results.identification import estimates
 from pyrofit.show import style
-from pyrofit.show.drawn import Axes, Canvas
+from pyrofit.show.drawn import Axes, Canvas, Look
 from pyrofit.show.figure import Figure
 from pyrofit.show.text import typeset
 
@@ -21,10 +21,10 @@ _WIDTH = 0.5
 """Width over which the repetitions of a cost function are laid out, in columns."""
 
 
-_POINTS: dict[str, Any] = {"linestyle": "none", "marker": ".", "markersize": 4.0, "alpha": 0.7}
+_POINTS: Look = {"linestyle": "none", "marker": ".", "markersize": 4.0, "alpha": 0.7}
 
 
-_BEST: dict[str, dict[str, Any]] = {
+_BEST: dict[str, Look] = {
     by.words: {
         "linestyle": "none",
         "marker": by.marker,
@@ -39,10 +39,10 @@ _BESIDE = {by: 0.33 + 0.09 * i for i, by in enumerate(STARTED)}
 """Places of the best sets beside the repetitions, in columns."""
 
 
-_TRUTH: dict[str, Any] = {"color": "black", "linewidth": 0.9, "linestyle": (0, (5, 2))}
+_TRUTH: Look = {"color": "black", "linewidth": 0.9, "linestyle": (0, (5, 2))}
 
 
-_PUBLISHED: dict[str, Any] = {"color": "black", "marker": "_", "markersize": 6.0, "linewidth": 0.8}
+_PUBLISHED: Look = {"color": "black", "marker": "_", "markersize": 6.0, "linewidth": 0.8}
 
 
 def spread(study: Study, results: Results) -> Canvas:

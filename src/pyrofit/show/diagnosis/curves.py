@@ -15,9 +15,8 @@ from pyrofit.quantities.units import ICE_POINT_K
 from pyrofit.results import diagnosis
 from pyrofit.results.files import Results
 from pyrofit.show import style
-from pyrofit.show.curves import Look
 from pyrofit.show.diagnosis.words import BASE, HELD_OUT, Found, quantity_of, words_of
-from pyrofit.show.drawn import Axes, Canvas
+from pyrofit.show.drawn import Axes, Canvas, Look
 from pyrofit.show.figure import Figure
 from pyrofit.show.names import data_name
 from pyrofit.show.units import celsius, shown

@@ -1,7 +1,6 @@
 """How well each effect would show, and which look alike."""
 
 from collections.abc import Sequence
-from typing import Any
 
 import numpy as np
 
@@ -10,14 +9,14 @@ from pyrofit.results import diagnosis
 from pyrofit.results.files import Results
 from pyrofit.show import style
 from pyrofit.show.diagnosis.words import Found
-from pyrofit.show.drawn import Axes, Canvas
+from pyrofit.show.drawn import Axes, Canvas, Look
 from pyrofit.show.figure import Figure
 
 FAMILIES = {"apparatus": "xxxx", "environment": "////", "material": ""}
 """Hatching of each family, so that they stay apart in grey."""
 
 
-LIMIT: dict[str, Any] = {"color": "black", "linewidth": 0.8, "linestyle": (0, (4, 2))}
+LIMIT: Look = {"color": "black", "linewidth": 0.8, "linestyle": (0, (4, 2))}
 
 
 def effects(study: Study, results: Results) -> Canvas:
@@ -65,7 +64,7 @@ def _bars(ax: Axes, rows: Sequence[Found], critical: float) -> None:
     for i, (row, size) in enumerate(zip(rows, sizes, strict=True)):
         family = _family(row)
         hatch = [*FAMILIES.values(), ""][family]
-        look: dict[str, Any] = {"color": style.colour(family), "hatch": hatch, "edgecolor": "white"}
+        look: Look = {"color": style.colour(family), "hatch": hatch, "edgecolor": "white"}
         ax.barh(i, size, height=0.75, **look, linewidth=0.0)
     ax.plot(scores, range(len(rows)), "D", color="white", markersize=4.6)
     ax.plot(scores, range(len(rows)), "D", color="black", markersize=3)

@@ -9,16 +9,16 @@ from pyrofit.effects import known_effects
 from pyrofit.results import diagnosis
 from pyrofit.results.files import Results
 from pyrofit.show import style
-from pyrofit.show.drawn import Canvas
+from pyrofit.show.drawn import Canvas, Look
 from pyrofit.show.figure import Figure
 
-_LEVEL: dict[str, Any] = {"color": "black", "linewidth": 0.8, "linestyle": (0, (4, 2))}
+_LEVEL: Look = {"color": "black", "linewidth": 0.8, "linestyle": (0, (4, 2))}
 
 
-_ABSENT: dict[str, Any] = {"color": "0.3", "linewidth": 0.8, "linestyle": (0, (1, 1.5))}
+_ABSENT: Look = {"color": "0.3", "linewidth": 0.8, "linestyle": (0, (1, 1.5))}
 
 
-_PROFILE: dict[str, Any] = {"color": style.COLOURS[0], "marker": "o", "markersize": 3}
+_PROFILE: Look = {"color": style.COLOURS[0], "marker": "o", "markersize": 3}
 
 
 def profiles(study: Study, results: Results) -> Canvas:

@@ -12,7 +12,7 @@ from pyrofit.results.files import Results
 from pyrofit.show import style
 from pyrofit.show.diagnosis.effects import LIMIT
 from pyrofit.show.diagnosis.words import CLAIMS, Found, ranked, remark
-from pyrofit.show.drawn import Axes, Canvas
+from pyrofit.show.drawn import Axes, Canvas, Look
 from pyrofit.show.figure import Figure
 
 MOST = 20
@@ -23,7 +23,7 @@ WRAP = 42
 """Letters of a line beside the candidates."""
 
 
-_BASE: dict[str, Any] = {"color": style.COLOURS[1], "linewidth": 1.2}
+_BASE: Look = {"color": style.COLOURS[1], "linewidth": 1.2}
 
 
 _KEPT: dict[str, Any] = {"marker": "o", "linestyle": "none", "color": style.COLOURS[0]}

@@ -10,24 +10,24 @@ from pyrofit.constants import QUANTILE
 from pyrofit.results.files import Results, read_csv
 from pyrofit.results.identification import estimates, noise
 from pyrofit.show import style
-from pyrofit.show.drawn import Axes, Canvas
+from pyrofit.show.drawn import Axes, Canvas, Look
 from pyrofit.show.facts import Facts
 from pyrofit.show.figure import Figure
 from pyrofit.show.text import listed, typeset
 
-_PARABOLA: dict[str, Any] = {"color": "0.45", "linestyle": (0, (4, 2)), "linewidth": 1.0}
+_PARABOLA: Look = {"color": "0.45", "linestyle": (0, (4, 2)), "linewidth": 1.0}
 
 
-_PROFILE: dict[str, Any] = {"color": style.COLOURS[0], "marker": "o", "markersize": 2.4}
+_PROFILE: Look = {"color": style.COLOURS[0], "marker": "o", "markersize": 2.4}
 
 
-_LEVEL: dict[str, Any] = {"color": "black", "linewidth": 0.7}
+_LEVEL: Look = {"color": "black", "linewidth": 0.7}
 
 
-_NOISE_LEVEL: dict[str, Any] = {"color": "black", "linewidth": 0.9, "linestyle": (0, (1, 1.5))}
+_NOISE_LEVEL: Look = {"color": "black", "linewidth": 0.9, "linestyle": (0, (1, 1.5))}
 
 
-_LIMIT: dict[str, Any] = {"color": style.COLOURS[1], "linewidth": 1.6}
+_LIMIT: Look = {"color": style.COLOURS[1], "linewidth": 1.6}
 
 
 def profiles(study: Study, results: Results) -> Canvas:
@@ -69,7 +69,8 @@ def _draw_profile(
         fine = np.linspace(points[0], points[-1], 300)
         drawn = np.interp(fine, points, root)
         ax.plot(fine, drawn if straight else drawn**2, color=_PROFILE["color"])
-        ax.plot(points, root if straight else root**2, **{**_PROFILE, "linestyle": "none"})
+        unjoined: Look = {**_PROFILE, "linestyle": "none"}
+        ax.plot(points, root if straight else root**2, **unjoined)
     ax.axhline(top, **_LEVEL)
     if dispersion > 1.0:
         ax.axhline(QUANTILE**2, **_NOISE_LEVEL)

@@ -10,17 +10,17 @@ from pyrofit.config import Study
 from pyrofit.results import searches
 from pyrofit.results.files import Results
 from pyrofit.show import style
-from pyrofit.show.drawn import Axes, Canvas
+from pyrofit.show.drawn import Axes, Canvas, Look
 from pyrofit.show.figure import Figure
 
 ACROSS = 3
 """Cost functions side by side."""
 
 
-_LS: dict[str, Any] = {"color": "black", "linestyle": (0, (5, 2)), "linewidth": 0.9}
+_LS: Look = {"color": "black", "linestyle": (0, (5, 2)), "linewidth": 0.9}
 
 
-_PUBLISHED: dict[str, Any] = {"color": "black", "linestyle": (0, (1, 1.5)), "linewidth": 1.1}
+_PUBLISHED: Look = {"color": "black", "linestyle": (0, (1, 1.5)), "linewidth": 1.1}
 
 
 def fig5(study: Study, results: Results) -> Canvas:
@@ -54,7 +54,7 @@ def _draw(
     grid, found = running_minima(frame, abscissa)
     by_calls = abscissa == "calls"
     look = style.cost_styles(study)[cost]
-    area: dict[str, Any] = {"step": "post"} if by_calls else {}
+    area: Look = {"step": "post"} if by_calls else {}
     low, high = found.min(axis=0), found.max(axis=0)
     ax.fill_between(grid, low, high, color=look["color"], alpha=0.3, linewidth=0.0, **area)
     # A band of no width, where all repetitions agree, would not be seen.
@@ -82,7 +82,7 @@ def published_mean(study: Study, cost: str) -> float | None:
     return None if fit is None else fit[1]
 
 
-def _steps(by_calls: bool) -> dict[str, Any]:
+def _steps(by_calls: bool) -> Look:
     return {"drawstyle": "steps-post"} if by_calls else {}
 
 

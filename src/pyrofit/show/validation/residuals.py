@@ -18,7 +18,7 @@ from pyrofit.show.curves import (
     set_entries,
     sets_beside_data,
 )
-from pyrofit.show.drawn import Canvas
+from pyrofit.show.drawn import Canvas, Look
 from pyrofit.show.figure import Figure
 from pyrofit.show.names import data_name
 from pyrofit.show.units import difference
@@ -39,7 +39,7 @@ def residuals(study: Study, results: Results) -> Canvas:
             curve = curve_of(curves, name, signal, chosen.label)
             off = curve["simulated"] - curve["measured"]
             look = look_of(study, chosen)
-            points = {"color": look["color"], "linewidth": 0.4, "alpha": 0.4}
+            points: Look = {"color": look["color"], "linewidth": 0.4, "alpha": 0.4}
             ax.plot(curve["time_s"], difference(quantity, off), **points)
             ax.plot(curve["time_s"], difference(quantity, running_mean(off)), **look)
     data = data_name(study, pairs)

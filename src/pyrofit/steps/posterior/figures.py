@@ -1,7 +1,5 @@
 """Predicted signals as bands, and the distribution of each parameter."""
 
-from typing import Any
-
 import numpy as np
 import pandas as pd
 
@@ -12,7 +10,7 @@ from pyrofit.quantities.base import Quantity
 from pyrofit.results.files import Results
 from pyrofit.show import style
 from pyrofit.show.curves import label_axes, label_of
-from pyrofit.show.drawn import Axes, Canvas, Line2D, Patch
+from pyrofit.show.drawn import Axes, Canvas, Line2D, Look, Patch
 from pyrofit.show.figure import Figure
 from pyrofit.show.table import always
 from pyrofit.show.units import shown
@@ -22,7 +20,7 @@ from pyrofit.steps.posterior.record import OfParameter
 
 WIDE, DARK, NARROW = "#A9BED6", "#5C86B3", "#004488"
 BINS = 40
-_TRUTH: Any = {"color": style.COLOURS[1], "linewidth": 1.0, "linestyle": (0, (5, 1.5))}
+_TRUTH: Look = {"color": style.COLOURS[1], "linewidth": 1.0, "linestyle": (0, (5, 1.5))}
 Entries = list[Line2D | Patch]
 
 

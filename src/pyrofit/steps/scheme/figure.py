@@ -6,13 +6,14 @@ import pandas as pd
 from pyrofit.config import Study
 from pyrofit.results.files import Results
 from pyrofit.show import style
-from pyrofit.show.drawn import Axes, Canvas
+from pyrofit.show.drawn import Axes, Canvas, Look
 from pyrofit.show.figure import Figure
 from pyrofit.show.kinetics.drawing import rate_of, slope
 from pyrofit.show.table import always
+from pyrofit.solver.arrays import FloatArray
 from pyrofit.steps.scheme import record
 
-LOOKS: dict[str, dict[str, object]] = {
+LOOKS: dict[str, Look] = {
     "before": {"color": style.COLOURS[1], "linestyle": style.DASHES[1], "linewidth": 1.0},
     "after": {"color": style.COLOURS[0], "linestyle": "-", "linewidth": 1.0},
     "predicted": {"color": style.COLOURS[2], "linestyle": style.DASHES[3], "linewidth": 1.1},
@@ -22,7 +23,7 @@ _LABELS = {
     "after": "chosen scheme",
     "predicted": "chosen scheme, rate left out",
 }
-_MEASURED = {"color": style.MEASURED, "linewidth": 0.8}
+_MEASURED: Look = {"color": style.MEASURED, "linewidth": 0.8}
 
 
 def draw(study: Study, results: Results) -> Canvas:
@@ -53,14 +54,14 @@ def _draw(axes: list[Axes], curve: pd.DataFrame) -> None:
     temperature = curve["temperature_K"].to_numpy(float)
     at = style.celsius(temperature)
     measured = curve["measured"].to_numpy(float)
-    mass.plot(at, measured, **_MEASURED)  # type: ignore[arg-type]
+    mass.plot(at, measured, **_MEASURED)
     _draw_slope(rate, temperature, measured, _MEASURED)
     style.zero_line(left)
     for name, look in LOOKS.items():
         simulated = curve[name].to_numpy(float)
-        mass.plot(at, simulated, **look)  # type: ignore[arg-type]
+        mass.plot(at, simulated, **look)
         _draw_slope(rate, temperature, simulated, look)
-        left.plot(at, simulated - measured, **look)  # type: ignore[arg-type]
+        left.plot(at, simulated - measured, **look)
     busy = np.flatnonzero((measured < 0.995) & (measured > 0.005))
     ends = (busy[0], busy[-1]) if busy.size else (0, -1)
     for ax in axes:
@@ -70,9 +71,9 @@ def _draw(axes: list[Axes], curve: pd.DataFrame) -> None:
     left.set_ylabel("sim. − meas. [–]")
 
 
-def _draw_slope(ax: Axes, temperature: object, mass: object, look: object) -> None:
-    grid, rate = slope(temperature, mass)  # type: ignore[arg-type]
-    ax.plot(style.celsius(grid), rate, **look)  # type: ignore[arg-type]
+def _draw_slope(ax: Axes, temperature: FloatArray, mass: FloatArray, look: Look) -> None:
+    grid, rate = slope(temperature, mass)
+    ax.plot(style.celsius(grid), rate, **look)
 
 
 FIGURE = Figure(

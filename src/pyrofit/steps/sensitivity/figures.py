@@ -1,14 +1,13 @@
 """Which input makes a signal vary at each time, and which cost sees which input."""
 
 from collections.abc import Callable, Sequence
-from typing import Any
 
 import numpy as np
 
 from pyrofit.config import Study
 from pyrofit.results.files import Results
 from pyrofit.show import style, units
-from pyrofit.show.drawn import Axes, Canvas
+from pyrofit.show.drawn import Axes, Canvas, Look
 from pyrofit.show.figure import Figure
 from pyrofit.show.table import always
 from pyrofit.steps.sensitivity import record
@@ -79,7 +78,7 @@ def first(study: Study, results: Results) -> Canvas:
 
     faces = [*(style.colour(i) for i in range(len(names))), "0.45"]
     hatches = [*HATCHES[: len(names)], HATCHES[-1]]
-    looks: list[dict[str, Any]] = [
+    looks: list[Look] = [
         {"facecolor": face, "hatch": hatch, "alpha": 0.6, "edgecolor": "white"}
         for face, hatch in zip(faces, hatches, strict=True)
     ]
