@@ -1,7 +1,6 @@
 """Inputs of each step of a study: the workflow reruns a step when its slice changes."""
 
 from collections.abc import Iterable
-from typing import Any
 
 from pyrofit.config import (
     Study,
@@ -21,46 +20,49 @@ from pyrofit.plugins import code_digest
 from pyrofit.quantities import known_quantities
 from pyrofit.results.code_digests import all_terms, code, code_of
 
+Slice = dict[str, object]
+"""What a step depends on, as it is written as JSON to be compared."""
 
-def _parameters(study: Study, names: set[str]) -> dict[str, Any]:
+
+def _parameters(study: Study, names: set[str]) -> Slice:
     return {
         n: study.parameters[n].model_dump(exclude={"label", "fixed", "expression"})
         for n in sorted(names)
     }
 
 
-def _values(study: Study) -> dict[str, Any]:
+def _values(study: Study) -> Slice:
     return {n: p.model_dump(include={"unit", "value"}) for n, p in study.parameters.items()}
 
 
-def known(study: Study, names: Iterable[str]) -> dict[str, Any]:
+def known(study: Study, names: Iterable[str]) -> Slice:
     """Known values of some parameters; no key where there are none."""
     found = _known_values(study, names)
     return {"known": found} if found else {}
 
 
-def _known_values(study: Study, names: Iterable[str]) -> dict[str, Any]:
+def _known_values(study: Study, names: Iterable[str]) -> Slice:
     return {n: study.known[n].model_dump(exclude={"source"}) for n in names if n in study.known}
 
 
-def _experiment(study: Study, name: str) -> dict[str, Any]:
+def _experiment(study: Study, name: str) -> Slice:
     """As it is simulated and compared by costs, which know nothing of errors of clocks."""
     clocks = {"signals": {"__all__": {"timing_s"}}}
     described = study.experiments[name].model_dump(exclude={"title": True, "gas": True, **clocks})
     return described | _files(study, name)
 
 
-def _measured(study: Study, name: str) -> dict[str, Any]:
+def _measured(study: Study, name: str) -> Slice:
     """As it is simulated and compared with regard to its noise."""
     return study.experiments[name].model_dump(exclude={"title", "gas"}) | _files(study, name)
 
 
-def measured(study: Study) -> dict[str, Any]:
+def measured(study: Study) -> Slice:
     """Return all experiments, as they are simulated and compared with regard to their noise."""
     return {name: _measured(study, name) for name in study.experiments}
 
 
-def _files(study: Study, name: str) -> dict[str, Any]:
+def _files(study: Study, name: str) -> Slice:
     """Checksums of template and other files of an external program; empty if there is none."""
     experiment = study.experiments[name]
     if not isinstance(experiment, ExternalExperiment):
@@ -68,7 +70,7 @@ def _files(study: Study, name: str) -> dict[str, Any]:
     return {"program_files": file_digests(experiment.program)}
 
 
-def trial(study: Study) -> dict[str, Any]:
+def trial(study: Study) -> Slice:
     """All inputs of the external programs, and the planned searches."""
     return {
         "experiments": {n: _experiment(study, n) for n in externals(study)},
@@ -78,7 +80,7 @@ def trial(study: Study) -> dict[str, Any]:
     }
 
 
-def data(study: Study) -> dict[str, Any]:
+def data(study: Study) -> Slice:
     """Signals as they are read; with synthetic ones, all that makes them."""
     of_the_model = {"delay_s", "offset", "timing_s"}
     signals = {
@@ -97,7 +99,7 @@ def data(study: Study) -> dict[str, Any]:
     }
 
 
-def kinetics(study: Study) -> dict[str, Any]:
+def kinetics(study: Study) -> Slice:
     """Everything of the TGA fit."""
     stage = kinetics_of(study)
     names = parameters_in(study.material, *study.of_stage("kinetics").values())
@@ -118,13 +120,13 @@ def kinetics(study: Study) -> dict[str, Any]:
     }
 
 
-def isoconversional(study: Study) -> dict[str, Any]:
+def isoconversional(study: Study) -> Slice:
     """All masses of heated samples, and the model that is fitted to them."""
     heated = {n: _measured(study, n) for n in study.of_stage("kinetics")}
     return {"heated": heated, "fit": identify(study) if study.kinetics is None else kinetics(study)}
 
 
-def imp(study: Study, cost: str, optimiser: str) -> dict[str, Any]:
+def imp(study: Study, cost: str, optimiser: str) -> Slice:
     """Everything of one cost's searches; ``optimiser`` is its key: 'sceua', 'cmaes' ..."""
     stage = study.imp
     terms = stage.costs[cost]
@@ -146,7 +148,7 @@ def imp(study: Study, cost: str, optimiser: str) -> dict[str, Any]:
     }
 
 
-def identify(study: Study) -> dict[str, Any]:
+def identify(study: Study) -> Slice:
     """Channels, parameters and material of the analysis of identifiability."""
     stage = study.imp
     used = sorted({c.experiment for c in stage.channels})
@@ -166,7 +168,7 @@ def identify(study: Study) -> dict[str, Any]:
     }
 
 
-def diagnose(study: Study) -> dict[str, Any]:
+def diagnose(study: Study) -> Slice:
     """Channels, parameters, prior knowledge, material and candidates of the diagnosis."""
     stage = study.diagnosis
     fitted, held_out = calibration_channels(study), held_out_channels(study)
@@ -192,7 +194,7 @@ def diagnose(study: Study) -> dict[str, Any]:
     }
 
 
-def validation(study: Study) -> dict[str, Any]:
+def validation(study: Study) -> Slice:
     """Predicted experiments, and the material they are predicted with."""
     return {
         "experiments": {n: _experiment(study, n) for n in study.of_stage("imp")},
@@ -206,7 +208,7 @@ def validation(study: Study) -> dict[str, Any]:
     }
 
 
-def compare(study: Study) -> dict[str, Any]:
+def compare(study: Study) -> Slice:
     """Costs, predicted experiments and material, by which all sets are judged."""
     return {
         "terms": {n: [t.model_dump() for t in terms] for n, terms in study.imp.costs.items()},
@@ -219,11 +221,11 @@ def compare(study: Study) -> dict[str, Any]:
     }
 
 
-def presentation(study: Study) -> dict[str, Any]:
+def presentation(study: Study) -> Slice:
     """Whatever tables, figures and the report show: the whole study."""
     return {**study.model_dump(), "code": code(study)}
 
 
-def collect(study: Study) -> dict[str, Any]:
+def collect(study: Study) -> Slice:
     """Which repetitions there are."""
     return {"costs": list(study.imp.costs), "repetitions": study.imp.repetitions}

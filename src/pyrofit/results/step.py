@@ -3,10 +3,10 @@
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 from pathlib import Path
-from typing import Any
 
 from pyrofit.config import Study
 from pyrofit.errors import DataError
+from pyrofit.results.dependencies import Slice
 from pyrofit.results.files import Results, read_json, write_json
 from pyrofit.steps import known_steps
 
@@ -41,7 +41,7 @@ class Inputs:
     """
 
     reads: tuple[str, ...]
-    slice_of: Callable[..., dict[str, Any]]
+    slice_of: Callable[..., Slice]
     files: tuple[str, ...]
     folders: tuple[str, ...] = ()
     parts: Callable[[Study], Sequence[str]] = _no_parts
@@ -57,7 +57,7 @@ def inputs_of(step: str) -> Inputs:
     return found
 
 
-def slice_of(study: Study, step: str, *part: str) -> dict[str, Any]:
+def slice_of(study: Study, step: str, *part: str) -> Slice:
     """Return all on which a step, or a part of it, depends but the files that it reads."""
     return {
         **inputs_of(step).slice_of(study, *part),
@@ -104,7 +104,7 @@ def _made_with(results: Results, step: str, *part: str) -> Path:
     return results.of_step(step, f"{'_'.join(['options', *part])}.json")
 
 
-def _options(study: Study, step: str, of_part: bool) -> dict[str, Any]:
+def _options(study: Study, step: str, of_part: bool) -> Slice:
     options = dict(study.steps).get(step)
     left_out = {*inputs_of(step).of_parts} if of_part else set()
     return {} if options is None else options.model_dump(mode="json", exclude=left_out)

@@ -12,6 +12,8 @@ from pyrofit.show.names import titled
 from pyrofit.show.text import groups, markdown, turned
 
 Frames = dict[str, pd.DataFrame]
+Row = dict[str, object]
+"""A row of a table, by column."""
 
 
 @dataclass(frozen=True)

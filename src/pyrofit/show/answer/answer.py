@@ -1,7 +1,5 @@
 """The answer: one value of each parameter, with its interval and verdict."""
 
-from typing import Any
-
 import pandas as pd
 
 from pyrofit.analysis.answer import one_each
@@ -10,7 +8,7 @@ from pyrofit.config import Study
 from pyrofit.results import identification
 from pyrofit.results.files import Results
 from pyrofit.show.names import STAGES, verdict_of
-from pyrofit.show.table import Table
+from pyrofit.show.table import Row, Table
 
 
 def answer(study: Study, results: Results) -> pd.DataFrame:
@@ -19,8 +17,8 @@ def answer(study: Study, results: Results) -> pd.DataFrame:
     return pd.DataFrame([_row(study, e) for e in found])
 
 
-def _row(study: Study, e: Estimated) -> dict[str, Any]:
-    row: dict[str, Any] = {"fit": STAGES[e.stage], "parameter": e.name}
+def _row(study: Study, e: Estimated) -> Row:
+    row: Row = {"fit": STAGES[e.stage], "parameter": e.name}
     # A column that is empty for all parameters is not shown.
     row |= {"name": study.parameters[e.name].label or None, "unit": e.unit}
     row |= {"estimate": e.value, "low": e.low, "high": e.high, "verdict": verdict_of(e)}

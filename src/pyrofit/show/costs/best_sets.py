@@ -10,7 +10,7 @@ from pyrofit.config import Study
 from pyrofit.estimate.optimisers import OPTIMISERS
 from pyrofit.results import identification, searches
 from pyrofit.results.files import Results
-from pyrofit.show.table import Table
+from pyrofit.show.table import Row, Table
 
 
 def table(study: Study, results: Results) -> pd.DataFrame:
@@ -27,10 +27,10 @@ def table(study: Study, results: Results) -> pd.DataFrame:
     return pd.DataFrame([_row(study, e, best) for e in known])
 
 
-def _row(study: Study, e: Estimated, best: list[dict[Any, Any]]) -> dict[str, Any]:
+def _row(study: Study, e: Estimated, best: list[dict[Any, Any]]) -> Row:
     factor = study.parameters[e.name].factor
     lower, upper = (limit * factor for limit in study.search_limits(e.name))
-    row: dict[str, Any] = {"parameter": e.name, "unit": e.unit, "low": e.low, "high": e.high}
+    row: Row = {"parameter": e.name, "unit": e.unit, "low": e.low, "high": e.high}
     outside, at_limit = [], []
     for one in best:
         cost, value = str(one["cost_function"]), float(one[e.name])

@@ -1,14 +1,12 @@
 """Every best set under every cost."""
 
-from typing import Any
-
 import pandas as pd
 
 from pyrofit.analysis.uses import FITTED, title_of
 from pyrofit.config import Study
 from pyrofit.results.comparison import scores
 from pyrofit.results.files import Results
-from pyrofit.show.table import Table
+from pyrofit.show.table import Row, Table
 
 
 def every_cost(study: Study, results: Results) -> pd.DataFrame:
@@ -22,7 +20,7 @@ def every_cost(study: Study, results: Results) -> pd.DataFrame:
     """
     found = scores(results)
     best = found[found["best"]]
-    rows: dict[tuple[str, str, str], dict[str, Any]] = {}
+    rows: dict[tuple[str, str, str], Row] = {}
     for row in best.to_dict("records"):
         key = row["place"], row["cost_function"], row["found_by"]
         place = FITTED if row["place"] == FITTED else title_of(study, row["place"])

@@ -1,13 +1,12 @@
 """Table 5: symbols and units."""
 
 from collections.abc import Iterable
-from typing import Any
 
 import pandas as pd
 
 from pyrofit.config import Study
 from pyrofit.model.base import numbers
-from pyrofit.show.table import Table
+from pyrofit.show.table import Row, Table
 
 # PAPER: Table 5 prints kJ/kg for E and m/K for k; Table 3 has kJ/kmol, and k is in W/(m K).
 _SYMBOLS: tuple[tuple[str, str, str, str, str], ...] = (
@@ -54,7 +53,7 @@ def table5(study: Study, results: object) -> pd.DataFrame:
 
 def _row(
     symbol: str, quantity: str, paper: str, si: str, names: Iterable[str], study: Study
-) -> dict[str, Any]:
+) -> Row:
     return {
         "symbol": symbol,
         "quantity": quantity,

@@ -1,7 +1,6 @@
 """Where model and measurement disagree."""
 
 from collections.abc import Sequence
-from typing import Any
 
 import numpy as np
 import pandas as pd
@@ -11,7 +10,7 @@ from pyrofit.config import Study
 from pyrofit.results import diagnosis
 from pyrofit.results.files import Results
 from pyrofit.show.diagnosis.words import MODELS, Found, quantity_of, words_of
-from pyrofit.show.table import Table, always
+from pyrofit.show.table import Row, Table, always
 from pyrofit.show.units import celsius, difference, difference_unit
 
 
@@ -20,7 +19,7 @@ def windows(study: Study, results: Results) -> pd.DataFrame:
     return pd.DataFrame([_window(study, w) for w in diagnosis.read(study, results)["windows"]])
 
 
-def _window(study: Study, w: Found) -> dict[str, Any]:
+def _window(study: Study, w: Found) -> Row:
     quantity = quantity_of(study, w)
     unit = difference_unit(quantity).replace("–", "")
     relative = None if quantity.is_temperature else w["relative"]

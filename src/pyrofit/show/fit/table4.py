@@ -1,7 +1,5 @@
 """Table 4: best sets, means and standard deviations."""
 
-from typing import Any
-
 import pandas as pd
 
 from pyrofit.analysis.estimates import estimated
@@ -10,7 +8,7 @@ from pyrofit.config import Study
 from pyrofit.results import identification, searches
 from pyrofit.results.files import Results
 from pyrofit.show.names import flag
-from pyrofit.show.table import Table
+from pyrofit.show.table import Row, Table
 
 
 def table4(study: Study, results: Results) -> pd.DataFrame:
@@ -32,7 +30,7 @@ def table4(study: Study, results: Results) -> pd.DataFrame:
     return pd.DataFrame(rows).drop(columns=absent)
 
 
-def _row(study: Study, found: Repeated, by_data: str) -> dict[str, Any]:
+def _row(study: Study, found: Repeated, by_data: str) -> Row:
     published = {} if study.published is None else study.published.costs
     theirs = published.get(found.cost_function, {}).get(found.name, (None, None, None))
     return {

@@ -1,11 +1,9 @@
 """Table 6: the limits between which parameters are sought."""
 
-from typing import Any
-
 import pandas as pd
 
 from pyrofit.config import Study
-from pyrofit.show.table import Table
+from pyrofit.show.table import Row, Table
 
 
 def table6(study: Study, results: object) -> pd.DataFrame:
@@ -27,7 +25,7 @@ def table6(study: Study, results: object) -> pd.DataFrame:
     return pd.DataFrame(rows).drop(columns=absent)
 
 
-def _limits(study: Study, stage: str, name: str) -> dict[str, Any]:
+def _limits(study: Study, stage: str, name: str) -> Row:
     parameter = study.parameters[name]
     tables = study.published.costs.values() if study.published else ()
     theirs = study.published.limits.get(name) if study.published else None

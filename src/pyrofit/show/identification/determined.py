@@ -1,7 +1,5 @@
 """Intervals of the parameters, and their verdicts."""
 
-from typing import Any
-
 import pandas as pd
 
 from pyrofit.analysis.estimates import Estimated, estimated
@@ -9,7 +7,7 @@ from pyrofit.config import Study
 from pyrofit.results import identification
 from pyrofit.results.files import Results
 from pyrofit.show.names import STAGES
-from pyrofit.show.table import Table
+from pyrofit.show.table import Row, Table
 from pyrofit.show.text import signed
 
 
@@ -23,7 +21,7 @@ def determined(study: Study, results: Results) -> pd.DataFrame:
     return pd.DataFrame([_row(study, e) for e in estimates])
 
 
-def _row(study: Study, e: Estimated) -> dict[str, Any]:
+def _row(study: Study, e: Estimated) -> Row:
     truth = {} if study.synthetic is None else {"truth": study.synthetic.truth.get(e.name)}
     return {
         "fit": STAGES[e.stage],

@@ -1,7 +1,5 @@
 """Known values of parameters beside their estimates."""
 
-from typing import Any
-
 import pandas as pd
 
 from pyrofit.analysis.estimates import estimated
@@ -10,7 +8,7 @@ from pyrofit.config import Study
 from pyrofit.results import identification
 from pyrofit.results.files import Results
 from pyrofit.show.names import STAGES
-from pyrofit.show.table import Table
+from pyrofit.show.table import Row, Table
 
 
 def table(study: Study, results: Results) -> pd.DataFrame:
@@ -19,7 +17,7 @@ def table(study: Study, results: Results) -> pd.DataFrame:
     return pd.DataFrame([_row(known) for known in known_values(study, estimates)])
 
 
-def _row(known: Known) -> dict[str, Any]:
+def _row(known: Known) -> Row:
     estimate = known.estimate
     return {
         "fit": STAGES[estimate.stage],

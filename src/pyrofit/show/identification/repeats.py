@@ -1,7 +1,5 @@
 """Repeats of tests, and their differences beside the stated scatter."""
 
-from typing import Any
-
 import pandas as pd
 
 from pyrofit.analysis.estimates import estimated
@@ -11,7 +9,7 @@ from pyrofit.config.nuisances import NUISANCES
 from pyrofit.results import identification
 from pyrofit.results.files import Results
 from pyrofit.show.names import STAGES
-from pyrofit.show.table import Table
+from pyrofit.show.table import Row, Table
 
 
 def table(study: Study, results: Results) -> pd.DataFrame:
@@ -31,9 +29,9 @@ def table(study: Study, results: Results) -> pd.DataFrame:
     return pd.DataFrame(rows).dropna(axis="columns", how="all")
 
 
-def _row(study: Study, repeat: Repeated, one: Differing | None) -> dict[str, Any]:
+def _row(study: Study, repeat: Repeated, one: Differing | None) -> Row:
     words = study.experiments[repeat.name].words
-    about: dict[str, Any] = {
+    about: Row = {
         "test": repeat.test,
         "repeat": repeat.name,
         "signals": ", ".join(words(signal) for signal in repeat.signals),

@@ -1,7 +1,5 @@
 """How well the kinetics and heats reproduce heat flow and heat release."""
 
-from typing import Any
-
 import pandas as pd
 
 from pyrofit.config import Study
@@ -9,7 +7,7 @@ from pyrofit.results import kinetics
 from pyrofit.results.files import Results
 from pyrofit.results.kinetics import heats_shown
 from pyrofit.show.kinetics.drawing import rate_of
-from pyrofit.show.table import Table
+from pyrofit.show.table import Row, Table
 
 
 def heat_scores(study: Study, results: Results) -> pd.DataFrame:
@@ -23,7 +21,7 @@ def heat_scores(study: Study, results: Results) -> pd.DataFrame:
     """
     rows_of_file = kinetics.heat_scores(study, results).to_dict("records")
     scores = {(row["experiment"], row["signal"], row["set"]): row for row in rows_of_file}
-    rows: list[dict[str, Any]] = []
+    rows: list[Row] = []
     for name, signal in heats_shown(study):
         shown = study.experiments[name].quantity(signal).shown
         found = {label: scores[name, signal, label] for label in kinetics.labels(study)}

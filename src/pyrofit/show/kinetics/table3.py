@@ -1,7 +1,5 @@
 """Table 3: the kinetics, ours beside the published ones."""
 
-from typing import Any
-
 import pandas as pd
 
 from pyrofit.analysis.uses import all_rates, rates_in_fit
@@ -9,7 +7,7 @@ from pyrofit.config import Study
 from pyrofit.results import kinetics
 from pyrofit.results.files import Results
 from pyrofit.show.kinetics.drawing import rate_of
-from pyrofit.show.table import Table
+from pyrofit.show.table import Row, Table
 from pyrofit.solver.outputs import MASS_FRACTION
 
 _PAPER_UNIT = "kJ/kmol"
@@ -34,7 +32,7 @@ def table3(study: Study, results: Results) -> pd.DataFrame:
         set. A study with published values has the set of the lowest cost, too, and that cost.
     """
     sets = kinetics.sets(study, results)
-    rows: list[dict[str, Any]] = [
+    rows: list[Row] = [
         {
             "quantity": quantity,
             "of": f"reaction {reaction}",
@@ -52,7 +50,7 @@ def table3(study: Study, results: Results) -> pd.DataFrame:
     return pd.DataFrame(rows, columns=["quantity", "of", "unit", "used_in_fit", *sets])
 
 
-def _scores(study: Study, results: Results, sets: list[str]) -> list[dict[str, Any]]:
+def _scores(study: Study, results: Results, sets: list[str]) -> list[Row]:
     scores = kinetics.scores(study, results, all_rates(study))
     scores = scores.set_index(["experiment", "set"])
     used = set(rates_in_fit(study))

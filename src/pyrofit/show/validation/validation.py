@@ -1,7 +1,6 @@
 """Scores of all sets at all predicted experiments."""
 
 from collections.abc import Sequence
-from typing import Any
 
 import pandas as pd
 
@@ -11,7 +10,7 @@ from pyrofit.config import Study
 from pyrofit.quantities.base import Quantity
 from pyrofit.results import prediction
 from pyrofit.results.files import Results
-from pyrofit.show.table import Table
+from pyrofit.show.table import Row, Table
 from pyrofit.show.units import unit_cells
 
 
@@ -30,7 +29,7 @@ def validation(study: Study, results: Results) -> pd.DataFrame:
     return pd.DataFrame([_row(score, among) for score in found])
 
 
-def _row(score: Score, among: Sequence[Quantity]) -> dict[str, Any]:
+def _row(score: Score, among: Sequence[Quantity]) -> Row:
     rate = score.quantity.relative
     return {
         "experiment": score.experiment,

@@ -1,14 +1,12 @@
 """What the draws from the posterior rest on."""
 
-from typing import Any
-
 from pyrofit.config import Study
 from pyrofit.results import dependencies
 from pyrofit.results.step import Inputs
 from pyrofit.steps.posterior import record
 
 
-def slice_of(study: Study) -> dict[str, Any]:
+def slice_of(study: Study) -> dependencies.Slice:
     """Return the likelihood and all predicted experiments."""
     return {
         "likelihood": dependencies.identify(study),

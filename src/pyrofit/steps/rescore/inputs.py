@@ -1,7 +1,5 @@
 """What the scores of stored sets rest on."""
 
-from typing import Any
-
 from pyrofit.config import Study
 from pyrofit.cost import known_costs
 from pyrofit.plugins import code_digest
@@ -10,7 +8,7 @@ from pyrofit.results.step import Inputs
 from pyrofit.steps.rescore import record
 
 
-def slice_of(study: Study) -> dict[str, Any]:
+def slice_of(study: Study) -> dependencies.Slice:
     """Return all searches, the likelihood, and the code of all costs."""
     return {
         "searches": {cost: dependencies.imp(study, cost, "sceua") for cost in study.imp.costs},

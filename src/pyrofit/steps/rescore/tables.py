@@ -1,13 +1,11 @@
 """Every cost with its best stored set, and how good that is under the others."""
 
-from typing import Any
-
 import pandas as pd
 
 from pyrofit.analysis.rescoring import VALLEY
 from pyrofit.config import Study
 from pyrofit.results.files import Results
-from pyrofit.show.table import Table, always
+from pyrofit.show.table import Row, Table, always
 from pyrofit.steps.rescore import record
 from pyrofit.steps.rescore.facts import in_units, of_shown
 
@@ -19,7 +17,7 @@ def best(study: Study, results: Results) -> pd.DataFrame:
     return pd.DataFrame([_row(study, measure, same) for measure in found.measures])
 
 
-def _row(study: Study, measure: record.OfMeasure, same: dict[str, str]) -> dict[str, Any]:
+def _row(study: Study, measure: record.OfMeasure, same: dict[str, str]) -> Row:
     values = in_units(study, measure.parameters.items())
     return {
         "cost": measure.name,

@@ -1,14 +1,12 @@
 """What the robustness of the cost functions rests on."""
 
-from typing import Any
-
 from pyrofit.config import Study
 from pyrofit.results import dependencies
 from pyrofit.results.code_digests import all_terms
 from pyrofit.results.step import Inputs
 
 
-def slice_of(study: Study, cost: str) -> dict[str, Any]:
+def slice_of(study: Study, cost: str) -> dependencies.Slice:
     """Return cost, twins, and all that a prediction rests on."""
     return {
         "terms": [t.model_dump() for t in all_terms(study)],

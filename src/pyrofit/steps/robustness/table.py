@@ -8,7 +8,7 @@ import pandas as pd
 from pyrofit.analysis import groups
 from pyrofit.config import Study
 from pyrofit.results.files import Results
-from pyrofit.show.table import Table, always
+from pyrofit.show.table import Row, Table, always
 from pyrofit.steps.robustness.twins import NOISE, RECOVERED, errors
 
 
@@ -25,7 +25,7 @@ def robustness(study: Study, results: Results) -> pd.DataFrame:
     """
     frame = errors(study, results)
     names = list(study.imp.estimate)
-    rows: list[dict[str, Any]] = []
+    rows: list[Row] = []
     for (kind, level, cost), part in frame.groupby(["kind", "level", "cost_function"], sort=False):
         predicted = part["prediction_error"].astype(float)
         rows.append(

@@ -1,14 +1,13 @@
 """What the choice of a reaction scheme rests on."""
 
-from typing import Any
-
 from pyrofit.config import Study
+from pyrofit.results import dependencies
 from pyrofit.results.code_digests import all_terms, code_of
 from pyrofit.results.step import Inputs
 from pyrofit.steps.scheme import record
 
 
-def slice_of(study: Study) -> dict[str, Any]:
+def slice_of(study: Study) -> dependencies.Slice:
     """Return everything: the study is written again with a scheme, which uses two effects."""
     more = ("volatile", "tga_lag")
     terms = study.kinetics.cost if study.kinetics else all_terms(study)

@@ -4,7 +4,7 @@ import pandas as pd
 
 from pyrofit.config import Study
 from pyrofit.results.files import Results
-from pyrofit.show.table import Table, always
+from pyrofit.show.table import Row, Table, always
 from pyrofit.steps.scheme import record
 from pyrofit.steps.scheme.record import OfScheme
 
@@ -20,7 +20,7 @@ def schemes(study: Study, results: Results) -> pd.DataFrame:
     return pd.DataFrame([_row(s, s.name == found.chosen, least) for s in ordered])
 
 
-def _row(s: OfScheme, chosen: bool, least: float) -> dict[str, object]:
+def _row(s: OfScheme, chosen: bool, least: float) -> Row:
     return {
         "scheme": s.words,
         "chosen": "chosen" if chosen else "",

@@ -1,7 +1,5 @@
 """What the sensitivity analysis rests on."""
 
-from typing import Any
-
 from pyrofit.config import Study
 from pyrofit.cost import known_costs
 from pyrofit.plugins import code_digest
@@ -10,7 +8,7 @@ from pyrofit.results.step import Inputs
 from pyrofit.steps.sensitivity import record
 
 
-def slice_of(study: Study) -> dict[str, Any]:
+def slice_of(study: Study) -> dependencies.Slice:
     """Return the likelihood, all costs and experiments, and known values."""
     return {
         "searches": {cost: dependencies.imp(study, cost, "sceua") for cost in study.imp.costs},

@@ -1,12 +1,10 @@
 """Tables of the inputs, and of the sensitivity of signals and costs."""
 
-from typing import Any
-
 import pandas as pd
 
 from pyrofit.config import Study
 from pyrofit.results.files import Results, read_csv
-from pyrofit.show.table import Table, always
+from pyrofit.show.table import Row, Table, always
 from pyrofit.steps.sensitivity import record
 from pyrofit.steps.sensitivity.facts import distribution, short, shown
 
@@ -16,7 +14,7 @@ def inputs(study: Study, results: Results) -> pd.DataFrame:
     found = record.read(study, results)
     rows = []
     for one in found.inputs:
-        row: dict[str, Any] = {
+        row: Row = {
             "input": short(found, one.name),
             "what": one.label,
             "kind": one.kind,
@@ -36,7 +34,7 @@ def costs(study: Study, results: Results) -> pd.DataFrame:
     rows = []
     for cost in shown(found):
         own = frame[frame["cost"] == cost.name].set_index("input")
-        row: dict[str, Any] = {"cost": cost.name}
+        row: Row = {"cost": cost.name}
         for one in found.inputs:
             total, low, high = own.loc[one.name, ["total", "total_low", "total_high"]]
             row[short(found, one.name)] = f"{total:.2f} ({low:.2f} to {high:.2f})"

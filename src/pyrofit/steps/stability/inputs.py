@@ -1,7 +1,5 @@
 """What the stability of a diagnosis rests on."""
 
-from typing import Any
-
 from pyrofit.config import Study
 from pyrofit.results import dependencies
 from pyrofit.results.step import Inputs
@@ -14,7 +12,7 @@ def parts(study: Study) -> list[str]:
     return [str(draw) for draw in range(study.options(StabilityOptions).draws)]
 
 
-def slice_of(study: Study, draw: str) -> dict[str, Any]:
+def slice_of(study: Study, draw: str) -> dependencies.Slice:
     """Return the inputs of a draw: those of the diagnosis."""
     return dependencies.diagnose(study)
 

@@ -7,7 +7,7 @@ import pandas as pd
 from pyrofit.config import Study
 from pyrofit.results.files import Results
 from pyrofit.show.diagnosis.words import effect_name
-from pyrofit.show.table import Table, always
+from pyrofit.show.table import Row, Table, always
 from pyrofit.steps.stability.facts import claimed_by, read, unit_of
 
 COLUMNS = (
@@ -27,7 +27,7 @@ def effects(study: Study, results: Results) -> pd.DataFrame:
     """List the effects that are found, those of the measured data first."""
     found = read(study, results)
     count = len(found.draws)
-    rows: list[dict[str, Any]] = []
+    rows: list[Row] = []
     for effect in found.effects:
         strengths = found.strengths(effect)
         rows.append(
@@ -56,7 +56,7 @@ def draws(study: Study, results: Results) -> pd.DataFrame:
     return pd.DataFrame(rows, columns=list(OF_DRAWS))
 
 
-def _row(data: str, verdict: Any, claimed: list[str]) -> dict[str, Any]:
+def _row(data: str, verdict: Any, claimed: list[str]) -> Row:
     confirmed = "yes" if verdict["confirmed"] else "no"
     return {
         "data": data,

@@ -1,7 +1,5 @@
 """What the worth of planned tests rests on."""
 
-from typing import Any
-
 from pyrofit.config import Study
 from pyrofit.plugins import code_digest
 from pyrofit.quantities import known_quantities
@@ -10,7 +8,7 @@ from pyrofit.results.step import Inputs
 from pyrofit.steps.worth import record
 
 
-def slice_of(study: Study) -> dict[str, Any]:
+def slice_of(study: Study) -> dependencies.Slice:
     """Return all data that are fitted, and predicted signals."""
     return {
         "likelihood": dependencies.identify(study),

@@ -1,12 +1,10 @@
 """The planned tests and the standard deviations after each of them."""
 
-from typing import Any
-
 import pandas as pd
 
 from pyrofit.config import Study
 from pyrofit.results.files import Results
-from pyrofit.show.table import Table, always
+from pyrofit.show.table import Row, Table, always
 from pyrofit.show.units import difference, difference_unit
 from pyrofit.steps.worth import record
 from pyrofit.steps.worth.facts import label, remaining
@@ -17,7 +15,7 @@ NOW = "none: standard deviation now"
 def tests(study: Study, results: Results) -> pd.DataFrame:
     """List the present standard deviations, then the shares of them that each test leaves [%]."""
     found = record.read(study, results)
-    rows: list[dict[str, Any]] = [_now(study, found)]
+    rows: list[Row] = [_now(study, found)]
     for test in found.tests:
         rows.append(_row(study, found, test.words, test.gain_bit, remaining(found, test)))
         if again := remaining(found, test, checked=True):
@@ -25,8 +23,8 @@ def tests(study: Study, results: Results) -> pd.DataFrame:
     return pd.DataFrame(rows)
 
 
-def _now(study: Study, found: record.Worth) -> dict[str, Any]:
-    row: dict[str, Any] = {"test": NOW, "gain_bit": None}
+def _now(study: Study, found: record.Worth) -> Row:
+    row: Row = {"test": NOW, "gain_bit": None}
     for name, sd in found.now.parameters.items():
         unit = study.parameters[name].unit
         row[name] = f"{sd:.2g}" + ("" if unit == "-" else f" {unit}")
@@ -40,7 +38,7 @@ def _now(study: Study, found: record.Worth) -> dict[str, Any]:
 
 def _row(
     study: Study, found: record.Worth, words: str, gain: float | None, left: dict[str, float]
-) -> dict[str, Any]:
+) -> Row:
     shown = {label(study, found, name): f"{value:.0f} %" for name, value in left.items()}
     return {"test": words, "gain_bit": None if gain is None else round(gain, 1), **shown}
 
