@@ -42,15 +42,23 @@ CHANGES = {
 
 
 @pytest.mark.parametrize(("name", "unit", "values", "whole"), CHANGES.values(), ids=CHANGES)
-@pytest.mark.parametrize("more", [{}, {"sample_mass_kg": 5e-6}])
 def test_change_of_mass_is_refused_with_the_way_out(
-    name: str, unit: str, values: list[float], whole: str, more: dict[str, float], tmp_path: Path
+    name: str, unit: str, values: list[float], whole: str, tmp_path: Path
 ) -> None:
     rows = [f"{10 * i},{310 + 10 * i},{value}" for i, value in enumerate(values)]
     text = "\n".join([f"Time (s),Temperature (K),{name} ({unit})", *rows])
     words = rf"line 5, column '{name}': .* near 0, .* falls: .* a change of mass. Add {whole} to"
     with pytest.raises(DataError, match=words):
-        read(tmp_path, "mass_fraction", text, columns={"value": name}, **more)
+        read(tmp_path, "mass_fraction", text, columns={"value": name})
+    with pytest.raises(DataError):  # of a mass below the loss
+        read(tmp_path, "mass_fraction", text, columns={"value": name}, sample_mass_kg=1e-6)
+
+
+def test_change_of_mass_from_a_given_mass_is_read(tmp_path: Path) -> None:
+    rows = [f"{10 * i},{310 + 10 * i},{m}" for i, m in enumerate([0.0, -0.5, -2.0, -4.5])]
+    text = "\n".join(["Time (s),Temperature (K),Mass (mg)", *rows])
+    found = read(tmp_path, "mass_fraction", text, sample_mass_kg=5e-6).frame["mass_fraction"]
+    np.testing.assert_allclose(found, [1.0, 0.9, 0.6, 0.1], atol=1e-12)
 
 
 def test_mass_far_below_zero_is_refused_and_noise_about_zero_is_not(tmp_path: Path) -> None:

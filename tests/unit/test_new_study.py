@@ -153,7 +153,7 @@ def test_every_group_of_keys_is_commented_and_marks_what_to_change(folder: Path)
             # On its own line, or in the comment above.
             assert re.search(rf"(#[^\n]*\n{key}:|^{key}:[^\n]*#)", text, re.M), key
     assert text.count("CHANGE") > 5
-    for place in ("thickness_m: 0.006}] # CHANGE", "front: # CHANGE", "insulated"):
+    for place in ("thickness_m: 0.006}] # CHANGE", "<<: &front # CHANGE", "insulated"):
         assert place in text
 
 
@@ -494,7 +494,7 @@ def test_rate_of_the_whole_sample_is_divided_by_an_area_to_be_changed(folder: Pa
     study = made("--gasification", "slab_25.csv")
     frame, _ = read_all(study)["slab_25", "mlr"]
     np.testing.assert_allclose(frame["mlr_kg_m2_s"], MLR, rtol=1e-8)
-    assert "sample_area_m2: 0.01 # CHANGE" in Path("wood/wood.yaml").read_text("utf-8")
+    assert "sample_area_m2: &area 0.01 # CHANGE" in Path("wood/wood.yaml").read_text("utf-8")
 
 
 HEAT = 500.0 + 3e3 * np.exp(-(((TEMPERATURE_K - 640.0) / 12.0) ** 2))
@@ -594,7 +594,7 @@ def test_file_with_mass_alone_is_fitted_by_the_mass(
     np.testing.assert_allclose(frame["mass_kg_m2"], mass, rtol=1e-8)
     assert study.imp.costs["RMSE"][0].signal == "mass"
     text = Path("wood/wood.yaml").read_text("utf-8")
-    assert ("sample_area_m2: 0.01 # CHANGE" in text) == (factor > 1.0)
+    assert ("sample_area_m2: &area 0.01 # CHANGE" in text) == (factor > 1.0)
 
 
 def test_slab_with_temperatures_alone_is_in_the_cost_beside_others(folder: Path) -> None:

@@ -15,6 +15,7 @@ from pyrofit.config.effects import apply_effects
 from pyrofit.config.known_checks import check_known
 from pyrofit.config.programs import with_programs
 from pyrofit.config.repeats import expand_repeats
+from pyrofit.config.samples import with_samples
 from pyrofit.config.study import Study, is_own
 from pyrofit.config.tables import with_tables
 from pyrofit.config.words import in_plain_words, refuse_booleans
@@ -41,7 +42,7 @@ def as_study(given: Mapping[str, Any], source: str, located: bool = False) -> St
     try:
         refuse_booleans(given)
         use_plugins([(folder or Path()) / name for name in plugins_of(given)])
-        given = hold_fixed(expand_repeats(given))
+        given = hold_fixed(expand_repeats(with_samples(given)))
         given = with_tables(given, folder or Path())
         study = with_programs(Study.model_validate(apply_effects(given)), folder)
         study = with_expressions(study)

@@ -108,7 +108,8 @@ def check_zero(
         whole = _WHOLE.get(unit or "", f"the initial mass in {unit}" if unit else "that at first")
         rule = (
             f"the column starts near 0, at {first:g}, and falls: this looks like a change of "
-            f"mass. Add {whole} to the column, or give a column of the mass itself."
+            f"mass. Add {whole} to the column, give a column of the mass itself, or give "
+            "`sample_mass_kg` to a heated sample whose column is in mg."
         )
     else:
         rule = (

@@ -18,6 +18,8 @@ from pyrofit.quantities.units import (
     unit_key,
 )
 
+TARED = 0.05
+"""Share of the range of masses within which the first one of a tared balance lies about zero."""
 OTHER_ZERO = 0.2
 """Share of the stated initial mass by which the first mass differs where its zero is arbitrary."""
 
@@ -80,21 +82,35 @@ def _from_start(
         The first mass is not the initial mass that the file states, and the study gives none.
     """
     stated = table.stated.mass_kg
-    if kind != "mass" or PER_START[kind] != spec.of.scales[0] or stated is None:
+    if kind != "mass" or PER_START[kind] != spec.of.scales[0]:
         return value, []
-    first = float(value[0])
+    first, given = float(value[0]), spec.sample_mass_kg
+    if stated is None:
+        if given is None or not _has_other_zero(value, given):
+            return value, []
+        return value - first + given, [
+            f"the zero of the balance is arbitrary: {given:g} kg at first"
+        ]
     if abs(first - stated) <= OTHER_ZERO * stated:
         return value, []
-    if spec.sample_mass_kg is None:
+    if given is None:
         raise DataError(
             f"{spec.path}: the first mass is {first:g} kg, the file states an initial mass of "
             f"{stated:g} kg. If the zero of the balance is arbitrary, give `sample_mass_kg: "
             f"{stated:g}`; if the file is wrong there, correct its mass."
         )
-    if abs(spec.sample_mass_kg - stated) > OTHER_ZERO * stated:
+    if abs(given - stated) > OTHER_ZERO * stated:
         return value, []
     note = f"the zero of the balance is arbitrary: {stated:g} kg, as the file states, at first"
     return value - first + stated, [note]
+
+
+def _has_other_zero(mass: FloatArray, initial: float) -> bool:
+    """Tell whether masses begin at zero or far above the initial mass, and lose no more than it."""
+    first, lowest, largest = float(mass[0]), float(np.nanmin(mass)), float(np.nanmax(mass))
+    tared = abs(first) < TARED * (largest - lowest)
+    other = tared or first > (1.0 + OTHER_ZERO) * initial
+    return other and first - lowest < (1.0 + OTHER_ZERO) * initial
 
 
 def _overridden(spec: SeriesSpec, table: Table, headers: Mapping[str, str]) -> list[str]:

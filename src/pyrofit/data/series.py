@@ -111,7 +111,10 @@ def read_series(spec: SeriesSpec, read: Callable[[Path], Table] = read_table) ->
         gaps += stops
     rows = _check_length(table)
     unit = spec.units.get("value", table.units[headers["value"]])
-    if table.stated.mass_kg is None or unit_key(unit or "") not in map(unit_key, SCALES["mass"]):
+    known = table.stated.mass_kg is not None or (
+        spec.sample_mass_kg is not None and spec.of.scales[0] == "fraction"
+    )
+    if not known or unit_key(unit or "") not in map(unit_key, SCALES["mass"]):
         check_zero(spec.of, table, headers, unit, spec.sign)
     # An overflow here is found by `check_finite`.
     with np.errstate(over="ignore", invalid="ignore"):

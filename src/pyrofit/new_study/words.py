@@ -11,6 +11,7 @@ from pyrofit.new_study.draft import Measured, divisor_of, is_told
 from pyrofit.new_study.plan import Part
 from pyrofit.quantities.units import SCALES
 
+AREA = "sample_area_m2"
 _MINUTES = 60.0
 _ALIKE = 0.1
 """Share by which two numbers of one test may differ."""
@@ -52,9 +53,11 @@ def _signal(run: Measured, found: Found) -> list[str]:
         guess = " and ".join(found.guessed)
         note = f" # CHANGE where wrong: guessed from the numbers: {guess}" if guess else ""
         lines.append(f"  units: {_mapping(found.units)}{note}")
-    if (divisor := divisor_of(found)) is not None:
-        told = is_told(found, divisor[0])
-        why = "of the file" if told else "CHANGE: the values are divided by it"
+    divisor = divisor_of(found)
+    if divisor is not None and (is_told(found, divisor[0]) or divisor[0] != AREA):
+        why = (
+            "of the file" if is_told(found, divisor[0]) else "CHANGE: the values are divided by it"
+        )
         lines.append(f"  {divisor[0]}: {divisor[1]:g} # {why}")
     if (gas := gas_line(run)) != "":
         lines.append(f"  # {gas}")
@@ -69,6 +72,13 @@ def _signal(run: Measured, found: Found) -> list[str]:
     if "uncertainty" not in found.columns:
         lines.append("  # uncertainty: ... # in SI units, if you know it: the file has none")
     return lines
+
+
+def assumes_area(run: Measured) -> bool:
+    """Tell whether values of an experiment are divided by an area that no file tells."""
+    signals = [found for one in run.repeats or (run,) for found in one.signals]
+    divisors = [(found, divisor) for found in signals if (divisor := divisor_of(found))]
+    return any(key == AREA and not is_told(found, key) for found, (key, _) in divisors)
 
 
 def said(run: Measured) -> list[str]:

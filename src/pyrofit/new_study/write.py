@@ -13,11 +13,18 @@ from pyrofit.errors import DataError, StudyError
 from pyrofit.experiments import OF_FILES, files_of
 from pyrofit.experiments.base import Stage
 from pyrofit.new_study import draft
-from pyrofit.new_study.draft import Kinetics, Measured
+from pyrofit.new_study.draft import USUAL_AREA_M2, Kinetics, Measured
 from pyrofit.new_study.plan import Part, heats, left_out, part_of, titles
 from pyrofit.new_study.repeats import grouped
 from pyrofit.new_study.wide_tables import split
-from pyrofit.new_study.words import held_out, number_comment, said, said_of_repeats, signal_lines
+from pyrofit.new_study.words import (
+    assumes_area,
+    held_out,
+    number_comment,
+    said,
+    said_of_repeats,
+    signal_lines,
+)
 from pyrofit.results.files import write_bytes, write_text
 
 _NAME = re.compile(r"[A-Za-z][A-Za-z0-9_]*")
@@ -229,6 +236,7 @@ def _environment() -> Environment:
 def _experiments(runs: Sequence[Measured]) -> list[str]:
     """Return the lines of each experiment, from the template of its kind."""
     templates, again = _environment(), titles(runs)
+    first = _firsts(runs)
     return [
         templates.get_template(f"{run.kind}/new.yaml.j2")
         .render(
@@ -238,10 +246,24 @@ def _experiments(runs: Sequence[Measured]) -> list[str]:
             again=again[run.name],
             facts=files_of(run.kind).facts(run.frames),
             signals=signal_lines(run),
+            shared={name: (place == run.name) for name, place in first.items()},
+            area=USUAL_AREA_M2 if assumes_area(run) else None,
         )
         .rstrip("\n")
         for run in runs
     ]
+
+
+def _firsts(runs: Sequence[Measured]) -> dict[str, str]:
+    """Return the first experiment by what experiments share, where a value is asked for once."""
+    slabs = [run for run in runs if run.of.stage == "imp"]
+    sharing = {
+        "slab": slabs,
+        "flame": [run for run in slabs if "flame" in run.of.description.model_fields],
+        "area": [run for run in slabs if assumes_area(run)],
+        "repeats": [run for run in runs if run.repeats],
+    }
+    return {name: having[0].name for name, having in sharing.items() if having}
 
 
 def _of_slabs(heated: Part, slabs: Part, shown: Sequence[str]) -> list[str]:
