@@ -60,6 +60,8 @@ FILES = {
     "test_random_sets": "long",
     "test_ready_timing": "solver",
     "test_posterior_draws": "slow",
+    "test_preview": "solver",
+    "test_preview_errors": "long",
     "test_posterior_stage": "solver",
     "test_repeats_measured": "slow",
     "test_report": "slow",

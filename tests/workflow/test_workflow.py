@@ -12,6 +12,7 @@ from pyrofit.config import as_study
 from pyrofit.running.terminal import SAME_COMMAND
 
 PREPARE = "Measured series into tidy tables, mass closure checked"
+PREVIEW = "Data against limits, before any fit"
 KINETICS = "Kinetics fitted to heated samples"
 COLLECT = "All repetitions gathered"
 IDENTIFY = "What the data determine of the inverse modelling"
@@ -32,7 +33,7 @@ def sceua(*repetitions: int, costs: tuple[str, ...] = COSTS) -> set[str]:
 SEARCHES = sceua(0, 1)
 GATHERED = {COLLECT, PREDICT, IDENTIFY, COMPARE} | DESCENTS
 OF_KINETICS = {KINETICS, IDENTIFY_KINETICS, ENERGIES}
-EVERYTHING = {PREPARE} | OF_KINETICS | GATHERED | SEARCHES | SQUARES | CMA_ES
+EVERYTHING = {PREPARE, PREVIEW} | OF_KINETICS | GATHERED | SEARCHES | SQUARES | CMA_ES
 
 
 def computing(jobs: set[str]) -> set[str]:

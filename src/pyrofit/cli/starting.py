@@ -42,10 +42,18 @@ def add(commands: Any) -> None:
     )
     reference.set_defaults(step=_reference)
 
-    check = commands.add_parser("check", help="check a study and its files, run nothing")
+    check = commands.add_parser("check", help="check a study and its files, run no fit")
     check.add_argument("study", type=Path, help="study file (YAML)")
     check.add_argument(
         "--no-plugins", action="store_true", help="refuse a study with plugins, run none of them"
+    )
+    check.add_argument(
+        "--data",
+        action="store_true",
+        help="compare the data with all that the limits allow, and name likely errors",
+    )
+    check.add_argument(
+        "--figures", type=Path, metavar="FOLDER", help="with --data: write a figure of each test"
     )
     check.set_defaults(step=_check)
 
@@ -201,6 +209,23 @@ def _check(given: argparse.Namespace) -> None:
         f"{given.study}: study '{study.name}' is valid; {len(read)} measured series read; "
         f"{runs} repetitions in all"
     )
+    if given.data or given.figures is not None:
+        _preview(study, {channel: frame for channel, (frame, _) in read.items()}, given.figures)
+
+
+def _preview(study: Any, measured: dict[tuple[str, str], Any], folder: Path | None) -> None:
+    """Say what the data are beside all that the limits allow; draw it where asked."""
+    from pyrofit.results.files import Results
+    from pyrofit.stages.measurements import computed
+    from pyrofit.steps.preview.compute import preview
+    from pyrofit.steps.preview.figures import draw_all
+    from pyrofit.steps.preview.sentences import said
+
+    made = preview(study, measured | (computed(study, fast=True) if study.is_synthetic else {}))
+    for sentence in said(study, made.found):
+        print(sentence)
+    if folder is not None:
+        draw_all(study, made.bands, made.found, Results(folder), ".")
 
 
 def _say_plugins(study: Path, refused: bool) -> None:

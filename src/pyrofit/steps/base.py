@@ -23,10 +23,12 @@ class Step:
     part, part_message
         Option that names one of its parts, which are jobs of their own; none = it has no parts.
     page
-        The page that shows it: 'report', or 'diagnosis' and the report.
+        The page that shows it: 'report', or 'diagnosis' and the report; none = no page.
     write
         A file that its command also writes where `--write` says, in words; none = no such option.
         Its function ``write`` does that, from the value that ``run`` returns.
+    early
+        Whether every run makes it, before the fits.
     name
         Name of its folder; `known_steps` fills it in.
     """
@@ -39,6 +41,7 @@ class Step:
     part_message: str = ""
     page: str = "report"
     write: str = ""
+    early: bool = False
     name: str = ""
 
     @property

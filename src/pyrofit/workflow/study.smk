@@ -155,6 +155,12 @@ include: "rules/steps.smk"
 
 # Everything, not the report alone: what is deleted or was removed with a failed run is made again.
 EVERYTHING = [
+    [
+        results.of_step(name, file)
+        for name, step in known_steps().items()
+        if step.early
+        for file in inputs_of(name).files
+    ],
     ROOT / "report.html",
     MEASUREMENTS,
     CALCULATED,

@@ -70,8 +70,10 @@ rule report:
         # Once a study has been diagnosed, its report shows that, kept up to date; so with steps.
         [
             results.of_step(name, inputs_of(name).files[-1])
-            for name in known_steps()
-            if not inputs_of(name).version and exists(study, results, name)
+            for name, step in known_steps().items()
+            if step.page
+            and not inputs_of(name).version
+            and exists(study, results, name)
         ],
         [page for page in [results.diagnosis("report.html")] if page.exists()],
     output:

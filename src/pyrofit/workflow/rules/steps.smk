@@ -50,6 +50,7 @@ for _name, _step in known_steps().items():
                 log_of(_name),
             benchmark:
                 benchmark_of(_name)
+            priority: 10 if _step.early else 0
             threads: _step.threads
             params:
                 study=STUDY,

@@ -1,0 +1,218 @@
+"""Data against limits: sets within the limits, their band, data outside, and likely causes."""
+
+from collections.abc import Mapping
+from dataclasses import dataclass
+
+import numpy as np
+import pandas as pd
+
+from pyrofit.config import Study
+from pyrofit.estimate.targets import Measurements
+from pyrofit.logs import Tell
+from pyrofit.results.files import Results, write_csv
+from pyrofit.solver.arrays import FloatArray
+from pyrofit.stages.measurements import load
+from pyrofit.steps.preview import record
+from pyrofit.steps.preview.causes import is_far, likely, suspects
+from pyrofit.steps.preview.fit import nearest
+from pyrofit.steps.preview.reach import (
+    NOISE,
+    OUTSIDE,
+    Case,
+    Channel,
+    Curves,
+    Reached,
+    all_reached,
+    case_of,
+    simulate,
+)
+from pyrofit.steps.preview.sets import Sets, draw
+
+SETS = 300
+"""Sets within the limits."""
+BASES = 8
+"""Sets about which each parameter is moved from limit to limit."""
+FELT = 0.005
+"""Least change of a signal that counts, over its range."""
+
+
+GAP = 10
+"""Points between two windows on one side that are told as one."""
+
+
+@dataclass(frozen=True, eq=False)
+class Preview:
+    """The findings, and the band of every record."""
+
+    found: record.Found
+    bands: pd.DataFrame
+
+
+def run(study: Study, results: Results, tell: Tell, processes: int) -> None:
+    """Compare the data of a study with all that its limits allow; write ``preview``.
+
+    Parameters
+    ----------
+    study, results
+        A study whose measurements are prepared.
+    tell
+        Is told how many sets are simulated.
+    processes
+        Without effect: all sets of an experiment are simulated in one call.
+
+    Raises
+    ------
+    DataError
+        A measurement is missing.
+    """
+    tell(f"preview: {SETS} sets within the limits")
+    made = preview(study, load(study, results))
+    write_csv(results.of_step("preview", record.BANDS), made.bands)
+    record.write(results, made.found)
+
+
+def preview(study: Study, measurements: Measurements, count: int = SETS) -> Preview:
+    """Return what the data are beside all that the limits allow.
+
+    Parameters
+    ----------
+    study
+        The study.
+    measurements
+        Measured series by (experiment, signal), SI units.
+    count
+        Number of sets.
+    """
+    case = case_of(study, measurements)
+    sets = draw(study, study.parameters, count)
+    curves = simulate(study, case, sets)
+    reached = all_reached(case, curves)
+    alone = case.without_repeats({c: one.outside for c, one in reached.items()})
+    before = nearest(study, alone, sets, curves)
+    left = before.left
+    suspected = suspects({c: reached[c] for c in alone.frames}, left)
+    causes = likely(study, alone, sets, suspected, before) if suspected else []
+    found = record.Found(
+        sets=count,
+        unfinished=_unfinished(curves),
+        windows=[w for c, one in reached.items() for w in windows(case, c, one)],
+        nearest=[record.Distance(experiment=e, signal=s, left=d) for (e, s), d in left.items()],
+        far=is_far(left),
+        causes=[
+            record.Likely(
+                cause=one.cause,
+                places=list(one.places),
+                words=one.words,
+                explained=one.explained,
+                left=one.left,
+            )
+            for one in causes
+        ],
+        unmoved=unmoved(study, alone, sets.first(BASES), reached),
+    )
+    return Preview(found, _bands(case, curves, reached))
+
+
+def _unfinished(curves: Curves) -> dict[str, int]:
+    failed = {e: int(np.count_nonzero(np.isnan(c).any(axis=1))) for (e, _), c in curves.items()}
+    return {name: count for name, count in failed.items() if count}
+
+
+def abscissa(case: Case, channel: Channel) -> FloatArray:
+    """Return the temperatures [K] of a record against them, else its times [s]."""
+    name, signal = channel
+    heated = case.experiments[name].quantity(signal).against_temperature
+    return case.frames[channel]["temperature_K" if heated else "time_s"].to_numpy(float)
+
+
+def windows(case: Case, channel: Channel, one: Reached) -> list[record.Window]:
+    """Return the windows in which a record lies outside; none if it does so by little.
+
+    Parameters
+    ----------
+    case, channel
+        The records, and experiment and signal of one.
+    one
+        This record beside the band.
+    """
+    if one.outside <= OUTSIDE:
+        return []
+    at = abscissa(case, channel)
+    distance = np.maximum(one.value - one.upper, one.lower - one.value)
+    found = []
+    for first, last in _stretches(np.sign(one.beyond)):
+        largest = float(distance[first : last + 1].max())
+        found.append(
+            record.Window(
+                experiment=channel[0],
+                signal=channel[1],
+                begins=float(at[first]),
+                ends=float(at[last]),
+                above=bool(one.beyond[first] > 0.0),
+                largest=largest,
+                share=largest / one.scale,
+            )
+        )
+    return found
+
+
+def _stretches(side: FloatArray) -> list[tuple[int, int]]:
+    """Return first and last positions of points on one side; small gaps between them are bridged.
+
+    >>> _stretches(np.array([0.0, 1.0, 1.0, 0.0, 1.0, -1.0]))
+    [(1, 4), (5, 5)]
+    """
+    found: list[tuple[int, int]] = []
+    for i in np.flatnonzero(side):
+        if found and side[i] == side[found[-1][1]] and i - found[-1][1] <= GAP:
+            found[-1] = found[-1][0], int(i)
+        else:
+            found.append((int(i), int(i)))
+    return found
+
+
+def unmoved(study: Study, case: Case, sets: Sets, reached: Mapping[Channel, Reached]) -> list[str]:
+    """Return the parameters that move no signal by more than its noise, from limit to limit.
+
+    Such a parameter cannot be estimated from these data.
+
+    Parameters
+    ----------
+    study, case
+        The study and its records.
+    sets
+        A few sets about which each parameter is moved.
+    reached
+        The records beside the band.
+    """
+    found = []
+    for name in sets.names if case.frames else ():
+        curves = simulate(study, case, sets.at_ends(name))
+        moves = (
+            np.abs(both[sets.count :] - both[: sets.count])
+            / np.maximum(case.frames[channel][NOISE].to_numpy(float), FELT * reached[channel].scale)
+            for channel, both in curves.items()
+        )
+        if not any(np.any(move > 1.0) for move in moves):
+            found.append(name)
+    return found
+
+
+def _bands(case: Case, curves: Curves, reached: Mapping[Channel, Reached]) -> pd.DataFrame:
+    """Return measured values and bands, SI units: all sets, and the middle half of them."""
+    parts = []
+    for channel, one in reached.items():
+        finite = curves[channel][np.isfinite(curves[channel]).all(axis=1)]
+        quarters = np.quantile(finite, [0.25, 0.75], axis=0) if len(finite) else [one.value] * 2
+        columns = {"value": one.value, "lower": one.lower, "upper": one.upper}
+        middle = {"lower_quarter": quarters[0], "upper_quarter": quarters[1]}
+        about = {"experiment": channel[0], "signal": channel[1], "at": abscissa(case, channel)}
+        parts.append(pd.DataFrame({**about, **columns, **middle}))
+    return pd.concat(parts, ignore_index=True) if parts else pd.DataFrame(columns=list(COLUMNS))
+
+
+COLUMNS = (
+    *("experiment", "signal", "at", "value", "lower", "upper"),
+    *("lower_quarter", "upper_quarter"),
+)
+"""Columns of the table of bands."""

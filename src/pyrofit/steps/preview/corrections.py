@@ -1,0 +1,323 @@
+"""Errors of a description or a file, each as the correction that would undo it."""
+
+from collections.abc import Callable, Iterator, Sequence
+from dataclasses import dataclass
+from itertools import combinations
+from typing import Any
+
+import numpy as np
+import pandas as pd
+
+from pyrofit.effects.base import changed
+from pyrofit.model.experiment import Experiment
+from pyrofit.model.heated import HeatedExperiment
+from pyrofit.model.slab import SlabExperiment
+from pyrofit.quantities.units import ICE_POINT_K
+from pyrofit.steps.preview.reach import NOISE, Case, Channel
+
+TEMPERATURE, FLUX, THICKNESS = "unit of temperature", "flux", "thickness"
+CLOCK, RATE, SWAPPED = "clock", "heating rate", "swapped files"
+SAMPLE, SURROUNDINGS, LIMITS = "sample area or mass", "gas or wall temperature", "limits"
+ORDER = (TEMPERATURE, FLUX, THICKNESS, CLOCK, RATE, SWAPPED, SAMPLE, SURROUNDINGS, LIMITS)
+"""Causes, the more usual ones first."""
+TENS = (10.0, 0.1)
+FACTORS = (10.0, 0.1, 100.0, 0.01, 1e3, 1e-3, 60.0, 1.0 / 60.0, 4.0, 0.25, 2.0, 0.5)
+"""Factors of values: units, minutes for seconds, radius for diameter."""
+MINUTES = (60.0, 1.0 / 60.0)
+SHIFTS_S = (-300.0, -120.0, -60.0, -30.0, 30.0, 60.0, 120.0, 300.0)
+ROOM_K = 293.15
+USUAL_K = (250.0, 450.0)
+"""Temperatures of gas and walls that need no explanation."""
+
+Change = Callable[[Case], Case]
+
+
+@dataclass(frozen=True, eq=False)
+class Correction:
+    """A correction of some experiments, and what it means.
+
+    Parameters
+    ----------
+    cause
+        One of `ORDER`.
+    places
+        Names of the experiments that it changes, or the parameter whose limits it widens.
+    words
+        The error in words.
+    change
+        From the case as described to the corrected one.
+    """
+
+    cause: str
+    places: tuple[str, ...]
+    words: str
+    change: Change
+
+
+def corrections(case: Case, outside: Sequence[Channel]) -> Iterator[Correction]:
+    """Yield the corrections that may bring records inside: of each experiment, then of several.
+
+    Parameters
+    ----------
+    case
+        Experiments and records.
+    outside
+        Experiment and signal of the records outside.
+    """
+    names = list(dict.fromkeys(name for name, _ in outside))
+    for name in names:
+        of = [signal for experiment, signal in outside if experiment == name]
+        yield from _of_one(case, name, of)
+    yield from _swaps(case, names)
+
+
+def _of_one(case: Case, name: str, outside: Sequence[str]) -> Iterator[Correction]:
+    experiment = case.experiments[name]
+    yield from _temperatures(case, name, outside)
+    if isinstance(experiment, SlabExperiment):
+        yield from _fluxes(name)
+        yield from _thicknesses(name)
+        yield from _surroundings(experiment, name)
+    yield from _clocks(case, name)
+    if isinstance(experiment, HeatedExperiment):
+        yield from _rates(case, name)
+    yield from _samples(case, name, outside)
+
+
+def _temperatures(case: Case, name: str, outside: Sequence[str]) -> Iterator[Correction]:
+    for signal in outside:
+        quantity = case.experiments[name].quantity(signal)
+        column = quantity.column if quantity.is_temperature else "temperature_K"
+        if column not in case.frames[name, signal]:
+            continue
+        for words, unit in _UNITS.items():
+            yield Correction(
+                TEMPERATURE,
+                (name,),
+                f"the {quantity.title} of {name}: the temperatures are {words}",
+                _column(name, (signal,), column, unit),
+            )
+
+
+_UNITS: dict[str, Callable[[Any], Any]] = {
+    "in K, and were read as °C": lambda T: T - ICE_POINT_K,
+    "in °C, and were read as K": lambda T: T + ICE_POINT_K,
+    "in °F, and were read as °C": lambda T: (T - ICE_POINT_K - 32.0) / 1.8 + ICE_POINT_K,
+}
+
+
+def _fluxes(name: str) -> Iterator[Correction]:
+    for factor in TENS:
+        yield Correction(
+            FLUX,
+            (name,),
+            f"the flux of {name} is {_off(factor)}",
+            _part(name, "front", "flux_factor", factor),
+        )
+
+
+def _thicknesses(name: str) -> Iterator[Correction]:
+    for factor in TENS:
+        yield Correction(
+            THICKNESS,
+            (name,),
+            f"the thickness of {name} is {_off(factor)}",
+            _part(name, "sample", "thickness_factor", factor),
+        )
+
+
+def _surroundings(experiment: SlabExperiment, name: str) -> Iterator[Correction]:
+    for place in ("front", "back"):
+        side = getattr(experiment, place)
+        for key in ("gas_temperature_K", "wall_temperature_K"):
+            given = getattr(side, key, None)
+            if isinstance(given, float) and not USUAL_K[0] <= given <= USUAL_K[1]:
+                yield Correction(
+                    SURROUNDINGS,
+                    (name,),
+                    f"{place}.{key} of {name} is {given:g} K, not that of a room",
+                    _part(name, place, key, None, ROOM_K),
+                )
+
+
+def _clocks(case: Case, name: str) -> Iterator[Correction]:
+    signals = case.signals(name)
+    if isinstance(case.experiments[name], HeatedExperiment):
+        return
+    for factor in MINUTES:
+        given, read = ("minutes", "seconds") if factor > 1.0 else ("seconds", "minutes")
+        yield Correction(
+            CLOCK,
+            (name,),
+            f"the times of {name} are in {given}, and were read as {read}",
+            _column(name, signals, "time_s", _multiplied(factor)),
+        )
+    for shift in SHIFTS_S:
+        late = "early" if shift > 0.0 else "late"
+        yield Correction(
+            CLOCK,
+            (name,),
+            f"the clock of {name} is about {abs(shift):g} s {late}",
+            _shifted(name, signals, shift),
+        )
+
+
+def _rates(case: Case, name: str) -> Iterator[Correction]:
+    experiment = case.experiments[name]
+    assert isinstance(experiment, HeatedExperiment)
+    given = experiment.heating_rate_K_min
+    others = {e.heating_rate_K_min for e in case.experiments.values() if _is_heated(e)}  # type: ignore[attr-defined]
+    rates = dict.fromkeys([given * f for f in (*MINUTES, *TENS)] + sorted(others - {given}))
+    for rate in rates:
+        yield Correction(
+            RATE,
+            (name,),
+            f"the heating rate of {name} is {rate:.3g} K/min, not {given:g} K/min",
+            _heated_at(name, case.signals(name), rate, rate / given),
+        )
+
+
+def _is_heated(experiment: Experiment) -> bool:
+    return isinstance(experiment, HeatedExperiment)
+
+
+def _samples(case: Case, name: str, outside: Sequence[str]) -> Iterator[Correction]:
+    experiment = case.experiments[name]
+    for signal in outside:
+        quantity = experiment.quantity(signal)
+        if quantity.is_temperature or quantity.unit == "-":
+            continue
+        alike = [s for s in case.signals(name) if experiment.quantity(s).unit == quantity.unit]
+        for factor in FACTORS:
+            yield Correction(
+                SAMPLE,
+                (name,),
+                f"the {quantity.title} of {name} is {_off(factor)}: area or mass "
+                "of the sample, or the unit",
+                _column(name, alike, "", _multiplied(factor)),
+            )
+
+
+def _swaps(case: Case, names: Sequence[str]) -> Iterator[Correction]:
+    for one, other in combinations(case.experiments, 2):
+        if one not in names and other not in names:
+            continue
+        if not all(_has_own_course(case.experiments[name]) for name in (one, other)):
+            continue
+        shared = [s for s in case.signals(one) if s in case.signals(other)]
+        if not shared or case.experiments[one].kind != case.experiments[other].kind:
+            continue
+        for signals in [shared, *([s] for s in shared if len(shared) > 1)]:
+            of = (
+                ""
+                if signals == shared
+                else f" of the {case.experiments[one].quantity(signals[0]).title}"
+            )
+            yield Correction(
+                SWAPPED,
+                (one, other),
+                f"the files{of} of {one} and {other} are swapped",
+                _swapped(one, other, tuple(signals)),
+            )
+
+
+def _has_own_course(experiment: Experiment) -> bool:
+    """Tell whether a record says nothing of the course of its test, so that another may be taken.
+
+    A heated sample that follows the recorded temperature is simulated as its file was recorded.
+    """
+    return not isinstance(experiment, HeatedExperiment) or experiment.program == "nominal"
+
+
+def _off(factor: float) -> str:
+    """Say how far a given value is off, where ``factor`` corrects it.
+
+    >>> _off(0.1), _off(60.0)
+    ('10 times too large', '60 times too small')
+    """
+    return f"{1.0 / factor:g} times too large" if factor < 1.0 else f"{factor:g} times too small"
+
+
+def _multiplied(factor: float) -> Callable[[Any], Any]:
+    return lambda values: factor * values
+
+
+def _part(
+    name: str, place: str, key: str, factor: float | None, value: float | None = None
+) -> Change:
+    """Return the change of one number of a part of the description."""
+
+    def change(case: Case) -> Case:
+        experiment: Any = case.experiments[name]
+        part = getattr(experiment, place)
+        old = getattr(part, key)
+        new: Any = value
+        if factor is not None:
+            new = f"{factor!r} * ({old})" if isinstance(old, str) else factor * old
+        made = changed(experiment, **{place: changed(part, **{key: new})})
+        return case.with_experiment(name, made)
+
+    return change
+
+
+def _column(
+    name: str,
+    signals: Sequence[str],
+    column: str,
+    change: Callable[[Any], Any],
+) -> Change:
+    """Return the change of a column of records: the one named, else that of the values."""
+
+    def apply(case: Case) -> Case:
+        for signal in signals:
+            own = column or case.experiments[name].quantity(signal).column
+            frame = case.frames[name, signal]
+            old = frame[own].to_numpy(float)
+            made = frame.assign(**{own: change(old)})
+            if not column or own == case.experiments[name].quantity(signal).column:
+                made[NOISE] = frame[NOISE] * np.ptp(made[own]) / max(np.ptp(old), 1e-300)
+            case = case.with_frame((name, signal), made)
+        return case
+
+    return apply
+
+
+def _shifted(name: str, signals: Sequence[str], shift: float) -> Change:
+    """Return the shift of records in time; points before the start of the test are left out."""
+
+    def apply(case: Case) -> Case:
+        for signal in signals:
+            frame = case.frames[name, signal]
+            frame = frame.assign(time_s=frame["time_s"] + shift)
+            kept = frame[frame["time_s"] >= 0.0].reset_index(drop=True)
+            if len(kept) > 2:
+                case = case.with_frame((name, signal), kept)
+        return case
+
+    return apply
+
+
+def _heated_at(name: str, signals: Sequence[str], rate: float, factor: float) -> Change:
+    """Return the change of a heating rate, and of the times that rest on it."""
+
+    def apply(case: Case) -> Case:
+        experiment = case.experiments[name]
+        for signal in signals:
+            frame = case.frames[name, signal]
+            case = case.with_frame((name, signal), frame.assign(time_s=frame["time_s"] / factor))
+        return case.with_experiment(name, changed(experiment, heating_rate_K_min=rate))
+
+    return apply
+
+
+def _swapped(one: str, other: str, signals: Sequence[str]) -> Change:
+    def apply(case: Case) -> Case:
+        frames: dict[Channel, pd.DataFrame] = dict(case.frames)
+        for signal in signals:
+            frames[one, signal], frames[other, signal] = (
+                case.frames[other, signal],
+                case.frames[one, signal],
+            )
+        return Case(case.experiments, frames)
+
+    return apply

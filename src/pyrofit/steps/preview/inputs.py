@@ -1,0 +1,36 @@
+"""What the preview rests on."""
+
+from typing import Any
+
+from pyrofit.config import Study
+from pyrofit.results import dependencies
+from pyrofit.results.step import Inputs
+from pyrofit.steps.preview import record
+
+
+def slice_of(study: Study) -> dict[str, Any]:
+    """Return experiments, material, limits and known values."""
+    return {
+        "experiments": dependencies.measured(study),
+        "material": study.material_with(study.imp.kinetics).model_dump(),
+        "heated": study.material.model_dump(),
+        "parameters": {n: p.model_dump(exclude={"label"}) for n, p in study.parameters.items()},
+        "accuracy": study.accuracy.model_dump(),
+        "seed": study.seed,
+        **dependencies.known(study, study.parameters),
+    }
+
+
+INPUTS = Inputs(
+    reads=("measurements",),
+    slice_of=slice_of,
+    files=(
+        record.FOUND,
+        record.BANDS,
+        "table_outside.csv",
+        "table_outside.md",
+        "table_causes.csv",
+        "table_causes.md",
+    ),
+    folders=("figures",),
+)

@@ -1,0 +1,27 @@
+"""Tables and figures of the preview. No page shows them: they come before any result."""
+
+from pyrofit.config import Study
+from pyrofit.results.files import Results
+from pyrofit.show.step_page import StepPage
+from pyrofit.steps.preview import record
+from pyrofit.steps.preview.figures import draw_all, read_bands
+from pyrofit.steps.preview.sentences import sentences
+from pyrofit.steps.preview.tables import TABLES
+
+
+def _figures(study: Study, results: Results) -> None:
+    """Write a figure of each experiment."""
+    draw_all(study, read_bands(results), record.read(results), results, "preview/figures")
+
+
+PAGE = StepPage(
+    folder="preview",
+    heading="Data against limits",
+    text="The data before the band of curves that the limits allow.",
+    tables=TABLES,
+    figures={},
+    sentences=sentences,
+    tables_shown=tuple(TABLES),
+    figures_shown=(),
+    finish=_figures,
+)

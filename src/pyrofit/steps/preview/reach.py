@@ -1,0 +1,251 @@
+"""What sets reach: simulated curves of all sets at the measured points, and the data outside."""
+
+from collections.abc import Mapping
+from dataclasses import dataclass
+from typing import Any
+
+import numpy as np
+import pandas as pd
+
+from pyrofit.config import Study
+from pyrofit.config.programs import externals
+from pyrofit.estimate.coarse import point_noise
+from pyrofit.estimate.targets import Measurements
+from pyrofit.experiments import kind_of
+from pyrofit.model.experiment import Experiment
+from pyrofit.solver.arrays import FloatArray
+from pyrofit.steps.preview.sets import Sets
+
+Channel = tuple[str, str]
+"""Experiment and signal."""
+
+NOISE = "noise"
+"""Column of a record with the standard deviation of its noise."""
+MOST_POINTS = 200
+"""Points of a record that are compared."""
+NOISE_SDS = 3.0
+"""Standard deviations of the noise that a point may lie beside the band."""
+OF_RANGE = 0.03
+"""The same as a share of the range: errors of the model and the apparatus."""
+OUTSIDE = 0.002
+"""Mean distance outside, over the range, from which on it is told. Studies as shipped have 0.0006
+at most."""
+OF_BAND = 0.10
+"""The same as a share of the width of the band: 300 sets do not reach its edges."""
+
+
+@dataclass(frozen=True, eq=False)
+class Case:
+    """Experiments as they are described, and their records as they were read, SI units."""
+
+    experiments: Mapping[str, Experiment]
+    frames: Mapping[Channel, pd.DataFrame]
+
+    def channels(self) -> list[Channel]:
+        """Return experiment and signal of all records."""
+        return list(self.frames)
+
+    def signals(self, name: str) -> list[str]:
+        """Return the signals of an experiment."""
+        return [signal for experiment, signal in self.frames if experiment == name]
+
+    def without_repeats(self, outside: Mapping[Channel, float]) -> "Case":
+        """Return the case with one repeat of each test: that which lies outside most, or the first.
+
+        ``outside`` is the mean distance of each record outside, over its range.
+        """
+        tests: dict[str, dict[str, float]] = {}
+        for name, experiment in self.experiments.items():
+            test = experiment.repeat.test if experiment.repeat else name
+            most = max((d for (e, _), d in outside.items() if e == name), default=0.0)
+            tests.setdefault(test, {})[name] = most
+        kept = {max(of, key=of.__getitem__) for of in tests.values()}
+        return Case(
+            {n: e for n, e in self.experiments.items() if n in kept},
+            {c: f for c, f in self.frames.items() if c[0] in kept},
+        )
+
+    def with_experiment(self, name: str, experiment: Experiment) -> "Case":
+        """Return the case with another description of an experiment."""
+        return Case({**self.experiments, name: experiment}, self.frames)
+
+    def with_frame(self, channel: Channel, frame: pd.DataFrame) -> "Case":
+        """Return the case with another record."""
+        return Case(self.experiments, {**self.frames, channel: frame})
+
+
+Curves = Mapping[Channel, FloatArray]
+"""Simulated curves of all sets, shape (sets, points); no numbers where a run did not finish."""
+
+
+def case_of(study: Study, measurements: Measurements) -> Case:
+    """Return all experiments of a study that pyrofit simulates itself, with thinned records.
+
+    An external program would take too long; its experiments are left out.
+    """
+    programs = externals(study)
+    frames = {
+        channel: thinned(frame).assign(**{NOISE: noise_of(study, channel, frame)})
+        for channel, frame in measurements.items()
+        if channel[0] not in programs
+    }
+    return Case({n: e for n, e in study.experiments.items() if n not in programs}, frames)
+
+
+def thinned(frame: pd.DataFrame) -> pd.DataFrame:
+    """Return a record with `MOST_POINTS` points at most, evenly picked."""
+    last = len(frame) - 1
+    picked = np.unique(np.linspace(0, last, min(last + 1, MOST_POINTS)).round().astype(int))
+    return frame.iloc[picked].reset_index(drop=True)
+
+
+def noise_of(study: Study, channel: Channel, frame: pd.DataFrame) -> float:
+    """Return the noise of a record: the scatter of its points, or the stated sd if that is larger.
+
+    Parameters
+    ----------
+    study
+        The study.
+    channel
+        Experiment and signal.
+    frame
+        The whole record, as neighbouring points tell the scatter.
+    """
+    name, signal = channel
+    experiment = study.experiments[name]
+    quantity = experiment.quantity(signal)
+    found = point_noise(frame[quantity.column].to_numpy(float))
+    if quantity.uncertainty_column in frame:
+        stated = frame[quantity.uncertainty_column].to_numpy(float)
+        found = max(found, float(np.median(stated)) / experiment.signals[signal].uncertainty_sds)
+    return found
+
+
+def simulate(
+    study: Study, case: Case, sets: Sets, known: tuple[Case, Curves] | None = None
+) -> dict[Channel, FloatArray]:
+    """Return the curves of all sets at the points of all records.
+
+    Parameters
+    ----------
+    study
+        The study, for its material.
+    case
+        Experiments and records.
+    sets
+        The sets.
+    known
+        Another case and its curves of the same sets: what is simulated alike is taken from there.
+    """
+    found: dict[Channel, FloatArray] = {}
+    for name in dict.fromkeys(experiment for experiment, _ in case.frames):
+        channels = [(name, signal) for signal in case.signals(name)]
+        if known is not None and _alike(case, known[0], name):
+            found |= {channel: known[1][channel] for channel in channels}
+        else:
+            found |= _simulated(study, case, sets, name)
+    return found
+
+
+def _alike(one: Case, other: Case, name: str) -> bool:
+    """Tell whether an experiment of two cases has the same curves at the same points."""
+    return one.experiments[name] is other.experiments[name] and all(
+        np.array_equal(one.frames[name, s][c], other.frames[name, s][c])
+        for s in one.signals(name)
+        for c in ("time_s", "temperature_K")
+        if c in one.frames[name, s]
+    )
+
+
+def _simulated(study: Study, case: Case, sets: Sets, name: str) -> dict[Channel, FloatArray]:
+    experiment = case.experiments[name]
+    kind = kind_of(experiment)
+    asked: dict[str, Any] = {}
+    for signal in case.signals(name):
+        frame = case.frames[name, signal]
+        times = frame["time_s"].to_numpy(float)
+        asked[signal] = kind.request(experiment, signal, frame, times)
+    own = study.serves(name, "kinetics") and study.kinetics is not None
+    material = study.material if own else study.material_with(study.imp.kinetics)
+    accuracy = study.accuracy.coarsened()
+    [runs] = kind.simulate([experiment], material, sets.values, [asked], accuracy, sets.count)
+    return {
+        (name, signal): np.array(
+            [
+                run.signals[signal] if run.status.finished else np.full(request.time_s.size, np.nan)
+                for run in runs
+            ]
+        )
+        for signal, request in asked.items()
+    }
+
+
+@dataclass(frozen=True, eq=False)
+class Reached:
+    """A record beside the band of all sets, SI units.
+
+    Parameters
+    ----------
+    value, lower, upper
+        Measured values, and the least and the largest simulated one, shape (points,).
+    margin
+        How far a point may lie beside the band, shape (points,).
+    scale
+        Range of the record, or the median one of the curves if that is larger.
+    nearest
+        Root mean square difference of each set over that range, shape (sets,).
+    """
+
+    value: FloatArray
+    lower: FloatArray
+    upper: FloatArray
+    margin: FloatArray
+    scale: float
+    nearest: FloatArray
+
+    @property
+    def beyond(self) -> FloatArray:
+        """How far each point lies above (+) or below (-) band and margin, shape (points,)."""
+        above = np.maximum(self.value - self.upper - self.margin, 0.0)
+        below = np.maximum(self.lower - self.margin - self.value, 0.0)
+        return np.asarray(above - below)
+
+    @property
+    def outside(self) -> float:
+        """Mean distance of the points beside band and margin, over the range."""
+        return float(np.mean(np.abs(self.beyond))) / self.scale
+
+
+def all_reached(case: Case, curves: Curves) -> dict[Channel, Reached]:
+    """Return every record of a case beside the band of its curves."""
+    found = {}
+    for (name, signal), frame in case.frames.items():
+        value = frame[case.experiments[name].quantity(signal).column].to_numpy(float)
+        noise = frame[NOISE].to_numpy(float)
+        found[name, signal] = reached(value, curves[name, signal], noise)
+    return found
+
+
+def reached(value: FloatArray, curves: FloatArray, noise: FloatArray) -> Reached:
+    """Return a record beside the band of curves.
+
+    Parameters
+    ----------
+    value
+        Measured values, shape (points,).
+    curves
+        Shape (sets, points).
+    noise
+        Standard deviation of the noise, shape (points,).
+    """
+    finished = curves[np.isfinite(curves).all(axis=1)]
+    if not len(finished):
+        empty = np.zeros_like(value)
+        return Reached(value, value, value, empty, 1.0, np.full(len(curves), np.inf))
+    lower, upper = finished.min(axis=0), finished.max(axis=0)
+    ranges = np.ptp(finished, axis=1)
+    scale = max(float(np.ptp(value)), float(np.median(ranges)), 1e-300)
+    margin = NOISE_SDS * noise + OF_RANGE * scale + OF_BAND * (upper - lower)
+    misfit = np.sqrt(np.mean((curves - value) ** 2, axis=1)) / scale
+    nearest = np.where(np.isfinite(misfit), misfit, np.inf)
+    return Reached(value, lower, upper, margin, scale, nearest)

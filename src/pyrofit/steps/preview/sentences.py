@@ -1,0 +1,98 @@
+"""What the preview found, in sentences."""
+
+from collections.abc import Iterator
+
+from pyrofit.config import Study
+from pyrofit.quantities.base import Quantity
+from pyrofit.quantities.units import ICE_POINT_K
+from pyrofit.results.files import Results
+from pyrofit.show.text import listed, several
+from pyrofit.steps.preview import record
+from pyrofit.steps.preview.record import Found, Window
+
+LEAST_LEFT = 0.06
+"""Difference from the nearest set, over the range, from which on a record is named."""
+
+
+def sentences(study: Study, results: Results) -> list[str]:
+    """Return the sentences on the data beside all that the limits allow."""
+    return list(said(study, record.read(results)))
+
+
+def said(study: Study, found: Found) -> Iterator[str]:
+    """Yield the sentences on what was found."""
+    if not found.nearest:
+        yield "Data against limits: no record is simulated by pyrofit itself; nothing is compared."
+        return
+    yield from _unfinished(found)
+    yield from (_window(study, window) for window in found.windows)
+    if not found.windows and found.far:
+        yield from _far(study, found)
+    if found.windows or found.far:
+        yield from _causes(found)
+    else:
+        records = several(len(found.nearest), "record")
+        yield f"Data against limits: {found.sets} sets reach the data of all tests ({records})."
+    if found.unmoved:
+        verb = "moves" if len(found.unmoved) == 1 else "each move"
+        yield (
+            f"Between its limits {listed(found.unmoved)} {verb} no signal beyond its noise, and "
+            "cannot be estimated from these data."
+        )
+
+
+def _unfinished(found: Found) -> Iterator[str]:
+    for name, count in found.unfinished.items():
+        yield f"{name}: {count} of {found.sets} sets within the limits do not finish."
+
+
+def _window(study: Study, window: Window) -> str:
+    quantity = study.experiments[window.experiment].quantity(window.signal)
+    side = "above" if window.above else "below"
+    return (
+        f"{window.experiment}, {quantity.title}: the data lie {side} all sets from "
+        f"{span(quantity, window.begins, window.ends)}, by up to "
+        f"{size(quantity, window.largest)} ({100.0 * window.share:.0f} % of the range)."
+    )
+
+
+def span(quantity: Quantity, begins: float, ends: float) -> str:
+    """Return a window in words: times, or temperatures of a heated sample."""
+    if quantity.against_temperature:
+        return f"{begins - ICE_POINT_K:.0f} to {ends - ICE_POINT_K:.0f} °C"
+    return f"{begins:.0f} to {ends:.0f} s"
+
+
+def size(quantity: Quantity, value: float) -> str:
+    """Return a difference of a quantity with its unit."""
+    shown = quantity.shown
+    unit = "K" if quantity.is_temperature else shown.unit
+    return f"{shown.factor * value:.3g} {unit}"
+
+
+def _far(study: Study, found: Found) -> Iterator[str]:
+    worst = sorted(found.nearest, key=lambda one: -one.left)
+    parts = [
+        f"{one.experiment}, {study.experiments[one.experiment].quantity(one.signal).title} "
+        f"({100.0 * one.left:.0f} %)"
+        for one in worst[:4]
+        if one.left > LEAST_LEFT
+    ]
+    yield (
+        "Each record alone lies within the limits, but no set comes near all at once. The nearest "
+        f"one differs, in per cent of the range, from {listed(parts)}."
+    )
+
+
+def _causes(found: Found) -> Iterator[str]:
+    if not found.causes:
+        yield (
+            "No single error that was tried explains this. Limits of several parameters may be "
+            "too narrow, or the model may lack an effect, which the target `diagnosis` looks for."
+        )
+        return
+    for i, one in enumerate(found.causes, 1):
+        yield (
+            f"Likely cause {i}: {one.words}. With that corrected, data and nearest set differ by "
+            f"{100.0 * one.left:.1f} % of the range (rms)."
+        )

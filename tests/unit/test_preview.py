@@ -1,0 +1,169 @@
+"""Data against limits: sets, band, windows outside, causes, words, figures."""
+
+from functools import cache
+from pathlib import Path
+
+import numpy as np
+import pandas as pd
+import pytest
+
+from pyrofit.cli import main
+from pyrofit.config import Study, as_study, read_study
+from pyrofit.results.files import Results
+from pyrofit.stages.measurements import computed
+from pyrofit.steps.preview.compute import preview, windows
+from pyrofit.steps.preview.corrections import corrections
+from pyrofit.steps.preview.figures import draw_all
+from pyrofit.steps.preview.reach import OF_BAND, OF_RANGE, Case, case_of, reached
+from pyrofit.steps.preview.sentences import said
+from pyrofit.steps.preview.sets import draw
+
+CONFIG = Path(__file__).parents[2] / "config"
+SMOKE = CONFIG / "smoke.yaml"
+Frames = dict[tuple[str, str], pd.DataFrame]
+
+
+@cache
+def smoke() -> tuple[Study, Frames]:
+    study = read_study(SMOKE)
+    return study, computed(study, fast=True)
+
+
+# --- sets -----------------------------------------------------------------------------------
+
+
+def test_sets_fill_the_limits_evenly_and_are_those_of_the_seed() -> None:
+    study, _ = smoke()
+    sets = draw(study, study.parameters, 300)
+    assert sets.names == tuple(study.parameters)
+    counts = [np.histogram(column, bins=10, range=(0.0, 1.0))[0] for column in sets.unit.T]
+    assert np.min(counts) >= 28
+    assert np.max(counts) <= 32
+    rho = np.asarray(sets.values["rho"])
+    assert 900.0 <= rho.min() < 905.0
+    assert 1495.0 < rho.max() <= 1500.0
+    assert np.array_equal(sets.unit, draw(study, study.parameters, 300).unit)
+    other = study.model_copy(update={"seed": study.seed + 1})
+    assert not np.array_equal(sets.unit, draw(other, study.parameters, 300).unit)
+
+
+def test_sets_stay_near_known_values() -> None:
+    given = smoke()[0].model_dump(mode="json", exclude_defaults=True)
+    study = as_study({**given, "known": {"rho": {"value": 1200.0, "sd": 10.0}}}, "smoke.json")
+    rho = np.asarray(draw(study, study.parameters, 100).values["rho"])
+    assert 1170.0 <= rho.min() < rho.max() <= 1230.0
+
+
+def test_sets_at_ends_hold_all_other_parameters() -> None:
+    study, _ = smoke()
+    sets = draw(study, study.parameters, 4)
+    ends = sets.at_ends("k")
+    assert np.asarray(ends.values["k"]).tolist() == [0.1] * 4 + [0.4] * 4
+    assert np.array_equal(np.asarray(ends.values["cp"])[:4], np.asarray(ends.values["cp"])[4:])
+
+
+# --- band -----------------------------------------------------------------------------------
+
+
+def test_distance_beside_the_band_counts_from_the_margin() -> None:
+    curves = np.array([[0.0, 1.0, 2.0], [0.0, 2.0, 4.0]])
+    found = reached(np.array([0.0, 5.0, -3.0]), curves, np.zeros(3))
+    assert found.scale == 8.0  # of the record; the curves have 2 and 4
+    margin = OF_RANGE * 8.0 + OF_BAND * np.array([0.0, 1.0, 2.0])
+    assert found.beyond == pytest.approx([0.0, 5.0 - 2.0 - margin[1], -(2.0 + 3.0 - margin[2])])
+    assert found.outside == pytest.approx(np.abs(found.beyond).mean() / 8.0)
+
+
+def test_noise_widens_the_margin_by_three_standard_deviations() -> None:
+    curves = np.array([[0.0, 1.0], [0.0, 1.0]])
+    assert reached(np.array([0.0, 1.5]), curves, np.full(2, 0.01)).beyond[1] > 0.0
+    assert reached(np.array([0.0, 1.5]), curves, np.full(2, 0.17)).beyond[1] == 0.0
+
+
+def test_sets_that_do_not_finish_make_no_band() -> None:
+    curves = np.array([[0.0, 1.0], [np.nan, np.nan]])
+    found = reached(np.array([0.0, 1.0]), curves, np.zeros(2))
+    assert found.upper.tolist() == [0.0, 1.0]
+    assert found.nearest.tolist() == [0.0, np.inf]
+
+
+def test_window_has_its_ends_its_side_and_its_size() -> None:
+    study, _ = smoke()
+    frame = pd.DataFrame({"time_s": np.arange(6.0), "mlr_kg_m2_s": [0.0, 0.0, 9.0, 9.0, 0.0, 0.0]})
+    case = Case(study.experiments, {("slab_25", "mlr"): frame})
+    curves = np.array([[0.0, 1.0, 1.0, 1.0, 1.0, 0.0], [0.0, 2.0, 3.0, 2.0, 3.0, 0.0]])
+    one = reached(frame["mlr_kg_m2_s"].to_numpy(), curves, np.zeros(6))
+    first, above, last = windows(case, ("slab_25", "mlr"), one)
+    assert (above.begins, above.ends, above.above, above.largest) == (2.0, 3.0, True, 7.0)
+    assert (first.begins, last.ends) == (1.0, 4.0)
+    assert not first.above
+
+
+# --- causes ---------------------------------------------------------------------------------
+
+
+def test_corrections_undo_what_their_words_say() -> None:
+    study, frames = smoke()
+    case = case_of(study, frames)
+    channel = "slab_25", "mlr"
+    found = list(corrections(case, [channel]))
+    assert len({one.words for one in found}) == len(found)
+    (flux,) = [one for one in found if one.words == "the flux of slab_25 is 10 times too large"]
+    assert flux.change(case).experiments["slab_25"].front.flux_factor == pytest.approx(0.1)  # type: ignore[attr-defined]
+    (tenfold,) = [one for one in found if "slab_25 is 10 times too large: area" in one.words]
+    column = "mlr_kg_m2_s"
+    made = tenfold.change(case).frames[channel][column]
+    assert made.to_numpy() == pytest.approx(0.1 * case.frames[channel][column].to_numpy())
+    (swap,) = [one for one in found if one.words == "the files of slab_25 and slab_60 are swapped"]
+    assert swap.change(case).frames["slab_60", "mlr"] is case.frames[channel]
+
+
+def test_temperatures_in_the_wrong_unit_are_named_first_with_their_window() -> None:
+    study, frames = smoke()
+    key, column = ("slab_25", "back_temperature"), "back_temperature_K"
+    wrong = {**frames, key: frames[key].assign(**{column: frames[key][column] - 273.15})}
+    found = preview(study, wrong, 100).found
+    assert (found.windows[0].experiment, found.windows[0].signal) == key
+    assert not found.windows[0].above
+    assert (found.causes[0].cause, found.causes[0].places) == ("unit of temperature", ["slab_25"])
+    words = list(said(study, found))
+    assert words[0].startswith("slab_25, back temperature: the data lie below all sets from ")
+    assert "the temperatures are in °C, and were read as K" in words[1]
+
+
+def test_honest_study_is_not_accused_and_each_test_gets_a_figure(tmp_path: Path) -> None:
+    study, frames = smoke()
+    made = preview(study, frames)
+    assert (made.found.windows, made.found.causes, made.found.far) == ([], [], False)
+    assert made.found.unmoved == []
+    (sentence,) = said(study, made.found)
+    assert sentence.endswith("300 sets reach the data of all tests (6 records).")
+    draw_all(study, made.bands, made.found, Results(tmp_path), "figures")
+    drawn = {path.stem for path in (tmp_path / "figures").glob("*.png")}
+    assert drawn == set(study.experiments)
+
+
+def test_parameters_that_no_signal_feels_are_named() -> None:
+    study, frames = smoke()
+    heated = {channel: frame for channel, frame in frames.items() if channel[0].startswith("tga")}
+    assert preview(study, heated, 20).found.unmoved == ["rho", "k", "cp", "eps", "dh"]
+
+
+def test_study_of_an_external_program_is_told_that_nothing_is_compared() -> None:
+    study = read_study(CONFIG / "hotplate.yaml")
+    made = preview(study, {("plate_50", "mlr"): pd.DataFrame()})
+    assert made.bands.empty
+    assert list(said(study, made.found)) == [
+        "Data against limits: no record is simulated by pyrofit itself; nothing is compared."
+    ]
+
+
+# --- commands -------------------------------------------------------------------------------
+
+
+def test_check_with_data_tells_and_draws(
+    tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    assert main(["check", str(SMOKE), "--data", "--figures", str(tmp_path / "drawn")]) == 0
+    assert "300 sets reach the data of all tests (6 records)" in capsys.readouterr().out
+    assert len(list((tmp_path / "drawn").glob("*.svg"))) == 4
