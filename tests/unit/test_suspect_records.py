@@ -5,11 +5,14 @@ from pathlib import Path
 import numpy as np
 import pandas as pd
 import pytest
+import yaml
 
 from pyrofit import cli
+from pyrofit.config import as_study
 from pyrofit.data.suspect import suspicions
 from pyrofit.new_study.write import drafted
 from pyrofit.quantities import known_quantities
+from pyrofit.stages.reading import check_measurements
 
 TIME = np.arange(0.0, 3000.0, 6.0)
 KELVIN = 300.0 + TIME / 6.0
@@ -158,3 +161,24 @@ def test_a_cooling_after_a_drying_belongs_to_the_heating(
     mass = 30.0 + 70.0 / (1.0 + np.exp((np.maximum.accumulate(kelvin) - 640.0) / 12.0))
     text = made(tmp_path, "", time, kelvin, mass)
     assert ("until_s" in text) == until
+
+
+def test_a_record_that_starts_after_a_drying_is_divided_by_its_start(tmp_path: Path) -> None:
+    text = made(tmp_path, "", TIME, KELVIN, 93.0 * MASS)
+    assert "relative_to: first value # CHANGE: it starts at 93.0 %, as" in text
+    (tmp_path / "data").mkdir()
+    (tmp_path / "a.csv").rename(tmp_path / "data" / "a.csv")
+    found = check_measurements(as_study(yaml.safe_load(text), str(tmp_path / "x.yaml")), "x.yaml")
+    ((frame, about),) = found.values()
+    np.testing.assert_allclose(frame["mass_fraction"], MASS / MASS[0], atol=1e-6)
+    assert not [note for note in about["notes"] if "starts at" in note]
+    assert "relative_to" not in made(tmp_path, "", TIME, KELVIN, 99.0 * MASS)
+
+
+def test_the_temperature_of_a_hold_in_a_name_is_no_heating_rate(tmp_path: Path) -> None:
+    time = np.arange(0.0, 6000.0, 6.0)
+    kelvin = np.minimum(300.0 + time / 1.2, 573.0)
+    mass = 100.0 * np.exp(-np.clip(time - 300.0, 0.0, None) / 2000.0)
+    text = made(tmp_path, "", time, kelvin, mass, name="iso_300C.csv")
+    assert "set_point_K: 573" in text
+    assert "heating_rate_K_min: 50\n" in text

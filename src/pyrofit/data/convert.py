@@ -175,6 +175,10 @@ def _divisor(spec: SeriesSpec, kind: str, first: float) -> tuple[float, list[str
                 f"mass of the sample, or the right unit of a {PER_MASS[kind]}, such as W/g."
             )
         return spec.sample_mass_kg, [f"{kind} divided by {spec.sample_mass_kg:g} kg"]
+    if spec.from_first and kind == "fraction":
+        if first <= 0.0:
+            raise DataError(f"{spec.path}: the first value is {first:g}; leave `relative_to` out")
+        return first, [f"mass fraction divided by its first value, {first:g}"]
     if PER_START.get(kind) != wanted:
         return 1.0, []
     mass = first if spec.sample_mass_kg is None else spec.sample_mass_kg

@@ -38,6 +38,8 @@ class SeriesSpec:
         mass to give a mass per area.
     sign : int
         Sign of the file's values, 1 or -1.
+    from_first : bool
+        Whether mass fractions are divided by the first one: the sample was dried before.
     rate_K_s : float, optional
         Constant heating rate [K/s] of a file without times: t = (T - T0)/rate.
 
@@ -56,6 +58,7 @@ class SeriesSpec:
     sample_mass_kg: float | None = None
     sample_area_m2: float | None = None
     sign: int = 1
+    from_first: bool = False
     rate_K_s: float | None = None
 
     def __post_init__(self) -> None:

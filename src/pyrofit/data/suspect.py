@@ -16,7 +16,7 @@ ROOM_K = (283.0, 323.0)
 """Temperatures at which records usually start."""
 COLD_K = 268.0
 """A record that starts below this is seldom one of a fire test."""
-_LEAST_FALL, _LEAST_RISE, _FALLEN = 0.01, 0.05, 0.97
+_LEAST_FALL, _LEAST_RISE, FALLEN = 0.01, 0.05, 0.97
 """Changes of the mass, and a first value, as fractions of the initial mass."""
 _SMOOTHED = 9
 _GAP, _GAP_SHARE = 5.0, 0.02
@@ -107,11 +107,11 @@ def _first(quantity: Quantity, frame: pd.DataFrame) -> str:
     if quantity.scales[0] != "fraction" or not _is_mass(quantity):
         return ""
     first = float(_smooth(frame[quantity.column].to_numpy(float))[0])
-    if first > _FALLEN:
+    if first > FALLEN:
         return ""
     return (
         f"it starts at {100.0 * first:.1f} % of the initial mass, the model at 100 %. If "
-        "the sample was dried or heated before, divide the column by its first value"
+        "the sample was dried or heated before, give `relative_to: first value`"
     )
 
 

@@ -20,6 +20,7 @@ RECORD = (
     "timing_s",
     "sample_mass_kg",
     "sample_area_m2",
+    "relative_to",
     "until_K",
     "until_s",
     "noise",
@@ -117,6 +118,11 @@ class Signal(Part):
     )
     sample_mass_kg: AboveZero | None = Field(None, description="initial sample mass [kg]")
     sample_area_m2: AboveZero | None = Field(None, description="exposed area [m2]")
+    relative_to: Literal["initial mass", "first value"] = Field(
+        "initial mass",
+        description="mass fraction: `first value` where the sample was dried before the record, so "
+        "that it starts below 1",
+    )
     endothermic: Literal["positive", "negative"] = Field(
         "positive", description="heat flow: sign that heat taken up has in the file"
     )

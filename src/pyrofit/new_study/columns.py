@@ -8,6 +8,7 @@ import numpy as np
 from pyrofit.data.convert import OTHER_ZERO
 from pyrofit.data.csvfile import Table
 from pyrofit.data.stated import Stated
+from pyrofit.data.suspect import FALLEN
 from pyrofit.experiments import measurable
 from pyrofit.new_study.abscissae import candidates
 from pyrofit.new_study.headers import (
@@ -25,6 +26,8 @@ from pyrofit.quantities.units import SCALES, header_key, unit_key
 
 _OWN = ("value", "uncertainty")
 """Roles that belong to one signal; the others are shared by all signals of a file."""
+_SMOOTHED, _LEAST_LEFT = 9, 0.5
+"""Rows of the start, and the least fraction that a drying leaves."""
 _NAMELESS = ("value", "signal", "y")
 """Headers of which the unit alone tells the quantity."""
 
@@ -57,6 +60,9 @@ class Found:
         Further facts that the file states.
     tared
         Whether the zero of the masses is arbitrary.
+    dried_to
+        Mass fraction at which a record starts after a drying; None where it starts at the initial
+        mass.
     """
 
     signal: str
@@ -70,6 +76,7 @@ class Found:
     area_m2: float | None = None
     stated: Stated = field(default_factory=Stated)
     tared: bool = False
+    dried_to: float | None = None
 
     @property
     def of(self) -> Quantity:
@@ -247,7 +254,19 @@ def _found(table: Table, signal: str, quantity: Quantity, headers: Mapping[str, 
         table.area_m2,
         table.stated,
         _is_tared(table, columns.get("value", ""), units.get("value", ""), scale),
+        _dried_to(table, columns.get("value", ""), units.get("value", ""), quantity),
     )
+
+
+def _dried_to(table: Table, header: str, unit: str, quantity: Quantity) -> float | None:
+    """Return the mass fraction at which a record of fractions starts, where it is below 97 %."""
+    fractions = {unit_key(word): factor for word, factor in SCALES["fraction"].items()}
+    of_mass = quantity.scales[0] == "fraction" and "mass" in quantity.scales
+    if not of_mass or not header or unit_key(unit) not in fractions:
+        return None
+    values = table.columns[header][np.isfinite(table.columns[header])][:_SMOOTHED]
+    first = float(np.median(values)) * fractions[unit_key(unit)] if values.size else 1.0
+    return round(first, 4) if _LEAST_LEFT < first <= FALLEN else None
 
 
 def _is_tared(table: Table, header: str, unit: str, scale: str) -> bool:

@@ -316,6 +316,7 @@ def _frames(
             sample_area_m2=divisor.get("sample_area_m2"),
             sample_mass_kg=divisor.get("sample_mass_kg"),
             sign=-1 if found.of.has_sign and found.stated.exothermic_up else 1,
+            from_first=found.dried_to is not None,
             rate_K_s=rate_K_s,
         )
         try:

@@ -59,6 +59,11 @@ def _signal(run: Measured, found: Found) -> list[str]:
             "of the file" if is_told(found, divisor[0]) else "CHANGE: the values are divided by it"
         )
         lines.append(f"  {divisor[0]}: {divisor[1]:g} # {why}")
+    if found.dried_to is not None:
+        lines += [
+            f"  relative_to: first value # CHANGE: it starts at {100.0 * found.dried_to:.1f} %, as",
+            "  # after a drying; delete this line if the sample lost that mass by pyrolysis",
+        ]
     if (gas := gas_line(run)) != "":
         lines.append(f"  # {gas}")
     if run.end is not None:
@@ -99,6 +104,8 @@ def said(run: Measured) -> list[str]:
         if run.timeless:
             told = "" if run.told in _CERTAIN else ", to be changed in the study"
             parts.insert(0, f"no times: those of a heating rate of {run.number:g} K/min{told}")
+        if found.dried_to is not None:
+            parts.append(f"divided by its start, {100.0 * found.dried_to:.1f} %, as after a drying")
         lines.append(f"{run.path}: {found.signal}: {', '.join(parts)}")
         if (remark := _remark(run, found)) != "":
             lines.append(f"{run.path}: {found.signal}: {remark}")
@@ -132,6 +139,8 @@ def other_number(run: Measured) -> list[str]:
     """
     if run.told not in _CERTAIN or run.hinted is None:
         return []
+    if files_of(run.kind).facts(run.frames).get("set_point_K"):
+        return []  # a number in the name may be that of the hold
     of, ratio = files_of(run.kind).number, run.number / run.hinted
     times, with_unit = "", of.find(run.path.stem)[1] == "unit" if run.path else False
     if abs(ratio / _MINUTES - 1.0) < _ALIKE:

@@ -158,6 +158,7 @@ def _read(experiment: Experiment, label: str, read: Callable[[Path], Table]) -> 
             sample_mass_kg=signal.sample_mass_kg,
             sample_area_m2=signal.sample_area_m2,
             sign=1 if signal.endothermic == "positive" else -1,
+            from_first=signal.relative_to == "first value",
             rate_K_s=_rate_without_times(experiment),
         ),
         read,
