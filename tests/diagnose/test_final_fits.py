@@ -99,27 +99,27 @@ def test_wide_interval_spans_the_models_that_are_not_separated() -> None:
     verdict = judge(found, np.random.default_rng(2))
     final = final_fits(verdict, None)
     assert len(final.leading) == 2
-    rows = [row for row in candidates(found, verdict, final) if not row["rejected"]]
-    assert {tuple(sorted(row["effects"])) for row in rows} == {
+    rows = [row for row in candidates(found, verdict, final) if not row.rejected]
+    assert {tuple(sorted(row.effects)) for row in rows} == {
         ("c_T", "k_T"),
         ("c_T", "heater_ramp"),
     }
     name = linear.strength_name("c_T")
-    own = [row["parameters"][name] for row in rows]
-    lows, highs = ([p[key] for p in own] for key in ("low", "high"))
+    own = [row.parameters[name] for row in rows]
+    lows, highs = ([getattr(p, key) for p in own] for key in ("low", "high"))
     assert max(lows) - min(lows) > 0.1 * (highs[0] - lows[0]), "the models disagree"
     for p in own:
-        assert (p["low_wide"], p["high_wide"]) == (min(lows), max(highs))
+        assert (p.low_wide, p.high_wide) == (min(lows), max(highs))
 
 
 def test_interval_of_a_single_model_is_stated_once() -> None:
     trial = fit_with(two_effects().base, "k_T")
     (found,) = strengths(trial, wide_intervals([trial])).values()
-    assert found["low_wide"] is None
-    assert found["high_wide"] is None
+    assert found.low_wide is None
+    assert found.high_wide is None
     other = {linear.strength_name("k_T"): (-1.0, 1.0)}
     (found,) = strengths(trial, other).values()
-    assert (found["low_wide"], found["high_wide"]) == (-1.0, 1.0)
+    assert (found.low_wide, found.high_wide) == (-1.0, 1.0)
 
 
 def test_final_fits_hold_base_and_end_and_leave_other_trials() -> None:
@@ -155,7 +155,7 @@ def test_unknown_rests_on_the_final_model_alone() -> None:
     final = final_fits(verdict, None)
     assert final.leading == (found.end.key,)
     rows = candidates(found, verdict, final)
-    stated = [row for row in rows if any(p["low_wide"] for p in row["parameters"].values())]
+    stated = [row for row in rows if any(p.low_wide for p in row.parameters.values())]
     assert stated == [], "none of these effects has another form"
 
 
@@ -168,11 +168,11 @@ def test_two_effects_in_the_place_of_one_widen_the_interval_of_the_others() -> N
     final = final_fits(replace(verdict, findings=(first, *verdict.findings[1:])), None)
     assert other.key in final.leading
     rows = candidates(found, replace(verdict, findings=(first, *verdict.findings[1:])), final)
-    (end,) = [row for row in rows if set(row["effects"]) == set(found.end.effects)]
+    (end,) = [row for row in rows if set(row.effects) == set(found.end.effects)]
     name = linear.strength_name("c_T")
     own = interval(other, other.model.names.index(name), *values_of(other))
-    assert end["parameters"][name]["low_wide"] <= own["low"]
-    assert end["parameters"][name]["high_wide"] >= own["high"]
+    assert end.parameters[name].low_wide <= own["low"]
+    assert end.parameters[name].high_wide >= own["high"]
 
 
 def test_result_is_that_of_the_final_fits(monkeypatch: pytest.MonkeyPatch) -> None:

@@ -25,27 +25,27 @@ def test_profile_of_a_linear_model_is_its_parabola() -> None:
     J = fitted.fit.jacobian
     sd = np.sqrt(np.diag(np.linalg.inv(J.T @ J)))
     found = profiles(fitted)
-    assert [profile["effect"] for profile in found] == ["k_T", "c_T"]
+    assert [profile.effect for profile in found] == ["k_T", "c_T"]
     for profile in found:
-        _, quantity = strength_of(profile["effect"])
-        i = fitted.model.position(profile["effect"])
-        best, step = fitted.strength(profile["effect"]), sd[i] * (quantity.upper - quantity.lower)
-        away = (np.array(profile["value"]) - best) / step
+        _, quantity = strength_of(profile.effect)
+        i = fitted.model.position(profile.effect)
+        best, step = fitted.strength(profile.effect), sd[i] * (quantity.upper - quantity.lower)
+        away = (np.array(profile.value) - best) / step
         # A fit ends where a step promises 0.05 of chi-square.
-        assert np.array(profile["rise"]) == pytest.approx(away**2, abs=0.1)
+        assert np.array(profile.rise) == pytest.approx(away**2, abs=0.1)
         reach = 1.96 * np.sqrt(fitted.posterior.dispersion) * step
-        assert profile["low"] == pytest.approx(best - reach, abs=0.05 * step)
-        assert profile["high"] == pytest.approx(best + reach, abs=0.05 * step)
-        assert not profile["low_open"]
-        assert not profile["high_open"]
-        assert profile["level"] == pytest.approx(1.96**2 * fitted.posterior.dispersion)
+        assert profile.low == pytest.approx(best - reach, abs=0.05 * step)
+        assert profile.high == pytest.approx(best + reach, abs=0.05 * step)
+        assert not profile.low_open
+        assert not profile.high_open
+        assert profile.level == pytest.approx(1.96**2 * fitted.posterior.dispersion)
 
 
 def test_interval_is_open_where_the_limit_comes_first() -> None:
     (profile,) = profiles(trial(1.99, "k_T"))  # the limit is twice the typical slope, and negative
-    assert profile["low_open"]
-    assert profile["low"] == strength_of("k_T")[1].lower
-    assert not profile["high_open"]
+    assert profile.low_open
+    assert profile.low == strength_of("k_T")[1].lower
+    assert not profile.high_open
 
 
 def test_profiles_are_the_same_by_two_processes() -> None:
@@ -59,6 +59,6 @@ def test_model_without_effects_has_no_profile() -> None:
 
 def test_profile_of_a_simulation_holds_the_truth(diagnosed: Diagnosed) -> None:
     (profile,) = profiles(diagnosed("k_T").search.end)
-    assert profile["low"] <= HIDDEN["k_T"]["k_T"] <= profile["high"]
-    assert min(profile["rise"]) > -0.1  # nothing lower was met
-    assert max(profile["rise"]) > profile["level"]
+    assert profile.low <= HIDDEN["k_T"]["k_T"] <= profile.high
+    assert min(profile.rise) > -0.1  # nothing lower was met
+    assert max(profile.rise) > profile.level

@@ -27,6 +27,7 @@ from pyrofit.diagnose.search.stepwise import Search, search
 from pyrofit.diagnose.search.stepwise import _Pass as Pass
 from pyrofit.diagnose.settings import SETTINGS
 from pyrofit.effects import known_effects
+from pyrofit.results.diagnosis_candidates import OfCandidate
 from pyrofit.solver.arrays import FloatArray
 
 EFFECTS = ("back_loss", "c_T", "heater_ramp", "k_T", "time_offset")
@@ -67,7 +68,7 @@ def verdict_on(found: Search) -> Verdict:
     return verdict
 
 
-def listed(found: Search) -> list[dict[str, Any]]:
+def listed(found: Search) -> list[OfCandidate]:
     """Return the rows of the candidates that the verdict on a search leaves."""
     verdict = verdict_on(found)
     return candidates(found, verdict, final_fits(verdict, None))
@@ -254,8 +255,8 @@ def test_effect_that_another_makes_superfluous_is_dropped() -> None:
     assert verdict.kind == "named", verdict.reasons
     assert verdict.search.end.effects == ("k_T",)
     rows = candidates(verdict.search, verdict, final_fits(verdict, None))
-    (row,) = [row for row in rows if row["free"] == {"k_T": ["slope_1_K"]}]
-    assert row["rejected"] == ""
+    (row,) = [row for row in rows if row.free == {"k_T": ["slope_1_K"]}]
+    assert row.rejected == ""
 
 
 def test_no_pass_ends_above_a_model_that_an_earlier_one_found() -> None:
@@ -538,16 +539,16 @@ def test_claims_gain_as_much_as_is_asked_for() -> None:
     found = searched(planted(k_T=0.8, c_T=-0.7))
     rows = listed(found)
     assert found.spare == pytest.approx(2.0 * np.log(3.0))
-    best = min(rows, key=lambda row: row["penalised"])
-    assert set(best["effects"]) == {"k_T", "c_T"}
-    assert best["penalised"] == pytest.approx(best["chi2"] + 2.0 * np.log(TOTAL))
-    assert best["gain"] > found.spare + np.log(TOTAL)
+    best = min(rows, key=lambda row: row.penalised)
+    assert set(best.effects) == {"k_T", "c_T"}
+    assert best.penalised == pytest.approx(best["chi2"] + 2.0 * np.log(TOTAL))
+    assert best.gain > found.spare + np.log(TOTAL)
 
 
 def test_every_candidate_that_is_not_claimed_says_why() -> None:
     found = searched(planted(k_T=0.8), effects=EFFECTS)
     rows = listed(found)
-    reasons = {tuple(row["effects"]): row["rejected"] for row in rows}
+    reasons = {tuple(row.effects): row.rejected for row in rows}
     assert reasons.pop(("k_T",)) == ""
     assert reasons
     assert all(reasons.values()), reasons
@@ -556,6 +557,6 @@ def test_every_candidate_that_is_not_claimed_says_why() -> None:
 def test_every_model_is_listed_once() -> None:
     found = searched(planted(k_T=0.8, c_T=-0.7), effects=EFFECTS)
     rows = listed(found)
-    models = [sorted((e, *p) for e, p in row["free"].items()) for row in rows]
+    models = [sorted((e, *p) for e, p in row.free.items()) for row in rows]
     assert len(rows) > 10
     assert [m for i, m in enumerate(models) if m in models[:i]] == []

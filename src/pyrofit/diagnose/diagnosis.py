@@ -79,8 +79,8 @@ def examine(
     final = final_fits(verdict, study.accuracy if solver["coarsened"] else None, processes)
     content = {**record.content(study, found, verdict, final, processes), "solver": solver}
     end = final.of(found.end)
-    content["kinetics_alone"] = kinetics_alone(end)
-    content["profiles"] = profiles(end, processes) if advise else []
+    content["kinetics_alone"] = record.dumped(kinetics_alone(end))
+    content["profiles"] = record.dumped(profiles(end, processes) if advise else [])
     content["probes"] = [_shown(p) for p in (_probes(found, verdict, processes) if advise else [])]
     designs = next_experiments(_undecided(found, verdict), processes) if advise else []
     content["next_experiment"] = [asdict(design) for design in designs]

@@ -1,7 +1,6 @@
 """95 % intervals of the parameters after the calibration."""
 
 from collections.abc import Iterable, Mapping, Sequence
-from typing import Any
 
 import numpy as np
 
@@ -12,6 +11,7 @@ from pyrofit.diagnose.judge.ridges import Ridge, ridge_of
 from pyrofit.effects import known_effects
 from pyrofit.estimate.posterior import interval as interval_of
 from pyrofit.parallel import parallel_map
+from pyrofit.results.diagnosis_candidates import OfStrength
 from pyrofit.solver.arrays import FloatArray
 
 Interval = tuple[float, float]
@@ -37,7 +37,7 @@ def interval(
     }
 
 
-def strengths(trial: FittedModel, wide: Mapping[str, Interval]) -> dict[str, Any]:
+def strengths(trial: FittedModel, wide: Mapping[str, Interval]) -> dict[str, OfStrength]:
     """Return the parameters of a model's effects, SI units.
 
     ``wide`` are `wide_intervals`. They are stated where they are wider than those of the model.
@@ -53,7 +53,7 @@ def strengths(trial: FittedModel, wide: Mapping[str, Interval]) -> dict[str, Any
             wider = wide.get(name, ends)
             low, high = (None, None) if wider == ends else wider
             unit = catalogue[effect].quantities[parameter].unit
-            found[name] = {**own, "unit": unit, "low_wide": low, "high_wide": high}
+            found[name] = OfStrength(**own, unit=unit, low_wide=low, high_wide=high)
     return found
 
 

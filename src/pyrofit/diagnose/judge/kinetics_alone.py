@@ -5,17 +5,16 @@ alone, and its parameters are compared with those of the fit to all signals. The
 may give way at the kinetics where something is missing from the model of the slab.
 """
 
-from typing import Any
-
 import numpy as np
 
 from pyrofit.diagnose.base.descent import descend
 from pyrofit.diagnose.base.fitted import FittedModel, up_to_date
 from pyrofit.diagnose.base.model import model_of
 from pyrofit.diagnose.judge.intervals import values_of
+from pyrofit.results.diagnosis_schema import OfKinetics
 
 
-def kinetics_alone(trial: FittedModel) -> list[dict[str, Any]]:
+def kinetics_alone(trial: FittedModel) -> list[OfKinetics]:
     """Return the parameters that small samples tell, SI units; none without a slab beside them.
 
     ``difference`` is that of the fit to all signals from the fit to the small samples alone, in
@@ -31,12 +30,12 @@ def kinetics_alone(trial: FittedModel) -> list[dict[str, Any]]:
     joint, _ = values_of(trial)
     shown = np.any(alone.fit.jacobian[: model.points] != 0.0, axis=0)
     return [
-        {
-            "parameter": model.names[i],
-            "alone": float(values[i]),
-            "sd": float(sd[i]),
-            "all": float(joint[i]),
-            "difference": float((joint[i] - values[i]) / sd[i]),
-        }
+        OfKinetics(
+            parameter=model.names[i],
+            alone=float(values[i]),
+            sd=float(sd[i]),
+            all=float(joint[i]),
+            difference=float((joint[i] - values[i]) / sd[i]),
+        )
         for i in np.flatnonzero(shown).tolist()
     ]

@@ -1,7 +1,6 @@
 """How chi-square rises with the strength of each effect of a model, all else at its best."""
 
 from functools import partial
-from typing import Any
 
 import numpy as np
 
@@ -11,9 +10,10 @@ from pyrofit.diagnose.base.fitted import FittedModel, up_to_date
 from pyrofit.diagnose.base.model import strength_of
 from pyrofit.estimate.profile import profile_of
 from pyrofit.parallel import parallel_map
+from pyrofit.results.diagnosis_schema import OfProfile
 
 
-def profiles(trial: FittedModel, processes: int = 1) -> list[dict[str, Any]]:
+def profiles(trial: FittedModel, processes: int = 1) -> list[OfProfile]:
     """Return the profile of each effect's strength, SI units, and its 95 % interval.
 
     ``rise`` is that of chi-square over its least value, negative where a profile met a lower one.
@@ -25,7 +25,7 @@ def profiles(trial: FittedModel, processes: int = 1) -> list[dict[str, Any]]:
     return parallel_map(lambda k: _profile(trial, effects[k]), len(effects), processes)
 
 
-def _profile(trial: FittedModel, effect: str) -> dict[str, Any]:
+def _profile(trial: FittedModel, effect: str) -> OfProfile:
     model, fit = trial.model, trial.fit
     i, (parameter, quantity) = model.position(effect), strength_of(effect)
     posterior = trial.posterior
@@ -38,15 +38,15 @@ def _profile(trial: FittedModel, effect: str) -> dict[str, Any]:
     def value(x: float) -> float:
         return float(quantity.lower + x * (quantity.upper - quantity.lower))
 
-    return {
-        "effect": effect,
-        "parameter": parameter,
-        "unit": quantity.unit,
-        "value": [value(x) for x in found.x],
-        "rise": [float(rise) for rise in found.rise],
-        "level": QUANTILE**2 * dispersion,
-        "low": value(within.low),
-        "high": value(within.high),
-        "low_open": within.low_open,
-        "high_open": within.high_open,
-    }
+    return OfProfile(
+        effect=effect,
+        parameter=parameter,
+        unit=quantity.unit,
+        value=[value(x) for x in found.x],
+        rise=[float(rise) for rise in found.rise],
+        level=QUANTILE**2 * dispersion,
+        low=value(within.low),
+        high=value(within.high),
+        low_open=within.low_open,
+        high_open=within.high_open,
+    )

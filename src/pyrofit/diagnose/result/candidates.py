@@ -1,7 +1,9 @@
 """Candidates of a diagnosis as `diagnosis.json` holds them."""
 
+from collections.abc import Mapping
 from dataclasses import asdict
-from typing import Any
+from types import MappingProxyType
+from typing import NamedTuple
 
 import numpy as np
 
@@ -9,44 +11,52 @@ from pyrofit.diagnose.base.fitted import FittedModel, Key, finishes, strengths_a
 from pyrofit.diagnose.base.model import strength_of
 from pyrofit.diagnose.judge.final_fits import FinalFits
 from pyrofit.diagnose.judge.findings import Judged, Verdict
-from pyrofit.diagnose.judge.intervals import ridges, strengths, wide_intervals, with_all_forms
+from pyrofit.diagnose.judge.intervals import (
+    ridges,
+    strengths,
+    wide_intervals,
+    with_all_forms,
+)
+from pyrofit.diagnose.judge.ridges import Ridge
 from pyrofit.diagnose.search.score_test import confusability
 from pyrofit.diagnose.search.step import SearchStep
 from pyrofit.diagnose.search.stepwise import Search
 from pyrofit.effects import known_effects
+from pyrofit.results.diagnosis_candidates import OfCandidate, OfRidge
+from pyrofit.results.diagnosis_schema import OfConfusability, OfScreen
 
 
-def screened(found: Search) -> list[dict[str, Any]]:
+def screened(found: Search) -> list[OfScreen]:
     """Return the score test of every candidate on the base model, the strongest first."""
     catalogue = known_effects()
     rows = []
     for look in found.rounds[0].looks:
         effect = catalogue[look.effect]
         _, quantity = strength_of(look.effect)
-        row = {
-            "effect": look.effect,
-            "group": effect.group,
-            "family": effect.family,
-            "detectability": look.detectability,
-            "typical": quantity.typical,
-            "unit": quantity.unit,
-            "z": look.score(found.base.fit.residuals),
-            "ahead": max(0.0, found.base.fit.chi2 - float(look.ahead.min())),
-        }
+        row = OfScreen(
+            effect=look.effect,
+            group=effect.group,
+            family=effect.family,
+            detectability=look.detectability,
+            typical=quantity.typical,
+            unit=quantity.unit,
+            z=look.score(found.base.fit.residuals),
+            ahead=max(0.0, found.base.fit.chi2 - float(look.ahead.min())),
+        )
         rows.append(row)
-    return sorted(rows, key=lambda row: -float(row["z"]))
+    return sorted(rows, key=lambda row: -row.z)
 
 
-def confusability_of(found: Search) -> dict[str, Any]:
+def confusability_of(found: Search) -> OfConfusability:
     """Return how alike the signatures of the candidates are."""
     looks = list(found.rounds[0].looks)
     cosine = confusability(looks) if looks else np.zeros((0, 0))
-    return {"effects": [look.effect for look in looks], "cosine": cosine.tolist()}
+    return OfConfusability(effects=[look.effect for look in looks], cosine=cosine.tolist())
 
 
 def candidates(
     found: Search, verdict: Verdict, final: FinalFits, processes: int = 1
-) -> list[dict[str, Any]]:
+) -> list[OfCandidate]:
     """Return every fitted model with its effects, and why it is not the verdict's."""
     judged = verdict.judged
     leading = [final.fits[key] for key in final.leading]
@@ -59,19 +69,21 @@ def candidates(
         trial = here[0].trial if here else trial
         fit = final.of(trial) if here else trial
         is_leading = bool(here) and trial.key in formed
-        row = {
-            "effects": list(trial.effects),
-            "free": {name: list(free) for name, free in trial.model.effects.items()},
-            "chi2": trial.fit.chi2,
-            "gain": step.start.fit.chi2 - trial.fit.chi2,
-            "penalised": trial.penalised,
-            "parameters": strengths(fit, wide if is_leading else {}),
-            "ridges": [asdict(r) for r in ridges(fit, formed[trial.key])] if is_leading else [],
-            "adequate": found.end_lack.adequate if trial.key == found.end.key else None,
-            **_judgement(here),
-        }
-        if not here:
-            row["rejected"] = _why_not(found, step.start, trial, best)
+        judgement = _judgement(here)
+        row = OfCandidate(
+            effects=list(trial.effects),
+            free={name: list(free) for name, free in trial.model.effects.items()},
+            chi2=trial.fit.chi2,
+            gain=step.start.fit.chi2 - trial.fit.chi2,
+            penalised=trial.penalised,
+            parameters=strengths(fit, wide if is_leading else {}),
+            ridges=[_ridge(r) for r in ridges(fit, formed[trial.key])] if is_leading else [],
+            adequate=found.end_lack.adequate if trial.key == found.end.key else None,
+            disagree=judgement.disagree,
+            predictions=dict(judgement.predictions),
+            explains=judgement.explains,
+            rejected=judgement.rejected if here else _why_not(found, step.start, trial, best),
+        )
         rows.append(row)
     return rows
 
@@ -88,18 +100,31 @@ def models(found: Search) -> list[tuple[SearchStep, FittedModel]]:
     return list(models.values())
 
 
-def _judgement(judged: list[Judged]) -> dict[str, Any]:
+def _ridge(ridge: Ridge) -> OfRidge:
+    return OfRidge(**asdict(ridge))
+
+
+class _Judgement(NamedTuple):
+    """The findings on a model."""
+
+    disagree: float | None = None
+    predictions: Mapping[str, float] = MappingProxyType({})
+    explains: bool | None = None
+    rejected: str = ""
+
+
+def _judgement(judged: list[Judged]) -> _Judgement:
     """Return the findings on a model, in all its effects' places."""
     if not judged:
-        return {"disagree": None, "predictions": {}, "explains": None, "rejected": ""}
+        return _Judgement()
     against = dict.fromkeys(f"{j.effect}: {j.rejected}" for j in judged if j.rejected)
     tested = [j.trust.explains for j in judged]
-    return {
-        "disagree": min(j.trust.disagree for j in judged),
-        "predictions": min((j.trust.gains for j in judged), key=lambda g: sum(g.values())),
-        "explains": None if None in tested else all(tested),
-        "rejected": "; ".join(against),
-    }
+    return _Judgement(
+        disagree=min(j.trust.disagree for j in judged),
+        predictions=min((j.trust.gains for j in judged), key=lambda g: sum(g.values())),
+        explains=None if None in tested else all(tested),
+        rejected="; ".join(against),
+    )
 
 
 def _why_not(found: Search, start: FittedModel, trial: FittedModel, best: float) -> str:

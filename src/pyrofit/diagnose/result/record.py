@@ -1,6 +1,7 @@
 """The results of a diagnosis as plain numbers and words, keys as in docs/diagnosis_json.md."""
 
-from dataclasses import asdict
+from collections.abc import Iterable
+from dataclasses import asdict, dataclass
 from typing import Any
 
 import numpy as np
@@ -26,10 +27,36 @@ from pyrofit.effects import known_effects
 from pyrofit.errors import DataError
 from pyrofit.estimate.posterior import limit_of
 from pyrofit.numerics import functions, linear
+from pyrofit.results.diagnosis_schema import (
+    OfBase,
+    OfEvidence,
+    OfExtended,
+    OfGap,
+    OfNoise,
+    OfNotTried,
+    OfOtherTerm,
+    OfParameter,
+    OfSuspect,
+    OfTakenAway,
+    OfVerdict,
+)
+from pyrofit.results.record import Record
+from pyrofit.solver.arrays import FloatArray
 
 SCHEMA = 1
 CALIBRATION = "calibration"
-Misfits = list[tuple[dict[str, Any], dict[str, Any]]]
+
+
+@dataclass(frozen=True, eq=False)
+class Misfit:
+    """How a model meets a channel: its curve, and its misfit in the signal's unit and the noise."""
+
+    curve: FloatArray
+    chi2: float
+    rms: float
+
+
+Misfits = list[tuple[Misfit, Misfit]]
 """Misfit of every channel with the base and with the final model."""
 
 
@@ -42,39 +69,47 @@ def content(
         "schema": SCHEMA,
         "settings": asdict(SETTINGS),
         "study": study.name,
-        "verdict": _verdict(verdict),
-        "noise": _noise(found, misfits),
-        "base": _base(study, found, final),
+        "verdict": _verdict(verdict).model_dump(),
+        "noise": dumped(_noise(found, misfits)),
+        "base": _base(study, found, final).model_dump(),
         "windows": _windows(found),
-        "screen": screened(found),
-        "confusability": confusability_of(found),
+        "screen": dumped(screened(found)),
+        "confusability": confusability_of(found).model_dump(),
         "needed": found.spare + float(functions.log(found.base.model.points)),
         "ambiguity": SETTINGS.ambiguous_chi2,
-        "not_tried": _not_tried(study),
-        "candidates": candidates(found, verdict, final, processes),
-        "extended": {"parameters": _extended(study, found, final)},
-        "gap": _gap(found, verdict, misfits),
+        "not_tried": dumped(_not_tried(study)),
+        "candidates": dumped(candidates(found, verdict, final, processes)),
+        "extended": OfExtended(parameters=_extended(study, found, final)).model_dump(),
+        "gap": dumped(_gap(found, verdict, misfits)),
     }
 
 
-def _verdict(verdict: Verdict) -> dict[str, Any]:
+def dumped(records: Iterable[Record]) -> list[dict[str, Any]]:
+    """Return records as plain numbers and words."""
+    return [record.model_dump() for record in records]
+
+
+def _verdict(verdict: Verdict) -> OfVerdict:
     catalogue = known_effects()
     leading = [finding.leading for finding in verdict.findings]
-    return {
-        "kind": verdict.kind,
-        "effects": leading,
-        "groups": [catalogue[name].group for name in leading],
-        "forms": [form_of(finding) for finding in verdict.findings],
-        "sets": [finding.effects for finding in verdict.findings],
-        "evidence": [_evidence(finding) for finding in verdict.findings],
-        "other_terms": [[asdict(o) for o in finding.others] for finding in verdict.findings],
-        "confirmed": verdict.confirmed,
-        "words": sentences(verdict),
-        "reasons": list(verdict.reasons),
-        "suspects": [asdict(suspect) for suspect in verdict.suspects],
-        "weights": group_weights(verdict.search),
-        "taken_away": [{"effect": e, "reason": reason} for e, reason in verdict.taken_away],
-    }
+    return OfVerdict(
+        kind=verdict.kind,
+        effects=leading,
+        groups=[catalogue[name].group for name in leading],
+        forms=[form_of(finding) for finding in verdict.findings],
+        sets=[finding.effects for finding in verdict.findings],
+        evidence=[_evidence(finding) for finding in verdict.findings],
+        other_terms=[
+            [OfOtherTerm(words=o.words, above=o.above) for o in finding.others]
+            for finding in verdict.findings
+        ],
+        confirmed=verdict.confirmed,
+        words=sentences(verdict),
+        reasons=list(verdict.reasons),
+        suspects=[OfSuspect(effect=s.effect, gain=s.gain) for s in verdict.suspects],
+        weights=group_weights(verdict.search),
+        taken_away=[OfTakenAway(effect=e, reason=reason) for e, reason in verdict.taken_away],
+    )
 
 
 def _trust(finding: Finding) -> Trust:
@@ -82,34 +117,34 @@ def _trust(finding: Finding) -> Trust:
     return (finding.kept or list(finding.judged))[0].trust
 
 
-def _evidence(finding: Finding) -> dict[str, Any]:
+def _evidence(finding: Finding) -> OfEvidence:
     """Return the tests of the leading effect besides its gain."""
     trust = _trust(finding)
-    return {
-        "agreement": trust.disagree,
-        "predictions": trust.gains,
-        "expected": {n: g if np.isfinite(g) else None for n, g in trust.powers.items()},
-        "known": {name: list(both) for name, both in trust.known.items()},
-        "implausible": trust.implausible,
-        "weight": finding.weight,
-    }
+    return OfEvidence(
+        agreement=trust.disagree,
+        predictions=trust.gains,
+        expected={n: g if np.isfinite(g) else None for n, g in trust.powers.items()},
+        known={name: list(both) for name, both in trust.known.items()},
+        implausible=trust.implausible,
+        weight=finding.weight,
+    )
 
 
-def _noise(found: Search, misfits: Misfits) -> list[dict[str, Any]]:
+def _noise(found: Search, misfits: Misfits) -> list[OfNoise]:
     base = found.base.model.base
     return [
-        {
-            "experiment": name,
-            "signal": signal,
-            "role": _role(found, i),
-            "points": noise.sd.size,
-            "unit": _unit(base, i),
-            "sd_median": float(np.median(noise.total_sd)),
-            "words": noise.describe(),
-            "stated": noise.stated,
-            "white": noise.white,
-            "chi2_base": misfits[i][0]["chi2"],
-        }
+        OfNoise(
+            experiment=name,
+            signal=signal,
+            role=_role(found, i),
+            points=noise.sd.size,
+            unit=_unit(base, i),
+            sd_median=float(np.median(noise.total_sd)),
+            words=noise.describe(),
+            stated=noise.stated,
+            white=noise.white,
+            chi2_base=misfits[i][0].chi2,
+        )
         for i, ((name, signal), noise) in enumerate(
             zip(base.channels, base.likelihood.noise, strict=True)
         )
@@ -120,31 +155,31 @@ def _role(found: Search, channel: int) -> str:
     return CALIBRATION if channel in found.base.model.base.calibrated else HELD_OUT
 
 
-def _not_tried(study: Study) -> list[dict[str, str]]:
+def _not_tried(study: Study) -> list[OfNotTried]:
     """Return the effects of the catalogue that are no candidates, and why."""
     candidates = candidate_effects(study)
     others = [name for name in known_effects() if name not in candidates]
     unlisted = "diagnosis.effects does not list it"
-    return [{"effect": name, "reason": obstacle(study, name) or unlisted} for name in others]
+    return [OfNotTried(effect=name, reason=obstacle(study, name) or unlisted) for name in others]
 
 
-def _base(study: Study, found: Search, final: FinalFits) -> dict[str, Any]:
+def _base(study: Study, found: Search, final: FinalFits) -> OfBase:
     first = found.rounds[0].lack()
     trial = found.base
-    return {
-        "chi2": trial.fit.chi2,
-        "points": trial.model.points,
-        "chi2_critical": first.chi2_critical,
-        "scan": first.scan,
-        "scan_critical": first.scan_critical,
-        "score": first.score,
-        "score_critical": first.score_critical,
-        "adequate": first.adequate,
-        "parameters": _parameters(study, final.of(trial)),
-    }
+    return OfBase(
+        chi2=trial.fit.chi2,
+        points=trial.model.points,
+        chi2_critical=first.chi2_critical,
+        scan=first.scan,
+        scan_critical=first.scan_critical,
+        score=first.score,
+        score_critical=first.score_critical,
+        adequate=first.adequate,
+        parameters=_parameters(study, final.of(trial)),
+    )
 
 
-def _parameters(study: Study, trial: FittedModel) -> dict[str, Any]:
+def _parameters(study: Study, trial: FittedModel) -> dict[str, OfParameter]:
     """Return the base's parameters with 95 % intervals, each in the unit that the study gives."""
     values, sd = values_of(trial)
     size = len(trial.model.names) - trial.numbers
@@ -152,15 +187,12 @@ def _parameters(study: Study, trial: FittedModel) -> dict[str, Any]:
     for i, name in enumerate(trial.model.names[:size]):
         given = study.parameters[name]
         x = trial.fit.x[i]
-        found[name] = {
-            **interval(trial, i, values, sd, given.factor),
-            "unit": given.unit,
-            "at_limit": bool(limit_of(x)),
-        }
+        within = interval(trial, i, values, sd, given.factor)
+        found[name] = OfParameter(**within, unit=given.unit, at_limit=bool(limit_of(x)))
     return found
 
 
-def _extended(study: Study, found: Search, final: FinalFits) -> dict[str, Any]:
+def _extended(study: Study, found: Search, final: FinalFits) -> dict[str, OfParameter]:
     """Return the base's parameters beside the effects that the search ended with, if any."""
     return _parameters(study, final.of(found.end)) if found.end.effects else {}
 
@@ -176,7 +208,7 @@ def _windows(found: Search) -> list[dict[str, Any]]:
     ]
 
 
-def _misfits(trial: FittedModel) -> list[dict[str, Any]]:
+def _misfits(trial: FittedModel) -> list[Misfit]:
     """Return misfit, in the signal's unit and in the noise, of every channel."""
     base = trial.model.base
     model = model_of(base, trial.model.effects, range(len(base.channels)))
@@ -190,7 +222,7 @@ def _misfits(trial: FittedModel) -> list[dict[str, Any]]:
     targets = [term.target for _, term in model.likelihood.problem.cost.terms]
     parts = model.likelihood.split(curves)
     return [
-        {"curve": c, "chi2": linear.dot(w, w), "rms": root_mean_square(c - t.value)}
+        Misfit(c, linear.dot(w, w), root_mean_square(c - t.value))
         for c, t, w in zip(parts, targets, white, strict=True)
     ]
 
@@ -206,7 +238,7 @@ def _unit(base: Base, channel: int) -> str:
     return base.likelihood.problem.runs[name].experiment.quantity(signal).unit_text
 
 
-def _gap(found: Search, verdict: Verdict, misfits: Misfits) -> list[dict[str, Any]]:
+def _gap(found: Search, verdict: Verdict, misfits: Misfits) -> list[OfGap]:
     base = found.base.model.base
     powers = [_trust(finding).powers for finding in verdict.findings]
 
@@ -220,17 +252,19 @@ def _gap(found: Search, verdict: Verdict, misfits: Misfits) -> list[dict[str, An
     for i, (before, after) in enumerate(misfits):
         noise = base.likelihood.noise[i]
         name, signal = base.channels[i]
-        row = {
-            "experiment": name,
-            "signal": signal,
-            "role": _role(found, i),
-            "tells": tells(i),
-            "points": noise.sd.size,
-            "unit": _unit(base, i),
-            "noise_sd": float(np.median(noise.total_sd)),
-        }
-        for key in ("rms", "chi2"):
-            row |= {f"{key}_before": before[key], f"{key}_after": after[key]}
+        row = OfGap(
+            experiment=name,
+            signal=signal,
+            role=_role(found, i),
+            tells=tells(i),
+            points=noise.sd.size,
+            unit=_unit(base, i),
+            noise_sd=float(np.median(noise.total_sd)),
+            rms_before=before.rms,
+            rms_after=after.rms,
+            chi2_before=before.chi2,
+            chi2_after=after.chi2,
+        )
         rows.append(row)
     return rows
 
@@ -253,8 +287,8 @@ def curves(found: Search, final: FinalFits) -> pd.DataFrame:
             "temperature_K": np.nan if T is None else T[index],
             "measured": target.value,
             "sd": base.likelihood.noise[i].total_sd,
-            "before": before["curve"],
-            "after": after["curve"],
+            "before": before.curve,
+            "after": after.curve,
         }
         parts.append(pd.DataFrame(columns))
     return pd.concat(parts, ignore_index=True)
