@@ -154,7 +154,7 @@ def keys_that_take_none(model: type[BaseModel]) -> Iterator[tuple[str, object]]:
         (lambda s: pf.fit(s, fixed=["k"]), "values by name are needed.* this is a list"),
         (lambda s: pf.fit(s, estimate=["k", "k"]), "estimate: 'k' stands twice"),
         (lambda s: pf.fit(s, signals=["tga_5K", "tga_5K"]), "'tga_5K, mass_fraction' stands twice"),
-        (lambda s: pf.fit(s, starts=-1), "starts: -1 is no count"),
+        (lambda s: pf.fit(s, starts=-1), "starts: a whole number from 1 on is needed.* int: -1"),
         (lambda s: pf.fit(s, optimiser="cmaes"), "chosen for a cost only"),
         (lambda s: pf.simulate(s, experiments=5), "names of experiments are needed"),
         (lambda s: pf.diagnose(s, effects=[]), "no effect is named"),

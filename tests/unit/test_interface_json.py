@@ -1,6 +1,7 @@
 """Fits that are kept as JSON."""
 
 import json
+from collections.abc import Callable
 from dataclasses import fields
 from pathlib import Path
 
@@ -10,7 +11,7 @@ import pytest
 
 import pyrofit as pf
 from pyrofit.config import digest
-from pyrofit.errors import DataError
+from pyrofit.errors import DataError, StudyError
 
 SMOKE = Path(__file__).parents[2] / "config" / "smoke.yaml"
 KEY = ("tga_5K", "mass_fraction")
@@ -66,6 +67,24 @@ def test_fit_of_another_version_is_refused(fit: pf.Fit) -> None:
         part = {key: value for key, value in content.items() if key != lost}
         with pytest.raises(DataError, match=f"missing or broken .KeyError: '{lost}'"):
             pf.Fit.from_json(json.dumps(part))
+
+
+@pytest.mark.parametrize(
+    ("wrong", "message"),
+    [
+        (lambda fit: fit.to_json(3), "path: the path of a file or folder is needed"),
+        (lambda fit: fit.intervals("wide"), "level: a finite number is needed.* str: 'wide'"),
+        (lambda fit: fit.intervals(1.5), "level: 1.5 is not between 0 and 1"),
+        (lambda fit: fit.report(None), "correlations_above: a finite number is needed"),
+        (lambda fit: fit.plot(ax=3), "ax: Axes of Matplotlib is needed"),
+        (lambda fit: fit.predict(3), "signals: a list of names is needed"),
+    ],
+)
+def test_wrong_argument_of_a_fit_is_explained(
+    wrong: Callable[[pf.Fit], object], message: str, fit: pf.Fit
+) -> None:
+    with pytest.raises(StudyError, match=message):
+        wrong(fit)
 
 
 @pytest.mark.parametrize(

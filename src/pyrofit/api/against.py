@@ -4,6 +4,7 @@ import os
 from collections.abc import Iterable
 from pathlib import Path
 
+from pyrofit.api.arguments import path_of, paths_of, word_of
 from pyrofit.api.studies import Source, read_study
 from pyrofit.compare_with import compute
 from pyrofit.compare_with.compute import ComparedWith
@@ -52,6 +53,8 @@ def compare_with(
     """
     beside = Path(study).parent if isinstance(study, str | os.PathLike) else Path()
     checked = read_study(study)
-    root = Results(Path(results) if results is not None else Path("results") / checked.name)
-    files = [Path(p) for p in predictions]
-    return compute.compare_with(checked, root, Path(tests), files, parameter_set, beside)
+    own = Path("results") / checked.name
+    root = Results(own if results is None else path_of("results", results))
+    given, files = path_of("tests", tests), paths_of("predictions", predictions)
+    chosen = word_of("parameter_set", parameter_set)
+    return compute.compare_with(checked, root, given, files, chosen, beside)

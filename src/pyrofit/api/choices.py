@@ -8,6 +8,7 @@ from typing import Any
 import numpy as np
 import pandas as pd
 
+from pyrofit.api.arguments import word_of
 from pyrofit.config import Study, parameters_in
 from pyrofit.config.numbers import described
 from pyrofit.config.resolve import diagnosed_material
@@ -105,7 +106,7 @@ def _kind(given: object) -> str:
 
 def check_parameter(study: Study, name: str) -> None:
     """Refuse a name that is no parameter of the study."""
-    if name not in study.parameters:
+    if not isinstance(name, str) or name not in study.parameters:
         known = suggest(str(name), study.parameters)
         raise StudyError(f"study '{study.name}' has no parameter '{name}'. {known}")
 
@@ -118,8 +119,7 @@ def with_kinetics_of(study: Study, kinetics: str | None) -> Study:
     if kinetics is None:
         return study
     known = ["described", "fitted", *(study.kinetics.sets if study.kinetics else ())]
-    if kinetics not in known:
-        raise StudyError(f"unknown kinetics '{kinetics}'. {suggest(str(kinetics), known)}")
+    word_of("kinetics", kinetics, known)
     diagnosis = study.diagnosis.model_copy(update={"kinetics": kinetics})
     return study.model_copy(update={"diagnosis": diagnosis})
 

@@ -129,7 +129,7 @@ class Comparison:
     ) -> "Axes":
         """Draw measured and simulated curve on ``ax``, by default on a new one."""
         key = plots.chosen(list(self.measured), experiment, signal)
-        ax = plots.new_axes() if ax is None else ax
+        ax = plots.axes_of(ax)
         plots.comparison(ax, self.study, key, self.measured[key], self.simulated[key])
         return ax
 
@@ -141,7 +141,7 @@ class Comparison:
     ) -> "Axes":
         """Draw simulated less measured values on ``ax``, by default on a new one."""
         key = plots.chosen(list(self.measured), experiment, signal)
-        ax = plots.new_axes() if ax is None else ax
+        ax = plots.axes_of(ax)
         plots.residuals(ax, self.study, key, self.measured[key], self.simulated[key])
         return ax
 

@@ -115,7 +115,7 @@ class Curves:
     ) -> "Axes":
         """Draw a signal on ``ax``, by default on a new one; ``style`` goes to Matplotlib."""
         key = plots.chosen(list(self.series), experiment, signal)
-        ax = plots.new_axes() if ax is None else ax
+        ax = plots.axes_of(ax)
         plots.series(ax, self.study, key, self.series[key], {"label": self.words, **style})
         return ax
 

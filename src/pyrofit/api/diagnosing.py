@@ -7,8 +7,9 @@ from typing import TYPE_CHECKING, Any
 import pandas as pd
 
 from pyrofit.api import plots
-from pyrofit.api.choices import Key
-from pyrofit.api.measurements import Data, measured
+from pyrofit.api.arguments import count_of, teller_of
+from pyrofit.api.choices import Key, names_of
+from pyrofit.api.measurements import Data, given_keys, measured
 from pyrofit.api.studies import Source, read_study
 from pyrofit.api.tables import html_page, text_table
 from pyrofit.config import Study, as_study, calibration_channels, held_out_channels
@@ -64,16 +65,19 @@ def diagnose(
         A series is missing or too short, or no run within the limits finishes.
     """
     names = [effects] if isinstance(effects, str) else effects
-    if names is not None and not len(names):
+    names = None if names is None else names_of("effects", names)
+    if names is not None and not names:
         raise StudyError("no effect is named; leave `effects` out to try all that can show")
-    changes = {} if names is None else {"diagnosis.effects": list(names)}
+    count_of("processes", processes)
+    tell = teller_of(tell)
+    changes = {} if names is None else {"diagnosis.effects": names}
     study = read_study(read_study(study), **changes)
     refuse_programs(study)
     channels = (*calibration_channels(study), *held_out_channels(study))
     keys = [(c.experiment, c.signal) for c in channels]
     series = measured(study, keys, data)
-    _refuse_mixture(study, keys, [] if data is None else list(data.keys()))
-    found = examine(study, series, tell or (lambda text: None), processes, advise)
+    _refuse_mixture(study, keys, given_keys(study, data))
+    found = examine(study, series, tell, processes, advise)
     return Diagnosis(study, found)
 
 
@@ -201,7 +205,7 @@ class Diagnosis:
         """Draw the candidates on ``ax``, by default on a new one."""
         if not self.content["candidates"]:
             raise StudyError("no effect was fitted: there is nothing to rank")
-        ax = plots.wide_axes(len(self.ranking)) if ax is None else ax
+        ax = plots.wide_axes(len(self.ranking)) if ax is None else plots.axes_of(ax)
         draw_ranking(ax, self.content)
         plots.legend_below(ax, ranking_entries(self.content))
         return ax
@@ -216,7 +220,7 @@ class Diagnosis:
         pairs = self.curves[["experiment", "signal"]].drop_duplicates()
         keys = [(str(name), str(of)) for name, of in pairs.itertuples(index=False)]
         key = plots.chosen(keys, experiment, signal)
-        ax = plots.new_axes() if ax is None else ax
+        ax = plots.axes_of(ax)
         here = (self.curves["experiment"] == key[0]) & (self.curves["signal"] == key[1])
         plots.diagnosed(ax, self.study, key, self.curves[here], bool(self.effects))
         return ax

@@ -11,6 +11,7 @@ from typing import Any
 import numpy as np
 import pandas as pd
 
+from pyrofit.api.arguments import word_of
 from pyrofit.api.given_tables import as_table
 from pyrofit.config import Study, as_study
 from pyrofit.config.study import IN_MEMORY
@@ -69,6 +70,7 @@ def new_study(name: str, **given: Given) -> Study:
       parameter y: 0 to 0.051
       experiment tga_10K: TGA; mass_fraction
     """
+    name = word_of("name", name)
     with tempfile.TemporaryDirectory() as folder:
         labels: dict[str, str] = {}
         paths = {kind: list(_paths(kind, of, Path(folder), labels)) for kind, of in given.items()}

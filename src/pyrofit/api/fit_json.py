@@ -12,6 +12,7 @@ import numpy as np
 import pandas as pd
 from pydantic import TypeAdapter
 
+from pyrofit.api.arguments import path_of
 from pyrofit.api.choices import Key
 from pyrofit.api.comparison import Comparison
 from pyrofit.config import as_study
@@ -51,7 +52,7 @@ def as_json(fit: Any, path: str | os.PathLike[str] | None) -> str:
     }
     text = json.dumps(content, indent=1, allow_nan=False) + "\n"
     if path is not None:
-        write_text(Path(path), text)
+        write_text(path_of("path", path), text)
     return text
 
 

@@ -10,6 +10,7 @@ import pandas as pd
 from scipy.stats import norm
 
 from pyrofit.api import plots
+from pyrofit.api.arguments import number_of
 from pyrofit.api.choices import Key, Signals, used_by
 from pyrofit.api.comparison import Comparison, compare
 from pyrofit.api.fit_json import as_json, fields_of
@@ -121,7 +122,7 @@ class Fit:
         StudyError
             The level is not between 0 and 1.
         """
-        if not 0.0 < level < 1.0:
+        if not 0.0 < number_of("level", level) < 1.0:
             raise StudyError(f"level: {level!r} is not between 0 and 1")
         ratio = float(norm.isf(0.5 * (1.0 - level)) / norm.isf(0.025))
         t = self.table
@@ -135,7 +136,8 @@ class Fit:
 
     def report(self, correlations_above: float = 0.3) -> str:
         """Return the report as text; it lists correlations above a size."""
-        return text_of(self._contents(), correlations_above)
+        above = number_of("correlations_above", correlations_above)
+        return text_of(self._contents(), above)
 
     def summary(self) -> str:
         """Return the verdict in sentences, then each estimate with its interval, as text."""
@@ -198,7 +200,7 @@ class Fit:
 
     def plot_intervals(self, ax: "Axes | None" = None) -> "Axes":
         """Draw the estimates with 95 % intervals between their limits."""
-        ax = plots.new_axes() if ax is None else ax
+        ax = plots.axes_of(ax)
         plots.intervals(ax, self.table)
         return ax
 
@@ -212,7 +214,7 @@ class Fit:
         """
         if self.correlation is None:
             raise StudyError("a fit of a cost has no correlations; leave out `cost`")
-        ax = plots.new_axes() if ax is None else ax
+        ax = plots.axes_of(ax)
         plots.correlation(ax, self.correlation)
         return ax
 

@@ -4,6 +4,7 @@ from collections.abc import Mapping, Sequence
 from dataclasses import replace
 from typing import Literal
 
+from pyrofit.api.arguments import count_of, teller_of, word_of
 from pyrofit.api.choices import Signals, in_units, si_values, with_kinetics_of
 from pyrofit.api.comparison import compared
 from pyrofit.api.fit_tables import (
@@ -19,6 +20,7 @@ from pyrofit.api.own_cost import OwnCost
 from pyrofit.api.searching import check_cost, check_optimiser, fit_cost, fit_own_cost
 from pyrofit.api.studies import Source, read_study
 from pyrofit.api.tasks import (
+    STAGES,
     Stage,
     Task,
     begin_of,
@@ -115,8 +117,11 @@ def fit(
     """
     study = read_study(study)
     values = values_within(study, "fixed", fixed)
-    if not (isinstance(starts, int) and starts >= 1):
-        raise StudyError(f"starts: {starts!r} is no count; give a whole number from 1 on")
+    count_of("starts", starts)
+    if stage is not None:
+        word_of("stage", stage, STAGES)
+    word_of("optimiser", optimiser)
+    tell = teller_of(tell)
     if cost is None and optimiser != "least_squares":
         raise StudyError("an optimiser is chosen for a cost only; give `cost`, or leave it out")
     if cost is not None:
@@ -138,7 +143,7 @@ def fit(
     task = task_of(study, signals, estimate, values, stage, given_keys(study, data))
     if callable(cost):
         return fit_own_cost(task, data, cost, optimiser, initial)
-    return fit_likelihood(task, data, starts, profiles, tell or _silent, initial, weights)
+    return fit_likelihood(task, data, starts, profiles, tell, initial, weights)
 
 
 def _silent(text: str) -> None:

@@ -18,6 +18,7 @@ from pyrofit.analysis.isoconversional.records import (
     measured_curves,
     simulated_curves,
 )
+from pyrofit.api.arguments import number_of
 from pyrofit.api.choices import complete, si_values
 from pyrofit.api.measurements import Data, measured
 from pyrofit.api.studies import Source, read_study
@@ -108,6 +109,8 @@ def isoconversional(
     >>> found.warnings
     []
     """
+    if temperature_sd_K is not None:
+        number_of("temperature_sd_K", temperature_sd_K, above=0.0)
     if _is_records(study):
         if values is not None:
             raise StudyError("values of a model need a study; give it in place of the tables")

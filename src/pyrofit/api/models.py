@@ -17,6 +17,7 @@ from pyrofit.analysis.model_comparison import (
     f_test,
     predicted,
 )
+from pyrofit.api.arguments import teller_of
 from pyrofit.api.choices import Key, si_values
 from pyrofit.api.fitted import Fit
 from pyrofit.api.weighing import weighted
@@ -107,6 +108,7 @@ def compare_models(
     DataError
         A series is too short to show its noise.
     """
+    tell = teller_of(tell)
     models = {name: _model(fit) for name, fit in _named(fits).items()}
     _check_alike({name: model.fit for name, model in models.items()})
     best = min(models.values(), key=lambda m: m.likelihood.chi2(m.x))
@@ -226,9 +228,7 @@ def _tested(name: str, models: Mapping[str, _Model], common: CommonNoise) -> dic
     return {"against": against, "F": F, "p": p}
 
 
-def _left_out(
-    model: _Model, common: CommonNoise, tell: Tell | None, name: str
-) -> dict[str, object]:
+def _left_out(model: _Model, common: CommonNoise, tell: Tell, name: str) -> dict[str, object]:
     """Return how a model predicts each test from a fit to the others."""
     keys = list(model.fit.comparison.measured)
     groups: dict[str, list[int]] = {}
@@ -245,8 +245,7 @@ def _left_out(
         others = Likelihood(problem, noise, prior_of(model.fit.study, problem))
         part = descended(others, noise, model.minimum.x)
         found.append(predicted(model.minimum, under, part, left))
-        if tell is not None:
-            tell(f"{name}: {group} predicted, log score {found[-1].log_score:.1f}")
+        tell(f"{name}: {group} predicted, log score {found[-1].log_score:.1f}")
     squares = [square for one in found for square in one.squares]
     score = sum(one.log_score for one in found)
     return {"log_score": score, "left_out_rms": float(np.sqrt(np.mean(squares)))}

@@ -9,6 +9,7 @@ from matplotlib.axes import Axes
 from matplotlib.transforms import offset_copy
 
 from pyrofit.analysis.uses import title_of
+from pyrofit.api.arguments import wrong
 from pyrofit.api.choices import Key
 from pyrofit.config import Study
 from pyrofit.errors import StudyError, suggest
@@ -46,9 +47,13 @@ def chosen(keys: Sequence[Key], experiment: str | Key | None, signal: str | None
     raise StudyError(f"there is no series {asked}. {suggest(asked, names)}")
 
 
-def new_axes() -> Axes:
-    """Return the Axes of a new figure."""
-    return new_panels(1)[0]
+def axes_of(given: Axes | None) -> Axes:
+    """Return the Axes of a caller, by default those of a new figure."""
+    if given is None:
+        return new_panels(1)[0]
+    if not isinstance(given, Axes):
+        raise wrong("ax", "Axes of Matplotlib", given)
+    return given
 
 
 def new_panels(count: int) -> list[Axes]:

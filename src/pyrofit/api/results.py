@@ -7,6 +7,7 @@ from typing import Any
 import pandas as pd
 
 from pyrofit.analysis.answer import answer_values
+from pyrofit.api.arguments import path_of
 from pyrofit.api.choices import Signals, in_units
 from pyrofit.api.comparison import Comparison, compare
 from pyrofit.api.curves import MEASURED, Curves, with_units
@@ -117,7 +118,7 @@ def read_results(folder: str | os.PathLike[str]) -> Campaign:
     DataError
         The folder holds no results.
     """
-    path = Path(folder)
+    path = path_of("folder", folder)
     if not (path / "study.json").is_file():
         raise DataError(
             f"{path}: no results of a campaign; give the folder that holds study.json, such as "

@@ -3,6 +3,7 @@
 import os
 from pathlib import Path
 
+from pyrofit.api.arguments import path_of
 from pyrofit.api.studies import Source, read_study
 from pyrofit.config import as_yaml
 from pyrofit.config.programs import externals
@@ -26,7 +27,7 @@ def write_study(study: Source, path: str | os.PathLike[str]) -> Path:
     DataError
         The file cannot be written.
     """
-    path, study = Path(path), read_study(study)
+    path, study = path_of("path", path), read_study(study)
     if outside := externals(study):
         raise StudyError(
             f"experiments.{min(outside)}: an external program simulates it; change the study's "

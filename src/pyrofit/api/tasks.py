@@ -2,7 +2,7 @@
 
 from collections.abc import Collection, Iterable, Mapping, Sequence
 from dataclasses import dataclass
-from typing import Literal
+from typing import Literal, get_args
 
 import numpy as np
 
@@ -29,6 +29,7 @@ from pyrofit.seeds import seed_for
 from pyrofit.solver.arrays import FloatArray
 
 Stage = Literal["kinetics", "imp"]
+STAGES: tuple[Stage, ...] = get_args(Stage)
 
 
 @dataclass(frozen=True, eq=False)
@@ -106,8 +107,6 @@ def task_of(
         channels, names = kinetics_of(study).channels, kinetics_of(study).estimate
     elif stage == "imp":
         channels, names = study.imp.channels, study.imp.estimate
-    elif stage is not None:
-        raise StudyError(f"unknown stage '{stage}'. Known: imp, kinetics.")
     if signals is not None:
         pairs = signals_of(study, signals)
         _refuse_twice("signals", [", ".join(pair) for pair in pairs])
