@@ -79,3 +79,18 @@ def test_values_that_slabs_share_are_asked_once(tmp_path: Path) -> None:
     assert {e.front.h_W_m2K for e in found.values()} == {10}  # type: ignore[union-attr]
     areas = {s.sample_area_m2 for e in found.values() for s in e.signals.values()}
     assert areas == {0.01}
+
+
+def test_init_prints_one_line_for_a_file(
+    tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    header = "Time (s),Mass (g),HRR (kW/m2),T back 1 (K),T back 2 (K),O2 (%)"
+    columns = SECONDS, SLAB, RATE, SECONDS + 300.0, SECONDS + 301.0, 0.0 * SECONDS + 20.9
+    files = [table(tmp_path / f"board_{q}kW.csv", header, *columns) for q in (25, 50)]
+    _, lines = init("x", {"cone": files}, tmp_path)
+    for file in files:
+        (line,) = [line for line in lines if line.startswith(f"{file}: ")]
+        assert line.count("time 'Time'") == 1
+        for column in ("Mass", "HRR", "T back 1", "T back 2", "O2"):
+            assert f"'{column}'" in line
+    assert "CHANGE" not in capsys.readouterr().out

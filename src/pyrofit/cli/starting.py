@@ -120,7 +120,7 @@ def _init(given: argparse.Namespace) -> None:
         print(line)
     print(f"{study}: written. Change the places marked CHANGE.")
     try:
-        _check(argparse.Namespace(study=study))
+        _check(argparse.Namespace(study=study, data=False, figures=None))
     except PyrofitError as error:
         print(f"Still to do, as `pyrofit check` says:\n{error}")
 

@@ -87,35 +87,45 @@ def assumes_area(run: Measured) -> bool:
 
 
 def said(run: Measured) -> list[str]:
-    """Say which columns of each signal were recognised, and why others are not used."""
-    lines = [f"{run.path}: {note}" for note in [*run.mended, *other_number(run)]]
-    for found in run.signals:
-        parts = []
-        for role, header in found.columns.items():
-            how = f" in {found.units[role]}" if role in found.units else ""
-            how += " (guessed)" if role in found.guessed else ""
-            if role in found.unread:
-                how = f" in {found.unread[role]}, an unknown unit: convert it, or give another"
-            parts.append(f"{role} '{header}'{how}")
-        parts += [f"{role} not recognised: name it in the study" for role in found.missing]
-        if (divisor := divisor_of(found)) is not None:
-            whose = "of the file" if is_told(found, divisor[0]) else "to be changed in the study"
-            parts.append(f"divided by {divisor[0]} {divisor[1]:g}, {whose}")
-        if run.timeless:
-            told = "" if run.told in _CERTAIN else ", to be changed in the study"
-            parts.insert(0, f"no times: those of a heating rate of {run.number:g} K/min{told}")
-        if found.dried_to is not None:
-            parts.append(f"divided by its start, {100.0 * found.dried_to:.1f} %, as after a drying")
-        lines.append(f"{run.path}: {found.signal}: {', '.join(parts)}")
-        if (remark := _remark(run, found)) != "":
-            lines.append(f"{run.path}: {found.signal}: {remark}")
+    """Say in one line how a file was read, and in further ones what is to be looked at."""
+    read = [
+        f"{found.signal}: {', '.join(_parts(run, found, i))}" for i, found in enumerate(run.signals)
+    ]
+    read += [f"'{name}' is not used: {why}" for name, why in run.left.items()]
+    lines = ["; ".join([*read, *run.mended]), *other_number(run)]
+    remarks = ((found.signal, _remark(run, found)) for found in run.signals)
+    lines += [f"{signal}: {remark}" for signal, remark in remarks if remark]
     if (gas := gas_line(run)) != "":
-        lines.append(f"{run.path}: {gas}")
+        lines.append(gas)
     if run.end is not None:
-        lines.append(f"{run.path}: read until {run.end.time_s:g} s: {run.end.why}")
+        lines.append(f"read until {run.end.time_s:g} s: {run.end.why}")
     elif run.then_gas:
-        lines.append(f"{run.path}: {_gas_changes(run)}")
-    return lines + [f"{run.path}: '{n}' is not used: {why}" for n, why in run.left.items()]
+        lines.append(_gas_changes(run))
+    return [f"{run.path}: {line}" for line in lines]
+
+
+def _parts(run: Measured, found: Found, place: int) -> list[str]:
+    """Say which columns a signal has; those of the signals before are not told again."""
+    before = {(role, header) for one in run.signals[:place] for role, header in one.columns.items()}
+    parts = []
+    if run.timeless:
+        told = "" if run.told in _CERTAIN else ", to be changed in the study"
+        parts.append(f"no times: those of a heating rate of {run.number:g} K/min{told}")
+    for role, header in found.columns.items():
+        if (role, header) in before:
+            continue
+        how = f" in {found.units[role]}" if role in found.units else ""
+        how += " (guessed)" if role in found.guessed else ""
+        if role in found.unread:
+            how = f" in {found.unread[role]}, an unknown unit: convert it, or give another"
+        parts.append(f"{role} '{header}'{how}")
+    parts += [f"{role} not recognised: name it in the study" for role in found.missing]
+    if (divisor := divisor_of(found)) is not None:
+        whose = "of the file" if is_told(found, divisor[0]) else "to be changed in the study"
+        parts.append(f"divided by {divisor[0]} {divisor[1]:g}, {whose}")
+    if found.dried_to is not None:
+        parts.append(f"divided by its start, {100.0 * found.dried_to:.1f} %, as after a drying")
+    return parts
 
 
 _CERTAIN = ("record", "file")
