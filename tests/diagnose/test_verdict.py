@@ -541,7 +541,7 @@ def test_claims_gain_as_much_as_is_asked_for() -> None:
     assert found.spare == pytest.approx(2.0 * np.log(3.0))
     best = min(rows, key=lambda row: row.penalised)
     assert set(best.effects) == {"k_T", "c_T"}
-    assert best.penalised == pytest.approx(best["chi2"] + 2.0 * np.log(TOTAL))
+    assert best.penalised == pytest.approx(best.chi2 + 2.0 * np.log(TOTAL))
     assert best.gain > found.spare + np.log(TOTAL)
 
 
