@@ -1,12 +1,38 @@
-"""Command that compares a finished study with further tests and with other predictions."""
+"""Commands that compare a study with further tests, other predictions, published materials."""
 
 import argparse
+from collections.abc import Iterable
 from pathlib import Path
-from typing import Any
+from typing import TYPE_CHECKING, Any
+
+if TYPE_CHECKING:
+    import pandas as pd
+
+    from pyrofit.compare_with.published import Published
 
 
 def add(commands: Any) -> None:
-    """Add this command."""
+    """Add these commands."""
+    _add_compare_with(commands)
+    words = "list published materials, print one, or predict the tests of a study with them"
+    command = commands.add_parser("materials", help=words, description=words)
+    command.add_argument(
+        "names", nargs="*", metavar="NAME", help="parts of the names of sets; default: all"
+    )
+    command.add_argument("--study", type=Path, help="study whose tests they predict")
+    command.add_argument(
+        "--csv", type=Path, metavar="FILE", help="write the table there, with each test"
+    )
+    command.add_argument(
+        "--show", action="store_true", help="print the `material` of a study instead of the list"
+    )
+    command.add_argument(
+        "--folder", type=Path, help="copy of the MaCFP data base; default PYROFIT_DATA_DIR"
+    )
+    command.set_defaults(step=_materials)
+
+
+def _add_compare_with(commands: Any) -> None:
     words = "compare predictions of a study with further tests, and with those of others"
     command = commands.add_parser("compare-with", help=words, description=words)
     command.add_argument("study", type=Path, help="study file (YAML or JSON), also extended.yaml")
@@ -40,3 +66,44 @@ def _compare(given: argparse.Namespace) -> None:
     )
     print(summary(found.scores).round(3).to_string(index=False))
     print(write(found, given.out or results.root / "compare_with"))
+
+
+def _materials(given: argparse.Namespace) -> None:
+    from pyrofit.compare_with import published
+
+    sets, left = published.published(given.folder)
+    sets = published.chosen(sets, given.names)
+    if given.show:
+        _show(sets.values())
+        return
+    if given.study is None:
+        frame = published.overview(sets)
+        remarks = left
+    else:
+        from pyrofit.config import read_study
+
+        errors, remarks = published.errors(read_study(given.study), sets)
+        frame = published.by_signal(errors).reset_index()
+        print("root mean square error over the range of the measured mean")
+    print(frame.round(3).to_string(index=False, na_rep="-"))
+    for remark in remarks:
+        print(remark)
+    if given.csv is not None:
+        whole = frame if given.study is None else _long(errors)
+        whole.to_csv(given.csv, index=False)
+
+
+def _long(errors: "pd.DataFrame") -> "pd.DataFrame":
+    """Return errors with a row for each set, test and signal."""
+    long = errors.stack(["test", "signal"], future_stack=True).reset_index()
+    return long.rename(columns={0: "error"})
+
+
+def _show(sets: Iterable["Published"]) -> None:
+    import json
+
+    from pyrofit.exchange.macfp.material import material_of
+
+    for one in sets:
+        print(f"# {one.name}: {one.strict.material}, {one.strict.laboratory}")
+        print(json.dumps({"material": material_of(one.strict)}, indent=2, ensure_ascii=False))

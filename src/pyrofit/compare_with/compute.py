@@ -7,7 +7,7 @@ from pathlib import Path
 import numpy as np
 import pandas as pd
 
-from pyrofit.compare_with.given import Given, exposure, read_tests, thickness
+from pyrofit.compare_with.given import exposure, read_tests, thickness
 from pyrofit.compare_with.others import Curve, matching, read_predictions
 from pyrofit.compare_with.score import Mean, at_times, mean_of, nrms
 from pyrofit.config import Study
@@ -25,6 +25,7 @@ LEAST_K = 200.0
 """Simulated temperatures below this are no temperatures of a test."""
 Record = tuple[FloatArray, FloatArray]
 Key = tuple[str, str]
+Series = Mapping[Key, pd.DataFrame]
 
 
 @dataclass(frozen=True, eq=False)
@@ -81,7 +82,8 @@ def compare_with(
     material = given.study.material
     values = given.study.fixed_values() | chosen.values
     others = read_predictions(predictions, given.area_m2)
-    measured, ours, left = _curves(given, tests, material, values)
+    series = measured_series(given.study, tests)
+    measured, ours, left = both_records(given.study, series, tests, material, values)
     means: dict[Key, Mean] = {}
     found: dict[Key, dict[str, FloatArray]] = {}
     rows: list[dict[str, object]] = []
@@ -123,18 +125,33 @@ def group_of(study: Study, name: str) -> str:
     return repeat.test if repeat is not None else name
 
 
-def _curves(
-    given: Given, tests: Path, material: Material, values: Mapping[str, float]
+def measured_series(study: Study, place: Path | str) -> Series:
+    """Return the measured series of a study that is described at a place, by experiment and signal.
+
+    Raises
+    ------
+    DataError
+        A file breaks a rule.
+    """
+    try:
+        return {key: frame for key, (frame, _) in read_all(study).items()}
+    except DataError as error:
+        raise DataError(f"{place}: {error}") from None
+
+
+def both_records(
+    study: Study, series: Series, place: Path | str, material: Material, values: Mapping[str, float]
 ) -> tuple[dict[Key, list[Record]], dict[Key, list[Record]], list[str]]:
-    """Return measured and simulated records of the repeats by test and signal, and remarks."""
-    study = given.study
+    """Return measured and simulated records of the repeats by test and signal, and remarks.
+
+    Raises
+    ------
+    DataError
+        A simulation does not finish.
+    """
     measured: dict[Key, list[Record]] = {}
     ours: dict[Key, list[Record]] = {}
     left: list[str] = []
-    try:
-        series = {key: frame for key, (frame, _) in read_all(study).items()}
-    except DataError as error:
-        raise DataError(f"{tests}: {error}") from None
     for name, experiment in study.experiments.items():
         kind = kind_of(experiment)
         frames = {signal: series[name, signal] for signal in experiment.signals}
@@ -145,7 +162,7 @@ def _curves(
         [[run]] = kind.simulate([experiment], material, values, [asked], study.accuracy)
         if not run.status.finished:
             raise DataError(
-                f"{tests}: experiments.{name}: the simulation failed: {run.status.explanation}"
+                f"{place}: experiments.{name}: the simulation failed: {run.status.explanation}"
             )
         for signal, frame in frames.items():
             key = group_of(study, name), signal

@@ -1,0 +1,203 @@
+"""Published parameter sets of the MaCFP data base, and how they describe the tests of a study."""
+
+from collections.abc import Mapping, Sequence
+from pathlib import Path
+from typing import NamedTuple
+
+import numpy as np
+import pandas as pd
+
+from pyrofit.compare_with.compute import Key, Series, both_records, measured_series
+from pyrofit.compare_with.score import at_times, mean_of, nrms
+from pyrofit.config import Study, parameters_in
+from pyrofit.data.fetch import store
+from pyrofit.errors import DataError, suggest
+from pyrofit.exchange.macfp.material import has_heat, material_of
+from pyrofit.exchange.macfp.read import read_set
+from pyrofit.exchange.macfp.schema import StrictSet
+from pyrofit.model.experiment import Experiment
+from pyrofit.model.material import Material
+from pyrofit.model.slab import SlabExperiment
+from pyrofit.stages.reading import SYNTHETIC
+
+FOLDER = "Material_Properties"
+MEAN, REPEATS = "mean", "scatter of repeats"
+
+
+class Published(NamedTuple):
+    """A parameter set of the data base.
+
+    Parameters
+    ----------
+    name
+        Its file, without folder and ending.
+    path
+        The file.
+    strict
+        The set in the strict form.
+    """
+
+    name: str
+    path: Path
+    strict: StrictSet
+
+
+def published(folder: Path | None = None) -> tuple[dict[str, Published], list[str]]:
+    """Return the sets below the folders `Material_Properties` by name, and files left out.
+
+    Parameters
+    ----------
+    folder
+        A copy of the data base; by default that of the measured files.
+
+    Raises
+    ------
+    DataError
+        There is no set.
+    """
+    root = store() if folder is None else folder
+    found: dict[str, Published] = {}
+    left = []
+    for path in sorted(root.glob(f"*/{FOLDER}/**/*.json")):
+        try:
+            found[path.stem] = Published(path.stem, path, read_set(path).strict)
+        except DataError as error:
+            left.append(str(error))
+    if not found:
+        raise DataError(
+            f"{root}: no parameter sets; they lie in MATERIAL/{FOLDER} of a copy of the MaCFP data "
+            "base. Set PYROFIT_DATA_DIR to one, or give it with --folder"
+        )
+    return found, left
+
+
+def chosen(sets: Mapping[str, Published], names: Sequence[str]) -> dict[str, Published]:
+    """Return the sets of some names, or of names that begin so; all where none is given.
+
+    Raises
+    ------
+    DataError
+        No set has such a name.
+    """
+    found: dict[str, Published] = {}
+    for name in names:
+        exact = {name: sets[name]} if name in sets else {}
+        some = exact or {k: one for k, one in sets.items() if name.lower() in k.lower()}
+        if not some:
+            raise DataError(f"no parameter set is named '{name}'. {suggest(name, sets)}")
+        found |= some
+    return found or dict(sets)
+
+
+def overview(sets: Mapping[str, Published]) -> pd.DataFrame:
+    """Return a row for each set: material, laboratory, reactions, what it describes."""
+    return pd.DataFrame(
+        {
+            "set": one.name,
+            "material": one.strict.material,
+            "laboratory": one.strict.laboratory,
+            "components": one.strict.composition.count,
+            "reactions": len(one.strict.kinetics.A),
+            "describes": "slab and kinetics" if has_heat(one.strict) else "kinetics",
+        }
+        for one in sets.values()
+    )
+
+
+def errors(study: Study, sets: Mapping[str, Published]) -> tuple[pd.DataFrame, list[str]]:
+    """Return the error of each set at each test of a study, and remarks.
+
+    The error is that of `pyrofit.compare_with.score.nrms`, the root mean square of the predicted
+    minus the measured mean over its range. Rows are sets, the smallest mean error first; those that
+    predict a part of the tests follow. Columns are tests and signals. The last row has the scatter
+    of the repeats.
+
+    A set brings material and composition; apparatus and samples are those of the study. Sets of
+    kinetics alone predict TGA only.
+
+    Raises
+    ------
+    DataError
+        A measured file breaks a rule, or no test can be predicted.
+    """
+    values = {n: known.value * study.parameters[n].factor for n, known in study.known.items()}
+    values |= study.fixed_values()
+    against = {name: _obstacle(e, values) for name, e in study.experiments.items()}
+    possible = {name: e for name, e in study.experiments.items() if not against[name]}
+    remarks = [
+        f"left out: {', '.join(n for n, other in against.items() if other == why)}: {why}"
+        for why in dict.fromkeys(filter(None, against.values()))
+    ]
+    posed = study.model_copy(update={"experiments": possible})
+    if not possible:
+        raise DataError(f"no test of the study can be predicted: {'; '.join(remarks)}")
+    series = measured_series(posed, study.name)
+    rows: dict[str, dict[Key, float]] = {}
+    floors: dict[Key, float] = {}
+    for one in sets.values():
+        try:
+            rows[one.name] = _errors_of(posed, series, one, values, floors)
+        except DataError as error:
+            remarks.append(f"{one.name} is left out: {error}")
+    if not rows:
+        raise DataError(f"no set predicts the tests of the study: {'; '.join(remarks)}")
+    columns = pd.MultiIndex.from_tuples(floors, names=["test", "signal"])
+    found = [[row.get(key, np.nan) for key in floors] for row in rows.values()]
+    frame = pd.DataFrame(found, index=pd.Index(rows, name="set"), columns=columns)
+    whole = frame.notna().all(axis=1)
+    order = frame.mean(axis=1).sort_values().index
+    frame = pd.concat([frame.loc[order][whole[order]], frame.loc[order][~whole[order]]])
+    frame.loc[REPEATS] = list(floors.values())
+    return frame, remarks
+
+
+def by_signal(found: pd.DataFrame) -> pd.DataFrame:
+    """Return the mean of errors over all tests, and over the tests of each signal."""
+    signals = found.T.groupby(level="signal", sort=False).mean().T
+    return signals.assign(**{MEAN: found.mean(axis=1)})[[MEAN, *signals.columns]]
+
+
+def _obstacle(experiment: Experiment, values: Mapping[str, float]) -> str:
+    """Say why no set of the data base can predict an experiment, or nothing."""
+    if any(signal.file == SYNTHETIC for signal in experiment.signals.values()):
+        return "the measurement is computed"
+    if free := sorted(parameters_in(experiment) - set(values)):
+        return f"no value is given for {free[0]}"
+    layers = experiment.sample.layers if isinstance(experiment, SlabExperiment) else ()
+    return "a layer has its own composition" if any(x.composition for x in layers) else ""
+
+
+def _errors_of(
+    study: Study,
+    series: Series,
+    one: Published,
+    values: Mapping[str, float],
+    floors: dict[Key, float],
+) -> dict[Key, float]:
+    """Return the errors of a set by test and signal; the scatter of repeats goes to ``floors``."""
+    shown = {
+        name: experiment
+        for name, experiment in study.experiments.items()
+        if has_heat(one.strict) or experiment.kind == "tga"
+    }
+    if not shown:
+        raise DataError("it has kinetics alone, and the study has no TGA")
+    posed = study.model_copy(update={"experiments": shown})
+    measured, simulated, _ = both_records(posed, series, one.name, _material(posed, one), values)
+    found = {}
+    for (test, signal), repeats in measured.items():
+        mean = mean_of(repeats)
+        label = test, signal
+        floors[label] = mean.floor
+        found[label] = nrms(mean, at_times(mean, simulated[test, signal]))
+    return found
+
+
+def _material(study: Study, one: Published) -> Material:
+    """Return the material of a set, with the components of the apparatus of a study."""
+    given = material_of(one.strict)
+    slabs = [e for e in study.experiments.values() if isinstance(e, SlabExperiment)]
+    bodies = {name for e in slabs for name in e.sample.bodies}
+    described = study.material.model_dump(mode="json")["components"]
+    given["components"] = {n: described[n] for n in bodies if n in described} | given["components"]
+    return Material.model_validate(given)
