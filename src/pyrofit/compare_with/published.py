@@ -15,6 +15,7 @@ from pyrofit.errors import DataError, suggest
 from pyrofit.exchange.macfp.material import has_heat, material_of
 from pyrofit.exchange.macfp.read import read_set
 from pyrofit.exchange.macfp.schema import StrictSet
+from pyrofit.experiments import kind_of
 from pyrofit.model.experiment import Experiment
 from pyrofit.model.material import Material
 from pyrofit.model.slab import SlabExperiment
@@ -145,7 +146,7 @@ def errors(study: Study, sets: Mapping[str, Published]) -> tuple[pd.DataFrame, l
     found = [[row.get(key, np.nan) for key in floors] for row in rows.values()]
     frame = pd.DataFrame(found, index=pd.Index(rows, name="set"), columns=columns)
     whole = frame.notna().all(axis=1)
-    order = frame.mean(axis=1).sort_values().index
+    order = frame.mean(axis=1).sort_values(kind="stable").index
     frame = pd.concat([frame.loc[order][whole[order]], frame.loc[order][~whole[order]]])
     frame.loc[REPEATS] = list(floors.values())
     return frame, remarks
@@ -178,7 +179,7 @@ def _errors_of(
     shown = {
         name: experiment
         for name, experiment in study.experiments.items()
-        if has_heat(one.strict) or experiment.kind == "tga"
+        if has_heat(one.strict) or _shows_kinetics_alone(experiment)
     }
     if not shown:
         raise DataError("it has kinetics alone, and the study has no TGA")
@@ -191,6 +192,12 @@ def _errors_of(
         floors[label] = mean.floor
         found[label] = nrms(mean, at_times(mean, simulated[test, signal]))
     return found
+
+
+def _shows_kinetics_alone(experiment: Experiment) -> bool:
+    """Tell whether an experiment depends on no thermal property: a small sample that is weighed."""
+    weighed = all("mass" in experiment.quantity(s).scales for s in experiment.signals)
+    return weighed and kind_of(experiment).stage == "kinetics"
 
 
 def _material(study: Study, one: Published) -> Material:
