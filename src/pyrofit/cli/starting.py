@@ -209,8 +209,9 @@ def _check(given: argparse.Namespace) -> None:
         f"{given.study}: study '{study.name}' is valid; {len(read)} measured series read; "
         f"{runs} repetitions in all"
     )
-    if given.data or given.figures is not None:
-        _preview(study, {channel: frame for channel, (frame, _) in read.items()}, given.figures)
+    figures = getattr(given, "figures", None)
+    if getattr(given, "data", False) or figures is not None:
+        _preview(study, {channel: frame for channel, (frame, _) in read.items()}, figures)
 
 
 def _preview(study: Any, measured: dict[tuple[str, str], Any], folder: Path | None) -> None:
