@@ -11,6 +11,8 @@ from pyrofit.api.fitted import Fit as Fit
 from pyrofit.api.fitting import fit as fit
 from pyrofit.api.isoconversional import Isoconversional as Isoconversional
 from pyrofit.api.isoconversional import isoconversional as isoconversional
+from pyrofit.api.look import Look as Look
+from pyrofit.api.look import look as look
 from pyrofit.api.measurements import read_data as read_data
 from pyrofit.api.models import compare_models as compare_models
 from pyrofit.api.objectives import log_likelihood as log_likelihood
@@ -32,6 +34,7 @@ __all__ = [
     "Ensemble",
     "Fit",
     "Isoconversional",
+    "Look",
     "PyrofitError",
     "Study",
     "__version__",
@@ -43,6 +46,7 @@ __all__ = [
     "fit",
     "isoconversional",
     "log_likelihood",
+    "look",
     "new_study",
     "read_data",
     "read_results",

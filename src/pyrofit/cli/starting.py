@@ -29,6 +29,19 @@ def add(commands: Any) -> None:
     doctor.add_argument("--short", action="store_true", help="print the counts alone")
     doctor.set_defaults(step=_doctor)
 
+    look = commands.add_parser(
+        "look", help="draw measured files as they are understood, before there is a study"
+    )
+    look.add_argument("files", type=Path, nargs="+", help="measured files, or folders of them")
+    look.add_argument(
+        "--output",
+        type=Path,
+        default=Path("look.png"),
+        metavar="FILE",
+        help="PNG, SVG or HTML file; default: look.png",
+    )
+    look.set_defaults(step=_look)
+
     init = commands.add_parser("init", help="write a study and a folder for your own material")
     init.add_argument("name", help="name of study and folder: letters, digits and _")
     init.late = _add_kinds
@@ -100,6 +113,17 @@ def _doctor(given: argparse.Namespace) -> None:
     if given.json is not None:
         text = json.dumps(as_json(files, given.folder), indent=1, ensure_ascii=False)
         given.json.write_text(text + "\n", encoding="utf-8")
+
+
+def _look(given: argparse.Namespace) -> None:
+    from pyrofit.api.look_picture import write
+    from pyrofit.doctor.looked import look
+
+    looked = look(given.files)
+    for line in looked.lines():
+        print(line)
+    write(looked, given.output)
+    print(f"drawn in {given.output}")
 
 
 def _add_kinds(init: argparse.ArgumentParser) -> None:

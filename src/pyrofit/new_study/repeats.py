@@ -9,6 +9,15 @@ from pyrofit.new_study.draft import Measured
 _REPEAT = re.compile(r"_(?:r|rep|repeat|run|test)?_?\d{1,2}$", re.IGNORECASE)
 
 
+def root_of(name: str) -> str:
+    """Return the name of a file without the number of a repeat.
+
+    >>> root_of("UMD_TGA_N2_10K_R2"), root_of("slab_50kW_3"), root_of("slab_50kW")
+    ('UMD_TGA_N2_10K', 'slab_50kW', 'slab_50kW')
+    """
+    return _REPEAT.sub("", name)
+
+
 def grouped(records: Sequence[Measured]) -> list[Measured]:
     """Return the tests: files whose names differ in a number at the end alone are repeats of one.
 
@@ -21,7 +30,7 @@ def grouped(records: Sequence[Measured]) -> list[Measured]:
     """
     alike: dict[tuple[str, str, float], list[Measured]] = {}
     for run in records:
-        root = _REPEAT.sub("", run.name) if run.told else run.name
+        root = root_of(run.name) if run.told else run.name
         alike.setdefault((run.kind, root, run.number), []).append(run)
     roots = [root for _, root, _ in alike]
     taken = {run.name for run in records}
