@@ -189,3 +189,16 @@ def test_failed_download_ends_with_code_2(
     monkeypatch.setattr("pyrofit.data.fetch.fetch", refuse)
     assert cli.main(["data", "fetch"]) == 2
     assert capsys.readouterr().err == "error: no connection; try again\n"
+
+
+def test_a_reader_that_ends_early_is_no_error(tmp_path: Path) -> None:
+    words = [sys.executable, "-u", "-m", "pyrofit", "init", "x"]
+    with subprocess.Popen(
+        words, cwd=tmp_path, stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True
+    ) as run:
+        assert run.stdout is not None
+        assert run.stderr is not None
+        run.stdout.close()
+        said = run.stderr.read()
+    assert run.returncode == 0
+    assert "Traceback" not in said

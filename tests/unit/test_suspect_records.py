@@ -150,6 +150,13 @@ def test_a_change_of_gas_without_a_time_is_asked_for(tmp_path: Path) -> None:
     above = "Gas1: Nitrogen\nGas2: Air\n1: Ramp 10 K/min\n2: Select gas: 2\nRun: 3\n\n"
     text = made(tmp_path, above, *burnt(1e6, 1.0, held=60.0))
     assert "# CHANGE: the gas is changed to Air in the run; give `until_s`" in text
+    steps = "[1] 30..600 C, 10 K/min, N2 50 ml/min\n[2] 600..800 C, 10 K/min, air 50 ml/min\n\n"
+    assert "changed to air" in made(tmp_path, steps, *burnt(1e6, 1.0, held=60.0), name="b.csv")
+
+
+def test_flows_of_two_gases_are_no_change(tmp_path: Path) -> None:
+    above = "Heating Rate (C/s): 1.0\nN2 Flow Rate (cc/min): 80\nO2 Flow Rate (cc/min): 20\n\n"
+    assert "the gas is changed" not in made(tmp_path, above, *burnt(1e6, 1.0, held=60.0))
 
 
 @pytest.mark.parametrize(("dried", "until"), [(390.0, False), (600.0, True)])

@@ -85,6 +85,9 @@ def _run(given: argparse.Namespace) -> int:
             return 2
         except KeyboardInterrupt:
             return _interrupted()
+        except BrokenPipeError:  # its reader, such as `head`, has read enough
+            os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())
+            return 0
         except Exception:
             if signals:  # compiled code may turn the interruption into another error
                 return _interrupted()

@@ -8,8 +8,9 @@ OXYGEN = re.compile(
 )
 INERT = re.compile(r"(?<![a-z])(?:n2|nitrogen|stickstoff|azote|ar|argon|he|helium)(?![a-z])", re.I)
 _STEP = re.compile(
-    r"switch|select|change|gaswechsel|[°ck]\s*/\s*min|isotherm|ramp|segment|dynami|hold|heat", re.I
+    r"switch|select|change|gaswechsel|isotherm|ramp|segment|dynami|\W*\d+[):\]]", re.I
 )
+"""A step of a run, and not the flow of a gas that an instrument has all the time."""
 _NAMED = re.compile(r"gas\s*#?\s*(\d)\W+(.*)", re.I)
 _CHOSEN = re.compile(r"(?:select|switch|change)\w*\W+(?:to\W+)?gas\W*(\d)", re.I)
 _NUMBER = r"([+-]?\d+(?:[.,]\d+)?)"
@@ -43,7 +44,7 @@ def change_of_gas(lines: Sequence[str]) -> tuple[str, str, float | None] | None:
     ('Nitrogen', 'Oxygen', 720.0)
     >>> change_of_gas(["Gas1: Nitrogen", "Gas2: Air", "3: Select gas: 2"])
     ('Nitrogen', 'Air', None)
-    >>> change_of_gas(["Purge gas: N2", "Gas 2: air"])
+    >>> change_of_gas(["Purge gas: N2", "Gas 2: air", "O2 Flow (cc/min): 20"])
     """
     names: dict[str, str] = {}
     first, minutes, before = "", 0.0, 0.0
