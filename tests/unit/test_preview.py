@@ -9,12 +9,15 @@ import pytest
 
 from pyrofit.cli import main
 from pyrofit.config import Study, as_study, read_study
-from pyrofit.results.files import Results
+from pyrofit.results.files import Results, write_csv
 from pyrofit.stages.measurements import computed
 from pyrofit.steps.preview.compute import preview, windows
 from pyrofit.steps.preview.corrections import corrections
 from pyrofit.steps.preview.figures import draw_all
+from pyrofit.steps.preview.inputs import INPUTS
+from pyrofit.steps.preview.page import PAGE
 from pyrofit.steps.preview.reach import OF_BAND, OF_RANGE, Case, case_of, reached
+from pyrofit.steps.preview.record import BANDS, write
 from pyrofit.steps.preview.sentences import said
 from pyrofit.steps.preview.sets import draw
 
@@ -156,6 +159,16 @@ def test_study_of_an_external_program_is_told_that_nothing_is_compared() -> None
     assert list(said(study, made.found)) == [
         "Data against limits: no record is simulated by pyrofit itself; nothing is compared."
     ]
+
+
+def test_step_leaves_all_its_files_where_nothing_is_compared(tmp_path: Path) -> None:
+    study, results = read_study(CONFIG / "hotplate.yaml"), Results(tmp_path)
+    made = preview(study, {("plate_50", "mlr"): pd.DataFrame()})
+    write_csv(results.of_step("preview", BANDS), made.bands)
+    write(results, made.found)
+    PAGE.draw_and_write(study, results)
+    left = {path.name for path in (tmp_path / "preview").iterdir()}
+    assert left == {*INPUTS.files, *INPUTS.folders}
 
 
 # --- commands -------------------------------------------------------------------------------

@@ -10,7 +10,8 @@ from pyrofit.steps.preview.tables import TABLES
 
 
 def _figures(study: Study, results: Results) -> None:
-    """Write a figure of each experiment."""
+    """Write a figure of each experiment; the folder is there in any case, as the workflow wants."""
+    results.of_step("preview", "figures").mkdir(parents=True, exist_ok=True)
     draw_all(study, read_bands(results), record.read(results), results, "preview/figures")
 
 
