@@ -42,11 +42,14 @@ All figures and the top of the report of the shipped studies. The command that m
 a section stands above them, and the name of the file below each. Titles and captions are those of
 the report, which has these figures as vector graphics. A caption stands below the first figure of
 its kind. A figure that does not depend on the study is shown once. The studies `paper_fds` and
-`pmma_gpyro` need other programs and are not shown.
+`pmma_gpyro` need other programs and are not shown. Each section names the commit that drew it.
+Pictures and captions of older commits are those of that version.
 
 `python tools/gallery.py` writes this page from the results.
 """
 REPORT = "The top of the report"
+ENTRY = re.compile(r"### (.*)\n\n!\[.*\]\((.*)\)\n\n(?:([^`\n].*)\n\n)?`(results/.*)`\n")
+"""A picture of the page: title, path, caption, source."""
 _BROWSER = (
     *("chromium", "--headless", "--no-sandbox", "--disable-gpu", "--disable-quic"),
     *("--no-first-run", "--disable-background-networking", "--disable-component-update"),
@@ -170,14 +173,14 @@ def main() -> None:
     wanted = sys.argv[2:] or [group.study for group in GROUPS]
     (DOCS / "figures" / "gallery").mkdir(parents=True, exist_ok=True)
     page = DOCS / "gallery.md"
-    before = sections(page.read_text(encoding="utf-8"))
+    before = with_captions(sections(page.read_text(encoding="utf-8")))
     parts = [HEAD]
     for group in GROUPS:
         found = group.study in wanted and any(drawn(group, root))
         if found:
             parts.append(section(group, root, "".join(parts)))
         elif group.heading in before:
-            parts.append(before[group.heading])
+            parts.append(without_captions(before[group.heading], "".join(parts)))
         print(f"{group.heading}: {'drawn' if found else 'as before'}")
     page.write_text("\n".join(parts), encoding="utf-8")
     remove_unused(page.read_text(encoding="utf-8"))
@@ -189,28 +192,73 @@ def sections(text: str) -> dict[str, str]:
     return {part.partition("\n")[0].removeprefix("## "): part.rstrip("\n") + "\n" for part in parts}
 
 
+def with_captions(before: Mapping[str, str]) -> dict[str, str]:
+    """Return sections in which each picture has its caption: its own, or the last one above.
+
+    A section that is not drawn anew keeps the captions of its pictures so.
+    """
+    captions: dict[str, str] = {}
+
+    def completed(found: re.Match[str]) -> str:
+        title, path, caption, source = found.groups()
+        caption = caption or captions.get(figure_of(source), "")
+        captions[figure_of(source)] = caption
+        return entry(title, path, caption, source)
+
+    return {heading: ENTRY.sub(completed, text) for heading, text in before.items()}
+
+
+def without_captions(text: str, above: str) -> str:
+    """Return a section without the captions that are the last ones above."""
+    last = last_captions(above)
+
+    def shortened(found: re.Match[str]) -> str:
+        title, path, caption, source = found.groups()
+        again = caption == last.get(figure_of(source))
+        return entry(title, path, "" if again or not caption else caption, source)
+
+    return ENTRY.sub(shortened, text)
+
+
+def last_captions(above: str) -> dict[str, str]:
+    """Return the last caption of each figure that stands in a part of the page."""
+    found = ENTRY.findall(above)
+    return {figure_of(source): caption for _, _, caption, source in found if caption}
+
+
+def figure_of(source: str) -> str:
+    """Return folder and name of a figure in the results of any study.
+
+    >>> figure_of("results/twin/figures/fig2.svg")
+    'figures/fig2.svg'
+    """
+    return source.split("/", 2)[2]
+
+
 def section(group: Group, root: Path, above: str) -> str:
     """Draw the pictures of a group and return its section of the page.
 
     A caption that stands in a section above is not repeated.
     """
-    parts = [f"## {group.heading}\n\n    {group.command}\n"]
+    parts = [f"## {group.heading}\n\n    {group.command}\n", drawn_at()]
     if group.note:
         parts.append(f"{group.note}\n")
     for figure, source in drawn(group, root):
         target = picture(f"{group.study}_{group.folder}_{source.stem}")
         with Image.open(source) as image:
             shrink(image, target)
-        name = source.relative_to(root).with_suffix(".svg").as_posix()
-        caption = "" if figure.caption in above else figure.caption
-        parts.append(entry(figure.title, target, caption, f"results/{name}"))
+        name = f"results/{source.relative_to(root).with_suffix('.svg').as_posix()}"
+        again = figure.caption == last_captions(above).get(figure_of(name))
+        caption = "" if again else figure.caption
+        parts.append(entry(figure.title, shown(target), caption, name))
     page = root / group.study / group.report
     if group.report and page.is_file():
         target = picture(
             f"{group.study}_{Path(group.report).parent.name}_report".replace("__", "_")
         )
         shrink(screenshot(page), target)
-        parts.append(entry(REPORT, target, "", f"results/{page.relative_to(root).as_posix()}"))
+        source_of = f"results/{page.relative_to(root).as_posix()}"
+        parts.append(entry(REPORT, shown(target), "", source_of))
     return "\n".join(parts)
 
 
@@ -275,11 +323,22 @@ def screenshot(page: Path) -> Image.Image:
         return Image.open(BytesIO(shot.read_bytes()))
 
 
-def entry(title: str, target: Path, caption: str, source: str) -> str:
+def entry(title: str, path: str, caption: str, source: str) -> str:
     """Return the part of the page for one picture."""
-    path = target.relative_to(DOCS).as_posix()
     said = f"{caption}\n\n" if caption else ""
     return f"### {title}\n\n![{title}]({path})\n\n{said}`{source}`\n"
+
+
+def shown(target: Path) -> str:
+    """Return the path of a picture as the page names it."""
+    return target.relative_to(DOCS).as_posix()
+
+
+def drawn_at() -> str:
+    """Return the line that tells with which version of the code a section was drawn."""
+    command = ["git", "rev-parse", "--short=8", "HEAD"]
+    found = subprocess.run(command, check=True, capture_output=True, text=True, cwd=DOCS)
+    return f"Drawn at commit {found.stdout.strip()}.\n"
 
 
 def remove_unused(text: str) -> None:
