@@ -17,7 +17,7 @@ from pyrofit.steps.preview.figures import draw_all
 from pyrofit.steps.preview.inputs import INPUTS
 from pyrofit.steps.preview.page import PAGE
 from pyrofit.steps.preview.reach import OF_BAND, OF_RANGE, Case, case_of, reached
-from pyrofit.steps.preview.record import BANDS, write
+from pyrofit.steps.preview.record import BANDS, Distance, Found, Likely, Window, write
 from pyrofit.steps.preview.sentences import said
 from pyrofit.steps.preview.sets import draw
 
@@ -159,6 +159,32 @@ def test_study_of_an_external_program_is_told_that_nothing_is_compared() -> None
     assert list(said(study, made.found)) == [
         "Data against limits: no record is simulated by pyrofit itself; nothing is compared."
     ]
+
+
+def test_repeats_outside_are_told_beside_the_one_that_is_named() -> None:
+    given = smoke()[0].model_dump(mode="json", exclude_defaults=True)
+    given["experiments"]["slab_25"]["repeats"] = [{}, {}]
+    study = as_study(given, "smoke.json")
+    names = "slab_25_1", "slab_25_2"
+    windows = [
+        Window(
+            experiment=name,
+            signal="mlr",
+            begins=1.0,
+            ends=2.0,
+            above=True,
+            largest=1e-3,
+            share=0.1,
+        )
+        for name in names
+    ]
+    cause = Likely(cause="flux", places=["slab_25_1"], words="it is", explained=0.9, left=0.01)
+    left = [Distance(experiment=name, signal="mlr", left=0.3) for name in names]
+    found = Found(
+        sets=9, unfinished={}, windows=windows, nearest=left, far=True, causes=[cause], unmoved=[]
+    )
+    *_, last = said(study, found)
+    assert last == "The same may hold for slab_25_2: repeats of slab_25_1 that lie outside as well."
 
 
 def test_step_leaves_all_its_files_where_nothing_is_compared(tmp_path: Path) -> None:

@@ -30,6 +30,7 @@ def said(study: Study, found: Found) -> Iterator[str]:
         yield from _far(study, found)
     if found.windows or found.far:
         yield from _causes(found)
+        yield from _repeats(study, found)
     else:
         records = several(len(found.nearest), "record")
         yield f"Data against limits: {found.sets} sets reach the data of all tests ({records})."
@@ -96,3 +97,21 @@ def _causes(found: Found) -> Iterator[str]:
             f"Likely cause {i}: {one.words}. With that corrected, data and nearest set differ by "
             f"{100.0 * one.left:.1f} % of the range (rms)."
         )
+
+
+def _repeats(study: Study, found: Found) -> Iterator[str]:
+    """Say which repeats lie outside beside the one that a cause names."""
+    outside = dict.fromkeys(window.experiment for window in found.windows)
+    named = dict.fromkeys(place for one in found.causes for place in one.places)
+    for name in (name for name in named if name in study.experiments):
+        test = study.experiments[name].repeat
+        others = [
+            other
+            for other in outside
+            if other != name
+            and test is not None
+            and (repeat := study.experiments[other].repeat) is not None
+            and repeat.test == test.test
+        ]
+        if others:
+            yield f"The same may hold for {listed(others)}: repeats of {name} that lie outside as well."
