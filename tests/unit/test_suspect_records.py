@@ -30,6 +30,10 @@ SUSPECT = {
         (TIME, KELVIN - 2.0 * np.clip(KELVIN - 700.0, 0.0, None), MASS),
         "from then on the record cools, which is no heating. Give `until_s: 24",
     ),
+    "jumps": (
+        (TIME, KELVIN, MASS + 0.5 * (np.arange(TIME.size) % 200 == 50)),
+        "3 values of the mass jump and come back, the first at 300 s",
+    ),
     "dried sample": ((TIME, KELVIN, 0.93 * MASS), "it starts at 93.0 % of the initial mass"),
     "lost rows": ((TIME[FEW], KELVIN[FEW], MASS[FEW]), "no point lies between 1194 s and 1440 s"),
     "pause of a day": ((PAUSE, KELVIN, MASS), "no point lies between 1500 s and 87906 s"),
@@ -46,7 +50,7 @@ def test_suspect_record_is_told_with_the_way_out(
 ) -> None:
     (said,) = suspicions(known_quantities()["mass_fraction"], frame_of(*columns))
     assert words in said
-    assert any(way in said for way in ("give", "Give", "divide", "complete"))
+    assert any(way in said for way in ("give", "Give", "divide", "complete", "Delete"))
 
 
 @pytest.mark.parametrize("time", [TIME, DENSE], ids=["even", "dense in a part"])
@@ -189,3 +193,11 @@ def test_the_temperature_of_a_hold_in_a_name_is_no_heating_rate(tmp_path: Path) 
     text = made(tmp_path, "", time, kelvin, mass, name="iso_300C.csv")
     assert "set_point_K: 573" in text
     assert "heating_rate_K_min: 50\n" in text
+
+
+def test_a_heat_flow_that_no_sample_has_is_told() -> None:
+    quantity = known_quantities()["heat_flow"]
+    for size, count in ((5e4, 1), (1e3, 0), (5.0, 1)):
+        flow = size * np.sin(TIME / 300.0)
+        frame = pd.DataFrame({"time_s": TIME, "temperature_K": KELVIN, "heat_flow_W_kg": flow})
+        assert len([note for note in suspicions(quantity, frame) if "heat flow" in note]) == count

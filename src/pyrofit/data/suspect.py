@@ -4,6 +4,7 @@ from collections.abc import Callable
 
 import numpy as np
 import pandas as pd
+from numpy.typing import NDArray
 
 from pyrofit.data.csvfile import FloatArray
 from pyrofit.data.heating import end_of_heating
@@ -19,6 +20,12 @@ COLD_K = 268.0
 _LEAST_FALL, _LEAST_RISE, FALLEN = 0.01, 0.05, 0.97
 """Changes of the mass, and a first value, as fractions of the initial mass."""
 _SMOOTHED = 9
+JUMP = 0.1
+"""Share of the initial mass that no step of a record loses and takes back."""
+_WINDOW = 5
+"""Rows on each side of the median about which a value stands out."""
+_HEAT_FLOW_W_KG = (20.0, 2e4)
+"""Largest heat flows that are usual."""
 _GAP, _GAP_SHARE = 5.0, 0.02
 """A gap is this many usual long steps, and this share of the record."""
 
@@ -41,7 +48,15 @@ def suspicions(quantity: Quantity, frame: pd.DataFrame) -> list[str]:
     >>> suspicions(known_quantities()["mass_fraction"], frame)[0][21:55]
     'the mass falls by no more than 0 %'
     """
-    checks: tuple[Callable[[Quantity, pd.DataFrame], str], ...] = _start, _mass, _first, _gap, _end
+    checks: tuple[Callable[[Quantity, pd.DataFrame], str], ...] = (
+        _start,
+        _mass,
+        _jumps,
+        _first,
+        _heat,
+        _gap,
+        _end,
+    )
     said = (check(quantity, frame) for check in checks)
     return [f"{LOOK}{text}" for text in said if text]
 
@@ -100,6 +115,50 @@ def _mass(quantity: Quantity, frame: pd.DataFrame) -> str:
             "shows no reaction. Give the column of the mass, or a longer record"
         )
     return ""
+
+
+def standing_out(values: FloatArray, least: float) -> NDArray[np.intp]:
+    """Return the rows that differ from the median of those around them by more than ``least``.
+
+    >>> standing_out(np.r_[np.ones(20), 1.5, np.ones(20)], 0.1)
+    array([20])
+    """
+    if values.size < 2 * _WINDOW + 2:
+        return np.zeros(0, np.intp)
+    padded = np.pad(values, _WINDOW, mode="edge")
+    around = np.median(np.lib.stride_tricks.sliding_window_view(padded, 2 * _WINDOW + 1), axis=1)
+    return np.flatnonzero(np.abs(values - around) > least)
+
+
+def _jumps(quantity: Quantity, frame: pd.DataFrame) -> str:
+    """Find values of a mass that jump and come back."""
+    if not _is_mass(quantity):
+        return ""
+    mass = frame[quantity.column].to_numpy(float)
+    usual = float(np.median(mass[:_SMOOTHED]))
+    rows = standing_out(mass / usual, JUMP) if usual > 0.0 else np.zeros(0, np.intp)
+    if not rows.size:
+        return ""
+    first = float(frame["time_s"].to_numpy(float)[rows[0]])
+    many = (
+        "1 value of the mass jumps and comes"
+        if rows.size == 1
+        else (f"{rows.size} values of the mass jump and come")
+    )
+    return f"{many} back, the first at {first:g} s. Delete such rows"
+
+
+def _heat(quantity: Quantity, frame: pd.DataFrame) -> str:
+    """Find a heat flow of a size that no sample has."""
+    if not quantity.has_sign:
+        return ""
+    largest = float(frame[quantity.column].abs().max())
+    if _HEAT_FLOW_W_KG[0] <= largest <= _HEAT_FLOW_W_KG[1]:
+        return ""
+    return (
+        f"the heat flow reaches {largest / 1e3:.3g} W/g, where 0.02 to 20 W/g are usual. Check its "
+        "unit and the mass of the sample"
+    )
 
 
 def _first(quantity: Quantity, frame: pd.DataFrame) -> str:

@@ -1,9 +1,9 @@
 """Masses: unit, level, course, and the mass of the sample from elsewhere."""
 
 import numpy as np
-from numpy.typing import NDArray
 
-from pyrofit.doctor.examined import Examined, FloatArray, Signal
+from pyrofit.data.suspect import JUMP, standing_out
+from pyrofit.doctor.examined import Examined, Signal
 from pyrofit.doctor.signals import heated_mass, is_heated, slab_mass
 
 _MICRO_KG = (5e-7, 1e-4)
@@ -12,8 +12,6 @@ _SLAB_KG = (2e-3, 1.0)
 _RISE = 0.02
 """Share of the initial mass by which a sample may seem to grow."""
 _NEGATIVE = -0.01
-_JUMP = 0.1
-"""Share of the initial mass that no step of a record loses and takes back."""
 _README = 0.02
 """Deviation of the first mass from that of the README which is unusual."""
 _DENSITY = (50.0, 3000.0)
@@ -58,7 +56,7 @@ def check_course(seen: Examined) -> None:
         seen.say("mass sign", "fault", text, signal.header)
         return
     at = int(m.argmax())
-    spikes = _spikes(m)
+    spikes = standing_out(m, JUMP)[:1000]
     if spikes.size:
         row = int(spikes[np.argmax(np.abs(m[spikes] - 1.0))])
         text = f"{spikes.size} values jump and come back, as {m[row]:.3g} m0 at {signal.x[row]:g} s"
@@ -71,15 +69,6 @@ def check_course(seen: Examined) -> None:
         at = int(m.argmin())
         text = f"falls to {lowest:.3g} m0 at {signal.x[at]:g} s: the level of zero is off"
         seen.say("mass level", "doubt", text, signal.header)
-
-
-def _spikes(m: FloatArray) -> NDArray[np.intp]:
-    """Return rows that stand out of the median of those around them, but not of the end."""
-    if m.size < 12:
-        return np.zeros(0, np.intp)
-    padded = np.pad(m, 5, mode="edge")
-    around = np.median(np.lib.stride_tricks.sliding_window_view(padded, 11), axis=1)
-    return np.flatnonzero(np.abs(m - around) > _JUMP)[:1000]
 
 
 def check_readme(seen: Examined) -> None:
