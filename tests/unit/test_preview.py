@@ -184,7 +184,7 @@ def test_repeats_outside_are_told_beside_the_one_that_is_named() -> None:
         sets=9, unfinished={}, windows=windows, nearest=left, far=True, causes=[cause], unmoved=[]
     )
     *_, last = said(study, found)
-    assert last == "The same may hold for slab_25_2: repeats of slab_25_1 that lie outside as well."
+    assert last == "The same may hold for slab_25_2: repeats of slab_25_1 that lie outside, too."
 
 
 def test_step_leaves_all_its_files_where_nothing_is_compared(tmp_path: Path) -> None:
