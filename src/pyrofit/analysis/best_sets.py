@@ -1,5 +1,8 @@
 """The best sets, and which of their values are at a limit."""
 
+from collections.abc import Mapping
+from typing import Any
+
 import numpy as np
 import pandas as pd
 
@@ -39,7 +42,7 @@ def ends(study: Study, searched: Searched) -> pd.DataFrame:
     for cost in study.imp.costs:
         ours = every[every["cost_function"] == cost].to_dict("records")
         starts = {by.words: searched.starts[cost][key] for key, by in OPTIMISERS.items()}
-        groups = {
+        groups: dict[str, list[tuple[float, Mapping[Any, Any]]]] = {
             SCEUA: [(float(row["cost"]), row) for row in ours],
             **{by: [(float(s["cost"]), s["parameters"]) for s in e] for by, e in starts.items()},
         }

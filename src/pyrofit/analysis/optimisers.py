@@ -1,11 +1,11 @@
 """Optimisers compared on the same costs."""
 
 from collections.abc import Mapping
-from typing import Any
 
 import pandas as pd
 
 from pyrofit.estimate.optimisers import OPTIMISERS
+from pyrofit.results.searches import End
 
 LOWER = 0.01
 """Relative difference of two costs from which one optimiser is said to be ahead."""
@@ -24,14 +24,14 @@ SCEUA_AHEAD = "SCE-UA found a lower cost than the others"
 
 
 def comparison(
-    group: pd.DataFrame, others: Mapping[str, list[dict[str, Any]]], descent: float
-) -> dict[str, Any]:
+    group: pd.DataFrame, others: Mapping[str, list[End]], descent: float
+) -> dict[str, object]:
     """Return SCE-UA's repetitions beside the starts of the other optimisers, on one cost."""
     best = lowest_of(group)
     ours = float(best["cost"])
-    lowest = {name: min(float(s["cost"]) for s in starts) for name, starts in others.items()}
+    lowest = {name: min(s["cost"] for s in starts) for name, starts in others.items()}
     theirs = min(lowest.values())
-    row = {
+    row: dict[str, object] = {
         "repetitions": len(group),
         "sceua_best": ours,
         "sceua_best_solver_error": 4.0 / 3.0 * abs(float(best["cost_refined"]) - ours),
@@ -51,16 +51,16 @@ def comparison(
     }
 
 
-def _starts(name: str, starts: list[dict[str, Any]]) -> dict[str, Any]:
+def _starts(name: str, starts: list[End]) -> dict[str, object]:
     """Return how the starts of an optimiser ended, under names that begin with its own."""
-    best = min(starts, key=lambda start: float(start["cost"]))
-    lowest = float(best["cost"])
-    near = sum(float(start["cost"]) <= (1.0 + LOWER) * lowest for start in starts)
+    best = min(starts, key=lambda start: start["cost"])
+    lowest = best["cost"]
+    near = sum(start["cost"] <= (1.0 + LOWER) * lowest for start in starts)
     return {
         f"{name}_starts": len(starts),
         f"{name}_starts_at_best": near,
         f"{name}_best": lowest,
-        f"{name}_calls": sum(int(start["calls"]) for start in starts),
+        f"{name}_calls": sum(start["calls"] for start in starts),
         f"{name}_at_bound": ", ".join(best["at_bound"]),
     }
 

@@ -1,7 +1,6 @@
 """How far estimates are from a known truth."""
 
 from collections.abc import Iterable, Mapping
-from typing import Any
 
 import pandas as pd
 
@@ -10,8 +9,11 @@ from pyrofit.estimate.optimisers import OPTIMISERS
 from pyrofit.results import searches
 from pyrofit.results.files import Results, read_csv, read_json
 from pyrofit.results.needed import EACH, Keys
+from pyrofit.results.searches import End
 
 KINETICS = "kinetics"
+Set = Mapping[str, float] | pd.Series
+"""A set of parameters, SI units."""
 
 
 def known(study: Study) -> list[str]:
@@ -51,7 +53,7 @@ def truth(study: Study, results: Results) -> pd.DataFrame:
     return pd.DataFrame(rows)
 
 
-def _kinetics(stage: Kinetics, results: Results) -> dict[str, Any]:
+def _kinetics(stage: Kinetics, results: Results) -> Mapping[str, Set]:
     history = read_csv(
         results.kinetics("history.csv.gz"), dict.fromkeys(("cost", *stage.estimate), float)
     )
@@ -61,7 +63,7 @@ def _kinetics(stage: Kinetics, results: Results) -> dict[str, Any]:
     return {"sceua": _lowest(history), "least_squares": _best(fit["least_squares"])}
 
 
-def _imp(study: Study, results: Results, cost: str) -> dict[str, Any]:
+def _imp(study: Study, results: Results, cost: str) -> Mapping[str, Set]:
     summary = searches.summary(study, results)
     return {
         "sceua": _lowest(summary[summary["cost_function"] == cost]),
@@ -73,19 +75,18 @@ def _lowest(sets: pd.DataFrame) -> pd.Series:
     return sets.iloc[int(sets["cost"].argmin())]
 
 
-def _best(starts: list[dict[str, Any]]) -> dict[str, float]:
-    best: dict[str, float] = min(starts, key=lambda start: float(start["cost"]))["parameters"]
-    return best
+def _best(starts: list[End]) -> dict[str, float]:
+    return min(starts, key=lambda start: start["cost"])["parameters"]
 
 
-def compared(study: Study, fit: str, name: str, found: Mapping[str, float]) -> dict[str, Any]:
+def compared(study: Study, fit: str, name: str, found: Mapping[str, float]) -> dict[str, object]:
     """Return one row: the truth of a parameter beside its estimates by optimiser, SI units."""
     assert study.synthetic is not None
     parameter = study.parameters[name]
     assert parameter.lower is not None
     assert parameter.upper is not None
     true = study.synthetic.truth[name]
-    row: dict[str, Any] = {"fit": fit, "parameter": name, "unit": parameter.unit, "truth": true}
+    row: dict[str, object] = {"fit": fit, "parameter": name, "unit": parameter.unit, "truth": true}
     for optimiser, value in found.items():
         estimate = value / parameter.factor
         row[f"{optimiser}_best"] = estimate

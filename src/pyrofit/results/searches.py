@@ -1,7 +1,7 @@
 """Results of the searches: repetitions of SCE-UA, and the optimisers beside them."""
 
 from collections.abc import Iterable
-from typing import Any, NamedTuple
+from typing import NamedTuple, TypedDict, cast
 
 import pandas as pd
 
@@ -10,12 +10,41 @@ from pyrofit.results.files import Results, read_csv, read_json
 from pyrofit.results.needed import EACH, Keys
 
 
+class End(TypedDict):
+    """Where a search from one start ended."""
+
+    cost: float
+    calls: int
+    at_bound: list[str]
+    """Names of the parameters at a limit."""
+    parameters: dict[str, float]
+    """SI units."""
+
+
+class Repetition(TypedDict):
+    """The best set of one repetition of SCE-UA."""
+
+    cost_function: str
+    repetition: int
+    seed: int
+    digest: str
+    """Of the inputs of the search."""
+    cost: float
+    cost_refined: float
+    """Of finer runs."""
+    parameters: dict[str, float]
+    """SI units."""
+    calls: int
+    failed_calls: int
+    generations: int
+
+
 class Searched(NamedTuple):
     """Ends of all searches, read at once."""
 
     repetitions: pd.DataFrame
     """The best set of every repetition of SCE-UA."""
-    starts: dict[str, dict[str, list[dict[str, Any]]]]
+    starts: dict[str, dict[str, list[End]]]
     """By cost function and optimiser, the ends from every start, best first."""
 
 
@@ -34,11 +63,11 @@ def read(study: Study, results: Results, optimisers: Iterable[str]) -> Searched:
     )
 
 
-def repetition(study: Study, results: Results, cost: str, number: int) -> dict[str, Any]:
+def repetition(study: Study, results: Results, cost: str, number: int) -> Repetition:
     """Return the result of one repetition."""
     needs: dict[Keys, type] = {("digest",): str, ("cost",): float, ("cost_refined",): float}
     needs |= {("parameters", name): float for name in study.imp.estimate}
-    return read_json(results.repetition(cost, number, ".json"), needs)
+    return cast(Repetition, read_json(results.repetition(cost, number, ".json"), needs))
 
 
 def running_minimum(results: Results, cost: str, number: int) -> pd.DataFrame:
@@ -73,17 +102,17 @@ def running_minima(study: Study, results: Results) -> pd.DataFrame:
     )
 
 
-def starts(study: Study, results: Results, cost: str, optimiser: str) -> list[dict[str, Any]]:
+def starts(study: Study, results: Results, cost: str, optimiser: str) -> list[End]:
     """Return the ends that an optimiser reached from every start on one cost, best first."""
     here = ("starts", EACH)
     needs: dict[Keys, type] = {(*here, "cost"): float, (*here, "calls"): float}
     needs[*here, "at_bound"] = list
     needs |= {(*here, "parameters", name): float for name in study.imp.estimate}
-    found: list[dict[str, Any]] = read_json(results.starts(cost, optimiser), needs)["starts"]
+    found: list[End] = read_json(results.starts(cost, optimiser), needs)["starts"]
     return found
 
 
-def end_of_descent(results: Results, cost: str) -> dict[str, Any]:
+def end_of_descent(results: Results, cost: str) -> End:
     """Return where least squares got to from SCE-UA's best set."""
-    found: dict[str, Any] = read_json(results.descent(cost), {("end", "cost"): float})["end"]
+    found: End = read_json(results.descent(cost), {("end", "cost"): float})["end"]
     return found

@@ -1,7 +1,6 @@
 """Steps 2 and 3: the kinetics fit, and the repeated inverse modelling."""
 
 from collections.abc import Sequence
-from typing import Any
 
 import numpy as np
 import pandas as pd
@@ -16,6 +15,7 @@ from pyrofit.estimate.pose import of_imp, of_kinetics, pose
 from pyrofit.estimate.problem import Problem
 from pyrofit.results import dependencies, kinetics, searches
 from pyrofit.results.files import Results, write_csv, write_json
+from pyrofit.results.searches import End, Repetition
 from pyrofit.running.shares import at_once, parts
 from pyrofit.seeds import seed_for
 from pyrofit.solver.arrays import FloatArray, Status
@@ -28,13 +28,13 @@ def _named(problem: Problem, x: FloatArray) -> dict[str, float]:
     return dict(zip(problem.names, x.tolist(), strict=True))
 
 
-def _start(problem: Problem, start: Start) -> dict[str, Any]:
-    return {
-        "cost": start.cost,
-        "calls": start.calls,
-        "at_bound": list(start.at_bound),
-        "parameters": _named(problem, start.values),
-    }
+def _end(problem: Problem, start: Start) -> End:
+    return End(
+        cost=start.cost,
+        calls=start.calls,
+        at_bound=list(start.at_bound),
+        parameters=_named(problem, start.values),
+    )
 
 
 def fit_kinetics(study: Study, results: Results) -> None:
@@ -69,7 +69,7 @@ def fit_kinetics(study: Study, results: Results) -> None:
             "optimiser": optimiser,
             "seed": seed,
             "sceua": {"cost": best_of(history, problem)[0], "calls": len(history)},
-            "least_squares": [_start(problem, s) for s in starts],
+            "least_squares": [_end(problem, s) for s in starts],
         },
     )
 
@@ -122,21 +122,19 @@ def _search(
     for k, (repetition, history) in enumerate(zip(repetitions, found, strict=True)):
         write_csv(results.repetition(cost, repetition, ".csv.gz"), history)
         write_csv(results.repetition(cost, repetition, "_convergence.csv"), convergence(history))
-        write_json(
-            results.repetition(cost, repetition, ".json"),
-            {
-                "cost_function": cost,
-                "repetition": repetition,
-                "seed": seeds[k],
-                "digest": digest(dependencies.imp(study, cost, "sceua")),
-                "cost": costs[k],
-                "cost_refined": refined[k],
-                "parameters": _named(problem, best[k]),
-                "calls": len(history),
-                "failed_calls": int((history["status"] != Status.OK).sum()),
-                "generations": int(history["generation"].max()),
-            },
+        content = Repetition(
+            cost_function=cost,
+            repetition=repetition,
+            seed=seeds[k],
+            digest=digest(dependencies.imp(study, cost, "sceua")),
+            cost=costs[k],
+            cost_refined=refined[k],
+            parameters=_named(problem, best[k]),
+            calls=len(history),
+            failed_calls=int((history["status"] != Status.OK).sum()),
+            generations=int(history["generation"].max()),
         )
+        write_json(results.repetition(cost, repetition, ".json"), content)
 
 
 def _histories(
@@ -171,7 +169,7 @@ def optimise(study: Study, results: Results, cost: str, optimiser: str) -> None:
     starts = OPTIMISERS[optimiser].searched(problem, getattr(study.imp, optimiser), seed)
     write_json(
         results.starts(cost, optimiser),
-        {"cost_function": cost, "seed": seed, "starts": [_start(problem, s) for s in starts]},
+        {"cost_function": cost, "seed": seed, "starts": [_end(problem, s) for s in starts]},
     )
 
 
@@ -180,7 +178,7 @@ def descent(study: Study, results: Results, cost: str) -> None:
     problem = imp_problem(study, results, cost)
     best = best_sets(study, results)[cost]
     end = descend(problem, np.array([best[name] for name in problem.names]))
-    write_json(results.descent(cost), {"cost_function": cost, "end": _start(problem, end)})
+    write_json(results.descent(cost), {"cost_function": cost, "end": _end(problem, end)})
 
 
 def collect(study: Study, results: Results) -> None:
@@ -191,13 +189,13 @@ def collect(study: Study, results: Results) -> None:
         expected = digest(dependencies.imp(study, cost, "sceua"))
         for repetition in range(study.imp.repetitions):
             found = searches.repetition(study, results, cost, repetition)
-            if found.pop("digest") != expected:
+            if found["digest"] != expected:
                 raise StudyError(
                     f"{results.repetition(cost, repetition, '.json')}: this repetition belongs to "
                     "another description of the study; two runs of it at once? Run it again."
                 )
-            parameters = found.pop("parameters")
-            rows.append({**found, **parameters})
+            kept = {k: v for k, v in found.items() if k not in ("digest", "parameters")}
+            rows.append({**kept, **found["parameters"]})
             frame = searches.running_minimum(results, cost, repetition)
             running.append(frame.assign(cost_function=cost, repetition=repetition))
     write_csv(results.imp("summary.csv"), pd.DataFrame(rows))

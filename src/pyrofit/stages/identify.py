@@ -1,5 +1,6 @@
 """Identifiability: noise of channels, intervals, profiles, distances of the optimisers' sets."""
 
+from collections.abc import Mapping
 from typing import Any
 
 import numpy as np
@@ -156,7 +157,7 @@ def _sets(
     rows = []
     for cost in study.imp.costs:
         group = summary[summary["cost_function"] == cost]
-        sets = {
+        sets: dict[str, Mapping[str, float] | pd.Series] = {
             BEST: group.iloc[int(group["cost"].to_numpy().argmin())],
             MEAN: group[names].mean(),
             **{
