@@ -1,7 +1,6 @@
 """Whether the cost functions differ: tests over the repetitions of every search."""
 
 from collections.abc import Iterator
-from typing import Any
 
 import numpy as np
 import pandas as pd
@@ -63,7 +62,7 @@ def cost_tests(study: Study, results: Results) -> pd.DataFrame:
 
 def _samples(
     study: Study, results: Results
-) -> Iterator[tuple[dict[str, Any], dict[str, FloatArray]]]:
+) -> Iterator[tuple[dict[str, str], dict[str, FloatArray]]]:
     """Yield the quantities, and the values of all repetitions by cost function."""
     costs = list(study.imp.costs)
     summary = searches.summary(study, results)
@@ -119,7 +118,7 @@ def _medians(samples: dict[str, FloatArray]) -> dict[str, float | None]:
 
 
 def _difference(
-    study: Study, about: dict[str, Any], samples: dict[str, FloatArray], results: Results
+    study: Study, about: dict[str, str], samples: dict[str, FloatArray], results: Results
 ) -> dict[str, float | None]:
     medians = [float(np.median(v)) for v in samples.values() if v.size]
     apart = max(medians) - min(medians) if medians else None
@@ -127,7 +126,8 @@ def _difference(
     if about["kind"] == "parameters" and apart is not None:
         parameter = study.parameters[about["quantity"]]
         lower, upper = (bound / parameter.factor for bound in parameter.bounds_si)
-        width = float(estimates(study, results).loc[about["quantity"], "width"]) * (upper - lower)
+        widths = estimates(study, results)["width"].to_dict()
+        width = float(widths[about["quantity"]]) * (upper - lower)
         row["of_limits"] = 100.0 * apart / (upper - lower)
         row["of_interval"] = 100.0 * apart / width if width > 0.0 else None
     return row

@@ -2,7 +2,6 @@
 
 from collections.abc import Mapping
 from dataclasses import replace
-from typing import Any
 
 import numpy as np
 import pandas as pd
@@ -153,7 +152,7 @@ def _searched(
     if initial:
         first = descend(problem, begin_of(problem, initial))
         ends = sorted([first, *ends], key=lambda end: end.cost)
-    rows: list[dict[str, Any]] = [
+    rows: list[dict[str, object]] = [
         {
             "cost": end.cost,
             "calls": end.calls,

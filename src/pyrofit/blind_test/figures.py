@@ -1,7 +1,6 @@
 """The figures of the blind test, drawn from the table of all twins."""
 
 from collections.abc import Callable
-from typing import Any
 
 import numpy as np
 import pandas as pd
@@ -16,6 +15,7 @@ from pyrofit.blind_test.table import one_name
 from pyrofit.effects import known_effects
 from pyrofit.results.files import Results
 from pyrofit.show import style
+from pyrofit.show.drawn import Look
 
 OTHER = ("ambiguous", "multiple", "partly", "unknown", "none")
 """Verdicts that do not name one effect, the last columns of the confusion matrix."""
@@ -116,7 +116,7 @@ def false_alarms(twins: pd.DataFrame) -> Canvas:
     return canvas
 
 
-def _look(i: int) -> dict[str, Any]:
+def _look(i: int) -> Look:
     return {"color": style.colour(i), "marker": MARKERS[i], "markersize": 4, "linestyle": "none"}
 
 

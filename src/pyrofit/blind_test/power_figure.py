@@ -1,7 +1,5 @@
 """The figure of the power by effect."""
 
-from typing import Any
-
 import numpy as np
 import pandas as pd
 from matplotlib.figure import Figure as Canvas
@@ -9,6 +7,7 @@ from matplotlib.ticker import FormatStrFormatter, LogLocator, NullFormatter
 
 from pyrofit.blind_test.power import power
 from pyrofit.show import style
+from pyrofit.show.drawn import Look
 
 LOOKS = {"half": "half named", "nine_tenths": "nine tenths named"}
 """Words of each share."""
@@ -36,6 +35,6 @@ def power_by_effect(twins: pd.DataFrame) -> Canvas:
     return canvas
 
 
-def _look(i: int) -> dict[str, Any]:
+def _look(i: int) -> Look:
     marker = ("o", "s")[i]
     return {"color": style.colour(i), "marker": marker, "markersize": 4, "linestyle": "none"}

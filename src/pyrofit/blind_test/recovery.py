@@ -61,11 +61,11 @@ def _read(places: Places, cases: Iterable[str]) -> Iterator[Found]:
     return (read_json(places.case(case), _NEEDS) for case in sorted(cases))
 
 
-def _table(columns: tuple[str, ...], rows: Iterator[dict[str, Any]]) -> pd.DataFrame:
+def _table(columns: tuple[str, ...], rows: Iterator[dict[str, object]]) -> pd.DataFrame:
     return pd.DataFrame(list(rows), columns=list(columns))
 
 
-def strength_rows(found: Found) -> Iterator[dict[str, Any]]:
+def strength_rows(found: Found) -> Iterator[dict[str, object]]:
     """Compare the strengths of named effects with the truth, SI units.
 
     ``low`` to ``high`` is the 95 % interval of the strength in the model that was fitted.
@@ -111,7 +111,7 @@ def _fitted(found: Found) -> Mapping[str, Any]:
     return parameters
 
 
-def parameter_rows(found: Found) -> Iterator[dict[str, Any]]:
+def parameter_rows(found: Found) -> Iterator[dict[str, object]]:
     """Compare base parameters without and with the effects that were found with the truth.
 
     The error ``off`` is (fitted - truth) / truth. Nothing is compared where nothing is hidden.
@@ -134,7 +134,7 @@ def parameter_rows(found: Found) -> Iterator[dict[str, Any]]:
         }
 
 
-def _compared(when: str, given: Mapping[str, Any] | None, truth: float) -> dict[str, Any]:
+def _compared(when: str, given: Mapping[str, Any] | None, truth: float) -> dict[str, object]:
     if given is None:
         return {when: np.nan, f"{when}_off": np.nan, f"{when}_covered": False}
     return {

@@ -54,7 +54,7 @@ def diagnosed(places: Places, chunks: int) -> list[str]:
     return [str(case) for part in found for case in part]
 
 
-def row_of(found: Mapping[str, Any]) -> dict[str, Any]:
+def row_of(found: Mapping[str, Any]) -> dict[str, object]:
     """Compare the verdict on a twin with its hidden effects.
 
     A claim is right if every leading effect is hidden, or describes an error of the description;
@@ -150,7 +150,7 @@ def _gaps(gap: list[Mapping[str, Any]]) -> dict[str, float]:
     return row
 
 
-def _held_out_gain(candidates: list[Mapping[str, Any]]) -> dict[str, Any]:
+def _held_out_gain(candidates: list[Mapping[str, Any]]) -> dict[str, object]:
     """Return the gain of the claimed model in the log score of the held-out experiment."""
     gains = (c["predictions"].get("held out") for c in candidates if not c["rejected"])
     gain = next((gain for gain in gains if gain is not None), np.nan)
@@ -167,7 +167,7 @@ def _location(counts: Mapping[str, int]) -> dict[str, float]:
     }
 
 
-def _left_out(hidden: set[str], verdict: Verdict | None) -> dict[str, Any]:
+def _left_out(hidden: set[str], verdict: Verdict | None) -> dict[str, object]:
     """Judge the diagnosis whose candidates lack a hidden effect.
 
     It is wrong if it names an effect of another group with certainty. ``kept_named`` tells whether

@@ -42,6 +42,9 @@ _OF_A_JOB = re.compile(r"(?:\w+:\n)?CalledProcessError in file")
 """An error that the failed step follows, which tells more."""
 _PLACES = re.compile(r"^  File \".*\.(?:smk|Snakefile)\", line .*$", re.M)
 
+About = Mapping[str, Any]
+"""What Snakemake tells of an event of a run."""
+
 
 class Step(NamedTuple):
     """A step that was started."""
@@ -90,7 +93,7 @@ class Terminal(LogHandlerBase):
             return not text.startswith(_FOLLOWS)
         return record.levelno >= WARNING or "for_user" in vars(record)
 
-    def _run_info(self, about: dict[str, Any]) -> None:
+    def _run_info(self, about: About) -> None:
         self.plan({rule: n for rule, n in about["stats"].items() if rule != "total"})
 
     def plan(self, stats: Mapping[str, int]) -> None:
@@ -99,7 +102,7 @@ class Terminal(LogHandlerBase):
         if not self.common_settings.dryrun:
             self.say(f"{self._total} step{'s' if self._total != 1 else ''}")
 
-    def _job_info(self, about: dict[str, Any]) -> None:
+    def _job_info(self, about: About) -> None:
         title = about["rule_msg"]
         if not title:
             return
@@ -111,7 +114,7 @@ class Terminal(LogHandlerBase):
         step = self._steps[about["jobid"]] = Step(number, title, self.clock())
         self.say(f"{self._place(step)}  {title}{', once more' if before else ''}")
 
-    def _job_finished(self, about: dict[str, Any]) -> None:
+    def _job_finished(self, about: About) -> None:
         if (step := self._steps.get(about["job_id"])) is None:
             return
         self._forget(step)
@@ -120,7 +123,7 @@ class Terminal(LogHandlerBase):
             text += f"; {self.work.words()}"
         self.say(text)
 
-    def _job_error(self, about: dict[str, Any]) -> None:
+    def _job_error(self, about: About) -> None:
         if step := self._steps.get(about["jobid"]):
             self._forget(step)
             self._failed.append((step, about["log"]))
@@ -130,7 +133,7 @@ class Terminal(LogHandlerBase):
         """Forget that an earlier attempt at a step has failed."""
         self._failed = [failed for failed in self._failed if failed[0].number != step.number]
 
-    def _error(self, about: dict[str, Any]) -> None:
+    def _error(self, about: About) -> None:
         if _OF_A_JOB.match(str(about["msg"])):
             return
         if not self._failed:

@@ -92,7 +92,7 @@ def _problem(study: Study, results: Results, measurements: Measurements, judges:
 
 def _scores(found: pd.DataFrame, problem: Problem, place: str, judges: Judges) -> pd.DataFrame:
     """Return the value of every measure for every set; none where the run does not finish."""
-    rows: list[dict[str, Any]] = []
+    rows: list[dict[str, object]] = []
     results = problem.evaluate_all(found[list(problem.names)].to_numpy(float))
     for row, result in zip(found.to_dict("records"), results, strict=True):
         about = {key: row[key] for key in ("cost_function", "found_by", "number", "best")}

@@ -1,7 +1,6 @@
 """Reactions, curves and scores of the fitted and the published kinetics."""
 
 from collections.abc import Iterator, Mapping
-from typing import Any
 
 import pandas as pd
 
@@ -46,7 +45,7 @@ def write_curves(
         {label: _reactions(*chosen) for label, chosen in sets.items()},
     )
     curves: list[pd.DataFrame] = []
-    scores: list[dict[str, Any]] = []
+    scores: list[dict[str, object]] = []
     for name, signal in masses_shown(study).items():
         frame = measurements[name, signal]
         measured = frame[MASS_FRACTION].to_numpy(float)
@@ -136,7 +135,7 @@ def _curve(
     return pd.DataFrame(given).assign(experiment=name)
 
 
-def _about(study: Study, name: str, signal: str) -> dict[str, Any]:
+def _about(study: Study, name: str, signal: str) -> dict[str, object]:
     experiment = study.experiments[name]
     assert isinstance(experiment, HeatedExperiment)
     cost = kinetics_of(study).cost

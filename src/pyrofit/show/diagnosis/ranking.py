@@ -26,10 +26,10 @@ WRAP = 42
 _BASE: Look = {"color": style.COLOURS[1], "linewidth": 1.2}
 
 
-_KEPT: dict[str, Any] = {"marker": "o", "linestyle": "none", "color": style.COLOURS[0]}
+_KEPT: Look = {"marker": "o", "linestyle": "none", "color": style.COLOURS[0]}
 
 
-_REJECTED: dict[str, Any] = {**_KEPT, "markerfacecolor": "white"}
+_REJECTED: Look = {**_KEPT, "markerfacecolor": "white"}
 
 
 def ranking(study: Study, results: Results) -> Canvas:
@@ -66,7 +66,7 @@ def draw_ranking(ax: Axes, found: Found) -> None:
     for i, candidate in enumerate(shown):
         look = _REJECTED if candidate["rejected"] else _KEPT
         ax.plot([candidate["penalised"] - lowest], [i], **look, markersize=4.5)
-        place: dict[str, Any] = {
+        place: Look = {
             "va": "center",
             "ha": "left",
             "transform": ax.get_yaxis_transform(),

@@ -69,7 +69,7 @@ def model_name(effects: Sequence[str]) -> str:
     return " + ".join(effect_name(name) for name in effects)
 
 
-def leading(found: Found) -> dict[str, Any] | None:
+def leading(found: Found) -> Found | None:
     """Return the candidate that the verdict rests on, if any: the best with just its effects."""
     effects = set(found["verdict"]["effects"])
     same = [c for c in found["candidates"] if effects and set(c["effects"]) == effects]
@@ -87,12 +87,12 @@ def remark(found: Found, candidate: Found) -> str:
     return candidate["rejected"] or kept
 
 
-def ranked(found: Found, most: int | None = None) -> list[dict[str, Any]]:
+def ranked(found: Found, most: int | None = None) -> list[Found]:
     """Return the best fit of each set of effects, the lowest penalised chi-square first.
 
     The leading one is always among them, in the last place if it is worse.
     """
-    best: dict[frozenset[str], dict[str, Any]] = {}
+    best: dict[frozenset[str], Found] = {}
     for c in sorted(found["candidates"], key=_rank):
         best.setdefault(frozenset(c["effects"]), c)
     order = sorted(best.values(), key=lambda c: float(c["penalised"]))

@@ -1,14 +1,12 @@
 """What the preview rests on."""
 
-from typing import Any
-
 from pyrofit.config import Study
 from pyrofit.results import dependencies
 from pyrofit.results.step import Inputs
 from pyrofit.steps.preview import record
 
 
-def slice_of(study: Study) -> dict[str, Any]:
+def slice_of(study: Study) -> dependencies.Slice:
     """Return experiments, material, limits and known values."""
     return {
         "experiments": dependencies.measured(study),

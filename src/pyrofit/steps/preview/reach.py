@@ -2,7 +2,6 @@
 
 from collections.abc import Mapping
 from dataclasses import dataclass
-from typing import Any
 
 import numpy as np
 import pandas as pd
@@ -14,6 +13,7 @@ from pyrofit.estimate.targets import Measurements
 from pyrofit.experiments import kind_of
 from pyrofit.model.experiment import Experiment
 from pyrofit.solver.arrays import FloatArray
+from pyrofit.solver.curves import Request
 from pyrofit.steps.preview.sets import Sets
 
 Channel = tuple[str, str]
@@ -160,7 +160,7 @@ def _alike(one: Case, other: Case, name: str) -> bool:
 def _simulated(study: Study, case: Case, sets: Sets, name: str) -> dict[Channel, FloatArray]:
     experiment = case.experiments[name]
     kind = kind_of(experiment)
-    asked: dict[str, Any] = {}
+    asked: dict[str, Request] = {}
     for signal in case.signals(name):
         frame = case.frames[name, signal]
         times = frame["time_s"].to_numpy(float)

@@ -158,7 +158,7 @@ def with_values(
     wider
         Factor of the uncertainty and of the distances to the limits.
     """
-    columns: dict[str, Any] = {quantity.column: value}
+    columns: dict[str, FloatArray | pd.Series] = {quantity.column: value}
     if quantity.uncertainty_column in frame:
         columns[quantity.uncertainty_column] = wider * frame[quantity.uncertainty_column]
     for limit in quantity.limit_columns.values():
