@@ -114,4 +114,5 @@ def _repeats(study: Study, found: Found) -> Iterator[str]:
             and repeat.test == test.test
         ]
         if others:
-            yield f"The same may hold for {listed(others)}: repeats of {name} that lie outside, too."
+            words = f"repeats of {name} that lie outside, too"
+            yield f"The same may hold for {listed(others)}: {words}."
