@@ -81,6 +81,8 @@ def test_weights_stand_in_the_fit(study: pf.Study, data: pf.Curves) -> None:
     plain = fitted(study, data)
     ratio = fit.signals["noise_sd"] / plain.signals["noise_sd"]
     assert ratio.tolist() == [2.0, 1.0]
+    assert "weights: tga_5K, mass_fraction: 0.5\n" in str(fit)
+    assert "weights:" not in str(plain)
 
 
 def test_search_starts_at_the_initial_values(

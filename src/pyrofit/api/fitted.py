@@ -252,4 +252,5 @@ class Fit:
             self.freedom,
             self.cost,
             self.verdict,
+            self.weights,
         )

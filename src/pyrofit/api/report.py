@@ -1,15 +1,17 @@
 """The report of a fit, as text and as HTML."""
 
 import math
-from collections.abc import Iterator
-from dataclasses import dataclass
+from collections.abc import Iterator, Mapping
+from dataclasses import dataclass, field
 from functools import partial
 
 import numpy as np
 import pandas as pd
 
+from pyrofit.api.choices import Key
 from pyrofit.api.tables import html_page, text_table
 from pyrofit.show.text import number, several, signed
+from pyrofit.solver.arrays import FloatArray
 
 
 @dataclass(frozen=True, eq=False)
@@ -27,6 +29,7 @@ class Report:
     freedom: float
     cost: float
     verdict: tuple[str, ...] = ()
+    weights: Mapping[Key, FloatArray] = field(default_factory=dict)
 
 
 def text_of(fit: Report, above: float) -> str:
@@ -55,12 +58,19 @@ def _facts(fit: Report) -> list[str]:
     if not np.isnan(fit.cost):
         return [counts, f"cost {number(fit.cost)}"]
     ratio = fit.chi2 / fit.freedom
+    weights = [f"{', '.join(key)}: {_weight(w)}" for key, w in fit.weights.items()]
     return [
         *fit.verdict,
         counts,
+        *([f"weights: {'; '.join(weights)}"] if weights else []),
         f"chi-square {number(fit.chi2)}, {number(fit.freedom)} degrees of freedom, ratio "
         f"{number(ratio)}",
     ]
+
+
+def _weight(weight: FloatArray) -> str:
+    low, high = number(float(weight.min())), number(float(weight.max()))
+    return low if low == high else f"{low} to {high}"
 
 
 def _tables(fit: Report, above: float) -> Iterator[tuple[str, pd.DataFrame]]:
