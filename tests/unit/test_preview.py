@@ -90,6 +90,12 @@ def test_sets_that_do_not_finish_make_no_band() -> None:
     assert found.nearest.tolist() == [0.0, np.inf]
 
 
+def test_record_that_no_curve_finishes_for_is_far_from_all_sets_and_not_outside() -> None:
+    found = reached(np.array([0.0, 1.0]), np.full((3, 2), np.nan), np.zeros(2))
+    assert found.outside == 0.0
+    assert np.isinf(found.nearest).all()
+
+
 def test_window_has_its_ends_its_side_and_its_size() -> None:
     study, _ = smoke()
     frame = pd.DataFrame({"time_s": np.arange(6.0), "mlr_kg_m2_s": [0.0, 0.0, 9.0, 9.0, 0.0, 0.0]})
@@ -152,12 +158,25 @@ def test_parameters_that_no_signal_feels_are_named() -> None:
     assert preview(study, heated, 20).found.unmoved == ["rho", "k", "cp", "eps", "dh"]
 
 
+def test_test_that_no_set_finishes_is_told_and_not_compared() -> None:
+    study, frames = smoke()
+    hasty = study.accuracy.model_copy(update={"most_steps": 5})
+    made = preview(study.model_copy(update={"accuracy": hasty}), frames, 20)
+    assert made.found.unfinished == {"slab_25": 20, "slab_60": 20}
+    assert {one.experiment for one in made.found.nearest} == {"tga_5K", "tga_20K"}
+    assert set(made.bands["experiment"]) == {"tga_5K", "tga_20K"}
+    first, *_ = said(study, made.found)
+    assert first == (
+        "slab_25: 20 of 20 sets within the limits do not finish; its data are not compared."
+    )
+
+
 def test_study_of_an_external_program_is_told_that_nothing_is_compared() -> None:
     study = read_study(CONFIG / "hotplate.yaml")
     made = preview(study, {("plate_50", "mlr"): pd.DataFrame()})
     assert made.bands.empty
     assert list(said(study, made.found)) == [
-        "Data against limits: no record is simulated by pyrofit itself; nothing is compared."
+        "Data against limits: pyrofit itself simulates no record; nothing is compared."
     ]
 
 

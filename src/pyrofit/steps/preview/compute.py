@@ -83,9 +83,12 @@ def preview(study: Study, measurements: Measurements, count: int = SETS) -> Prev
     count
         Number of sets.
     """
-    case = case_of(study, measurements)
+    every = case_of(study, measurements)
     sets = draw(study, study.parameters, count)
-    curves = simulate(study, case, sets)
+    simulated = simulate(study, every, sets)
+    unfinished = _unfinished(simulated)
+    case = every.of([name for name in every.experiments if unfinished.get(name, 0) < count])
+    curves = {channel: simulated[channel] for channel in case.frames}
     reached = all_reached(case, curves)
     alone = case.without_repeats({c: one.outside for c, one in reached.items()})
     before = nearest(study, alone, sets, curves)
@@ -94,7 +97,7 @@ def preview(study: Study, measurements: Measurements, count: int = SETS) -> Prev
     causes = likely(study, alone, sets, suspected, before) if suspected else []
     found = record.Found(
         sets=count,
-        unfinished=_unfinished(curves),
+        unfinished=unfinished,
         windows=[w for c, one in reached.items() for w in windows(case, c, one)],
         nearest=[record.Distance(experiment=e, signal=s, left=d) for (e, s), d in left.items()],
         far=is_far(left),
@@ -203,7 +206,7 @@ def _bands(case: Case, curves: Curves, reached: Mapping[Channel, Reached]) -> pd
     parts = []
     for channel, one in reached.items():
         finite = curves[channel][np.isfinite(curves[channel]).all(axis=1)]
-        quarters = np.quantile(finite, [0.25, 0.75], axis=0) if len(finite) else [one.value] * 2
+        quarters = np.quantile(finite, [0.25, 0.75], axis=0)
         columns = {"value": one.value, "lower": one.lower, "upper": one.upper}
         middle = {"lower_quarter": quarters[0], "upper_quarter": quarters[1]}
         about = {"experiment": channel[0], "signal": channel[1], "at": abscissa(case, channel)}

@@ -1,6 +1,6 @@
 """What sets reach: simulated curves of all sets at the measured points, and the data outside."""
 
-from collections.abc import Mapping
+from collections.abc import Collection, Mapping
 from dataclasses import dataclass
 
 import numpy as np
@@ -59,10 +59,13 @@ class Case:
             test = experiment.repeat.test if experiment.repeat else name
             most = max((d for (e, _), d in outside.items() if e == name), default=0.0)
             tests.setdefault(test, {})[name] = most
-        kept = {max(of, key=of.__getitem__) for of in tests.values()}
+        return self.of({max(of, key=of.__getitem__) for of in tests.values()})
+
+    def of(self, names: Collection[str]) -> "Case":
+        """Return some experiments and their records alone."""
         return Case(
-            {n: e for n, e in self.experiments.items() if n in kept},
-            {c: f for c, f in self.frames.items() if c[0] in kept},
+            {n: e for n, e in self.experiments.items() if n in names},
+            {c: f for c, f in self.frames.items() if c[0] in names},
         )
 
     def with_experiment(self, name: str, experiment: Experiment) -> "Case":
@@ -234,14 +237,14 @@ def reached(value: FloatArray, curves: FloatArray, noise: FloatArray) -> Reached
     value
         Measured values, shape (points,).
     curves
-        Shape (sets, points).
+        Shape (sets, points); those that hold no numbers did not finish.
     noise
         Standard deviation of the noise, shape (points,).
     """
     finished = curves[np.isfinite(curves).all(axis=1)]
-    if not len(finished):
-        empty = np.zeros_like(value)
-        return Reached(value, value, value, empty, 1.0, np.full(len(curves), np.inf))
+    if not len(finished):  # with a correction that no set survives
+        none = np.zeros_like(value)
+        return Reached(value, value, value, none, 1.0, np.full(len(curves), np.inf))
     lower, upper = finished.min(axis=0), finished.max(axis=0)
     ranges = np.ptp(finished, axis=1)
     scale = max(float(np.ptp(value)), float(np.median(ranges)), 1e-300)

@@ -21,10 +21,10 @@ def sentences(study: Study, results: Results) -> list[str]:
 
 def said(study: Study, found: Found) -> Iterator[str]:
     """Yield the sentences on what was found."""
-    if not found.nearest:
-        yield "Data against limits: no record is simulated by pyrofit itself; nothing is compared."
-        return
     yield from _unfinished(found)
+    if not found.nearest:
+        yield "Data against limits: pyrofit itself simulates no record; nothing is compared."
+        return
     yield from (_window(study, window) for window in found.windows)
     if not found.windows and found.far:
         yield from _far(study, found)
@@ -44,7 +44,8 @@ def said(study: Study, found: Found) -> Iterator[str]:
 
 def _unfinished(found: Found) -> Iterator[str]:
     for name, count in found.unfinished.items():
-        yield f"{name}: {count} of {found.sets} sets within the limits do not finish."
+        left_out = "; its data are not compared" if count == found.sets else ""
+        yield f"{name}: {count} of {found.sets} sets within the limits do not finish{left_out}."
 
 
 def _window(study: Study, window: Window) -> str:
@@ -67,8 +68,8 @@ def span(quantity: Quantity, begins: float, ends: float) -> str:
 def size(quantity: Quantity, value: float) -> str:
     """Return a difference of a quantity with its unit."""
     shown = quantity.shown
-    unit = "K" if quantity.is_temperature else shown.unit
-    return f"{shown.factor * value:.3g} {unit}"
+    unit = "K" if quantity.is_temperature else shown.unit.replace("–", "")
+    return f"{shown.factor * value:.3g} {unit}".rstrip()
 
 
 def _far(study: Study, found: Found) -> Iterator[str]:
