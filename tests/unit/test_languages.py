@@ -89,3 +89,46 @@ def test_facts_above_a_table_are_read() -> None:
     stated = stated_in(lines)
     assert (stated.mass_kg, stated.gas, stated.flux_kW_m2) == (8.2e-6, "Air", 50.0)
     assert stated_in([["Trägergas", "Stickstoff"]]).gas == "Stickstoff"
+
+
+SPELLINGS = [
+    ("Time(min.),Temperature(deg C),TG(mg)", 60.0),
+    ("Time [minutes],Temperature [Celsius],Mass [milligrams]", 60.0),
+    ("Time/min,Ts/°C,TG/mg", 60.0),
+    ("t/s,T/°C,m/m0", 1.0),
+]
+
+
+@pytest.mark.parametrize(("header", "per_unit"), SPELLINGS)
+def test_a_spelling_of_an_instrument_is_read(header: str, per_unit: float, tmp_path: Path) -> None:
+    run = read(tmp_path, "tga", header.replace(",", ";"), TIME / per_unit, CELSIUS, MASS / MASS[0])
+    frame = run.frames["mass_fraction"]
+    np.testing.assert_allclose(frame["time_s"], TIME, atol=0.01)
+    np.testing.assert_allclose(frame["temperature_K"], KELVIN, atol=1e-6)
+    np.testing.assert_allclose(frame["mass_fraction"], MASS / MASS[0], atol=2e-4)
+
+
+@pytest.mark.parametrize("name", ["Time", "Time (min)", "Time (hh:mm:ss)"])
+def test_times_of_a_clock_are_seconds_whatever_the_header_says(name: str, tmp_path: Path) -> None:
+    clock = [f"{int(s) // 3600:02d}:{int(s) // 60 % 60:02d}:{int(s) % 60:02d}" for s in TIME]
+    rows = [f"{c},{T:.3f},{m:.5f}" for c, T, m in zip(clock, KELVIN, MASS, strict=True)]
+    path = tmp_path / "a.csv"
+    path.write_text("\n".join([f"{name},Temp (K),Mass (mg)", *rows]) + "\n", encoding="utf-8")
+    (run,) = drafted("x", {"tga": [path]})[1]
+    np.testing.assert_allclose(run.frames["mass_fraction"]["time_s"], TIME)
+    assert not run.signals[0].guessed
+
+
+def test_a_change_of_mass_is_told_as_such(tmp_path: Path) -> None:
+    run = read(tmp_path, "tga", "Time (s);Temp (K);Delta m (mg)", TIME, KELVIN, MASS - MASS[0])
+    assert run.left["Delta m"].startswith("it is a change of mass; name it as the value")
+
+
+def test_facts_between_commas_are_read(tmp_path: Path) -> None:
+    rows = [f"{s:.1f},{h:.3f}" for s, h in zip(TIME, RATE, strict=True)]
+    above = ["Heat flux (kW/m²),35", "Sample Mass,9.000 g", "Time (s),HRR (kW/m2)"]
+    path = tmp_path / "test7.csv"
+    path.write_text("\n".join([*above, *rows]) + "\n", encoding="utf-8")
+    (run,) = drafted("x", {"cone": [path]})[1]
+    assert (run.number, run.told) == (35.0, "file")
+    assert run.signals[0].stated.mass_kg == pytest.approx(0.009)

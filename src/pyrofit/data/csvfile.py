@@ -13,12 +13,13 @@ from pyrofit.data.cone_exports import is_export, unfolded
 from pyrofit.data.csvheading import Heading, named_columns
 from pyrofit.data.layout import cells_of, layout_of, usual_delimiter
 from pyrofit.data.line import Line
-from pyrofit.data.numerals import Numerals, fault_of, is_numeral, numerals_of
+from pyrofit.data.numerals import Numerals, fault_of, is_numeral, numerals_of, seconds
 from pyrofit.data.rows import parsed, rows_of, whole_rows, without_footer
 from pyrofit.data.sections import first_table
 from pyrofit.data.stated import Stated, stated_in
 from pyrofit.data.text_file import read_text
 from pyrofit.errors import DataError
+from pyrofit.quantities.units import SCALES, unit_key
 
 FloatArray = npt.NDArray[np.float64]
 MANY_ROWS = 20_000
@@ -123,7 +124,7 @@ def read_table(path: Path) -> Table:
     """
     notes: list[str] = []
     table, above = _read(path, notes)
-    cells = [re.split(r"[\t;|]|,(?!\d)|(?<=:),", text) for text in above]
+    cells = [re.split(r"[\t;|]|,(?!\d)|(?<!\d),", text) for text in above]
     return replace(table, stated=stated_in(cells)) if cells else table
 
 
@@ -167,6 +168,12 @@ def _table(
     numerals = numerals_of(rows)
     notes += _notes_on(numerals)
     values, faults = parsed(rows, len(heading.names), numerals, notes)
+    clocks = [seconds(cell) is not None for cell in rows[0].cells]
+    units = [
+        _of_clock(unit) if clock else unit
+        for unit, clock in zip(heading.units, clocks, strict=False)
+    ]
+    heading = replace(heading, units=units)
     first, kept = lines[0].number, {row.number for row in rows}
     between = range(first, rows[-1].number)
     left_out = tuple(number - first for number in between if number not in kept)
@@ -206,6 +213,12 @@ def _as_table(
         tuple(notes),
         {names[i]: fault for i, fault in faults.items()},
     )
+
+
+def _of_clock(unit: str | None) -> str | None:
+    """Return s as the unit of a column of times hh:mm:ss, unless that of its name is no time."""
+    times = {unit_key(word) for word in (*SCALES["time"], *_CLOCKS, "mm:ss", "hh:mm")}
+    return "s" if unit is None or unit_key(unit) in times else unit
 
 
 def _unit(unit: str | None) -> str | None:

@@ -32,7 +32,7 @@ _WORDS = (
         "mass loss",
     ),
     (
-        rf"(fraction|fraccion|frazione|frac){_OF}(massique|masica|massica|{_MASS})"
+        rf"m/m(o|i|init|initial)?|(fraction|fraccion|frazione|frac){_OF}(massique|masica|massica|{_MASS})"
         rf"|mass(en?)?anteil|{_MASS}(relative?|relativ[ao]|normalisee?)|rel(ative)?masse",
         "mass fraction",
     ),

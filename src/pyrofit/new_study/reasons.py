@@ -7,11 +7,13 @@ import numpy as np
 from pyrofit.data.csvfile import Table, holds_unclear_numbers
 from pyrofit.experiments import KINDS, OF_FILES, measurable
 from pyrofit.new_study.headers import is_abscissa, is_foreign, is_usual, may_be, stem_of
+from pyrofit.quantities.units import header_key
 
 NO_VALUES = "it holds no values"
 PLACEHOLDER = "zero throughout, a placeholder"
 _DERIVATIVE = re.compile(r"dtg.*|ddsc.*|d[tmw]?/d[tT].*|deriv.*|.*derivative.*")
 _LOSS = re.compile(r"(mass|weight)loss(?!rate).*")
+_CHANGE = re.compile(r"(delta|d|Δ|δ)m(ass)?|(mass|weight)(change|variation|anderung|änderung)")
 _TOTAL = re.compile(r"thr|(total|cumul|integr)(?!.*rate).*heat.*|.*heatreleased.*")
 _MEASURED = re.compile(r"t|t[^a-z].*|t(gas|top|front|back|surf).*|.*temp.*|.*(flow|mdot|flux).*")
 
@@ -33,6 +35,8 @@ def unused(table: Table, header: str, kind: str) -> str:
         return "it is the derivative of another column"
     if _LOSS.fullmatch(stem_of(header)):
         return "it is a loss of mass; make the mass a column, such as 100 minus a loss in %"
+    if _CHANGE.fullmatch(header_key(header)):
+        return "it is a change of mass; name it as the value, and give `sample_mass_kg`"
     if _TOTAL.fullmatch(stem_of(header)):
         return "it is a total over the test, not a rate"
     if _is_of_apparatus(header, kind):

@@ -27,6 +27,12 @@ _SPELLINGS = {
     "pct": "%",
     "wt%": "%",
     "wt.%": "%",
+    "milligrams": "mg",
+    "milligram": "mg",
+    "grams": "g",
+    "gram": "g",
+    "micrograms": "ug",
+    "hour": "h",
     "gm2s": "g/m2/s",
     "kgm2s": "kg/m2/s",
 }
@@ -83,7 +89,13 @@ def stated_unit(table: Table, header: str, kinds: tuple[str, ...]) -> tuple[str,
         return ("1" if named else "", True)
     plain = given.casefold().strip()
     spaceless = re.sub(r"[_ ./-]|1$", "", plain)
-    for unit in (given, plain, _SPELLINGS.get(plain, ""), _SPELLINGS.get(spaceless, "")):
+    for unit in (
+        given,
+        plain,
+        plain.rstrip("."),
+        _SPELLINGS.get(plain, ""),
+        _SPELLINGS.get(spaceless, ""),
+    ):
         if unit and kind_of(unit, kinds):
             return unit, True
     return given, False
