@@ -95,8 +95,8 @@ def fit(
     cost
         Name of a cost function of the study: fit that instead, without intervals. Kinetics that
         have no value are fitted first. Or a function of the measured and the simulated values of a
-        signal, shape (points,), SI units. It returns residuals r, whose norm |r| is the cost, or a
-        cost that is not negative. The sum over signals counts; least squares minimise |r|^2.
+        signal, shape (points,), SI units. It returns residuals, whose norm is the cost, or a
+        cost that is not negative. The sum over signals counts; least squares minimise its square.
     optimiser
         For a cost: 'least_squares', 'cmaes' or 'sceua', with the settings of the study.
     starts
