@@ -184,9 +184,10 @@ def trust(
         Known values that the effect must move away, see `pyrofit.diagnose.judge.accord`.
     """
     gains, powers = {}, {}
-    for name, before in without.scores.items():
-        if not _judges(trial, effect, own.channels[name]):
-            continue
+    judging = [name for name in without.scores if _judges(trial, effect, own.channels[name])]
+    # Without a predicted small sample, the slabs judge the effects of these, too.
+    for name in judging or without.scores:
+        before = without.scores[name]
         # With a noise whose variance is larger by a factor, the gain of a log score is smaller by
         # it. The settings ask for the same gain of all: odds of 7 to 1 after this division.
         both = [max(map(factor_of, of.residuals[name])) for of in (own, without)]
