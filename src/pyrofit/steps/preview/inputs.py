@@ -30,5 +30,4 @@ INPUTS = Inputs(
         "table_causes.csv",
         "table_causes.md",
     ),
-    folders=("figures",),
 )
