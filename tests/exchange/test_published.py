@@ -10,7 +10,8 @@ import yaml
 
 import pyrofit as pf
 from pyrofit.cli import main
-from pyrofit.compare_with.published import MEAN, REPEATS, by_signal, chosen, errors, published
+from pyrofit.compare_with.compute import REPEATS
+from pyrofit.compare_with.published import MEAN, by_signal, chosen, errors, published
 from pyrofit.errors import DataError
 from pyrofit.exchange.macfp.material import strict_of
 from pyrofit.exchange.macfp.numeric import numeric

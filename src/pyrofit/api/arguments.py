@@ -24,7 +24,7 @@ def wrong(argument: str, needed: str, given: Any) -> StudyError:
 
 
 def path_of(argument: str, given: Any) -> Path:
-    """Return a path; refuse what is none.
+    """Return a path; refuse anything else.
 
     >>> path_of("path", "a.yaml").name
     'a.yaml'
@@ -44,7 +44,7 @@ def paths_of(argument: str, given: Any) -> list[Path]:
 
 
 def word_of(argument: str, given: Any, known: Collection[str] = ()) -> str:
-    """Return a word; refuse what is none, or is not known.
+    """Return a word; refuse anything else, and unknown words.
 
     >>> word_of("stage", "im", ["kinetics", "imp"])
     Traceback (most recent call last):

@@ -7,7 +7,7 @@ from typing import NamedTuple
 import numpy as np
 import pandas as pd
 
-from pyrofit.compare_with.compute import Key, Series, both_records, measured_series
+from pyrofit.compare_with.compute import REPEATS, Key, Series, both_records, measured_series
 from pyrofit.compare_with.score import at_times, mean_of, nrms
 from pyrofit.config import Study, parameters_in
 from pyrofit.data.fetch import store
@@ -22,7 +22,7 @@ from pyrofit.model.slab import SlabExperiment
 from pyrofit.stages.reading import SYNTHETIC
 
 FOLDER = "Material_Properties"
-MEAN, REPEATS = "mean", "scatter of repeats"
+MEAN = "mean"
 
 
 class Published(NamedTuple):
@@ -32,14 +32,11 @@ class Published(NamedTuple):
     ----------
     name
         Its file, without folder and ending.
-    path
-        The file.
     strict
         The set in the strict form.
     """
 
     name: str
-    path: Path
     strict: StrictSet
 
 
@@ -61,7 +58,7 @@ def published(folder: Path | None = None) -> tuple[dict[str, Published], list[st
     left = []
     for path in sorted(root.glob(f"*/{FOLDER}/**/*.json")):
         try:
-            found[path.stem] = Published(path.stem, path, read_set(path).strict)
+            found[path.stem] = Published(path.stem, read_set(path).strict)
         except DataError as error:
             left.append(str(error))
     if not found:
@@ -73,7 +70,7 @@ def published(folder: Path | None = None) -> tuple[dict[str, Published], list[st
 
 
 def chosen(sets: Mapping[str, Published], names: Sequence[str]) -> dict[str, Published]:
-    """Return the sets of some names, or of names that begin so; all where none is given.
+    """Return the sets of some names, or with these parts in their names; by default all.
 
     Raises
     ------
@@ -129,9 +126,9 @@ def errors(study: Study, sets: Mapping[str, Published]) -> tuple[pd.DataFrame, l
         f"left out: {', '.join(n for n, other in against.items() if other == why)}: {why}"
         for why in dict.fromkeys(filter(None, against.values()))
     ]
-    posed = study.model_copy(update={"experiments": possible})
     if not possible:
         raise DataError(f"no test of the study can be predicted: {'; '.join(remarks)}")
+    posed = study.model_copy(update={"experiments": possible})
     series = measured_series(posed, study.name)
     rows: dict[str, dict[Key, float]] = {}
     floors: dict[Key, float] = {}
