@@ -59,12 +59,13 @@ def _panel(ax: Axes, test: Series, is_rate: bool) -> None:
             at, values = derivative(at, values)
         values = unit.factor * values + (0.0 if is_rate else unit.offset)
         look: dict[str, Any] = {"color": style.colour(i), "linestyle": style.dashes(i)}
-        ax.plot(at - ICE_POINT_K if against else at, values, label=name, linewidth=0.9, **look)
+        label = name.removeprefix(test.name).strip("_- ") or name
+        ax.plot(at - ICE_POINT_K if against else at, values, label=label, linewidth=0.9, **look)
     ax.set_xlabel("temperature [°C]" if against else "time [s]")
-    ax.set_ylabel(_label(test, is_rate))
+    ax.set_ylabel(_label(test, is_rate), fontsize=6.5)
     ax.set_title(_title(test, is_rate), loc="left", fontsize=7.0)
     if len(test.records) > 1:
-        ax.legend(fontsize=6.0)
+        ax.legend(fontsize=6.0, handlelength=1.5, frameon=False)
 
 
 def _title(test: Series, is_rate: bool) -> str:
@@ -74,7 +75,7 @@ def _title(test: Series, is_rate: bool) -> str:
     disagree = " that disagree" if test.disagreements else ""
     columns = dict.fromkeys(f"'{s.header}' [{s.unit or 'no unit'}]" for _, s in test.records)
     below = "derivative" if is_rate else ", ".join(columns)
-    return f"{name}, {test.kind}{repeats}{disagree}\n{below}"
+    return f"{name}\n{test.kind}{repeats}{disagree}: {below}"
 
 
 def _shown(test: Series) -> Shown:
@@ -93,7 +94,7 @@ def _label(test: Series, is_rate: bool) -> str:
     if not is_rate:
         return f"{title} [{unit}]"
     per = "K" if quantity is not None and quantity.against_temperature else "s"
-    return f"loss of {title} [{'1' if unit in ('–', '-') else unit}/{per}]"
+    return f"loss of {title}\n[{'1' if unit in ('–', '-') else unit}/{per}]"
 
 
 def write(looked: Looked, path: Path) -> None:
