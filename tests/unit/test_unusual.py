@@ -223,6 +223,15 @@ def test_limits_of_a_reaction_that_reach_room_temperature_are_no_fault() -> None
     assert [one for one in told(SECOND | wide | cold) if "reacts at room" in one]
 
 
+def test_oxygen_that_a_model_with_oxidation_does_not_know_is_told() -> None:
+    name = SMOKE["kinetics"]["cost"][0]["experiment"]
+    burns = SECOND["material.reactions.second"] | {"oxygen_order": 0.8}
+    air = SECOND | {"material.reactions.second": burns, f"experiments.{name}.gas": "air"}
+    (said,) = [one for one in told(air) if "the gas is air" in one]
+    assert "its `oxygen` is 0, with which no reaction with an oxygen_order runs" in said
+    assert not [o for o in told(air | {f"experiments.{name}.oxygen": 0.209}) if "gas is air" in o]
+
+
 def test_a_fitted_test_in_oxygen_is_told_and_another_is_not() -> None:
     names = [term["experiment"] for term in SMOKE["kinetics"]["cost"]]
     for gas, count in (("O2-21", 1), ("N2", 0), ("synthetic air", 1)):

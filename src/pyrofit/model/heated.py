@@ -5,7 +5,7 @@ from typing import Literal, Self
 
 from pydantic import Field, model_validator
 
-from pyrofit.model.base import AboveZero, Number, Part, Temperature
+from pyrofit.model.base import AboveZero, Fraction, Number, Part, Temperature
 from pyrofit.model.experiment import Experiment
 
 
@@ -26,7 +26,12 @@ class HeatedExperiment(Experiment):
 
     heating_rate_K_min: AboveZero = Field(description="nominal heating rate [K/min]")
     gas: str = Field(
-        "", description="gas around the sample, in words; the model has no oxidation, which is told"
+        "",
+        description="gas around the sample, in words; where it holds oxygen and no reaction has an "
+        "oxygen_order, this is told",
+    )
+    oxygen: Fraction = Field(
+        0.0, description="volume fraction of oxygen in that gas [-]; air: 0.209"
     )
     program: Literal["nominal", "measured", "from_temperature"] = Field(
         "measured",

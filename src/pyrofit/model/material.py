@@ -41,7 +41,7 @@ class Component(Part):
 
 
 class Reaction(Part):
-    """reactant -> products + gas, r = A exp(-E/(R T)) m0 (m/m0)^n."""
+    """reactant -> products + gas, r = A exp(-E/(R T)) m0 (m/m0)^n X^n_O2, X oxygen's share."""
 
     reactant: str = Field(description="component that is consumed")
     products: Annotated[dict[str, Number], FRACTION] = Field(
@@ -58,6 +58,11 @@ class Reaction(Part):
         None, description="k at that temperature [1/s]"
     )
     order: NotNegative = Field(1.0, description="reaction order n [-]")
+    oxygen_order: NotNegative = Field(
+        0.0,
+        description="exponent n_O2 of the volume fraction of oxygen, a factor of the rate [-]; "
+        "0 = the reaction needs no oxygen",
+    )
     heat_of_reaction_J_kg: Number = Field(
         0.0, description="heat of reaction per kg of reactant [J/kg], positive = endothermic"
     )
@@ -118,6 +123,11 @@ class Material(Part):
         """
         of_reactions = {n for r in self.reactions.values() for n in (r.reactant, *r.products)}
         return frozenset({*self.composition, *of_reactions})
+
+    @property
+    def oxidises(self) -> bool:
+        """Whether the rate of a reaction depends on oxygen."""
+        return any(reaction.oxygen_order != 0.0 for reaction in self.reactions.values())
 
     def without_bodies_but(self, bodies: frozenset[str]) -> Self:
         """Return the material without the inert components that are not among some bodies."""

@@ -28,7 +28,7 @@ def heated_samples(
     step_K: float,
     sets: int = 1,
 ) -> list[list[Curves]]:
-    """Return the curves by request, then by set; all from one call of the kernel.
+    """Return the curves by request, then by set; in one call of the kernel for each gas.
 
     Per initial mass, with the sample's temperature T, the line b0 + b1 (T - T_ref), the gas gamma_j
     per kg of reactant and its heat of combustion dhc_j:
@@ -49,9 +49,42 @@ def heated_samples(
     sets
         Number of parameter sets.
     """
+    curves: list[list[Curves]] = [[] for _ in experiments]
+    for oxygen, at in _by_gas(experiments, material).items():
+        own, asked = [experiments[p] for p in at], [requests[p] for p in at]
+        names = [wanted[p] for p in at]
+        found = _in_one_gas(own, material, values, asked, names, step_K, sets, oxygen)
+        for p, of_sets in zip(at, found, strict=True):
+            curves[p] = of_sets
+    return curves
+
+
+def _by_gas(
+    experiments: Sequence[HeatedExperiment], material: words.Material
+) -> dict[float | str, list[int]]:
+    """Return the positions of the experiments by the oxygen in their gas, where that matters."""
+    if not material.oxidises:
+        return {0.0: list(range(len(experiments)))}
+    places: dict[float | str, list[int]] = {}
+    for p, experiment in enumerate(experiments):
+        places.setdefault(experiment.oxygen, []).append(p)
+    return places
+
+
+def _in_one_gas(
+    experiments: Sequence[HeatedExperiment],
+    material: words.Material,
+    values: Values,
+    requests: Sequence[Request],
+    wanted: Sequence[Collection[str]],
+    step_K: float,
+    sets: int,
+    oxygen: float | str,
+) -> list[list[Curves]]:
+    """Return the curves as `heated_samples` does, from one call of the kernel."""
     programs, rises = _programs(requests, wanted)
     flows, burns = programs.wanted.T
-    network = lower_network(material, values, sets, bool(flows.any()), bool(burns.any()))
+    network = lower_network(material, values, sets, bool(flows.any()), bool(burns.any()), oxygen)
     lags = _lags(experiments, values, sets)
     found = heat(
         programs,

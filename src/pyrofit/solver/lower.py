@@ -188,6 +188,11 @@ def rate_factor(reaction: words.Reaction, values: Values) -> Value:
     return rate * functions.exp(value_of(reaction.E_J_mol, values) / (GAS_CONSTANT * temperature))
 
 
+def oxygen_factor(reaction: words.Reaction, oxygen: float | str, values: Values) -> Value:
+    """Return X^n_O2, by which the volume fraction X of oxygen multiplies the rate of a reaction."""
+    return functions.power(value_of(oxygen, values), value_of(reaction.oxygen_order, values))
+
+
 @dataclass(frozen=True)
 class _Plan:
     """The part of a network that no parameter changes."""
@@ -247,11 +252,13 @@ def lower_network(
     sets: int = 1,
     heats: bool = True,
     burning: bool = True,
+    oxygen: float | str = 0.0,
 ) -> Network:
     """Return the reactions as arrays, sorted so that products react after their formation.
 
     Without ``heats`` the heats of reaction are left out, without ``burning`` those of combustion:
-    the mass of a sample whose temperature is prescribed depends on neither.
+    the mass of a sample whose temperature is prescribed depends on neither. ``oxygen`` is the
+    volume fraction in a gas that reaches all of the sample.
     """
     plan = material.derived("network", _plan)
     count = len(plan.reactions)
@@ -263,9 +270,12 @@ def lower_network(
     yields = np.zeros((count, len(material.components), sets))
     for j, i, product in plan.products:
         yields[j, i] = value_of(plan.reactions[j].products[product], values)
+    factor = stack([rate_factor(r, values) for r in plan.reactions], sets)
+    if material.oxidises:
+        factor *= stack([oxygen_factor(r, oxygen, values) for r in plan.reactions], sets)
     return Network(
         reactant=plan.reactant,
-        root_factor=np.sqrt(stack([rate_factor(r, values) for r in plan.reactions], sets)),
+        root_factor=np.sqrt(factor),
         activation_temperature=energy / GAS_CONSTANT,
         order=order,
         heat=heat,

@@ -5,7 +5,7 @@ virgin sample.
 """
 
 from collections.abc import Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import Any
 
 import numpy as np
@@ -97,6 +97,7 @@ class Reactions:
     E_R: FloatArray
     """E/R [K]."""
     order: FloatArray
+    oxygen_order: FloatArray
     heat: FloatArray
     """[J per kg of reactant], positive = endothermic."""
     combustion: FloatArray
@@ -114,6 +115,10 @@ class Reactions:
     def rate_constants(self, T: FloatArray | float) -> FloatArray:
         """Return A_j exp(-E_j/(R T)) [1/s], shape (..., reactions)."""
         return np.asarray(self.A * functions.exp(-self.E_R / np.asarray(T)[..., None]))
+
+    def in_gas(self, oxygen: float) -> "Reactions":
+        """Return the reactions with the volume fraction of oxygen as a factor of A."""
+        return replace(self, A=self.A * functions.power(oxygen, self.oxygen_order))
 
     def amounts(self, virgin: FloatArray, extent: FloatArray) -> FloatArray:
         """Return the factors of the rate constants, m_formed (m/m_formed)^n, per kg of sample.
@@ -214,6 +219,7 @@ def _reactions(material: words.Material, values: Values) -> Reactions:
         A=np.array([_rate_factor(r, values) for r in given]),
         E_R=np.array([value_of(r.E_J_mol, values) / GAS_CONSTANT for r in given]),
         order=np.array([value_of(r.order, values) for r in given]),
+        oxygen_order=np.array([value_of(r.oxygen_order, values) for r in given]),
         heat=np.array([value_of(r.heat_of_reaction_J_kg, values) for r in given]),
         combustion=np.array([value_of(r.heat_of_combustion_J_kg, values) for r in given]),
         yields=yields,

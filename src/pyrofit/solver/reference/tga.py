@@ -42,7 +42,7 @@ def reference_tga(
     off = value_of(experiment.temperature_offset_K, values)
     time, T = request.time_s, programme - lag_min * experiment.heating_rate_K_min + off
     solid = substance(material, values)
-    reactions = solid.reactions
+    reactions = solid.reactions.in_gas(value_of(experiment.oxygen, values))
     virgin = mass_fractions(material.composition, solid.names, values)
     burning = reactions.gas * reactions.combustion
     tau = value_of(experiment.response, values) if request.output == HEAT_RELEASE else 0.0
