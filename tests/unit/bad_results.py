@@ -149,7 +149,7 @@ BROKEN_RESULTS = _results(
             IDENTIFY,
             result("kinetics/fit.json", "parameters", []),
             "kinetics/fit.json",
-            ("'parameters.T_p' is missing in this result", AGAIN),
+            ("'parameters' is not a mapping", AGAIN),
         ),
         (
             "repetition missing",

@@ -7,12 +7,14 @@ import matplotlib
 import numpy as np
 import pandas as pd
 import pytest
+from made_records import searched
 from matplotlib.figure import Figure
 
 import pyrofit as pf
 from pyrofit.config import diagnosed_material
 from pyrofit.errors import StudyError
-from pyrofit.results.files import Results, write_csv, write_json
+from pyrofit.results.files import Results, write_csv
+from pyrofit.results.record import write_record
 from pyrofit.simulate import simulate_gasification
 from pyrofit.solver.curves import Request
 from pyrofit.stages.identify import identify_kinetics
@@ -74,8 +76,7 @@ def test_stage_has_the_intervals_of_the_workflow(
     for (name, signal), frame in data.items():
         write_csv(results.measurement(name, signal), frame)
     values = {n: v * study.parameters[n].factor for n, v in found.values.items()}
-    start = {"parameters": values, "cost": 0.0}
-    write_json(results.kinetics("fit.json"), {**start, "least_squares": [start]})
+    write_record(results.kinetics("fit.json"), searched(values, 0.0))
     identify_kinetics(study, results)
     theirs = pd.read_csv(results.identification("estimate.csv", "kinetics"), index_col="parameter")
     factors = pd.Series({n: study.parameters[n].factor for n in theirs.index})

@@ -9,6 +9,7 @@ import numpy as np
 import pandas as pd
 import pytest
 import yaml
+from made_records import noise_of
 from test_stages import given, study_with
 
 from pyrofit.cli import main
@@ -19,6 +20,7 @@ from pyrofit.estimate.prior import prior_of
 from pyrofit.estimate.problem import make_problem
 from pyrofit.exchange.sets import parameter_set
 from pyrofit.results.files import Results, read_csv, write_csv, write_json
+from pyrofit.results.identification import Noise, write_noise
 from pyrofit.results.step import write_options
 from pyrofit.stages import fit, identify, measurements
 from pyrofit.steps.posterior import record as posterior
@@ -75,11 +77,9 @@ def identified(study: Study, tmp_path_factory: pytest.TempPathFactory) -> Result
         for name, value in zip(study.imp.estimate, truth, strict=True)
     ]
     write_csv(results.identification("estimate.csv"), pd.DataFrame(rows))
-    channel = {"experiment": "slab_60", "signal": "mlr", "words": "white"}
-    channel |= dict.fromkeys(("points", "sd_median", "chi2", "whiteness"), 1.0)
+    channel = noise_of("slab_60", "mlr", points=1, sd=1.0, chi2=1.0)
     chi2 = float(residuals @ residuals)
-    content = {"channels": [channel], "chi2": chi2, "freedom": 50.0, "dispersion": 1.0}
-    write_json(results.identification("noise.json"), content)
+    write_noise(results, "imp", Noise(channels=[channel], chi2=chi2, freedom=50.0, dispersion=1.0))
     return results
 
 

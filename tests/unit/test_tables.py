@@ -5,6 +5,7 @@ from typing import Any
 import numpy as np
 import pandas as pd
 import pytest
+from made_records import noise_of, searched
 
 from pyrofit.analysis import optimisers, uses
 from pyrofit.analysis.estimates import Estimated
@@ -18,7 +19,9 @@ from pyrofit.quantities import known_quantities
 from pyrofit.results import goodness, isoconversional, searches
 from pyrofit.results.files import Results, read_csv, write_csv, write_json
 from pyrofit.results.goodness import Goodness, Miss, SignalGoodness
+from pyrofit.results.identification import Noise, write_noise
 from pyrofit.results.kinetics import LOWEST, labels
+from pyrofit.results.record import write_record
 from pyrofit.show.costs.table5 import table5
 from pyrofit.show.facts import facts_of
 from pyrofit.show.fit.table4 import flags
@@ -180,13 +183,7 @@ def _kinetics(study: Study, results: Results) -> None:
     assert study.kinetics is not None
     sets = labels(study)
     pyrolysis = {"A_1_s": 2e13, "E_J_mol": 190000.0, "order": 1.0, "mass_fraction": 1.0}
-    write_json(
-        results.kinetics("fit.json"),
-        {
-            "cost": 0.0125,
-            "least_squares": [{"cost": 0.0125, "parameters": {"T_p": 601.0}}],
-        },
-    )
+    write_record(results.kinetics("fit.json"), searched({"T_p": 601.0}, 0.0125))
     reactions = {label: {"pyrolysis": pyrolysis} for label in sets}
     write_json(results.kinetics("sets.json"), reactions)
     history = pd.DataFrame({"cost": [0.3, 0.02, 0.02], "T_p": [570.0, 605.0, 650.0]})
@@ -224,14 +221,22 @@ def _imp(study: Study, results: Results) -> None:
             {"cost": 0.08, "calls": 30, "at_bound": ["k"], "parameters": {"k": 0.5, "cp": 1500.0}},
             {"cost": 0.09, "calls": 20, "at_bound": [], "parameters": {"k": 0.3, "cp": 1500.0}},
         ]
-        write_json(results.starts(cost, "least_squares"), {"cost_function": cost, "starts": starts})
+        _starts(results, cost, "least_squares", starts)
         ends = [{**start, "cost": start["cost"] + 0.005, "calls": 500} for start in starts]
-        write_json(results.starts(cost, "cmaes"), {"cost_function": cost, "starts": ends})
+        _starts(results, cost, "cmaes", ends)
         # From SCE-UA's best, least squares gets nowhere for RMSE and further for BANDS.
-        end = {"cost": 0.0995 if cost == "RMSE" else 0.08}
-        write_json(results.descent(cost), {"cost_function": cost, "end": end})
+        end = searches.End(
+            cost=0.0995 if cost == "RMSE" else 0.08, calls=9, at_bound=[], parameters={}
+        )
+        write_record(results.descent(cost), searches.Descent(cost_function=cost, end=end))
     write_csv(results.imp("summary.csv"), pd.DataFrame(rows))
     write_csv(results.imp("convergence.csv"), pd.concat(running))
+
+
+def _starts(results: Results, cost: str, optimiser: str, starts: list[dict[str, Any]]) -> None:
+    ends = [searches.End(**start) for start in starts]
+    found = searches.Starts(cost_function=cost, seed=1, starts=ends)
+    write_record(results.starts(cost, optimiser), found)
 
 
 def _identification(study: Study, results: Results) -> None:
@@ -248,12 +253,9 @@ def _identification(study: Study, results: Results) -> None:
     write_csv(results.identification("correlation.csv"), pd.DataFrame(matrix))
     profile = {"parameter": "cp", "value": [1000.0, 2450.0, 3500.0], "rise": [16.0, 4.0, 0.0]}
     write_csv(results.identification("profiles.csv"), pd.DataFrame(profile))
-    channel = {"experiment": "slab_25", "signal": "mlr", "points": 20, "sd_median": 2e-4}
-    channel |= {"whiteness": 0.5, "words": "sd 2e-4, uncorrelated", "chi2": 72.0}
-    write_json(
-        results.identification("noise.json"),
-        {"channels": [channel], "chi2": 72.0, "freedom": 18, "dispersion": 4.0},
-    )
+    channel = noise_of("slab_25", "mlr", points=20, sd=2e-4, chi2=72.0)
+    found = Noise(channels=[channel], chi2=72.0, freedom=18.0, dispersion=4.0)
+    write_noise(results, "imp", found)
     window = Miss(20.0, 60.0, None, None, -3e-4)
     missed = SignalGoodness("slab_25", "mlr", 0.002, 4e-4, 8e-3, 2e-4, 1.0, 4e-4, (window,))
     goodness.write(results, "imp", Goodness(0.002, (missed,)))
@@ -270,9 +272,9 @@ def _identification(study: Study, results: Results) -> None:
         write_csv(results.identification("estimate.csv", "kinetics"), pd.DataFrame([kinetics]))
         alone = pd.DataFrame({"parameter": ["T_p"], "T_p": [1.0]})
         write_csv(results.identification("correlation.csv", "kinetics"), alone)
-        channel |= {"experiment": "slow", "signal": "mass_fraction", "chi2": 20.0}
-        content = {"channels": [channel], "chi2": 20.0, "freedom": 19, "dispersion": 1.0}
-        write_json(results.identification("noise.json", "kinetics"), content)
+        channel = noise_of("slow", "mass_fraction", points=20, sd=2e-4, chi2=20.0)
+        found = Noise(channels=[channel], chi2=20.0, freedom=19.0, dispersion=1.0)
+        write_noise(results, "kinetics", found)
         described = SignalGoodness("slow", "mass_fraction", 0.4, 5e-4, 1.0, 5e-4, 1.0, 1e-5, ())
         goodness.write(results, "kinetics", Goodness(0.4, (described,)))
     sets = [
@@ -610,7 +612,7 @@ def test_costs_by_hand(tmp_path: Path) -> None:
 def test_lowest_cost_may_be_that_of_cmaes(tmp_path: Path) -> None:
     study, results = fake(tmp_path)
     end = {"cost": 0.05, "calls": 7, "at_bound": [], "parameters": {"k": 0.2, "cp": 1500.0}}
-    write_json(results.starts("RMSE", "cmaes"), {"cost_function": "RMSE", "starts": [end]})
+    _starts(results, "RMSE", "cmaes", [end])
     row = made("costs", study, results).set_index("cost_function").loc["RMSE"]
     assert row["lowest_by"] == "CMA-ES"
     assert row["ratio"] == pytest.approx(0.5, rel=1e-14)

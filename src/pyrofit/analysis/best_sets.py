@@ -44,7 +44,7 @@ def ends(study: Study, searched: Searched) -> pd.DataFrame:
         starts = {by.words: searched.starts[cost][key] for key, by in OPTIMISERS.items()}
         groups: dict[str, list[tuple[float, Mapping[Any, Any]]]] = {
             SCEUA: [(float(row["cost"]), row) for row in ours],
-            **{by: [(float(s["cost"]), s["parameters"]) for s in e] for by, e in starts.items()},
+            **{by: [(s.cost, s.parameters) for s in e] for by, e in starts.items()},
         }
         if cost in (theirs := published_sets(study)):
             groups[PUBLISHED] = [(np.nan, theirs[cost])]

@@ -36,7 +36,7 @@ class Distance:
 def distances(study: Study, identified: Identified) -> list[Distance]:
     """Return the distances of all sets, in the study's order of cost functions."""
     names = list(study.imp.estimate)
-    freedom = identified.noise["imp"]["freedom"]
+    freedom = identified.noise["imp"].freedom
     found = []
     for row in identified.sets.to_dict("records"):
         away = np.abs([float(row[name]) for name in names])

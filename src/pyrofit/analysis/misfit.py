@@ -36,9 +36,8 @@ class Misfit:
 
 def misfits(identified: Identified) -> list[Misfit]:
     """Return the misfit of every fitted signal, by stage."""
-    keys = ("experiment", "signal", "points", "words", "chi2")
     return [
-        Misfit(stage, **{key: channel[key] for key in keys})
+        Misfit(stage, c.experiment, c.signal, c.points, c.words, c.chi2)
         for stage, noise in identified.noise.items()
-        for channel in noise["channels"]
+        for c in noise.channels
     ]

@@ -29,7 +29,7 @@ def comparison(
     """Return SCE-UA's repetitions beside the starts of the other optimisers, on one cost."""
     best = lowest_of(group)
     ours = float(best["cost"])
-    lowest = {name: min(s["cost"] for s in starts) for name, starts in others.items()}
+    lowest = {name: min(s.cost for s in starts) for name, starts in others.items()}
     theirs = min(lowest.values())
     row: dict[str, object] = {
         "repetitions": len(group),
@@ -53,15 +53,15 @@ def comparison(
 
 def _starts(name: str, starts: list[End]) -> dict[str, object]:
     """Return how the starts of an optimiser ended, under names that begin with its own."""
-    best = min(starts, key=lambda start: start["cost"])
-    lowest = best["cost"]
-    near = sum(start["cost"] <= (1.0 + LOWER) * lowest for start in starts)
+    best = min(starts, key=lambda start: start.cost)
+    lowest = best.cost
+    near = sum(start.cost <= (1.0 + LOWER) * lowest for start in starts)
     return {
         f"{name}_starts": len(starts),
         f"{name}_starts_at_best": near,
         f"{name}_best": lowest,
-        f"{name}_calls": sum(start["calls"] for start in starts),
-        f"{name}_at_bound": ", ".join(best["at_bound"]),
+        f"{name}_calls": sum(start.calls for start in starts),
+        f"{name}_at_bound": ", ".join(best.at_bound),
     }
 
 

@@ -6,9 +6,8 @@ import pandas as pd
 
 from pyrofit.config import Kinetics, Study, TermSpec
 from pyrofit.estimate.optimisers import OPTIMISERS
-from pyrofit.results import searches
-from pyrofit.results.files import Results, read_csv, read_json
-from pyrofit.results.needed import EACH, Keys
+from pyrofit.results import kinetics, searches
+from pyrofit.results.files import Results, read_csv
 from pyrofit.results.searches import End
 
 KINETICS = "kinetics"
@@ -43,7 +42,7 @@ def truth(study: Study, results: Results) -> pd.DataFrame:
     for fit in known(study):
         if fit == KINETICS:
             assert study.kinetics is not None
-            estimate, found = study.kinetics.estimate, _kinetics(study.kinetics, results)
+            estimate, found = study.kinetics.estimate, _kinetics(study, study.kinetics, results)
         else:
             estimate, found = study.imp.estimate, _imp(study, results, fit)
         rows += [
@@ -53,14 +52,14 @@ def truth(study: Study, results: Results) -> pd.DataFrame:
     return pd.DataFrame(rows)
 
 
-def _kinetics(stage: Kinetics, results: Results) -> Mapping[str, Set]:
+def _kinetics(study: Study, stage: Kinetics, results: Results) -> Mapping[str, Set]:
     history = read_csv(
         results.kinetics("history.csv.gz"), dict.fromkeys(("cost", *stage.estimate), float)
     )
-    here = ("least_squares", EACH)
-    needs: dict[Keys, type] = {(*here, "parameters", name): float for name in stage.estimate}
-    fit = read_json(results.kinetics("fit.json"), {**needs, (*here, "cost"): float})
-    return {"sceua": _lowest(history), "least_squares": _best(fit["least_squares"])}
+    return {
+        "sceua": _lowest(history),
+        "least_squares": _best(kinetics.fit(study, results).least_squares),
+    }
 
 
 def _imp(study: Study, results: Results, cost: str) -> Mapping[str, Set]:
@@ -76,7 +75,7 @@ def _lowest(sets: pd.DataFrame) -> pd.Series:
 
 
 def _best(starts: list[End]) -> dict[str, float]:
-    return min(starts, key=lambda start: start["cost"])["parameters"]
+    return min(starts, key=lambda start: start.cost).parameters
 
 
 def compared(study: Study, fit: str, name: str, found: Mapping[str, float]) -> dict[str, object]:

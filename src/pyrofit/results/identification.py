@@ -1,17 +1,46 @@
 """Stored results of the analysis of identifiability."""
 
-from typing import Any, NamedTuple
+from typing import NamedTuple
 
 import pandas as pd
+from pydantic import Field
 
 from pyrofit.config import Study
 from pyrofit.results import goodness
-from pyrofit.results.files import Results, read_csv, read_json
+from pyrofit.results.files import Results, read_csv
 from pyrofit.results.goodness import Goodness
-from pyrofit.results.needed import EACH
+from pyrofit.results.record import Record, read_record, write_record
 
 _SETS: dict[str, type] = {"set": object, "chi2": float}
 _NUMBERS = ("estimate", "sd", "low", "high", "width", "noise_low", "noise_high", "noise_width")
+
+
+class Channel(Record):
+    """The noise of a channel."""
+
+    experiment: str = Field(description="name of the experiment")
+    signal: str = Field(description="signal")
+    points: int = Field(description="number of points")
+    sd_median: float = Field(description="median standard deviation, SI unit")
+    points_sd: float = Field(description="the same of single points")
+    lasting_sd: float = Field(description="the same of lasting errors")
+    lags: list[float] = Field(description="autocorrelation of points at lag 1, 2, ...")
+    ar: float = Field(description="autocorrelation by lag, ar^k at lag k; 0 with `lags`")
+    splines: int = Field(description="number of splines of the curve it scatters about")
+    excess: float = Field(description="scatter over the stated one, 1 at least")
+    whiteness: float = Field(description="p of white noise as correlated (Ljung-Box)")
+    floors: dict[str, float] = Field(description="medians of added terms, SI unit")
+    words: str = Field(description="the noise in words")
+    chi2: float = Field(description="chi-square at the optimum")
+
+
+class Noise(Record):
+    """The noise of all channels of a stage, and chi-square at the optimum."""
+
+    channels: list[Channel] = Field(min_length=1, description="the channels")
+    chi2: float = Field(description="chi-square at the optimum, all channels")
+    freedom: float = Field(description="its degrees of freedom")
+    dispersion: float = Field(description="chi-square over freedom, 1 at least")
 
 
 class Identified(NamedTuple):
@@ -19,7 +48,7 @@ class Identified(NamedTuple):
 
     estimates: dict[str, pd.DataFrame]
     correlations: dict[str, pd.DataFrame]
-    noise: dict[str, dict[str, Any]]
+    noise: dict[str, Noise]
     goodness: dict[str, Goodness]
     sets: pd.DataFrame
     """Sets of the optimisers: distance of each parameter from the optimum [sd], chi-square."""
@@ -68,18 +97,14 @@ def matrix_of(study: Study, results: Results, stage: str = "imp") -> pd.DataFram
     return frame.set_index("parameter").loc[names, names]
 
 
-def noise(results: Results, stage: str = "imp") -> dict[str, Any]:
+def write_noise(results: Results, stage: str, found: Noise) -> None:
+    """Write the noise of a stage's channels."""
+    write_record(results.identification("noise.json", stage), found)
+
+
+def noise(results: Results, stage: str = "imp") -> Noise:
     """Return the noise of the channels, and chi-square at the optimum."""
-    here = ("channels", EACH)
-    numbers = dict.fromkeys(("points", "sd_median", "chi2", "whiteness"), float)
-    return read_json(
-        results.identification("noise.json", stage),
-        {
-            **{(*here, key): str for key in ("experiment", "signal", "words")},
-            **{(*here, key): kind for key, kind in numbers.items()},
-            **{(key,): float for key in ("chi2", "freedom", "dispersion")},
-        },
-    )
+    return read_record(results.identification("noise.json", stage), Noise)
 
 
 def _sets(study: Study, results: Results) -> pd.DataFrame:

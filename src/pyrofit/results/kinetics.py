@@ -1,21 +1,52 @@
 """Results of the fit of the kinetics."""
 
 from collections.abc import Iterator, Mapping, Sequence
-from typing import Any
 
 import pandas as pd
+from pydantic import Field
 
 from pyrofit.config import Study
 from pyrofit.results import identification
-from pyrofit.results.files import Results, read_csv, read_json
-from pyrofit.results.needed import EACH, Keys
+from pyrofit.results.files import Results, read_csv, read_json, write_json
+from pyrofit.results.record import Record, check_names, made_of, read_record
+from pyrofit.results.searches import End, check_ends
 from pyrofit.solver.outputs import MASS_FRACTION
 
 FITTED = "fitted"
 """Set of the estimates: the optimum of the likelihood."""
 LOWEST = "lowest cost"
 """Set of the lowest cost that a search found, which studies with published values show as well."""
-_SETS_OF_KINETICS = ("A_1_s", "E_J_mol", "order", MASS_FRACTION)
+
+
+class Searched(Record):
+    """The search of SCE-UA."""
+
+    cost: float = Field(description="lowest cost")
+    calls: int = Field(description="model calls")
+
+
+class Fit(Record):
+    """The searches of the kinetics; the estimates are made from their ends."""
+
+    cost: float = Field(description="lowest cost of all searches")
+    parameters: dict[str, float] = Field(description="the set of the lowest cost, SI units")
+    optimiser: str = Field(description="the optimiser that found it")
+    seed: int = Field(description="seed of the searches")
+    sceua: Searched = Field(description="SCE-UA")
+    least_squares: list[End] = Field(description="least squares by start, best first")
+
+
+class Reaction(Record):
+    """The kinetics of a reaction in one set."""
+
+    A_1_s: float = Field(description="pre-exponential factor [1/s]")
+    E_J_mol: float = Field(description="activation energy [J/mol]")
+    order: float = Field(description="reaction order [-]")
+    mass_fraction: float = Field(description="virgin mass fraction of the reactant [-]")
+
+
+Sets = dict[str, dict[str, Reaction]]
+"""Kinetics by set and reaction."""
 
 
 def parameters(study: Study, results: Results) -> dict[str, float]:
@@ -36,37 +67,49 @@ def given_to_imp(study: Study, results: Results) -> dict[str, float]:
     return {**study.fixed_values(), **fitted}
 
 
-def searched(study: Study, results: Results) -> dict[str, float]:
-    """Return the set of the lowest cost that a search of the kinetics found, SI units."""
+def fit(study: Study, results: Results) -> Fit:
+    """Return the searches of the kinetics.
+
+    Raises
+    ------
+    DataError
+        The result is missing or broken.
+    """
+    path = results.kinetics("fit.json")
+    found = read_record(path, Fit)
     names = study.kinetics.estimate if study.kinetics else ()
-    found = read_json(results.kinetics("fit.json"), {("parameters", n): float for n in names})
-    values: dict[str, float] = found["parameters"]
-    return values
+    check_names(path, "parameters", found.parameters, names)
+    check_ends(path, "least_squares", found.least_squares, names)
+    return found
 
 
 def ends(study: Study, results: Results) -> list[dict[str, float]]:
     """Return the set of the lowest cost and the ends of least squares beside it, SI units."""
-    names = study.kinetics.estimate if study.kinetics else ()
-    needs: dict[Keys, type] = {("parameters", name): float for name in names}
-    needs |= {("least_squares", EACH, "parameters", name): float for name in names}
-    found = read_json(results.kinetics("fit.json"), needs)
-    return [found["parameters"], *(start["parameters"] for start in found["least_squares"])]
+    found = fit(study, results)
+    return [found.parameters, *(end.parameters for end in found.least_squares)]
 
 
-def sets(study: Study, results: Results) -> dict[str, Any]:
-    """Return A, E, n and mass fraction by set and reaction."""
-    needs: dict[Keys, type] = {
-        (label, reaction, key): float
-        for label in labels(study)
-        for reaction in study.material.reactions
-        for key in _SETS_OF_KINETICS
+def write_sets(results: Results, found: Sets) -> None:
+    """Write the kinetics of all sets."""
+    content = {
+        label: {name: one.model_dump() for name, one in of.items()} for label, of in found.items()
     }
-    return read_json(results.kinetics("sets.json"), needs)
+    write_json(results.kinetics("sets.json"), content)
 
 
-def lowest_cost(results: Results) -> float:
-    """Return the lowest cost that a search found."""
-    found: float = read_json(results.kinetics("fit.json"), {("cost",): float})["cost"]
+def sets(study: Study, results: Results) -> Sets:
+    """Return the kinetics of all sets.
+
+    Raises
+    ------
+    DataError
+        The result is missing or broken.
+    """
+    path = results.kinetics("sets.json")
+    found = made_of(path, Sets, read_json(path))
+    check_names(path, "", found, labels(study))
+    for label, of in found.items():
+        check_names(path, label, of, study.material.reactions)
     return found
 
 

@@ -1,14 +1,28 @@
 """Records: what a result file holds, from the code that writes it to the code that reads it."""
 
-from collections.abc import Callable
+from collections.abc import Callable, Iterable, Mapping
 from pathlib import Path
 from typing import TypeVar
 
-from pydantic import BaseModel, ConfigDict, ValidationError
+from pydantic import BaseModel, ConfigDict, TypeAdapter, ValidationError
 
 from pyrofit.errors import DataError
 from pyrofit.results.files import read_json, write_json
 from pyrofit.results.needed import AGAIN
+
+_WRONG = {
+    "missing": "is missing in this result",
+    "float_type": "is not a finite number",
+    "finite_number": "is not a finite number",
+    "int_type": "is not a whole number",
+    "string_type": "is not text",
+    "bool_type": "is not true or false",
+    "list_type": "is not a list",
+    "too_short": "is not a list of at least one",
+    "dict_type": "is not a mapping",
+    "model_type": "is not a mapping",
+    "extra_forbidden": "is not a key of this result",
+}
 
 
 class Record(BaseModel):
@@ -18,11 +32,12 @@ class Record(BaseModel):
 
 
 Made = TypeVar("Made", bound=Record)
+Kind = TypeVar("Kind")
 
 
 def write_record(path: Path, record: Record) -> None:
     """Write a record as JSON, whole or not at all; its keys stand in the order of its fields."""
-    write_json(path, record.model_dump())
+    write_json(path, record.model_dump(by_alias=True))
 
 
 def read_record(
@@ -35,12 +50,42 @@ def read_record(
     DataError
         It is missing, broken, or that of another study.
     """
-    try:
-        found = kind.model_validate(read_json(path))
-    except ValidationError as error:
-        first = error.errors()[0]
-        place = ".".join(str(key) for key in first["loc"])
-        raise DataError(f"{path}: '{place}': {first['msg']}; {AGAIN}") from None
+    found = made_of(path, kind, read_json(path))
     if not is_ours(found):
         raise DataError(f"{path}: this is the result of another study; {AGAIN}")
     return found
+
+
+def made_of(path: Path, kind: type[Kind], content: object) -> Kind:
+    """Return records of the content of a file.
+
+    Raises
+    ------
+    DataError
+        The content is not of this kind.
+    """
+    try:
+        return TypeAdapter(kind).validate_python(content)
+    except ValidationError as error:
+        raise DataError(f"{path}: {_said(error)}; {AGAIN}") from None
+
+
+def _said(error: ValidationError) -> str:
+    """Return the first error in words."""
+    first = error.errors()[0]
+    place = ".".join(str(key) for key in first["loc"])
+    return f"'{place}' {_WRONG.get(first['type'], first['msg'])}"
+
+
+def check_names(path: Path, place: str, found: Mapping[str, object], names: Iterable[str]) -> None:
+    """Refuse a result that lacks an item of a mapping, such as the value of a parameter.
+
+    Raises
+    ------
+    DataError
+        With the first one.
+    """
+    for name in names:
+        if name not in found:
+            here = f"{place}.{name}".removeprefix(".")
+            raise DataError(f"{path}: '{here}' is missing in this result; {AGAIN}")

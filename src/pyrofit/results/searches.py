@@ -1,42 +1,54 @@
 """Results of the searches: repetitions of SCE-UA, and the optimisers beside them."""
 
-from collections.abc import Iterable
-from typing import NamedTuple, TypedDict, cast
+from collections.abc import Iterable, Sequence
+from pathlib import Path
+from typing import NamedTuple
 
 import pandas as pd
+from pydantic import Field
 
 from pyrofit.config import Study
-from pyrofit.results.files import Results, read_csv, read_json
-from pyrofit.results.needed import EACH, Keys
+from pyrofit.results.files import Results, read_csv
+from pyrofit.results.record import Record, check_names, read_record
 
 
-class End(TypedDict):
+class End(Record):
     """Where a search from one start ended."""
 
-    cost: float
-    calls: int
-    at_bound: list[str]
-    """Names of the parameters at a limit."""
-    parameters: dict[str, float]
-    """SI units."""
+    cost: float = Field(description="lowest cost")
+    calls: int = Field(description="model calls")
+    at_bound: list[str] = Field(description="names of the parameters at a limit")
+    parameters: dict[str, float] = Field(description="SI units")
 
 
-class Repetition(TypedDict):
+class Starts(Record):
+    """All ends of an optimiser on one cost."""
+
+    cost_function: str = Field(description="its name")
+    seed: int = Field(description="seed of the starts")
+    starts: list[End] = Field(min_length=1, description="the ends, best first")
+
+
+class Descent(Record):
+    """Where least squares got to from SCE-UA's best set."""
+
+    cost_function: str = Field(description="its name")
+    end: End = Field(description="the end")
+
+
+class Repetition(Record):
     """The best set of one repetition of SCE-UA."""
 
-    cost_function: str
-    repetition: int
-    seed: int
-    digest: str
-    """Of the inputs of the search."""
-    cost: float
-    cost_refined: float
-    """Of finer runs."""
-    parameters: dict[str, float]
-    """SI units."""
-    calls: int
-    failed_calls: int
-    generations: int
+    cost_function: str = Field(description="its name")
+    repetition: int = Field(description="its number")
+    seed: int = Field(description="seed of the search")
+    digest: str = Field(description="of the inputs of the search")
+    cost: float = Field(description="lowest cost")
+    cost_refined: float = Field(description="the same by finer runs")
+    parameters: dict[str, float] = Field(description="SI units")
+    calls: int = Field(description="model calls")
+    failed_calls: int = Field(description="those of them that failed")
+    generations: int = Field(description="generations of the search")
 
 
 class Searched(NamedTuple):
@@ -65,9 +77,10 @@ def read(study: Study, results: Results, optimisers: Iterable[str]) -> Searched:
 
 def repetition(study: Study, results: Results, cost: str, number: int) -> Repetition:
     """Return the result of one repetition."""
-    needs: dict[Keys, type] = {("digest",): str, ("cost",): float, ("cost_refined",): float}
-    needs |= {("parameters", name): float for name in study.imp.estimate}
-    return cast(Repetition, read_json(results.repetition(cost, number, ".json"), needs))
+    path = results.repetition(cost, number, ".json")
+    found = read_record(path, Repetition)
+    check_names(path, "parameters", found.parameters, study.imp.estimate)
+    return found
 
 
 def running_minimum(results: Results, cost: str, number: int) -> pd.DataFrame:
@@ -104,15 +117,24 @@ def running_minima(study: Study, results: Results) -> pd.DataFrame:
 
 def starts(study: Study, results: Results, cost: str, optimiser: str) -> list[End]:
     """Return the ends that an optimiser reached from every start on one cost, best first."""
-    here = ("starts", EACH)
-    needs: dict[Keys, type] = {(*here, "cost"): float, (*here, "calls"): float}
-    needs[*here, "at_bound"] = list
-    needs |= {(*here, "parameters", name): float for name in study.imp.estimate}
-    found: list[End] = read_json(results.starts(cost, optimiser), needs)["starts"]
+    path = results.starts(cost, optimiser)
+    found = read_record(path, Starts).starts
+    check_ends(path, "starts", found, study.imp.estimate)
     return found
+
+
+def check_ends(path: Path, place: str, ends: Sequence[End], names: Sequence[str]) -> None:
+    """Refuse ends of a search that lack a parameter.
+
+    Raises
+    ------
+    DataError
+        With the first one.
+    """
+    for i, end in enumerate(ends):
+        check_names(path, f"{place}.{i}.parameters", end.parameters, names)
 
 
 def end_of_descent(results: Results, cost: str) -> End:
     """Return where least squares got to from SCE-UA's best set."""
-    found: End = read_json(results.descent(cost), {("end", "cost"): float})["end"]
-    return found
+    return read_record(results.descent(cost), Descent).end

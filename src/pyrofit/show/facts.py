@@ -105,7 +105,7 @@ def facts_of(study: Study, results: Results, tables: Frames) -> Facts:
         known=known_values(study, estimates),
         trade_offs=trade_offs(study, identified),
         goodness=identified.goodness,
-        chi2_per_point={s: n["chi2"] / n["freedom"] for s, n in identified.noise.items()},
+        chi2_per_point={s: n.chi2 / n.freedom for s, n in identified.noise.items()},
         outside=outside_intervals(study, estimates, best_sets(study, searched)),
         assumptions=assumptions(study),
         influence=_influence(study, results),

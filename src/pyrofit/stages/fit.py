@@ -14,8 +14,9 @@ from pyrofit.estimate.optimisers import OPTIMISERS
 from pyrofit.estimate.pose import of_imp, of_kinetics, pose
 from pyrofit.estimate.problem import Problem
 from pyrofit.results import dependencies, kinetics, searches
-from pyrofit.results.files import Results, write_csv, write_json
-from pyrofit.results.searches import End, Repetition
+from pyrofit.results.files import Results, write_csv
+from pyrofit.results.record import write_record
+from pyrofit.results.searches import Descent, End, Repetition, Starts
 from pyrofit.running.shares import at_once, parts
 from pyrofit.seeds import seed_for
 from pyrofit.solver.arrays import FloatArray, Status
@@ -61,17 +62,16 @@ def fit_kinetics(study: Study, results: Results) -> None:
     fitted = _named(problem, x)
     write_csv(results.kinetics("history.csv.gz"), history)
     write_csv(results.kinetics("convergence.csv"), convergence(history))
-    write_json(
-        results.kinetics("fit.json"),
-        {
-            "cost": cost,
-            "parameters": fitted,
-            "optimiser": optimiser,
-            "seed": seed,
-            "sceua": {"cost": best_of(history, problem)[0], "calls": len(history)},
-            "least_squares": [_end(problem, s) for s in starts],
-        },
+    lowest = kinetics.Searched(cost=best_of(history, problem)[0], calls=len(history))
+    found = kinetics.Fit(
+        cost=cost,
+        parameters=fitted,
+        optimiser=optimiser,
+        seed=seed,
+        sceua=lowest,
+        least_squares=[_end(problem, s) for s in starts],
     )
+    write_record(results.kinetics("fit.json"), found)
 
 
 def fixed_for_imp(study: Study, results: Results) -> dict[str, float]:
@@ -122,7 +122,7 @@ def _search(
     for k, (repetition, history) in enumerate(zip(repetitions, found, strict=True)):
         write_csv(results.repetition(cost, repetition, ".csv.gz"), history)
         write_csv(results.repetition(cost, repetition, "_convergence.csv"), convergence(history))
-        content = Repetition(
+        end = Repetition(
             cost_function=cost,
             repetition=repetition,
             seed=seeds[k],
@@ -134,7 +134,7 @@ def _search(
             failed_calls=int((history["status"] != Status.OK).sum()),
             generations=int(history["generation"].max()),
         )
-        write_json(results.repetition(cost, repetition, ".json"), content)
+        write_record(results.repetition(cost, repetition, ".json"), end)
 
 
 def _histories(
@@ -167,10 +167,9 @@ def optimise(study: Study, results: Results, cost: str, optimiser: str) -> None:
     problem = imp_problem(study, results, cost)
     seed = seed_for(study.seed, cost, optimiser)
     starts = OPTIMISERS[optimiser].searched(problem, getattr(study.imp, optimiser), seed)
-    write_json(
-        results.starts(cost, optimiser),
-        {"cost_function": cost, "seed": seed, "starts": [_end(problem, s) for s in starts]},
-    )
+    ends = [_end(problem, s) for s in starts]
+    found = Starts(cost_function=cost, seed=seed, starts=ends)
+    write_record(results.starts(cost, optimiser), found)
 
 
 def descent(study: Study, results: Results, cost: str) -> None:
@@ -178,7 +177,7 @@ def descent(study: Study, results: Results, cost: str) -> None:
     problem = imp_problem(study, results, cost)
     best = best_sets(study, results)[cost]
     end = descend(problem, np.array([best[name] for name in problem.names]))
-    write_json(results.descent(cost), {"cost_function": cost, "end": _end(problem, end)})
+    write_record(results.descent(cost), Descent(cost_function=cost, end=_end(problem, end)))
 
 
 def collect(study: Study, results: Results) -> None:
@@ -189,13 +188,13 @@ def collect(study: Study, results: Results) -> None:
         expected = digest(dependencies.imp(study, cost, "sceua"))
         for repetition in range(study.imp.repetitions):
             found = searches.repetition(study, results, cost, repetition)
-            if found["digest"] != expected:
+            if found.digest != expected:
                 raise StudyError(
                     f"{results.repetition(cost, repetition, '.json')}: this repetition belongs to "
                     "another description of the study; two runs of it at once? Run it again."
                 )
-            kept = {k: v for k, v in found.items() if k not in ("digest", "parameters")}
-            rows.append({**kept, **found["parameters"]})
+            kept = found.model_dump(exclude={"digest", "parameters"})
+            rows.append({**kept, **found.parameters})
             frame = searches.running_minimum(results, cost, repetition)
             running.append(frame.assign(cost_function=cost, repetition=repetition))
     write_csv(results.imp("summary.csv"), pd.DataFrame(rows))

@@ -13,8 +13,9 @@ from pyrofit.estimate.optimisers import OPTIMISERS
 from pyrofit.estimate.pose import of_imp, of_kinetics
 from pyrofit.estimate.pose_likelihood import pose_likelihood
 from pyrofit.numerics import linear
-from pyrofit.results import goodness, kinetics, searches
-from pyrofit.results.files import Results, write_csv, write_json
+from pyrofit.results import goodness, identification, kinetics, searches
+from pyrofit.results.files import Results, write_csv
+from pyrofit.results.identification import Channel, Noise
 from pyrofit.stages.imp_likelihood import ends_of_searches, imp_likelihood
 from pyrofit.stages.kinetic_curves import write_curves
 from pyrofit.stages.measurements import load
@@ -71,7 +72,7 @@ def _write(results: Results, stage: str, likelihood: Likelihood, found: Identifi
     }
     for name, frame in tables.items():
         write_csv(results.identification(f"{name}.csv", stage), frame)
-    write_json(results.identification("noise.json", stage), _noise(likelihood, found))
+    identification.write_noise(results, stage, _noise(likelihood, found))
     goodness.write(results, stage, found.goodness)
 
 
@@ -161,9 +162,7 @@ def _sets(
             BEST: group.iloc[int(group["cost"].to_numpy().argmin())],
             MEAN: group[names].mean(),
             **{
-                f"{optimiser.words} best": searches.starts(study, results, cost, key)[0][
-                    "parameters"
-                ]
+                f"{optimiser.words} best": searches.starts(study, results, cost, key)[0].parameters
                 for key, optimiser in OPTIMISERS.items()
             },
         }
@@ -175,32 +174,32 @@ def _sets(
     return pd.DataFrame(rows)
 
 
-def _noise(likelihood: Likelihood, found: Identification) -> dict[str, Any]:
+def _noise(likelihood: Likelihood, found: Identification) -> Noise:
     residuals = likelihood.split(likelihood.residuals(found.optimum.x))
     channels = [
-        {
-            "experiment": experiment,
-            "signal": signal,
-            "points": part.size,
-            "sd_median": float(np.median(noise.total_sd)),
-            "points_sd": float(np.median(noise.sd)),
-            "lasting_sd": float(np.median(noise.lasting_sd)),
-            "lags": list(noise.correlation.lags),
-            "ar": noise.correlation.ar,
-            "splines": noise.splines,
-            "excess": noise.excess,
-            "whiteness": noise.whiteness,
-            "floors": dict(noise.floors),
-            "words": noise.describe(),
-            "chi2": linear.dot(part, part),
-        }
+        Channel(
+            experiment=experiment,
+            signal=signal,
+            points=part.size,
+            sd_median=float(np.median(noise.total_sd)),
+            points_sd=float(np.median(noise.sd)),
+            lasting_sd=float(np.median(noise.lasting_sd)),
+            lags=list(noise.correlation.lags),
+            ar=noise.correlation.ar,
+            splines=noise.splines,
+            excess=noise.excess,
+            whiteness=noise.whiteness,
+            floors=dict(noise.floors),
+            words=noise.describe(),
+            chi2=linear.dot(part, part),
+        )
         for (experiment, signal, _), noise, part in zip(
             likelihood.problem.picks, likelihood.noise, residuals, strict=True
         )
     ]
-    return {
-        "channels": channels,
-        "chi2": found.posterior.chi2,
-        "freedom": found.posterior.freedom,
-        "dispersion": found.posterior.dispersion,
-    }
+    return Noise(
+        channels=channels,
+        chi2=found.posterior.chi2,
+        freedom=found.posterior.freedom,
+        dispersion=found.posterior.dispersion,
+    )

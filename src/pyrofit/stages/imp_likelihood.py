@@ -41,6 +41,6 @@ def ends_of_searches(study: Study, results: Results) -> Iterator[dict[str, float
     for cost in study.imp.costs:
         for optimiser in OPTIMISERS:
             for start in searches.starts(study, results, cost, optimiser):
-                yield {name: start["parameters"][name] for name in names}
+                yield {name: start.parameters[name] for name in names}
     for values in searches.summary(study, results)[names].to_numpy(float).tolist():
         yield dict(zip(names, values, strict=True))

@@ -12,7 +12,7 @@ from pyrofit.model.base import value_of
 from pyrofit.model.heated import HeatedExperiment
 from pyrofit.model.material import Material
 from pyrofit.results import kinetics
-from pyrofit.results.files import Results, write_csv, write_json
+from pyrofit.results.files import Results, write_csv
 from pyrofit.results.kinetics import FITTED, LOWEST, heats_shown, masses_shown
 from pyrofit.simulate import simulate_tga
 from pyrofit.solver.arrays import FloatArray
@@ -40,10 +40,8 @@ def write_curves(
         Estimates of the kinetics by name, SI units.
     """
     sets = _sets(study, results, fitted)
-    write_json(
-        results.kinetics("sets.json"),
-        {label: _reactions(*chosen) for label, chosen in sets.items()},
-    )
+    reactions = {label: _reactions(*chosen) for label, chosen in sets.items()}
+    kinetics.write_sets(results, reactions)
     curves: list[pd.DataFrame] = []
     scores: list[dict[str, object]] = []
     for name, signal in masses_shown(study).items():
@@ -69,25 +67,25 @@ def _sets(study: Study, results: Results, fitted: Values) -> Sets:
     given = study.fixed_values()
     of_set = dict.fromkeys(kinetics.labels(study), fitted)
     if LOWEST in of_set:
-        of_set[LOWEST] = kinetics.searched(study, results)
+        of_set[LOWEST] = kinetics.fit(study, results).parameters
     return {
         label: (study.material_with(FITTED if label == LOWEST else label), {**given, **values})
         for label, values in of_set.items()
     }
 
 
-def _reactions(material: Material, values: Values) -> dict[str, dict[str, float]]:
+def _reactions(material: Material, values: Values) -> dict[str, kinetics.Reaction]:
     """Return A, E, n and the virgin mass fraction of the reactant, by reaction."""
     names = list(material.components)
     share = fractions(material.composition, names, values)[:, 0]
     reactions = material.reactions
     return {
-        name: {
-            "A_1_s": float(rate_factor(reactions[name], values)),
-            "E_J_mol": value_of(reactions[name].E_J_mol, values),
-            "order": value_of(reactions[name].order, values),
-            MASS_FRACTION: float(share[names.index(reactions[name].reactant)]),
-        }
+        name: kinetics.Reaction(
+            A_1_s=float(rate_factor(reactions[name], values)),
+            E_J_mol=value_of(reactions[name].E_J_mol, values),
+            order=value_of(reactions[name].order, values),
+            mass_fraction=float(share[names.index(reactions[name].reactant)]),
+        )
         for name in material.reaction_order()
     }
 

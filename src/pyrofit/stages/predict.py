@@ -27,7 +27,7 @@ def sets_of(study: Study, results: Results) -> dict[str, dict[str, float]]:
     for key, optimiser in OPTIMISERS.items():
         for cost in study.imp.costs:
             start = searches.starts(study, results, cost, key)[0]
-            sets[f"{cost} {optimiser.words}"] = start["parameters"]
+            sets[f"{cost} {optimiser.words}"] = start.parameters
     for cost, values in published_sets(study).items():
         sets[f"{cost} published"] = values
     return sets

@@ -33,7 +33,7 @@ _LIMIT: Look = {"color": style.COLOURS[1], "linewidth": 1.6}
 def profiles(study: Study, results: Results) -> Canvas:
     """Draw the rise of chi-square against each parameter: parabola, profile, and 95 % levels."""
     found = estimates(study, results)
-    dispersion = float(noise(results)["dispersion"])
+    dispersion = noise(results).dispersion
     curves = read_csv(results.identification("profiles.csv"))
     canvas, axes = style.panels(len(found), 3, style.TWO_COLUMNS, 50.0)
     style.letter(axes, list(found.index))

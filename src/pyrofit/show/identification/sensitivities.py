@@ -16,27 +16,27 @@ def sensitivities(study: Study, results: Results) -> Canvas:
     words = dict.fromkeys(("experiment", "signal", "parameter"), object)
     columns = {**words, **dict.fromkeys(("time_s", "si"), float)}
     frame = read_csv(results.identification("sensitivities.csv"), columns)
-    signals = noise(results)["channels"]
+    signals = noise(results).channels
     canvas, axes = style.panels(len(signals), 2, style.TWO_COLUMNS, 72.0)
-    style.letter(axes, [title_of(study, c["experiment"]) for c in signals])
+    style.letter(axes, [title_of(study, c.experiment) for c in signals])
     looks = {
         name: {"color": style.colour(i), "linestyle": style.dashes(i + i // len(style.COLOURS))}
         for i, name in enumerate(study.imp.estimate)
     }
     for ax, signal in zip(axes, signals, strict=True):
-        experiment = study.experiments[signal["experiment"]]
-        quantity = experiment.quantity(signal["signal"])
+        experiment = study.experiments[signal.experiment]
+        quantity = experiment.quantity(signal.signal)
         here = frame[
-            (frame["experiment"] == signal["experiment"]) & (frame["signal"] == signal["signal"])
+            (frame["experiment"] == signal.experiment) & (frame["signal"] == signal.signal)
         ]
-        sd = float(difference(quantity, signal["sd_median"]))
+        sd = float(difference(quantity, signal.sd_median))
         ax.axhspan(-sd, sd, color=style.BAND, linewidth=0.0)
         for name, look in looks.items():
             curve = here[here["parameter"] == name]
             ax.plot(curve["time_s"], difference(quantity, curve["si"]), **look)
         style.zero_line(ax)
         ax.set_xlabel("time [s]")
-        title = experiment.words(signal["signal"]).replace(" (", "\n(")
+        title = experiment.words(signal.signal).replace(" (", "\n(")
         unit = difference_unit(quantity)
         ax.set_ylabel(f"change of {title}\nper search range [{unit}]")
     style.legend_below(

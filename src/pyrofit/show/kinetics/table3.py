@@ -37,14 +37,14 @@ def table3(study: Study, results: Results) -> pd.DataFrame:
             "quantity": quantity,
             "of": f"reaction {reaction}",
             "unit": unit,
-            **{label: chosen[reaction][key] * factor for label, chosen in sets.items()},
+            **{label: getattr(chosen[reaction], key) * factor for label, chosen in sets.items()},
         }
         for reaction in sets["fitted"]
         for quantity, unit, key, factor in _ROWS
         if study.published or unit != _PAPER_UNIT
     ]
     if kinetics.LOWEST in sets:
-        cost = {kinetics.LOWEST: kinetics.lowest_cost(results)}
+        cost = {kinetics.LOWEST: kinetics.fit(study, results).cost}
         rows.append({"quantity": "cost", "of": "fit", "unit": "-", **cost})
     rows += _scores(study, results, list(sets))
     return pd.DataFrame(rows, columns=["quantity", "of", "unit", "used_in_fit", *sets])

@@ -22,7 +22,7 @@ def costs(study: Study, results: Results) -> pd.DataFrame:
     every = searched.repetitions
     rows = []
     for cost in study.imp.costs:
-        descent = float(searches.end_of_descent(results, cost)["cost"])
+        descent = searches.end_of_descent(results, cost).cost
         group = every[every["cost_function"] == cost]
         row = comparison(group, searched.starts[cost], descent)
         rows.append({"cost_function": cost, **row})

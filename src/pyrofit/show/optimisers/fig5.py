@@ -61,7 +61,7 @@ def _draw(
     for edge in (low, high):
         ax.plot(grid, edge, color=look["color"], linewidth=0.4, **_steps(by_calls))
     ax.plot(grid, np.median(found, axis=0), color=look["color"], **_steps(by_calls))
-    best = min(start["cost"] for start in searches.starts(study, results, cost, "least_squares"))
+    best = min(start.cost for start in searches.starts(study, results, cost, "least_squares"))
     levels = [best]
     ax.axhline(best, **_LS)
     theirs = published_mean(study, cost)

@@ -73,7 +73,7 @@ def likelihood_and_optimum(study: Study, results: Results) -> tuple[Likelihood, 
         )
     likelihood = imp_likelihood(study, results, of_imp(study))
     start = likelihood.scaled(identification.estimates(study, results)["estimate"].to_numpy(float))
-    known = float(identification.noise(results)["chi2"])
+    known = identification.noise(results).chi2
     residuals = likelihood.residuals(start)[: sum(likelihood.points)]
     now = linear.dot(residuals, residuals)
     if abs(now - known) > CHANGED * known:

@@ -138,7 +138,7 @@ def _check_own(study: Study, results: Results, cost: str, number: int, expected:
             f"{path}: this search has not run; its calls are to be scored. Run the study first: "
             "snakemake --cores 2 --configfile <the study>"
         )
-    if searches.repetition(study, results, cost, number)["digest"] != expected:
+    if searches.repetition(study, results, cost, number).digest != expected:
         raise DataError(
             f"{path}: this search belongs to another description of study '{study.name}': costs, "
             "experiments, material, parameters, budget or the program's quantities were changed "
@@ -157,7 +157,7 @@ def _drift(study: Study, results: Results, sets: pd.DataFrame, scores: pd.DataFr
         own = (sets["cost_function"] == cost) & (sets["repetition"] == number)
         if cost in scores and own.any():
             best = int(sets["cost"].where(own).to_numpy(float).argsort(kind="stable")[0])
-            stored = searches.repetition(study, results, cost, number)["cost"]
+            stored = searches.repetition(study, results, cost, number).cost
             apart = abs(float(scores[cost].to_numpy()[best]) - stored) / max(abs(stored), 1e-300)
             largest = max(largest, 0.0 if np.isnan(apart) else apart)
     return largest
