@@ -61,6 +61,7 @@ ORDER = [
         "archive_texts",
         "archive_zip",
         "blind_test",
+        "explore",
     },
     {"cli"},
     {"__main__"},

@@ -15,6 +15,7 @@ from pyrofit.cli import (
     comparing,
     diagnosing,
     exchanging,
+    exploring,
     fitting,
     macfp,
     running,
@@ -28,6 +29,7 @@ from pyrofit.logs import Tee, open_log
 
 _GROUPS = (
     starting,
+    exploring,
     running,
     fitting,
     stepping,

@@ -9,8 +9,8 @@ _HEAD = """\
 # Commands
 
 `pyrofit COMMAND --help` prints the same. The [workflow](running.md) calls most of these commands;
-`init`, `run`, `check`, `doctor`, `rescore`, `posterior`, `sensitivity`, `worth`, `data`, `export`,
-`import`, `macfp` and `reference` are for use by hand.
+`init`, `explore`, `run`, `check`, `doctor`, `rescore`, `posterior`, `sensitivity`, `worth`,
+`data`, `export`, `import`, `macfp` and `reference` are for use by hand.
 
 This page is generated: `pyrofit reference --of commands > docs/commands.md`.
 """

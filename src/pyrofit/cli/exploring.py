@@ -1,0 +1,43 @@
+"""The command that shows a study in the browser."""
+
+import argparse
+import sys
+from pathlib import Path
+from typing import Any
+
+TWIN = Path("config/twin.yaml")
+
+
+def add(commands: Any) -> None:
+    """Add this command."""
+    words = "move the parameters of a study in the browser, and see its curves follow"
+    command = commands.add_parser("explore", help=words, description=words)
+    command.add_argument(
+        "study", type=Path, nargs="?", default=TWIN, help=f"study file; default: {TWIN}"
+    )
+    command.add_argument("--results", type=Path, help="results folder; default results/<name>")
+    command.add_argument(
+        "--set", default="", help="a set to start from, such as a JSON file of values in SI units"
+    )
+    command.add_argument("--port", type=int, default=0, help="port; default: a free one")
+    command.add_argument(
+        "--no-browser", action="store_true", help="print the address, open no browser"
+    )
+    command.set_defaults(step=_explore)
+
+
+def _explore(given: argparse.Namespace) -> None:
+    import webbrowser
+
+    from pyrofit.explore.run import Explorer
+
+    explorer = Explorer(given.study, given.results, given.set, given.port)
+    print(f"{explorer.address}\nCtrl-C ends it.", flush=True)
+    if not given.no_browser:
+        webbrowser.open(explorer.address)
+    try:
+        explorer.server.serve_forever()
+    except KeyboardInterrupt:
+        print("ended", file=sys.stderr)
+    finally:
+        explorer.close()

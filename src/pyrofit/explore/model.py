@@ -1,0 +1,167 @@
+"""A study with some effects switched on, simulated at all its measured points."""
+
+from collections.abc import Collection, Mapping
+from dataclasses import dataclass
+
+import numpy as np
+
+from pyrofit.api.choices import Key
+from pyrofit.config import Study, TermSpec, calibration_channels, parameters_in
+from pyrofit.config.resolve import diagnosed_material
+from pyrofit.effects import known_effects
+from pyrofit.effects.apply import with_effects
+from pyrofit.errors import StudyError
+from pyrofit.estimate.pose import of_diagnosis, pose
+from pyrofit.estimate.problem import Problem
+from pyrofit.estimate.targets import Measurements
+from pyrofit.model.parameters import Parameter
+from pyrofit.solver.arrays import FloatArray
+from pyrofit.solver.curves import Curves
+
+
+@dataclass(frozen=True)
+class Simulated:
+    """Curves of one set.
+
+    Parameters
+    ----------
+    models
+        The model at the points of each term of the problem, SI units; NaN where a run failed.
+    runs
+        How each experiment ended.
+    """
+
+    models: list[FloatArray]
+    runs: Mapping[str, Curves]
+
+    @property
+    def failed(self) -> dict[str, str]:
+        """Why runs did not finish, by experiment."""
+        ended = {name: run.status for name, run in self.runs.items()}
+        return {name: end.explanation for name, end in ended.items() if not end.finished}
+
+
+@dataclass(frozen=True, eq=False)
+class Model:
+    """A study with effects, posed.
+
+    Parameters
+    ----------
+    study
+        The study; the numbers of its effects are parameters ``<effect>_<number>``.
+    problem
+        Its terms are all signals, the fitted ones first, then the terms of the costs.
+    signals
+        Experiment and signal of the first terms.
+    fitted
+        Number of signals that are fitted; the others are held out.
+    costs
+        Positions of the terms of each cost function.
+    """
+
+    study: Study
+    problem: Problem
+    signals: tuple[Key, ...]
+    fitted: int
+    costs: Mapping[str, range]
+
+    def simulate(self, values: Mapping[str, float]) -> Simulated:
+        """Return all curves for SI values of all parameters."""
+        found = self.problem.simulated({**self.problem.fixed, **values}, 1)
+        runs = {name: curves[0] for name, curves in found.items()}
+        models = [
+            runs[name].signals[signal][index]
+            if runs[name].status.finished
+            else np.full(index.size, np.nan)
+            for name, signal, index in self.problem.picks
+        ]
+        return Simulated(models, runs)
+
+    def target(self, channel: int) -> FloatArray:
+        """Return the measured values of a signal, SI units."""
+        return self.problem.cost.terms[channel][1].target.value
+
+
+def parameters_of(effects: Collection[str]) -> dict[str, Parameter]:
+    """Return the parameters of effects: their strengths, and the numbers of their form.
+
+    >>> list(parameters_of(["flux_spread"]))
+    ['flux_spread_sd']
+    """
+    return {
+        f"{name}_{key}": Parameter(unit=q.unit, lower=q.lower, upper=q.upper, label=q.label)
+        for name in effects
+        for key, q in known_effects()[name].quantities.items()
+    }
+
+
+def switched(study: Study, effects: Collection[str]) -> Study:
+    """Return a study that has these effects besides its own.
+
+    Raises
+    ------
+    StudyError
+        An effect is unknown, or the description cannot have it.
+    """
+    if not effects:
+        return study
+    catalogue = known_effects()
+    chosen = {
+        name: {key: f"{name}_{key}" for key in catalogue[name].quantities}
+        for name in effects
+        if name in catalogue
+    }
+    try:
+        asked = {name: chosen.get(name, {}) for name in effects}
+        material, experiments = with_effects(study.material, study.experiments, asked)
+    except ValueError as error:
+        raise StudyError(f"study '{study.name}': {error}") from None
+    return study.model_copy(
+        update={
+            "material": material,
+            "experiments": experiments,
+            "parameters": {**study.parameters, **parameters_of(effects)},
+            "with_effects": {**study.with_effects, **chosen},
+        }
+    )
+
+
+def possible_effects(study: Study) -> list[str]:
+    """Return the effects of the catalogue that the description can have."""
+    found = []
+    for name in known_effects():
+        try:
+            switched(study, [name])
+        except StudyError:
+            continue
+        found.append(name)
+    return found
+
+
+def model_of(study: Study, measurements: Measurements, effects: Collection[str] = ()) -> Model:
+    """Pose a study with effects: all its signals and all terms of its costs in one problem.
+
+    Raises
+    ------
+    StudyError
+        The description cannot have an effect.
+    CostError
+        A cost does not fit its target.
+    """
+    study = switched(study, effects)
+    fitted = [(c.experiment, c.signal) for c in calibration_channels(study)]
+    keys = [*dict.fromkeys(fitted), *(key for key in measurements if key not in fitted)]
+    terms = [TermSpec(experiment=e, signal=s, kind="RMSE") for e, s in keys]
+    costs = {}
+    for name, of_cost in study.imp.costs.items():
+        costs[name] = range(len(terms), len(terms) + len(of_cost))
+        terms += of_cost
+    asked = of_diagnosis(study, terms, free_parameters(study))
+    problem = pose(study, asked, measurements, study.fixed_values())
+    return Model(study, problem, tuple(keys), len(set(fitted)), costs)
+
+
+def free_parameters(study: Study) -> list[str]:
+    """Return the parameters with limits that the description uses, in the order of the study."""
+    used = parameters_in(diagnosed_material(study), *study.experiments.values())
+    return [n for n, p in study.parameters.items() if p.lower is not None and n in used]

@@ -1,0 +1,193 @@
+"""What the page of the explorer shows are the curves and numbers of the library."""
+
+import base64
+import json
+from collections.abc import Mapping
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+import pytest
+
+import pyrofit as pf
+from pyrofit.errors import StudyError
+from pyrofit.explore.fit import fit
+from pyrofit.explore.model import model_of
+from pyrofit.explore.save import save
+from pyrofit.explore.session import Session, State, session_of, state_of
+
+SMOKE = Path(__file__).parents[2] / "config" / "smoke.yaml"
+TRUTH = {"T_p": 605.0, "E_p": 190.0, "rho": 1190.0, "k": 0.2, "cp": 2.1, "eps": 0.9, "dh": 800.0}
+SPREAD = {"flux_spread_spread": 0.2}
+
+
+def drawn_curves(session: Session, state: State) -> dict[str, np.ndarray]:
+    found = session.curves(state)
+    assert found["failed"] == {}
+    values = np.frombuffer(base64.b64decode(found["curves"]), "<f4")
+    curves, at = {}, 0
+    for signal in session.description()["signals"]:
+        curves[signal["id"]] = values[at : at + len(signal["x"])]
+        at += len(signal["x"])
+    assert at == values.size
+    return curves
+
+
+def test_curves_are_those_of_simulate(session: Session) -> None:
+    of_page = drawn_curves(session, State(TRUTH))
+    series = dict(session.measurements)
+    curves = pf.simulate(session.study, TRUTH, data=series)
+    signals = {s["id"]: s for s in session.description()["signals"]}
+    for (name, signal), frame in curves.items():
+        quantity = session.study.experiments[name].quantity(signal)
+        own = quantity.shown.factor * frame[quantity.column].to_numpy() + quantity.shown.offset
+        axis = frame["temperature_K"] - 273.15 if quantity.against_temperature else frame["time_s"]
+        at = np.searchsorted(axis, np.array(signals[f"{name}/{signal}"]["x"]) - 1e-2)
+        largest = np.abs(own).max()
+        np.testing.assert_allclose(of_page[f"{name}/{signal}"], own[at], atol=2e-3 * largest)
+
+
+def test_chi_square_is_that_of_the_log_likelihood(session: Session) -> None:
+    assert session.pending is not None
+    session.pending.wait(120.0)
+    assert session.pending.error == ""
+    of_signals = session.curves(State(TRUTH))["numbers"]["signals"]
+    log_p = pf.log_likelihood(session.study, dict(session.measurements))
+    total = sum(s["chi2"] for s in of_signals.values())
+    assert -0.5 * total == pytest.approx(log_p({n: TRUTH[n] for n in log_p.names}), rel=1e-9)
+
+
+def test_held_out_signals_count_in_no_number(session: Session) -> None:
+    found = session.curves(State(TRUTH))["numbers"]
+    fitted = {"tga_5K/mass_fraction", "tga_20K/mass_fraction", "slab_25/mlr"}
+    assert set(found["signals"]) == fitted
+    assert set(found["mass"]) == {"slab_25/mlr"}
+    shown = {s["id"] for s in session.description()["signals"] if s["fitted"]}
+    assert shown == fitted
+
+
+def test_costs_are_those_of_the_study(session: Session) -> None:
+    costs = session.curves(State(TRUTH))["numbers"]["costs"]
+    assert list(costs) == ["RMSE", "RANGE", "BANDS"]
+    mlr = session.measurements["slab_25", "mlr"]["mlr_kg_m2_s"].to_numpy()
+    model, simulated = session.simulate(State(TRUTH))
+    curve = simulated.models[model.signals.index(("slab_25", "mlr"))]
+    by_hand = np.sqrt(np.mean((curve - mlr) ** 2)) / mlr.mean()
+    assert costs["RMSE"] == pytest.approx(by_hand, rel=1e-9)
+
+
+def test_an_effect_at_null_leaves_the_curves_and_elsewhere_changes_them(session: Session) -> None:
+    base = drawn_curves(session, State(TRUTH))
+    null = drawn_curves(session, State({**TRUTH, "flux_spread_spread": 0.0}, ("flux_spread",)))
+    spread = drawn_curves(session, State({**TRUTH, **SPREAD}, ("flux_spread",)))
+    for name, curve in base.items():
+        assert np.array_equal(null[name], curve)
+        assert np.array_equal(spread[name], curve) == name.startswith("tga")
+
+
+def test_curves_with_an_effect_are_those_of_a_study_with_it(session: Session) -> None:
+    changed = pf.read_study(session.study, effects={"flux_spread": {"spread": 0.2}})
+    other = model_of(changed, session.measurements)
+    model, simulated = session.simulate(State({**TRUTH, **SPREAD}, ("flux_spread",)))
+    values = session.values(model, State(TRUTH))
+    for mine, theirs in zip(simulated.models, other.simulate(values).models, strict=True):
+        assert np.array_equal(mine, theirs)
+
+
+def test_every_possible_effect_is_simulated(session: Session) -> None:
+    offered = session.description()["effects"]
+    assert len(offered) > 20
+    for effect in offered:
+        numbers = {n["name"]: n["start"] for n in effect["numbers"]}
+        found = session.curves(State({**TRUTH, **numbers}, (effect["name"],)))
+        assert found["failed"] == {}, effect["name"]
+
+
+@pytest.mark.parametrize(
+    ("given", "words"),
+    [
+        ({}, "`values` by name"),
+        ({"values": {"kk": 1.0}}, "unknown parameter 'kk'"),
+        ({"values": {"k": "wide"}}, "no finite number"),
+        ({"values": {"k": -0.2}}, "'k': -0.2"),
+        ({"values": {}, "effects": ["swell"]}, "unknown effect 'swell'"),
+    ],
+)
+def test_a_wrong_state_is_told(session: Session, given: dict[str, Any], words: str) -> None:
+    with pytest.raises(StudyError, match=words):
+        session.curves(state_of(given))
+
+
+def test_a_failing_run_is_told_and_leaves_the_other_curves(session: Session) -> None:
+    accuracy = session.study.accuracy.model_copy(update={"most_steps": 3})
+    study = session.study.model_copy(update={"accuracy": accuracy})
+    base = model_of(study, session.measurements)
+    other = Session(study, session.measurements, base, {}, [])
+    found = other.curves(State(TRUTH))
+    assert set(found["failed"]) == {"slab_25", "slab_60"}
+    assert "steps" in found["failed"]["slab_25"]
+    assert found["numbers"]["costs"]["RMSE"] is None
+    assert found["numbers"]["signals"]["tga_5K/mass_fraction"]["rms"] < 0.01
+    json.dumps(found, allow_nan=False)
+
+
+def fitted(session: Session, start: Mapping[str, float], ticked: list[str]) -> dict[str, float]:
+    sent: list[Mapping[str, Any]] = []
+    fit(session, State(start), ticked, sent.append)
+    assert "has ended" in sent[-1]["said"]
+    return {**start, **sent[-1]["values"]}
+
+
+def test_a_fit_ends_at_the_optimum_of_the_ticked_parameters(session: Session) -> None:
+    start = {**TRUTH, "k": 0.3, "eps": 0.7}
+    values = fitted(session, start, ["k", "eps"])
+    own = pf.fit(
+        session.study,
+        dict(session.measurements),
+        estimate=["k", "eps"],
+        fixed={n: v for n, v in TRUTH.items() if n not in ("k", "eps")},
+        profiles=False,
+        starts=1,
+    )
+    assert values["k"] == pytest.approx(own.values["k"], rel=1e-3)
+    assert values["eps"] == pytest.approx(own.values["eps"], rel=1e-3)
+    assert values["cp"] == TRUTH["cp"]
+
+
+def test_a_page_that_is_gone_ends_its_fit(session: Session) -> None:
+    calls = []
+
+    def gone(message: Mapping[str, Any]) -> None:
+        calls.append(message)
+        raise BrokenPipeError
+
+    with pytest.raises(BrokenPipeError):
+        fit(session, State(TRUTH), ["k"], gone)
+    assert len(calls) == 1
+
+
+def test_a_fit_needs_a_ticked_parameter(session: Session) -> None:
+    with pytest.raises(StudyError, match="no parameter is ticked"):
+        fit(session, State(TRUTH), [], lambda message: None)
+
+
+def test_a_saved_study_has_the_same_curves(session: Session, tmp_path: Path) -> None:
+    state = State({**TRUTH, "k": 0.25, **SPREAD}, ("flux_spread",))
+    ticked = ["k", "eps", "flux_spread_spread"]
+    study, values = save(session, state, ticked, "mine", tmp_path)
+    again = session_of(study, tmp_path, str(values), noise=False)
+    assert set(again.study.imp.estimate) == set(ticked)
+    assert again.study.kinetics is None or again.study.kinetics.estimate == ()
+    kept = again.sets[str(values)]
+    mine = drawn_curves(session, state)
+    saved = drawn_curves(again, State({n: kept[n] for n in ticked}))
+    for name, curve in mine.items():
+        np.testing.assert_allclose(saved[name], curve, rtol=1e-6, atol=1e-9)
+
+
+def test_a_saved_study_writes_over_nothing(session: Session, tmp_path: Path) -> None:
+    save(session, State(TRUTH), ["k"], "mine", tmp_path)
+    with pytest.raises(StudyError, match="there already"):
+        save(session, State(TRUTH), ["k"], "mine", tmp_path)
+    with pytest.raises(StudyError, match="letters, digits and _"):
+        save(session, State(TRUTH), ["k"], "../mine", tmp_path)
