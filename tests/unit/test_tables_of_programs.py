@@ -53,7 +53,11 @@ def test_count_above_rows_without_names_is_that_of_gpyro(tmp_path: Path) -> None
     table = read_table(path)
     assert any("Gpyro" in note for note in table.mended)
     np.testing.assert_allclose(np.transpose([*table.columns.values()]), np.c_[TIME, MASS])
-    assert list(table.columns) == ["column 1", "column 2"]
+    assert list(table.columns) == ["Time", "column 2"]
+    (found,) = draft.measured("tga", table.path).signals
+    assert found.columns == {"time": "Time", "value": "column 2"}
+    assert (found.guessed, found.missing) == (("value",), ("temperature",))
+    assert not draft.measured("gasification", table.path).signals[0].columns.get("value")
     other = written(tmp_path / "other.csv", f"{TIME.size + 1}\n", TIME, MASS)
     with pytest.raises(DataError, match="a row with their names must stand right above"):
         read_table(other)

@@ -150,7 +150,7 @@ def _located(path: Path, raw: Sequence[str], notes: list[str]) -> Layout | None:
         return None
     signals = signals_in(raw[:first])
     heading = signals or heading_above(lines, first, delimiter) or _of_count(lines, raw, first)
-    if heading and heading[0].cells[0] == "column 1":
+    if heading and heading[0].cells[1:2] == ["column 2"]:
         notes.append("no names of columns, but a count of rows, as Gpyro has")
         return Layout(delimiter, heading, first)
     if not heading:
@@ -166,13 +166,14 @@ def _located(path: Path, raw: Sequence[str], notes: list[str]) -> Layout | None:
 
 
 def _of_count(lines: Sequence[Line], raw: Sequence[str], first: int) -> tuple[Line, ...]:
-    """Return numbered columns where a count of the rows stands alone above them."""
+    """Return times and numbered columns where a count of the rows stands alone above them."""
     above = [line for line in lines[:first] if any(line.cells)]
     rows = sum(bool(text.strip()) for text in raw[first:])
     if len(above) != 1 or "".join(above[0].cells) != str(rows):
         return ()
     width = len(lines[first].cells)
-    return (Line(above[0].number, [f"column {i}" for i in range(1, width + 1)]),)
+    names = ["Time (s)", *(f"column {i}" for i in range(2, width + 1))]
+    return (Line(above[0].number, names),)
 
 
 def _first_run(lines: Sequence[Line]) -> tuple[int, int]:

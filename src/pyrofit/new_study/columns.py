@@ -28,8 +28,9 @@ _OWN = ("value", "uncertainty")
 """Roles that belong to one signal; the others are shared by all signals of a file."""
 _SMOOTHED, _LEAST_LEFT = 9, 0.5
 """Rows of the start, and the least fraction that a drying leaves."""
-_NAMELESS = ("value", "signal", "y")
-"""Headers of which the unit alone tells the quantity."""
+_NEAR_ONE = 0.1
+_NAMELESS = ("value", "signal", "y", "balance", "loadcell", "waage", "column2")
+"""Headers of which the unit alone tells the quantity, or one that begins at 1 without a unit."""
 
 
 @dataclass(frozen=True)
@@ -150,7 +151,7 @@ def _signals(
     for name in free:
         usual = [q.name for q in quantities if is_usual(name, q)]
         if not usual and stem_of(name) in _NAMELESS:
-            unit = table.units[name] or ""
+            unit = table.units[name] or _unit_one(table, name)
             usual = [q.name for q in quantities if kind_of(unit, q.scales)]
         owners = usual or [q.name for q in quantities if may_be(name, q)]
         if len(owners) == 1:
@@ -171,6 +172,13 @@ def _signals(
         other = f"may be {quantity.name} as well; name it in the study where it is needed"
         left |= {name: other for name in names if name not in chosen}
     return signals, left
+
+
+def _unit_one(table: Table, name: str) -> str:
+    """Return 1 for a column without a unit that starts near 1 and never exceeds it by much."""
+    values = table.columns[name][np.isfinite(table.columns[name])]
+    falls = values.size and abs(values[0] - 1.0) < _NEAR_ONE and values.max() < 1.0 + _NEAR_ONE
+    return "1" if falls and values.min() >= 0.0 else ""
 
 
 def _chosen(table: Table, names: Sequence[str], quantity: Quantity) -> list[str]:

@@ -26,7 +26,7 @@ _OF_SAMPLE = re.compile(
 )
 _WORDS = {
     "time": r"time.*|(elapsed|test)time|zeit",
-    "temperature": r"(sample|program|furnace)?temp.*|(proben|ofen)temp.*|ts",
+    "temperature": r"(sample|program|furnace)?temp.*|(proben|ofen)temp.*|ts|tsample",
 }
 
 
@@ -45,7 +45,7 @@ def is_abscissa(name: str, role: str) -> bool:
 
 def is_of_sample(name: str) -> bool:
     """Tell whether a header of a temperature names the sample's, and not that of the furnace."""
-    return bool(re.match(r"sample|probe|ts$", stem_of(name)))
+    return bool(re.match(r"sample|probe|ts$|t(emp(erature)?)?sample", stem_of(name)))
 
 
 def is_foreign(name: str) -> bool:

@@ -1,4 +1,4 @@
-"""Headers in French, German, Italian and Spanish, in the English words of a new study."""
+"""Headers in other languages, French and German first, in the English words of a new study."""
 
 import re
 import unicodedata
@@ -7,7 +7,7 @@ _SAMPLE = r"(de?l?a?)?(l?echantillon|muestra|campione|amostra|probe|proben?)"
 _MASS = r"(masse|masa|massa|poids|peso|gewicht)"
 _OF = r"(dela|del|de|du|des|di|da)?"
 _WORDS = (
-    (r"(temps|tempo|tiempo)(ecoule|total|deltest)?", "time"),
+    (r"(temps|tempo|tiempo)(ecoule|total|deltest)?|czas|tijd|时间|時間", "time"),
     (r"(versuchs|mess|lauf)?zeit", "time"),
     (rf"temperatur[ae]?{_SAMPLE}|probentemp(eratur)?", "sample temperature"),
     (rf"temperatur[ae]?{_OF}(four|horno|forno|ofen)|ofentemp(eratur)?", "furnace temperature"),
@@ -21,7 +21,7 @@ _WORDS = (
         r"|(proben?)?(oberflachen|vorderseiten)temp(eratur)?",
         "front temperature",
     ),
-    (r"temperatur[ae]?", "temperature"),
+    (r"temperatur[ae]?|温度", "temperature"),
     (
         rf"(vitesse|taux|debit|velocidad|tasa|velocita){_OF}(perte|perdida|perdita){_OF}{_MASS}"
         r"|mass(en?)?verlust(rate|geschwindigkeit)|mlr",
@@ -36,7 +36,10 @@ _WORDS = (
         rf"|mass(en?)?anteil|{_MASS}(relative?|relativ[ao]|normalisee?)|rel(ative)?masse",
         "mass fraction",
     ),
-    (rf"(rest|proben)?{_MASS}({_SAMPLE}|residuelle|restante|residu[ao]l?)?", "mass"),
+    (
+        rf"(rest|proben|abs)?{_MASS}({_SAMPLE}|residuelle|restante|residu[ao]l?)?|质量|重量|質量",
+        "mass",
+    ),
     (
         rf"(debit|puissance|taux){_OF}(calorifique|chaleur|degage(e|ment)?|degagementdechaleur)"
         r"|(warme|energie)freisetzungs?rate|tasadeliberaciondecalor|potenzatermica|rhr",

@@ -1,0 +1,90 @@
+"""What a program of an instrument writes is read right, or asked for; never wrong in silence."""
+
+from collections.abc import Iterator
+from pathlib import Path
+
+import numpy as np
+import pytest
+from headers_of_instruments import EXPORTS, Export
+
+from pyrofit.experiments import measurable
+from pyrofit.new_study.draft import Measured, divisor_of, is_told, measured
+
+KELVIN = np.arange(300.0, 900.0, 10.0)
+TIME = 6.0 * (KELVIN - 300.0)
+LEFT = 1.0 - 0.85 / (1.0 + np.exp(-(KELVIN - 640.0) / 12.0))
+PEAK = np.exp(-(((TIME - 1200.0) / 300.0) ** 2)) + 0.01
+
+ABSCISSAE = {
+    "time": {"s": TIME, "min": TIME / 60.0, "h": TIME / 3600.0, "ms": 1e3 * TIME},
+    "temperature": {"C": KELVIN - 273.15, "K": KELVIN, "F": 1.8 * KELVIN - 459.67},
+}
+VALUES = {
+    "mass_fraction": {"mg": 6.0 * LEFT, "ug": 6e3 * LEFT, "g": LEFT, "%": 100.0 * LEFT, "1": LEFT},
+    "mass": {"g": LEFT, "kg/m2": 0.1 * LEFT},
+    "heat_flow": {"W/g": PEAK, "-W/g": -PEAK},
+    "specific_heat_release_rate": {"W/g": PEAK},
+    "heat_release_rate": {"kW/m2": 300.0 * PEAK},
+    "mlr": {"g/m2/s": 10.0 * PEAK, "g/s": 0.1 * PEAK, "mg/cm2/min": 60.0 * PEAK},
+    "back_temperature": {"K": KELVIN},
+}
+TRUTH = {
+    "mass_fraction": LEFT,
+    "mass": 0.1 * LEFT,
+    "heat_flow": 1e3 * PEAK,
+    "specific_heat_release_rate": 1e3 * PEAK,
+    "heat_release_rate": 3e5 * PEAK,
+    "mlr": 0.01 * PEAK,
+    "back_temperature": KELVIN,
+}
+OTHERS = {
+    "x": np.arange(1.0, 1.0 + TIME.size),
+    "one": np.ones(TIME.size),
+    "zero": np.zeros(TIME.size),
+    "flow": np.full(TIME.size, 50.0),
+    "Cf": KELVIN - 268.15,
+}
+COLUMNS = {
+    name: values
+    for names in (*ABSCISSAE.values(), *VALUES.values(), OTHERS)
+    for name, values in names.items()
+}
+
+
+def read(export: Export, folder: Path) -> Measured:
+    """Return the record of a file as the program writes it."""
+    columns = [COLUMNS[name] for name in export.columns.split()]
+    rows = (
+        export.separator.join(f"{x:.7f}".replace(".", export.decimal) for x in row)
+        for row in zip(*columns, strict=True)
+    )
+    (folder / "a.csv").write_text("\n".join([export.above, *rows]) + "\n", encoding="utf-8")
+    return measured(export.kind, folder / "a.csv")
+
+
+def asked(run: Measured) -> Iterator[str]:
+    """Yield what the study marks with CHANGE."""
+    if run.timeless and run.told not in ("record", "file"):
+        yield "heating rate"
+    for found in run.signals:
+        yield from (*found.missing, *found.guessed, *found.unread)
+        if (divisor := divisor_of(found)) is not None and not is_told(found, divisor[0]):
+            yield divisor[0]
+
+
+@pytest.mark.parametrize("export", EXPORTS, ids=lambda export: export.program)
+def test_what_is_read_is_right_and_the_rest_is_asked_for(export: Export, tmp_path: Path) -> None:
+    run = read(export, tmp_path)
+    assert set(asked(run)) == set(export.asked)
+    codes = set(export.columns.split())
+    there = {name for name in measurable(export.kind) if codes & VALUES.get(name, {}).keys()}
+    assert not there - {found.quantity for found in run.signals}
+    for found in run.signals:
+        frame = run.frames.get(found.quantity)
+        if frame is None:
+            assert {*found.missing, *found.unread} & set(export.asked)
+            continue
+        np.testing.assert_allclose(frame["time_s"], TIME, atol=1e-3)
+        np.testing.assert_allclose(frame.iloc[:, -1], TRUTH[found.quantity], atol=1e-4)
+        if found.of.against_temperature:
+            np.testing.assert_allclose(frame["temperature_K"], KELVIN, atol=1e-3)
