@@ -4,6 +4,7 @@ import stat
 from difflib import get_close_matches
 from pathlib import Path
 
+from pyrofit.data.spreadsheet import is_spreadsheet, text_of_spreadsheet
 from pyrofit.errors import DataError, suggest
 
 LARGEST_BYTES = 500_000_000
@@ -20,7 +21,7 @@ _BINARY = {
     b"%PDF": "a PDF",
 }
 _PROGRAMS = {
-    ".ngb": "export its data from NETZSCH Proteus as CSV or text",
+    ".ngb": "export its data from NETZSCH Proteus as CSV or text, or convert it by `pyngb`",
     ".tri": "export its data from TA TRIOS as CSV or text",
 }
 """Ways out by the first letters of an ending."""
@@ -29,7 +30,7 @@ _PROBED_BYTES = 4000
 
 
 def read_text(path: Path, notes: list[str]) -> str:
-    """Return the text of a file; note an encoding that is not UTF-8.
+    """Return the text of a file, or that of a spreadsheet; note an encoding that is not UTF-8.
 
     A byte-order mark tells the encoding. Without one it is UTF-16 where every other byte is zero,
     else UTF-8, else Windows-1252, which holds Latin-1.
@@ -59,6 +60,8 @@ def read_text(path: Path, notes: list[str]) -> str:
         ) from None
     except ValueError:
         raise DataError(f"{str(path)!r}: this is no name of a file; correct it.") from None
+    if is_spreadsheet(path, data):
+        return text_of_spreadsheet(path, data, notes)
     return _decoded(path, data, notes)
 
 

@@ -9,6 +9,8 @@ from tempfile import TemporaryDirectory
 from jinja2 import Environment, PackageLoader, StrictUndefined
 from jinja2.loaders import ChoiceLoader
 
+from pyrofit.data.spreadsheet import is_spreadsheet
+from pyrofit.data.text_file import read_text
 from pyrofit.errors import DataError, StudyError
 from pyrofit.experiments import OF_FILES, files_of
 from pyrofit.experiments.base import Stage
@@ -304,7 +306,9 @@ def _check(name: str, folder: Path, files: Files) -> None:
 
 
 def _content(path: Path) -> bytes:
+    """Return a file as it is; a spreadsheet as text, for which a study needs no package."""
     try:
-        return path.read_bytes()
+        data = path.read_bytes()
+        return read_text(path, []).encode() if is_spreadsheet(path, data) else data
     except OSError as error:
         raise DataError(f"{path}: cannot be read ({error.strerror}); check it") from None
