@@ -257,6 +257,25 @@ def test_files_of_instruments_are_named_with_a_way_out(tmp_path: Path) -> None:
     (tmp_path / "c.ngb-ss3").write_bytes(b"PK\x03\x04rest")
     files = examine_folder(tmp_path)
     said = {seen.path.name: f.text for seen in files for f in seen.findings}
-    assert "export the table as CSV" in said["b.xlsx"]
+    assert "save the sheet with the table as CSV" in said["b.xlsx"]
     assert "NETZSCH Proteus" in said["c.ngb-ss3"]
     assert summary(files)[0].startswith("1 of 3 files classified")
+
+
+def test_form_lists_all_and_its_status_tells_faults(
+    tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    good = tga(tmp_path / "data" / "A_TGA_N2_10K_R1.csv")
+    form = tmp_path / "form.md"
+    (good.parent / "README.md").write_text("| Test | Mass (mg) |\n|-|-|\n| A_TGA_N2_10K_R1 | 5 |\n")
+    assert main(["data", "doctor", str(good.parent), "--form", str(form)]) == 0
+    text = form.read_text()
+    assert "- [x] Each file is a table of a known kind." in text
+    assert "| `A_TGA_N2_10K_R1.csv` | tga | N2, 10 K/min | mass fraction [mg] |" in text
+    assert "## Faults" not in text
+    cone(good.parent / "A_TGA_N2_20K_R1.csv", unit="kW/m2")
+    assert main(["data", "doctor", str(good.parent), "--form", str(form)]) == 2
+    assert "none. Correct the files" in capsys.readouterr().err
+    text = form.read_text()
+    assert "- [ ] No file has a fault. Not so: 1, the first is A_TGA_N2_20K_R1.csv." in text
+    assert "| `A_TGA_N2_20K_R1.csv` |  | kind |" in text

@@ -25,6 +25,13 @@ def add(commands: Any) -> None:
     doctor.add_argument(
         "--json", type=Path, metavar="FILE", help="write the report as JSON as well"
     )
+    doctor.add_argument(
+        "--form",
+        type=Path,
+        metavar="FILE",
+        help="write a form for a contribution to a data base, in Markdown; exit with 2 if a file "
+        "has a fault or is not classified",
+    )
     doctor.add_argument("--notes", action="store_true", help="list placeholders and the like too")
     doctor.add_argument("--short", action="store_true", help="print the counts alone")
     doctor.set_defaults(step=_doctor)
@@ -104,6 +111,7 @@ def _where(given: argparse.Namespace) -> None:
 def _doctor(given: argparse.Namespace) -> None:
     import json
 
+    from pyrofit.doctor.form import check_form, form_of
     from pyrofit.doctor.report import as_json, examine_folder, lines_of, summary
 
     files = examine_folder(given.folder)
@@ -113,6 +121,10 @@ def _doctor(given: argparse.Namespace) -> None:
     if given.json is not None:
         text = json.dumps(as_json(files, given.folder), indent=1, ensure_ascii=False)
         given.json.write_text(text + "\n", encoding="utf-8")
+    if given.form is not None:
+        given.form.write_text(form_of(files, given.folder), encoding="utf-8")
+        print(f"form written to {given.form}")
+        check_form(files, given.form)
 
 
 def _look(given: argparse.Namespace) -> None:
