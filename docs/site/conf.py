@@ -29,6 +29,7 @@ include_patterns = [
     "*.md",
     "docs/*.md",
     "docs/verification/*.md",
+    "docs/verification/figures/*.md",
     "docs/notebooks/*.ipynb",
     "docs/site/api.md",
     "config/README.md",

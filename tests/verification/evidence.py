@@ -104,7 +104,7 @@ class Case:
 
     @property
     def slug(self) -> str:
-        words = f"{self.title} {_short(self.source)}".lower()
+        words = f"{self.title} {short(self.source)}".lower()
         return re.sub(r"[^a-z0-9]+", "-", words).strip("-")
 
 
@@ -137,7 +137,7 @@ class Evidence:
             shown(tolerance, measure.unit),
             shown(measured, measure.unit),
             note,
-            Picture(x, y, lines, _short(source)),
+            Picture(x, y, lines, short(source)),
         )
         self.keep(case)
         assert measured <= tolerance, f"{title}: {case.measured}, above {case.tolerance}"
@@ -181,7 +181,7 @@ class Evidence:
             f"{order:.2g} ± {tolerance:.2g}",
             f"{worst:.2f}",
             note,
-            Picture(size, error, pairs, _short(source), order),
+            Picture(size, error, pairs, short(source), order),
         )
         self.keep(case)
         assert abs(worst - order) <= tolerance, f"{title}: {worst}"
@@ -207,12 +207,12 @@ class Evidence:
             f"{DIFFERENT} {shown(low, measure.unit)} to {shown(high, measure.unit)}",
             shown(measured, measure.unit),
             why,
-            Picture(x, y, {"": line}, _short(source)),
+            Picture(x, y, {"": line}, short(source)),
         )
         self.keep(case)
         assert low <= measured <= high, f"{title}: {case.measured}, not {case.tolerance}"
 
 
-def _short(source: str) -> str:
+def short(source: str) -> str:
     """The words of a source before its details: the name in a legend."""
     return re.split(r"[:;,(]", source, maxsplit=1)[0].strip()

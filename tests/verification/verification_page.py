@@ -1,12 +1,13 @@
-"""The verification page: rows of cases, their figures, and what a written page lists."""
+"""The verification page, the table of its cases, and the page of their figures."""
 
-import re
+import csv
+import io
 from collections.abc import Mapping
 from dataclasses import dataclass, field
 from pathlib import Path
 
 from drawing import png
-from evidence import Case
+from evidence import Case, short
 
 HOME = Path(__file__).parents[2] / "docs" / "verification"
 ORDER = (
@@ -26,29 +27,32 @@ ORDER = (
     "test_cost_fds",
 )
 """Modules as the page lists them; others follow."""
-HEAD = "| case | compared with | error measure | tolerance | measured | figure |"
-ROW = re.compile(
-    r"^\| (?P<case>[^|]+) \| (?P<source>[^|]+) \| [^|]+ \| (?P<tolerance>[^|]+) \| [^|]+ \|"
-)
+COLUMNS = ("section", "case", "compared with", "error measure", "tolerance", "measured", "note")
 INTRODUCTION = """# Verification
 
-Does pyrofit solve the equations it says it solves? This page answers case by case. Every row is
-one comparison: with an exact solution, with an independent program (FDS 6.7.4, Gpyro 0.82), with
-pyrofit's own solution on a much finer grid, or of a balance that has to close. *Measured* is how
-far apart the two are, *tolerance* what the tests allow; a test fails when the measured value is
-above it. Rows that say *different by* are not agreements: there the other program solves another
-equation, the text says which, and the test holds the size of the difference.
+Does pyrofit solve the equations that it states? The tests in `tests/verification` compare it with
+exact solutions, with FDS 6.7.4 and Gpyro 0.82, with its own solution on a much finer grid, and
+check that balances close. A test fails where the error exceeds its tolerance. Whether the
+equations describe a material is another question, which measurements answer.
 
-What is verified here is the solution of the equations. Whether they describe a material is
-another question, which measurements answer.
+[cases.csv](cases.csv) holds every comparison: its error measure, its tolerance, and the measured
+error. Rows with the tolerance *different by* are known differences. There the other program
+solves another equation, and the test holds the size of the difference.
 
-The page is written by the tests themselves (`tests/verification`), so that its numbers are those
-the tests measured. To write it again:
+The tests write this page and the table. They draw the figures into `docs/verification/figures`:
 
     make verification
 
-Of the published FDS curves and the measured files it needs the MaCFP data base, in the folder
-that `PYROFIT_DATA_DIR` names; without it those sections are left out.
+Published FDS curves and measured files need the MaCFP data base in the folder `PYROFIT_DATA_DIR`.
+"""
+FIGURES = """---
+orphan: true
+---
+
+# Figures of the verification
+
+Above, pyrofit (thin, dashed) over the other curve (thick grey, or points); below, pyrofit less the
+other. [Verification](../README.md) lists the sections.
 """
 
 
@@ -64,7 +68,6 @@ class Collected:
     def keep(self, case: Case) -> None:
         slugs = {other.slug for other in self.cases}
         assert case.slug not in slugs, f"two cases are called '{case.title}'"
-        assert "|" not in case.title + case.source, f"'{case.title}' breaks the table"
         self.cases.append(case)
 
 
@@ -74,75 +77,82 @@ def rank(section: str) -> tuple[int, str]:
 
 
 def write(folder: Path, cases: list[Case], texts: Mapping[str, str], left_out: list[str]) -> None:
-    """Write README.md and the figures of the cases, and delete figures of no case."""
-    folder.mkdir(parents=True, exist_ok=True)
-    drawn = {f"{case.slug}.png": case for case in cases if case.picture}
-    for old in folder.glob("*.png"):
-        if old.name not in drawn:
-            old.unlink()
-    for name, case in drawn.items():
-        (folder / name).write_bytes(png(case))
+    """Write page and table, and anew the page of the figures in a folder of its own."""
+    figures = folder / "figures"
+    figures.mkdir(parents=True, exist_ok=True)
+    for old in figures.glob("*.png"):
+        old.unlink()
+    for case in cases:
+        if case.picture:
+            (figures / f"{case.slug}.png").write_bytes(png(case))
+    (figures / "README.md").write_text(_figures(cases, texts), encoding="utf-8")
     (folder / "README.md").write_text(text(cases, texts, left_out), encoding="utf-8")
+    (folder / "cases.csv").write_text(table(cases, texts), encoding="utf-8")
 
 
 def text(cases: list[Case], texts: Mapping[str, str], left_out: list[str]) -> str:
     """The page; ``texts`` holds the docstring of each module: its title, then its prose."""
-    order = sorted({case.section for case in cases}, key=rank)
-    counted = sum(not case.known_difference for case in cases)
-    parts = [INTRODUCTION, f"{counted} comparisons, {len(cases) - counted} known differences.\n"]
+    differences = sum(case.known_difference for case in cases)
+    counted = len(cases) - differences
+    parts = [INTRODUCTION, f"{counted} comparisons, {differences} known differences.\n"]
     if left_out:
         names = ", ".join(_title(texts[name]) for name in left_out)
         parts.append(f"Left out, because their files were not here: {names}.\n")
-    for section in order:
+    for section, own in _by_section(cases).items():
         parts.append(f"## {_title(texts[section])}\n")
         parts.extend(f"{prose}\n" for prose in texts[section].split("\n\n")[1:])
-        rows = [_row(case) for case in cases if case.section == section]
-        parts.append("\n".join([HEAD, "|---" * 6 + "|", *rows]) + "\n")
-    parts.append("## Figures\n")
-    parts.append(
-        "Above, pyrofit (thin, dashed) over the other curve (thick grey, or points); below, "
-        "pyrofit less the other.\n"
-    )
-    for section in order:
-        drawn = [case for case in cases if case.section == section and case.picture]
-        if drawn:
-            parts.append(f"### {_title(texts[section])}\n")
-            parts.extend(_figure(case) for case in drawn)
+        sources = dict.fromkeys(short(case.source) for case in own)
+        parts.append(f"Cases: {len(own)}. Compared with: {', '.join(sources)}.\n")
     return "\n".join(parts)
 
 
-def listed(page: str) -> set[tuple[str, str, str, str]]:
-    """Section, case, source and tolerance of every row of a page."""
-    rows, section = set(), ""
-    for line in page.splitlines():
-        if line.startswith("## "):
-            section = line[3:]
-        found = ROW.match(line)
-        if found and found["case"] not in ("case", "---"):
-            rows.add((section, found["case"], found["source"], found["tolerance"]))
-    return rows
+def table(cases: list[Case], texts: Mapping[str, str]) -> str:
+    """The table of all cases, as CSV."""
+    lines = io.StringIO()
+    writer = csv.writer(lines, lineterminator="\n")
+    writer.writerow(COLUMNS)
+    for own in _by_section(cases).values():
+        writer.writerows(
+            [*key(c, texts)[:3], c.measure, c.tolerance, c.measured, c.note] for c in own
+        )
+    return lines.getvalue()
 
 
-def key(case: Case, texts: Mapping[str, str]) -> tuple[str, str, str, str]:
+def listed(table: str) -> set[tuple[str, ...]]:
+    """Section, case, source and tolerance of every row of a table."""
+    wanted = ("section", "case", "compared with", "tolerance")
+    return {tuple(row[name] for name in wanted) for row in csv.DictReader(io.StringIO(table))}
+
+
+def key(case: Case, texts: Mapping[str, str]) -> tuple[str, ...]:
     """The same of a case."""
     return _title(texts[case.section]), case.title, case.source, case.tolerance
+
+
+def _by_section(cases: list[Case]) -> dict[str, list[Case]]:
+    order = sorted({case.section for case in cases}, key=rank)
+    return {section: [case for case in cases if case.section == section] for section in order}
 
 
 def _title(docstring: str) -> str:
     return " ".join(docstring.split("\n\n")[0].split()).rstrip(".")
 
 
-def _row(case: Case) -> str:
-    link = f"[figure](#{case.slug})" if case.picture else ""
-    cells = (case.title, case.source, case.measure, case.tolerance, case.measured, link)
-    return "| " + " | ".join(cells) + " |"
+def _figures(cases: list[Case], texts: Mapping[str, str]) -> str:
+    parts = [FIGURES]
+    for section, own in _by_section(cases).items():
+        drawn = [case for case in own if case.picture]
+        if drawn:
+            parts.append(f"## {_title(texts[section])}\n")
+            parts.extend(_figure(case) for case in drawn)
+    return "\n".join(parts)
 
 
 def _figure(case: Case) -> str:
     note = f" {case.note}" if case.note else ""
     allowed = "expected to be" if case.known_difference else "tolerance"
     return (
-        f'<a id="{case.slug}"></a>\n\n![{case.title}]({case.slug}.png)\n\n'
+        f"![{case.title}]({case.slug}.png)\n\n"
         f"**{case.title}.** {case.source}. {case.measure[0].upper()}{case.measure[1:]} "
         f"{case.measured}, {allowed} {case.tolerance}.{note}\n"
     )
