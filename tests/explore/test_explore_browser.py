@@ -1,21 +1,43 @@
 """The page of the explorer in a real browser."""
 
+import json
+import threading
 from collections.abc import Iterator
+from http.server import BaseHTTPRequestHandler, HTTPServer
 from pathlib import Path
 
+import numpy as np
 import pytest
 from browser import Browser, lacking, until
 
+import pyrofit as pf
+from pyrofit.cli import main
+from pyrofit.explore.describe import in_shown_units
 from pyrofit.explore.run import Explorer
 from pyrofit.explore.server import in_background
+from pyrofit.explore.session import Session, State
+from pyrofit.explore.static import write_static
 
 pytestmark = pytest.mark.skipif(bool(lacking()), reason=f"not here: {lacking()}")
-SMOKE = Path(__file__).parents[2] / "config" / "smoke.yaml"
+ROOT = Path(__file__).parents[2]
+SMOKE = ROOT / "config" / "smoke.yaml"
+SLAB, TGA = "slab_25/mlr", "tga_5K/mass_fraction"
+MOVE = """
+const slider = document.querySelector(`#row-${arguments[0]} input[type=range]`);
+const n = page.delays.length;
+slider.value = 1000 * arguments[1];
+slider.dispatchEvent(new Event("input"));
+slider.dispatchEvent(new Event("change"));
+return new Promise(done => {
+    const look = () => page.delays.length > n && !busy ? done(true) : setTimeout(look, 5);
+    look();
+});
+"""
 
 
 @pytest.fixture(scope="module")
-def explorer() -> Iterator[Explorer]:
-    made = Explorer(SMOKE, Path("no results"))
+def explorer(tmp_path_factory: pytest.TempPathFactory) -> Iterator[Explorer]:
+    made = Explorer(SMOKE, tmp_path_factory.mktemp("results"))
     in_background(made.server)
     yield made
     made.close()
@@ -36,29 +58,235 @@ def opened(browser: Browser, address: str) -> None:
 
 
 def curve(browser: Browser, signal: str) -> list[float]:
-    return browser.run("return [...page.plots[arguments[0]].first]", signal)
+    found: list[float] = browser.run("return [...page.plots[arguments[0]].first]", signal)
+    return found
 
 
-def moved(browser: Browser, name: str, share: float) -> None:
-    """Move a slider, and wait for the curves."""
-    script = """
-    const slider = document.querySelector(`#row-${arguments[0]} input[type=range]`);
-    const n = page.delays.length;
-    slider.value = 1000 * arguments[1];
-    slider.dispatchEvent(new Event("input"));
-    slider.dispatchEvent(new Event("change"));
-    return new Promise(done => {
-        const look = () => page.delays.length > n && !busy ? done(true) : setTimeout(look, 5);
-        look();
-    });
-    """
-    browser.run(script, name, share)
+def error(browser: Browser) -> str:
+    return str(browser.run("return byId('error').hidden ? '' : byId('error').textContent"))
 
 
-def test_a_slider_moves_the_curves(browser: Browser, explorer: Explorer) -> None:
+def settled(browser: Browser) -> None:
+    until(lambda: browser.run("return !busy && !fitting"), "the curves")
+
+
+def test_a_slider_moves_the_curves_and_undo_moves_them_back(
+    browser: Browser, explorer: Explorer
+) -> None:
     opened(browser, explorer.address)
-    assert browser.run("return byId('error').textContent") == ""
-    before = {s: curve(browser, s) for s in ("tga_5K/mass_fraction", "slab_25/mlr")}
-    moved(browser, "dh", 0.9)
-    assert curve(browser, "tga_5K/mass_fraction") == before["tga_5K/mass_fraction"]
-    assert curve(browser, "slab_25/mlr") != before["slab_25/mlr"]
+    assert error(browser) == ""
+    before = {s: curve(browser, s) for s in (TGA, SLAB)}
+    browser.run(MOVE, "dh", 0.9)
+    assert curve(browser, TGA) == before[TGA]
+    assert curve(browser, SLAB) != before[SLAB]
+    browser.click("#undo")
+    settled(browser)
+    assert curve(browser, SLAB) == before[SLAB]
+
+
+def test_page_asks_no_other_host(browser: Browser, explorer: Explorer) -> None:
+    opened(browser, explorer.address)
+    names = browser.run("return performance.getEntriesByType('resource').map(e => e.name)")
+    assert names
+    assert {name.rsplit("/", 1)[0] for name in names} == {explorer.server.origin}
+
+
+def test_an_effect_is_a_switch_with_a_strength(browser: Browser, explorer: Explorer) -> None:
+    opened(browser, explorer.address)
+    before = curve(browser, SLAB)
+    browser.run("document.querySelector('#compare').value = 'keep'; compare('keep')")
+    browser.click("#effect-flux_spread input")
+    settled(browser)
+    spread = curve(browser, SLAB)
+    assert spread != before
+    assert browser.run(f"return [...page.plots['{SLAB}'].second]") == before
+    browser.run(MOVE, "flux_spread_spread", 0.0)
+    assert curve(browser, SLAB) == before
+    assert error(browser) == ""
+
+
+def test_a_link_restores_the_state(browser: Browser, explorer: Explorer) -> None:
+    opened(browser, explorer.address)
+    browser.run(MOVE, "k", 0.8)
+    browser.click("#effect-flux_spread input")
+    settled(browser)
+    there, link = curve(browser, SLAB), browser.run("return location.href")
+    opened(browser, link)
+    settled(browser)
+    assert curve(browser, SLAB) == there
+
+
+def test_fit_save_and_the_saved_study_has_the_same_curves(
+    browser: Browser, explorer: Explorer, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.chdir(tmp_path)
+    opened(browser, explorer.address)
+    browser.run("start('truth')")
+    browser.run(MOVE, "k", 0.7)
+    browser.click("#fit")
+    done = "return byId('message').textContent.startsWith('The fit has ended')"
+    until(lambda: browser.run(done), "the fit", 200.0)
+    settled(browser)
+    fitted = browser.run("return page.values")
+    assert fitted["k"] == pytest.approx(0.2, abs=0.03)
+    mine = {s: curve(browser, s) for s in (TGA, SLAB, "slab_60/mlr")}
+    browser.click("#save")
+    until(lambda: (tmp_path / "smoke_explored.json").exists(), "the files")
+    until(lambda: "pyrofit run" in browser.run("return byId('message').textContent"), "words")
+    study = pf.read_study("smoke_explored.yaml")
+    values = json.loads((tmp_path / "smoke_explored.json").read_text())["values_SI"]
+    assert values["dh"] == pytest.approx(1e3 * fitted["dh"])
+    again = Explorer(tmp_path / "smoke_explored.yaml", None, "smoke_explored.json")
+    in_background(again.server)
+    try:
+        opened(browser, again.address)
+        browser.run("start('smoke_explored.json')")
+        settled(browser)
+        for signal, own in mine.items():
+            assert curve(browser, signal) == own
+    finally:
+        again.close()
+    # The estimates of a run of the saved study describe the fitted signals with the same curves.
+    run = ["run", "smoke_explored.yaml", "--cores", "1"]
+    assert main(run) == 0
+    estimates = pf.read_results("results/smoke_explored").values
+    found = pf.simulate(study, estimates)
+    scored = pf.simulate(study, {n: fitted[n] for n in study.parameters})
+    for key in (("slab_25", "mlr"), ("tga_5K", "mass_fraction")):
+        column = study.experiments[key[0]].quantity(key[1]).column
+        y, f = found[key][column].to_numpy(), scored[key][column].to_numpy()
+        assert np.sqrt(np.mean((y - f) ** 2)) < 0.02 * np.ptp(f)
+
+
+def test_a_fit_can_be_cancelled(browser: Browser, explorer: Explorer) -> None:
+    opened(browser, explorer.address)
+    browser.run("fit(); byId('cancel').click();")
+    cancelled = "return byId('message').textContent.startsWith('The fit was cancelled')"
+    until(lambda: browser.run(cancelled), "the end of the fit")
+    assert not browser.run("return byId('fit').disabled")
+    browser.run(MOVE, "k", 0.6)
+    assert error(browser) == ""
+
+
+def test_a_broken_study_shows_its_error_until_it_is_corrected(
+    browser: Browser, tmp_path: Path
+) -> None:
+    good = SMOKE.read_text(encoding="utf-8")
+    path = tmp_path / "broken.yaml"
+    path.write_text(good.replace("conductivity_W_mK: k,", "conductivity_W_mK: kk,"), "utf-8")
+    made = Explorer(path, tmp_path)
+    in_background(made.server)
+    try:
+        opened(browser, made.address)
+        assert "unknown parameter 'kk'" in error(browser)
+        assert "broken.yaml" in error(browser)
+        path.write_text(good, encoding="utf-8")
+        opened(browser, made.address)
+        assert error(browser) == ""
+        assert len(curve(browser, SLAB)) > 100
+    finally:
+        made.close()
+
+
+def test_two_pages_at_once_do_not_disturb_each_other(browser: Browser, explorer: Explorer) -> None:
+    other = Browser()
+    try:
+        opened(browser, explorer.address)
+        opened(other, explorer.address)
+        browser.run(MOVE, "dh", 0.2)
+        mine = curve(browser, SLAB)
+        other.run(MOVE, "dh", 0.8)
+        browser.run(MOVE, "eps", 0.5)
+        assert curve(other, SLAB) != mine
+        browser.run(MOVE, "dh", 0.8)
+        other.run(MOVE, "eps", 0.5)
+        assert curve(other, SLAB) == curve(browser, SLAB)
+    finally:
+        other.close()
+    browser.run(MOVE, "dh", 0.3)
+    assert error(browser) == ""
+
+
+def test_a_failing_simulation_is_told_and_the_page_goes_on(
+    browser: Browser, explorer: Explorer
+) -> None:
+    opened(browser, explorer.address)
+    browser.run("page.values.k = -1; refresh()")
+    until(lambda: "'k': -1" in error(browser), "the error")
+    browser.run(MOVE, "k", 0.5)
+    assert error(browser) == ""
+
+
+def test_ten_thousand_slider_events_end_at_the_last_value(
+    browser: Browser, explorer: Explorer
+) -> None:
+    opened(browser, explorer.address)
+    count = browser.run(
+        """
+        const slider = document.querySelector("#row-dh input[type=range]");
+        const n = page.delays.length;
+        return new Promise(done => {
+            let i = 0;
+            const look = () => busy ? setTimeout(look, 5) : done(page.delays.length - n);
+            const burst = () => {
+                for (let j = 0; j < 100; j++, i++) {
+                    slider.value = i % 1000;
+                    slider.dispatchEvent(new Event("input"));
+                }
+                if (i < 10000) setTimeout(burst, 1);
+                else look();
+            };
+            burst();
+        });
+        """
+    )
+    assert 1 < count < 10_000
+    end = curve(browser, SLAB)
+    browser.run(MOVE, "dh", 0.1)
+    browser.run(MOVE, "dh", 0.999)
+    assert curve(browser, SLAB) == end
+
+
+def test_the_page_of_another_origin_cannot_use_it(browser: Browser, explorer: Explorer) -> None:
+    class Other(BaseHTTPRequestHandler):
+        def do_GET(self) -> None:
+            self.send_response(200)
+            self.end_headers()
+            self.wfile.write(b"<title>other</title>")
+
+        def log_message(self, format: str, *args: object) -> None:
+            pass
+
+    site = HTTPServer(("127.0.0.1", 0), Other)
+    threading.Thread(target=site.serve_forever, daemon=True).start()
+    try:
+        browser.open(f"http://127.0.0.1:{site.server_port}/")
+        script = """
+        const [address, token, mode] = arguments, headers = token ? {"X-Token": token} : {};
+        return fetch(address, {method: "POST", body: "{}", headers, mode})
+            .then(r => r.type == "opaque" ? "opaque" : "answered " + r.status, e => "refused");
+        """
+        address = f"{explorer.server.origin}/describe"
+        assert browser.run(script, address, explorer.server.token, "cors") == "refused"
+        assert browser.run(script, address, "", "cors") == "refused"
+        assert browser.run(script, address, "", "no-cors") == "opaque"  # 403, unread
+    finally:
+        site.shutdown()
+        site.server_close()
+
+
+def test_a_page_without_a_server_follows_its_sliders(
+    browser: Browser, session: Session, tmp_path: Path
+) -> None:
+    path = tmp_path / "page.html"
+    write_static(session, ["dh", "k"], "truth", path)
+    opened(browser, path.as_uri())
+    assert error(browser) == ""
+    browser.run(MOVE, "dh", 0.43)
+    of_page = np.array(curve(browser, SLAB))
+    values = {**session.sets["truth"], **browser.run("return page.values")}
+    signals = [s["id"] for s in session.description()["signals"]]
+    model, simulated = session.simulate(State(values))
+    i = signals.index(SLAB)
+    own = in_shown_units(model, i, simulated.models[i])
+    assert np.sqrt(np.mean((of_page - own) ** 2)) < 0.02 * np.ptp(own)

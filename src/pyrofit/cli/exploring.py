@@ -23,12 +23,34 @@ def add(commands: Any) -> None:
     command.add_argument(
         "--no-browser", action="store_true", help="print the address, open no browser"
     )
+    command.add_argument(
+        "--static", type=Path, metavar="FILE", help="write a page that needs no server instead"
+    )
+    command.add_argument(
+        "--sliders",
+        nargs="+",
+        default=[],
+        metavar="NAME",
+        help="with --static: one or two parameters; default: the two that move the signals most",
+    )
     command.set_defaults(step=_explore)
+
+
+def _write(given: argparse.Namespace) -> None:
+    from pyrofit.explore.session import session_of
+    from pyrofit.explore.static import write_static
+
+    session = session_of(given.study, given.results, given.set, noise=False)
+    write_static(session, given.sliders, given.set, given.static)
+    print(given.static)
 
 
 def _explore(given: argparse.Namespace) -> None:
     import webbrowser
 
+    if given.static is not None:
+        _write(given)
+        return
     from pyrofit.explore.run import Explorer
 
     explorer = Explorer(given.study, given.results, given.set, given.port)

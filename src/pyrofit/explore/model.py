@@ -15,7 +15,7 @@ from pyrofit.estimate.pose import of_diagnosis, pose
 from pyrofit.estimate.problem import Problem
 from pyrofit.estimate.targets import Measurements
 from pyrofit.model.parameters import Parameter
-from pyrofit.solver.arrays import FloatArray
+from pyrofit.solver.arrays import FloatArray, Values
 from pyrofit.solver.curves import Curves
 
 
@@ -66,9 +66,15 @@ class Model:
     costs: Mapping[str, range]
 
     def simulate(self, values: Mapping[str, float]) -> Simulated:
-        """Return all curves for SI values of all parameters."""
-        found = self.problem.simulated({**self.problem.fixed, **values}, 1)
-        runs = {name: curves[0] for name, curves in found.items()}
+        """Return all curves for SI values of parameters; others have those of the study."""
+        return self.simulate_all(values, 1)[0]
+
+    def simulate_all(self, values: Values, sets: int) -> list[Simulated]:
+        """Return the same of several sets; a value is a number or has the shape (sets,)."""
+        found = self.problem.simulated({**self.problem.fixed, **values}, sets)
+        return [self._picked({n: curves[i] for n, curves in found.items()}) for i in range(sets)]
+
+    def _picked(self, runs: Mapping[str, Curves]) -> Simulated:
         models = [
             runs[name].signals[signal][index]
             if runs[name].status.finished

@@ -269,7 +269,11 @@ function build() {
   document.title = `${study.name} – pyrofit explore`;
   const side = byId("side"), head = byId("head");
   add(side, "h1", { textContent: study.title });
-  if (study.note) add(side, "p", { textContent: study.note });
+  for (const [heading, text] of study.notes || []) {
+    const held = add(side, "details");
+    add(held, "summary", { textContent: heading });
+    add(held, "p", { textContent: text });
+  }
   const sets = Object.keys(study.sets || {});
   if (!data.study) {
     const origin = [["", "middle of limits, known values"], ...sets.map(s => [s, s])];
@@ -284,11 +288,16 @@ function build() {
     button(tools, "save", "Save", save, "write a study and a set into the folder of the command");
   } else button(side, "reset", "Back to the start", () => start(""));
   for (const group of [...new Set(study.parameters.map(p => p.group))]) {
-    add(side, "h2", { textContent: group });
-    for (const p of study.parameters) if (p.group === group) row(side, p);
+    const own = study.parameters.filter(p => p.group === group);
+    const folded = add(side, "details", { open: own.length <= 12 });
+    add(folded, "summary", { textContent: `${group} (${own.length})` });
+    for (const p of own) row(folded, p);
   }
-  if (study.effects.length) add(side, "h2", { textContent: "effects" });
-  for (const effect of study.effects) effectBox(side, effect);
+  if (study.effects.length) {
+    const folded = add(side, "details", { open: true, id: "effects" });
+    add(folded, "summary", { textContent: `effects (${study.effects.length})` });
+    for (const effect of study.effects) effectBox(folded, effect);
+  }
   const key = add(head, "div", { className: "key" });
   add(key, "span", { textContent: "· measured" });
   for (const [style, text] of [["border-color:" + INK.first, "simulated"], ["border-top-style:dashed;border-color:" + INK.second, "compared"]]) { add(key, "i").style.cssText = style; key.append(text); }
