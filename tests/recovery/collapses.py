@@ -100,7 +100,13 @@ def fit(measured: FloatArray, noise: tuple[NoiseModel, ...], free: bool = False)
 
     start = np.concatenate([TRUTH, np.tile(SAME, len(measured) if free else 0)])
     found = least_squares(residuals, start, x_scale="jac")
-    covariance = np.linalg.inv(found.jac.T @ found.jac)
+    alone = np.linalg.inv(found.jac.T @ found.jac)
+    covariance = alone.copy()
+    rows = np.split(found.jac[: measured.size], len(measured))
+    for n, J in zip(noise, rows, strict=True):
+        if n.hidden is not None:
+            hidden = n.whiten(n.hidden).T @ J @ alone
+            covariance += hidden.T @ hidden
     return Result(found.x[:3], np.sqrt(np.diag(covariance))[:3], 2.0 * found.cost / measured.size)
 
 

@@ -8,7 +8,7 @@ import pytest
 
 sys.path.insert(0, str(Path(__file__).parents[1] / "recovery"))
 
-from collapses import NOISE, TIME, WAYS, coverage, curve, fit, noise_of, records
+from collapses import NOISE, SAME, SCATTER, TIME, WAYS, coverage, curve, fit, noise_of, records
 
 from pyrofit.estimate.between_repeats import USUAL, USUAL_WEIGHT, student_factor
 from pyrofit.estimate.correlation import Correlation
@@ -58,11 +58,14 @@ def test_scatter_between_repeats_is_a_floor_of_its_size() -> None:
     plateau = (TIME > 0.35) & (TIME < 0.65)
     for noise in noises:
         between = np.sqrt(noise.total_sd**2 - NOISE**2)[plateau]
-        # K holds it twice: as it was seen, and in directions that were not. Two further repeats
-        # with the usual level count beside three.
+        # Half a repeat with the usual level counts beside three.
         size = np.sqrt((2.0 * d**2 + USUAL_WEIGHT * USUAL[0] ** 2) / (2.0 + USUAL_WEIGHT))
-        expected = student_factor(4) * np.sqrt(2.0) * size * curve(TRUTH)[plateau]
-        assert between == pytest.approx(expected, rel=0.3)
+        expected = size * curve(TRUTH)[plateau]
+        assert between == pytest.approx(expected, rel=0.15)
+        # Intervals and tests have it twice: as it was seen, and in directions that were not.
+        cautious = np.sqrt(noise.cautious.total_sd**2 - NOISE**2)[plateau]
+        factor = student_factor(2.0 + USUAL_WEIGHT) * np.sqrt(2.0)
+        assert cautious == pytest.approx(factor * expected, rel=0.15)
         assert noise.floors["repeats"] > 0.0
         assert "repeats" in noise.describe()
 
@@ -95,6 +98,26 @@ def test_averaged_collapse_is_smeared_and_looks_like_missing_physics() -> None:
     own = fit(measured, noise_of(measured, free=True), free=True)
     assert averaged.chi2 > 1.3
     assert own.chi2 < 1.2
+
+
+def true_sd(scatter: FloatArray) -> FloatArray:
+    """Return the standard deviation of a repeat about the curve that all share."""
+    rng = np.random.default_rng(7)
+    drawn = np.array([curve(TRUTH, SAME + scatter * rng.standard_normal(3)) for _ in range(1000)])
+    return np.sqrt(NOISE**2 + np.mean((drawn - curve(TRUTH)) ** 2, axis=0))
+
+
+@pytest.mark.parametrize("repeats", [2, 3, 8])
+def test_noise_of_repeats_has_its_true_size(repeats: int) -> None:
+    truth, ratios, misfits = true_sd(SCATTER), [], []
+    for i in range(8):
+        measured = records(repeats, np.random.default_rng([1, repeats, i]))
+        noise = noise_of(measured, free=False)
+        ratios.append(np.median(noise[0].total_sd / truth))
+        pairs = zip(noise, measured, strict=True)
+        misfits.append(np.mean([np.mean(n.whiten(y - curve(TRUTH)) ** 2) for n, y in pairs]))
+    assert 0.77 < np.median(ratios) < 1.3
+    assert 0.7 < np.median(misfits) < 1.3
 
 
 @pytest.mark.slow

@@ -185,6 +185,24 @@ def char(water: float, residue: float = 0.2) -> None:
 
 @pytest.mark.parametrize("water", [0.0, 0.06], ids=["dry", "moist"])
 @pytest.mark.parametrize("slabs", [True, False], ids=["slabs", "TGA alone"])
+def test_charring_solid_of_one_reaction_has_one(water: float, slabs: bool, folder: Path) -> None:
+    char(0.0)
+    kelvin = np.arange(300.0, 900.0, 2.0)
+    rate = 1e-3 * np.exp(-180e3 / 8.314 * (1.0 / kelvin - 1.0 / 590.0))
+    mass = 1.0 - water / (1.0 + np.exp((350.0 - kelvin) / 8.0))
+    mass -= (0.8 - water) * (1.0 - np.exp(-np.cumsum(rate) * 12.0))
+    write("tga_10K.csv", "time_s,temperature_K,mass_fraction", 6.0 * (kelvin - 300.0), kelvin, mass)
+    study = made("--tga", "tga_10K.csv", *(["--gasification", "slab_25kW.csv"] if slabs else []))
+    first = study.kinetics if slabs else study.imp
+    assert first is not None
+    if not water:
+        assert list(study.material.reactions) == ["pyrolysis"]
+        assert {*first.estimate} == {"T_p", "E_p", "y"}
+    assert ({"rho_c", "k_c", "eps_c"} <= set(study.imp.estimate)) == slabs
+
+
+@pytest.mark.parametrize("water", [0.0, 0.06], ids=["dry", "moist"])
+@pytest.mark.parametrize("slabs", [True, False], ids=["slabs", "TGA alone"])
 def test_charring_solid_gets_parallel_reactions_char_and_its_water(
     water: float, slabs: bool, folder: Path
 ) -> None:

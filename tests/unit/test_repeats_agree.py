@@ -1,9 +1,12 @@
 """Repeats that disagree are named, with what they differ in."""
 
 import numpy as np
+import pandas as pd
 import pytest
 
+from pyrofit.analysis.differing_repeats import differing_repeats, lines_on_repeats
 from pyrofit.estimate.repeats_agree import BURNING, HEATED, differences
+from pyrofit.quantities import known_quantities
 from pyrofit.solver.arrays import FloatArray
 
 T = np.linspace(400.0, 900.0, 401)
@@ -66,3 +69,21 @@ def test_late_ignition_is_named() -> None:
     (found,) = differences([T_S] * 3, values, BURNING)
     assert (found.position, found.kind) == (1, "start")
     assert found.size == pytest.approx(60.0, abs=3.0)
+
+
+def test_records_at_a_held_temperature_are_compared_over_time() -> None:
+    time = np.linspace(0.0, 9000.0, 400)
+    held = np.minimum(305.0 + time / 6.0, 563.0)
+    quantity = known_quantities()["mass_fraction"]
+
+    def frame(half_s: float, seed: int) -> pd.DataFrame:
+        mass = noisy(0.2 + 0.8 * np.exp(-((time / half_s) ** 2)), seed)
+        drift = held + 0.4 * time / time[-1] + 0.05 * np.sin(time + seed)
+        return pd.DataFrame({"time_s": time, "temperature_K": drift, "mass_fraction": mass})
+
+    alike = [frame(4000.0 + d, k) for k, d in enumerate((0.0, 60.0, -60.0))]
+    assert differing_repeats(quantity, alike) == []
+    (found,) = lines_on_repeats(quantity, "abcd", [*alike, frame(5500.0, 7)])
+    assert found.startswith("d differs from its repeats: the mass fraction")
+    assert "°C" not in found
+    assert " K " not in found

@@ -6,7 +6,7 @@ import numpy as np
 import pandas as pd
 
 from pyrofit.config import Study
-from pyrofit.estimate.repeats_agree import Difference, differences, tolerance_of
+from pyrofit.estimate.repeats_agree import Difference, differences, is_held, tolerance_of
 from pyrofit.quantities.base import Quantity
 from pyrofit.quantities.units import ICE_POINT_K
 
@@ -18,10 +18,19 @@ def differing_repeats(quantity: Quantity, frames: Sequence[pd.DataFrame]) -> lis
     heated = quantity.against_temperature
     if heated and not all(TEMPERATURE in frame for frame in frames):
         return []
-    key = TEMPERATURE if heated else "time_s"
+    held = are_held(quantity, frames)
+    key = TEMPERATURE if heated and not held else "time_s"
     rising = [_rising(frame, key, quantity.column) for frame in frames]
     at, values = zip(*rising, strict=True)
-    return differences(at, values, tolerance_of(quantity))
+    return differences(at, values, tolerance_of(quantity, held))
+
+
+def are_held(quantity: Quantity, frames: Iterable[pd.DataFrame]) -> bool:
+    """Tell whether the temperature of some of these samples is held while they react."""
+    return quantity.against_temperature and any(
+        is_held(*(frame[key].to_numpy(np.float64) for key in (TEMPERATURE, quantity.column)))
+        for frame in frames
+    )
 
 
 def _rising(frame: pd.DataFrame, key: str, column: str) -> tuple[np.ndarray, np.ndarray]:
@@ -42,8 +51,10 @@ def notes_on_repeats(
             groups.setdefault((repeat.test, signal), []).append(name)
     for (_, signal), names in groups.items():
         quantity = study.experiments[names[0]].quantity(signal)
-        for d in differing_repeats(quantity, [frames[name, signal] for name in names]):
-            words = differs(d.kind, d.size, d.low, d.high, quantity)
+        records = [frames[name, signal] for name in names]
+        for d in differing_repeats(quantity, records):
+            held = are_held(quantity, records)
+            words = differs(d.kind, d.size, d.low, d.high, quantity, held)
             yield (names[d.position], signal), f"{words}. {WAY_OUT}"
 
 
@@ -51,9 +62,11 @@ DIFFERS = "differs from its repeats"
 WAY_OUT = "Leave it out, or explain it"
 
 
-def differs(kind: str, size: float, low: float, high: float, quantity: Quantity) -> str:
+def differs(
+    kind: str, size: float, low: float, high: float, quantity: Quantity, held: bool = False
+) -> str:
     """Say in what a record differs from its repeats, see `pyrofit.estimate.repeats_agree`."""
-    heated = quantity.against_temperature
+    heated = quantity.against_temperature and not held
     said = f"{DIFFERS}: the {quantity.title}"
     if kind == "start":
         unit, earlier, later = ("K", "lower", "higher") if heated else ("s", "earlier", "later")
@@ -72,8 +85,8 @@ def lines_on_repeats(
     quantity: Quantity, names: Iterable[str], frames: Sequence[pd.DataFrame]
 ) -> list[str]:
     """Return a line for each of some named series that differs from the others."""
-    found = list(names)
-    return [
-        f"{found[d.position]} {differs(d.kind, d.size, d.low, d.high, quantity)}. {WAY_OUT}"
-        for d in differing_repeats(quantity, frames)
-    ]
+    found, words = list(names), []
+    for d in differing_repeats(quantity, frames):
+        said = differs(d.kind, d.size, d.low, d.high, quantity, are_held(quantity, frames))
+        words.append(f"{found[d.position]} {said}. {WAY_OUT}")
+    return words

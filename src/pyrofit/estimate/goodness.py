@@ -21,7 +21,7 @@ from pyrofit.estimate.likelihood import Likelihood
 from pyrofit.estimate.noise import NoiseModel
 from pyrofit.estimate.posterior import Posterior
 from pyrofit.estimate.projection import project, spanned_by
-from pyrofit.estimate.repeats_agree import differences, tolerance_of
+from pyrofit.estimate.repeats_agree import differences, is_held, tolerance_of
 from pyrofit.estimate.scan import highest
 from pyrofit.numerics import linear
 from pyrofit.quantities.integral import integral
@@ -84,13 +84,16 @@ def _differing(likelihood: Likelihood) -> Iterator[RepeatDiffers]:
     for group in groups_of_repeats(problem):
         temperatures = [problem.temperature_K(i) for i in group]
         times = [problem.cost.terms[i][1].target.time_s for i in group]
-        at = [T if T is not None else t for T, t in zip(temperatures, times, strict=True)]
         values = [problem.cost.terms[i][1].target.value for i in group]
+        held = any(
+            T is not None and is_held(T, v) for T, v in zip(temperatures, values, strict=True)
+        )
+        at = [t if T is None or held else T for T, t in zip(temperatures, times, strict=True)]
         name, signal, _ = problem.picks[group[0]]
         quantity = problem.runs[name].experiment.quantity(signal)
-        for d in differences(at, values, tolerance_of(quantity)):
+        for d in differences(at, values, tolerance_of(quantity, held)):
             name, signal, _ = problem.picks[group[d.position]]
-            yield RepeatDiffers(name, signal, d.kind, d.size, d.low, d.high)
+            yield RepeatDiffers(name, signal, d.kind, d.size, d.low, d.high, held)
 
 
 def scatter(w: FloatArray) -> float:

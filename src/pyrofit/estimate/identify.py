@@ -147,8 +147,8 @@ def identify(
     weighed, optimum = _weighed(likelihood, fit(likelihood, starts))
     for _ in range(RESTARTS):
         curves, slopes = _finished(likelihood, optimum.x), likelihood.slopes(optimum.x)
-        posterior = _posterior(likelihood, optimum.x, slopes)
-        goodness = goodness_of_fit(likelihood, posterior, curves)
+        posterior = likelihood.posterior(optimum.x, slopes)
+        goodness = _tested(likelihood, optimum.x, slopes, curves)
         if not goodness.passes:
             return _of_wrong_model(likelihood, optimum.x, goodness)
         estimates, found, lowest = _around(weighed, optimum, posterior, profiles)
@@ -172,7 +172,7 @@ def _of_wrong_model(likelihood: Likelihood, x: FloatArray, tested: Goodness) -> 
     """Return the analysis of a model that misses the tests, all intervals linear."""
     plain, x = least_squares(likelihood, x)
     curves, slopes = _finished(likelihood, x), likelihood.slopes(x)
-    posterior = _posterior(likelihood, x, slopes)
+    posterior = likelihood.posterior(x, slopes)
     sds = np.sqrt(np.diag(covariance_of_misfit(likelihood, plain, x, slopes, curves))).tolist()
     of_noise = np.sqrt(np.diag(posterior.covariance(None, 1.0))).tolist()
     estimates = tuple(
@@ -190,7 +190,7 @@ def _of_wrong_model(likelihood: Likelihood, x: FloatArray, tested: Goodness) -> 
     residuals = likelihood.residuals(x)
     optimum = Fit(linear.dot(residuals, residuals), x, residuals, posterior.jacobian)
     # Windows and sizes are those of these values; the test is that of the likeliest ones.
-    shown = replace(goodness_of_fit(likelihood, posterior, curves), p=tested.p)
+    shown = replace(_tested(likelihood, x, slopes, curves), p=tested.p)
     return Identification(optimum, posterior, slopes, estimates, {}, shown)
 
 
@@ -202,15 +202,18 @@ def _weighed(likelihood: Likelihood, optimum: Fit) -> tuple[Likelihood, Fit]:
     """
     weighed = likelihood
     for _ in range(WEIGHINGS if likelihood.prior.index else 0):
-        found = _posterior(likelihood, optimum.x, likelihood.slopes(optimum.x))
+        found = likelihood.posterior(optimum.x, likelihood.slopes(optimum.x))
         weighed = replace(likelihood, prior=likelihood.prior.over(math.sqrt(found.dispersion)))
         optimum = weighed.descend(optimum.x)
     return weighed, optimum
 
 
-def _posterior(likelihood: Likelihood, x: FloatArray, slopes: FloatArray) -> Posterior:
-    residuals = likelihood.residuals(x)[: sum(likelihood.points)]
-    return Posterior(x, residuals, likelihood.with_known(slopes))
+def _tested(
+    likelihood: Likelihood, x: FloatArray, slopes: FloatArray, curves: FloatArray
+) -> Goodness:
+    """Test a fit against the noise, with all that few repeats may hide."""
+    cautious = likelihood.cautious
+    return goodness_of_fit(cautious, cautious.posterior(x, slopes), curves)
 
 
 def _around(
@@ -227,20 +230,23 @@ def _around(
         # A parameter that rests at a limit does not move with the others.
         free = [k for k, v in enumerate(optimum.x) if k == i or not limit_of(v)]
         at = free.index(i)
-        covariance = posterior.covariance(free)
-        sd = float(np.sqrt(covariance[at, at]))
+        # Chi-square rises by the covariance without errors that it does not weigh.
+        covariance = replace(posterior, hidden=None).covariance(free)
+        wider = float(posterior.widening(free)[at])
+        sd = float(np.sqrt(wider * covariance[at, at]))
+        rise = dispersion * wider
         follow = np.zeros(optimum.x.size)
         follow[free] = covariance[:, at] / covariance[at, at]
         plain = float(np.sqrt(posterior.covariance(free, 1.0)[at, at]))
-        straight = inside and _parabolic(likelihood, optimum, i, follow, sd, dispersion)
+        straight = inside and _parabolic(likelihood, optimum, i, follow, sd, rise)
         if straight or not with_profiles:
             noise, wide = (Interval(*interval(x, s)) for s in (plain, sd))
             method = LINEAR
         else:
-            profile, end = profile_of(likelihood.descend, optimum, i, follow, sd, dispersion)
+            profile, end = profile_of(likelihood.descend, optimum, i, follow, sd, rise)
             profiles[name] = profile
             lowest = min(lowest, end, key=lambda o: o.chi2)
-            noise, wide = profile.interval(1.0), profile.interval(dispersion)
+            noise, wide = profile.interval(wider), profile.interval(rise)
             method = PROFILE
         estimates.append(Estimate(name, x, sd, noise, wide, method, limit_of(x)))
     return tuple(estimates), profiles, lowest

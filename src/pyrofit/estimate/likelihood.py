@@ -1,7 +1,7 @@
 """The likelihood of a parameter set: whitened residuals of all channels, and their optimum."""
 
 from collections.abc import Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from functools import cached_property
 from itertools import pairwise
 
@@ -12,6 +12,7 @@ from pyrofit.estimate.bounded_least_squares import Fit, minimise
 from pyrofit.estimate.channel_noise import noise_of
 from pyrofit.estimate.derivatives import derivatives
 from pyrofit.estimate.noise import NoiseModel
+from pyrofit.estimate.posterior import Posterior
 from pyrofit.estimate.prior import NO_PRIOR, NormalPrior
 from pyrofit.estimate.problem import Problem
 from pyrofit.numerics import linear
@@ -46,6 +47,27 @@ class Likelihood:
     problem: Problem
     noise: tuple[NoiseModel, ...]
     prior: NormalPrior = NO_PRIOR
+
+    @property
+    def cautious(self) -> "Likelihood":
+        """The likelihood with all errors that few repeats may hide in the noise."""
+        return replace(self, noise=tuple(noise.cautious for noise in self.noise))
+
+    def posterior(self, x: FloatArray, slopes: FloatArray) -> Posterior:
+        """Return the parameters about an optimum x, from d curves / d x there."""
+        J = self.with_known(slopes)
+        found = Posterior(x, self.residuals(x)[: sum(self.points)], J)
+        return replace(found, hidden=self._hidden(J))
+
+    def _hidden(self, jacobian: FloatArray) -> FloatArray | None:
+        """Return V^T J of the whitened errors V that few repeats may hide."""
+        pairs = zip(self.noise, self.split(jacobian), strict=True)
+        rows = [
+            linear.product(noise.whiten(noise.hidden).T, part)
+            for noise, part in pairs
+            if noise.hidden is not None
+        ]
+        return np.vstack(rows) if rows else None
 
     @property
     def points(self) -> list[int]:
@@ -178,7 +200,7 @@ def likelihood_of(
     """Return the likelihood of a problem whose terms are channels, with their noise estimated.
 
     ``prior`` holds the known values of its parameters. A ``tolerant`` noise includes the usual
-    discrepancy of models.
+    discrepancy of models, and errors that few repeats may hide.
 
     Raises
     ------
@@ -186,7 +208,8 @@ def likelihood_of(
         A channel is too short.
     """
     noise = [noise_of(problem, channel, tolerant=tolerant) for channel in range(len(problem.picks))]
-    return Likelihood(problem, with_repeats(problem, noise), prior)
+    found = Likelihood(problem, with_repeats(problem, noise), prior)
+    return found.cautious if tolerant else found
 
 
 def fit(likelihood: Likelihood, starts: Sequence[FloatArray]) -> Fit:

@@ -78,6 +78,24 @@ class NoiseModel:
     modes: FloatArray | None = None
     """Lasting errors U of the apparatus and between repeats, which add U U^T to the covariance,
     shape (n, modes)."""
+    caution: FloatArray | None = None
+    """Factors of the modes, 1 at least, shape (modes,), that intervals and tests take: few repeats
+    may hide errors. They do not weigh the points."""
+
+    @property
+    def cautious(self) -> "NoiseModel":
+        """The noise with the errors that few repeats may hide."""
+        if self.modes is None or self.caution is None:
+            return self
+        return replace(self, modes=self.modes * self.caution, caution=None)
+
+    @property
+    def hidden(self) -> FloatArray | None:
+        """Errors that few repeats may hide, shape (n, modes), beside those of the modes."""
+        if self.modes is None or self.caution is None:
+            return None
+        raised = self.caution > 1.0
+        return self.modes[:, raised] * np.sqrt(self.caution[raised] ** 2 - 1.0)
 
     @property
     def total_sd(self) -> FloatArray:
@@ -199,9 +217,14 @@ def estimate_noise(
     Raises
     ------
     DataError
-        The series has fewer than 8 points and no stated uncertainty.
+        The series has fewer than 8 points and no stated uncertainty, or all its values are equal.
     """
     count = target.value.size
+    if np.ptp(target.value) == 0.0:
+        raise DataError(
+            f"{quantity.name}: all {count} values are equal: the record shows neither noise nor a "
+            "reaction; give another column, or do not fit the signal"
+        )
     stated = smoothed(target)
     stated = None if stated is None else stated / stated_sds
     if count < FEWEST_POINTS:

@@ -5,6 +5,10 @@ is a parabola. With J = d whitened residuals / d x, of the channels and then of 
 
     C = (J_c^T J_c / s^2 + K^T K + 12 I)^-1,    s^2 = max(1, chi2_c / freedom).
 
+Few repeats may hide lasting errors U, which do not weigh the points. With V the whitened U, of
+unit covariance each, they add C J^T V V^T J C / s^4 to the covariance (the sandwich of generalised
+least squares with other weights).
+
 Limits count as known, too: a uniform distribution over them has the variance 1/12. Misfit beyond
 the noise widens the noise of the channels by s, but not that of known values.
 """
@@ -104,6 +108,8 @@ class Posterior:
     x: FloatArray
     residuals: FloatArray
     jacobian: FloatArray
+    hidden: FloatArray | None = None
+    """V^T J of errors that few repeats may hide, shape (errors, parameters)."""
 
     @property
     def free_jacobian(self) -> FloatArray:
@@ -138,4 +144,16 @@ class Posterior:
         The dispersion is by default the one that the residuals show.
         """
         J = self.jacobian if index is None else self.jacobian[:, list(index)]
-        return covariance(J, self.dispersion if dispersion is None else dispersion, self.known)
+        dispersion = self.dispersion if dispersion is None else dispersion
+        C = covariance(J, dispersion, self.known)
+        if self.hidden is None:
+            return C
+        hidden = self.hidden if index is None else self.hidden[:, list(index)]
+        return np.asarray(C + linear.gram(linear.product(hidden, C)) / dispersion**2)
+
+    def widening(self, index: Sequence[int]) -> FloatArray:
+        """Return variances of some parameters over those without errors that repeats may hide."""
+        if self.hidden is None:
+            return np.ones(len(index))
+        alone = covariance(self.jacobian[:, list(index)], self.dispersion, self.known)
+        return np.asarray(np.diag(self.covariance(index)) / np.diag(alone))

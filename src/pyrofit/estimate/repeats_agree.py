@@ -17,6 +17,8 @@ from pyrofit.solver.arrays import FloatArray
 
 POINTS = 200
 """Points of the common abscissa."""
+HELD_K = 15.0
+"""Rise of the temperature, while a record changes, below which it is held."""
 
 
 @dataclass(frozen=True)
@@ -36,12 +38,33 @@ HEATED = Tolerance(start=8.0, level=0.05, shape=0.04)
 """Of a heated sample, against temperature [K]."""
 FLOWING = Tolerance(start=8.0, level=0.3, shape=0.2)
 """Of the heat flow to or from such a sample, whose baseline drifts."""
+HELD = Tolerance(start=0.06, level=0.05, shape=0.04, relative=True)
+"""Of a sample whose temperature is held, against time."""
 BURNING = Tolerance(start=0.06, level=0.15, shape=0.10, relative=True)
 """Of a slab, against time."""
 
 
-def tolerance_of(quantity: Quantity) -> Tolerance:
-    """Return the usual differences of a quantity."""
+def is_held(temperature_K: FloatArray, value: FloatArray) -> bool:
+    """Tell whether the temperature hardly rises from a tenth to nine tenths of the change.
+
+    Such a record is a curve over time; over temperature it is a point.
+
+    >>> T = np.minimum(np.linspace(300.0, 900.0, 100), 560.0)
+    >>> is_held(T, np.linspace(1.0, 0.2, 100)), is_held(np.full(100, 560.0), T)
+    (False, True)
+    """
+    change = np.abs(value - np.median(value[:3]))
+    share = change / max(float(np.median(change[-3:])), 1e-300)
+    inside = np.flatnonzero((share > 0.1) & (share < 0.9))
+    if inside.size < 2:
+        return bool(np.ptp(temperature_K) < HELD_K)
+    return bool(np.ptp(temperature_K[inside[0] : inside[-1] + 1]) < HELD_K)
+
+
+def tolerance_of(quantity: Quantity, held: bool = False) -> Tolerance:
+    """Return the usual differences of a quantity, of samples at a held temperature or not."""
+    if held:
+        return HELD
     if not quantity.against_temperature:
         return BURNING
     return FLOWING if quantity.drift_share else HEATED

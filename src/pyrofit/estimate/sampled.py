@@ -67,6 +67,7 @@ def sample(
     seed, cores, most_steps, tell
         See `pyrofit.estimate.ensembles.draw`.
     """
+    likelihood = likelihood.cautious
     x = likelihood.descend(start).x
     found = _about(likelihood, x)
     probability = _exceeded(found.chi2, found.freedom)

@@ -7,6 +7,8 @@ from typing import Any, Literal
 
 import pandas as pd
 
+from pyrofit.solver.arrays import FloatArray
+
 Frames = Mapping[str, pd.DataFrame]
 """Series of one file in SI units, by quantity."""
 Told = Literal["record", "file", "unit", "number", ""]
@@ -79,12 +81,15 @@ class Loss:
         Loss before 420 K over the initial mass [kg/kg]; 0 where the reaction begins there.
     parts_K
         Temperatures [K] of an eighth, half and seven eighths of the loss without the moisture.
+    record
+        Times [s], temperatures [K] and masses, shape (n,) each.
     """
 
     temperature_K: float
     residue: float | None
     moisture: float = 0.0
     parts_K: tuple[float, float, float] | None = None
+    record: tuple[FloatArray, FloatArray, FloatArray] | None = None
 
 
 @dataclass(frozen=True)

@@ -19,6 +19,7 @@ from pyrofit.experiments import KINDS, files_of
 from pyrofit.experiments.base import Kind
 from pyrofit.experiments.from_files import Told
 from pyrofit.new_study.columns import Found, recognise
+from pyrofit.new_study.one_reaction import one_reaction_describes
 from pyrofit.quantities import known_quantities
 from pyrofit.quantities.units import PER_AREA, PER_MASS, PER_START
 
@@ -120,11 +121,21 @@ class Kinetics:
     known_residue: bool = False
     moisture: float = 0.0
     parts_K: tuple[tuple[float, float], ...] = ()
+    single: bool = False
+    """Whether one reaction of first order describes the records."""
 
     @property
     def charring(self) -> bool:
         """Whether so much is left that char has properties of its own."""
         return self.known_residue and self.residue > CHAR
+
+    @property
+    def parts(self) -> list[tuple[str, str, tuple[int, int], tuple[float, float]]]:
+        """Reactions of a charring solid: letter, name, limits of E [kJ/mol], and of T [K]."""
+        if self.single:
+            return [("p", "pyrolysis", (60, 350), (self.lower_K, self.upper_K))]
+        names = [("e", "early", (50, 250)), ("m", "main", (80, 350)), ("l", "late", (30, 250))]
+        return [(*name, limits) for name, limits in zip(names, self.parts_K, strict=True)]
 
     @property
     def moist(self) -> bool:
@@ -252,6 +263,7 @@ def kinetics_of(records: Iterable[Measured]) -> Kinetics:
     losses = [loss for run in records if (loss := files_of(run.kind).loss(run.frames)) is not None]
     if not losses:
         return Kinetics()
+    masses = [loss.record for loss in losses if loss.record is not None]
     half = [loss.temperature_K for loss in losses]
     lower, upper = 5.0 * math.floor((min(half) - 150.0) / 5.0), 5.0 * math.ceil(max(half) / 5.0)
     rests = [loss.residue for loss in losses if loss.residue is not None]
@@ -263,6 +275,7 @@ def kinetics_of(records: Iterable[Measured]) -> Kinetics:
         bool(rests),
         float(np.median([loss.moisture for loss in losses])),
         _parts([loss.parts_K for loss in losses if loss.parts_K is not None]),
+        one_reaction_describes(masses, float(np.median(half))),
     )
 
 

@@ -206,6 +206,8 @@ def _of_scheme(kinetics: Kinetics) -> list[str]:
     if not kinetics.charring:
         return ["T_p", "E_p", *(["y"] if kinetics.known_residue else [])]
     water = ["w_w", "T_w"] if kinetics.moist else []
+    if kinetics.single:
+        return ["T_p", "E_p", "y", *water]
     return ["T_e", "E_e", "w_e", "T_m", "E_m", "T_l", "E_l", "n_l", "w_l", "y", *water]
 
 

@@ -89,6 +89,8 @@ class RepeatDiffers:
     size: float
     low: float
     high: float
+    held: bool = False
+    """Whether the temperature is held: start, low and high are times [s]."""
 
 
 @dataclass(frozen=True)

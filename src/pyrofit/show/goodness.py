@@ -88,7 +88,7 @@ def repeats_that_differ(study: Study, found: Goodness) -> Iterator[str]:
     """Yield a sentence on each repeat that differs from the others of its test."""
     for r in found.repeats[:MOST_NAMED]:
         quantity = study.experiments[r.experiment].quantity(r.signal)
-        said = differs(r.kind, r.size, r.low, r.high, quantity)
+        said = differs(r.kind, r.size, r.low, r.high, quantity, r.held)
         yield f"{r.experiment} {said}. {WAY_OUT}."
     more = len(found.repeats) - MOST_NAMED
     if more > 0:

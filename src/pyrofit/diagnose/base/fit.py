@@ -191,8 +191,8 @@ def with_noise_about(
 
     for i, found in zip(wanted, parallel_map(better, len(wanted), processes), strict=True):
         noise[i] = found or noise[i]
-    scattered = with_repeats(problem, noise, parts)
-    return replace(base, likelihood=replace(base.likelihood, noise=scattered))
+    likelihood = replace(base.likelihood, noise=with_repeats(problem, noise, parts))
+    return replace(base, likelihood=likelihood.cautious)
 
 
 def sharpened(trial: FittedModel, processes: int = 1) -> Base:

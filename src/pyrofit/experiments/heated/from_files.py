@@ -100,4 +100,5 @@ def mass_loss(frames: Frames) -> Loss | None:
         float(temperature[np.argmax(mass < dry - share * (dry - rest))]) for share in PARTS
     )
     moisture = max(1.0 - dry / float(mass[0]), 0.0)
-    return Loss(half, None if goes_on else rest, moisture, (parts[0], parts[1], parts[2]))
+    record = frame["time_s"].to_numpy(), temperature, mass
+    return Loss(half, None if goes_on else rest, moisture, (parts[0], parts[1], parts[2]), record)
