@@ -151,7 +151,9 @@ def test_kernel_agrees_with_the_reference_while_the_front_moves(name: str) -> No
     material, more = COURSES[name]
     depths = (0.8e-3, 2.5e-3, 4.2e-3)
     places = (*depths, *map(fixed, depths), Place(layer=1))
-    case = specimen(**more), material, places, np.arange(5.0, 400.0, 5.0)
+    # After 336 s nothing is left of one of them, which takes the reference 100 s.
+    end = 336.0 if name == "nothing is left" else 400.0
+    case = specimen(**more), material, places, np.arange(5.0, end, 5.0)
     kernel, exact = (temperatures(solve, *case) for solve in (_kernel, _reference))
     assert np.ptp(exact[3:6] - exact[:3]) > 10.0
     assert np.abs(kernel - exact).max(axis=1) == pytest.approx(np.zeros(7), abs=0.1)
