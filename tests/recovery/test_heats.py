@@ -11,12 +11,13 @@ from calorimetry_study import STUDY
 from pyrofit.config import Study, as_study
 from pyrofit.results import kinetics
 from pyrofit.results.files import Results
+from pyrofit.results.recorded import load
 from pyrofit.show.figure import draw_figure
 from pyrofit.show.kinetics import KINETICS
 from pyrofit.stages.fit import fit_kinetics
 from pyrofit.stages.identify import identify_kinetics
 from pyrofit.stages.kinetic_curves import write_curves
-from pyrofit.stages.measurements import load, prepare
+from pyrofit.stages.measurements import prepare
 
 
 @pytest.fixture(scope="module")

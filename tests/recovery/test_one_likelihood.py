@@ -16,7 +16,7 @@ from pyrofit.config import Study
 from pyrofit.errors import DataError
 from pyrofit.estimate.measures import LIKELIHOOD, measures_of
 from pyrofit.estimate.optimisers import OPTIMISERS
-from pyrofit.results import identification
+from pyrofit.results import identification, recorded
 from pyrofit.results.files import Results, write_csv, write_json
 from pyrofit.stages import measurements
 from pyrofit.stages.identify import identify_imp
@@ -73,7 +73,7 @@ def estimates(study: Study, results: Results) -> np.ndarray:
 
 
 def scorer(study: Study, results: Results, *costs: str) -> tuple[Scorer, list[str]]:
-    series = measurements.load(study, results)
+    series = recorded.load(study, results)
     return scorer_of(study, results, series, measures_of(study, series, costs)[0])
 
 

@@ -17,7 +17,7 @@ from pyrofit.config import Study, as_study
 from pyrofit.errors import DataError
 from pyrofit.estimate.optimisers import OPTIMISERS
 from pyrofit.quantities import known_quantities
-from pyrofit.results import searches
+from pyrofit.results import recorded, searches
 from pyrofit.results.files import Results, read_csv, write_csv
 from pyrofit.show.costs.reach import reach_of_good_sets as good_sets
 from pyrofit.show.costs.sentences import sentences as costs
@@ -195,7 +195,7 @@ def test_metric_of_a_best_set_is_the_score_of_its_prediction(
 def test_costs_are_carried_over_to_what_was_not_fitted_alone(
     study: Study, results: Results
 ) -> None:
-    found = compare.places(study, measurements.load(study, results))
+    found = compare.places(study, recorded.load(study, results))
     metrics = {known_quantities()["mlr"].metric, known_quantities()["back_temperature"].metric}
     assert set(found) == {"fitted", "slab_25", "slab_60"}
     assert set(found["slab_25"]) == metrics
@@ -204,7 +204,7 @@ def test_costs_are_carried_over_to_what_was_not_fitted_alone(
 
 
 def test_cost_that_cannot_be_computed_elsewhere_is_left_out(study: Study, results: Results) -> None:
-    series = measurements.load(study, results)
+    series = recorded.load(study, results)
     bare = series["slab_60", "mlr"].drop(columns="mlr_uncertainty_kg_m2_s")
     found = compare.places(study, {**series, ("slab_60", "mlr"): bare})
     assert "BANDS" not in found["slab_60"]

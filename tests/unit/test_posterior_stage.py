@@ -19,6 +19,7 @@ from pyrofit.estimate.likelihood import likelihood_of
 from pyrofit.estimate.prior import prior_of
 from pyrofit.estimate.problem import make_problem
 from pyrofit.exchange.sets import parameter_set
+from pyrofit.results import recorded
 from pyrofit.results.files import Results, read_csv, write_csv, write_json
 from pyrofit.results.identification import Noise, write_noise
 from pyrofit.results.step import write_options
@@ -62,7 +63,7 @@ def identified(study: Study, tmp_path_factory: pytest.TempPathFactory) -> Result
         study,
         study.imp.estimate,
         study.imp.channels,
-        measurements.load(study, results),
+        recorded.load(study, results),
         study.material_with(study.imp.kinetics),
         fit.fixed_for_imp(study, results),
     )

@@ -278,3 +278,11 @@ def test_packages_that_find_their_files_count_with_all_of_them() -> None:
     for package, folder in finding.items():
         files = {*folder.glob("*.py"), *folder.glob("*/__init__.py")}
         assert (files <= imported_files(SOURCE, [package])) == (package not in BY_USE), package
+
+
+def test_searches_do_not_rest_on_what_finds_and_reads_measured_files() -> None:
+    """What it makes is their input: an edit of it reruns them only if a series changes."""
+    found = {p.relative_to(SOURCE).as_posix() for p in imported_files(SOURCE, [STEPS["fits"]])}
+    reading = {"stages/reading.py", "stages/measurements.py", "data/series.py", "data/fetch.py"}
+    assert not reading & found
+    assert reading <= {p.relative_to(SOURCE).as_posix() for p in SOURCE.rglob("*.py")}

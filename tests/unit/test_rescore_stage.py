@@ -15,7 +15,7 @@ from pyrofit.config import Study
 from pyrofit.estimate.likelihood import likelihood_of
 from pyrofit.estimate.prior import prior_of
 from pyrofit.estimate.problem import make_problem
-from pyrofit.results import searches
+from pyrofit.results import recorded, searches
 from pyrofit.results.files import Results, read_csv
 from pyrofit.results.step import write_options
 from pyrofit.stages import fit, identify, measurements
@@ -80,7 +80,7 @@ def test_scores_are_those_of_each_cost_alone(study: Study, results: Results) -> 
     )
     row = sets.iloc[7]
     values = row[list(study.imp.estimate)].to_numpy(float)
-    series = measurements.load(study, results)
+    series = recorded.load(study, results)
     material, fixed = study.material, fit.fixed_for_imp(study, results)
     channels = study.imp.channels
     problem = make_problem(study, study.imp.estimate, channels, series, material, fixed)

@@ -24,8 +24,8 @@ from pyrofit.model.heated import HeatedExperiment
 from pyrofit.model.slab import SlabExperiment
 from pyrofit.model.time_table import OverTime, TimeTable
 from pyrofit.results.files import Results, write_text
+from pyrofit.results.recorded import load
 from pyrofit.solver.outputs import RATE
-from pyrofit.stages.measurements import load
 
 Said = dict[Remark, list[str]]
 COPPER = (8940.0, 380.0)

@@ -42,6 +42,15 @@ def series(study: Study, results: Results, experiment: str, signal: str) -> pd.D
     return read_csv(results.measurement(experiment, signal), columns)
 
 
+def load(study: Study, results: Results) -> dict[tuple[str, str], pd.DataFrame]:
+    """Return the series as they were read, by (experiment, signal), without their records."""
+    return {
+        (name, signal): series(study, results, name, signal)
+        for name, experiment in study.experiments.items()
+        for signal in experiment.signals
+    }
+
+
 def summary(study: Study, results: Results) -> dict[str, Any]:
     """Return the records of the read files, by experiment and signal."""
     needs: dict[Keys, type] = {}

@@ -16,11 +16,11 @@ from pyrofit.estimate.problem import Problem
 from pyrofit.results import dependencies, kinetics, searches
 from pyrofit.results.files import Results, write_csv
 from pyrofit.results.record import write_record
+from pyrofit.results.recorded import load
 from pyrofit.results.searches import Descent, End, Repetition, Starts
 from pyrofit.running.shares import at_once, parts
 from pyrofit.seeds import seed_for
 from pyrofit.solver.arrays import FloatArray, Status
-from pyrofit.stages.measurements import load
 from pyrofit.stages.progress import Told
 from pyrofit.stages.unfinished import Unfinished, sweep
 

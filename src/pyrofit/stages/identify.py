@@ -16,9 +16,9 @@ from pyrofit.numerics import linear
 from pyrofit.results import goodness, identification, kinetics, searches
 from pyrofit.results.files import Results, write_csv
 from pyrofit.results.identification import Channel, Noise
+from pyrofit.results.recorded import load
 from pyrofit.stages.imp_likelihood import ends_of_searches, imp_likelihood
 from pyrofit.stages.kinetic_curves import write_curves
-from pyrofit.stages.measurements import load
 
 BEST, MEAN = "SCE-UA best", "SCE-UA mean"
 

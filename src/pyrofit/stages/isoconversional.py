@@ -17,7 +17,7 @@ from pyrofit.estimate.targets import Measurements
 from pyrofit.logs import Tell
 from pyrofit.results import identification, isoconversional, kinetics
 from pyrofit.results.files import Results
-from pyrofit.stages.measurements import load
+from pyrofit.results.recorded import load
 
 
 def analyse_masses(study: Study, results: Results, tell: Tell) -> None:

@@ -9,11 +9,9 @@ from pyrofit.analysis.closure import closure_lines
 from pyrofit.config import Study, true_description
 from pyrofit.data.noise import draw
 from pyrofit.errors import DataError
-from pyrofit.estimate.targets import Measurements
 from pyrofit.experiments import kind_of
 from pyrofit.model.signal import Noise
 from pyrofit.quantities.base import Quantity
-from pyrofit.results import recorded
 from pyrofit.results.files import Results, write_csv, write_json
 from pyrofit.seeds import seed_for
 from pyrofit.solver.arrays import FloatArray
@@ -52,15 +50,6 @@ def prepare(study: Study, results: Results) -> list[str]:
                 summary[name][signal]["released_J_m2"] = quantity.heat(*columns)
     write_json(results.measurements_summary, {"signals": summary})
     return closure_lines(study, summary)
-
-
-def load(study: Study, results: Results) -> Measurements:
-    """Return the series that `prepare` wrote, by (experiment, signal)."""
-    return {
-        (name, signal): recorded.series(study, results, name, signal)
-        for name, experiment in study.experiments.items()
-        for signal in experiment.signals
-    }
 
 
 def computed(study: Study, fast: bool = False) -> dict[tuple[str, str], pd.DataFrame]:

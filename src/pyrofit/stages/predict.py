@@ -13,10 +13,10 @@ from pyrofit.experiments import kind_of
 from pyrofit.quantities.base import Quantity
 from pyrofit.results import identification, searches
 from pyrofit.results.files import Results, write_csv
+from pyrofit.results.recorded import load
 from pyrofit.simulate import solver_errors
 from pyrofit.solver.arrays import FloatArray, Values
 from pyrofit.stages.fit import best_sets, fixed_for_imp
-from pyrofit.stages.measurements import load
 from pyrofit.stages.unmeasured import check_finished, predict_unmeasured
 
 

@@ -19,10 +19,10 @@ from pyrofit.external.filled import executable_digest, executable_of, file_diges
 from pyrofit.external.runs import Outcome, outcomes
 from pyrofit.model.external import ExternalExperiment
 from pyrofit.results.files import Results, write_json
+from pyrofit.results.recorded import load
 from pyrofit.running.durations import in_words
 from pyrofit.seeds import seed_for
 from pyrofit.stages.fit import fixed_for_imp
-from pyrofit.stages.measurements import load
 
 DRAWS = 4
 """Largest number of drawn sets that are tried if the middle of the limits fails."""

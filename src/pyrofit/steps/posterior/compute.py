@@ -14,10 +14,10 @@ from pyrofit.logs import Tell
 from pyrofit.numerics import linear
 from pyrofit.results import identification
 from pyrofit.results.files import Results, write_csv, write_json
+from pyrofit.results.recorded import load
 from pyrofit.solver.arrays import FloatArray
 from pyrofit.stages.fit import fixed_for_imp
 from pyrofit.stages.imp_likelihood import imp_likelihood
-from pyrofit.stages.measurements import load
 from pyrofit.steps.posterior import record
 from pyrofit.steps.posterior.bands import predicted
 from pyrofit.steps.posterior.options import PosteriorOptions

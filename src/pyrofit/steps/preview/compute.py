@@ -10,8 +10,8 @@ from pyrofit.config import Study
 from pyrofit.estimate.targets import Measurements
 from pyrofit.logs import Tell
 from pyrofit.results.files import Results, write_csv
+from pyrofit.results.recorded import load
 from pyrofit.solver.arrays import FloatArray
-from pyrofit.stages.measurements import load
 from pyrofit.steps.preview import record
 from pyrofit.steps.preview.causes import is_far, likely, suspects
 from pyrofit.steps.preview.fit import nearest

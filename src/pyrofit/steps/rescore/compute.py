@@ -14,8 +14,8 @@ from pyrofit.estimate.measures import measures_of
 from pyrofit.logs import Tell
 from pyrofit.results import dependencies, searches
 from pyrofit.results.files import Results, write_csv
+from pyrofit.results.recorded import load
 from pyrofit.solver.arrays import Status
-from pyrofit.stages.measurements import load
 from pyrofit.stages.scorer import Scorer, scored, scorer_of
 from pyrofit.steps.rescore import record
 from pyrofit.steps.rescore.options import RescoreOptions

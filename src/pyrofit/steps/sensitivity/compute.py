@@ -9,9 +9,9 @@ from pyrofit.estimate.measures import Measure, channels, measures_of
 from pyrofit.logs import Tell
 from pyrofit.parallel import MOST_PIECES, parallel_map
 from pyrofit.results.files import Results
+from pyrofit.results.recorded import load
 from pyrofit.seeds import seed_for
 from pyrofit.solver.arrays import FloatArray
-from pyrofit.stages.measurements import load
 from pyrofit.stages.scorer import AT_ONCE, Scorer, scorer_of
 from pyrofit.steps.sensitivity import record
 from pyrofit.steps.sensitivity.found import found_of, of_input, write_tables

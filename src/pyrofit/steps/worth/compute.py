@@ -15,8 +15,8 @@ from pyrofit.estimate.targets import Measurements
 from pyrofit.experiments import kind_of
 from pyrofit.logs import Tell
 from pyrofit.results.files import Results
+from pyrofit.results.recorded import load
 from pyrofit.solver.arrays import FloatArray
-from pyrofit.stages.measurements import load
 from pyrofit.steps.worth import record
 from pyrofit.steps.worth.apparatus import of_fitted, of_record
 from pyrofit.steps.worth.best_fit import best_fit
