@@ -25,6 +25,17 @@ from pyrofit.errors import DataError, StudyError
 from pyrofit.estimate.targets import Measurements
 from pyrofit.model.accuracy import Resolution
 from pyrofit.model.parameters import Parameter
+from pyrofit.results.diagnosis_candidates import OfCandidate
+from pyrofit.results.diagnosis_schema import (
+    Diagnosis,
+    OfBase,
+    OfExtended,
+    OfGap,
+    OfParameter,
+    OfScreen,
+    OfVerdict,
+    OfWindow,
+)
 from pyrofit.results.files import read_json, write_json
 
 FILE = Path(__file__).parents[2] / "config" / "blind_test.yaml"
@@ -312,10 +323,25 @@ class Fake:
     def __init__(self) -> None:
         self.candidates: list[tuple[str, ...]] = []
 
-    def __call__(self, study: Study, measurements: Measurements) -> Mapping[str, Any]:
+    def __call__(self, study: Study, measurements: Measurements) -> Diagnosis:
         self.candidates.append(candidate_effects(study))
         base = {name: at_middle(study.parameters[name]) for name in diagnosed_parameters(study)}
-        return verdict("named", ["k_T"]) | {"base": {"parameters": base}, "next_experiment": []}
+        return as_record(verdict("named", ["k_T"]) | {"base": {"parameters": base}})
+
+
+def as_record(given: dict[str, Any]) -> Diagnosis:
+    """Return the parts of a diagnosis that the blind test reads."""
+    models = {"base": OfBase, "extended": OfExtended}
+    parameters = {
+        key: {n: OfParameter.model_construct(**p) for n, p in given[key]["parameters"].items()}
+        for key in models
+    }
+    lists = {"candidates": OfCandidate, "gap": OfGap, "screen": OfScreen, "windows": OfWindow}
+    return Diagnosis.model_construct(
+        verdict=OfVerdict.model_construct(**given["verdict"]),
+        **{key: of.model_construct(parameters=parameters[key]) for key, of in models.items()},
+        **{key: [of.model_construct(**one) for one in given[key]] for key, of in lists.items()},
+    )
 
 
 def at_middle(parameter: Parameter) -> dict[str, Any]:

@@ -10,6 +10,7 @@ from pyrofit.blind_test.detectability import Misfit, located
 from pyrofit.blind_test.power import power, thresholds
 from pyrofit.blind_test.rates import bias, coverage, interval, times, windows
 from pyrofit.blind_test.recovery import parameter_rows, strength_rows
+from pyrofit.results.diagnosis_schema import OfWindow
 
 SLOPE = {"value": -1.1e-3, "low": -1.2e-3, "high": -1.05e-3, "low_wide": None, "high_wide": None}
 
@@ -121,10 +122,14 @@ def test_points_of_windows_are_counted_against_where_the_base_is_off() -> None:
     time = np.arange(0.0, 10.0)
     off = np.where((time >= 2.0) & (time <= 5.0), -0.9, 0.1)
     misfit = Misfit(1.0, 1.0, 10, {("a", "mlr"): (time, off)})
-    window = {"model": "base", "experiment": "a", "signal": "mlr", "start_s": 4.0, "end_s": 8.0}
-    counts = located([window, {**window, "model": "extended", "start_s": 0.0}], misfit)
+    window = OfWindow.model_construct(
+        model="base", experiment="a", signal="mlr", start_s=4.0, end_s=8.0
+    )
+    of_extended = window.model_copy(update={"model": "extended", "start_s": 0.0})
+    counts = located([window, of_extended], misfit)
     assert counts == {"in_windows": 5, "off": 4, "both": 2}
-    assert located([{**window, "experiment": "b"}], misfit)["both"] == 0
+    elsewhere = window.model_copy(update={"experiment": "b"})
+    assert located([elsewhere], misfit)["both"] == 0
 
 
 def test_windows_are_averaged_over_detectable_effects() -> None:

@@ -4,7 +4,6 @@ import json
 import shutil
 from collections import Counter
 from pathlib import Path
-from typing import Any
 
 import numpy as np
 import pandas as pd
@@ -25,6 +24,7 @@ from pyrofit.diagnose.diagnosis import diagnose
 from pyrofit.effects import known_effects
 from pyrofit.errors import DataError, StudyError
 from pyrofit.estimate.targets import Measurements
+from pyrofit.results.diagnosis_schema import Diagnosis
 
 CONFIG = Path(__file__).parents[2] / "config"
 FILE = CONFIG / "foreign_truth.yaml"
@@ -212,7 +212,7 @@ def test_true_model_explains_the_curves_of_the_other_code(
     assert (table["fitted_sd"] <= table["at_truth_sd"]).all()
 
 
-def quick(study: Study, measurements: Measurements) -> dict[str, Any]:
+def quick(study: Study, measurements: Measurements) -> Diagnosis:
     """Diagnose with five candidates."""
     few = {"foil_mass", "k_T", "edge_loss", "thickness", "heater_ramp"}
     return diagnose(without_effects(study, set(candidate_effects(study)) - few), measurements)

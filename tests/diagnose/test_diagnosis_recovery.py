@@ -1,7 +1,5 @@
 """What is hidden in a twin is found again; what is not, is not."""
 
-from typing import Any
-
 import numpy as np
 import pytest
 from conftest import HIDDEN, SEED, Diagnosed
@@ -14,6 +12,7 @@ from pyrofit.diagnose.diagnosis import Diagnosis, _undecided, examine
 from pyrofit.diagnose.search.step import SearchContext
 from pyrofit.diagnose.search.stepwise import search
 from pyrofit.effects import known_effects
+from pyrofit.results.diagnosis_candidates import OfCandidate
 
 NAMED = ("k_T", "in_depth", "heater_ramp")
 ORACLES = (
@@ -76,47 +75,47 @@ def test_no_experiment_is_proposed_where_nothing_is_missing(diagnosed: Diagnosed
 
 def test_twin_that_hides_nothing_lacks_nothing(diagnosed: Diagnosed) -> None:
     content = diagnosed("nothing").content
-    assert content["verdict"]["kind"] == "none"
-    assert content["base"]["adequate"]
-    assert content["windows"] == []
-    assert max(c["gain"] for c in content["candidates"]) < content["needed"]
+    assert content.verdict.kind == "none"
+    assert content.base.adequate
+    assert content.windows == []
+    assert max(c.gain for c in content.candidates) < content.needed
 
 
 @pytest.mark.parametrize("effect", NAMED)
 def test_hidden_effect_is_named_by_its_group(effect: str, diagnosed: Diagnosed) -> None:
-    verdict = diagnosed(effect).content["verdict"]
-    assert verdict["kind"] == "named"
-    assert verdict["groups"] == [known_effects()[effect].group]
-    assert effect in verdict["sets"][0]
-    assert verdict["confirmed"]
+    verdict = diagnosed(effect).content.verdict
+    assert verdict.kind == "named"
+    assert verdict.groups == [known_effects()[effect].group]
+    assert effect in verdict.sets[0]
+    assert verdict.confirmed
 
 
-def row_of(found: Diagnosis, effect: str) -> dict[str, Any]:
+def row_of(found: Diagnosis, effect: str) -> OfCandidate:
     """Return the row of the model with an effect at its usual form."""
     free = {effect: [strength_of(effect)[0]]}
-    (row,) = [row for row in found.content["candidates"] if row["free"] == free]
-    return dict(row)
+    (row,) = [row for row in found.content.candidates if row.free == free]
+    return row
 
 
 @pytest.mark.parametrize("effect", NAMED)
 def test_hidden_strength_lies_within_a_narrow_interval(effect: str, diagnosed: Diagnosed) -> None:
     name = f"{effect}_{strength_of(effect)[0]}"
-    found = row_of(diagnosed(effect), effect)["parameters"][name]
+    found = row_of(diagnosed(effect), effect).parameters[name]
     true = HIDDEN[effect][effect]
-    assert found["low"] <= true <= found["high"]
-    assert found["high"] - found["low"] < 0.4 * abs(true)
+    assert found.low <= true <= found.high
+    assert found.high - found.low < 0.4 * abs(true)
 
 
 @pytest.mark.parametrize("effect", NAMED)
 def test_gap_closes_to_the_noise(effect: str, diagnosed: Diagnosed) -> None:
-    gap = diagnosed(effect).content["gap"]
+    gap = diagnosed(effect).content.gap
     assert len(gap) == 4
-    after = sum(row["chi2_after"] for row in gap)
-    points = sum(row["points"] for row in gap)
+    after = sum(row.chi2_after for row in gap)
+    points = sum(row.points for row in gap)
     assert after < points
-    assert sum(row["chi2_before"] for row in gap) > 1.4 * after
+    assert sum(row.chi2_before for row in gap) > 1.4 * after
     for row in gap:
-        assert row["rms_after"] < 1.4 * row["noise_sd"], row
+        assert row.rms_after < 1.4 * row.noise_sd, row
 
 
 @pytest.mark.parametrize("effect", NAMED)
@@ -148,7 +147,7 @@ def test_other_draws_and_starts_give_the_same_verdict() -> None:
         examine(few.model_copy(update={"seed": seed}), series, advise=False).content
         for seed in (5, 77)
     )
-    assert other["base"]["scan_critical"] != first["base"]["scan_critical"]
+    assert other.base.scan_critical != first.base.scan_critical
     for key in ("kind", "effects", "sets", "confirmed"):
-        assert other["verdict"][key] == first["verdict"][key]
-    assert other["base"]["chi2"] == pytest.approx(first["base"]["chi2"], abs=0.5)
+        assert getattr(other.verdict, key) == getattr(first.verdict, key)
+    assert other.base.chi2 == pytest.approx(first.base.chi2, abs=0.5)

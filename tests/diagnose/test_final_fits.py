@@ -181,16 +181,16 @@ def test_result_is_that_of_the_final_fits(monkeypatch: pytest.MonkeyPatch) -> No
     monkeypatch.setattr(sys.modules[tolerated_error.__module__], "SETTINGS", settings)
     described = study(effects=["k_T"])
     found = examine(described, measured({"k_T": -1e-3}, 1), advise=False)
-    assert found.content["solver"]["coarsened"]
+    assert found.content.solver.coarsened
     assert found.end.effects == ("k_T",)
     searched, end = (fit.model.likelihood.problem.accuracy for fit in (found.search.end, found.end))
     assert (searched.cells, end.cells) == (12, 20)
-    (best, *_) = found.content["candidates"]
-    value = best["parameters"]["k_T_slope_1_K"]["value"]
+    (best, *_) = found.content.candidates
+    value = best.parameters["k_T_slope_1_K"].value
     assert value == found.end.strength("k_T") != found.search.end.strength("k_T")
     values, _ = values_of(found.end)
-    extended = found.content["extended"]["parameters"]
-    assert extended["rho"]["value"] == values[found.end.model.names.index("rho")]
+    extended = found.content.extended.parameters
+    assert extended["rho"].value == values[found.end.model.names.index("rho")]
     likelihood = found.end.model.likelihood
     curves = likelihood.curves(found.end.fit.x)
     assert curves is not None

@@ -63,10 +63,10 @@ def study(effects: dict[str, Any]) -> Study:
 )
 def test_hidden_effect_is_named(hidden: str, strength: dict[str, float]) -> None:
     truth = study({hidden: strength})
-    verdict = diagnose(truth, computed(truth))["verdict"]
-    assert (verdict["kind"], verdict["effects"]) == ("named", [hidden])
+    verdict = diagnose(truth, computed(truth)).verdict
+    assert (verdict.kind, verdict.effects) == ("named", [hidden])
 
 
 def test_nothing_is_named_where_nothing_is_hidden() -> None:
     truth = study({})
-    assert diagnose(truth, computed(truth))["verdict"]["kind"] == "none"
+    assert diagnose(truth, computed(truth)).verdict.kind == "none"

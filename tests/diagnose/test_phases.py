@@ -107,26 +107,26 @@ def test_course_at_the_times_of_a_channel_keeps_the_phases_of_its_kind(
 
 def test_windows_say_simulated_less_measured_at_their_place(unexplained: Diagnosis) -> None:
     found = unexplained.search
-    windows = describe(found.base, found.rounds[0].lack().windows, 1.0)
+    windows = describe("base", found.base, found.rounds[0].lack().windows, 1.0)
     assert windows
     for w, stretch in zip(windows, found.rounds[0].lack().windows, strict=True):
-        rows = unexplained.curves.query("experiment == @w['experiment'] and signal == @w['signal']")
+        rows = unexplained.curves.query("experiment == @w.experiment and signal == @w.signal")
         part = rows.iloc[stretch.start : stretch.end]
-        assert part["time_s"].iloc[0] == w["start_s"]
-        assert part["time_s"].iloc[-1] == w["end_s"]
+        assert part["time_s"].iloc[0] == w.start_s
+        assert part["time_s"].iloc[-1] == w.end_s
         mean = float((part["before"] - part["measured"]).mean())
-        assert w["mean"] == pytest.approx(mean, rel=1e-9)
-        assert w["relative"] == pytest.approx(mean / part["measured"].abs().mean(), rel=1e-9)
-        assert w["unit"] == ("K" if w["signal"] == "back_temperature" else "kg/(m² s)")
-        assert w["start_K"] is None
-        assert w["critical"] == 1.0
+        assert w.mean == pytest.approx(mean, rel=1e-9)
+        assert w.relative == pytest.approx(mean / part["measured"].abs().mean(), rel=1e-9)
+        assert w.unit == ("K" if w.signal == "back_temperature" else "kg/(m² s)")
+        assert w.start_K is None
+        assert w.critical == 1.0
 
 
 def test_model_without_the_late_heater_starts_too_early(unexplained: Diagnosis) -> None:
     """The heater comes up slowly in truth: at first the model is ahead, to be behind later."""
-    windows = [w for w in unexplained.content["windows"] if w["model"] == "base"]
-    rate = [w for w in windows if w["signal"] == "mlr" and w["experiment"] == "slab_60"]
-    early = min(rate, key=lambda w: w["start_s"])
-    assert early["phase"] in ("heat-up", "onset")
-    assert early["sign"] == 1
-    assert early["mean"] > 0.0
+    windows = [w for w in unexplained.content.windows if w.model == "base"]
+    rate = [w for w in windows if w.signal == "mlr" and w.experiment == "slab_60"]
+    early = min(rate, key=lambda w: w.start_s)
+    assert early.phase in ("heat-up", "onset")
+    assert early.sign == 1
+    assert early.mean > 0.0

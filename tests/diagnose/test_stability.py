@@ -74,7 +74,7 @@ def late_heater() -> list[Diagnosis]:
 
 def test_a_clear_effect_is_named_from_disturbed_data(late_heater: list[Diagnosis]) -> None:
     for found in late_heater:
-        assert found.content["verdict"]["effects"] == ["heater_ramp"]
+        assert found.content.verdict.effects == ["heater_ramp"]
 
 
 def test_each_draw_changes_the_data_and_the_same_draw_gives_the_same_bits(

@@ -11,7 +11,6 @@ from typing import Any
 import numpy as np
 import pandas as pd
 import pytest
-from pydantic import ValidationError
 from test_report import Page, write_tables
 from test_tables import described, fake, synthetic
 
@@ -20,8 +19,9 @@ from pyrofit.diagnose.base.model import strength_of
 from pyrofit.effects import known_effects
 from pyrofit.errors import DataError
 from pyrofit.results.diagnosis import curves as curves_of
-from pyrofit.results.diagnosis import read, write
-from pyrofit.results.diagnosis_schema import VERDICTS
+from pyrofit.results.diagnosis import read
+from pyrofit.results.diagnosis_candidates import OfCandidate
+from pyrofit.results.diagnosis_schema import VERDICTS, Diagnosis, OfVerdict
 from pyrofit.results.files import Results, write_csv, write_json, write_text
 from pyrofit.results.schema_page import schema_page
 from pyrofit.show import diagnosis_page as report
@@ -393,14 +393,16 @@ def test_errors_that_rise_count_only_where_a_signal_can_tell(tmp_path: Path) -> 
     rate |= {"role": "held out", "tells": True}
     back["tells"] = False
     rate["rms_after"], back["rms_after"] = 0.5 * rate["rms_before"], 2.0 * back["rms_before"]
-    said = gap_closed(content)
+    said = gap_closed(Diagnosis.model_validate(content))
     assert "rises with the effects for 0 of 1 held-out signals that can tell" in said
     assert "signals that cannot tell: 1, of these 1 with a larger error" in said
     assert "log score" not in said
     rate["rms_after"] = 2.0 * rate["rms_before"]
-    assert "for 1 of 1 held-out signals that can tell" in gap_closed(content)
+    assert "for 1 of 1 held-out signals that can tell" in gap_closed(
+        Diagnosis.model_validate(content)
+    )
     content["verdict"]["effects"] = []
-    assert "held-out signals" not in gap_closed(content)
+    assert "held-out signals" not in gap_closed(Diagnosis.model_validate(content))
 
 
 @pytest.mark.parametrize("kind", ["none", "unknown"])
@@ -703,7 +705,7 @@ def altered(results: Results, place: str, value: Any) -> None:
     [
         ("study", "other", "the diagnosis of another study"),
         ("noise.0.experiment", "gone", "the diagnosis of another study"),
-        ("verdict.kind", "perhaps", "unknown verdict 'perhaps'"),
+        ("verdict.kind", "perhaps", r"'verdict\.kind' is 'perhaps', not one of 'none'"),
         ("verdict.sets", [], r"'verdict\.sets' is empty"),
         ("windows.0.phase", None, r"'windows\.0\.phase' is not text"),
         ("candidates.1.gain", "many", r"'candidates\.1\.gain' is not a finite number"),
@@ -724,9 +726,6 @@ def test_diagnosis_with_a_key_that_the_schema_lacks_is_refused(tmp_path: Path) -
     altered(results, "base.more", 1.0)
     with pytest.raises(DataError, match=r"'base\.more' is not a key of this result"):
         read(study, results)
-    content = json.loads(results.diagnosis("diagnosis.json").read_text())
-    with pytest.raises(ValidationError, match="base"):
-        write(results, content)
 
 
 def test_page_of_the_schema_is_up_to_date() -> None:
@@ -744,10 +743,10 @@ def test_curves_that_lack_a_channel_are_refused(tmp_path: Path) -> None:
 
 def test_leading_candidate_is_the_best_that_was_not_rejected(tmp_path: Path) -> None:
     study, _ = diagnosed(tmp_path, "named", described())
-    chosen = leading(found(study, "named"))
+    chosen = leading(Diagnosis.model_validate(found(study, "named")))
     assert chosen is not None
-    assert (chosen["effects"], chosen["rejected"]) == (["k_T"], "")
-    assert leading(found(study, "unknown")) is None
+    assert (chosen.effects, chosen.rejected) == (["k_T"], "")
+    assert leading(Diagnosis.model_validate(found(study, "unknown"))) is None
 
 
 @pytest.mark.parametrize("signals", range(1, 20))
@@ -770,10 +769,14 @@ def test_every_figure_belongs_to_some_verdict(tmp_path: Path) -> None:
 
 
 def test_model_of_the_verdict_is_shown_among_the_best() -> None:
-    rows = [{"effects": [f"e{i}"], "penalised": float(i), "rejected": "no"} for i in range(5)]
-    rows[4] |= {"effects": ["k_T"], "rejected": ""}
-    given = {"candidates": rows, "verdict": {"effects": ["k_T"]}}
-    assert [c["effects"] for c in ranked(given, 3)] == [["e0"], ["e1"], ["k_T"]]
+    named = [("e0", "no"), ("e1", "no"), ("e2", "no"), ("e3", "no"), ("k_T", "")]
+    rows = [
+        OfCandidate.model_construct(effects=[effect], penalised=float(i), rejected=why)
+        for i, (effect, why) in enumerate(named)
+    ]
+    verdict = OfVerdict.model_construct(effects=["k_T"])
+    given = Diagnosis.model_construct(candidates=rows, verdict=verdict)
+    assert [c.effects for c in ranked(given, 3)] == [["e0"], ["e1"], ["k_T"]]
     assert ranked(given) == ranked(given, 5) == rows
 
 

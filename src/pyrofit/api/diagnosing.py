@@ -17,6 +17,7 @@ from pyrofit.diagnose.diagnosis import Diagnosis as Found
 from pyrofit.diagnose.diagnosis import examine
 from pyrofit.diagnose.result.extended_study import extended_keys
 from pyrofit.errors import StudyError
+from pyrofit.results.diagnosis_schema import Diagnosis as Record
 from pyrofit.show.diagnosis.evidence import evidence_of
 from pyrofit.show.diagnosis.ranking import draw_ranking, ranking_entries
 from pyrofit.show.diagnosis.sentences import certainty, facts
@@ -110,22 +111,26 @@ class Diagnosis:
     @property
     def content(self) -> dict[str, Any]:
         """The keys of ``diagnosis.json``, see docs/diagnosis_json.md."""
+        return self._record.model_dump(by_alias=True)
+
+    @property
+    def _record(self) -> Record:
         return self.found.content
 
     @property
     def kind(self) -> str:
         """Kind of the verdict, such as 'none', 'named' or 'ambiguous'."""
-        return str(self.content["verdict"]["kind"])
+        return self._record.verdict.kind
 
     @property
     def verdict(self) -> str:
         """The verdict in words."""
-        return str(self.content["verdict"]["words"])
+        return self._record.verdict.words
 
     @property
     def effects(self) -> list[str]:
         """Names of the effects that the verdict claims."""
-        return list(self.content["verdict"]["effects"])
+        return list(self._record.verdict.effects)
 
     @property
     def ranking(self) -> pd.DataFrame:
@@ -136,13 +141,13 @@ class Diagnosis:
         """
         rows = [
             {
-                "effects": " + ".join(candidate["effects"]),
-                "chi2": candidate["chi2"],
-                "penalised": candidate["penalised"],
-                "gain": candidate["gain"],
-                "remark": remark(self.content, candidate),
+                "effects": " + ".join(candidate.effects),
+                "chi2": candidate.chi2,
+                "penalised": candidate.penalised,
+                "gain": candidate.gain,
+                "remark": remark(self._record, candidate),
             }
-            for candidate in ranked(self.content)
+            for candidate in ranked(self._record)
         ]
         return pd.DataFrame(rows, columns=["effects", "chi2", "penalised", "gain", "remark"])
 
@@ -154,7 +159,7 @@ class Diagnosis:
         score; agreement, p of equal strengths; correction, the best free one. The column above is
         its -2 ln marginal likelihood relative to the effect.
         """
-        return evidence_of(self.study, self.content)
+        return evidence_of(self.study, self._record)
 
     @property
     def windows(self) -> pd.DataFrame:
@@ -199,15 +204,15 @@ class Diagnosis:
         return [*evidence, ("Candidates", self.ranking.head(SHOWN))]
 
     def _lines(self) -> list[str]:
-        return [*facts(self.content), certainty(self.study, self.content)]
+        return [*facts(self._record), certainty(self.study, self._record)]
 
     def plot_ranking(self, ax: "Axes | None" = None) -> "Axes":
         """Draw the candidates on ``ax``, by default on a new one."""
-        if not self.content["candidates"]:
+        if not self._record.candidates:
             raise StudyError("no effect was fitted: there is nothing to rank")
         ax = plots.wide_axes(len(self.ranking)) if ax is None else plots.axes_of(ax)
-        draw_ranking(ax, self.content)
-        plots.legend_below(ax, ranking_entries(self.content))
+        draw_ranking(ax, self._record)
+        plots.legend_below(ax, ranking_entries(self._record))
         return ax
 
     def plot(

@@ -99,7 +99,7 @@ class Campaign:
     @property
     def diagnosis(self) -> dict[str, Any]:
         """The keys of ``diagnosis.json``, see docs/diagnosis_json.md."""
-        return diagnosis.read(self.study, self._results)
+        return diagnosis.read(self.study, self._results).model_dump(by_alias=True)
 
     def __repr__(self) -> str:
         """List the tables."""

@@ -3,7 +3,6 @@
 import math
 from collections.abc import Iterable, Mapping
 from dataclasses import dataclass, replace
-from typing import Any
 
 import numpy as np
 
@@ -18,6 +17,7 @@ from pyrofit.estimate.prior import NormalPrior
 from pyrofit.estimate.problem import Problem
 from pyrofit.estimate.targets import Measurements
 from pyrofit.model.signal import Noise
+from pyrofit.results.diagnosis_schema import OfWindow
 from pyrofit.solver.arrays import FloatArray
 
 ACTS = 0.5
@@ -94,19 +94,19 @@ def unexplained(truth: Study, curves: Measurements, known: Mapping[str, float]) 
     return _least(truth, _true(truth, curves), known)
 
 
-def located(windows: Iterable[Mapping[str, Any]], misfit: Misfit) -> dict[str, int]:
+def located(windows: Iterable[OfWindow], misfit: Misfit) -> dict[str, int]:
     """Return how many points lie in windows of the base, how many are off, and how many are both.
 
     A point is off where the base misses the truth by more than `ACTS`. With these counts the F1 of
     the windows is 2 both / (in_windows + off).
     """
     counts = dict.fromkeys(("in_windows", "off", "both"), 0)
-    of_base = [window for window in windows if window["model"] == "base"]
+    of_base = [window for window in windows if window.model == "base"]
     for (experiment, signal), (time, difference) in misfit.differences.items():
         inside = np.zeros(time.size, dtype=bool)
         for window in of_base:
-            if (window["experiment"], window["signal"]) == (experiment, signal):
-                inside |= (time >= window["start_s"]) & (time <= window["end_s"])
+            if (window.experiment, window.signal) == (experiment, signal):
+                inside |= (time >= window.start_s) & (time <= window.end_s)
         off = np.abs(difference) > ACTS
         for name, mask in (("in_windows", inside), ("off", off), ("both", inside & off)):
             counts[name] += int(mask.sum())

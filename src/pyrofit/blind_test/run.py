@@ -1,7 +1,7 @@
 """Run a plan: compute each twin, diagnose it, and keep the verdict beside the truth."""
 
 import time
-from collections.abc import Callable, Iterator, Mapping
+from collections.abc import Callable, Iterator, Sequence
 from contextlib import contextmanager
 from typing import Any
 
@@ -16,12 +16,12 @@ from pyrofit.errors import DataError, StudyError
 from pyrofit.estimate.targets import Measurements
 from pyrofit.plugins import code_digest
 from pyrofit.provenance import source_fingerprint
+from pyrofit.results.diagnosis_schema import Diagnosis, OfScreen
 from pyrofit.results.files import read_json, write_json
 
-Found = Mapping[str, Any]
-Diagnose = Callable[[Study, Measurements], Found]
+Diagnose = Callable[[Study, Measurements], Diagnosis]
 """The diagnosis under test: study and measurements in, verdict and its evidence out."""
-KEPT = ("verdict", "base", "screen", "candidates", "extended", "gap")
+KEPT = {"verdict", "base", "screen", "candidates", "extended", "gap"}
 """Parts of a diagnosis that are kept."""
 
 
@@ -76,19 +76,21 @@ def run_case(setting: Setting, case: Case, places: Places, diagnose: Diagnose) -
     known = {name: prior.sd for name, prior in study.known.items()}
     with _timed(seconds, "diagnosis"):
         found = diagnose(study, measurements)
-    base = {name: one["value"] for name, one in found["base"]["parameters"].items()}
+    base = {name: one.value for name, one in found.base.parameters.items()}
     with _timed(seconds, "detectability"):
         misfit = detectability(twin.truth, twin.series, known, base)
     assert twin.truth.synthetic is not None
     result: dict[str, Any] = {"case": case.model_dump(mode="json")}
     result |= {"truth": twin.truth.synthetic.truth}
-    result |= {"detectability": misfit.size, "location": located(found["windows"], misfit)}
-    result |= {key: found[key] for key in KEPT} | {"score_only": largest_score(found)}
+    result |= {"detectability": misfit.size, "location": located(found.windows, misfit)}
+    result |= found.model_dump(include=KEPT) | {"score_only": largest_score(found.screen)}
     result["left_out"] = None
     if case.left_out:
         hidden = set().union(*(same_as(name) for name in removed(case)))
         with _timed(seconds, "left_out"):
-            result["left_out"] = diagnose(without_effects(study, hidden), measurements)["verdict"]
+            result["left_out"] = diagnose(
+                without_effects(study, hidden), measurements
+            ).verdict.model_dump()
     return result | {"seconds": seconds}
 
 
@@ -100,13 +102,9 @@ def removed(case: Case) -> tuple[str, ...]:
     return tuple(case.hidden)[-1:]
 
 
-def largest_score(found: Found) -> str:
-    """Return the effect with the largest score, a reference that needs no fit.
-
-    >>> largest_score({"screen": [{"effect": "k_T", "z": 3.0}, {"effect": "c_T", "z": 4.0}]})
-    'c_T'
-    """
-    scores = {str(entry["effect"]): abs(entry["z"]) for entry in found["screen"]}
+def largest_score(screen: Sequence[OfScreen]) -> str:
+    """Return the effect with the largest score, a reference that needs no fit."""
+    scores = {entry.effect: abs(entry.z) for entry in screen}
     return max(scores, key=lambda name: scores[name], default="")
 
 

@@ -1,7 +1,6 @@
 """The diagnosis of a study, from its measurements to the verdict."""
 
-from dataclasses import asdict, dataclass
-from typing import Any
+from dataclasses import dataclass
 
 import numpy as np
 import pandas as pd
@@ -15,7 +14,6 @@ from pyrofit.diagnose.base.fitted import FittedModel, resting_at_limits, up_to_d
 from pyrofit.diagnose.base.model import Base
 from pyrofit.diagnose.judge.final_fits import final_fits
 from pyrofit.diagnose.judge.findings import Verdict
-from pyrofit.diagnose.judge.kinetics_alone import kinetics_alone
 from pyrofit.diagnose.judge.profiles import profiles
 from pyrofit.diagnose.judge.verdict import judge
 from pyrofit.diagnose.result import record
@@ -24,6 +22,8 @@ from pyrofit.diagnose.search.step import SearchContext, in_order
 from pyrofit.diagnose.search.stepwise import Search, search
 from pyrofit.estimate.targets import Measurements
 from pyrofit.logs import Tell
+from pyrofit.results.diagnosis_schema import Diagnosis as Record
+from pyrofit.results.diagnosis_schema import OfSolver
 
 
 @dataclass(frozen=True, eq=False)
@@ -38,7 +38,7 @@ class Diagnosis:
     search: Search
     end: FittedModel
     verdict: Verdict
-    content: dict[str, Any]
+    content: Record
     curves: pd.DataFrame
 
 
@@ -76,26 +76,28 @@ def examine(
     searched = found.end
     verdict = judge(found, rng, processes)
     found = verdict.search
-    final = final_fits(verdict, study.accuracy if solver["coarsened"] else None, processes)
-    content = {**record.content(study, found, verdict, final, processes), "solver": solver}
+    final = final_fits(verdict, study.accuracy if solver.coarsened else None, processes)
+    content = record.content(study, found, verdict, final, solver, processes)
     end = final.of(found.end)
-    content["kinetics_alone"] = record.dumped(kinetics_alone(end))
-    content["profiles"] = record.dumped(profiles(end, processes) if advise else [])
-    content["probes"] = [_shown(p) for p in (_probes(found, verdict, processes) if advise else [])]
-    designs = next_experiments(_undecided(found, verdict), processes) if advise else []
-    content["next_experiment"] = [asdict(design) for design in designs]
-    tell(content["verdict"]["words"])
+    if advise:
+        content = record.advised(
+            content,
+            profiles(end, processes),
+            _probes(found, verdict, processes),
+            next_experiments(_undecided(found, verdict), processes),
+        )
+    tell(content.verdict.words)
     return Diagnosis(searched, found, end, verdict, content, record.curves(found, final))
 
 
-def diagnose(study: Study, measurements: Measurements) -> dict[str, Any]:
-    """Return the content of ``diagnosis.json``, without advice."""
+def diagnose(study: Study, measurements: Measurements) -> Record:
+    """Return the record of a diagnosis, without advice."""
     return examine(study, measurements, advise=False).content
 
 
 def _searched(
     study: Study, measurements: Measurements, tell: Tell, processes: int, draw: int | None
-) -> tuple[Search, np.random.Generator, dict[str, Any]]:
+) -> tuple[Search, np.random.Generator, OfSolver]:
     """Return the search, the generator of its draws, and how accurate its runs are.
 
     Runs are coarser than the study asks for, unless the difference counts against the noise.
@@ -108,11 +110,11 @@ def _searched(
         found = _search(rough, setup, rng, tell, processes)
         error = max(error, solver_error(found.end, study.accuracy))
         if error <= tolerated:
-            return found, rng, {"coarsened": True, "error_chi2": error}
+            return found, rng, OfSolver(coarsened=True, error_chi2=error)
     tell(f"once more with finer runs, which change chi-square by {error:.2g}")
     setup, rng = _based(study, measurements, tell, processes, draw)
     found = _search(study, setup, rng, tell, processes)
-    return found, rng, {"coarsened": False, "error_chi2": 0.0}
+    return found, rng, OfSolver(coarsened=False, error_chi2=0.0)
 
 
 def _based(
@@ -141,11 +143,6 @@ def _search(
 
 def _probes(found: Search, verdict: Verdict, processes: int) -> list[Probe]:
     return probes(found.end, processes) if verdict.kind in ("partly", "unknown") else []
-
-
-def _shown(probe: Probe) -> dict[str, Any]:
-    """Return a probe without its coefficients, which its shape shows."""
-    return {key: value for key, value in asdict(probe).items() if key != "coefficients"}
 
 
 def _undecided(found: Search, verdict: Verdict) -> list[FittedModel]:

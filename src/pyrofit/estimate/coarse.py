@@ -8,6 +8,7 @@ from dataclasses import replace
 
 import numpy as np
 
+from pyrofit.cost.distances import root_mean_square
 from pyrofit.estimate.problem import Outcome, Problem
 from pyrofit.model.slab import SlabExperiment
 from pyrofit.solver.arrays import FloatArray
@@ -59,7 +60,7 @@ def are_close(coarse: Problem, problem: Problem, sets: FloatArray) -> list[bool]
         if not (status.finished and own.finished):
             return status.finished == own.finished
         return all(
-            _rms(a - b) <= max(OF_NOISE * sd, OF_MISFIT * _rms(b - target))
+            root_mean_square(a - b) <= max(OF_NOISE * sd, OF_MISFIT * root_mean_square(b - target))
             for a, b, target, sd in zip(rough, fine, targets, noise, strict=True)
         )
 
@@ -78,7 +79,3 @@ def point_noise(values: FloatArray) -> float:
     """
     bends = np.abs(np.diff(values, 2))
     return float(np.median(bends)) / (0.6744897501960817 * 6.0**0.5) if bends.size else 0.0
-
-
-def _rms(values: FloatArray) -> float:
-    return float(np.sqrt(np.mean(values**2)))

@@ -16,6 +16,7 @@ from dataclasses import replace
 import numpy as np
 from scipy.special import chdtrc, fdtrc
 
+from pyrofit.cost.distances import root_mean_square
 from pyrofit.estimate.between_repeats import groups_of_repeats
 from pyrofit.estimate.likelihood import Likelihood
 from pyrofit.estimate.noise import NoiseModel
@@ -150,11 +151,11 @@ def _signal(
         experiment=experiment,
         signal=signal,
         p=p,
-        rms=float(np.sqrt(np.mean(difference**2))),
+        rms=root_mean_square(difference),
         range=float(np.ptp(target.value)),
         points_sd=float(np.median(noise.sd)),
         scatter=scatter_of,
-        averaged=float(np.sqrt(np.mean(averaged**2))),
+        averaged=root_mean_square(averaged),
         total=_total(likelihood, channel, difference),
         misses=(),
     )

@@ -11,6 +11,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from pyrofit.cost.distances import root_mean_square
 from pyrofit.estimate.warp import Warp, warp_to
 from pyrofit.quantities.base import Quantity
 from pyrofit.solver.arrays import FloatArray
@@ -149,5 +150,5 @@ def _compared(
 
 def _sizes(warp: Warp, span: float, length: float) -> FloatArray:
     """Return start, level and shape of a record against the others."""
-    shape = float(np.sqrt(np.mean(warp.left**2))) / span
+    shape = root_mean_square(warp.left) / span
     return np.array([warp.start * length, warp.level - 1.0, shape])

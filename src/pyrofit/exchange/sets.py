@@ -14,7 +14,9 @@ from pyrofit.errors import DataError, StudyError, suggest
 from pyrofit.estimate.optimisers import OPTIMISERS
 from pyrofit.model.material import Material
 from pyrofit.results import diagnosis, identification
-from pyrofit.results.files import Results, read_json
+from pyrofit.results.diagnosis_schema import Diagnosis
+from pyrofit.results.files import Results
+from pyrofit.results.record import read_record
 from pyrofit.stages.fit import fixed_for_imp
 from pyrofit.stages.predict import sets_of
 
@@ -174,12 +176,13 @@ def _diagnosed(study: Study, results: Results, beside: Path) -> ParameterSet:
             "diagnose`"
         )
     extended = path.parent == beside
-    found = read_json(path) if extended else diagnosis.read(study, results)
-    of = found["extended"]["parameters"] if extended else found["base"]["parameters"]
+    # The study beside it has another name than the one that was diagnosed.
+    found = read_record(path, Diagnosis) if extended else diagnosis.read(study, results)
+    of = found.extended.parameters if extended else found.base.parameters
     values, notes = study.fixed_values(), {}
     for name, p in of.items():
         if name in study.parameters:
-            values[name] = p["value"] * study.parameters[name].factor
-            limit = ", at a limit" if p["at_limit"] else ""
-            notes[name] = f"95 % interval {p['low']:.5g} to {p['high']:.5g} {p['unit']}{limit}"
+            values[name] = p.value * study.parameters[name].factor
+            limit = ", at a limit" if p.at_limit else ""
+            notes[name] = f"95 % interval {p.low:.5g} to {p.high:.5g} {p.unit}{limit}"
     return ParameterSet(DIAGNOSIS, diagnosed_material(study), values, notes)

@@ -257,7 +257,7 @@ class Diagnosis(Record):
     """Result of a diagnosis."""
 
     schema_: int = Field(alias="schema", description="1")
-    settings: dict[str, float | list[float]] = Field(
+    settings: dict[str, int | float | list[float]] = Field(
         description="numbers that steered the diagnosis, by name"
     )
     study: str = Field(description="name of the study")
@@ -267,13 +267,13 @@ class Diagnosis(Record):
     windows: list[OfWindow] = Field(description="intervals in which residuals are biased")
     screen: list[OfScreen] = Field(description="score tests, by effect")
     confusability: OfConfusability = Field(description="how alike effects are")
-    solver: OfSolver = Field(description="accuracy of the solver")
     needed: float = Field(description="gain of chi-square that a claim needs")
     ambiguity: float = Field(description="difference of penalised chi-square that decides nothing")
     not_tried: list[OfNotTried] = Field(description="effects that are no candidates")
     candidates: list[OfCandidate] = Field(description="models with effects, the best first")
     extended: OfExtended = Field(description="the model that the search ended with")
     gap: list[OfGap] = Field(description="misfit before and after, by signal")
+    solver: OfSolver = Field(description="accuracy of the solver")
     kinetics_alone: list[OfKinetics] = Field(
         description="the final model fitted to small samples alone; empty without a slab beside"
     )

@@ -74,6 +74,8 @@ def _said(error: ValidationError) -> str:
     """Return the first error in words."""
     first = error.errors()[0]
     place = ".".join(str(key) for key in first["loc"])
+    if first["type"] == "literal_error":
+        return f"'{place}' is '{first['input']}', not one of {first['ctx']['expected']}"
     return f"'{place}' {_WRONG.get(first['type'], first['msg'])}"
 
 

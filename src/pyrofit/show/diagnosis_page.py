@@ -5,6 +5,7 @@ import pandas as pd
 from pyrofit.config import Study
 from pyrofit.parallel import parallel_map
 from pyrofit.results import diagnosis, recorded
+from pyrofit.results.diagnosis_schema import Diagnosis
 from pyrofit.results.files import Results, write_text
 from pyrofit.show.diagnosis import FIGURES, TABLES
 from pyrofit.show.diagnosis.curves import curve_figures
@@ -16,7 +17,6 @@ from pyrofit.show.diagnosis.sentences import (
     next_measured,
     where_off,
 )
-from pyrofit.show.diagnosis.words import Found
 from pyrofit.show.figure import Figure, draw_figure
 from pyrofit.show.measured import use_in_diagnosis
 from pyrofit.show.page import page_of
@@ -51,7 +51,7 @@ def write_page(study: Study, results: Results) -> None:
     write_text(results.diagnosis("report.html"), text)
 
 
-def section(study: Study, results: Results, found: Found) -> Shown:
+def section(study: Study, results: Results, found: Diagnosis) -> Shown:
     """Return all that was found, in the order in which it is read."""
     tables, drawn = diagnosis_tables(study, results), figures_of(study, found)
 
@@ -88,11 +88,11 @@ def section(study: Study, results: Results, found: Found) -> Shown:
     )
 
 
-def _extended(study: Study, results: Results, found: Found) -> list[Part]:
+def _extended(study: Study, results: Results, found: Diagnosis) -> list[Part]:
     """Say how the study with the named effects is run."""
-    if not found["extended_study"]:
+    if not found.extended_study:
         return []
-    path = results.diagnosis(found["extended_study"]).as_posix()
+    path = results.diagnosis(found.extended_study).as_posix()
     return [
         Part(
             "The study with the effects",
@@ -126,7 +126,7 @@ def draw_all(results: Results, study: Study, processes: int = 1) -> list[str]:
     return names
 
 
-def figures_of(study: Study, found: Found) -> dict[str, Figure]:
+def figures_of(study: Study, found: Diagnosis) -> dict[str, Figure]:
     """Return the figures that a diagnosis has: the curves of each quantity, and all others."""
     others = {name: figure for name, figure in FIGURES.items() if figure.applies(found)}
     return {**curve_figures(study, found), **others}

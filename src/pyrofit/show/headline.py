@@ -60,4 +60,4 @@ def verdict(study: Study, results: Results) -> str:
     DataError
         The diagnosis is missing or broken.
     """
-    return str(diagnosis.read(study, results)["verdict"]["words"])
+    return diagnosis.read(study, results).verdict.words

@@ -46,7 +46,7 @@ def write_report(study: Study, results: Results) -> None:
     lacks = ""
     if diagnosis_page.exists(results):
         found = diagnosis.read(study, results)
-        lacks = found["verdict"]["words"]
+        lacks = found.verdict.words
         shown.append(diagnosis_page.section(study, results, found))
         shown += sections_of("diagnosis", study, results)
     said = summary(study, facts)

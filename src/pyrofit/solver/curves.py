@@ -53,7 +53,7 @@ class Request:
         return self.output or signal
 
     def at(self, time_s: FloatArray) -> "Request":
-        """Return the same request at other times."""
+        """Return the request at other times."""
         return Request(
             time_s,
             self.average_s,

@@ -140,7 +140,7 @@ def cells_of(
 
 
 def _equal_cells(layer: Layer, count: int, multiple: int) -> tuple[FloatArray, IntArray]:
-    """Return the same for one set of one layer."""
+    """Return the masses of the cells, and the empty ones, for one set of one layer."""
     empty = -count % multiple
     out = np.zeros((empty + count, *layer.mass.shape))
     out[empty:] = layer.mass / count

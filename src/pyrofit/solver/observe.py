@@ -77,7 +77,7 @@ def observe_one(
     requests: Mapping[str, Request],
     run: Callable[[float, Mapping[str, Request]], Curves],
 ) -> Curves:
-    """Return the same for a solver of one set, whose times asked for have the shape (points,)."""
+    """Return the measured curves by a solver of one set, at times of the shape (points,)."""
 
     def runs(factors: FloatArray | None, asked: Mapping[str, Request]) -> Runs:
         plain = {n: requests[n].at(r.time_s[0]) for n, r in asked.items()}

@@ -1,7 +1,5 @@
 """Which effect the model lacks: the diagnosis of a study, and the extended study."""
 
-from typing import Any
-
 from pyrofit.config import Study, as_yaml
 from pyrofit.config.programs import externals
 from pyrofit.config.resolve import diagnosed
@@ -11,8 +9,9 @@ from pyrofit.errors import StudyError
 from pyrofit.experiments.external.simulate import OWN_MODEL
 from pyrofit.logs import Tell
 from pyrofit.results import diagnosis
+from pyrofit.results.diagnosis_schema import Diagnosis
 from pyrofit.results.files import Results, write_csv, write_text
-from pyrofit.stages.measurements import load
+from pyrofit.results.recorded import load
 from pyrofit.stages.own_files import files_seen_from, seen_from
 
 EXTENDED = "extended.yaml"
@@ -23,8 +22,8 @@ parameter <effect>_<strength> to imp.estimate then.
 """
 
 
-def diagnose(study: Study, results: Results, tell: Tell, processes: int = 1) -> dict[str, Any]:
-    """Diagnose a study from its measurements; write ``diagnosis``, return ``diagnosis.json``.
+def diagnose(study: Study, results: Results, tell: Tell, processes: int = 1) -> Diagnosis:
+    """Diagnose a study from its measurements; write ``diagnosis``, return its record.
 
     Raises
     ------
@@ -44,10 +43,10 @@ def diagnose(study: Study, results: Results, tell: Tell, processes: int = 1) -> 
         if study.plugins:
             keys["plugins"] = [seen_from(path.parent, folder) for folder in study.plugins]
         write_text(path, as_yaml(keys, _COMMENT))
-    found.content["extended_study"] = EXTENDED if effects else ""
+    content = found.content.model_copy(update={"extended_study": EXTENDED if effects else ""})
     write_csv(results.diagnosis("curves.csv"), found.curves)
-    diagnosis.write(results, found.content)
-    return found.content
+    diagnosis.write(results, content)
+    return content
 
 
 def refuse_programs(study: Study) -> None:

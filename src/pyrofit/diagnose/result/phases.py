@@ -9,19 +9,20 @@ from pyrofit.diagnose.base.model import Model
 from pyrofit.estimate.scan import Stretch
 from pyrofit.experiments import kind_of
 from pyrofit.experiments.base import Course
+from pyrofit.results.diagnosis_schema import OfWindow
 from pyrofit.solver.arrays import FloatArray
 
 
 def describe(
-    trial: FittedModel, windows: tuple[Stretch, ...], critical: float
-) -> list[dict[str, object]]:
-    """Return each window in physical terms, the differences simulated less measured."""
+    name: str, trial: FittedModel, windows: tuple[Stretch, ...], critical: float
+) -> list[OfWindow]:
+    """Return the windows of a model in physical terms, differences simulated less measured."""
     model = trial.model
     courses = {w.channel: course(model, trial.fit.x, w.channel) for w in windows}
-    return [_window(trial, w, courses[w.channel], critical) for w in windows]
+    return [_window(name, trial, w, courses[w.channel], critical) for w in windows]
 
 
-def _window(trial: FittedModel, w: Stretch, of: Course, critical: float) -> dict[str, object]:
+def _window(of_model: str, trial: FittedModel, w: Stretch, of: Course, critical: float) -> OfWindow:
     model = trial.model
     problem = model.likelihood.problem
     name, signal, _ = problem.picks[w.channel]
@@ -36,23 +37,24 @@ def _window(trial: FittedModel, w: Stretch, of: Course, critical: float) -> dict
     at = run.requests[signal].temperature_K
     T = None if at is None else at[problem.picks[w.channel][2]][part]
     surface = of.surface_temperature_K
-    return {
-        "experiment": name,
-        "signal": signal,
-        "start_s": float(target.time_s[w.start]),
-        "end_s": float(target.time_s[w.end - 1]),
-        "start_K": None if T is None else float(T[0]),
-        "end_K": None if T is None else float(T[-1]),
-        "conversion": _ends(of.conversion[part]),
-        "surface_temperature_K": None if surface is None else _ends(surface[part]),
-        "phase": of.phases[int(np.sort(of.phase[part])[(w.end - w.start) // 2])],
-        "sign": 1 if mean > 0.0 else -1,
-        "mean": mean,
-        "relative": mean / level if level > 0.0 else None,
-        "unit": run.experiment.quantity(signal).unit_text,
-        "statistic": w.statistic,
-        "critical": critical,
-    }
+    return OfWindow(
+        model=of_model,
+        experiment=name,
+        signal=signal,
+        start_s=float(target.time_s[w.start]),
+        end_s=float(target.time_s[w.end - 1]),
+        start_K=None if T is None else float(T[0]),
+        end_K=None if T is None else float(T[-1]),
+        conversion=_ends(of.conversion[part]),
+        surface_temperature_K=None if surface is None else _ends(surface[part]),
+        phase=of.phases[int(np.sort(of.phase[part])[(w.end - w.start) // 2])],
+        sign=1 if mean > 0.0 else -1,
+        mean=mean,
+        relative=mean / level if level > 0.0 else None,
+        unit=run.experiment.quantity(signal).unit_text,
+        statistic=w.statistic,
+        critical=critical,
+    )
 
 
 def _ends(values: FloatArray) -> list[float]:

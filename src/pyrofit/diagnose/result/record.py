@@ -2,7 +2,6 @@
 
 from collections.abc import Iterable
 from dataclasses import asdict, dataclass
-from typing import Any
 
 import numpy as np
 import pandas as pd
@@ -10,6 +9,8 @@ import pandas as pd
 from pyrofit.config import Study, candidate_effects
 from pyrofit.config.resolve import obstacle
 from pyrofit.cost.distances import root_mean_square
+from pyrofit.diagnose.advise.free_corrections import Probe
+from pyrofit.diagnose.advise.separation import Design
 from pyrofit.diagnose.base.fitted import FittedModel
 from pyrofit.diagnose.base.model import Base, model_of
 from pyrofit.diagnose.base.prediction import HELD_OUT, prediction_of
@@ -17,6 +18,7 @@ from pyrofit.diagnose.judge.claim_tests import Trust
 from pyrofit.diagnose.judge.final_fits import FinalFits
 from pyrofit.diagnose.judge.findings import Finding, Verdict
 from pyrofit.diagnose.judge.intervals import interval, values_of
+from pyrofit.diagnose.judge.kinetics_alone import kinetics_alone
 from pyrofit.diagnose.judge.weights import group_weights
 from pyrofit.diagnose.result.candidates import candidates, confusability_of, screened
 from pyrofit.diagnose.result.phases import describe
@@ -28,19 +30,24 @@ from pyrofit.errors import DataError
 from pyrofit.estimate.posterior import limit_of
 from pyrofit.numerics import functions, linear
 from pyrofit.results.diagnosis_schema import (
+    Diagnosis,
     OfBase,
     OfEvidence,
+    OfExperiment,
     OfExtended,
     OfGap,
     OfNoise,
     OfNotTried,
     OfOtherTerm,
     OfParameter,
+    OfProbe,
+    OfProfile,
+    OfSolver,
     OfSuspect,
     OfTakenAway,
     OfVerdict,
+    OfWindow,
 )
-from pyrofit.results.record import Record
 from pyrofit.solver.arrays import FloatArray
 
 SCHEMA = 1
@@ -61,32 +68,69 @@ Misfits = list[tuple[Misfit, Misfit]]
 
 
 def content(
-    study: Study, found: Search, verdict: Verdict, final: FinalFits, processes: int = 1
-) -> dict[str, Any]:
-    """Return all but the probes and the next experiment."""
+    study: Study,
+    found: Search,
+    verdict: Verdict,
+    final: FinalFits,
+    solver: OfSolver,
+    processes: int = 1,
+) -> Diagnosis:
+    """Return the record of a diagnosis, without advice."""
     misfits = _before_and_after(found, final)
+    return Diagnosis(
+        schema=SCHEMA,
+        settings=_settings(),
+        study=study.name,
+        verdict=_verdict(verdict),
+        noise=_noise(found, misfits),
+        base=_base(study, found, final),
+        windows=_windows(found),
+        screen=screened(found),
+        confusability=confusability_of(found),
+        needed=found.spare + float(functions.log(found.base.model.points)),
+        ambiguity=SETTINGS.ambiguous_chi2,
+        not_tried=_not_tried(study),
+        candidates=candidates(found, verdict, final, processes),
+        extended=OfExtended(parameters=_extended(study, found, final)),
+        gap=_gap(found, verdict, misfits),
+        solver=solver,
+        kinetics_alone=kinetics_alone(final.of(found.end)),
+        profiles=[],
+        probes=[],
+        next_experiment=[],
+        extended_study="",
+    )
+
+
+def advised(
+    found: Diagnosis,
+    profiles: list[OfProfile],
+    probes: Iterable[Probe],
+    designs: Iterable[Design],
+) -> Diagnosis:
+    """Return the record of a diagnosis with advice."""
+    # The coefficients of a probe stay out: its shape shows them.
+    shown = [
+        OfProbe(
+            probe=p.probe,
+            what=p.what,
+            unit=p.unit,
+            chi2=p.chi2,
+            absorbed=p.absorbed,
+            shape=[list(pair) for pair in p.shape],
+        )
+        for p in probes
+    ]
+    designed = [OfExperiment(**asdict(design)) for design in designs]
+    parts = {"profiles": profiles, "probes": shown, "next_experiment": designed}
+    return found.model_copy(update=parts)
+
+
+def _settings() -> dict[str, int | float | list[float]]:
     return {
-        "schema": SCHEMA,
-        "settings": asdict(SETTINGS),
-        "study": study.name,
-        "verdict": _verdict(verdict).model_dump(),
-        "noise": dumped(_noise(found, misfits)),
-        "base": _base(study, found, final).model_dump(),
-        "windows": _windows(found),
-        "screen": dumped(screened(found)),
-        "confusability": confusability_of(found).model_dump(),
-        "needed": found.spare + float(functions.log(found.base.model.points)),
-        "ambiguity": SETTINGS.ambiguous_chi2,
-        "not_tried": dumped(_not_tried(study)),
-        "candidates": dumped(candidates(found, verdict, final, processes)),
-        "extended": OfExtended(parameters=_extended(study, found, final)).model_dump(),
-        "gap": dumped(_gap(found, verdict, misfits)),
+        name: list(value) if isinstance(value, tuple) else value
+        for name, value in asdict(SETTINGS).items()
     }
-
-
-def dumped(records: Iterable[Record]) -> list[dict[str, Any]]:
-    """Return records as plain numbers and words."""
-    return [record.model_dump() for record in records]
 
 
 def _verdict(verdict: Verdict) -> OfVerdict:
@@ -197,14 +241,14 @@ def _extended(study: Study, found: Search, final: FinalFits) -> dict[str, OfPara
     return _parameters(study, final.of(found.end)) if found.end.effects else {}
 
 
-def _windows(found: Search) -> list[dict[str, Any]]:
+def _windows(found: Search) -> list[OfWindow]:
     models = {"base": (found.base, found.rounds[0].lack())}
     if found.end is not found.base:
         models["extended"] = (found.end, found.end_lack)
     return [
-        {"model": name, **window}
+        window
         for name, (trial, lack) in models.items()
-        for window in describe(trial, lack.windows, lack.scan_critical)
+        for window in describe(name, trial, lack.windows, lack.scan_critical)
     ]
 
 

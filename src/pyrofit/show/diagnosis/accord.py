@@ -11,7 +11,7 @@ from pyrofit.show.table import Table, always
 
 def accord(study: Study, results: Results) -> pd.DataFrame:
     """List known parameters less their known values, in standard deviations."""
-    verdict = diagnosis.read(study, results)["verdict"]
+    verdict = diagnosis.read(study, results).verdict
     rows = [
         {
             "parameter": name,
@@ -20,8 +20,8 @@ def accord(study: Study, results: Results) -> pd.DataFrame:
             "without": without,
             "with": with_effect,
         }
-        for effect, tested in zip(verdict["effects"], verdict["evidence"], strict=True)
-        for name, (without, with_effect) in tested["known"].items()
+        for effect, tested in zip(verdict.effects, verdict.evidence, strict=True)
+        for name, (without, with_effect) in tested.known.items()
     ]
     return pd.DataFrame(rows)
 

@@ -7,8 +7,15 @@ import pandas as pd
 from pyrofit.config import Study
 from pyrofit.effects import known_effects
 from pyrofit.results import diagnosis
+from pyrofit.results.diagnosis_candidates import OfCandidate, OfStrength
 from pyrofit.results.files import Results
-from pyrofit.show.diagnosis.words import MOST, Found, model_name, prediction_name, ranked, remark
+from pyrofit.show.diagnosis.words import (
+    MOST,
+    model_name,
+    prediction_name,
+    ranked,
+    remark,
+)
 from pyrofit.show.table import Table, always
 
 
@@ -16,15 +23,15 @@ def candidates(study: Study, results: Results) -> pd.DataFrame:
     """List the models with effects that were fitted, the best ones, and why each was rejected."""
     found = diagnosis.read(study, results)
     order = ranked(found, MOST)
-    lowest = order[0]["penalised"] if order else 0.0
+    lowest = order[0].penalised if order else 0.0
     rows = [
         {
-            "model": model_name(c["effects"]),
-            "chi2": c["chi2"],
-            "gain": c["gain"],
-            "above_best": c["penalised"] - lowest,
+            "model": model_name(c.effects),
+            "chi2": c.chi2,
+            "gain": c.gain,
+            "above_best": c.penalised - lowest,
             "fitted": "; ".join(_fitted(c)),
-            "predictions": _predictions(study, c["predictions"]),
+            "predictions": _predictions(study, c.predictions),
             "remark": remark(found, c),
         }
         for c in order
@@ -34,25 +41,25 @@ def candidates(study: Study, results: Results) -> pd.DataFrame:
     return table if table["predictions"].any() else table.drop(columns="predictions")
 
 
-def _fitted(candidate: Found) -> list[str]:
+def _fitted(candidate: OfCandidate) -> list[str]:
     """Write symbol, value and interval of each parameter of a candidate, by effect."""
-    catalogue, free = known_effects(), candidate["free"]
+    catalogue, free = known_effects(), candidate.free
     said = []
     for effect, names in free.items():
         parts = []
         for name in names:
-            p = candidate["parameters"][f"{effect}_{name}"]
+            p = candidate.parameters[f"{effect}_{name}"]
             low, high = _widest(p)
-            text = f"{p['value']:.3g} ({low:.3g} to {high:.3g}) {p['unit']}".rstrip(" -")
+            text = f"{p.value:.3g} ({low:.3g} to {high:.3g}) {p.unit}".rstrip(" -")
             parts.append(f"{catalogue[effect].quantities[name].symbol} {text}")
         said.append(f"{effect}: " * (len(free) > 1) + ", ".join(parts))
     return said
 
 
-def _widest(p: Found) -> tuple[float, float]:
+def _widest(p: OfStrength) -> tuple[float, float]:
     """Return the interval, over other forms and models where that is wider."""
-    low, high = p["low_wide"], p["high_wide"]
-    return (p["low"] if low is None else low, p["high"] if high is None else high)
+    low, high = p.low_wide, p.high_wide
+    return (p.low if low is None else low, p.high if high is None else high)
 
 
 def _predictions(study: Study, gains: Mapping[str, float]) -> str:

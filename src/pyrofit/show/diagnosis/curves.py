@@ -13,9 +13,10 @@ from pyrofit.config import Study
 from pyrofit.quantities.base import FloatArray, Quantity
 from pyrofit.quantities.units import ICE_POINT_K
 from pyrofit.results import diagnosis
+from pyrofit.results.diagnosis_schema import Diagnosis, OfNoise, OfWindow
 from pyrofit.results.files import Results
 from pyrofit.show import style
-from pyrofit.show.diagnosis.words import BASE, HELD_OUT, Found, quantity_of, words_of
+from pyrofit.show.diagnosis.words import BASE, HELD_OUT, quantity_of, words_of
 from pyrofit.show.drawn import Axes, Canvas, Look
 from pyrofit.show.figure import Figure
 from pyrofit.show.names import data_name
@@ -53,9 +54,9 @@ CAPTION = (
 )
 
 
-def curve_figures(study: Study, found: Found) -> dict[str, Figure]:
+def curve_figures(study: Study, found: Diagnosis) -> dict[str, Figure]:
     """Return a figure for each quantity that the diagnosis looked at, rates first, TGA last."""
-    measured = {(q := quantity_of(study, n)).name: q for n in found["noise"]}
+    measured = {(q := quantity_of(study, n)).name: q for n in found.noise}
     order = sorted(measured.values(), key=lambda q: (q.against_temperature, not q.relative))
     return {
         quantity.title.replace(" ", "_"): Figure(
@@ -73,31 +74,35 @@ def _draw(study: Study, results: Results, quantity: Quantity) -> Canvas:
     """Draw curves above, residuals below, one pair of panels for each signal of a quantity."""
     found = diagnosis.read(study, results)
     curves = diagnosis.curves(study, results)
-    signals = [n for n in found["noise"] if quantity_of(study, n).name == quantity.name]
+    signals = [n for n in found.noise if quantity_of(study, n).name == quantity.name]
     canvas, pairs = _pairs(len(signals))
     style.letter([above for above, _ in pairs], [_title(study, n) for n in signals])
     x = "temperature_K" if quantity.against_temperature else "time_s"
     after = windows = False
     for axes, signal in zip(pairs, signals, strict=True):
         curve = curves[
-            (curves["experiment"] == signal["experiment"]) & (curves["signal"] == signal["signal"])
+            (curves["experiment"] == signal.experiment) & (curves["signal"] == signal.signal)
         ]
-        off = [w for w in found["windows"] if w["model"] == BASE and _same(w, signal)]
+        off = [w for w in found.windows if w.model == BASE and _same(w, signal)]
         _draw_pair(axes, curve, off, quantity, x)
         after = after or bool(_has_after(curve).any())
-        windows = windows or any(_same(w, signal) for w in found["windows"])
-    data = data_name(study, [(n["experiment"], n["signal"]) for n in signals])
+        windows = windows or any(_same(w, signal) for w in found.windows)
+    data = data_name(study, [(n.experiment, n.signal) for n in signals])
     style.legend_below(canvas, _entries(data, after, windows))
     return canvas
 
 
-def _same(one: Found, other: Found) -> bool:
+def _same(one: OfNoise | OfWindow, other: OfNoise | OfWindow) -> bool:
     """Tell whether two rows are of the same signal."""
-    return (one["experiment"], one["signal"]) == (other["experiment"], other["signal"])
+    return (one.experiment, one.signal) == (other.experiment, other.signal)
 
 
 def _draw_pair(
-    axes: tuple[Axes, Axes], curve: pd.DataFrame, off: Sequence[Found], quantity: Quantity, x: str
+    axes: tuple[Axes, Axes],
+    curve: pd.DataFrame,
+    off: Sequence[OfWindow],
+    quantity: Quantity,
+    x: str,
 ) -> None:
     above, below = axes
     at = celsius(curve[x]) if quantity.against_temperature else curve[x].to_numpy(float)
@@ -132,11 +137,11 @@ def _pairs(count: int) -> tuple[Canvas, list[tuple[Axes, Axes]]]:
     return canvas, pairs
 
 
-def _title(study: Study, row: Found) -> str:
-    held = ", held out" if row["role"] == HELD_OUT else ""
+def _title(study: Study, row: OfNoise) -> str:
+    held = ", held out" if row.role == HELD_OUT else ""
     words = words_of(study, row)
     named = "" if words == quantity_of(study, row).title else f", {words}"
-    return f"{title_of(study, row['experiment'])}{named}{held}"
+    return f"{title_of(study, row.experiment)}{named}{held}"
 
 
 def _has_after(curve: pd.DataFrame) -> pd.Series:
@@ -166,20 +171,19 @@ def _draw_residuals(ax: Axes, at: FloatArray, curve: pd.DataFrame) -> None:
         ax.plot(at, running_mean(r), **look)
 
 
-def _draw_windows(ax: Axes, windows: Sequence[Found], x: str) -> None:
+def _draw_windows(ax: Axes, windows: Sequence[OfWindow], x: str) -> None:
     """Shade the windows, and label them with their phase, neighbours of one phase once."""
     low, high = ax.get_xlim()
-    ends, zero = ("K", ICE_POINT_K) if x == "temperature_K" else ("s", 0.0)
     taken = np.full(_ROWS, -np.inf)
     last = ""
     for w in windows:
-        start, end = (float(w[f"{end}_{ends}"]) - zero for end in ("start", "end"))
+        start, end = _ends(w, x)
         ax.axvspan(start, end, **_WINDOW)
         for edge in (start, end):
             ax.axvline(edge, **_EDGE)
-        if w["phase"] == last:
+        if w.phase == last:
             continue
-        last = str(w["phase"])
+        last = w.phase
         half = 0.5 * _LETTER * (len(last) + 1)
         middle = (0.5 * (start + end) - low) / (high - low)
         middle = float(np.clip(middle, half, 1.0 - half))
@@ -190,6 +194,15 @@ def _draw_windows(ax: Axes, windows: Sequence[Found], x: str) -> None:
     if windows:  # room for the labels
         bottom, top = ax.get_ylim()
         ax.set_ylim(bottom, top + 0.18 * int((taken > 0.0).sum()) * (top - bottom))
+
+
+def _ends(window: OfWindow, x: str) -> tuple[float, float]:
+    """Return both ends of a window on the axis: time [s], or temperature [°C]."""
+    if x != "temperature_K":
+        return window.start_s, window.end_s
+    assert window.start_K is not None
+    assert window.end_K is not None
+    return window.start_K - ICE_POINT_K, window.end_K - ICE_POINT_K
 
 
 def _entries(data: str, after: bool, windows: bool) -> list[Any]:

@@ -6,9 +6,9 @@ import numpy as np
 
 from pyrofit.config import Study
 from pyrofit.results import diagnosis
+from pyrofit.results.diagnosis_schema import OfScreen
 from pyrofit.results.files import Results
 from pyrofit.show import style
-from pyrofit.show.diagnosis.words import Found
 from pyrofit.show.drawn import Axes, Canvas, Look
 from pyrofit.show.figure import Figure
 
@@ -22,16 +22,16 @@ LIMIT: Look = {"color": "black", "linewidth": 0.8, "linestyle": (0, (4, 2))}
 def effects(study: Study, results: Results) -> Canvas:
     """Draw how well each effect would show, and which look alike."""
     found = diagnosis.read(study, results)
-    names = [str(name) for name in found["confusability"]["effects"]]
-    screen = {str(s["effect"]): s for s in found["screen"]}
+    names = list(found.confusability.effects)
+    screen = {s.effect: s for s in found.screen}
     order = sorted(range(len(names)), key=lambda i: (_family(screen[names[i]]), names[i]))
     names = [names[i] for i in order]
-    cosine = np.asarray(found["confusability"]["cosine"], dtype=float)[np.ix_(order, order)]
+    cosine = np.asarray(found.confusability.cosine, dtype=float)[np.ix_(order, order)]
     canvas, (bars, image) = style.panels(
         2, 2, style.TWO_COLUMNS, max(75.0, 34.0 + 3.5 * len(names)), width_ratios=[1.0, 1.55]
     )
     style.letter([bars, image], ["detectability", "confusability"])
-    _bars(bars, [screen[name] for name in names], float(found["base"]["score_critical"]))
+    _bars(bars, [screen[name] for name in names], found.base.score_critical)
     # Both signs of a cosine mean alike: a strength of the other sign.
     drawn = image.imshow(np.abs(cosine), cmap="Greys", vmin=0.0, vmax=1.0, aspect="auto")
     for i, k in zip(*np.nonzero(np.abs(cosine) >= 0.9), strict=True):
@@ -53,14 +53,14 @@ def effects(study: Study, results: Results) -> Canvas:
     return canvas
 
 
-def _family(row: Found) -> int:
-    return list(FAMILIES).index(str(row["family"])) if row["family"] in FAMILIES else len(FAMILIES)
+def _family(row: OfScreen) -> int:
+    return list(FAMILIES).index(row.family) if row.family in FAMILIES else len(FAMILIES)
 
 
-def _bars(ax: Axes, rows: Sequence[Found], critical: float) -> None:
+def _bars(ax: Axes, rows: Sequence[OfScreen], critical: float) -> None:
     """Draw detectability, and the score that was found."""
-    sizes = [float(row["detectability"]) for row in rows]
-    scores = [float(row["z"]) for row in rows]
+    sizes = [row.detectability for row in rows]
+    scores = [row.z for row in rows]
     for i, (row, size) in enumerate(zip(rows, sizes, strict=True)):
         family = _family(row)
         hatch = [*FAMILIES.values(), ""][family]
@@ -71,7 +71,7 @@ def _bars(ax: Axes, rows: Sequence[Found], critical: float) -> None:
     ax.axvline(critical, **LIMIT)
     ax.set_xscale("log")
     ax.set_xlim(0.3, 2.0 * max([*sizes, *scores, 10.0]))
-    ax.set_yticks(range(len(rows)), [str(row["effect"]) for row in rows], fontsize=6)
+    ax.set_yticks(range(len(rows)), [row.effect for row in rows], fontsize=6)
     ax.set_ylim(len(rows) - 0.5, -0.5)
     ax.tick_params(axis="y", length=0)
     ax.set_xlabel("standard deviations [–]")
@@ -79,7 +79,7 @@ def _bars(ax: Axes, rows: Sequence[Found], critical: float) -> None:
 
 FIGURE = Figure(
     place=62,
-    applies=lambda found: bool(found["screen"]) and bool(found["confusability"]["effects"]),
+    applies=lambda found: bool(found.screen) and bool(found.confusability.effects),
     make=effects,
     title="Detectability and confusability of the effects",
     caption="a) Bars: standard deviations by which each effect of typical strength would "

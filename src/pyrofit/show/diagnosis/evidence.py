@@ -1,15 +1,12 @@
 """Evidence for each effect of the verdict, besides the fit."""
 
-from collections.abc import Mapping
-from typing import Any
-
-import numpy as np
 import pandas as pd
 
 from pyrofit.config import Study
 from pyrofit.results import diagnosis
+from pyrofit.results.diagnosis_schema import Diagnosis, OfEvidence
 from pyrofit.results.files import Results
-from pyrofit.show.diagnosis.words import HELD_OUT, Found, effect_name, prediction_name
+from pyrofit.show.diagnosis.words import HELD_OUT, effect_name, prediction_name, setting
 from pyrofit.show.table import Table, always
 
 
@@ -18,32 +15,32 @@ def evidence(study: Study, results: Results) -> pd.DataFrame:
     return evidence_of(study, diagnosis.read(study, results))
 
 
-def evidence_of(study: Study, found: Found) -> pd.DataFrame:
+def evidence_of(study: Study, found: Diagnosis) -> pd.DataFrame:
     """Return a row for each effect of a verdict, without columns that nothing was tested for."""
-    verdict, least = found["verdict"], found["settings"].get("informative_gain", 2.0)
+    verdict, least = found.verdict, setting(found, "informative_gain", 2.0)
     rows = []
     for effect, tested, terms in zip(
-        verdict["effects"], verdict["evidence"], verdict["other_terms"], strict=True
+        verdict.effects, verdict.evidence, verdict.other_terms, strict=True
     ):
-        nearest = min(terms, key=lambda term: float(term["above"])) if terms else None
+        nearest = min(terms, key=lambda term: term.above) if terms else None
         rows.append(
             {
                 "effect": effect_name(effect),
-                "weight": f"{100.0 * tested['weight']:.0f} %",
+                "weight": f"{100.0 * tested.weight:.0f} %",
                 "predictions": _in_words(study, tested, least) or None,
-                "agreement": np.nan if tested["agreement"] is None else tested["agreement"],
-                "correction": nearest["words"] if nearest else None,
-                "above": f"{nearest['above']:+.1f}" if nearest else None,
+                "agreement": tested.agreement,
+                "correction": nearest.words if nearest else None,
+                "above": f"{nearest.above:+.1f}" if nearest else None,
             }
         )
     return pd.DataFrame(rows).dropna(axis="columns", how="all")
 
 
-def _in_words(study: Study, tested: Mapping[str, Any], least: float) -> str:
-    expected = tested["expected"]
+def _in_words(study: Study, tested: OfEvidence, least: float) -> str:
+    expected = tested.expected
     return "; ".join(
         f"{_predicted(study, name)} {gain:+.1f}{_telling(expected.get(name), least)}"
-        for name, gain in tested["predictions"].items()
+        for name, gain in tested.predictions.items()
     )
 
 

@@ -20,29 +20,29 @@ def gap(study: Study, results: Results) -> pd.DataFrame:
     """
     found = diagnosis.read(study, results)
     rows = []
-    for g in found["gap"]:
+    for g in found.gap:
         quantity = quantity_of(study, g)
-        before, after = (float(difference(quantity, g[f"rms_{w}"])) for w in ("before", "after"))
+        before, after = (float(difference(quantity, v)) for v in (g.rms_before, g.rms_after))
         rows.append(
             {
-                "role": ROLES.get(g["role"], g["role"]),
-                "experiment": title_of(study, g["experiment"]),
+                "role": ROLES.get(g.role, g.role),
+                "experiment": title_of(study, g.experiment),
                 "signal": words_of(study, g),
-                "tells": {True: "yes", False: "no", None: None}[g["tells"]],
-                "points": int(g["points"]),
+                "tells": {True: "yes", False: "no", None: None}[g.tells],
+                "points": g.points,
                 "rms_before": before,
                 "rms_after": after,
-                "noise_sd": float(difference(quantity, g["noise_sd"])),
+                "noise_sd": float(difference(quantity, g.noise_sd)),
                 "unit": difference_unit(quantity),
                 "closed_percent": 100.0 * (1.0 - after / before) if before > 0.0 else np.nan,
-                "before_sd": float(np.sqrt(g["chi2_before"] / g["points"])),
-                "after_sd": float(np.sqrt(g["chi2_after"] / g["points"])),
+                "before_sd": float(np.sqrt(g.chi2_before / g.points)),
+                "after_sd": float(np.sqrt(g.chi2_after / g.points)),
             }
         )
     frame = pd.DataFrame(rows)
     if frame["tells"].isna().all():
         frame = frame.drop(columns="tells")
-    added = bool(found["verdict"]["effects"])
+    added = bool(found.verdict.effects)
     return frame if added else frame.drop(columns=["rms_after", "closed_percent", "after_sd"])
 
 

@@ -14,8 +14,8 @@ FAR = 3.0
 def kinetics_alone(study: Study, results: Results) -> pd.DataFrame:
     """List the parameters that small samples tell, in the units of the study."""
     rows = []
-    for row in diagnosis.read(study, results)["kinetics_alone"]:
-        name = row["parameter"]
+    for row in diagnosis.read(study, results).kinetics_alone:
+        name = row.parameter
         given = study.parameters.get(name)
         factor = given.factor if given else 1.0
         rows.append(
@@ -23,11 +23,11 @@ def kinetics_alone(study: Study, results: Results) -> pd.DataFrame:
                 "parameter": name,
                 "meaning": given.label if given else "",
                 "unit": given.unit if given else "",
-                "alone": row["alone"] / factor,
-                "sd": row["sd"] / factor,
-                "all": row["all"] / factor,
-                "difference": row["difference"],
-                "remark": "conflict" if abs(row["difference"]) > FAR else "",
+                "alone": row.alone / factor,
+                "sd": row.sd / factor,
+                "all": row.all / factor,
+                "difference": row.difference,
+                "remark": "conflict" if abs(row.difference) > FAR else "",
             }
         )
     return pd.DataFrame(rows)

@@ -18,8 +18,8 @@ from pyrofit.show.table import Table, always
 
 def next_experiments(study: Study, results: Results) -> pd.DataFrame:
     """List the experiments that would separate competing models best."""
-    found = diagnosis.read(study, results)["next_experiment"]
-    rows = [{"experiment": d["words"], "separation_sd": d["separation_sd"]} for d in found]
+    found = diagnosis.read(study, results).next_experiment
+    rows = [{"experiment": d.words, "separation_sd": d.separation_sd} for d in found]
     frame = pd.DataFrame(rows, columns=["experiment", "separation_sd"])
     return frame.sort_values(
         "separation_sd", ascending=False, kind="stable", ignore_index=True
@@ -32,21 +32,18 @@ MOST_DESIGNS = 12
 def draw_next_experiments(study: Study, results: Results) -> Canvas:
     """Draw how well each planned experiment would separate models that are not distinguished."""
     found = diagnosis.read(study, results)
-    shown = sorted(found["next_experiment"], key=lambda d: -float(d["separation_sd"]))[
-        :MOST_DESIGNS
-    ]
+    shown = sorted(found.next_experiment, key=lambda d: -d.separation_sd)[:MOST_DESIGNS]
     canvas, (ax,) = style.panels(1, 1, style.TWO_COLUMNS, 24.0 + 5.5 * len(shown))
     longest = 0.0
-    several = any(len(design.get("pairs") or ()) > 1 for design in shown)
+    several = any(len(design.pairs) > 1 for design in shown)
     for i, design in enumerate(shown):
-        ax.barh(i, float(design["separation_sd"]), height=0.62, color=style.COLOURS[0])
-        pairs = design.get("pairs")
-        sizes = [float(v) for v in pairs.values()] if isinstance(pairs, dict) else []
+        ax.barh(i, design.separation_sd, height=0.62, color=style.COLOURS[0])
+        sizes = list(design.pairs.values())
         if several:
             ax.plot(sizes, [i] * len(sizes), "o", color="black", markersize=3, clip_on=False)
-        longest = max([longest, float(design["separation_sd"]), *sizes])
-    ax.axvline(np.sqrt(found["ambiguity"]), **LIMIT)
-    ax.set_yticks(range(len(shown)), [d["words"] for d in shown], fontsize=6.5)
+        longest = max([longest, design.separation_sd, *sizes])
+    ax.axvline(np.sqrt(found.ambiguity), **LIMIT)
+    ax.set_yticks(range(len(shown)), [d.words for d in shown], fontsize=6.5)
     ax.set_ylim(len(shown) - 0.5, -0.5)
     ax.set_xlim(0.0, 1.06 * max(4.0, longest))
     ax.tick_params(axis="y", length=0)
@@ -79,7 +76,7 @@ TABLE = Table(
 
 FIGURE = Figure(
     place=70,
-    applies=lambda found: bool(found["next_experiment"]),
+    applies=lambda found: bool(found.next_experiment),
     make=draw_next_experiments,
     title="Next experiments",
     caption="Standard deviations by which planned experiments would separate the models that "

@@ -14,18 +14,18 @@ from pyrofit.show.units import difference, difference_unit
 def noise(study: Study, results: Results) -> pd.DataFrame:
     """List the noise of every channel, and how the base fits or predicts it."""
     rows = []
-    for n in diagnosis.read(study, results)["noise"]:
+    for n in diagnosis.read(study, results).noise:
         quantity = quantity_of(study, n)
         rows.append(
             {
-                "role": ROLES.get(n["role"], n["role"]),
-                "experiment": title_of(study, n["experiment"]),
+                "role": ROLES.get(n.role, n.role),
+                "experiment": title_of(study, n.experiment),
                 "signal": words_of(study, n),
-                "points": int(n["points"]),
-                "sd_median": float(difference(quantity, n["sd_median"])),
+                "points": int(n.points),
+                "sd_median": float(difference(quantity, n.sd_median)),
                 "unit": difference_unit(quantity),
-                "noise": n["words"],
-                "chi2_per_point": n["chi2_base"] / n["points"],
+                "noise": n.words,
+                "chi2_per_point": n.chi2_base / n.points,
             }
         )
     return pd.DataFrame(rows)

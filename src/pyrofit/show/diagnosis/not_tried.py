@@ -11,8 +11,8 @@ from pyrofit.show.table import Table, always
 
 def not_tried(study: Study, results: Results) -> pd.DataFrame:
     """List the effects of the catalogue that were not tried, and why."""
-    rows = diagnosis.read(study, results)["not_tried"]
-    shown = [{**row, "effect": effect_name(row["effect"])} for row in rows]
+    rows = diagnosis.read(study, results).not_tried
+    shown = [{"effect": effect_name(row.effect), "reason": row.reason} for row in rows]
     return pd.DataFrame(shown, columns=["effect", "reason"])
 
 

@@ -14,21 +14,24 @@ from pyrofit.show.table import Table, always
 def parameters(study: Study, results: Results) -> pd.DataFrame:
     """List the parameters that fitted tests use, without and with the effects of the verdict."""
     found = diagnosis.read(study, results)
-    after = found["extended"]["parameters"] if leading(found) else {}
+    after = found.extended.parameters if leading(found) else {}
     used = parameters_in(diagnosed_material(study), *calibrated(study).values())
     rows = [
         {
             "parameter": name,
             "meaning": study.parameters[name].label if name in study.parameters else "",
-            "unit": p["unit"],
-            "base": p["value"],
-            "base_low": p["low"],
-            "base_high": p["high"],
-            "at_limit": "yes" if p["at_limit"] else "",
-            **{key: after[name][of] if name in after else np.nan for key, of in _AFTER.items()},
-            "extended_at_limit": "yes" if name in after and after[name]["at_limit"] else "",
+            "unit": p.unit,
+            "base": p.value,
+            "base_low": p.low,
+            "base_high": p.high,
+            "at_limit": "yes" if p.at_limit else "",
+            **{
+                key: getattr(after[name], of) if name in after else np.nan
+                for key, of in _AFTER.items()
+            },
+            "extended_at_limit": "yes" if name in after and after[name].at_limit else "",
         }
-        for name, p in found["base"]["parameters"].items()
+        for name, p in found.base.parameters.items()
         if name in used
     ]
     return pd.DataFrame(rows).dropna(axis="columns", how="all")

@@ -25,25 +25,25 @@ def profiles(study: Study, results: Results) -> Canvas:
     """Draw the rise of chi-square with the strength of each effect of the verdict's model."""
     from matplotlib.ticker import MaxNLocator
 
-    found = diagnosis.read(study, results)["profiles"]
+    found = diagnosis.read(study, results).profiles
     canvas, axes = style.panels(len(found), 3, style.TWO_COLUMNS, 58.0)
     catalogue = known_effects()
-    style.letter(axes, [catalogue[profile["effect"]].title for profile in found])
+    style.letter(axes, [catalogue[profile.effect].title for profile in found])
     absent: list[Any] = []
     for ax, profile in zip(axes, found, strict=True):
-        quantity = catalogue[profile["effect"]].quantities[profile["parameter"]]
-        strength, rise = np.array(profile["value"]), np.array(profile["rise"])
+        quantity = catalogue[profile.effect].quantities[profile.parameter]
+        strength, rise = np.array(profile.value), np.array(profile.rise)
         # Between the points the root of the rise is a straight line.
         fine = np.linspace(strength[0], strength[-1], 300)
         root = np.sqrt(np.maximum(rise, 0.0))
         ax.plot(fine, np.interp(fine, strength, root) ** 2, color=_PROFILE["color"])
         ax.plot(strength, rise, **_PROFILE, linestyle="none")
-        ax.axhline(float(profile["level"]), **_LEVEL)
+        ax.axhline(profile.level, **_LEVEL)
         low, high = ax.get_xlim()
         if low <= quantity.value <= high:
             ax.axvline(quantity.value, **_ABSENT)
             absent = [style.line("effect absent", **_ABSENT)]
-        ax.set_ylim(min(0.0, rise.min()), 1.6 * float(profile["level"]))
+        ax.set_ylim(min(0.0, rise.min()), 1.6 * profile.level)
         ax.xaxis.set_major_locator(MaxNLocator(4))
         ax.ticklabel_format(axis="x", scilimits=(-3, 4))
         ax.set_xlabel(f"{quantity.symbol} [{quantity.unit.replace('-', '–')}]")
@@ -55,7 +55,7 @@ def profiles(study: Study, results: Results) -> Canvas:
 
 FIGURE = Figure(
     place=31,
-    applies=lambda found: bool(found["profiles"]),
+    applies=lambda found: bool(found.profiles),
     make=profiles,
     title="Profile likelihood of the strengths",
     caption="Rise of chi-square with the strength of each effect found, all else refitted "

@@ -8,10 +8,12 @@ from pyrofit.config import Study
 from pyrofit.effects import known_effects
 from pyrofit.numerics import functions
 from pyrofit.results import diagnosis
+from pyrofit.results.diagnosis_candidates import OfCandidate
+from pyrofit.results.diagnosis_schema import Diagnosis
 from pyrofit.results.files import Results
 from pyrofit.show import style
 from pyrofit.show.diagnosis.effects import LIMIT
-from pyrofit.show.diagnosis.words import CLAIMS, Found, ranked, remark
+from pyrofit.show.diagnosis.words import CLAIMS, ranked, remark
 from pyrofit.show.drawn import Axes, Canvas, Look
 from pyrofit.show.figure import Figure
 
@@ -44,28 +46,28 @@ def ranking(study: Study, results: Results) -> Canvas:
     return canvas
 
 
-def _texts(found: Found, shown: Sequence[Found]) -> tuple[list[str], list[str]]:
+def _texts(found: Diagnosis, shown: Sequence[OfCandidate]) -> tuple[list[str], list[str]]:
     """Return the names of candidates, and the remarks on them."""
     labels = [textwrap.fill(_label(candidate), WRAP) for candidate in shown]
     return labels, [_reason(found, candidate) for candidate in shown]
 
 
-def draw_ranking(ax: Axes, found: Found) -> None:
+def draw_ranking(ax: Axes, found: Diagnosis) -> None:
     """Draw the candidates of a diagnosis, the best first."""
     shown = ranked(found, MOST)
     labels, reasons = _texts(found, shown)
-    lowest = float(shown[0]["penalised"])
-    limit = float(found["ambiguity"])
-    base, points = float(found["base"]["chi2"]) - lowest, float(found["base"]["points"])
-    needed = base - (float(found["needed"]) - functions.log(points))
+    lowest = shown[0].penalised
+    limit = found.ambiguity
+    base, points = found.base.chi2 - lowest, float(found.base.points)
+    needed = base - (found.needed - functions.log(points))
     ax.set_xscale("symlog", linthresh=1.0, linscale=0.5)
-    right = 1.8 * max(base, *(float(c["penalised"]) - lowest for c in shown), limit)
+    right = 1.8 * max(base, *(c.penalised - lowest for c in shown), limit)
     ax.axvspan(needed, right, color=style.BAND, linewidth=0.0)
     ax.axvline(limit, **LIMIT)
     ax.axvline(base, **_BASE)
     for i, candidate in enumerate(shown):
-        look = _REJECTED if candidate["rejected"] else _KEPT
-        ax.plot([candidate["penalised"] - lowest], [i], **look, markersize=4.5)
+        look = _REJECTED if candidate.rejected else _KEPT
+        ax.plot([candidate.penalised - lowest], [i], **look, markersize=4.5)
         place: Look = {
             "va": "center",
             "ha": "left",
@@ -79,10 +81,10 @@ def draw_ranking(ax: Axes, found: Found) -> None:
     ax.set_xlabel("penalised χ² above that of the best candidate [–]")
 
 
-def ranking_entries(found: Found) -> list[Any]:
+def ranking_entries(found: Diagnosis) -> list[Any]:
     """Return the entries of the legend."""
-    limit = float(found["ambiguity"])
-    kept = "in the verdict" if found["verdict"]["kind"] in CLAIMS else "not rejected"
+    limit = found.ambiguity
+    kept = "in the verdict" if found.verdict.kind in CLAIMS else "not rejected"
     return [
         style.line(kept, **_KEPT, markersize=4.5),
         style.line("rejected", **_REJECTED, markersize=4.5),
@@ -92,25 +94,25 @@ def ranking_entries(found: Found) -> list[Any]:
     ]
 
 
-def _reason(found: Found, candidate: Found) -> str:
+def _reason(found: Diagnosis, candidate: OfCandidate) -> str:
     """Return the remark on a candidate, in two lines at most."""
     said = textwrap.shorten(remark(found, candidate), 2 * WRAP - 6, placeholder=" …")
     return textwrap.fill(said, WRAP, break_on_hyphens=False)
 
 
-def _label(candidate: Found) -> str:
+def _label(candidate: OfCandidate) -> str:
     """Name a candidate: its effects, and the form parameters that were free."""
     parts = []
-    for effect in candidate["effects"]:
+    for effect in candidate.effects:
         known = known_effects()[effect]
-        forms = [known.quantities[n].symbol for n in candidate["free"].get(effect, ())[1:]]
+        forms = [known.quantities[n].symbol for n in candidate.free.get(effect, ())[1:]]
         parts.append(f"{known.title} ({', '.join(forms)})" if forms else known.title)
     return " + ".join(parts)
 
 
 FIGURE = Figure(
     place=33,
-    applies=lambda found: bool(found["candidates"]),
+    applies=lambda found: bool(found.candidates),
     make=ranking,
     title="Candidates, the best first",
     caption="Chi-square with log(points) for each parameter of an effect, above that of the "

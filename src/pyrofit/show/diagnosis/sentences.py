@@ -1,17 +1,20 @@
 """Results of the diagnosis, in sentences."""
 
 import math
-from collections.abc import Sequence
+from collections.abc import Iterable, Mapping, Sequence
 
 from pyrofit.analysis.uses import title_of
 from pyrofit.config import Study
 from pyrofit.effects import known_effects
+from pyrofit.results.diagnosis_candidates import OfCandidate
+from pyrofit.results.diagnosis_schema import Diagnosis, OfGap, OfNoise, OfParameter
 from pyrofit.show.diagnosis.words import (
+    CALIBRATION,
     HELD_OUT,
     ROLES,
-    Found,
     effect_name,
     leading,
+    setting,
     words_of,
 )
 from pyrofit.show.text import listed, number
@@ -19,24 +22,24 @@ from pyrofit.show.text import listed, number
 _TOO_FEW = ", too few to distinguish them"
 
 
-def facts(found: Found) -> list[str]:
+def facts(found: Diagnosis) -> list[str]:
     """Return the sentences of a summary: verdict, where, the gap, the next experiment."""
-    said = [found["verdict"]["words"], where_off(found), gap_closed(found)]
-    return said + ([next_measured(found)] if found["next_experiment"] else [])
+    said = [found.verdict.words, where_off(found), gap_closed(found)]
+    return said + ([next_measured(found)] if found.next_experiment else [])
 
 
-def where_off(found: Found) -> str:
+def where_off(found: Diagnosis) -> str:
     """Say how large the misfit of the base model is, and where."""
-    here = [w for w in found["windows"] if w["model"] == "base"]
-    base = found["base"]
-    side = "above" if base["chi2"] > base["chi2_critical"] else "below"
+    here = [w for w in found.windows if w.model == "base"]
+    base = found.base
+    side = "above" if base.chi2 > base.chi2_critical else "below"
     text = (
-        f"Chi-square of the base model is {number(base['chi2'])} on {int(base['points'])} points, "
-        f"{side} the critical value of {number(base['chi2_critical'])} (1 %)."
+        f"Chi-square of the base model is {number(base.chi2)} on {base.points} points, "
+        f"{side} the critical value of {number(base.chi2_critical)} (1 %)."
     )
     if not here:
         return f"{text} No interval of a curve has significant residuals of one sign."
-    phases = list(dict.fromkeys(str(w["phase"]) for w in here))
+    phases = list(dict.fromkeys(w.phase for w in here))
     where = "One interval has" if len(here) == 1 else f"{len(here)} intervals have"
     said = f"{text} {where} significant residuals of one sign: {listed(phases)}."
     if side == "above":
@@ -44,86 +47,86 @@ def where_off(found: Found) -> str:
     return f"{said} Chi-square shows no lack of fit; the test of intervals does."
 
 
-def missing(found: Found) -> str:
+def missing(found: Diagnosis) -> str:
     """Return sentences on the findings."""
     return " ".join([_found(found), *_determined(found)])
 
 
-def _determined(found: Found) -> list[str]:
+def _determined(found: Diagnosis) -> list[str]:
     """Say which products of an effect's parameters the data determine better than each of them."""
     said = []
-    for ridge in (leading(found) or {"ridges": []})["ridges"]:
-        quantities = known_effects()[ridge["effect"]].quantities
+    chosen = leading(found)
+    for ridge in chosen.ridges if chosen else []:
+        quantities = known_effects()[ridge.effect].quantities
         factors = [
             f"({quantities[name].label})" + (f"^{power:g}" if power != 1.0 else "")
-            for name, power in ridge["exponents"].items()
+            for name, power in ridge.exponents.items()
         ]
-        alone = listed([f"{100.0 * sd:.2g} %" for sd in ridge["alone"].values()])
+        alone = listed([f"{100.0 * sd:.2g} %" for sd in ridge.alone.values()])
         said.append(
-            f"Of {effect_name(ridge['effect'])}, the data determine the product "
-            f"{' '.join(factors)} to {100.0 * ridge['relative_sd']:.2g} % (standard deviation), "
+            f"Of {effect_name(ridge.effect)}, the data determine the product "
+            f"{' '.join(factors)} to {100.0 * ridge.relative_sd:.2g} % (standard deviation), "
             f"each factor to {alone}."
         )
     return said
 
 
-def _found(found: Found) -> str:
+def _found(found: Diagnosis) -> str:
     chosen = leading(found)
-    if not found["candidates"]:
+    if not found.candidates:
         return "No effect was fitted."
     if chosen is None:
-        return f"An effect must lower chi-square by {number(found['needed'])} to be claimed."
-    names = listed([effect_name(name) for name in chosen["effects"]])
+        return f"An effect must lower chi-square by {number(found.needed)} to be claimed."
+    names = listed([effect_name(name) for name in chosen.effects])
     return (
-        f"Chi-square falls from {number(found['base']['chi2'])} to {number(chosen['chi2'])} with "
+        f"Chi-square falls from {number(found.base.chi2)} to {number(chosen.chi2)} with "
         f"{names}.{_without_one(found, chosen)} An effect must lower it by "
-        f"{number(found['needed'])} to be claimed."
+        f"{number(found.needed)} to be claimed."
     )
 
 
-def _without_one(found: Found, chosen: Found) -> str:
+def _without_one(found: Diagnosis, chosen: OfCandidate) -> str:
     """Say how much higher chi-square is without one of several effects, where that was fitted."""
-    effects = set(chosen["effects"])
+    effects = set(chosen.effects)
     if len(effects) == 1:
         return ""
     lowest: dict[str, float] = {}
-    for candidate in found["candidates"]:
-        left = effects - set(candidate["effects"])
-        if len(left) == 1 and set(candidate["effects"]) < effects:
+    for candidate in found.candidates:
+        left = effects - set(candidate.effects)
+        if len(left) == 1 and set(candidate.effects) < effects:
             (name,) = left
-            lowest[name] = min(lowest.get(name, math.inf), float(candidate["chi2"]))
+            lowest[name] = min(lowest.get(name, math.inf), candidate.chi2)
     rises = [
-        f"{number(chi2 - chosen['chi2'])} without {name}" for name, chi2 in sorted(lowest.items())
+        f"{number(chi2 - chosen.chi2)} without {name}" for name, chi2 in sorted(lowest.items())
     ]
     return f" It is higher by {listed(rises)}." if rises else ""
 
 
-def gap_closed(found: Found) -> str:
+def gap_closed(found: Diagnosis) -> str:
     """Say how large the residuals are, fitted and held out, and where predictions get worse."""
     parts = []
-    for role in dict.fromkeys(g["role"] for g in found["gap"]):
-        rows = [g for g in found["gap"] if g["role"] == role]
-        points = sum(g["points"] for g in rows)
-        before, after = (
-            (sum(g[f"chi2_{when}"] for g in rows) / points) ** 0.5 for when in ("before", "after")
-        )
-        change = f" to {after:.3g}" if found["verdict"]["effects"] else ""
+    for role in dict.fromkeys(g.role for g in found.gap):
+        rows = [g for g in found.gap if g.role == role]
+        points = sum(g.points for g in rows)
+        before = (sum(g.chi2_before for g in rows) / points) ** 0.5
+        after = (sum(g.chi2_after for g in rows) / points) ** 0.5
+        change = f" to {after:.3g}" if found.verdict.effects else ""
         start = "from " if change else ""
         parts.append(f"{start}{before:.3g}{change} ({ROLES.get(role, role)})")
-    verb = "goes" if found["verdict"]["effects"] else "is"
+    verb = "goes" if found.verdict.effects else "is"
     return (
         f"The root mean square of the whitened residuals {verb} {listed(parts)}. Noise alone gives "
         f"1; less is usual where the noise includes a lasting error.{_larger_errors(found)}"
     )
 
 
-def _larger_errors(found: Found) -> str:
+def _larger_errors(found: Diagnosis) -> str:
     """Say of how many held-out signals the error rises, apart those that can tell and cannot."""
-    rows = [g for g in found["gap"] if g["role"] == HELD_OUT]
-    if not found["verdict"]["effects"] or not rows:
+    rows = [g for g in found.gap if g.role == HELD_OUT]
+    if not found.verdict.effects or not rows:
         return ""
-    telling = [g for g in rows if g["tells"]]
-    other = [g for g in rows if not g["tells"]]
+    telling = [g for g in rows if g.tells]
+    other = [g for g in rows if not g.tells]
     said = ""
     if telling:
         said += (
@@ -143,47 +146,47 @@ def _larger_errors(found: Found) -> str:
     return said
 
 
-def _rising(rows: Sequence[Found]) -> int:
-    return sum(float(g["rms_after"]) > float(g["rms_before"]) for g in rows)
+def _rising(rows: Sequence[OfGap]) -> int:
+    return sum(g.rms_after > g.rms_before for g in rows)
 
 
-def certainty(study: Study, found: Found) -> str:
+def certainty(study: Study, found: Diagnosis) -> str:
     """State the evidence for the verdict besides the fit, and the evidence against it."""
     chosen = leading(found)
-    said = [_at_limits("base model", found["base"]["parameters"])]
+    said = [_at_limits("base model", found.base.parameters)]
     if chosen is not None:
-        said.append(_at_limits("model with the effects", found["extended"]["parameters"]))
+        said.append(_at_limits("model with the effects", found.extended.parameters))
     said += _of_noise(study, found)
     if chosen is None:
         return " ".join(said)
-    if chosen.get("adequate") is not None:
-        left = "agrees with the data within" if chosen["adequate"] else "still differs by more than"
+    if chosen.adequate is not None:
+        left = "agrees with the data within" if chosen.adequate else "still differs by more than"
         said.append(f"With the effects found, the model {left} the noise.")
     return " ".join([*said, *_thresholds(found)])
 
 
-def _at_limits(model: str, parameters: Found) -> str:
-    bound = [name for name, p in parameters.items() if p["at_limit"]]
+def _at_limits(model: str, parameters: Mapping[str, OfParameter]) -> str:
+    bound = [name for name, p in parameters.items() if p.at_limit]
     if not bound:
         return f"No parameter of the {model} is at a limit."
     return f"In the {model}, {listed(bound)} {'is' if len(bound) == 1 else 'are'} at a limit."
 
 
-def _thresholds(found: Found) -> list[str]:
+def _thresholds(found: Diagnosis) -> list[str]:
     """State the thresholds of the tests whose results are listed for each effect."""
-    verdict, settings = found["verdict"], found["settings"]
+    verdict = found.verdict
     said = []
-    if any(evidence["predictions"] for evidence in verdict["evidence"]):
-        gain = settings.get("informative_gain", 2.0)
+    if any(evidence.predictions for evidence in verdict.evidence):
+        gain = setting(found, "informative_gain", 2.0)
         said.append(
             f"A claim needs a total rise of the log score by {gain:g}, and no single fall by "
             f"{gain:g}; one held-out laboratory may be an exception."
         )
-    if any(evidence["agreement"] is not None for evidence in verdict["evidence"]):
-        level = number(settings.get("agreement_level", 0.001))
+    if any(evidence.agreement is not None for evidence in verdict.evidence):
+        level = number(setting(found, "agreement_level", 0.001))
         said.append(f"The test of equal strengths needs a p above {level}.")
-    if any(verdict["other_terms"]):
-        limit = settings.get("certain_evidence", found["ambiguity"])
+    if any(verdict.other_terms):
+        limit = setting(found, "certain_evidence", found.ambiguity)
         said.append(
             "A confirmed name needs a -2 ln marginal likelihood of the best free correction that "
             f"is more than {limit:g} above that of the effect."
@@ -191,15 +194,15 @@ def _thresholds(found: Found) -> list[str]:
     return said
 
 
-def _of_noise(study: Study, found: Found) -> list[str]:
+def _of_noise(study: Study, found: Diagnosis) -> list[str]:
     """Say of which fitted series the noise is not well known: all rests on it."""
 
-    def those(key: str) -> str:
-        series = [n for n in found["noise"] if n["role"] == "calibration" and not n[key]]
-        words = [f"{title_of(study, n['experiment'])}, {words_of(study, n)}" for n in series]
-        return listed(words)
+    def those(series: Iterable[OfNoise]) -> str:
+        return listed([f"{title_of(study, n.experiment)}, {words_of(study, n)}" for n in series])
 
-    estimated, lasting = those("stated"), those("white")
+    fitted = [n for n in found.noise if n.role == CALIBRATION]
+    estimated = those(n for n in fitted if not n.stated)
+    lasting = those(n for n in fitted if not n.white)
     said = [f"No uncertainty is given, so that the noise is estimated: {estimated}."]
     return said * bool(estimated) + [
         "Some correlation remains in the noise of these series, so that the tests are less "
@@ -207,13 +210,13 @@ def _of_noise(study: Study, found: Found) -> list[str]:
     ] * bool(lasting)
 
 
-def next_measured(found: Found) -> str:
+def next_measured(found: Diagnosis) -> str:
     """Say which experiment would separate competing models best."""
-    if not found["next_experiment"]:
+    if not found.next_experiment:
         return "No experiment is proposed: there are no two models to distinguish."
-    best = max(found["next_experiment"], key=lambda d: float(d["separation_sd"]))
-    short = best["separation_sd"] ** 2 < found["ambiguity"]
+    best = max(found.next_experiment, key=lambda d: d.separation_sd)
+    short = best.separation_sd**2 < found.ambiguity
     return (
-        f"Of new experiments, this would separate competing models best: {best['words']}; by "
-        f"{best['separation_sd']:.1f} standard deviations{_TOO_FEW if short else ''}."
+        f"Of new experiments, this would separate competing models best: {best.words}; by "
+        f"{best.separation_sd:.1f} standard deviations{_TOO_FEW if short else ''}."
     )

@@ -16,24 +16,25 @@ def strengths(study: Study, results: Results) -> pd.DataFrame:
     """List the parameters of the effects that the verdict rests on, with their intervals."""
     found = diagnosis.read(study, results)
     chosen = leading(found)
-    profiles = {(p["effect"], p["parameter"]): p for p in found["profiles"]}
+    profiles = {(p.effect, p.parameter): p for p in found.profiles}
     catalogue = known_effects()
     rows = []
-    for effect, free in (chosen["free"] if chosen else {}).items():
+    for effect, free in (chosen.free if chosen else {}).items():
         for name in free:
-            p = chosen["parameters"][f"{effect}_{name}"] if chosen else {}
+            assert chosen is not None
+            p = chosen.parameters[f"{effect}_{name}"]
             interval = profiles.get((effect, name), p)
             rows.append(
                 {
                     "effect": effect_name(effect),
                     "equation": catalogue[effect].equation,
                     "parameter": catalogue[effect].quantities[name].label,
-                    "value": p["value"],
-                    "low": interval["low"],
-                    "high": interval["high"],
-                    "low_wide": _wider(min, p["low_wide"], interval["low"]),
-                    "high_wide": _wider(max, p["high_wide"], interval["high"]),
-                    "unit": p["unit"],
+                    "value": p.value,
+                    "low": interval.low,
+                    "high": interval.high,
+                    "low_wide": _wider(min, p.low_wide, interval.low),
+                    "high_wide": _wider(max, p.high_wide, interval.high),
+                    "unit": p.unit,
                     "without": catalogue[effect].quantities[name].value,
                 }
             )

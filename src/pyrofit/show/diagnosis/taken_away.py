@@ -11,10 +11,8 @@ from pyrofit.show.table import Table, always
 
 def taken_away(study: Study, results: Results) -> pd.DataFrame:
     """List the effects that were taken away, in order, with the test that each fails."""
-    rows = diagnosis.read(study, results)["verdict"]["taken_away"]
-    return pd.DataFrame(
-        [{"effect": effect_name(row["effect"]), "reason": row["reason"]} for row in rows]
-    )
+    rows = diagnosis.read(study, results).verdict.taken_away
+    return pd.DataFrame([{"effect": effect_name(row.effect), "reason": row.reason} for row in rows])
 
 
 TABLE = Table(

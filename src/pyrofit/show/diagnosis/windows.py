@@ -8,32 +8,33 @@ import pandas as pd
 from pyrofit.analysis.uses import title_of
 from pyrofit.config import Study
 from pyrofit.results import diagnosis
+from pyrofit.results.diagnosis_schema import OfWindow
 from pyrofit.results.files import Results
-from pyrofit.show.diagnosis.words import MODELS, Found, quantity_of, words_of
+from pyrofit.show.diagnosis.words import MODELS, quantity_of, words_of
 from pyrofit.show.table import Row, Table, always
 from pyrofit.show.units import celsius, difference, difference_unit
 
 
 def windows(study: Study, results: Results) -> pd.DataFrame:
     """List the intervals where the simulated curve is off to one side, and the conditions there."""
-    return pd.DataFrame([_window(study, w) for w in diagnosis.read(study, results)["windows"]])
+    return pd.DataFrame([_window(study, w) for w in diagnosis.read(study, results).windows])
 
 
-def _window(study: Study, w: Found) -> Row:
+def _window(study: Study, w: OfWindow) -> Row:
     quantity = quantity_of(study, w)
     unit = difference_unit(quantity).replace("–", "")
-    relative = None if quantity.is_temperature else w["relative"]
-    off = float(difference(quantity, w["mean"]))
-    programme = None if w["start_K"] is None else (w["start_K"], w["end_K"])
-    kelvin = programme or w["surface_temperature_K"]
+    relative = None if quantity.is_temperature else w.relative
+    off = float(difference(quantity, w.mean))
+    programme = None if w.start_K is None else (w.start_K, w.end_K)
+    kelvin = programme or w.surface_temperature_K
     return {
-        "model": MODELS.get(w["model"], w["model"]),
-        "experiment": title_of(study, w["experiment"]),
+        "model": MODELS.get(w.model, w.model),
+        "experiment": title_of(study, w.experiment),
         "signal": words_of(study, w),
-        "phase": w["phase"],
-        "time_s": between((w["start_s"], w["end_s"]), ".0f"),
+        "phase": w.phase,
+        "time_s": between((w.start_s, w.end_s), ".0f"),
         "temperature_C": None if kelvin is None else between(celsius(kelvin), ".0f"),
-        "conversion": between(w["conversion"], ".2f"),
+        "conversion": between(w.conversion, ".2f"),
         "difference": f"{off:+.3g} {unit}".strip(),
         "relative_percent": np.nan if relative is None else 100.0 * relative,
     }

@@ -1,16 +1,17 @@
 """Names, units and the leading candidate, as the diagnosis shows them."""
 
-from collections.abc import Mapping, Sequence
-from typing import Any
+from collections.abc import Sequence
 
 from pyrofit.config import Study
 from pyrofit.effects import known_effects
 from pyrofit.quantities.base import Quantity
-
-Found = Mapping[str, Any]
-
+from pyrofit.results.diagnosis_candidates import OfCandidate
+from pyrofit.results.diagnosis_schema import Diagnosis, OfGap, OfNoise, OfWindow
 
 BASE = "base"
+
+
+CALIBRATION = "calibration"
 
 
 HELD_OUT = "held out"
@@ -27,17 +28,17 @@ CLAIMS = ("named", "ambiguous", "multiple", "partly")
 MODELS = {BASE: "base model", "extended": "with the effects found"}
 
 
-ROLES = {"calibration": "fitted", HELD_OUT: "held out"}
+ROLES = {CALIBRATION: "fitted", HELD_OUT: "held out"}
 
 
-def quantity_of(study: Study, row: Found) -> Quantity:
+def quantity_of(study: Study, row: OfNoise | OfGap | OfWindow) -> Quantity:
     """Return the quantity of a row that names experiment and signal."""
-    return study.experiments[row["experiment"]].quantity(row["signal"])
+    return study.experiments[row.experiment].quantity(row.signal)
 
 
-def words_of(study: Study, row: Found) -> str:
+def words_of(study: Study, row: OfNoise | OfGap | OfWindow) -> str:
     """Return the signal of a row in words."""
-    return study.experiments[row["experiment"]].words(row["signal"])
+    return study.experiments[row.experiment].words(row.signal)
 
 
 def prediction_name(study: Study, name: str) -> str:
@@ -69,33 +70,39 @@ def model_name(effects: Sequence[str]) -> str:
     return " + ".join(effect_name(name) for name in effects)
 
 
-def leading(found: Found) -> Found | None:
+def setting(found: Diagnosis, name: str, default: float) -> float:
+    """Return a number that steered the diagnosis, or that of diagnoses before it was one."""
+    value = found.settings.get(name, default)
+    return default if isinstance(value, list) else value
+
+
+def leading(found: Diagnosis) -> OfCandidate | None:
     """Return the candidate that the verdict rests on, if any: the best with just its effects."""
-    effects = set(found["verdict"]["effects"])
-    same = [c for c in found["candidates"] if effects and set(c["effects"]) == effects]
+    effects = set(found.verdict.effects)
+    same = [c for c in found.candidates if effects and set(c.effects) == effects]
     return min(same, key=_rank) if same else None
 
 
-def _rank(candidate: Found) -> tuple[bool, float]:
+def _rank(candidate: OfCandidate) -> tuple[bool, float]:
     """Put fits that were not rejected first, then those with a lower penalised chi-square."""
-    return bool(candidate["rejected"]), float(candidate["penalised"])
+    return bool(candidate.rejected), candidate.penalised
 
 
-def remark(found: Found, candidate: Found) -> str:
+def remark(found: Diagnosis, candidate: OfCandidate) -> str:
     """Say why a candidate was rejected, or whether it is in the verdict if it was not."""
-    kept = "in the verdict" if found["verdict"]["kind"] in CLAIMS else "not claimed"
-    return candidate["rejected"] or kept
+    kept = "in the verdict" if found.verdict.kind in CLAIMS else "not claimed"
+    return candidate.rejected or kept
 
 
-def ranked(found: Found, most: int | None = None) -> list[Found]:
+def ranked(found: Diagnosis, most: int | None = None) -> list[OfCandidate]:
     """Return the best fit of each set of effects, the lowest penalised chi-square first.
 
     The leading one is always among them, in the last place if it is worse.
     """
-    best: dict[frozenset[str], Found] = {}
-    for c in sorted(found["candidates"], key=_rank):
-        best.setdefault(frozenset(c["effects"]), c)
-    order = sorted(best.values(), key=lambda c: float(c["penalised"]))
+    best: dict[frozenset[str], OfCandidate] = {}
+    for c in sorted(found.candidates, key=_rank):
+        best.setdefault(frozenset(c.effects), c)
+    order = sorted(best.values(), key=lambda c: c.penalised)
     chosen = leading(found)
     if most is None or chosen is None or chosen in order[:most]:
         return order[:most]

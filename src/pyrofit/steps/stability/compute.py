@@ -5,8 +5,8 @@ from pyrofit.diagnose.diagnosis import Diagnosis, examine
 from pyrofit.diagnose.settings import SETTINGS
 from pyrofit.logs import Tell
 from pyrofit.results.files import Results
+from pyrofit.results.recorded import load
 from pyrofit.stages.diagnose import refuse_programs
-from pyrofit.stages.measurements import load
 from pyrofit.steps.stability import record
 
 
@@ -38,16 +38,16 @@ def run(study: Study, results: Results, tell: Tell, processes: int, draw: str) -
 
 
 def _of_draw(study: Study, results: Results, draw: int, found: Diagnosis) -> record.OfDraw:
-    verdict, end = found.content["verdict"], found.searched
+    verdict, end = found.content.verdict, found.searched
     return record.OfDraw(
         study=study.name,
         origin=record.origin(study, results),
         draw=draw,
         disturbance=SETTINGS.disturbance,
-        kind=verdict["kind"],
-        confirmed=verdict["confirmed"],
-        sets=verdict["sets"],
-        reasons=verdict["reasons"],
+        kind=verdict.kind,
+        confirmed=verdict.confirmed,
+        sets=verdict.sets,
+        reasons=verdict.reasons,
         final=list(end.effects),
         chi2=end.fit.chi2,
         strengths={effect: end.strength(effect) for effect in end.effects},

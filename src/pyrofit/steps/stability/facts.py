@@ -1,12 +1,12 @@
 """How often diagnoses of disturbed data find each effect, and with which strengths."""
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Sequence
 from dataclasses import dataclass
-from typing import Any
 
 from pyrofit.config import Study
 from pyrofit.effects import known_effects
 from pyrofit.results import diagnosis
+from pyrofit.results.diagnosis_schema import Diagnosis
 from pyrofit.results.files import Results
 from pyrofit.show.diagnosis.words import CLAIMS, leading
 from pyrofit.steps.stability import record
@@ -17,14 +17,14 @@ from pyrofit.steps.stability.record import OfDraw
 class Stability:
     """The diagnosis of the measured data, and those of disturbed data."""
 
-    measured: Mapping[str, Any]
+    measured: Diagnosis
     draws: Sequence[OfDraw]
 
     @property
     def claimed(self) -> list[str]:
         """Effects that the verdict on the measured data names, all of each set."""
-        verdict = self.measured["verdict"]
-        return _claimed(verdict["kind"], verdict["sets"])
+        verdict = self.measured.verdict
+        return _claimed(verdict.kind, verdict.sets)
 
     @property
     def effects(self) -> list[str]:
@@ -49,10 +49,10 @@ class Stability:
     def measured_strength(self, effect: str) -> float | None:
         """Return the strength that the measured data give to an effect that leads its set."""
         chosen = leading(self.measured)
-        if effect not in self.claimed or chosen is None or effect not in chosen["effects"]:
+        if effect not in self.claimed or chosen is None or effect not in chosen.effects:
             return None
         (strength,) = known_effects()[effect].strength
-        return float(chosen["parameters"][f"{effect}_{strength}"]["value"])
+        return chosen.parameters[f"{effect}_{strength}"].value
 
 
 def claimed_by(draw: OfDraw) -> list[str]:

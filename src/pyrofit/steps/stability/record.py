@@ -96,4 +96,4 @@ def version(study: Study, results: Results) -> str:
 
 def _version(study: Study, results: Results) -> str:
     draws = [draw.model_dump() for draw in read(study, results)]
-    return digest([draws, diagnosis.read(study, results)])
+    return digest([draws, diagnosis.read(study, results).model_dump(by_alias=True)])

@@ -32,7 +32,7 @@ def _of_draws(found: Stability) -> str:
 def _of_verdicts(found: Stability) -> str:
     kinds = Counter(draw.kind for draw in found.draws)
     shown = listed([f"'{kind}' ({n})" for kind, n in kinds.most_common()])
-    kind = found.measured["verdict"]["kind"]
+    kind = found.measured.verdict.kind
     verdicts = f"Verdict on the measured data: '{kind}'. Verdicts on the disturbed data: {shown}. "
     if not any([found.claimed, *map(claimed_by, found.draws)]):
         return f"{verdicts}No data set leads to a claimed effect."

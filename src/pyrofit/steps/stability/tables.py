@@ -1,14 +1,14 @@
 """Effects by how often they are found, and the verdict on each disturbed data set."""
 
-from typing import Any
-
 import pandas as pd
 
 from pyrofit.config import Study
+from pyrofit.results.diagnosis_schema import OfVerdict
 from pyrofit.results.files import Results
 from pyrofit.show.diagnosis.words import effect_name
 from pyrofit.show.table import Row, Table, always
 from pyrofit.steps.stability.facts import claimed_by, read, unit_of
+from pyrofit.steps.stability.record import OfDraw
 
 COLUMNS = (
     "effect",
@@ -48,22 +48,22 @@ def effects(study: Study, results: Results) -> pd.DataFrame:
 def draws(study: Study, results: Results) -> pd.DataFrame:
     """List the verdict on the measured data and on each disturbed data set."""
     found = read(study, results)
-    verdict = found.measured["verdict"]
+    verdict = found.measured.verdict
     rows = [_row("as measured", verdict, found.claimed)]
     for draw in found.draws:
-        row = _row(f"draw {draw.draw}", draw.model_dump(), claimed_by(draw))
+        row = _row(f"draw {draw.draw}", draw, claimed_by(draw))
         rows.append({**row, "final": _listed(draw.final), "chi2": draw.chi2})
     return pd.DataFrame(rows, columns=list(OF_DRAWS))
 
 
-def _row(data: str, verdict: Any, claimed: list[str]) -> Row:
-    confirmed = "yes" if verdict["confirmed"] else "no"
+def _row(data: str, verdict: OfVerdict | OfDraw, claimed: list[str]) -> Row:
+    confirmed = "yes" if verdict.confirmed else "no"
     return {
         "data": data,
-        "kind": verdict["kind"],
+        "kind": verdict.kind,
         "confirmed": confirmed,
         "claimed": _listed(claimed),
-        "reasons": "" if claimed else "; ".join(verdict["reasons"]),
+        "reasons": "" if claimed else "; ".join(verdict.reasons),
     }
 
 
