@@ -1,0 +1,9 @@
+"""Time to ignition of slabs, and what a series of radiant fluxes tells of the material."""
+
+from pyrofit.steps.base import Step
+
+STEP = Step(
+    place=65,
+    words="times to ignition, critical heat flux and thermal response parameter",
+    message="Times to ignition and critical heat flux",
+)

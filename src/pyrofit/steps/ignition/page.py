@@ -1,0 +1,109 @@
+"""Times to ignition: tables, and a section of the report."""
+
+import pandas as pd
+
+from pyrofit.config import Study
+from pyrofit.results.files import Results
+from pyrofit.show.step_page import StepPage
+from pyrofit.show.table import Table, always
+from pyrofit.steps.ignition import record
+from pyrofit.steps.ignition.figure import FIGURES
+from pyrofit.steps.ignition.times import DEFINITIONS
+
+_LAWS = {"thick": "thermally thick", "janssens": "Janssens", "thin": "thermally thin"}
+
+
+def times(study: Study, results: Results) -> pd.DataFrame:
+    """List the time to ignition of each test by definition."""
+    return pd.DataFrame(
+        [
+            {"experiment": test.experiment, "flux_kW_m2": test.flux_W_m2 / 1e3}
+            | {
+                f"{name}_s": "no ignition" if time is None else f"{time:.4g}"
+                for name, time in test.time_s.items()
+            }
+            for test in record.read(study, results).tests
+        ]
+    ).fillna("")
+
+
+def lines(study: Study, results: Results) -> pd.DataFrame:
+    """List the critical heat flux and the thermal response parameter of each line."""
+    return pd.DataFrame([_row(of) for of in record.read(study, results).series])
+
+
+def _row(of: record.OfSeries) -> dict[str, object]:
+    return {
+        "definition": of.definition,
+        "relation": _LAWS[of.law],
+        "tests": of.tests,
+        "critical_kW_m2": _number(of.critical_W_m2),
+        "critical_95": _interval(of.critical_within),
+        "response_k": _number(of.response),
+        "response_95": _interval(of.response_within),
+        "ignition_degC": "" if of.ignition_K is None else f"{of.ignition_K - 273.15:.0f}",
+        "scatter_percent": "" if of.scatter is None else f"{100.0 * of.scatter:.1f}",
+        "remarks": "; ".join(of.remarks),
+    }
+
+
+def _number(value: float | None) -> str:
+    return "" if value is None else f"{value / 1e3:.3g}"
+
+
+def _interval(within: list[float] | None) -> str:
+    return "" if within is None else f"{within[0] / 1e3:.3g} to {within[1] / 1e3:.3g}"
+
+
+def sentences(study: Study, results: Results) -> list[str]:
+    """Return the sentences on the lines of a thick solid, and what is not determined."""
+    found = record.read(study, results)
+    said = []
+    for of in found.series:
+        fitting = [one for one in found.series if one.definition == of.definition and one.scatter]
+        if of.law != "thick":
+            continue
+        words = f"By the {DEFINITIONS[of.definition]}"
+        if of.critical_W_m2 is not None and of.response is not None:
+            said.append(
+                f"{words}, the critical heat flux is {_number(of.critical_W_m2)} kW/m² "
+                f"(95 %: {_interval(of.critical_within)}), and the thermal response parameter "
+                f"{_number(of.response)} kW s½/m² ({_interval(of.response_within)})."
+            )
+            best = min(fitting, key=lambda one: one.scatter or 0.0, default=of)
+            if best.law != "thick":
+                said.append(f"Its times follow the relation of {_LAWS[best.law]} solids closer.")
+        said += [f"{words}: {remark}." for remark in of.remarks]
+    if found.left_out:
+        said.append(f"Without a rate or a flux that is a number: {', '.join(found.left_out)}.")
+    return said
+
+
+PAGE = StepPage(
+    folder="ignition",
+    heading="Ignition",
+    text="Times to ignition by the usual definitions, and lines of t^-n over the radiant flux: the "
+    "critical heat flux, and the thermal response parameter.",
+    tables={
+        "times": Table(
+            place=10,
+            applies=always,
+            make=times,
+            title="Times to ignition [s]",
+            note="; ".join(f"{name}: {words}" for name, words in DEFINITIONS.items()),
+        ),
+        "lines": Table(
+            place=20,
+            applies=always,
+            make=lines,
+            title="Critical heat flux and thermal response",
+            note="Intervals of 95 %, that of the critical flux by Fieller's theorem. Response: "
+            "thermal response parameter [kW s½/m²] of a thick solid, ρ c L ΔT [kJ/m²] of a thin "
+            "one. Scatter: that of the times about the line.",
+        ),
+    },
+    figures=FIGURES,
+    sentences=sentences,
+    tables_shown=("times", "lines"),
+    figures_shown=("fluxes",),
+)

@@ -1,0 +1,59 @@
+"""Times to ignition as they are written and read."""
+
+from pydantic import Field
+
+from pyrofit.config import Study
+from pyrofit.results.files import Results
+from pyrofit.results.record import Record, read_record, write_record
+
+FILE = "ignition.json"
+
+
+class OfTest(Record):
+    """A test."""
+
+    experiment: str = Field(description="name of the experiment")
+    flux_W_m2: float = Field(description="radiant flux [W/m2]")
+    time_s: dict[str, float | None] = Field(
+        description="time to ignition by definition [s]; none = no ignition"
+    )
+
+
+class OfSeries(Record):
+    """The line of a relation through the times of a definition."""
+
+    definition: str = Field(description="definition of the time")
+    law: str = Field(description="relation: thick, janssens or thin")
+    tests: int = Field(description="tests with ignition")
+    critical_W_m2: float | None = Field(description="critical heat flux [W/m2]")
+    critical_within: list[float] | None = Field(description="its 95 % interval")
+    response: float | None = Field(
+        description="thermal response parameter [W s^(1/2)/m2]; of a thin solid rho c L dT [J/m2]"
+    )
+    response_within: list[float] | None = Field(description="its 95 % interval")
+    ignition_K: float | None = Field(description="temperature of ignition from the critical flux")
+    scatter: float | None = Field(description="root mean square of ln(t / t of the line)")
+    remarks: list[str] = Field(
+        description="numbers that are not determined, and contradictions to the tests"
+    )
+
+
+class Ignition(Record):
+    """The result."""
+
+    study: str = Field(description="name of the study")
+    tests: list[OfTest] = Field(description="the tests")
+    series: list[OfSeries] = Field(description="the lines")
+    left_out: list[str] = Field(description="slabs without a rate, or without a number as flux")
+
+
+def write(results: Results, found: Ignition) -> None:
+    """Write the result."""
+    write_record(results.of_step("ignition", FILE), found)
+
+
+def read(study: Study, results: Results) -> Ignition:
+    """Return the result of a study."""
+    return read_record(
+        results.of_step("ignition", FILE), Ignition, lambda found: found.study == study.name
+    )
