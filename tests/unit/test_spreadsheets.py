@@ -135,3 +135,4 @@ def test_message_says_what_to_install_or_to_export(
 def test_times_of_a_clock_and_dates_are_text() -> None:
     row = [datetime.timedelta(hours=1, seconds=90.5), datetime.time(0, 2), 1.0, "a\tb\n"]
     assert spreadsheet.lines_of([row]) == "01:01:30.500\t00:02:00.000\t1.0\ta b"
+    assert spreadsheet.lines_of([[datetime.datetime(2024, 5, 7, 1)]]) == "2024-05-07 01:00:00.000"

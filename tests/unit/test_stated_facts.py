@@ -1,5 +1,6 @@
 """Facts that files state above their tables."""
 
+import re
 from pathlib import Path
 
 import numpy as np
@@ -124,3 +125,17 @@ def test_facts_are_not_taken_from_other_words() -> None:
         "",
         None,
     )
+
+
+@pytest.mark.parametrize(
+    "line",
+    [
+        "Method: 1 ramp 10 K/min to 625 C in N2; 2 switch to air; 3 isothermal 20 min",
+        "Ablauf: Segment 1 25 °C bis 600 °C N2; Gaswechsel auf Luft; 15 min isotherm",
+        "Atmosphere: nitrogen until 600 °C, then air",
+    ],
+)
+def test_steps_in_one_line_tell_a_change_of_gas(line: str) -> None:
+    stated = stated_in([re.split(r"[;,] ", line)])
+    assert stated.gas.casefold() in ("n2", "nitrogen")
+    assert stated.then_gas.casefold() in ("air", "luft")

@@ -36,6 +36,10 @@ SUSPECT = {
     ),
     "dried sample": ((TIME, KELVIN, 0.93 * MASS), "it starts at 93.0 % of the initial mass"),
     "lost rows": ((TIME[FEW], KELVIN[FEW], MASS[FEW]), "no point lies between 1194 s and 1440 s"),
+    "minutes under s": ((TIME / 60.0, KELVIN, MASS), "by 10 K/min if its times are in min"),
+    "hours under s": ((TIME / 3600.0, KELVIN, MASS), "by 10 K/min if its times are in h"),
+    "seconds under min": ((60.0 * TIME, KELVIN, MASS), "by 0.167 K/min at most. If its times are"),
+    "loss of mass": ((TIME, KELVIN, 1.0 - MASS), "and rises, as a loss of mass does"),
     "pause of a day": ((PAUSE, KELVIN, MASS), "no point lies between 1500 s and 87906 s"),
 }
 
@@ -50,7 +54,7 @@ def test_suspect_record_is_told_with_the_way_out(
 ) -> None:
     (said,) = suspicions(known_quantities()["mass_fraction"], frame_of(*columns))
     assert words in said
-    assert any(way in said for way in ("give", "Give", "divide", "complete", "Delete"))
+    assert any(way in said for way in ("give", "Give", "divide", "complete", "Delete", "Make"))
 
 
 @pytest.mark.parametrize("time", [TIME, DENSE], ids=["even", "dense in a part"])

@@ -1,5 +1,6 @@
 """Tables as FDS, Gpyro and instruments write them, with their odd rows."""
 
+from datetime import datetime, timedelta
 from pathlib import Path
 
 import numpy as np
@@ -100,3 +101,24 @@ def test_times_of_day_go_on_past_midnight(tmp_path: Path) -> None:
     line = 2 + int(np.argmax(TIME >= 400.0))
     assert f"the time of day passes midnight at line {line}" in table.mended[-1]
     assert draft.measured("tga", path).number == pytest.approx(10.0)
+
+
+@pytest.mark.parametrize(
+    "form", ["%Y-%m-%d %H:%M:%S", "%d.%m.%Y %H:%M:%S", "%Y-%m-%dT%H:%M:%S", "%I:%M:%S %p"]
+)
+@pytest.mark.parametrize("name", ["Time", "Date/Time"])
+def test_dates_and_halves_of_a_day_are_read(form: str, name: str, tmp_path: Path) -> None:
+    begin = datetime(2024, 2, 28, 11, 40)
+    clock = [(begin + timedelta(seconds=float(t) // 1)).strftime(form) for t in TIME]
+    path = written(tmp_path / "a.csv", f"{name},Temperature (K),Mass (-)\n", clock, KELVIN, MASS)
+    frame = draft.measured("tga", path).frames["mass_fraction"]
+    time = frame["time_s"].to_numpy()
+    np.testing.assert_allclose(time - time[0], TIME // 1)
+
+
+def test_a_date_whose_day_is_not_clear_is_no_time(tmp_path: Path) -> None:
+    clock = [f"03/04/2024 {int(t) // 3600:02}:{int(t) // 60 % 60:02}:00" for t in TIME]
+    path = written(tmp_path / "a.csv", "Date/Time,Temperature (K),Mass (-)\n", clock, KELVIN, MASS)
+    assert not draft.measured("tga", path).frames
+    with pytest.raises(DataError, match="given '03/04/2024 00:00:00'"):
+        read_series(SeriesSpec("mass_fraction", path, {"time": "Date/Time"}))

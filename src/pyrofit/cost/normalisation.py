@@ -72,7 +72,8 @@ def normaliser(name: str, series: FloatArray) -> float:
     y_N = NORMALISATIONS[name](series)
     if y_N == 0.0:
         raise CostError(
-            f"normalisation '{name}' is 0 for this target; a cost cannot be divided by it. "
+            f"normalisation '{name}' is 0 for this target, as of a record that does not change; a "
+            "cost cannot be divided by it. Check the column of the file. "
             f"Choose another one of {', '.join(NORMALISATIONS)}."
         )
     return y_N

@@ -4,11 +4,15 @@ import re
 from collections.abc import Sequence
 
 OXYGEN = re.compile(
-    r"(?<![a-z])(?:(?:synthetic )?air|luft|o2|oxygen|sauerstoff|oxyg.ne)(?![a-z])", re.I
+    r"(?<![a-z])(?:(?:synth(?:etic)? ?)?air|luft|aire|o2|oxygen|sauerstoff|oxyg.ne|oxidative"
+    r"|oxidi[sz]ing)(?![a-z])",
+    re.I,
 )
 INERT = re.compile(r"(?<![a-z])(?:n2|nitrogen|stickstoff|azote|ar|argon|he|helium)(?![a-z])", re.I)
 _STEP = re.compile(
-    r"switch|select|change|gaswechsel|isotherm|ramp|segment|dynami|\W*\d+[):\]]", re.I
+    r"switch|select|change|gaswechsel|isotherm|ramp|segment|dynami|method|program|until"
+    r"|\b(?:then|dann|puis)\b|\W*\d+[):\]]",
+    re.I,
 )
 """A step of a run, and not the flow of a gas that an instrument has all the time."""
 _NAMED = re.compile(r"gas\s*#?\s*(\d)\W+(.*)", re.I)
@@ -26,6 +30,8 @@ def holds_oxygen(gas: str) -> bool:
 
     >>> [holds_oxygen(gas) for gas in ("air", "N2", "Synthetic air", "O2-21", "chair")]
     [True, False, True, True, False]
+    >>> [holds_oxygen(gas) for gas in ("10O2", "synthair", "oxidative", "CO2")]
+    [True, True, True, False]
     """
     return bool(OXYGEN.search(gas))
 

@@ -4,12 +4,16 @@ import math
 import re
 from collections.abc import Iterable
 from dataclasses import dataclass
+from datetime import date
 
 from pyrofit.data.line import Line
 
 ABSENT = frozenset({"nan", "#n/a", "n/a", "na", "#value!", "#div/0!", "null", "-", "--", "none"})
 """Words, in lower case, for a cell without a value."""
-_CLOCK = re.compile(r"(\d+):([0-5]?\d):([0-5]?\d(?:[.,]\d+)?)")
+_CLOCK = re.compile(
+    r"(?:(?P<date>\d{4}-\d\d?-\d\d?|\d\d?\.\d\d?\.\d{4})[T ]+)?"
+    r"(?P<h>\d+):(?P<m>[0-5]?\d):(?P<s>[0-5]?\d(?:[.,]\d+)?) ?(?P<half>[AaPp][Mm])?"
+)
 _GROUPED = re.compile(r"[-+]?[1-9]\d{0,2}(?:[ '’\u00a0\u202f]\d{3})+(?:[.,]\d*)?")
 _COMMAS = re.compile(r"[-+]?\d[\d.]*(?:,\d+)*(?:\.\d*)?(?:[eE][-+]?\d+)?")
 _COMMA_THOUSANDS = re.compile(r"[-+]?[1-9]\d{0,2}(?:,\d{3})+(?:\.\d*)?")
@@ -61,13 +65,34 @@ def as_float(cell: str) -> float | None:
 def seconds(cell: str) -> float | None:
     """Return the seconds of a time hh:mm:ss; None where a cell is none.
 
-    >>> seconds("1:02:03.5"), seconds("12:30")
-    (3723.5, None)
+    AM or PM may stand behind it, and before it a date whose day is clear.
+
+    >>> seconds("1:02:03.5"), seconds("12:30"), seconds("12:00:01 AM"), seconds("1:00:00 pm")
+    (3723.5, None, 1.0, 46800.0)
+    >>> seconds("2024-05-17 00:00:10") - seconds("16.05.2024 23:59:50"), seconds("1/2/2024 1:00:00")
+    (20.0, None)
     """
     match = _CLOCK.fullmatch(cell)
     if match is None:
         return None
-    return 3600.0 * int(match[1]) + 60.0 * int(match[2]) + float(match[3].replace(",", "."))
+    hours, half = int(match["h"]), (match["half"] or "").casefold()
+    if half:
+        hours = hours % 12 + (12 if half == "pm" else 0)
+    of_day = 3600.0 * hours + 60.0 * int(match["m"]) + float(match["s"].replace(",", "."))
+    if match["date"] is None:
+        return of_day
+    numbers = [int(part) for part in re.split(r"[-.]", match["date"])]
+    year, month, day = numbers if numbers[0] > 31 else numbers[::-1]
+    try:
+        return 86_400.0 * date(year, month, day).toordinal() + of_day
+    except ValueError:
+        return None
+
+
+def is_dated(cell: str) -> bool:
+    """Tell whether a cell is a time with a date."""
+    match = _CLOCK.fullmatch(cell)
+    return match is not None and match["date"] is not None
 
 
 def is_numeral(cell: str) -> bool:

@@ -9,7 +9,7 @@ import numpy.typing as npt
 from pyrofit.data.csvheading import Heading, holds_units, ragged, trim
 from pyrofit.data.layout import Layout, cells_of
 from pyrofit.data.line import Line
-from pyrofit.data.numerals import ABSENT, Numerals, is_numeral, seconds
+from pyrofit.data.numerals import ABSENT, Numerals, is_dated, is_numeral, seconds
 from pyrofit.errors import DataError
 
 FloatArray = npt.NDArray[np.float64]
@@ -143,7 +143,9 @@ def parsed(
                 faults.setdefault(i, (row.number, cell))
             elif cell:
                 absent.append(cell)
-        if clock:
+        if clock and is_dated(rows[0].cells[i]):
+            values[:, i] -= values[0, i]
+        elif clock:
             notes += _past_midnight(values[:, i], rows)
     if absent:
         words = " or ".join(f"'{word}'" for word in sorted(set(absent)))

@@ -85,8 +85,10 @@ def _cell(value: Any) -> str:
         seconds = value.total_seconds()
         whole = int(seconds)
         return f"{whole // 3600:02d}:{whole // 60 % 60:02d}:{seconds - whole + whole % 60:06.3f}"
-    if isinstance(value, (time, datetime)):
-        return value.strftime("%H:%M:%S.%f")[:-3]
+    if isinstance(value, datetime):
+        return value.isoformat(" ", "milliseconds")
+    if isinstance(value, time):
+        return value.isoformat("milliseconds")
     if isinstance(value, date):
         return value.isoformat()
     if isinstance(value, (float, int)):

@@ -117,7 +117,9 @@ def stated_in(lines: Sequence[Sequence[str]]) -> Stated:
         found = replace(found, exothermic_up=signs.pop())
     if len(fluxes) == 1:
         found = replace(found, flux_kW_m2=fluxes.pop() / 1e3)
-    if (change := change_of_gas([" ".join(line) for line in lines[:_FIRST]])) is not None:
+    steps = [" ".join(line) for line in lines[:_FIRST]]
+    parts = [cell for line in lines[:_FIRST] for cell in line]  # several steps may share a line
+    if (change := change_of_gas(steps) or change_of_gas(parts)) is not None:
         first, then, at = change
         return replace(found, gas=first, then_gas=then, then_gas_s=at)
     return replace(found, gas=" and ".join(gases))

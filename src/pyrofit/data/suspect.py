@@ -26,6 +26,8 @@ _WINDOW = 5
 """Rows on each side of the median about which a value stands out."""
 _HEAT_FLOW_W_KG = (20.0, 2e4)
 """Largest heat flows that are usual."""
+_RATES, _RAMP_K, _PARTS = (0.2, 150.0), 200.0, 40
+"""Heating rates [K/min] beyond which a unit is suspect; a ramp; parts of a record with a slope."""
 _GAP, _GAP_SHARE = 5.0, 0.02
 """A gap is this many usual long steps, and this share of the record."""
 
@@ -50,6 +52,7 @@ def suspicions(quantity: Quantity, frame: pd.DataFrame) -> list[str]:
     """
     checks: tuple[Callable[[Quantity, pd.DataFrame], str], ...] = (
         _start,
+        _rate,
         _mass,
         _jumps,
         _first,
@@ -87,6 +90,28 @@ def _start(quantity: Quantity, frame: pd.DataFrame) -> str:
     return ""
 
 
+def _rate(quantity: Quantity, frame: pd.DataFrame) -> str:
+    """Find times in another unit than that of their column: a rate that is 60 or 3600 times off."""
+    if not quantity.against_temperature:
+        return ""
+    time, temperature = (frame[c].to_numpy(float) for c in ("time_s", "temperature_K"))
+    some = np.unique(np.linspace(0, time.size - 1, _PARTS).astype(int))
+    slopes = 60.0 * np.diff(temperature[some]) / np.diff(time[some])
+    usual, largest = float(np.median(slopes)), float(slopes.max())
+    if np.ptp(temperature) > _RAMP_K and largest < _RATES[0]:
+        return (
+            f"it heats by {largest:.3g} K/min at most. If its times are in seconds, give "
+            "`units: {time: s}`"
+        )
+    if usual <= _RATES[1]:
+        return ""
+    unit, least = ("min", 60.0) if usual / 60.0 <= _RATES[1] else ("h", 3600.0)
+    return (
+        f"it heats by {usual:.4g} K/min, by {usual / least:.3g} K/min if its times are in "
+        f"{unit}. Then give `units: {{time: {unit}}}`"
+    )
+
+
 def _smooth(values: FloatArray) -> FloatArray:
     rows = min(_SMOOTHED, values.size)
     return np.asarray(pd.Series(values).rolling(rows).median().dropna(), float)
@@ -102,7 +127,7 @@ def _mass(quantity: Quantity, frame: pd.DataFrame) -> str:
         return ""
     mass = _smooth(frame[quantity.column].to_numpy(float))
     first, end, top = float(mass[0]), float(mass[-1]), float(mass.max())
-    if first <= 0.0:
+    if first <= _LEAST_FALL * top:  # a loss, see `_first`
         return ""
     if top > (1.0 + _LEAST_RISE) * first:
         return (
@@ -165,9 +190,15 @@ def _first(quantity: Quantity, frame: pd.DataFrame) -> str:
     """Find a mass fraction that starts below 1: of a sample that lost mass before the record."""
     if quantity.scales[0] != "fraction" or not _is_mass(quantity):
         return ""
-    first = float(_smooth(frame[quantity.column].to_numpy(float))[0])
+    smooth = _smooth(frame[quantity.column].to_numpy(float))
+    first = float(smooth[0])
     if first > FALLEN:
         return ""
+    if first < _LEAST_FALL < smooth[-1]:
+        return (
+            f"it starts at {100.0 * first:.1f} % of the initial mass and rises, as a loss of mass "
+            "does. Make the mass a column, such as 100 minus a loss in %"
+        )
     return (
         f"it starts at {100.0 * first:.1f} % of the initial mass, the model at 100 %. If "
         "the sample was dried or heated before, give `relative_to: first value`"

@@ -216,9 +216,14 @@ def gas_of(name: str) -> str:
 
     >>> gas_of("board_TGA_O2-21_10K_1"), gas_of("wood air 10K"), gas_of("pair_N2"), gas_of("O2")
     ('O2-21', 'air', '', 'O2')
+    >>> gas_of("a_10O2"), gas_of("a_synthair"), gas_of("a oxidative"), gas_of("CO2"), gas_of("5%O2")
+    ('10O2', 'synthair', 'oxidative', '', '5%O2')
     """
     match = re.search(
-        r"(?<![A-Za-z0-9])(air|luft|o2(?:-\d+)?)(?![A-Za-z0-9])", name.replace("_", " "), re.I
+        r"(?<![A-Za-z0-9.])((?:synth(?:etic)?)? ?air|luft|aire|oxygen|oxidative|oxidi[sz]ing"
+        r"|(?:\d+(?:[.,]\d+)?)?[ %]*o2(?:-\d+)?)(?![A-Za-z0-9])",
+        name.replace("_", " "),
+        re.I,
     )
     return match[1] if match else ""
 

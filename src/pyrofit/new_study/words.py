@@ -155,8 +155,12 @@ def other_number(run: Measured) -> list[str]:
     times, with_unit = "", of.find(run.path.stem)[1] == "unit" if run.path else False
     if abs(ratio / _MINUTES - 1.0) < _ALIKE:
         times = ", 60 times less: if its times are in minutes, give `units: {time: min}`"
+    elif abs(ratio / _MINUTES**2 - 1.0) < _ALIKE:
+        times = ", 3600 times less: if its times are in hours, give `units: {time: h}`"
     elif abs(ratio * _MINUTES - 1.0) < _ALIKE:
         times = ", 60 times more: if its times are in seconds, give `units: {time: s}`"
+    elif abs(ratio * 1e3 - 1.0) < _ALIKE:
+        times = ", 1000 times more: if its times are in ms, divide them by 1000"
     if not times and (abs(ratio - 1.0) < _ALIKE or not with_unit):
         return []
     return [
