@@ -26,6 +26,7 @@ _HOMES = {
     "compare_with": "api.against",
     "diagnose": "api.diagnosing",
     "effects": "api.catalogue",
+    "explore": "explore.run",
     "fit": "api.fitting",
     "isoconversional": "api.isoconversional",
     "log_likelihood": "api.objectives",
@@ -42,7 +43,7 @@ __all__ = ["__version__", *_HOMES]  # pyright: ignore; __init__.pyi has the type
 
 
 class _Package(ModuleType):
-    """The package, in which three functions have the names of modules and stand before them.
+    """The package, in which some functions have the names of modules and stand before them.
 
     The import of a module sets it as an attribute of its package; `from pyrofit.effects import x`
     does not need that attribute.

@@ -12,9 +12,13 @@ import pyrofit as pf
 from pyrofit.cli import main
 from pyrofit.compare_with.compute import REPEATS
 from pyrofit.compare_with.published import MEAN, by_signal, chosen, errors, published
-from pyrofit.errors import DataError
+from pyrofit.data.fetch import FOLDER_VARIABLE
+from pyrofit.errors import DataError, StudyError
 from pyrofit.exchange.macfp.material import strict_of
 from pyrofit.exchange.macfp.numeric import numeric
+from pyrofit.explore.model import model_of
+from pyrofit.explore.published import PublishedSets
+from pyrofit.stages.measurements import computed
 
 SMOKE = Path(__file__).parents[2] / "config" / "smoke.yaml"
 TRUTH = yaml.safe_load(SMOKE.read_text())["synthetic"]["truth"]
@@ -92,6 +96,30 @@ def test_the_set_of_the_truth_predicts_best(base: Path, measured: pf.Study) -> N
     table = by_signal(found)
     assert list(table.columns) == [MEAN, "mlr", "mass_fraction"]
     assert table.loc["Polymer_B", MEAN] == pytest.approx(found.loc["Polymer_B"].mean())
+
+
+def test_the_explorer_draws_the_curves_of_a_set(
+    base: Path, measured: pf.Study, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setenv(FOLDER_VARIABLE, str(base))
+    own = {"own_slab_60": ["mlr"], "own_tga_20K": ["mass_fraction"]}
+    data = dict(pf.read_data(measured, own).series)
+    # The computed tests are fitted, so the problem holds them as well.
+    data |= computed(measured, fast=True)
+    model = model_of(measured, data)
+    values = {n: v * measured.parameters[n].factor for n, v in TRUTH.items()}
+    sets = PublishedSets()
+    true, mine = sets.simulate(model, "Polymer_A", values), model.simulate(values)
+    light, kinetics = (sets.simulate(model, f"Polymer_{n}", values) for n in "BC")
+    at = {key: i for i, key in enumerate(model.signals)}
+    slab, tga = at["own_slab_60", "mlr"], at["own_tga_20K", "mass_fraction"]
+    for i in (slab, tga):
+        np.testing.assert_allclose(true.models[i], mine.models[i], atol=1e-3 * mine.models[i].max())
+    assert np.ptp(light.models[slab] - mine.models[slab]) > 1e-3
+    assert np.isnan(kinetics.models[slab]).all()
+    np.testing.assert_allclose(kinetics.models[tga], mine.models[tga], atol=1e-3)
+    with pytest.raises(StudyError, match=r"no published set 'Polymer_D'\. Did you mean"):
+        sets.simulate(model, "Polymer_D", values)
 
 
 def test_folder_without_sets_is_told(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:

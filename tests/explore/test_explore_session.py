@@ -2,6 +2,7 @@
 
 import base64
 import json
+import time
 from collections.abc import Mapping
 from pathlib import Path
 from typing import Any
@@ -191,3 +192,20 @@ def test_a_saved_study_writes_over_nothing(session: Session, tmp_path: Path) -> 
         save(session, State(TRUTH), ["k"], "mine", tmp_path)
     with pytest.raises(StudyError, match="letters, digits and _"):
         save(session, State(TRUTH), ["k"], "../mine", tmp_path)
+
+
+def test_twenty_curves_take_little_of_a_processor(session: Session) -> None:
+    # The page wants them within 50 ms. Time of the processor does not depend on other programs.
+    keys = session.study.model_dump(mode="json", exclude_defaults=True)
+    tests = keys["experiments"]
+    for i in range(12):
+        tests[f"tga_{i}"] = {**tests["tga_5K"], "heating_rate_K_min": 6 + i}
+    tests["slab_40"] = {**tests["slab_25"], "duration_s": 800}
+    study = pf.read_study(keys)
+    many = session_of(study, noise=False)
+    assert len(many.base.signals) == 20
+    many.curves(State(TRUTH))
+    begin = time.process_time()
+    for k in range(10):
+        many.curves(State({**TRUTH, "k": 0.15 + 0.01 * k}))
+    assert time.process_time() - begin < 10 * 0.05

@@ -173,15 +173,11 @@ def _errors_of(
     floors: dict[Key, float],
 ) -> dict[Key, float]:
     """Return the errors of a set by test and signal; the scatter of repeats goes to ``floors``."""
-    shown = {
-        name: experiment
-        for name, experiment in study.experiments.items()
-        if has_heat(one.strict) or _shows_kinetics_alone(experiment)
-    }
+    shown = shown_by(study, one)
     if not shown:
         raise DataError("it has kinetics alone, and the study has no TGA")
     posed = study.model_copy(update={"experiments": shown})
-    measured, simulated, _ = both_records(posed, series, one.name, _material(posed, one), values)
+    measured, simulated, _ = both_records(posed, series, one.name, material_in(posed, one), values)
     found = {}
     for (test, signal), repeats in measured.items():
         mean = mean_of(repeats)
@@ -191,13 +187,22 @@ def _errors_of(
     return found
 
 
+def shown_by(study: Study, one: Published) -> dict[str, Experiment]:
+    """Return the experiments of a study that a set can describe: TGA alone if it has no heats."""
+    return {
+        name: experiment
+        for name, experiment in study.experiments.items()
+        if has_heat(one.strict) or _shows_kinetics_alone(experiment)
+    }
+
+
 def _shows_kinetics_alone(experiment: Experiment) -> bool:
     """Tell whether an experiment depends on no thermal property: a small sample that is weighed."""
     weighed = all("mass" in experiment.quantity(s).scales for s in experiment.signals)
     return weighed and kind_of(experiment).stage == "kinetics"
 
 
-def _material(study: Study, one: Published) -> Material:
+def material_in(study: Study, one: Published) -> Material:
     """Return the material of a set, with the components of the apparatus of a study."""
     given = material_of(one.strict)
     slabs = [e for e in study.experiments.values() if isinstance(e, SlabExperiment)]

@@ -1,6 +1,7 @@
 """What the page needs to know of a study once: signals, parameters, effects."""
 
 from collections.abc import Mapping
+from functools import cache
 from typing import Any
 
 import numpy as np
@@ -45,6 +46,7 @@ def middle(model: Model) -> dict[str, float]:
     return values | given | known
 
 
+@cache
 def drawn(size: int) -> NDArray[np.int64]:
     """Return the positions of the points that are drawn of a record of some size.
 
@@ -108,7 +110,7 @@ def _parameters(study: Study, names: tuple[str, ...]) -> list[dict[str, Any]]:
                 "group": GROUPS[group],
             }
         )
-    return found
+    return sorted(found, key=lambda p: GROUPS.index(p["group"]))
 
 
 def _effects(study: Study) -> list[dict[str, Any]]:

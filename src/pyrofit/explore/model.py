@@ -26,7 +26,7 @@ class Simulated:
     Parameters
     ----------
     models
-        The model at the points of each term of the problem, SI units; NaN where a run failed.
+        The model at the points of each term of the problem, SI units; NaN where no run finished.
     runs
         How each experiment ended.
     """
@@ -75,10 +75,9 @@ class Model:
         return [self._picked({n: curves[i] for n, curves in found.items()}) for i in range(sets)]
 
     def _picked(self, runs: Mapping[str, Curves]) -> Simulated:
+        done = {name: run.signals for name, run in runs.items() if run.status.finished}
         models = [
-            runs[name].signals[signal][index]
-            if runs[name].status.finished
-            else np.full(index.size, np.nan)
+            done[name][signal][index] if name in done else np.full(index.size, np.nan)
             for name, signal, index in self.problem.picks
         ]
         return Simulated(models, runs)

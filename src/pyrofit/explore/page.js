@@ -124,7 +124,7 @@ function tell(found) {
     const of = found.numbers ? found.numbers.signals[s.id] : { rms: rms(s, found.curves[s.id]), chi2: null };
     const released = found.numbers && found.numbers.mass[s.id];
     plot.note.textContent = `rms ${shown(of.rms)}${inUnit(s.difference)}` + (of.chi2 === null ? "" : `, χ²/n ${shown(of.chi2 / of.points)}`)
-      + (released ? `, mass ${shown(100 * released[0] / released[1])} %` : "");
+      + (released ? `, mass ${(100 * released[0] / released[1]).toFixed(1)}\u00a0%` : "");
     plot.note.title = released ? `released mass: simulated ${shown(released[0])}, measured ${shown(released[1])} kg/m²` : "";
     if (of.chi2 === null) waits = true; else { chi2 += of.chi2; points += of.points; }
   }
@@ -301,7 +301,7 @@ function build() {
   const key = add(head, "div", { className: "key" });
   add(key, "span", { textContent: "· measured" });
   for (const [style, text] of [["border-color:" + INK.first, "simulated"], ["border-top-style:dashed;border-color:" + INK.second, "compared"]]) { add(key, "i").style.cssText = style; key.append(text); }
-  key.append("   Dashed frame: held out, counts in no number. Drag: zoom; double click: all.");
+  add(head, "div", { className: "unit", textContent: "Dashed frame: held out, counts in no number. Drag: zoom; double click: all." });
   add(head, "div", { id: "numbers", className: "numbers" });
   add(head, "div", { id: "message" }).setAttribute("aria-live", "polite");
   for (const s of study.signals) page.plots[s.id] = new Plot(s, byId("plots"));

@@ -2,18 +2,24 @@
 
 import os
 import threading
+import webbrowser
 from collections.abc import Mapping
 from functools import partial
 from pathlib import Path
+from types import MappingProxyType
 from typing import Any
 
+from pyrofit.api.arguments import path_of
+from pyrofit.api.choices import si_values
+from pyrofit.api.studies import Source, read_study
 from pyrofit.config import Study
 from pyrofit.config.resolve import diagnosed_parameters
 from pyrofit.errors import StudyError
 from pyrofit.explore.fit import Send, fit
+from pyrofit.explore.published import PublishedSets
 from pyrofit.explore.save import save
-from pyrofit.explore.server import Server
-from pyrofit.explore.session import Session, session_of, state_of
+from pyrofit.explore.server import Server, in_background
+from pyrofit.explore.session import Session, packed, session_of, stacked, state_of
 
 Given = Mapping[str, Any]
 
@@ -33,23 +39,40 @@ class Explorer:
         A further set, as ``--set`` names it.
     port
         Port; 0 takes a free one.
+    values
+        Further sets, in the units of the study, by name.
     """
 
     def __init__(
-        self, study: Study | Path, results: Path | None = None, given: str = "", port: int = 0
+        self,
+        study: Study | Path,
+        results: Path | None = None,
+        given: str = "",
+        port: int = 0,
+        values: Mapping[str, Mapping[str, float]] = MappingProxyType({}),
     ) -> None:
+        self._values = values
         self._read = partial(session_of, study, results, given)
         self._source = study
         self._lock = threading.Lock()
         self._session: Session | None = None
         self._stamp: float | None = None
-        actions = {"describe": self._describe, "curves": self._curves, "save": self._save}
+        self._published = PublishedSets()
+        actions = {
+            "describe": self._describe,
+            "curves": self._curves,
+            "published": self._of_published,
+            "save": self._save,
+        }
         self.server = Server(actions, {"fit": self._fit}, port)
 
     @property
     def address(self) -> str:
         """Address of the page."""
         return self.server.address
+
+    def _repr_html_(self) -> str:
+        return f'<iframe src="{self.address}" width="100%" height="800"></iframe>'
 
     def close(self) -> None:
         """End the server and what it has started."""
@@ -70,7 +93,10 @@ class Explorer:
         ticked = diagnosed_parameters(session.study)
         names = session.base.problem.names
         estimate = [name for name in names if name in ticked]
-        return {**session.description(), "estimate": estimate, "published": []}
+        published = [] if session.study.is_synthetic else list(self._published.sets)
+        told = session.description()
+        sets = {**self._values, **told["sets"]}
+        return {**told, "sets": sets, "estimate": estimate, "published": published}
 
     @property
     def session(self) -> Session:
@@ -88,6 +114,12 @@ class Explorer:
     def _curves(self, given: Given) -> Given:
         return self.session.curves(state_of(given))
 
+    def _of_published(self, given: Given) -> Given:
+        session, state = self.session, state_of(given)
+        model, values = session.base, session.values(session.model(state.effects), state)
+        simulated = self._published.simulate(model, str(given.get("name")), values)
+        return {"curves": packed(stacked(model, simulated))}
+
     def _fit(self, given: Given, send: Send) -> None:
         fit(self.session, state_of(given), _names(given), send)
 
@@ -100,6 +132,50 @@ class Explorer:
             f"See it again: pyrofit explore {study} --set {values}",
         ]
         return {"said": "\n".join(lines)}
+
+
+def explore(
+    study: Source,
+    values: Mapping[str, float] | None = None,
+    *,
+    results: str | os.PathLike[str] | None = None,
+    browser: bool = False,
+) -> Explorer:
+    """Show a study in a page, on this machine alone.
+
+    In a notebook the result shows itself as the page. It is served until ``close()``, or until
+    Python ends.
+
+    Parameters
+    ----------
+    study
+        A study, its file, or its keys.
+    values
+        Values of parameters that the page offers to start from, in the units of the study.
+    results
+        Folder of the results of the study, by default ``results/<name>``.
+    browser
+        Whether a browser opens the page.
+
+    Returns
+    -------
+    Explorer
+        ``address`` is that of the page.
+
+    Raises
+    ------
+    StudyError
+        The study breaks a rule, or a value is that of no parameter.
+    """
+    read = read_study(study)
+    if values is not None:
+        si_values(read, values)
+    folder = None if results is None else path_of("results", results)
+    made = Explorer(read, folder, values={"values": dict(values)} if values is not None else {})
+    in_background(made.server)
+    if browser:
+        webbrowser.open(made.address)
+    return made
 
 
 def _names(given: Given) -> list[str]:
