@@ -173,7 +173,7 @@ def _lower(experiment: SlabExperiment, substance: Substance, accuracy: Accuracy)
     sample = experiment.sample
     material, values, sets = substance.material, substance.values, substance.sets
     properties = substance.properties(sample.absorption_length_m, sample.density_factor)
-    network = substance.network
+    network = substance.network(experiment.oxygen)
     share = lower_share(experiment, material, values, sets)
     exposure = lower_exposure(experiment, share, properties, values, sets)
     layers = lower_layers(experiment, material, properties, values, sets, share)

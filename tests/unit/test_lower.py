@@ -215,7 +215,7 @@ def test_exposure_by_hand() -> None:
     exposure = exposed(given, material())
     assert [n.tolist() for n in exposure.front] == [[0.0], [0.0], [0.0]]
     assert [n.tolist() for n in exposure.back] == [[1.31], [0.0], [0.0]]
-    given_over_time = [0.0, 3e4, 12.0, 330.0, 293.15, 0.0, 293.15, 280.0, 0.0, 1.0]
+    given_over_time = [0.0, 3e4, 12.0, 330.0, 293.15, 0.0, 293.15, 280.0, 0.0, 1.0, 0.0]
     assert exposure.schedule.tolist() == [[[x]] for x in given_over_time]
     assert exposure.back_emissivity == 0.9
     assert exposure.foil_capacity == pytest.approx(679.44)

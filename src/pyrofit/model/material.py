@@ -63,6 +63,11 @@ class Reaction(Part):
         description="exponent n_O2 of the volume fraction of oxygen, a factor of the rate [-]; "
         "0 = the reaction needs no oxygen",
     )
+    oxygen_depth_m: Positive = Field(
+        1e-3,
+        description="slabs: depth L below the surface over which the volume fraction of oxygen "
+        "falls to 1/e, exp(-x/L) [m]",
+    )
     heat_of_reaction_J_kg: Number = Field(
         0.0, description="heat of reaction per kg of reactant [J/kg], positive = endothermic"
     )

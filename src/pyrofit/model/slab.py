@@ -147,6 +147,11 @@ class SlabExperiment(Experiment):
     sample: Sample = Field(description="the specimen")
     front: Front = Field(description="irradiated side")
     back: Back = Field(default_factory=Back, description="other side; default: insulated")
+    oxygen: Fraction = Field(
+        0.0,
+        description="volume fraction of oxygen at the front, while no flame keeps it away [-]; "
+        "air: 0.209",
+    )
     duration_s: AboveZero = Field(
         1000.0, description="synthetic or predicted: length of the record [s]"
     )

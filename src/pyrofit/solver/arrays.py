@@ -93,6 +93,10 @@ class Network(NamedTuple):
     """E_j / R [K]."""
     order: FloatArray
     """n_j [-]."""
+    oxygen_order: FloatArray
+    """Exponent n of the volume fraction of oxygen [-]; 0 = needs none."""
+    oxygen_fall: FloatArray
+    """Fall of ln k_j with depth, n over the depth in which oxygen falls to 1/e [1/m]."""
     heat: FloatArray
     """dh_j [J per kg of reactant], positive = endothermic."""
     yields: FloatArray
@@ -101,8 +105,12 @@ class Network(NamedTuple):
     """Gas yield 1 - sum_i nu_ji [kg/kg]."""
     combustion: FloatArray
     """Heat of combustion of the gas of reaction j [J per kg of gas]."""
+    glow: FloatArray
+    """Heat that a reaction with oxygen releases [J per kg of reactant]; 0 of the others."""
     burns: bool
     """Whether the heat of combustion released is recorded."""
+    oxidises: bool
+    """Whether the rate of some reaction follows the oxygen at the surface and the depth."""
     first_order: bool
     """Whether every n_j is 1."""
     plain: bool
@@ -113,10 +121,12 @@ class Network(NamedTuple):
     """Its yield nu_j [kg/kg], zero without a product."""
 
 
-TIME, FLUX, FRONT_H, FRONT_GAS, FRONT_WALL, BACK_H, BACK_GAS, BACK_WALL, FLAME, LIT = range(10)
+TIME, FLUX, FRONT_H, FRONT_GAS, FRONT_WALL, BACK_H, BACK_GAS, BACK_WALL = range(8)
+FLAME, LIT, OXYGEN = range(8, 11)
 """Rows of the schedule: time [s], external flux [W/m2], and of each side the constant part of the
-heat transfer coefficient [W/(m2 K)], gas and wall temperature [K]. The last two hold from one point
-to the next: heat flux of the flame [W/m2], and whether the gas burns, 1 or 0."""
+heat transfer coefficient [W/(m2 K)], gas and wall temperature [K]. The last three hold from one
+point to the next: heat flux of the flame [W/m2], whether the gas burns, 1 or 0, and the volume
+fraction of oxygen at the front."""
 
 
 class Surface(NamedTuple):

@@ -92,7 +92,7 @@ def _in_one_gas(
         fractions(material.composition, list(material.components), values, sets),
         network,
         step_K * np.where(is_separate(network), 1.0, COUPLED_STEP),
-        (network.gas * network.combustion, _responses(experiments, values, sets)),
+        (network.gas * network.combustion + network.glow, _responses(experiments, values, sets)),
     )
     curves = []
     for p, (a, b) in enumerate(itertools.pairwise(programs.begins)):

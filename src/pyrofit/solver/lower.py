@@ -7,7 +7,7 @@ by `lower_property`, experiments lowered by `lower_experiment`.
 
 from collections.abc import Mapping
 from dataclasses import dataclass
-from functools import cached_property, partial, reduce
+from functools import partial, reduce
 from typing import Any
 
 import numpy as np
@@ -199,13 +199,23 @@ class _Plan:
 
     reactions: tuple[words.Reaction, ...]
     numbers: tuple[tuple[float | str, ...], ...]
-    """Order, E, heat of reaction and heat of combustion, of each reaction."""
+    """The numbers of `_NUMBERS` of each reaction."""
     reactant: IntArray
     products: tuple[tuple[int, int, str], ...]
     """Reaction, component and its name, of every product."""
     residue: IntArray
     plain: bool
     """Whether every reaction has its own reactant and at most one, inert, product."""
+
+
+_NUMBERS = (
+    "order",
+    "E_J_mol",
+    "oxygen_order",
+    "oxygen_depth_m",
+    "heat_of_reaction_J_kg",
+    "heat_of_combustion_J_kg",
+)
 
 
 def _plan(material: words.Material) -> _Plan:
@@ -220,10 +230,7 @@ def _plan(material: words.Material) -> _Plan:
     formed = {j: i for j, i, _ in reversed(products)}
     return _Plan(
         reactions=reactions,
-        numbers=tuple(
-            tuple(getattr(r, name) for r in reactions)
-            for name in ("order", "E_J_mol", "heat_of_reaction_J_kg", "heat_of_combustion_J_kg")
-        ),
+        numbers=tuple(tuple(getattr(r, name) for r in reactions) for name in _NUMBERS),
         reactant=np.array(reactant, dtype=np.int64),
         products=tuple(products),
         residue=np.array([formed.get(j, 0) for j in range(len(reactions))], dtype=np.int64),
@@ -258,15 +265,17 @@ def lower_network(
 
     Without ``heats`` the heats of reaction are left out, without ``burning`` those of combustion:
     the mass of a sample whose temperature is prescribed depends on neither. ``oxygen`` is the
-    volume fraction in a gas that reaches all of the sample.
+    volume fraction in a gas that reaches all of the sample. That of a slab is 1 where the kernel
+    takes its fall over depth and time into account, and 0 where there is none.
     """
     plan = material.derived("network", _plan)
     count = len(plan.reactions)
-    of_order, of_energy, of_heat, of_burnt = plan.numbers
+    of_heat, of_burnt = plan.numbers[-2:]
     none = (0.0,) * count
-    rows = of_order + of_energy + (of_heat if heats else none) + (of_burnt if burning else none)
+    last = of_heat if heats or burning else none, of_burnt if burning else none
+    rows = (number for row in (*plan.numbers[:-2], *last) for number in row)
     numbers = stack([value_of(number, values) for number in rows], sets)
-    order, energy, heat, burnt = numbers.reshape(4, count, sets)
+    order, energy, oxygen_order, depth, heat, burnt = numbers.reshape(len(_NUMBERS), count, sets)
     yields = np.zeros((count, len(material.components), sets))
     for j, i, product in plan.products:
         yields[j, i] = value_of(plan.reactions[j].products[product], values)
@@ -278,11 +287,15 @@ def lower_network(
         root_factor=np.sqrt(factor),
         activation_temperature=energy / GAS_CONSTANT,
         order=order,
+        oxygen_order=oxygen_order,
+        oxygen_fall=oxygen_order / depth,
         heat=heat,
         yields=yields,
         gas=1.0 - total(yields.swapaxes(0, 1)),
         combustion=burnt,
+        glow=np.where(oxygen_order > 0.0, np.maximum(-heat, 0.0), 0.0),
         burns=False,
+        oxidises=material.oxidises and oxygen != 0.0,
         first_order=bool(np.all(order == 1.0)),
         plain=plan.plain,
         residue=plan.residue,
@@ -297,6 +310,7 @@ class Substance:
         self.material, self.values, self.sets = material, values, sets
         self._properties: dict[tuple[float | str, float | str], Material] = {}
         self._smaller: dict[frozenset[str], Substance] = {}
+        self._networks: dict[bool, Network] = {}
 
     def of(self, sample: Sample) -> "Substance":
         """Return it without the inert components, such as boards, that a sample does not have.
@@ -313,10 +327,14 @@ class Substance:
             self._smaller[bodies] = Substance(material, self.values, self.sets)
         return self._smaller[bodies]
 
-    @cached_property
-    def network(self) -> Network:
-        """Return the reactions."""
-        return lower_network(self.material, self.values, self.sets)
+    def network(self, oxygen: float | str) -> Network:
+        """Return the reactions of a slab at whose surface there is so much oxygen, or none."""
+        some = self.material.oxidises and oxygen != 0.0
+        if some not in self._networks:
+            self._networks[some] = lower_network(
+                self.material, self.values, self.sets, oxygen=float(some)
+            )
+        return self._networks[some]
 
     def properties(self, absorption_length: float | str, density_factor: float | str) -> Material:
         """Return the component properties of a sample with such numbers, see `lower_material`."""

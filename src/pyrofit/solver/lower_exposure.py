@@ -52,7 +52,12 @@ def _fixed_exposure(experiment: SlabExperiment) -> Exposure | None:
     sample = experiment.sample
     parts = experiment.front, experiment.back, sample.foil, sample.edge, experiment.burning()
     named = any(isinstance(leaf, str) for part in parts for _, leaf, _ in numbers(part))
-    numbers_of = sample.emissivity_change, sample.surface_share, sample.gas_specific_heat_J_kgK
+    numbers_of = (
+        experiment.oxygen,
+        sample.emissivity_change,
+        sample.surface_share,
+        sample.gas_specific_heat_J_kgK,
+    )
     if named or any(isinstance(number, str) for number in numbers_of):
         return None
     return _exposure(experiment, {}, 1)

@@ -8,7 +8,7 @@ from pyrofit.model.base import value_of
 from pyrofit.model.slab import SlabExperiment
 from pyrofit.model.slab_faces import Flame, Side
 from pyrofit.model.time_table import OverTime, TimeTable
-from pyrofit.solver.arrays import FLAME, FLUX, LIT, TIME, FloatArray, Value, Values
+from pyrofit.solver.arrays import FLAME, FLUX, LIT, OXYGEN, TIME, FloatArray, Value, Values
 from pyrofit.solver.lower_property import stack
 
 Point = tuple[float, bool]
@@ -38,6 +38,7 @@ def lower_schedule(experiment: SlabExperiment, values: Values, sets: int) -> Flo
             wall_back,
             np.zeros(q.shape),
             np.ones(q.shape),
+            value_of(experiment.oxygen, values) * np.ones(q.shape),
         ]
     )
     flame = experiment.burning()
@@ -64,6 +65,8 @@ def _with_flame(schedule: FloatArray, flame: Flame, values: Values) -> FloatArra
     both = np.take_along_axis(both, order[None], axis=1)
     both[LIT] = np.cumsum(np.take_along_axis(turns, order, axis=0), axis=0)
     both[FLAME] = both[LIT] * value_of(flame.flux_W_m2, values)
+    # ASSUME: while gas burns, the flame leaves no oxygen to the surface.
+    both[OXYGEN] = schedule[OXYGEN, :1] * (1.0 - both[LIT])
     return both
 
 

@@ -1,8 +1,8 @@
 """Cone calorimeter and fire propagation apparatus: a slab under radiant heat that burns."""
 
-from typing import ClassVar, Literal
+from typing import ClassVar, Literal, Self
 
-from pydantic import Field
+from pydantic import Field, model_validator
 
 from pyrofit.experiments.cone.designs import designs
 from pyrofit.experiments.cone.facts import facts
@@ -21,6 +21,16 @@ class Cone(SlabExperiment):
     flame: Flame | None = Field(
         None, description="the flame; none = all gas burns at once and heats nothing"
     )
+
+    @model_validator(mode="after")
+    def _flame_with_oxygen(self) -> Self:
+        if self.oxygen != 0.0 and self.flame is None:
+            raise ValueError(
+                "oxygen reaches the front before ignition and after flame-out, and the test has no "
+                "flame. Give `flame` with ignition_s, and ends_s if it goes out; a slab that does "
+                "not burn is of `kind: gasification`"
+            )
+        return self
 
     @property
     def jumps(self) -> bool:

@@ -3,7 +3,8 @@
 from pyrofit.solver.kernels import row
 from pyrofit.solver.kernels.functions import exp_of_negative, fma, nearly_inverse
 from pyrofit.solver.kernels.jit import inner, live
-from pyrofit.solver.kernels.lanes import where
+from pyrofit.solver.kernels.lanes import in_lane, where
+from pyrofit.solver.kernels.oxygen import is_of_oxygen
 from pyrofit.solver.kernels.reactions import (
     TINY,
     decay_of_order,
@@ -204,13 +205,15 @@ def react_over(work, first, dt, room, network, final):
     for n in live(work.m, first):
         for j in range(work.root.shape[0]):
             mean, growth = log_mean(work.root[j, n], work.root_new[j, n])
-            room.x[j] = dt * mean
+            room.x[j] = dt * work.open[j] * mean
             room.growth[j] = dt * growth
         react(work.m, work.formed, n, room, network, False, work.m_new)
         for j in range(work.root.shape[0]):
             left = work.m_new[network.reactant[j], n]
             if not network.first_order:
                 left = left * room.behind[j]
+            if network.oxidises:
+                left = left * work.open[j]
             book(work, n, j, room.used[j], left, room.growth[j], network, final)
         if not network.first_order:
             for i in range(work.m.shape[0]):
@@ -226,7 +229,7 @@ def react_alone(work, first, dt, network, final):
                 work.m_new[i, n] = work.m[i, n]
     for j in range(work.root.shape[0]):
         # Each loop over the cells has one case: a branch inside would cost registers.
-        if is_curved(network, j):
+        if is_curved(network, j) or network.oxidises:
             if not final:
                 hold_powers(work, first, j, network)
             react_one(work, first, j, dt, network, True, final)
@@ -243,7 +246,9 @@ def react_one(work, first, j, dt, network, curved, final):
         mean, growth = log_mean(work.root[j, n], work.root_new[j, n])
         x, behind = dt * mean, 1.0
         if curved:
-            x, behind = ordered(work.m[i, n], work.held[j, n], x, order)
+            opened = work.open[j]
+            x, behind = ordered(work.m[i, n], work.held[j, n], opened * x, order)
+            behind = opened * behind
         e, _ = decay_of_order(x, order, curved, False)
         left, used = remaining(work.m[i, n], e)
         work.m_new[i, n] = left
@@ -290,9 +295,9 @@ def book(work, n, j, used, left, growth, network, final):
     if final:
         add_product(cell, row.gas, n, gas, used)
         if network.burns:
-            combustion = network.combustion[j] * gas
-            add_product(cell, row.burnt, n, combustion, used)
-            add_product(cell, row.power, n, combustion, speed)
+            burning = work.burning[j]
+            add_product(cell, row.burnt, n, burning, used)
+            add_product(cell, row.power, n, burning, speed)
     else:
         rise = heat * network.activation_temperature[j]
         add_product(cell, row.grows, n, rise, growth * left)
@@ -313,7 +318,10 @@ def reactant_left(m, n, network):
     left = 0.0 * m[0, n]
     for j in range(network.reactant.size):
         if j == 0 or network.reactant[j] != network.reactant[j - 1]:
-            left += m[network.reactant[j], n]
+            reactant = m[network.reactant[j], n]
+            if is_of_oxygen(network, j):
+                reactant = where(network.root_factor[j] > 0.0, reactant, 0.0)
+            left += reactant
     return left
 
 
@@ -322,6 +330,8 @@ def reactant_in_lane(m, n, lane, network):
     """Return the mass of cell n that can still react in one lane [kg/m2]."""
     left = 0.0
     for j in range(network.reactant.size):
-        if j == 0 or network.reactant[j] != network.reactant[j - 1]:
+        first = j == 0 or network.reactant[j] != network.reactant[j - 1]
+        runs = not is_of_oxygen(network, j) or in_lane(network.root_factor[j], lane) > 0.0
+        if first and runs:
             left += m[network.reactant[j], n, lane]
     return left

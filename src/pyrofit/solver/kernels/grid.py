@@ -20,6 +20,8 @@ CELLS_PER_ZONE = 1.2
 MANY_CELLS = 100.0
 """The error grows a little with the number of cells, too: above this number it is multiplied by the
 eighth root of its ratio to this one."""
+CELLS_PER_DEPTH = 5.0
+"""In the depth in which a reaction with oxygen falls to 1/e."""
 CELLS_FOR_CHAR = 2.0
 """So many times more where the residue keeps the volume of the virgin material."""
 STEEPEST_RISE = 4.0
@@ -44,7 +46,7 @@ def _formed_and_left(share, ever, left, network, s):
     reactions = network.reactant.size
     for j in range(reactions):
         i = network.reactant[j]
-        if j > 0 and network.reactant[j - 1] == i:
+        if (j > 0 and network.reactant[j - 1] == i) or network.oxygen_order[j, s] > 0.0:
             continue
         end = j + 1
         while end < reactions and network.reactant[end] == i:
@@ -120,10 +122,14 @@ def cells_needed(share, thickness, T_start, material, network, exposure):
             stays += left[i] * material.specific_volume[i, s]
             if ever[i] > 0.0:
                 eps = max(eps, material.emissivity[i, s])
-        most = 0.0
+        most, depths = 0.0, 0.0
         for j in range(network.reactant.size):
             gas = ever[network.reactant[j]] * network.gas[j, s]
-            if gas > 0.0 and network.activation_temperature[j, s] > 0.0:
+            if network.oxygen_order[j, s] > 0.0:
+                if network.root_factor[j, s] > 0.0:
+                    in_depth = thickness[s] * network.oxygen_fall[j, s]
+                    depths = max(depths, CELLS_PER_DEPTH * in_depth)
+            elif gas > 0.0 and network.activation_temperature[j, s] > 0.0:
                 width = _reaction_zone(j, eps, share, T_start, material, network, exposure, s)
                 most = max(most, math.sqrt(min(gas, 1.0)) * thickness[s] / width)
         rise = eps * volume / max(shine, 1e-9 * volume)
@@ -131,5 +137,5 @@ def cells_needed(share, thickness, T_start, material, network, exposure):
         factor *= 1.0 + CELLS_FOR_CHAR * min(stays / volume, 1.0)
         many = max(factor * most / MANY_CELLS, 1.0)
         needed = factor * most * math.sqrt(math.sqrt(math.sqrt(many)))
-        cells[s] = min(max(math.ceil(needed), LEAST_CELLS), MOST_CELLS)
+        cells[s] = min(max(math.ceil(max(needed, depths)), LEAST_CELLS), MOST_CELLS)
     return cells

@@ -44,4 +44,9 @@ dead = 27
 bend = 28
 """Rise of ln k over the half cell, or of half of it from T* to T_new, over E/R [1/K]."""
 
-COUNT = 29
+depth, depth_old, depth_new = 29, 30, 31
+"""Depth of the middle of the cell below the surface [m]; where reactions need oxygen."""
+deeper = 32
+"""Its change from the extrapolated to the computed one of the step [m]."""
+
+COUNT = 33

@@ -10,6 +10,7 @@ from pyrofit.solver.kernels.cells import (
 )
 from pyrofit.solver.kernels.jit import between, inner, live, loop
 from pyrofit.solver.kernels.lanes import opposite, somewhere, where
+from pyrofit.solver.kernels.oxygen import begin_depths, close, fill_in_depth
 from pyrofit.solver.kernels.step import summed
 from pyrofit.solver.kernels.trace import Size
 
@@ -30,6 +31,10 @@ def begin(work, wide, description, T_start):
         cell[row.T_star, n] = T_start
     describe(wide, 0, description.material)
     fill_rate_constants(wide, 0, description.network)
+    close(work, 0.0 * T_start, description.network)
+    if description.network.oxidises:
+        begin_depths(work)
+        fill_in_depth(wide, 0, description.network)
     for n in live(wide.m, 0):
         wide.cell[row.dead, n] = DEAD_FRACTION * mass_of(wide.m, n)
         wide.cell[row.C, n] = wide.cell[row.C_new, n]
@@ -84,6 +89,11 @@ def move(wide, first, network, every, accepted):
             wide.m[i, n] = taken(every, accepted, wide.m_new[i, n], wide.m[i, n])
         for j in range(wide.root.shape[0]):
             wide.root[j, n] = taken(every, accepted, wide.root_new[j, n], wide.root[j, n])
+    if network.oxidises:
+        for n in live(wide.m, first):
+            depth = cell[row.depth, n]
+            cell[row.depth_old, n] = taken(every, accepted, depth, cell[row.depth_old, n])
+            cell[row.depth, n] = taken(every, accepted, cell[row.depth_new, n], depth)
     if not (network.first_order or network.plain):
         for i in range(wide.m.shape[0]):
             for n in live(wide.m, first):

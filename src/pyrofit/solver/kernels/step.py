@@ -28,6 +28,13 @@ from pyrofit.solver.kernels.heat import (
 )
 from pyrofit.solver.kernels.jit import between, inner, live, loop
 from pyrofit.solver.kernels.lanes import somewhere, where
+from pyrofit.solver.kernels.oxygen import (
+    correct_in_depth,
+    extrapolate_depths,
+    fill_in_depth,
+    measure_depths,
+    open_up,
+)
 from pyrofit.solver.kernels.radiation import top_emissivity
 from pyrofit.solver.kernels.schedule import during, given_at
 
@@ -77,6 +84,8 @@ def predict(wide, first, bdf, room, description):
     """Fill rates at T*, the masses they lead to, properties, and the heat source as a line in T."""
     cell, network = wide.cell, description.network
     fill_rate_constants(wide, first, network)
+    if network.oxidises:
+        fill_in_depth(wide, first, network)
     react_over(wide, first, bdf.dt, room, network, False)
     describe(wide, first, description.material)
     for n in live(wide.m, first):
@@ -93,6 +102,8 @@ def correct(wide, first, dt, room, network):
     """Fill rates at T_new, the masses they lead to, and the heat stored in the step."""
     cell = wide.cell
     correct_rate_constants(wide, first, network)
+    if network.oxidises:
+        correct_in_depth(wide, first, network)
     react_over(wide, first, dt, room, network, True)
     for n in live(wide.m, first):
         risen = cell[row.T_new, n] - cell[row.T, n]
@@ -154,6 +165,9 @@ def extrapolated(arrays, edge, now, bdf, description):
     extrapolate(arrays.wide, block, bdf.r)
     front_star = fma(bdf.r, top.front - top.front_old, top.front)
     temperature_falls(work.cell, work.m.shape[1], edge, front_star)
+    if description.network.oxidises:
+        open_up(work, now.clock.piece, description.exposure.schedule, description.network)
+        extrapolate_depths(arrays.wide, block, bdf.r)
     predict(arrays.wide, block, bdf, arrays.room, description)
     return front_star
 
@@ -188,9 +202,10 @@ def burning(work, first, piece, description):
     """Return the heat of combustion [J/m2] and that per time [W/m2], zero if not recorded."""
     burnt, power = 0.0 * work.cell[row.rate, first], 0.0 * work.cell[row.rate, first]
     if description.network.burns:
-        lit = during(piece, LIT, description.exposure.schedule)
-        burnt = lit * summed(work, row.burnt, first)
-        power = lit * summed(work, row.power, first)
+        burnt, power = summed(work, row.burnt, first), summed(work, row.power, first)
+        if not description.network.oxidises:
+            lit = during(piece, LIT, description.exposure.schedule)
+            burnt, power = lit * burnt, lit * power
     return burnt, power
 
 
@@ -213,7 +228,9 @@ def advance(arrays, edge, now, description):
     surface, r_skin, eps = exchanged(work, edge, now, front_star, t, description)
     solved = conduct(cell, foil, edge, surface, r_skin, bdf)
     front = solved.front
-
+    if description.network.oxidises:
+        skin, _, _ = layer(work.skin, 0, description.material, front)
+        measure_depths(work, first, skin)
     correct(arrays.wide, first_wide(arrays, edge), bdf.dt, arrays.room, description.network)
     sums = summed_up(work, first)
     in_foil = cell[row.C_mean, foil] * (cell[row.T_new, foil] - cell[row.T, foil])

@@ -38,6 +38,11 @@ class Work(NamedTuple):
     where each reaction has its own reactant."""
     skin: FloatArray
     """Masses of the cells that left the grid [kg/m2], shape (components, 1)."""
+    open: FloatArray
+    """Factor of k_j by the oxygen at the surface in the step, shape (reactions,); a number also
+    where the others are wide, as ``burning``."""
+    burning: FloatArray
+    """Heat per mass of reactant that a reaction releases as it burns [J/kg], same shape."""
 
 
 class Room(NamedTuple):
@@ -71,7 +76,7 @@ def allocate(cells, behind, components, reactions, lanes):
     of_cells = row.COUNT * columns
     of_masses = 4 * components * cells
     of_rates = 3 * reactions * cells
-    raw = np.zeros((of_cells + of_masses + of_rates + components) * lanes + ALIGNED)
+    raw = np.zeros((of_cells + of_masses + of_rates + components + 2 * reactions) * lanes + ALIGNED)
     free = raw[-(np.int64(raw.ctypes.data) // 8) % ALIGNED :]
     cell = free[: of_cells * lanes].reshape(row.COUNT, columns, lanes)
     free = free[of_cells * lanes :]
@@ -79,6 +84,8 @@ def allocate(cells, behind, components, reactions, lanes):
     free = free[of_masses * lanes :]
     rates = free[: of_rates * lanes].reshape(3, reactions, cells, lanes)
     free = free[of_rates * lanes :]
+    of_reactions = free[components * lanes :][: 2 * reactions * lanes]
+    factors = of_reactions.reshape(2, reactions, lanes)
     return Work(
         cell=cell,
         m=masses[0],
@@ -89,12 +96,14 @@ def allocate(cells, behind, components, reactions, lanes):
         root_new=rates[1],
         held=rates[2],
         skin=free[: components * lanes].reshape(components, 1, lanes),
+        open=factors[0],
+        burning=factors[1],
     )
 
 
 @making
-def in_width(width, flat):
-    """Return work arrays whose elements hold so many floats."""
+def in_width(width, flat, lanes):
+    """Return work arrays whose elements hold so many floats; ``lanes`` those of a number."""
     w = len(width)
     return Work(
         cell=in_lanes(width, flat.cell.reshape(flat.cell.shape[0], -1, w)),
@@ -106,6 +115,8 @@ def in_width(width, flat):
         root_new=in_lanes(width, flat.root_new.reshape(flat.root.shape[0], -1, w)),
         held=in_lanes(width, flat.held.reshape(flat.root.shape[0], -1, w)),
         skin=in_lanes(width, flat.skin),
+        open=in_lanes(lanes, flat.open),
+        burning=in_lanes(lanes, flat.burning),
     )
 
 
@@ -128,4 +139,5 @@ def make_arrays(width, wide, cells, components, reactions):
     """Return the work arrays of a run, all zero."""
     lanes = len(width)
     flat = allocate(cells, len(wide) // lanes, components, reactions, lanes)
-    return Arrays(flat, in_width(width, flat), in_width(wide, flat), make_room(wide, reactions))
+    work, in_registers = in_width(width, flat, width), in_width(wide, flat, width)
+    return Arrays(flat, work, in_registers, make_room(wide, reactions))

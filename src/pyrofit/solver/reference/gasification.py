@@ -6,10 +6,11 @@ from collections.abc import Mapping
 import numpy as np
 
 from pyrofit.model.accuracy import Resolution
+from pyrofit.model.base import value_of
 from pyrofit.model.material import Material
 from pyrofit.model.slab import SlabExperiment
 from pyrofit.numerics import linear
-from pyrofit.solver.arrays import FloatArray, IntArray, Status
+from pyrofit.solver.arrays import BoolArray, FloatArray, IntArray, Status
 from pyrofit.solver.curves import Curves, Request
 from pyrofit.solver.observe import observe_one
 from pyrofit.solver.outputs import BACK, FRONT, HEAT, MASS, RATE, THICKNESS
@@ -25,7 +26,7 @@ BURNT_FRACTION = 1e-5
 """Reactant left in the sample, relative to its initial mass, at which it counts as burnt out."""
 EARLY = {RATE, HEAT, MASS}
 """Curves that do not change any more once the reactant is gone."""
-_UNBURNT = "unburnt"
+_UNBURNT, _UNOXIDISED = "unburnt", "unoxidised"
 _SUMS = {RATE: MASS, HEAT: _UNBURNT}
 """By rate, the remaining amount of which it is the loss."""
 
@@ -53,9 +54,12 @@ def reference_gasification(
         run.go(list(pieces(experiment, flame, values, float(time[-1]), factor)))
         if not run.status.finished:
             return Curves(run.status, {}, resolution.elements, run.steps)
-        lines = _lines(slab, run.states)
-        lines[RATE][time > run.ended] = 0.0
-        lines[HEAT][(time > run.ended) | (time < flame.begins) | (time > flame.ends)] = 0.0
+        lit = (time >= flame.begins) & (time <= flame.ends)
+        shut = lit & (experiment.burning() is not None)
+        oxygen = np.where(shut, 0.0, value_of(experiment.oxygen, values))
+        lines = _lines(slab, run.states, lit, oxygen)
+        for name in (RATE, HEAT):
+            lines[name][time > run.ended] = 0.0
         signals = {
             name: _sample(r.of(name), r, time, lines, flame)
             if r.place is None
@@ -87,10 +91,23 @@ def _sample(
         width = np.maximum(end - start, 1e-9)
         if name == HEAT:
             start, end = _clipped(start, flame)[1], _clipped(end, flame)[1]
-        lost = lines[_SUMS[name]][np.searchsorted(time, start)]
-        lost = lost - lines[_SUMS[name]][np.searchsorted(time, end)]
+        lost = _lost(_SUMS[name], start, end, time, lines)
+        if name == HEAT:
+            lost = lost + _lost(_UNOXIDISED, *_edges(request), time, lines)
         return np.asarray(lost / width)
     return lines[name][_at(request, time)]
+
+
+def _lost(
+    name: str,
+    start: FloatArray,
+    end: FloatArray,
+    time: FloatArray,
+    lines: Mapping[str, FloatArray],
+) -> FloatArray:
+    """Return by how much a line falls over the bins."""
+    line = lines[name]
+    return np.asarray(line[np.searchsorted(time, start)] - line[np.searchsorted(time, end)])
 
 
 def _at(request: Request, time: FloatArray) -> IntArray:
@@ -98,18 +115,24 @@ def _at(request: Request, time: FloatArray) -> IntArray:
     return np.searchsorted(time, np.maximum(request.time_s, 0.0))
 
 
-def _lines(slab: Slab, states: FloatArray) -> dict[str, FloatArray]:
-    """Return all signals at the times of the states."""
+def _lines(
+    slab: Slab, states: FloatArray, lit: BoolArray, oxygen: FloatArray
+) -> dict[str, FloatArray]:
+    """Return all signals at the times of the states, at which gas burns, and front has oxygen."""
     T, extent = slab.split(states)
     present = slab.masses(extent)
-    rate = slab.derivative(states, Outside(0.0, 0.0, np.zeros(T.shape[-1]), (0.0, 0.0)))
+    air = slab.air(T, extent, oxygen[:, None, None])
+    still = Outside(0.0, 0.0, np.zeros(T.shape[-1]), (0.0, 0.0), air=air)
+    rate = slab.derivative(states, still)
     reactions = slab.substance.reactions
     reacting = slab.split(rate)[1]
-    burning = reactions.gas * reactions.combustion
+    burning, glow = reactions.burning, reactions.glow
     return {
         RATE: linear.product(reacting, reactions.gas, slab.mass),
-        HEAT: linear.product(reacting, burning, slab.mass),
+        HEAT: lit * linear.product(reacting, burning, slab.mass)
+        + linear.product(reacting, glow, slab.mass),
         _UNBURNT: -(linear.product(extent, burning, slab.mass)),
+        _UNOXIDISED: -(linear.product(extent, glow, slab.mass)),
         MASS: present[..., : slab.sample, :].sum(axis=(-2, -1)),
         THICKNESS: slab.thickness(T, extent)[..., : slab.sample].sum(axis=-1),
         FRONT: T[:, 0].copy(),

@@ -27,6 +27,7 @@ from pyrofit.solver.reference.surroundings import Outside, Piece, Rim, Surface
 
 GAUSS = 0.5 - 0.5 / np.sqrt(3.0), 0.5 + 0.5 / np.sqrt(3.0)
 """Points of the rule of two points on (0, 1); both weigh 1/2."""
+Air = tuple[FloatArray | float, FloatArray | float]
 LEAST_LEFT = 1e-7
 """Heat capacity and thermal resistance of an element, relative to the initial, that never vanish.
 
@@ -168,13 +169,26 @@ class Slab:
         volume = np.maximum(self.masses(extent), 0.0) / self.substance.density
         eps = self.radiating(volume, extent)
         radiation = self.irradiated(eps * piece.at(t), volume, 0.5 * (T[:-1] + T[1:]))
-        return Outside(t, eps, radiation, piece.span, self._passing(T, extent))
+        air = self.air(T, extent, piece.oxygen)
+        return Outside(t, eps, radiation, piece.span, self._passing(T, extent, air), air)
 
-    def _passing(self, T: FloatArray, extent: FloatArray) -> FloatArray | float:
+    def air(self, T: FloatArray, extent: FloatArray, oxygen: FloatArray | float) -> Air:
+        """Return the factors of the rates by the oxygen, of which the front has the share given.
+
+        ``oxygen`` is a number, or of shape (..., 1, 1), one for each state.
+        """
+        if not self.substance.reactions.oxygen_order.any():
+            return 1.0, 1.0
+        d = self.thickness(T, extent)
+        front = np.cumsum(d, axis=-1) - d
+        near, far = (self.substance.reactions.at_depth(front + s * d, oxygen) for s in GAUSS)
+        return near, far
+
+    def _passing(self, T: FloatArray, extent: FloatArray, air: Air) -> FloatArray | float:
         """Return c_g G [W/(m2 K)] in the middle of the elements, G the gas flux to the front."""
         if self.gas_heat == 0.0:
             return 0.0
-        reacting, _, _ = self._react(T[:-1], T[1:], extent)
+        reacting, _, _ = self._react(T[:-1], T[1:], extent, air)
         rate = self.mass * (linear.product(reacting, self.substance.reactions.gas))
         behind = np.cumsum(rate[::-1])[::-1] - rate
         return np.asarray(self.gas_heat * (behind + 0.5 * rate))
@@ -185,7 +199,7 @@ class Slab:
         T = np.clip(T, COLDEST_K, HOTTEST_K)
         hot, cold = T[..., :-1], T[..., 1:]
         present = np.maximum(self.masses(extent), 0.0)
-        reacting, upper, lower = self._react(hot, cold, extent)
+        reacting, upper, lower = self._react(hot, cold, extent, outside.air)
         between = 0.5 * (hot + cold)
         volume = self._volume(between, present)
         conducted = (hot - cold) / (self._d_k(between, volume) + self.least_resistance)
@@ -223,12 +237,15 @@ class Slab:
         )
 
     def _react(
-        self, hot: FloatArray, cold: FloatArray, extent: FloatArray
+        self, hot: FloatArray, cold: FloatArray, extent: FloatArray, air: Air
     ) -> tuple[FloatArray, FloatArray, FloatArray]:
         """Return dxi/dt and the heat used [W/m2] that belongs to the upper and lower nodes."""
         reactions = self.substance.reactions
         amount = reactions.amounts(self.virgin, extent)
-        near, far = (0.5 * reactions.rate_constants(hot + s * (cold - hot)) for s in GAUSS)
+        near, far = (
+            0.5 * reactions.rate_constants(hot + s * (cold - hot)) * of_oxygen
+            for s, of_oxygen in zip(GAUSS, air, strict=True)
+        )
         heat = self.mass[:, None] * amount * reactions.heat
         upper = ((GAUSS[1] * near + GAUSS[0] * far) * heat).sum(axis=-1)
         lower = ((GAUSS[0] * near + GAUSS[1] * far) * heat).sum(axis=-1)

@@ -98,6 +98,8 @@ class Reactions:
     """E/R [K]."""
     order: FloatArray
     oxygen_order: FloatArray
+    oxygen_depth: FloatArray
+    """In which the volume fraction of oxygen falls to 1/e [m]."""
     heat: FloatArray
     """[J per kg of reactant], positive = endothermic."""
     combustion: FloatArray
@@ -115,6 +117,22 @@ class Reactions:
     def rate_constants(self, T: FloatArray | float) -> FloatArray:
         """Return A_j exp(-E_j/(R T)) [1/s], shape (..., reactions)."""
         return np.asarray(self.A * functions.exp(-self.E_R / np.asarray(T)[..., None]))
+
+    @property
+    def burning(self) -> FloatArray:
+        """Heat of the gas that burns [J per kg of reactant]."""
+        return np.asarray(self.gas * self.combustion)
+
+    @property
+    def glow(self) -> FloatArray:
+        """Heat that reactions with oxygen release in the solid [J per kg of reactant]."""
+        return np.where(self.oxygen_order > 0.0, np.maximum(-self.heat, 0.0), 0.0)
+
+    def at_depth(self, x: FloatArray, oxygen: FloatArray | float) -> FloatArray:
+        """Return (X exp(-x/L))^n at the depths x [m], shape (..., elements, reactions)."""
+        share = functions.power(oxygen, self.oxygen_order)
+        fall = self.oxygen_order / self.oxygen_depth
+        return np.asarray(share * functions.exp(-fall * x[..., None]))
 
     def in_gas(self, oxygen: float) -> "Reactions":
         """Return the reactions with the volume fraction of oxygen as a factor of A."""
@@ -220,6 +238,7 @@ def _reactions(material: words.Material, values: Values) -> Reactions:
         E_R=np.array([value_of(r.E_J_mol, values) / GAS_CONSTANT for r in given]),
         order=np.array([value_of(r.order, values) for r in given]),
         oxygen_order=np.array([value_of(r.oxygen_order, values) for r in given]),
+        oxygen_depth=np.array([value_of(r.oxygen_depth_m, values) for r in given]),
         heat=np.array([value_of(r.heat_of_reaction_J_kg, values) for r in given]),
         combustion=np.array([value_of(r.heat_of_combustion_J_kg, values) for r in given]),
         yields=yields,

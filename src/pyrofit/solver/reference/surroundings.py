@@ -137,6 +137,8 @@ class Piece:
     heater: Heater
     flame: float = 0.0
     """Heat flux of the flame [W/m2]."""
+    oxygen: float = 0.0
+    """Volume fraction of oxygen at the front [-]."""
 
     @property
     def span(self) -> tuple[float, float]:
@@ -186,7 +188,9 @@ def pieces(
     times = {t for one in given for t in one.times} | {flame.begins, flame.ends}
     for start, until in pairwise(sorted({t for t in times if t < end} | {end})):
         lit = flame.begins <= start < flame.ends
-        yield Piece(start, until, flux, heater, flame.flux if lit else 0.0)
+        burns = lit and experiment.burning() is not None
+        oxygen = 0.0 if burns else value_of(experiment.oxygen, values)
+        yield Piece(start, until, flux, heater, flame.flux if lit else 0.0, oxygen)
 
 
 class Outside(NamedTuple):
@@ -202,3 +206,6 @@ class Outside(NamedTuple):
     """Start and end of the time around t in which everything given is linear [s]."""
     passing: FloatArray | float = 0.0
     """Heat capacity of the gas that passes the elements [W/(m2 K)], shape (elements,)."""
+    air: tuple[FloatArray | float, FloatArray | float] = (1.0, 1.0)
+    """Factors of the rates by the oxygen at the two points of the elements' rule, shape
+    (..., elements, reactions)."""

@@ -44,7 +44,7 @@ def reference_tga(
     solid = substance(material, values)
     reactions = solid.reactions.in_gas(value_of(experiment.oxygen, values))
     virgin = mass_fractions(material.composition, solid.names, values)
-    burning = reactions.gas * reactions.combustion
+    burning = reactions.burning + reactions.glow
     tau = value_of(experiment.response, values) if request.output == HEAT_RELEASE else 0.0
     sample = _Sample(reactions, virgin, burning, tau)
     state = np.zeros((time.size, reactions.A.size + (1 if tau > 0.0 else 0)))
