@@ -1,7 +1,10 @@
-"""The page of a study in Python, and published materials beside it."""
+"""The page of a study in Python, and of the command."""
 
 import http.client
 import json
+import signal
+import subprocess
+import sys
 from pathlib import Path
 from typing import Any
 
@@ -11,6 +14,8 @@ import pyrofit as pf
 from pyrofit.errors import StudyError
 from pyrofit.explore.run import Explorer
 from pyrofit.explore.session import Session
+
+SMOKE = Path(__file__).parents[2] / "config" / "smoke.yaml"
 
 
 def asked(explorer: Explorer, name: str, given: object) -> dict[str, Any]:
@@ -47,3 +52,18 @@ def test_curves_before_the_page_is_described_are_refused(session: Session) -> No
         assert asked(made, "curves", {"values": {}}) == {"error": "open the page anew"}
     finally:
         made.close()
+
+
+def test_ctrl_c_ends_the_command(tmp_path: Path) -> None:
+    command = [sys.executable, "-m", "pyrofit", "explore", str(SMOKE), "--no-browser"]
+    with subprocess.Popen(command, cwd=tmp_path, stdout=subprocess.PIPE, text=True) as process:
+        assert process.stdout is not None
+        address = process.stdout.readline().strip()
+        line = http.client.HTTPConnection(address.split("/")[2], timeout=60)
+        line.request("GET", f"/{address.rsplit('/', 1)[1]}")
+        assert b"pyrofit explore" in line.getresponse().read()
+        line.close()
+        process.send_signal(signal.SIGINT)
+        assert process.wait(20) == 0
+    with pytest.raises(ConnectionError):
+        http.client.HTTPConnection(address.split("/")[2], timeout=5).connect()

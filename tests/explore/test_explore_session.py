@@ -8,10 +8,12 @@ from pathlib import Path
 from typing import Any
 
 import numpy as np
+import pandas as pd
 import pytest
 
 import pyrofit as pf
 from pyrofit.errors import StudyError
+from pyrofit.explore.describe import describe
 from pyrofit.explore.fit import fit
 from pyrofit.explore.model import model_of
 from pyrofit.explore.save import save
@@ -209,3 +211,15 @@ def test_twenty_curves_take_little_of_a_processor(session: Session) -> None:
     for k in range(10):
         many.curves(State({**TRUTH, "k": 0.15 + 0.01 * k}))
     assert time.process_time() - begin < 10 * 0.05
+
+
+def test_bands_of_the_posterior_stand_at_the_drawn_points(session: Session) -> None:
+    time_s = np.linspace(0.0, 1600.0, 81)
+    about = {"experiment": "slab_25", "signal": "mlr", "time_s": time_s}
+    bands = pd.DataFrame({**about, "low": 1e-6 * time_s, "high": 2e-6 * time_s})
+    signals = {s["id"]: s for s in describe(session.base, bands)["signals"]}
+    low, high = np.array(signals["slab_25/mlr"]["band"])
+    at = np.array(signals["slab_25/mlr"]["x"])
+    np.testing.assert_allclose(low, 1e-3 * at, rtol=1e-4)  # shown in g/(m2 s)
+    np.testing.assert_allclose(high, 2e-3 * at, rtol=1e-4)
+    assert signals["slab_25/back_temperature"]["band"] is None

@@ -59,6 +59,12 @@ def test_server_listens_on_this_machine_alone(server: Server) -> None:
     assert server.server_address[0] == "127.0.0.1"
 
 
+def test_a_port_that_is_taken_is_told(server: Server) -> None:
+    for port in (server.server_port, 70_000):
+        with pytest.raises(StudyError, match=f"port {port}: it cannot be used"):
+            Server({}, {}, port)
+
+
 def test_page_needs_its_token(server: Server) -> None:
     assert asked(server, "GET", f"/?token={server.token}")[0].status == 200
     for path in ("/", "/?token=", "/?token=wrong", f"/?token={server.token}x"):

@@ -285,6 +285,12 @@ def test_one_repetition_loads_no_integrator() -> None:
     assert loaded("pyrofit.stages.fit", "scipy.integrate", "scipy.optimize", "scipy.stats") == "[]"
 
 
+def test_only_the_command_and_the_interface_know_the_explorer() -> None:
+    users = {p for p in modules() if "explore" in own(p)} - set((SOURCE / "explore").glob("*.py"))
+    assert names_of(sorted(users)) == ["cli/exploring.py"]
+    assert loaded("pyrofit.cli.command", "http.server", "pyrofit.explore") == "[]"
+
+
 def loaded(modules: str, *names: str) -> str:
     """Return which of the named modules a process holds that has imported others."""
     code = f"import sys, {modules}; print([n for n in {names} if n in sys.modules])"

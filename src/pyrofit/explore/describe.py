@@ -5,6 +5,7 @@ from functools import cache
 from typing import Any
 
 import numpy as np
+import pandas as pd
 from numpy.typing import NDArray
 
 from pyrofit.api.choices import in_units
@@ -12,7 +13,6 @@ from pyrofit.config import Study
 from pyrofit.config.resolve import diagnosed_material
 from pyrofit.config.uses import parameters_in
 from pyrofit.effects import known_effects
-from pyrofit.estimate.targets import Measurements
 from pyrofit.explore.model import Model, possible_effects
 from pyrofit.quantities.units import ICE_POINT_K
 from pyrofit.solver.arrays import FloatArray
@@ -22,13 +22,16 @@ MOST_POINTS = 300
 GROUPS = ("kinetics", "thermophysical properties", "apparatus")
 
 
-def describe(model: Model, measurements: Measurements) -> dict[str, Any]:
-    """Return signals with their measured points, parameters with their groups, and effects."""
+def describe(model: Model, bands: pd.DataFrame | None = None) -> dict[str, Any]:
+    """Return signals with their measured points, parameters with their groups, and effects.
+
+    ``bands`` are those of a posterior, as its record has them.
+    """
     study = model.study
     return {
         "name": study.name,
         "title": study.title or study.name,
-        "signals": [_signal(model, i, measurements) for i in range(len(model.signals))],
+        "signals": [_signal(model, i, bands) for i in range(len(model.signals))],
         "parameters": _parameters(study, model.problem.names),
         "effects": _effects(study),
         "costs": list(model.costs),
@@ -63,7 +66,7 @@ def in_shown_units(model: Model, channel: int, curve: FloatArray) -> FloatArray:
     return np.asarray(shown.factor * curve[drawn(curve.size)] + shown.offset)
 
 
-def _signal(model: Model, channel: int, measurements: Measurements) -> dict[str, Any]:
+def _signal(model: Model, channel: int, bands: pd.DataFrame | None) -> dict[str, Any]:
     name, signal = model.signals[channel]
     experiment = model.study.experiments[name]
     quantity = experiment.quantity(signal)
@@ -85,7 +88,21 @@ def _signal(model: Model, channel: int, measurements: Measurements) -> dict[str,
         "measured": _rounded(in_shown_units(model, channel, target.value)),
         "sd": None if sd is None else _rounded(quantity.shown.factor * sd[at]),
         "fitted": channel < model.fitted,
+        "band": None if bands is None else _band(model, channel, bands),
     }
+
+
+def _band(model: Model, channel: int, bands: pd.DataFrame) -> list[list[float]] | None:
+    """Return lower and upper end of the band of the posterior at the drawn points."""
+    name, signal = model.signals[channel]
+    own = bands[(bands["experiment"] == name) & (bands["signal"] == signal)]
+    if own.empty:
+        return None
+    shown = model.study.experiments[name].quantity(signal).shown
+    time = model.problem.cost.terms[channel][1].target.time_s
+    at = time[drawn(time.size)]
+    ends = (np.interp(at, own["time_s"], own[end]) for end in ("low", "high"))
+    return [_rounded(shown.factor * end + shown.offset) for end in ends]
 
 
 def _rounded(values: FloatArray) -> list[float]:

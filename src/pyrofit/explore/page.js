@@ -301,6 +301,7 @@ function build() {
   const key = add(head, "div", { className: "key" });
   add(key, "span", { textContent: "· measured" });
   for (const [style, text] of [["border-color:" + INK.first, "simulated"], ["border-top-style:dashed;border-color:" + INK.second, "compared"]]) { add(key, "i").style.cssText = style; key.append(text); }
+  if (study.signals.some(s => s.band)) { add(key, "i").style.cssText = `height:9px;border:0;background:${INK.band}`; key.append("95 % of the posterior"); }
   add(head, "div", { className: "unit", textContent: "Dashed frame: held out, counts in no number. Drag: zoom; double click: all." });
   add(head, "div", { id: "numbers", className: "numbers" });
   add(head, "div", { id: "message" }).setAttribute("aria-live", "polite");

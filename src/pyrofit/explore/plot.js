@@ -1,7 +1,7 @@
 "use strict";
 // One plot: measured points, up to two simulated curves, residuals below; hover, drag to zoom,
 // double click to see all. Colours differ for all kinds of colour vision, curves by dashes as well.
-const INK = { point: "#555", error: "#c9ced2", first: "#0072b2", second: "#d55e00", axis: "#4a5258" };
+const INK = { point: "#555", error: "#c9ced2", first: "#0072b2", second: "#d55e00", axis: "#4a5258", band: "#cfe3f2" };
 
 function ticks(low, high, about) {
   const raw = (high - low) / about, power = 10 ** Math.floor(Math.log10(raw));
@@ -77,15 +77,15 @@ class Plot {
     s.x.forEach((x, i) => { if (x >= this.x0 && x <= this.x1) inside.push(i); });
     this.left = 52; this.width = wide - 60;
     const curves = [this.second, this.first].filter(Boolean);
-    this.panel(14, high - 108, inside, [s.measured, ...curves], false);
+    this.panel(14, high - 108, inside, [s.measured, ...curves], false, s.band || []);
     const off = curves.map(c => s.x.map((_, i) => c[i] - s.measured[i]));
     this.panel(high - 82, 48, inside, off, true);
   }
 
-  panel(top, height, inside, series, residual) {
+  panel(top, height, inside, series, residual, around = []) {
     const pen = this.pen, s = this.signal;
     let low = Infinity, high = -Infinity;
-    for (const one of series) for (const i of inside) if (Number.isFinite(one[i])) { low = Math.min(low, one[i]); high = Math.max(high, one[i]); }
+    for (const one of [...series, ...around]) for (const i of inside) if (Number.isFinite(one[i])) { low = Math.min(low, one[i]); high = Math.max(high, one[i]); }
     if (residual) { high = Math.max(high, -low, 0) || 1; low = -high; }
     if (!(high > low)) { low -= 1; high = low + 2; }
     const edge = 0.05 * (high - low); low -= edge; high += edge;
@@ -101,7 +101,7 @@ class Plot {
     if (!residual) pen.fillText(`${s.quantity} [${s.unit}]`, this.left, top - 1);
     else { pen.fillText("simulated − measured", this.left, top - 1); pen.textAlign = "center"; pen.fillText(s.abscissa, this.left + this.width / 2, top + height + 32); }
     pen.save(); pen.beginPath(); pen.rect(this.left, top, this.width, height); pen.clip();
-    if (!residual) this.points(inside, X, Y);
+    if (!residual) { if (s.band) this.band(inside, X, Y); this.points(inside, X, Y); }
     else { pen.strokeStyle = "#9aa2a8"; line(pen, [[this.left, Y(0)], [this.left + this.width, Y(0)]]); }
     const drawn = residual ? series : series.slice(1);
     drawn.forEach((one, k) => {
@@ -111,6 +111,14 @@ class Plot {
       line(pen, inside.filter(i => Number.isFinite(one[i])).map(i => [X(s.x[i]), Y(one[i])]));
     });
     pen.restore();
+  }
+
+  band(inside, X, Y) {
+    const pen = this.pen, s = this.signal, [low, high] = s.band;
+    pen.fillStyle = INK.band; pen.beginPath();
+    for (const i of inside) pen.lineTo(X(s.x[i]), Y(low[i]));
+    for (const i of [...inside].reverse()) pen.lineTo(X(s.x[i]), Y(high[i]));
+    pen.fill();
   }
 
   points(inside, X, Y) {

@@ -37,12 +37,22 @@ class Server(ThreadingHTTPServer):
         What it can ask for that is answered in parts.
     port
         Port; 0 takes a free one.
+
+    Raises
+    ------
+    StudyError
+        The port is taken, or is none.
     """
 
     daemon_threads = True
 
     def __init__(self, actions: Actions, streams: Streams, port: int = 0) -> None:
-        super().__init__(("127.0.0.1", port), _Handler)
+        try:
+            super().__init__(("127.0.0.1", port), _Handler)
+        except (OSError, OverflowError) as error:
+            raise StudyError(
+                f"port {port}: it cannot be used ({error}); give another one, or none"
+            ) from None
         self.actions, self.streams = actions, streams
         self.token = secrets.token_urlsafe(24)
 

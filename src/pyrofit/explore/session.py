@@ -8,6 +8,7 @@ from pathlib import Path
 from typing import Any
 
 import numpy as np
+import pandas as pd
 
 from pyrofit.api.choices import si_values
 from pyrofit.config import Study
@@ -22,6 +23,7 @@ from pyrofit.explore.sets import named_sets
 from pyrofit.results.files import Results
 from pyrofit.stages.measurements import computed
 from pyrofit.stages.reading import read_all
+from pyrofit.steps.posterior import record as posterior
 
 MOST_MODELS = 16
 """Combinations of effects that are kept."""
@@ -73,6 +75,8 @@ class Session:
         Values by set, in the units of the study.
     remarks
         What the page tells of sets that are left out.
+    bands
+        Bands of 95 % of the posterior's ensemble, SI units, where the study has one.
     pending
         The noise of the fitted signals; None leaves chi-square out.
     """
@@ -82,6 +86,7 @@ class Session:
     base: Model
     sets: Mapping[str, Mapping[str, float]]
     remarks: list[str]
+    bands: pd.DataFrame | None = None
     pending: PendingNoise | None = None
     _models: dict[tuple[str, ...], Model] = field(default_factory=dict)
     _lock: threading.Lock = field(default_factory=threading.Lock)
@@ -94,7 +99,7 @@ class Session:
     def description(self) -> dict[str, Any]:
         """Return what the page needs to know once."""
         return {
-            **describe(self.base, self.measurements),
+            **describe(self.base, self.bands),
             "sets": {label: dict(values) for label, values in self.sets.items()},
             "remarks": self.remarks,
         }
@@ -196,4 +201,6 @@ def session_of(
     sets, remarks = named_sets(read, root, given, beside)
     base = model_of(read, measurements)
     pending = PendingNoise(read, measurements) if noise else None
-    return Session(read, measurements, base, sets, remarks, pending)
+    there = root.of_step("posterior", posterior.BANDS).exists()
+    bands = posterior.bands(root) if there else None
+    return Session(read, measurements, base, sets, remarks, bands, pending)
