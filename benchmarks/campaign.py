@@ -9,7 +9,7 @@ from collections import defaultdict
 from pathlib import Path
 
 import startup
-from page import table
+from page import filed
 
 ROOT = Path(__file__).parents[1]
 STUDY = Path("config") / "paper.yaml"
@@ -32,7 +32,7 @@ def campaign() -> str:
         parts = startup.parts(results, ROOT / STUDY, SIXTEEN)
     return (
         f"{NOTE}**{took:.0f} s**. Wall times of its jobs, {CORES} at a time; the rest is planning, "
-        f"reading, tables, figures and the page.\n\n{jobs}\n\n"
+        f"reading, tables, figures and the page. {jobs}.\n\n"
         f"Sixteen repetitions side by side, nothing beside them:\n\n{parts}"
     )
 
@@ -50,7 +50,7 @@ def run(folder: str) -> float:
 
 
 def of_jobs(folder: Path) -> str:
-    """Return a table of the jobs of each kind, from the times measured by the workflow."""
+    """File a table of the jobs of each kind, from the times measured by the workflow."""
     seconds = defaultdict(list)
     for path in folder.glob("*.tsv"):
         kind = re.sub(r"_[A-Z]+(_\d+)?$", "", path.stem)
@@ -58,7 +58,5 @@ def of_jobs(folder: Path) -> str:
             float(path.read_text(encoding="utf-8").splitlines()[-1].split("\t")[0])
         )
     rows = sorted(seconds.items(), key=lambda row: -sum(row[1]))
-    return table(
-        ("jobs", "number", "s, in all"),
-        [(kind, len(found), f"{sum(found):.0f}") for kind, found in rows],
-    )
+    counted = [(kind, len(found), f"{sum(found):.0f}") for kind, found in rows]
+    return filed("campaign_jobs", "Jobs and their times", ("jobs", "number", "s, in all"), counted)

@@ -9,7 +9,7 @@ from pathlib import Path
 import cost
 import peak
 from case import FLUXES, Rates, error, rates, setup
-from page import table
+from page import filed, table
 
 from pyrofit.model.accuracy import Accuracy
 from pyrofit.solver.run import LANES
@@ -139,16 +139,18 @@ def share_of_peak(found: dict[tuple[str, str], Rates]) -> str:
                 )
             )
     per = {words: counted["per"].get(name, 0.0) for name, words in WORDS.items()}
-    most_used = "\n".join(f"- {count:.0f} {words}" for words, count in per.items() if count >= 0.5)
+    used = [(words, f"{count:.0f}") for words, count in per.items() if count >= 0.5]
+    words = f"Operations per cell and step at {FLUXES[name]} kW/m²"
+    most_used = filed("operations", words, ("operation", "number"), used)
     head = ("kW/m²", "how", "flops per cell and step", "ns", "Gflop/s", "share of the plain loop")
+    share = filed("share_of_peak", "Share of the plain loop", head, rows)
     return (
-        f"{table(head, rows)}\n\nA plain loop of fused multiply-adds in the same registers, twelve "
+        f"A plain loop of fused multiply-adds in the same registers, twelve "
         f"independent chains, reaches {most / 1e9:.0f} Gflop/s on this core. To count "
         "operations, the kernels run uncompiled with numbers that record each operation "
         "(`benchmarks/operations.py`). Addition, multiplication, division and root count as one "
         "operation, a fused multiply-add as two. Minimum, maximum, comparison, selection, sign, "
-        "loads and stores take time but do not count. The operations per cell and step at "
-        f"{FLUXES[name]} kW/m² are:\n\n{most_used}"
+        f"loads and stores take time but do not count. {most_used}; {share}."
     )
 
 

@@ -18,7 +18,7 @@ import llvmlite.binding as llvm
 import numpy as np
 from case import setup
 from lanes import SETTINGS, SPREAD
-from page import table
+from page import filed
 
 from pyrofit.solver import run
 
@@ -106,7 +106,7 @@ def main() -> None:
             rows.append([name, lanes, f"{registers:g}", f"{vector:,}", f"{stack / vector:.2f}"])
     rows.sort(key=lambda row: list(PROCESSORS).index(row[0]))
     heads = ("processor", "lanes", "registers of a value", "vector operations", "stack accesses")
-    print(table((*heads[:4], f"{heads[4]} of an operation"), rows))
+    print(filed("instructions", "Table", (*heads[:4], f"{heads[4]} of an operation"), rows))
 
 
 if __name__ == "__main__":

@@ -9,7 +9,7 @@ import time
 import numpy as np
 from case import FLUXES, Setup, setup
 from cost import words
-from page import table
+from page import filed
 
 from pyrofit.model.accuracy import Accuracy
 from pyrofit.solver import run
@@ -50,7 +50,10 @@ def measured() -> str:
             )
             rows.append([target, lanes, *(f"{rate:,.0f}" for rate in json.loads(done.stdout))])
     heads = [f"{words(name).partition(',')[0]}, {sets} sets" for name in FLUXES for sets in SETS]
-    return f"{NOTE}\n\n{table(('compiled for', 'lanes', *heads), rows)}"
+    made = filed(
+        "lanes", "Table", ("compiled for", "lanes", *(f"{head}, 1/s" for head in heads)), rows
+    )
+    return f"{NOTE}\n\n{made}."
 
 
 def rate(of: Setup, accuracy: Accuracy, sets: int) -> float:

@@ -5,7 +5,7 @@ from typing import Any
 
 import numpy as np
 from boxes import BATCH, DURATION_S, SEED, Case, described
-from page import table
+from page import filed, table
 
 from pyrofit.model.accuracy import Accuracy
 from pyrofit.simulate import simulate_gasification, simulate_gasifications
@@ -106,6 +106,8 @@ def page(state: dict[str, Any]) -> str:
             lowered = "" if key in FAILURES else relieved(found, key)
             rows.append((words, most, len(found), where, corner(found), lowered))
     boxes = len(state["cases"])
+    head = ("by", "worst", "sets", "mostly of", "mean place", "lowered by")
+    worst = filed("robustness_worst", "A table", head, rows)
     return "\n\n".join(
         [
             f"{sets:,} sets were drawn from {boxes} boxes. A box has the limits of "
@@ -119,12 +121,11 @@ def page(state: dict[str, Any]) -> str:
             "integrated with the weights of the time stepping formula.",
             "*ok*: the sample has burnt out. *unburnt*: reactant was left at the end.",
             table(("how it ended", "sets"), counts),
-            "The table lists the worst sets, at most a hundred of each kind. *Mean place* is the "
+            f"{worst} lists the worst sets, at most a hundred of each kind. *Mean place* is the "
             "place in the box (0 lower, 1 upper limit) of parameters far from the middle. For the "
             "last column, one parameter alone is moved to the middle of its limits. It gives the "
             "median factor for the parameters that lower the number most. The worst of many sets "
             "improve with any change, so only the order of the parameters is meaningful.",
-            table(("by", "worst", "sets", "mostly of", "mean place", "lowered by"), rows),
             refined(state["worst"]["energy_error"]),
             "Command: `python benchmarks/robustness.py FOLDER --sets 1000000`, then `--page`.",
         ]

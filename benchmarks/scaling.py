@@ -3,8 +3,8 @@
 from collections.abc import Mapping
 
 import numpy as np
-from case import Rates, Setup, rates, seconds, setup, study
-from page import table
+from case import FLUXES, Rates, Setup, rates, seconds, setup, study
+from page import filed
 
 from pyrofit.effects import known_effects
 from pyrofit.effects.apply import with_effects
@@ -79,7 +79,8 @@ def of_cells(name: str) -> str:
     found = [rates(setup(name), Accuracy(cells=cells), LEAST_S) for cells in CELLS]
     base = found[len(CELLS) // 2]
     pairs = zip(CELLS, found, strict=True)
-    return table(("cells", *HEAD), [_row(cells, f, base) for cells, f in pairs])
+    rows = [_row(cells, f, base) for cells, f in pairs]
+    return filed("scaling_cells", "Table", ("cells", *HEAD), rows)
 
 
 def of_sets(name: str, cheap: Accuracy) -> str:
@@ -97,7 +98,8 @@ def of_sets(name: str, cheap: Accuracy) -> str:
         count = min(sets, ALONE)
         by_one = count / sum(alone[:count])
         rows.append((sets, f"{sets / equal:,.0f}", f"{sets / mixed:,.0f}", f"{by_one:,.0f}"))
-    return table(("sets", "equal sets 1/s", "sets of the box 1/s", "these one by one 1/s"), rows)
+    head = ("sets", "equal sets 1/s", "sets of the box 1/s", "these one by one 1/s")
+    return filed("scaling_sets", "Table", head, rows)
 
 
 def boxed(name: str, sets: int) -> dict[str, np.ndarray]:
@@ -121,7 +123,8 @@ def of_threads(name: str, cheap: Accuracy) -> str:
             for n in THREADS
         ]
         rows.append([label, *(f"{256 / t:,.0f}" for t in times), f"{times[0] / times[-1]:.2f}"])
-    return table(("setting", *(f"threads {n}, 1/s" for n in THREADS), "gain"), rows)
+    head = ("setting", *(f"threads {n}, 1/s" for n in THREADS), "gain")
+    return filed("scaling_threads", "Table", head, rows)
 
 
 def with_reactions(name: str, count: int) -> Setup:
@@ -146,7 +149,8 @@ def with_reactions(name: str, count: int) -> Setup:
 def of_reactions(name: str) -> str:
     """Return rates over the number of parallel reactions; the base is the paper's two."""
     found = {n: rates(with_reactions(name, n), FIXED, LEAST_S) for n in (1, 2, 3, 4)}
-    return table(("reactions", *HEAD), [_row(n, f, found[2]) for n, f in found.items()])
+    rows = [_row(n, f, found[2]) for n, f in found.items()]
+    return filed("scaling_reactions", "Table", ("reactions", *HEAD), rows)
 
 
 def with_effect(name: str, effect: str) -> Setup:
@@ -162,4 +166,5 @@ def of_effects(name: str) -> str:
     base = rates(setup(name), FIXED, LEAST_S)
     rows = [_row("none", base, base)]
     rows += [_row(e, rates(with_effect(name, e), FIXED, LEAST_S), base) for e in EFFECTS]
-    return table(("effect", *HEAD), rows)
+    words = f"Table at {FLUXES[name]} kW/m²"
+    return filed(f"scaling_effects_{name}", words, ("effect", *HEAD), rows)

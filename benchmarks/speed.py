@@ -17,7 +17,7 @@ import startup
 from case import FINE, FLUXES, error, exact, relative_error, setup
 from chart import draw
 from evaluations import SETTINGS, evaluations, setting
-from page import put_section, table
+from page import filed, put_section, table
 
 from pyrofit.solver.run import LANES
 
@@ -81,14 +81,16 @@ def curves() -> None:
             (p.cells, f"{p.tolerance:g}", f"{100 * p.error:.3f}", f"{p.rate:,.0f}")
             for p in cost.front(of)
         ]
-        parts += [cost.words(name), table(("cells", "tolerance", "error %", "lanes 1/s"), rows)]
+        head = ("cells", "tolerance", "error %", "lanes 1/s")
+        parts.append(filed(f"error_against_cost_{name}", cost.words(name), head, rows))
     put_section(
         "Error against cost",
         "![error against evaluations per second](figures/benchmarks.svg)\n\n"
         "`python benchmarks/speed.py curves` measures and draws it.\n\n"
         "Settings for which no other one of the grid is both faster and more accurate. Rates are "
         "whole evaluations in lanes (first step 30 s times the tolerance, longest step 40 s):\n\n"
-        + "\n\n".join(parts),
+        + "; ".join(parts)
+        + ".",
     )
 
 
@@ -101,12 +103,10 @@ def scales(*wanted: str) -> None:
         "Sets": lambda: scaling.of_sets(name, cheap),
         "Threads": lambda: scaling.of_threads(name, cheap),
         "Reactions": lambda: scaling.of_reactions(name),
-        "Effects": lambda: "\n\n".join(
-            f"{cost.words(n)}\n\n{scaling.of_effects(n)}" for n in FLUXES
-        ),
+        "Effects": lambda: "; ".join(scaling.of_effects(n) for n in FLUXES),
     }
     for title in wanted or tables:
-        put_section(f"Scaling: {title.lower()}", f"{scaling.NOTES[title]}\n\n{tables[title]()}")
+        put_section(f"Scaling: {title.lower()}", f"{scaling.NOTES[title]}\n\n{tables[title]()}.")
 
 
 def starts() -> None:

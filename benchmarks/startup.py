@@ -11,7 +11,7 @@ import tempfile
 import time
 from pathlib import Path
 
-from page import table
+from page import filed, table
 
 HERE = Path(__file__).parent
 SMOKE = HERE.parent / "config" / "smoke.yaml"
@@ -139,4 +139,5 @@ def parts(results: Path, study: Path, options: tuple[str, ...]) -> str:
         ("all", took),
         ("**outside solver and SPOTPY**", outside),
     ]
-    return table(("part of the job", "s"), [(label, f"{s:.3f}") for label, s in rows])
+    timed = [(label, f"{s:.3f}") for label, s in rows]
+    return filed(f"job_{study.stem}", "The parts of the job", ("part of the job", "s"), timed) + "."
