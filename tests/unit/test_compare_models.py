@@ -6,7 +6,13 @@ import numpy as np
 import pytest
 
 import pyrofit as pf
-from pyrofit.analysis.model_comparison import effective_points, f_test, inflation_of
+from pyrofit.analysis.model_comparison import (
+    CommonNoise,
+    effective_points,
+    f_test,
+    f_test_of_lasting,
+    inflation_of,
+)
 from pyrofit.errors import StudyError
 from pyrofit.solver.arrays import FloatArray
 
@@ -122,30 +128,45 @@ def basis(points: int, degree: int) -> FloatArray:
     return np.linalg.qr(np.polynomial.legendre.legvander(t, degree))[0]
 
 
-def p_of_superfluous(noise: FloatArray) -> tuple[float, float]:
-    """Return p of a superfluous parameter, with the effective points and with all of them."""
-    small, large = basis(noise.size, 2), basis(noise.size, 3)
+def p_of_superfluous(noise: FloatArray, degrees: tuple[int, int]) -> tuple[float, float]:
+    """Return p of superfluous parameters where errors may last, and with all points."""
+    small, large = (basis(noise.size, degree) for degree in degrees)
     r, w = (noise - Q @ (Q.T @ noise) for Q in (small, large))
-    factor = inflation_of(w, large)
-    freedom = effective_points(w, factor) - 4.0
-    counted = f_test(float(r @ r) / factor, float(w @ w) / factor, 1, freedom)[1]
-    return counted, f_test(float(r @ r), float(w @ w), 1, noise.size - 4.0)[1]
+    added, rest = degrees[1] - degrees[0], noise.size - degrees[1] - 1.0
+    plain = f_test(float(r @ r), float(w @ w), added, rest)[1]
+    f, freedom = inflation_of(w, large)
+    common = CommonNoise((), (effective_points(w, f),), (freedom,))
+    lasting = f_test_of_lasting([r / np.sqrt(f)], [w / np.sqrt(f)], added, common)[1]
+    return (lasting if freedom < np.inf else plain), plain
 
 
-@pytest.mark.parametrize(("lasting", "most", "least_plain"), [(0.0, 0.08, 0.02), (1.0, 0.2, 0.4)])
+def lasting_noise(correlation: float, share: float, seed: int) -> FloatArray:
+    """Return white noise of unit variance, and a share of errors that last."""
+    rng = np.random.default_rng([3, seed])
+    steps, error = rng.standard_normal(600) * np.sqrt(1.0 - correlation**2), np.zeros(600)
+    for i in range(1, 600):
+        error[i] = correlation * error[i - 1] + steps[i]
+    return rng.standard_normal(300) + share * error[300:]
+
+
+@pytest.mark.parametrize("degrees", [(2, 3), (1, 3)])
+@pytest.mark.parametrize(
+    ("correlation", "share", "least_plain"),
+    [(0.0, 0.0, 0.01), (0.5, 1.0, 0.12), (0.9, 1.0, 0.35), (0.9, 3.0, 0.5)],
+)
 def test_superfluous_parameter_is_seldom_claimed(
-    lasting: float, most: float, least_plain: float
+    correlation: float, share: float, least_plain: float, degrees: tuple[int, int]
 ) -> None:
-    rng, found = np.random.default_rng(3), []
-    for _ in range(300):
-        error = np.empty(300)
-        error[0], steps = rng.standard_normal(), rng.standard_normal(300) * np.sqrt(1.0 - 0.9**2)
-        for i in range(1, 300):
-            error[i] = 0.9 * error[i - 1] + steps[i]
-        found.append(p_of_superfluous(rng.standard_normal(300) + lasting * error))
+    found = [p_of_superfluous(lasting_noise(correlation, share, i), degrees) for i in range(300)]
     counted, plain = np.mean(np.array(found) < 0.05, axis=0)
-    assert counted < most
+    assert counted <= 0.09
     assert plain > least_plain
+
+
+def test_clear_gain_is_claimed_though_errors_last() -> None:
+    wanted = 25.0 * basis(300, 3)[:, 3]
+    found = [p_of_superfluous(wanted + lasting_noise(0.9, 1.0, i), (2, 3))[0] for i in range(60)]
+    assert np.mean(np.array(found) < 0.05) > 0.8
 
 
 @pytest.mark.parametrize(

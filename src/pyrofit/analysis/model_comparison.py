@@ -1,32 +1,46 @@
 """Statistics that compare fitted models of the same measurements, under one noise.
 
 All models are judged by the noise of the one that misses the measurements least. Its whitened
-residuals w still last where it misses them, so their points tell less. The factor f is the one of
-`pyrofit.diagnose.base.long_run`, over the share of it that the fit leaves of white noise. The
-variance of a signal's noise counts as f times as large, and its n points as
+residuals w still last where it misses them, so their points tell less. The factor f is their
+spectral density at low frequencies, from the cosines of the lowest ones (Mueller 2007, doi
+10.1016/j.jeconom.2007.01.019). With M = C^T (I - Q Q^T) C = V diag(m) V^T of the first 8 cosines C
+and what the fit absorbs, Q,
+
+    f = mean over j of z_j^2 / m_j,    z = V^T C^T w,
+
+over the nu values with m_j above 0.3. It has nu degrees of freedom. The variance of a signal's
+noise counts as f times as large, and its n points as
 
     n_eff = n mean(w^2) / f    (Bayley and Hammersley 1946, doi 10.2307/2983560)
 
-where the misfit exceeds what noise hardly reaches; elsewhere f = 1 and n_eff = n.
+where the misfit exceeds what noise hardly reaches; elsewhere f = 1 and n_eff = n. A clear misfit of
+shorter waves has the long-run variance of `pyrofit.diagnose.base.long_run` for f.
 """
 
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
 
 import numpy as np
-from scipy.special import fdtrc
+from scipy.fft import dct
+from scipy.special import chdtri, fdtrc
 
-from pyrofit.diagnose.base.long_run import left_by_fit, long_run_variance, significant_factor
+from pyrofit.diagnose.base.long_run import long_run_variance
 from pyrofit.diagnose.base.prediction import forecast
 from pyrofit.estimate.bounded_least_squares import Fit
 from pyrofit.estimate.likelihood import Likelihood
 from pyrofit.estimate.noise import NoiseModel
 from pyrofit.estimate.projection import projector
-from pyrofit.numerics import functions
+from pyrofit.numerics import functions, linear
 from pyrofit.solver.arrays import FloatArray
 
-LEAST_LEFT = 0.1
-"""Least share of a long-run variance that counts as left by a fit."""
+COSINES = 8
+"""Cosines of the lowest frequencies; a misfit lasts over a tenth of a record and more."""
+LEAST_LEFT = 0.3
+"""Least share m of their variance that a fit leaves."""
+LASTING_LEVEL = 0.3
+"""Probability at which errors count as lasting. Missing some costs more than suspecting some."""
+LARGER_LEVEL = 1e-3
+"""Probability at which points count as scattering more than their noise."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -39,31 +53,53 @@ class CommonNoise:
         Of each signal, its variance f times that of the noise alone.
     effective
         n_eff of each signal.
+    freedom
+        Degrees of freedom of each f, infinite where it is 1.
     """
 
     noise: tuple[NoiseModel, ...]
     effective: tuple[float, ...]
+    freedom: tuple[float, ...]
 
 
 def common_noise(best: Likelihood, fit: Fit) -> CommonNoise:
     """Return the noise that the residuals of the best model ask for, and its points."""
     spanned = projector(fit)[: sum(best.points)]
     parts = best.split(fit.residuals)
-    factors = [inflation_of(w, Q) for w, Q in zip(parts, best.split(spanned), strict=True)]
+    found = [inflation_of(w, Q) for w, Q in zip(parts, best.split(spanned), strict=True)]
+    factors, freedoms = zip(*found, strict=True)
     noise = [n.weighted(1.0 / np.sqrt(f)) for n, f in zip(best.noise, factors, strict=True)]
     return CommonNoise(
-        tuple(noise), tuple(effective_points(w, f) for w, f in zip(parts, factors, strict=True))
+        tuple(noise),
+        tuple(effective_points(w, f) for w, f in zip(parts, factors, strict=True)),
+        freedoms,
     )
 
 
-def inflation_of(w: FloatArray, spanned: FloatArray) -> float:
-    """Return f of a signal: 1 where its residuals w, shape (n,), are like noise.
+def inflation_of(w: FloatArray, spanned: FloatArray) -> tuple[float, float]:
+    """Return f of a signal and its degrees of freedom: 1 and infinity where w are like noise.
 
-    ``spanned`` are its rows of an orthonormal basis of what the fit absorbs, shape (n, k).
+    Parameters
+    ----------
+    w
+        Whitened residuals, shape (n,).
+    spanned
+        Rows of the signal of an orthonormal basis Q of what the fit absorbs, shape (n, k).
     """
-    factor = significant_factor(w)
-    left = max(left_by_fit(spanned), LEAST_LEFT)
-    return factor if factor <= 1.0 else max(float(np.mean(w**2)), long_run_variance(w) / left)
+    n = w.size
+    raw, absorbed = (dct(of, norm="ortho", axis=0)[1 : COSINES + 1] for of in (w, spanned))
+    m, V = linear.eigen(np.eye(raw.size) - linear.gram(absorbed.T))
+    z = linear.product(V.T, raw)
+    kept = m > LEAST_LEFT
+    nu, square = int(np.count_nonzero(kept)), float(np.mean(w**2))
+    low = float(np.mean(z[kept] ** 2 / m[kept])) if nu else square
+    if nu and low * nu > float(chdtri(nu, LASTING_LEVEL)) and low > square:
+        return max(low, 1.0), float(nu)
+    if square * n <= float(chdtri(n, LARGER_LEVEL)):
+        return 1.0, np.inf
+    # A clear misfit may last for less than the cosines tell.
+    waves = long_run_variance(w)
+    return (waves, max(float(nu), 1.0)) if waves > square else (square, float(n))
 
 
 def effective_points(w: FloatArray, factor: float) -> float:
@@ -129,6 +165,28 @@ def f_test(chi2: float, chi2_of_larger: float, added: int, freedom: float) -> tu
     if freedom <= 0.0:
         return np.nan, np.nan
     F = max(chi2 - chi2_of_larger, 0.0) / added / (chi2_of_larger / freedom)
+    return F, float(fdtrc(added, freedom, F))
+
+
+def f_test_of_lasting(
+    smaller: Sequence[FloatArray], larger: Sequence[FloatArray], added: int, common: CommonNoise
+) -> tuple[float, float]:
+    """Return F of a larger model where errors last, and its probability.
+
+    F is the gain of chi-square over ``added``, as the variance f is that of the noise. It has the
+    degrees of freedom of f, pooled over signals by their gains g: (sum g)^2 / sum (g^2 / nu)
+    (Satterthwaite 1946, doi 10.2307/3002019).
+
+    Parameters
+    ----------
+    smaller, larger
+        Whitened residuals of both models by signal, shape (n,) each.
+    """
+    pairs = zip(smaller, larger, strict=True)
+    gains = np.array([linear.dot(a, a) - linear.dot(b, b) for a, b in pairs])
+    F, sizes = max(float(gains.sum()), 0.0) / added, np.maximum(np.abs(gains), 1e-12)
+    spread = float(np.sum(sizes**2 / np.array(common.freedom)))
+    freedom = min(float(np.sum(sizes)) ** 2 / max(spread, 1e-300), sum(common.effective))
     return F, float(fdtrc(added, freedom, F))
 
 

@@ -15,6 +15,7 @@ from pyrofit.analysis.model_comparison import (
     common_noise,
     descended,
     f_test,
+    f_test_of_lasting,
     predicted,
 )
 from pyrofit.api.arguments import teller_of
@@ -60,10 +61,9 @@ def compare_models(
 
     All are judged under one noise, that of the fit of the least chi-square; each is fitted anew
     under it. Points of lasting misfit are not independent. Where that fit misses a signal, its
-    variance counts as f times as large. The factor f is the long-run variance of the whitened
-    residuals w (Newey and West 1987, doi 10.2307/1913610), over the share of it that a fit leaves
-    of white noise. The n points count as ``n_eff = n mean(w^2) / f`` (Bayley and Hammersley 1946,
-    doi 10.2307/2983560).
+    variance counts as f times as large. The factor f is the spectral density of the whitened
+    residuals w at their lowest frequencies, over that of white noise less its fit. The n points
+    count as ``n_eff = n mean(w^2) / f`` (Bayley and Hammersley 1946, doi 10.2307/2983560).
 
     Parameters
     ----------
@@ -95,6 +95,7 @@ def compare_models(
         - ``F``, ``p``: ((chi2_a - chi2) / (k - k_a)) / (chi2 / (N - k)), and the probability of
           such an F if ``against`` is right (Bates and Watts 1988, doi 10.1002/9780470316757). This
           needs nested models: some values of the further parameters make one the other.
+          Where errors last, F is (chi2_a - chi2) / (k - k_a), with the degrees of freedom of f.
         - ``log_score``: the log density of each test left out, given the others, summed. It is
           -(d chi2 + d log det(J^T J + Pi)) / 2 (Gneiting and Raftery 2007, doi
           10.1198/016214506000001437); differences count.
@@ -218,13 +219,18 @@ def _points(model: _Model, common: CommonNoise) -> float:
 def _tested(name: str, models: Mapping[str, _Model], common: CommonNoise) -> dict[str, object]:
     """Return the F-test against the best model whose parameters are some of this one's."""
     own = set(models[name].names)
-    smaller = {other: m.minimum.chi2 for other, m in models.items() if set(m.names) < own}
+    smaller = {other: m for other, m in models.items() if set(m.names) < own}
     if not smaller:
         return {"against": "", "F": np.nan, "p": np.nan}
-    against = min(smaller, key=lambda other: smaller[other])
-    added = len(own) - len(models[against].names)
-    freedom = _points(models[name], common) - len(own)
-    F, p = f_test(smaller[against], models[name].minimum.chi2, added, freedom)
+    against = min(smaller, key=lambda other: smaller[other].minimum.chi2)
+    here, there = models[name], models[against]
+    added = len(own) - len(there.names)
+    if min(common.freedom) < np.inf:
+        smaller_one, larger = (m.likelihood.split(m.minimum.residuals) for m in (there, here))
+        F, p = f_test_of_lasting(smaller_one, larger, added, common)
+    else:
+        freedom = _points(here, common) - len(own)
+        F, p = f_test(there.minimum.chi2, here.minimum.chi2, added, freedom)
     return {"against": against, "F": F, "p": p}
 
 

@@ -153,6 +153,7 @@ def with_discrepancy(
         likelihood.noise, found, times(likelihood), likelihood.split(curves), strict=True
     ):
         modes = of.factor(time, curve)
+        noise = noise.cautious
         known = [] if noise.modes is None else [noise.modes]
         widened.append(replace(noise, modes=np.column_stack([*known, modes])))
     return replace(likelihood, noise=tuple(widened))

@@ -44,22 +44,6 @@ def long_run_variance(w: FloatArray) -> float:
     return float(np.mean(sums**2) / length)
 
 
-def left_by_fit(spanned: FloatArray) -> float:
-    """Return the long-run variance of white noise less its fit; below 1, as that lasts, too.
-
-    Parameters
-    ----------
-    spanned
-        Rows of a signal of an orthonormal basis Q of what the fit absorbs, shape (n, k). The rest
-        has the covariance I - Q Q^T.
-
-    >>> round(left_by_fit(np.full((100, 1), 0.1)), 6), left_by_fit(np.zeros((100, 0)))
-    (0.9, 1.0)
-    """
-    sums, length = _sums(spanned)
-    return 1.0 - float(np.mean(np.sum(sums**2, axis=1)) / length)
-
-
 def _sums(w: FloatArray) -> tuple[FloatArray, int]:
     """Return the sums of (n,) or (n, k) over windows of a tenth, and the points of a window."""
     length = max(1, round(LASTING * len(w)))
