@@ -2,7 +2,7 @@
 
 Marquardt (1963, doi 10.1137/0111030); Broyden (1965, doi 10.1090/S0025-5718-1965-0198670-6). A
 step costs one simulation instead of one per parameter; the derivatives are made anew where the
-updated ones lead nowhere.
+updated ones lead nowhere. On the way, rough ones of half the price do.
 """
 
 from collections.abc import Callable, Sequence
@@ -59,6 +59,8 @@ def minimise(
     x: FloatArray,
     converged_gain: float,
     *,
+    rough: Callable[[FloatArray, FloatArray], FloatArray] | None = None,
+    is_rough: bool = False,
     begin: FloatArray | None = None,
     fixed: int | None = None,
     idle: Sequence[int] = (),
@@ -80,6 +82,10 @@ def minimise(
         Start, shape (parameters,); it is brought within the limits.
     converged_gain
         The descent ends where fresh derivatives promise a smaller fall of the sum.
+    rough
+        The same as ``jacobian`` by differences of first order, for derivatives on the way.
+    is_rough
+        Whether the descent may end where these promise so little.
     begin
         Derivatives to begin with, if some are at hand.
     fixed
@@ -93,15 +99,17 @@ def minimise(
     """
     x = np.clip(x, 0.0, 1.0)
     r = residuals(x)
-    fresh = begin is None
     held = [] if fixed is None else [fixed]
     moving = [i for i in range(x.size) if i not in idle]
-    whole = _without(held, jacobian(x, r)) if begin is None else begin
-    J = _columns(whole, moving)
+    on_the_way = jacobian if rough is None else rough
+    made, fresh = begin is None, begin is None and rough is None
+    whole = _without(held, on_the_way(x, r)) if begin is None else begin
+    J, bent = _columns(whole, moving), None
     damping, refused, returned = 1e-3, 0, False
     for _ in range(most_steps):
+        bent = _bend(J, r) if bent is None else bent
         step, damped = np.zeros(x.size), damping * 10.0**refused
-        step[moving], promised = _step(J, r, x[moving], damped, ridge)
+        step[moving], promised = _step(*bent, x[moving], damped, ridge)
         step[held] = 0.0
         gained = -1.0
         if promised > converged_gain:
@@ -111,22 +119,25 @@ def minimise(
         if gained > 0.0:
             taken = step[moving]
             missed = there - r - linear.product(J, taken)
-            J = J + np.outer(missed, taken) / linear.dot(taken, taken)
+            J, bent = J + np.outer(missed, taken) / linear.dot(taken, taken), None
             damping = _damping(damped, gained / promised)
-            x, r, fresh, refused = ahead, there, False, 0
+            x, r, made, fresh, refused = ahead, there, False, False, 0
             returned = known is not None and known.leads_here(x, linear.dot(r, r))
         if returned:
             break
         if gained > converged_gain:
             continue
         is_refused = gained <= 0.0 and promised > converged_gain
-        if is_refused and refused < (most_refused if fresh else most_refused_updated):
+        if is_refused and refused < (most_refused if made else most_refused_updated):
             refused += 1
-        elif not fresh:
-            whole, fresh = _without(held, jacobian(x, r)), True
-            J, refused = _columns(whole, moving), 0
-        else:
+        elif fresh or (made and is_rough):
             break
+        else:
+            # Where little is promised, the descent may be at its end, which needs exact ones.
+            at_end = not is_rough and promised <= converged_gain
+            fresh = rough is None or made or at_end
+            whole = _without(held, (jacobian if fresh else on_the_way)(x, r))
+            J, bent, made, refused = _columns(whole, moving), None, True, 0
     whole = whole.copy()
     whole[:, moving] = J
     return Fit(linear.dot(r, r), x, r, whole, fresh, returned)
@@ -149,15 +160,19 @@ def _without(held: list[int], jacobian: FloatArray) -> FloatArray:
     return jacobian
 
 
+def _bend(J: FloatArray, r: FloatArray) -> tuple[FloatArray, FloatArray]:
+    """Return J^T J and J^T r."""
+    return linear.gram(J), linear.product(J.T, r)
+
+
 def _step(
-    J: FloatArray, r: FloatArray, x: FloatArray, damping: float, ridge: float
+    bend: FloatArray, slope: FloatArray, x: FloatArray, damping: float, ridge: float
 ) -> tuple[FloatArray, float]:
     """Return the best damped step within the limits, and the fall of chi-square it promises.
 
     The least of 2 g^T s + s^T (J^T J + D) s for limits of s (Stark and Parker 1995, Comput. Stat.
     10, 129): a step that is cut off at the limits one by one may promise next to nothing.
     """
-    bend, slope = linear.gram(J), linear.product(J.T, r)
     damped = bend + np.diag(damping * np.diag(bend) + ridge)
     step = fitting.within_limits(damped, slope, -x, 1.0 - x)
     return step, -2.0 * linear.dot(slope, step) - linear.dot(step, linear.product(bend, step))

@@ -41,19 +41,24 @@ class Correlation:
             return autoregressive(self.ar, points)
         return moving_average(self.lags, points)
 
-    def whiten(self, noise: FloatArray) -> tuple[FloatArray, float]:
-        """Return L^-1 e and log det R of the correlation matrix R = L L^T; e is (n,) or (n, k)."""
-        n = len(noise)
+    def whiten(self, noise: FloatArray) -> FloatArray:
+        """Return L^-1 e of the correlation matrix R = L L^T; e is (n,) or (n, k)."""
         if self.ar:
-            rest = np.sqrt(1.0 - self.ar**2)
             white = noise.copy()
             white[1:] -= self.ar * noise[:-1]
-            white[1:] /= rest
-            return white, 2.0 * (n - 1) * float(functions.log(rest))
+            white[1:] /= np.sqrt(1.0 - self.ar**2)
+            return white
         if not self.lags:
-            return noise, 0.0
-        factor, log_det = _factor(self.lags, n)
-        return bands.solve_lower(factor, noise), log_det
+            return noise
+        return bands.solve_lower(_factor(self.lags, len(noise)), noise)
+
+    def log_det(self, points: int) -> float:
+        """Return log det R."""
+        if self.ar:
+            return 2.0 * (points - 1) * float(functions.log(np.sqrt(1.0 - self.ar**2)))
+        if not self.lags:
+            return 0.0
+        return 2.0 * float(functions.log(_factor(self.lags, points)[:, 0]).sum())
 
     def describe(self) -> str:
         """Describe it in words.
@@ -70,10 +75,9 @@ class Correlation:
 
 
 @lru_cache(maxsize=64)
-def _factor(lags: tuple[float, ...], n: int) -> tuple[FloatArray, float]:
-    """Return the bands of L of R = L L^T, shape (n, lags + 1), and log det R."""
-    factor = bands.cholesky(lags, n)
-    return factor, 2.0 * float(functions.log(factor[:, 0]).sum())
+def _factor(lags: tuple[float, ...], n: int) -> FloatArray:
+    """Return the bands of L of R = L L^T, shape (n, lags + 1)."""
+    return bands.cholesky(lags, n)
 
 
 def shrunk(lags: tuple[float, ...]) -> Correlation:

@@ -138,7 +138,7 @@ class NoiseModel:
 
     def _white_alone(self, residual: FloatArray) -> FloatArray:
         sd = self.sd if residual.ndim == 1 else self.sd[:, None]
-        return self.correlation.whiten(residual / sd)[0]
+        return self.correlation.whiten(residual / sd)
 
     @cached_property
     def _lasting(self) -> tuple[FloatArray, FloatArray]:

@@ -173,7 +173,7 @@ def _fit(
     property of the noise, this makes every lasting deviation look significant. Such a correlation
     therefore costs as much as strong evidence for it brings.
     """
-    white, log_det = found.whiten(np.column_stack([X, y]))
+    white = found.whiten(np.column_stack([X, y]))
     basis, R = linear.qr(white[:, :-1])
     part = linear.product(basis.T, white[:, -1])
     scatter = white[:, -1] - linear.product(basis, part)
@@ -182,7 +182,7 @@ def _fit(
     scale = float(np.sqrt(squares / (n - splines)))
     misfit = squares if known else n * functions.log(squares / n)
     return Scatter(
-        criterion=log_det
+        criterion=found.log_det(n)
         + misfit
         + (splines + found.numbers) * functions.log(n)
         + (CLEAR if found.opposed else 0.0),
