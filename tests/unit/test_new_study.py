@@ -5,6 +5,7 @@ from pathlib import Path
 
 import numpy as np
 import pytest
+import yaml
 
 from pyrofit import cli
 from pyrofit.config import Study, read_study
@@ -12,6 +13,7 @@ from pyrofit.config.read import read_mapping
 from pyrofit.data.fetch import store
 from pyrofit.experiments import KINDS
 from pyrofit.new_study import draft
+from pyrofit.new_study.write import init
 from pyrofit.stages.reading import read_all
 
 ROOT = Path(__file__).parents[2]
@@ -817,3 +819,22 @@ def test_bad_input_is_told_and_nothing_is_written(
     assert shown.out == ""
     assert contents(folder) == before
     assert sorted(folder.rglob("*")) == folders
+
+
+def test_values_that_all_files_share_are_asked_once(tmp_path: Path) -> None:
+    T = np.arange(300.0, 900.0, 10.0)
+    heat = np.exp(-(((T - 640.0) / 30.0) ** 2))
+    files = []
+    for rate in (5, 10, 20, 40):
+        files.append(tmp_path / f"board_{rate}.csv")
+        columns = np.c_[60.0 / rate * (T - 300.0), T - 273.15, heat + 0.001 * rate]
+        np.savetxt(files[-1], columns, "%.6g", ",", header="t,T,DSC (W/g)", comments="")
+    init("board", {"dsc": files}, tmp_path)
+    text = (tmp_path / "board" / "board.yaml").read_text(encoding="utf-8")
+    for words in ("guessed from the numbers", "CHANGE to negative", "CHANGE where the baseline"):
+        assert text.count(words) == 1
+    read = yaml.safe_load(text)["experiments"]
+    signals = [test["signals"]["heat_flow"] for test in read.values()]
+    assert len(signals) == 4
+    assert all(signal["endothermic"] == "positive" for signal in signals)
+    assert all(signal["units"] == {"temperature": "degC", "time": "s"} for signal in signals)

@@ -16,6 +16,7 @@ from pyrofit.experiments import OF_FILES, files_of
 from pyrofit.experiments.base import Stage
 from pyrofit.new_study import draft
 from pyrofit.new_study.draft import USUAL_AREA_M2, Kinetics, Measured
+from pyrofit.new_study.marks import asked_once
 from pyrofit.new_study.plan import Part, heats, left_out, part_of, titles
 from pyrofit.new_study.repeats import grouped
 from pyrofit.new_study.wide_tables import split
@@ -177,7 +178,7 @@ def study_text(name: str, tests: Sequence[Measured]) -> str:
         heated, slabs = slabs, heated
         estimated = of_kinetics
         alone = [_OF_HEATED[name] for name in shown if name in _OF_HEATED]
-    return (
+    return asked_once(
         _environment()
         .get_template("study.yaml.j2")
         .render(
@@ -266,6 +267,7 @@ def _firsts(runs: Sequence[Measured]) -> dict[str, str]:
         "flame": [run for run in slabs if "flame" in run.of.description.model_fields],
         "area": [run for run in slabs if assumes_area(run)],
         "repeats": [run for run in runs if run.repeats],
+        "baseline": [run for run in runs if "baseline" in run.of.description.model_fields],
     }
     return {name: having[0].name for name, having in sharing.items() if having}
 
