@@ -7,7 +7,7 @@ import pytest
 
 from pyrofit.config import Study, read_study
 from pyrofit.errors import StudyError
-from pyrofit.running.shares import LANES, MOST_JOBS, SIDE_BY_SIDE, shares
+from pyrofit.running.shares import LANES, MOST_JOBS, SIDE_BY_SIDE, long_plan, shares
 from pyrofit.solver import run
 
 CONFIG = Path(__file__).parents[2] / "config"
@@ -99,3 +99,8 @@ def test_repetitions_with_an_external_program_are_jobs_of_their_own() -> None:
 def test_no_number_of_repetitions_is_refused(wrong: object) -> None:
     with pytest.raises(StudyError, match=rf"--config repetitions_per_job={wrong}: not a whole"):
         shares(study_of(25), wrong)
+
+
+def test_a_long_plan_is_announced() -> None:
+    assert long_plan(study_of(25)) == ""
+    assert "300,000 repetitions" in long_plan(study_of(100_000))

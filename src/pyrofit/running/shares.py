@@ -16,6 +16,8 @@ FEW = 3
 """Repetitions that are as fast alone as side by side."""
 MOST_JOBS = 40
 """Jobs of repetitions of a study whose repetitions are shared out automatically, about."""
+MANY = 2000
+"""Repetitions whose plan takes long enough to be announced."""
 
 
 def shares(study: Study, wanted: object = None, cores: int | None = None) -> list[list[int]]:
@@ -88,3 +90,14 @@ def _whole(wanted: object) -> int:
             "repetitions out by default"
         )
     return int(text)
+
+
+def long_plan(study: Study) -> str:
+    """Say that planning many repetitions takes long; nothing where there are few."""
+    count = study.imp.repetitions * len(study.imp.costs)
+    if count <= MANY:
+        return ""
+    return (
+        f"planning {count:,} repetitions: nothing else is told for some minutes. "
+        "`imp.repetitions` says how many; 5 to 1000 are usual"
+    )

@@ -78,6 +78,8 @@ try:
     if not workflow.is_main_process:
         join_run(ROOT)
     elif OWN:
+        if told := shares.long_plan(study):
+            print(told, file=sys.stderr, flush=True)
         work = WorkDone(calls_of_jobs(study, SHARES), cores)
         if not show_work(workflow.logger_manager.get_log_handlers(), work):
             logger.addHandler(work)
