@@ -1,12 +1,11 @@
 """Noise of records, the rule of the choice, and the choice on records of known truth."""
 
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 
 import numpy as np
 import pytest
 
-from pyrofit.scheme.arrangements.base import PREFIX
-from pyrofit.scheme.choice import choose, choose_scheme
+from pyrofit.scheme.choice import choose
 from pyrofit.scheme.noise import Scatter, deviance, log_density, most_likely
 from pyrofit.scheme.schemes import Scheme
 from pyrofit.scheme.settings import Settings
@@ -113,12 +112,3 @@ def test_size_of_the_discrepancy_is_recovered(size: float, twin) -> None:
     ]
     found = most_likely(scatters, drawn)
     assert found <= 1e-3 if size == 0.0 else size / 1.5 <= found <= 1.5 * size
-
-
-def test_truth_of_order_n_is_chosen_and_recovered(twin) -> None:
-    few = replace(SETTINGS, most_reactions=2, branches=1)
-    choice = choose_scheme(replace(twin.setting, settings=few), lambda text: None)
-    assert choice.chosen.fitted.name == "single_order"
-    values = choice.chosen.fitted.values
-    for key, within in (("T_1", 2.0), ("E_1", 1e4), ("n_1", 0.1)):
-        assert values[PREFIX + key] == pytest.approx(twin.truth[PREFIX + key], abs=within)

@@ -1,6 +1,7 @@
 """The step of a study: its results, the study with the chosen scheme, and what is drawn."""
 
 import json
+from collections.abc import Mapping
 from dataclasses import dataclass
 from pathlib import Path
 
@@ -11,6 +12,7 @@ from pyrofit.config import Study, read_study
 from pyrofit.errors import DataError
 from pyrofit.results.files import Results, write_csv
 from pyrofit.results.step import exists
+from pyrofit.scheme.arrangements.base import PREFIX
 from pyrofit.scheme.choice import Choice
 from pyrofit.scheme.schemes import Scheme
 from pyrofit.scheme.settings import Settings
@@ -27,15 +29,26 @@ class Made:
     study: Study
     results: Results
     choice: Choice
+    truth: Mapping[str, float]
 
 
 @pytest.fixture(scope="module")
 def made(tmp_path_factory: pytest.TempPathFactory) -> Made:
-    setting = make_twin(Scheme(order=True), 21, Settings()).setting
+    twin = make_twin(Scheme(order=True), 21, Settings())
+    setting = twin.setting
     results = Results(tmp_path_factory.mktemp("results"))
     for (name, signal), frame in setting.measurements.items():
         write_csv(results.measurement(name, signal), frame)
-    return Made(setting.study, results, run(setting.study, results, print, 1))
+    choice = run(setting.study, results, print, 1)
+    return Made(setting.study, results, choice, twin.truth)
+
+
+def test_truth_of_order_n_is_chosen_and_recovered(made: Made) -> None:
+    chosen = made.choice.chosen.fitted
+    assert chosen.name == "single_order"
+    for key, within in (("T_1", 2.0), ("E_1", 1e4), ("n_1", 0.1)):
+        name = PREFIX + key
+        assert chosen.values[name] == pytest.approx(made.truth[name], abs=within)
 
 
 def test_what_is_written_is_what_was_chosen(made: Made) -> None:
