@@ -1,4 +1,4 @@
-"""The tables beside the pages of the documentation: each is linked, and has a head and full rows."""
+"""The tables beside the pages of the documentation: each is linked, with a head and full rows."""
 
 import csv
 import re
