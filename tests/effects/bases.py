@@ -51,7 +51,8 @@ def pmma() -> Base:
     keys = read_mapping(PMMA)
     names = ("capa_25", "capa_60", "tga_10K", "tga_100K")
     # As described, but opaque, and without a heat capacity that has a glass transition already.
-    exact = {"uncertain": None}
+    # Air acts on effects that need oxygen alone.
+    exact = {"uncertain": None, "oxygen": 0.209}
     experiments = {n: {**keys["experiments"][n], **exact} for n in names}
     for name in ("tga_10K", "tga_100K"):
         del experiments[name]["temperature_offset_K"]
@@ -96,11 +97,12 @@ def wood() -> Base:
     }
     slab = {
         "kind": "gasification",
+        "oxygen": 0.209,
         "sample": {"layers": [{"thickness_m": 0.004}]},
         "back": {"h_W_m2K": 5.0},
         "signals": {"mlr": {"file": "synthetic"}},
     }
-    tga = {"kind": "tga", "signals": {"mass_fraction": {"file": "synthetic"}}}
+    tga = {"kind": "tga", "oxygen": 0.209, "signals": {"mass_fraction": {"file": "synthetic"}}}
     fluxes = {"flux_25": 25e3, "flux_60": 60e3}
     slabs = {
         n: Gasification.model_validate(slab | {"front": {"flux_W_m2": q, "h_W_m2K": 10.0}})

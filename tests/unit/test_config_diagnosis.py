@@ -140,16 +140,19 @@ def test_given_parameters_are_estimated_and_known() -> None:
 
 
 def test_by_default_every_effect_is_a_candidate_that_the_signals_can_show() -> None:
-    assert candidate_effects(study_with()) == tuple(known_effects())
+    # No gas of it holds oxygen.
+    others = tuple(name for name in known_effects() if name != "char_oxidation")
+    assert candidate_effects(study_with()) == others
     back = {"calibrate": {"slab_25": ["back_temperature"]}}
     left_out = set(known_effects()) - set(candidate_effects(study_with(diagnosis=back)))
-    assert left_out == {"balance_drift", "tga_lag", "tga_offset"}
+    assert left_out == {"balance_drift", "char_oxidation", "tga_lag", "tga_offset"}
 
 
 def test_effects_of_the_model_and_what_excludes_them_are_no_candidates() -> None:
     study = study_with(effects={"in_depth": {"length_m": 3e-4}, "k_T": {"slope_1_K": -1e-3}})
     left_out = set(known_effects()) - set(candidate_effects(study))
-    assert left_out == {"in_depth", "in_depth_bands", "in_depth_lost", "k_T"}
+    absorption = {"in_depth", "in_depth_bands", "in_depth_lost"}
+    assert left_out == {"char_oxidation", "k_T"} | absorption
 
 
 def test_forms_that_are_one_model_here_are_offered_once() -> None:

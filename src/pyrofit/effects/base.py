@@ -93,6 +93,12 @@ def reacts(experiment: Experiment) -> bool:
     return True
 
 
+@need("oxygen in the gas")
+def has_oxygen(experiment: Experiment) -> bool:
+    """Tell whether the gas of an experiment holds oxygen."""
+    return getattr(experiment, "oxygen", 0.0) != 0.0
+
+
 @need("a foil on the back")
 def has_foil(experiment: Experiment) -> bool:
     """Tell whether an experiment has a foil."""

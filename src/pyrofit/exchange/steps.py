@@ -7,8 +7,9 @@ A -> P_i with nu_i k, and A -> gas with the rest: their shares do not change wit
 from typing import NamedTuple
 
 from pyrofit.exchange.fds.materials import Values, factor_with
+from pyrofit.exchange.fds.remarks import Remark
 from pyrofit.model.base import value_of
-from pyrofit.model.material import Material
+from pyrofit.model.material import Material, Reaction
 
 
 class Step(NamedTuple):
@@ -35,6 +36,20 @@ class Step(NamedTuple):
     share: float
 
 
+def oxidises(reaction: Reaction, values: Values) -> bool:
+    """Tell whether a reaction needs oxygen: the files for other programs leave it out."""
+    return value_of(reaction.oxygen_order, values) > 0.0
+
+
+def left_out(material: Material, values: Values) -> list[Remark]:
+    """Name the reactions that need oxygen."""
+    return [
+        Remark("left out", f"reaction '{name}', which needs oxygen (oxygen_order)", "not written")
+        for name, reaction in material.reactions.items()
+        if oxidises(reaction, values)
+    ]
+
+
 def steps_of(material: Material, values: Values, names: list[str], R: float) -> list[Step]:
     """Return the steps of all reactions of the named components that run at all.
 
@@ -51,7 +66,7 @@ def steps_of(material: Material, values: Values, names: list[str], R: float) -> 
     for name in material.reaction_order():
         reaction = material.reactions[name]
         A = factor_with(reaction, values, R)
-        if reaction.reactant not in names or A <= 0.0:
+        if reaction.reactant not in names or A <= 0.0 or oxidises(reaction, values):
             continue
         shares: dict[str | None, float] = {
             product: value_of(nu, values) for product, nu in reaction.products.items()

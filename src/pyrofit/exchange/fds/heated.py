@@ -1,5 +1,6 @@
 """A deck of one heating rate: TGA_ANALYSIS."""
 
+from pyrofit.exchange.fds.gases import gas_around
 from pyrofit.exchange.fds.layers import Layer, layer_keys
 from pyrofit.exchange.fds.materials import Options, Values, write_materials
 from pyrofit.exchange.fds.namelists import Namelist
@@ -37,6 +38,8 @@ def heated_deck(
     last_K
         Temperature at which it ends.
     """
+    around = gas_around(experiment, material, values)
+    material = around.material
     layer = virgin(material, values)
     lines = write_materials(material, values, list(layer.shares), Options(version))
     start = experiment.start_temperature_K - CELSIUS_K
@@ -54,13 +57,13 @@ def heated_deck(
         Namelist("MESH", {"IJK": [3, 3, 4], "XB": [-2.0, 2.0, -2.0, 2.0, 0.0, 1.0]}),
         Namelist("TIME", {"T_END": 1.0}),
         Namelist("MISC", {"TMPA": round(start, 6)}),
-        Namelist("SPEC", {"ID": "METHANE"}),
+        *around.species,
         *lines.namelists,
         Namelist("SURF", surface),
         Namelist("VENT", {"XB": [-1.0, 1.0, -1.0, 1.0, 0.0, 0.0], "SURF_ID": "SAMPLE"}),
         Namelist("TAIL", {}),
     )
-    remarks = once([*lines.remarks, *unwritten_heated(experiment, values)])
+    remarks = once([*around.remarks, *lines.remarks, *unwritten_heated(experiment, values)])
     return Deck(name, experiment.title or title, namelists, remarks)
 
 

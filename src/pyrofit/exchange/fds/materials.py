@@ -223,6 +223,9 @@ def _reactions(
         yield f"A({j})", factor * factor_with(reaction, values)
         yield f"E({j})", value_of(reaction.E_J_mol, values)
         yield f"N_S({j})", 1.0
+        if oxygen_order := value_of(reaction.oxygen_order, values):
+            yield f"N_O2({j})", oxygen_order
+            yield f"GAS_DIFFUSION_DEPTH({j})", value_of(reaction.oxygen_depth_m, values)
         yield from _products(reaction, values, first, options.gas, j)
         yield f"HEAT_OF_REACTION({j})", 1e-3 * value_of(reaction.heat_of_reaction_J_kg, values)
 

@@ -16,6 +16,8 @@ from pyrofit.exchange.fds.versions import FdsError, Version
 Keys = dict[str, Any]
 DEFAULT_EMISSIVITY, OPAQUE_1_M = 0.9, 5e4
 """FDS's defaults, where a MATL line is silent."""
+GAS_DIFFUSION_DEPTH_M = 1e-3
+"""The same for the depth of oxygen."""
 DERIVED = {"REFERENCE_TEMPERATURE", "REFERENCE_RATE", "PYROLYSIS_RANGE", "HEATING_RATE"}
 """Keys from which FDS makes A and E, of the peak of a TGA."""
 
@@ -97,6 +99,7 @@ def reactions_of(
     """Yield the reactions of a component by name."""
     count = count_of(matl)
     orders = matl.of("N_S", 1)
+    oxygen_orders, depths = matl.of("N_O2", 1), matl.of("GAS_DIFFUSION_DEPTH", 1)
     heats = matl.of("HEAT_OF_REACTION", 1)
     products, yields = matl.of("MATL_ID", 2), matl.of("NU_MATL", 2)
     gases, burnt = matl.of("NU_SPEC", 2), matl.of("HEAT_OF_COMBUSTION", 2)
@@ -117,6 +120,9 @@ def reactions_of(
         reaction["E_J_mol"] = E
         if order != 1.0:
             reaction["order"] = order
+        if oxygen_order := float(oxygen_orders.get((j,), 0.0)):
+            reaction["oxygen_order"] = oxygen_order
+            reaction["oxygen_depth_m"] = float(depths.get((j,), GAS_DIFFUSION_DEPTH_M))
         reaction["heat_of_reaction_J_kg"] = _digits(1e3 * heats.get((j,), 0.0))
         if (1, j) in burnt:
             reaction["heat_of_combustion_J_kg"] = _digits(1e3 * burnt[1, j])

@@ -6,6 +6,7 @@ import numpy as np
 
 from pyrofit.exchange.fds.depth import absorption
 from pyrofit.exchange.fds.exposure import Flux, Outside, surroundings
+from pyrofit.exchange.fds.gases import gas_around
 from pyrofit.exchange.fds.layers import Layer, foil_layers, layer_keys, own_layers
 from pyrofit.exchange.fds.materials import Lines, Options, Values, write_materials
 from pyrofit.exchange.fds.namelists import Item, Namelist
@@ -78,6 +79,8 @@ def slab_deck(
         pyrofit's curves, which tell how long the test is.
     """
     sample = experiment.sample
+    around = gas_around(experiment, material, values)
+    material = around.material
     kappa, remarks = absorption(sample, material, values)
     layers = own_layers(sample, material, values)
     names = [n for layer in layers for n in layer.shares]
@@ -90,13 +93,14 @@ def slab_deck(
     weak = float(outside.flux.value_W_m2.max()) < STRONG_W_M2
     step = WEAK_STEP_S if weak else 0.5 * WEAK_STEP_S
     surfaces = _surfaces(layers + foil, lines, experiment, values, outside, version, factor, spots)
-    found = [*remarks, *lines.remarks, *outside.remarks, *of_cells]
+    found = [*around.remarks, *remarks, *lines.remarks, *outside.remarks, *of_cells]
     found += unwritten(experiment, values)
     return Deck(
         name,
         experiment.title or name,
         (
             *_head(name, experiment.title, outside, predicted, version, step, len(spots)),
+            *around.species,
             *lines.namelists,
             *more,
             *surfaces,
@@ -162,7 +166,6 @@ def _head(
         Namelist("MESH", {"IJK": [cells, 3, 3], "XB": corners}),
         Namelist("TIME", time),
         Namelist("MISC", {"SOLID_PHASE_ONLY": True, "TMPA": _celsius(outside.gas_K)}),
-        Namelist("SPEC", {"ID": "METHANE"}),
     ]
 
 

@@ -30,7 +30,7 @@ from pyrofit.exchange.gpyro.groups import (
     species,
     unused,
 )
-from pyrofit.exchange.steps import Step, steps_of
+from pyrofit.exchange.steps import Step, left_out, steps_of
 from pyrofit.model.base import value_of
 from pyrofit.model.heated import HeatedExperiment
 from pyrofit.model.material import Material
@@ -77,7 +77,7 @@ def slab_data(
     remarks += _left_out(experiment, values, outside, eps)
     remarks += _moved(grid)
     steps = steps_of(material, values, present, R_GPYRO)
-    remarks += _orders(steps, layers)
+    remarks += [*_orders(steps, layers), *left_out(material, values)]
     gas_heat = value_of(sample.gas_specific_heat_J_kgK, values)
     if foil > 0.0:
         bodies.append(_foil(foil, grid.foil_m, outside.emissivity_back or eps))
@@ -104,6 +104,7 @@ def heated_data(
     layer = virgin(material, values)._replace(thickness_m=1.0)
     present = reached(material, list(layer.shares))
     bodies, remarks = all_species(material, values, present, 0.0)
+    remarks += left_out(material, values)
     steps = steps_of(material, values, present, R_GPYRO)
     rates = sorted({e.heating_rate_K_min for e in experiments})
     start = experiments[0].start_temperature_K

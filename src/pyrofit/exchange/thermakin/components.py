@@ -10,7 +10,7 @@ from pyrofit.exchange.fds.orders import same_half_time
 from pyrofit.exchange.fds.properties import tabulated
 from pyrofit.exchange.fds.remarks import Remark, once
 from pyrofit.exchange.fitted_forms import quadratic, remark_on
-from pyrofit.exchange.steps import steps_of
+from pyrofit.exchange.steps import left_out, steps_of
 from pyrofit.model.base import value_of
 from pyrofit.model.material import Material
 
@@ -53,7 +53,7 @@ def component_file(
     back_emissivity
         Of the face behind sample and foil.
     """
-    remarks: list[Remark] = []
+    remarks = left_out(material, values)
     rated = {n: first_order_parts(material, values, n, remarks) for n in material.components}
     keys = {
         n: [f"{n}{k + 1}" if len(of) > 1 else n for k in range(len(of))] for n, of in rated.items()
