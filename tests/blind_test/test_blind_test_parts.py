@@ -90,6 +90,7 @@ def test_full_plan_hides_every_effect_at_both_strengths_wherever_it_can_be_seen(
     found = {(*c.hidden, c.signals, round(c.strength, 3)) for c in full if c.kind == "effect"}
     sets = dict.fromkeys(known_effects(), ("mlr", "mlr+back", "mlr+back+tga"))
     sets |= dict.fromkeys(("tga_lag", "tga_offset"), ("mlr+back+tga",))
+    del sets["char_oxidation"]  # no test of the base is made in a gas with oxygen
     assert found == {(n, s, part) for n, of in sets.items() for s in of for part in (1.0, 0.333)}
 
 
@@ -104,7 +105,7 @@ def test_full_plan_has_enough_nulls_and_pairs(full: tuple[Case, ...]) -> None:
 
 
 def test_each_noise_meets_each_effect(full: tuple[Case, ...]) -> None:
-    for name in known_effects().keys() - {"tga_lag", "tga_offset"}:
+    for name in known_effects().keys() - {"char_oxidation", "tga_lag", "tga_offset"}:
         seen = {c.noise for c in full if c.kind == "effect" and name in c.hidden}
         assert seen == {"white", "measured", "ar0.5"}, name
 
