@@ -15,7 +15,7 @@ from pyrofit.cli import main
 from pyrofit.explore.describe import in_shown_units
 from pyrofit.explore.run import Explorer
 from pyrofit.explore.server import in_background
-from pyrofit.explore.session import Session, State
+from pyrofit.explore.session import Session, State, session_of
 from pyrofit.explore.static import write_static
 
 pytestmark = pytest.mark.skipif(bool(lacking()), reason=f"not here: {lacking()}")
@@ -37,6 +37,8 @@ return new Promise(done => {
 
 @pytest.fixture(scope="module")
 def explorer(tmp_path_factory: pytest.TempPathFactory) -> Iterator[Explorer]:
+    compiled = session_of(SMOKE, noise=False)
+    compiled.curves(State({}))  # no test waits for the compiler
     made = Explorer(SMOKE, tmp_path_factory.mktemp("results"))
     in_background(made.server)
     yield made

@@ -4,6 +4,7 @@ const data = JSON.parse(document.getElementById("data").textContent);
 const token = new URLSearchParams(location.search).get("token");
 const byId = id => document.getElementById(id);
 const page = { values: {}, effects: new Set(), ticked: new Set(), undo: [], plots: {}, rows: {}, delays: [] };
+const WAITING = "The study is read and simulated. The first simulation may compile the solver, which takes a minute.";
 let study, source, wanted = 0, busy = false, fitting = null, last = "";
 
 async function ask(name, body, signal) {
@@ -100,6 +101,7 @@ async function draw() {
       for (const s of study.signals) { const plot = page.plots[s.id]; plot.first = found.curves[s.id]; plot.draw(); }
       tell(found);
       fail("");
+      if (byId("message").textContent === WAITING) say("");
       page.delays.push(performance.now() - since);
     } catch (error) { fail(error.message); }
   }
@@ -268,6 +270,7 @@ async function save() {
 function build() {
   document.title = `${study.name} – pyrofit explore`;
   const side = byId("side"), head = byId("head");
+  head.replaceChildren();
   add(side, "h1", { textContent: study.title });
   for (const [heading, text] of study.notes || []) {
     const held = add(side, "details");
@@ -306,13 +309,14 @@ function build() {
   add(head, "div", { id: "numbers", className: "numbers" });
   add(head, "div", { id: "message" }).setAttribute("aria-live", "polite");
   for (const s of study.signals) page.plots[s.id] = new Plot(s, byId("plots"));
-  if (study.remarks && study.remarks.length) say("Left out: " + study.remarks.join("; "));
+  say(study.remarks && study.remarks.length ? "Left out: " + study.remarks.join("; ") : WAITING);
 }
 
 (async () => {
+  byId("head").textContent = WAITING;
   try {
     study = data.study || await answer("describe", {});
-  } catch (error) { fail(error.message); return; }
+  } catch (error) { byId("head").textContent = ""; fail(error.message); return; }
   page.values = { ...study.middle };
   page.ticked = new Set(study.estimate || []);
   source = data.study ? held(data.grid) : live;
