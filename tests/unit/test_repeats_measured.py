@@ -57,8 +57,8 @@ def test_tga_repeats_of_a_laboratory_scatter_beyond_the_noise_of_points(
     assert list(found) == ["tga_20K_1", "tga_20K_2", "tga_20K_3"]
     for one in found.values():
         assert one.modes is not None
-        # Measured: 0.01 between the records, times Student's quantile of three.
-        assert 0.01 < one.floors[FLOOR] < 0.06
+        # Measured: 0.01 between the records; their points scatter by 5e-4.
+        assert 0.005 < one.floors[FLOOR] < 0.02
 
 
 def test_lag_of_each_tga_repeat_takes_scatter_away(plain: dict[str, Any]) -> None:
