@@ -32,7 +32,13 @@ class Fake:
         return self.function(x)
 
     def jacobian(self, x: FloatArray, residuals: FloatArray) -> FloatArray:
-        by = np.where(x < 0.5, 1e-6, -1e-6)
+        return self._differences(x, residuals, 1e-6)
+
+    def rough_jacobian(self, x: FloatArray, residuals: FloatArray) -> FloatArray:
+        return self._differences(x, residuals, 1e-3)
+
+    def _differences(self, x: FloatArray, residuals: FloatArray, size: float) -> FloatArray:
+        by = np.where(x < 0.5, size, -size)
         rows = [
             (self.residuals(x + by * row) - residuals) / by[i]
             for i, row in enumerate(np.eye(x.size))

@@ -128,14 +128,17 @@ def minimise(
         if gained > converged_gain:
             continue
         is_refused = gained <= 0.0 and promised > converged_gain
-        if is_refused and refused < (most_refused if made else most_refused_updated):
+        is_last = fresh or (made and is_rough)
+        if is_refused and refused < (most_refused if is_last else most_refused_updated):
             refused += 1
-        elif fresh or (made and is_rough):
+        elif is_last:
             break
         else:
             # Where little is promised, the descent may be at its end, which needs exact ones.
             at_end = not is_rough and promised <= converged_gain
             fresh = rough is None or made or at_end
+            if fresh and rough is not None:
+                damping = min(damping, 1e-3)  # rough ones raise it, and it hides what is to gain
             whole = _without(held, (jacobian if fresh else on_the_way)(x, r))
             J, bent, made, refused = _columns(whole, moving), None, True, 0
     whole = whole.copy()
