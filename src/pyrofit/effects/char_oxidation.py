@@ -28,7 +28,7 @@ EFFECT = Effect(
     family="material",
     group="oxidation",
     equation="residue of the main reaction -> gas, r = k m X exp(-x/(1 mm)), X oxygen at the "
-    "surface, k(700 K) = k_700, E_o, heat dh_o; in small samples x = 0",
+    "surface. Constants: k(700 K) = k_700, E_o, heat dh_o. Small samples have x = 0",
     strength={
         "rate_1_s": Quantity(
             symbol="k_700",
