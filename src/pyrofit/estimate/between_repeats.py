@@ -51,7 +51,7 @@ USUAL_WEIGHT = 0.5
 """n_0, repeats that the usual values count as. Laboratories differ in theirs by factors."""
 USUAL = (0.04, 0.04, 0.005)
 """s_0 of level and stretch, and of the start over the length of the record. Medians of the heat
-release rates of 38 tests of 18 laboratories of the MaCFP data base: 0.041, 0.046, 0.004."""
+release rates of 38 tests of the MaCFP data base: 0.041, 0.046, 0.004."""
 USUAL_HEATED = (0.01, 0.002, 0.003)
 """The same of a heated sample: residue, heating rate, and temperature over the recorded range."""
 USUAL_HELD = (0.01, 0.04, 0.005)
