@@ -16,11 +16,12 @@ from pyrofit.config import Study, as_study, read_mapping
 from pyrofit.data.noise import draw
 from pyrofit.model.signal import Noise
 from pyrofit.results.files import Results
+from pyrofit.results.recorded import load
 from pyrofit.seeds import seed_for
 from pyrofit.solver.arrays import FloatArray
 from pyrofit.stages.fit import fit_kinetics, fixed_for_imp
 from pyrofit.stages.identify import identify_kinetics
-from pyrofit.stages.measurements import computed, load, prepare
+from pyrofit.stages.measurements import computed, prepare
 
 CONFIG = Path(__file__).parents[1] / "config"
 ESTIMATED = ("rho_a", "k_a", "cp_a", "eps_a", "k_r", "dh")

@@ -17,7 +17,9 @@ from pyrofit.errors import DataError
 from pyrofit.estimate.measures import LIKELIHOOD, measures_of
 from pyrofit.estimate.optimisers import OPTIMISERS
 from pyrofit.results import identification, recorded
-from pyrofit.results.files import Results, write_csv, write_json
+from pyrofit.results.files import Results, write_csv
+from pyrofit.results.record import write_record
+from pyrofit.results.searches import End, Starts
 from pyrofit.stages import measurements
 from pyrofit.stages.identify import identify_imp
 from pyrofit.stages.scorer import Scorer, scorer_of
@@ -45,11 +47,12 @@ def searched(study: Study, fitted: Fit, tmp_path_factory: pytest.TempPathFactory
     assert fitted.history is not None
     best = fitted.history.iloc[0]
     end = {n: float(best[n]) * study.parameters[n].factor for n in study.imp.estimate}
-    about = {"cost": 1.0, "calls": 1.0}
+    about = {"cost": 1.0, "calls": 1}
+    only = End(cost=1.0, calls=1, at_bound=[], parameters=end)
     for cost in study.imp.costs:
-        starts = {"starts": [{**about, "at_bound": [], "parameters": end}]}
+        starts = Starts(cost_function=cost, seed=study.seed, starts=[only])
         for optimiser in OPTIMISERS:
-            write_json(results.starts(cost, optimiser), starts)
+            write_record(results.starts(cost, optimiser), starts)
     more = {"cost_refined": 1.0, "failed_calls": 0.0}
     rows = [{"cost_function": cost, **about, **more, **end} for cost in study.imp.costs]
     write_csv(results.imp("summary.csv"), pd.DataFrame(rows))
@@ -65,7 +68,7 @@ def results(study: Study, searched: Results) -> Results:
 
 @pytest.fixture(scope="module")
 def chi2(results: Results) -> float:
-    return float(identification.noise(results)["chi2"])
+    return float(identification.noise(results).chi2)
 
 
 def estimates(study: Study, results: Results) -> np.ndarray:

@@ -58,6 +58,7 @@ def test_study_in_json_has_its_effects() -> None:
 
 KINETIC = {
     "char_layer",
+    "char_oxidation",
     "consecutive",
     "reaction_order",
     "tga_lag",
@@ -78,6 +79,8 @@ def test_every_effect_can_be_estimated(name: str) -> None:
     study = given("paper" if described else "pmma", **{name: own})
     for experiment in study["experiments"].values():
         experiment.pop("uncertain", None)
+        if experiment["kind"] == "gasification" and name == "char_oxidation":
+            experiment["oxygen"] = 0.21
     strengths = [f"{name}_{key}" for key in known_effects()[name].strength]
     study["kinetics" if name in KINETIC else "imp"]["estimate"] += strengths
     found = as_study(study, "pmma.yaml")

@@ -14,9 +14,9 @@ from pyrofit.errors import DataError, StudyError, suggest
 from pyrofit.estimate.optimisers import OPTIMISERS
 from pyrofit.model.material import Material
 from pyrofit.results import diagnosis, identification
-from pyrofit.results.diagnosis_schema import Diagnosis
-from pyrofit.results.files import Results
-from pyrofit.results.record import read_record
+from pyrofit.results.diagnosis_schema import OfExtended
+from pyrofit.results.files import Results, read_json
+from pyrofit.results.record import Record, made_of
 from pyrofit.stages.fit import fixed_for_imp
 from pyrofit.stages.predict import sets_of
 
@@ -167,6 +167,12 @@ def _diagnosis_of(results: Results, beside: Path) -> Path | None:
     return next((path for path in paths if path.exists()), None)
 
 
+class _Beside(Record, extra="ignore"):
+    """The part of a diagnosis that the study beside it needs."""
+
+    extended: OfExtended
+
+
 def _diagnosed(study: Study, results: Results, beside: Path) -> ParameterSet:
     """Return the values that the diagnosis fitted: with effects where the study has them."""
     path = _diagnosis_of(results, beside)
@@ -175,10 +181,11 @@ def _diagnosed(study: Study, results: Results, beside: Path) -> ParameterSet:
             f"{results.diagnosis('diagnosis.json')}: this result is missing; run `snakemake "
             "diagnose`"
         )
-    extended = path.parent == beside
-    # The study beside it has another name than the one that was diagnosed.
-    found = read_record(path, Diagnosis) if extended else diagnosis.read(study, results)
-    of = found.extended.parameters if extended else found.base.parameters
+    if path.parent == beside:
+        # The study beside it has another name than the one that was diagnosed.
+        of = made_of(path, _Beside, read_json(path)).extended.parameters
+    else:
+        of = diagnosis.read(study, results).base.parameters
     values, notes = study.fixed_values(), {}
     for name, p in of.items():
         if name in study.parameters:

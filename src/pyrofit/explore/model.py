@@ -91,7 +91,7 @@ def parameters_of(effects: Collection[str]) -> dict[str, Parameter]:
     """Return the parameters of effects: their strengths, and the numbers of their form.
 
     >>> list(parameters_of(["flux_spread"]))
-    ['flux_spread_sd']
+    ['flux_spread_spread']
     """
     return {
         f"{name}_{key}": Parameter(unit=q.unit, lower=q.lower, upper=q.upper, label=q.label)
