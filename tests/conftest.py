@@ -6,6 +6,7 @@ The rest are the fast ones, `make test-fast`; none of them compiles a kernel.
 import os
 import signal
 import sys
+from collections.abc import Iterator
 from pathlib import Path
 from types import ModuleType
 
@@ -84,6 +85,17 @@ _LONGEST_FIRST = {"test_blind_test_short": 0, "test_kills": 1}
 
 KERNELS = [f"pyrofit.solver.kernels.{name}" for name in ("grid", "slab", "tga", "trace")]
 """Compiled modules that the solver imports when it runs."""
+
+
+@pytest.fixture(scope="module", autouse=True)
+def _no_run_is_left() -> Iterator[None]:
+    """Forget the run that a module began in this process: later ones would be jobs of it."""
+    before = {name: value for name, value in os.environ.items() if name.startswith("PYROFIT_")}
+    yield
+    for name in [name for name in os.environ if name.startswith("PYROFIT_")]:
+        if name not in before:
+            del os.environ[name]
+    os.environ.update(before)
 
 
 def pytest_addoption(parser: pytest.Parser) -> None:
