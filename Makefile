@@ -55,7 +55,12 @@ test-slurm: $(VENV)/installed
 verification: $(VENV)/installed
 	pytest tests/verification --page docs/verification
 
-docs: $(VENV)/installed
+EXPLORED := docs/figures/explore/smoke.html
+
+$(EXPLORED): $(VENV)/installed config/smoke.yaml $(wildcard src/pyrofit/explore/*)
+	pyrofit explore config/smoke.yaml --static $@ --sliders dh
+
+docs: $(VENV)/installed $(EXPLORED)
 	sphinx-build --fail-on-warning --keep-going --quiet -b html -c docs/site -d build/doctrees . build/docs
 	@echo "The site: build/docs/index.html"
 
