@@ -11,7 +11,7 @@ _HEATED = ("tga", "dsc", "mcc")
 
 
 def form_of(files: Sequence[Examined], folder: Path) -> str:
-    """Return the form: what is contributed, what is checked, what is left to explain.
+    """Return the form: the files, the checks, and the findings to explain.
 
     Ticks are set by the examination; boxes without a tick are for the contributor.
 

@@ -138,7 +138,7 @@ def minimise(
             at_end = not is_rough and promised <= converged_gain
             fresh = rough is None or made or at_end
             if fresh and rough is not None:
-                damping = min(damping, 1e-3)  # rough ones raise it, and it hides what is to gain
+                damping = min(damping, 1e-3)  # rough ones raise it, and it hides a gain
             whole = _without(held, (jacobian if fresh else on_the_way)(x, r))
             J, bent, made, refused = _columns(whole, moving), None, True, 0
     whole = whole.copy()

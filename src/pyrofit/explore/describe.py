@@ -1,4 +1,4 @@
-"""What the page needs to know of a study once: signals, parameters, effects."""
+"""The description of a study that the page asks for once: signals, parameters, effects."""
 
 from collections.abc import Mapping
 from functools import cache

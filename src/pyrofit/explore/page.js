@@ -73,7 +73,7 @@ function restore(text) {
   showState(); refresh();
 }
 
-// Called after a change is complete: what was before can be had again, and the link leads here.
+// Called after a change is complete: undo brings back the state before, and the link leads here.
 function settled() {
   const now = snapshot();
   if (now === last) return;

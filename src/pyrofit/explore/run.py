@@ -1,4 +1,4 @@
-"""Explore a study in the browser: the server with what its page can ask for."""
+"""Explore a study in the browser: the server, and the answers to its page."""
 
 import os
 import threading
@@ -75,7 +75,7 @@ class Explorer:
         return f'<iframe src="{self.address}" width="100%" height="800"></iframe>'
 
     def close(self) -> None:
-        """End the server and what it has started."""
+        """End the server and the jobs it has started."""
         self.server.shutdown()
         self.server.server_close()
         if self._session:

@@ -18,7 +18,7 @@ LONGEST = 1_000_000
 Given = Mapping[str, Any]
 Send = Callable[[Given], None]
 Actions = Mapping[str, Callable[[Given], Given]]
-"""What a page can ask for, by name: from its request to the answer."""
+"""Answers by name of the request: from its content to the answer."""
 Streams = Mapping[str, Callable[[Given, Send], None]]
 """The same of answers in several parts, each sent as soon as it is known."""
 
@@ -32,9 +32,9 @@ class Server(ThreadingHTTPServer):
     Parameters
     ----------
     actions
-        What a page can ask for.
+        Requests that are answered at once.
     streams
-        What it can ask for that is answered in parts.
+        Requests that are answered in parts.
     port
         Port; 0 takes a free one.
 
@@ -170,7 +170,7 @@ def said(error: Exception) -> str:
 
 
 def _given(body: bytes) -> Given:
-    """Return what a page sends.
+    """Return the content that a page sends.
 
     Raises
     ------

@@ -31,7 +31,7 @@ MOST_MODELS = 16
 
 @dataclass(frozen=True)
 class State:
-    """What a page shows.
+    """The state of a page.
 
     Parameters
     ----------
@@ -74,7 +74,7 @@ class Session:
     sets
         Values by set, in the units of the study.
     remarks
-        What the page tells of sets that are left out.
+        Notes on sets that are left out.
     bands
         Bands of 95 % of the posterior's ensemble, SI units, where the study has one.
     pending
@@ -97,7 +97,7 @@ class Session:
         return self.pending.noise if self.pending else None
 
     def description(self) -> dict[str, Any]:
-        """Return what the page needs to know once."""
+        """Return the description of the study, which the page asks for once."""
         return {
             **describe(self.base, self.bands),
             "sets": {label: dict(values) for label, values in self.sets.items()},
@@ -151,7 +151,7 @@ class Session:
         }
 
     def close(self) -> None:
-        """End what still runs."""
+        """End the jobs that still run."""
         if self.pending:
             self.pending.close()
 

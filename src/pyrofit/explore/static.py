@@ -61,7 +61,7 @@ def write_static(session: Session, sliders: Sequence[str], label: str, path: Pat
 
 
 def content(session: Session, names: Sequence[str], values: Mapping[str, float]) -> dict[str, Any]:
-    """Return what the page holds: the description, and curves over a grid of the sliders."""
+    """Return the content of the page: the description, and curves over a grid of the sliders."""
     model, study = session.base, session.study
     told = describe(model)
     shown = [p for p in told["parameters"] if p["name"] in names]

@@ -28,8 +28,7 @@ from pyrofit.diagnose.search.score_test import confusability
 from pyrofit.diagnose.search.step import SearchStep
 from pyrofit.diagnose.search.stepwise import Search
 from pyrofit.effects import known_effects
-from pyrofit.parallel import parallel_map
-from pyrofit.results.diagnosis_candidates import OfCandidate, OfRidge, OfStrength
+from pyrofit.results.diagnosis_candidates import OfCandidate, OfRidge
 from pyrofit.results.diagnosis_schema import OfConfusability, OfScreen
 
 
@@ -69,25 +68,12 @@ def candidates(
     leading = [final.fits[key] for key in final.leading]
     formed = dict(zip(final.leading, with_all_forms(leading, processes), strict=True))
     wide = wide_intervals([*leading, *(model for of in formed.values() for model in of.values())])
-    best, all_models = found.end.penalised, models(found)
-
-    def fit_of(trial: FittedModel) -> FittedModel:
-        """Return the final fit of a model that was judged."""
-        here = judged.get(trial.key, [])
-        return final.of(here[0].trial) if here else trial
-
-    def parameters_of(i: int) -> dict[str, OfStrength]:
-        """Return the parameters of a model's effects; its derivatives are not kept."""
-        trial = all_models[i][1]
-        leads = trial.key in judged and trial.key in formed
-        return strengths(up_to_date(fit_of(trial)), wide if leads else {})
-
-    parameters = parallel_map(parameters_of, len(all_models), processes)
+    best = found.end.penalised
     rows = []
-    for (step, trial), own in zip(all_models, parameters, strict=True):
+    for step, trial in models(found):
         here = judged.get(trial.key, [])
-        fit = fit_of(trial)
         trial = here[0].trial if here else trial
+        fit = up_to_date(final.of(trial) if here else trial)
         is_leading = bool(here) and trial.key in formed
         judgement = _judgement(here)
         row = OfCandidate(
@@ -96,7 +82,7 @@ def candidates(
             chi2=trial.fit.chi2,
             gain=step.start.fit.chi2 - trial.fit.chi2,
             penalised=trial.penalised,
-            parameters=own,
+            parameters=strengths(fit, wide if is_leading else {}),
             ridges=[_ridge(r) for r in ridges(fit, formed[trial.key])] if is_leading else [],
             adequate=found.end_lack.adequate if trial.key == found.end.key else None,
             disagree=judgement.disagree,

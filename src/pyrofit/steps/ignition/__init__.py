@@ -1,4 +1,4 @@
-"""Time to ignition of slabs, and what a series of radiant fluxes tells of the material."""
+"""Time to ignition of slabs, and properties of the material from a series of radiant fluxes."""
 
 from pyrofit.steps.base import Step
 

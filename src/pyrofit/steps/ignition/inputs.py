@@ -1,4 +1,4 @@
-"""What the times to ignition rest on."""
+"""The inputs of the times to ignition."""
 
 from pyrofit.config import Study
 from pyrofit.results import dependencies

@@ -56,7 +56,7 @@ def _interval(within: list[float] | None) -> str:
 
 
 def sentences(study: Study, results: Results) -> list[str]:
-    """Return the sentences on the lines of a thick solid, and what is not determined."""
+    """Return the sentences on the lines of a thick solid, and on quantities that stay open."""
     found = record.read(study, results)
     said = []
     for of in found.series:

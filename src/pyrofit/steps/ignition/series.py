@@ -1,4 +1,4 @@
-r"""What times to ignition at several radiant fluxes tell of a material.
+r"""Properties of a material from times to ignition at several radiant fluxes.
 
 All of the usual relations are straight lines of the flux q,
 
