@@ -115,20 +115,3 @@ def test_refused_steps_are_shortened_before_derivatives_are_made_anew(start: lis
         found = minimise(valley, jacobian, np.array(start), 1e-6, most_refused_updated=most)
         assert found.x == pytest.approx([0.75, 0.75], abs=1e-3)
     assert 3 * len(made[2]) <= len(made[0])
-
-
-@pytest.mark.parametrize("start", [[0.2, 0.75], [0.1, 0.1], [0.05, 0.95]])
-def test_rough_derivatives_lead_and_exact_ones_confirm_the_end(start: list[float]) -> None:
-    jacobian, exact = counted(valley)
-
-    def rough(x: FloatArray, r: FloatArray) -> FloatArray:
-        return 0.98 * differences(valley)(x, r)
-
-    found = minimise(valley, jacobian, np.array(start), 1e-6, rough=rough)
-    assert found.x == pytest.approx([0.75, 0.75], abs=1e-3)
-    assert found.fresh
-    assert np.array_equal(exact[-1], found.x)
-    ends = minimise(valley, jacobian, np.array(start), 1e-2, rough=rough, is_rough=True)
-    assert not ends.fresh
-    assert ends.chi2 < 0.1
-    assert np.array_equal(exact[-1], found.x)

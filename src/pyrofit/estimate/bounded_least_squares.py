@@ -2,7 +2,7 @@
 
 Marquardt (1963, doi 10.1137/0111030); Broyden (1965, doi 10.1090/S0025-5718-1965-0198670-6). A
 step costs one simulation instead of one per parameter; the derivatives are made anew where the
-updated ones lead nowhere. On the way, rough ones of half the price do.
+updated ones lead nowhere.
 """
 
 from collections.abc import Callable, Sequence
@@ -59,8 +59,6 @@ def minimise(
     x: FloatArray,
     converged_gain: float,
     *,
-    rough: Callable[[FloatArray, FloatArray], FloatArray] | None = None,
-    is_rough: bool = False,
     begin: FloatArray | None = None,
     fixed: int | None = None,
     idle: Sequence[int] = (),
@@ -82,10 +80,6 @@ def minimise(
         Start, shape (parameters,); it is brought within the limits.
     converged_gain
         The descent ends where fresh derivatives promise a smaller fall of the sum.
-    rough
-        The same as ``jacobian`` by differences of first order, for derivatives on the way.
-    is_rough
-        Whether the descent may end where these promise so little.
     begin
         Derivatives to begin with, if some are at hand.
     fixed
@@ -99,15 +93,14 @@ def minimise(
     """
     x = np.clip(x, 0.0, 1.0)
     r = residuals(x)
+    fresh = begin is None
     held = [] if fixed is None else [fixed]
     moving = [i for i in range(x.size) if i not in idle]
-    on_the_way = jacobian if rough is None else rough
-    made, fresh = begin is None, begin is None and rough is None
-    whole = _without(held, on_the_way(x, r)) if begin is None else begin
+    whole = _without(held, jacobian(x, r)) if begin is None else begin
     J, bent = _columns(whole, moving), None
     damping, refused, returned = 1e-3, 0, False
     for _ in range(most_steps):
-        bent = _bend(J, r) if bent is None else bent
+        bent = _bend(J, r) if bent is None else bent  # a refused step changes neither
         step, damped = np.zeros(x.size), damping * 10.0**refused
         step[moving], promised = _step(*bent, x[moving], damped, ridge)
         step[held] = 0.0
@@ -121,26 +114,20 @@ def minimise(
             missed = there - r - linear.product(J, taken)
             J, bent = J + np.outer(missed, taken) / linear.dot(taken, taken), None
             damping = _damping(damped, gained / promised)
-            x, r, made, fresh, refused = ahead, there, False, False, 0
+            x, r, fresh, refused = ahead, there, False, 0
             returned = known is not None and known.leads_here(x, linear.dot(r, r))
         if returned:
             break
         if gained > converged_gain:
             continue
         is_refused = gained <= 0.0 and promised > converged_gain
-        is_last = fresh or (made and is_rough)
-        if is_refused and refused < (most_refused if is_last else most_refused_updated):
+        if is_refused and refused < (most_refused if fresh else most_refused_updated):
             refused += 1
-        elif is_last:
-            break
+        elif not fresh:
+            whole, fresh = _without(held, jacobian(x, r)), True
+            J, bent, refused = _columns(whole, moving), None, 0
         else:
-            # Where little is promised, the descent may be at its end, which needs exact ones.
-            at_end = not is_rough and promised <= converged_gain
-            fresh = rough is None or made or at_end
-            if fresh and rough is not None:
-                damping = min(damping, 1e-3)  # rough ones raise it, and it hides a gain
-            whole = _without(held, (jacobian if fresh else on_the_way)(x, r))
-            J, bent, made, refused = _columns(whole, moving), None, True, 0
+            break
     whole = whole.copy()
     whole[:, moving] = J
     return Fit(linear.dot(r, r), x, r, whole, fresh, returned)

@@ -29,8 +29,6 @@ def descend(
         model.jacobian,
         model.with_idle_known(x, fixed),
         enough,
-        rough=model.rough_jacobian,
-        is_rough=enough > SETTINGS.converged_gain,
         begin=jacobian,
         fixed=fixed,
         idle=model.idle,

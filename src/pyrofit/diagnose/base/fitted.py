@@ -75,12 +75,6 @@ def lower_of(trial: FittedModel, end: Fit) -> FittedModel:
     return replace(trial, fit=end) if end.chi2 < trial.fit.chi2 else trial
 
 
-def without_old_derivatives(trial: FittedModel) -> FittedModel:
-    """Return a trial without derivatives, where it has updated ones; `up_to_date` makes them."""
-    fit = trial.fit
-    return trial if fit.fresh else replace(trial, fit=replace(fit, jacobian=np.empty((0, 0))))
-
-
 def up_to_date(trial: FittedModel) -> FittedModel:
     """Return a trial with derivatives made at its end."""
     return replace(trial, fit=refreshed(trial.model, trial.fit))

@@ -114,19 +114,12 @@ class Model:
 
     def jacobian(self, x: FloatArray, residuals: FloatArray) -> FloatArray:
         """Return d residuals / d x by differences of second order."""
-        return self._slopes(x, residuals, 2)
-
-    def rough_jacobian(self, x: FloatArray, residuals: FloatArray) -> FloatArray:
-        """Return d residuals / d x by differences of first order, at half the price."""
-        return self._slopes(x, residuals, 1)
-
-    def _slopes(self, x: FloatArray, residuals: FloatArray, order: int) -> FloatArray:
         rows = np.zeros((len(self.base.plausible), x.size))
         for k, i, plausible in self._strengths:
             slope = plausible.slopes(self._strength(x[None], i))[0]
             rows[k, i] = slope * self.likelihood.problem.span[i]
         own = residuals[: residuals.size - len(rows)]
-        slopes = self.likelihood.jacobian(x, own, order, SETTINGS.difference_step)
+        slopes = self.likelihood.jacobian(x, own, 2, SETTINGS.difference_step)
         return np.vstack([slopes, rows])
 
     @property

@@ -7,13 +7,7 @@ from typing import NamedTuple
 
 import numpy as np
 
-from pyrofit.diagnose.base.fitted import (
-    FittedModel,
-    Key,
-    finishes,
-    strengths_at_limit,
-    up_to_date,
-)
+from pyrofit.diagnose.base.fitted import FittedModel, Key, finishes, strengths_at_limit
 from pyrofit.diagnose.base.model import strength_of
 from pyrofit.diagnose.judge.final_fits import FinalFits
 from pyrofit.diagnose.judge.findings import Judged, Verdict
@@ -73,7 +67,7 @@ def candidates(
     for step, trial in models(found):
         here = judged.get(trial.key, [])
         trial = here[0].trial if here else trial
-        fit = up_to_date(final.of(trial) if here else trial)
+        fit = final.of(trial) if here else trial
         is_leading = bool(here) and trial.key in formed
         judgement = _judgement(here)
         row = OfCandidate(

@@ -108,8 +108,8 @@ def _reduced(
     def fit(k: int) -> Fit:
         whole = tasks[k][0]
         keep = [name in models[k].names for name in whole.model.names]
-        old = whole.fit.jacobian
-        begin = old[:, keep] if old.size else None  # those of a step that is done are not kept
-        return refreshed(models[k], descend(models[k], whole.fit.x[keep], begin))
+        return refreshed(
+            models[k], descend(models[k], whole.fit.x[keep], whole.fit.jacobian[:, keep])
+        )
 
     return list(map(FittedModel, models, parallel_map(fit, len(models), processes)))

@@ -1,18 +1,13 @@
 """One round of the search: every effect more in addition to a model, and in other forms."""
 
 from collections.abc import Callable, Sequence
-from dataclasses import dataclass, field, replace
+from dataclasses import dataclass, field
 from itertools import islice
 
 import numpy as np
 
 from pyrofit.diagnose.base.adequacy import LackOfFit
-from pyrofit.diagnose.base.fitted import (
-    FittedModel,
-    followed,
-    polished,
-    without_old_derivatives,
-)
+from pyrofit.diagnose.base.fitted import FittedModel, followed, polished
 from pyrofit.diagnose.base.model import strength_of
 from pyrofit.diagnose.base.prediction import Made
 from pyrofit.diagnose.search.progress import Progress
@@ -67,13 +62,9 @@ class SearchStep:
     looks: tuple[Screening, ...]
     trials: tuple[FittedModel, ...] = ()
 
-    def fitted(self) -> "SearchStep":
-        """Return the step without derivatives that are not those at the end of a fit."""
-        return replace(self, trials=tuple(without_old_derivatives(t) for t in self.trials))
-
     def done(self) -> "SearchStep":
-        """Return the step with its fits alone, which take little memory."""
-        return replace(self.fitted(), lack=_not_kept, looks=())
+        """Return the step with its fits alone: its looks take most of the memory of a search."""
+        return SearchStep(self.start, _not_kept, (), self.trials)
 
 
 def _not_kept() -> LackOfFit:

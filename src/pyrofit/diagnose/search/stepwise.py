@@ -140,7 +140,7 @@ class _Pass:
         if not self.carried:
             first = with_sharp_noise(first, self.context)
         (first,) = self._fitted([first], lambda steps: [self._singles(steps[0])])
-        best, best_lack, rounds = first.start, first.lack, [first.fitted()]
+        best, best_lack, rounds = first.start, first.lack, [first]
         beam = branches([first], self.spare, self.context)
         while beam:
             steps = [self._onwards(beam[0])]
