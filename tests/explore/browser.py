@@ -9,6 +9,7 @@ from collections.abc import Callable
 from pathlib import Path
 from typing import Any
 
+import psutil
 import requests
 
 NEEDED = ("chromium", "chromedriver")
@@ -76,6 +77,11 @@ class Browser:
         import base64
 
         path.write_bytes(base64.b64decode(self._call("GET", "/screenshot")))
+
+    def processor_s(self) -> float:
+        """Return the time that the processes of the browser have computed [s]."""
+        every = psutil.Process(self._driver.pid).children(recursive=True)
+        return float(sum(sum(one.cpu_times()[:2]) for one in every))
 
     def close(self) -> None:
         """End the browser."""

@@ -2,6 +2,7 @@
 
 import json
 import threading
+import time
 from collections.abc import Iterator
 from http.server import BaseHTTPRequestHandler, HTTPServer
 from pathlib import Path
@@ -12,6 +13,7 @@ from browser import Browser, lacking, until
 
 import pyrofit as pf
 from pyrofit.cli import main
+from pyrofit.config import Study
 from pyrofit.explore.describe import in_shown_units
 from pyrofit.explore.run import Explorer
 from pyrofit.explore.server import in_background
@@ -84,6 +86,48 @@ def test_a_slider_moves_the_curves_and_undo_moves_them_back(
     browser.click("#undo")
     settled(browser)
     assert curve(browser, SLAB) == before[SLAB]
+
+
+PAINTED = """
+const slider = document.querySelector(`#row-k input[type=range]`);
+const frame = () => new Promise(done => requestAnimationFrame(done));
+const drawn = () => new Promise(done => { page.delays.push = done; });
+return (async () => {
+    const found = [];
+    for (let i = 0; i < 40; i++) {
+        await new Promise(done => setTimeout(done, 30));
+        const begin = performance.now();
+        slider.value = 300 + 10 * i;
+        slider.dispatchEvent(new Event("input"));
+        await drawn();
+        await frame();
+        await new Promise(done => setTimeout(done, 0));  // the frame with the curves is made
+        found.push(performance.now() - begin);
+    }
+    return found;
+})();
+"""
+
+
+def test_twenty_curves_are_painted_within_50_ms_of_a_slider(
+    browser: Browser, twenty: Study
+) -> None:
+    # Other programs prolong the delays, but not the time of the processor.
+    made = Explorer(twenty)
+    in_background(made.server)
+    try:
+        opened(browser, made.address)
+        until(lambda: made.session.noise, "the noise")
+        browser.run(PAINTED)
+        begin = browser.processor_s() + time.process_time()
+        delays = np.array(browser.run(PAINTED))
+        spent = (browser.processor_s() + time.process_time() - begin) / delays.size
+    finally:
+        made.close()
+    median, largest = np.median(delays), delays.max()
+    print(f"slider to picture: median {median:.0f}, largest {largest:.0f}", end=" ms; ")
+    print(f"processors, server and browser: {1e3 * spent:.0f} ms a picture")
+    assert min(spent, 1e-3 * median) < 0.05
 
 
 def test_page_asks_no_other_host(browser: Browser, explorer: Explorer) -> None:

@@ -1,8 +1,11 @@
 """The noise of the fitted signals, estimated in a process of its own: it takes up to minutes.
 
+The process gives way to the simulations of the page.
+
 Run as a program, this module reads a study and its measurements, and writes the noise.
 """
 
+import os
 import pickle
 import subprocess
 import sys
@@ -63,6 +66,7 @@ class PendingNoise:
 
 def main() -> None:
     """Read a study and its measurements from standard input, write its noise, or an error."""
+    os.nice(10)
     study, measurements = pickle.load(sys.stdin.buffer)
     use_plugins([Path(folder) for folder in study.plugins])
     found: Noise | str

@@ -17,8 +17,14 @@ async function answer(name, body) {
   return found;
 }
 
+function bytes(text) {
+  const raw = atob(text), found = new Uint8Array(raw.length);
+  for (let i = 0; i < raw.length; i++) found[i] = raw.charCodeAt(i);
+  return found.buffer;
+}
+
 function unpacked(text) {
-  const bytes = Uint8Array.from(atob(text), c => c.charCodeAt(0)), all = new Float32Array(bytes.buffer);
+  const all = new Float32Array(bytes(text));
   const curves = {};
   let at = 0;
   for (const s of study.signals) { curves[s.id] = all.subarray(at, at + s.x.length); at += s.x.length; }
@@ -32,7 +38,7 @@ const live = async state => {
 
 // Without a server: linear between the sets that the page holds, over one or two sliders.
 function held(grid) {
-  const bytes = Uint8Array.from(atob(grid.curves), c => c.charCodeAt(0)), all = new Uint16Array(bytes.buffer);
+  const all = new Uint16Array(bytes(grid.curves));
   const size = study.signals.reduce((n, s) => n + s.x.length, 0);
   const place = (at, v) => {
     const u = Math.min(Math.max((v - at[0]) / (at[at.length - 1] - at[0]) * (at.length - 1), 0), at.length - 1);
@@ -98,7 +104,7 @@ async function draw() {
     wanted = 0;
     try {
       const found = await source(stateOf());
-      for (const s of study.signals) { const plot = page.plots[s.id]; plot.first = found.curves[s.id]; plot.draw(); }
+      for (const s of study.signals) page.plots[s.id].show(found.curves[s.id]);
       tell(found);
       fail("");
       if (byId("message").textContent === WAITING) say("");
@@ -133,7 +139,7 @@ function tell(found) {
   if (!found.numbers) return;
   byId("numbers").replaceChildren();
   const number = (name, value) => { const span = add(byId("numbers"), "span", { textContent: name + " " }); add(span, "b", { textContent: value }); };
-  number("χ²", waits ? (found.noise || "waits for the noise of the signals") : `${shown(chi2)} of ${points} points`);
+  number("χ²", waits ? (found.noise || "follows: the noise of the signals is being estimated") : `${shown(chi2)} of ${points} points`);
   for (const [name, value] of Object.entries(found.numbers.costs)) number("cost " + name, value === null ? "–" : shown(value));
   if (waits && !found.noise) setTimeout(() => { if (!busy) refresh(); }, 2000);
 }
@@ -226,7 +232,7 @@ async function compare(label) {
       ? { curves: Object.fromEntries(study.signals.map(s => [s.id, page.plots[s.id].first])) }
       : label.startsWith("set:") ? await source({ values: valuesOf(label.slice(4), true), effects: [] })
         : await answer("published", { ...stateOf(), name: label.slice(10) }).then(f => ({ curves: unpacked(f.curves) }));
-    for (const s of study.signals) { page.plots[s.id].second = found && found.curves[s.id]; page.plots[s.id].draw(); }
+    for (const s of study.signals) page.plots[s.id].show(undefined, found && found.curves[s.id]);
   } catch (error) { fail(error.message); }
 }
 
