@@ -43,9 +43,9 @@ def curve(parameters: FloatArray, differing: FloatArray = SAME) -> FloatArray:
     return np.asarray(amplitude * flux * rise * (1.0 + climb * x) * collapse)
 
 
-def records(repeats: int, rng: np.random.Generator) -> FloatArray:
-    """Return repeats that differ, with noise, shape (repeats, 120)."""
-    differing = SAME + SCATTER * rng.standard_normal((repeats, 3))
+def records(repeats: int, rng: np.random.Generator, share: float = 1.0) -> FloatArray:
+    """Return repeats that differ by a share of the scatter, with noise, shape (repeats, 120)."""
+    differing = SAME + share * SCATTER * rng.standard_normal((repeats, 3))
     clean = np.array([curve(TRUTH, of) for of in differing])
     return clean + NOISE * rng.standard_normal(clean.shape)
 

@@ -8,7 +8,11 @@ time as that of a stated uncertainty does, variance between repeats and covarian
     K = a (S S^T + n_0 sum_k g_k g_k^T) / (n_0 + R - 1) + (1 - a) tau tau^T * exp(-|t - t'| / l),
 
 S = W (d_1 ... d_R). The usual changes g_k of their mean, by level, stretch and start, count as n_0
-further repeats. The share a of K is the covariance of the repeats. It lasts over the whole record,
+further repeats. They have c times their usual size, as careful laboratories differ less in all:
+
+    c^2 = (n_0 U + E) / ((n_0 + R - 1) U),    U = sum_k |usual g_k|^2,    E = |S|^2 - that of e.
+
+The share a of K is the covariance of the repeats. It lasts over the whole record,
 so that a parameter that moves the curve alike is uncertain by as much. The rest has the same size
 in all other directions, of which few repeats show only few.
 
@@ -166,7 +170,8 @@ def _of_group(records: Sequence[_Record], free: bool) -> list[NoiseModel]:
     of_points = np.mean([np.interp(grid, r.at, r.points[0] ** 2) for r in records], axis=0)
     usual = np.zeros((0, KNOTS))
     if not free:
-        usual = np.sqrt(USUAL_WEIGHT) * _usual(knots, straight.mean, records[0].usual)
+        usual = _usual(knots, straight.mean, records[0].usual)
+        usual *= np.sqrt(USUAL_WEIGHT) * _care(usual, shown, freedom * left)
     total = freedom + (0.0 if free else USUAL_WEIGHT)
     smooth = linear.product(window, np.sum(raw**2, axis=0) - freedom * of_points)
     tau = np.sqrt(np.maximum(smooth, 0.0) + np.sum(usual**2, axis=0))
@@ -214,6 +219,24 @@ def _usual(knots: FloatArray, mean: FloatArray, sizes: tuple[float, ...]) -> Flo
             for step in np.diag(sizes)
         ]
     )
+
+
+def _care(usual: FloatArray, shown: FloatArray, left: FloatArray) -> float:
+    """Return c, how far repeats scatter over what is usual.
+
+    Parameters
+    ----------
+    usual
+        Changes of their mean by the usual level, stretch and start, shape (3, knots).
+    shown
+        Smoothed deviations, shape (repeats, knots).
+    left
+        Squares of these by the noise of the points alone, shape (knots,).
+    """
+    squares = max(float(np.sum(usual**2)), 1e-300)
+    excess = max(float(np.sum(shown**2)) - float(np.sum(left)), 0.0)
+    told = len(shown) - 1
+    return float(np.sqrt((USUAL_WEIGHT + excess / squares) / (USUAL_WEIGHT + told)))
 
 
 def student_factor(freedom: float) -> float:
