@@ -38,18 +38,16 @@ SCREEN = (1200, 1500)
 HEAD = """\
 # Gallery
 
-All figures and the top of the report of the shipped studies. The command that makes the figures of
-a section stands above them, and the name of the file below each. Titles and captions are those of
-the report, which has these figures as vector graphics. A caption stands below the first figure of
-its kind. A figure that does not depend on the study is shown once. The studies `paper_fds` and
-`pmma_gpyro` need other programs and are not shown. Each section names the commit that drew it.
-Pictures and captions of older commits are those of that version.
+Find the figure that you want: the command above it makes it. Pictures, titles and captions are
+those of the report. The results hold each figure as vector graphics, in the file that is the
+alternative text of the picture. The first section has all figures of a study. The others have the
+figures that show more, without the captions that stand above. Each names the commit that drew it.
 
 `python tools/gallery.py` writes this page from the results.
 """
 REPORT = "The top of the report"
-ENTRY = re.compile(r"### (.*)\n\n!\[.*\]\((.*)\)\n\n(?:([^`\n].*)\n\n)?`(results/.*)`\n")
-"""A picture of the page: title, path, caption, source."""
+ENTRY = re.compile(r"### (.*)\n\n!\[(results/.*)\]\((.*)\)\n(?:\n([^#!].*)\n)?")
+"""A picture of the page: title, source, path, caption."""
 _BROWSER = (
     *("chromium", "--headless", "--no-sandbox", "--disable-gpu", "--disable-quic"),
     *("--no-first-run", "--disable-background-networking", "--disable-component-update"),
@@ -75,12 +73,10 @@ class Group:
     note: str = ""
     report: str = ""
     """Page that is shown as well."""
-    without: tuple[str, ...] = ()
-    """Figures that another section shows."""
+    only: tuple[str, ...] = ()
+    """Names of the figures that are shown; empty: all."""
 
 
-MANY_PANELS = ("sensitivities", "good_sets")
-"""Figures of pine that are too large even in few colours."""
 _K_T = """'synthetic={"effects": {"k_T": {"slope_1_K": -0.001}}}'"""
 _CALORIMETRY = "python tests/recovery/calorimetry_study.py > calorimetry.json"
 GROUPS = (
@@ -95,45 +91,39 @@ GROUPS = (
         "snakemake --cores 2 --configfile config/pmma.yaml",
         "pmma",
         report="report.html",
-        without=("fig1",),
+        only=(
+            *("overview", "fig2", "fig3", "correlation", "profiles"),
+            *("fig4", "good_sets", "other_signals", "residuals", "spread"),
+        ),
     ),
     Group(
         "The published campaign",
         "snakemake --cores 2 --configfile config/paper.yaml",
         "paper",
         report="report.html",
-        without=("fig1",),
+        only=("overview", "fig3", "fig4", "fig5", "spread"),
     ),
     Group(
         "Measured pine",
         "snakemake --cores 2 --configfile config/pine.yaml",
         "pine",
-        note="Figures of many panels are left out: they are too large for this page.",
         report="report.html",
-        without=("fig1", *MANY_PANELS),
+        only=("overview", "fig2", "profiles", "other_signals"),
     ),
     Group(
         "An external program",
         "snakemake --cores 2 --configfile config/hotplate.yaml",
         "hotplate",
         report="report.html",
-        without=("fig1",),
-    ),
-    Group(
-        "A small study",
-        "snakemake --cores 2 --configfile config/smoke.yaml",
-        "smoke",
-        note="It is for tests: two repetitions of six generations show the workflow, no result.",
-        report="report.html",
-        without=("fig1",),
+        only=("overview",),
     ),
     Group(
         "Calorimetry, and an experiment without a measurement",
         f"{_CALORIMETRY}\n    snakemake --cores 2 --configfile calorimetry.json",
         "calorimetry",
         note="The study of a test: one repetition of three generations shows the figures, no "
-        "result. Figures that other sections show are left out.",
-        without=tuple(name for name in FIGURES if name not in ("heats", "unmeasured")),
+        "result.",
+        only=("heats", "unmeasured"),
     ),
     Group(
         "Diagnosis of a hidden effect",
@@ -200,7 +190,7 @@ def with_captions(before: Mapping[str, str]) -> dict[str, str]:
     captions: dict[str, str] = {}
 
     def completed(found: re.Match[str]) -> str:
-        title, path, caption, source = found.groups()
+        title, source, path, caption = found.groups()
         caption = caption or captions.get(figure_of(source), "")
         captions[figure_of(source)] = caption
         return entry(title, path, caption, source)
@@ -213,7 +203,7 @@ def without_captions(text: str, above: str) -> str:
     last = last_captions(above)
 
     def shortened(found: re.Match[str]) -> str:
-        title, path, caption, source = found.groups()
+        title, source, path, caption = found.groups()
         again = caption == last.get(figure_of(source))
         return entry(title, path, "" if again or not caption else caption, source)
 
@@ -223,7 +213,7 @@ def without_captions(text: str, above: str) -> str:
 def last_captions(above: str) -> dict[str, str]:
     """Return the last caption of each figure that stands in a part of the page."""
     found = ENTRY.findall(above)
-    return {figure_of(source): caption for _, _, caption, source in found if caption}
+    return {figure_of(source): caption for _, source, _, caption in found if caption}
 
 
 def figure_of(source: str) -> str:
@@ -270,7 +260,7 @@ def drawn(group: Group, root: Path) -> Iterator[tuple[Figure, Path]]:
     figures = of_diagnosis(root / group.study) if group.folder == "diagnosis" else None
     for name, figure in (FOLDERS[group.folder] if figures is None else figures).items():
         source = folder / f"{name}.png"
-        if source.is_file() and name not in group.without:
+        if source.is_file() and (name in group.only or not group.only):
             yield figure, source
 
 
@@ -325,8 +315,8 @@ def screenshot(page: Path) -> Image.Image:
 
 def entry(title: str, path: str, caption: str, source: str) -> str:
     """Return the part of the page for one picture."""
-    said = f"{caption}\n\n" if caption else ""
-    return f"### {title}\n\n![{title}]({path})\n\n{said}`{source}`\n"
+    said = f"\n{caption}\n" if caption else ""
+    return f"### {title}\n\n![{source}]({path})\n{said}"
 
 
 def shown(target: Path) -> str:

@@ -41,8 +41,8 @@ def test_sections_that_are_not_drawn_anew_keep_their_captions(
     assert "\n".join(parts) == PAGE
     # The caption of a section above that has changed since stands in the first of these sections.
     first, *others = whole.values()
-    (caption,) = re.findall(r"twin_figures_fig2\.png\)\n\n(.*)\n", first)
+    (caption,) = re.findall(r"twin_figures_profiles\.png\)\n\n(.*)\n", first)
     changed = first.replace(caption, "Another caption.")
-    old = next(text for text in others if f"fig2.png)\n\n{caption}" in text)
+    old = next(text for text in others if f"profiles.png)\n\n{caption}" in text)
     assert caption in gallery.without_captions(old, changed)
     assert caption not in gallery.without_captions(old, first)
