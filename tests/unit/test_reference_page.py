@@ -33,6 +33,8 @@ def test_generated_page_is_up_to_date(page: str, capsys: pytest.CaptureFixture[s
 def test_page_of_commands_has_options_that_are_known_late() -> None:
     page = (ROOT / "docs" / "commands.md").read_text(encoding="utf-8")
     assert "| `--gasification` `CSV` |" in page
+    assert page.count("| `--results` `RESULTS` |") == 1
+    assert "Also `--study`, `--results`, `--digest`, `--log`." in page
     assert "## `pyrofit data doctor`" in page
     assert "## `pyrofit data`\n" not in page
 
@@ -41,7 +43,17 @@ def test_every_key_of_a_study_is_described() -> None:
     rows = [line.split(" | ") for line in reference_page().splitlines() if line.startswith("| `")]
     assert len(rows) > 120
     assert [row[0] for row in rows if not row[1].strip()] == []
-    assert [row[0] for row in rows if not row[3].strip()] == []
+    assert [row[0] for row in rows if not row[2].strip()] == []
+
+
+def test_keys_that_kinds_of_experiment_share_stand_once() -> None:
+    page = reference_page()
+    for key in ("laboratory", "heating_rate_K_min", "front", "thickness_sd"):
+        assert len(re.findall(rf"^\| `{key}` \|", page, re.M)) == 1, key
+    tga = page.split("## Tga\n")[1].split("\n## ")[0]
+    heated = page.split("## HeatedExperiment\n")[1].split("\n## ")[0]
+    assert "Further keys: [HeatedExperiment](#heatedexperiment)." in tga
+    assert "Further keys: [Experiment](#experiment)." in heated
 
 
 def test_page_has_the_keys_that_the_shipped_studies_use() -> None:
@@ -61,13 +73,13 @@ def test_page_has_the_keys_that_the_shipped_studies_use() -> None:
 
 def test_page_tells_units_limits_and_usual_values() -> None:
     page = reference_page()
-    row = "| `heating_rate_K_min` | nominal heating rate | K/min | number; above 0 | *required* |"
+    row = "| `heating_rate_K_min` | nominal heating rate | number [K/min]; above 0 | *required* |"
     assert row in page
     row = (
         "`wall_temperature_K` | temperature of the radiating surroundings, may follow a table over "
     )
-    assert f"{row}time | K | number or" in page
-    row = "| `repetitions` | repetitions per cost |  | whole number; at least 1, at most 100000 |"
+    assert f"{row}time | value or [TimeTable](#timetable) [K]; above 0, at least 150 |" in page
+    row = "| `repetitions` | repetitions per cost | whole number; at least 1, at most 100000 |"
     assert f"{row} 25 |" in page
     for name in Study.model_fields:
         assert f"| `{name}` |" in page

@@ -1,6 +1,7 @@
 """The commands as a page of the documentation, read from the parser itself."""
 
 import argparse
+from collections import Counter
 from collections.abc import Iterator
 
 from pyrofit.cli.parser import Parser
@@ -8,18 +9,28 @@ from pyrofit.cli.parser import Parser
 _HEAD = """\
 # Commands
 
-`pyrofit COMMAND --help` prints the same. The [workflow](running.md) calls most of these commands;
+Find a command and its arguments; `pyrofit COMMAND --help` prints the same. By hand you use `look`,
 `init`, `explore`, `run`, `check`, `doctor`, `rescore`, `posterior`, `sensitivity`, `worth`,
-`data`, `export`, `import`, `macfp` and `reference` are for use by hand.
+`data`, `export`, `import`, `macfp` and `reference`; the [workflow](running.md) calls the others.
 
 This page is generated: `pyrofit reference --of commands > docs/commands.md`.
+
+## Arguments of many commands
+
+| argument | meaning |
+|---|---|
 """
+_MANY = 5
+"""Rows that as many commands have stand at the head of the page."""
 
 
 def commands_page(program: argparse.ArgumentParser) -> str:
     """Return the page: every command of the program with its arguments."""
-    sections = [_section(name, text, parser) for name, text, parser in _commands(program)]
-    return "\n".join([_HEAD, *sections])
+    found = [(name, text, _rows(parser)) for name, text, parser in _commands(program)]
+    counts = Counter(row for _, _, rows in found for row in rows)
+    common = [row for row, count in counts.items() if count >= _MANY]
+    sections = [_section(name, text, rows, common) for name, text, rows in found]
+    return "\n".join([_HEAD + "\n".join(common) + "\n", *sections])
 
 
 def _commands(
@@ -36,12 +47,19 @@ def _commands(
                 yield from deeper or [(inner.prog, texts.get(name, ""), inner)]
 
 
-def _section(name: str, text: str, parser: argparse.ArgumentParser) -> str:
+def _section(name: str, text: str, rows: list[str], common: list[str]) -> str:
     lines = [f"## `{name}`", "", f"{text[:1].upper()}{text[1:]}.", ""]
-    rows = [_row(a) for a in parser._actions if not isinstance(a, argparse._HelpAction)]
-    if rows:
-        lines += ["| argument | meaning |", "|---|---|", *rows, ""]
+    own = [row for row in rows if row not in common]
+    if own:
+        lines += ["| argument | meaning |", "|---|---|", *own, ""]
+    names = [row.split("`")[1] for row in rows if row in common]
+    if names:
+        lines += [f"{'Also' if own else 'Takes'} {', '.join(f'`{name}`' for name in names)}.", ""]
     return "\n".join(lines)
+
+
+def _rows(parser: argparse.ArgumentParser) -> list[str]:
+    return [_row(a) for a in parser._actions if not isinstance(a, argparse._HelpAction)]
 
 
 def _row(action: argparse.Action) -> str:

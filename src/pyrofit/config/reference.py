@@ -1,7 +1,8 @@
 """The reference page of all keys of a study, generated from its description."""
 
 import re
-from collections.abc import Iterator
+from collections.abc import Iterable, Iterator
+from itertools import chain
 from types import NoneType, UnionType
 from typing import Annotated, Any, Literal, Union, get_args, get_origin
 
@@ -16,10 +17,10 @@ _HEAD = """\
 # Keys of a study
 
 Every key that a study file may have, by its place. `<name>` is a name of your choice, and `[]`
-marks the items of a list. *Required* keys have no default. Where the page says "number or
-parameter", the name of one of the `parameters` may stand. Unknown keys are refused, with the
-nearest known one. `pyrofit check STUDY` reports all errors of a study. The studies in this folder
-are examples, and `pyrofit init NAME` writes one for your own material.
+marks the items of a list. A *value* is a number or the name of one of the `parameters`, units stand
+in brackets. A key without a default may be left out unless it is *required*. Unknown keys are
+refused, with the nearest known one; `pyrofit check STUDY` reports all errors. The studies in this
+folder are examples, and `pyrofit init NAME` writes one for your own material.
 
 Units of parameters: {units}.
 
@@ -48,20 +49,55 @@ def _sections(root: type[Part]) -> list[str]:
         for name, field in part.model_fields.items():
             for inner, tail in _parts(field.annotation):
                 where = [".".join(filter(None, [place, name + tail])) for place in places[part]]
-                # A property may be made of another: once is enough.
-                new = [p for p in where if inner is not part and p not in places.get(inner, ())]
+                # A property may be made of another: the outer place is enough.
+                new = [p for p in where if p not in places.get(inner, ()) and name != "of"]
                 if inner not in places:
                     waiting.append(inner)
                 places.setdefault(inner, []).extend(new)
-    return [_section(part, where) for part, where in places.items()]
+    shared = _shared(places)
+    return [
+        _section(part, places.get(part, []), [base for base in shared if _is_kind_of(part, base)])
+        for part in _with_shared(places, shared)
+    ]
 
 
-def _section(part: type[Part], places: list[str]) -> str:
-    title = ", ".join(f"`{place}`" for place in places if place) or "The whole file"
-    lines = [f"## {part.__name__}", "", f"{title}: {_sentence(part)}", ""]
-    lines += ["| key | meaning | unit | takes | default |", "|---|---|---|---|---|"]
-    lines += [_row(name, field) for name, field in part.model_fields.items()]
+def _shared(parts: Iterable[type[Part]]) -> list[type[Part]]:
+    """Return the parts whose keys several others have, too, the nearest base first."""
+    bases = [
+        base
+        for part in parts
+        for base in part.__mro__[1:]
+        if issubclass(base, Part) and base is not Part and base.model_fields
+    ]
+    often = [base for base in dict.fromkeys(bases) if bases.count(base) > 1]
+    return sorted(often, key=lambda base: -len(base.__mro__))
+
+
+def _with_shared(parts: Iterable[type[Part]], shared: list[type[Part]]) -> list[type[Part]]:
+    """Return the parts, each after the bases that have a section of their own."""
+    order = [[*(b for b in reversed(shared) if issubclass(part, b)), part] for part in parts]
+    return list(dict.fromkeys(chain.from_iterable(order)))
+
+
+def _is_kind_of(part: type[Part], base: type[Part]) -> bool:
+    return part is not base and issubclass(part, base)
+
+
+def _section(part: type[Part], places: list[str], bases: list[type[Part]]) -> str:
+    above = {row for base in bases for row in _rows(base)}
+    rows = [row for row in _rows(part) if row not in above]
+    title = ", ".join(f"`{place}`" for place in places if place)
+    lead = f"{title}: " if title else "" if bases or places != [""] else "The whole file: "
+    also = f" Further keys: [{bases[0].__name__}](#{bases[0].__name__.lower()})." if bases else ""
+    lines = [f"## {part.__name__}", "", f"{lead}{_sentence(part)}{also}"]
+    if rows:
+        lines += ["", "| key | meaning | takes | default |", "|---|---|---|---|", *rows]
     return "\n".join([*lines, ""])
+
+
+def _rows(part: type[Part]) -> list[str]:
+    """Return the rows of a part; a key that each kind describes itself has none in their base."""
+    return [_row(name, field) for name, field in part.model_fields.items() if field.description]
 
 
 def _sentence(part: type[Part]) -> str:
@@ -74,7 +110,8 @@ def _row(name: str, field: FieldInfo) -> str:
     text, unit = _unit(field.description or "")
     words = " or ".join(dict.fromkeys(_takes(field.annotation)))
     rules = ", ".join(dict.fromkeys(_rules(field)))
-    cells = [f"`{name}`", text, unit, f"{words}; {rules}" if rules else words, _default(field)]
+    takes = f"{words} [{unit}]" if unit else words
+    cells = [f"`{name}`", text, f"{takes}; {rules}" if rules else takes, _default(field)]
     return "| " + " | ".join(cell.replace("|", "\\|").replace("<", "\\<") for cell in cells) + " |"
 
 
@@ -94,10 +131,8 @@ def _default(field: FieldInfo) -> str:
     if field.is_required():
         return "*required*"
     value = field.get_default(call_default_factory=True)
-    if isinstance(value, Part):
-        return "those of its keys"
-    if value is None or value in ("", (), {}):
-        return "none"
+    if isinstance(value, Part) or value is None or value in ("", (), {}):
+        return ""
     if isinstance(value, tuple):
         return ", ".join(f"{item:g}" for item in value)
     return f"{value:g}" if isinstance(value, float) else str(value)
@@ -129,7 +164,7 @@ def _takes(annotation: Any) -> Iterator[str]:
         return
     elif origin in (Union, UnionType):
         if {*inside} == {float, str}:
-            yield "number or parameter"
+            yield "value"
             return
         for choice in inside:
             yield from _takes(choice)
