@@ -19,6 +19,8 @@ from pyrofit.explore.fit import fit
 from pyrofit.explore.model import model_of
 from pyrofit.explore.save import save
 from pyrofit.explore.session import Session, State, session_of, state_of
+from pyrofit.explore.sets import named_sets
+from pyrofit.results.files import Results
 
 SMOKE = Path(__file__).parents[2] / "config" / "smoke.yaml"
 TRUTH = {"T_p": 605.0, "E_p": 190.0, "rho": 1190.0, "k": 0.2, "cp": 2.1, "eps": 0.9, "dh": 800.0}
@@ -218,3 +220,24 @@ def test_bands_of_the_posterior_stand_at_the_drawn_points(session: Session) -> N
     np.testing.assert_allclose(low, 1e-3 * at, rtol=1e-4)  # shown in g/(m2 s)
     np.testing.assert_allclose(high, 2e-3 * at, rtol=1e-4)
     assert signals["slab_25/back_temperature"]["band"] is None
+
+
+def test_the_published_sets_of_a_study_need_no_results(tmp_path: Path) -> None:
+    paper = pf.read_study(SMOKE.with_name("paper.yaml"))
+    sets, remarks = named_sets(paper, Results(tmp_path), "", tmp_path)
+    assert list(sets) == ["Table 3, kinetics", *(f"{c} published" for c in paper.imp.costs)]
+    assert remarks == []
+    values = sets["RMSE published"]
+    assert values["k_a"] == 0.1083
+    # k = A exp(-E / (R T)) is the rate at the reference temperature.
+    for of, A, E in (("A", 9.98e4, 62.4e3), ("B", 1.0e11, 160.0e3)):
+        assert values[f"E_{of}"] == pytest.approx(1e-3 * E)
+        assert A * np.exp(-E / (8.314462618 * values[f"T_{of}"])) == pytest.approx(0.001)
+    assert values["w_A"] == 0.025
+
+
+@pytest.mark.measured
+def test_the_published_set_has_the_published_cost(tmp_path: Path) -> None:
+    paper = session_of(SMOKE.with_name("paper.yaml"), tmp_path, noise=False)
+    found = paper.curves(State(paper.sets["RMSE published"]))["numbers"]["costs"]["RMSE"]
+    assert found == pytest.approx(paper.study.published.costs["RMSE"]["fit"][0], rel=0.01)

@@ -88,7 +88,7 @@ class Plot {
     const frame = [wide, high, ratio, this.x0, this.x1].join();
     if (frame !== this.frame) this.place(frame);
     const off = curves.map(c => c.map((y, i) => y - s.measured[i]));
-    const above = { top: 14, height: high - 108, residual: false, limits: this.limits([s.measured, ...(s.band || []), ...curves], 0.05, 4) };
+    const above = { top: 14, height: high - 116, residual: false, limits: this.limits([s.measured, ...(s.band || []), ...curves], 0.05, 4) };
     const below = { top: high - 82, height: 48, residual: true, limits: symmetric(this.limits(off, 0, 0)) };
     const back = [frame, above.limits, below.limits].join();
     const pen = box.getContext("2d");
@@ -136,7 +136,7 @@ class Plot {
     pen.fillText(`${s.quantity} [${s.unit}]`, this.left, above.top - 1);
     pen.fillText(`simulated − measured [${s.difference}]`, this.left, below.top - 1);
     pen.textAlign = "center";
-    pen.fillText(s.abscissa, this.left + this.width / 2, below.top + below.height + 32);
+    pen.fillText(s.abscissa, this.left + this.width / 2, below.top + below.height + 33);
     this.clipped(pen, above, Y => { if (s.band) this.band(pen, Y); this.points(pen, Y); });
     this.clipped(pen, below, Y => { pen.strokeStyle = "#9aa2a8"; line(pen, [[this.left, Y(0)], [this.left + this.width, Y(0)]]); });
   }

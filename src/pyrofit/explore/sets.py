@@ -1,5 +1,6 @@
 """Parameter sets to start from and to compare: of the study, of its results, of files."""
 
+import math
 from collections.abc import Iterator
 from pathlib import Path
 
@@ -7,6 +8,7 @@ from pyrofit.analysis.best_sets import published_sets
 from pyrofit.analysis.uses import ESTIMATES
 from pyrofit.api.choices import in_units
 from pyrofit.config import Study
+from pyrofit.constants import GAS_CONSTANT
 from pyrofit.errors import PyrofitError
 from pyrofit.exchange.sets import DIAGNOSIS, TRUTH, parameter_set
 from pyrofit.results.files import Results
@@ -17,7 +19,7 @@ Named = dict[str, dict[str, float]]
 
 
 def named_sets(study: Study, results: Results, given: str, beside: Path) -> tuple[Named, list[str]]:
-    """Return the sets of a study that have all values, and why others are left out.
+    """Return the sets of a study, and why others are left out.
 
     Parameters
     ----------
@@ -33,16 +35,66 @@ def named_sets(study: Study, results: Results, given: str, beside: Path) -> tupl
     StudyError
         The given set is missing or broken.
     """
+    kinetics = _kinetics(study)
+    used = kinetics.get(study.imp.kinetics, {})
+    own = {f"{name}, kinetics": values for name, values in kinetics.items()}
+    for cost, best in published_sets(study).items():
+        own[f"{cost} published"] = {**used, **in_units(study, best)}
     found: Named = {}
     remarks = []
     if given:
-        found[given] = _values(study, results, given, beside)
+        found[given] = own.get(given) or _values(study, results, given, beside)
     for label in _labels(study, results):
         try:
-            found.setdefault(label, _values(study, results, label, beside))
+            found.setdefault(label, {**used, **_values(study, results, label, beside)})
         except PyrofitError as error:
             remarks.append(str(error))
-    return found, remarks
+    return {**found, **own}, remarks
+
+
+def _kinetics(study: Study) -> Named:
+    sets = study.kinetics.sets if study.kinetics else ()
+    return {name: in_units(study, kinetics_of(study, name)) for name in sets}
+
+
+def kinetics_of(study: Study, name: str) -> dict[str, float]:
+    """Return published kinetics as values of the parameters that describe the reactions.
+
+    A reaction that is described by its rate k at a temperature T has T = E / (R ln(A / k)).
+
+    Parameters
+    ----------
+    study, name
+        The study, and a name in its ``kinetics.sets``.
+
+    Returns
+    -------
+    dict
+        SI values; numbers that no parameter stands for are left out.
+
+    Examples
+    --------
+    >>> import pyrofit as pf
+    >>> round(kinetics_of(pf.read_study("config/paper.yaml"), "Table 3")["T_B"], 1)
+    597.0
+    """
+    assert study.kinetics is not None
+    chosen = study.kinetics.sets[name]
+    places: list[tuple[object, object]] = []
+    for of, published in chosen.reactions.items():
+        described = study.material.reactions[of]
+        rate, E = described.reference_rate_1_s, published.E_J_mol
+        if isinstance(rate, float) and published.A_1_s > rate > 0.0:
+            T = E / (GAS_CONSTANT * math.log(published.A_1_s / rate))
+            places.append((described.reference_temperature_K, T))
+        places += [(described.A_1_s, published.A_1_s), (described.E_J_mol, E)]
+        places.append((described.order, published.order))
+    places += [(study.material.composition[of], share) for of, share in chosen.composition.items()]
+    return {
+        place: value
+        for place, value in places
+        if isinstance(place, str) and place in study.parameters and isinstance(value, float)
+    }
 
 
 def _values(study: Study, results: Results, label: str, beside: Path) -> dict[str, float]:
@@ -58,6 +110,5 @@ def _labels(study: Study, results: Results) -> Iterator[str]:
             yield from dict.fromkeys([ESTIMATES, *sets_of(study, results)])
         except PyrofitError:  # the run has not come to its end
             yield ESTIMATES
-        yield from (f"{cost} published" for cost in published_sets(study))
     if results.diagnosis("diagnosis.json").exists():
         yield DIAGNOSIS
