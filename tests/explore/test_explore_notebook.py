@@ -11,6 +11,7 @@ from typing import Any
 import pytest
 
 import pyrofit as pf
+from pyrofit.cli.exploring import INSTALLED_TWIN
 from pyrofit.errors import StudyError
 from pyrofit.explore.run import Explorer
 from pyrofit.explore.session import Session
@@ -67,3 +68,7 @@ def test_ctrl_c_ends_the_command(tmp_path: Path) -> None:
         assert process.wait(20) == 0
     with pytest.raises(ConnectionError):
         http.client.HTTPConnection(address.split("/")[2], timeout=5).connect()
+
+
+def test_the_study_of_the_package_is_the_shipped_twin() -> None:
+    assert INSTALLED_TWIN.read_bytes() == SMOKE.with_name("twin.yaml").read_bytes()

@@ -158,6 +158,12 @@ def test_smoke_runs_in_an_empty_folder(installed: Installed) -> None:
         assert "software/requirements.txt" in file.namelist()
 
 
+def test_explorer_without_a_study_opens_the_twin(installed: Installed) -> None:
+    installed.pyrofit("explore", "--static", "page.html", "--sliders", "dh")
+    page = (installed.folder / "page.html").read_text(encoding="utf-8")
+    assert '"name": "twin"' in page
+
+
 def test_new_study_is_planned_and_targets_are_listed(installed: Installed) -> None:
     listed = installed.pyrofit("run", "--list")
     assert {"diagnose", "archive", "posterior"} <= {line.split()[0] for line in listed.splitlines()}

@@ -6,6 +6,8 @@ from pathlib import Path
 from typing import Any
 
 TWIN = Path("config/twin.yaml")
+INSTALLED_TWIN = Path(__file__).parents[1] / "explore" / "twin.yaml"
+"""The same study, for folders without the repository."""
 
 
 def add(commands: Any) -> None:
@@ -13,7 +15,7 @@ def add(commands: Any) -> None:
     words = "move the parameters of a study in the browser, and see its curves follow"
     command = commands.add_parser("explore", help=words, description=words)
     command.add_argument(
-        "study", type=Path, nargs="?", default=TWIN, help=f"study file; default: {TWIN}"
+        "study", type=Path, nargs="?", help="study file; default: twin, of known truth"
     )
     command.add_argument("--results", type=Path, help="results folder; default results/<name>")
     command.add_argument(
@@ -36,11 +38,15 @@ def add(commands: Any) -> None:
     command.set_defaults(step=_explore)
 
 
+def _study(given: argparse.Namespace) -> Path:
+    return given.study or (TWIN if TWIN.exists() else INSTALLED_TWIN)
+
+
 def _write(given: argparse.Namespace) -> None:
     from pyrofit.explore.session import session_of
     from pyrofit.explore.static import write_static
 
-    session = session_of(given.study, given.results, given.set, noise=False)
+    session = session_of(_study(given), given.results, given.set, noise=False)
     write_static(session, given.sliders, given.set, given.static)
     print(given.static)
 
@@ -53,7 +59,7 @@ def _explore(given: argparse.Namespace) -> None:
         return
     from pyrofit.explore.run import Explorer
 
-    explorer = Explorer(given.study, given.results, given.set, given.port)
+    explorer = Explorer(_study(given), given.results, given.set, given.port)
     print(f"{explorer.address}\nCtrl-C ends it.", flush=True)
     if not given.no_browser:
         webbrowser.open(explorer.address)
