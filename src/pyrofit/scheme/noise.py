@@ -12,7 +12,7 @@ for each scheme, so that neither the number of points nor a fixed floor decides.
 
 import math
 from collections.abc import Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from functools import cached_property
 
 import numpy as np
@@ -27,6 +27,20 @@ from pyrofit.solver.arrays import FloatArray
 LOG_2_PI = math.log(2.0 * math.pi)
 LEAST = 0.05
 """Least g, so that no point is free of discrepancy."""
+
+
+@dataclass(frozen=True, eq=False)
+class Noise(NoiseModel):
+    """Noise of a whole covariance C: whitening is the product with ``inverse``, L^-1 of C = L L^T.
+
+    ``inverse`` has the shape (n, n).
+    """
+
+    inverse: FloatArray = field(default_factory=lambda: np.eye(1))
+
+    def whiten(self, residual: FloatArray) -> FloatArray:
+        """Return L^-1 r of residuals, shape (n,) or (n, k)."""
+        return np.asarray(linear.product(self.inverse, residual))
 
 
 @dataclass(frozen=True, eq=False)
@@ -45,26 +59,17 @@ class Scatter:
         g = np.maximum(2.0 * np.sqrt(r.converted * (1.0 - r.converted)), LEAST)
         return drift, np.outer(g, g) * functions.exp(-apart / given.discrepancy_length_K)
 
-    def _lasting(self, size: float) -> FloatArray:
-        drift, unit = self._parts
-        moved = self.settings.repeat_shift_K * self.record.slope
-        return np.asarray(drift + np.outer(moved, moved) + size**2 * unit)
-
     def covariance(self, size: float) -> FloatArray:
         """Return C, shape (n, n)."""
-        points = self.record.mass.size
-        return np.asarray(self._lasting(size) + self.settings.scatter**2 * np.eye(points))
+        drift, unit = self._parts
+        moved = self.settings.repeat_shift_K * self.record.slope
+        lasting = drift + np.outer(moved, moved) + size**2 * unit
+        return np.asarray(lasting + self.settings.scatter**2 * np.eye(self.record.mass.size))
 
-    def noise(self, size: float) -> NoiseModel:
+    def noise(self, size: float) -> "Noise":
         """Return the noise of a channel that has this covariance."""
-        values, vectors = linear.eigen(self._lasting(size))
-        kept = values > 1e-4 * self.settings.scatter**2
-        return NoiseModel(
-            sd=np.full(self.record.mass.size, self.settings.scatter),
-            correlation=Correlation(),
-            origin="repeats",
-            modes=vectors[:, kept] * np.sqrt(values[kept]),
-        )
+        sd = np.full(self.record.mass.size, self.settings.scatter)
+        return Noise(sd, Correlation(), origin="repeats", inverse=self.factors[size][0])
 
     @cached_property
     def factors(self) -> dict[float, tuple[FloatArray, float]]:
