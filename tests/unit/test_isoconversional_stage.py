@@ -8,6 +8,7 @@ import pytest
 from test_stages import estimated_by_hand
 
 import pyrofit as pf
+from pyrofit.analysis.isoconversional.analyse import no_table
 from pyrofit.analysis.isoconversional.records import masses
 from pyrofit.errors import DataError, StudyError
 from pyrofit.results import isoconversional
@@ -104,3 +105,11 @@ def test_tables_without_a_column_are_refused() -> None:
         pf.isoconversional({"a": table, "b": table})
     with pytest.raises(DataError, match=r"'a' has the shape \(4, 2\)"):
         pf.isoconversional({"a": np.ones((4, 2)), "b": np.ones((4, 2))})
+
+
+def test_reactions_that_are_offered_are_kept_beside_the_findings(tmp_path: Path) -> None:
+    results = Results(tmp_path)
+    assert isoconversional.offers(results) == []
+    isoconversional.write(results, no_table(), ["E varies."], None, ["Two reactions."])
+    assert isoconversional.findings(results) == ["E varies."]
+    assert isoconversional.offers(results) == ["Two reactions."]

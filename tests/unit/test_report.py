@@ -17,7 +17,7 @@ from pyrofit.errors import DataError
 from pyrofit.results import identification
 from pyrofit.results.files import Results, read_csv, read_json, write_csv, write_json, write_text
 from pyrofit.results.step import write_options
-from pyrofit.show.answer.next_steps import advice
+from pyrofit.show.answer.next_steps import advice, next_steps
 from pyrofit.show.answer.summary import summary
 from pyrofit.show.facts import Facts, facts_of
 from pyrofit.show.report import tables_of, write_report
@@ -561,3 +561,11 @@ def test_missing_figure_is_named(tmp_path: Path) -> None:
     write_tables(study, results)
     with pytest.raises(DataError, match=r"overview\.svg: cannot be read"):
         write_report(study, results)
+
+
+def test_reactions_that_are_offered_stand_among_the_next_steps(tmp_path: Path) -> None:
+    study, results = fake(tmp_path)
+    facts = replace(facts_in(study, results), offers=["Two reactions predict better."])
+    said = list(next_steps(study, facts))
+    assert "Two reactions predict better." in said
+    assert said.index("Two reactions predict better.") < len(said) - 1

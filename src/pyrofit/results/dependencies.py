@@ -120,10 +120,16 @@ def kinetics(study: Study) -> Slice:
     }
 
 
+OF_SCHEMES = "volatile", "tga_lag"
+"""Effects that reaction schemes may have."""
+
+
 def isoconversional(study: Study) -> Slice:
-    """All masses of heated samples, and the model that is fitted to them."""
+    """All masses of heated samples, the model that is fitted to them, and schemes beside it."""
     heated = {n: _measured(study, n) for n in study.of_stage("kinetics")}
-    return {"heated": heated, "fit": identify(study) if study.kinetics is None else kinetics(study)}
+    fit = identify(study) if study.kinetics is None else kinetics(study)
+    of_schemes = code_of(study, more=OF_SCHEMES)["effects"]
+    return {"heated": heated, "fit": fit, "schemes": of_schemes}
 
 
 def imp(study: Study, cost: str, optimiser: str) -> Slice:

@@ -64,6 +64,8 @@ class Facts:
         Wall times of the searches by optimiser [s], as far as they were measured.
     isoconversional
         What the activation energies over conversion show, in sentences.
+    offers
+        Which reactions would describe the masses better, in sentences.
     ensemble
         Number of sets drawn from the posterior; 0 where it was not sampled, or did not converge.
     """
@@ -82,6 +84,7 @@ class Facts:
     scores: list[Score]
     times: Mapping[str, list[float]]
     isoconversional: list[str]
+    offers: list[str]
     ensemble: int
 
 
@@ -114,6 +117,7 @@ def facts_of(study: Study, results: Results, tables: Frames) -> Facts:
         scores=scores(study, predicted),
         times=wall_times(study, results),
         isoconversional=isoconversional.findings(results),
+        offers=isoconversional.offers(results),
         ensemble=_ensemble(study, results),
     )
 

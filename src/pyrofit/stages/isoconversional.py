@@ -18,10 +18,13 @@ from pyrofit.logs import Tell
 from pyrofit.results import identification, isoconversional, kinetics
 from pyrofit.results.files import Results
 from pyrofit.results.recorded import load
+from pyrofit.stages.more_reactions import more_reactions
 
 
 def analyse_masses(study: Study, results: Results, tell: Tell) -> None:
     """Write ``isoconversional``: energies by three methods, and what they show.
+
+    Where the fit misses the masses, a scheme of more reactions is chosen, and what it is worth.
 
     The model is that of the fitted kinetics, or in a study without that stage the optimum of the
     inverse modelling. Without these results, the masses are analysed alone.
@@ -51,8 +54,10 @@ def analyse_masses(study: Study, results: Results, tell: Tell) -> None:
         isoconversional.write(results, no_table(), said, None)
         return
     found = analyse(curves, _model(study, results, measurements, still, tell))
-    isoconversional.write(results, found.table, said + findings(found), found.temperature_sd_K)
-    for text in said + findings(found):
+    said += findings(found)
+    offers = list(more_reactions(study, results, measurements, tell))
+    isoconversional.write(results, found.table, said, found.temperature_sd_K, offers)
+    for text in [*said, *offers]:
         tell(text)
 
 

@@ -30,8 +30,9 @@ def next_steps(study: Study, facts: Facts) -> Iterator[str]:
             f"Widen the limits of {listed(bound)} if the material allows it; else look for the "
             "effect that the model lacks."
         )
+    yield from facts.offers
     missed = [stage for stage, found in facts.goodness.items() if not found.describes]
-    for stage in missed:
+    for stage in missed[1:] if facts.offers else missed:
         yield f"{STAGES[stage].capitalize()}: {_lower(NEXT[stage])} ({_COMMANDS[stage]})."
     loose = [e.name for e in ours if e.grade in ("weakly determined", "undetermined")]
     if loose and not missed:

@@ -6,5 +6,5 @@ from pyrofit.show.isoconversional.names import NOTHING
 
 
 def sentences(study: Study, facts: Facts) -> list[str]:
-    """Return the findings of the analysis."""
-    return list(facts.isoconversional) or [NOTHING]
+    """Return the findings of the analysis, and the reactions that it offers."""
+    return [*(facts.isoconversional or [NOTHING]), *facts.offers]
