@@ -17,11 +17,9 @@ This page is generated: `pyrofit reference --of commands > docs/commands.md`.
 
 ## Arguments of many commands
 
-| argument | meaning |
-|---|---|
 """
 _MANY = 5
-"""Rows that as many commands have stand at the head of the page."""
+"""Lines that as many commands have stand at the head of the page."""
 
 
 def commands_page(program: argparse.ArgumentParser) -> str:
@@ -51,7 +49,7 @@ def _section(name: str, text: str, rows: list[str], common: list[str]) -> str:
     lines = [f"## `{name}`", "", f"{text[:1].upper()}{text[1:]}.", ""]
     own = [row for row in rows if row not in common]
     if own:
-        lines += ["| argument | meaning |", "|---|---|", *own, ""]
+        lines += [*own, ""]
     names = [row.split("`")[1] for row in rows if row in common]
     if names:
         lines += [f"{'Also' if own else 'Takes'} {', '.join(f'`{name}`' for name in names)}.", ""]
@@ -63,12 +61,13 @@ def _rows(parser: argparse.ArgumentParser) -> list[str]:
 
 
 def _row(action: argparse.Action) -> str:
-    """Return the row of an argument: its names, its value and its help."""
+    """Return the line of an argument: its names, its value and its help."""
     names = ", ".join(f"`{name}`" for name in action.option_strings) or f"`{_value(action)}`"
     value = f" `{_value(action)}`" if action.option_strings and action.nargs != 0 else ""
     required = action.required and bool(action.option_strings)
-    text = (action.help or "").replace("|", "\\|").replace("*", "\\*")
-    return f"| {names}{value} | {text}{' (required)' if required else ''} |"
+    text = (action.help or "").replace("*", "\\*").replace("<", "\\<")
+    meaning = f": {text}" if text else ""
+    return f"- {names}{value}{', required' if required else ''}{meaning}"
 
 
 def _value(action: argparse.Action) -> str:

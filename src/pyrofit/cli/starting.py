@@ -29,8 +29,8 @@ def add(commands: Any) -> None:
         "--form",
         type=Path,
         metavar="FILE",
-        help="write a form for a contribution to a data base, in Markdown; exit with 2 if a file "
-        "has a fault or is not classified",
+        help="write a form for a contribution to a data base, in Markdown; exit with 2 at "
+        "a fault or an unclassified file",
     )
     doctor.add_argument("--notes", action="store_true", help="list placeholders and the like too")
     doctor.add_argument("--short", action="store_true", help="print the counts alone")

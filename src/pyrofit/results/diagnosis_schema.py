@@ -195,7 +195,7 @@ class OfGap(Record):
     role: str = Field(description="`calibration` or `held out`")
     tells: bool | None = Field(
         description="a held-out test can tell whether an effect of the verdict is real; null if "
-        "fitted, or without such effects"
+        "fitted, or without effects"
     )
     points: int = Field(description="number of points")
     unit: str = Field(description="SI unit of the signal")

@@ -15,15 +15,24 @@ _TYPES = {
 }
 
 
+_HEAD = """\
+# Keys of `diagnosis.json`
+
+Find a key of the [result of a diagnosis](diagnosis.md), which is in `results/<study>/diagnosis/`. A
+key without a type is a number.
+
+This page is generated: `pyrofit reference --of diagnosis > docs/diagnosis_json.md`.
+"""
+
+
 def schema_page() -> str:
     """Return the keys of ``diagnosis.json`` as Markdown."""
-    parts = ["# Keys of `diagnosis.json`", "", "Written by `pyrofit reference --of diagnosis`.", ""]
+    parts = [_HEAD]
     for record in _records():
         parts += [f"## {_title(record)}", "", f"{record.__doc__}", ""]
-        parts += ["| key | type | meaning |", "|---|---|---|"]
         for name, field in record.model_fields.items():
-            words = _words(field.annotation)
-            parts.append(f"| `{field.alias or name}` | {words} | {field.description} |")
+            words = "" if field.annotation is float else f" ({_words(field.annotation)})"
+            parts.append(f"- `{field.alias or name}`{words}: {field.description}")
         parts.append("")
     return "\n".join(parts)
 
