@@ -40,16 +40,16 @@ def test_page_of_commands_has_options_that_are_known_late() -> None:
 
 
 def test_every_key_of_a_study_is_described() -> None:
-    rows = [line.split(" | ") for line in reference_page().splitlines() if line.startswith("| `")]
+    rows = [line for line in reference_page().splitlines() if line.startswith("- `")]
     assert len(rows) > 120
-    assert [row[0] for row in rows if not row[1].strip()] == []
-    assert [row[0] for row in rows if not row[2].strip()] == []
+    described = re.compile(r"- `\w+`(, required)?: \S.*\S\. \S.*\.")
+    assert [row for row in rows if not described.fullmatch(row) or ": . " in row] == []
 
 
 def test_keys_that_kinds_of_experiment_share_stand_once() -> None:
     page = reference_page()
     for key in ("laboratory", "heating_rate_K_min", "front", "thickness_sd"):
-        assert len(re.findall(rf"^\| `{key}` \|", page, re.M)) == 1, key
+        assert len(re.findall(rf"^- `{key}`[,:] ", page, re.M)) == 1, key
     tga = page.split("## Tga\n")[1].split("\n## ")[0]
     heated = page.split("## HeatedExperiment\n")[1].split("\n## ")[0]
     assert "Further keys: [HeatedExperiment](#heatedexperiment)." in tga
@@ -64,7 +64,7 @@ def test_page_has_the_keys_that_the_shipped_studies_use() -> None:
             return {str(k) for k in part} | {k for v in part.values() for k in keys(v)}
         return {k for v in part for k in keys(v)} if isinstance(part, list) else set()
 
-    known = set(re.findall(r"^\| `(\w+)`", page, re.M))
+    known = set(re.findall(r"^- `(\w+)`", page, re.M))
     for file in ("smoke", "twin", "pmma", "paper"):
         given = read_mapping(ROOT / "config" / f"{file}.yaml")
         top = set(given) | {k for k in keys(given["experiments"]) if "_" in k and k[-1] in "sKm"}
@@ -73,15 +73,14 @@ def test_page_has_the_keys_that_the_shipped_studies_use() -> None:
 
 def test_page_tells_units_limits_and_usual_values() -> None:
     page = reference_page()
-    row = "| `heating_rate_K_min` | nominal heating rate | number [K/min]; above 0 | *required* |"
-    assert row in page
-    row = (
-        "`wall_temperature_K` | temperature of the radiating surroundings, may follow a table over "
-    )
-    assert f"{row}time | value or [TimeTable](#timetable) [K]; above 0, at least 150 |" in page
-    row = "| `repetitions` | repetitions per cost | whole number; at least 1, at most 100000 |"
-    assert f"{row} 25 |" in page
+    row = "- `heating_rate_K_min`, required: nominal heating rate. Number [K/min]; above 0."
+    assert f"{row}\n" in page
+    row = "- `wall_temperature_K`: temperature of the radiating surroundings, may follow a table"
+    kind = "Value or [TimeTable](#timetable) [K]; above 0, at least 150; default 293.15."
+    assert f"{row} over time. {kind}\n" in page
+    row = "- `repetitions`: repetitions per cost. Whole number; at least 1, at most 100000;"
+    assert f"{row} default 25.\n" in page
     for name in Study.model_fields:
-        assert f"| `{name}` |" in page
+        assert f"- `{name}`" in page
     for name in Setting.model_fields:
-        assert f"| `{name}` |" in blind_test_keys()
+        assert f"- `{name}`" in blind_test_keys()

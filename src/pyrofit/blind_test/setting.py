@@ -82,7 +82,7 @@ class Plan(Part):
     left_out: Count = Field(
         0,
         description="every n-th effect of full strength is diagnosed again, without the effect "
-        "among the candidates; 0 = none; 1 = pairs without their second effect as well",
+        "among the candidates. 0 = none; 1 = pairs without their second effect as well",
     )
     most: dict[Kind, Count] = Field(
         default_factory=dict, description="largest number of twins, by kind"

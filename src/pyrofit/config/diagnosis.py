@@ -34,7 +34,7 @@ class Diagnosis(Part):
     plausible: dict[str, tuple[float, float]] = Field(
         default_factory=dict,
         description="plausible range of the strength of an effect of apparatus or surroundings, SI "
-        "unit, two standard deviations to either side; none = that of the catalogue",
+        "unit, two standard deviations to either side. None = that of the catalogue",
     )
     most_effects: int = Field(6, ge=1, le=6, description="effects that are added at most")
 

@@ -17,10 +17,10 @@ _HEAD = """\
 # Keys of a study
 
 Every key that a study file may have, by its place. `<name>` is a name of your choice, and `[]`
-marks the items of a list. A *value* is a number or the name of one of the `parameters`, units stand
-in brackets. A key without a default may be left out unless it is *required*. Unknown keys are
-refused, with the nearest known one; `pyrofit check STUDY` reports all errors. The studies in this
-folder are examples, and `pyrofit init NAME` writes one for your own material.
+marks the items of a list. A *value* is a number or the name of one of the `parameters`. Units stand
+in brackets. All keys may be left out but those that are required. Unknown keys are refused, with
+the nearest known one; `pyrofit check STUDY` reports all errors. The studies in this folder are
+examples, and `pyrofit init NAME` writes one for your own material.
 
 Units of parameters: {units}.
 
@@ -86,18 +86,19 @@ def _is_kind_of(part: type[Part], base: type[Part]) -> bool:
 def _section(part: type[Part], places: list[str], bases: list[type[Part]]) -> str:
     above = {row for base in bases for row in _rows(base)}
     rows = [row for row in _rows(part) if row not in above]
+    if not places:  # a key that each kind describes itself
+        rows = [row for row in rows if ": . " not in row]
     title = ", ".join(f"`{place}`" for place in places if place)
     lead = f"{title}: " if title else "" if bases or places != [""] else "The whole file: "
     also = f" Further keys: [{bases[0].__name__}](#{bases[0].__name__.lower()})." if bases else ""
     lines = [f"## {part.__name__}", "", f"{lead}{_sentence(part)}{also}"]
     if rows:
-        lines += ["", "| key | meaning | takes | default |", "|---|---|---|---|", *rows]
+        lines += ["", *rows]
     return "\n".join([*lines, ""])
 
 
 def _rows(part: type[Part]) -> list[str]:
-    """Return the rows of a part; a key that each kind describes itself has none in their base."""
-    return [_row(name, field) for name, field in part.model_fields.items() if field.description]
+    return [_row(name, field) for name, field in part.model_fields.items()]
 
 
 def _sentence(part: type[Part]) -> str:
@@ -111,8 +112,11 @@ def _row(name: str, field: FieldInfo) -> str:
     words = " or ".join(dict.fromkeys(_takes(field.annotation)))
     rules = ", ".join(dict.fromkeys(_rules(field)))
     takes = f"{words} [{unit}]" if unit else words
-    cells = [f"`{name}`", text, f"{takes}; {rules}" if rules else takes, _default(field)]
-    return "| " + " | ".join(cell.replace("|", "\\|").replace("<", "\\<") for cell in cells) + " |"
+    default = _default(field)
+    told = [takes, rules, f"default {default}" if default else ""]
+    required = ", required" if field.is_required() else ""
+    kind = "; ".join(filter(None, told))
+    return f"- `{name}`{required}: {text}. {kind[0].upper()}{kind[1:]}.".replace("<", "\\<")
 
 
 def _unit(description: str) -> tuple[str, str]:
@@ -129,7 +133,7 @@ def _unit(description: str) -> tuple[str, str]:
 
 def _default(field: FieldInfo) -> str:
     if field.is_required():
-        return "*required*"
+        return ""
     value = field.get_default(call_default_factory=True)
     if isinstance(value, Part) or value is None or value in ("", (), {}):
         return ""

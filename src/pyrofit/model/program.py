@@ -39,7 +39,7 @@ class Reading(Part):
     )
     holds: Literal["point", "before"] = Field(
         "point",
-        description="`point`: a value belongs to its time; `before`: it is the mean since the "
+        description="`point`: a value belongs to its time. `before`: it is the mean since the "
         "time of the row before, as in device files of FDS",
     )
     sample_mass_kg: AboveZero | None = Field(
