@@ -2,6 +2,7 @@
 
 import base64
 import json
+import sys
 import time
 from collections.abc import Mapping
 from pathlib import Path
@@ -12,7 +13,7 @@ import pandas as pd
 import pytest
 
 import pyrofit as pf
-from pyrofit.config import Study
+from pyrofit.config import Study, as_study
 from pyrofit.errors import StudyError
 from pyrofit.explore.describe import describe
 from pyrofit.explore.fit import fit
@@ -21,6 +22,10 @@ from pyrofit.explore.save import save
 from pyrofit.explore.session import Session, State, session_of, state_of
 from pyrofit.explore.sets import named_sets
 from pyrofit.results.files import Results
+
+sys.path.insert(0, str(Path(__file__).parents[1] / "recovery"))
+import test_cone_twin as cone
+from calorimetry_study import STUDY as CALORIMETRY
 
 SMOKE = Path(__file__).parents[2] / "config" / "smoke.yaml"
 TRUTH = {"T_p": 605.0, "E_p": 190.0, "rho": 1190.0, "k": 0.2, "cp": 2.1, "eps": 0.9, "dh": 800.0}
@@ -241,3 +246,32 @@ def test_the_published_set_has_the_published_cost(tmp_path: Path) -> None:
     paper = session_of(SMOKE.with_name("paper.yaml"), tmp_path, noise=False)
     found = paper.curves(State(paper.sets["RMSE published"]))["numbers"]["costs"]["RMSE"]
     assert found == pytest.approx(paper.study.published.costs["RMSE"]["fit"][0], rel=0.01)
+
+
+def test_every_kind_of_test_has_curves_and_effects() -> None:
+    for study in (as_study(CALORIMETRY, "calorimetry.yaml"), cone.study()):
+        of_kinds = session_of(study, noise=False)
+        state = State(of_kinds.sets["truth"])
+        found = of_kinds.curves(state)
+        assert found["failed"] == {}
+        assert all(one["rms"] > 0.0 for one in found["numbers"]["signals"].values())
+        before = drawn_curves(of_kinds, state)
+        moved = set()
+        for effect in of_kinds.description()["effects"]:
+            numbers = {n["name"]: n["start"] for n in effect["numbers"]}
+            on = State({**state.values, **numbers}, (effect["name"],))
+            after = drawn_curves(of_kinds, on)
+            moved |= {name for name, y in after.items() if not np.array_equal(y, before[name])}
+        assert moved == set(before)
+
+
+def test_curves_of_another_program_follow(tmp_path: Path) -> None:
+    plate = session_of(SMOKE.with_name("hotplate.yaml"), tmp_path, noise=False)
+    truth = plate.sets["truth"]
+    name = next(iter(truth))
+    near, far = (drawn_curves(plate, State({**truth, name: f * truth[name]})) for f in (1.0, 1.1))
+    signals = {s["id"]: s for s in plate.description()["signals"]}
+    for key, curve in near.items():
+        measured = np.array(signals[key]["measured"])
+        assert np.sqrt(np.mean((curve - measured) ** 2)) < 0.05 * np.ptp(measured)
+        assert not np.array_equal(curve, far[key])

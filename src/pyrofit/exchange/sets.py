@@ -45,7 +45,23 @@ class ParameterSet(NamedTuple):
 
 
 def parameter_set(study: Study, results: Results, label: str, beside: Path) -> ParameterSet:
-    """Return the set of a label.
+    """Return the set of a label with its material, as `named_set` does.
+
+    Raises
+    ------
+    StudyError
+        As of `named_set`, or the study has no material.
+    """
+    if not study.material.components:
+        raise StudyError(
+            f"study '{study.name}' has no material: other programs simulate its experiments. "
+            "Export a study whose experiments pyrofit simulates"
+        )
+    return named_set(study, results, label, beside)
+
+
+def named_set(study: Study, results: Results, label: str, beside: Path) -> ParameterSet:
+    """Return the set of a label; without a material if other programs simulate all experiments.
 
     Parameters
     ----------
@@ -61,13 +77,8 @@ def parameter_set(study: Study, results: Results, label: str, beside: Path) -> P
     Raises
     ------
     StudyError
-        There is no such set, a value is missing, or the study has no material.
+        There is no such set, or a value is missing.
     """
-    if not study.material.components:
-        raise StudyError(
-            f"study '{study.name}' has no material: other programs simulate its experiments. "
-            "Export a study whose experiments pyrofit simulates"
-        )
     label = label or _usual(study, results, beside)
     if label.endswith(".json"):
         chosen = ParameterSet(label, _fitted(study), {**study.fixed_values(), **_file(label)}, {})

@@ -10,7 +10,7 @@ from pyrofit.api.choices import in_units
 from pyrofit.config import Study
 from pyrofit.constants import GAS_CONSTANT
 from pyrofit.errors import PyrofitError
-from pyrofit.exchange.sets import DIAGNOSIS, TRUTH, parameter_set
+from pyrofit.exchange.sets import DIAGNOSIS, TRUTH, named_set
 from pyrofit.results.files import Results
 from pyrofit.stages.predict import sets_of
 
@@ -98,7 +98,7 @@ def kinetics_of(study: Study, name: str) -> dict[str, float]:
 
 
 def _values(study: Study, results: Results, label: str, beside: Path) -> dict[str, float]:
-    values = parameter_set(study, results, label, beside).values
+    values = named_set(study, results, label, beside).values
     return in_units(study, {n: v for n, v in values.items() if n in study.parameters})
 
 
