@@ -196,6 +196,22 @@ def test_a_saved_study_has_the_same_curves(session: Session, tmp_path: Path) -> 
         np.testing.assert_allclose(saved[name], curve, rtol=1e-6, atol=1e-9)
 
 
+@pytest.mark.parametrize("ticked", [["k"], ["k", "swelling_step"]])
+def test_a_saved_study_keeps_its_measurements(
+    session: Session, tmp_path: Path, ticked: list[str]
+) -> None:
+    numbers = {"swelling_step": 0.5, "swelling_temperature_K": 560.0, "swelling_width_K": 20.0}
+    state = State({**TRUTH, **numbers}, ("swelling",))
+    study, values = save(session, state, ticked, "mine", tmp_path)
+    again = session_of(study, tmp_path, str(values), noise=False)
+    for key, frame in session.measurements.items():
+        pd.testing.assert_frame_equal(again.measurements[key], frame, rtol=1e-9)
+    mine = session.curves(state)["numbers"]
+    assert again.curves(State(again.sets[str(values)]))["numbers"]["costs"] == pytest.approx(
+        mine["costs"], rel=1e-6
+    )
+
+
 def test_a_saved_study_writes_over_nothing(session: Session, tmp_path: Path) -> None:
     save(session, State(TRUTH), ["k"], "mine", tmp_path)
     with pytest.raises(StudyError, match="there already"):

@@ -67,14 +67,20 @@ def _changes(
             changes[f"synthetic.effects.{effect}"] = None
         for key, quantity in known_effects()[effect].quantities.items():
             own = f"{effect}_{key}"
-            effects[effect][key] = own if own in ticked else values[own]
+            if own not in ticked and study.synthetic is None:
+                effects[effect][key] = values[own]
+                continue
+            # Synthetic measurements keep their truth: the number is a parameter, held if not ticked.
+            effects[effect][key] = own
+            p = with_effects.parameters[own]
+            described = p.model_dump(include={"unit", "lower", "upper", "label"})
             if own in ticked:
                 added.append(own)
-                changes[f"parameters.{own}"] = with_effects.parameters[own].model_dump(
-                    include={"unit", "lower", "upper", "label"}
-                )
-                if study.synthetic is not None:
-                    changes[f"synthetic.truth.{own}"] = (true or {}).get(key, quantity.value)
+            else:
+                described["fixed"] = values[own] / p.factor
+            changes[f"parameters.{own}"] = described
+            if study.synthetic is not None:
+                changes[f"synthetic.truth.{own}"] = (true or {}).get(key, quantity.value)
     if study.kinetics is not None and not set(study.kinetics.estimate) & set(ticked):
         changes["kinetics"], changes["imp.kinetics"] = None, "described"
     if not {*study.imp.estimate, *added} & set(ticked):
