@@ -3,7 +3,7 @@
 import json
 import threading
 import time
-from collections.abc import Iterator
+from collections.abc import Iterator, Mapping
 from http.server import BaseHTTPRequestHandler, HTTPServer
 from pathlib import Path
 
@@ -15,6 +15,7 @@ import pyrofit as pf
 from pyrofit.cli import main
 from pyrofit.config import Study
 from pyrofit.explore.describe import in_shown_units
+from pyrofit.explore.fit import Send
 from pyrofit.explore.run import Explorer
 from pyrofit.explore.server import in_background
 from pyrofit.explore.session import Session, State, session_of
@@ -202,6 +203,89 @@ def test_fit_save_and_the_saved_study_has_the_same_curves(
         column = study.experiments[key[0]].quantity(key[1]).column
         y, f = found[key][column].to_numpy(), scored[key][column].to_numpy()
         assert np.sqrt(np.mean((y - f) ** 2)) < 0.02 * np.ptp(f)
+
+
+def test_a_browser_that_is_closed_ends_its_fit(
+    browser: Browser, explorer: Explorer, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    ended = []
+
+    def fit(given: Mapping[str, object], send: Send) -> None:
+        try:
+            while True:
+                send({"said": "The fit goes on"})
+                time.sleep(0.05)
+        finally:
+            ended.append(True)
+
+    monkeypatch.setattr(explorer.server, "streams", {"fit": fit})
+    other = Browser()
+    try:
+        opened(other, explorer.address)
+        other.run("fit()")
+        goes_on = "return byId('message').textContent == 'The fit goes on'"
+        until(lambda: other.run(goes_on), "the fit")
+        assert not ended
+    finally:
+        other.close()
+    until(lambda: ended, "the end of the fit")
+    opened(browser, explorer.address)
+    browser.run(MOVE, "k", 0.4)
+    assert error(browser) == ""
+
+
+def test_hover_tells_values_and_units_and_a_drag_zooms(
+    browser: Browser, explorer: Explorer
+) -> None:
+    opened(browser, explorer.address)
+    browser.run(
+        """
+        const plot = page.plots[arguments[0]], canvas = plot.canvas;
+        window.at = (name, x) => canvas.dispatchEvent(new PointerEvent(name, {
+            clientX: canvas.getBoundingClientRect().left + plot.left + x * plot.width,
+            clientY: canvas.getBoundingClientRect().top + 50, bubbles: true,
+        }));
+        at("pointermove", 0.5);
+        """,
+        SLAB,
+    )
+    said = browser.run("return page.plots[arguments[0]].tip.textContent", SLAB).splitlines()
+    assert [line.split()[0] for line in said] == ["time", "measured", "simulated"]
+    assert said[0].endswith(" s")
+    assert all(line.endswith(" g/(m² s)") for line in said[1:])
+    ends = "const p = page.plots[arguments[0]]; return [p.x0, p.x1];"
+    first, last = browser.run(ends, SLAB)
+    browser.run("at('pointerdown', 0.25); at('pointerup', 0.5);")
+    zoomed = browser.run(ends, SLAB)
+    assert zoomed == pytest.approx([0.75 * first + 0.25 * last, 0.5 * (first + last)], rel=1e-3)
+    browser.run("at('dblclick', 0.5)")
+    assert browser.run(ends, SLAB) == [first, last]
+
+
+def test_a_known_value_is_marked_on_its_slider(
+    browser: Browser, session: Session, tmp_path: Path
+) -> None:
+    study = pf.read_study(session.study, known={"k": {"value": 0.2, "sd": 0.02, "source": "table"}})
+    made = Explorer(study, tmp_path)
+    in_background(made.server)
+    try:
+        opened(browser, made.address)
+        marks = browser.run(
+            "return [...document.querySelectorAll('.mark')].map(m => m.closest('.row').id)"
+        )
+        assert marks == ["row-k"]
+        mark, rail = browser.run(
+            """
+            const mark = document.querySelector(".mark"), rail = mark.parentElement;
+            return [mark.getBoundingClientRect().left - rail.getBoundingClientRect().left,
+                    rail.getBoundingClientRect().width];
+            """
+        )
+        k = study.parameters["k"]
+        assert mark == pytest.approx(8 + (rail - 16) * (0.2 - k.lower) / (k.upper - k.lower), abs=2)
+        assert browser.run("return page.values.k") == pytest.approx(0.2)
+    finally:
+        made.close()
 
 
 def test_a_fit_can_be_cancelled(browser: Browser, explorer: Explorer) -> None:
