@@ -39,9 +39,9 @@ HEAD = """\
 # Gallery
 
 Find the figure that you want: the command above it makes it. Pictures, titles and captions are
-those of the report. The results hold each figure as vector graphics, in the file that is the
-alternative text of the picture. The first section has all figures of a study. The others have the
-figures that show more, without the captions that stand above. Each names the commit that drew it.
+those of the report, which explains more. The results hold each figure as vector graphics, in the
+file that is the alternative text of the picture. The first section has all figures of a study. The
+others have the figures that show more. Each section names the commit that drew it.
 
 `python tools/gallery.py` writes this page from the results.
 """
@@ -131,6 +131,7 @@ GROUPS = (
         "twin_with_k_T",
         "diagnosis",
         report="diagnosis/report.html",
+        only=("mass_loss_rate", "effects", "next_experiments", "profiles", "ranking"),
     ),
     Group(
         "Stability of a diagnosis",
@@ -238,8 +239,8 @@ def section(group: Group, root: Path, above: str) -> str:
         with Image.open(source) as image:
             shrink(image, target)
         name = f"results/{source.relative_to(root).with_suffix('.svg').as_posix()}"
-        again = figure.caption == last_captions(above).get(figure_of(name))
-        caption = "" if again else figure.caption
+        again = first_sentence(figure.caption) == last_captions(above).get(figure_of(name))
+        caption = "" if again else first_sentence(figure.caption)
         parts.append(entry(figure.title, shown(target), caption, name))
     page = root / group.study / group.report
     if group.report and page.is_file():
@@ -250,6 +251,15 @@ def section(group: Group, root: Path, above: str) -> str:
         source_of = f"results/{page.relative_to(root).as_posix()}"
         parts.append(entry(REPORT, shown(target), "", source_of))
     return "\n".join(parts)
+
+
+def first_sentence(caption: str) -> str:
+    """Return the beginning of a caption; the report has all of it.
+
+    >>> first_sentence("Mass, 2.5 mm. Thin: data.")
+    'Mass, 2.5 mm.'
+    """
+    return re.split(r"(?<=\.) ", caption, maxsplit=1)[0]
 
 
 def drawn(group: Group, root: Path) -> Iterator[tuple[Figure, Path]]:
