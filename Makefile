@@ -1,6 +1,7 @@
 # make campaign   everything from nothing: environment, data, the whole study, report
 # make test       everything from nothing: environment, all tests but the long ones
-# make test-long  the tests of whole studies, blind tests, kills, full disks, compilation anew
+# make test-long  the tests of whole studies, blind tests, kills, full disks, compilation anew;
+#                 PART=1/3 make test-long runs a third of their files
 # make test-fast  the tests that neither run the solver nor Snakemake
 # make docs       the documentation as a site, build/docs/index.html
 # make test-slurm the study smoke on a Slurm of virtual nodes; needs root, installs Debian's packages
@@ -8,6 +9,7 @@
 
 PYTHON ?= python3
 CORES ?= 2
+PART ?= 1/1
 VENV := .venv
 export PATH := $(CURDIR)/$(VENV)/bin:$(PATH)
 # Many containers set this; then each process compiles all sources again.
@@ -44,7 +46,7 @@ test: $(VENV)/installed
 	pytest -n $(CORES) --dist loadfile --no-loadscope-reorder -m "not long"
 
 test-long: $(VENV)/installed
-	pytest -n $(CORES) --dist loadfile --no-loadscope-reorder -m long
+	pytest -n $(CORES) --dist loadfile --no-loadscope-reorder -m long --part $(PART)
 
 test-fast: $(VENV)/installed
 	pytest -n $(CORES) -m "not (slow or solver or long)"

@@ -6,6 +6,7 @@ The rest are the fast ones, `make test-fast`; none of them compiles a kernel.
 import os
 import signal
 import sys
+from argparse import ArgumentTypeError
 from collections.abc import Iterator
 from pathlib import Path
 from types import ModuleType
@@ -98,9 +99,24 @@ def _no_run_is_left() -> Iterator[None]:
     os.environ.update(before)
 
 
+def part_of(text: str) -> tuple[int, int]:
+    """Return k and n of the text ``k/n``: the k-th of n parts."""
+    k, _, n = text.partition("/")
+    if not (k.isdigit() and n.isdigit() and 1 <= int(k) <= int(n)):
+        raise ArgumentTypeError(f"--part {text}: write K/N with K from 1 to N, such as 1/3")
+    return int(k), int(n)
+
+
 def pytest_addoption(parser: pytest.Parser) -> None:
     """Let tests repeat faults at random moments more often, and start a Slurm."""
     parser.addoption("--thorough", action="store_true", help="repeat faults often, for an hour")
+    parser.addoption(
+        "--part",
+        type=part_of,
+        default=(1, 1),
+        metavar="K/N",
+        help="of the files of long tests, every N-th from the K-th on",
+    )
     parser.addoption("--slurm", action="store_true", help="start a Slurm on this machine, as root")
 
 
@@ -111,7 +127,15 @@ def class_of(path: Path) -> str | None:
     return FILES.get(path.stem) or FOLDERS.get(path.relative_to(HERE).parts[0])
 
 
-def pytest_collection_modifyitems(items: list[pytest.Item]) -> None:
+def in_part(items: list[pytest.Item], part: tuple[int, int]) -> list[pytest.Item]:
+    """Return items without those of the class `long` whose file is not in a part."""
+    k, n = part
+    files = sorted({item.path for item in items if class_of(item.path) == "long"})
+    others = {path for i, path in enumerate(files) if i % n != k - 1}
+    return [item for item in items if item.path not in others]
+
+
+def pytest_collection_modifyitems(config: pytest.Config, items: list[pytest.Item]) -> None:
     """Mark tests with the speed class of their folder or file; skip those that lack their data."""
     no_data = pytest.mark.skip(reason="PYROFIT_DATA_DIR is not set")
     for item in items:
@@ -121,8 +145,9 @@ def pytest_collection_modifyitems(items: list[pytest.Item]) -> None:
             item.add_marker(pytest.mark.skip(reason="make test-slurm runs it"))
         if name := class_of(item.path):
             item.add_marker(name)
+    kept = in_part(items, config.getoption("--part"))
     # The longest first, so that no process waits for another one at the end.
-    items.sort(key=lambda item: _LONGEST_FIRST.get(item.path.stem, 2))
+    items[:] = sorted(kept, key=lambda item: _LONGEST_FIRST.get(item.path.stem, 2))
 
 
 def pytest_sessionstart() -> None:

@@ -30,10 +30,13 @@ def is_named(planted: Planted) -> bool:
     return any(c.cause == planted.cause and planted.place in c.places for c in causes)
 
 
-def test_at_least_eighteen_of_twenty_errors_are_named() -> None:
+def test_at_least_eighteen_of_twenty_errors_are_named(request: pytest.FixtureRequest) -> None:
+    """All twenty with --thorough; without it a quarter of them, none of which may be missed."""
     assert len(PLANTED) == 20
-    missed = [planted.words for planted in PLANTED if not is_named(planted)]
-    assert len(missed) <= MISSED, missed
+    thorough = request.config.getoption("--thorough")
+    planted = PLANTED if thorough else PLANTED[::4]
+    missed = [one.words for one in planted if not is_named(one)]
+    assert len(missed) <= (MISSED if thorough else 0), missed
 
 
 @pytest.mark.parametrize("name", ["smoke", "twin"])
