@@ -19,6 +19,8 @@ KELVIN = 300.0 + TIME / 6.0
 MASS = 1.0 - 0.9 / (1.0 + np.exp((640.0 - KELVIN) / 12.0))
 FEW = np.delete(np.arange(TIME.size), np.s_[200:240])
 PAUSE = TIME + np.where(TIME > 1500.0, 86400.0, 0.0)
+SLOW = TIME + np.where(TIME > 0.0, 120.0, 0.0)
+"""One point for each kelvin, the first of them late."""
 DENSE = np.where(TIME < 1500.0, TIME / 10.0, TIME - 1350.0)
 
 SUSPECT = {
@@ -57,7 +59,9 @@ def test_suspect_record_is_told_with_the_way_out(
     assert any(way in said for way in ("give", "Give", "divide", "complete", "Delete", "Make"))
 
 
-@pytest.mark.parametrize("time", [TIME, DENSE], ids=["even", "dense in a part"])
+@pytest.mark.parametrize(
+    "time", [TIME, DENSE, SLOW], ids=["even", "dense in a part", "a slow start"]
+)
 def test_good_record_gives_no_note(time: np.ndarray) -> None:
     noise = np.random.default_rng(1).normal(0.0, 0.005, TIME.size)
     frame = frame_of(time, KELVIN, MASS + noise)

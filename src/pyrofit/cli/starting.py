@@ -239,7 +239,7 @@ def _check(given: argparse.Namespace) -> None:
         notes = about["notes"]
         sentences += [note for note in notes if DIFFERS in note]
         sentences += [f"{about['source']}: {n}" for n in notes if n.startswith(LOOK)]
-    for sentence in sentences:
+    for sentence in dict.fromkeys(sentences):  # one file may hold several signals
         print(f"warning: {given.study}: {sentence}", file=sys.stderr)
     print(
         f"{given.study}: study '{study.name}' is valid; {len(read)} measured series read; "

@@ -221,7 +221,16 @@ def _gap(quantity: Quantity, frame: pd.DataFrame) -> str:
     at = int(steps.argmax())
     if steps[at] < max(_GAP * usual, _GAP_SHARE * (time[-1] - time[0])):
         return ""
+    if at == 0 and quantity.against_temperature and _is_of_equal_rise(frame["temperature_K"]):
+        return ""  # heating begins slowly
     return (
         f"no point lies between {time[at]:g} s and {time[at + 1]:g} s, where steps are {usual:.3g} "
         "s elsewhere. The fit tells nothing of this gap; complete the record where you can"
     )
+
+
+def _is_of_equal_rise(temperature: pd.Series) -> bool:
+    """Tell whether a record has a point for each rise by some temperature, the first included."""
+    rises = np.abs(np.diff(temperature.to_numpy(float)))
+    median, usual = np.quantile(rises, (0.5, 0.95))
+    return bool(median > 0.5 * usual and rises[0] < _GAP * usual)
