@@ -70,7 +70,7 @@ def _changes(
             if own not in ticked and study.synthetic is None:
                 effects[effect][key] = values[own]
                 continue
-            # Synthetic measurements keep their truth: the number is a parameter, held if not ticked.
+            # Synthetic measurements keep their truth. The number is a parameter, held or ticked.
             effects[effect][key] = own
             p = with_effects.parameters[own]
             described = p.model_dump(include={"unit", "lower", "upper", "label"})
