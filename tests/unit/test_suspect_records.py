@@ -190,7 +190,7 @@ def test_a_record_that_starts_after_a_drying_is_divided_by_its_start(tmp_path: P
     found = check_measurements(as_study(yaml.safe_load(text), str(tmp_path / "x.yaml")), "x.yaml")
     ((frame, about),) = found.values()
     np.testing.assert_allclose(frame["mass_fraction"], MASS / MASS[0], atol=1e-6)
-    assert not [note for note in about["notes"] if "starts at" in note]
+    assert not [note for note in about.notes if "starts at" in note]
     assert "relative_to" not in made(tmp_path, "", TIME, KELVIN, 99.0 * MASS)
 
 

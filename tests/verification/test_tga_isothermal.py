@@ -92,7 +92,7 @@ def test_file_without_times_has_those_of_the_heating_rate(
     given = yaml.safe_load(Path("x/x.yaml").read_text(encoding="utf-8"))
     frame, about = read_all(as_study(given, "x/x.yaml"))["tga_20K", "mass_fraction"]
     np.testing.assert_allclose(frame["time_s"], [0.0, 30.0, 60.0, 90.0, 180.0, 270.0], rtol=1e-12)
-    assert "left out, the temperature does not rise: 2 rows" in about["notes"]
+    assert "left out, the temperature does not rise: 2 rows" in about.notes
     given["experiments"]["tga_20K"]["set_point_K"] = 400.0
     with pytest.raises(StudyError, match="the files must have times"):
         as_study(given, "x/x.yaml")

@@ -3,7 +3,6 @@
 import contextlib
 from collections import Counter
 from collections.abc import Mapping, Sequence
-from typing import Any
 
 import numpy as np
 
@@ -11,6 +10,7 @@ from pyrofit.config import Study
 from pyrofit.model.base import value_of
 from pyrofit.model.slab import Layer, SlabExperiment
 from pyrofit.numerics import linear
+from pyrofit.results.recorded import About
 from pyrofit.solver.lower import fractions
 from pyrofit.solver.lower_experiment import thicknesses
 
@@ -18,7 +18,7 @@ Record = tuple[str, str]
 """Experiment and signal."""
 
 
-def closure_lines(study: Study, signals: Mapping[str, Any]) -> list[str]:
+def closure_lines(study: Study, signals: About) -> list[str]:
     """Return a line for every record of released mass or heat, and for pairs of equal samples.
 
     Parameters
@@ -26,13 +26,13 @@ def closure_lines(study: Study, signals: Mapping[str, Any]) -> list[str]:
     study
         The study.
     signals
-        ``signals`` of the measurements' summary, with ``released_kg_m2`` where mass is released.
+        The records of the series, by experiment and signal.
     """
     released = {
-        (name, signal): float(about["released_kg_m2"])
+        (name, signal): about.released_kg_m2
         for name, experiment in study.experiments.items()
         for signal, about in signals[name].items()
-        if "released_kg_m2" in about and isinstance(experiment, SlabExperiment)
+        if about.released_kg_m2 is not None and isinstance(experiment, SlabExperiment)
     }
     records = Counter(name for name, _ in released)
     lines = [
@@ -42,13 +42,12 @@ def closure_lines(study: Study, signals: Mapping[str, Any]) -> list[str]:
     return lines + _heats(signals, released) + _spread(study, released)
 
 
-def _heats(signals: Mapping[str, Any], released: Mapping[Record, float]) -> list[str]:
+def _heats(signals: About, released: Mapping[Record, float]) -> list[str]:
     """Return the total heat released of every record, and the effective heat of combustion."""
     masses = {name: mass for (name, _), mass in released.items()}
     lines = []
     for name, of in signals.items():
-        for about in (a for a in of.values() if "released_J_m2" in a):
-            heat = float(about["released_J_m2"])
+        for heat in (a.released_J_m2 for a in of.values() if a.released_J_m2 is not None):
             line = f"{name}: total heat released {heat * 1e-6:.3g} MJ/m²"
             if masses.get(name, 0.0) > 0.0:
                 line += (

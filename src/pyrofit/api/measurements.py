@@ -175,7 +175,7 @@ def _read(study: Study, labels: Mapping[str, str]) -> dict[Key, pd.DataFrame]:
     try:
         found = {}
         for key, (frame, about) in read_all(study).items():
-            frame.attrs["notes"] = about["notes"]
+            frame.attrs["notes"] = about.notes
             found[key] = frame
     except DataError as error:
         text = str(error)

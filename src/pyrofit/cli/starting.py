@@ -236,9 +236,9 @@ def _check(given: argparse.Namespace) -> None:
         lines = f"{'lines' if len(marked) > 1 else 'line'} {', '.join(map(str, marked))}"
         sentences.append(f"set the values marked {MARK} and delete this word: {lines}")
     for _, about in read.values():
-        notes = about["notes"]
+        notes = about.notes
         sentences += [note for note in notes if DIFFERS in note]
-        sentences += [f"{about['source']}: {n}" for n in notes if n.startswith(LOOK)]
+        sentences += [f"{about.source}: {n}" for n in notes if n.startswith(LOOK)]
     for sentence in dict.fromkeys(sentences):  # one file may hold several signals
         print(f"warning: {given.study}: {sentence}", file=sys.stderr)
     print(

@@ -1,14 +1,23 @@
 """Stored activation energies over conversion."""
 
 from collections.abc import Sequence
-from typing import Any
 
 import pandas as pd
+from pydantic import Field
 
-from pyrofit.results.files import Results, read_csv, read_json, write_csv, write_json
+from pyrofit.results.files import Results, read_csv, write_csv, write_json
+from pyrofit.results.record import Record, read_record
 
 ENERGIES = "energies.csv"
 FINDINGS = "findings.json"
+
+
+class Findings(Record):
+    """What the energies show, the error of the temperatures, and what reactions are offered."""
+
+    findings: list[str]
+    temperature_sd_K: float | None
+    offers: list[str] = Field(default_factory=list)
 
 
 def write(
@@ -20,9 +29,10 @@ def write(
 ) -> None:
     """Write energies over conversion, and in sentences what they show and what follows."""
     write_csv(results.isoconversional(ENERGIES), energies)
-    content = {"findings": list(findings), "temperature_sd_K": temperature_sd_K}
-    content |= {"offers": list(offers)} if offers else {}
-    write_json(results.isoconversional(FINDINGS), content)
+    content = Findings(
+        findings=list(findings), temperature_sd_K=temperature_sd_K, offers=list(offers)
+    )
+    write_json(results.isoconversional(FINDINGS), content.model_dump(exclude_defaults=True))
 
 
 def energies(results: Results) -> pd.DataFrame:
@@ -32,14 +42,14 @@ def energies(results: Results) -> pd.DataFrame:
 
 def findings(results: Results) -> list[str]:
     """Return what they show, in sentences; none where the study has no such analysis."""
-    return list(_read(results).get("findings", ()))
+    return found.findings if (found := _read(results)) else []
 
 
 def offers(results: Results) -> list[str]:
     """Return which reactions would describe the masses better, in sentences."""
-    return list(_read(results).get("offers", ()))
+    return found.offers if (found := _read(results)) else []
 
 
-def _read(results: Results) -> dict[str, Any]:
+def _read(results: Results) -> Findings | None:
     path = results.isoconversional(FINDINGS)
-    return read_json(path, {("findings",): list}) if path.exists() else {}
+    return read_record(path, Findings) if path.exists() else None

@@ -1,15 +1,43 @@
 """Measured series as they were read."""
 
-from typing import Any, NamedTuple
+from collections.abc import Mapping
+from typing import NamedTuple
 
 import pandas as pd
+from pydantic import Field
 
 from pyrofit.config import Study
-from pyrofit.results.files import Results, read_csv, read_json
-from pyrofit.results.needed import Keys
+from pyrofit.errors import DataError
+from pyrofit.results.files import Results, read_csv, write_json
+from pyrofit.results.needed import AGAIN
+from pyrofit.results.record import Record, check_names, read_record
 
-About = dict[str, dict[str, dict[str, Any]]]
-"""Records of the read files, by experiment and signal: source, checksum, points, notes."""
+
+class OfFile(Record):
+    """Where a series comes from, and notes on it; computed ones have no checksum."""
+
+    source: str
+    sha256: str
+    uncertainty: str = ""
+    notes: list[str] = Field(default_factory=list)
+
+
+class OfSeries(OfFile):
+    """A series as it was read, with the mass and the heat that it released."""
+
+    points: int
+    released_kg_m2: float | None = None
+    released_J_m2: float | None = None
+
+
+About = Mapping[str, Mapping[str, OfSeries]]
+"""Records of the series, by experiment and signal."""
+
+
+class Summary(Record):
+    """The content of ``measurements/summary.json``."""
+
+    signals: dict[str, dict[str, OfSeries]]
 
 
 class Measured(NamedTuple):
@@ -28,7 +56,7 @@ def measured(study: Study, results: Results) -> Measured:
     DataError
         The measurements have not been read.
     """
-    about: About = summary(study, results)["signals"]
+    about = summary(study, results)
     keys = [(name, signal) for name, signals in about.items() for signal in signals]
     return Measured(about, {(n, s): series(study, results, n, s) for n, s in keys})
 
@@ -51,15 +79,32 @@ def load(study: Study, results: Results) -> dict[tuple[str, str], pd.DataFrame]:
     }
 
 
-def summary(study: Study, results: Results) -> dict[str, Any]:
-    """Return the records of the read files, by experiment and signal."""
-    needs: dict[Keys, type] = {}
+def summary(study: Study, results: Results) -> About:
+    """Return the records of the series, by experiment and signal.
+
+    Raises
+    ------
+    DataError
+        The file is missing or broken, or lacks a series of the study.
+    """
+    path = results.measurements_summary
+    found = read_record(path, Summary).signals
+    check_names(path, "signals", found, study.experiments)
     for name, experiment in study.experiments.items():
+        check_names(path, f"signals.{name}", found[name], experiment.signals)
         for signal in experiment.signals:
-            here = ("signals", name, signal)
-            needs |= {(*here, "source"): str, (*here, "sha256"): str, (*here, "points"): float}
-            if experiment.quantity(signal).released is not None:
-                needs[*here, "released_kg_m2"] = float
-            if experiment.quantity(signal).heat is not None:
-                needs[*here, "released_J_m2"] = float
-    return read_json(results.measurements_summary, needs)
+            quantity, about = experiment.quantity(signal), found[name][signal]
+            for asked, total in (
+                (quantity.released, about.released_kg_m2),
+                (quantity.heat, about.released_J_m2),
+            ):
+                if asked is not None and total is None:
+                    place = f"signals.{name}.{signal}"
+                    raise DataError(f"{path}: '{place}' has no released mass or heat; {AGAIN}")
+    return found
+
+
+def write_summary(results: Results, about: About) -> None:
+    """Write the records of the series, each with the keys that it has."""
+    content = Summary(signals={name: dict(signals) for name, signals in about.items()})
+    write_json(results.measurements_summary, content.model_dump(exclude_unset=True))

@@ -32,7 +32,7 @@ def series(study: Study, measured: Measured, use: Use) -> list[dict[str, Any]]:
                     "experiment": title_of(study, name),
                     "signal": signal_words(study, name, signal),
                     "use": use(study, name, signal),
-                    "points": about["points"],
+                    "points": about.points,
                     "over": _over(frame),
                     "values": _values(frame, study.experiments[name].quantity(signal)),
                     "uncertainty": _size(frame, study.experiments[name].quantity(signal)),
@@ -46,9 +46,9 @@ def notes(study: Study, about: About) -> list[tuple[str, str]]:
     found: dict[str, list[str]] = {}
     for name, signals in about.items():
         for signal, read in signals.items():
-            stated = read.get("uncertainty") or _noise(study, name, signal)
+            stated = read.uncertainty or _noise(study, name, signal)
             said = [f"uncertainty: {stated}"] if stated else []
-            for note in [*said, *read.get("notes", [])]:
+            for note in [*said, *read.notes]:
                 words = f"{title_of(study, name)}, {signal_words(study, name, signal)}"
                 found.setdefault(note, []).append(words)
     count = sum(len(signals) for signals in about.values())

@@ -7,7 +7,8 @@ import pandas as pd
 from pyrofit.config import Study
 from pyrofit.config.programs import externals
 from pyrofit.external.store import Store
-from pyrofit.results.files import Results, read_json
+from pyrofit.results.files import Results
+from pyrofit.results.trial import timed_runs
 from pyrofit.show.parts import Shown, table_part
 from pyrofit.show.table import Table
 
@@ -31,29 +32,21 @@ def origin(results: Results) -> dict[str, Any]:
     DataError
         The record of the timed run is missing or broken.
     """
-    left_out = ("seconds", "time_limit_s")
-    found = _timed_runs(results)
-    return {n: {k: v for k, v in one.items() if k not in left_out} for n, one in found.items()}
-
-
-def _timed_runs(results: Results) -> dict[str, Any]:
-    """Return the records of the timed runs by experiment."""
-    content = read_json(results.programs("trial.json"), {("experiments",): dict})
-    found: dict[str, Any] = content["experiments"]
-    return found
+    left_out = {"seconds", "time_limit_s"}
+    return {name: one.model_dump(exclude=left_out) for name, one in timed_runs(results).items()}
 
 
 def _table(study: Study, results: Results) -> pd.DataFrame:
     rows = []
-    for name, one in _timed_runs(results).items():
+    for name, one in timed_runs(results).items():
         runs, reasons = Store(str(results.programs(name))).counts()
         often = reasons.most_common(1)
         rows.append(
             {
                 "experiment": study.experiments[name].title or name,
-                "program": " ".join(filter(None, [one["executable"], one["version"]])),
-                "sha256": one["sha256"][:12],
-                "seconds": one["seconds"],
+                "program": " ".join(filter(None, [one.executable, one.version])),
+                "sha256": one.sha256[:12],
+                "seconds": one.seconds,
                 "runs": runs,
                 "failed": sum(reasons.values()),
                 "why": f"{often[0][0]} ({often[0][1]})" if often else "",

@@ -1,7 +1,5 @@
 """Step 1: measured series, read or computed, tidy and checked."""
 
-from typing import Any
-
 import numpy as np
 import pandas as pd
 
@@ -12,7 +10,8 @@ from pyrofit.errors import DataError
 from pyrofit.experiments import kind_of
 from pyrofit.model.signal import Noise
 from pyrofit.quantities.base import Quantity
-from pyrofit.results.files import Results, write_csv, write_json
+from pyrofit.results.files import Results, write_csv
+from pyrofit.results.recorded import OfFile, OfSeries, write_summary
 from pyrofit.seeds import seed_for
 from pyrofit.solver.arrays import FloatArray
 from pyrofit.solver.curves import Request
@@ -30,26 +29,29 @@ def prepare(study: Study, results: Results) -> list[str]:
         A cost cannot be computed from its series.
     """
     series = read_all(study)
-    about = {"source": SYNTHETIC, "sha256": ""}
+    about = OfFile(source=SYNTHETIC, sha256="")
     for key, frame in (computed(study) if study.is_synthetic else {}).items():
         series[key] = frame, about
     check_terms(study, {key: frame for key, (frame, _) in series.items()})
-    summary: dict[str, Any] = {}
+    summary: dict[str, dict[str, OfSeries]] = {}
     for name, experiment in study.experiments.items():
         summary[name] = {}
         for signal in experiment.signals:
             frame, about = series[name, signal]
             write_csv(results.measurement(name, signal), frame)
-            summary[name][signal] = {**about, "points": len(frame)}
-            quantity = experiment.quantity(signal)
-            if quantity.released is not None:
-                columns = (frame[c].to_numpy(float) for c in ("time_s", quantity.column))
-                summary[name][signal]["released_kg_m2"] = quantity.released(*columns)
-            if quantity.heat is not None:
-                columns = (frame[c].to_numpy(float) for c in ("time_s", quantity.column))
-                summary[name][signal]["released_J_m2"] = quantity.heat(*columns)
-    write_json(results.measurements_summary, {"signals": summary})
+            summary[name][signal] = _described(about, frame, experiment.quantity(signal))
+    write_summary(results, summary)
     return closure_lines(study, summary)
+
+
+def _described(about: OfFile, frame: pd.DataFrame, quantity: Quantity) -> OfSeries:
+    """Return the record of a series, with the mass and the heat that it released."""
+    time, values = (frame[c].to_numpy(float) for c in ("time_s", quantity.column))
+    of = {"released_kg_m2": quantity.released, "released_J_m2": quantity.heat}
+    released = {key: total(time, values) for key, total in of.items() if total is not None}
+    return OfSeries.model_validate(
+        {**about.model_dump(exclude_unset=True), "points": len(frame), **released}
+    )
 
 
 def computed(study: Study, fast: bool = False) -> dict[tuple[str, str], pd.DataFrame]:

@@ -3,7 +3,6 @@
 import functools
 from collections.abc import Callable, Iterator
 from pathlib import Path
-from typing import Any
 
 import pandas as pd
 
@@ -22,12 +21,13 @@ from pyrofit.estimate.targets import Measurements, term_for
 from pyrofit.model.experiment import Experiment
 from pyrofit.model.heated import HeatedExperiment
 from pyrofit.model.signal import Signal
+from pyrofit.results.recorded import OfFile
 
 SYNTHETIC = "synthetic"
 MACFP = "macfp:"
 
-Read = tuple[pd.DataFrame, dict[str, Any]]
-"""A series in SI units, and facts about it."""
+Read = tuple[pd.DataFrame, OfFile]
+"""A series in SI units, and where it comes from."""
 
 
 def check_measurements(
@@ -73,14 +73,14 @@ def read_all(study: Study, macfp: bool = True) -> dict[tuple[str, str], Read]:
             continue
         try:
             frame, about = _read(study.experiments[name], label, read)
-            about["notes"] += disagreements(study, name, label, frame, about["source"])
+            about.notes.extend(disagreements(study, name, label, frame, about.source))
             series[name, label] = frame, about
         except DataError as error:
             # One file may serve several experiments.
             if not any(line.endswith(str(error)) for line in wrong):
                 wrong.append(f"{_place(name, label)}: {error}")
     for key, note in notes_on_repeats(study, {key: frame for key, (frame, _) in series.items()}):
-        series[key][1]["notes"].append(f"{key[0]} {note}")
+        series[key][1].notes.append(f"{key[0]} {note}")
     if len(wrong) == 1:
         raise DataError(wrong[0])
     if wrong:
@@ -170,12 +170,12 @@ def _read(experiment: Experiment, label: str, read: Callable[[Path], Table]) -> 
         frame = frame[frame["time_s"] <= signal.until_s]
     if len(frame) < 3:
         raise DataError(f"{found.source}: until_K or until_s leaves {len(frame)} points; raise it")
-    about = {
-        "source": signal.file,
-        "sha256": found.sha256,
-        "uncertainty": found.uncertainty_meaning,
-        "notes": [*found.notes, *suspicions(experiment.quantity(label), frame)],
-    }
+    about = OfFile(
+        source=signal.file,
+        sha256=found.sha256,
+        uncertainty=found.uncertainty_meaning,
+        notes=[*found.notes, *suspicions(experiment.quantity(label), frame)],
+    )
     return frame, about
 
 

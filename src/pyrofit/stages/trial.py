@@ -1,7 +1,6 @@
 """Before a campaign with external programs: one timed run of each, and the estimated duration."""
 
 from collections.abc import Iterator, Mapping
-from typing import Any
 
 import numpy as np
 
@@ -18,8 +17,10 @@ from pyrofit.experiments.external.simulate import last_needed
 from pyrofit.external.filled import executable_digest, executable_of, file_digests
 from pyrofit.external.runs import Outcome, outcomes
 from pyrofit.model.external import ExternalExperiment
-from pyrofit.results.files import Results, write_json
+from pyrofit.results.files import Results
+from pyrofit.results.record import write_record
 from pyrofit.results.recorded import load
+from pyrofit.results.trial import TimedRun, Trial
 from pyrofit.running.durations import in_words
 from pyrofit.seeds import seed_for
 from pyrofit.stages.fit import fixed_for_imp
@@ -50,30 +51,28 @@ def trial(study: Study, results: Results, cores: int) -> list[str]:
         A program is missing, or fails with every set.
     """
     found = {name: _tried(study, results, name, e) for name, e in externals(study).items()}
-    seconds = {name: one["seconds"] for name, one in found.items()}
+    seconds = {name: one.seconds for name, one in found.items()}
     calls = list(planned_calls(study))
     hours = sum(n * _seconds(study, terms, seconds) for _, n, terms in calls) / 3600.0
     by_search = {label: round(n) for label, n, _ in calls}
-    content = {"experiments": found, "calls": by_search, "core_hours": hours}
-    write_json(results.programs("trial.json"), content)
+    content = Trial(experiments=found, calls=by_search, core_hours=hours)
+    write_record(results.programs("trial.json"), content)
     return list(_sentences(content, cores))
 
 
-def _tried(
-    study: Study, results: Results, name: str, experiment: ExternalExperiment
-) -> dict[str, Any]:
+def _tried(study: Study, results: Results, name: str, experiment: ExternalExperiment) -> TimedRun:
     """Return the record of a program after one run."""
     program = experiment.program
     outcome = _first_success(study, results, name, experiment)
-    return {
-        "command": list(program.command),
-        "executable": executable_of(program).name,
-        "sha256": executable_digest(program),
-        "version": outcome.version,
-        "files": file_digests(program),
-        "seconds": outcome.seconds,
-        "time_limit_s": program.time_limit_s,
-    }
+    return TimedRun(
+        command=list(program.command),
+        executable=executable_of(program).name,
+        sha256=executable_digest(program),
+        version=outcome.version,
+        files=file_digests(program),
+        seconds=outcome.seconds,
+        time_limit_s=program.time_limit_s,
+    )
 
 
 def _first_success(
@@ -143,11 +142,11 @@ def _seconds(study: Study, terms: tuple[TermSpec, ...], seconds: Mapping[str, fl
     return float(sum(seconds[name] * found[name].program.cores for name in used))
 
 
-def _sentences(content: Mapping[str, Any], cores: int) -> Iterator[str]:
-    for name, one in content["experiments"].items():
-        version = f" {one['version']}" if one["version"] else ""
-        yield f"{name}: one run of {one['executable']}{version} takes {one['seconds']:.3g} s"
-    calls, hours = content["calls"], content["core_hours"]
+def _sentences(content: Trial, cores: int) -> Iterator[str]:
+    for name, one in content.experiments.items():
+        version = f" {one.version}" if one.version else ""
+        yield f"{name}: one run of {one.executable}{version} takes {one.seconds:.3g} s"
+    calls, hours = content.calls, content.core_hours
     total = sum(calls.values())
     yield (
         f"about {total} model calls ({'; '.join(f'{label}: {n}' for label, n in calls.items())}): "

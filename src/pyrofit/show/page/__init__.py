@@ -47,7 +47,7 @@ def page_of(
         lacks=lacks,
         costs=list(study.imp.costs),
         closure=measurements.closure(study, measured.about),
-        sources=len({a["source"] for s in measured.about.values() for a in s.values()}),
+        sources=len({a.source for s in measured.about.values() for a in s.values()}),
         sections=sections,
         origin=provenance(study, measured),
         description=study.model_dump_json(indent=1, exclude_defaults=True),
@@ -81,7 +81,7 @@ def provenance(study: Study, measured: Measured) -> dict[str, Any]:
             for name, path in plugin_files([Path(folder) for folder in study.plugins]).items()
         },
         "data": {
-            f"{name}/{signal}": {"source": about["source"], "sha256": about["sha256"]}
+            f"{name}/{signal}": about.model_dump(include={"source", "sha256"})
             for name, signals in measured.about.items()
             for signal, about in signals.items()
         },
