@@ -3,8 +3,7 @@
 Costs (over the mean) of the curves that FDS 6.7.4 gives for Table 4's best sets at 25 kW/m², each
 with its own cost function, against values computed before by hand-written formulas, and two of
 them against the paper's Table 4. FDS averages its device output over the second before the time
-it writes. The costs here take the times as written, as a reader of the file does who does not
-know; the last test bounds what the right time, half a second earlier, changes.
+it writes; the last test bounds what the right time, half a second earlier, changes.
 """
 
 import os

@@ -3,9 +3,7 @@
 The paper's case (Table 4's RMSE set on 0.2 mm copper) at 10 to 100 kW/m², and variants of it:
 char, insulated back, no foil, properties of temperature, absorption in depth. Mass closes to
 round-off. The energy error is the imbalance of heat stored, used by reactions and exchanged,
-relative to the heat that crossed the surfaces, which is integrated with the weights of the steps'
-own formula. What is left is that a step is solved with the reaction heat as it is predicted, and
-that the residue of a cell that leaves the grid takes the temperature of the next one.
+relative to the heat that crossed the surfaces.
 """
 
 from typing import Any, NamedTuple

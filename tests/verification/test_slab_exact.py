@@ -1,11 +1,9 @@
 """Heat conduction against exact solutions
 
 A slab of constant properties that does not react: ρ c ∂T/∂t = k ∂²T/∂x² (k = 0.2 W/(m K), ρ =
-1200 kg/m³, c = 1500 J/(kg K), 5.8 mm). A given flux is imposed as a large external flux on a
-surface of emissivity 1e-6, which absorbs what it should and emits next to nothing. On
-50 cells the differences are those of the grid in the first seconds; on 200 cells with a tight
-tolerance they vanish. The solutions are derived in `tests/verification/exact.py`; C&J is Carslaw
-& Jaeger, Conduction of Heat in Solids, 2nd ed., 1959.
+1200 kg/m³, c = 1500 J/(kg K), 5.8 mm). On 50 cells the differences are those of the grid in the
+first seconds; on 200 cells with a tight tolerance they vanish. Solutions are derived in
+`tests/verification/exact.py`; C&J is Carslaw & Jaeger, Conduction of Heat in Solids, 1959.
 """
 
 from typing import Any

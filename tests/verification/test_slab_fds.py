@@ -2,10 +2,8 @@
 
 FDS on 33 to 625 cells with steps of 0.05 s; its output is an average over the second before the
 time it writes. *Burn-out* is the last time at which the mass loss rate falls through 1 g/(m² s);
-curves end 60 s after it falls through 0.1 g/(m² s); back temperatures are compared until 10 s
-before burn-out. FDS takes the surface emissivity from its surface cell, pyrofit from the top δ of
-the sample, which is the same as long as the cell is thin. At 60 kW/m² the last 30 s, in which the
-foil is nearly all that is left to heat, are given by burn-out alone.
+back temperatures are compared until 10 s before. At 60 kW/m² the last 30 s are given by burn-out
+alone.
 """
 
 from typing import Any, NamedTuple

@@ -2,9 +2,8 @@
 
 Gpyro on 201 nodes with steps of 0.1 s, first order in time; its own error is about 0.02 % at 25
 kW/m². Three of its bugs were corrected before (see the headers in `tests/data/gpyro`). Its heat
-of reaction is per kg of gas, so the inert 0.1 % is a third component here, not a yield. At 60
-kW/m² bins of 5 s are compared, because the rate collapses within seconds at burn-out, where a
-shift of 0.15 s shows.
+of reaction is per kg of gas, so the inert 0.1 % is a third component here. At 60 kW/m² bins of 5 s
+are compared, because the rate collapses within seconds.
 """
 
 from typing import Any

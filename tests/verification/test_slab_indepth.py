@@ -1,15 +1,13 @@
 """FDS with an absorption coefficient: another equation
 
-pyrofit lets external radiation fade with exp(-κ x) and emits from the surface (Gpyro does the
-same, see above). FDS 6.7.4 with ABSORPTION_COEFFICIENT solves a two-flux equation of diffuse
-radiation: inward and outward flux F± change by dF±/dx = ∓2 κ (F± - σ T⁴), the solid emits
-throughout, and the surface reflects part of the outward flux inwards, F⁺(0) = ε q + (1 - ε)
-F⁻(0), where ε F⁻(0) leaves. With equal κ the two programs therefore differ by 12 %.
+pyrofit lets external radiation fade with exp(-κ x) and emits from the surface, as Gpyro does. FDS
+6.7.4 with ABSORPTION_COEFFICIENT solves a two-flux equation of diffuse radiation: inward and
+outward flux F± change by dF±/dx = ∓2 κ (F± - σ T⁴), the solid emits throughout, and the surface
+reflects part of the outward flux inwards, F⁺(0) = ε q + (1 - ε) F⁻(0), where ε F⁻(0) leaves. With
+equal κ the two programs therefore differ by 12 %.
 
-The two-flux equation, integrated here independently of both programs (40 cells, scipy's BDF),
-gives FDS's curve, which confirms the reading. What of it can be said in a description comes near
-FDS: absorption with 2 κ, and in the opaque limit (Rosseland) the exchange between the layers is a
-conductivity of 4 σ T³/κ on top of k.
+The two-flux equation, integrated here independently of both programs, gives FDS's curve. What a
+description can say comes near: absorption with 2 κ, and a conductivity of 4 σ T³/κ on top of k.
 """
 
 from typing import Any, NamedTuple

@@ -1,9 +1,8 @@
 """Reactions in a slab that stays at one temperature
 
 A slab at 600 K among gas and walls of 600 K, reactions without heat: the mass follows closed
-forms in k t, with k of 0.01 and 0.02 1/s. The step control watches temperature and mass loss
-rate, so the steps grow to their longest, 10 s or k dt = 0.1 to 0.4: the errors here are the
-largest that the Padé form of the exponential and the splitting of reactions leave.
+forms in k t, with k of 0.01 and 0.02 1/s. The steps grow to their longest, 10 s or k dt = 0.1 to
+0.4: the errors here are the largest that the Padé form of the exponential leaves.
 """
 
 from typing import Any

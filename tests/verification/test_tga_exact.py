@@ -3,10 +3,9 @@
 The temperature rises at a constant rate β, a reaction has the rate constant k = A exp(-E/(R T)).
 Where reactions do not feed each other the mass follows from the integral of k over time, X = A/β
 [T E₂(E/(R T))], with the exponential integral E₂ (Abramowitz & Stegun 5.1.4): exp(-X) for first
-order, (1 - (1-n) X)^(1/(1-n)) for order n. These cases the solver integrates almost exactly.
+order, (1 - (1-n) X)^(1/(1-n)) for order n.
 Consecutive and competing reactions are compared with a stiff integrator (LSODA) at relative
-tolerance 1e-12; there the error goes with the square of the temperature step, which is an eighth of
-that of separate reactions, 1 K by default.
+tolerance 1e-12; there the error goes with the square of the temperature step.
 """
 
 from collections.abc import Callable

@@ -5,13 +5,10 @@ The MaCFP data base holds FDS runs of a thin layer at 10 K/min with the kinetics
 the layer at about 1 % of the mass; the comparison ends there.
 
 FDS consumes component i of a layer at the rate V A ρᵢⁿ exp(-E/(R T)), with ρᵢ = mᵢ/V in the
-shrinking volume V = Σ mᵢ/ρₛ, and not in proportion to (m/m₀)ⁿ. A layer of one component keeps ρᵢ
-= ρₛ = 1210 kg/m³ whatever is left of it, so that its reaction *is* of first order with A ρₛⁿ⁻¹.
-Inputs whose reaction names no solid product (Sandia 3 and 4, UMD, UMET TK and GP) lose its yield,
-and the second component, which starts with nothing, never appears: one reaction again. Two
-components with n ≠ 1 (Sandia 5 and 6) pyrofit has no words for: FDS's own law, integrated here,
-reproduces these curves, and first order with A ρₛⁿ⁻¹ comes near because the first component is
-soon gone.
+shrinking volume V = Σ mᵢ/ρₛ. A layer of one component keeps ρᵢ = ρₛ = 1210 kg/m³, so that its
+reaction is of first order with A ρₛⁿ⁻¹. Inputs whose reaction names no solid product (Sandia 3 and
+4, UMD, UMET TK and GP) lose its yield: one reaction again. For two components with n ≠ 1 (Sandia 5
+and 6) FDS's own law, integrated here, reproduces the curves.
 """
 
 import os

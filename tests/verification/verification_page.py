@@ -30,14 +30,12 @@ ORDER = (
 COLUMNS = ("section", "case", "compared with", "error measure", "tolerance", "measured", "note")
 INTRODUCTION = """# Verification
 
-Does pyrofit solve the equations that it states? The tests in `tests/verification` compare it with
-exact solutions, with FDS 6.7.4 and Gpyro 0.82, with its own solution on a much finer grid, and
-check that balances close. A test fails where the error exceeds its tolerance. Whether the
-equations describe a material is another question, which measurements answer.
+**Does pyrofit solve the equations that it states?** The tests in `tests/verification` compare it
+with exact solutions, with FDS 6.7.4 and Gpyro 0.82, with its own solution on a much finer grid, and
+check that balances close. Whether the equations describe a material is another question.
 
-[cases.csv](cases.csv) holds every comparison: its error measure, its tolerance, and the measured
-error. Rows with the tolerance *different by* are known differences. There the other program
-solves another equation, and the test holds the size of the difference.
+[cases.csv](cases.csv) holds the error and the tolerance of every comparison. Rows with the
+tolerance *different by* are known differences: the other program solves another equation.
 
 The tests write this page and the table. They draw the figures into `docs/verification/figures`:
 
