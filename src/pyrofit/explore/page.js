@@ -132,7 +132,7 @@ function tell(found) {
     const of = found.numbers ? found.numbers.signals[s.id] : { rms: rms(s, found.curves[s.id]), chi2: null };
     const released = found.numbers && found.numbers.mass[s.id];
     plot.note.textContent = `rms ${shown(of.rms)}${inUnit(s.difference)}` + (of.chi2 === null ? "" : `, χ²/n ${shown(of.chi2 / of.points)}`)
-      + (released ? `, mass ${(100 * released[0] / released[1]).toFixed(1)}\u00a0%` : "");
+      + (released ? `, mass ${Number((100 * released[0] / released[1]).toPrecision(3))}\u00a0%` : "");
     plot.note.title = released ? `released mass: simulated ${shown(released[0])}, measured ${shown(released[1])} kg/m²` : "";
     if (of.chi2 === null) waits = true; else { chi2 += of.chi2; points += of.points; }
   }
