@@ -59,6 +59,7 @@ LEAST_CHANGE = {
     "tga_lag": ("TGA 100", 0.05),
     "tga_offset": ("TGA 10", 0.02),
     "thickness": ("MLR 60", 0.12),
+    "second_component": ("TGA 10", 0.035),
     "third_reaction": ("TGA 10", 0.035),
     "time_offset": ("MLR 60", 0.12),
     "volatile": ("TGA 10", 0.012),

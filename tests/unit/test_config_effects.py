@@ -63,6 +63,7 @@ KINETIC = {
     "reaction_order",
     "tga_lag",
     "tga_offset",
+    "second_component",
     "third_reaction",
     "volatile",
 }

@@ -3,9 +3,11 @@
 from collections.abc import Collection, Mapping
 from typing import Any
 
-from pyrofit.effects.base import ComponentsChange, Numbers, changed
+from pyrofit.effects.base import ComponentsChange, Numbers, changed, need
+from pyrofit.model.experiment import Experiment
 from pyrofit.model.material import REST, Component, Material, Reaction
 from pyrofit.model.properties import Changed
+from pyrofit.model.slab import SlabExperiment
 
 REFERENCE_RATE_1_S = 1e-3
 """At the reference temperature of a reaction that an effect adds."""
@@ -82,6 +84,24 @@ def with_reaction(material: Material, name: str, reaction: Reaction) -> Material
         if known == main:
             reactions[name] = reaction
     return changed(material, reactions=reactions)
+
+
+def with_share(material: Material, main: str, name: str, share: float | str) -> Material:
+    """Return the material with a share of its main component replaced by another one."""
+    composition = dict(material.composition)
+    if composition[main] != REST:
+        if any(isinstance(s, str) and s != REST for s in composition.values()):
+            raise ValueError(f"the composition must give '{main}' as '{REST}'")
+        composition |= shares(material) | {main: REST}
+    return changed(material, composition=composition | {name: share})
+
+
+@need("a TGA, or a layer without a composition of its own")
+def is_of_the_material(experiment: Experiment) -> bool:
+    """Tell whether a part of the sample has the composition of the material."""
+    if not isinstance(experiment, SlabExperiment):
+        return True
+    return any(layer.composition is None for layer in experiment.sample.layers)
 
 
 def _refuse_known(name: str, known: Mapping[str, object], what: str) -> None:

@@ -1,35 +1,23 @@
 """Moisture or monomer leaves the material before it decomposes."""
 
-from pyrofit.effects.base import ADDED, Effect, Numbers, Quantity, changed, need
+from pyrofit.effects.base import ADDED, Effect, Numbers, Quantity
 from pyrofit.effects.substance import (
     REFERENCE_RATE_1_S,
+    is_of_the_material,
     main_reaction,
-    shares,
     with_component,
     with_reaction,
+    with_share,
 )
-from pyrofit.model.experiment import Experiment
-from pyrofit.model.material import REST, Material, Reaction
-from pyrofit.model.slab import SlabExperiment
+from pyrofit.model.material import Material, Reaction
 
 VOLATILE = f"{ADDED}volatile"
-
-
-def _composition(material: Material, main: str) -> dict[str, float | str]:
-    """Return the composition with the main component as the rest, from which a share is taken."""
-    composition = dict(material.composition)
-    if composition[main] == REST:
-        return composition
-    if any(isinstance(share, str) and share != REST for share in composition.values()):
-        raise ValueError(f"the composition must give '{main}' as '{REST}'")
-    return composition | shares(material) | {main: REST}
 
 
 def _change(material: Material, at: Numbers) -> Material:
     _, reaction = main_reaction(material)
     main = reaction.reactant
     more = with_component(material, VOLATILE, material.components[main])
-    composition = _composition(material, main) | {VOLATILE: at["share"]}
     release = Reaction(
         reactant=VOLATILE,
         E_J_mol=at["E_J_mol"],
@@ -38,15 +26,7 @@ def _change(material: Material, at: Numbers) -> Material:
         # ASSUME: its release takes as much heat as the decomposition of the same mass.
         heat_of_reaction_J_kg=reaction.heat_of_reaction_J_kg,
     )
-    return with_reaction(changed(more, composition=composition), VOLATILE, release)
-
-
-@need("a TGA, or a layer without a composition of its own")
-def _is_of_the_material(experiment: Experiment) -> bool:
-    """Tell whether a part of the sample has no composition of its own."""
-    if not isinstance(experiment, SlabExperiment):
-        return True
-    return any(layer.composition is None for layer in experiment.sample.layers)
+    return with_reaction(with_share(more, main, VOLATILE, at["share"]), VOLATILE, release)
 
 
 EFFECT = Effect(
@@ -89,5 +69,5 @@ EFFECT = Effect(
         ),
     },
     material=_change,
-    needs=_is_of_the_material,
+    needs=is_of_the_material,
 )
