@@ -2,6 +2,7 @@
 
 from collections.abc import Callable
 from dataclasses import dataclass, field
+from types import SimpleNamespace
 from typing import Any
 
 import numpy as np
@@ -23,6 +24,7 @@ class Fake:
     function: Function
     asked: list[FloatArray] = field(default_factory=list)
     idle: tuple[int, ...] = ()
+    base: SimpleNamespace = field(default_factory=lambda: SimpleNamespace(journal=None))
 
     def with_idle_known(self, x: FloatArray, fixed: int | None) -> FloatArray:
         return x

@@ -1,6 +1,8 @@
 """The diagnosis of a study, from its measurements to the verdict."""
 
-from dataclasses import dataclass
+from collections.abc import Callable
+from dataclasses import dataclass, replace
+from functools import partial
 
 import numpy as np
 import pandas as pd
@@ -11,6 +13,7 @@ from pyrofit.diagnose.advise.separation import next_experiments
 from pyrofit.diagnose.base.accuracy import solver_error, tolerated_error
 from pyrofit.diagnose.base.fit import Setup, set_up
 from pyrofit.diagnose.base.fitted import FittedModel, resting_at_limits, up_to_date
+from pyrofit.diagnose.base.journal import Journal
 from pyrofit.diagnose.base.model import Base
 from pyrofit.diagnose.judge.final_fits import final_fits
 from pyrofit.diagnose.judge.findings import Verdict
@@ -24,6 +27,9 @@ from pyrofit.estimate.targets import Measurements
 from pyrofit.logs import Tell
 from pyrofit.results.diagnosis_schema import Diagnosis as Record
 from pyrofit.results.diagnosis_schema import OfSolver
+
+Based = Callable[[Study], tuple[Setup, np.random.Generator]]
+"""Makes the fitted base model of a study, and the generator of the draws that judge it."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -49,6 +55,7 @@ def examine(
     processes: int = 1,
     advise: bool = True,
     draw: int | None = None,
+    journal: Journal | None = None,
 ) -> Diagnosis:
     """Find where a study's model and measurements disagree, and which effect the model lacks.
 
@@ -66,13 +73,16 @@ def examine(
         Whether to look for free corrections and the next experiment as well.
     draw
         Number of the draw of noise that disturbs the data, see `disturbed`; by default none does.
+    journal
+        Keeps descents, so that a diagnosis that is broken off goes on with them.
 
     Raises
     ------
     DataError
         A channel is too short, or no run within the limits finishes.
     """
-    found, rng, solver = _searched(study, measurements, tell, processes, draw)
+    based = partial(_based, measurements, tell, processes, draw, journal)
+    found, rng, solver = _searched(study, based, tell, processes)
     searched = found.end
     verdict = judge(found, rng, processes)
     found = verdict.search
@@ -96,14 +106,14 @@ def diagnose(study: Study, measurements: Measurements) -> Record:
 
 
 def _searched(
-    study: Study, measurements: Measurements, tell: Tell, processes: int, draw: int | None
+    study: Study, based: Based, tell: Tell, processes: int
 ) -> tuple[Search, np.random.Generator, OfSolver]:
     """Return the search, the generator of its draws, and how accurate its runs are.
 
     Runs are coarser than the study asks for, unless the difference counts against the noise.
     """
     rough = study.model_copy(update={"accuracy": study.accuracy.coarsened()})
-    setup, rng = _based(rough, measurements, tell, processes, draw)
+    setup, rng = based(rough)
     error = solver_error(setup.base, study.accuracy)
     tolerated = tolerated_error(setup.base)
     if error <= tolerated:
@@ -112,19 +122,25 @@ def _searched(
         if error <= tolerated:
             return found, rng, OfSolver(coarsened=True, error_chi2=error)
     tell(f"once more with finer runs, which change chi-square by {error:.2g}")
-    setup, rng = _based(study, measurements, tell, processes, draw)
+    setup, rng = based(study)
     found = _search(study, setup, rng, tell, processes)
     return found, rng, OfSolver(coarsened=False, error_chi2=0.0)
 
 
 def _based(
-    study: Study, measurements: Measurements, tell: Tell, processes: int, draw: int | None
+    measurements: Measurements,
+    tell: Tell,
+    processes: int,
+    draw: int | None,
+    journal: Journal | None,
+    study: Study,
 ) -> tuple[Setup, np.random.Generator]:
     """Return the fitted base model, and the generator of the draws that judge it."""
     kinetics = study.kinetics.estimate if study.kinetics else ()
 
     def narrowed(base: Base) -> Base:
-        return kinetics_first(base, kinetics, candidate_effects(study), study.seed, processes)
+        kept = replace(base, journal=journal)
+        return kinetics_first(kept, kinetics, candidate_effects(study), study.seed, processes)
 
     setup = set_up(study, measurements, processes, draw, narrowed)
     tell(f"base model: chi-square {setup.base.fit.chi2:.1f} of {setup.base.model.points} points")

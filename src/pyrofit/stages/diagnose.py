@@ -1,20 +1,27 @@
 """Which effect the model lacks: the diagnosis of a study, and the extended study."""
 
-from pyrofit.config import Study, as_yaml
+import hashlib
+import shutil
+
+from pyrofit.config import Study, as_yaml, calibration_channels, digest, held_out_channels
 from pyrofit.config.programs import externals
 from pyrofit.config.resolve import diagnosed
+from pyrofit.diagnose.base.journal import Journal
 from pyrofit.diagnose.diagnosis import examine
 from pyrofit.diagnose.result.extended_study import extended_keys
 from pyrofit.errors import StudyError
 from pyrofit.experiments.external.simulate import OWN_MODEL
 from pyrofit.logs import Tell
-from pyrofit.results import diagnosis
+from pyrofit.provenance import source_fingerprint
+from pyrofit.results import dependencies, diagnosis
 from pyrofit.results.diagnosis_schema import Diagnosis
 from pyrofit.results.files import Results, write_csv, write_text
 from pyrofit.results.recorded import load
 from pyrofit.stages.own_files import files_seen_from, seen_from
 
 EXTENDED = "extended.yaml"
+UNFINISHED = "unfinished"
+"""Folder of the fits of a diagnosis that has not ended."""
 _COMMENT = """\
 The study that was diagnosed, with the effects that were found at their fitted strengths. It runs:
 snakemake --cores 2 --configfile <this file>. Leave a strength out to have it estimated: add the
@@ -33,7 +40,10 @@ def diagnose(study: Study, results: Results, tell: Tell, processes: int = 1) -> 
         An external program simulates one of its experiments.
     """
     refuse_programs(study)
-    found = examine(study, load(study, results), tell, processes)
+    journal = Journal(results.diagnosis(UNFINISHED) / _key(study, results))
+    if len(journal):
+        tell(f"goes on where it was broken off: {len(journal)} fits are kept")
+    found = examine(study, load(study, results), tell, processes, journal=journal)
     effects = found.end.effects
     path = results.diagnosis(EXTENDED)
     path.unlink(missing_ok=True)  # that of an earlier diagnosis
@@ -46,7 +56,20 @@ def diagnose(study: Study, results: Results, tell: Tell, processes: int = 1) -> 
     content = found.content.model_copy(update={"extended_study": EXTENDED if effects else ""})
     write_csv(results.diagnosis("curves.csv"), found.curves)
     diagnosis.write(results, content)
+    shutil.rmtree(journal.folder.parent, ignore_errors=True)
     return content
+
+
+def _key(study: Study, results: Results) -> str:
+    """Return a digest of all that the fits of a diagnosis are made of."""
+    fitted = (*calibration_channels(study), *held_out_channels(study))
+    files = {results.measurement(c.experiment, c.signal) for c in fitted}
+    content = {
+        "study": dependencies.diagnose(study),
+        "source": source_fingerprint("pyrofit.stages.diagnose"),
+        "files": [hashlib.sha256(path.read_bytes()).hexdigest() for path in sorted(files)],
+    }
+    return digest(content)
 
 
 def refuse_programs(study: Study) -> None:

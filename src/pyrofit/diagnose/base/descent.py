@@ -1,7 +1,9 @@
 """The descent of a model on trial, by the least squares of all fits."""
 
 from dataclasses import replace
+from functools import partial
 
+from pyrofit.diagnose.base.journal import name_of_descent
 from pyrofit.diagnose.base.model import Model
 from pyrofit.diagnose.settings import SETTINGS
 from pyrofit.estimate.bounded_least_squares import Fit, minimise
@@ -24,10 +26,12 @@ def descend(
     ``known``. The parameter at position ``fixed`` keeps its value. Parameters that no run uses, as
     those of an experiment left out, take their known values.
     """
-    return minimise(
+    start = model.with_idle_known(x, fixed)
+    made = partial(
+        minimise,
         model.residuals,
         model.jacobian,
-        model.with_idle_known(x, fixed),
+        start,
         enough,
         begin=jacobian,
         fixed=fixed,
@@ -38,6 +42,11 @@ def descend(
         most_refused_updated=SETTINGS.most_refused_updated,
         ridge=SETTINGS.ridge,
     )
+    journal = model.base.journal
+    if journal is None:
+        return made()
+    asked = (jacobian, enough, fixed, known, model.names, model.idle, SETTINGS)
+    return journal.fit(name_of_descent(model.residuals_all, start, *asked), made)
 
 
 def refreshed(model: Model, fit: Fit) -> Fit:

@@ -6,6 +6,7 @@ from dataclasses import dataclass, field, replace
 import numpy as np
 
 from pyrofit.cost import WeightedSum
+from pyrofit.diagnose.base.journal import Journal
 from pyrofit.diagnose.base.plausible import Plausible
 from pyrofit.diagnose.settings import SETTINGS
 from pyrofit.effects import known_effects
@@ -35,12 +36,15 @@ class Base:
         Plausible ranges of strengths, by effect.
     of_small_samples
         Effects that TGA, DSC and MCC ask for without the slab.
+    journal
+        Keeps descents for the case that the diagnosis is broken off.
     """
 
     likelihood: Likelihood
     calibrated: tuple[int, ...]
     plausible: Mapping[str, Plausible] = field(default_factory=dict)
     of_small_samples: tuple[str, ...] = ()
+    journal: Journal | None = None
 
     @property
     def held_out(self) -> tuple[int, ...]:
