@@ -9,8 +9,8 @@ import pytest
 import pyrofit as pf
 from pyrofit.estimate.goodness import missed, moving_mean, scatter
 from pyrofit.new_study.write import init
-from pyrofit.results.goodness import Goodness, SignalGoodness
-from pyrofit.show.goodness import verdict_words
+from pyrofit.results.goodness import Goodness, Miss, SignalGoodness
+from pyrofit.show.goodness import verdict_words, where_missed
 from pyrofit.solver.arrays import FloatArray
 
 R = 8.314462618
@@ -137,3 +137,11 @@ def test_a_signal_missed_for_long_by_a_tenth_of_its_range_is_told_whatever_the_n
         found = Goodness(0.5, (signal,))
         assert found.describes == passes
         assert ("for long by more than a tenth" in verdict_words("", found)) != passes
+
+
+def test_misfit_to_both_sides_is_told_by_its_rms() -> None:
+    study = pf.read_study(Path(__file__).parents[2] / "config" / "smoke.yaml")
+    for mean, words in ((1e-5, "4 g/(m² s) off (rms), to both sides,"), (2e-3, "2 g/(m² s) too h")):
+        misses = (Miss(0.0, 99.0, None, None, mean),)
+        signal = SignalGoodness("slab_25", "mlr", 1e-6, 4e-3, 0.1, 1e-4, 1.0, 1e-3, misses)
+        assert f"simulated {words}" in where_missed(study, signal)

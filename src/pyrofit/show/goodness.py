@@ -10,6 +10,8 @@ from pyrofit.show.units import celsius, difference, difference_unit
 
 MOST_NAMED = 3
 """Signals and repeats that are named at most."""
+ONE_SIDE = 0.1
+"""Mean of a misfit over its rms, from which it is told as one to one side."""
 OTHER_TOTAL = 0.1
 """Relative difference of integrals that is told."""
 NEXT = {
@@ -68,15 +70,18 @@ def where_missed(study: Study, s: SignalGoodness) -> str:
     experiment = study.experiments[s.experiment]
     quantity = experiment.quantity(s.signal)
     unit = difference_unit(quantity)
-    windows = [_window(w, float(difference(quantity, w.mean)), unit) for w in s.misses]
+    rms = float(difference(quantity, s.rms))
+    windows = [_window(w, float(difference(quantity, w.mean)), rms, unit) for w in s.misses]
     said = f"{s.experiment}, {experiment.words(s.signal)}: simulated {listed(windows)}."
     if s.total is not None and abs(s.total - 1.0) > OTHER_TOTAL:
         said += f" Its simulated integral is {100.0 * s.total:.0f} % of the measured one."
     return said
 
 
-def _window(w: Miss, mean: float, unit: str) -> str:
+def _window(w: Miss, mean: float, rms: float, unit: str) -> str:
     side = "too high" if mean > 0.0 else "too low"
+    if abs(mean) < ONE_SIDE * rms:
+        mean, side = rms, "off (rms), to both sides,"
     size = _two_digits(abs(mean)) + ("" if unit in ("–", "-") else f" {unit}")
     if w.start_K is None or w.end_K is None:
         return f"{size} {side} from {w.start_s:.0f} to {w.end_s:.0f} s"
