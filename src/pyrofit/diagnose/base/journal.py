@@ -1,8 +1,8 @@
 """Finished descents of a diagnosis, kept for the case that it is broken off.
 
 A descent is named by all that it is made of, so that the same one, wanted again, has the same bits.
-The model is in that name by what it does: its whitened residuals at the start and at a second
-point, in which the measurements, their noise and all settings of the model have their part.
+The model is in that name by its whitened residuals at the start and at a second point. In these
+the measurements, their noise and all settings of the model have their part.
 """
 
 import hashlib
