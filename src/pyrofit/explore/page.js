@@ -309,7 +309,8 @@ function build() {
   }
   const key = add(head, "div", { className: "key" });
   add(key, "span", { textContent: "· measured" });
-  for (const [style, text] of [["border-color:" + INK.first, "simulated"], ["border-top-style:dashed;border-color:" + INK.second, "compared"]]) { add(key, "i").style.cssText = style; key.append(text); }
+  const lines = [["border-color:" + INK.first, "simulated"], ["border-top-style:dashed;border-color:" + INK.second, "compared"]];
+  for (const [style, text] of data.study ? lines.slice(0, 1) : lines) { add(key, "i").style.cssText = style; key.append(text); }
   if (study.signals.some(s => s.band)) { add(key, "i").style.cssText = `height:9px;border:0;background:${INK.band}`; key.append("95 % of the posterior"); }
   add(head, "div", { className: "unit", textContent: "Dashed frame: held out, counts in no number. Drag: zoom; double click: all." });
   add(head, "div", { id: "numbers", className: "numbers" });
