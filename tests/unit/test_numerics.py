@@ -141,6 +141,15 @@ def test_small_singular_values_of_scaled_columns_are_exact() -> None:
     assert found == pytest.approx(sizes[::-1], rel=1e-14)
 
 
+@pytest.mark.filterwarnings("error")
+@pytest.mark.parametrize("small", [1e-160, 1e-170, 1e-200, 1e-300])
+def test_singular_values_of_columns_far_apart_in_size_give_no_warning(small: float) -> None:
+    a = random(6, 3) * np.array([1.0, small, small])
+    found = linear.svd(a)[1]
+    assert found[0] == pytest.approx(np.linalg.norm(a[:, 0]))
+    assert np.all(found[1:] <= 10.0 * small)
+
+
 def test_singular_matrices_have_orthonormal_factors_and_the_shortest_solution() -> None:
     a, b = random(50, 6), random(50)
     a[:, 3], a[:, 5] = a[:, 1] + a[:, 2], 0.0

@@ -14,6 +14,8 @@ from pyrofit.numerics.functions import Floats, log
 _SWEEPS = 40
 """Sweeps of Jacobi's rotations at most; ten are usual."""
 _EPS = float(np.finfo(float).eps)
+_SMALL = 1e-140
+"""Squares of smaller numbers lose digits."""
 
 
 def dot(a: Floats, b: Floats) -> float:
@@ -154,6 +156,9 @@ def qr(a: Floats) -> tuple[Floats, Floats]:
     mirrors = []
     for k in range(min(rows, columns)):
         v = rest[k:, k].copy()
+        largest = float(np.max(np.abs(v)))
+        if largest < _SMALL:
+            v /= largest or 1.0
         size = norm(v)
         v[0] += np.copysign(size, v[0])
         double = 2.0 / dot(v, v) if size > 0.0 else 0.0
@@ -202,12 +207,13 @@ def _orthogonal(rows: Floats) -> tuple[Floats, Floats]:
             b = np.einsum("ij,ij->i", other, other)
             c = np.einsum("ij,ij->i", own, other)
             scale = np.sqrt(a) * np.sqrt(b)
-            apart = np.abs(c) > _EPS * scale
+            apart = (np.abs(c) > _EPS * scale) & (scale > 0.0)
             if not apart.any():
                 continue
             largest = max(largest, float(np.max(np.abs(c[apart]) / scale[apart])))
             zeta = (b - a) / np.where(apart, 2.0 * c, 1.0)
-            t = np.copysign(1.0, zeta) / (np.abs(zeta) + np.sqrt(1.0 + zeta * zeta))
+            with np.errstate(over="ignore"):  # the angle is then zero
+                t = np.copysign(1.0, zeta) / (np.abs(zeta) + np.sqrt(1.0 + zeta * zeta))
             t = np.where(apart, t, 0.0)[:, None]
             cosine = 1.0 / np.sqrt(1.0 + t * t)
             both[i], both[j] = cosine * (x - t * y), cosine * (t * x + y)
