@@ -9,6 +9,7 @@ import pytest
 
 from pyrofit.cli import main
 from pyrofit.config import Study, as_study, read_study
+from pyrofit.experiments.dsc import Dsc
 from pyrofit.results.files import Results, write_csv
 from pyrofit.stages.measurements import computed
 from pyrofit.steps.preview.compute import preview, windows
@@ -125,6 +126,35 @@ def test_corrections_undo_what_their_words_say() -> None:
     assert made.to_numpy() == pytest.approx(0.1 * case.frames[channel][column].to_numpy())
     (swap,) = [one for one in found if one.words == "the files of slab_25 and slab_60 are swapped"]
     assert swap.change(case).frames["slab_60", "mlr"] is case.frames[channel]
+
+
+def test_baseline_of_an_instrument_is_a_line_that_leaves_a_usual_specific_heat() -> None:
+    described = {
+        "kind": "dsc",
+        "heating_rate_K_min": 10,
+        "start_temperature_K": 300,
+        "end_temperature_K": 800,
+        "signals": {"heat_flow": {"file": "a.csv"}, "mass_fraction": {"file": "a.csv"}},
+    }
+    kelvin = np.linspace(300.0, 800.0, 501)
+    mass = 1.0 - 0.8 / (1.0 + np.exp((600.0 - kelvin) / 10.0))
+    peak = 900.0 * np.exp(-(((kelvin - 600.0) / 20.0) ** 2))
+    own = 1500.0 * mass / 6.0
+    frame = pd.DataFrame({"time_s": 6.0 * (kelvin - 300.0), "temperature_K": kelvin})
+    drift = 40.0 - 5.0 * (kelvin - 300.0)
+    frames = {
+        ("a", "heat_flow"): frame.assign(heat_flow_W_kg=own + peak + drift),
+        ("a", "mass_fraction"): frame.assign(mass_fraction=mass),
+    }
+    words = "the heat flow of a holds a baseline of the instrument"
+    case = Case({"a": Dsc.model_validate(described)}, frames)
+    (one,) = [c for c in corrections(case, list(frames)) if c.words.startswith(words)]
+    assert (one.cause, one.places) == ("baseline of the heat flow", ("a",))
+    made = one.change(case).frames["a", "heat_flow"]["heat_flow_W_kg"].to_numpy()
+    assert made == pytest.approx(own + peak, abs=1.0)
+    given = Dsc.model_validate({**described, "baseline": {"level_W_kg": 5.0}})
+    told = corrections(Case({"a": given}, frames), list(frames))
+    assert not [c for c in told if c.words.startswith(words)]
 
 
 def test_temperatures_in_the_wrong_unit_are_named_first_with_their_window() -> None:

@@ -38,6 +38,8 @@ AT_LIMIT, BESIDE = 0.02, 15
 """Distance from a limit that counts as at it, over the range; sets drawn within wider limits."""
 EXPLAINS = 0.5
 """Share of the squared difference that a cause must take away."""
+NEAR = 0.1
+"""Largest difference that a cause may leave, over the range, of its own records and of all."""
 OF_LIMITS = 1.3
 """Factor of the difference of wider limits: more freedom fits better whatever the cause is."""
 BESIDE_BEST, BESIDE_LEAST = 3.0, 0.03
@@ -117,8 +119,12 @@ def likely(
     total = _mean_square(before.left)
     found = []
     for one in (*chosen, *_wider_limits(study, case, sets, before)):
-        left = _mean_square(nearest(study, one.case, one.sets, one.curves).left)
         cause = one.correction
+        apart = nearest(study, one.case, one.sets, one.curves).left
+        left = _mean_square(apart)
+        sizes = [size for (name, _), size in apart.items() if name in cause.places]
+        if max([*sizes, float(np.sqrt(left))]) > NEAR:
+            continue
         explained = 1.0 - left / total
         found.append(Cause(cause.cause, cause.places, cause.words, explained, float(np.sqrt(left))))
     least = min((cause.left for cause in found), default=0.0)

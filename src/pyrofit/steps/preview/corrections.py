@@ -10,15 +10,28 @@ import pandas as pd
 
 from pyrofit.effects.base import changed
 from pyrofit.model.experiment import Experiment
-from pyrofit.model.heated import HeatedExperiment
+from pyrofit.model.heated import Baseline, HeatedExperiment
 from pyrofit.model.slab import SlabExperiment
 from pyrofit.quantities.units import ICE_POINT_K
+from pyrofit.show.text import listed
 from pyrofit.steps.preview.reach import NOISE, Case, Channel
 
 TEMPERATURE, FLUX, THICKNESS = "unit of temperature", "flux", "thickness"
 CLOCK, RATE, SWAPPED = "clock", "heating rate", "swapped files"
 SAMPLE, SURROUNDINGS, LIMITS = "sample area or mass", "gas or wall temperature", "limits"
-ORDER = (TEMPERATURE, FLUX, THICKNESS, CLOCK, RATE, SWAPPED, SAMPLE, SURROUNDINGS, LIMITS)
+BASELINE = "baseline of the heat flow"
+ORDER = (
+    TEMPERATURE,
+    FLUX,
+    THICKNESS,
+    CLOCK,
+    RATE,
+    SWAPPED,
+    SAMPLE,
+    BASELINE,
+    SURROUNDINGS,
+    LIMITS,
+)
 """Causes, the more usual ones first."""
 TENS = (10.0, 0.1)
 FACTORS = (10.0, 0.1, 100.0, 0.01, 1e3, 1e-3, 60.0, 1.0 / 60.0, 4.0, 0.25, 2.0, 0.5)
@@ -28,6 +41,8 @@ SHIFTS_S = (-300.0, -120.0, -60.0, -30.0, 30.0, 60.0, 120.0, 300.0)
 ROOM_K = 293.15
 USUAL_K = (250.0, 450.0)
 """Temperatures of gas and walls that need no explanation."""
+USUAL_C, ENDS = 1500.0, 0.1
+"""Specific heat [J/(kg K)] that a heat flow shows at its ends, each a tenth of the points."""
 
 Change = Callable[[Case], Case]
 
@@ -68,6 +83,7 @@ def corrections(case: Case, outside: Sequence[Channel]) -> Iterator[Correction]:
     for name in names:
         of = [signal for experiment, signal in outside if experiment == name]
         yield from _of_one(case, name, of)
+    yield from _baselines(case, outside)
     yield from _swaps(case, names)
 
 
@@ -198,6 +214,26 @@ def _samples(case: Case, name: str, outside: Sequence[str]) -> Iterator[Correcti
             )
 
 
+def _baselines(case: Case, outside: Sequence[Channel]) -> Iterator[Correction]:
+    """Yield the baseline of an instrument, of all heat flows for which the study gives none."""
+    of = [
+        (name, signal)
+        for name, signal in outside
+        if getattr(case.experiments[name], "baseline", None) == Baseline()
+        and case.experiments[name].quantity(signal).has_sign
+    ]
+    if not of:
+        return
+    names = tuple(dict.fromkeys(name for name, _ in of))
+    yield Correction(
+        BASELINE,
+        names,
+        f"the heat flow of {listed(names)} holds a baseline of the instrument. Subtract it, or "
+        "give `baseline` two parameters",
+        _without_baselines(of),
+    )
+
+
 def _swaps(case: Case, names: Sequence[str]) -> Iterator[Correction]:
     for one, other in combinations(case.experiments, 2):
         if one not in names and other not in names:
@@ -308,6 +344,38 @@ def _heated_at(name: str, signals: Sequence[str], rate: float, factor: float) ->
         return case.with_experiment(name, changed(experiment, heating_rate_K_min=rate))
 
     return apply
+
+
+def _without_baselines(of: Sequence[Channel]) -> Change:
+    """Return heat flows less a line, so that their ends are those of a usual specific heat."""
+
+    def apply(case: Case) -> Case:
+        for channel in of:
+            name, signal = channel
+            frame, column = case.frames[channel], case.experiments[name].quantity(signal).column
+            T, values = frame["temperature_K"].to_numpy(float), frame[column].to_numpy(float)
+            rate = np.ptp(T) / np.ptp(frame["time_s"])
+            count = max(int(ENDS * T.size), 1)
+            ends = slice(None, count), slice(-count, None)
+            at = [float(np.median(T[end])) for end in ends]
+            off = [
+                float(np.median(values[end])) - USUAL_C * rate * share
+                for end, share in zip(ends, (1.0, _left(case, name)), strict=True)
+            ]
+            line = off[0] + (T - at[0]) * (off[1] - off[0]) / (at[1] - at[0])
+            case = case.with_frame(channel, frame.assign(**{column: values - line}))
+        return case
+
+    return apply
+
+
+def _left(case: Case, name: str) -> float:
+    """Return the mass at the end of a test over the initial one, 0 where it is not recorded."""
+    for signal in case.signals(name):
+        quantity = case.experiments[name].quantity(signal)
+        if quantity.scales[0] == "fraction":
+            return float(case.frames[name, signal][quantity.column].iloc[-1])
+    return 0.0
 
 
 def _swapped(one: str, other: str, signals: Sequence[str]) -> Change:
