@@ -563,6 +563,14 @@ def test_missing_figure_is_named(tmp_path: Path) -> None:
         write_report(study, results)
 
 
+def test_likely_error_of_the_data_is_the_first_next_step(tmp_path: Path) -> None:
+    study, results = fake(tmp_path)
+    facts = replace(facts_in(study, results), suspect="the flux of slab_25 is 10 times too large")
+    first = next(next_steps(study, facts))
+    assert first.startswith("Look at the data first")
+    assert first.endswith("the flux of slab_25 is 10 times too large.")
+
+
 def test_reactions_that_are_offered_stand_among_the_next_steps(tmp_path: Path) -> None:
     study, results = fake(tmp_path)
     facts = replace(facts_in(study, results), offers=["Two reactions predict better."])

@@ -29,6 +29,7 @@ from pyrofit.results.goodness import Goodness
 from pyrofit.results.step import exists
 from pyrofit.show.table import Frames
 from pyrofit.steps.posterior import record as posterior
+from pyrofit.steps.preview import record as preview
 from pyrofit.steps.sensitivity import record as sensitivity
 
 
@@ -66,6 +67,8 @@ class Facts:
         What the activation energies over conversion show, in sentences.
     offers
         Which reactions would describe the masses better, in sentences.
+    suspect
+        The likeliest cause of records that no set within the limits reaches, in words, or nothing.
     ensemble
         Number of sets drawn from the posterior; 0 where it was not sampled, or did not converge.
     """
@@ -85,6 +88,7 @@ class Facts:
     times: Mapping[str, list[float]]
     isoconversional: list[str]
     offers: list[str]
+    suspect: str
     ensemble: int
 
 
@@ -118,8 +122,14 @@ def facts_of(study: Study, results: Results, tables: Frames) -> Facts:
         times=wall_times(study, results),
         isoconversional=isoconversional.findings(results),
         offers=isoconversional.offers(results),
+        suspect=_suspect(study, results),
         ensemble=_ensemble(study, results),
     )
+
+
+def _suspect(study: Study, results: Results) -> str:
+    causes = preview.read(results).causes if exists(study, results, "preview") else []
+    return causes[0].words if causes else ""
 
 
 def _influence(study: Study, results: Results) -> dict[str, float] | None:

@@ -19,6 +19,11 @@ _COMMANDS = {"kinetics": "pyrofit run STUDY scheme", "imp": "pyrofit run STUDY d
 
 def next_steps(study: Study, facts: Facts) -> Iterator[str]:
     """Yield the steps, the first first: data, limits, model, further tests, prediction."""
+    if facts.suspect:
+        yield (
+            "Look at the data first: no set within the limits reaches them. The likeliest cause: "
+            f"{facts.suspect}."
+        )
     if any(found.repeats for found in facts.goodness.values()):
         yield (
             "Leave out the records that differ from their repeats, or explain them, and run again. "
