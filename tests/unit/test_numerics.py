@@ -178,10 +178,10 @@ def test_eigenvectors_of_a_symmetric_matrix(n: int) -> None:
 def test_thin_factor_of_a_smooth_covariance_has_few_columns() -> None:
     t = np.linspace(0.0, 1.0, 200)
     a = np.exp(-0.5 * ((t[:, None] - t) / 0.2) ** 2)
-    factor = linear.thin_factor(a, 1e-10)
+    factor = linear.thin_factor(np.diag(a), lambda k: a[k], 1e-10)
     assert factor.shape[1] < 25
     assert np.max(np.abs(factor @ factor.T - a)) < 1e-10
-    assert linear.thin_factor(np.eye(3), 1e-10).shape == (3, 3)
+    assert linear.thin_factor(np.ones(3), lambda k: np.eye(3)[k], 1e-10).shape == (3, 3)
 
 
 def test_correlation_is_that_of_numpy() -> None:
@@ -267,7 +267,8 @@ for rows, columns in ((7, 3), (300, 31), (60, 60)):
     a, b = rng.standard_normal((rows, columns)), rng.standard_normal(rows)
     square = linear.gram(a) + np.eye(columns)
     found = [*linear.qr(a), *linear.svd(a), *linear.eigen(square), linear.inverse(square)]
-    found += [linear.thin_factor(square, 1e-9), linear.correlation(a.T), linear.product(b, a)]
+    thin = linear.thin_factor(np.diag(square), lambda k: square[k], 1e-9)
+    found += [thin, linear.correlation(a.T), linear.product(b, a)]
     found += [linear.least_squares(a, b), linear.polynomial(b, b**2 + a[:, 0], 2)]
     low, high = np.full(columns, -0.01), np.full(columns, 0.02)
     found += [fitting.within_limits(square, linear.product(a.T, b), low, high)]

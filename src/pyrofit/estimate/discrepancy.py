@@ -92,7 +92,16 @@ class Discrepancy:
 
     def factor(self, time: FloatArray, curve: FloatArray) -> FloatArray:
         """Return F with F F^T = D but for `JITTER`, shape (points, few)."""
-        return linear.thin_factor(self.covariance(time, curve), JITTER)
+        shapes = _shapes(time, curve)
+        scale = _scale(time, curve, self.lasting)
+
+        def row(k: int) -> FloatArray:
+            kernel = functions.exp(-0.5 * ((time - time[k]) / scale) ** 2)
+            parts = [kernel * (shape[k] * shape) for shape in shapes]
+            return linear.product(np.stack(parts, axis=1), self._squares)
+
+        squares = np.stack([shape * shape for shape in shapes], axis=1)
+        return linear.thin_factor(linear.product(squares, self._squares), row, JITTER)
 
 
 def half_time(time: FloatArray, curve: FloatArray) -> float:
@@ -107,10 +116,23 @@ def half_time(time: FloatArray, curve: FloatArray) -> float:
     return float(np.interp(0.5 * way[-1], way, time))
 
 
+def _scale(time: FloatArray, curve: FloatArray, lasting: float) -> float:
+    return lasting * max(half_time(time, curve), 1e-9)
+
+
+def _shapes(time: FloatArray, curve: FloatArray) -> tuple[FloatArray, FloatArray, FloatArray]:
+    """Return curves that an error of level, of time, and an offset of size 1 add."""
+    return (
+        curve - curve[0],
+        time * np.gradient(curve, time),
+        np.full(curve.size, np.ptp(curve)),
+    )
+
+
 def _kernel(
     time: FloatArray, curve: FloatArray, lasting: float, few: slice = slice(None)
 ) -> FloatArray:
-    scale = lasting * max(half_time(time, curve), 1e-9)
+    scale = _scale(time, curve, lasting)
     at = time[few]
     return functions.exp(-0.5 * (np.subtract.outer(at, at) / scale) ** 2)
 
@@ -120,12 +142,7 @@ def _basis(
 ) -> FloatArray:
     """Return the covariance of each part for a size of 1, at some points: (points, points, 3)."""
     kernel = _kernel(time, curve, lasting, few)
-    shapes = (
-        curve - curve[0],
-        time * np.gradient(curve, time),
-        np.full(curve.size, np.ptp(curve)),
-    )
-    parts = [kernel * np.outer(g, g) for g in (shape[few] for shape in shapes)]
+    parts = [kernel * np.outer(g, g) for g in (s[few] for s in _shapes(time, curve))]
     return np.asarray(np.stack(parts, axis=2))
 
 
@@ -136,12 +153,13 @@ def factor_of(covariance: FloatArray) -> FloatArray:
     return linear.cholesky(raised)
 
 
-def noise_covariance(noise: NoiseModel) -> FloatArray:
-    """Return N of a channel: with w = A r white, N = (A^T A)^-1."""
+def noise_covariance(noise: NoiseModel, few: slice = slice(None)) -> FloatArray:
+    """Return N of a channel at some of its points: with w = A r white, N = (A^T A)^-1."""
     points = noise.sd.size
-    apart = np.abs(np.subtract.outer(np.arange(points), np.arange(points)))
-    N = np.outer(noise.sd, noise.sd) * noise.correlation.sequence(points)[apart]
-    return N if noise.modes is None else N + linear.gram(noise.modes.T)
+    at, sd = np.arange(points)[few], noise.sd[few]
+    apart = np.abs(np.subtract.outer(at, at))
+    N = np.outer(sd, sd) * noise.correlation.sequence(points)[apart]
+    return N if noise.modes is None else N + linear.gram(noise.modes[few].T)
 
 
 def with_discrepancy(
@@ -225,7 +243,7 @@ class _Channel:
         most_points: int,
     ) -> None:
         few = slice(None, None, max(1, -(-time.size // most_points)))
-        self.noise = noise_covariance(noise)[few, few]
+        self.noise = noise_covariance(noise, few)
         self.rows = np.column_stack([slopes, residual])[few]
         self.time, self.curve, self.few = time, curve, few
         self.bases: dict[float, FloatArray] = {}

@@ -82,7 +82,7 @@ class NoiseModel:
     """Factors of the modes, 1 at least, shape (modes,), that intervals and tests take: few repeats
     may hide errors. They do not weigh the points."""
 
-    @property
+    @cached_property
     def cautious(self) -> "NoiseModel":
         """The noise with the errors that few repeats may hide."""
         if self.modes is None or self.caution is None:

@@ -5,6 +5,7 @@ BLAS and LAPACK choose their code by the processor. Here one index runs in Pytho
 ones take long.
 """
 
+from collections.abc import Callable
 from typing import Any
 
 import numpy as np
@@ -129,17 +130,17 @@ def log_det(a: Floats) -> float:
     return 2.0 * float(np.sum(log(np.diag(cholesky(a)))))
 
 
-def thin_factor(a: Floats, least: float) -> Floats:
+def thin_factor(diagonal: Floats, row: Callable[[int], Floats], least: float) -> Floats:
     """Return F of few columns with F F^T = A but for ``least`` of the largest diagonal, (n, k).
 
     Cholesky's factor of a symmetric matrix without negative eigenvalues, the largest remainder of
-    the diagonal first.
+    the diagonal first. Only the few rows that it takes are asked for.
     """
-    left = np.array(np.diag(a), dtype=np.float64)
-    enough, columns = least * float(left.max()), np.empty((0, len(a)))
-    while len(columns) < len(a) and left.max() > max(enough, 0.0):
+    left = np.array(diagonal, dtype=np.float64)
+    enough, columns = least * float(left.max()), np.empty((0, left.size))
+    while len(columns) < left.size and left.max() > max(enough, 0.0):
         k = int(left.argmax())
-        column = (a[k] - product(columns[:, k], columns)) / np.sqrt(left[k])
+        column = (row(k) - product(columns[:, k], columns)) / np.sqrt(left[k])
         columns = np.vstack([columns, column])
         left = np.maximum(left - column**2, 0.0)
         left[k] = 0.0
