@@ -55,7 +55,8 @@ def test_deck_in_air_has_the_reaction_and_its_oxygen(name: str) -> None:
     assert list(species) == ["NITROGEN", "OXYGEN", "METHANE"]
     assert species["NITROGEN"]["BACKGROUND"] == [True]
     assert species["OXYGEN"]["MASS_FRACTION_0"] == [pytest.approx(Y_AIR, abs=1e-8)]
-    assert [r.kind for r in deck.remarks if "oxygen" in r.what] == ["approximate"]
+    assert {r.kind for r in deck.remarks if "oxygen of" in r.what} == {"approximate"}
+    assert {r.kind for r in deck.remarks if "oxygen_use" in r.what} == {"left out"}
 
 
 def test_deck_without_oxygen_leaves_the_reaction_out() -> None:

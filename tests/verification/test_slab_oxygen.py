@@ -16,6 +16,7 @@ from pydantic import ValidationError
 from scipy.special import exp1
 from terms import HEATED, SLOW, charring, specimen
 
+from pyrofit.constants import AIR_HEAT_CAPACITY, OXYGEN_OVER_AIR
 from pyrofit.experiments import Cone, Gasification
 from pyrofit.model.accuracy import Accuracy, Resolution
 from pyrofit.model.material import Material
@@ -48,12 +49,12 @@ def reference(experiment: Any, material: Material, requests: Any, values: Any = 
 both = pytest.mark.parametrize("solve", [kernel, reference])
 
 
-def char(residue: float = 0.0, heat: float = 0.0) -> Material:
+def char(residue: float = 0.0, heat: float = 0.0, **changed: float) -> Material:
     """Char that burns and leaves a residue of its own volume, or nothing."""
     own = {"conductivity_W_mK": 0.2, "specific_heat_J_kgK": 1500.0}
     burns = {"reactant": "C", "reference_temperature_K": T, "reference_rate_1_s": RATE_1_S}
     burns |= {"E_J_mol": 1.5e5, "oxygen_order": N, "oxygen_depth_m": L}
-    burns |= {"products": {"S": residue}} if residue else {}
+    burns |= ({"products": {"S": residue}} if residue else {}) | changed
     return Material.model_validate(
         {
             "components": {
@@ -98,6 +99,20 @@ def test_surface_recedes_where_nothing_is_left(solve: Solver) -> None:
 
 
 @both
+@pytest.mark.parametrize("rate_1_s", [RATE_1_S, 1e3])
+def test_convection_limits_the_supply_of_oxygen(solve: Solver, rate_1_s: float) -> None:
+    """k X_s and the supply S (X - X_s) are in series: t = t(kinetics) + t(supply)."""
+    use, supply = 2.67, AROUND["h_W_m2K"] / AIR_HEAT_CAPACITY * OXYGEN_OVER_AIR
+    first_order = char(oxygen_order=1.0, oxygen_use=use, reference_rate_1_s=rate_1_s)
+    found = mass_of(solve, warm(), first_order)
+    d = found / RHO
+    kinetics = np.log(np.expm1(DEPTH / L) / np.expm1(d / L)) / (rate_1_s * X)
+    exact = kinetics + use * RHO * (DEPTH - d) / (supply * X)
+    assert found[-1] < 0.6 * found[0]
+    np.testing.assert_allclose(exact, TIMES, atol=1.0)
+
+
+@both
 def test_flame_keeps_oxygen_away(solve: Solver) -> None:
     flame = {"ignition_s": 200.0, "ends_s": 600.0}
     found = mass_of(solve, warm("cone", flame=flame), char())
@@ -126,8 +141,8 @@ def oxidised(**given: Any) -> Gasification:
     return Gasification.model_validate(specimen(**given).model_dump() | {"oxygen": "x"})
 
 
-def burning(n: float | str = N, heat: float = -4.0e6) -> Material:
-    burns = {**CHAR_BURNS, "oxygen_order": n, "heat_of_reaction_J_kg": heat}
+def burning(n: float | str = N, heat: float = -4.0e6, use: float | str = 0.0) -> Material:
+    burns = {**CHAR_BURNS, "oxygen_order": n, "heat_of_reaction_J_kg": heat, "oxygen_use": use}
     return charring(PYROLYSIS, burns)
 
 
@@ -154,6 +169,21 @@ def test_both_solvers_agree_on_char_that_forms_and_burns() -> None:
     assert ours.energy_error < 1e-4
 
 
+def test_both_solvers_agree_on_carbon_whose_oxygen_is_short() -> None:
+    values, carbon = {"x": X}, burning(1.0, -32.8e6, 2.67)
+    ours = kernel(oxidised(), carbon, ASKED, values)
+    other = reference(oxidised(), carbon, ASKED, values)
+    endless = simulate_gasification(oxidised(), burning(1.0, -32.8e6), values, ASKED)
+    assert ours.status.finished
+    assert other.status.finished
+    assert endless.status is Status.DIVERGED
+    for name, tolerance in (("mlr", 5e-3), ("back_temperature", 2e-3), ("front_temperature", 2e-3)):
+        size = float(np.ptp(other.signals[name]))
+        off = ours.signals[name] - other.signals[name]
+        assert np.sqrt(np.mean(off**2)) < tolerance * size, name
+    assert ours.energy_error < 1e-4
+
+
 def test_oxidation_that_does_not_run_leaves_the_bits_of_the_inert_slab() -> None:
     plain = charring(PYROLYSIS)
     still = charring(PYROLYSIS, {**CHAR_BURNS, "A_1_s": None, **NEVER})
@@ -172,13 +202,16 @@ NEVER = {"reference_temperature_K": 700.0, "reference_rate_1_s": 0.0}
 def test_sets_have_the_bits_of_single_runs() -> None:
     shares = np.array([0.0, 0.01, 0.05, 0.1, 0.209, 0.3, 0.5, 1.0, 0.209])
     orders = np.linspace(0.5, 1.3, 9)
-    slab, material = oxidised(), burning("n")
-    together = simulate_gasifications(slab, material, {"x": shares, "n": orders}, ASKED, sets=9)
-    for x, n, curves in zip(shares.tolist(), orders.tolist(), together, strict=True):
-        alone = simulate_gasification(slab, material, {"x": x, "n": n}, ASKED)
+    uses = np.array([0.0, 1.3, 2.67] * 3)
+    slab, material = oxidised(), burning("n", use="s")
+    given = {"x": shares, "n": orders, "s": uses}
+    together = simulate_gasifications(slab, material, given, ASKED, sets=9)
+    for k, curves in enumerate(together):
+        values = {name: float(of[k]) for name, of in given.items()}
+        alone = simulate_gasification(slab, material, values, ASKED)
         assert curves.status.finished
         for name in ASKED:
-            assert np.array_equal(curves.signals[name], alone.signals[name]), (x, name)
+            assert np.array_equal(curves.signals[name], alone.signals[name]), (values, name)
 
 
 def test_cone_with_oxygen_needs_a_flame() -> None:

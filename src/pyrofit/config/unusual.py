@@ -22,7 +22,7 @@ USUAL: dict[str, tuple[float, float, str]] = {
     "gas_temperature_K": (200.0, 1500.0, "K"),
     "h_W_m2K": (0.1, 200.0, "W/(m2 K)"),
     "heat_of_combustion_J_kg": (1e6, 1.5e8, "J/kg"),
-    "heat_of_reaction_J_kg": (1e4, 5e6, "J/kg"),
+    "heat_of_reaction_J_kg": (1e4, 3.5e7, "J/kg"),
     "heating_rate_K_min": (0.1, 1000.0, "K/min"),
     "reference_temperature_K": (250.0, 1500.0, "K"),
     "specific_heat_J_kgK": (100.0, 2e4, "J/(kg K)"),

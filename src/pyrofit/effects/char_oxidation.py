@@ -6,6 +6,8 @@ from pyrofit.model.material import Material, Reaction
 
 REFERENCE_TEMPERATURE_K = 700.0
 """Temperature of the rate that is the strength; another one would only scale that."""
+CARBON_OXYGEN = 2.67
+"""Oxygen that carbon uses up as it burns to CO2 [kg/kg]."""
 
 
 def _change(material: Material, at: Numbers) -> Material:
@@ -18,6 +20,7 @@ def _change(material: Material, at: Numbers) -> Material:
         reference_temperature_K=REFERENCE_TEMPERATURE_K,
         reference_rate_1_s=at["rate_1_s"],
         oxygen_order=1.0,
+        oxygen_use=CARBON_OXYGEN,
         heat_of_reaction_J_kg=at["heat_J_kg"],
     )
     return with_reaction(material, f"{ADDED}oxidation", burns)
@@ -28,7 +31,8 @@ EFFECT = Effect(
     family="material",
     group="oxidation",
     equation="residue of the main reaction -> gas, r = k m X exp(-x/(1 mm)), X oxygen at the "
-    "surface. Constants: k(700 K) = k_700, E_o, heat dh_o. Small samples have x = 0",
+    "surface. Constants: k(700 K) = k_700, E_o, heat dh_o; 2.67 kg of oxygen per kg of residue, "
+    "which convection supplies to a slab. Small samples have x = 0",
     strength={
         "rate_1_s": Quantity(
             symbol="k_700",
@@ -55,11 +59,11 @@ EFFECT = Effect(
             symbol="dh_o",
             label="heat of the oxidation, negative = released",
             unit="J/kg",
-            lower=-8e6,
+            lower=-3.3e7,
             upper=0.0,
             value=-5e6,
             typical=-2e6,
-            source="assumed range; the heat of carbon, -33 MJ/kg, lets a hot slab run away",
+            source="assumed range; that of carbon is -33 MJ/kg",
         ),
     },
     material=_change,

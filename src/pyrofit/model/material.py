@@ -68,6 +68,11 @@ class Reaction(Part):
         description="slabs: depth L below the surface over which the volume fraction of oxygen "
         "falls to 1/e, exp(-x/L) [m]",
     )
+    oxygen_use: NotNegative = Field(
+        0.0,
+        description="slabs: oxygen used up per kg of reactant, which convection at the front has "
+        "to supply; carbon to CO2: 2.67; 0 = never short [kg/kg]",
+    )
     heat_of_reaction_J_kg: Number = Field(
         0.0, description="heat of reaction per kg of reactant [J/kg], positive = endothermic"
     )

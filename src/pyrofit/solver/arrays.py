@@ -97,6 +97,8 @@ class Network(NamedTuple):
     """Exponent n of the volume fraction of oxygen [-]; 0 = needs none."""
     oxygen_fall: FloatArray
     """Fall of ln k_j with depth, n over the depth in which oxygen falls to 1/e [1/m]."""
+    oxygen_use: FloatArray
+    """Oxygen used up [kg per kg of reactant]; 0 = the supply is never short."""
     heat: FloatArray
     """dh_j [J per kg of reactant], positive = endothermic."""
     yields: FloatArray

@@ -213,6 +213,7 @@ _NUMBERS = (
     "E_J_mol",
     "oxygen_order",
     "oxygen_depth_m",
+    "oxygen_use",
     "heat_of_reaction_J_kg",
     "heat_of_combustion_J_kg",
 )
@@ -275,7 +276,9 @@ def lower_network(
     last = of_heat if heats or burning else none, of_burnt if burning else none
     rows = (number for row in (*plan.numbers[:-2], *last) for number in row)
     numbers = stack([value_of(number, values) for number in rows], sets)
-    order, energy, oxygen_order, depth, heat, burnt = numbers.reshape(len(_NUMBERS), count, sets)
+    order, energy, oxygen_order, depth, use, heat, burnt = numbers.reshape(
+        len(_NUMBERS), count, sets
+    )
     yields = np.zeros((count, len(material.components), sets))
     for j, i, product in plan.products:
         yields[j, i] = value_of(plan.reactions[j].products[product], values)
@@ -289,6 +292,7 @@ def lower_network(
         order=order,
         oxygen_order=oxygen_order,
         oxygen_fall=oxygen_order / depth,
+        oxygen_use=use,
         heat=heat,
         yields=yields,
         gas=1.0 - total(yields.swapaxes(0, 1)),

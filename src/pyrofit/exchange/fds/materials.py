@@ -226,6 +226,9 @@ def _reactions(
         if oxygen_order := value_of(reaction.oxygen_order, values):
             yield f"N_O2({j})", oxygen_order
             yield f"GAS_DIFFUSION_DEPTH({j})", value_of(reaction.oxygen_depth_m, values)
+            if use := value_of(reaction.oxygen_use, values):
+                what = f"oxygen used up in '{name}' ({use:g} kg/kg, oxygen_use)"
+                remarks.append(Remark("left out", what, "the solid phase alone keeps its oxygen"))
         yield from _products(reaction, values, first, options.gas, j)
         yield f"HEAT_OF_REACTION({j})", 1e-3 * value_of(reaction.heat_of_reaction_J_kg, values)
 

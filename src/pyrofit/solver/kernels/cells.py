@@ -213,7 +213,7 @@ def react_over(work, first, dt, room, network, final):
             if not network.first_order:
                 left = left * room.behind[j]
             if network.oxidises:
-                left = left * work.open[j]
+                left = left * work.open_end[j]
             book(work, n, j, room.used[j], left, room.growth[j], network, final)
         if not network.first_order:
             for i in range(work.m.shape[0]):
@@ -246,9 +246,8 @@ def react_one(work, first, j, dt, network, curved, final):
         mean, growth = log_mean(work.root[j, n], work.root_new[j, n])
         x, behind = dt * mean, 1.0
         if curved:
-            opened = work.open[j]
-            x, behind = ordered(work.m[i, n], work.held[j, n], opened * x, order)
-            behind = opened * behind
+            x, behind = ordered(work.m[i, n], work.held[j, n], work.open[j] * x, order)
+            behind = work.open_end[j] * behind
         e, _ = decay_of_order(x, order, curved, False)
         left, used = remaining(work.m[i, n], e)
         work.m_new[i, n] = left

@@ -50,12 +50,25 @@ def irradiation(given, t, exposure):
 
 
 @inner
-def exchange(surface, air, emissivity, T, t):
-    """Linearise the loss of a surface about T: net gain = gain - slope * T_new [W/m2]."""
-    dT = T - air.gas - surface.gas_rise * approach(t, surface.gas_rise_time)
+def above_gas(surface, air, T, t):
+    """Return by how much a surface is warmer than the gas [K]."""
+    return T - air.gas - surface.gas_rise * approach(t, surface.gas_rise_time)
+
+
+@inner
+def convection(surface, air, dT):
+    """Return the heat transfer coefficient of a surface by dT warmer than the gas [W/(m2 K)]."""
     h = air.h
     if somewhere(surface.h_cube_root != 0.0):
         h = h + surface.h_cube_root * exp((1.0 / 3.0) * log(max(abs(dT), 1e-150)))
+    return h
+
+
+@inner
+def exchange(surface, air, emissivity, T, t):
+    """Linearise the loss of a surface about T: net gain = gain - slope * T_new [W/m2]."""
+    dT = above_gas(surface, air, T, t)
+    h = convection(surface, air, dT)
     cube = T * T * T
     slope = 4.0 * emissivity * SIGMA * cube + h
     wall = air.wall

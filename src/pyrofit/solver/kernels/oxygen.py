@@ -1,17 +1,26 @@
 """Reactions that need oxygen: k_j = A_j exp(-E_j/(R T)) X_s^n exp(-n x/L), x below the surface.
 
-X_s, the volume fraction of oxygen at the surface, is the same during a step. The depth x follows
+X_s, the volume fraction of oxygen at the surface, is that of the gas, X, unless reactions use up
+oxygen. Then convection supplies what they use, K_j their rates at X_s = 1:
+
+    S (X - X_s) = sum_j s_j K_j X_s^n_j        S = (h/c_p) M_O2/M_air
+
+The depth x follows
 from the thickness of the cells, so that the surface recedes as they burn. Over a cell ln k falls
 with depth by n d/L besides its fall with temperature; the mean takes both.
 """
 
+from pyrofit.constants import AIR_HEAT_CAPACITY, OXYGEN_OVER_AIR
 from pyrofit.solver.arrays import LIT, OXYGEN
 from pyrofit.solver.kernels import row
-from pyrofit.solver.kernels.functions import exp, exp_of_negative, fma, power
+from pyrofit.solver.kernels.functions import exp, exp_of_negative, fma, log, power
 from pyrofit.solver.kernels.jit import inner, live, loop
 from pyrofit.solver.kernels.lanes import somewhere, where
-from pyrofit.solver.kernels.reactions import TINY
+from pyrofit.solver.kernels.reactions import TINY, is_curved, power_of_share
 from pyrofit.solver.kernels.schedule import during
+
+NEWTON_STEPS = 6
+"""From the start of `log_of_rest` six steps end within 1e-12 of the root for one reaction."""
 
 
 @inner
@@ -27,6 +36,7 @@ def close(work, none, network):
     """Fill what holds without oxygen: no factor, and the heat of combustion of all gas."""
     for j in range(network.reactant.size):
         work.open[j] = none + 1.0
+        work.open_end[j] = none + 1.0
         work.burning[j] = none + network.combustion[j] * network.gas[j]
 
 
@@ -39,7 +49,74 @@ def open_up(work, piece, schedule, network):
         n = network.oxygen_order[j]
         some = where(X > 0.0, power(max(X, TINY), n), 0.0)
         work.open[j] = where(n > 0.0, some, 1.0)
+        work.open_end[j] = work.open[j]
+        work.full[j] = work.open[j]
         work.burning[j] = fma(lit, network.combustion[j] * network.gas[j], network.glow[j])
+
+
+@inner
+def is_short(network):
+    """Tell whether a reaction uses up oxygen in some lane."""
+    short = False
+    for j in range(network.reactant.size):
+        short = short or somewhere(network.oxygen_use[j] > 0.0)
+    return short
+
+
+@inner
+def compare_need(work, first, m, root, supplied, network):
+    """Fill what reactions would use up at the oxygen of the gas, over the supply to X_s = 0."""
+    for j in range(network.reactant.size):
+        i, order = network.reactant[j], network.order[j]
+        rate = 0.0 * supplied
+        for n in live(work.m, first):
+            amount = m[i, n]
+            if is_curved(network, j):
+                amount = amount * power_of_share(amount, work.formed[i, n], order)
+            rate = fma(root[j, n] * root[j, n], amount, rate)
+        used = where(network.oxygen_order[j] > 0.0, network.oxygen_use[j] * work.full[j], 0.0)
+        work.need[j] = used * rate / max(supplied, 1e-100)
+
+
+@inner
+def log_of_rest(work, supplied, network):
+    """Return z = ln(X_s/X) of 1 - e^z = sum_j a_j e^(n_j z), a_j the needs.
+
+    The difference of the two sides falls ever faster with z. So Newton's method, begun where no
+    term exceeds 1, comes down to the root without passing it.
+    """
+    z = 0.0 * supplied
+    for j in range(network.reactant.size):
+        n = max(network.oxygen_order[j], 1e-3)
+        z = min(z, -log(max(work.need[j], 1.0)) / n)
+    for _ in range(NEWTON_STEPS):
+        rest = exp(z)
+        off, slope = 1.0 - rest, rest
+        for j in range(network.reactant.size):
+            n = network.oxygen_order[j]
+            used = work.need[j] * exp(n * z)
+            off -= used
+            slope = fma(n, used, slope)
+        z += off / slope
+    return z
+
+
+@loop
+def share_supply(work, first, behind, h, piece, schedule, network):
+    """Lower the factors of `open_up` to what a convection of h [W/(m2 K)] supplies.
+
+    ``behind`` holds masses at the end of the step, as far as they are known.
+    """
+    X = during(piece, OXYGEN, schedule)
+    supplied = (OXYGEN_OVER_AIR / AIR_HEAT_CAPACITY) * h * X
+    compare_need(work, first, work.m, work.root, supplied, network)
+    start = log_of_rest(work, supplied, network)
+    compare_need(work, first, behind, work.root_new, supplied, network)
+    end = log_of_rest(work, supplied, network)
+    for j in range(network.reactant.size):
+        n = network.oxygen_order[j]
+        work.open_end[j] = work.full[j] * exp(n * end)
+        work.open[j] = 0.5 * fma(work.full[j], exp(n * start), work.open_end[j])
 
 
 @loop

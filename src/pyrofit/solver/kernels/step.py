@@ -16,9 +16,11 @@ from pyrofit.solver.kernels.cells import (
 from pyrofit.solver.kernels.functions import fma
 from pyrofit.solver.kernels.heat import (
     Front,
+    above_gas,
     add_at_edge,
     at_edge,
     conduct,
+    convection,
     heat_gas,
     irradiation,
     lose_at_edge,
@@ -32,8 +34,10 @@ from pyrofit.solver.kernels.oxygen import (
     correct_in_depth,
     extrapolate_depths,
     fill_in_depth,
+    is_short,
     measure_depths,
     open_up,
+    share_supply,
 )
 from pyrofit.solver.kernels.radiation import top_emissivity
 from pyrofit.solver.kernels.schedule import during, given_at
@@ -80,12 +84,17 @@ def extrapolate(wide, first, r):
 
 
 @loop
-def predict(wide, first, bdf, room, description):
-    """Fill rates at T*, the masses they lead to, properties, and the heat source as a line in T."""
-    cell, network = wide.cell, description.network
+def fill_rates(wide, first, network):
+    """Fill the roots of all k_j at T*."""
     fill_rate_constants(wide, first, network)
     if network.oxidises:
         fill_in_depth(wide, first, network)
+
+
+@loop
+def predict(wide, first, bdf, room, description):
+    """Fill the masses that rates at T* lead to, properties, and the heat source as a line in T."""
+    cell, network = wide.cell, description.network
     react_over(wide, first, bdf.dt, room, network, False)
     describe(wide, first, description.material)
     for n in live(wide.m, first):
@@ -168,8 +177,26 @@ def extrapolated(arrays, edge, now, bdf, description):
     if description.network.oxidises:
         open_up(work, now.clock.piece, description.exposure.schedule, description.network)
         extrapolate_depths(arrays.wide, block, bdf.r)
+    fill_rates(arrays.wide, block, description.network)
+    if description.network.oxidises and is_short(description.network):
+        breathe(arrays, edge, now, front_star, bdf.dt, description)
     predict(arrays.wide, block, bdf, arrays.room, description)
     return front_star
+
+
+@loop
+def breathe(arrays, edge, now, front_star, dt, description):
+    """Bring the rates of reactions that use up oxygen to what the convection supplies.
+
+    What they need at the end of the step follows from masses that a first pass leaves.
+    """
+    work, exposure, network = arrays.work, description.exposure, description.network
+    piece, t = now.clock.piece, now.clock.t + dt
+    air = given_at(t, piece, exposure.schedule).front
+    h = convection(exposure.front, air, above_gas(exposure.front, air, front_star, t))
+    share_supply(work, edge.first, work.m, h, piece, exposure.schedule, network)
+    react_over(arrays.wide, first_wide(arrays, edge), dt, arrays.room, network, False)
+    share_supply(work, edge.first, work.m_new, h, piece, exposure.schedule, network)
 
 
 @inner

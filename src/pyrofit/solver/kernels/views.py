@@ -83,6 +83,7 @@ def network_in_lanes(width, g, network):
         order=_lanes(width, g, network.order),
         oxygen_order=_lanes(width, g, network.oxygen_order),
         oxygen_fall=_lanes(width, g, network.oxygen_fall),
+        oxygen_use=_lanes(width, g, network.oxygen_use),
         heat=_lanes(width, g, network.heat),
         yields=_lanes(width, g, network.yields),
         gas=_lanes(width, g, network.gas),

@@ -39,8 +39,14 @@ class Work(NamedTuple):
     skin: FloatArray
     """Masses of the cells that left the grid [kg/m2], shape (components, 1)."""
     open: FloatArray
-    """Factor of k_j by the oxygen at the surface in the step, shape (reactions,); a number also
-    where the others are wide, as ``burning``."""
+    """Factor of k_j by the oxygen at the surface, mean of the step, shape (reactions,); a number
+    also where the others are wide, as the next four."""
+    open_end: FloatArray
+    """The same at the end of the step."""
+    full: FloatArray
+    """The same where the oxygen at the surface is that of the gas."""
+    need: FloatArray
+    """Oxygen that reaction j would use up over that which convection could supply."""
     burning: FloatArray
     """Heat per mass of reactant that a reaction releases as it burns [J/kg], same shape."""
 
@@ -76,7 +82,7 @@ def allocate(cells, behind, components, reactions, lanes):
     of_cells = row.COUNT * columns
     of_masses = 4 * components * cells
     of_rates = 3 * reactions * cells
-    raw = np.zeros((of_cells + of_masses + of_rates + components + 2 * reactions) * lanes + ALIGNED)
+    raw = np.zeros((of_cells + of_masses + of_rates + components + 5 * reactions) * lanes + ALIGNED)
     free = raw[-(np.int64(raw.ctypes.data) // 8) % ALIGNED :]
     cell = free[: of_cells * lanes].reshape(row.COUNT, columns, lanes)
     free = free[of_cells * lanes :]
@@ -84,8 +90,8 @@ def allocate(cells, behind, components, reactions, lanes):
     free = free[of_masses * lanes :]
     rates = free[: of_rates * lanes].reshape(3, reactions, cells, lanes)
     free = free[of_rates * lanes :]
-    of_reactions = free[components * lanes :][: 2 * reactions * lanes]
-    factors = of_reactions.reshape(2, reactions, lanes)
+    of_reactions = free[components * lanes :][: 5 * reactions * lanes]
+    factors = of_reactions.reshape(5, reactions, lanes)
     return Work(
         cell=cell,
         m=masses[0],
@@ -97,7 +103,10 @@ def allocate(cells, behind, components, reactions, lanes):
         held=rates[2],
         skin=free[: components * lanes].reshape(components, 1, lanes),
         open=factors[0],
-        burning=factors[1],
+        open_end=factors[1],
+        full=factors[2],
+        need=factors[3],
+        burning=factors[4],
     )
 
 
@@ -116,6 +125,9 @@ def in_width(width, flat, lanes):
         held=in_lanes(width, flat.held.reshape(flat.root.shape[0], -1, w)),
         skin=in_lanes(width, flat.skin),
         open=in_lanes(lanes, flat.open),
+        open_end=in_lanes(lanes, flat.open_end),
+        full=in_lanes(lanes, flat.full),
+        need=in_lanes(lanes, flat.need),
         burning=in_lanes(lanes, flat.burning),
     )
 

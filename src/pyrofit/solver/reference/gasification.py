@@ -51,13 +51,16 @@ def reference_gasification(
         edges = [_clipped(edge, flame) for r in asked.values() for edge in _edges(r)]
         time = np.unique(np.concatenate([edge for both in edges for edge in both]))
         run = _Run(slab, resolution, time, {r.of(n) for n, r in asked.items()} <= EARLY)
-        run.go(list(pieces(experiment, flame, values, float(time[-1]), factor)))
+        given = list(pieces(experiment, flame, values, float(time[-1]), factor))
+        run.go(given)
         if not run.status.finished:
             return Curves(run.status, {}, resolution.elements, run.steps)
         lit = (time >= flame.begins) & (time <= flame.ends)
         shut = lit & (experiment.burning() is not None)
         oxygen = np.where(shut, 0.0, value_of(experiment.oxygen, values))
-        lines = _lines(slab, run.states, lit, oxygen)
+        spans = [piece.span for piece in given]
+        h = np.array([_convection(slab, *of, spans) for of in zip(time, run.states, strict=True)])
+        lines = _lines(slab, run.states, lit, (oxygen, h))
         for name in (RATE, HEAT):
             lines[name][time > run.ended] = 0.0
         signals = {
@@ -115,13 +118,23 @@ def _at(request: Request, time: FloatArray) -> IntArray:
     return np.searchsorted(time, np.maximum(request.time_s, 0.0))
 
 
+def _convection(slab: Slab, t: float, state: FloatArray, spans: list[tuple[float, float]]) -> float:
+    """Return the heat transfer coefficient of the front [W/(m2 K)] at time t."""
+    span = next((span for span in spans if span[0] <= t < span[1]), spans[-1])
+    return float(slab.front.convection(slab.split(state)[0][0], t, span)[0])
+
+
 def _lines(
-    slab: Slab, states: FloatArray, lit: BoolArray, oxygen: FloatArray
+    slab: Slab, states: FloatArray, lit: BoolArray, gas: tuple[FloatArray, FloatArray]
 ) -> dict[str, FloatArray]:
-    """Return all signals at the times of the states, at which gas burns, and front has oxygen."""
+    """Return all signals at the times of the states, at which gas burns.
+
+    ``gas`` is the volume fraction of oxygen, and the heat transfer coefficient of the front.
+    """
     T, extent = slab.split(states)
     present = slab.masses(extent)
-    air = slab.air(T, extent, oxygen[:, None, None])
+    oxygen, h = (of[:, None, None] for of in gas)
+    air = slab.air(T, extent, oxygen, h)
     still = Outside(0.0, 0.0, np.zeros(T.shape[-1]), (0.0, 0.0), air=air)
     rate = slab.derivative(states, still)
     reactions = slab.substance.reactions

@@ -21,6 +21,7 @@ import numpy as np
 from pyrofit.numerics import linear
 from pyrofit.solver.arrays import FloatArray
 from pyrofit.solver.reference.jacobian import banded_jacobian
+from pyrofit.solver.reference.oxygen import rest_of_oxygen
 from pyrofit.solver.reference.radiation import absorbed, top_average
 from pyrofit.solver.reference.substance import COLDEST_K, HOTTEST_K, Substance
 from pyrofit.solver.reference.surroundings import Outside, Piece, Rim, Surface
@@ -169,20 +170,30 @@ class Slab:
         volume = np.maximum(self.masses(extent), 0.0) / self.substance.density
         eps = self.radiating(volume, extent)
         radiation = self.irradiated(eps * piece.at(t), volume, 0.5 * (T[:-1] + T[1:]))
-        air = self.air(T, extent, piece.oxygen)
+        h, _ = self.front.convection(T[0], t, piece.span)
+        air = self.air(T, extent, piece.oxygen, h)
         return Outside(t, eps, radiation, piece.span, self._passing(T, extent, air), air)
 
-    def air(self, T: FloatArray, extent: FloatArray, oxygen: FloatArray | float) -> Air:
-        """Return the factors of the rates by the oxygen, of which the front has the share given.
+    def air(
+        self, T: FloatArray, extent: FloatArray, oxygen: FloatArray | float, h: FloatArray
+    ) -> Air:
+        """Return the factors of the rates by the oxygen, of which the gas has the share given.
 
-        ``oxygen`` is a number, or of shape (..., 1, 1), one for each state.
+        ``oxygen`` is a number, or of shape (..., 1, 1), one for each state, and so is the heat
+        transfer coefficient ``h`` of the front [W/(m2 K)].
         """
-        if not self.substance.reactions.oxygen_order.any():
+        reactions = self.substance.reactions
+        if not reactions.oxygen_order.any():
             return 1.0, 1.0
         d = self.thickness(T, extent)
         front = np.cumsum(d, axis=-1) - d
-        near, far = (self.substance.reactions.at_depth(front + s * d, oxygen) for s in GAUSS)
-        return near, far
+        near, far = (reactions.at_depth(front + s * d, oxygen) for s in GAUSS)
+        if not reactions.oxygen_use.any():
+            return near, far
+        reacting, _, _ = self._react(T[..., :-1], T[..., 1:], extent, (near, far))
+        rate = (self.mass[:, None] * reacting).sum(axis=-2, keepdims=True)
+        left = rest_of_oxygen(rate, oxygen, h, reactions)
+        return near * left, far * left
 
     def _passing(self, T: FloatArray, extent: FloatArray, air: Air) -> FloatArray | float:
         """Return c_g G [W/(m2 K)] in the middle of the elements, G the gas flux to the front."""

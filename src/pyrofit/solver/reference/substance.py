@@ -100,6 +100,8 @@ class Reactions:
     oxygen_order: FloatArray
     oxygen_depth: FloatArray
     """In which the volume fraction of oxygen falls to 1/e [m]."""
+    oxygen_use: FloatArray
+    """[kg of oxygen per kg of reactant]."""
     heat: FloatArray
     """[J per kg of reactant], positive = endothermic."""
     combustion: FloatArray
@@ -239,6 +241,7 @@ def _reactions(material: words.Material, values: Values) -> Reactions:
         order=np.array([value_of(r.order, values) for r in given]),
         oxygen_order=np.array([value_of(r.oxygen_order, values) for r in given]),
         oxygen_depth=np.array([value_of(r.oxygen_depth_m, values) for r in given]),
+        oxygen_use=np.array([value_of(r.oxygen_use, values) for r in given]),
         heat=np.array([value_of(r.heat_of_reaction_J_kg, values) for r in given]),
         combustion=np.array([value_of(r.heat_of_combustion_J_kg, values) for r in given]),
         yields=yields,

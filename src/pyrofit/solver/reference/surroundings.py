@@ -59,13 +59,20 @@ class Surface:
     gas_rise_time: float
     wall: Line
 
+    def convection(
+        self, T: FloatArray | float, t: float, piece: tuple[float, float]
+    ) -> tuple[FloatArray, FloatArray]:
+        """Return h [W/(m2 K)] and T - T_gas [K], all of time t."""
+        gas = self.gas.at(t, piece) + self.gas_rise * approached(t, self.gas_rise_time)
+        above = np.asarray(T - gas)
+        h = self.h.at(t, piece) + self.h_cube_root * functions.cube_root(np.abs(above))
+        return np.asarray(h), above
+
     def gain(
         self, emissivity: float, T: FloatArray, t: float, piece: tuple[float, float]
     ) -> FloatArray:
         """Return eps sigma (T_wall^4 - T^4) - h (T - T_gas) [W/m2], all of time t."""
-        gas = self.gas.at(t, piece) + self.gas_rise * approached(t, self.gas_rise_time)
-        above = T - gas
-        h = self.h.at(t, piece) + self.h_cube_root * functions.cube_root(np.abs(above))
+        h, above = self.convection(T, t, piece)
         wall = self.wall.at(t, piece)
         net = functions.fourth_power(wall) - functions.fourth_power(T)
         return np.asarray(emissivity * STEFAN_BOLTZMANN * net - h * above)
