@@ -7,6 +7,7 @@ import pandas as pd
 
 from pyrofit.analysis.closure import described_mass
 from pyrofit.config import Study
+from pyrofit.data.heating import usual_rise
 from pyrofit.data.suspect import LOOK
 from pyrofit.errors import DataError
 from pyrofit.model.base import value_of
@@ -38,8 +39,13 @@ def disagreements(
     if isinstance(experiment, HeatedExperiment) and experiment.set_point_K is not None:
         return _hold_notes(experiment.set_point_K, frame, source)
     if isinstance(experiment, HeatedExperiment):
-        rise = np.gradient(frame["temperature_K"].to_numpy(), frame["time_s"].to_numpy())
-        found, given = 60.0 * float(np.median(rise)), experiment.heating_rate_K_min
+        time, temperature = frame["time_s"].to_numpy(), frame["temperature_K"].to_numpy()
+        found, given = 60.0 * usual_rise(time, temperature), experiment.heating_rate_K_min
+        if found == 0.0:
+            raise DataError(
+                f"{source}: the temperature does not rise over most of the record, as where a "
+                "sample is heated and cooled in turn. Give a file of one heating"
+            )
         if abs(found - given) > OTHER_RATE * given:
             raise DataError(
                 f"{source}: the temperature rises by {found:.3g} K/min, the experiment's "

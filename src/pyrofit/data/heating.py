@@ -13,6 +13,8 @@ COOLED_K = 20.0
 """Fall of the temperature from which on a record counts as cooling."""
 PYROLYSED_K = 500.0
 """Heated so far, a sample has reacted; a cooling from below is one after a drying."""
+SPANS = 30
+"""Equal spans of temperature over which the rise of a record is looked at."""
 _HELD_K = 5.0
 _PARTS = 20
 _FEWEST = 3 * _PARTS
@@ -114,3 +116,22 @@ def burning_from_s(time_s: FloatArray, temperature_K: FloatArray, mass: FloatArr
     begin, end = edges[first[0] + 1], edges[first[0] + 2]
     before = np.flatnonzero(m[:end] > m[begin] - _STARTED)
     return float(t[int(before[-1])])
+
+
+def usual_rise(time: FloatArray, temperature: FloatArray) -> float:
+    """Return the median rise [K/s] over equal spans of temperature; 0 where it falls as often.
+
+    Over equal spans of time, holds and slow ends would count more, and so would readings that are
+    rounded to a kelvin.
+
+    >>> T = np.r_[np.arange(300.0, 800.0), np.linspace(800.0, 900.0, 1000)]
+    >>> t = np.r_[3.0 * np.arange(500), 1500.0 + 30.0 * np.arange(1000)]
+    >>> round(60.0 * usual_rise(np.rint(t), np.rint(T)), 1)
+    20.0
+    """
+    if np.median(np.gradient(temperature, time)) <= 0.0:
+        return 0.0
+    highest = np.maximum.accumulate(temperature)
+    nodes = np.linspace(highest[0], highest[-1], SPANS + 1)
+    rows = np.unique(np.minimum(np.searchsorted(highest, nodes), time.size - 1))
+    return float(np.median(np.diff(highest[rows]) / np.diff(time[rows])))

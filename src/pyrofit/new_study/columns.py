@@ -184,10 +184,14 @@ def _unit_one(table: Table, name: str) -> str:
 def _chosen(table: Table, names: Sequence[str], quantity: Quantity) -> list[str]:
     """Return the columns that are signals of a quantity; none where it is not clear which are.
 
-    Of several, one that is in the quantity's own unit comes first: per area, not per sample.
+    Of several, the total comes first, beside parts such as a reversing heat flow, then one in the
+    quantity's own unit: per area, not per sample.
     """
     first = [name for name in names if is_usual(name, quantity)] or list(names)
     if not quantity.is_temperature:
+        totals = [name for name in first if stem_of(name).startswith("total")]
+        if len(totals) == 1:
+            return totals
         own = [n for n in first if kind_of(table.units[n] or "", quantity.scales[:1])]
         return first if len(first) == 1 else own if len(own) == 1 else []
     roots = {root_of(name) for name in first}

@@ -26,7 +26,7 @@ _OF_SAMPLE = re.compile(
 )
 _WORDS = {
     "time": r"time.*|date/?time|(elapsed|test)time|zeit",
-    "temperature": r"(sample|program|furnace)?temp.*|(proben|ofen)temp.*|ts|tsample",
+    "temperature": r"(sample|program|furnace)?temp.*|(proben|ofen)temp.*|ts|tp|tsample",
 }
 
 

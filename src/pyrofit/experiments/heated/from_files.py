@@ -3,6 +3,7 @@
 import numpy as np
 import pandas as pd
 
+from pyrofit.data.heating import usual_rise
 from pyrofit.experiments.from_files import Frames, FromFiles, Loss, NamedNumber
 from pyrofit.solver.arrays import FloatArray
 
@@ -53,9 +54,7 @@ def recorded_rate(named: float, frames: Frames) -> float | None:
         heating = _heating(frame, held(frames)["set_point_K"])
         if heating is None:
             return None
-        frame = heating
-        rise = np.gradient(frame["temperature_K"].to_numpy(), frame["time_s"].to_numpy())
-        rate = 60.0 * float(np.median(rise))
+        rate = 60.0 * usual_rise(heating["time_s"].to_numpy(), heating["temperature_K"].to_numpy())
         if rate <= 0.0:
             return None
         return named if abs(rate - named) <= AGREES * abs(named) else float(f"{rate:.3g}")
