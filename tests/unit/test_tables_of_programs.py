@@ -55,9 +55,13 @@ def test_count_above_rows_without_names_is_that_of_gpyro(tmp_path: Path) -> None
     assert any("Gpyro" in note for note in table.mended)
     np.testing.assert_allclose(np.transpose([*table.columns.values()]), np.c_[TIME, MASS])
     assert list(table.columns) == ["Time", "column 2"]
-    (found,) = draft.measured("tga", table.path).signals
+    run = draft.measured("tga", table.path)
+    (found,) = run.signals
     assert found.columns == {"time": "Time", "value": "column 2"}
-    assert (found.guessed, found.missing) == (("value",), ("temperature",))
+    assert (found.guessed, found.missing) == (("value",), ())
+    assert (run.of_time, run.told) == (True, "")
+    kelvin = 300.0 + TIME / 6.0  # 10 K/min are assumed
+    np.testing.assert_allclose(run.frames["mass_fraction"], np.c_[TIME, kelvin, MASS])
     assert not draft.measured("gasification", table.path).signals[0].columns.get("value")
     other = written(tmp_path / "other.csv", f"{TIME.size + 1}\n", TIME, MASS)
     with pytest.raises(DataError, match="a row with their names must stand right above"):
@@ -122,3 +126,20 @@ def test_a_date_whose_day_is_not_clear_is_no_time(tmp_path: Path) -> None:
     assert not draft.measured("tga", path).frames
     with pytest.raises(DataError, match="given '03/04/2024 00:00:00'"):
         read_series(SeriesSpec("mass_fraction", path, {"time": "Date/Time"}))
+
+
+def test_rate_is_that_of_the_heating_whatever_rounding_and_slow_end_it_has(tmp_path: Path) -> None:
+    kelvin = np.arange(383.0, 883.0)
+    time = np.rint(np.cumsum(np.where(kelvin < 800.0, 3.0, 30.0)))
+    mass = 1.0 - 0.9 / (1.0 + np.exp((640.0 - kelvin) / 12.0))
+    path = written(tmp_path / "a.csv", "Time (s),Temperature (K),Mass (-)\n", time, kelvin, mass)
+    assert draft.measured("tga", path).number == pytest.approx(20.0)
+
+
+def test_total_heat_flow_stands_beside_its_parts(tmp_path: Path) -> None:
+    parts = ("Reversing", "Non-Reversing", "Total")
+    names = ",".join(f"{part} Heat Flow (Normalized) W/g" for part in parts)
+    above = f"Time (s),Tp (K),{names}\n"
+    path = written(tmp_path / "a.csv", above, TIME, KELVIN, 2.0 * MASS, 3.0 * MASS, 5.0 * MASS)
+    frame = draft.measured("dsc", path).frames["heat_flow"]
+    np.testing.assert_allclose(frame, np.c_[TIME, KELVIN, 5e3 * MASS])

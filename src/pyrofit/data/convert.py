@@ -48,6 +48,8 @@ def convert_columns(
         if spec.rate_K_s is not None:
             data["time_s"] = (temperature - temperature[0]) / spec.rate_K_s
         data["temperature_K"] = temperature
+    elif spec.rate_K_s is not None and spec.start_K is not None:
+        data["temperature_K"] = spec.start_K + spec.rate_K_s * data["time_s"]
     kinds = spec.of.scales
     value, kind = to_si(spec, table, headers, "value", kinds)
     value, of_zero = _from_start(spec, table, kind, value)

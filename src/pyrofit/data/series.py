@@ -106,7 +106,7 @@ def read_series(spec: SeriesSpec, read: Callable[[Path], Table] = read_table) ->
     if "time" in headers:
         table, doubles = without_doubles(table, headers["time"])
         gaps += doubles
-    if spec.rate_K_s is not None:
+    if spec.computed == "time":
         table, stops = without_stops(table, headers["temperature"])
         gaps += stops
     rows = _check_length(table)
@@ -178,7 +178,7 @@ def _assign_columns(spec: SeriesSpec, table: Table, dummies: Sequence[str]) -> d
     free = [name for name in table.columns if name not in asked.values()]
     headers: dict[str, str] = {}
     for role, known in spec.of.roles.items():
-        if role == "time" and spec.rate_K_s is not None:
+        if role == spec.computed:
             continue
         usable = free if role == "time" else [name for name in free if name not in dummies]
         keys = {header_key(name) for name in known}

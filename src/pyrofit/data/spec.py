@@ -42,6 +42,8 @@ class SeriesSpec:
         Whether mass fractions are divided by the first one: the sample was dried before.
     rate_K_s : float, optional
         Constant heating rate [K/s] of a file without times: t = (T - T0)/rate.
+    start_K : float, optional
+        First temperature T0 [K] of a file without temperatures: T = T0 + rate t.
 
     Raises
     ------
@@ -60,6 +62,14 @@ class SeriesSpec:
     sign: int = 1
     from_first: bool = False
     rate_K_s: float | None = None
+    start_K: float | None = None
+
+    @property
+    def computed(self) -> str:
+        """The role that no column has, as the heating rate tells it; nothing where all have one."""
+        if self.rate_K_s is None:
+            return ""
+        return "time" if self.start_K is None else "temperature"
 
     def __post_init__(self) -> None:
         if self.quantity not in (known := known_quantities()):

@@ -33,10 +33,10 @@ class HeatedExperiment(Experiment):
     oxygen: Fraction = Field(
         0.0, description="volume fraction of oxygen in that gas [-]; air: 0.209"
     )
-    program: Literal["nominal", "measured", "from_temperature"] = Field(
+    program: Literal["nominal", "measured", "from_temperature", "from_time"] = Field(
         "measured",
-        description="temperature over time: the measured one, or T0 + rate t; `from_temperature`: "
-        "the files have no times, t = (T - T0)/rate",
+        description="temperature over time: measured, or nominal T0 + rate t; `from_temperature`: "
+        "files without times, t = (T - T0)/rate; `from_time`: files without temperatures",
     )
     set_point_K: float | None = Field(
         None,
@@ -51,7 +51,9 @@ class HeatedExperiment(Experiment):
     temperature_offset_K: Number = Field(
         0.0, description="sample's temperature minus the recorded one, besides the lag [K]"
     )
-    start_temperature_K: AboveZero = Field(300.0, description="synthetic: first temperature [K]")
+    start_temperature_K: AboveZero = Field(
+        300.0, description="synthetic, and program `from_time`: first temperature T0 [K]"
+    )
     end_temperature_K: AboveZero = Field(850.0, description="synthetic: last temperature [K]")
 
     def as_simulated(self, signals: Iterable[str]) -> Self:
@@ -76,6 +78,7 @@ class HeatedExperiment(Experiment):
         for key, wrong, why in (
             ("lag_s", self.lag_s != 0.0, "a lag has no meaning; use temperature_offset_K"),
             ("program", self.program == "from_temperature", "the files must have times"),
+            ("program", self.program == "from_time", "the files must have temperatures"),
         ):
             if wrong:
                 raise ValueError(f"{key}: while a temperature is held (set_point_K), {why}")

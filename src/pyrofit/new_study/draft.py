@@ -36,6 +36,8 @@ _PARTS = (-120.0, 20.0), (-100.0, 20.0), (-140.0, 120.0)
 
 The rate constant is 0.001 1/s some 20 to 80 K below the peak of a reaction at usual rates.
 """
+START_K = 300.0
+"""Temperature assumed at time 0 of a record without temperatures."""
 _TOLD = ("thinned", "left out, the time of")
 """Beginnings of the notes of the reader that a new study tells."""
 
@@ -72,6 +74,8 @@ class Measured:
         How its file was read, where that is not as a table in UTF-8 with decimal points.
     timeless
         Whether its file has temperatures without times.
+    of_time
+        Whether its file has times without temperatures.
     end
         The end of the heating of a sample; the study leaves out what follows.
     then_gas
@@ -93,6 +97,7 @@ class Measured:
     repeats: tuple["Measured", ...] = ()
     mended: tuple[str, ...] = ()
     timeless: bool = False
+    of_time: bool = False
     end: End | None = None
     then_gas: str = ""
     gas: str = ""
@@ -177,14 +182,18 @@ def measured(kind: str, path: Path) -> Measured:
     timeless = recognised.timeless and all(
         found.missing == ("time",) and found.of.against_temperature for found in signals
     )
-    if timeless:
+    of_time = not recognised.left and all(
+        found.missing == ("temperature",) and found.of.against_temperature for found in signals
+    )
+    rate_K_s = number / 60.0 if timeless or of_time else None
+    if rate_K_s is not None:
         signals = tuple(replace(found, missing=()) for found in signals)
-    frames, thinned = _frames(table, signals, number / 60.0 if timeless else None)
+    frames, thinned = _frames(table, signals, rate_K_s, START_K if of_time else None)
     end = _end_of_heating(frames, table)
     if end is not None:
         frames = {name: frame[frame["time_s"] <= end.time_s] for name, frame in frames.items()}
     recorded = files.recorded(number, frames)
-    if recorded is not None and not timeless:
+    if recorded is not None and rate_K_s is None:
         number, told = recorded, "record"
     if table.stated.flux_kW_m2 is not None and KINDS[kind].stage == "imp":
         number, told = table.stated.flux_kW_m2, "file"
@@ -205,6 +214,7 @@ def measured(kind: str, path: Path) -> Measured:
         frames,
         mended=(*table.mended, *thinned),
         timeless=timeless,
+        of_time=of_time,
         end=end,
         then_gas=table.stated.then_gas if end is None else "",
         gas=table.stated.gas or gas_of(path.stem),
@@ -314,7 +324,7 @@ def check_names(records: Sequence[Measured]) -> None:
 
 
 def _frames(
-    table: Table, signals: Iterable[Found], rate_K_s: float | None
+    table: Table, signals: Iterable[Found], rate_K_s: float | None, start_K: float | None
 ) -> tuple[dict[str, pd.DataFrame], tuple[str, ...]]:
     """Return the series that can be read, and whether they are thinned.
 
@@ -336,6 +346,7 @@ def _frames(
             sign=-1 if found.of.has_sign and found.stated.exothermic_up else 1,
             from_first=found.dried_to is not None,
             rate_K_s=rate_K_s,
+            start_K=start_K,
         )
         try:
             series = read_series(spec, lambda _: table)

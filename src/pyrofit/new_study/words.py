@@ -111,6 +111,8 @@ def _parts(run: Measured, found: Found, place: int) -> list[str]:
     if run.timeless:
         told = "" if run.told in _CERTAIN else ", to be changed in the study"
         parts.append(f"no times: those of a heating rate of {run.number:g} K/min{told}")
+    if run.of_time:
+        parts.append("no temperatures: 300 K + rate t, to be changed in the study")
     for role, header in found.columns.items():
         if (role, header) in before:
             continue

@@ -159,7 +159,7 @@ def _read(experiment: Experiment, label: str, read: Callable[[Path], Table]) -> 
             sample_area_m2=signal.sample_area_m2,
             sign=1 if signal.endothermic == "positive" else -1,
             from_first=signal.relative_to == "first value",
-            rate_K_s=_rate_without_times(experiment),
+            **_of_rate(experiment),
         ),
         read,
     )
@@ -179,11 +179,14 @@ def _read(experiment: Experiment, label: str, read: Callable[[Path], Table]) -> 
     return frame, about
 
 
-def _rate_without_times(experiment: Experiment) -> float | None:
-    """Return the heating rate [K/s] of an experiment whose files have no times; else None."""
-    if isinstance(experiment, HeatedExperiment) and experiment.program == "from_temperature":
-        return experiment.heating_rate_K_min / 60.0
-    return None
+def _of_rate(experiment: Experiment) -> dict[str, float]:
+    """Return the numbers that tell the times, or the temperatures, which files do not have."""
+    if not isinstance(experiment, HeatedExperiment):
+        return {}
+    rate = {"rate_K_s": experiment.heating_rate_K_min / 60.0}
+    if experiment.program == "from_time":
+        return rate | {"start_K": experiment.start_temperature_K}
+    return rate if experiment.program == "from_temperature" else {}
 
 
 def _locate(file: str) -> Path:
