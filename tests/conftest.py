@@ -35,6 +35,7 @@ FILES = {
     "test_bad_input": "solver",
     "test_blind_test_parts": "long",
     "test_blind_test_short": "long",
+    "test_char_in_air": "long",
     "test_compare_models": "solver",
     "test_comparison": "solver",
     "test_compiled_cache": "long",

@@ -34,7 +34,7 @@ APPROXIMATE, LEFT_OUT, WHEN_READ = "approximate", "left out", "when read"
 REMARKS = {
     "balance_drift": {WHEN_READ},
     "bubbling": {LEFT_OUT},
-    "char_oxidation": {APPROXIMATE},
+    "char_oxidation": {APPROXIMATE, LEFT_OUT},
     "edge_loss": {LEFT_OUT},
     "emissivity_conversion": {LEFT_OUT},
     "gas_enthalpy": {LEFT_OUT},

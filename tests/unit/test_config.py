@@ -577,7 +577,7 @@ BROKEN: list[tuple[str, str, object, list[str]]] = [
         "unknown temperature program",
         "experiments.tga_5K.program",
         "ideal",
-        ["experiments.tga_5K.program: 'ideal' must be 'nominal', 'measured' or 'from_temperature'"],
+        ["experiments.tga_5K.program: 'ideal' must be 'nominal', 'measured', 'from_temperature'"],
     ),
     ("text in a limit", "parameters.rho.lower", "low", ["parameters.rho.lower: 'low' is not a"]),
     (
