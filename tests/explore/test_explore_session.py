@@ -4,7 +4,7 @@ import base64
 import json
 import sys
 import time
-from collections.abc import Mapping
+from collections.abc import Iterator, Mapping
 from pathlib import Path
 from typing import Any
 
@@ -13,7 +13,7 @@ import pandas as pd
 import pytest
 
 import pyrofit as pf
-from pyrofit.config import Study, as_study
+from pyrofit.config import Study, as_study, as_yaml, read_mapping
 from pyrofit.errors import StudyError
 from pyrofit.explore.describe import describe
 from pyrofit.explore.fit import fit
@@ -21,6 +21,7 @@ from pyrofit.explore.model import model_of
 from pyrofit.explore.save import save
 from pyrofit.explore.session import Session, State, session_of, state_of
 from pyrofit.explore.sets import named_sets
+from pyrofit.plugins import use_plugins
 from pyrofit.results.files import Results
 
 sys.path.insert(0, str(Path(__file__).parents[1] / "recovery"))
@@ -60,7 +61,7 @@ def test_curves_are_those_of_simulate(session: Session) -> None:
 
 def test_chi_square_is_that_of_the_log_likelihood(session: Session) -> None:
     assert session.pending is not None
-    session.pending.wait(120.0)
+    session.pending.wait(300.0)
     assert session.pending.error == ""
     of_signals = session.curves(State(TRUTH))["numbers"]["signals"]
     log_p = pf.log_likelihood(session.study, dict(session.measurements))
@@ -291,3 +292,49 @@ def test_curves_of_another_program_follow(tmp_path: Path) -> None:
         measured = np.array(signals[key]["measured"])
         assert np.sqrt(np.mean((curve - measured) ** 2)) < 0.05 * np.ptp(measured)
         assert not np.array_equal(curve, far[key])
+
+
+@pytest.fixture
+def own_study(tmp_path: Path) -> Iterator[Path]:
+    """Return a study whose folder has the effect, quantity and cost of the documentation."""
+    page = (SMOKE.parents[1] / "docs" / "adding.md").read_text(encoding="utf-8")
+    codes = [part.split("```")[0] for part in page.split("```python\n")[1:]]
+    places = ("effects/natural_convection", "quantities/thickness_of_sample", "costs/huber")
+    for place, code in zip(places, codes, strict=False):
+        path = tmp_path / "own" / f"{place}.py"
+        path.parent.mkdir(parents=True)
+        path.write_text(code, encoding="utf-8")
+    keys = read_mapping(SMOKE) | {"plugins": ["own"]}
+    signals = keys["experiments"]["slab_25"]["signals"]
+    signals["thickness_of_sample"] = {"file": "synthetic", "every": 20, "noise": 1e-5}
+    term = {"experiment": "slab_25", "signal": "mlr", "kind": "huber", "options": {"bend": 1e-3}}
+    keys["imp"]["costs"]["OWN"] = [term]
+    study = tmp_path / "own.yaml"
+    study.write_text(as_yaml(keys, ""), encoding="utf-8")
+    yield study
+    use_plugins([])
+
+
+def test_effects_quantities_and_costs_of_an_own_folder_are_explored(
+    own_study: Path, tmp_path: Path
+) -> None:
+    own = session_of(own_study, tmp_path)
+    try:
+        assert own.pending is not None
+        own.pending.wait(300.0)  # another process knows the folder, too
+        assert (own.noise is not None, own.pending.error) == (True, "")
+        base = State(own.sets["truth"])
+        (effect,) = (e for e in own.description()["effects"] if e["name"] == "natural_convection")
+        numbers = {n["name"]: n["start"] for n in effect["numbers"]}
+        on = State({**base.values, **numbers}, ("natural_convection",))
+        thickness = "slab_25/thickness_of_sample"
+        before, after = drawn_curves(own, base), drawn_curves(own, on)
+        assert not np.array_equal(before[thickness], after[thickness])
+        costs = own.curves(on)["numbers"]["costs"]
+        assert costs["OWN"] > 2.0 * own.curves(base)["numbers"]["costs"]["OWN"]
+        study, values = save(own, on, ["k"], "mine", tmp_path)
+        again = session_of(study, tmp_path, str(values), noise=False)
+        saved = again.curves(State(again.sets[str(values)]))["numbers"]["costs"]
+        assert saved == pytest.approx(costs, rel=1e-6)
+    finally:
+        own.close()

@@ -66,7 +66,7 @@ class PendingNoise:
 
 def main() -> None:
     """Read a study and its measurements from standard input, write its noise, or an error."""
-    os.nice(10)
+    os.nice(5)
     study, measurements = pickle.load(sys.stdin.buffer)
     use_plugins([Path(folder) for folder in study.plugins])
     found: Noise | str
