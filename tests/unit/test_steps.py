@@ -121,7 +121,7 @@ def test_options_are_keys_of_a_study_with_their_meaning_on_the_reference_page(na
     page = reference_page()
     for option, field in known_steps()[name].options.model_fields.items():
         words = re.sub(r" \[.*\]$", "", field.description)  # units have a place of their own
-        assert re.search(rf"^- `{option}`: {re.escape(words)}\. ", page, re.MULTILINE)
+        assert re.search(rf"^- `{option}`: {re.escape(words)}\.", page, re.MULTILINE)
     study = smoke(**{name: OTHER[name]})
     for option, value in OTHER[name].items():
         kept = dict(study.steps)[name].model_dump(mode="json")[option]

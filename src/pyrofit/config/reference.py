@@ -18,9 +18,10 @@ _HEAD = """\
 
 Every key that a study file may have, by its place. `<name>` is a name of your choice, and `[]`
 marks the items of a list. A *value* is a number or the name of one of the `parameters`. Units stand
-in brackets. All keys may be left out but those that are required. Unknown keys are refused, with
-the nearest known one; `pyrofit check STUDY` reports all errors. The studies in this folder are
-examples, and `pyrofit init NAME` writes one for your own material.
+in brackets, and a key without a kind is a text. All keys may be left out but those that are
+required. Unknown keys are refused, with the nearest known one; `pyrofit check STUDY` reports all
+errors. The studies in this folder are examples, and `pyrofit init NAME` writes one for your own
+material.
 
 Units of parameters: {units}.
 
@@ -87,7 +88,7 @@ def _section(part: type[Part], places: list[str], bases: list[type[Part]]) -> st
     above = {row for base in bases for row in _rows(base)}
     rows = [row for row in _rows(part) if row not in above]
     if not places:  # a key that each kind describes itself
-        rows = [row for row in rows if ": . " not in row]
+        rows = [row for row in rows if ": ." not in row]
     title = ", ".join(f"`{place}`" for place in places if place)
     lead = f"{title}: " if title else "" if bases or places != [""] else "The whole file: "
     also = f" Further keys: [{bases[0].__name__}](#{bases[0].__name__.lower()})." if bases else ""
@@ -116,7 +117,8 @@ def _row(name: str, field: FieldInfo) -> str:
     told = [takes, rules, f"default {default}" if default else ""]
     required = ", required" if field.is_required() else ""
     kind = "; ".join(filter(None, told))
-    return f"- `{name}`{required}: {text}. {kind[0].upper()}{kind[1:]}.".replace("<", "\\<")
+    kind = "" if kind == "text" else f" {kind[0].upper()}{kind[1:]}."
+    return f"- `{name}`{required}: {text}.{kind}".replace("<", "\\<")
 
 
 def _unit(description: str) -> tuple[str, str]:

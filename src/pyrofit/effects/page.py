@@ -3,7 +3,7 @@
 from collections.abc import Collection
 
 from pyrofit.effects import known_effects
-from pyrofit.effects.base import ASSUMED, FAMILIES, Effect, Quantity, reacts
+from pyrofit.effects.base import ASSUMED, FAMILIES, Effect, Quantity, has_slab, reacts
 
 _HEAD = """\
 # Effects
@@ -14,7 +14,8 @@ left out, they take their default. Effects that set the same number of the descr
 other, and those of one group are forms of one another. Ranges are limits of the fit. A plausible
 range, two standard deviations to either side, is left open by a careful description;
 `diagnosis.plausible` states another one. The last sentence of a parameter is the
-source of its range; without one the range is assumed.
+source of its range; without one the range is assumed. Unless told otherwise, an effect acts on
+slabs under radiant heat.
 
 {families}
 
@@ -45,7 +46,9 @@ def _section(effect: Effect) -> str:
     lines = [f"## `{effect.name}`", "", f"{effect.title[0].upper()}{effect.title[1:]}:", ""]
     lines += [f"    {effect.equation}", ""]
     notes = []
-    if effect.needs is not reacts:
+    if effect.needs is reacts:
+        notes.append("Acts on all samples that react.")
+    elif effect.needs is not has_slab:
         notes.append(f"Needs {effect.needs.words}.")
     if effect.distinct_in:
         notes.append(f"A candidate only where there is {effect.distinct_in.words}.")

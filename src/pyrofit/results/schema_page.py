@@ -19,7 +19,7 @@ _HEAD = """\
 # Keys of `diagnosis.json`
 
 Find a key of the [result of a diagnosis](diagnosis.md), which is in `results/<study>/diagnosis/`. A
-key without a type is a number.
+key without a type is a number or a text.
 
 This page is generated: `pyrofit reference --of diagnosis > docs/diagnosis_json.md`.
 """
@@ -31,7 +31,8 @@ def schema_page() -> str:
     for record in _records():
         parts += [f"## {_title(record)}", "", f"{record.__doc__}", ""]
         for name, field in record.model_fields.items():
-            words = "" if field.annotation is float else f" ({_words(field.annotation)})"
+            plain = field.annotation in (float, str)
+            words = "" if plain else f" ({_words(field.annotation)})"
             parts.append(f"- `{field.alias or name}`{words}: {field.description}")
         parts.append("")
     return "\n".join(parts)
