@@ -2,6 +2,7 @@
 
 from pyrofit.blind_test.setting import Setting
 from pyrofit.config.reference import with_keys
+from pyrofit.model.accuracy import Resolution
 
 _HEAD = """\
 # Keys of the blind test
@@ -12,4 +13,4 @@ Those of `blind_test.yaml`.
 
 def blind_test_keys() -> str:
     """Return the part of the reference page with every key of the blind test."""
-    return with_keys(_HEAD, Setting)
+    return with_keys(_HEAD, Setting, elsewhere=(Resolution,))

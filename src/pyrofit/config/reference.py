@@ -36,12 +36,12 @@ def reference_page() -> str:
     return with_keys(head, Study)
 
 
-def with_keys(head: str, root: type[Part]) -> str:
-    """Return a heading and, below it, one section per kind of part that a file may have."""
-    return "\n".join([head, *_sections(root)]).rstrip("\n") + "\n"
+def with_keys(head: str, root: type[Part], elsewhere: Iterable[type[Part]] = ()) -> str:
+    """Return a heading and a section per kind of part of a file that does not stand elsewhere."""
+    return "\n".join([head, *_sections(root, {*elsewhere})]).rstrip("\n") + "\n"
 
 
-def _sections(root: type[Part]) -> list[str]:
+def _sections(root: type[Part], elsewhere: set[type[Part]]) -> list[str]:
     """Return one section per kind of part, with all places where it stands."""
     places: dict[type[Part], list[str]] = {root: [""]}
     waiting = [root]
@@ -59,6 +59,7 @@ def _sections(root: type[Part]) -> list[str]:
     return [
         _section(part, places.get(part, []), [base for base in shared if _is_kind_of(part, base)])
         for part in _with_shared(places, shared)
+        if part not in elsewhere
     ]
 
 

@@ -19,8 +19,8 @@ slabs under radiant heat.
 
 {families}
 
-| group | family | effects |
-|---|---|---|
+Effects by group and family:
+
 {groups}"""
 
 
@@ -33,13 +33,13 @@ def effects_page() -> str:
 
 
 def _groups(effects: Collection[Effect]) -> str:
-    """Return the rows of the groups with their effects."""
+    """Return the lines of the groups with their effects."""
     groups: dict[tuple[str, str], list[str]] = {}
     for effect in effects:
         link = f"[`{effect.name}`](#{effect.name.lower()})"
         groups.setdefault((effect.group, effect.family), []).append(link)
     rows = sorted(groups.items())
-    return "".join(f"| {' | '.join(of)} | {', '.join(names)} |\n" for of, names in rows)
+    return "".join(f"- {of[0]} ({of[1]}): {', '.join(names)}\n" for of, names in rows)
 
 
 def _section(effect: Effect) -> str:
