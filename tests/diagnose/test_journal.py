@@ -4,7 +4,7 @@ import os
 import signal
 import time
 from collections.abc import Callable
-from dataclasses import fields
+from dataclasses import fields, replace
 from pathlib import Path
 
 import numpy as np
@@ -28,26 +28,40 @@ def same(one: Fit, other: Fit) -> bool:
     )
 
 
-def never() -> Fit:
+def never(*of: object) -> Fit:
     raise AssertionError("made anew")
 
 
 def test_kept_descent_comes_back_with_all_bits(tmp_path: Path) -> None:
     journal = Journal(tmp_path / "kept", worth_s=0.0)
     assert len(journal) == 0
-    assert journal.fit("a", lambda: FIT) is FIT
-    assert same(journal.fit("a", never), FIT)
+    assert journal.fit("a", lambda: FIT, never) is FIT
+    assert same(journal.fit("a", never, never), FIT)
     assert len(journal) == 1
+
+
+def test_derivatives_of_the_end_are_made_there_again(tmp_path: Path) -> None:
+    fresh = replace(FIT, fresh=True, returned=True)
+    journal = Journal(tmp_path, worth_s=0.0)
+    journal.fit("a", lambda: fresh, never)
+    asked: list[FloatArray] = []
+
+    def at_end(x: FloatArray) -> Fit:
+        asked.append(x)
+        return replace(FIT, fresh=True)
+
+    assert same(journal.fit("a", never, at_end), fresh)
+    assert np.array_equal(asked[0], X)
 
 
 def test_short_descents_are_not_kept_and_broken_ones_are_made_anew(tmp_path: Path) -> None:
     journal = Journal(tmp_path)
-    journal.fit("a", lambda: FIT)
+    journal.fit("a", lambda: FIT, never)
     assert len(journal) == 0
-    Journal(tmp_path, worth_s=0.0).fit("a", lambda: FIT)
+    Journal(tmp_path, worth_s=0.0).fit("a", lambda: FIT, never)
     (path,) = tmp_path.iterdir()
     path.write_bytes(path.read_bytes()[:-40])
-    assert journal.fit("a", lambda: FIT) is FIT
+    assert journal.fit("a", lambda: FIT, never) is FIT
 
 
 def test_name_tells_start_model_and_everything_else() -> None:

@@ -7,6 +7,7 @@ from pyrofit.diagnose.base.journal import name_of_descent
 from pyrofit.diagnose.base.model import Model
 from pyrofit.diagnose.settings import SETTINGS
 from pyrofit.estimate.bounded_least_squares import Fit, minimise
+from pyrofit.numerics import linear
 from pyrofit.solver.arrays import FloatArray
 
 __all__ = ["Fit", "descend", "refreshed"]
@@ -46,7 +47,17 @@ def descend(
     if journal is None:
         return made()
     asked = (jacobian, enough, fixed, known, model.names, model.idle, SETTINGS)
-    return journal.fit(name_of_descent(model.residuals_all, start, *asked), made)
+    name = name_of_descent(model.residuals_all, start, *asked)
+    return journal.fit(name, made, partial(_fit_at, model, fixed))
+
+
+def _fit_at(model: Model, fixed: int | None, x: FloatArray) -> Fit:
+    """Return the fit that a descent to x ends with."""
+    residuals = model.residuals(x)
+    jacobian = model.jacobian(x, residuals)
+    if fixed is not None:
+        jacobian[:, fixed] = 0.0
+    return Fit(linear.dot(residuals, residuals), x, residuals, jacobian)
 
 
 def refreshed(model: Model, fit: Fit) -> Fit:

@@ -3,13 +3,16 @@
 A descent is named by all that it is made of, so that the same one, wanted again, has the same bits.
 The model is in that name by its whitened residuals at the start and at a second point. In these
 the measurements, their noise and all settings of the model have their part.
+
+Derivatives take megabytes. Those that were made at the end of a descent are made there again, with
+the same bits; only updated ones are kept.
 """
 
 import hashlib
 import io
 import time
 from collections.abc import Callable
-from dataclasses import dataclass, fields
+from dataclasses import dataclass, fields, replace
 from pathlib import Path
 from typing import Any
 from zipfile import BadZipFile
@@ -25,6 +28,8 @@ WORTH_S = 0.3
 INWARDS = 0.1
 """Part of the way from the start to the centre of the limits at which the second point lies."""
 SUFFIX = ".npz"
+OF_FRESH = ("x", "returned")
+"""What is kept of a descent that ends with derivatives made there."""
 
 
 @dataclass(frozen=True)
@@ -38,8 +43,19 @@ class Journal:
         """Return the number of descents that are kept."""
         return sum(1 for _ in self.folder.glob(f"*{SUFFIX}"))
 
-    def fit(self, name: str, descend: Callable[[], Fit]) -> Fit:
+    def fit(
+        self, name: str, descend: Callable[[], Fit], at_end: Callable[[FloatArray], Fit]
+    ) -> Fit:
         """Return the descent of this name, which is made if it is not there.
+
+        Parameters
+        ----------
+        name
+            As `name_of_descent` gives it.
+        descend
+            Makes the descent.
+        at_end
+            From the x of its end to the fit there, with derivatives made there.
 
         Raises
         ------
@@ -47,7 +63,7 @@ class Journal:
             The folder cannot be written.
         """
         path = self.folder / f"{name}{SUFFIX}"
-        found = _read(path)
+        found = _read(path, at_end)
         if found is None:
             began = time.perf_counter()
             found = descend()
@@ -88,16 +104,21 @@ def _content(part: object) -> bytes:
 
 def _written(fit: Fit) -> bytes:
     buffer = io.BytesIO()
-    values: dict[str, Any] = {f.name: np.asarray(getattr(fit, f.name)) for f in fields(Fit)}
+    names = OF_FRESH if fit.fresh else [field.name for field in fields(Fit)]
+    values: dict[str, Any] = {name: np.asarray(getattr(fit, name)) for name in names}
     np.savez(buffer, **values)
     return buffer.getvalue()
 
 
-def _read(path: Path) -> Fit | None:
+def _read(path: Path, at_end: Callable[[FloatArray], Fit]) -> Fit | None:
     """Return a kept descent; None where there is none, or a broken one."""
     try:
         with np.load(io.BytesIO(path.read_bytes()), allow_pickle=False) as kept:
-            values = {f.name: kept[f.name] for f in fields(Fit)}
+            values = {name: kept[name] for name in kept.files}
     except (OSError, ValueError, KeyError, EOFError, BadZipFile):
+        return None
+    if set(values) == set(OF_FRESH):
+        return replace(at_end(values["x"]), returned=values["returned"].item())
+    if set(values) != {field.name for field in fields(Fit)}:
         return None
     return Fit(**{n: v if v.ndim else v.item() for n, v in values.items()})
