@@ -129,7 +129,7 @@ def usual_rise(time: FloatArray, temperature: FloatArray) -> float:
     >>> round(60.0 * usual_rise(np.rint(t), np.rint(T)), 1)
     20.0
     """
-    if np.median(np.gradient(temperature, time)) <= 0.0:
+    if np.sign(np.diff(temperature)).sum() <= 0.0:
         return 0.0
     highest = np.maximum.accumulate(temperature)
     nodes = np.linspace(highest[0], highest[-1], SPANS + 1)
