@@ -135,7 +135,7 @@ def test_extended_study_finds_its_plugins(
 ) -> None:
     found = diagnosed("k_T")
     monkeypatch.chdir(tmp_path)
-    monkeypatch.setattr("pyrofit.stages.diagnose.examine", lambda *_: found)
+    monkeypatch.setattr("pyrofit.stages.diagnose.examine", lambda *_, **__: found)
     monkeypatch.setattr("pyrofit.stages.diagnose.load", lambda *_: {})
     results = Results(Path("results/small"))
     diagnose(study().model_copy(update={"plugins": ("mine/own",)}), results, lambda *_: None)

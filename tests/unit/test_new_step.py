@@ -98,4 +98,4 @@ def test_documented_step_leaves_the_files_that_the_workflow_waits_for(done: Done
 def test_documented_step_is_a_target_with_options_in_fingerprint_and_reference(done: Done) -> None:
     assert done.told["target"] == "List the largest value of each measured signal."
     assert done.told["differ"]
-    assert "| `share` | a signal is near its peak above this share of it |" in done.said
+    assert "- `share`: a signal is near its peak above this share of it" in done.said

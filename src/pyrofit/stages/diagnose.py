@@ -3,13 +3,17 @@
 import hashlib
 import shutil
 
-from pyrofit.config import Study, as_yaml, calibration_channels, digest, held_out_channels
+import numpy as np
+import pandas as pd
+
+from pyrofit.config import Study, as_yaml, digest
 from pyrofit.config.programs import externals
 from pyrofit.config.resolve import diagnosed
 from pyrofit.diagnose.base.journal import Journal
 from pyrofit.diagnose.diagnosis import examine
 from pyrofit.diagnose.result.extended_study import extended_keys
 from pyrofit.errors import StudyError
+from pyrofit.estimate.targets import Measurements
 from pyrofit.experiments.external.simulate import OWN_MODEL
 from pyrofit.logs import Tell
 from pyrofit.provenance import source_fingerprint
@@ -40,10 +44,11 @@ def diagnose(study: Study, results: Results, tell: Tell, processes: int = 1) -> 
         An external program simulates one of its experiments.
     """
     refuse_programs(study)
-    journal = Journal(results.diagnosis(UNFINISHED) / _key(study, results))
+    measurements = load(study, results)
+    journal = Journal(results.diagnosis(UNFINISHED) / _key(study, measurements))
     if len(journal):
         tell(f"goes on where it was broken off: {len(journal)} fits are kept")
-    found = examine(study, load(study, results), tell, processes, journal=journal)
+    found = examine(study, measurements, tell, processes, journal=journal)
     effects = found.end.effects
     path = results.diagnosis(EXTENDED)
     path.unlink(missing_ok=True)  # that of an earlier diagnosis
@@ -60,16 +65,19 @@ def diagnose(study: Study, results: Results, tell: Tell, processes: int = 1) -> 
     return content
 
 
-def _key(study: Study, results: Results) -> str:
+def _key(study: Study, measurements: Measurements) -> str:
     """Return a digest of all that the fits of a diagnosis are made of."""
-    fitted = (*calibration_channels(study), *held_out_channels(study))
-    files = {results.measurement(c.experiment, c.signal) for c in fitted}
     content = {
         "study": dependencies.diagnose(study),
         "source": source_fingerprint("pyrofit.stages.diagnose"),
-        "files": [hashlib.sha256(path.read_bytes()).hexdigest() for path in sorted(files)],
+        "series": {" ".join(key): _digest_of(measurements[key]) for key in sorted(measurements)},
     }
     return digest(content)
+
+
+def _digest_of(frame: pd.DataFrame) -> str:
+    values = np.ascontiguousarray(frame.to_numpy(float))
+    return hashlib.sha256(",".join(frame.columns).encode() + values.tobytes()).hexdigest()
 
 
 def refuse_programs(study: Study) -> None:
