@@ -5,16 +5,22 @@ from dataclasses import dataclass
 from itertools import combinations
 from typing import Any
 
-import numpy as np
-import pandas as pd
-
-from pyrofit.effects.base import changed
 from pyrofit.model.experiment import Experiment
 from pyrofit.model.heated import Baseline, HeatedExperiment
 from pyrofit.model.slab import SlabExperiment
 from pyrofit.quantities.units import ICE_POINT_K
 from pyrofit.show.text import listed
-from pyrofit.steps.preview.reach import NOISE, Case, Channel
+from pyrofit.steps.preview.changes import (
+    Change,
+    column_changed,
+    heated_at,
+    multiplied,
+    part_changed,
+    shifted,
+    swapped,
+    without_baselines,
+)
+from pyrofit.steps.preview.reach import Case, Channel
 
 TEMPERATURE, FLUX, THICKNESS = "unit of temperature", "flux", "thickness"
 CLOCK, RATE, SWAPPED = "clock", "heating rate", "swapped files"
@@ -41,10 +47,6 @@ SHIFTS_S = (-300.0, -120.0, -60.0, -30.0, 30.0, 60.0, 120.0, 300.0)
 ROOM_K = 293.15
 USUAL_K = (250.0, 450.0)
 """Temperatures of gas and walls that need no explanation."""
-USUAL_C, ENDS = 1500.0, 0.1
-"""Specific heat [J/(kg K)] that a heat flow shows at its ends, each a tenth of the points."""
-
-Change = Callable[[Case], Case]
 
 
 @dataclass(frozen=True, eq=False)
@@ -111,7 +113,7 @@ def _temperatures(case: Case, name: str, outside: Sequence[str]) -> Iterator[Cor
                 TEMPERATURE,
                 (name,),
                 f"the {quantity.title} of {name}: the temperatures are {words}",
-                _column(name, (signal,), column, unit),
+                column_changed(name, (signal,), column, unit),
             )
 
 
@@ -128,7 +130,7 @@ def _fluxes(name: str) -> Iterator[Correction]:
             FLUX,
             (name,),
             f"the flux of {name} is {_off(factor)}",
-            _part(name, "front", "flux_factor", factor),
+            part_changed(name, "front", "flux_factor", factor),
         )
 
 
@@ -138,7 +140,7 @@ def _thicknesses(name: str) -> Iterator[Correction]:
             THICKNESS,
             (name,),
             f"the thickness of {name} is {_off(factor)}",
-            _part(name, "sample", "thickness_factor", factor),
+            part_changed(name, "sample", "thickness_factor", factor),
         )
 
 
@@ -152,7 +154,7 @@ def _surroundings(experiment: SlabExperiment, name: str) -> Iterator[Correction]
                     SURROUNDINGS,
                     (name,),
                     f"{place}.{key} of {name} is {given:g} K, not that of a room",
-                    _part(name, place, key, None, ROOM_K),
+                    part_changed(name, place, key, None, ROOM_K),
                 )
 
 
@@ -166,7 +168,7 @@ def _clocks(case: Case, name: str) -> Iterator[Correction]:
             CLOCK,
             (name,),
             f"the times of {name} are in {given}, and were read as {read}",
-            _column(name, signals, "time_s", _multiplied(factor)),
+            column_changed(name, signals, "time_s", multiplied(factor)),
         )
     for shift in SHIFTS_S:
         late = "early" if shift > 0.0 else "late"
@@ -174,7 +176,7 @@ def _clocks(case: Case, name: str) -> Iterator[Correction]:
             CLOCK,
             (name,),
             f"the clock of {name} is about {abs(shift):g} s {late}",
-            _shifted(name, signals, shift),
+            shifted(name, signals, shift),
         )
 
 
@@ -189,7 +191,7 @@ def _rates(case: Case, name: str) -> Iterator[Correction]:
             RATE,
             (name,),
             f"the heating rate of {name} is {rate:.3g} K/min, not {given:g} K/min",
-            _heated_at(name, case.signals(name), rate, rate / given),
+            heated_at(name, case.signals(name), rate, rate / given),
         )
 
 
@@ -210,7 +212,7 @@ def _samples(case: Case, name: str, outside: Sequence[str]) -> Iterator[Correcti
                 (name,),
                 f"the {quantity.title} of {name} is {_off(factor)}: area or mass "
                 "of the sample, or the unit",
-                _column(name, alike, "", _multiplied(factor)),
+                column_changed(name, alike, "", multiplied(factor)),
             )
 
 
@@ -230,7 +232,7 @@ def _baselines(case: Case, outside: Sequence[Channel]) -> Iterator[Correction]:
         names,
         f"the heat flow of {listed(names)} holds a baseline of the instrument. Subtract it, or "
         "give `baseline` two parameters",
-        _without_baselines(of),
+        without_baselines(of),
     )
 
 
@@ -253,7 +255,7 @@ def _swaps(case: Case, names: Sequence[str]) -> Iterator[Correction]:
                 SWAPPED,
                 (one, other),
                 f"the files{of} of {one} and {other} are swapped",
-                _swapped(one, other, tuple(signals)),
+                swapped(one, other, tuple(signals)),
             )
 
 
@@ -272,120 +274,3 @@ def _off(factor: float) -> str:
     ('10 times too large', '60 times too small')
     """
     return f"{1.0 / factor:g} times too large" if factor < 1.0 else f"{factor:g} times too small"
-
-
-def _multiplied(factor: float) -> Callable[[Any], Any]:
-    return lambda values: factor * values
-
-
-def _part(
-    name: str, place: str, key: str, factor: float | None, value: float | None = None
-) -> Change:
-    """Return the change of one number of a part of the description."""
-
-    def change(case: Case) -> Case:
-        experiment: Any = case.experiments[name]
-        part = getattr(experiment, place)
-        old = getattr(part, key)
-        new: Any = value
-        if factor is not None:
-            new = f"{factor!r} * ({old})" if isinstance(old, str) else factor * old
-        made = changed(experiment, **{place: changed(part, **{key: new})})
-        return case.with_experiment(name, made)
-
-    return change
-
-
-def _column(
-    name: str,
-    signals: Sequence[str],
-    column: str,
-    change: Callable[[Any], Any],
-) -> Change:
-    """Return the change of a column of records: the one named, else that of the values."""
-
-    def apply(case: Case) -> Case:
-        for signal in signals:
-            own = column or case.experiments[name].quantity(signal).column
-            frame = case.frames[name, signal]
-            old = frame[own].to_numpy(float)
-            made = frame.assign(**{own: change(old)})
-            if not column or own == case.experiments[name].quantity(signal).column:
-                made[NOISE] = frame[NOISE] * np.ptp(made[own]) / max(np.ptp(old), 1e-300)
-            case = case.with_frame((name, signal), made)
-        return case
-
-    return apply
-
-
-def _shifted(name: str, signals: Sequence[str], shift: float) -> Change:
-    """Return the shift of records in time; points before the start of the test are left out."""
-
-    def apply(case: Case) -> Case:
-        for signal in signals:
-            frame = case.frames[name, signal]
-            frame = frame.assign(time_s=frame["time_s"] + shift)
-            kept = frame[frame["time_s"] >= 0.0].reset_index(drop=True)
-            if len(kept) > 2:
-                case = case.with_frame((name, signal), kept)
-        return case
-
-    return apply
-
-
-def _heated_at(name: str, signals: Sequence[str], rate: float, factor: float) -> Change:
-    """Return the change of a heating rate, and of the times that rest on it."""
-
-    def apply(case: Case) -> Case:
-        experiment = case.experiments[name]
-        for signal in signals:
-            frame = case.frames[name, signal]
-            case = case.with_frame((name, signal), frame.assign(time_s=frame["time_s"] / factor))
-        return case.with_experiment(name, changed(experiment, heating_rate_K_min=rate))
-
-    return apply
-
-
-def _without_baselines(of: Sequence[Channel]) -> Change:
-    """Return heat flows less a line, so that their ends are those of a usual specific heat."""
-
-    def apply(case: Case) -> Case:
-        for channel in of:
-            name, signal = channel
-            frame, column = case.frames[channel], case.experiments[name].quantity(signal).column
-            T, values = frame["temperature_K"].to_numpy(float), frame[column].to_numpy(float)
-            rate = np.ptp(T) / np.ptp(frame["time_s"])
-            count = max(int(ENDS * T.size), 1)
-            ends = slice(None, count), slice(-count, None)
-            at = [float(np.median(T[end])) for end in ends]
-            off = [
-                float(np.median(values[end])) - USUAL_C * rate * share
-                for end, share in zip(ends, (1.0, _left(case, name)), strict=True)
-            ]
-            line = off[0] + (T - at[0]) * (off[1] - off[0]) / (at[1] - at[0])
-            case = case.with_frame(channel, frame.assign(**{column: values - line}))
-        return case
-
-    return apply
-
-
-def _left(case: Case, name: str) -> float:
-    """Return the mass at the end of a test over the initial one, 0 where it is not recorded."""
-    for signal in case.signals(name):
-        quantity = case.experiments[name].quantity(signal)
-        if quantity.scales[0] == "fraction":
-            return float(case.frames[name, signal][quantity.column].iloc[-1])
-    return 0.0
-
-
-def _swapped(one: str, other: str, signals: Sequence[str]) -> Change:
-    def apply(case: Case) -> Case:
-        frames: dict[Channel, pd.DataFrame] = dict(case.frames)
-        for signal in signals:
-            frames[one, signal], frames[other, signal] = (
-                case.frames[other, signal],
-                case.frames[one, signal],
-            )
-        return Case(case.experiments, frames)
-
-    return apply
