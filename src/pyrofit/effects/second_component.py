@@ -5,9 +5,7 @@ from pyrofit.effects.substance import (
     REFERENCE_RATE_1_S,
     is_of_the_material,
     main_reaction,
-    with_component,
-    with_reaction,
-    with_share,
+    with_part,
 )
 from pyrofit.model.material import Material
 
@@ -16,8 +14,6 @@ SECOND = f"{ADDED}component"
 
 def _change(material: Material, at: Numbers) -> Material:
     _, reaction = main_reaction(material)
-    main = reaction.reactant
-    more = with_component(material, SECOND, material.components[main])
     second = changed(
         reaction,
         reactant=SECOND,
@@ -26,7 +22,7 @@ def _change(material: Material, at: Numbers) -> Material:
         reference_temperature_K=at["temperature_K"],
         reference_rate_1_s=REFERENCE_RATE_1_S,
     )
-    return with_reaction(with_share(more, main, SECOND, at["share"]), SECOND, second)
+    return with_part(material, SECOND, at["share"], second)
 
 
 EFFECT = Effect(

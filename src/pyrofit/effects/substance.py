@@ -86,14 +86,17 @@ def with_reaction(material: Material, name: str, reaction: Reaction) -> Material
     return changed(material, reactions=reactions)
 
 
-def with_share(material: Material, main: str, name: str, share: float | str) -> Material:
-    """Return the material with a share of its main component replaced by another one."""
+def with_part(material: Material, name: str, share: float | str, reaction: Reaction) -> Material:
+    """Return the material with a share of its main component that has a reaction of its own."""
+    main = main_reaction(material)[1].reactant
+    material = with_component(material, name, material.components[main])
     composition = dict(material.composition)
     if composition[main] != REST:
         if any(isinstance(s, str) and s != REST for s in composition.values()):
             raise ValueError(f"the composition must give '{main}' as '{REST}'")
         composition |= shares(material) | {main: REST}
-    return changed(material, composition=composition | {name: share})
+    material = changed(material, composition=composition | {name: share})
+    return with_reaction(material, name, reaction)
 
 
 @need("a TGA, or a layer without a composition of its own")

@@ -5,9 +5,7 @@ from pyrofit.effects.substance import (
     REFERENCE_RATE_1_S,
     is_of_the_material,
     main_reaction,
-    with_component,
-    with_reaction,
-    with_share,
+    with_part,
 )
 from pyrofit.model.material import Material, Reaction
 
@@ -16,8 +14,6 @@ VOLATILE = f"{ADDED}volatile"
 
 def _change(material: Material, at: Numbers) -> Material:
     _, reaction = main_reaction(material)
-    main = reaction.reactant
-    more = with_component(material, VOLATILE, material.components[main])
     release = Reaction(
         reactant=VOLATILE,
         E_J_mol=at["E_J_mol"],
@@ -26,7 +22,7 @@ def _change(material: Material, at: Numbers) -> Material:
         # ASSUME: its release takes as much heat as the decomposition of the same mass.
         heat_of_reaction_J_kg=reaction.heat_of_reaction_J_kg,
     )
-    return with_reaction(with_share(more, main, VOLATILE, at["share"]), VOLATILE, release)
+    return with_part(material, VOLATILE, at["share"], release)
 
 
 EFFECT = Effect(
