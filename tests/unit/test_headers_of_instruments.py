@@ -8,7 +8,8 @@ import pytest
 from headers_of_instruments import EXPORTS, Export
 
 from pyrofit.experiments import measurable
-from pyrofit.new_study.draft import Measured, divisor_of, is_told, measured
+from pyrofit.new_study.divisor import divisor_of, is_told
+from pyrofit.new_study.draft import Measured, measured
 
 KELVIN = np.arange(300.0, 900.0, 10.0)
 TIME = 6.0 * (KELVIN - 300.0)
@@ -64,7 +65,7 @@ def read(export: Export, folder: Path) -> Measured:
 
 def asked(run: Measured) -> Iterator[str]:
     """Yield what the study marks with CHANGE."""
-    if run.timeless and run.told not in ("record", "file"):
+    if run.lacks == "time" and run.told not in ("record", "file"):
         yield "heating rate"
     for found in run.signals:
         yield from (*found.missing, *found.guessed, *found.unread)

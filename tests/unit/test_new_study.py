@@ -434,7 +434,7 @@ def test_one_of_two_columns_of_the_same_times_is_taken(
     times = [one * MINUTES, other * MINUTES, *[MINUTES / 60.0] * header.count("[h]")]
     write("tga_20K.csv", header, *times, TEMPERATURE_K - 273.15, 5.0 * MASS)
     run = draft.measured("tga", Path("tga_20K.csv"))
-    assert not run.timeless
+    assert not run.lacks
     assert run.signals[0].columns["time"] == taken
     np.testing.assert_allclose(run.frames["mass_fraction"]["time_s"], 60.0 * MINUTES, rtol=1e-8)
     assert run.number == pytest.approx(RATE_K_MIN)

@@ -59,7 +59,7 @@ def test_count_above_rows_without_names_is_that_of_gpyro(tmp_path: Path) -> None
     (found,) = run.signals
     assert found.columns == {"time": "Time", "value": "column 2"}
     assert (found.guessed, found.missing) == (("value",), ())
-    assert (run.of_time, run.told) == (True, "")
+    assert (run.lacks, run.told) == ("temperature", "")
     kelvin = 300.0 + TIME / 6.0  # 10 K/min are assumed
     np.testing.assert_allclose(run.frames["mass_fraction"], np.c_[TIME, kelvin, MASS])
     assert not draft.measured("gasification", table.path).signals[0].columns.get("value")

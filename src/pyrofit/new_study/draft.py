@@ -12,21 +12,15 @@ import pandas as pd
 from pyrofit.data.csvfile import Table, read_table
 from pyrofit.data.gas_steps import holds_oxygen
 from pyrofit.data.heating import End, end_of_heating
-from pyrofit.data.series import read_series
-from pyrofit.data.spec import SeriesSpec
-from pyrofit.errors import DataError, StudyError
+from pyrofit.errors import StudyError
 from pyrofit.experiments import KINDS, files_of
 from pyrofit.experiments.base import Kind
 from pyrofit.experiments.from_files import Told
 from pyrofit.new_study.columns import Found, recognise
+from pyrofit.new_study.frames import START_K, Course, frames_of, lacking
 from pyrofit.new_study.one_reaction import one_reaction_describes
 from pyrofit.quantities import known_quantities
-from pyrofit.quantities.units import PER_AREA, PER_MASS, PER_START
 
-USUAL_AREA_M2 = 0.01
-"""Exposed area of a slab of 100 mm by 100 mm."""
-USUAL_MASS_KG = 5e-6
-"""Mass of a sample in a crucible."""
 CHAR = 0.1
 """Residue above which a solid chars."""
 MOIST = 0.01
@@ -36,10 +30,6 @@ _PARTS = (-120.0, 20.0), (-100.0, 20.0), (-140.0, 120.0)
 
 The rate constant is 0.001 1/s some 20 to 80 K below the peak of a reaction at usual rates.
 """
-START_K = 300.0
-"""Temperature assumed at time 0 of a record without temperatures."""
-_TOLD = ("thinned", "left out, the time of")
-"""Beginnings of the notes of the reader that a new study tells."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -72,10 +62,8 @@ class Measured:
         Its repeats, where it stands for several.
     mended
         How its file was read, where that is not as a table in UTF-8 with decimal points.
-    timeless
-        Whether its file has temperatures without times.
-    of_time
-        Whether its file has times without temperatures.
+    lacks
+        "time" if its file has temperatures without times, "temperature" in the reverse case.
     end
         The end of the heating of a sample; the study leaves out what follows.
     then_gas
@@ -96,8 +84,7 @@ class Measured:
     frames: Mapping[str, pd.DataFrame] = field(default_factory=dict)
     repeats: tuple["Measured", ...] = ()
     mended: tuple[str, ...] = ()
-    timeless: bool = False
-    of_time: bool = False
+    lacks: str = ""
     end: End | None = None
     then_gas: str = ""
     gas: str = ""
@@ -179,21 +166,16 @@ def measured(kind: str, path: Path) -> Measured:
     number, told = files.number.find(path.stem)
     hinted = number if told else None
     signals = recognised.signals
-    timeless = recognised.timeless and all(
-        found.missing == ("time",) and found.of.against_temperature for found in signals
-    )
-    of_time = not recognised.left and all(
-        found.missing == ("temperature",) and found.of.against_temperature for found in signals
-    )
-    rate_K_s = number / 60.0 if timeless or of_time else None
-    if rate_K_s is not None:
+    lacks, course = lacking(recognised), Course()
+    if lacks:
         signals = tuple(replace(found, missing=()) for found in signals)
-    frames, thinned = _frames(table, signals, rate_K_s, START_K if of_time else None)
+        course = Course(number / 60.0, START_K if lacks == "temperature" else None)
+    frames, thinned = frames_of(table, signals, course)
     end = _end_of_heating(frames, table)
     if end is not None:
         frames = {name: frame[frame["time_s"] <= end.time_s] for name, frame in frames.items()}
     recorded = files.recorded(number, frames)
-    if recorded is not None and rate_K_s is None:
+    if recorded is not None and not lacks:
         number, told = recorded, "record"
     if table.stated.flux_kW_m2 is not None and KINDS[kind].stage == "imp":
         number, told = table.stated.flux_kW_m2, "file"
@@ -213,8 +195,7 @@ def measured(kind: str, path: Path) -> Measured:
         recognised.left,
         frames,
         mended=(*table.mended, *thinned),
-        timeless=timeless,
-        of_time=of_time,
+        lacks=lacks,
         end=end,
         then_gas=table.stated.then_gas if end is None else "",
         gas=table.stated.gas or gas_of(path.stem),
@@ -246,27 +227,6 @@ def _end_of_heating(frames: Mapping[str, pd.DataFrame], table: Table) -> End | N
         if known_quantities()[name].against_temperature
     )
     return min((end for end in ends if end is not None), default=None)
-
-
-def divisor_of(found: Found) -> tuple[str, float] | None:
-    """Return key and value of a signal's divisor, where its unit asks for one.
-
-    The value is that of the file, else the usual one, see `is_told`.
-    """
-    wanted = found.of.scales[0]
-    if PER_AREA.get(found.scale) == wanted:
-        return "sample_area_m2", float(f"{found.area_m2 or USUAL_AREA_M2:.6g}")
-    if PER_MASS.get(found.scale) == wanted:
-        return "sample_mass_kg", found.stated.mass_kg or USUAL_MASS_KG
-    if PER_START.get(found.scale) == wanted and found.tared and found.stated.mass_kg:
-        return "sample_mass_kg", found.stated.mass_kg
-    return None
-
-
-def is_told(found: Found, key: str) -> bool:
-    """Tell whether the file gives the divisor of a signal."""
-    told = found.area_m2 if key == "sample_area_m2" else found.stated.mass_kg
-    return told is not None
 
 
 def kinetics_of(records: Iterable[Measured]) -> Kinetics:
@@ -321,37 +281,3 @@ def check_names(records: Sequence[Measured]) -> None:
                 f"'{record.name}'; give the files different names"
             )
         first[record.name] = record.path
-
-
-def _frames(
-    table: Table, signals: Iterable[Found], rate_K_s: float | None, start_K: float | None
-) -> tuple[dict[str, pd.DataFrame], tuple[str, ...]]:
-    """Return the series that can be read, and whether they are thinned.
-
-    `pyrofit check` reports the faults of the others.
-    """
-    frames: dict[str, pd.DataFrame] = {}
-    thinned: dict[str, None] = {}
-    for found in signals:
-        if found.missing or found.unread or found.quantity in frames:
-            continue
-        divisor = dict([given]) if (given := divisor_of(found)) else {}
-        spec = SeriesSpec(
-            found.quantity,
-            table.path,
-            found.columns,
-            found.units,
-            sample_area_m2=divisor.get("sample_area_m2"),
-            sample_mass_kg=divisor.get("sample_mass_kg"),
-            sign=-1 if found.of.has_sign and found.stated.exothermic_up else 1,
-            from_first=found.dried_to is not None,
-            rate_K_s=rate_K_s,
-            start_K=start_K,
-        )
-        try:
-            series = read_series(spec, lambda _: table)
-        except DataError:
-            continue
-        frames[found.quantity] = series.frame
-        thinned |= dict.fromkeys(note for note in series.notes if note.startswith(_TOLD))
-    return frames, tuple(thinned)

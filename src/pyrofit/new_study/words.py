@@ -7,7 +7,8 @@ from pyrofit.analysis.differing_repeats import lines_on_repeats
 from pyrofit.experiments import files_of
 from pyrofit.experiments.from_files import Told
 from pyrofit.new_study.columns import Found
-from pyrofit.new_study.draft import Measured, divisor_of, is_told
+from pyrofit.new_study.divisor import divisor_of, is_told
+from pyrofit.new_study.draft import Measured
 from pyrofit.new_study.plan import Part
 from pyrofit.quantities.units import SCALES
 
@@ -108,10 +109,10 @@ def _parts(run: Measured, found: Found, place: int) -> list[str]:
     """Say which columns a signal has; those of the signals before are not told again."""
     before = {(role, header) for one in run.signals[:place] for role, header in one.columns.items()}
     parts = []
-    if run.timeless:
+    if run.lacks == "time":
         told = "" if run.told in _CERTAIN else ", to be changed in the study"
         parts.append(f"no times: those of a heating rate of {run.number:g} K/min{told}")
-    if run.of_time:
+    if run.lacks == "temperature":
         parts.append("no temperatures: 300 K + rate t, to be changed in the study")
     for role, header in found.columns.items():
         if (role, header) in before:

@@ -15,7 +15,8 @@ from pyrofit.errors import DataError, StudyError
 from pyrofit.experiments import OF_FILES, files_of
 from pyrofit.experiments.base import Stage
 from pyrofit.new_study import draft
-from pyrofit.new_study.draft import USUAL_AREA_M2, Kinetics, Measured
+from pyrofit.new_study.divisor import USUAL_AREA_M2
+from pyrofit.new_study.draft import Kinetics, Measured
 from pyrofit.new_study.marks import asked_once
 from pyrofit.new_study.plan import Part, heats, left_out, part_of, titles
 from pyrofit.new_study.repeats import grouped
