@@ -39,7 +39,7 @@ def records(parts: list[tuple[float, float, float]]) -> dict[str, pd.DataFrame]:
 
 @pytest.fixture
 def offered(tmp_path: Path) -> Callable[[float], list[str]]:
-    """Return what is offered after a fit of two components by one, with p of its test."""
+    """Return the sentences after a fit of two components by one, with p of its test."""
     data = records(PARTS)
     study = pf.new_study("foam", tga=data)
     measurements = {(name, "mass_fraction"): frame for name, frame in data.items()}

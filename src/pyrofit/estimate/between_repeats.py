@@ -222,7 +222,7 @@ def _usual(knots: FloatArray, mean: FloatArray, sizes: tuple[float, ...]) -> Flo
 
 
 def _care(usual: FloatArray, shown: FloatArray, left: FloatArray) -> float:
-    """Return c, how far repeats scatter over what is usual.
+    """Return c, the scatter of repeats over the usual one.
 
     Parameters
     ----------

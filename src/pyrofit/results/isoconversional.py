@@ -13,7 +13,7 @@ FINDINGS = "findings.json"
 
 
 class Findings(Record):
-    """What the energies show, the error of the temperatures, and what reactions are offered."""
+    """Sentences on the energies and on better reactions, and the error of the temperatures [K]."""
 
     findings: list[str]
     temperature_sd_K: float | None
@@ -27,7 +27,7 @@ def write(
     temperature_sd_K: float | None,
     offers: Sequence[str] = (),
 ) -> None:
-    """Write energies over conversion, and in sentences what they show and what follows."""
+    """Write energies over conversion, and sentences on them and on better reactions."""
     write_csv(results.isoconversional(ENERGIES), energies)
     content = Findings(
         findings=list(findings), temperature_sd_K=temperature_sd_K, offers=list(offers)

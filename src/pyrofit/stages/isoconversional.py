@@ -24,7 +24,7 @@ from pyrofit.stages.more_reactions import more_reactions
 def analyse_masses(study: Study, results: Results, tell: Tell) -> None:
     """Write ``isoconversional``: energies by three methods, and what they show.
 
-    Where the fit misses the masses, a scheme of more reactions is chosen, and what it is worth.
+    Where the fit misses the masses, a scheme of more reactions is chosen, and its gain told.
 
     The model is that of the fitted kinetics, or in a study without that stage the optimum of the
     inverse modelling. Without these results, the masses are analysed alone.

@@ -25,7 +25,7 @@ def more_reactions(
     tell: Tell,
     settings: Settings = SETTINGS,
 ) -> Iterator[str]:
-    """Choose a reaction scheme where a fit misses its masses; yield what it is worth, a sentence.
+    """Choose a reaction scheme where a fit misses its masses; yield a sentence on its gain.
 
     Nothing where the fit describes them, where there is none, and where masses of fewer than two
     rates are fitted.

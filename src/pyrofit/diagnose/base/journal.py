@@ -29,7 +29,7 @@ INWARDS = 0.1
 """Part of the way from the start to the centre of the limits at which the second point lies."""
 SUFFIX = ".npz"
 OF_FRESH = ("x", "returned")
-"""What is kept of a descent that ends with derivatives made there."""
+"""Fields that are kept of a descent that ends with derivatives made there."""
 
 
 @dataclass(frozen=True)

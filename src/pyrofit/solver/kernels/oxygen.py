@@ -1,7 +1,7 @@
 """Reactions that need oxygen: k_j = A_j exp(-E_j/(R T)) X_s^n exp(-n x/L), x below the surface.
 
 X_s, the volume fraction of oxygen at the surface, is that of the gas, X, unless reactions use up
-oxygen. Then convection supplies what they use, K_j their rates at X_s = 1:
+oxygen. Then convection supplies their use, K_j their rates at X_s = 1:
 
     S (X - X_s) = sum_j s_j K_j X_s^n_j        S = (h/c_p) M_O2/M_air
 
@@ -103,7 +103,7 @@ def log_of_rest(work, supplied, network):
 
 @loop
 def share_supply(work, first, behind, h, piece, schedule, network):
-    """Lower the factors of `open_up` to what a convection of h [W/(m2 K)] supplies.
+    """Lower the factors of `open_up` to the supply by a convection of h [W/(m2 K)].
 
     ``behind`` holds masses at the end of the step, as far as they are known.
     """

@@ -186,9 +186,9 @@ def extrapolated(arrays, edge, now, bdf, description):
 
 @loop
 def breathe(arrays, edge, now, front_star, dt, description):
-    """Bring the rates of reactions that use up oxygen to what the convection supplies.
+    """Bring the rates of reactions that use up oxygen to the supply by convection.
 
-    What they need at the end of the step follows from masses that a first pass leaves.
+    Their need at the end of the step follows from masses that a first pass leaves.
     """
     work, exposure, network = arrays.work, description.exposure, description.network
     piece, t = now.clock.piece, now.clock.t + dt
