@@ -8,8 +8,8 @@ import pytest
 from test_config_diagnosis import given
 
 from pyrofit.config import as_study
-from pyrofit.estimate.between_repeats import FLOOR
 from pyrofit.estimate.likelihood import likelihood_of
+from pyrofit.estimate.noise import REPEATS
 from pyrofit.estimate.problem import make_problem
 from pyrofit.stages.reading import read_all
 
@@ -58,7 +58,7 @@ def test_tga_repeats_of_a_laboratory_scatter_beyond_the_noise_of_points(
     for one in found.values():
         assert one.modes is not None
         # Measured: 0.01 between the records; their points scatter by 5e-4.
-        assert 0.005 < one.floors[FLOOR] < 0.02
+        assert 0.005 < one.floors[REPEATS] < 0.02
 
 
 def test_lag_of_each_tga_repeat_takes_scatter_away(plain: dict[str, Any]) -> None:

@@ -34,7 +34,7 @@ from scipy.special import stdtrit
 
 from pyrofit.constants import QUANTILE
 from pyrofit.estimate.correlation import Correlation
-from pyrofit.estimate.noise import FEWEST_POINTS, NoiseModel
+from pyrofit.estimate.noise import FEWEST_POINTS, REPEATS, NoiseModel
 from pyrofit.estimate.problem import Problem
 from pyrofit.estimate.repeats_agree import is_held
 from pyrofit.estimate.warp import NONE, changed, fitted, unchanged
@@ -50,7 +50,6 @@ LASTING = 0.05
 """Time l over which the rest lasts, as a fraction of the record."""
 SEEN = 0.9
 """a, the share of the variance in the directions that repeats show."""
-FLOOR = "repeats"
 USUAL_WEIGHT = 0.5
 """n_0, repeats that the usual values count as. Laboratories differ in theirs by factors."""
 USUAL = (0.04, 0.04, 0.005)
@@ -94,12 +93,13 @@ def with_repeats(
 ) -> tuple[NoiseModel, ...]:
     """Return the noise of all channels with the scatter between repeats, where there are any.
 
-    Described differences do not count where fitted curves ``about`` are given. Where parameters
-    describe them and there are no curves, the scatter between the aligned records counts.
+    It takes the place of one that the noise has already. Described differences do not count where
+    fitted curves ``about`` are given. Where parameters describe them and there are no curves, the
+    scatter between the aligned records counts.
     """
-    found = list(noise)
+    found = [own.alone for own in noise]
     for channels in _groups(problem):
-        records = [_record(problem, i, noise[i], about) for i in channels]
+        records = [_record(problem, i, found[i], about) for i in channels]
         free = _are_described(problem, channels)
         for i, model in zip(channels, _of_group(records, free), strict=True):
             found[i] = model
@@ -254,11 +254,12 @@ def _with_modes(
     """Return the noise with modes, and the factors that intervals and tests take."""
     own = np.column_stack([np.interp(record.at, knots, mode) for mode in modes.T])
     size = float(np.median(np.sqrt(np.sum(own**2, axis=1))))
-    noise, floors = record.noise, {**record.noise.floors, FLOOR: size}
+    noise, floors = record.noise, {**record.noise.floors, REPEATS: size}
+    between = own.shape[1]
     if noise.modes is not None:
         own = np.column_stack([noise.modes, own])
         caution = np.concatenate([np.ones(noise.modes.shape[1]), caution])
-    return replace(noise, modes=own, caution=caution, floors=floors)
+    return replace(noise, modes=own, caution=caution, between=between, floors=floors)
 
 
 @dataclass(frozen=True, eq=False)

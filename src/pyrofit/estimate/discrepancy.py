@@ -173,7 +173,7 @@ def with_discrepancy(
         modes = of.factor(time, curve)
         noise = noise.cautious
         known = [] if noise.modes is None else [noise.modes]
-        widened.append(replace(noise, modes=np.column_stack([*known, modes])))
+        widened.append(replace(noise, modes=np.column_stack([*known, modes]), between=0))
     return replace(likelihood, noise=tuple(widened))
 
 

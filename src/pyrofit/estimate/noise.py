@@ -23,6 +23,7 @@ SMOOTHING = 0.1
 """Window over which a stated uncertainty is smoothed, as a fraction of the record."""
 FEWEST_POINTS = 8
 UNITLESS = Shown("–")
+REPEATS = "repeats"
 TERMS = {
     "timing": "error of the clock",
     "solver": "error of the solver",
@@ -30,7 +31,7 @@ TERMS = {
     "drift": "drift of the apparatus",
     "sensitivity": "error of its sensitivity",
     "temperature": "error of the temperature",
-    "repeats": "scatter between repeats",
+    REPEATS: "scatter between repeats",
 }
 """Terms that are added to a standard deviation, in words."""
 
@@ -81,6 +82,19 @@ class NoiseModel:
     caution: FloatArray | None = None
     """Factors of the modes, 1 at least, shape (modes,), that intervals and tests take: few repeats
     may hide errors. They do not weigh the points."""
+
+    between: int = 0
+    """Number of modes, the last ones, that are the scatter between repeats."""
+
+    @property
+    def alone(self) -> "NoiseModel":
+        """The noise without the scatter between repeats."""
+        if self.modes is None or not self.between:
+            return self
+        own = self.modes[:, : -self.between]
+        floors = {name: size for name, size in self.floors.items() if name != REPEATS}
+        modes = own if own.shape[1] else None
+        return replace(self, modes=modes, caution=None, between=0, floors=floors)
 
     @cached_property
     def cautious(self) -> "NoiseModel":
