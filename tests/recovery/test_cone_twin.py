@@ -11,7 +11,7 @@ import pytest
 
 from pyrofit.config import Study, as_study
 from pyrofit.estimate.identify import Identification, identify
-from pyrofit.estimate.jumps import with_noise_of_jumps
+from pyrofit.estimate.noise_of_curves import with_noise_of_curves
 from pyrofit.estimate.likelihood import Likelihood, fit, likelihood_of
 from pyrofit.estimate.problem import make_problem
 from pyrofit.stages.measurements import computed
@@ -111,7 +111,7 @@ def smooth() -> Likelihood:
 def likelihood() -> Likelihood:
     first = smooth()
     starts = np.random.default_rng(2).uniform(0.05, 0.95, (8, len(LIMITS)))
-    return with_noise_of_jumps(first, [fit(first, list(starts)).x])
+    return with_noise_of_curves(first, [fit(first, list(starts)).x])
 
 
 @pytest.fixture(scope="module")

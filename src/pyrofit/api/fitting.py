@@ -34,8 +34,8 @@ from pyrofit.config import Study
 from pyrofit.errors import StudyError
 from pyrofit.estimate.bounded_least_squares import Fit as End
 from pyrofit.estimate.identify import identify
-from pyrofit.estimate.jumps import with_noise_of_jumps
 from pyrofit.estimate.likelihood import Likelihood, descents
+from pyrofit.estimate.noise_of_curves import with_noise_of_curves
 from pyrofit.estimate.pose import of_diagnosis
 from pyrofit.estimate.pose_likelihood import pose_likelihood
 from pyrofit.experiments import kind_of
@@ -172,7 +172,7 @@ def fit_likelihood(
     best = ends[0]
     tell(f"chi-square {best.chi2:.1f} of {sum(likelihood.points)} points; intervals follow")
     first = best.x
-    likelihood = weighted(with_noise_of_jumps(unweighted, [first]), own_weights)
+    likelihood = weighted(with_noise_of_curves(unweighted, [first]), own_weights)
     found = identify(likelihood, [first], profiles)
     x = likelihood.values(found.optimum.x)
     values = problem.values(x)

@@ -25,8 +25,8 @@ from pyrofit.api.weighing import weighted
 from pyrofit.config import Study, TermSpec
 from pyrofit.errors import StudyError
 from pyrofit.estimate.bounded_least_squares import Fit as End
-from pyrofit.estimate.jumps import with_noise_of_jumps
 from pyrofit.estimate.likelihood import Likelihood
+from pyrofit.estimate.noise_of_curves import with_noise_of_curves
 from pyrofit.estimate.pose import Estimation, of_diagnosis, pose
 from pyrofit.estimate.pose_likelihood import pose_likelihood
 from pyrofit.estimate.prior import prior_of
@@ -182,7 +182,7 @@ def _model(fit: Fit) -> _Model:
     likelihood = pose_likelihood(study, asked, series, fixed)
     values = si_values(study, {n: fit.values[n] for n in asked.names})
     x = likelihood.scaled(np.array([values[n] for n in asked.names]))
-    return _Model(fit, weighted(with_noise_of_jumps(likelihood, [x]), fit.weights), x)
+    return _Model(fit, weighted(with_noise_of_curves(likelihood, [x]), fit.weights), x)
 
 
 def _asked(

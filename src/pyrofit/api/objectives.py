@@ -108,17 +108,21 @@ def residuals(
     estimate: Sequence[str] | None = None,
     fixed: Mapping[str, float] | None = None,
     weights: Weights | None = None,
+    about: Mapping[str, float] | None = None,
 ) -> Residuals:
     """Return the residuals that `fit` minimises, as a function for other optimisers.
 
     r = L^-1 (model(x) - y) / sd of each signal, with noise of standard deviation sd and
-    correlation L L^T, then (x_k - mean_k) / sd_k of known values. `fit` takes another noise for
-    signals that jump, such as those of ignition: the noise about its optimum.
+    correlation L L^T, then (x_k - mean_k) / sd_k of known values.
 
     Parameters
     ----------
     study, data, signals, estimate, fixed, weights
         As of `fit`.
+    about
+        A set that fits well, such as ``fit.values``: signals that jump, or are recorded against
+        temperature, have their noise about its curves, as in `fit`. By default it is about a
+        smooth curve through the record.
 
     Returns
     -------
@@ -131,12 +135,12 @@ def residuals(
     Raises
     ------
     StudyError
-        A name is not known, or a parameter has no limits or no value. The function raises it for
-        values of a wrong shape or kind.
+        A name is not known, or a parameter has no limits or no value, or ``about`` lacks one. The
+        function raises it for values of a wrong shape or kind.
     DataError
         A measured series is missing, breaks a rule, or is too short to show its noise.
     """
-    return Residuals(*_posed(study, data, signals, estimate, fixed, weights))
+    return Residuals(*_posed(study, data, signals, estimate, fixed, weights, about))
 
 
 def log_likelihood(
@@ -147,6 +151,7 @@ def log_likelihood(
     estimate: Sequence[str] | None = None,
     fixed: Mapping[str, float] | None = None,
     weights: Weights | None = None,
+    about: Mapping[str, float] | None = None,
 ) -> LogLikelihood:
     """Return the log-likelihood of a study as a function, for samplers.
 
@@ -159,7 +164,7 @@ def log_likelihood(
         A function of a vector, or of values by name, in the units of the study. It returns a
         float; for a table of the shape (sets, parameters) an array of the shape (sets,).
     """
-    return LogLikelihood(*_posed(study, data, signals, estimate, fixed, weights))
+    return LogLikelihood(*_posed(study, data, signals, estimate, fixed, weights, about))
 
 
 def _posed(
@@ -169,6 +174,7 @@ def _posed(
     estimate: Sequence[str] | None,
     fixed: Mapping[str, float] | None,
     weights: Weights | None,
+    about: Mapping[str, float] | None,
 ) -> tuple[Study, Likelihood]:
     """Return the study, and the likelihood that `fit` poses."""
     study = read_study(study)
@@ -177,4 +183,14 @@ def _posed(
     own_weights = weights_of(study, task.keys, weights)
     series = measured(study, task.keys, data)
     asked = of_diagnosis(study, task.channels, task.estimate)
-    return study, weighted(pose_likelihood(study, asked, series, task.fixed), own_weights)
+    fits = [] if about is None else [_set(study, asked.names, about)]
+    return study, weighted(pose_likelihood(study, asked, series, task.fixed, fits), own_weights)
+
+
+def _set(study: Study, names: Sequence[str], about: Mapping[str, float]) -> dict[str, float]:
+    """Return the SI values of a set that holds all estimated parameters."""
+    values = values_within(study, "about", about)
+    missing = [name for name in names if name not in values]
+    if missing:
+        raise StudyError(f"about: there is no value of {', '.join(missing)}; give a whole set")
+    return values

@@ -1,7 +1,7 @@
 """Poses the likelihood of a study's parameters, for all steps and for the Python interface.
 
 All that decides chi-square comes together here: the problem, known values, the noise of each
-channel, that of jumps, and the scatter between repeats.
+channel, the errors that follow the simulated curve, and the scatter between repeats.
 """
 
 from collections.abc import Iterable, Mapping
@@ -9,8 +9,8 @@ from collections.abc import Iterable, Mapping
 import numpy as np
 
 from pyrofit.config import Study
-from pyrofit.estimate.jumps import with_noise_of_jumps
 from pyrofit.estimate.likelihood import Likelihood, likelihood_of
+from pyrofit.estimate.noise_of_curves import with_noise_of_curves
 from pyrofit.estimate.pose import Estimation, pose
 from pyrofit.estimate.prior import prior_of
 from pyrofit.estimate.targets import Measurements
@@ -33,7 +33,8 @@ def pose_likelihood(
         As for `pose`; the terms are the channels, each once.
     fits
         Sets that fit well, SI units by name; `fixed` holds what a set leaves out. Signals that
-        jump have their noise about the best of them. Read only if there are such signals.
+        jump, or are recorded against temperature, have their noise about the best of them. Read
+        only if there are such signals.
     tolerant
         Whether the noise includes the usual discrepancy of models, as that of the diagnosis does:
         it searches effects for what exceeds it. All other steps test the model without it.
@@ -49,4 +50,4 @@ def pose_likelihood(
     def scaled(values: Mapping[str, float]) -> FloatArray:
         return likelihood.scaled(np.array([{**fixed, **values}[name] for name in problem.names]))
 
-    return with_noise_of_jumps(likelihood, map(scaled, fits))
+    return with_noise_of_curves(likelihood, map(scaled, fits))

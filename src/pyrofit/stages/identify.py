@@ -36,8 +36,8 @@ def identify_kinetics(study: Study, results: Results) -> None:
     """
     asked, fixed = of_kinetics(study), study.fixed_values()
     measurements = load(study, results)
-    likelihood = pose_likelihood(study, asked, measurements, fixed)
     known = kinetics.ends(study, results)
+    likelihood = pose_likelihood(study, asked, measurements, fixed, known)
     starts = [likelihood.scaled(np.array([end[n] for n in asked.names])) for end in known]
     _write(results, "kinetics", likelihood, identify(likelihood, starts))
     write_curves(study, results, measurements, kinetics.parameters(study, results))

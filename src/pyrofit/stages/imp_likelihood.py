@@ -16,8 +16,9 @@ from pyrofit.stages.fit import fixed_for_imp
 def imp_likelihood(study: Study, results: Results, estimation: Estimation) -> Likelihood:
     """Return the likelihood of the inverse modelling, or of the kinetics too.
 
-    If a signal jumps, its noise depends on the ends of the searches. Every step takes it about the
-    same set of them, so that all have the same chi-square.
+    If a signal jumps, or is recorded against temperature, its noise depends on the ends of the
+    searches. Every step takes it about the same set of them, so that all have the same
+    chi-square.
 
     Raises
     ------
