@@ -9,7 +9,8 @@ the middle one. A row is appended for each fit. Four truths take turns:
 right
     One reaction of first order.
 lasting
-    The same, and one record is off by three standard deviations of its noise for a third of it.
+    The same, and one record is off by three standard deviations of its whole noise for a third of
+    it.
 order
     One reaction of order 1.5.
 two
@@ -92,7 +93,7 @@ def records(
 
 def row(twin: int) -> dict[str, object]:
     """Draw a twin, fit it, and return what was found."""
-    rng = np.random.default_rng([45, twin])
+    rng = np.random.default_rng([46, twin])
     kind = KINDS[twin % len(KINDS)]
     E, at, sd = rng.uniform(130e3, 240e3), rng.uniform(560.0, 640.0), rng.uniform(3e-4, 3e-3)
     data, off = records(kind, E, at, sd, rng)

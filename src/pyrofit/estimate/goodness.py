@@ -1,10 +1,11 @@
 """Whether a fitted model describes its signals, tested against their noise.
 
 Two statistics of the whitened residuals are compared with those of noise, projected as the fit
-projects it. The scan of `pyrofit.estimate.scan` finds errors that last, chi-square finds the
-others. The p-value is twice the smaller of the two probabilities. Points that scatter more than
-their noise do not count as an error of the model. Residuals are first divided by their scatter
-from point to point, where that is larger.
+projects it. The windows of `pyrofit.estimate.lasting_misfit` find errors that last, chi-square
+finds the others. Of the false alarms, nine tenths may come from windows, one tenth from chi-square:
+the p-value is the smaller one of both probabilities over these shares. Points that scatter more
+than their noise do not count as an error of the model. Residuals are first divided by their
+scatter from point to point, where that is larger.
 
 The size of a noise that is not stated comes from the same record, with n - k degrees of freedom for
 a curve of k splines. Chi-square over its own degrees of freedom is then compared with Fisher's F.
@@ -17,22 +18,20 @@ import numpy as np
 from scipy.special import chdtrc, fdtrc
 
 from pyrofit.cost.distances import root_mean_square
+from pyrofit.estimate import lasting_misfit
 from pyrofit.estimate.between_repeats import groups_of_repeats
 from pyrofit.estimate.likelihood import Likelihood
 from pyrofit.estimate.noise import NoiseModel
 from pyrofit.estimate.posterior import Posterior
-from pyrofit.estimate.projection import project, spanned_by
+from pyrofit.estimate.projection import spanned_by
 from pyrofit.estimate.repeats_agree import differences, is_held, tolerance_of
-from pyrofit.estimate.scan import highest
 from pyrofit.numerics import linear
 from pyrofit.quantities.integral import integral
 from pyrofit.results.goodness import LEVEL, Goodness, Miss, RepeatDiffers, SignalGoodness
 from pyrofit.solver.arrays import FloatArray
 
-DRAWS = 1000
-"""Draws of noise that give the distribution of the scan."""
-BLOCK = 100
-"""Draws held in memory at a time."""
+OF_WINDOWS = 0.9
+"""Share of the false alarms that windows may raise; chi-square may raise the others."""
 MOST_WINDOWS = 3
 """Windows of misfit of a signal that are named at most."""
 AVERAGED = 0.01
@@ -56,24 +55,22 @@ def goodness_of_fit(likelihood: Likelihood, posterior: Posterior, curves: FloatA
         The simulated channels there, one after the other, shape (points,).
     """
     spanned = spanned_by(posterior.free_jacobian)[: posterior.residuals.size]
-    drawn = _scans_of_noise(likelihood, spanned)
-    worst = drawn.max(axis=1)
     whole_parts = likelihood.split(posterior.residuals)
     scatters = [scatter(part) for part in whole_parts]
     parts = [part / s for part, s in zip(whole_parts, scatters, strict=True)]
-    scans = np.array([highest(part[:, None])[0] for part in parts])
+    largest, drawn = lasting_misfit.largest(likelihood, parts, spanned)
     used = [float(np.sum(part**2)) for part in likelihood.split(spanned)]
     of_squares = [
         _p_of_squares(noise, linear.dot(part, part), part.size - taken)
         for noise, part, taken in zip(likelihood.noise, parts, used, strict=True)
     ]
-    of_scans = [_p_of_scan(drawn[:, k], scan) for k, scan in enumerate(scans)]
-    whole = _twice(
-        _p_of_scan(worst, float(scans.max())),
-        min(1.0, len(parts) * min(of_squares)),
+    of_windows = [_p_of_windows(drawn[:, k], own) for k, own in enumerate(largest)]
+    whole = _together(
+        _p_of_windows(drawn.max(axis=1), float(largest.max())),
+        len(parts) * min(of_squares),
     )
     signals = tuple(
-        _signal(likelihood, k, _twice(of_scans[k], of_squares[k]), scatters[k], curves)
+        _signal(likelihood, k, _together(of_windows[k], of_squares[k]), scatters[k], curves)
         for k in range(len(parts))
     )
     return Goodness(whole, signals, tuple(_differing(likelihood)))
@@ -114,18 +111,8 @@ def scatter(w: FloatArray) -> float:
     return float(np.sqrt(square)) if square > 1.0 + FAR * np.sqrt(3.0 / w.size) else 1.0
 
 
-def _scans_of_noise(likelihood: Likelihood, spanned: FloatArray) -> FloatArray:
-    """Return the scan of every channel in draws of noise, shape (draws, channels)."""
-    rng = np.random.default_rng(0)
-    found = []
-    for _ in range(DRAWS // BLOCK):
-        noise = project(spanned, rng.standard_normal((len(spanned), BLOCK)))
-        found.append(np.stack([highest(part) for part in likelihood.split(noise)], axis=1))
-    return np.concatenate(found)
-
-
-def _p_of_scan(drawn: FloatArray, scan: float) -> float:
-    return float(1 + np.count_nonzero(drawn >= scan)) / (1 + drawn.size)
+def _p_of_windows(drawn: FloatArray, shown: float) -> float:
+    return float(1 + np.count_nonzero(drawn >= shown)) / (1 + drawn.size)
 
 
 def _p_of_squares(noise: NoiseModel, squares: float, freedom: float) -> float:
@@ -135,8 +122,8 @@ def _p_of_squares(noise: NoiseModel, squares: float, freedom: float) -> float:
     return float(fdtrc(freedom, max(noise.sd.size - noise.splines, 1), squares / freedom))
 
 
-def _twice(*p: float) -> float:
-    return min(1.0, 2.0 * min(p))
+def _together(of_windows: float, of_squares: float) -> float:
+    return min(1.0, of_windows / OF_WINDOWS, of_squares / (1.0 - OF_WINDOWS))
 
 
 def _signal(
