@@ -11,8 +11,8 @@ import pytest
 
 from pyrofit.config import Study, as_study
 from pyrofit.estimate.identify import Identification, identify
-from pyrofit.estimate.noise_of_curves import with_noise_of_curves
 from pyrofit.estimate.likelihood import Likelihood, fit, likelihood_of
+from pyrofit.estimate.noise_of_curves import with_noise_of_curves
 from pyrofit.estimate.problem import make_problem
 from pyrofit.stages.measurements import computed
 

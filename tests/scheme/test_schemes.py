@@ -17,7 +17,7 @@ SCHEMES = all_schemes(SETTINGS.most_reactions)
 
 
 def test_each_scheme_has_a_name_of_its_own() -> None:
-    # One reaction, two to four in two arrangements; order, volatile and lag or not.
+    # One reaction, two to four in three arrangements; order, volatile and lag or not.
     assert len(SCHEMES) == (1 + 3 * len(ARRANGEMENTS)) * 2**3
     assert all(scheme_named(name, 4) == scheme for name, scheme in SCHEMES.items())
 
@@ -76,3 +76,27 @@ def test_two_equal_parallel_reactions_are_one(setting) -> None:
     both = simulated(study, SCHEMES["parallel_2"], truth, measured, "tga_10", SETTINGS)
     one = simulated(study, SCHEMES["single"], truth, measured, "tga_10", SETTINGS)
     assert both == pytest.approx(one, abs=1e-12)
+
+
+def test_two_equal_competing_reactions_are_one_of_twice_the_rate(setting) -> None:
+    study, measured = setting.study, setting.measurements
+    truth = draw_truth(SCHEMES["competing_2"], np.random.default_rng(6))
+    T, E = (truth[f"{PREFIX}{k}_1"] for k in ("T", "E"))
+    truth |= {f"{PREFIX}T_2": T, f"{PREFIX}E_2": E, f"{PREFIX}y_2": 0.002}
+    both = simulated(study, SCHEMES["competing_2"], truth, measured, "tga_10", SETTINGS)
+    # k is 0.001 1/s at T; twice as large, it is so where 1/T is larger by R ln 2 / E.
+    truth |= {f"{PREFIX}T_1": 1.0 / (1.0 / T + 8.314462618 * np.log(2.0) / E)}
+    one = simulated(study, SCHEMES["single"], truth, measured, "tga_10", SETTINGS)
+    assert both == pytest.approx(one, abs=1e-6)
+
+
+def test_residue_of_competing_reactions_depends_on_the_heating_rate(setting) -> None:
+    study, measured = setting.study, setting.measurements
+    values = {"T_1": 600.0, "E_1": 2.4e5, "T_2": 590.0, "E_2": 1.2e5, "y_2": 0.5}
+    truth = {PREFIX + key: value for key, value in values.items()}
+    slow, fast = (
+        simulated(study, SCHEMES["competing_2"], truth, measured, name, SETTINGS)[-1]
+        for name in ("tga_1", "tga_20")
+    )
+    assert slow > fast + 0.05
+    assert 0.002 < fast < slow < 0.5

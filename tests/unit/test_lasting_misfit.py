@@ -1,5 +1,6 @@
 """Windows of a lasting misfit are found below a drift that whitening would hide."""
 
+from itertools import pairwise
 from types import SimpleNamespace
 from typing import Any
 
@@ -25,7 +26,7 @@ def noise(points: int = POINTS) -> NoiseModel:
 
 def likelihood(*noises: NoiseModel) -> Any:
     at = np.cumsum([0, *(one.sd.size for one in noises)])
-    ranges = list(zip(at[:-1], at[1:], strict=True))
+    ranges = list(pairwise(at.tolist()))
     return SimpleNamespace(noise=noises, split=lambda rows: [rows[a:b] for a, b in ranges])
 
 
