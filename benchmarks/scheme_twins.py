@@ -34,6 +34,9 @@ TRUTHS = (
     "consecutive_2_order",
     "consecutive_2_volatile",
     "parallel_3",
+    "single_catalysis",
+    "single_order_catalysis",
+    "competing_2",
 )
 AS_GOOD = 1.1
 SMALL = 5e-4

@@ -10,6 +10,7 @@ from decks import base, predicted
 from scipy.integrate import solve_ivp
 
 from pyrofit.cli import main
+from pyrofit.errors import StudyError
 from pyrofit.exchange.fds.namelists import write_all
 from pyrofit.exchange.fds.parse import read_namelists
 from pyrofit.exchange.fds.predicted import predict_heated
@@ -292,3 +293,16 @@ def test_reference_curves_may_be_the_measured_ones(tmp_path: Path) -> None:
     assert "reference curves: measured" in texts[0]
     assert areas[0] != areas[1]  # noise
     assert areas[0] == pytest.approx(areas[1], rel=0.03)
+
+
+def test_autocatalytic_reaction_is_refused_with_the_way_out() -> None:
+    of = base()
+    reactions = {
+        name: reaction.model_copy(update={"catalysis": 5.0})
+        for name, reaction in of.material.reactions.items()
+    }
+    material = of.material.model_copy(update={"reactions": reactions})
+    with pytest.raises(StudyError, match=r"autocatalytic \(`catalysis`\).*several reactions"):
+        component_file(material, of.values, 0.0, 0.0, (8940.0, 380.0), 0.95)
+    with pytest.raises(StudyError, match="autocatalytic"):
+        steps_of(material, of.values, list(material.components), 8.314)

@@ -17,8 +17,8 @@ SCHEMES = all_schemes(SETTINGS.most_reactions)
 
 
 def test_each_scheme_has_a_name_of_its_own() -> None:
-    # One reaction, two to four in three arrangements; order, volatile and lag or not.
-    assert len(SCHEMES) == (1 + 3 * len(ARRANGEMENTS)) * 2**3
+    # One reaction, catalysed or not, two to four in arrangements; order, volatile and lag or not.
+    assert len(SCHEMES) == (2 + 3 * len(ARRANGEMENTS)) * 2**3
     assert all(scheme_named(name, 4) == scheme for name, scheme in SCHEMES.items())
 
 
@@ -30,8 +30,11 @@ def test_unknown_scheme_is_refused_with_the_nearest_name() -> None:
 def test_an_extension_has_one_feature_more() -> None:
     for scheme in SCHEMES.values():
         for more in scheme.extensions(4, lag=True):
-            features = [s.reactions + s.order + s.volatile + s.lag for s in (scheme, more)]
+            features = [
+                s.reactions + s.order + s.catalysis + s.volatile + s.lag for s in (scheme, more)
+            ]
             assert features[1] == features[0] + 1
+            assert not more.catalysis or more.reactions == 1
 
 
 def test_no_extension_lags_where_records_have_a_lag_already() -> None:
@@ -100,3 +103,18 @@ def test_residue_of_competing_reactions_depends_on_the_heating_rate(setting) -> 
     )
     assert slow > fast + 0.05
     assert 0.002 < fast < slow < 0.5
+
+
+def test_autocatalytic_reaction_is_slow_first_and_fast_then(setting) -> None:
+    study, measured = setting.study, setting.measurements
+    assert SCHEMES["single_order_catalysis"].words == "one autocatalytic reaction of order n"
+    truth = {f"{PREFIX}T_1": 600.0, f"{PREFIX}E_1": 1.8e5, f"{PREFIX}K": 0.0}
+    plain = simulated(study, SCHEMES["single"], truth, measured, "tga_10", SETTINGS)
+    none = simulated(study, SCHEMES["single_catalysis"], truth, measured, "tga_10", SETTINGS)
+    truth |= {f"{PREFIX}K": 20.0}
+    fast = simulated(study, SCHEMES["single_catalysis"], truth, measured, "tga_10", SETTINGS)
+    assert none == pytest.approx(plain, abs=1e-9)
+    assert np.all(fast <= plain + 1e-9)
+    # The part from 90 to 10 % of the mass takes fewer kelvins.
+    of = [np.count_nonzero((m > 0.1) & (m < 0.9)) for m in (fast, plain)]
+    assert of[0] < 0.7 * of[1]

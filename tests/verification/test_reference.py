@@ -461,6 +461,13 @@ CASES = {
         f"order_{order}": Case(charring({**SIMPLE, "order": order}), specimen())
         for order in (0.5, 1.5, 2.0)
     },
+    **{
+        f"autocatalysis_of_order_{order}": Case(
+            charring({**SIMPLE, "A_1_s": 0.2 * SIMPLE["A_1_s"], "order": order, "catalysis": 10.0}),
+            specimen(),
+        )
+        for order in (1.0, 1.5)
+    },
     # 0.7e-5, 0.010 K
     "intermediate_of_order_2": Case(
         charring(

@@ -392,8 +392,9 @@ ORDER = np.array([1.0, 1.0, 2.0, 0.5, 1.0, 1.5, 1.0, 0.0])
 TO_CHAR = {"reactant": "M", "products": {"C": 0.3}, **SLOW, **HEATED}
 NETWORKS = {
     "orders": ({**SIMPLE, "order": "n"},),
+    "autocatalysis": ({**SIMPLE, "order": "n", "catalysis": "K"},),
     "competing": (
-        {"reactant": "V", "products": {"C": "nu"}, **SLOW, "order": "n"},
+        {"reactant": "V", "products": {"C": "nu"}, **SLOW, "order": "n", "catalysis": "K"},
         {"reactant": "V", "products": {"M": 0.1}, **FAST, "A_1_s": "A"},
     ),
     "consecutive": ({"reactant": "V", "products": {"M": "nu"}, **SLOW, **HEATED}, TO_CHAR),
@@ -402,7 +403,12 @@ NETWORKS = {
         {**TO_CHAR, "order": "n"},
     ),
 }
-REACTING = {"nu": NU, "n": ORDER, "A": np.where(NU > 0.0, 1e8, 0.0)}
+REACTING = {
+    "nu": NU,
+    "n": ORDER,
+    "K": np.array([0.0, 5.0, 0.0, 2.0, 9.0, 0.0, 0.0, 1.0]),
+    "A": np.where(NU > 0.0, 1e8, 0.0),
+}
 
 
 @pytest.mark.parametrize("name", NETWORKS)

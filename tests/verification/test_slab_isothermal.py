@@ -90,6 +90,16 @@ def test_reaction_of_order_n_follows_the_closed_form(
     state(evidence, f"order {order:g}", found, exact, limit, "(1 - (1-n) k t)^(1/(1-n))")
 
 
+@pytest.mark.parametrize(("K", "limit"), [(1.0, 6e-5), (30.0, 4e-4)])
+def test_autocatalysis_follows_the_logistic_function(
+    evidence: Evidence, K: float, limit: float
+) -> None:
+    k = 0.02 / (1.0 + K)
+    found = remaining(slab(reaction("A", k, catalysis=K)))
+    exact = (1.0 + K) / (K + np.exp((1.0 + K) * k * TIMES))
+    state(evidence, f"autocatalysis, K = {K:g}", found, exact, limit, "(1 + K)/(K + e^((1+K) k t))")
+
+
 @pytest.mark.parametrize("order", [0.0, 0.3, 0.5, 0.9, 1.1, 2.0])
 def test_rate_of_order_n_follows_the_closed_form_and_ends(order: float) -> None:
     # The step in which the reaction ends is left out.

@@ -62,6 +62,20 @@ def k(kinetics: dict[str, float], temperature: float) -> float:
     return float(kinetics["A_1_s"] * np.exp(-activation / temperature))
 
 
+def catalysed(order: float, K: float) -> Material:
+    reaction = {"reactant": "B", "products": {"C": 0.2}, "order": order, "catalysis": K}
+    return powder("BC", {"B": 1.0}, {**reaction, **SLOW})
+
+
+def exact_catalysed(order: float, K: float, beta: float) -> Any:
+    def rates(temperature: float, y: Any) -> list[float]:
+        u = min(max(y[0], 0.0), 1.0)
+        rate = k(SLOW, temperature) * u**order * (1.0 + K * (1.0 - u))
+        return [-rate, 0.2 * rate]
+
+    return stiff(rates, [1.0, 0.0], beta).sum(axis=0)
+
+
 def consecutive(order: float) -> Material:
     return powder(
         "ABC",
@@ -105,6 +119,10 @@ NETWORKS: dict[str, tuple[Material, Callable[[float], Any]]] = {
     "consecutive reactions": (consecutive(1.0), lambda b: exact_consecutive(1.0, b)),
     "consecutive reaction of order 1.7": (consecutive(1.7), lambda b: exact_consecutive(1.7, b)),
     "competing reactions": (competing((1.0, 1.0)), lambda b: exact_competing((1.0, 1.0), b)),
+    "autocatalysis of order 1.7, K = 20": (
+        catalysed(1.7, 20.0),
+        lambda b: exact_catalysed(1.7, 20.0, b),
+    ),
     "competing reactions of orders 1.5 and 0.7": (
         competing((1.5, 0.7)),
         lambda b: exact_competing((1.5, 0.7), b),
@@ -148,6 +166,16 @@ def test_reaction_of_order_n_follows_the_closed_form(evidence: Evidence, order: 
     material = powder("B", {"B": 1.0}, {"reactant": "B", "order": order, **SLOW})
     lines = by_rate(material, exact)
     evidence.curve(f"one reaction of order {order:g}", TEMPERATURE, MASS, lines, E2, 1e-6)
+
+
+def test_autocatalysis_follows_the_closed_form(evidence: Evidence) -> None:
+    def exact(beta: float) -> Curve:
+        passed = np.exp(np.minimum(21.0 * conversion(SLOW, beta, T), 700.0))
+        left: Curve = 0.2 + 0.8 * 21.0 / (20.0 + passed)
+        return left
+
+    lines = by_rate(catalysed(1.0, 20.0), exact)
+    evidence.curve("autocatalysis, K = 20", TEMPERATURE, MASS, lines, E2, 1e-6)
 
 
 @pytest.mark.parametrize("name", NETWORKS)

@@ -2,8 +2,8 @@
 
 Two statistics of the whitened residuals are compared with those of noise, projected as the fit
 projects it. The windows of `pyrofit.estimate.lasting_misfit` find errors that last, chi-square
-finds the others. Of the false alarms, nine tenths may come from windows, one tenth from chi-square:
-the p-value is the smaller one of both probabilities over these shares. Points that scatter more
+finds the others. Of the false alarms, nine tenths may come from windows, one tenth from chi-square.
+The p-value is the smaller one of both probabilities over these shares. Points that scatter more
 than their noise do not count as an error of the model. Residuals are first divided by their
 scatter from point to point, where that is larger.
 

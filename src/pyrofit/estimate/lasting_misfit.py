@@ -9,8 +9,8 @@ residuals w, and this over its standard deviation is
 Q spans what the parameters absorb, L^-1 whitens. The statistic of a signal is the largest
 |z| - sqrt(2 log(n/l)) over its windows of l of n points: short windows, of which there are many,
 must stand out more (Duembgen and Spokoiny 2001, doi 10.1214/aos/996986504). Errors of the apparatus
-that last, as a drift, are in L: windows of whitened residuals alone would hardly show a misfit that
-lasts, since whitening leaves its ends only.
+that last, as a drift, are in L. Whitening then leaves little of a lasting misfit but its ends, so
+that sums of whitened residuals hardly show it.
 """
 
 import numpy as np

@@ -1,7 +1,7 @@
 """Poses the likelihood of a study's parameters, for all steps and for the Python interface.
 
-All that decides chi-square comes together here: the problem, known values, the noise of each
-channel, the errors that follow the simulated curve, and the scatter between repeats.
+All that decides chi-square comes together here: the problem, known values, and the noise. The noise
+of a channel has errors that follow the simulated curve, and the scatter between repeats.
 """
 
 from collections.abc import Iterable, Mapping

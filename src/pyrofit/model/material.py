@@ -41,7 +41,10 @@ class Component(Part):
 
 
 class Reaction(Part):
-    """reactant -> products + gas, r = A exp(-E/(R T)) m0 (m/m0)^n X^n_O2, X oxygen's share."""
+    """reactant -> products + gas, r = A exp(-E/(R T)) m0 u^n (1 + K (1 - u)) X^n_O2, u = m/m0.
+
+    X is the volume fraction of oxygen.
+    """
 
     reactant: str = Field(description="component that is consumed")
     products: Annotated[dict[str, Number], FRACTION] = Field(
@@ -58,6 +61,11 @@ class Reaction(Part):
         None, description="k at that temperature [1/s]"
     )
     order: NotNegative = Field(1.0, description="reaction order n [-]")
+    catalysis: NotNegative = Field(
+        0.0,
+        description="factor K of autocatalysis: the rate has the factor 1 + K (1 - m/m0) [-]; "
+        "0 = none",
+    )
     oxygen_order: NotNegative = Field(
         0.0,
         description="exponent n_O2 of the volume fraction of oxygen, a factor of the rate [-]; "

@@ -29,6 +29,8 @@ ENERGY = 30.0, 400.0
 """Limits of an activation energy [kJ/mol]."""
 ORDER = 0.3, 4.0
 """Limits of an order; published ones of PMMA are 0.87 to 3.56."""
+CATALYSIS = 0.0, 100.0
+"""Limits of the factor of autocatalysis."""
 _OFFSET = 4.0
 """Limits of a laboratory's temperature offset, in standard deviations."""
 
@@ -153,6 +155,8 @@ def _limits(scheme: Scheme, template: Template, records: Sequence[Record]) -> di
         limits[f"E_{i}"] = Limits("kJ/mol", *ENERGY, f"activation energy {words}")
         if scheme.order:
             limits[f"n_{i}"] = Limits("-", *ORDER, f"order {words}")
+    if scheme.catalysis:
+        limits["K"] = Limits("-", *CATALYSIS, "factor of autocatalysis")
     if scheme.volatile:
         for key, q in known_effects()[VOLATILE].quantities.items():
             limits[f"volatile_{key}"] = Limits(q.unit, q.lower, q.upper, q.label)
@@ -160,7 +164,7 @@ def _limits(scheme: Scheme, template: Template, records: Sequence[Record]) -> di
 
 
 def _material(scheme: Scheme, template: Template) -> Material:
-    reactions = [_reaction(template, i, scheme.order) for i in range(1, scheme.reactions + 1)]
+    reactions = [_reaction(template, i, scheme) for i in range(1, scheme.reactions + 1)]
     material = ARRANGEMENTS[scheme.arrangement].build(template, reactions)
     if scheme.volatile:
         effect = known_effects()[VOLATILE]
@@ -169,14 +173,15 @@ def _material(scheme: Scheme, template: Template) -> Material:
     return material
 
 
-def _reaction(template: Template, i: int, order: bool) -> Reaction:
+def _reaction(template: Template, i: int, scheme: Scheme) -> Reaction:
     return changed(
         template.reaction,
         A_1_s=None,
         E_J_mol=f"{PREFIX}E_{i}",
         reference_temperature_K=f"{PREFIX}T_{i}",
         reference_rate_1_s=REFERENCE_RATE_1_S,
-        order=f"{PREFIX}n_{i}" if order else 1.0,
+        order=f"{PREFIX}n_{i}" if scheme.order else 1.0,
+        catalysis=f"{PREFIX}K" if scheme.catalysis else 0.0,
     )
 
 

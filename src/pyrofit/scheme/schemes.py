@@ -7,7 +7,7 @@ from pyrofit.errors import StudyError, suggest
 from pyrofit.scheme.arrangements import ARRANGEMENTS
 
 PARALLEL = "parallel"
-EXTRAS = ("order", "volatile", "lag")
+EXTRAS = ("order", "catalysis", "volatile", "lag")
 
 
 @dataclass(frozen=True, order=True)
@@ -22,6 +22,8 @@ class Scheme:
         Name of a module in `pyrofit.scheme.arrangements`; of one reaction always 'parallel'.
     order
         Whether each reaction has an order n, else all are of first order.
+    catalysis
+        Whether the product of the only reaction speeds it up.
     volatile
         Whether an early volatile leaves by a reaction of its own.
     lag
@@ -31,6 +33,7 @@ class Scheme:
     reactions: int = 1
     arrangement: str = PARALLEL
     order: bool = False
+    catalysis: bool = False
     volatile: bool = False
     lag: bool = False
 
@@ -53,6 +56,7 @@ class Scheme:
         """
         count = ("one", "two", "three", "four", "five", "six")[self.reactions - 1]
         kind = "" if self.reactions == 1 else f" {self.arrangement}"
+        kind = " autocatalytic" if self.catalysis else kind
         noun = "reaction" if self.reactions == 1 else "reactions"
         degree = "of order n" if self.order else "of first order"
         extras = ["an early volatile"] * self.volatile + ["a temperature lag"] * self.lag
@@ -61,12 +65,13 @@ class Scheme:
 
     def extensions(self, most_reactions: int, lag: bool) -> Iterator["Scheme"]:
         """Yield the schemes with one more feature; ``lag`` tells whether a lag is possible."""
-        if self.reactions < most_reactions:
+        if self.reactions < most_reactions and not self.catalysis:
             kinds = sorted(ARRANGEMENTS) if self.reactions == 1 else [self.arrangement]
             for kind in kinds:
                 yield replace(self, reactions=self.reactions + 1, arrangement=kind)
         for extra in EXTRAS:
-            if not getattr(self, extra) and (lag or extra != "lag"):
+            possible = {"lag": lag, "catalysis": self.reactions == 1}.get(extra, True)
+            if possible and not getattr(self, extra):
                 yield replace(self, **{extra: True})  # type: ignore[arg-type]
 
 

@@ -123,6 +123,7 @@ def draw_truth(scheme: Scheme, rng: np.random.Generator) -> dict[str, float]:
     if scheme.arrangement == "consecutive":  # an intermediate that reacts more slowly is seen
         for i in range(2, scheme.reactions + 1):
             truth[f"T_{i}"] = first + rng.uniform(15.0, 30.0) * (i - 1)
+    truth["K"] = rng.uniform(5.0, 40.0)
     truth["volatile_share"] = rng.uniform(0.02, 0.06)
     truth["volatile_temperature_K"] = rng.uniform(430.0, 490.0)
     truth["volatile_E_J_mol"] = rng.uniform(0.8e5, 1.4e5)

@@ -93,6 +93,8 @@ class Network(NamedTuple):
     """E_j / R [K]."""
     order: FloatArray
     """n_j [-]."""
+    catalysis: FloatArray
+    """K_j of autocatalysis [-]."""
     oxygen_order: FloatArray
     """Exponent n of the volume fraction of oxygen [-]; 0 = needs none."""
     oxygen_fall: FloatArray
@@ -114,7 +116,9 @@ class Network(NamedTuple):
     oxidises: bool
     """Whether the rate of some reaction follows the oxygen at the surface and the depth."""
     first_order: bool
-    """Whether every n_j is 1."""
+    """Whether every n_j is 1, and every K_j 0."""
+    catalysed: bool
+    """Whether some K_j is not 0."""
     plain: bool
     """Whether every reaction has its own reactant and at most one, inert, product."""
     residue: IntArray

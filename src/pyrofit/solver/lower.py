@@ -210,6 +210,7 @@ class _Plan:
 
 _NUMBERS = (
     "order",
+    "catalysis",
     "E_J_mol",
     "oxygen_order",
     "oxygen_depth_m",
@@ -242,9 +243,13 @@ def _plan(material: words.Material) -> _Plan:
 
 
 def is_separate(network: Network) -> BoolArray:
-    """Tell whether no reaction feeds or starves another one, shape (sets,)."""
+    """Tell whether each reaction is solved exactly from k dt alone, shape (sets,).
+
+    None feeds or starves another one, and none of another order than the first is catalysed.
+    """
     running = network.root_factor > 0.0
-    separate = np.ones(running.shape[1], dtype=bool)
+    mixed = running & (network.catalysis > 0.0) & (network.order != 1.0)
+    separate: BoolArray = ~np.any(mixed, axis=0)
     for j, a in enumerate(network.reactant.tolist()):
         for k, b in enumerate(network.reactant.tolist()):
             fed = network.yields[j, b] > 0.0
@@ -276,7 +281,7 @@ def lower_network(
     last = of_heat if heats or burning else none, of_burnt if burning else none
     rows = (number for row in (*plan.numbers[:-2], *last) for number in row)
     numbers = stack([value_of(number, values) for number in rows], sets)
-    order, energy, oxygen_order, depth, use, heat, burnt = numbers.reshape(
+    order, catalysis, energy, oxygen_order, depth, use, heat, burnt = numbers.reshape(
         len(_NUMBERS), count, sets
     )
     yields = np.zeros((count, len(material.components), sets))
@@ -290,6 +295,7 @@ def lower_network(
         root_factor=np.sqrt(factor),
         activation_temperature=energy / GAS_CONSTANT,
         order=order,
+        catalysis=catalysis,
         oxygen_order=oxygen_order,
         oxygen_fall=oxygen_order / depth,
         oxygen_use=use,
@@ -300,7 +306,8 @@ def lower_network(
         glow=np.where(oxygen_order > 0.0, np.maximum(-heat, 0.0), 0.0),
         burns=False,
         oxidises=material.oxidises and oxygen != 0.0,
-        first_order=bool(np.all(order == 1.0)),
+        first_order=bool(np.all(order == 1.0) and not np.any(catalysis)),
+        catalysed=bool(np.any(catalysis)),
         plain=plan.plain,
         residue=plan.residue,
         residue_yield=yields[np.arange(count), plan.residue],

@@ -7,6 +7,7 @@ from dataclasses import dataclass, field
 import numpy as np
 
 from pyrofit.constants import GAS_CONSTANT, STEFAN_BOLTZMANN
+from pyrofit.errors import StudyError
 from pyrofit.exchange.fds.namelists import Item, Namelist, unique
 from pyrofit.exchange.fds.orders import first_order_sum, same_half_time
 from pyrofit.exchange.fds.properties import tabulated, written
@@ -17,6 +18,10 @@ from pyrofit.model.material import Component, Material, Reaction
 from pyrofit.solver.arrays import FloatArray
 from pyrofit.solver.lower_property import LEAST_SHARE
 
+NO_CATALYSIS = (
+    "the reaction of '{}' is autocatalytic (`catalysis`): files of other programs cannot hold its "
+    "rate; describe it by several reactions, or by an order"
+)
 R_FDS = 8.314472
 """Molar gas constant of FDS [J/(mol K)]."""
 REFERENCE_RATE_1_S = 1e-3
@@ -187,7 +192,15 @@ def _unwritten(
 
 
 def factor_with(reaction: Reaction, values: Values, R: float = R_FDS) -> float:
-    """Return A [1/s] that has the same rate with another gas constant R [J/(mol K)]."""
+    """Return A [1/s] that has the same rate with another gas constant R [J/(mol K)].
+
+    Raises
+    ------
+    StudyError
+        The reaction is autocatalytic: no other program's files hold such a rate.
+    """
+    if value_of(reaction.catalysis, values) > 0.0:
+        raise StudyError(NO_CATALYSIS.format(reaction.reactant))
     E = value_of(reaction.E_J_mol, values)
     if reaction.A_1_s is None:
         assert reaction.reference_rate_1_s is not None

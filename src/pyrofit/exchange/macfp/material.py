@@ -4,7 +4,8 @@ import math
 from collections.abc import Mapping, Sequence
 from typing import Any
 
-from pyrofit.errors import DataError
+from pyrofit.errors import DataError, StudyError
+from pyrofit.exchange.fds.materials import NO_CATALYSIS
 from pyrofit.exchange.macfp.densities import constant_of, density_back, density_of
 from pyrofit.exchange.macfp.forms import (
     NOTHING,
@@ -160,6 +161,8 @@ def _fractions(material: Material, names: Sequence[str]) -> list[float]:
 def _kinetics(material: Material, names: Sequence[str]) -> dict[str, Any]:
     places = {name: i for i, name in enumerate(names, start=1)}
     reactions = list(material.reactions.values())
+    if faster := [r.reactant for r in reactions if number(r.catalysis) > 0.0]:
+        raise StudyError(NO_CATALYSIS.format(faster[0]))
     if several := [r.reactant for r in reactions if len(r.products) > 1]:
         raise DataError(f"the reaction of '{several[0]}' has several solid products; give one.")
     return {

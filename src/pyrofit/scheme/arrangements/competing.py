@@ -15,7 +15,7 @@ def _build(template: Template, reactions: Sequence[Reaction]) -> Material:
     for i, reaction in enumerate(reactions, 1):
         products: dict[str, float | str] = dict(template.products)
         if i > 1:
-            products = {name: f"{PREFIX}y_{i}" for name in list(products)[:1]}
+            products = dict.fromkeys(list(products)[:1], f"{PREFIX}y_{i}")
         update = {"reactant": template.reactant, "products": products}
         made[numbered(template, i)] = changed(reaction, **update)
     return Material(
@@ -32,7 +32,7 @@ def _shares(i: int, count: int, template: Template) -> dict[str, Limits]:
 
 
 ARRANGEMENT = Arrangement(
-    equation="dm/dt = -m_0 sum_i k_i (m/m_0)^n_i, solid formed: y_i of what reaction i consumes",
+    equation="dm/dt = -m_0 sum_i k_i (m/m_0)^n_i, reaction i forms y_i of solid",
     build=_build,
     shares=_shares,
 )

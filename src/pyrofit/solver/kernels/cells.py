@@ -7,9 +7,9 @@ from pyrofit.solver.kernels.lanes import in_lane, where
 from pyrofit.solver.kernels.oxygen import is_of_oxygen
 from pyrofit.solver.kernels.reactions import (
     TINY,
+    brought,
     decay_of_order,
     is_curved,
-    ordered,
     power_of_share,
     react,
     remaining,
@@ -246,7 +246,8 @@ def react_one(work, first, j, dt, network, curved, final):
         mean, growth = log_mean(work.root[j, n], work.root_new[j, n])
         x, behind = dt * mean, 1.0
         if curved:
-            x, behind = ordered(work.m[i, n], work.held[j, n], work.open[j] * x, order)
+            m, ever, held = work.m[i, n], work.formed[i, n], work.held[j, n]
+            x, behind = brought(m, ever, held, work.open[j] * x, j, network)
             behind = work.open_end[j] * behind
         e, _ = decay_of_order(x, order, curved, False)
         left, used = remaining(work.m[i, n], e)

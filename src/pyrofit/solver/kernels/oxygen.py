@@ -16,7 +16,7 @@ from pyrofit.solver.kernels import row
 from pyrofit.solver.kernels.functions import exp, exp_of_negative, fma, log, power
 from pyrofit.solver.kernels.jit import inner, live, loop
 from pyrofit.solver.kernels.lanes import somewhere, where
-from pyrofit.solver.kernels.reactions import TINY, is_curved, power_of_share
+from pyrofit.solver.kernels.reactions import TINY, is_curved, power_of_share, quickening
 from pyrofit.solver.kernels.schedule import during
 
 NEWTON_STEPS = 6
@@ -72,7 +72,10 @@ def compare_need(work, first, m, root, supplied, network):
         for n in live(work.m, first):
             amount = m[i, n]
             if is_curved(network, j):
+                u = amount / max(work.formed[i, n], TINY)
                 amount = amount * power_of_share(amount, work.formed[i, n], order)
+                if network.catalysed:
+                    amount = amount * quickening(u, j, network)
             rate = fma(root[j, n] * root[j, n], amount, rate)
         used = where(network.oxygen_order[j] > 0.0, network.oxygen_use[j] * work.full[j], 0.0)
         work.need[j] = used * rate / max(supplied, 1e-100)

@@ -78,6 +78,45 @@ def ordered(m, held, x, n):
 
 
 @inner
+def catalysed(m, ever, x, n, K):
+    """Return x = k dt of a mass m with autocatalysis, and the factor of k at the end of the step.
+
+    With u^(n-1) of the middle of the step in x, du/dx = -u (1 + K (1 - u)) is solved exactly:
+    u_new = u (1 + K) q/(K u q + c), q = exp(-(1 + K) x), c = 1 + K (1 - u).
+    """
+    u = where(m > 0.0, min(m / max(ever, TINY), 1.0), 1.0)
+    whole, c = 1.0 + K, 1.0 + K * (1.0 - u)
+    if somewhere(n != 1.0):
+        fall = x * c * power(u, n - 1.0)
+        x = where(n == 1.0, x, x * power(u * exp(-0.5 * min(fall, 100.0)), n - 1.0))
+    q = exp(-min(whole * x, MOST_DECAY))
+    part = (K * u * q + c) / whole
+    left = u * q / part
+    behind = 1.0 + K * (1.0 - left)
+    if somewhere(n != 1.0):
+        behind = where(n == 1.0, behind, behind * power(max(left, TINY), n - 1.0))
+    return max(whole * x + log(part), 0.0), behind
+
+
+@inner
+def brought(m, ever, held, x, j, network):
+    """Return `ordered` of reaction j, or `catalysed` where it is so."""
+    n = network.order[j]
+    slower, behind = ordered(m, held, x, n)
+    if network.catalysed:
+        K = network.catalysis[j]
+        faster, of_end = catalysed(m, ever, x, n, K)
+        slower, behind = where(K > 0.0, faster, slower), where(K > 0.0, of_end, behind)
+    return slower, behind
+
+
+@inner
+def quickening(u, j, network):
+    """Return 1 + K (1 - u) of reaction j."""
+    return 1.0 + network.catalysis[j] * (1.0 - min(u, 1.0))
+
+
+@inner
 def bring_to_order(m, ever, j, end, room, network):
     """Bring x of the reactions j to end, all of one reactant, to their orders."""
     if end > j + 1:
@@ -86,7 +125,7 @@ def bring_to_order(m, ever, j, end, room, network):
     room.behind[j] = 1.0
     if is_curved(network, j):
         held = power_of_share(m, ever, network.order[j])
-        room.x[j], room.behind[j] = ordered(m, held, room.x[j], network.order[j])
+        room.x[j], room.behind[j] = brought(m, ever, held, room.x[j], j, network)
 
 
 @inner
@@ -97,10 +136,19 @@ def order_several(m, ever, j, end, room, network):
     u = where(some, u, 1.0)
     fall = 0.0 * u
     for a in range(j, end):
-        fall += room.x[a] * power(u, network.order[a] - 1.0)
+        fall += room.x[a] * factor_at(u, a, network)
     middle = u * exp(-0.5 * min(fall, 100.0))
     for a in range(j, end):
-        room.x[a] *= where(some, power(middle, network.order[a] - 1.0), 1.0)
+        room.x[a] *= where(some, factor_at(middle, a, network), 1.0)
+
+
+@inner
+def factor_at(u, j, network):
+    """Return u^(n-1) (1 + K (1 - u)) of reaction j."""
+    factor = power(u, network.order[j] - 1.0)
+    if network.catalysed:
+        factor = factor * quickening(u, j, network)
+    return factor
 
 
 @inner
@@ -136,7 +184,8 @@ def consume_alone(m, formed, n, j, room, network, exact, m_new):
     curved = is_curved(network, j)
     if curved:
         held = power_of_share(m[i, n], formed[i, n], network.order[j])
-        room.x[j], room.behind[j] = ordered(m[i, n], held, room.x[j], network.order[j])
+        ever = formed[i, n]
+        room.x[j], room.behind[j] = brought(m[i, n], ever, held, room.x[j], j, network)
     e, _ = decay_of_order(room.x[j], network.order[j], curved, exact)
     m_new[i, n], room.used[j] = remaining(m[i, n], e)
     residue = network.residue[j]
@@ -145,8 +194,12 @@ def consume_alone(m, formed, n, j, room, network, exact, m_new):
 
 @inner
 def is_curved(network, j):
-    """Tell whether reaction j is of another order than the first in some lane."""
-    return not network.first_order and somewhere(network.order[j] != 1.0)
+    """Tell whether reaction j is of another order than the first, or catalysed, in some lane."""
+    if network.first_order:
+        return False
+    if network.catalysed and somewhere(network.catalysis[j] != 0.0):
+        return True
+    return somewhere(network.order[j] != 1.0)
 
 
 @inner
@@ -203,5 +256,5 @@ def mix_behind(left, ever, gained, j, end, room, network):
     """Fill the factor of k after the step for a reactant formed in it, or of several reactions."""
     u = where(left > 0.0, left / max(ever, TINY), 1.0)
     for a in range(j, end):
-        mixed = power(u, network.order[a] - 1.0)
+        mixed = factor_at(u, a, network)
         room.behind[a] = where((gained > 0.0) | (end > j + 1), mixed, room.behind[a])

@@ -8,7 +8,7 @@ from pyrofit.solver.kernels.functions import exp, power
 from pyrofit.solver.kernels.heated import Gas, Program, allocate, of_points, sample_of
 from pyrofit.solver.kernels.jit import entry, inner, loop
 from pyrofit.solver.kernels.lanes import in_lanes, somewhere, where
-from pyrofit.solver.kernels.reactions import TINY, decay, react
+from pyrofit.solver.kernels.reactions import TINY, decay, quickening, react
 from pyrofit.solver.kernels.views import network_in_lanes
 
 
@@ -37,6 +37,8 @@ def _rate(m, formed, k, network, j):
     if somewhere(higher != 0.0):
         u = where(m[i, 0] > 0.0, m[i, 0] / max(formed[i, 0], TINY), 1.0)
         r = r * where(higher == 0.0, 1.0, power(u, higher))
+    if network.catalysed:
+        r = r * quickening(m[i, 0] / max(formed[i, 0], TINY), j, network)
     return r
 
 

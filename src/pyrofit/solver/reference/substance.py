@@ -97,6 +97,8 @@ class Reactions:
     E_R: FloatArray
     """E/R [K]."""
     order: FloatArray
+    catalysis: FloatArray
+    """K of autocatalysis [-]."""
     oxygen_order: FloatArray
     oxygen_depth: FloatArray
     """In which the volume fraction of oxygen falls to 1/e [m]."""
@@ -141,19 +143,20 @@ class Reactions:
         return replace(self, A=self.A * functions.power(oxygen, self.oxygen_order))
 
     def amounts(self, virgin: FloatArray, extent: FloatArray) -> FloatArray:
-        """Return the factors of the rate constants, m_formed (m/m_formed)^n, per kg of sample.
+        """Return the factors of the rate constants, m_formed u^n (1 + K (1 - u)), per kg of sample.
 
-        ``virgin``: mass fractions of the sample, shape (..., components); ``extent``: xi_j, shape
-        (..., reactions), like the result. m_formed is the mass ever present.
+        u = m/m_formed, and m_formed is the mass ever present. ``virgin``: mass fractions of the
+        sample, shape (..., components); ``extent``: xi_j, shape (..., reactions), like the result.
         """
         left = (virgin + linear.product(extent, self.change))[..., self.reactant]
-        if np.all(self.order == 1.0):
+        if np.all(self.order == 1.0) and not np.any(self.catalysis):
             return left
         formed = (virgin + linear.product(np.maximum(extent, 0.0), self.yields))[..., self.reactant]
         told = formed > LEAST_FORMED
         u = np.where(told, left / np.where(told, formed, 1.0), 1.0)
         least = np.where(self.order < 1.0, LEAST_REMAINDER, 0.0)
-        return np.asarray(left * functions.power(np.clip(u, least, 1.0), self.order - 1.0))
+        faster = 1.0 + self.catalysis * (1.0 - np.clip(u, 0.0, 1.0))
+        return np.asarray(left * functions.power(np.clip(u, least, 1.0), self.order - 1.0) * faster)
 
 
 @dataclass(frozen=True)
@@ -239,6 +242,7 @@ def _reactions(material: words.Material, values: Values) -> Reactions:
         A=np.array([_rate_factor(r, values) for r in given]),
         E_R=np.array([value_of(r.E_J_mol, values) / GAS_CONSTANT for r in given]),
         order=np.array([value_of(r.order, values) for r in given]),
+        catalysis=np.array([value_of(r.catalysis, values) for r in given]),
         oxygen_order=np.array([value_of(r.oxygen_order, values) for r in given]),
         oxygen_depth=np.array([value_of(r.oxygen_depth_m, values) for r in given]),
         oxygen_use=np.array([value_of(r.oxygen_use, values) for r in given]),
