@@ -5,6 +5,7 @@ import json
 import sys
 import time
 from collections.abc import Iterator, Mapping
+from dataclasses import replace
 from pathlib import Path
 from typing import Any
 
@@ -15,6 +16,7 @@ import pytest
 import pyrofit as pf
 from pyrofit.config import Study, as_study, as_yaml, read_mapping
 from pyrofit.errors import StudyError
+from pyrofit.estimate.problem import Problem
 from pyrofit.explore.describe import describe
 from pyrofit.explore.fit import fit
 from pyrofit.explore.model import model_of
@@ -230,6 +232,29 @@ def test_twenty_curves_take_little_of_a_processor(twenty: Study) -> None:
     for k in range(10):
         many.curves(State({**TRUTH, "k": 0.15 + 0.01 * k}))
     assert time.process_time() - begin < 10 * 0.05
+
+
+def test_only_experiments_with_new_values_are_simulated(
+    session: Session, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    model, simulated, asked = replace(session.base), Problem.simulated, []
+
+    def watched(of: Problem, values: Any, sets: int, names: Any = None) -> Any:
+        asked.append(list(names))
+        return simulated(of, values, sets, names)
+
+    values = {name: model.study.parameters[name].factor * v for name, v in TRUTH.items()}
+    monkeypatch.setattr(Problem, "simulated", watched)
+    model.simulate(values)
+    moved = values | {"k": 0.25}
+    found = model.simulate(moved)
+    slabs = [n for n in model.problem.runs if n.startswith("slab")]
+    assert asked == [list(model.problem.runs), slabs]
+    model.simulate(moved)
+    assert asked[2:] == [[]]
+    anew = replace(session.base).simulate(moved)
+    for one, other in zip(found.models, anew.models, strict=True):
+        np.testing.assert_array_equal(one, other)
 
 
 def test_bands_of_the_posterior_stand_at_the_drawn_points(session: Session) -> None:

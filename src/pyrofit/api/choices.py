@@ -15,7 +15,7 @@ from pyrofit.config.resolve import diagnosed_material
 from pyrofit.config.uses import parameters_of_heated
 from pyrofit.errors import StudyError, suggest
 from pyrofit.experiments import kind_of
-from pyrofit.model.base import numbers
+from pyrofit.model.base import Rule, numbers
 from pyrofit.solver.arrays import FloatArray
 
 Key = tuple[str, str]
@@ -24,8 +24,16 @@ Signals = str | Iterable[str | Key] | Mapping[str, str | Iterable[str]]
 """Experiments with all their signals, pairs of experiment and signal, or signals by experiment."""
 
 
-def si_values(study: Study, given: Mapping[str, float]) -> dict[str, float]:
+Place = tuple[str, str, tuple[Rule, ...]]
+"""Place of a number in the description, the parameter that stands there, rules of the place."""
+
+
+def si_values(
+    study: Study, given: Mapping[str, float], places: Iterable[Place] | None = None
+) -> dict[str, float]:
     """Return values in SI units; they are given in the units of the study.
+
+    Who checks many sets gives `places_of` the study.
 
     Raises
     ------
@@ -50,7 +58,7 @@ def si_values(study: Study, given: Mapping[str, float]) -> dict[str, float]:
         if not (isinstance(value, Real) and math.isfinite(value)):
             raise StudyError(f"parameter '{name}': {value!r} is no finite number")
         found[name] = float(value) * study.parameters[name].factor
-    _check_rules(study, found)
+    _check_rules(study, found, places_of(study) if places is None else places)
     return found
 
 
@@ -86,18 +94,25 @@ def si_columns(study: Study, given: pd.DataFrame) -> dict[str, FloatArray]:
     }
 
 
-def _check_rules(study: Study, si: Mapping[str, float]) -> None:
+def places_of(study: Study) -> list[Place]:
+    """Return the places of the description at which a parameter or an expression stands."""
+    return [
+        (place, number, rules)
+        for root, part in described(study).items()
+        for place, number, rules in numbers(part, root)
+        if isinstance(number, str)
+    ]
+
+
+def _check_rules(study: Study, si: Mapping[str, float], places: Iterable[Place]) -> None:
     """Refuse SI values that break a rule of a place, such as a negative density."""
-    for root, part in described(study).items():
-        for place, number, rules in numbers(part, root):
-            if not isinstance(number, str) or number not in si:
-                continue
-            broken = [rule.text for rule in rules if not rule.holds(si[number])]
-            if broken:
-                value = si[number] / study.parameters[number].factor
-                raise StudyError(
-                    f"parameter '{number}': {value:g} {broken[0]} (it is used as {place})"
-                )
+    for place, number, rules in places:
+        if number not in si:
+            continue
+        broken = [rule.text for rule in rules if not rule.holds(si[number])]
+        if broken:
+            value = si[number] / study.parameters[number].factor
+            raise StudyError(f"parameter '{number}': {value:g} {broken[0]} (it is used as {place})")
 
 
 def _kind(given: object) -> str:

@@ -1,6 +1,6 @@
 """The problem that every optimiser solves: parameter values in, cost out."""
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass, replace
 from functools import cached_property
 
@@ -98,15 +98,19 @@ class Problem:
             for s in range(sets)
         ]
 
-    def simulated(self, values: Values, sets: int) -> dict[str, list[Curves]]:
+    def simulated(
+        self, values: Values, sets: int, names: Iterable[str] | None = None
+    ) -> dict[str, list[Curves]]:
         """Return the curves by experiment and set; kinds with one solver in one call.
 
         Repeats that are described alike and recorded at the same times are simulated once. The
-        same holds for sets that differ only in numbers of other experiments.
+        same holds for sets that differ only in numbers of other experiments. ``names`` are the
+        experiments, by default all.
         """
         together: dict[tuple[Simulate, bytes], list[str]] = {}
         distinct: dict[bytes, tuple[Indices, Indices]] = {}
-        for name in dict.fromkeys(self._alike.values()):
+        shown = {name: self.alike[name] for name in (self.runs if names is None else names)}
+        for name in dict.fromkeys(shown.values()):
             first, of_set = distinct_sets(
                 [values[p] for p in self._used[name] if p in values], sets
             )
@@ -123,7 +127,7 @@ class Problem:
             found = simulate(experiments, self.material, at, asked, self.accuracy, first.size)
             for name, own in zip(names, found, strict=True):
                 curves[name] = [own[i] for i in of_set]
-        return {name: curves[first] for name, first in self._alike.items()}
+        return {name: curves[first] for name, first in shown.items()}
 
     @cached_property
     def _used(self) -> dict[str, tuple[str, ...]]:
@@ -134,7 +138,7 @@ class Problem:
         }
 
     @cached_property
-    def _alike(self) -> dict[str, str]:
+    def alike(self) -> dict[str, str]:
         """The first experiment that is simulated as each one is."""
         found: dict[str, str] = {}
         for name, run in self.runs.items():

@@ -1,11 +1,12 @@
 """A study with some effects switched on, simulated at all its measured points."""
 
 from collections.abc import Collection, Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, field
+from functools import cached_property
 
 import numpy as np
 
-from pyrofit.api.choices import Key
+from pyrofit.api.choices import Key, Place, places_of, used_by
 from pyrofit.config import Study, TermSpec, calibration_channels, parameters_in
 from pyrofit.config.resolve import diagnosed_material
 from pyrofit.effects import known_effects
@@ -64,10 +65,37 @@ class Model:
     signals: tuple[Key, ...]
     fitted: int
     costs: Mapping[str, range]
+    _last: dict[str, tuple[tuple[float | None, ...], Curves]] = field(
+        init=False, repr=False, default_factory=dict
+    )
+    """Of each experiment the values that it was simulated with last, and its curves."""
+
+    @cached_property
+    def places(self) -> list[Place]:
+        """The places of the description at which a parameter stands."""
+        return places_of(self.study)
+
+    @cached_property
+    def _uses(self) -> dict[str, list[str]]:
+        """The parameters that each experiment shows; of equal repeats the first stands for all."""
+        distinct = dict.fromkeys(self.problem.alike.values())
+        return {name: sorted(used_by(self.study, [name])) for name in distinct}
 
     def simulate(self, values: Mapping[str, float]) -> Simulated:
-        """Return all curves for SI values of parameters; others have those of the study."""
-        return self.simulate_all(values, 1)[0]
+        """Return all curves for SI values of parameters; others have those of the study.
+
+        Only experiments are simulated whose values are others than the last time.
+        """
+        problem = self.problem
+        every = {**problem.fixed, **values}
+        asked = {n: tuple(every.get(p) for p in used) for n, used in self._uses.items()}
+        kept = self._last.copy().items()
+        found = {n: one for n, one in kept if one[0] == asked[n] and one[1].status.finished}
+        new = [n for n in asked if n not in found]
+        for n, curves in problem.simulated(every, 1, new).items():
+            found[n] = asked[n], curves[0]
+        self._last.update(found)
+        return self._picked({n: found[first][1] for n, first in problem.alike.items()})
 
     def simulate_all(self, values: Values, sets: int) -> list[Simulated]:
         """Return the same of several sets; a value is a number or has the shape (sets,)."""

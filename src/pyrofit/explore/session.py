@@ -129,7 +129,7 @@ class Session:
             if name not in model.study.parameters:
                 known = suggest(str(name), model.study.parameters)
                 raise StudyError(f"values: unknown parameter '{name}'. {known}")
-        return middle(model) | si_values(model.study, state.values)
+        return middle(model) | si_values(model.study, state.values, model.places)
 
     def simulate(self, state: State) -> tuple[Model, Simulated]:
         """Return the model with the effects of a state, and its curves."""
