@@ -110,3 +110,18 @@ def test_an_export_that_is_imported_burns_as_before() -> None:
     )
     np.testing.assert_allclose(after, before, atol=1e-6)
     assert before[-1] < 5e-4  # of the thousandth that PMMA leaves
+
+
+def test_surface_oxidation_of_vegetation_is_left_out_with_the_way_out() -> None:
+    line = """
+&SURF ID='GROUND', MATL_ID='CHAR', THICKNESS=0.01 /
+&MATL ID='CHAR', DENSITY=300., CONDUCTIVITY=0.05, SPECIFIC_HEAT=1., SURFACE_OXIDATION_MODEL=T,
+      A=465., E=68000., SPEC_ID='PRODUCTS','AIR', NU_SPEC=8.13,-7.17, MATL_ID='ASH', NU_MATL=0.04,
+      HEAT_OF_REACTION=-25000. /
+&MATL ID='ASH', DENSITY=67., CONDUCTIVITY=0.1, SPECIFIC_HEAT=1. /
+"""
+    found = import_fds(line, "x.fds", NEW)
+    assert not found.material.get("reactions")
+    (said,) = [remark for remark in found.remarks if "SURFACE_OXIDATION_MODEL" in remark]
+    assert "left out" in said
+    assert "oxygen_order" in said

@@ -7,6 +7,7 @@ from pydantic import ValidationError
 
 from pyrofit.exchange.fds.matl_line import (
     DERIVED,
+    SURFACE_OXIDATION,
     Keys,
     Layer,
     Matl,
@@ -24,7 +25,7 @@ KNOWN = {
     *("ID", "FYI", "DENSITY", "CONDUCTIVITY", "CONDUCTIVITY_RAMP", "SPECIFIC_HEAT"),
     *("SPECIFIC_HEAT_RAMP", "EMISSIVITY", "ABSORPTION_COEFFICIENT", "N_REACTIONS", "A", "E"),
     *("N_S", "MATL_ID", "NU_MATL", "SPEC_ID", "NU_SPEC", "HEAT_OF_REACTION"),
-    *("HEAT_OF_COMBUSTION", "ADJUST_H", "N_O2", "GAS_DIFFUSION_DEPTH"),
+    *("HEAT_OF_COMBUSTION", "ADJUST_H", "N_O2", "GAS_DIFFUSION_DEPTH", SURFACE_OXIDATION),
 }
 """Keys of a MATL line that are read."""
 

@@ -16,6 +16,7 @@ from pyrofit.exchange.fds.versions import FdsError, Version
 Keys = dict[str, Any]
 DEFAULT_EMISSIVITY, OPAQUE_1_M = 0.9, 5e4
 """FDS's defaults, where a MATL line is silent."""
+SURFACE_OXIDATION = "SURFACE_OXIDATION_MODEL"
 GAS_DIFFUSION_DEPTH_M = 1e-3
 """The same for the depth of oxygen."""
 DERIVED = {"REFERENCE_TEMPERATURE", "REFERENCE_RATE", "PYROLYSIS_RANGE", "HEATING_RATE"}
@@ -97,6 +98,13 @@ def reactions_of(
     matl: Matl, names: Mapping[str, str], layer: Layer, version: Version, remarks: list[str]
 ) -> Iterator[tuple[str, Keys]]:
     """Yield the reactions of a component by name."""
+    if matl.one(SURFACE_OXIDATION):
+        remarks.append(
+            f"MATL '{matl.name}': its reaction is the oxidation of char at the surface of "
+            f"vegetation ({SURFACE_OXIDATION}), with A in m/s and a factor of the wind; left out. "
+            "Describe it by a reaction with an oxygen_order"
+        )
+        return
     count = count_of(matl)
     orders = matl.of("N_S", 1)
     oxygen_orders, depths = matl.of("N_O2", 1), matl.of("GAS_DIFFUSION_DEPTH", 1)
