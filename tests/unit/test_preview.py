@@ -73,6 +73,7 @@ def test_distance_beside_the_band_counts_from_the_margin() -> None:
     curves = np.array([[0.0, 1.0, 2.0], [0.0, 2.0, 4.0]])
     found = reached(np.array([0.0, 5.0, -3.0]), curves, np.zeros(3))
     assert found.scale == 8.0  # of the record; the curves have 2 and 4
+    assert found.share_outside == 1.0  # the point inside is zero
     margin = OF_RANGE * 8.0 + OF_BAND * np.array([0.0, 1.0, 2.0])
     assert found.beyond == pytest.approx([0.0, 5.0 - 2.0 - margin[1], -(2.0 + 3.0 - margin[2])])
     assert found.outside == pytest.approx(np.abs(found.beyond).mean() / 8.0)
@@ -116,7 +117,7 @@ def test_corrections_undo_what_their_words_say() -> None:
     study, frames = smoke()
     case = case_of(study, frames)
     channel = "slab_25", "mlr"
-    found = list(corrections(case, [channel]))
+    found = list(corrections(case, [channel], [channel]))
     assert len({one.words for one in found}) == len(found)
     (flux,) = [one for one in found if one.words == "the flux of slab_25 is 10 times too large"]
     assert flux.change(case).experiments["slab_25"].front.flux_factor == pytest.approx(0.1)  # type: ignore[attr-defined]
@@ -126,6 +127,10 @@ def test_corrections_undo_what_their_words_say() -> None:
     assert made.to_numpy() == pytest.approx(0.1 * case.frames[channel][column].to_numpy())
     (swap,) = [one for one in found if one.words == "the files of slab_25 and slab_60 are swapped"]
     assert swap.change(case).frames["slab_60", "mlr"] is case.frames[channel]
+    # A record that lies inside for the most part is not wrong by ten.
+    rest = [one.words for one in corrections(case, [channel], [])]
+    assert not any("10 times too large: area" in words for words in rest)
+    assert any("4 times too large: area" in words for words in rest)
 
 
 def test_baseline_of_an_instrument_is_a_line_that_leaves_a_usual_specific_heat() -> None:
@@ -148,12 +153,12 @@ def test_baseline_of_an_instrument_is_a_line_that_leaves_a_usual_specific_heat()
     }
     words = "the heat flow of a holds a baseline of the instrument"
     case = Case({"a": Dsc.model_validate(described)}, frames)
-    (one,) = [c for c in corrections(case, list(frames)) if c.words.startswith(words)]
+    (one,) = [c for c in corrections(case, list(frames), []) if c.words.startswith(words)]
     assert (one.cause, one.places) == ("baseline of the heat flow", ("a",))
     made = one.change(case).frames["a", "heat_flow"]["heat_flow_W_kg"].to_numpy()
     assert made == pytest.approx(own + peak, abs=1.0)
     given = Dsc.model_validate({**described, "baseline": {"level_W_kg": 5.0}})
-    told = corrections(Case({"a": given}, frames), list(frames))
+    told = corrections(Case({"a": given}, frames), list(frames), [])
     assert not [c for c in told if c.words.startswith(words)]
 
 

@@ -1,7 +1,7 @@
 """Likely causes of records outside the band: the corrections that bring them inside."""
 
 from collections import Counter
-from collections.abc import Iterable, Iterator, Mapping, Sequence
+from collections.abc import Collection, Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
 
 import numpy as np
@@ -96,7 +96,12 @@ def is_far(left: Mapping[Channel, float]) -> bool:
 
 
 def likely(
-    study: Study, case: Case, sets: Sets, suspected: Sequence[Channel], before: Nearest
+    study: Study,
+    case: Case,
+    sets: Sets,
+    suspected: Sequence[Channel],
+    mostly: Collection[Channel],
+    before: Nearest,
 ) -> list[Cause]:
     """Return the causes whose corrections bring sets near the records, the likeliest first.
 
@@ -109,12 +114,14 @@ def likely(
         The study, its records and sets.
     suspected
         Records for which causes are looked for.
+    mostly
+        Records that lie beside the band for the most part.
     before
         The set that comes nearest to all records, as they are described.
     """
     few = sets.first(TRIED_SETS)
     known = simulate(study, case, few)
-    tried = [_tried(study, case, few, known, one) for one in corrections(case, suspected)]
+    tried = [_tried(study, case, few, known, one) for one in corrections(case, suspected, mostly)]
     chosen = _chosen(case, [one for one in tried if one is not None])
     total = _mean_square(before.left)
     found = []

@@ -32,6 +32,8 @@ SETS = 300
 """Sets within the limits."""
 BASES = 8
 """Sets about which each parameter is moved from limit to limit."""
+MOSTLY = 0.5
+"""Share of a record outside from which on all of it may be wrong by a factor of ten."""
 FELT = 0.005
 """Least change of a signal that counts, over its range."""
 
@@ -94,7 +96,8 @@ def preview(study: Study, measurements: Measurements, count: int = SETS) -> Prev
     before = nearest(study, alone, sets, curves)
     left = before.left
     suspected = suspects({c: reached[c] for c in alone.frames}, left)
-    causes = likely(study, alone, sets, suspected, before) if suspected else []
+    mostly = [channel for channel, one in reached.items() if one.share_outside > MOSTLY]
+    causes = likely(study, alone, sets, suspected, mostly, before) if suspected else []
     found = record.Found(
         sets=count,
         unfinished=unfinished,

@@ -1,6 +1,6 @@
 """Errors of a description or a file, each as the correction that would undo it."""
 
-from collections.abc import Callable, Iterator, Sequence
+from collections.abc import Callable, Collection, Iterator, Sequence
 from dataclasses import dataclass
 from itertools import combinations
 from typing import Any
@@ -71,7 +71,9 @@ class Correction:
     change: Change
 
 
-def corrections(case: Case, outside: Sequence[Channel]) -> Iterator[Correction]:
+def corrections(
+    case: Case, outside: Sequence[Channel], mostly: Collection[Channel]
+) -> Iterator[Correction]:
     """Yield the corrections that may bring records inside: of each experiment, then of several.
 
     Parameters
@@ -80,16 +82,21 @@ def corrections(case: Case, outside: Sequence[Channel]) -> Iterator[Correction]:
         Experiments and records.
     outside
         Experiment and signal of the records outside.
+    mostly
+        Records that lie outside for the most part. A factor of ten or more takes all of a record
+        outside, so that no other record has it.
     """
     names = list(dict.fromkeys(name for name, _ in outside))
     for name in names:
         of = [signal for experiment, signal in outside if experiment == name]
-        yield from _of_one(case, name, of)
+        yield from _of_one(case, name, of, mostly)
     yield from _baselines(case, outside)
     yield from _swaps(case, names)
 
 
-def _of_one(case: Case, name: str, outside: Sequence[str]) -> Iterator[Correction]:
+def _of_one(
+    case: Case, name: str, outside: Sequence[str], mostly: Collection[Channel]
+) -> Iterator[Correction]:
     experiment = case.experiments[name]
     yield from _temperatures(case, name, outside)
     if isinstance(experiment, SlabExperiment):
@@ -99,7 +106,7 @@ def _of_one(case: Case, name: str, outside: Sequence[str]) -> Iterator[Correctio
     yield from _clocks(case, name)
     if isinstance(experiment, HeatedExperiment):
         yield from _rates(case, name)
-    yield from _samples(case, name, outside)
+    yield from _samples(case, name, outside, mostly)
 
 
 def _temperatures(case: Case, name: str, outside: Sequence[str]) -> Iterator[Correction]:
@@ -199,7 +206,9 @@ def _is_heated(experiment: Experiment) -> bool:
     return isinstance(experiment, HeatedExperiment)
 
 
-def _samples(case: Case, name: str, outside: Sequence[str]) -> Iterator[Correction]:
+def _samples(
+    case: Case, name: str, outside: Sequence[str], mostly: Collection[Channel]
+) -> Iterator[Correction]:
     experiment = case.experiments[name]
     for signal in outside:
         quantity = experiment.quantity(signal)
@@ -207,6 +216,8 @@ def _samples(case: Case, name: str, outside: Sequence[str]) -> Iterator[Correcti
             continue
         alike = [s for s in case.signals(name) if experiment.quantity(s).unit == quantity.unit]
         for factor in FACTORS:
+            if not 0.1 < factor < 10.0 and (name, signal) not in mostly:
+                continue
             yield Correction(
                 SAMPLE,
                 (name,),

@@ -214,6 +214,12 @@ class Reached:
         return np.asarray(above - below)
 
     @property
+    def share_outside(self) -> float:
+        """Share of the sum of all |values| that belongs to points beside band and margin."""
+        sizes = np.abs(self.value)
+        return float(np.sum(sizes[self.beyond != 0.0])) / max(float(np.sum(sizes)), 1e-300)
+
+    @property
     def outside(self) -> float:
         """Mean distance of the points beside band and margin, over the range."""
         return float(np.mean(np.abs(self.beyond))) / self.scale
