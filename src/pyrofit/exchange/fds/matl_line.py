@@ -100,9 +100,8 @@ def reactions_of(
     """Yield the reactions of a component by name."""
     if matl.one(SURFACE_OXIDATION):
         remarks.append(
-            f"MATL '{matl.name}': its reaction is the oxidation of char at the surface of "
-            f"vegetation ({SURFACE_OXIDATION}), with A in m/s and a factor of the wind; left out. "
-            "Describe it by a reaction with an oxygen_order"
+            f"MATL '{matl.name}': the oxidation of vegetation ({SURFACE_OXIDATION}) has A in m/s "
+            "and a factor of the wind; left out. Describe it by a reaction with an oxygen_order"
         )
         return
     count = count_of(matl)
