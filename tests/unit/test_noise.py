@@ -9,8 +9,10 @@ from pyrofit.config import read_study
 from pyrofit.cost import Target
 from pyrofit.data.noise import autoregressive, draw, moving_average
 from pyrofit.errors import DataError
+from pyrofit.estimate import scatter
 from pyrofit.estimate.correlation import LOWEST_DENSITY, Correlation, ljung_box, shrunk
 from pyrofit.estimate.noise import NoiseModel, estimate_noise, smoothed
+from pyrofit.estimate.restricted import Restricted
 from pyrofit.estimate.scatter import scatter_of
 from pyrofit.quantities import known_quantities
 from pyrofit.solver.arrays import FloatArray
@@ -237,3 +239,28 @@ def test_tga_of_the_paper_scatters_by_less_than_a_thousandth() -> None:
     slow = [scatter[f"tga_{rate}K"] for rate in (1, 2, 5, 10)]
     assert 1.5e-4 < min(slow) < max(slow) < 4e-4
     assert scatter["tga_20K"] == max(scatter.values()) == pytest.approx(1.3e-3, rel=0.1)
+
+
+@pytest.mark.parametrize("known", [True, False], ids=["size known", "size unknown"])
+@pytest.mark.parametrize("made", [Correlation(ar=0.8), Correlation(lags=(0.5, 0.2))])
+def test_lags_left_out_by_their_bound_would_not_have_won(
+    made: Correlation, known: bool, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    time = np.linspace(0.0, 1.0, 120)
+    noise = draw(made.sequence(120), np.random.default_rng(1))
+    value = np.sin(6.0 * time) + noise
+    searched = []
+
+    def lags(likelihood: Restricted) -> list[Correlation]:
+        searched.append(likelihood)
+        return search(likelihood)
+
+    search = scatter._lags
+    monkeypatch.setattr(scatter, "_lags", lags)
+    short = scatter_of(time, value, np.ones(120), known)
+    few = len(searched)
+    monkeypatch.setattr(scatter, "_SURE", np.inf)
+    whole = scatter_of(time, value, np.ones(120), known)
+    assert few < len(searched) - few
+    assert (short.correlation, short.criterion) == (whole.correlation, whole.criterion)
+    assert np.array_equal(short.curve, whole.curve)

@@ -40,3 +40,28 @@ def test_series_on_its_curve_has_a_likelihood() -> None:
     X = np.random.default_rng(1).standard_normal((30, 3))
     found = Restricted(X, X @ np.ones(3), known=False)
     assert all(np.isfinite(found(correlation)) for correlation in CORRELATIONS)
+
+
+@pytest.mark.parametrize("known", [True, False], ids=["size known", "size unknown"])
+@pytest.mark.parametrize("points", [12, 40, 300])
+def test_bound_is_below_two_lags_and_near_them(points: int, known: bool) -> None:
+    rng = np.random.default_rng(points)
+    at = np.linspace(-1.0, 1.0, points)
+    X, white = np.vander(at, 4), rng.standard_normal(points)
+    for y in (white, white + np.roll(white, 1), np.cumsum(white), np.diff(white, append=0.0)):
+        likelihood = Restricted(X, y, known)
+        for lags in ((0.0, 0.0), (-0.4, 0.0), (0.45, 0.0), (0.5, 0.2), (-0.1, -0.3), (0.1, 0.4)):
+            correlation = Correlation(lags=lags)
+            log_det, _, squares = likelihood.parts(correlation)
+            exact = log_det + (squares if known else points * np.log(squares / points))
+            bound = likelihood.bound(correlation)
+            assert bound <= exact + 1e-9 * abs(exact)
+            # What is lost is a share of the sum of squares, and less than one in twenty.
+            assert exact - bound <= 0.05 * (squares if known else points)
+
+
+def test_bound_without_correlation_is_exact() -> None:
+    rng = np.random.default_rng(3)
+    likelihood = Restricted(np.vander(np.linspace(0.0, 1.0, 50), 4), rng.standard_normal(50), True)
+    squares = likelihood.parts(Correlation())[2]
+    assert likelihood.bound(Correlation()) == pytest.approx(squares, rel=1e-12)
