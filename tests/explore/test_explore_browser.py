@@ -8,12 +8,16 @@ from http.server import BaseHTTPRequestHandler, HTTPServer
 from pathlib import Path
 
 import numpy as np
+import pandas as pd
 import pytest
+import yaml
 from browser import Browser, lacking, until
+from test_explore_taken import VARYING, kinetics_alone, of_thermal, published, second_reaction
 
 import pyrofit as pf
 from pyrofit.cli import main
 from pyrofit.config import Study
+from pyrofit.data.fetch import FOLDER_VARIABLE
 from pyrofit.explore.describe import in_shown_units
 from pyrofit.explore.fit import Send
 from pyrofit.explore.run import Explorer
@@ -87,6 +91,68 @@ def test_a_slider_moves_the_curves_and_undo_moves_them_back(
     browser.click("#undo")
     settled(browser)
     assert curve(browser, SLAB) == before[SLAB]
+
+
+def measured(folder: Path) -> Study:
+    """Return the study with its curves in files, as if they were measured."""
+    keys = json.loads(json.dumps(yaml.safe_load(SMOKE.read_text())))  # aliases are copies
+    truth = keys.pop("synthetic")["truth"]
+    del keys["imp"]["costs"]["BANDS"]  # the files state no uncertainty
+    unit = {"mass_fraction": "-", "mlr": "kg/m2/s", "back_temperature": "K"}
+    for (name, signal), frame in pf.simulate(pf.read_study(SMOKE), truth).series.items():
+        roles = {"time": "time_s", "temperature": "temperature_K", "value": frame.columns[-1]}
+        roles = {role: column for role, column in roles.items() if column in frame}
+        path = folder / f"{name}_{signal}.csv"
+        pd.DataFrame({r: frame[c] for r, c in roles.items()}).to_csv(path, index=False)
+        units = {"time": "s", "temperature": "K", "value": unit[signal]}
+        given = keys["experiments"][name]["signals"][signal]
+        kept = {"average_s": given["average_s"]} if "average_s" in given else {}
+        read = {"columns": {r: r for r in roles}, "units": {r: units[r] for r in roles}}
+        keys["experiments"][name]["signals"][signal] = {"file": str(path), **kept, **read}
+    return pf.read_study(keys)
+
+
+def test_a_published_material_is_started_from(
+    browser: Browser, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    folder = tmp_path / "Polymer" / "Material_Properties"
+    folder.mkdir(parents=True)
+    for name, changes in (
+        ("A", [of_thermal("Conductivity", VARYING)]),
+        ("B", [second_reaction, kinetics_alone]),
+    ):
+        (folder / f"{name}.json").write_text(published(*changes).strict.text())
+    monkeypatch.setenv(FOLDER_VARIABLE, str(tmp_path))
+    made = Explorer(measured(tmp_path), tmp_path)
+    in_background(made.server)
+    try:
+        opened(browser, made.address)
+        assert error(browser) == ""
+        entries = browser.run(
+            "return [...document.querySelectorAll('#start option')].slice(-2)"
+            ".map(o => [o.textContent, o.disabled])"
+        )
+        assert entries == [["MaCFP: A", False], ["MaCFP: B: nothing to take", True]]
+        browser.run(MOVE, "k", 0.9)
+        browser.run(
+            "const s = document.querySelector('#start'); s.value = 'published:A';"
+            "s.dispatchEvent(new Event('change'));"
+        )
+        settled(browser)
+        said = str(browser.run("return byId('message').textContent"))
+        values = browser.run("return page.values")
+        assert said.startswith("MaCFP: A. Taken: T_p ")
+        assert "Not taken: k (varies with temperature there)." in said
+        assert "\n" not in said
+        assert (values["rho"], values["dh"]) == (1190, 800)
+        assert values["k"] == pytest.approx(0.37)
+        shown = browser.run("return document.querySelector('#row-rho input[type=number]').value")
+        assert shown == "1190"
+        browser.click("#undo")
+        settled(browser)
+        assert browser.run("return page.values.rho") != 1190
+    finally:
+        made.close()
 
 
 PAINTED = """

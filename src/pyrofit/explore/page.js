@@ -206,7 +206,7 @@ function effectBox(parent, effect) {
 function choice(parent, id, words, labels, act) {
   const label = add(parent, "label", { textContent: words + " " });
   const select = add(label, "select", { id });
-  for (const [value, text] of labels) add(select, "option", { value, textContent: text });
+  for (const [value, text, disabled] of labels) add(select, "option", { value, textContent: text, disabled: !!disabled });
   select.addEventListener("change", () => act(select.value));
 }
 
@@ -221,7 +221,15 @@ function valuesOf(label, alone) {
   return alone ? Object.fromEntries(study.parameters.map(p => [p.name, found[p.name]])) : found;
 }
 
+// Parameters for which a published material has no number keep their values.
+function startAt(name) {
+  const { values, said } = study.starts[name];
+  Object.assign(page.values, values);
+  showState(); refresh(); settled(); say(said);
+}
+
 function start(label) {
+  if (label.startsWith("published:")) return startAt(label.slice(10));
   page.values = valuesOf(label);
   showState(); refresh(); settled();
 }
@@ -286,7 +294,9 @@ function build() {
   const sets = Object.keys(study.sets || {});
   if (!data.study) {
     const origin = [["", "middle of limits, known values"], ...sets.map(s => [s, s])];
-    choice(side, "start", "Start from", origin, start);
+    const materials = study.published.map(s => [s, Object.keys(study.starts[s].values).length === 0])
+      .map(([s, none]) => ["published:" + s, "MaCFP: " + s + (none ? ": nothing to take" : ""), none]);
+    choice(side, "start", "Start from", [...origin, ...materials], start);
     const others = [["", "nothing"], ["keep", "the present curves"], ["set:", origin[0][1]], ...sets.map(s => ["set:" + s, s]), ...study.published.map(s => ["published:" + s, "MaCFP: " + s])];
     choice(side, "compare", "Compare with", others, compare);
     const tools = add(side, "div");

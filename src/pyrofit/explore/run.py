@@ -20,6 +20,7 @@ from pyrofit.explore.published import PublishedSets
 from pyrofit.explore.save import save
 from pyrofit.explore.server import Server, in_background
 from pyrofit.explore.session import Session, packed, session_of, stacked, state_of
+from pyrofit.explore.taken import taken
 
 Given = Mapping[str, Any]
 
@@ -93,10 +94,12 @@ class Explorer:
         ticked = diagnosed_parameters(session.study)
         names = session.base.problem.names
         estimate = [name for name in names if name in ticked]
-        published = [] if session.study.is_synthetic else list(self._published.sets)
+        published = {} if session.study.is_synthetic else self._published.sets
+        starts = {n: taken(session.base, one)._asdict() for n, one in published.items()}
         told = session.description()
         sets = {**self._values, **told["sets"]}
-        return {**told, "sets": sets, "estimate": estimate, "published": published}
+        found = {"sets": sets, "estimate": estimate, "published": list(published)}
+        return {**told, **found, "starts": starts}
 
     @property
     def session(self) -> Session:

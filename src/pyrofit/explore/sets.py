@@ -11,6 +11,7 @@ from pyrofit.config import Study
 from pyrofit.constants import GAS_CONSTANT
 from pyrofit.errors import PyrofitError
 from pyrofit.exchange.sets import DIAGNOSIS, TRUTH, named_set
+from pyrofit.model.material import Reaction
 from pyrofit.results.files import Results
 from pyrofit.stages.predict import sets_of
 
@@ -60,8 +61,6 @@ def _kinetics(study: Study) -> Named:
 def kinetics_of(study: Study, name: str) -> dict[str, float]:
     """Return published kinetics as values of the parameters that describe the reactions.
 
-    A reaction that is described by its rate k at a temperature T has T = E / (R ln(A / k)).
-
     Parameters
     ----------
     study, name
@@ -83,11 +82,10 @@ def kinetics_of(study: Study, name: str) -> dict[str, float]:
     places: list[tuple[object, object]] = []
     for of, published in chosen.reactions.items():
         described = study.material.reactions[of]
-        rate, E = described.reference_rate_1_s, published.E_J_mol
-        if isinstance(rate, float) and published.A_1_s > rate > 0.0:
-            T = E / (GAS_CONSTANT * math.log(published.A_1_s / rate))
-            places.append((described.reference_temperature_K, T))
-        places += [(described.A_1_s, published.A_1_s), (described.E_J_mol, E)]
+        A, E = published.A_1_s, published.E_J_mol
+        T = reference_temperature(described, A, E)
+        places += [(described.reference_temperature_K, T), (described.A_1_s, A)]
+        places.append((described.E_J_mol, E))
         places.append((described.order, published.order))
     places += [(study.material.composition[of], share) for of, share in chosen.composition.items()]
     return {
@@ -95,6 +93,17 @@ def kinetics_of(study: Study, name: str) -> dict[str, float]:
         for place, value in places
         if isinstance(place, str) and place in study.parameters and isinstance(value, float)
     }
+
+
+def reference_temperature(described: Reaction, A: float, E: float) -> float | None:
+    """Return the temperature at which published kinetics have the reference rate k of a reaction.
+
+    T = E / (R ln(A / k)) [K], with A [1/s] and E [J/mol]; None where k is no number, or above A.
+    """
+    rate = described.reference_rate_1_s
+    if not (isinstance(rate, float) and A > rate > 0.0):
+        return None
+    return E / (GAS_CONSTANT * math.log(A / rate))
 
 
 def _values(study: Study, results: Results, label: str, beside: Path) -> dict[str, float]:

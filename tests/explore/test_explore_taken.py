@@ -1,0 +1,174 @@
+"""What the explorer takes from a published material to start from."""
+
+import math
+from collections.abc import Callable, Mapping
+from dataclasses import replace
+from typing import Any
+
+import numpy as np
+import pytest
+import yaml
+from conftest import SMOKE
+
+from pyrofit.compare_with.published import Published, material_in
+from pyrofit.constants import GAS_CONSTANT
+from pyrofit.exchange.macfp.schema import StrictSet
+from pyrofit.explore.model import Model
+from pyrofit.explore.session import Session, State
+from pyrofit.explore.taken import taken
+
+Change = Callable[[dict[str, Any]], object]
+
+
+def single(value: float) -> dict[str, object]:
+    return {"Form": "Single Value", "Value": value}
+
+
+def published(*changes: Change) -> Published:
+    """Return a polymer of one reaction, changed."""
+    residue = {"density": 1000.0, "conductivity": 0.2, "heat": 1000.0, "emissivity": 0.9}
+    polymer = {"density": 1190.0, "conductivity": 0.21, "heat": 2100.0, "emissivity": 0.88}
+
+    def each(key: str) -> dict[str, object]:
+        values = [single(polymer[key]), single(residue[key])]
+        return {"Form": "Component Specific", "Value": values}
+
+    given: dict[str, Any] = {
+        "Material": "polymer",
+        "Lab": "A",
+        "Calibration": [],
+        "Composition": {
+            "Number of Components": 2,
+            "Component Names": ["P", "R"],
+            "Initial Mass Fraction": [1.0, 0.0],
+        },
+        "Kinetics": {
+            "Reactants": [[1]],
+            "Products": [[2]],
+            "Pre-exponential": [1e13],
+            "Activation Energy": [190e3],
+            "Reaction Order": [1.0],
+            "Solid Yield": [0.01],
+        },
+        "Thermodynamics": {
+            "Heat Capacity": each("heat"),
+            "Heat of Pyrolysis": single(800e3),
+            "Density": each("density"),
+        },
+        "Transport": {
+            "Conductivity": each("conductivity"),
+            "Absorption": {"Form": "None"},
+            "Emissivity": each("emissivity"),
+        },
+    }
+    for change in changes:
+        change(given)
+    return Published("Polymer", StrictSet.model_validate(given))
+
+
+def of_thermal(key: str, form: dict[str, object]) -> Change:
+    return lambda given: given["Transport"].update({key: form})
+
+
+def second_reaction(given: dict[str, Any]) -> None:
+    """Let the polymer become another component first, which then becomes residue."""
+    given["Composition"] = {
+        "Number of Components": 3,
+        "Component Names": ["P", "Q", "R"],
+        "Initial Mass Fraction": [1.0, 0.0, 0.0],
+    }
+    given["Kinetics"].update(
+        Reactants=[[1], [2]],
+        Products=[[2], [3]],
+        **{key: 2 * given["Kinetics"][key] for key in ("Pre-exponential", "Activation Energy")},
+        **{"Reaction Order": [1.0, 1.0], "Solid Yield": [0.5, 0.02]},
+    )
+    for part in (given["Thermodynamics"], given["Transport"]):
+        for form in part.values():
+            if form["Form"] == "Component Specific":
+                form["Value"] = [form["Value"][0], *form["Value"]]
+
+
+def kinetics_alone(given: dict[str, Any]) -> None:
+    del given["Thermodynamics"], given["Transport"]
+
+
+def test_a_set_that_is_taken_whole_has_its_published_curves(session: Session) -> None:
+    one = published()
+    values, said = taken(session.base, one)
+    T = 190e3 / (GAS_CONSTANT * math.log(1e13 / 0.001))
+    expected = {"T_p": T, "E_p": 190, "rho": 1190, "k": 0.21, "cp": 2.1, "eps": 0.88, "dh": 800}
+    assert values == pytest.approx(expected)
+    assert said.startswith("MaCFP: Polymer. Taken: T_p ")
+    assert "rho 1190 kg/m3" in said
+    assert said.endswith("Not taken: nothing.")
+    base = session.base
+    there = replace(base, problem=replace(base.problem, material=material_in(session.study, one)))
+    here = session.simulate(State(values))[1]
+    for a, b in zip(there.simulate({}).models, here.models, strict=True):
+        np.testing.assert_allclose(a, b, rtol=1e-6, atol=1e-9)
+
+
+def test_values_are_clipped_to_limits_and_that_is_told(session: Session) -> None:
+    values, said = taken(session.base, published(of_thermal("Emissivity", single(0.3))))
+    assert values["eps"] == 0.5
+    assert "eps 0.5, a limit (0.3 there)" in said
+
+
+VARYING = {"Form": "Linear", "Slope": 1e-4, "Intercept": 0.2}
+
+
+@pytest.mark.parametrize(
+    ("change", "left", "words"),
+    [
+        (of_thermal("Conductivity", VARYING), {"k"}, "k (varies with temperature there)"),
+        (kinetics_alone, {"rho", "k", "cp", "eps", "dh"}, "(kinetics alone there)"),
+        (second_reaction, {"T_p", "E_p", "dh"}, "T_p, E_p, dh (1 reactions here, 2 there)"),
+    ],
+    ids=["curve", "kinetics", "scheme"],
+)
+def test_what_is_not_taken_is_told(
+    session: Session, change: Change, left: set[str], words: str
+) -> None:
+    values, said = taken(session.base, published(change))
+    assert set(session.base.problem.names) - set(values) == left
+    assert words in said.split("Not taken:")[1]
+
+
+def test_nothing_can_be_taken(session: Session) -> None:
+    values, said = taken(session.base, published(second_reaction, kinetics_alone))
+    assert values == {}
+    assert "Taken: nothing." in said
+
+
+def of_material(session: Session, changes: Mapping[str, Mapping[str, object]]) -> Model:
+    """Return the study with numbers of its material replaced."""
+    keys = yaml.safe_load(SMOKE.read_text())["material"]
+    for part, new in changes.items():
+        keys[part]["pyrolysis" if part == "reactions" else "polymer"].update(new)
+    material = session.study.material.model_validate(keys)
+    study = session.study.model_copy(update={"material": material})
+    return replace(session.base, study=study)
+
+
+def test_a_parameter_within_a_curve_or_an_expression_is_not_taken(session: Session) -> None:
+    table = {"temperature_K": [300, 600], "value": [1000, 2000], "factor": "eps"}
+    changes = {"specific_heat_J_kgK": table, "conductivity_W_mK": "0.5 * k", "emissivity": 0.9}
+    values, said = taken(of_material(session, {"components": changes}), published())
+    assert "k, eps (part of a curve or an expression here)" in said
+    assert {"k", "eps"}.isdisjoint(values)
+
+
+def test_a_parameter_of_two_numbers_that_differ_there_is_not_taken(session: Session) -> None:
+    model = of_material(session, {"components": {"conductivity_W_mK": "eps"}})
+    values, said = taken(model, published())
+    assert "eps (several values there)" in said
+    assert "eps" not in values
+
+
+def test_a_pre_exponential_factor_is_taken_as_it_is(session: Session) -> None:
+    kinetics = {"reference_temperature_K": None, "reference_rate_1_s": None, "A_1_s": "rho"}
+    model = of_material(session, {"reactions": kinetics, "components": {"density_kg_m3": 1.0}})
+    values, said = taken(model, published())
+    assert values["rho"] == 1500.0
+    assert "a limit (1e+13 there)" in said
