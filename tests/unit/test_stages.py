@@ -3,6 +3,7 @@
 import json
 import shutil
 from pathlib import Path
+from types import SimpleNamespace
 from typing import Any
 
 import numpy as np
@@ -10,7 +11,8 @@ import pandas as pd
 import pytest
 import yaml
 
-from pyrofit.config import Study, as_study, digest
+from pyrofit.analysis.closure import closure_lines
+from pyrofit.config import Study, as_study, digest, read_study
 from pyrofit.errors import DataError, StudyError
 from pyrofit.estimate.coarse import OF_MISFIT
 from pyrofit.estimate.least_squares import Start
@@ -287,6 +289,21 @@ def test_closure_with_unknown_density_gives_the_density_it_would_take(tmp_path: 
         "initial mass not given, density to be estimated"
     )
     assert lines[2] == "slab_25 and slab_60: equal samples, released masses 0.0 % apart"
+
+
+def test_closure_of_many_equal_samples_is_one_line() -> None:
+    study = read_study(CONFIG / "smoke.yaml")
+    one = study.experiments["slab_25"]
+    many = {f"slab_{k}": one for k in range(4)}
+    study = study.model_copy(update={"experiments": many})
+    about = {
+        f"slab_{k}": {"mlr": SimpleNamespace(released_kg_m2=mass, released_J_m2=None)}
+        for k, mass in enumerate([4.0, 4.2, 3.8, 4.1])
+    }
+    lines = closure_lines(study, about)
+    assert lines[4:] == [
+        "4 equal samples: released masses at most 9.5 % apart, those of slab_2 and slab_1"
+    ]
 
 
 def test_closure_with_given_sample_mass_says_the_share(tmp_path: Path) -> None:

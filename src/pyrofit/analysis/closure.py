@@ -133,19 +133,38 @@ def _mass(
 
 
 def _spread(study: Study, released: Mapping[Record, float]) -> list[str]:
-    """Give the difference between the released masses of equal samples."""
+    """Give the largest difference between the released masses of equal samples."""
+    groups: list[list[Record]] = []
+    for record in released:
+        for group in groups:
+            if _are_equal(study, group[0], record):
+                group.append(record)
+                break
+        else:
+            groups.append([record])
     lines = []
-    records = list(released)
-    for i, a in enumerate(records):
-        for b in records[i + 1 :]:
-            one, other = (study.experiments[name] for name, _ in (a, b))
-            assert isinstance(one, SlabExperiment)
-            assert isinstance(other, SlabExperiment)
-            alike = one.quantity(a[1]).name == other.quantity(b[1]).name
-            same = one.sample.layers == other.sample.layers
-            same &= one.sample.density_factor == other.sample.density_factor
-            if a[0] != b[0] and alike and same:
-                apart = abs(released[a] - released[b]) / max(released[a], released[b])
-                said = f"{a[0]} and {b[0]}: equal samples, released masses"
-                lines.append(f"{said} {100.0 * apart:.1f} % apart")
+    for group in groups:
+        names = list(dict.fromkeys(name for name, _ in group))
+        least, most = (end(group, key=released.__getitem__) for end in (min, max))
+        apart = 100.0 * (1.0 - released[least] / released[most])
+        if len(names) == 2:
+            said = f"{names[0]} and {names[1]}: equal samples, released masses {apart:.1f} % apart"
+            lines.append(said)
+        elif len(names) > 2:
+            lines.append(
+                f"{len(names)} equal samples: released masses at most {apart:.1f} % apart, those "
+                f"of {least[0]} and {most[0]}"
+            )
     return lines
+
+
+def _are_equal(study: Study, first: Record, second: Record) -> bool:
+    """Tell whether two records are of one quantity, and of samples that are described alike."""
+    one, other = (study.experiments[name] for name, _ in (first, second))
+    assert isinstance(one, SlabExperiment)
+    assert isinstance(other, SlabExperiment)
+    return (
+        one.quantity(first[1]).name == other.quantity(second[1]).name
+        and one.sample.layers == other.sample.layers
+        and one.sample.density_factor == other.sample.density_factor
+    )
