@@ -4,14 +4,14 @@ import os
 import signal
 import time
 from collections.abc import Callable
-from dataclasses import fields, replace
+from dataclasses import replace
 from pathlib import Path
 
 import numpy as np
 import pytest
 from small import measured, study
 
-from pyrofit.diagnose.base.journal import Journal, name_of_descent
+from pyrofit.diagnose.base.journal import OF_ANY, Journal, name_of_descent
 from pyrofit.diagnose.diagnosis import Diagnosis, examine
 from pyrofit.estimate.bounded_least_squares import Fit
 from pyrofit.solver.arrays import FloatArray
@@ -22,9 +22,9 @@ FIT = Fit(0.3, X, np.array([0.1, np.nextafter(1.0, 2.0)]), np.eye(2) / 3.0, fres
 
 def same(one: Fit, other: Fit) -> bool:
     return all(
-        np.array_equal(getattr(one, f.name), getattr(other, f.name))
-        and type(getattr(one, f.name)) is type(getattr(other, f.name))
-        for f in fields(Fit)
+        np.array_equal(getattr(one, name), getattr(other, name))
+        and type(getattr(one, name)) is type(getattr(other, name))
+        for name in OF_ANY
     )
 
 

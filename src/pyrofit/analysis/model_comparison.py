@@ -115,7 +115,7 @@ def descended(likelihood: Likelihood, noise: Sequence[NoiseModel], x: FloatArray
     """Return the fit under another noise, from x, with derivatives at its end."""
     under = replace(likelihood, noise=tuple(noise))
     found = under.descend(x)
-    return replace(found, jacobian=under.jacobian(found.x, found.residuals), fresh=True)
+    return replace(found, slopes=under.jacobian(found.x, found.residuals), fresh=True)
 
 
 def aicc(chi2: float, parameters: int, points: float) -> float:

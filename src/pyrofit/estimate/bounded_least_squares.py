@@ -11,6 +11,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from pyrofit.numerics import fitting, linear
+from pyrofit.numerics.columns import Columns
 from pyrofit.solver.arrays import FloatArray
 
 MOST_STEPS = 80
@@ -31,26 +32,39 @@ LIKE_PARABOLA = 0.2
 class Fit:
     """Where a descent ended: chi-square, x, whitened residuals and their derivatives there.
 
-    chi2 counts known values, too; ``jacobian`` has shape (points + known, parameters) and is exact
-    at x only where it is ``fresh``. A descent that ``returned`` ended on its way to a known fit.
+    chi2 counts known values, too; ``slopes`` are the derivatives, exact at x only where they are
+    ``fresh``. A descent that ``returned`` ended on its way to a known fit.
     """
 
     chi2: float
     x: FloatArray
     residuals: FloatArray
-    jacobian: FloatArray
+    slopes: FloatArray | Columns
     fresh: bool = True
     returned: bool = False
+
+    def __post_init__(self) -> None:
+        """Keep the derivatives without zeros: a search has hundreds of fits."""
+        if not isinstance(self.slopes, Columns):
+            object.__setattr__(self, "slopes", Columns.of(self.slopes))
+
+    @property
+    def jacobian(self) -> FloatArray:
+        """The derivatives, a new array of shape (points + known, parameters)."""
+        assert isinstance(self.slopes, Columns)
+        return self.slopes.dense
 
     def leads_here(self, x: FloatArray, chi2: float) -> bool:
         """Return whether a descent at x leads to this fit.
 
         It does if chi-square is near that of the fit, and near the parabola about it.
         """
+        found = chi2 - self.chi2
+        if not self.fresh or not 0.0 < found < NEAR:
+            return False
         parabola = self.residuals + linear.product(self.jacobian, x - self.x)
         rise = linear.dot(parabola, parabola) - self.chi2
-        found = chi2 - self.chi2
-        return self.fresh and 0.0 < found < NEAR and abs(found - rise) < LIKE_PARABOLA * found
+        return abs(found - rise) < LIKE_PARABOLA * found
 
 
 def minimise(

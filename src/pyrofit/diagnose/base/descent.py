@@ -63,7 +63,5 @@ def _fit_at(model: Model, fixed: int | None, x: FloatArray) -> Fit:
 def refreshed(model: Model, fit: Fit) -> Fit:
     """Return a fit with derivatives made at its end, where it has updated ones."""
     return (
-        fit
-        if fit.fresh
-        else replace(fit, jacobian=model.jacobian(fit.x, fit.residuals), fresh=True)
+        fit if fit.fresh else replace(fit, slopes=model.jacobian(fit.x, fit.residuals), fresh=True)
     )

@@ -12,7 +12,7 @@ import hashlib
 import io
 import time
 from collections.abc import Callable
-from dataclasses import dataclass, fields, replace
+from dataclasses import dataclass, replace
 from pathlib import Path
 from typing import Any
 from zipfile import BadZipFile
@@ -30,6 +30,8 @@ INWARDS = 0.1
 SUFFIX = ".npz"
 OF_FRESH = ("x", "returned")
 """Fields that are kept of a descent that ends with derivatives made there."""
+OF_ANY = ("chi2", "x", "residuals", "jacobian", "fresh", "returned")
+"""Those of any other descent, in the order of a fit."""
 
 
 @dataclass(frozen=True)
@@ -98,13 +100,13 @@ def _content(part: object) -> bytes:
     if isinstance(part, np.ndarray):
         return f"{part.dtype} {part.shape}".encode() + part.tobytes()
     if isinstance(part, Fit):
-        return b"".join(_content(getattr(part, field.name)) for field in fields(Fit))
+        return b"".join(_content(getattr(part, name)) for name in OF_ANY)
     return repr(part).encode()
 
 
 def _written(fit: Fit) -> bytes:
     buffer = io.BytesIO()
-    names = OF_FRESH if fit.fresh else [field.name for field in fields(Fit)]
+    names = OF_FRESH if fit.fresh else OF_ANY
     values: dict[str, Any] = {name: np.asarray(getattr(fit, name)) for name in names}
     np.savez(buffer, **values)
     return buffer.getvalue()
@@ -119,6 +121,6 @@ def _read(path: Path, at_end: Callable[[FloatArray], Fit]) -> Fit | None:
         return None
     if set(values) == set(OF_FRESH):
         return replace(at_end(values["x"]), returned=values["returned"].item())
-    if set(values) != {field.name for field in fields(Fit)}:
+    if set(values) != set(OF_ANY):
         return None
-    return Fit(**{n: v if v.ndim else v.item() for n, v in values.items()})
+    return Fit(*(v if v.ndim else v.item() for v in (values[name] for name in OF_ANY)))

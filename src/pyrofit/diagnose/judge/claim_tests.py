@@ -110,7 +110,7 @@ def disagreement(trial: FittedModel, effect: str, inflation: Inflation) -> float
     fit = replace(
         trial.fit,
         residuals=rows * trial.fit.residuals,
-        jacobian=rows[:, None] * trial.fit.jacobian,
+        slopes=rows[:, None] * trial.fit.jacobian,
     )
     column = fit.jacobian[: model.points, model.position(effect)]
     base = model.base
