@@ -12,12 +12,13 @@ from pyrofit.config import Study, as_study, read_study
 from pyrofit.experiments.dsc import Dsc
 from pyrofit.results.files import Results, write_csv
 from pyrofit.stages.measurements import computed
-from pyrofit.steps.preview.compute import preview, windows
+from pyrofit.steps.preview.compute import OF_REPEATS, all_simulated, preview, windows
 from pyrofit.steps.preview.corrections import corrections
 from pyrofit.steps.preview.figures import draw_all
+from pyrofit.steps.preview.fit import nearest
 from pyrofit.steps.preview.inputs import INPUTS
 from pyrofit.steps.preview.page import PAGE
-from pyrofit.steps.preview.reach import OF_BAND, OF_RANGE, Case, case_of, reached
+from pyrofit.steps.preview.reach import OF_BAND, OF_RANGE, Case, case_of, reached, simulate
 from pyrofit.steps.preview.record import BANDS, Distance, Found, Likely, Window, write
 from pyrofit.steps.preview.sentences import said
 from pyrofit.steps.preview.sets import draw
@@ -239,6 +240,44 @@ def test_repeats_outside_are_told_beside_the_one_that_is_named() -> None:
     )
     *_, last = said(study, found)
     assert last == "The same may hold for slab_25_2: repeats of slab_25_1 that lie outside, too."
+
+
+def with_repeat(factor: float) -> tuple[Study, Frames]:
+    """Return the study with a second repeat of a test, whose values are multiplied."""
+    study, frames = smoke()
+    given = study.model_dump(mode="json", exclude_defaults=True)
+    given["experiments"]["slab_60"]["repeats"] = [{}, {}]
+    first = frames["slab_60", "mlr"]
+    second = first.assign(**{name: factor * first[name] for name in first if name != "time_s"})
+    repeats = {("slab_60_1", "mlr"): first, ("slab_60_2", "mlr"): second}
+    return as_study(given, "smoke.json"), repeats
+
+
+@pytest.mark.parametrize(("factor", "rows"), [(1.0, OF_REPEATS), (10.0, 40)])
+def test_a_further_repeat_takes_few_sets_unless_it_lies_outside(factor: float, rows: int) -> None:
+    study, frames = with_repeat(factor)
+    case, sets = case_of(study, frames), draw(study, study.parameters, 40)
+    found, every = all_simulated(study, case, sets), simulate(study, case, sets)
+    first, further = ("slab_60_1", "mlr"), ("slab_60_2", "mlr")
+    np.testing.assert_array_equal(found[first], every[first])
+    np.testing.assert_array_equal(found[further], every[further][:rows])
+
+
+def test_no_further_descent_follows_one_that_suffices() -> None:
+    study, frames = smoke()
+    case = case_of(study, {c: f for c, f in frames.items() if c[0] == "tga_5K"})
+    sets = draw(study, study.parameters, 8)
+    told: list[bool] = []
+    for suffices in (True, False):
+        told.clear()
+        nearest(
+            study,
+            case,
+            sets,
+            simulate(study, case, sets),
+            lambda left: told.append(bool(left)) or suffices,  # noqa: B023
+        )
+        assert told == [True] * (1 if suffices else 2)
 
 
 def test_step_leaves_all_its_files_where_nothing_is_compared(tmp_path: Path) -> None:

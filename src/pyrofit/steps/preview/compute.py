@@ -30,6 +30,10 @@ from pyrofit.steps.preview.sets import Sets, draw
 
 SETS = 300
 """Sets within the limits."""
+OF_REPEATS = 32
+"""Sets that a further repeat of a test is simulated with first."""
+MANY = 10
+"""Number of tests above which no second descent follows one that comes near all records."""
 BASES = 8
 """Sets about which each parameter is moved from limit to limit."""
 MOSTLY = 0.5
@@ -87,15 +91,17 @@ def preview(study: Study, measurements: Measurements, count: int = SETS) -> Prev
     """
     every = case_of(study, measurements)
     sets = draw(study, study.parameters, count)
-    simulated = simulate(study, every, sets)
+    simulated = all_simulated(study, every, sets)
     unfinished = _unfinished(simulated)
     case = every.of([name for name in every.experiments if unfinished.get(name, 0) < count])
     curves = {channel: simulated[channel] for channel in case.frames}
     reached = all_reached(case, curves)
     alone = case.without_repeats({c: one.outside for c, one in reached.items()})
-    before = nearest(study, alone, sets, curves)
+    shown = {channel: reached[channel] for channel in alone.frames}
+    many = len(alone.experiments) > MANY
+    before = nearest(study, alone, sets, curves, lambda left: many and not suspects(shown, left))
     left = before.left
-    suspected = suspects({c: reached[c] for c in alone.frames}, left)
+    suspected = suspects(shown, left)
     mostly = [channel for channel, one in reached.items() if one.share_outside > MOSTLY]
     causes = likely(study, alone, sets, suspected, mostly, before) if suspected else []
     found = record.Found(
@@ -117,6 +123,26 @@ def preview(study: Study, measurements: Measurements, count: int = SETS) -> Prev
         unmoved=unmoved(study, alone, sets.first(BASES), reached),
     )
     return Preview(found, _bands(case, curves, reached))
+
+
+def all_simulated(study: Study, case: Case, sets: Sets) -> Curves:
+    """Return the curves of all sets; of a further repeat within the band those of a few sets.
+
+    The band of all sets holds that of a few. So a repeat that lies outside for a few, or whose
+    runs do not finish, is simulated with all.
+
+    Parameters
+    ----------
+    study, case, sets
+        The study, all its records, and all sets.
+    """
+    first = case.without_repeats({})
+    further = case.of(case.experiments.keys() - first.experiments.keys())
+    few = simulate(study, further, sets.first(OF_REPEATS))
+    outside = {name for (name, _), one in all_reached(further, few).items() if one.outside > 0.0}
+    again = further.of(outside | _unfinished(few).keys())
+    found = {**few, **simulate(study, first, sets), **simulate(study, again, sets)}
+    return {channel: found[channel] for channel in case.frames}
 
 
 def _unfinished(curves: Curves) -> dict[str, int]:
@@ -193,15 +219,20 @@ def unmoved(study: Study, case: Case, sets: Sets, reached: Mapping[Channel, Reac
     """
     found = []
     for name in sets.names if case.frames else ():
-        curves = simulate(study, case, sets.at_ends(name))
-        moves = (
-            np.abs(both[sets.count :] - both[: sets.count])
-            / np.maximum(case.frames[channel][NOISE].to_numpy(float), FELT * reached[channel].scale)
-            for channel, both in curves.items()
-        )
-        if not any(np.any(move > 1.0) for move in moves):
+        ends = sets.at_ends(name)
+        if not any(_moves(study, case.of([test]), ends, reached) for test in case.experiments):
             found.append(name)
     return found
+
+
+def _moves(study: Study, case: Case, ends: Sets, reached: Mapping[Channel, Reached]) -> bool:
+    """Tell whether a parameter moves a signal by more than its noise."""
+    for channel, both in simulate(study, case, ends).items():
+        lower, upper = np.split(both, 2)
+        noise = case.frames[channel][NOISE].to_numpy(float)
+        if np.any(np.abs(upper - lower) > np.maximum(noise, FELT * reached[channel].scale)):
+            return True
+    return False
 
 
 def _bands(case: Case, curves: Curves, reached: Mapping[Channel, Reached]) -> pd.DataFrame:

@@ -1,12 +1,12 @@
 """The set that comes nearest to all records at once: short descents from the best sets drawn."""
 
-from collections.abc import Mapping
+from collections.abc import Callable, Mapping
 from dataclasses import dataclass, replace
 
 import numpy as np
 
 from pyrofit.config import Study
-from pyrofit.estimate.bounded_least_squares import minimise
+from pyrofit.estimate.bounded_least_squares import Fit, minimise
 from pyrofit.solver.arrays import FloatArray
 from pyrofit.steps.preview.reach import Case, Channel, Curves, Reached, all_reached, simulate
 from pyrofit.steps.preview.sets import Sets
@@ -43,7 +43,13 @@ def misfits(found: Mapping[Channel, Reached]) -> FloatArray:
     return np.column_stack([one.nearest for one in found.values()])
 
 
-def nearest(study: Study, case: Case, sets: Sets, curves: Curves) -> Nearest:
+def nearest(
+    study: Study,
+    case: Case,
+    sets: Sets,
+    curves: Curves,
+    suffices: Callable[[Mapping[Channel, float]], bool] = lambda left: False,
+) -> Nearest:
     """Return the set that comes nearest to all records.
 
     The sum over the records of mean ((y - d) / R)^2 is made small, with curve y, data d, range R.
@@ -53,7 +59,9 @@ def nearest(study: Study, case: Case, sets: Sets, curves: Curves) -> Nearest:
     study, case
         The study, and its experiments and records.
     sets, curves
-        Sets and their curves, from which the descent begins.
+        Sets and their curves, from which the descents begin.
+    suffices
+        Tells from the differences that a descent leaves whether no further one is needed.
     """
     found = all_reached(case, curves)
     if not (sets.names and found):
@@ -77,9 +85,16 @@ def nearest(study: Study, case: Case, sets: Sets, curves: Curves) -> Nearest:
     def alone(x: FloatArray) -> FloatArray:
         return np.asarray(rows(x[None])[0])
 
-    fits = [minimise(alone, slopes, sets.unit[i], GAIN, most_steps=MOST_STEPS) for i in best]
-    fit = min(fits, key=lambda one: one.chi2)
     ends = np.cumsum([one.value.size for one in found.values()])[:-1]
-    parts = np.split(fit.residuals, ends)
-    left = [float(np.sqrt(np.sum(part**2))) for part in parts]
-    return Nearest(fit.x, dict(zip(found, left, strict=True)))
+
+    def left(fit: Fit) -> dict[Channel, float]:
+        parts = np.split(fit.residuals, ends)
+        return {c: float(np.sqrt(np.sum(part**2))) for c, part in zip(found, parts, strict=True)}
+
+    fits: list[Fit] = []
+    for i in best:
+        fits.append(minimise(alone, slopes, sets.unit[i], GAIN, most_steps=MOST_STEPS))
+        if suffices(left(fits[-1])):
+            break
+    fit = min(fits, key=lambda one: one.chi2)
+    return Nearest(fit.x, left(fit))
