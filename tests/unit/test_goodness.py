@@ -85,6 +85,7 @@ def test_wrong_model_is_told_and_determines_nothing(
     fit = fit_of(tmp_path, *at_rates(reactions, order))
     assert fit.goodness is not None
     assert not fit.goodness.describes
+    assert fit.method == "least squares, as the model misses the tests"
     assert "determined" not in set(fit.table["verdict"])
     if order != 1.0:
         # Where there is one energy, the interval of the wrong order holds it.

@@ -87,3 +87,15 @@ def test_study_of_series_in_memory_says_so_where_they_are_not_given(tmp_path: Pa
 def test_wrong_table_is_named_by_its_experiment(given: object, message: str) -> None:
     with pytest.raises((DataError, StudyError), match=message):
         pf.new_study("wood", tga=given)
+
+
+def test_times_in_minutes_and_a_missing_column_are_told() -> None:
+    T = np.linspace(400.0, 850.0, 200)
+    mass = 1.0 / (1.0 + np.exp((T - 640.0) / 12.0))
+    table = pd.DataFrame({"time_s": T - T[0], "temperature_K": T, "mass_fraction": mass})
+    with pytest.warns(UserWarning) as told:
+        pf.new_study("x", tga={"tga_1K": table, "tga_60K": table})
+        pf.new_study("x", tga={"tga_60K": table.drop(columns="temperature_K")})
+    said = [str(one.message) for one in told]
+    assert any("data of tga_1K: the record shows a heating rate of 60 K/min" in one for one in said)
+    assert any("data of tga_60K: there is no column of the temperature" in one for one in said)

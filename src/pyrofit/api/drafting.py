@@ -56,7 +56,8 @@ def new_study(name: str, **given: Given) -> Study:
     Warns
     -----
     UserWarning
-        Of a heating rate, flux or unit that neither a record nor its name tells.
+        Of a heating rate, flux, unit or column that neither a record nor its name tells, and of a
+        record that contradicts its name.
 
     Examples
     --------

@@ -102,7 +102,8 @@ class Fit:
     def aic(self) -> float:
         """Akaike's criterion: chi2 + 2 k for k estimates; NaN without likelihood.
 
-        As `bic`, it compares fits of the same data with equal noise, see ``signals["noise_sd"]``.
+        Each fit has its own noise, so that neither this nor `bic` compares two fits.
+        `pyrofit.compare_models` judges several under one noise.
         """
         return self.chi2 + 2.0 * len(self.table)
 

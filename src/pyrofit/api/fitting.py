@@ -45,6 +45,8 @@ from pyrofit.show.text import several
 from pyrofit.solver.arrays import FloatArray
 
 Optimiser = Literal["least_squares", "cmaes", "sceua"]
+LEAST_SQUARES = "least squares, as the model misses the tests"
+"""Method of a fit whose values are those of `pyrofit.estimate.wrong_model`."""
 
 
 def fit(
@@ -180,7 +182,7 @@ def fit_likelihood(
     own = in_units(study, {n: v for n, v in values.items() if n in study.parameters})
     made = Fit(
         study=study,
-        method="maximum likelihood",
+        method="maximum likelihood" if found.goodness.passes else LEAST_SQUARES,
         values=own,
         table=estimates_table(study, likelihood, found),
         comparison=scored,

@@ -156,7 +156,9 @@ def log_likelihood(
     """Return the log-likelihood of a study as a function, for samplers.
 
     It is ``-|r|^2 / 2`` with the residuals r of `residuals`, up to a constant, and -inf outside the
-    limits and where a run does not finish. Parameters and errors are those of `residuals`.
+    limits and where a run does not finish. Parameters and errors are those of `residuals`. Where
+    the model misses the tests, it is no measure of the uncertainty: `fit` then takes plain least
+    squares, with intervals that include the misfit.
 
     Returns
     -------

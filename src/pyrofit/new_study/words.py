@@ -184,9 +184,12 @@ def _gas_changes(run: Measured) -> str:
 
 
 def assumed(records: Iterable[Measured]) -> list[str]:
-    """Say which numbers and units of records are assumed: neither file nor name tells them."""
+    """Say which numbers, units and columns of records are assumed, and which contradict a name."""
     lines = []
     for run in records:
+        lines += [f"{run.path}: {said}" for said in other_number(run)]
+        if run.lacks:
+            lines.append(f"{run.path}: there is no column of the {run.lacks}; a ramp is assumed")
         if run.told not in _CERTAIN:
             of = files_of(run.kind).number
             lines.append(
