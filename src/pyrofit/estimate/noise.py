@@ -15,7 +15,7 @@ from pyrofit.estimate.correlation import Correlation, whiteness
 from pyrofit.estimate.scatter import scatter_of
 from pyrofit.estimate.spikes import spikes
 from pyrofit.model.signal import TIMING_S
-from pyrofit.numerics import functions, linear
+from pyrofit.numerics import functions, linear, roots
 from pyrofit.quantities.base import Quantity, Shown
 from pyrofit.solver.arrays import FloatArray
 
@@ -145,10 +145,9 @@ class NoiseModel:
         white = self._white_alone(residual)
         if self.modes is None:
             return white
-        directions, shares = self._lasting
-        inside = linear.product(directions.T, white)
-        shares = shares if white.ndim == 1 else shares[:, None]
-        return np.asarray(white - linear.product(directions, shares * inside))
+        B, F = self._lasting
+        inside = linear.product(F, linear.product(B.T, white))
+        return np.asarray(white - linear.product(B, inside))
 
     def _white_alone(self, residual: FloatArray) -> FloatArray:
         sd = self.sd if residual.ndim == 1 else self.sd[:, None]
@@ -156,10 +155,9 @@ class NoiseModel:
 
     @cached_property
     def _lasting(self) -> tuple[FloatArray, FloatArray]:
-        """Directions Q of V = Q S W^T, and the shares whitening takes: 1 - (1 + S^2)^(-1/2)."""
+        """B and F of (I + V V^T)^(-1/2) = I - B F B^T."""
         assert self.modes is not None
-        directions, sizes, _ = linear.svd(self._white_alone(self.modes))
-        return directions, 1.0 - 1.0 / np.sqrt(1.0 + sizes**2)
+        return roots.whitening(self._white_alone(self.modes))
 
     def describe(self) -> str:
         """Say its size, where that comes from, its correlation, and whether it whitens."""
