@@ -6,6 +6,7 @@ from pyrofit.analysis.answer import one_each
 from pyrofit.analysis.best_predicting import never_fitted, of_answer
 from pyrofit.analysis.uses import FITTED
 from pyrofit.config import Study
+from pyrofit.model.parameters import Parameter
 from pyrofit.show.facts import Facts
 from pyrofit.show.goodness import NEXT
 from pyrofit.show.names import STAGES, all_scored
@@ -15,6 +16,19 @@ _WORSE = 2.0
 """Ratio of errors from which a prediction is said to be worse than the fit."""
 _COMMANDS = {"kinetics": "pyrofit run STUDY scheme", "imp": "pyrofit run STUDY diagnose"}
 """Commands of the steps that follow a misfit, by stage."""
+
+
+def is_physical(parameter: Parameter, bound: str) -> bool:
+    """Tell whether a limit is one of nature: a share is between 0 and 1.
+
+    >>> is_physical(Parameter(unit="-", lower=0.5, upper=0.99), "upper")
+    True
+    """
+    if parameter.unit != "-":
+        return False
+    if bound == "lower":
+        return parameter.lower == 0.0
+    return parameter.upper is not None and 0.95 <= parameter.upper <= 1.0
 
 
 def next_steps(study: Study, facts: Facts) -> Iterator[str]:
@@ -30,10 +44,16 @@ def next_steps(study: Study, facts: Facts) -> Iterator[str]:
             "The section on identifiability tells how they differ."
         )
     ours = one_each(study, facts.estimates)
-    if bound := [e.name for e in ours if e.bound]:
+    bound = {e.name: is_physical(study.parameters[e.name], e.bound) for e in ours if e.bound}
+    if wider := [name for name, physical in bound.items() if not physical]:
         yield (
-            f"Widen the limits of {listed(bound)} if the material allows it; else look for the "
+            f"Widen the limits of {listed(wider)} if the material allows it; else look for the "
             "effect that the model lacks."
+        )
+    if ends := [name for name, physical in bound.items() if physical]:
+        yield (
+            f"{listed(ends)}: no material goes much beyond this limit. The flux, the heat transfer "
+            "or the model is not that of the test."
         )
     yield from facts.offers
     missed = [stage for stage, found in facts.goodness.items() if not found.describes]
