@@ -5,6 +5,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 
+from pyrofit.experiments import files_of
 from pyrofit.new_study import draft
 from pyrofit.new_study.plan import part_of
 from pyrofit.new_study.words import number_comment, other_number
@@ -31,6 +32,8 @@ def ramp(path: Path, K_min: float, times: bool = True, in_one_s: float = 1.0) ->
         ("sample_12", 12.0, "CHANGE: a number in the name of the file"),
         ("PA66_N2", 10.0, "CHANGE: neither"),
         ("board_563K", 10.0, "CHANGE: neither"),
+        ("board_2p5K", 2.5, "CHANGE where wrong: from the name of the file alone"),
+        ("board_2,5K", 2.5, "CHANGE where wrong: from the name of the file alone"),
         ("board_20K", 20.0, "CHANGE where wrong: from the name of the file alone"),
     ],
 )
@@ -52,6 +55,29 @@ def test_flux_of_a_name_is_marked(name: str, tmp_path: Path) -> None:
     assert "CHANGE" in number_comment(run)
     if name in ("test7", "plate_6mm"):
         assert run.number == 50.0
+
+
+@pytest.mark.parametrize("name", ["plate_35kWm2_run2", "plate_35kWm-2", "35kW_m2", "35 kW m^2"])
+def test_flux_of_a_name_may_have_its_area(name: str, tmp_path: Path) -> None:
+    assert files_of("cone").number.find(name) == (35.0, "unit")
+
+
+@pytest.mark.parametrize("heated_s", [0.0, 1500.0])
+@pytest.mark.parametrize("name", ["foam_300C_hold", "foam_300", "foam_573K"])
+def test_temperature_of_a_hold_in_a_name_is_no_heating_rate(
+    name: str, heated_s: float, tmp_path: Path
+) -> None:
+    t = np.linspace(0.0, 6000.0, 301)
+    kelvin = 573.15 - 0.2 * np.clip(heated_s - t, 0.0, None)
+    path = tmp_path / f"{name}.csv"
+    columns, header = np.c_[t, kelvin, np.exp(-t / 3000.0)], "Time (s),Temp (K),Mass (1)"
+    np.savetxt(path, columns, "%.5f", ",", header=header, comments="")
+    run = draft.measured("tga", path)
+    assert run.number == (12.0 if heated_s else 10.0)
+    assert not other_number(run)
+    assert number_comment(run) == (
+        "" if heated_s else "CHANGE: neither the file nor its name tells it"
+    )
 
 
 @pytest.mark.parametrize("name", ["board_10K", "board_10"])

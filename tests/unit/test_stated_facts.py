@@ -128,6 +128,29 @@ def test_facts_are_not_taken_from_other_words() -> None:
 
 
 @pytest.mark.parametrize(
+    ("column", "sign"),
+    [
+        ("Heat flow endo up", "positive # as the file states"),
+        ("DSC_exo_up", "negative # as the file states"),
+        ("Heat flow (exotherm down)", "positive # as the file states"),
+        ("Heat flow endo-down", "negative # as the file states"),
+        ("Heat flow exo", "positive # CHANGE"),
+    ],
+)
+def test_name_of_a_column_tells_the_sign_of_heat_flow(
+    column: str, sign: str, tmp_path: Path
+) -> None:
+    header = f"Time (s);Temp (K);{column} (mW/mg)"
+    path = record(tmp_path / "sta_10K.csv", "", header, TIME, KELVIN, MASS)
+    assert f"endothermic: {sign}" in drafted("x", {"dsc": [path]})[0]
+
+
+def test_line_above_the_table_counts_before_the_name_of_a_column() -> None:
+    assert stated_in([["Endo Up"]]).exothermic_up is False
+    assert stated_in([["Direction: exo up or endo up"]]).exothermic_up is None
+
+
+@pytest.mark.parametrize(
     "line",
     [
         "Method: 1 ramp 10 K/min to 625 C in N2; 2 switch to air; 3 isothermal 20 min",

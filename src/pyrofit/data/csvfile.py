@@ -16,7 +16,7 @@ from pyrofit.data.line import Line
 from pyrofit.data.numerals import Numerals, fault_of, is_numeral, numerals_of, seconds
 from pyrofit.data.rows import parsed, rows_of, whole_rows, without_footer
 from pyrofit.data.sections import first_table
-from pyrofit.data.stated import Stated, stated_in
+from pyrofit.data.stated import Stated, exothermic_up, stated_in
 from pyrofit.data.text_file import read_text
 from pyrofit.errors import DataError
 from pyrofit.quantities.units import SCALES, unit_key
@@ -125,7 +125,10 @@ def read_table(path: Path) -> Table:
     notes: list[str] = []
     table, above = _read(path, notes)
     cells = [re.split(r"[\t;|]|,(?!\d)|(?<!\d),", text) for text in above]
-    return replace(table, stated=stated_in(cells)) if cells else table
+    stated = stated_in(cells)
+    if stated.exothermic_up is None:
+        stated = replace(stated, exothermic_up=exothermic_up(table.columns))
+    return replace(table, stated=stated)
 
 
 def _read(path: Path, notes: list[str]) -> tuple[Table, list[str]]:

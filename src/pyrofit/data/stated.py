@@ -1,7 +1,7 @@
 """Facts that a file states above its table: initial mass, sign of heat flow, gas, radiant flux."""
 
 import re
-from collections.abc import Sequence
+from collections.abc import Iterable, Sequence
 from dataclasses import dataclass, replace
 
 from pyrofit.data.gas_steps import INERT, OXYGEN, change_of_gas, holds_oxygen
@@ -44,6 +44,9 @@ _GAS = re.compile(
     re.IGNORECASE,
 )
 _EXO = re.compile(r"exo(?:therm(?:ic|al)?)?", re.IGNORECASE)
+_UPWARD = re.compile(
+    r"(?<![a-z])(exo|endo)(?:therm(?:ic|al)?)?[\s_-]*(up|down)(?![a-z])", re.IGNORECASE
+)
 _UNIT = re.compile(r"[\[(]([^\[\]]*)[\])]$|/\s*(\S+)$")
 
 
@@ -160,11 +163,25 @@ def _number(value: str, unit: str, kind: str) -> set[float]:
     return set() if factor is None or number <= 0.0 else {float(f"{number * factor:.6g}")}
 
 
+def exothermic_up(names: Iterable[str]) -> bool | None:
+    """Return whether heat released is positive, where the names of columns tell it in one way.
+
+    >>> exothermic_up(["Time (s)", "Heat flow, endo up (mW)"]), exothermic_up(["DSC_exo_up", "T"])
+    (False, True)
+    """
+    signs = {up for name in names if (up := _upward(name)) is not None}
+    return signs.pop() if len(signs) == 1 else None
+
+
+def _upward(text: str) -> bool | None:
+    """Return whether heat released points up, where words such as `endo up` tell it in one way."""
+    found = _UPWARD.findall(text)
+    signs = {(what.casefold() == "exo") == (way.casefold() == "up") for what, way in found}
+    return signs.pop() if len(signs) == 1 else None
+
+
 def _exothermic_up(cell: str, value: str) -> bool | None:
     """Return whether heat released points up, where a line tells it."""
-    match = re.fullmatch(r"exo(?:therm(?:ic|al)?)?[\s_]*(up|down)", cell, re.IGNORECASE)
-    if match is not None:
-        return match[1].casefold() == "up"
     if _EXO.fullmatch(cell) and (text := value.strip().casefold()) in (
         "+1",
         "1",
@@ -173,4 +190,4 @@ def _exothermic_up(cell: str, value: str) -> bool | None:
         "down",
     ):
         return text in ("+1", "1", "up")
-    return None
+    return _upward(cell)

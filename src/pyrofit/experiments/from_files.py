@@ -44,7 +44,8 @@ class NamedNumber:
         """Return the number to which the name hints, and how it does.
 
         A number with its unit counts before one without; where several fit, none is taken. A
-        number that letters touch, as in NH4Cl, 6mm or batch3, is part of a word.
+        number that letters touch, as in NH4Cl, 6mm or batch3, is part of a word. As names of files
+        often have no point, a comma, a hyphen or the letter p stands for it before a unit.
 
         >>> flux = NamedNumber("kW", (5.0, 150.0), 50.0)
         >>> flux.find("Lab_Gasification_25kW_1"), flux.find("slab 60"), flux.find("a_20_b_30")
@@ -52,10 +53,12 @@ class NamedNumber:
         >>> rate = NamedNumber("K", (0.5, 500.0), 10.0)
         >>> rate.find("TGA_N2_2-5K_1"), rate.find("NH4Cl_batch3"), rate.find("TGA_563Kiso")
         ((2.5, 'unit'), (10.0, ''), (10.0, ''))
+        >>> rate.find("foam_2p5K"), rate.find("foam_2,5K")
+        ((2.5, 'unit'), (2.5, 'unit'))
         """
         number = r"(?<![A-Za-z\d.])(\d+(?:\.\d+)?)(?![A-Za-z\d])"
-        with_unit = rf"(?<![\d.])(\d+(?:[.-]\d+)?)[ _-]?(?:{self.unit})(?![A-Za-z])"
-        units = {float(found.replace("-", ".")) for found in re.findall(with_unit, name)}
+        with_unit = rf"(?<![\d.])(\d+(?:[.,p-]\d+)?)[ _-]?(?:{self.unit})(?![A-Za-z])"
+        units = {float(re.sub("[,p-]", ".", found)) for found in re.findall(with_unit, name)}
         alone = [float(found) for found in re.findall(number, name)]
         if len(named := self._fitting(units)) == 1:
             return named[0], "unit"

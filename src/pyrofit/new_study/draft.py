@@ -5,6 +5,7 @@ import re
 from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass, field, replace
 from pathlib import Path
+from typing import Any
 
 import numpy as np
 import pandas as pd
@@ -20,11 +21,14 @@ from pyrofit.new_study.columns import Found, recognise
 from pyrofit.new_study.frames import START_K, Course, frames_of, lacking
 from pyrofit.new_study.one_reaction import one_reaction_describes
 from pyrofit.quantities import known_quantities
+from pyrofit.quantities.units import ICE_POINT_K
 
 CHAR = 0.1
 """Residue above which a solid chars."""
 MOIST = 0.01
 """Loss of mass up to 420 K above which a sample is moist."""
+NEAR_K = 5.0
+"""Distance [K] from the temperature of a hold within which a number in a name means that."""
 _PARTS = (-120.0, 20.0), (-100.0, 20.0), (-140.0, 120.0)
 """Limits [K] of reference temperatures about those of an eighth, half, seven eighths of the loss.
 
@@ -152,6 +156,12 @@ class Kinetics:
         return max(round(self.residue - 0.05, 3), 0.0), min(round(self.residue + 0.05, 3), 0.99)
 
 
+def _is_set_point(number: float, facts: Mapping[str, Any]) -> bool:
+    """Tell whether a number is the temperature that a record holds, in K or degrees Celsius."""
+    held = facts.get("set_point_K")
+    return held is not None and min(abs(number - held), abs(number + ICE_POINT_K - held)) < NEAR_K
+
+
 def measured(kind: str, path: Path) -> Measured:
     """Read a file of a kind of experiment as far as it goes.
 
@@ -174,6 +184,8 @@ def measured(kind: str, path: Path) -> Measured:
     end = _end_of_heating(frames, table)
     if end is not None:
         frames = {name: frame[frame["time_s"] <= end.time_s] for name, frame in frames.items()}
+    if _is_set_point(number, files.facts(frames)):
+        number, told, hinted = files.number.usual, "", None
     recorded = files.recorded(number, frames)
     if recorded is not None and not lacks:
         number, told = recorded, "record"
