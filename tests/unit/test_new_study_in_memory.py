@@ -1,5 +1,6 @@
 """Drafts of studies from tables and arrays."""
 
+import warnings
 from pathlib import Path
 
 import numpy as np
@@ -93,7 +94,8 @@ def test_times_in_minutes_and_a_missing_column_are_told() -> None:
     T = np.linspace(400.0, 850.0, 200)
     mass = 1.0 / (1.0 + np.exp((T - 640.0) / 12.0))
     table = pd.DataFrame({"time_s": T - T[0], "temperature_K": T, "mass_fraction": mass})
-    with pytest.warns(UserWarning) as told:
+    with warnings.catch_warnings(record=True) as told:
+        warnings.simplefilter("always")
         pf.new_study("x", tga={"tga_1K": table, "tga_60K": table})
         pf.new_study("x", tga={"tga_60K": table.drop(columns="temperature_K")})
     said = [str(one.message) for one in told]
