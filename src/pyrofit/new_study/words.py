@@ -188,8 +188,8 @@ def assumed(records: Iterable[Measured]) -> list[str]:
     lines = []
     for run in records:
         lines += [f"{run.path}: {said}" for said in other_number(run)]
-        if run.lacks:
-            lines.append(f"{run.path}: there is no column of the {run.lacks}; a ramp is assumed")
+        if run.lacks == "temperature":
+            lines.append(f"{run.path}: there is no column of the temperature; a ramp is assumed")
         if run.told not in _CERTAIN:
             of = files_of(run.kind).number
             lines.append(
