@@ -66,5 +66,5 @@ def _moved(problem: Problem, channel: int, noise: NoiseModel, curve: FloatArray)
     )
     if own is None or noise.modes is None:
         return noise
-    # The errors of the apparatus are the first modes; those between repeats follow.
-    return replace(noise, modes=np.column_stack([own.modes, noise.modes[:, own.modes.shape[1] :]]))
+    of_repeats = noise.modes[:, noise.modes.shape[1] - noise.between :]
+    return replace(noise, modes=np.column_stack([own.modes, of_repeats]))
