@@ -13,11 +13,10 @@ from pyrofit.model.accuracy import Accuracy
 from pyrofit.model.base import value_of
 from pyrofit.model.material import Material
 from pyrofit.simulate import simulate_gasification
-from pyrofit.solver import lower, lower_experiment, lower_exposure
-from pyrofit.solver.arrays import IntArray
+from pyrofit.solver import lower, lower_experiment, lower_exposure, lower_network
+from pyrofit.solver.arrays import IntArray, Values
 from pyrofit.solver.curves import Request
 from pyrofit.solver.kernels.grid import LEAST_CELLS, MANY_CELLS, MOST_CELLS, cells_needed
-from pyrofit.solver.lower import Values
 
 SMOKE = Path(__file__).parents[2] / "config" / "smoke.yaml"
 VALUES = {
@@ -63,7 +62,7 @@ def of_sets(experiment: Gasification, material: Material, values: Values, sets: 
         np.asarray(sum(layer.thickness for layer in layers)),
         np.full(sets, value_of(experiment.sample.initial_temperature_K, values)),
         arrays,
-        lower.lower_network(material, values, sets),
+        lower_network.lower_network(material, values, sets),
         lower_exposure.lower_exposure(experiment, share, arrays, values, sets),
     )
 

@@ -7,7 +7,7 @@ import pytest
 from pyrofit.experiments import Gasification
 from pyrofit.model.material import Material, Reaction
 from pyrofit.model.properties import Linear, PowerLaw, Table
-from pyrofit.solver import lower, lower_experiment, lower_exposure, lower_property
+from pyrofit.solver import lower, lower_experiment, lower_exposure, lower_network, lower_property
 from pyrofit.solver.arrays import BACK_GAS, FLUX, FRONT_H, TABLE_TEMPERATURES_K, TIME
 
 VIRGIN: dict[str, Any] = {
@@ -148,13 +148,13 @@ def test_rate_given_at_a_temperature_is_that_rate_there() -> None:
     given = Reaction(
         reactant="A", E_J_mol="E", reference_temperature_K=600.0, reference_rate_1_s=2e-3
     )
-    A = lower.rate_factor(given, VALUES)
+    A = lower_network.rate_factor(given, VALUES)
     assert pytest.approx(2e-3 * math.exp(1.5e5 / (8.314462618 * 600.0)), rel=1e-14) == A
     assert pytest.approx(2.29e10, rel=2e-3) == A
 
 
 def test_rate_factor_given_outright_is_kept() -> None:
-    assert lower.rate_factor(Reaction(reactant="A", E_J_mol=1.0, A_1_s=7e9), VALUES) == 7e9
+    assert lower_network.rate_factor(Reaction(reactant="A", E_J_mol=1.0, A_1_s=7e9), VALUES) == 7e9
 
 
 def test_network_by_hand() -> None:
@@ -162,7 +162,7 @@ def test_network_by_hand() -> None:
         "second": reaction("B", products={"char": 0.25}, heat_of_reaction_J_kg=4e5),
         "first": reaction("A", products={"B": 0.5, "char": 0.125}, E_J_mol=8314.462618, order=2.0),
     }
-    network = lower.lower_network(material(reactions), VALUES)
+    network = lower_network.lower_network(material(reactions), VALUES)
     assert network.reactant.tolist() == [0, 1]
     assert network.yields[:, :, 0].tolist() == [[0.0, 0.5, 0.125], [0.0, 0.0, 0.25]]
     assert network.gas.tolist() == [[0.375], [0.75]]
@@ -187,18 +187,18 @@ def test_network_by_hand() -> None:
 def test_short_cut_is_taken_for_parallel_reactions_only(
     reactions: dict[str, Any], plain: bool
 ) -> None:
-    assert lower.lower_network(material(reactions), VALUES).plain is plain
+    assert lower_network.lower_network(material(reactions), VALUES).plain is plain
 
 
 def test_plain_network_knows_its_residue() -> None:
     reactions = {"1": reaction("A", products={"char": 0.1}), "2": reaction("B")}
-    network = lower.lower_network(material(reactions), VALUES)
+    network = lower_network.lower_network(material(reactions), VALUES)
     assert network.residue[0] == 2
     assert network.residue_yield.tolist() == [[0.1], [0.0]]
 
 
 def test_material_without_reactions_has_an_empty_network() -> None:
-    network = lower.lower_network(material(), VALUES)
+    network = lower_network.lower_network(material(), VALUES)
     assert network.yields.shape == (0, 3, 1)
     assert network.reactant.size == network.root_factor.size == 0
 
@@ -416,7 +416,7 @@ def everything(values: Any, sets: int) -> list[Any]:
     share = lower_experiment.lower_share(given, matter, values, sets)
     return [
         *arrays,
-        *lower.lower_network(matter, values, sets),
+        *lower_network.lower_network(matter, values, sets),
         *lower_exposure.lower_exposure(given, share, arrays, values, sets),
         *(
             part
@@ -450,7 +450,7 @@ def test_sets_lowered_at_once_have_the_bits_of_each_alone(s: int) -> None:
 def test_network_is_first_order_where_every_set_is() -> None:
     def network(order: Any) -> Any:
         given = material({"1": reaction("A", order="n")})
-        return lower.lower_network(given, {"n": np.array(order)}, 2)
+        return lower_network.lower_network(given, {"n": np.array(order)}, 2)
 
     assert network([1.0, 1.0]).first_order
     assert not network([1.0, 2.0]).first_order

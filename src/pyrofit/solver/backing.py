@@ -6,9 +6,9 @@ from pyrofit.model import material as words
 from pyrofit.model.base import value_of
 from pyrofit.model.slab import SlabExperiment
 from pyrofit.solver.arrays import Exposure, Material, Values
-from pyrofit.solver.lower import total
 from pyrofit.solver.lower_experiment import Layer
 from pyrofit.solver.lower_exposure import at_temperature, number
+from pyrofit.solver.lower_property import total
 
 BACKING_TIME_S = 2.0
 """Time in which heat diffuses through a cell of a layer behind the sample."""

@@ -10,8 +10,9 @@ from pyrofit.model.base import value_of
 from pyrofit.model.heated import HeatedExperiment
 from pyrofit.solver.arrays import FloatArray, Network, Status, Values
 from pyrofit.solver.curves import Curves, Request
-from pyrofit.solver.lower import fractions, is_separate, lower_network, total
-from pyrofit.solver.lower_property import property_at, stack
+from pyrofit.solver.lower import fractions
+from pyrofit.solver.lower_network import is_separate, lower_network
+from pyrofit.solver.lower_property import property_at, stack, total
 from pyrofit.solver.outputs import FRACTION_RATE, HEAT_FLOW, HEAT_RELEASE, MASS_FRACTION
 from pyrofit.solver.run_heated import Heated, Programs, heat
 

@@ -18,8 +18,9 @@ from pyrofit.solver.arrays import (
     Values,
 )
 from pyrofit.solver.curves import Place, Request
-from pyrofit.solver.lower import fractions, total
+from pyrofit.solver.lower import fractions
 from pyrofit.solver.lower_exposure import number
+from pyrofit.solver.lower_property import total
 
 
 class Layer(NamedTuple):

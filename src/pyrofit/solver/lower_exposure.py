@@ -15,7 +15,7 @@ from pyrofit.solver.arrays import (
     Value,
     Values,
 )
-from pyrofit.solver.lower import total
+from pyrofit.solver.lower_property import total
 from pyrofit.solver.schedule import lower_schedule
 
 

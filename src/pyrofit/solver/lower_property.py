@@ -2,6 +2,7 @@
 
 import math
 from collections.abc import Sequence
+from functools import reduce
 
 import numpy as np
 
@@ -97,3 +98,8 @@ def _changed(prop: Changed, values: Values, T: FloatArray, sets: int) -> FloatAr
 def _given(change: Value) -> bool:
     """Tell whether a change differs from zero in any set."""
     return bool(np.any(change)) if isinstance(change, np.ndarray) else change != 0.0
+
+
+def total(rows: FloatArray) -> FloatArray:
+    """Return the sum of the rows, one after the other: the same bits for any number of sets."""
+    return np.asarray(reduce(np.add, rows))

@@ -6,7 +6,7 @@ import numpy as np
 
 from pyrofit.solver.arrays import FloatArray, IntArray, Probes
 from pyrofit.solver.curves import Request
-from pyrofit.solver.lower import total
+from pyrofit.solver.lower_property import total
 
 
 def follows_of(request: Request) -> str:

@@ -10,8 +10,8 @@ import numpy as np
 from pyrofit.solver import arrays
 from pyrofit.solver.arrays import FloatArray, IntArray, Numerics, Status
 from pyrofit.solver.curves import Request, Runs
-from pyrofit.solver.lower import total
 from pyrofit.solver.lower_experiment import Layer, cells_of
+from pyrofit.solver.lower_property import total
 from pyrofit.solver.outputs import BACK, FRONT, HEAT, INSIDE, MASS, RATE, THICKNESS
 from pyrofit.solver.probes import depths_of, follows_of, probes_of
 

@@ -17,7 +17,8 @@ from pyrofit.results.kinetics import FITTED, LOWEST, heats_shown, masses_shown
 from pyrofit.simulate import simulate_tga
 from pyrofit.solver.arrays import FloatArray
 from pyrofit.solver.curves import Curves
-from pyrofit.solver.lower import fractions, rate_factor
+from pyrofit.solver.lower import fractions
+from pyrofit.solver.lower_network import rate_factor
 from pyrofit.solver.outputs import FRACTION_RATE, MASS_FRACTION
 
 Values = Mapping[str, float]
