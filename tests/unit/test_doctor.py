@@ -230,16 +230,22 @@ def test_kinds_are_those_of_the_content_where_names_tell_none(tmp_path: Path) ->
     write(tmp_path / "b1.csv", "t (s),m (g),T back (C)", SECONDS, SLAB, 20.0 + SECONDS**0.8)
     write(tmp_path / "b2.csv", "t (s),m (g),HRR (kW/m2)", SECONDS, SLAB, HRR)
     write(tmp_path / "b3.csv", "t (s),T (C),m (g)", SECONDS, 20.0 + SECONDS**0.8, SLAB)
+    write(tmp_path / "c1.csv", "T,m,t", T - 273.15, LOSS, TIME)  # 1 may be a fraction as well as kg
+    write(tmp_path / "c2.csv", "T,m", T - 273.15, 100.0 * LOSS)
+    write(tmp_path / "c3.csv", "Temp (F),Weight (%)", 1.8 * T - 459.67, 100.0 * LOSS)
     (tmp_path / "readme.txt").write_text("Tests of May, by hand\n", encoding="utf-8")
     seen = {of.path.name: of for of in examine_folder(tmp_path)}
     kinds = {name: of.kind for name, of in seen.items()}
-    heated = dict.fromkeys(("BOARD_10.csv", "BOARD_20.csv", "BOARD_5.csv", "a1.txt"), "tga")
+    heated = dict.fromkeys(
+        ("BOARD_10.csv", "BOARD_20.csv", "BOARD_5.csv", "a1.txt", "c1.csv", "c2.csv", "c3.csv"),
+        "tga",
+    )
     slabs = {"b1.csv": "gasification", "b2.csv": "cone", "b3.csv": "gasification"}
     assert kinds == heated | {"a2.dat": "dsc"} | slabs
     assert seen["BOARD_5.csv"].label.heating_K_min == pytest.approx(5.0)
     faults = [f.check for of in seen.values() for f in of.findings if f.weight == "fault"]
-    assert set(faults) == {"copy"}  # all slabs here have one mass
-    assert "8 of 8 files" in summary(list(seen.values()))[0]
+    assert set(faults) == {"copy", "columns"}  # all slabs here have one mass, two files no times
+    assert "9 of 11 files" in summary(list(seen.values()))[0]
 
 
 def test_a_name_of_another_sort_of_test_is_a_fault(tmp_path: Path) -> None:

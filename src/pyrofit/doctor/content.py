@@ -65,7 +65,13 @@ def _rank(name: str) -> int:
 
 
 def _readable(recognised: Recognised) -> list[Found]:
-    return [f for f in recognised.signals if not f.missing and not f.unread]
+    """Return signals whose columns are known; a record against temperature may lack the times."""
+    return [
+        f
+        for f in recognised.signals
+        if not f.unread
+        and (not f.missing or (f.missing == ("time",) and f.of.against_temperature and f.columns))
+    ]
 
 
 def _used(recognised: Recognised) -> int:
@@ -76,12 +82,15 @@ def _used(recognised: Recognised) -> int:
 def _sort_of_mass(
     table: Table, tried: Iterable[Recognised], heated: list[str], slabs: list[str]
 ) -> list[str]:
-    """Return the kinds of samples as heavy as that of a table; all where it tells no mass."""
+    """Return the kinds of samples as heavy as that of a table; all where it tells no mass.
+
+    A guessed unit tells none: a mass of 1 may be a fraction.
+    """
     masses = {unit_key(word): factor for word, factor in SCALES["mass"].items()}
     for found in (found for recognised in tried for found in _readable(recognised)):
         column = found.columns["value"]
         unit = unit_key(found.units.get("value") or table.units[column] or "")
-        if found.scale == "mass" and unit in masses:
+        if found.scale == "mass" and unit in masses and "value" not in found.guessed:
             largest = masses[unit] * float(np.nan_to_num(table.columns[column]).max())
             return heated if largest < LARGEST_HEATED_KG else slabs
     return [*heated, *slabs]
