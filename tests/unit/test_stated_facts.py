@@ -32,6 +32,8 @@ MASSES = {
     "Sample Weight:\t8.200\t[mg]\nSample Name:\tboard\n": 8.2e-6,
     "Instrument;Q500\nSize;5,5;mg\n": 5.5e-6,
     "Probenmasse: 0,012 g\nLabor: a\n": 1.2e-5,
+    "Sample Wt.(mg);6.000\nUser;a\n": 6e-6,
+    "[Sample Weight]\t6.000[mg]\n[Data]\n": 6e-6,
     "Sample Mass: 5 mg\nInitial Mass: 6 mg\n": None,  # two values
     "Sample mass: see notes\nRun: 3\n": None,
 }
@@ -162,3 +164,21 @@ def test_steps_in_one_line_tell_a_change_of_gas(line: str) -> None:
     stated = stated_in([re.split(r"[;,] ", line)])
     assert stated.gas.casefold() in ("n2", "nitrogen")
     assert stated.then_gas.casefold() in ("air", "luft")
+
+
+@pytest.mark.parametrize(
+    ("line", "gas"),
+    [
+        ("Gas: N2 50 ml/min, O2 0 ml/min", False),
+        ("Purge gas: N2 5.0 (O2 < 3 ppm)", False),
+        ("Atmosphere: oxygen-free argon", False),
+        ("Atmosphere: 4 % O2 in N2", True),
+        ("#PURGE 2 MFC: OXYGEN 20.0 ml/min", True),
+    ],
+)
+def test_oxygen_of_a_gas_line_is_more_than_a_trace(line: str, gas: bool) -> None:
+    assert stated_in([[line]]).in_oxygen == gas
+
+
+def test_switch_to_air_alone_is_a_change_of_gas() -> None:
+    assert stated_in([["Gas switched to air at 700 C"]]).then_gas == "air"

@@ -8,6 +8,19 @@ OXYGEN = re.compile(
     r"|oxidi[sz]ing)(?![a-z])",
     re.I,
 )
+_NONE = re.compile(
+    "|".join(
+        (
+            r"\([^()]*\bpp[mb]\b[^()]*\)",
+            r"(?:o2|oxygen)\s*[:=]?\s*(?:[<≤]|below|under)[^,;]*",
+            r"(?:o2|oxygen|air)[ -]*free",
+            r"free of (?:o2|oxygen|air)",
+            r"(?:o2|oxygen|air)\s*[:=]?\s*0+(?:[.,]0*)?\s*(?:%|m?l|cc|scc)[^,;]*",
+        )
+    ),
+    re.I,
+)
+"""Words for oxygen that is not there, or there in traces."""
 INERT = re.compile(r"(?<![a-z])(?:n2|nitrogen|stickstoff|azote|ar|argon|he|helium)(?![a-z])", re.I)
 _STEP = re.compile(
     r"switch|select|change|gaswechsel|isotherm|ramp|segment|dynami|method|program|until"
@@ -15,6 +28,7 @@ _STEP = re.compile(
     re.I,
 )
 """A step of a run, and not the flow of a gas that an instrument has all the time."""
+_SWITCH = re.compile(r"switch\w*|chang\w*|gaswechsel", re.I)
 _NAMED = re.compile(r"gas\s*#?\s*(\d)\W+(.*)", re.I)
 _CHOSEN = re.compile(r"(?:select|switch|change)\w*\W+(?:to\W+)?gas\W*(\d)", re.I)
 _NUMBER = r"([+-]?\d+(?:[.,]\d+)?)"
@@ -32,8 +46,10 @@ def holds_oxygen(gas: str) -> bool:
     [True, False, True, True, False]
     >>> [holds_oxygen(gas) for gas in ("10O2", "synthair", "oxidative", "CO2")]
     [True, True, True, False]
+    >>> [holds_oxygen(gas) for gas in ("N2 (O2 < 3 ppm)", "O2-free argon", "N2 50, O2 0 ml/min")]
+    [False, False, False]
     """
-    return bool(OXYGEN.search(gas))
+    return bool(OXYGEN.search(_NONE.sub(" ", gas)))
 
 
 def change_of_gas(lines: Sequence[str]) -> tuple[str, str, float | None] | None:
@@ -51,6 +67,8 @@ def change_of_gas(lines: Sequence[str]) -> tuple[str, str, float | None] | None:
     >>> change_of_gas(["Gas1: Nitrogen", "Gas2: Air", "3: Select gas: 2"])
     ('Nitrogen', 'Air', None)
     >>> change_of_gas(["Purge gas: N2", "Gas 2: air", "O2 Flow (cc/min): 20"])
+    >>> change_of_gas(["Gas switched to air at 700 C"])
+    ('', 'air', None)
     """
     names: dict[str, str] = {}
     first, minutes, before = "", 0.0, 0.0
@@ -67,6 +85,8 @@ def change_of_gas(lines: Sequence[str]) -> tuple[str, str, float | None] | None:
         inert, oxygen = INERT.search(text), OXYGEN.search(text)
         if inert and not oxygen:
             first = first or inert[0]
+        elif oxygen and not first and _SWITCH.search(text):
+            return "", oxygen[0], None
         elif oxygen and (first or chosen):
             first = first or next((m[0] for n in names.values() if (m := INERT.search(n))), "")
             return (

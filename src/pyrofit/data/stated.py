@@ -13,7 +13,7 @@ _NUMBER = r"([+-]?\d+(?:[.,]\d+)?)"
 _MASS = re.compile(
     "|".join(
         (
-            r"(?:(?:sample|initial|specimen|test)\s*)?(?:mass|weight)",
+            r"(?:(?:sample|initial|specimen|test)\s*)?(?:mass|weight|wt\.?)",
             r"(?:(?:sample|initial|specimen|test)\s*)?size",
             "probenmasse|einwaage|anfangsmasse",
             r"masse\s*(?:initiale|(?:de\s+)?l?.?.?chantillon)",
@@ -36,6 +36,7 @@ _GAS = re.compile(
     "|".join(
         (
             r"(?:(?:purge|sample|carrier|furnace|process|reactive|test)[\s_]*)*gas(?:\s*\d)?",
+            r"(?:purge|protective)(?:\s*\d)?(?:\s*(?:gas|mfc))?(?:\s*\d)?",
             r"(?:(?:purge|sample|carrier|furnace|process|test)[\s_]*)*atmosphere(?:\s*\d)?",
             "atmosph.re|(?:spül|träger|ofen|probenraum)gas",
             r"gaz(?:\s+\w+)*|gas\s+(?:de|di)\s+\w+",
@@ -122,9 +123,10 @@ def stated_in(lines: Sequence[Sequence[str]]) -> Stated:
         found = replace(found, flux_kW_m2=fluxes.pop() / 1e3)
     steps = [" ".join(line) for line in lines[:_FIRST]]
     parts = [cell for line in lines[:_FIRST] for cell in line]  # several steps may share a line
-    if (change := change_of_gas(steps) or change_of_gas(parts)) is not None:
-        first, then, at = change
-        return replace(found, gas=first, then_gas=then, then_gas_s=at)
+    changes = [change for of in (steps, parts) if (change := change_of_gas(of)) is not None]
+    if changes:
+        first, then, at = max(changes, key=lambda change: bool(change[0]))
+        return replace(found, gas=first or " and ".join(gases), then_gas=then, then_gas_s=at)
     return replace(found, gas=" and ".join(gases))
 
 
@@ -139,6 +141,8 @@ def _key(cell: str) -> tuple[str, str]:
     unit = _UNIT.search(cell)
     if unit is None:
         return cell.strip(), ""
+    if unit.start() == 0:  # a key in brackets
+        return cell.strip("[]() "), ""
     return cell[: unit.start()].strip(), (unit[1] or unit[2]).strip()
 
 

@@ -221,10 +221,12 @@ def gas_of(name: str) -> str:
     ('O2-21', 'air', '', 'O2')
     >>> gas_of("a_10O2"), gas_of("a_synthair"), gas_of("a oxidative"), gas_of("CO2"), gas_of("5%O2")
     ('10O2', 'synthair', 'oxidative', '', '5%O2')
+    >>> gas_of("wood_air-dried_10K"), gas_of("air_dry"), gas_of("board O2-free")
+    ('', '', '')
     """
     match = re.search(
         r"(?<![A-Za-z0-9.])((?:synth(?:etic)?)? ?air|luft|aire|oxygen|oxidative|oxidi[sz]ing"
-        r"|(?:\d+(?:[.,]\d+)?)?[ %]*o2(?:-\d+)?)(?![A-Za-z0-9])",
+        r"|(?:\d+(?:[.,]\d+)?)?[ %]*o2(?:-\d+)?)(?![A-Za-z0-9])(?![ -]*(?:dr|free))",
         name.replace("_", " "),
         re.I,
     )
