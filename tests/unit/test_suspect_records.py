@@ -41,6 +41,14 @@ SUSPECT = {
     "minutes under s": ((TIME / 60.0, KELVIN, MASS), "by 10 K/min if its times are in min"),
     "hours under s": ((TIME / 3600.0, KELVIN, MASS), "by 10 K/min if its times are in h"),
     "seconds under min": ((60.0 * TIME, KELVIN, MASS), "by 0.167 K/min at most. If its times are"),
+    "more than all of the mass": (
+        (TIME, KELVIN, 1.03 * MASS),
+        "it starts at 103.0 % of the initial",
+    ),
+    "degrees F under degrees C": (
+        (TIME, 1.8 * KELVIN - 459.67 + 273.15, MASS),
+        "it starts at 80 °C and heats by 18 K/min, which would be 10 K/min if the column is in °F",
+    ),
     "loss of mass": ((TIME, KELVIN, 1.0 - MASS), "and rises, as a loss of mass does"),
     "pause of a day": ((PAUSE, KELVIN, MASS), "no point lies between 1500 s and 87906 s"),
 }

@@ -15,9 +15,13 @@ LOOK = "look at this record: "
 """Beginning of the note on a suspect record."""
 ROOM_K = (283.0, 323.0)
 """Temperatures at which records usually start."""
+ROOM_F = (60.0, 122.0)
+"""The same in degrees F, beyond those in degrees C."""
+STANDARD_RATES = np.array([1, 2, 3, 5, 10, 15, 20, 25, 30, 40, 50, 80, 100.0])
+_SAME_RATE = 0.02
 COLD_K = 268.0
 """A record that starts below this is seldom one of a fire test."""
-_LEAST_FALL, _LEAST_RISE, FALLEN = 0.01, 0.05, 0.97
+_LEAST_FALL, _LEAST_RISE, FALLEN, _ABOVE = 0.01, 0.05, 0.97, 1.02
 """Changes of the mass, and a first value, as fractions of the initial mass."""
 _SMOOTHED = 9
 JUMP = 0.1
@@ -104,11 +108,22 @@ def _rate(quantity: Quantity, frame: pd.DataFrame) -> str:
             "`units: {time: s}`"
         )
     if usual <= _RATES[1]:
-        return ""
+        return _fahrenheit(float(temperature[0]) - ICE_POINT_K, usual)
     unit, least = ("min", 60.0) if usual / 60.0 <= _RATES[1] else ("h", 3600.0)
     return (
         f"it heats by {usual:.4g} K/min, by {usual / least:.3g} K/min if its times are in "
         f"{unit}. Then give `units: {{time: {unit}}}`"
+    )
+
+
+def _fahrenheit(first_C: float, K_min: float) -> str:
+    """Find degrees F that are taken for degrees C: a warm start, and 1.8 times a usual rate."""
+    off, of_F = (np.abs(rate / STANDARD_RATES - 1.0).min() for rate in (K_min, K_min / 1.8))
+    if not ROOM_F[0] <= first_C <= ROOM_F[1] or of_F > _SAME_RATE or off < 3.0 * _SAME_RATE:
+        return ""
+    return (
+        f"it starts at {first_C:.0f} °C and heats by {K_min:.3g} K/min, which would be "
+        f"{K_min / 1.8:.3g} K/min if the column is in °F. Then give `units: {{temperature: degF}}`"
     )
 
 
@@ -187,11 +202,16 @@ def _heat(quantity: Quantity, frame: pd.DataFrame) -> str:
 
 
 def _first(quantity: Quantity, frame: pd.DataFrame) -> str:
-    """Find a mass fraction that starts below 1: of a sample that lost mass before the record."""
+    """Find a mass fraction that does not start at 1, as of a sample that was dried before."""
     if quantity.scales[0] != "fraction" or not _is_mass(quantity):
         return ""
     smooth = _smooth(frame[quantity.column].to_numpy(float))
     first = float(smooth[0])
+    if first > _ABOVE:
+        return (
+            f"it starts at {100.0 * first:.1f} % of the initial mass, the model at 100 %. Give "
+            "`relative_to: first value`, or correct the mass of the sample"
+        )
     if first > FALLEN:
         return ""
     if first < _LEAST_FALL < smooth[-1]:

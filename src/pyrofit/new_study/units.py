@@ -6,6 +6,7 @@ from collections.abc import Mapping
 import numpy as np
 
 from pyrofit.data.csvfile import FloatArray, Table
+from pyrofit.data.suspect import STANDARD_RATES
 from pyrofit.numerics import functions
 from pyrofit.quantities.base import Quantity
 from pyrofit.quantities.units import SCALES, header_key, unit_key
@@ -22,6 +23,8 @@ _SPELLINGS = {
     "deg_c": "degC",
     "°c": "degC",
     "c": "degC",
+    "f": "degF",
+    "deg_f": "degF",
     "k": "K",
     "percent": "%",
     "pct": "%",
@@ -33,15 +36,17 @@ _SPELLINGS = {
     "gram": "g",
     "micrograms": "ug",
     "hour": "h",
+    "мин": "min",
+    "с": "s",
+    "мг": "mg",
     "gm2s": "g/m2/s",
     "kgm2s": "kg/m2/s",
 }
 """Spellings of units that the reader does not know."""
 _KNOWN = {unit_key(word) for scale in SCALES.values() for word in scale}
-_CUT = re.compile(r"[ _](?=[A-Za-z%°µ])")
+_CUT = re.compile(r"[ _](?=[^\W\d_]|[%°µ])")
 _PER_AREA = re.compile(r"([A-Za-zµ]+/)?(ft|in|[cm]?m)\^?-?2(/(s|sec|min|h)(-1)?)?", re.IGNORECASE)
 """A unit per area, known or not."""
-_STANDARD_RATES = np.array([1, 2, 3, 5, 10, 15, 20, 25, 30, 40, 50, 80, 100.0])
 _INTERVALS, _HELD = 50, 0.05
 """Parts of a record with a slope each; below that share of the largest slope it is held."""
 
@@ -62,15 +67,15 @@ def split_unit(header: str) -> tuple[str, str]:
 
     >>> split_unit("mlr_mg_cm2_s"), split_unit("T_degC"), split_unit("Temperature 1")
     (('mlr', 'mg/cm2/s'), ('T', 'degC'), ('Temperature 1', ''))
-    >>> split_unit("Zeit in min")
-    ('Zeit', 'min')
+    >>> split_unit("Zeit in min"), split_unit("Zeit, min")
+    (('Zeit', 'min'), ('Zeit', 'min'))
     """
     for cut in _CUT.finditer(header):
         end = header[cut.end() :]
         for unit in (end, re.sub(r"[_ ]", "/", end)):
             spelled = _SPELLINGS.get(unit.casefold(), unit)
             if unit_key(spelled) in _KNOWN or _PER_AREA.fullmatch(unit):
-                return header[: cut.start()].removesuffix(" in"), spelled
+                return header[: cut.start()].removesuffix(" in").rstrip(","), spelled
     return header, ""
 
 
@@ -130,7 +135,7 @@ def _time_unit(table: Table, time_column: str, heated: str) -> str:
     with np.errstate(over="ignore", invalid="ignore"):  # an overflow is refused when it is read
         rate = max(_heating_rate(time, temperature), 1e-6)
     off = {
-        unit: float(np.abs(functions.log(factor * rate / _STANDARD_RATES)).min())
+        unit: float(np.abs(functions.log(factor * rate / STANDARD_RATES)).min())
         for unit, factor in (("s", 60.0), ("min", 1.0))
     }
     return min(off, key=lambda unit: off[unit])
