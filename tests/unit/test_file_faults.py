@@ -36,8 +36,7 @@ def heated(path: Path, mass: np.ndarray) -> Path:
 
 CHANGES = {
     "mass": ("Mass change", "mg", [0.010, 0.0, -2.0, -4.59], "the initial mass in mg"),
-    "percent": ("Mass change", "%", [0.0, -0.5, -40.0, -92.0], "100"),
-    "fraction": ("Mass", "1", [0.0, -0.1, -0.5, -0.9], "1"),
+    "more than all": ("Mass change", "%", [0.0, -0.5, -40.0, -192.0], "the initial mass in %"),
 }
 
 
@@ -59,6 +58,45 @@ def test_change_of_mass_from_a_given_mass_is_read(tmp_path: Path) -> None:
     text = "\n".join(["Time (s),Temperature (K),Mass (mg)", *rows])
     found = read(tmp_path, "mass_fraction", text, sample_mass_kg=5e-6).frame["mass_fraction"]
     np.testing.assert_allclose(found, [1.0, 0.9, 0.6, 0.1], atol=1e-12)
+
+
+@pytest.mark.parametrize(("name", "unit", "whole"), [("TG", "%", 100.0), ("Mass change", "1", 1.0)])
+def test_change_of_mass_as_a_fraction_is_read(
+    name: str, unit: str, whole: float, tmp_path: Path
+) -> None:
+    rows = [f"{10 * i},{310 + 10 * i},{whole * m}" for i, m in enumerate([0.0, -0.1, -0.5, -0.92])]
+    text = "\n".join([f"Time (s),Temperature (K),{name} ({unit})", *rows])
+    found = read(tmp_path, "mass_fraction", text, columns={"value": name})
+    np.testing.assert_allclose(found.frame["mass_fraction"], [1.0, 0.9, 0.5, 0.08], atol=1e-12)
+    assert "a change of mass: 100 % is added" in found.notes
+
+
+TIMES = {
+    "rounded": ([0, 0, 0, 60, 60, 60], "4 rows are so: the times are rounded"),
+    "second test": ([0, 10, 20, 30, 0, 10], "start anew, as of a second test or segment"),
+    "reversed": ([50, 40, 30, 20, 10, 0], "The rows stand in reverse order"),
+    "one row": ([0, 10, 20, 15, 30, 40], "Sort the rows"),
+}
+
+
+@pytest.mark.parametrize(("times", "words"), TIMES.values(), ids=TIMES)
+def test_times_that_do_not_rise_are_refused_with_the_way_out(
+    times: list[int], words: str, tmp_path: Path
+) -> None:
+    rows = [f"{t},{310 + 10 * i},{5 - 0.1 * i}" for i, t in enumerate(times)]
+    text = "\n".join(["Time (s),Temperature (K),Mass (mg)", *rows])
+    with pytest.raises(DataError, match=f"time must exceed that of the row before. .*{words}"):
+        read(tmp_path, "mass_fraction", text)
+
+
+def test_few_rows_before_time_0_are_left_out_with_a_note(tmp_path: Path) -> None:
+    rows = [f"{t},{5 - 0.001 * t}" for t in (-0.4, *range(100))]
+    text = "\n".join(["Time (s),Mass (kg/m2)", *rows])
+    found = read(tmp_path, "mass", text)
+    assert found.frame["time_s"].iloc[0] == 0.0
+    assert "left out, before time 0: 1 rows" in found.notes
+    with pytest.raises(DataError, match="given -50; time starts at 0 or later"):
+        read(tmp_path, "mass", text.replace("-0.4,", "-50,"))
 
 
 def test_mass_far_below_zero_is_refused_and_noise_about_zero_is_not(tmp_path: Path) -> None:

@@ -21,13 +21,19 @@ ABSCISSAE = {
     "temperature": {"C": KELVIN - 273.15, "K": KELVIN, "F": 1.8 * KELVIN - 459.67},
 }
 VALUES = {
-    "mass_fraction": {"mg": 6.0 * LEFT, "ug": 6e3 * LEFT, "g": LEFT, "%": 100.0 * LEFT, "1": LEFT},
+    "mass_fraction": {"mg": 6.0 * LEFT, "ug": 6e3 * LEFT, "g": LEFT, "%": 100.0 * LEFT, "1": LEFT}
+    | {"-%": 100.0 * LEFT - 100.0, "-mg": 6.0 * LEFT - 6.0, "+mg": 44.0 + 6.0 * LEFT},
     "mass": {"g": LEFT, "kg/m2": 0.1 * LEFT},
-    "heat_flow": {"W/g": PEAK, "-W/g": -PEAK},
+    "heat_flow": {"W/g": PEAK, "-W/g": -PEAK, "mW": 6.0 * PEAK},
     "specific_heat_release_rate": {"W/g": PEAK},
     "heat_release_rate": {"kW/m2": 300.0 * PEAK},
-    "mlr": {"g/m2/s": 10.0 * PEAK, "g/s": 0.1 * PEAK, "mg/cm2/min": 60.0 * PEAK},
-    "back_temperature": {"K": KELVIN},
+    "mlr": {
+        "kg/m2/s": 0.01 * PEAK,
+        "g/m2/s": 10.0 * PEAK,
+        "g/s": 0.1 * PEAK,
+        "mg/cm2/min": 60.0 * PEAK,
+    },
+    "back_temperature": {"K": KELVIN, "C": KELVIN - 273.15},
 }
 TRUTH = {
     "mass_fraction": LEFT,

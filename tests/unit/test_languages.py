@@ -119,6 +119,23 @@ def test_times_of_a_clock_are_seconds_whatever_the_header_says(name: str, tmp_pa
     assert not run.signals[0].guessed
 
 
+@pytest.mark.parametrize("unit", ["mm:ss", "hh:mm:ss", ""])
+def test_a_clock_tells_the_times(unit: str, tmp_path: Path) -> None:
+    start = 0 if unit == "mm:ss" else 84_000  # past midnight
+    cells = [
+        f"{int(s) // 60:02d}:{int(s) % 60:02d}"
+        if unit == "mm:ss"
+        else f"{s // 3600 % 24:02.0f}:{s // 60 % 60:02.0f}:{s % 60:02.0f}"
+        for s in np.floor(TIME) + start
+    ]
+    rows = [f"{c},{T:.3f},{m:.5f}" for c, T, m in zip(cells, KELVIN, MASS, strict=True)]
+    path = tmp_path / "a.csv"
+    header = f"Clock{f' ({unit})' if unit else ''},Temp (K),Mass (mg)"
+    path.write_text("\n".join([header, *rows]) + "\n", encoding="utf-8")
+    (run,) = drafted("x", {"tga": [path]})[1]
+    np.testing.assert_allclose(run.frames["mass_fraction"]["time_s"], np.floor(TIME))
+
+
 def test_a_change_of_mass_is_told_as_such(tmp_path: Path) -> None:
     run = read(tmp_path, "tga", "Time (s);Temp (K);Delta m (mg)", TIME, KELVIN, MASS - MASS[0])
     assert run.left["Delta m"].startswith("it is a change of mass; name it as the value")

@@ -6,19 +6,20 @@ from pathlib import Path
 import numpy as np
 import pandas as pd
 
-from pyrofit.data.csvfile import Table
+from pyrofit.data.csvfile import FloatArray, Table
 from pyrofit.errors import DataError
 from pyrofit.quantities.base import Quantity
+from pyrofit.quantities.units import SCALES, unit_key
 
 _TOO_LARGE = 1e30
 TEMPERATURES_K = (150.0, 2500.0)
 """Limits of a temperature that is recorded beside a quantity."""
+WHOLE = 1.05
+"""Largest loss, as a fraction of the initial mass, with room for a drift."""
 _NEAR_ZERO = 0.1
 """Largest first value of a change of mass, as a fraction of its fall."""
 _FAR_BELOW_ZERO = 0.5
 """A mass that falls further below zero, as a fraction of its largest value, has a wrong zero."""
-_WHOLE = {"%": "100", "1": "1", "-": "1"}
-"""The initial mass in units of a fraction."""
 
 
 def check_finite(path: Path, frame: pd.DataFrame) -> None:
@@ -40,8 +41,9 @@ def check_order(
         rule = "time starts at 0 or later. Delete the rows before 0."
         raise _refusal(table, headers["time"], 0, rule)
     if "time" in headers and (stops := np.flatnonzero(np.diff(time) <= 0.0)).size:
-        rule = "time must exceed that of the row before. Sort the rows and delete doubled ones."
-        raise _refusal(table, headers["time"], int(stops[0]) + 1, rule)
+        row = int(stops[0]) + 1
+        rule = f"time must exceed that of the row before. {_way_out(time, row)}"
+        raise _refusal(table, headers["time"], row, rule)
     if "uncertainty" in headers:
         uncertainty = frame[quantity.uncertainty_column].to_numpy()
         if uncertainty.min() < 0.0:
@@ -59,6 +61,24 @@ def check_order(
     if ratio is not None and -value.min() > ratio * value.max():
         rule = f"a {quantity.title} is positive. Change the sign of the column."
         raise _refusal(table, headers["value"], int(value.argmin()), rule)
+
+
+def _way_out(time: FloatArray, row: int) -> str:
+    """Return how times that do not rise at a row are mended."""
+    steps = np.diff(time)
+    if (steps <= 0.0).all():
+        return "The rows stand in reverse order; turn them round."
+    if time[row] <= time[0] and row > 2 and (steps[row:] > 0.0).any():
+        return (
+            "The times start anew, as of a second test or segment. Give each test a file of its "
+            "own, or delete the rows of the other."
+        )
+    if (steps >= 0.0).all():
+        return (
+            f"{(steps == 0.0).sum()} rows are so: the times are rounded. Write them with more "
+            "digits, or delete doubled rows."
+        )
+    return "Sort the rows and delete doubled ones."
 
 
 def check_limits(
@@ -81,10 +101,23 @@ def check_limits(
                 raise _refusal(table, headers[role], row, rule)
 
 
+def is_change(mass: FloatArray) -> bool:
+    """Tell whether a column is a change of mass: it starts near 0 and falls below.
+
+    >>> is_change(np.array([0.1, 0.0, -40.0, -80.0])), is_change(np.array([100.0, 60.0, -0.5]))
+    (True, False)
+    """
+    lowest, largest = float(mass.min()), float(mass.max())
+    falls = lowest < 0.0 and -lowest > _FAR_BELOW_ZERO * largest
+    return falls and abs(float(mass[0])) <= -_NEAR_ZERO * lowest
+
+
 def check_zero(
     quantity: Quantity, table: Table, headers: Mapping[str, str], unit: str | None, sign: int = 1
 ) -> None:
     """Refuse the change of a mass, and a mass far below zero; noise about zero is allowed.
+
+    A change in units of a fraction is read, see `pyrofit.data.convert`.
 
     Parameters
     ----------
@@ -104,8 +137,11 @@ def check_zero(
     first, lowest, largest = float(mass[0]), float(mass[row]), float(mass.max())
     if -lowest <= _FAR_BELOW_ZERO * largest or lowest >= 0.0:
         return
-    if abs(first) <= -_NEAR_ZERO * lowest:
-        whole = _WHOLE.get(unit or "", f"the initial mass in {unit}" if unit else "that at first")
+    if is_change(mass):
+        fractions = {unit_key(word): factor for word, factor in SCALES["fraction"].items()}
+        if lowest * fractions.get(unit_key(unit or ""), np.inf) >= -WHOLE:
+            return
+        whole = f"the initial mass in {unit}" if unit else "that at first"
         rule = (
             f"the column starts near 0, at {first:g}, and falls: this looks like a change of "
             f"mass. Add {whole} to the column, give a column of the mass itself, or give "

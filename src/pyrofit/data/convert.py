@@ -5,10 +5,11 @@ from collections.abc import Mapping, Sequence
 import numpy as np
 import pandas as pd
 
+from pyrofit.data.checks import WHOLE, is_change
 from pyrofit.data.csvfile import FloatArray, Table
 from pyrofit.data.spec import SeriesSpec
 from pyrofit.errors import DataError, suggest
-from pyrofit.quantities.base import LIMITS
+from pyrofit.quantities.base import LIMITS, Quantity
 from pyrofit.quantities.units import (
     PER_AREA,
     PER_MASS,
@@ -84,6 +85,8 @@ def _from_start(
         The first mass is not the initial mass that the file states, and the study gives none.
     """
     stated = table.stated.mass_kg
+    if is_change_of_fraction(spec.of, kind, value):
+        return value + 1.0, ["a change of mass: 100 % is added"]
     if kind != "mass" or PER_START[kind] != spec.of.scales[0]:
         return value, []
     first, given = float(value[0]), spec.sample_mass_kg
@@ -105,6 +108,12 @@ def _from_start(
         return value, []
     note = f"the zero of the balance is arbitrary: {stated:g} kg, as the file states, at first"
     return value - first + stated, [note]
+
+
+def is_change_of_fraction(quantity: Quantity, kind: str, value: FloatArray) -> bool:
+    """Tell whether fractions are changes of the mass, by no more than the whole of it."""
+    fractions = kind == "fraction" and "mass" in quantity.scales
+    return fractions and is_change(value) and float(value.min()) >= -WHOLE
 
 
 def _has_other_zero(mass: FloatArray, initial: float) -> bool:

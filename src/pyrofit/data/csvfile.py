@@ -13,7 +13,7 @@ from pyrofit.data.cone_exports import is_export, unfolded
 from pyrofit.data.csvheading import Heading, named_columns
 from pyrofit.data.layout import cells_of, layout_of, usual_delimiter
 from pyrofit.data.line import Line
-from pyrofit.data.numerals import Numerals, fault_of, is_numeral, numerals_of, seconds
+from pyrofit.data.numerals import Numerals, fault_of, is_numeral, numerals_of, of_parts, seconds
 from pyrofit.data.rows import parsed, rows_of, whole_rows, without_footer
 from pyrofit.data.sections import first_table
 from pyrofit.data.stated import Stated, exothermic_up, stated_in
@@ -26,6 +26,7 @@ MANY_ROWS = 20_000
 """Files with more lines are read in one piece where that is possible."""
 _LOOKED_AT = 2000
 _CLOCKS = ("hh:mm:ss", "h:mm:ss", "h:min:s", "hms")
+_PARTS_OF_TIME = ("mm:ss", "min:s", "hh:mm")
 
 
 @dataclass(frozen=True, eq=False)
@@ -167,7 +168,7 @@ def _table(
     path: Path, heading: Heading, lines: list[Line], notes: list[str], marks: bool = False
 ) -> Table:
     """Return the table of lines of cells."""
-    rows = whole_rows(path, lines, heading, marks, notes)
+    rows = _whole_times(whole_rows(path, lines, heading, marks, notes), heading)
     numerals = numerals_of(rows)
     notes += _notes_on(numerals)
     values, faults = parsed(rows, len(heading.names), numerals, notes)
@@ -181,6 +182,18 @@ def _table(
     between = range(first, rows[-1].number)
     left_out = tuple(number - first for number in between if number not in kept)
     return _as_table(path, heading, values, faults, first, left_out, notes)
+
+
+def _whole_times(rows: list[Line], heading: Heading) -> list[Line]:
+    """Return rows whose times mm:ss and hh:mm, as the heading tells them, are hh:mm:ss."""
+    of = {i: (u or "").casefold() for i, u in enumerate(heading.units)}
+    of = {i: unit for i, unit in of.items() if unit in _PARTS_OF_TIME}
+    if not of:
+        return rows
+    return [
+        Line(row.number, [of_parts(c, of[i]) if i in of else c for i, c in enumerate(row.cells)])
+        for row in rows
+    ]
 
 
 def _notes_on(numerals: Numerals) -> list[str]:
@@ -220,7 +233,7 @@ def _as_table(
 
 def _of_clock(unit: str | None) -> str | None:
     """Return s as the unit of a column of times hh:mm:ss, unless that of its name is no time."""
-    times = {unit_key(word) for word in (*SCALES["time"], *_CLOCKS, "mm:ss", "hh:mm")}
+    times = {unit_key(word) for word in (*SCALES["time"], *_CLOCKS, *_PARTS_OF_TIME)}
     return "s" if unit is None or unit_key(unit) in times else unit
 
 

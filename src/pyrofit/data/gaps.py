@@ -10,6 +10,8 @@ from pyrofit.data.csvfile import Table
 from pyrofit.errors import DataError
 
 _ABSCISSAE = ("time", "temperature")
+_SHORT = 0.01
+"""Share of a record that a beginning before time 0 may have."""
 _FEW = 0.1
 """Share of rows of the time of the row before that are left out; more are refused."""
 
@@ -65,6 +67,15 @@ def without_doubles(table: Table, header: str) -> tuple[Table, list[str]]:
     first = table.line(int(double.argmax()))
     left = _without(table, double)
     return left, [f"left out, the time of the row before: {double.sum()} rows, first line {first}"]
+
+
+def without_times_before(table: Table, header: str) -> tuple[Table, list[str]]:
+    """Leave out the few rows before time 0 at the start of a record; note them."""
+    time = table.columns[header]
+    before = np.logical_and.accumulate(time < 0.0)
+    if not before.any() or before.all() or time[0] < -_SHORT * time[-1]:
+        return table, []
+    return _without(table, before), [f"left out, before time 0: {before.sum()} rows"]
 
 
 def _without(table: Table, out: NDArray[np.bool_]) -> Table:

@@ -71,6 +71,8 @@ def usual_delimiter(path: Path, raw: Sequence[str]) -> str:
     header = next((line for line in raw if "".join(line.split()).strip(_DELIMITERS + '"')), None)
     if header is None:
         raise DataError(f"{path}: the file is empty; a header row and rows of numbers are needed.")
+    if any(sign in header for sign in _DELIMITERS[:-1]):
+        header = header.replace(", ", " ")  # as in "Time, s;Mass, %"
     return max(_DELIMITERS, key=header.count)
 
 

@@ -89,6 +89,21 @@ def seconds(cell: str) -> float | None:
         return None
 
 
+def of_parts(cell: str, unit: str) -> str:
+    """Return a time of two parts, mm:ss or hh:mm, as hh:mm:ss; any other cell as it is.
+
+    >>> of_parts("75:30.5", "mm:ss"), of_parts("23:05", "hh:mm"), of_parts("1:02:03", "mm:ss")
+    ('01:15:30.5', '23:05:00', '1:02:03')
+    """
+    match = re.fullmatch(r"(\d+):(\d\d(?:[.,]\d+)?)", cell)
+    if match is None:
+        return cell
+    if unit == "hh:mm":
+        return f"{cell}:00"
+    hours, minutes = divmod(int(match[1]), 60)
+    return f"{hours:02d}:{minutes:02d}:{match[2]}"
+
+
 def is_dated(cell: str) -> bool:
     """Tell whether a cell is a time with a date."""
     match = _CLOCK.fullmatch(cell)

@@ -11,7 +11,12 @@ from pyrofit.data.checks import check_finite, check_limits, check_order, check_z
 from pyrofit.data.convert import convert_columns
 from pyrofit.data.csvfile import Table, read_table
 from pyrofit.data.download import sha256
-from pyrofit.data.gaps import without_doubles, without_gaps, without_stops
+from pyrofit.data.gaps import (
+    without_doubles,
+    without_gaps,
+    without_stops,
+    without_times_before,
+)
 from pyrofit.data.spec import SeriesSpec
 from pyrofit.errors import DataError, suggest
 from pyrofit.quantities.base import LIMITS, Quantity
@@ -105,7 +110,8 @@ def read_series(spec: SeriesSpec, read: Callable[[Path], Table] = read_table) ->
     table, gaps = without_gaps(table, headers)
     if "time" in headers:
         table, doubles = without_doubles(table, headers["time"])
-        gaps += doubles
+        table, early = without_times_before(table, headers["time"])
+        gaps += [*doubles, *early]
     if spec.computed == "time":
         table, stops = without_stops(table, headers["temperature"])
         gaps += stops

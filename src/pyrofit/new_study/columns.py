@@ -18,7 +18,7 @@ from pyrofit.new_study.headers import (
     root_of,
     stem_of,
 )
-from pyrofit.new_study.reasons import is_empty, unused
+from pyrofit.new_study.reasons import is_change, is_empty, unused
 from pyrofit.new_study.units import guessed_unit, kind_of, kinds_of, stated_unit
 from pyrofit.quantities import known_quantities
 from pyrofit.quantities.base import Quantity
@@ -153,6 +153,8 @@ def _signals(
         if not usual and stem_of(name) in _NAMELESS:
             unit = table.units[name] or _unit_one(table, name)
             usual = [q.name for q in quantities if kind_of(unit, q.scales)]
+        if is_change(table, name):
+            usual = [q.name for q in quantities if q.scales[0] == "fraction" and "mass" in q.scales]
         owners = usual or [q.name for q in quantities if may_be(name, q)]
         if len(owners) == 1:
             claims.setdefault(owners[0], []).append(name)

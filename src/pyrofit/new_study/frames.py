@@ -14,7 +14,7 @@ from pyrofit.new_study.divisor import divisor_of
 
 START_K = 300.0
 """Temperature assumed at time 0 of a record without temperatures."""
-_TOLD = ("thinned", "left out, the time of")
+_TOLD = ("thinned", "left out, the time of", "left out, before", "a change of mass")
 """Beginnings of the notes of the reader that a new study tells."""
 
 

@@ -25,7 +25,7 @@ _OF_SAMPLE = re.compile(
     r"sample(?!purge|gas)|specimen|probe|mlr|massloss|massenverlust|abbrand|hrr|heatrelease"
 )
 _WORDS = {
-    "time": r"time.*|date/?time|(elapsed|test)time|zeit",
+    "time": r"time.*|date/?time|(elapsed|test)time|zeit|clock(time)?",
     "temperature": r"(sample|program|furnace)?temp.*|(proben|ofen)temp.*|ts|tp|tsample",
 }
 

@@ -7,6 +7,7 @@ import numpy as np
 from pyrofit.data.csvfile import Table, holds_unclear_numbers
 from pyrofit.experiments import KINDS, OF_FILES, measurable
 from pyrofit.new_study.headers import is_abscissa, is_foreign, is_usual, may_be, stem_of
+from pyrofit.new_study.units import kind_of
 from pyrofit.quantities.units import header_key
 
 NO_VALUES = "it holds no values"
@@ -16,6 +17,15 @@ _LOSS = re.compile(r"(mass|weight)loss(?!rate).*")
 _CHANGE = re.compile(r"(delta|d|Δ|δ)m(ass)?|(mass|weight)(change|variation|anderung|änderung)")
 _TOTAL = re.compile(r"thr|(total|cumul|integr)(?!.*rate).*heat.*|.*heatreleased.*")
 _MEASURED = re.compile(r"t|t[^a-z].*|t(gas|top|front|back|surf).*|.*temp.*|.*(flow|mdot|flux).*")
+
+
+def is_change(table: Table, header: str) -> bool:
+    """Tell whether a column is a change of mass that the file says how to read.
+
+    It is in units of a fraction, or the file states the initial mass.
+    """
+    told = kind_of(table.units[header] or "", ("fraction",)) or table.stated.mass_kg
+    return bool(told and _CHANGE.fullmatch(header_key(header)))
 
 
 def is_empty(table: Table, header: str) -> bool:

@@ -16,5 +16,5 @@ QUANTITY: Quantity = temperature(
         "TC back 1",
     ),
     uncertainty_headers=("Temperature_Error", "Temp error"),
-    pattern=r".*(back|rear|bottom).*|temp.*|tb|tc\d*",
+    pattern=r".*(back|rear|bottom).*|t_?bot|temp.*|tb|tc\d*",
 )
