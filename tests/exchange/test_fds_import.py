@@ -61,6 +61,7 @@ def test_what_is_not_taken_over_is_named() -> None:
     assert "MATL 'BOARD': not of the virgin material" in said
     assert "ADJUST_H" in said
     assert "FYI" not in said
+    assert "ADJUST_H" not in "\n".join(import_fds(LINES, "x.fds", OLD).remarks)
 
 
 def test_an_export_that_is_imported_loses_mass_as_before() -> None:

@@ -11,7 +11,14 @@ import yaml
 import pyrofit as pf
 from pyrofit.cli import main
 from pyrofit.compare_with.compute import REPEATS
-from pyrofit.compare_with.published import MEAN, by_signal, chosen, errors, published
+from pyrofit.compare_with.published import (
+    LIBRARY,
+    MEAN,
+    by_signal,
+    chosen,
+    errors,
+    published,
+)
 from pyrofit.data.fetch import FOLDER_VARIABLE
 from pyrofit.errors import DataError, StudyError
 from pyrofit.exchange.macfp.material import strict_of
@@ -124,7 +131,52 @@ def test_the_explorer_draws_the_curves_of_a_set(
 
 def test_folder_without_sets_is_told(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
     assert main(["materials", "--folder", str(tmp_path)]) == 2
-    assert f"{tmp_path}: no parameter sets; they lie in" in capsys.readouterr().err
+    assert (
+        f"{tmp_path}: no parameter sets. Give a copy of the MaCFP data base"
+        in capsys.readouterr().err
+    )
+
+
+def test_each_shipped_material_predicts_a_slab_and_a_tga(measured: pf.Study) -> None:
+    sets, left = published(LIBRARY)
+    assert not left
+    assert len(sets) == 12
+    assert {one.strict.laboratory for one in sets.values()} == {
+        "University of Maryland, FDS validation",
+        "FAA, FDS validation",
+    }
+    found, _ = errors(measured, sets)
+    assert set(found.index) == {*sets, REPEATS}
+    assert found.drop(index=REPEATS).notna().all(axis=None)
+
+
+def test_shipped_material_has_the_numbers_of_the_deck_of_fds() -> None:
+    one = published(LIBRARY)[0]["FDS_PET"]
+    # FDS has another gas constant in its last digits.
+    np.testing.assert_allclose(one.strict.kinetics.A, (1.5e36, 1.6e15, 3.53e4), rtol=2e-4)
+    assert one.strict.kinetics.yields == (0.999999, 0.18, 0.72)
+    assert any("ADJUST_H" in remark for remark in one.remarks)
+
+
+def test_data_base_is_not_needed(
+    monkeypatch: pytest.MonkeyPatch, tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    monkeypatch.setenv(FOLDER_VARIABLE, str(tmp_path / "none"))
+    assert main(["materials", "FDS_P"]) == 0
+    said = capsys.readouterr().out
+    assert "FDS_PMMA" in said
+    assert "the sets of the MaCFP data base are not here" in said
+
+
+def test_folder_of_own_files_is_read(base: Path, tmp_path: Path) -> None:
+    (tmp_path / "mine.fds").write_text((LIBRARY / "FDS_PC.fds").read_text())
+    (tmp_path / "bad.fds").write_text("&SURF ID='a' /")
+    set_file = next(base.glob("*/Material_Properties/**/Polymer_A.json"))
+    (tmp_path / "theirs.json").write_text(set_file.read_text())
+    sets, left = published(tmp_path)
+    assert list(sets) == ["theirs", "mine"]
+    assert len(left) == 1
+    assert "bad.fds: it has no MATL line" in left[0]
 
 
 def test_command_lists_shows_and_writes(

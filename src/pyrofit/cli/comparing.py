@@ -27,7 +27,10 @@ def add(commands: Any) -> None:
         "--show", action="store_true", help="print the `material` of a study instead of the list"
     )
     command.add_argument(
-        "--folder", type=Path, help="copy of the MaCFP data base; default PYROFIT_DATA_DIR"
+        "--folder",
+        type=Path,
+        help="copy of the MaCFP data base, or folder of sets and files of FDS; "
+        "default: those that come with pyrofit, and PYROFIT_DATA_DIR",
     )
     command.set_defaults(step=_materials)
 
@@ -106,4 +109,6 @@ def _show(sets: Iterable["Published"]) -> None:
 
     for one in sets:
         print(f"# {one.name}: {one.strict.material}, {one.strict.laboratory}")
+        for remark in one.remarks:
+            print(f"# {remark}")
         print(json.dumps({"material": material_of(one.strict)}, indent=2, ensure_ascii=False))

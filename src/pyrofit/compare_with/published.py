@@ -1,4 +1,4 @@
-"""Published parameter sets of the MaCFP data base, and how they describe the tests of a study."""
+"""Published parameter sets, and how they describe the tests of a study."""
 
 from collections.abc import Mapping, Sequence
 from pathlib import Path
@@ -8,6 +8,7 @@ import numpy as np
 import pandas as pd
 
 from pyrofit.compare_with.compute import REPEATS, Key, Series, both_records, measured_series
+from pyrofit.compare_with.from_fds import set_of_fds
 from pyrofit.compare_with.score import at_times, mean_of, nrms
 from pyrofit.config import Study, parameters_in
 from pyrofit.data.fetch import store
@@ -23,10 +24,12 @@ from pyrofit.stages.reading import SYNTHETIC
 
 FOLDER = "Material_Properties"
 MEAN = "mean"
+LIBRARY = Path(__file__).parent / "library"
+"""Materials of FDS's validation, which NIST has put into the public domain."""
 
 
 class Published(NamedTuple):
-    """A parameter set of the data base.
+    """A published parameter set.
 
     Parameters
     ----------
@@ -34,39 +37,64 @@ class Published(NamedTuple):
         Its file, without folder and ending.
     strict
         The set in the strict form.
+    remarks
+        The parts of a file of FDS that are not taken over.
     """
 
     name: str
     strict: StrictSet
+    remarks: tuple[str, ...] = ()
 
 
 def published(folder: Path | None = None) -> tuple[dict[str, Published], list[str]]:
-    """Return the sets below the folders `Material_Properties` by name, and files left out.
+    """Return published sets by name, and files left out.
 
     Parameters
     ----------
     folder
-        A copy of the data base; by default that of the measured files.
+        A copy of the MaCFP data base, whose sets lie below its folders `Material_Properties`, or a
+        folder of such sets and of files of FDS. By default the sets that come with pyrofit, and
+        those of the data base where it is on this machine.
 
     Raises
     ------
     DataError
         There is no set.
     """
-    root = store() if folder is None else folder
+    if folder is not None:
+        found, left = _sets_in(folder)
+        if not found:
+            raise DataError(
+                f"{folder}: no parameter sets. Give a copy of the MaCFP data base, which has them "
+                f"in MATERIAL/{FOLDER}, or a folder of such sets and of files of FDS"
+                + "".join(f"; {why}" for why in left)
+            )
+        return found, left
+    found, left = _sets_in(LIBRARY)
+    try:
+        of_base, others = _sets_in(store())
+    except DataError as error:
+        return found, [*left, f"the sets of the MaCFP data base are not here: {error}"]
+    return found | of_base, left + others
+
+
+def _sets_in(root: Path) -> tuple[dict[str, Published], list[str]]:
+    """Return the sets of a copy of the data base, or else of a folder."""
+    paths = sorted(root.glob(f"*/{FOLDER}/**/*.json"))
     found: dict[str, Published] = {}
     left = []
-    for path in sorted(root.glob(f"*/{FOLDER}/**/*.json")):
+    for path in paths or [*sorted(root.glob("*.json")), *sorted(root.glob("*.fds"))]:
         try:
-            found[path.stem] = Published(path.stem, read_set(path).strict)
+            found[path.stem] = _published(path)
         except DataError as error:
             left.append(str(error))
-    if not found:
-        raise DataError(
-            f"{root}: no parameter sets; they lie in MATERIAL/{FOLDER} of a copy of the MaCFP data "
-            "base. Set PYROFIT_DATA_DIR to one, or give it with --folder"
-        )
     return found, left
+
+
+def _published(path: Path) -> Published:
+    if path.suffix == ".fds":
+        return Published(path.stem, *set_of_fds(path))
+    return Published(path.stem, read_set(path).strict)
 
 
 def chosen(sets: Mapping[str, Published], names: Sequence[str]) -> dict[str, Published]:

@@ -79,7 +79,7 @@ def import_fds(text: str, source: str, version: Version, surface: str = "") -> I
     for name in wanted:
         components[names[name]] = dict(component(matls[name], ramps))
         reactions |= dict(reactions_of(matls[name], names, layer, version, remarks))
-        remarks += _ignored(matls[name])
+        remarks += _ignored(matls[name], version)
     _all_or_none(components, remarks)
     material = {
         "components": components,
@@ -156,15 +156,15 @@ def _reached(matls: Mapping[str, Matl], shares: Mapping[str, float]) -> list[str
     return found
 
 
-def _ignored(matl: Matl) -> Iterator[str]:
+def _ignored(matl: Matl, version: Version) -> Iterator[str]:
     """Yield the keys of a line that are not read."""
     for key in matl.keys:
         if key.partition("(")[0] not in KNOWN | DERIVED:
             yield f"MATL '{matl.name}': {key} is not known to pyrofit; left out"
-    if count_of(matl) and matl.one("ADJUST_H") is not False:
+    if version.adjusts_heat and count_of(matl) and matl.one("ADJUST_H") is not False:
         yield (
-            f"MATL '{matl.name}': FDS 6.8 and newer adjust its heat of reaction to the enthalpies "
-            "(ADJUST_H); pyrofit does not"
+            f"MATL '{matl.name}': FDS {version.name} adjusts its heat of reaction to the "
+            "enthalpies (ADJUST_H); pyrofit does not"
         )
 
 
