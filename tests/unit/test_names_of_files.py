@@ -34,6 +34,9 @@ def ramp(path: Path, K_min: float, times: bool = True, in_one_s: float = 1.0) ->
         ("board_563K", 10.0, "CHANGE: neither"),
         ("board_2p5K", 2.5, "CHANGE where wrong: from the name of the file alone"),
         ("board_2,5K", 2.5, "CHANGE where wrong: from the name of the file alone"),
+        ("foam_beta20", 20.0, "CHANGE where wrong: from the name of the file alone"),
+        ("foam_heating_rate_5", 5.0, "CHANGE where wrong: from the name of the file alone"),
+        ("alphabeta20", 10.0, "CHANGE: neither"),
         ("board_20K", 20.0, "CHANGE where wrong: from the name of the file alone"),
     ],
 )

@@ -116,6 +116,15 @@ def test_a_study_that_is_not_there_is_named_with_the_nearest(tmp_path: Path) -> 
     assert "there is no such study file. Did you mean 'mywood.yaml'?" in line
 
 
+def test_a_study_in_a_folder_below_is_named_and_a_hidden_file_is_not(tmp_path: Path) -> None:
+    (tmp_path / "config").mkdir()
+    (tmp_path / "config" / "pine.yaml").write_text("name: x\n", encoding="utf-8")
+    (tmp_path / ".hidden.yml").write_text("a: b\n", encoding="utf-8")
+    code, line = refused([f"--configfile={tmp_path / 'pine.yml'}"])
+    assert code == 2
+    assert "Did you mean 'config/pine.yaml'? Known: config/pine.yaml." in line
+
+
 def test_the_default_profile_checks_the_studies_that_snakemake_is_given() -> None:
     text = (ROOT / "profiles" / "default" / "config.yaml").read_text(encoding="utf-8")
     assert "check_files(sys.argv)" in text

@@ -61,6 +61,14 @@ def as_read(keys: Mapping[str, Any]) -> dict[str, Any]:
     return read
 
 
+def _studies_near(folder: Path) -> list[str]:
+    """Return the YAML files of a folder, or else of the folders in it; hidden ones do not count."""
+    for pattern in ("[!.]*.y*ml", "[!.]*/[!.]*.y*ml"):
+        if found := [str(path.relative_to(folder)) for path in folder.glob(pattern)]:
+            return found
+    return []
+
+
 def _read_text(path: Path) -> str:
     if path.is_dir():
         raise StudyError(f"{path}: this is a directory; give the study's YAML file")
@@ -74,7 +82,7 @@ def _read_text(path: Path) -> str:
     try:
         return path.read_text(encoding="utf-8-sig")
     except FileNotFoundError:
-        near = [p.name for p in path.parent.glob("*.y*ml")] if path.parent.is_dir() else []
+        near = _studies_near(path.parent) if path.parent.is_dir() else []
         hint = suggest(path.name, near) if near else "Nor is any other beside it; check the path."
         raise StudyError(f"{path}: there is no such study file. {hint}") from None
     except UnicodeDecodeError as error:

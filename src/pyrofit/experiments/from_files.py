@@ -32,6 +32,8 @@ class NamedNumber:
         The number where neither name nor record tells it.
     words, shown
         What the number is, and its unit, in texts.
+    symbol
+        Regular expression of the text before the number that counts as its unit does.
     """
 
     unit: str
@@ -39,6 +41,7 @@ class NamedNumber:
     usual: float
     words: str = ""
     shown: str = ""
+    symbol: str = "(?!)"
 
     def find(self, name: str) -> tuple[float, Told]:
         """Return the number to which the name hints, and how it does.
@@ -55,10 +58,14 @@ class NamedNumber:
         ((2.5, 'unit'), (10.0, ''), (10.0, ''))
         >>> rate.find("foam_2p5K"), rate.find("foam_2,5K")
         ((2.5, 'unit'), (2.5, 'unit'))
+        >>> NamedNumber("K", (0.5, 500.0), 10.0, symbol="beta").find("foam_beta20")
+        (20.0, 'unit')
         """
         number = r"(?<![A-Za-z\d.])(\d+(?:\.\d+)?)(?![A-Za-z\d])"
         with_unit = rf"(?<![\d.])(\d+(?:[.,p-]\d+)?)[ _-]?(?:{self.unit})(?![A-Za-z])"
-        units = {float(re.sub("[,p-]", ".", found)) for found in re.findall(with_unit, name)}
+        behind = rf"(?<![A-Za-z])(?:{self.symbol})[ _=-]?(\d+(?:[.,p]\d+)?)(?![A-Za-z\d])"
+        found = [*re.findall(with_unit, name), *re.findall(behind, name, re.I)]
+        units = {float(re.sub("[,p-]", ".", text)) for text in found}
         alone = [float(found) for found in re.findall(number, name)]
         if len(named := self._fitting(units)) == 1:
             return named[0], "unit"

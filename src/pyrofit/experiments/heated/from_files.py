@@ -7,7 +7,14 @@ from pyrofit.data.heating import usual_rise
 from pyrofit.experiments.from_files import Frames, FromFiles, Loss, NamedNumber
 from pyrofit.solver.arrays import FloatArray
 
-RATE_K_MIN = NamedNumber("[KC](?:/?min|pm)?", (0.5, 500.0), 10.0, "heating rate", "K/min")
+RATE_K_MIN = NamedNumber(
+    "[KC](?:/?min|pm)?",
+    (0.5, 500.0),
+    10.0,
+    "heating rate",
+    "K/min",
+    "beta|β|(?:heating[ _-]?)?rate",
+)
 HOLD_K = 5.0
 """Span of temperatures within which one is held."""
 STILL = 0.02
