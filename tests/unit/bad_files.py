@@ -123,8 +123,8 @@ TABLES = rows_of(
         ),
         (
             "time before 0",
-            tga("\n0,", "\n-9,"),
-            ("line 3, column 'Time': given -9", "Delete the rows"),
+            tga("\n0,", "\n-900,"),
+            ("line 3, column 'Time': given -900", "Delete the rows"),
         ),
         (
             "negative first mass",
