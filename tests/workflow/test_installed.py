@@ -16,7 +16,7 @@ import pytest
 from golden import GOLDEN, checksums
 from tiny import KERNELS, ROOT
 
-BUILD = "import sys; from flit_core import buildapi; print(buildapi.{}(sys.argv[1]))"
+BUILD = "import sys; from hatchling import build; print(build.{}(sys.argv[1]))"
 """What `python -m build` calls, without its environment, which would come from the network."""
 WORKFLOW = {"Snakefile", "study.smk", "rules/imp.smk", "profiles/slurm/config.yaml"}
 
@@ -47,7 +47,7 @@ def test_wheel_has_the_files_of_the_package_and_no_others(wheel: Path) -> None:
     package = ROOT / "src"
     tracked = {
         path.relative_to(package).as_posix()
-        for path in (package / "pyrofit").rglob("*")
+        for path in package.rglob("*")
         if path.is_file() and "__pycache__" not in path.parts
     }
     assert {f"pyrofit/workflow/{name}" for name in WORKFLOW} <= tracked
