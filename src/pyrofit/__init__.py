@@ -1,6 +1,7 @@
 """Inverse modelling of pyrolysis: from measurements of a solid to the parameters of its model.
 
 `__all__` lists the stable names of the Python interface; each is imported when it is first used.
+Packages beside pyrofit add names by entry points of the group ``pyrofit.interface``.
 """
 
 import sys
@@ -39,7 +40,6 @@ _HOMES = {
     "simulate": "api.simulation",
     "write_study": "api.saving",
 }
-__all__ = ["__version__", *_HOMES]  # pyright: ignore; __init__.pyi has the types
 
 
 class _Package(ModuleType):
@@ -59,13 +59,24 @@ sys.modules[__name__].__class__ = _Package
 
 def __getattr__(name: str) -> Any:
     """Import a name of the interface when it is first used."""
-    if name not in _HOMES:
+    if name == "__all__":
+        return __dir__()
+    if name in _HOMES:
+        found = getattr(import_module(f"pyrofit.{_HOMES[name]}"), name)
+    elif name not in _added():
         raise AttributeError(f"module 'pyrofit' has no attribute '{name}'")
-    found = getattr(import_module(f"pyrofit.{_HOMES[name]}"), name)
+    else:
+        found = import_module("pyrofit.discovery").loaded(_added()[name])
     globals()[name] = found
     return found
 
 
+def _added() -> dict[str, Any]:
+    """Return the entry points of names that other packages add."""
+    points: dict[str, Any] = import_module("pyrofit.discovery").added("interface")
+    return points
+
+
 def __dir__() -> list[str]:
     """List the names of the interface."""
-    return sorted(__all__)
+    return sorted({"__version__", *_HOMES, *_added()})

@@ -41,8 +41,9 @@ def software(project: Path) -> dict[str, bytes]:
         taken, and the versions of this environment stand for the lock file.
     """
     entries = {
-        f"src/pyrofit/{path.relative_to(PACKAGE).as_posix()}": path.read_bytes()
-        for path in PACKAGE.rglob("*")
+        f"src/{path.relative_to(PACKAGE.parent).as_posix()}": path.read_bytes()
+        for folder in (PACKAGE, *(p.parent for p in PACKAGE.parent.glob("pyrofit_*/__init__.py")))
+        for path in folder.rglob("*")
         if path.is_file() and "__pycache__" not in path.parts
     }
     if not is_project(project):

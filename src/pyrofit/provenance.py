@@ -2,13 +2,15 @@
 
 import hashlib
 import importlib.metadata
+import importlib.util
 import os
 import platform
-from collections.abc import Iterable, Mapping
+from collections.abc import Callable, Iterable, Mapping
 from functools import cache
 from pathlib import Path
 from typing import Any
 
+from pyrofit.discovery import added
 from pyrofit.sources import keep_digests, source_of
 from pyrofit.steps import known_steps
 
@@ -39,6 +41,7 @@ STUDY = (
         )
     ),
     "pyrofit.show.report",
+    *(page.module for page in added("pages").values()),
     *(module for step in known_steps().values() for module in step.modules),
 )
 """Modules of all steps of a study."""
@@ -51,8 +54,8 @@ BY_USE = ("pyrofit.effects", "pyrofit.steps")
 def source_fingerprint(*modules: str) -> str:
     """Return a hash of the code of some modules, of the data registry and numeric packages.
 
-    Whatever they import of pyrofit counts as well, at whatever distance, with the files beside it
-    that are no Python. Comments and docstrings do not count. Snakemake does not notice an edit to
+    Whatever they import of their own packages, of pyrofit and of the packages ``pyrofit_*`` counts
+    as well, at whatever distance, with the files beside it that are no Python. Comments and docstrings do not count. Snakemake does not notice an edit to
     an imported package: rules carry this as a parameter.
 
     Parameters
@@ -60,15 +63,19 @@ def source_fingerprint(*modules: str) -> str:
     modules
         Full names, such as ``pyrofit.stages.fit``.
     """
-    root = Path(__file__).parent
     total = hashlib.sha256()
     for package in NUMERIC:
         total.update(f"{package} {_version(package)}".encode())
-    sources = _reached(_modules_here(root), modules)
-    folders = {path.parent for path in sources}
-    beside = {p for folder in folders for p in folder.iterdir() if p.suffix in (".j2", ".txt")}
-    for path in sorted(sources | beside):
-        total.update(path.relative_to(root).as_posix().encode())
+    reached = _reached(Path(__file__).parent, modules, _modules_here)
+    folders = {path.parent: name.rpartition(".")[0] for name, path in reached.items()}
+    beside = {
+        f"{name}/{p.name}": p
+        for folder, name in folders.items()
+        for p in folder.iterdir()
+        if p.suffix in (".j2", ".txt")
+    }
+    for name, path in sorted((reached | beside).items()):
+        total.update(name.encode())
         total.update(source_of(path).digest.encode())
     keep_digests()
     return total.hexdigest()[:16]
@@ -78,35 +85,63 @@ _version = cache(importlib.metadata.version)
 
 
 def imported_files(root: Path, modules: Iterable[str]) -> set[Path]:
-    """Return the files of the package in ``root`` that modules are made of and import.
+    """Return the files that modules are made of and import.
 
     Imports anywhere in a file count, those for type checks alone included; so do the packages
     around a module, which are imported with it.
+
+    Parameters
+    ----------
+    root
+        Folder of pyrofit; its other packages lie beside it.
+    modules
+        Full names.
 
     Raises
     ------
     ValueError
         There is no such module.
     """
-    return _reached(_files_by_module(root), modules)
+    return set(_reached(root, modules, _files_by_module).values())
 
 
-def _reached(files: Mapping[str, Path], modules: Iterable[str]) -> set[Path]:
-    ahead = list(modules)
-    if unknown := [name for name in ahead if name not in files]:
-        raise ValueError(f"there is no module {', '.join(unknown)}")
-    found: set[Path] = set()
+def _reached(
+    root: Path, modules: Iterable[str], files_in: Callable[[Path], Mapping[str, Path]]
+) -> dict[str, Path]:
+    """Return the files that modules are made of and import, by the full names of the modules."""
+    wanted = list(modules)
+    ahead = wanted.copy()
+    packages = {root.name, *(name.partition(".")[0] for name in wanted)}
+    files: dict[str, Path] = {}
+    read: set[str] = set()
+    found: dict[str, Path] = {}
     while ahead:
         name = ahead.pop()
-        path = files.get(name)
-        if path in found:
+        package = name.partition(".")[0]
+        if name in found or not (package in packages or package.startswith(f"{root.name}_")):
             continue
+        if package not in read:
+            read.add(package)
+            files.update(files_in(_folder(root, package)))
+        path = files.get(name)
         if path is not None:  # else a name in a module
-            found.add(path)
+            found[name] = path
             ahead += source_of(path).imports
             ahead += _catalogue(name, files)
         ahead += [name.rpartition(".")[0]] if "." in name else []
+    if unknown := [name for name in wanted if name not in found]:
+        raise ValueError(f"there is no module {', '.join(unknown)}")
     return found
+
+
+def _folder(root: Path, package: str) -> Path:
+    """Return the folder of a package: pyrofit's, one beside it, or elsewhere."""
+    beside = root.parent / package
+    if beside.is_dir():
+        return beside
+    spec = importlib.util.find_spec(package)
+    places = spec.submodule_search_locations if spec is not None else None
+    return Path(next(iter(places))) if places else beside
 
 
 def _files_by_module(root: Path) -> dict[str, Path]:

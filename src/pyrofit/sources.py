@@ -9,6 +9,7 @@ import contextlib
 import hashlib
 import json
 import os
+import sys
 import tempfile
 from functools import cache
 from pathlib import Path
@@ -26,7 +27,7 @@ class Source(NamedTuple):
     digest
         Hash of its syntax tree without docstrings; of its bytes, if it is no valid Python.
     imports
-        Modules of the package that it imports, anywhere in it, and names in modules.
+        Modules that it imports, anywhere in it, and names in modules; none of Python's own.
     """
 
     digest: str
@@ -69,8 +70,8 @@ def analysed(content: bytes) -> Source:
             node.values = [part for part in node.values if getattr(part, "value", None) != ""]
         if isinstance(body := getattr(node, "body", None), list):
             node.body = [part for part in body if not _is_text(part)]  # type: ignore[attr-defined]
-    own = frozenset(name for name in names if name.startswith(f"{__package__}."))
-    return Source(hashlib.sha256(_written(tree).encode()).hexdigest(), own)
+    own = {name for name in names if name.partition(".")[0] not in sys.stdlib_module_names}
+    return Source(hashlib.sha256(_written(tree).encode()).hexdigest(), frozenset(own))
 
 
 def _written(part: object) -> str:

@@ -24,6 +24,7 @@ from pyrofit.cli import (
     stepping,
 )
 from pyrofit.cli.parser import Parser
+from pyrofit.discovery import added, loaded
 from pyrofit.errors import BY_RUN, INTERRUPTED, RUN, PyrofitError
 from pyrofit.logs import Tee, open_log
 
@@ -39,7 +40,7 @@ _GROUPS = (
     comparing,
     macfp,
 )
-"""Modules of the commands, in the order of the help."""
+"""Modules of the commands, in the order of the help; those of other packages follow."""
 
 
 def run(arguments: Sequence[str] | None = None) -> int:
@@ -47,7 +48,11 @@ def run(arguments: Sequence[str] | None = None) -> int:
     # Threads of linear algebra would get in the way of the workflow's jobs, and change last bits:
     # Snakemake asks for as many as a job has cores.
     os.environ["OPENBLAS_NUM_THREADS"] = "1"
-    given = _parser().parse_args(arguments)
+    try:
+        given = _parser().parse_args(arguments)
+    except PyrofitError as error:
+        print(f"error: {error}", file=sys.stderr)
+        return 2
     if not logging.root.handlers and logging.lastResort is not None:
         # SPOTPY sets one up for all where there is none, with the names of functions.
         logging.root.addHandler(logging.lastResort)
@@ -145,5 +150,7 @@ def _parser() -> argparse.ArgumentParser:
     commands = parser.add_subparsers(dest="command", required=True, metavar="COMMAND")
     for group in _GROUPS:
         group.add(commands)
+    for point in added("commands").values():
+        loaded(point)(commands)
     parser.set_defaults(program=parser)
     return parser

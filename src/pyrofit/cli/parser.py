@@ -5,6 +5,12 @@ from collections.abc import Callable
 from typing import Any
 
 
+def commands_of(commands: Any, name: str) -> Any:
+    """Return the commands below a command, such as `data`, to which others may be added."""
+    actions = commands.choices[name]._actions
+    return next(action for action in actions if isinstance(action, argparse._SubParsersAction))
+
+
 class Parser(argparse.ArgumentParser):
     """A parser that may take options which are known only after slow imports."""
 

@@ -5,6 +5,7 @@ import sys
 from pathlib import Path
 from typing import Any
 
+from pyrofit.discovery import added, loaded
 from pyrofit.errors import ProgramError, PyrofitError
 
 
@@ -174,7 +175,8 @@ def _study_page() -> str:
     from pyrofit.blind_test.reference import blind_test_keys
     from pyrofit.config.reference import reference_page
 
-    return f"{reference_page()}\n{blind_test_keys()}"
+    others = [loaded(point)() for point in added("reference").values()]
+    return "\n".join([reference_page(), blind_test_keys(), *others])
 
 
 def _diagnosis_page() -> str:

@@ -4,6 +4,7 @@ import re
 from collections.abc import Iterator
 from pathlib import Path
 
+from pyrofit.discovery import added, loaded
 from pyrofit.steps import known_steps
 
 WORKFLOW = Path(__file__).parents[1] / "workflow"
@@ -19,5 +20,6 @@ def targets() -> dict[str, str]:
 
 
 def _texts() -> Iterator[str]:
-    for path in sorted(WORKFLOW.rglob("*.smk")):
+    others = [Path(loaded(point)) for point in added("rules").values()]
+    for path in [*sorted(WORKFLOW.rglob("*.smk")), *others]:
         yield path.read_text(encoding="utf-8")

@@ -1,6 +1,9 @@
 """The report of a study: one page that needs nothing else, and the provenance beside it."""
 
+from typing import Any
+
 from pyrofit.config import Study
+from pyrofit.discovery import added, loaded
 from pyrofit.results import diagnosis, recorded
 from pyrofit.results.files import Results, write_json, write_text
 from pyrofit.show import (
@@ -39,6 +42,7 @@ def write_report(study: Study, results: Results) -> None:
     shown += sections_of("report", study, results)
     if fds_page.exists(results):
         shown.append(fds_page.section(study, results))
+    shown += [page.section(study, results) for page in _pages() if page.exists(results)]
     made = provenance(study, measured)
     if programs_page.exists(study, results):
         shown.append(programs_page.section(study, results))
@@ -53,6 +57,11 @@ def write_report(study: Study, results: Results) -> None:
     text = page_of(study, measured, study.title or study.name, said, shown, *answer, lacks)
     write_json(results.root / "provenance.json", made)
     write_text(results.root / "report.html", text)
+
+
+def _pages() -> list[Any]:
+    """Return the modules of other packages that add a section: ``exists`` and ``section``."""
+    return [loaded(point) for point in added("pages").values()]
 
 
 def tables_of(study: Study, results: Results) -> Frames:

@@ -29,8 +29,8 @@ class Step:
         Its function ``write`` does that, from the value that ``run`` returns.
     early
         Whether every run makes it, before the fits.
-    name
-        Name of its folder; `known_steps` fills it in.
+    name, package
+        Name of its folder, and full name of its package; `known_steps` fills them in.
     """
 
     place: int
@@ -43,11 +43,7 @@ class Step:
     write: str = ""
     early: bool = False
     name: str = ""
-
-    @property
-    def package(self) -> str:
-        """Full name of its package."""
-        return f"pyrofit.steps.{self.name}"
+    package: str = ""
 
     def load(self, module: str) -> Any:
         """Return one of its modules: ``options``, ``inputs``, ``compute`` or ``page``."""

@@ -27,6 +27,7 @@ from pyrofit.config import as_study, digest
 from pyrofit.config.programs import externals, program_files
 from pyrofit.config.unmeasured import unmeasured
 from pyrofit.config.unusual import unusual
+from pyrofit.discovery import added, loaded
 from pyrofit.errors import PyrofitError
 from pyrofit.provenance import STUDY as STUDY_MODULES
 from pyrofit.provenance import source_fingerprint
@@ -153,6 +154,12 @@ include: "rules/report.smk"
 include: "rules/fds.smk"
 include: "rules/diagnosis.smk"
 include: "rules/steps.smk"
+
+
+for _point in added("rules").values():
+
+    include: str(loaded(_point))
+
 
 
 # Everything, not the report alone: what is deleted or was removed with a failed run is made again.
