@@ -59,7 +59,7 @@ verification: $(VENV)/installed
 
 EXPLORED := docs/figures/explore/smoke.html
 
-$(EXPLORED): $(VENV)/installed config/smoke.yaml $(wildcard src/pyrofit/explore/*)
+$(EXPLORED): $(VENV)/installed config/smoke.yaml $(wildcard src/pyrofit_explore/*)
 	pyrofit explore config/smoke.yaml --static $@ --sliders dh
 
 docs: $(VENV)/installed $(EXPLORED)

@@ -25,7 +25,7 @@ MOST_WORDS = 25
 FEWEST_WORDS = 5
 """Shorter strings of the library are keys, not prose."""
 _PAGES = ("*.md",)
-_LIBRARY = ("src/pyrofit/**/*.py", "src/pyrofit/**/*.html.j2", "src/pyrofit/**/*.yaml.j2")
+_LIBRARY = ("src/**/*.py", "src/**/*.html.j2", "src/**/*.yaml.j2")
 _LEFT_OUT = ("docs/verification/", "docs/site/")
 _WORD = re.compile(r"[\w°%µ²³·/'’+−-]*[A-Za-z0-9][\w°%µ²³·/'’+−-]*")
 _END = re.compile(r"(?<=[.!?])[\"')*]*\s+(?=\S)|\n\s*\n")
@@ -61,7 +61,7 @@ def main() -> int:
 def checked_files() -> list[Path]:
     """Return the files of the repository that readers see."""
     listed = subprocess.run(
-        ["git", "ls-files", "--", *_PAGES, "src/pyrofit"],
+        ["git", "ls-files", "--", *_PAGES, "src"],
         cwd=ROOT,
         capture_output=True,
         text=True,

@@ -27,7 +27,6 @@ _HOMES = {
     "compare_with": "api.against",
     "diagnose": "api.diagnosing",
     "effects": "api.catalogue",
-    "explore": "explore.run",
     "fit": "api.fitting",
     "isoconversional": "api.isoconversional",
     "log_likelihood": "api.objectives",

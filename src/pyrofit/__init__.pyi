@@ -24,7 +24,7 @@ from pyrofit.api.simulation import simulate as simulate
 from pyrofit.api.studies import read_study as read_study
 from pyrofit.config import Study as Study
 from pyrofit.errors import PyrofitError as PyrofitError
-from pyrofit.explore.run import explore as explore
+from pyrofit_explore.run import explore as explore
 
 __version__: str
 __all__ = [

@@ -55,8 +55,9 @@ def source_fingerprint(*modules: str) -> str:
     """Return a hash of the code of some modules, of the data registry and numeric packages.
 
     Whatever they import of their own packages, of pyrofit and of the packages ``pyrofit_*`` counts
-    as well, at whatever distance, with the files beside it that are no Python. Comments and docstrings do not count. Snakemake does not notice an edit to
-    an imported package: rules carry this as a parameter.
+    as well, at whatever distance. So do the files beside it that are no Python. Comments and
+    docstrings do not count. Snakemake does not notice an edit to an imported package: rules carry
+    this as a parameter.
 
     Parameters
     ----------

@@ -23,9 +23,9 @@ from pyrofit.data.fetch import FOLDER_VARIABLE
 from pyrofit.errors import DataError, StudyError
 from pyrofit.exchange.macfp.material import strict_of
 from pyrofit.exchange.macfp.numeric import numeric
-from pyrofit.explore.model import model_of
-from pyrofit.explore.published import PublishedSets
 from pyrofit.stages.measurements import computed
+from pyrofit_explore.model import model_of
+from pyrofit_explore.published import PublishedSets
 
 SMOKE = Path(__file__).parents[2] / "config" / "smoke.yaml"
 TRUTH = yaml.safe_load(SMOKE.read_text())["synthetic"]["truth"]

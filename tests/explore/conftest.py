@@ -7,7 +7,7 @@ import pytest
 
 import pyrofit as pf
 from pyrofit.config import Study
-from pyrofit.explore.session import Session, session_of
+from pyrofit_explore.session import Session, session_of
 
 SMOKE = Path(__file__).parents[2] / "config" / "smoke.yaml"
 

@@ -18,12 +18,12 @@ import pyrofit as pf
 from pyrofit.cli import main
 from pyrofit.config import Study
 from pyrofit.data.fetch import FOLDER_VARIABLE
-from pyrofit.explore.describe import in_shown_units
-from pyrofit.explore.fit import Send
-from pyrofit.explore.run import Explorer
-from pyrofit.explore.server import in_background
-from pyrofit.explore.session import Session, State, session_of
-from pyrofit.explore.static import write_static
+from pyrofit_explore.describe import in_shown_units
+from pyrofit_explore.fit import Send
+from pyrofit_explore.run import Explorer
+from pyrofit_explore.server import in_background
+from pyrofit_explore.session import Session, State, session_of
+from pyrofit_explore.static import write_static
 
 pytestmark = pytest.mark.skipif(bool(lacking()), reason=f"not here: {lacking()}")
 ROOT = Path(__file__).parents[2]

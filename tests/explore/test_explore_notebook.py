@@ -11,10 +11,10 @@ from typing import Any
 import pytest
 
 import pyrofit as pf
-from pyrofit.cli.exploring import INSTALLED_TWIN
 from pyrofit.errors import StudyError
-from pyrofit.explore.run import Explorer
-from pyrofit.explore.session import Session
+from pyrofit_explore.commands import INSTALLED_TWIN
+from pyrofit_explore.run import Explorer
+from pyrofit_explore.session import Session
 
 SMOKE = Path(__file__).parents[2] / "config" / "smoke.yaml"
 

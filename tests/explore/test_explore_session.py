@@ -17,14 +17,14 @@ import pyrofit as pf
 from pyrofit.config import Study, as_study, as_yaml, read_mapping
 from pyrofit.errors import StudyError
 from pyrofit.estimate.problem import Problem
-from pyrofit.explore.describe import describe
-from pyrofit.explore.fit import fit
-from pyrofit.explore.model import model_of
-from pyrofit.explore.save import save
-from pyrofit.explore.session import Session, State, session_of, state_of
-from pyrofit.explore.sets import named_sets
 from pyrofit.plugins import use_plugins
 from pyrofit.results.files import Results
+from pyrofit_explore.describe import describe
+from pyrofit_explore.fit import fit
+from pyrofit_explore.model import model_of
+from pyrofit_explore.save import save
+from pyrofit_explore.session import Session, State, session_of, state_of
+from pyrofit_explore.sets import named_sets
 
 sys.path.insert(0, str(Path(__file__).parents[1] / "recovery"))
 import test_cone_twin as cone

@@ -11,8 +11,8 @@ import pytest
 
 from pyrofit.cli import main
 from pyrofit.errors import StudyError
-from pyrofit.explore.session import Session, State, stacked
-from pyrofit.explore.static import MOST_BYTES, strongest, write_static
+from pyrofit_explore.session import Session, State, stacked
+from pyrofit_explore.static import MOST_BYTES, strongest, write_static
 
 
 @pytest.fixture(scope="module")

@@ -13,9 +13,9 @@ from conftest import SMOKE
 from pyrofit.compare_with.published import Published, material_in
 from pyrofit.constants import GAS_CONSTANT
 from pyrofit.exchange.macfp.schema import StrictSet
-from pyrofit.explore.model import Model
-from pyrofit.explore.session import Session, State
-from pyrofit.explore.taken import taken
+from pyrofit_explore.model import Model
+from pyrofit_explore.session import Session, State
+from pyrofit_explore.taken import taken
 
 Change = Callable[[dict[str, Any]], object]
 

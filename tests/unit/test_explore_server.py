@@ -8,8 +8,8 @@ from typing import Any
 import pytest
 
 from pyrofit.errors import StudyError
-from pyrofit.explore.page import page
-from pyrofit.explore.server import LONGEST, Server, in_background
+from pyrofit_explore.page import page
+from pyrofit_explore.server import LONGEST, Server, in_background
 
 Given = Mapping[str, Any]
 

@@ -61,7 +61,6 @@ ORDER = [
         "archive_texts",
         "archive_zip",
         "blind_test",
-        "explore",
     },
     {"cli"},
     {"__main__"},
@@ -285,10 +284,8 @@ def test_one_repetition_loads_no_integrator() -> None:
     assert loaded("pyrofit.stages.fit", "scipy.integrate", "scipy.optimize", "scipy.stats") == "[]"
 
 
-def test_only_the_command_and_the_interface_know_the_explorer() -> None:
-    users = {p for p in modules() if "explore" in own(p)} - set((SOURCE / "explore").glob("*.py"))
-    assert names_of(sorted(users)) == ["cli/exploring.py"]
-    assert loaded("pyrofit.cli.command", "http.server", "pyrofit.explore") == "[]"
+def test_commands_load_nothing_to_serve_pages() -> None:
+    assert loaded("pyrofit.cli.command", "http.server", "pyrofit_explore.server") == "[]"
 
 
 def loaded(modules: str, *names: str) -> str:

@@ -15,7 +15,6 @@ from pyrofit.cli import (
     comparing,
     diagnosing,
     exchanging,
-    exploring,
     fitting,
     macfp,
     running,
@@ -30,7 +29,6 @@ from pyrofit.logs import Tee, open_log
 
 _GROUPS = (
     starting,
-    exploring,
     running,
     fitting,
     stepping,

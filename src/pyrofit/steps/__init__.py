@@ -22,9 +22,7 @@ def known_steps() -> dict[str, Step]:
         Another package adds a step of a name that exists.
     """
     found = contents(__name__, __path__, "STEP")
-    steps = [
-        replace(step, name=name, package=f"{__name__}.{name}") for name, step in found.items()
-    ]
+    steps = [replace(step, name=name, package=f"{__name__}.{name}") for name, step in found.items()]
     for name, point in added("steps").items():
         if name in found:
             raise PyrofitError(

@@ -11,12 +11,12 @@ import numpy as np
 
 from pyrofit.api.choices import in_units
 from pyrofit.errors import StudyError, suggest
-from pyrofit.explore.describe import describe, drawn, in_shown_units, middle
-from pyrofit.explore.model import Model
-from pyrofit.explore.page import page
-from pyrofit.explore.session import Session
 from pyrofit.results.files import write_text
 from pyrofit.solver.arrays import FloatArray
+from pyrofit_explore.describe import describe, drawn, in_shown_units, middle
+from pyrofit_explore.model import Model
+from pyrofit_explore.page import page
+from pyrofit_explore.session import Session
 
 MOST_BYTES = 5_000_000
 """Largest page."""

@@ -10,8 +10,8 @@ from pyrofit.api.studies import read_study
 from pyrofit.config import Study
 from pyrofit.effects import known_effects
 from pyrofit.errors import StudyError
-from pyrofit.explore.session import Session, State
 from pyrofit.results.files import write_json
+from pyrofit_explore.session import Session, State
 
 _NAME = re.compile(r"[A-Za-z][A-Za-z0-9_]{0,60}")
 

@@ -6,8 +6,8 @@ from functools import cached_property
 
 from pyrofit.compare_with.published import Published, material_in, published, shown_by
 from pyrofit.errors import DataError, StudyError, suggest
-from pyrofit.explore.model import Model, Simulated
 from pyrofit.model.slab import SlabExperiment
+from pyrofit_explore.model import Model, Simulated
 
 
 class PublishedSets:

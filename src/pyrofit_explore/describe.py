@@ -13,9 +13,9 @@ from pyrofit.config import Study
 from pyrofit.config.resolve import diagnosed_material
 from pyrofit.config.uses import parameters_in
 from pyrofit.effects import known_effects
-from pyrofit.explore.model import Model, possible_effects
 from pyrofit.quantities.units import ICE_POINT_K
 from pyrofit.solver.arrays import FloatArray
+from pyrofit_explore.model import Model, possible_effects
 
 MOST_POINTS = 300
 """Points of a signal that are drawn; all count in the numbers."""

@@ -13,10 +13,10 @@ from pyrofit.estimate.bounded_least_squares import minimise
 from pyrofit.estimate.likelihood import ENOUGH, Likelihood
 from pyrofit.estimate.pose import of_diagnosis, pose
 from pyrofit.estimate.prior import prior_of
-from pyrofit.explore.noise import Noise
-from pyrofit.explore.session import Session, State
 from pyrofit.numerics import linear
 from pyrofit.solver.arrays import FloatArray
+from pyrofit_explore.noise import Noise
+from pyrofit_explore.session import Session, State
 
 EVERY_S = 0.3
 """Least time between two messages."""

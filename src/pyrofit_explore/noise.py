@@ -18,8 +18,8 @@ from pyrofit.estimate.noise import NoiseModel
 from pyrofit.estimate.pose import of_diagnosis
 from pyrofit.estimate.pose_likelihood import pose_likelihood
 from pyrofit.estimate.targets import Measurements
-from pyrofit.explore.model import free_parameters
 from pyrofit.plugins import use_plugins
+from pyrofit_explore.model import free_parameters
 
 Noise = tuple[NoiseModel, ...]
 

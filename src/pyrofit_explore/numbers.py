@@ -6,9 +6,9 @@ from typing import Any
 import numpy as np
 
 from pyrofit.cost.distances import root_mean_square
-from pyrofit.explore.model import Model, Simulated
-from pyrofit.explore.noise import Noise
 from pyrofit.numerics import linear
+from pyrofit_explore.model import Model, Simulated
+from pyrofit_explore.noise import Noise
 
 
 def numbers(model: Model, simulated: Simulated, noise: Noise | None) -> dict[str, Any]:

@@ -27,4 +27,4 @@ def page(data: Mapping[str, Any], nonce: str = "") -> str:
 
 @cache
 def _read(name: str) -> str:
-    return files("pyrofit.explore").joinpath(name).read_text(encoding="utf-8")
+    return files("pyrofit_explore").joinpath(name).read_text(encoding="utf-8")

@@ -15,15 +15,15 @@ from pyrofit.config import Study
 from pyrofit.config.read import read_study
 from pyrofit.errors import StudyError, suggest
 from pyrofit.estimate.targets import Measurements
-from pyrofit.explore.describe import describe, in_shown_units, middle
-from pyrofit.explore.model import Model, Simulated, model_of
-from pyrofit.explore.noise import Noise, PendingNoise
-from pyrofit.explore.numbers import numbers
-from pyrofit.explore.sets import named_sets
 from pyrofit.results.files import Results
 from pyrofit.stages.measurements import computed
 from pyrofit.stages.reading import read_all
 from pyrofit.steps.posterior import record as posterior
+from pyrofit_explore.describe import describe, in_shown_units, middle
+from pyrofit_explore.model import Model, Simulated, model_of
+from pyrofit_explore.noise import Noise, PendingNoise
+from pyrofit_explore.numbers import numbers
+from pyrofit_explore.sets import named_sets
 
 MOST_MODELS = 16
 """Combinations of effects that are kept."""

@@ -15,12 +15,12 @@ from pyrofit.api.studies import Source, read_study
 from pyrofit.config import Study
 from pyrofit.config.resolve import diagnosed_parameters
 from pyrofit.errors import StudyError
-from pyrofit.explore.fit import Send, fit
-from pyrofit.explore.published import PublishedSets
-from pyrofit.explore.save import save
-from pyrofit.explore.server import Server, in_background
-from pyrofit.explore.session import Session, packed, session_of, stacked, state_of
-from pyrofit.explore.taken import taken
+from pyrofit_explore.fit import Send, fit
+from pyrofit_explore.published import PublishedSets
+from pyrofit_explore.save import save
+from pyrofit_explore.server import Server, in_background
+from pyrofit_explore.session import Session, packed, session_of, stacked, state_of
+from pyrofit_explore.taken import taken
 
 Given = Mapping[str, Any]
 

@@ -11,10 +11,10 @@ from pyrofit.config.uses import HEATS, parameters_in
 from pyrofit.errors import DataError
 from pyrofit.exchange.macfp.forms import Nothing
 from pyrofit.exchange.macfp.material import has_heat, material_of
-from pyrofit.explore.model import Model
-from pyrofit.explore.sets import reference_temperature
 from pyrofit.model.base import named_by, numbers
 from pyrofit.model.material import Material, Reaction
+from pyrofit_explore.model import Model
+from pyrofit_explore.sets import reference_temperature
 
 PROPERTIES = (
     "density_kg_m3",

@@ -6,7 +6,7 @@ from pathlib import Path
 from typing import Any
 
 TWIN = Path("config/twin.yaml")
-INSTALLED_TWIN = Path(__file__).parents[1] / "explore" / "twin.yaml"
+INSTALLED_TWIN = Path(__file__).with_name("twin.yaml")
 """The same study, for folders without the repository."""
 
 
@@ -43,8 +43,8 @@ def _study(given: argparse.Namespace) -> Path:
 
 
 def _write(given: argparse.Namespace) -> None:
-    from pyrofit.explore.session import session_of
-    from pyrofit.explore.static import write_static
+    from pyrofit_explore.session import session_of
+    from pyrofit_explore.static import write_static
 
     session = session_of(_study(given), given.results, given.set, noise=False)
     write_static(session, given.sliders, given.set, given.static)
@@ -57,7 +57,7 @@ def _explore(given: argparse.Namespace) -> None:
     if given.static is not None:
         _write(given)
         return
-    from pyrofit.explore.run import Explorer
+    from pyrofit_explore.run import Explorer
 
     explorer = Explorer(_study(given), given.results, given.set, given.port)
     print(f"{explorer.address}\nCtrl-C ends it.", flush=True)

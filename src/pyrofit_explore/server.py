@@ -11,7 +11,7 @@ from typing import Any
 from urllib.parse import parse_qs, urlsplit
 
 from pyrofit.errors import PyrofitError, StudyError
-from pyrofit.explore.page import page
+from pyrofit_explore.page import page
 
 LONGEST = 1_000_000
 """Bytes of a request at most."""
