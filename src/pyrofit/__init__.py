@@ -24,7 +24,6 @@ _HOMES = {
     "Study": "config",
     "compare": "api.comparison",
     "compare_models": "api.models",
-    "compare_with": "api.against",
     "diagnose": "api.diagnosing",
     "effects": "api.catalogue",
     "fit": "api.fitting",

@@ -1,4 +1,3 @@
-from pyrofit.api.against import compare_with as compare_with
 from pyrofit.api.catalogue import effects as effects
 from pyrofit.api.comparison import Comparison as Comparison
 from pyrofit.api.comparison import compare as compare
@@ -24,6 +23,7 @@ from pyrofit.api.simulation import simulate as simulate
 from pyrofit.api.studies import read_study as read_study
 from pyrofit.config import Study as Study
 from pyrofit.errors import PyrofitError as PyrofitError
+from pyrofit_compare.against import compare_with as compare_with
 from pyrofit_explore.run import explore as explore
 
 __version__: str

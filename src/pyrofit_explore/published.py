@@ -4,9 +4,9 @@ from collections.abc import Mapping
 from dataclasses import replace
 from functools import cached_property
 
-from pyrofit.compare_with.published import Published, material_in, published, shown_by
 from pyrofit.errors import DataError, StudyError, suggest
 from pyrofit.model.slab import SlabExperiment
+from pyrofit_compare.published import Published, material_in, published, shown_by
 from pyrofit_explore.model import Model, Simulated
 
 

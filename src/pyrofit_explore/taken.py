@@ -5,7 +5,6 @@ from dataclasses import dataclass
 from functools import cached_property
 from typing import NamedTuple
 
-from pyrofit.compare_with.published import Published
 from pyrofit.config.resolve import diagnosed_material
 from pyrofit.config.uses import HEATS, parameters_in
 from pyrofit.errors import DataError
@@ -13,6 +12,7 @@ from pyrofit.exchange.macfp.forms import Nothing
 from pyrofit.exchange.macfp.material import has_heat, material_of
 from pyrofit.model.base import named_by, numbers
 from pyrofit.model.material import Material, Reaction
+from pyrofit_compare.published import Published
 from pyrofit_explore.model import Model
 from pyrofit_explore.sets import reference_temperature
 

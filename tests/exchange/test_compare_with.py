@@ -9,7 +9,7 @@ import yaml
 
 import pyrofit as pf
 from pyrofit.cli import main
-from pyrofit.compare_with.compute import OURS, REPEATS
+from pyrofit_compare.compute import OURS, REPEATS
 
 SMOKE = Path(__file__).parents[2] / "config" / "smoke.yaml"
 TRUTH = yaml.safe_load(SMOKE.read_text())["synthetic"]["truth"]

@@ -10,8 +10,13 @@ import yaml
 
 import pyrofit as pf
 from pyrofit.cli import main
-from pyrofit.compare_with.compute import REPEATS
-from pyrofit.compare_with.published import (
+from pyrofit.data.fetch import FOLDER_VARIABLE
+from pyrofit.errors import DataError, StudyError
+from pyrofit.exchange.macfp.material import strict_of
+from pyrofit.exchange.macfp.numeric import numeric
+from pyrofit.stages.measurements import computed
+from pyrofit_compare.compute import REPEATS
+from pyrofit_compare.published import (
     LIBRARY,
     MEAN,
     by_signal,
@@ -19,11 +24,6 @@ from pyrofit.compare_with.published import (
     errors,
     published,
 )
-from pyrofit.data.fetch import FOLDER_VARIABLE
-from pyrofit.errors import DataError, StudyError
-from pyrofit.exchange.macfp.material import strict_of
-from pyrofit.exchange.macfp.numeric import numeric
-from pyrofit.stages.measurements import computed
 from pyrofit_explore.model import model_of
 from pyrofit_explore.published import PublishedSets
 

@@ -5,9 +5,9 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from pyrofit.compare_with.others import matching, read_prediction, read_predictions
-from pyrofit.compare_with.score import mean_of
 from pyrofit.errors import DataError
+from pyrofit_compare.others import matching, read_prediction, read_predictions
+from pyrofit_compare.score import mean_of
 
 ROWS = "0,72.0,293,293\n1,71.9,294,300\n2,71.7,295,310\n"
 

@@ -51,7 +51,6 @@ ORDER = [
     {"new_study"},
     {"doctor", "ready"},
     {"show"},
-    {"compare_with"},
     {"work of steps"},
     {"api"},
     {

@@ -12,7 +12,6 @@ from collections.abc import Iterator, Sequence
 from types import FrameType
 
 from pyrofit.cli import (
-    comparing,
     diagnosing,
     exchanging,
     fitting,
@@ -35,7 +34,6 @@ _GROUPS = (
     diagnosing,
     showing,
     exchanging,
-    comparing,
     macfp,
 )
 """Modules of the commands, in the order of the help; those of other packages follow."""

@@ -6,9 +6,9 @@ from pathlib import Path
 
 from pyrofit.api.arguments import path_of, paths_of, word_of
 from pyrofit.api.studies import Source, read_study
-from pyrofit.compare_with import compute
-from pyrofit.compare_with.compute import ComparedWith
 from pyrofit.results.files import Results
+from pyrofit_compare import compute
+from pyrofit_compare.compute import ComparedWith
 
 Path_ = str | os.PathLike[str]
 

@@ -7,9 +7,6 @@ from typing import NamedTuple
 import numpy as np
 import pandas as pd
 
-from pyrofit.compare_with.compute import REPEATS, Key, Series, both_records, measured_series
-from pyrofit.compare_with.from_fds import set_of_fds
-from pyrofit.compare_with.score import at_times, mean_of, nrms
 from pyrofit.config import Study, parameters_in
 from pyrofit.data.fetch import store
 from pyrofit.errors import DataError, suggest
@@ -21,6 +18,9 @@ from pyrofit.model.experiment import Experiment
 from pyrofit.model.material import Material
 from pyrofit.model.slab import SlabExperiment
 from pyrofit.stages.reading import SYNTHETIC
+from pyrofit_compare.compute import REPEATS, Key, Series, both_records, measured_series
+from pyrofit_compare.from_fds import set_of_fds
+from pyrofit_compare.score import at_times, mean_of, nrms
 
 FOLDER = "Material_Properties"
 MEAN = "mean"
@@ -133,7 +133,7 @@ def overview(sets: Mapping[str, Published]) -> pd.DataFrame:
 def errors(study: Study, sets: Mapping[str, Published]) -> tuple[pd.DataFrame, list[str]]:
     """Return the error of each set at each test of a study, and remarks.
 
-    The error is that of `pyrofit.compare_with.score.nrms`, the root mean square of the predicted
+    The error is that of `pyrofit_compare.score.nrms`, the root mean square of the predicted
     minus the measured mean over its range. Rows are sets, the smallest mean error first; those that
     predict a part of the tests follow. Columns are tests and signals. The last row has the scatter
     of the repeats.

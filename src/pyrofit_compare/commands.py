@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING, Any
 if TYPE_CHECKING:
     import pandas as pd
 
-    from pyrofit.compare_with.published import Published
+    from pyrofit_compare.published import Published
 
 
 def add(commands: Any) -> None:
@@ -57,10 +57,10 @@ def _add_compare_with(commands: Any) -> None:
 
 
 def _compare(given: argparse.Namespace) -> None:
-    from pyrofit.compare_with.compute import compare_with
-    from pyrofit.compare_with.page import summary, write
     from pyrofit.config import read_study
     from pyrofit.results.files import Results
+    from pyrofit_compare.compute import compare_with
+    from pyrofit_compare.page import summary, write
 
     study = read_study(given.study)
     results = Results(given.results or Path("results") / study.name)
@@ -72,7 +72,7 @@ def _compare(given: argparse.Namespace) -> None:
 
 
 def _materials(given: argparse.Namespace) -> None:
-    from pyrofit.compare_with import published
+    from pyrofit_compare import published
 
     sets, left = published.published(given.folder)
     sets = published.chosen(sets, given.names)

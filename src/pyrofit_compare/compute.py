@@ -7,9 +7,6 @@ from pathlib import Path
 import numpy as np
 import pandas as pd
 
-from pyrofit.compare_with.given import exposure, read_tests, thickness
-from pyrofit.compare_with.others import Curve, matching, read_predictions
-from pyrofit.compare_with.score import Mean, at_times, mean_of, nrms
 from pyrofit.config import Study
 from pyrofit.errors import DataError, StudyError
 from pyrofit.exchange.sets import parameter_set
@@ -19,6 +16,9 @@ from pyrofit.model.slab import SlabExperiment
 from pyrofit.results.files import Results
 from pyrofit.solver.arrays import FloatArray
 from pyrofit.stages.reading import read_all
+from pyrofit_compare.given import exposure, read_tests, thickness
+from pyrofit_compare.others import Curve, matching, read_predictions
+from pyrofit_compare.score import Mean, at_times, mean_of, nrms
 
 OURS, REPEATS = "this study", "scatter of repeats"
 LEAST_K = 200.0

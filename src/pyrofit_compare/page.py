@@ -5,10 +5,10 @@ from pathlib import Path
 
 import pandas as pd
 
-from pyrofit.compare_with.compute import OURS, REPEATS, ComparedWith, Key, group_of
 from pyrofit.results.files import write_bytes, write_csv
 from pyrofit.show.style import style
 from pyrofit.show.units import shown
+from pyrofit_compare.compute import OURS, REPEATS, ComparedWith, Key, group_of
 
 PAGE, TABLE, SUMMARY = "comparison.md", "scores.csv", "summary.csv"
 
