@@ -73,7 +73,7 @@ lint: $(VENV)/installed
 	ruff check .
 	ruff format --check .
 	mypy
-	snakefmt --check Snakefile workflow src/pyrofit/workflow
+	snakefmt --check Snakefile workflow src
 	codespell
 	python tools/plain_words.py --check
 	! grep -n "://" requirements.lock
@@ -84,7 +84,7 @@ bench: $(VENV)/installed
 format: $(VENV)/installed
 	ruff check --fix .
 	ruff format .
-	snakefmt Snakefile workflow src/pyrofit/workflow
+	snakefmt Snakefile workflow src
 
 lock:
 	uv pip compile pyproject.toml --extra dev --extra docs --extra slurm --universal --python-version 3.11 --generate-hashes \

@@ -105,7 +105,7 @@ def _long(errors: "pd.DataFrame") -> "pd.DataFrame":
 def _show(sets: Iterable["Published"]) -> None:
     import json
 
-    from pyrofit.exchange.macfp.material import material_of
+    from pyrofit_exchange.macfp.material import material_of
 
     for one in sets:
         print(f"# {one.name}: {one.strict.material}, {one.strict.laboratory}")

@@ -9,7 +9,6 @@ import pandas as pd
 
 from pyrofit.config import Study
 from pyrofit.errors import DataError, StudyError
-from pyrofit.exchange.sets import parameter_set
 from pyrofit.experiments import kind_of
 from pyrofit.model.material import Material
 from pyrofit.model.slab import SlabExperiment
@@ -19,6 +18,7 @@ from pyrofit.stages.reading import read_all
 from pyrofit_compare.given import exposure, read_tests, thickness
 from pyrofit_compare.others import Curve, matching, read_predictions
 from pyrofit_compare.score import Mean, at_times, mean_of, nrms
+from pyrofit_exchange.sets import parameter_set
 
 OURS, REPEATS = "this study", "scatter of repeats"
 LEAST_K = 200.0

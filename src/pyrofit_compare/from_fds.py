@@ -4,12 +4,12 @@ from pathlib import Path
 from typing import NamedTuple
 
 from pyrofit.errors import DataError
-from pyrofit.exchange.fds.imported import import_fds
-from pyrofit.exchange.fds.parse import read_namelists
-from pyrofit.exchange.fds.versions import NEW, FdsError
-from pyrofit.exchange.macfp.material import strict_of
-from pyrofit.exchange.macfp.schema import StrictSet
 from pyrofit.model.material import Material
+from pyrofit_exchange.fds.imported import import_fds
+from pyrofit_exchange.fds.parse import read_namelists
+from pyrofit_exchange.fds.versions import NEW, FdsError
+from pyrofit_exchange.macfp.material import strict_of
+from pyrofit_exchange.macfp.schema import StrictSet
 
 
 class SetOfFds(NamedTuple):

@@ -10,9 +10,6 @@ import pandas as pd
 from pyrofit.config import Study, parameters_in
 from pyrofit.data.fetch import store
 from pyrofit.errors import DataError, suggest
-from pyrofit.exchange.macfp.material import has_heat, material_of
-from pyrofit.exchange.macfp.read import read_set
-from pyrofit.exchange.macfp.schema import StrictSet
 from pyrofit.experiments import kind_of
 from pyrofit.model.experiment import Experiment
 from pyrofit.model.material import Material
@@ -21,6 +18,9 @@ from pyrofit.stages.reading import SYNTHETIC
 from pyrofit_compare.compute import REPEATS, Key, Series, both_records, measured_series
 from pyrofit_compare.from_fds import set_of_fds
 from pyrofit_compare.score import at_times, mean_of, nrms
+from pyrofit_exchange.macfp.material import has_heat, material_of
+from pyrofit_exchange.macfp.read import read_set
+from pyrofit_exchange.macfp.schema import StrictSet
 
 FOLDER = "Material_Properties"
 MEAN = "mean"

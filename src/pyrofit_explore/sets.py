@@ -10,10 +10,10 @@ from pyrofit.api.choices import in_units
 from pyrofit.config import Study
 from pyrofit.constants import GAS_CONSTANT
 from pyrofit.errors import PyrofitError
-from pyrofit.exchange.sets import DIAGNOSIS, TRUTH, named_set
 from pyrofit.model.material import Reaction
 from pyrofit.results.files import Results
 from pyrofit.stages.predict import sets_of
+from pyrofit_exchange.sets import DIAGNOSIS, TRUTH, named_set
 
 Named = dict[str, dict[str, float]]
 """Values by parameter in the units of the study, by the name of their set."""

@@ -8,11 +8,11 @@ from typing import NamedTuple
 from pyrofit.config.resolve import diagnosed_material
 from pyrofit.config.uses import HEATS, parameters_in
 from pyrofit.errors import DataError
-from pyrofit.exchange.macfp.forms import Nothing
-from pyrofit.exchange.macfp.material import has_heat, material_of
 from pyrofit.model.base import named_by, numbers
 from pyrofit.model.material import Material, Reaction
 from pyrofit_compare.published import Published
+from pyrofit_exchange.macfp.forms import Nothing
+from pyrofit_exchange.macfp.material import has_heat, material_of
 from pyrofit_explore.model import Model
 from pyrofit_explore.sets import reference_temperature
 

@@ -5,15 +5,15 @@ from functools import cache
 from bases import Base, having, pmma
 
 from pyrofit.effects import known_effects
-from pyrofit.exchange.fds.export import text_of
-from pyrofit.exchange.fds.heated import heated_deck
-from pyrofit.exchange.fds.parse import read_namelists
-from pyrofit.exchange.fds.predicted import Predicted, predict_slab
-from pyrofit.exchange.fds.slab import Deck, slab_deck
-from pyrofit.exchange.fds.versions import OLD, Version
 from pyrofit.model.accuracy import Accuracy
 from pyrofit.model.heated import HeatedExperiment
 from pyrofit.model.slab import SlabExperiment
+from pyrofit_exchange.fds.export import text_of
+from pyrofit_exchange.fds.heated import heated_deck
+from pyrofit_exchange.fds.parse import read_namelists
+from pyrofit_exchange.fds.predicted import Predicted, predict_slab
+from pyrofit_exchange.fds.slab import Deck, slab_deck
+from pyrofit_exchange.fds.versions import OLD, Version
 
 
 def lines(deck: Deck) -> list[str]:

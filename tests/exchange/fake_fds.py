@@ -7,7 +7,7 @@ from pathlib import Path
 import numpy as np
 import pandas as pd
 
-from pyrofit.exchange.fds.export import Written
+from pyrofit_exchange.fds.export import Written
 
 SCRIPT = """\
 #!{python} -S

@@ -13,17 +13,17 @@ from fake_fds import install
 
 from pyrofit.cli import main
 from pyrofit.config import Study, read_study
-from pyrofit.exchange.fds.agreement import levels, slab_agreement
-from pyrofit.exchange.fds.check import check
-from pyrofit.exchange.fds.export import Written, decks, slab_curve
-from pyrofit.exchange.fds.read import read_devc, read_tga
-from pyrofit.exchange.fds.run import version_text
-from pyrofit.exchange.fds.versions import OLD, FdsError
-from pyrofit.exchange.sets import ParameterSet, parameter_set
 from pyrofit.external.fds import find_fds
 from pyrofit.results.files import Results
-from pyrofit.show import fds_page
 from pyrofit.show.parts import Part
+from pyrofit_exchange import fds_page
+from pyrofit_exchange.fds.agreement import levels, slab_agreement
+from pyrofit_exchange.fds.check import check
+from pyrofit_exchange.fds.export import Written, decks, slab_curve
+from pyrofit_exchange.fds.read import read_devc, read_tga
+from pyrofit_exchange.fds.run import version_text
+from pyrofit_exchange.fds.versions import OLD, FdsError
+from pyrofit_exchange.sets import ParameterSet, parameter_set
 
 ROOT = Path(__file__).parents[2]
 SMOKE = ROOT / "config" / "smoke.yaml"

@@ -10,11 +10,11 @@ import pytest
 from bases import Base, having
 from decks import base, deck_of, predicted
 
-from pyrofit.exchange.fds.agreement import Agreement, heated_agreement, levels, slab_agreement
-from pyrofit.exchange.fds.export import slab_curve
-from pyrofit.exchange.fds.predicted import predict_heated
 from pyrofit.experiments import Tga
 from pyrofit.model.accuracy import Accuracy
+from pyrofit_exchange.fds.agreement import Agreement, heated_agreement, levels, slab_agreement
+from pyrofit_exchange.fds.export import slab_curve
+from pyrofit_exchange.fds.predicted import predict_heated
 
 HERE = Path(__file__).parent / "data" / "fds"
 VALUES = {

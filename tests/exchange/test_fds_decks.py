@@ -12,17 +12,17 @@ from decks import base, deck_of, keys, lines, predicted, with_effect
 
 from pyrofit.constants import STEFAN_BOLTZMANN as SIGMA
 from pyrofit.effects import known_effects
-from pyrofit.exchange.fds.exposure import surroundings
-from pyrofit.exchange.fds.include import FACTOR
-from pyrofit.exchange.fds.namelists import unique
-from pyrofit.exchange.fds.orders import first_order_sum, same_half_time, unreacted
-from pyrofit.exchange.fds.properties import CELSIUS_K
-from pyrofit.exchange.fds.remarks import Remark
-from pyrofit.exchange.fds.slab import Deck
-from pyrofit.exchange.fds.unwritten import unwritten
-from pyrofit.exchange.fds.versions import NEW, OLD, FdsError, Version, version_of
 from pyrofit.experiments import Cone
 from pyrofit.model.slab import SlabExperiment
+from pyrofit_exchange.fds.exposure import surroundings
+from pyrofit_exchange.fds.include import FACTOR
+from pyrofit_exchange.fds.namelists import unique
+from pyrofit_exchange.fds.orders import first_order_sum, same_half_time, unreacted
+from pyrofit_exchange.fds.properties import CELSIUS_K
+from pyrofit_exchange.fds.remarks import Remark
+from pyrofit_exchange.fds.slab import Deck
+from pyrofit_exchange.fds.unwritten import unwritten
+from pyrofit_exchange.fds.versions import NEW, OLD, FdsError, Version, version_of
 
 HERE = Path(__file__).parent / "data"
 WRITE = bool(os.environ.get("PYROFIT_WRITE_GOLDEN"))

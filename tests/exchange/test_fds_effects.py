@@ -15,9 +15,9 @@ import pytest
 from bases import Base, having
 from decks import base, deck_of, predicted
 
-from pyrofit.exchange.fds.agreement import levels, slab_agreement
-from pyrofit.exchange.fds.export import slab_curve
 from pyrofit.model.slab import SlabExperiment
+from pyrofit_exchange.fds.agreement import levels, slab_agreement
+from pyrofit_exchange.fds.export import slab_curve
 
 HERE = Path(__file__).parent / "data" / "effects"
 CASES: dict[str, dict[str, Any]] = json.loads((HERE / "cases.json").read_text())

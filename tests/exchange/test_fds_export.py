@@ -7,7 +7,7 @@ import pytest
 
 from pyrofit.cli import main
 from pyrofit.config import as_yaml, read_mapping, read_study
-from pyrofit.exchange.fds.parse import read_namelists
+from pyrofit_exchange.fds.parse import read_namelists
 
 ROOT = Path(__file__).parents[2]
 

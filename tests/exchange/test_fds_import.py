@@ -10,13 +10,13 @@ import yaml
 from decks import base, deck_of
 
 from pyrofit.cli import main
-from pyrofit.exchange.fds.export import text_of
-from pyrofit.exchange.fds.imported import import_fds
-from pyrofit.exchange.fds.predicted import predict_heated
-from pyrofit.exchange.fds.versions import NEW, OLD, FdsError
 from pyrofit.experiments import Tga
 from pyrofit.model.accuracy import Accuracy
 from pyrofit.model.material import Material
+from pyrofit_exchange.fds.export import text_of
+from pyrofit_exchange.fds.imported import import_fds
+from pyrofit_exchange.fds.predicted import predict_heated
+from pyrofit_exchange.fds.versions import NEW, OLD, FdsError
 
 LINES = """
 Comment, not a line & nothing

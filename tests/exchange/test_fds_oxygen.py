@@ -8,16 +8,16 @@ import pytest
 from bases import Base, having
 from decks import base, deck_of, keys, predicted
 
-from pyrofit.exchange.fds.export import text_of
-from pyrofit.exchange.fds.imported import import_fds
-from pyrofit.exchange.fds.predicted import predict_heated
-from pyrofit.exchange.fds.versions import NEW, OLD
-from pyrofit.exchange.gpyro.data import slab_data
-from pyrofit.exchange.steps import steps_of
 from pyrofit.experiments import Cone, Tga
 from pyrofit.model.accuracy import Accuracy
 from pyrofit.model.material import Material
 from pyrofit.model.slab import SlabExperiment
+from pyrofit_exchange.fds.export import text_of
+from pyrofit_exchange.fds.imported import import_fds
+from pyrofit_exchange.fds.predicted import predict_heated
+from pyrofit_exchange.fds.versions import NEW, OLD
+from pyrofit_exchange.gpyro.data import slab_data
+from pyrofit_exchange.steps import steps_of
 
 AIR = 0.209
 Y_AIR = AIR * 31.9988 / (AIR * 31.9988 + (1.0 - AIR) * 28.0134)

@@ -14,10 +14,10 @@ from bases import Base, having
 from decks import base, deck_of
 from numpy.typing import NDArray
 
-from pyrofit.exchange.fds.export import text_of
-from pyrofit.exchange.fds.parse import read_namelists
-from pyrofit.exchange.fds.predicted import Predicted
 from pyrofit.model.slab import SlabExperiment
+from pyrofit_exchange.fds.export import text_of
+from pyrofit_exchange.fds.parse import read_namelists
+from pyrofit_exchange.fds.predicted import Predicted
 
 HERE = Path(__file__).parent / "data" / "run"
 NAMES = ("T_A", "E_A", "T_B", "E_B", "w_A", "rho_a", "k_a", "cp_a", "eps_a", "dh")

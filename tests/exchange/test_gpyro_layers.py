@@ -8,17 +8,17 @@ import numpy as np
 import pandas as pd
 import pytest
 
-from pyrofit.exchange.fds.layers import Layer
-from pyrofit.exchange.fds.namelists import write_all
-from pyrofit.exchange.fds.parse import read_namelists
-from pyrofit.exchange.fds.predicted import predict_slab
-from pyrofit.exchange.gpyro.data import Data, slab_data
-from pyrofit.exchange.gpyro.grid import MOST, grid_of
 from pyrofit.experiments import Gasification
 from pyrofit.model.accuracy import Accuracy
 from pyrofit.model.material import Material
 from pyrofit.simulate import simulate_gasification
 from pyrofit.solver.curves import Request
+from pyrofit_exchange.fds.layers import Layer
+from pyrofit_exchange.fds.namelists import write_all
+from pyrofit_exchange.fds.parse import read_namelists
+from pyrofit_exchange.fds.predicted import predict_slab
+from pyrofit_exchange.gpyro.data import Data, slab_data
+from pyrofit_exchange.gpyro.grid import MOST, grid_of
 
 CURVE = Path(__file__).parents[1] / "data" / "gpyro" / "layers_40.csv"
 FOIL = {"thickness_m": 1e-4, "density_kg_m3": 8940, "specific_heat_J_kgK": 380}

@@ -11,21 +11,21 @@ from scipy.integrate import solve_ivp
 
 from pyrofit.cli import main
 from pyrofit.errors import StudyError
-from pyrofit.exchange.fds.namelists import write_all
-from pyrofit.exchange.fds.parse import read_namelists
-from pyrofit.exchange.fds.predicted import predict_heated
-from pyrofit.exchange.fitted_forms import power_law, quadratic
-from pyrofit.exchange.gpyro.data import Data, heated_data, slab_data
-from pyrofit.exchange.programs import _strongest
-from pyrofit.exchange.spyro import Curve, ignition, ramp
-from pyrofit.exchange.steps import steps_of
-from pyrofit.exchange.thermakin.components import Components, component_file
-from pyrofit.exchange.thermakin.conditions import heated_conditions, slab_conditions
 from pyrofit.experiments import Tga
 from pyrofit.model.accuracy import Accuracy
 from pyrofit.model.slab import SlabExperiment
 from pyrofit.model.time_table import TimeTable
 from pyrofit.solver.arrays import TABLE_TEMPERATURES_K
+from pyrofit_exchange.fds.namelists import write_all
+from pyrofit_exchange.fds.parse import read_namelists
+from pyrofit_exchange.fds.predicted import predict_heated
+from pyrofit_exchange.fitted_forms import power_law, quadratic
+from pyrofit_exchange.gpyro.data import Data, heated_data, slab_data
+from pyrofit_exchange.programs import _strongest
+from pyrofit_exchange.spyro import Curve, ignition, ramp
+from pyrofit_exchange.steps import steps_of
+from pyrofit_exchange.thermakin.components import Components, component_file
+from pyrofit_exchange.thermakin.conditions import heated_conditions, slab_conditions
 
 ROOT = Path(__file__).parents[2]
 GROUPS = [

@@ -12,8 +12,6 @@ import pyrofit as pf
 from pyrofit.cli import main
 from pyrofit.data.fetch import FOLDER_VARIABLE
 from pyrofit.errors import DataError, StudyError
-from pyrofit.exchange.macfp.material import strict_of
-from pyrofit.exchange.macfp.numeric import numeric
 from pyrofit.stages.measurements import computed
 from pyrofit_compare.compute import REPEATS
 from pyrofit_compare.published import (
@@ -24,6 +22,8 @@ from pyrofit_compare.published import (
     errors,
     published,
 )
+from pyrofit_exchange.macfp.material import strict_of
+from pyrofit_exchange.macfp.numeric import numeric
 from pyrofit_explore.model import model_of
 from pyrofit_explore.published import PublishedSets
 

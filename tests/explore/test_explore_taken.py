@@ -11,8 +11,8 @@ import yaml
 from conftest import SMOKE
 
 from pyrofit.constants import GAS_CONSTANT
-from pyrofit.exchange.macfp.schema import StrictSet
 from pyrofit_compare.published import Published, material_in
+from pyrofit_exchange.macfp.schema import StrictSet
 from pyrofit_explore.model import Model
 from pyrofit_explore.session import Session, State
 from pyrofit_explore.taken import taken

@@ -12,14 +12,14 @@ from macfp_sets import OLD, ZERO_BASED, write
 
 from pyrofit.cli import main
 from pyrofit.errors import DataError
-from pyrofit.exchange.macfp.forms import Lines, alike, to_study
-from pyrofit.exchange.macfp.lint import unusual
-from pyrofit.exchange.macfp.material import has_heat, material_of, strict_of
-from pyrofit.exchange.macfp.numeric import numeric
-from pyrofit.exchange.macfp.read import read_set
-from pyrofit.exchange.macfp.schema import StrictSet, schema
-from pyrofit.exchange.macfp.tolerant import read_json
 from pyrofit.model.material import Material
+from pyrofit_exchange.macfp.forms import Lines, alike, to_study
+from pyrofit_exchange.macfp.lint import unusual
+from pyrofit_exchange.macfp.material import has_heat, material_of, strict_of
+from pyrofit_exchange.macfp.numeric import numeric
+from pyrofit_exchange.macfp.read import read_set
+from pyrofit_exchange.macfp.schema import StrictSet, schema
+from pyrofit_exchange.macfp.tolerant import read_json
 
 ROOT = Path(__file__).parents[2]
 MENDED = {

@@ -11,15 +11,15 @@ from scipy.integrate import cumulative_trapezoid
 
 from pyrofit.cli import main
 from pyrofit.constants import GAS_CONSTANT
-from pyrofit.exchange.macfp.compare import CASES
-from pyrofit.exchange.macfp.predict import (
+from pyrofit_exchange.macfp.compare import CASES
+from pyrofit_exchange.macfp.predict import (
     PMMA_CASES,
     material,
     metrics,
     simulate_case,
     simulate_program,
 )
-from pyrofit.exchange.macfp.read import read_set
+from pyrofit_exchange.macfp.read import read_set
 
 ROOT = Path(os.environ.get("PYROFIT_DATA_DIR", ""))
 FIRST_ORDER = ("Aalto_I", "BUW-FZJ_A", "GIDAZE+", "NIST", "UCLAN", "UMET")

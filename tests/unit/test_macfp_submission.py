@@ -8,11 +8,11 @@ import pytest
 
 from pyrofit.cli import main
 from pyrofit.config import read_study
-from pyrofit.exchange.macfp.numeric import numeric
-from pyrofit.exchange.macfp.predict import WOOD_CASES, material, simulate_case
-from pyrofit.exchange.macfp.read import read_set
-from pyrofit.exchange.macfp.readme import _absent
-from pyrofit.exchange.macfp.schema import Composition, Kinetics, StrictSet
+from pyrofit_exchange.macfp.numeric import numeric
+from pyrofit_exchange.macfp.predict import WOOD_CASES, material, simulate_case
+from pyrofit_exchange.macfp.read import read_set
+from pyrofit_exchange.macfp.readme import _absent
+from pyrofit_exchange.macfp.schema import Composition, Kinetics, StrictSet
 
 SMOKE = Path(__file__).parents[2] / "config" / "smoke.yaml"
 

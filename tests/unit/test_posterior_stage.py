@@ -18,7 +18,6 @@ from pyrofit.estimate import ensembles
 from pyrofit.estimate.likelihood import likelihood_of
 from pyrofit.estimate.prior import prior_of
 from pyrofit.estimate.problem import make_problem
-from pyrofit.exchange.sets import parameter_set
 from pyrofit.results import recorded
 from pyrofit.results.files import Results, read_csv, write_csv, write_json
 from pyrofit.results.identification import Noise, write_noise
@@ -28,6 +27,7 @@ from pyrofit.steps.posterior import record as posterior
 from pyrofit.steps.posterior.compute import run
 from pyrofit.steps.posterior.page import PAGE
 from pyrofit.steps.posterior.sentences import sentences
+from pyrofit_exchange.sets import parameter_set
 
 STEPS, SETS = 24, 12
 CHANGES: dict[str, Any] = {

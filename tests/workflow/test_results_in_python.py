@@ -4,9 +4,9 @@ import pytest
 from tiny import Project
 
 import pyrofit as pf
-from pyrofit.exchange.sets import parameter_set
 from pyrofit.results.files import Results
 from pyrofit.stages.fit import fixed_for_imp
+from pyrofit_exchange.sets import parameter_set
 
 
 def test_results_of_a_campaign_are_simulated_again(untouched: Project) -> None:

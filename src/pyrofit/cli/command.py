@@ -13,9 +13,7 @@ from types import FrameType
 
 from pyrofit.cli import (
     diagnosing,
-    exchanging,
     fitting,
-    macfp,
     running,
     showing,
     starting,
@@ -33,8 +31,6 @@ _GROUPS = (
     stepping,
     diagnosing,
     showing,
-    exchanging,
-    macfp,
 )
 """Modules of the commands, in the order of the help; those of other packages follow."""
 

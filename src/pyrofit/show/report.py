@@ -8,7 +8,6 @@ from pyrofit.results import diagnosis, recorded
 from pyrofit.results.files import Results, write_json, write_text
 from pyrofit.show import (
     diagnosis_page,
-    fds_page,
     programs_page,
 )
 from pyrofit.show.answer import ANSWER
@@ -40,8 +39,6 @@ def write_report(study: Study, results: Results) -> None:
     )
     shown = [one for part in SECTIONS if (one := _shown(part, study, results, facts))]
     shown += sections_of("report", study, results)
-    if fds_page.exists(results):
-        shown.append(fds_page.section(study, results))
     shown += [page.section(study, results) for page in _pages() if page.exists(results)]
     made = provenance(study, measured)
     if programs_page.exists(study, results):

@@ -151,7 +151,6 @@ include: "rules/isoconversional.smk"
 include: "rules/validation.smk"
 include: "rules/comparison.smk"
 include: "rules/report.smk"
-include: "rules/fds.smk"
 include: "rules/diagnosis.smk"
 include: "rules/steps.smk"
 
@@ -159,7 +158,6 @@ include: "rules/steps.smk"
 for _point in added("rules").values():
 
     include: str(loaded(_point))
-
 
 
 # Everything, not the report alone: what is deleted or was removed with a failed run is made again.

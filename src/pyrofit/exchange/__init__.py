@@ -1,1 +1,0 @@
-"""Exchange with other programs: the parts of a study that they can express, and their files."""
