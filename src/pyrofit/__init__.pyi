@@ -10,8 +10,6 @@ from pyrofit.api.fitted import Fit as Fit
 from pyrofit.api.fitting import fit as fit
 from pyrofit.api.isoconversional import Isoconversional as Isoconversional
 from pyrofit.api.isoconversional import isoconversional as isoconversional
-from pyrofit.api.look import Look as Look
-from pyrofit.api.look import look as look
 from pyrofit.api.measurements import read_data as read_data
 from pyrofit.api.models import compare_models as compare_models
 from pyrofit.api.objectives import log_likelihood as log_likelihood
@@ -25,6 +23,8 @@ from pyrofit.config import Study as Study
 from pyrofit.errors import PyrofitError as PyrofitError
 from pyrofit_compare.against import compare_with as compare_with
 from pyrofit_explore.run import explore as explore
+from pyrofit_files.look import Look as Look
+from pyrofit_files.look import look as look
 
 __version__: str
 __all__ = [

@@ -9,10 +9,10 @@ import numpy as np
 import pytest
 
 from pyrofit.cli import main
-from pyrofit.doctor.examined import Examined
-from pyrofit.doctor.names import label_of
-from pyrofit.doctor.report import examine_folder, summary
 from pyrofit.errors import DataError
+from pyrofit_files.examined import Examined
+from pyrofit_files.names import label_of
+from pyrofit_files.report import examine_folder, summary
 
 T = np.arange(300.0, 900.0, 2.0)
 TIME = (T - 300.0) * 6.0

@@ -8,8 +8,8 @@ import pytest
 
 from pyrofit.data.series import Measurement, read_series
 from pyrofit.data.spec import SeriesSpec
-from pyrofit.doctor.report import examine_folder
 from pyrofit.errors import DataError
+from pyrofit_files.report import examine_folder
 
 TGA = """Time,Temperature,Mass
 [s],[K],[mg]

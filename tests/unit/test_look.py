@@ -7,7 +7,7 @@ import pytest
 
 import pyrofit as pf
 from pyrofit.cli import main
-from pyrofit.doctor.looked import derivative, look
+from pyrofit_files.looked import derivative, look
 
 
 def tga(path: Path, centre_K: float, unit: str = "[K]") -> Path:

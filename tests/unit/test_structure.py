@@ -48,7 +48,7 @@ ORDER = [
     {"analysis"},
     {"stages"},
     {"new_study"},
-    {"doctor", "ready"},
+    {"ready"},
     {"show"},
     {"work of steps"},
     {"api"},

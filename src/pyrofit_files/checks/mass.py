@@ -3,8 +3,8 @@
 import numpy as np
 
 from pyrofit.data.suspect import JUMP, standing_out
-from pyrofit.doctor.examined import Examined, Signal
-from pyrofit.doctor.signals import heated_mass, is_heated, slab_mass
+from pyrofit_files.examined import Examined, Signal
+from pyrofit_files.signals import heated_mass, is_heated, slab_mass
 
 _MICRO_KG = (5e-7, 1e-4)
 """Masses of samples in a crucible [kg]."""

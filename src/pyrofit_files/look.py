@@ -5,10 +5,10 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import TYPE_CHECKING
 
-from pyrofit.api import look_picture as picture
-from pyrofit.doctor.looked import Looked
-from pyrofit.doctor.looked import look as look_at
 from pyrofit.show import style
+from pyrofit_files import look_picture as picture
+from pyrofit_files.looked import Looked
+from pyrofit_files.looked import look as look_at
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure

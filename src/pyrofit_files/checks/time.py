@@ -2,8 +2,8 @@
 
 import numpy as np
 
-from pyrofit.doctor.examined import Examined
-from pyrofit.doctor.signals import in_time
+from pyrofit_files.examined import Examined
+from pyrofit_files.signals import in_time
 
 _GAP = 20.0
 """Multiple of the usual step that counts as a gap."""

@@ -2,8 +2,8 @@
 
 from collections.abc import Callable, Sequence
 
-from pyrofit.doctor.checks import copies, groups, heat, mass, padding, temperature, time
-from pyrofit.doctor.examined import Examined
+from pyrofit_files.checks import copies, groups, heat, mass, padding, temperature, time
+from pyrofit_files.examined import Examined
 
 ALONE: tuple[Callable[[Examined], None], ...] = (
     time.check_order,

@@ -10,15 +10,15 @@ import pandas as pd
 from pyrofit.data.convert import to_si
 from pyrofit.data.csvfile import Table, read_table
 from pyrofit.data.spec import SeriesSpec
-from pyrofit.doctor.content import best_kind
-from pyrofit.doctor.examined import Examined, Signal
-from pyrofit.doctor.names import Label
-from pyrofit.doctor.properties import property_signals
-from pyrofit.doctor.readme import Facts
 from pyrofit.errors import DataError
 from pyrofit.experiments import KINDS
 from pyrofit.experiments.heated.from_files import recorded_rate
 from pyrofit.new_study.columns import Found
+from pyrofit_files.content import best_kind
+from pyrofit_files.examined import Examined, Signal
+from pyrofit_files.names import Label
+from pyrofit_files.properties import property_signals
+from pyrofit_files.readme import Facts
 
 _TOTAL = "total"
 

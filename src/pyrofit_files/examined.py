@@ -9,8 +9,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from pyrofit.data.csvfile import Table
-from pyrofit.doctor.names import Label
-from pyrofit.doctor.readme import Facts
+from pyrofit_files.names import Label
+from pyrofit_files.readme import Facts
 
 FloatArray = NDArray[np.float64]
 Weight = Literal["fault", "doubt", "note"]

@@ -2,9 +2,9 @@
 
 import numpy as np
 
-from pyrofit.doctor.examined import Examined, FloatArray, Weight
-from pyrofit.doctor.signals import is_back, is_slab, temperatures
 from pyrofit.numerics import linear
+from pyrofit_files.examined import Examined, FloatArray, Weight
+from pyrofit_files.signals import is_back, is_slab, temperatures
 
 _ROOM_K = (270.0, 320.0)
 _POSSIBLE_K = (180.0, 1600.0)

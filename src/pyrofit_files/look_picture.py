@@ -6,13 +6,13 @@ import io
 from pathlib import Path
 from typing import Any
 
-from pyrofit.doctor.looked import Looked, Series, abscissa, derivative
 from pyrofit.errors import DataError
 from pyrofit.quantities.base import Shown
 from pyrofit.quantities.units import ICE_POINT_K
 from pyrofit.results.files import write_bytes
 from pyrofit.show import style
 from pyrofit.show.drawn import Axes, Canvas
+from pyrofit_files.looked import Looked, Series, abscissa, derivative
 
 ENDINGS = (".png", ".svg", ".html")
 LONGEST = 40

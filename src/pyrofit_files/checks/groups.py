@@ -5,8 +5,8 @@ from collections.abc import Callable, Iterator, Sequence
 
 import numpy as np
 
-from pyrofit.doctor.examined import Examined, FloatArray, Signal
-from pyrofit.doctor.signals import (
+from pyrofit_files.examined import Examined, FloatArray, Signal
+from pyrofit_files.signals import (
     heat_flow,
     heat_release,
     is_heated,

@@ -5,12 +5,12 @@ from collections.abc import Iterable, Iterator, Sequence
 from pathlib import Path
 from typing import Any
 
-from pyrofit.doctor.checks import run_checks
-from pyrofit.doctor.classify import examine
-from pyrofit.doctor.examined import Examined
-from pyrofit.doctor.names import Label, label_of
-from pyrofit.doctor.readme import Facts, facts_of, read_readme
 from pyrofit.errors import DataError
+from pyrofit_files.checks import run_checks
+from pyrofit_files.classify import examine
+from pyrofit_files.examined import Examined
+from pyrofit_files.names import Label, label_of
+from pyrofit_files.readme import Facts, facts_of, read_readme
 
 ENDINGS = {".csv", ".txt", ".tsv", ".dat", ".asc"}
 TEXTS = ENDINGS - {".csv", ".tsv"}

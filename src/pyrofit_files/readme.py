@@ -6,7 +6,7 @@ from collections.abc import Mapping
 from dataclasses import dataclass, replace
 from pathlib import Path
 
-from pyrofit.doctor.names import Label, label_of
+from pyrofit_files.names import Label, label_of
 
 _COLUMNS = {
     "mass_kg": (r"(?!.*final)(?!.*(cup|crucible|pan)).*mass\s*[\[(](mg|g|kg)[\])].*", 2),

@@ -2,8 +2,8 @@
 
 import numpy as np
 
-from pyrofit.doctor.examined import Examined
-from pyrofit.doctor.signals import heat_flow, heat_release, specific_release
+from pyrofit_files.examined import Examined
+from pyrofit_files.signals import heat_flow, heat_release, specific_release
 
 _LARGEST = (
     (heat_release, 2e4, 4e6, "kW/m2"),

@@ -2,10 +2,10 @@
 
 from collections.abc import Callable
 
-from pyrofit.doctor.examined import Examined, Signal
 from pyrofit.experiments import KINDS
 from pyrofit.quantities import known_quantities
 from pyrofit.quantities.base import Quantity
+from pyrofit_files.examined import Examined, Signal
 
 _POWER = "specific power"
 

@@ -3,8 +3,8 @@
 import numpy as np
 
 from pyrofit.data.csvfile import Table
-from pyrofit.doctor.examined import Signal
 from pyrofit.quantities.units import ICE_POINT_K, header_key, unit_key
+from pyrofit_files.examined import Signal
 
 _PER_METRE = {"cm-1": 100.0, "1/cm": 100.0, "/cm": 100.0}
 _DIFFUSIVITY = {"mm2/s": 1e-6, "m2/s": 1.0, "cm2/s": 1e-4}

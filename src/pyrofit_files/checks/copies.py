@@ -4,7 +4,7 @@ from collections.abc import Sequence
 
 import numpy as np
 
-from pyrofit.doctor.examined import Examined, FloatArray
+from pyrofit_files.examined import Examined, FloatArray
 
 _RUN = 12
 """Values in succession that no two tests share by chance, where most of them differ."""

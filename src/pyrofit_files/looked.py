@@ -8,16 +8,16 @@ import numpy as np
 import pandas as pd
 
 from pyrofit.analysis.differing_repeats import lines_on_repeats
-from pyrofit.doctor.checks import run_checks
-from pyrofit.doctor.classify import examine
-from pyrofit.doctor.examined import Examined, FloatArray, Signal
-from pyrofit.doctor.names import label_of
-from pyrofit.doctor.readme import facts_of, read_readme
 from pyrofit.errors import DataError
 from pyrofit.new_study.repeats import root_of
 from pyrofit.quantities import known_quantities
 from pyrofit.quantities.base import Quantity
 from pyrofit.quantities.units import PER_START
+from pyrofit_files.checks import run_checks
+from pyrofit_files.classify import examine
+from pyrofit_files.examined import Examined, FloatArray, Signal
+from pyrofit_files.names import label_of
+from pyrofit_files.readme import facts_of, read_readme
 
 FIRST = 5
 """Points whose median is the initial value."""
@@ -151,7 +151,7 @@ def look(files: Iterable[Path]) -> Looked:
 
 def _files(given: Path) -> list[Path]:
     if given.is_dir():
-        from pyrofit.doctor.report import measured_files
+        from pyrofit_files.report import measured_files
 
         return sorted(measured_files(given))
     if not given.is_file():

@@ -2,9 +2,9 @@
 
 import numpy as np
 
-from pyrofit.doctor.examined import Examined
-from pyrofit.doctor.signals import in_time
 from pyrofit.new_study.reasons import NO_VALUES, PLACEHOLDER
+from pyrofit_files.examined import Examined
+from pyrofit_files.signals import in_time
 
 _ROWS = 10
 _SHARE = 0.02

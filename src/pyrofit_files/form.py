@@ -4,8 +4,8 @@ from collections import Counter
 from collections.abc import Iterator, Sequence
 from pathlib import Path
 
-from pyrofit.doctor.examined import Examined, Finding
 from pyrofit.errors import DataError
+from pyrofit_files.examined import Examined, Finding
 
 _HEATED = ("tga", "dsc", "mcc")
 
