@@ -10,8 +10,6 @@ from typing import Any
 import numpy as np
 import pandas as pd
 
-from pyrofit.blind_test.plan import strength_of
-from pyrofit.blind_test.setting import Setting, read_setting
 from pyrofit.config import Study, as_study, read_mapping
 from pyrofit.data.noise import draw
 from pyrofit.model.signal import Noise
@@ -22,6 +20,8 @@ from pyrofit.solver.arrays import FloatArray
 from pyrofit.stages.fit import fit_kinetics, fixed_for_imp
 from pyrofit.stages.identify import identify_kinetics
 from pyrofit.stages.measurements import computed, prepare
+from pyrofit_blind_test.plan import strength_of
+from pyrofit_blind_test.setting import Setting, read_setting
 
 CONFIG = Path(__file__).parents[1] / "config"
 ESTIMATED = ("rho_a", "k_a", "cp_a", "eps_a", "k_r", "dh")

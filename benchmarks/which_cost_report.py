@@ -16,7 +16,6 @@ from which_cost_numbers import (
     ratios,
 )
 
-from pyrofit.blind_test.rates import interval
 from pyrofit.results.files import Results, write_text
 from pyrofit.show.style import (
     TWO_COLUMNS,
@@ -28,6 +27,7 @@ from pyrofit.show.style import (
     save,
     style,
 )
+from pyrofit_blind_test.rates import interval
 
 GROUPS = {
     "white": "white noise",

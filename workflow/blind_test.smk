@@ -10,11 +10,11 @@ from pathlib import Path
 
 from snakemake.utils import min_version
 
-from pyrofit.blind_test.figures import FIGURES
-from pyrofit.blind_test.page import TABLES
-from pyrofit.blind_test.places import RESULTS, Places, folder_of
-from pyrofit.blind_test.run import code_fingerprint
-from pyrofit.blind_test.setting import plan_digest, read_setting
+from pyrofit_blind_test.figures import FIGURES
+from pyrofit_blind_test.page import TABLES
+from pyrofit_blind_test.places import RESULTS, Places, folder_of
+from pyrofit_blind_test.run import code_fingerprint
+from pyrofit_blind_test.setting import plan_digest, read_setting
 from pyrofit.errors import PyrofitError
 from pyrofit.provenance import source_fingerprint
 
@@ -121,7 +121,7 @@ rule page:
     params:
         setting=lambda wildcards: TESTS[wildcards.test],
         digest=lambda wildcards: DIGESTS[wildcards.test, wildcards.plan],
-        source=source_fingerprint("pyrofit.blind_test.page"),
+        source=source_fingerprint("pyrofit_blind_test.page"),
     message:
         "Blind test of the diagnosis, {wildcards.test}, plan {wildcards.plan}: tables, figures, page"
     shell:

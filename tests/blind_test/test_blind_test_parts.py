@@ -10,15 +10,6 @@ import numpy as np
 import pandas as pd
 import pytest
 
-from pyrofit.blind_test.detectability import detectability
-from pyrofit.blind_test.page import TABLES, write_results
-from pyrofit.blind_test.places import Places
-from pyrofit.blind_test.plan import Case, cases_of, chunk_of
-from pyrofit.blind_test.rates import by_detectability, interval, rates
-from pyrofit.blind_test.run import run_case, run_chunk
-from pyrofit.blind_test.setting import Setting, read_setting
-from pyrofit.blind_test.table import row_of
-from pyrofit.blind_test.twin import describe, make_twin, read_twin, write_twin
 from pyrofit.config import Study, candidate_effects, diagnosed_parameters
 from pyrofit.effects import known_effects, same_as
 from pyrofit.errors import DataError, StudyError
@@ -37,6 +28,15 @@ from pyrofit.results.diagnosis_schema import (
     OfWindow,
 )
 from pyrofit.results.files import read_json, write_json
+from pyrofit_blind_test.detectability import detectability
+from pyrofit_blind_test.page import TABLES, write_results
+from pyrofit_blind_test.places import Places
+from pyrofit_blind_test.plan import Case, cases_of, chunk_of
+from pyrofit_blind_test.rates import by_detectability, interval, rates
+from pyrofit_blind_test.run import run_case, run_chunk
+from pyrofit_blind_test.setting import Setting, read_setting
+from pyrofit_blind_test.table import row_of
+from pyrofit_blind_test.twin import describe, make_twin, read_twin, write_twin
 
 FILE = Path(__file__).parents[2] / "config" / "blind_test.yaml"
 FORM = {"kind": "form", "strength": 1.0, "signals": "mlr", "noise": "white", "seed": 5}
@@ -400,7 +400,7 @@ def test_interrupted_job_goes_on_and_the_page_shows_all(
     little: Setting, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     places, fake = Places(tmp_path), Fake()
-    monkeypatch.setattr("pyrofit.blind_test.run.source_fingerprint", lambda *_: "one source")
+    monkeypatch.setattr("pyrofit_blind_test.run.source_fingerprint", lambda *_: "one source")
     cases = cases_of(little, "tiny")
     assert sorted(case.kind for case in cases) == ["effect", "null", "pair"]
     with pytest.raises(DataError, match=r"0.json: this result is missing"):
@@ -437,7 +437,7 @@ def test_result_of_another_source_is_made_again(
     (index,) = (i for i in (0, 1) if len(chunk_of(cases_of(little, "tiny"), i, 2)) == 1)
     for source, runs in (("one", 1), ("one", 1), ("another", 2)):
         code = iter([source] * 99)
-        monkeypatch.setattr("pyrofit.blind_test.run.source_fingerprint", lambda *_, c=code: next(c))
+        monkeypatch.setattr("pyrofit_blind_test.run.source_fingerprint", lambda *_, c=code: next(c))
         run_chunk(little, "tiny", index, places, fake)
         case = cases_of(little, "tiny")[index]
         assert len(fake.candidates) == runs * (1 + case.left_out)

@@ -6,11 +6,11 @@ import numpy as np
 import pandas as pd
 import pytest
 
-from pyrofit.blind_test.detectability import Misfit, located
-from pyrofit.blind_test.power import power, thresholds
-from pyrofit.blind_test.rates import bias, coverage, interval, times, windows
-from pyrofit.blind_test.recovery import parameter_rows, strength_rows
 from pyrofit.results.diagnosis_schema import OfWindow
+from pyrofit_blind_test.detectability import Misfit, located
+from pyrofit_blind_test.power import power, thresholds
+from pyrofit_blind_test.rates import bias, coverage, interval, times, windows
+from pyrofit_blind_test.recovery import parameter_rows, strength_rows
 
 SLOPE = {"value": -1.1e-3, "low": -1.2e-3, "high": -1.05e-3, "low_wide": None, "high_wide": None}
 

@@ -9,22 +9,22 @@ import numpy as np
 import pandas as pd
 import pytest
 
-from pyrofit.blind_test import foreign
-from pyrofit.blind_test.agreement import agreement
-from pyrofit.blind_test.places import Places
-from pyrofit.blind_test.plan import Case, cases_of
-from pyrofit.blind_test.recovery import strength_rows
-from pyrofit.blind_test.run import run_case
-from pyrofit.blind_test.setting import Setting, read_setting
-from pyrofit.blind_test.table import row_of
-from pyrofit.blind_test.thin import KEPT, SPACING_S, thin
-from pyrofit.blind_test.twin import describe, make_twin, without_effects
 from pyrofit.config import Study, candidate_effects, read_study
 from pyrofit.diagnose.diagnosis import diagnose
 from pyrofit.effects import known_effects
 from pyrofit.errors import DataError, StudyError
 from pyrofit.estimate.targets import Measurements
 from pyrofit.results.diagnosis_schema import Diagnosis
+from pyrofit_blind_test import foreign
+from pyrofit_blind_test.agreement import agreement
+from pyrofit_blind_test.places import Places
+from pyrofit_blind_test.plan import Case, cases_of
+from pyrofit_blind_test.recovery import strength_rows
+from pyrofit_blind_test.run import run_case
+from pyrofit_blind_test.setting import Setting, read_setting
+from pyrofit_blind_test.table import row_of
+from pyrofit_blind_test.thin import KEPT, SPACING_S, thin
+from pyrofit_blind_test.twin import describe, make_twin, without_effects
 
 CONFIG = Path(__file__).parents[2] / "config"
 FILE = CONFIG / "foreign_truth.yaml"

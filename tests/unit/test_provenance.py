@@ -29,8 +29,8 @@ STEPS = {
     "diagnosis": "pyrofit.stages.diagnose",
     "figures": "pyrofit.show.validation.fig3",
     "report": "pyrofit.show.report",
-    "blind test": "pyrofit.blind_test.run",
-    "page of the blind test": "pyrofit.blind_test.page",
+    "blind test": "pyrofit_blind_test.run",
+    "page of the blind test": "pyrofit_blind_test.page",
 }
 EVERYTHING = set(STEPS)
 EDITS = {

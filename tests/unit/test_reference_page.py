@@ -5,12 +5,12 @@ from pathlib import Path
 
 import pytest
 
-from pyrofit.blind_test.reference import blind_test_keys
-from pyrofit.blind_test.setting import Setting
 from pyrofit.cli import main
 from pyrofit.config import Study
 from pyrofit.config.read import read_mapping
 from pyrofit.config.reference import reference_page
+from pyrofit_blind_test.reference import blind_test_keys
+from pyrofit_blind_test.setting import Setting
 
 ROOT = Path(__file__).parents[2]
 

@@ -58,7 +58,6 @@ ORDER = [
         "archive_software",
         "archive_texts",
         "archive_zip",
-        "blind_test",
     },
     {"cli"},
     {"__main__"},

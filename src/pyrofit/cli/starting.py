@@ -112,11 +112,10 @@ def _reference(given: argparse.Namespace) -> None:
 
 
 def _study_page() -> str:
-    from pyrofit.blind_test.reference import blind_test_keys
     from pyrofit.config.reference import reference_page
 
     others = [loaded(point)() for point in added("reference").values()]
-    return "\n".join([reference_page(), blind_test_keys(), *others])
+    return "\n".join([reference_page(), *others])
 
 
 def _diagnosis_page() -> str:

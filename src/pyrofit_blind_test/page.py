@@ -4,12 +4,15 @@ from pathlib import Path
 
 import pandas as pd
 
-from pyrofit.blind_test import foreign
-from pyrofit.blind_test.figures import FIGURES, draw_all
-from pyrofit.blind_test.places import Places
-from pyrofit.blind_test.plan import cases_of
-from pyrofit.blind_test.power import power
-from pyrofit.blind_test.rates import (
+from pyrofit.errors import DataError
+from pyrofit.results.files import write_csv, write_text
+from pyrofit.show.text import markdown
+from pyrofit_blind_test import foreign
+from pyrofit_blind_test.figures import FIGURES, draw_all
+from pyrofit_blind_test.places import Places
+from pyrofit_blind_test.plan import cases_of
+from pyrofit_blind_test.power import power
+from pyrofit_blind_test.rates import (
     DETECTABLE,
     bias,
     by_detectability,
@@ -19,12 +22,9 @@ from pyrofit.blind_test.rates import (
     times,
     windows,
 )
-from pyrofit.blind_test.recovery import parameters, strengths
-from pyrofit.blind_test.setting import Setting
-from pyrofit.blind_test.table import diagnosed, twins
-from pyrofit.errors import DataError
-from pyrofit.results.files import write_csv, write_text
-from pyrofit.show.text import markdown
+from pyrofit_blind_test.recovery import parameters, strengths
+from pyrofit_blind_test.setting import Setting
+from pyrofit_blind_test.table import diagnosed, twins
 
 TABLES = (
     *("twins", "rates", "by_detectability", "power", "middles", "strengths", "coverage"),

@@ -5,11 +5,6 @@ from collections.abc import Callable, Iterator, Sequence
 from contextlib import contextmanager
 from typing import Any
 
-from pyrofit.blind_test.detectability import detectability, located
-from pyrofit.blind_test.places import Places
-from pyrofit.blind_test.plan import Case, cases_of, chunk_of
-from pyrofit.blind_test.setting import Setting, files_digest
-from pyrofit.blind_test.twin import make_twin, read_twin, without_effects, write_twin
 from pyrofit.config import Study, digest
 from pyrofit.effects import known_effects, same_as
 from pyrofit.errors import DataError, StudyError
@@ -18,6 +13,11 @@ from pyrofit.plugins import code_digest
 from pyrofit.provenance import source_fingerprint
 from pyrofit.results.diagnosis_schema import Diagnosis, OfScreen
 from pyrofit.results.files import read_json, write_json
+from pyrofit_blind_test.detectability import detectability, located
+from pyrofit_blind_test.places import Places
+from pyrofit_blind_test.plan import Case, cases_of, chunk_of
+from pyrofit_blind_test.setting import Setting, files_digest
+from pyrofit_blind_test.twin import make_twin, read_twin, without_effects, write_twin
 
 Diagnose = Callable[[Study, Measurements], Diagnosis]
 """The diagnosis under test: study and measurements in, verdict and its evidence out."""

@@ -6,11 +6,11 @@ from typing import Any
 import numpy as np
 import pandas as pd
 
-from pyrofit.blind_test.places import Places
-from pyrofit.blind_test.table import leading, right_claim
 from pyrofit.effects import known_effects
 from pyrofit.results.files import read_json
 from pyrofit.results.needed import Keys
+from pyrofit_blind_test.places import Places
+from pyrofit_blind_test.table import leading, right_claim
 
 Found = Mapping[str, Any]
 STRENGTHS = (

@@ -1,4 +1,4 @@
-"""Make the files of `pyrofit.blind_test.foreign` from curves of another code in full."""
+"""Make the files of `pyrofit_blind_test.foreign` from curves of another code in full."""
 
 from collections.abc import Mapping
 from pathlib import Path
@@ -6,11 +6,11 @@ from pathlib import Path
 import numpy as np
 import pandas as pd
 
-from pyrofit.blind_test.foreign import EXPERIMENT, MANIFEST, Manifest, Truth
 from pyrofit.errors import DataError
 from pyrofit.results.files import read_csv, read_json, write_csv, write_json
 from pyrofit.results.needed import Keys
 from pyrofit.solver.arrays import FloatArray
+from pyrofit_blind_test.foreign import EXPERIMENT, MANIFEST, Manifest, Truth
 
 SPACING_S = 5.0
 """Distance of the points kept [s]."""

@@ -8,14 +8,14 @@ from matplotlib.axes import Axes
 from matplotlib.figure import Figure as Canvas
 from matplotlib.ticker import FormatStrFormatter, LogLocator, NullFormatter
 
-from pyrofit.blind_test.places import Places
-from pyrofit.blind_test.power_figure import power_by_effect
-from pyrofit.blind_test.rates import SHARES, by_detectability, interval
-from pyrofit.blind_test.table import one_name
 from pyrofit.effects import known_effects
 from pyrofit.results.files import Results
 from pyrofit.show import style
 from pyrofit.show.drawn import Look
+from pyrofit_blind_test.places import Places
+from pyrofit_blind_test.power_figure import power_by_effect
+from pyrofit_blind_test.rates import SHARES, by_detectability, interval
+from pyrofit_blind_test.table import one_name
 
 OTHER = ("ambiguous", "multiple", "partly", "unknown", "none")
 """Verdicts that do not name one effect, the last columns of the confusion matrix."""

@@ -5,9 +5,9 @@ import pandas as pd
 from matplotlib.figure import Figure as Canvas
 from matplotlib.ticker import FormatStrFormatter, LogLocator, NullFormatter
 
-from pyrofit.blind_test.power import power
 from pyrofit.show import style
 from pyrofit.show.drawn import Look
+from pyrofit_blind_test.power import power
 
 LOOKS = {"half": "half named", "nine_tenths": "nine tenths named"}
 """Words of each share."""

@@ -6,10 +6,10 @@ from typing import Any
 import numpy as np
 import pandas as pd
 
-from pyrofit.blind_test.places import Places
 from pyrofit.effects import known_effects, same_as
 from pyrofit.results.files import read_json
 from pyrofit.results.needed import Keys
+from pyrofit_blind_test.places import Places
 
 CLAIMS = ("named", "ambiguous", "multiple", "partly")
 """Verdicts that claim a missing effect."""

@@ -5,9 +5,9 @@ from collections.abc import Iterator
 import numpy as np
 import pandas as pd
 
-from pyrofit.blind_test.table import one_name
 from pyrofit.numerics import functions
 from pyrofit.solver.arrays import FloatArray
+from pyrofit_blind_test.table import one_name
 
 FEWEST = 4
 """Twins from which an effect has a power of its own."""

@@ -5,12 +5,12 @@ from pathlib import Path
 import numpy as np
 import pandas as pd
 
-from pyrofit.blind_test import foreign
-from pyrofit.blind_test.detectability import unexplained
-from pyrofit.blind_test.plan import Case
-from pyrofit.blind_test.setting import Setting
-from pyrofit.blind_test.twin import describe
 from pyrofit.errors import StudyError
+from pyrofit_blind_test import foreign
+from pyrofit_blind_test.detectability import unexplained
+from pyrofit_blind_test.plan import Case
+from pyrofit_blind_test.setting import Setting
+from pyrofit_blind_test.twin import describe
 
 
 def agreement(setting: Setting) -> pd.DataFrame:

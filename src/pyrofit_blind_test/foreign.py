@@ -7,7 +7,6 @@ import numpy as np
 import pandas as pd
 from pydantic import Field, ValidationError
 
-from pyrofit.blind_test.setting import Draft, Kind, Plan, Setting
 from pyrofit.config import Study
 from pyrofit.config.words import in_plain_words
 from pyrofit.errors import DataError, StudyError, suggest
@@ -17,6 +16,7 @@ from pyrofit.seeds import seed_for
 from pyrofit.solver.curves import Request
 from pyrofit.stages.measurements import with_noise
 from pyrofit.stages.reading import SYNTHETIC
+from pyrofit_blind_test.setting import Draft, Kind, Plan, Setting
 
 KINDS: tuple[Kind, ...] = ("null", "effect", "pair")
 """Kind of a case by the number of its effects."""

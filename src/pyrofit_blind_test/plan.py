@@ -5,8 +5,6 @@ from pathlib import Path
 
 from pydantic import Field
 
-from pyrofit.blind_test import foreign
-from pyrofit.blind_test.setting import DescriptionError, Draft, Hidden, Kind, Plan, Setting
 from pyrofit.config import Study, digest, read_study
 from pyrofit.effects import known_effects
 from pyrofit.effects.base import Effect
@@ -15,6 +13,8 @@ from pyrofit.experiments import kind_of
 from pyrofit.model.base import Part
 from pyrofit.model.experiment import Experiment
 from pyrofit.seeds import seed_for
+from pyrofit_blind_test import foreign
+from pyrofit_blind_test.setting import DescriptionError, Draft, Hidden, Kind, Plan, Setting
 
 
 class Case(Part):

@@ -10,10 +10,6 @@ from typing import Any
 import numpy as np
 import pandas as pd
 
-from pyrofit.blind_test import foreign
-from pyrofit.blind_test.places import Places
-from pyrofit.blind_test.plan import Case
-from pyrofit.blind_test.setting import Setting
 from pyrofit.config import Study, as_study, candidate_effects, read_mapping, read_study
 from pyrofit.errors import StudyError, suggest
 from pyrofit.estimate.targets import Measurements
@@ -21,6 +17,10 @@ from pyrofit.quantities import known_quantities
 from pyrofit.results.files import write_csv, write_json, write_text
 from pyrofit.stages.measurements import computed
 from pyrofit.stages.reading import read_all
+from pyrofit_blind_test import foreign
+from pyrofit_blind_test.places import Places
+from pyrofit_blind_test.plan import Case
+from pyrofit_blind_test.setting import Setting
 
 Given = dict[str, Any]
 """Keys of a study."""

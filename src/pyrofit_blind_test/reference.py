@@ -1,8 +1,8 @@
 """The keys of the blind test, for the reference page."""
 
-from pyrofit.blind_test.setting import Setting
 from pyrofit.config.reference import with_keys
 from pyrofit.model.accuracy import Resolution
+from pyrofit_blind_test.setting import Setting
 
 _HEAD = """\
 # Keys of the blind test
