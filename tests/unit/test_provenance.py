@@ -31,6 +31,7 @@ STEPS = {
     "report": "pyrofit.show.report",
     "blind test": "pyrofit_blind_test.run",
     "page of the blind test": "pyrofit_blind_test.page",
+    "export for FDS": "pyrofit_exchange.fds.export",
 }
 EVERYTHING = set(STEPS)
 EDITS = {
@@ -38,15 +39,17 @@ EDITS = {
     "quantities/mlr.py": EVERYTHING,
     "cost/__init__.py": EVERYTHING,
     "solver/kernels/heat.py": EVERYTHING,
-    "estimate/sceua.py": {"fits", "prediction", "robustness"},
+    "estimate/sceua.py": {"fits", "prediction", "robustness", "export for FDS"},
     "steps/robustness/compute.py": {"robustness"},
     "show/validation/validation.py": {"figures", "report"},
     "show/costs/spread.py": {"report"},
     "diagnose/search/score_test.py": {"diagnosis"},
     "show/style.py": {"figures", "report", "page of the blind test"},
     "show/page/report.html.j2": {"report"},
-    "blind_test/twin.py": {"blind test"},
-    "blind_test/rates.py": {"page of the blind test"},
+    "../pyrofit_blind_test/twin.py": {"blind test"},
+    "../pyrofit_blind_test/rates.py": {"page of the blind test"},
+    "../pyrofit_exchange/fds/orders.py": {"export for FDS"},
+    "../pyrofit_exchange/fds_page.py": set(),
     "new_study/write.py": set(),
     "config/reference.py": set(),
     "effects/melting.py": set(),
@@ -63,8 +66,8 @@ def fingerprints() -> dict[str, str]:
 @pytest.fixture(scope="module")
 def copy(tmp_path_factory: pytest.TempPathFactory) -> Iterator[Path]:
     """A copy of the source, of which fingerprints are taken."""
-    root = tmp_path_factory.mktemp("source") / "pyrofit"
-    shutil.copytree(SOURCE, root, ignore=shutil.ignore_patterns("__pycache__"))
+    root = tmp_path_factory.mktemp("source") / "src" / "pyrofit"
+    shutil.copytree(SOURCE.parent, root.parent, ignore=shutil.ignore_patterns("__pycache__"))
     with pytest.MonkeyPatch.context() as patch:
         patch.setattr("pyrofit.provenance.__file__", str(root / "provenance.py"))
         yield root
@@ -266,6 +269,10 @@ def test_every_module_of_steps_and_pages_counts_in_the_fingerprint_of_a_study() 
     there = {path for part in ("stages", "show") for path in (SOURCE / part).rglob("*.py")}
     # They time external programs before a study and print the end of a run: they make no result.
     assert there - counted == {SOURCE / "stages" / "trial.py", SOURCE / "show" / "headline.py"}
+
+
+def test_sections_of_other_packages_count_in_the_fingerprint_of_a_study() -> None:
+    assert SOURCE.parent / "pyrofit_exchange" / "fds_page.py" in imported_files(SOURCE, STUDY)
 
 
 def test_packages_that_find_their_files_count_with_all_of_them() -> None:

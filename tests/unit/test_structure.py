@@ -61,6 +61,9 @@ ORDER = [
     },
     {"cli"},
     {"__main__"},
+    {"pyrofit_exchange", "pyrofit_files", "pyrofit_blind_test"},
+    {"pyrofit_compare"},
+    {"pyrofit_explore"},
 ]
 RANK = {part: rank for rank, parts in enumerate(ORDER) for part in parts}
 DISPATCHED = {
@@ -79,11 +82,11 @@ NUMBERS_TO_A_POWER = {
     "estimate/bounded_least_squares.py": "a number's damping",
     "estimate/cmaes.py": "numbers of the strategy",
     "estimate/sceua.py": "an integer",
-    "../pyrofit_exchange/fds/exposure.py": "numbers of a face",
-    "../pyrofit_exchange/fds/matl_line.py": "a number's rate",
-    "../pyrofit_exchange/fds/orders.py": "a number's half time",
-    "../pyrofit_exchange/macfp/curves.py": "a number's temperature",
-    "../pyrofit_exchange/thermakin/conditions.py": "numbers of the surroundings",
+    "pyrofit_exchange/fds/exposure.py": "numbers of a face",
+    "pyrofit_exchange/fds/matl_line.py": "a number's rate",
+    "pyrofit_exchange/fds/orders.py": "a number's half time",
+    "pyrofit_exchange/macfp/curves.py": "a number's temperature",
+    "pyrofit_exchange/thermakin/conditions.py": "numbers of the surroundings",
     "seeds.py": "an integer",
     "show/optimisers/fig5.py": "the margin of an axis",
     "solver/reference/bdf.py": "numbers of a step",
@@ -94,7 +97,7 @@ NOT_FOR_COST = {"model", "solver", "simulate", "data"}
 
 @cache
 def modules() -> list[Path]:
-    return sorted(p for p in SOURCE.rglob("*.py") if p != SOURCE / "__init__.py")
+    return sorted(p for p in SOURCE.parent.rglob("*.py") if p != SOURCE / "__init__.py")
 
 
 OF_STEPS = {
@@ -112,6 +115,8 @@ def part_of(path: Path) -> str:
 
 def part_named(names: tuple[str, ...]) -> str:
     """Return the part of the package in which a module stands, from the parts of its name."""
+    if names[0] != "pyrofit":
+        return names[0]
     _, part, *inside = names
     of_a_step = part == "steps" and len(inside) > 1 and (SOURCE / "steps" / inside[0]).is_dir()
     return part if not of_a_step else OF_STEPS.get(inside[1], "work of steps")
@@ -138,8 +143,9 @@ def imported(path: Path) -> set[str]:
 
 
 def own(path: Path) -> set[str]:
-    """Return the parts of the package that a file imports."""
-    return {part_named(tuple(n.split("."))) for n in imported(path) if n.startswith("pyrofit.")}
+    """Return the parts of the package, and the packages beside it, that a file imports."""
+    names = [n for n in imported(path) if n.startswith(("pyrofit.", "pyrofit_"))]
+    return {part_named(tuple(name.split("."))) for name in names}
 
 
 def outside(path: Path) -> set[str]:
@@ -147,7 +153,12 @@ def outside(path: Path) -> set[str]:
 
 
 def names_of(paths: list[Path]) -> list[str]:
-    return [p.relative_to(SOURCE).as_posix() for p in paths]
+    return [name_of(p) for p in paths]
+
+
+def name_of(path: Path) -> str:
+    """Return the place of a file in pyrofit, or in the folder of another package."""
+    return path.relative_to(SOURCE if SOURCE in path.parents else SOURCE.parent).as_posix()
 
 
 def tracked() -> list[Path]:
@@ -170,6 +181,15 @@ def test_module_imports_only_from_its_left(path: Path) -> None:
     assert part in RANK, f"{part} has no place in the order of the package"
     right = {other for other in own(path) - {part, "__version__"} if RANK[other] > RANK[part]}
     assert not right
+
+
+def test_the_package_names_none_beside_it() -> None:
+    beside = {path.parent.name for path in SOURCE.parent.glob("pyrofit_*/__init__.py")}
+    assert beside == {name for name in RANK if name.startswith("pyrofit_")}
+    for path in SOURCE.rglob("*"):
+        if path.suffix in (".py", ".smk", ".j2", ".html"):
+            words = set(re.findall(r"\w+", path.read_text(encoding="utf-8")))
+            assert not words & beside, path
 
 
 def modules_imported(path: Path) -> set[str]:
@@ -221,7 +241,7 @@ def test_no_quantity_is_known_by_name_outside_its_home() -> None:
     assert len(quantities) > 2
     home = ("quantities/", "experiments/", "solver/outputs.py")
     for path in modules():
-        name = path.relative_to(SOURCE).as_posix()
+        name = name_of(path)
         if name.startswith(home):
             continue
         for node in parsed(path):
@@ -232,7 +252,7 @@ def test_no_quantity_is_known_by_name_outside_its_home() -> None:
 def test_no_kind_of_experiment_is_asked_for_outside_its_home() -> None:
     classes = {kind.description.__name__ for kind in KINDS.values()}
     for path in modules():
-        name = path.relative_to(SOURCE).as_posix()
+        name = name_of(path)
         if name.startswith("experiments/"):
             continue
         for node in parsed(path):
@@ -370,7 +390,7 @@ def depends_on_the_processor(node: ast.AST) -> bool:
 
 def test_results_do_not_depend_on_the_processor() -> None:
     for path in modules():
-        name = path.relative_to(SOURCE).as_posix()
+        name = name_of(path)
         if name.startswith("solver/kernels/"):
             continue  # compiled, in the order that they state
         for node in parsed(path):
@@ -385,7 +405,7 @@ def test_results_do_not_depend_on_the_processor() -> None:
 def test_powers_of_arrays_are_products_or_of_numerics() -> None:
     found = set()
     for path in modules():
-        name = path.relative_to(SOURCE).as_posix()
+        name = name_of(path)
         for node in parsed(path):
             if isinstance(node, ast.BinOp | ast.AugAssign) and isinstance(node.op, ast.Pow):
                 right = node.right if isinstance(node, ast.BinOp) else node.value
@@ -397,7 +417,7 @@ def test_powers_of_arrays_are_products_or_of_numerics() -> None:
 def test_library_never_prints_or_exits() -> None:
     # Progress of the searches goes to standard error, where the command line keeps its log.
     for path in modules():
-        if part_of(path) == "cli":
+        if part_of(path) == "cli" or path.name.endswith("commands.py"):
             continue
         for node in parsed(path):
             if isinstance(node, ast.Call) and isinstance(node.func, ast.Name):

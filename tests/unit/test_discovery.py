@@ -1,0 +1,156 @@
+"""Packages beside pyrofit add commands, steps and names by entry points."""
+
+import importlib
+import re
+import subprocess
+import sys
+import tomllib
+from collections.abc import Iterator
+from pathlib import Path
+
+import pytest
+
+from pyrofit import discovery
+from pyrofit.cli.command import _parser
+from pyrofit.discovery import _added, added, loaded
+from pyrofit.errors import PyrofitError
+
+ROOT = Path(__file__).parents[2]
+SOURCE = ROOT / "src" / "pyrofit"
+PROJECT = tomllib.loads((ROOT / "pyproject.toml").read_text(encoding="utf-8"))["project"]
+OWN = PROJECT["entry-points"]
+GROUPS = ("commands", "interface", "pages", "reference", "rules", "steps")
+OTHERS = """
+[project]
+name = "{name}"
+[project.entry-points."pyrofit.commands"]
+{line}
+"""
+
+
+@pytest.fixture(autouse=True)
+def _asked_anew() -> Iterator[None]:
+    _added.cache_clear()
+    yield
+    _added.cache_clear()
+
+
+def test_groups_are_those_that_the_package_asks_for_and_the_page_explains() -> None:
+    files = [p for p in SOURCE.rglob("*") if p.suffix in (".py", ".smk")]
+    texts = [path.read_text(encoding="utf-8") for path in files]
+    asked = {name for text in texts for name in re.findall(r"added\(\"(\w+)\"\)", text)}
+    assert sorted(asked) == sorted(GROUPS)
+    page = (ROOT / "docs" / "adding.md").read_text(encoding="utf-8")
+    assert [name for name in GROUPS if f"| `pyrofit.{name}` |" not in page] == []
+    assert {group.removeprefix("pyrofit.") for group in OWN} < set(GROUPS)
+
+
+@pytest.mark.parametrize("group", OWN)
+def test_every_entry_of_the_project_is_found_and_can_be_imported(group: str) -> None:
+    found, own = added(group.removeprefix("pyrofit.")), OWN[group]
+    assert {name: found[name].value for name in own} == own
+    for name in own:
+        assert loaded(found[name]) is not None
+
+
+def test_installation_of_a_clone_that_is_older_than_the_project_lacks_nothing(
+    monkeypatch: pytest.MonkeyPatch,
+) -> None:
+    monkeypatch.setattr(discovery, "_installed", list)
+    assert set(added("commands")) == set(OWN["pyrofit.commands"])
+
+
+def package(folder: Path, name: str) -> None:
+    (folder / name).mkdir(parents=True)
+    (folder / name / "__init__.py").write_text("")
+
+
+def test_package_that_the_installation_does_not_know_is_an_error(tmp_path: Path) -> None:
+    package(tmp_path, "pyrofit_wood")
+    with pytest.raises(PyrofitError, match=r"pyrofit_wood: .* install pyrofit again"):
+        _added(tmp_path)
+
+
+def test_project_of_another_name_is_not_read(tmp_path: Path) -> None:
+    text = OTHERS.format(name="wood", line='wood = "wood:add"')
+    (tmp_path / "pyproject.toml").write_text(text)
+    assert "wood" not in _added(tmp_path / "src").get("pyrofit.commands", {})
+    (tmp_path / "pyproject.toml").write_text(text.replace('"wood"\n', '"pyrofit"\n', 1))
+    assert _added(tmp_path / "other" / ".." / "src")["pyrofit.commands"]["wood"].module == "wood"
+
+
+def installed(folder: Path, name: str, *lines: str) -> None:
+    """Write what an installer leaves of a package."""
+    about = folder / f"{name}-1.0.dist-info"
+    about.mkdir(parents=True)
+    (about / "METADATA").write_text(f"Metadata-Version: 2.1\nName: {name}\nVersion: 1.0\n")
+    (about / "entry_points.txt").write_text("\n".join(lines) + "\n")
+
+
+def test_two_packages_that_add_one_name_are_refused(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    for name in ("birch", "spruce"):
+        installed(tmp_path, name, "[pyrofit.commands]", f"dry = {name}:add")
+    monkeypatch.syspath_prepend(tmp_path)
+    with pytest.raises(PyrofitError, match=r"'dry' of pyrofit\.commands is both .*uninstall one"):
+        _added(SOURCE.parent)
+
+
+def test_package_that_cannot_be_imported_is_named(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    installed(tmp_path, "birch", "[pyrofit.commands]", "dry = no_such_birch:add")
+    monkeypatch.syspath_prepend(tmp_path)
+    with pytest.raises(PyrofitError, match="no_such_birch:add, which adds 'dry' to"):
+        _parser()
+
+
+STEP = """
+from pyrofit.steps.base import Step
+
+STEP = Step(place=75, words="count the rings of a stem", message="Rings of the stem")
+"""
+COMMANDS = """
+def add(commands):
+    parser = commands.add_parser("dry", help="dry a sample")
+    parser.set_defaults(step=lambda given: print("dried"))
+"""
+SAID = """
+import pyrofit as pf
+from pyrofit.cli import main
+from pyrofit.provenance import STUDY
+from pyrofit.steps import known_steps
+from pyrofit.running.targets import targets
+main(["dry"])
+step = known_steps()["rings"]
+print(step.package, step.modules, targets()["rings"], "birch.rings.inputs" in STUDY, pf.bark)
+"""
+
+
+def test_installed_package_adds_a_command_a_step_and_a_name(tmp_path: Path) -> None:
+    installed(
+        tmp_path,
+        "birch",
+        *("[pyrofit.commands]", "dry = birch.commands:add"),
+        *("[pyrofit.steps]", "rings = birch.rings:STEP"),
+        *("[pyrofit.interface]", "bark = birch:BARK"),
+    )
+    package(tmp_path, "birch")
+    package(tmp_path / "birch", "rings")
+    (tmp_path / "birch" / "__init__.py").write_text("BARK = 'white'\n")
+    (tmp_path / "birch" / "commands.py").write_text(COMMANDS)
+    (tmp_path / "birch" / "rings" / "__init__.py").write_text(STEP)
+    for name in ("inputs", "compute", "page"):
+        (tmp_path / "birch" / "rings" / f"{name}.py").write_text("")
+    code = f"import sys; sys.path.insert(0, {str(tmp_path)!r})\n{SAID}"
+    run = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, check=False)
+    assert run.returncode == 0, run.stderr
+    modules = [f"birch.rings.{name}" for name in ("compute", "inputs", "page")]
+    expected = f"birch.rings {modules} Count the rings of a stem. True white"
+    assert run.stdout.splitlines() == ["dried", expected]
+
+
+def test_names_of_other_packages_are_among_those_of_the_interface() -> None:
+    pf = importlib.import_module("pyrofit")
+    assert set(added("interface")) <= set(pf.__all__) == set(dir(pf))
