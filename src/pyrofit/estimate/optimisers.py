@@ -8,8 +8,6 @@ from collections.abc import Callable
 from dataclasses import replace
 from typing import Any, NamedTuple
 
-import numpy as np
-
 STEPS = 20
 """Typical number of steps of least squares from one start."""
 Run = Callable[[Any, Any, int], Any]
@@ -47,6 +45,8 @@ class Optimiser(NamedTuple):
 
         Where coarser runs are not good at every end, the search is made again without them.
         """
+        import numpy as np  # not above: every command reads this catalogue
+
         from pyrofit.estimate.coarse import are_close, for_search
 
         rough = for_search(problem) if self.coarse else problem
