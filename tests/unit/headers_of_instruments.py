@@ -258,6 +258,12 @@ EXPORTS = [
         "s K Cf mg",
         asked=("temperature",),
     ),
+    Export(
+        "temperature in two units",
+        "tga",
+        "Time (s),Temperature (C),Temperature (K),Residual_Sample_Mass (mg)",
+        "s C K mg",
+    ),
     Export("nothing but numbers in percent", "tga", "Time (s),Temperature (K),Signal (%)", "s K %"),
     Export(
         "no units",

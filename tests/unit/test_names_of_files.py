@@ -65,6 +65,12 @@ def test_flux_of_a_name_may_have_its_area(name: str, tmp_path: Path) -> None:
     assert files_of("cone").number.find(name) == (35.0, "unit")
 
 
+def test_flux_of_a_name_may_stand_behind_its_symbol() -> None:
+    find = files_of("gasification").number.find
+    assert find("LAB_Wood_GASIFICATION_q30_6mm") == (30.0, "unit")
+    assert find("seq30")[1] == ""
+
+
 @pytest.mark.parametrize("heated_s", [0.0, 1500.0])
 @pytest.mark.parametrize("name", ["foam_300C_hold", "foam_300", "foam_573K"])
 def test_temperature_of_a_hold_in_a_name_is_no_heating_rate(

@@ -6,9 +6,9 @@ import numpy as np
 
 from pyrofit.data.csvfile import Table
 from pyrofit.new_study.headers import is_abscissa, is_of_sample
-from pyrofit.new_study.units import kind_of, stated_unit
+from pyrofit.new_study.units import stated_unit
 from pyrofit.quantities.base import Quantity
-from pyrofit.quantities.units import SCALES, header_key, unit_key
+from pyrofit.quantities.units import SCALES, ZEROS_K, header_key, unit_key
 
 _SAME = 1e-3
 """Largest difference of two columns of the same times, as a fraction of the last one."""
@@ -19,7 +19,7 @@ def candidates(
 ) -> list[str]:
     """Return the columns that may be the time or the temperature; one where it is clear.
 
-    Of several times that agree, one is taken; of several temperatures, that of the sample.
+    Of several that agree, one is taken; of several temperatures, that of the sample.
     """
     free = [n for n in table.columns if role == "time" or n not in empty]
     usual = {header_key(name) for q in quantities for name in q.roles.get(role, ())}
@@ -28,22 +28,23 @@ def candidates(
     if role == "temperature":
         # Beside the programme's or the furnace's stands that of the sample.
         of_sample = [n for n in named if is_of_sample(n)]
-        return of_sample if len(of_sample) == 1 else known or of_sample or named
+        possible = of_sample if len(of_sample) == 1 else known or of_sample or named
+        return possible[:1] if len(possible) > 1 and _agree(table, possible, role) else possible
     numbers = [n for n in known or named if not np.isnan(table.columns[n]).all()]
-    if len(numbers) > 1 and _agree(table, numbers):
+    if len(numbers) > 1 and _agree(table, numbers, role):
         return numbers[:1]
     return numbers or known or named
 
 
-def _agree(table: Table, names: Sequence[str]) -> bool:
-    """Tell whether columns hold the same times, each in its own unit."""
-    seconds = []
+def _agree(table: Table, names: Sequence[str], role: str) -> bool:
+    """Tell whether columns hold the same times or temperatures, each in its own unit."""
+    found = []
     for name in names:
-        unit, read = stated_unit(table, name, ("time",))
-        factor = next((f for w, f in SCALES["time"].items() if unit_key(w) == unit_key(unit)), None)
-        if not read or factor is None or not kind_of(unit, ("time",)):
+        unit, read = stated_unit(table, name, (role,))
+        word = next((w for w in SCALES[role] if unit_key(w) == unit_key(unit)), None)
+        if not read or word is None:
             return False
-        seconds.append(factor * table.columns[name])
-    span = float(np.nanmax(np.abs(seconds[0])))
-    first, *others = seconds
+        found.append(SCALES[role][word] * table.columns[name] + ZEROS_K.get(word, 0.0))
+    span = float(np.nanmax(np.abs(found[0])))
+    first, *others = found
     return all(np.allclose(other, first, 0.0, _SAME * span, equal_nan=True) for other in others)

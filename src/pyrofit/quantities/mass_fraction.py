@@ -20,7 +20,8 @@ QUANTITY = Quantity(
     scales=("fraction", "mass"),
     headers=("Mass fraction", "Mass", "Normalized mass", "Normalised mass"),
     uncertainty_headers=("Mass fraction error", "Mass error"),
-    pattern=r"(norm\w*|residual|relative|abs(olute)?|(un)?subtracted|sample)?(mass|weight)(?!loss|flux|flow).*"
+    pattern=r"(norm\w*|residual|relative|abs(olute)?|(un)?subtracted)?(sample)?"
+    r"(mass|weight)(?!loss|flux|flow).*"
     r"|masse|gewicht|m|tga?|w|y",
     guess=_guess,
     largest=(0.5, 1.5),

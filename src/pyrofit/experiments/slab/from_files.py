@@ -6,7 +6,7 @@ from typing import Any
 from pyrofit.experiments.from_files import Frames, FromFiles, NamedNumber
 from pyrofit.quantities import known_quantities
 
-FLUX_KW_M2 = NamedNumber("[kK][wW](?:[ _-]?m[-^]?2)?", (5.0, 150.0), 50.0, "flux", "kW/m2")
+FLUX_KW_M2 = NamedNumber("[kK][wW](?:[ _-]?m[-^]?2)?", (5.0, 150.0), 50.0, "flux", "kW/m2", "q")
 ROOM_K = 293.15
 
 
