@@ -21,6 +21,8 @@ from pyrofit.solver.arrays import FloatArray
 
 SMOOTHING = 0.1
 """Window over which a stated uncertainty is smoothed, as a fraction of the record."""
+_ROWS = 64
+"""Points that are smoothed together: a window of all has the square of their number."""
 FEWEST_POINTS = 8
 UNITLESS = Shown("–")
 REPEATS = "repeats"
@@ -301,12 +303,19 @@ def smoothed(target: Target) -> FloatArray | None:
         return None
     safe = np.maximum(given, 1e-3 * np.max(given))
     width = 0.25 * SMOOTHING * (target.time_s[-1] - target.time_s[0])
-    window = functions.exp(-0.5 * (np.subtract.outer(target.time_s, target.time_s) / width) ** 2)
-    window /= window.sum(axis=1, keepdims=True)
-    shape = functions.exp(linear.product(window, functions.log(safe)))
-    return np.asarray(
-        shape * np.sqrt(linear.product(window, (safe / shape) ** 2)), dtype=np.float64
-    )
+    shape = functions.exp(_local_mean(target.time_s, functions.log(safe), width))
+    return np.asarray(shape * np.sqrt(_local_mean(target.time_s, (safe / shape) ** 2, width)))
+
+
+def _local_mean(time: FloatArray, values: FloatArray, width: float) -> FloatArray:
+    """Return the mean of values over a Gaussian window about each time, shape (n,)."""
+    found = np.empty(values.size)
+    for first in range(0, values.size, _ROWS):
+        rows = slice(first, first + _ROWS)
+        window = functions.exp(-0.5 * (np.subtract.outer(time[rows], time) / width) ** 2)
+        window /= window.sum(axis=1, keepdims=True)
+        found[rows] = linear.product(window, values)
+    return found
 
 
 def _floors(
