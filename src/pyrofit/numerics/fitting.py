@@ -37,6 +37,8 @@ def within_limits(square: Floats, slope: Floats, low: Floats, high: Floats) -> F
     """
     x = np.clip(-linear.solve(square, slope), low, high)
     free = (x > low) & (x < high)
+    if free.all():
+        return x
     for _ in range(10 * x.size):
         x, free = _inside(square, slope, low, high, x, free)
         g = slope + linear.product(square, x)
